@@ -1,0 +1,105 @@
+// A body: a block of coordinates with its mass, forces, energy and markers. It knows no joint, contact or integrator.
+//
+//     M(q) a = f(t, q, v)       for the body alone, gravity included
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <trammel/component.hpp>
+#include <trammel/marker.hpp>
+#include <trammel/matrix.hpp>
+#include <trammel/system.hpp>
+
+namespace trammel {
+
+// The make-up of a body's configuration; it gives N(q), retraction, difference and normalisation.
+class Coordinates {
+ public:
+  enum class Kind {
+    flat,       // n numbers with n rates
+    rotation,   // a unit quaternion (w, x, y, z) with the angular velocity in body axes: 4 numbers, 3 rates
+  };
+  struct Part {
+    Kind kind;
+    int nq, nv;
+  };
+
+  static Coordinates flat(int n);
+  Coordinates& then_flat(int n);
+  Coordinates& then_rotation();
+
+  std::span<const Part> parts() const { return parts_; }
+  int nq() const;
+  int nv() const;
+
+ private:
+  std::vector<Part> parts_;
+};
+
+class Body : public Component {
+ public:
+  virtual Coordinates coordinates() const = 0;
+  virtual void initial(Out q, Out v) const = 0;  // configuration and velocity at the start, from the body's parameters
+
+  virtual void mass(double t, In q, Matrix& M) const = 0;          // adds M (nv x nv), symmetric
+  virtual bool mass_is_constant() const { return false; }
+  virtual void force(double t, In q, In v, Out f) const = 0;       // adds f (nv): elastic, gyroscopic, gravity, drives
+  virtual Energy energy(double t, In q, In v) const = 0;
+  virtual Power power(double /*t*/, In /*q*/, In /*v*/) const { return {}; }  // of drives and dampers inside the body
+
+  virtual std::span<const std::string> markers() const = 0;
+  // Fills everything of `motion`; called with the same object again and again, so it may keep what does not change.
+  virtual void motion(int marker, double t, In q, In v, Motion& motion) const = 0;
+};
+
+// Abilities. A missing one is replaced by differences within this one body, so the cost stays local.
+
+// Exact derivatives: S += c_m M + c_d D + c_k K with D = -df/dv, K = d(M a - f)/dq (increments in the tangent space).
+class ExactTangent {
+ public:
+  virtual ~ExactTangent();
+  virtual void add_tangent(double t, In q, In v, In a, Blend c, Matrix& S) const = 0;
+};
+
+// S += c d(J^T F)/dq for a constant wrench F at a marker: the geometric stiffness of joints and contacts.
+class ReactionDerivative {
+ public:
+  virtual ~ReactionDerivative();
+  virtual void add_reaction_derivative(int marker, double t, In q, const Wrench& F, double c, Matrix& S) const = 0;
+};
+
+// Named scalars of a body beyond its markers' motion, for recording: "angle", "transverse_1".
+class Observed {
+ public:
+  virtual ~Observed();
+  virtual std::span<const std::string> observables() const = 0;
+  virtual double observe(int observable, double t, In q, In v) const = 0;
+};
+
+// The body's shape for plots and animation: a polyline in world axes, one column a point (2 or 3 rows).
+class Drawn {
+ public:
+  virtual ~Drawn();
+  virtual void shape(double t, In q, Mat& points) const = 0;
+};
+
+// A body that may replace its coordinates during the run (mesh refinement). `refine` is called between steps, after the
+// event function of one of its triggers fired; afterwards coordinates(), markers() and motion() are the new ones.
+class Refinable {
+ public:
+  virtual ~Refinable();
+  // Fills the linear map of the body's own q and v; false: nothing to refine.
+  virtual bool refine(double t, In q, In v, Mat& Q, Mat& V, Vec& q_0) = 0;
+};
+
+// Nearest point of a body's surface, for contact. The point is given by surface parameters (u, v).
+class Surface {
+ public:
+  virtual ~Surface();
+  virtual void nearest(double t, In q, const Vec3& x, Eigen::Vector2d& parameters, Vec3& point, Vec3& normal) const = 0;
+  virtual void motion_at(const Eigen::Vector2d& parameters, double t, In q, In v, Motion& motion) const = 0;
+};
+
+}  // namespace trammel

@@ -1,0 +1,41 @@
+// Contact laws: what happens in the normal direction when a gap closes. Geometry (gap, normal, their rates) and friction
+// are separate; the three combine freely.
+//
+//     gap [m] > 0 apart; gap_rate = d(gap)/dt [m/s], negative when closing; approach_speed [m/s] > 0 at the last onset
+#pragma once
+
+#include <trammel/component.hpp>
+
+namespace trammel {
+
+// The set-valued law: an impulse at onset, then a constraint row while the contact pushes.
+class Restitution : public Component {
+ public:
+  // How a run treats what the law leaves open; the second of each pair reproduces a simplification found in papers.
+  enum class Onset { located, next_step };      // the impact at the crossing, or at the end of the step that passed it
+  enum class Rebound { free, constrained };     // a separating contact is open, or its row is active at once
+  enum class Restart { consistent, carry };     // a, lambda solved anew at a change of mode, or carried over
+  struct Treatment {
+    Onset onset = Onset::located;
+    Rebound rebound = Rebound::free;
+    Restart restart = Restart::consistent;
+    double capture_speed = 1e-6;  // [m/s] slower impacts have restitution 0, which ends a sequence of bounces
+  };
+
+  virtual double coefficient(double approach_speed) const = 0;  // e in [0, 1]: u+ = -e u-
+  virtual Treatment treatment() const = 0;
+};
+
+// The compliant law: a force while the gap is negative.
+class ContactForce : public Component {
+ public:
+  virtual double normal(double gap, double gap_rate, double approach_speed) const = 0;  // [N] >= 0; 0 at gap >= 0
+  virtual double potential(double gap) const = 0;                                       // [J] stored; 0 at gap >= 0
+  // Derivatives of `normal` by gap [N/m] and gap_rate [N s/m].
+  struct Slope {
+    double by_gap = 0, by_rate = 0;
+  };
+  virtual Slope slope(double gap, double gap_rate, double approach_speed) const = 0;
+};
+
+}  // namespace trammel

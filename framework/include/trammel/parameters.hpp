@@ -1,0 +1,182 @@
+// A component's declaration: its name, where it comes from and its parameters, each declared once.
+//
+//     TRAMMEL_PLUGIN(trammel::integrator<HhtAlpha>("hht_alpha", "HHT-alpha with stabilised constraints")
+//                        .source("Negrut et al. 2007, J. Comput. Nonlinear Dynam. 2(1), 73-85")
+//                        .parameter("alpha", &HhtAlpha::alpha, {.min = -1.0 / 3, .max = 0, .doc = "0: trapezoidal rule"}))
+//
+// The type comes from the member, the default from its initialiser. From the declaration alone come parsing, range errors,
+// did-you-mean, `trammel describe`, the JSON Schema and the manual. A dotted name ("modes.axial") lives in a nested object.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <trammel/component.hpp>
+#include <trammel/time_function.hpp>
+
+namespace trammel {
+
+enum class Kind { integrator, body, joint, force, contact, friction, correction };
+const char* to_string(Kind);
+
+// Objects keyed by name, in scene order: {"tip": 1.0, "middle": 0.5}.
+template <class T>
+using Named = std::vector<std::pair<std::string, T>>;
+
+// The types a parameter's member may have; std::optional<T> makes leaving it out distinguishable.
+//   double, int, bool, std::string    a number, a whole number, true/false, text
+//   Vec3                              a vector of the scene's dimension: 2 entries planar, 3 spatial
+//   std::vector<double>               any number of numbers
+//   TimeFunction                      a number or an expression of t
+//   Named<double>, Named<Vec3>        objects keyed by name
+//   an enum                           one of the names given to .choice(...)
+using ParameterValue = std::variant<std::monostate, double, int, bool, std::string, Vec3, std::vector<double>, TimeFunction,
+                                    Named<double>, Named<Vec3>>;
+
+// What a declaration says about one parameter. Outside min..max is an error, outside usual_min..usual_max a warning.
+struct ParameterTraits {
+  const char* unit = "1";
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  double usual_min = -std::numeric_limits<double>::infinity();
+  double usual_max = std::numeric_limits<double>::infinity();
+  bool above_min = false;  // min itself is refused too ("greater than")
+  bool required = false;
+  const char* doc = "";
+};
+
+struct Parameter {
+  std::string name;  // dotted
+  // As in ParameterValue; a choice is text with `choices`.
+  enum class Type { number, integer, boolean, text, vector, numbers, time_function, named_numbers, named_vectors };
+  Type type;
+  bool optional = false;
+  ParameterTraits traits;
+  std::vector<std::string> choices;
+  std::function<void(Component&, const ParameterValue&)> set;
+  std::function<ParameterValue(const Component&)> get;  // monostate: an empty optional
+};
+
+namespace detail {
+
+template <class T>
+struct ParameterTypeOf;
+template <>
+struct ParameterTypeOf<double> { static constexpr auto value = Parameter::Type::number; };
+template <>
+struct ParameterTypeOf<int> { static constexpr auto value = Parameter::Type::integer; };
+template <>
+struct ParameterTypeOf<bool> { static constexpr auto value = Parameter::Type::boolean; };
+template <>
+struct ParameterTypeOf<std::string> { static constexpr auto value = Parameter::Type::text; };
+template <>
+struct ParameterTypeOf<Vec3> { static constexpr auto value = Parameter::Type::vector; };
+template <>
+struct ParameterTypeOf<std::vector<double>> { static constexpr auto value = Parameter::Type::numbers; };
+template <>
+struct ParameterTypeOf<TimeFunction> { static constexpr auto value = Parameter::Type::time_function; };
+template <>
+struct ParameterTypeOf<Named<double>> { static constexpr auto value = Parameter::Type::named_numbers; };
+template <>
+struct ParameterTypeOf<Named<Vec3>> { static constexpr auto value = Parameter::Type::named_vectors; };
+
+}  // namespace detail
+
+struct Declaration {
+  Kind kind;
+  std::string name;
+  std::string summary;  // one line
+  std::string source;   // paper, equations
+  std::vector<Parameter> parameters;
+  std::function<std::unique_ptr<Component>()> make;  // with every parameter at its default
+};
+
+// The builder behind integrator<T>(...), body<T>(...), ...
+template <class T>
+class Declare {
+ public:
+  Declare(Kind kind, std::string name, std::string summary) {
+    declaration_.kind = kind;
+    declaration_.name = std::move(name);
+    declaration_.summary = std::move(summary);
+    declaration_.make = [] { return std::make_unique<T>(); };
+  }
+
+  Declare& source(std::string text) {
+    declaration_.source = std::move(text);
+    return *this;
+  }
+
+  template <class Owner, class Value>
+  Declare& parameter(std::string name, Value Owner::*member, ParameterTraits traits = {}) {
+    add(std::move(name), detail::ParameterTypeOf<Value>::value, traits,
+        [member](Component& c, const ParameterValue& v) { static_cast<T&>(c).*member = std::get<Value>(v); },
+        [member](const Component& c) -> ParameterValue { return static_cast<const T&>(c).*member; });
+    return *this;
+  }
+
+  template <class Owner, class Value>
+  Declare& parameter(std::string name, std::optional<Value> Owner::*member, ParameterTraits traits = {}) {
+    add(std::move(name), detail::ParameterTypeOf<Value>::value, traits,
+        [member](Component& c, const ParameterValue& v) { static_cast<T&>(c).*member = std::get<Value>(v); },
+        [member](const Component& c) -> ParameterValue {
+          const auto& value = static_cast<const T&>(c).*member;
+          return value ? ParameterValue(*value) : ParameterValue();
+        });
+    declaration_.parameters.back().optional = true;
+    return *this;
+  }
+
+  template <class Owner, class Enum>
+  Declare& choice(std::string name, Enum Owner::*member, std::vector<std::pair<std::string, Enum>> names,
+                  ParameterTraits traits = {}) {
+    std::vector<std::string> choices;
+    for (const auto& [text, value] : names) choices.push_back(text);
+    add(std::move(name), Parameter::Type::text, traits,
+        [member, names](Component& c, const ParameterValue& v) {
+          for (const auto& [text, value] : names)
+            if (text == std::get<std::string>(v)) static_cast<T&>(c).*member = value;
+        },
+        [member, names](const Component& c) -> ParameterValue {
+          for (const auto& [text, value] : names)
+            if (value == static_cast<const T&>(c).*member) return text;
+          return {};
+        });
+    declaration_.parameters.back().choices = std::move(choices);
+    return *this;
+  }
+
+  operator Declaration() const { return declaration_; }
+
+ private:
+  void add(std::string name, Parameter::Type type, ParameterTraits traits,
+           std::function<void(Component&, const ParameterValue&)> set, std::function<ParameterValue(const Component&)> get) {
+    declaration_.parameters.push_back(
+        {std::move(name), type, false, traits, {}, std::move(set), std::move(get)});
+  }
+  Declaration declaration_;
+};
+
+template <class T>
+Declare<T> integrator(std::string name, std::string summary) { return {Kind::integrator, std::move(name), std::move(summary)}; }
+template <class T>
+Declare<T> body(std::string name, std::string summary) { return {Kind::body, std::move(name), std::move(summary)}; }
+template <class T>
+Declare<T> joint(std::string name, std::string summary) { return {Kind::joint, std::move(name), std::move(summary)}; }
+template <class T>
+Declare<T> force(std::string name, std::string summary) { return {Kind::force, std::move(name), std::move(summary)}; }
+template <class T>
+Declare<T> contact(std::string name, std::string summary) { return {Kind::contact, std::move(name), std::move(summary)}; }
+template <class T>
+Declare<T> friction(std::string name, std::string summary) { return {Kind::friction, std::move(name), std::move(summary)}; }
+template <class T>
+Declare<T> correction(std::string name, std::string summary) { return {Kind::correction, std::move(name), std::move(summary)}; }
+
+}  // namespace trammel

@@ -1,0 +1,69 @@
+// What an integrator sees: the whole mechanical system at one point (t, q, v).
+//
+//     q' = N(q) v                                  q configuration (nq), on a manifold; v velocity (nv)
+//     M(q) v' = f(t, q, v) - W(t, q)^T lambda      M mass matrix; f applied, elastic and gyroscopic forces
+//     g(t, q) = 0,   G = (dg/dq) N                 nc bilateral rows, may be redundant; W = G unless friction couples rows
+//
+// and the levels derived from it, G v + g_t = 0 and G v' = gamma(t, q, v). Contacts, events, storage (dense or sparse),
+// redundancy and the meaning of the coordinates are the System's affair.
+#pragma once
+
+#include <trammel/types.hpp>
+
+namespace trammel {
+
+// Baumgarte's stabilisation of the acceleration rows: G a = gamma - 2 alpha (G v + g_t) - beta^2 g.   [1/s] both
+struct Stabilisation {
+  double alpha = 0;
+  double beta = 0;
+};
+
+// Weights of the iteration matrix S = c_m M + c_d D + c_k K with D = d(M a - f + W^T lambda)/dv and K the same by q,
+// where q varies by increments in the tangent space (nv x nv).
+struct Blend {
+  double c_m = 1;
+  double c_d = 0;
+  double c_k = 0;
+};
+
+class System {
+ public:
+  virtual ~System();
+
+  virtual Sizes sizes() const = 0;  // constant between two calls of Integrator::restart
+
+  // For methods that treat q as numbers (Runge-Kutta, Adams): q_dot = N(q) v, and q back onto its manifold.
+  virtual void rate(const Vec& q, const Vec& v, Vec& q_dot) const = 0;
+  virtual void normalise(Vec& q) const = 0;
+  // For methods that work with increments dq in R^nv (Newmark, HHT, Newton): q (+) dq, and q1 (-) q0.
+  virtual void retract(const Vec& q, const Vec& dq, Vec& q_new) const = 0;
+  virtual void difference(const Vec& q1, const Vec& q0, Vec& dq) const = 0;
+
+  // Everything below is at this point. Each part is evaluated when first asked for; references are valid until the next
+  // move_to. `t` may repeat, go back or lie between steps.
+  virtual void move_to(double t, const Vec& q, const Vec& v) = 0;
+
+  virtual const Vec& f() = 0;      // (nv)
+  virtual const Vec& g() = 0;      // (nc)
+  virtual const Vec& g_dot() = 0;  // (nc)  G v + g_t
+
+  virtual void add_mass_times(double c, const Vec& a, Vec& r) = 0;         // r += c M a           (nv)
+  virtual void add_reaction(double c, const Vec& lambda, Vec& r) = 0;      // r += c W^T lambda    (nv)
+
+  // Solves M a + W^T lambda = f, G a = gamma - stabilisation. Redundant rows: a is unique, lambda the one of minimum norm.
+  // Throws when M is singular on the null space of G.
+  virtual void accelerate(Stabilisation, Vec& a, Vec& lambda) = 0;
+
+  // Factorises [S W^T; G 0] at this point; a and lambda enter D and K through d(M a)/dq and d(W^T lambda)/dq.
+  // The factors stay valid over later move_to calls (a modified Newton iteration) until the next factorise or accelerate.
+  virtual void factorise(Blend, const Vec& a, const Vec& lambda) = 0;
+  // Solves [S W^T; G 0] (da, dlambda) = -(r, rc) with the last factors. False: singular, reject the step.
+  [[nodiscard]] virtual bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda) = 0;
+
+ protected:
+  System() = default;
+  System(const System&) = default;
+  System& operator=(const System&) = default;
+};
+
+}  // namespace trammel
