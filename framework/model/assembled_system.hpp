@@ -1,0 +1,87 @@
+// The System of a Model in a given set of contact modes: assembles M, f, g, G and the iteration matrix and solves.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <trammel/system.hpp>
+
+#include "model/model.hpp"
+
+namespace trammel::model {
+
+// The discrete state of one contact.
+struct ContactMode {
+  bool closed = false;        // Restitution: its row is active; ContactForce: its force is evaluated
+  double approach_speed = 0;  // [m/s] at the last onset
+  double offset = 0;          // [m] the row holds gap = offset; 0 but where an onset was not located
+};
+
+struct Modes {
+  std::vector<ContactMode> contacts;
+};
+
+// How often the expensive things were done.
+struct Counts {
+  long long residual_evaluations = 0;  // evaluations of f
+  long long jacobian_evaluations = 0;  // of the iteration matrix
+  long long factorizations = 0;
+};
+
+class AssembledSystem final : public System {
+ public:
+  explicit AssembledSystem(std::shared_ptr<const Model> model);
+  ~AssembledSystem() override;
+
+  Sizes sizes() const override;
+  void rate(const Vec& q, const Vec& v, Vec& q_dot) const override;
+  void normalise(Vec& q) const override;
+  void retract(const Vec& q, const Vec& dq, Vec& q_new) const override;
+  void difference(const Vec& q1, const Vec& q0, Vec& dq) const override;
+  void move_to(double t, const Vec& q, const Vec& v) override;
+  const Vec& f() override;
+  const Vec& g() override;
+  const Vec& g_dot() override;
+  void add_mass_times(double c, const Vec& a, Vec& r) override;
+  void add_reaction(double c, const Vec& lambda, Vec& r) override;
+  void accelerate(Stabilisation, Vec& a, Vec& lambda) override;
+  void factorise(Blend, const Vec& a, const Vec& lambda) override;
+  [[nodiscard]] bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda) override;
+
+  // --- for the Simulator ---
+  const Model& model() const;
+  // Which contacts are closed; changes sizes().nc. Rows: the joints', then those of closed Restitution contacts in order.
+  void set_modes(const Modes& modes);
+  const Modes& modes() const;
+  int contact_row(int contact) const;  // its row in g while closed, else -1; the normal force is -lambda of that row
+  void initial(Vec& q, Vec& v) const;  // from the bodies' parameters
+
+  // At the point of the last move_to. Each evaluates only what it needs.
+  double gap(int contact);
+  double gap_rate(int contact);
+  double gap_acceleration(int contact, const Vec& a);      // for an acceleration of the system
+  double normal_force(int contact, const Vec& lambda);     // [N] >= 0 pushes; of either kind of law
+  // Velocity jump by impulses on contacts, bilateral rows held (M dv + G_b^T L_b = sum_i n_i L_i): column i of `jump` is dv
+  // for a unit impulse on contacts[i], and delassus(i, j) the change of gap rate of contacts[i] by a unit on contacts[j].
+  void impulse_response(const std::vector<int>& contacts, Mat& jump, Mat& delassus);
+
+  Energy energy();                 // of all bodies, forces and closed compliant contacts
+  struct Balance {                 // power of what energy() does not hold, by cause [W]
+    double drives = 0;             // supplied by bodies' drives and loads
+    double dampers = 0;            // dissipated in bodies and forces
+    double contacts = 0;           // dissipated in compliant contacts
+    double constraints = 0;        // supplied by time-dependent rows: -lambda^T g_t
+  };
+  Balance balance(const Vec& lambda);
+  void constraint_acceleration(const Vec& a, Vec& r);  // G a - gamma
+
+  const Motion& motion(MarkerRef marker);  // at the current point
+  const Counts& counts() const;
+  Counts& counts();
+
+ private:
+  struct Work;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace trammel::model

@@ -1,0 +1,90 @@
+// The assembled scene: bodies, joints, forces and contacts with their places in the system's vectors. Constant after it is
+// built (but for a refinement, which builds the layout anew); shared by every System that works on it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <trammel/body.hpp>
+#include <trammel/contact.hpp>
+#include <trammel/force.hpp>
+#include <trammel/friction.hpp>
+#include <trammel/joint.hpp>
+
+namespace trammel::model {
+
+// A marker by its place: of a body, or a fixed frame of the ground (body = -1).
+struct MarkerRef {
+  int body = -1;
+  int marker = 0;  // of the body; for the ground: index into Model::ground_frames
+};
+
+struct BodyEntry {
+  std::string name;
+  std::unique_ptr<Body> body;
+  // Place of its segment in q and v.
+  int q0 = 0, v0 = 0, nq = 0, nv = 0;
+  // Abilities, looked up once.
+  const ExactTangent* tangent = nullptr;
+  const ReactionDerivative* reaction_derivative = nullptr;
+  const Observed* observed = nullptr;
+  const Drawn* drawn = nullptr;
+};
+
+struct JointEntry {
+  std::string name;
+  std::unique_ptr<Joint> joint;
+  MarkerRef A, B;
+  int row = 0, rows = 0;  // place in g
+};
+
+struct ForceEntry {
+  std::string name;
+  std::unique_ptr<Force> force;
+  MarkerRef A, B;
+};
+
+// A point of A against a plane carried by B: gap = n . (x_A - p), p and n in B's axes; n points to the free side.
+struct PointOnPlane {
+  Vec3 point, normal;
+};
+
+struct ContactEntry {
+  std::string name;
+  MarkerRef A, B;
+  PointOnPlane geometry;
+  std::unique_ptr<Component> law;
+  std::unique_ptr<Friction> friction;  // null: frictionless
+  // The law's kind, looked up once; exactly one is set.
+  const Restitution* restitution = nullptr;
+  const ContactForce* force = nullptr;
+};
+
+// A frame fixed in the world.
+struct GroundFrame {
+  Vec3 x;
+  double angle = 0;
+};
+
+struct Model {
+  World world;
+  std::vector<BodyEntry> bodies;
+  std::vector<JointEntry> joints;
+  std::vector<ForceEntry> forces;
+  std::vector<ContactEntry> contacts;
+  std::vector<GroundFrame> ground_frames = {GroundFrame{}};
+  Sizes sizes;           // nc counts the joints' rows alone
+  bool flat = true;      // no rotation part anywhere: q is a plain vector
+  bool constant_mass = true;
+
+  // Places every body and joint in q, v and g. Called after the entries are complete, and after a refinement.
+  void lay_out();
+};
+
+// Rows of the contact's geometry: row 0 the gap, G, g_t and gamma of the normal direction; with `tangents` further rows are
+// the slip velocities (their g is 0).
+void contact_rows(const PointOnPlane& plane, const Motion& A, const Motion& B, bool tangents, Rows& rows);
+
+}  // namespace trammel::model

@@ -1,0 +1,45 @@
+// Runs a scene: builds the model, advances it, and writes the results folder.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "plugin/registry.hpp"
+#include "scene/value.hpp"
+
+namespace trammel::simulate {
+
+struct Progress {
+  double t = 0, until = 0;  // [s] simulated
+  long long steps = 0;
+  int impacts = 0;
+};
+
+struct RunOptions {
+  std::filesystem::path out;                        // results folder, made if missing
+  bool resume = false;                              // continue from out/checkpoint.cbor
+  std::atomic<bool>* interrupt = nullptr;           // set by a signal handler: stop after this step, keep everything
+  std::function<void(const Progress&)> progress;    // called about ten times a second of wall-clock time
+};
+
+enum class Status { done, failed, interrupted };
+
+struct RunReport {
+  Status status = Status::done;
+  std::string reason;       // why it failed: time, step and cause
+  std::string result_json;  // as written to out/result.json
+  std::string summary;      // a few lines for a person: what was simulated, impacts, energy by cause, norms, cost, where
+};
+
+// Throws scene::SceneError for bad input, plugin::PluginError for a plugin that misbehaves (results so far are kept).
+RunReport run(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options);
+
+// Reads everything and builds the model without running; throws like run. Returns warnings, a line each.
+std::string validate(const scene::Scene& scene, plugin::Registry& registry);
+
+// What was built, what each part costs, what was left out: a text for a person.
+std::string explain(const scene::Scene& scene, plugin::Registry& registry);
+
+}  // namespace trammel::simulate
