@@ -1,0 +1,62 @@
+// Out-of-line destructors of the public interfaces: each interface's vtable and type_info live here, in libtrammel,
+// once. So dynamic_cast and exceptions work between program and plugins, also when a plugin hides its own symbols.
+
+#include <trammel/archive.hpp>
+#include <trammel/body.hpp>
+#include <trammel/component.hpp>
+#include <trammel/integrator.hpp>
+#include <trammel/parameters.hpp>
+#include <trammel/system.hpp>
+
+namespace trammel {
+
+System::~System() = default;
+Component::~Component() = default;
+Archive::~Archive() = default;
+
+ParameterError::ParameterError(std::string parameter, const std::string& message)
+    : std::runtime_error(message), parameter_(std::move(parameter)) {}
+ParameterError::~ParameterError() = default;
+
+// Abilities of integrators.
+ErrorEstimate::~ErrorEstimate() = default;
+DenseOutput::~DenseOutput() = default;
+Resizable::~Resizable() = default;
+
+// Abilities of bodies.
+ExactTangent::~ExactTangent() = default;
+ReactionDerivative::~ReactionDerivative() = default;
+Observed::~Observed() = default;
+Drawn::~Drawn() = default;
+Refinable::~Refinable() = default;
+Surface::~Surface() = default;
+
+void Archive::operator()(std::string_view name, std::vector<Vec>& values) {
+  const std::string stem(name);
+  int count = static_cast<int>(values.size());
+  (*this)(stem + ".count", count);
+  values.resize(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) (*this)(stem + "." + std::to_string(i), values[static_cast<std::size_t>(i)]);
+}
+
+const char* to_string(Kind kind) {
+  switch (kind) {
+    case Kind::integrator:
+      return "integrator";
+    case Kind::body:
+      return "body";
+    case Kind::joint:
+      return "joint";
+    case Kind::force:
+      return "force";
+    case Kind::contact:
+      return "contact";
+    case Kind::friction:
+      return "friction";
+    case Kind::correction:
+      return "correction";
+  }
+  return "component";
+}
+
+}  // namespace trammel
