@@ -28,6 +28,12 @@ struct Counts {
   long long factorizations = 0;
 };
 
+// The component and method that were called last: who to name when a plugin throws.
+struct CallSite {
+  const std::string* component = nullptr;  // name in the scene, "bodies.beam"
+  const char* call = "";
+};
+
 class AssembledSystem final : public System {
  public:
   explicit AssembledSystem(std::shared_ptr<const Model> model);
@@ -45,12 +51,14 @@ class AssembledSystem final : public System {
   void add_mass_times(double c, const Vec& a, Vec& r) override;
   void add_reaction(double c, const Vec& lambda, Vec& r) override;
   void accelerate(Stabilisation, Vec& a, Vec& lambda) override;
-  void factorise(Blend, const Vec& a, const Vec& lambda) override;
-  [[nodiscard]] bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda) override;
+  void factorise(Blend, const Vec& a, const Vec& lambda, Factors kept = Factors::iteration) override;
+  [[nodiscard]] bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda,
+                             Factors kept = Factors::iteration) override;
 
   // --- for the Simulator ---
   const Model& model() const;
-  // Which contacts are closed; changes sizes().nc. Rows: the joints', then those of closed Restitution contacts in order.
+  // Which contacts are closed; changes sizes().nc. Rows: the joints', then those of closed Restitution contacts in
+  // order.
   void set_modes(const Modes& modes);
   const Modes& modes() const;
   int contact_row(int contact) const;  // its row in g while closed, else -1; the normal force is -lambda of that row
@@ -59,23 +67,27 @@ class AssembledSystem final : public System {
   // At the point of the last move_to. Each evaluates only what it needs.
   double gap(int contact);
   double gap_rate(int contact);
-  double gap_acceleration(int contact, const Vec& a);      // for an acceleration of the system
-  double normal_force(int contact, const Vec& lambda);     // [N] >= 0 pushes; of either kind of law
-  // Velocity jump by impulses on contacts, bilateral rows held (M dv + G_b^T L_b = sum_i n_i L_i): column i of `jump` is dv
-  // for a unit impulse on contacts[i], and delassus(i, j) the change of gap rate of contacts[i] by a unit on contacts[j].
+  double gap_acceleration(int contact, const Vec& a);   // for an acceleration of the system
+  double normal_force(int contact, const Vec& lambda);  // [N] >= 0 pushes; of either kind of law
+  // Velocity jump by impulses on contacts, bilateral rows held (M dv + G_b^T L_b = sum_i n_i L_i): column i of `jump`
+  // is dv for a unit impulse on contacts[i], and delassus(i, j) the change of gap rate of contacts[i] by a unit on
+  // contacts[j].
   void impulse_response(const std::vector<int>& contacts, Mat& jump, Mat& delassus);
 
-  Energy energy();                 // of all bodies, forces and closed compliant contacts
-  struct Balance {                 // power of what energy() does not hold, by cause [W]
-    double drives = 0;             // supplied by bodies' drives and loads
-    double dampers = 0;            // dissipated in bodies and forces
-    double contacts = 0;           // dissipated in compliant contacts
-    double constraints = 0;        // supplied by time-dependent rows: -lambda^T g_t
+  Energy energy();           // of all bodies, forces and closed compliant contacts
+  struct Balance {           // power of what energy() does not hold, by cause [W]
+    double drives = 0;       // supplied by bodies' drives and loads
+    double dampers = 0;      // dissipated in bodies and forces
+    double contacts = 0;     // dissipated in compliant contacts
+    double constraints = 0;  // supplied by time-dependent rows: -lambda . W v
   };
   Balance balance(const Vec& lambda);
   void constraint_acceleration(const Vec& a, Vec& r);  // G a - gamma
 
   const Motion& motion(MarkerRef marker);  // at the current point
+  const CallSite& last_call() const;
+  // Finds the first component whose answer at the current point is not finite; component is null if all are.
+  CallSite find_not_finite();
   const Counts& counts() const;
   Counts& counts();
 

@@ -1,5 +1,5 @@
-// The assembled scene: bodies, joints, forces and contacts with their places in the system's vectors. Constant after it is
-// built (but for a refinement, which builds the layout anew); shared by every System that works on it.
+// The assembled scene: bodies, joints, forces and contacts with their places in the system's vectors. Constant after it
+// is built (but for a refinement, which builds the layout anew); shared by every System that works on it.
 #pragma once
 
 #include <memory>
@@ -26,6 +26,7 @@ struct BodyEntry {
   std::unique_ptr<Body> body;
   // Place of its segment in q and v.
   int q0 = 0, v0 = 0, nq = 0, nv = 0;
+  std::vector<Coordinates::Part> parts;
   // Abilities, looked up once.
   const ExactTangent* tangent = nullptr;
   const ReactionDerivative* reaction_derivative = nullptr;
@@ -75,16 +76,16 @@ struct Model {
   std::vector<ForceEntry> forces;
   std::vector<ContactEntry> contacts;
   std::vector<GroundFrame> ground_frames = {GroundFrame{}};
-  Sizes sizes;           // nc counts the joints' rows alone
-  bool flat = true;      // no rotation part anywhere: q is a plain vector
+  Sizes sizes;       // nc counts the joints' rows alone
+  bool flat = true;  // no rotation part anywhere: q is a plain vector
   bool constant_mass = true;
 
   // Places every body and joint in q, v and g. Called after the entries are complete, and after a refinement.
   void lay_out();
 };
 
-// Rows of the contact's geometry: row 0 the gap, G, g_t and gamma of the normal direction; with `tangents` further rows are
-// the slip velocities (their g is 0).
+// Rows of the contact's geometry: row 0 the gap, G, g_t and gamma of the normal direction; with `tangents` further rows
+// are the slip velocities (their g is 0).
 void contact_rows(const PointOnPlane& plane, const Motion& A, const Motion& B, bool tangents, Rows& rows);
 
 }  // namespace trammel::model

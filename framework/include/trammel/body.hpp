@@ -18,8 +18,8 @@ namespace trammel {
 class Coordinates {
  public:
   enum class Kind {
-    flat,       // n numbers with n rates
-    rotation,   // a unit quaternion (w, x, y, z) with the angular velocity in body axes: 4 numbers, 3 rates
+    flat,      // n numbers with n rates
+    rotation,  // a unit quaternion (w, x, y, z) with the angular velocity in body axes: 4 numbers, 3 rates
   };
   struct Part {
     Kind kind;
@@ -43,9 +43,9 @@ class Body : public Component {
   virtual Coordinates coordinates() const = 0;
   virtual void initial(Out q, Out v) const = 0;  // configuration and velocity at the start, from the body's parameters
 
-  virtual void mass(double t, In q, Matrix& M) const = 0;          // adds M (nv x nv), symmetric
+  virtual void mass(double t, In q, Matrix& M) const = 0;  // adds M (nv x nv), symmetric
   virtual bool mass_is_constant() const { return false; }
-  virtual void force(double t, In q, In v, Out f) const = 0;       // adds f (nv): elastic, gyroscopic, gravity, drives
+  virtual void force(double t, In q, In v, Out f) const = 0;  // adds f (nv): elastic, gyroscopic, gravity, drives
   virtual Energy energy(double t, In q, In v) const = 0;
   virtual Power power(double /*t*/, In /*q*/, In /*v*/) const { return {}; }  // of drives and dampers inside the body
 

@@ -1,5 +1,5 @@
-// Contact laws: what happens in the normal direction when a gap closes. Geometry (gap, normal, their rates) and friction
-// are separate; the three combine freely.
+// Contact laws: what happens in the normal direction when a gap closes. Geometry (gap, normal, their rates) and
+// friction are separate; the three combine freely.
 //
 //     gap [m] > 0 apart; gap_rate = d(gap)/dt [m/s], negative when closing; approach_speed [m/s] > 0 at the last onset
 #pragma once
@@ -12,9 +12,9 @@ namespace trammel {
 class Restitution : public Component {
  public:
   // How a run treats what the law leaves open; the second of each pair reproduces a simplification found in papers.
-  enum class Onset { located, next_step };      // the impact at the crossing, or at the end of the step that passed it
-  enum class Rebound { free, constrained };     // a separating contact is open, or its row is active at once
-  enum class Restart { consistent, carry };     // a, lambda solved anew at a change of mode, or carried over
+  enum class Onset { located, next_step };   // the impact at the crossing, or at the end of the step that passed it
+  enum class Rebound { free, constrained };  // a separating contact is open, or its row is active at once
+  enum class Restart { consistent, carry };  // a, lambda solved anew at a change of mode, or carried over
   struct Treatment {
     Onset onset = Onset::located;
     Rebound rebound = Rebound::free;

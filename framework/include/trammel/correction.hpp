@@ -7,8 +7,8 @@ namespace trammel {
 
 class Correction : public Component {
  public:
-  // Moves `state` (q or v) so that its part of the rows holds; the System is free to move. Applied in the order position,
-  // velocity, energy, each at the result of the one before.
+  // Moves `state` (q or v) so that its part of the rows holds; the System is free to move. Applied in the order
+  // position, velocity, energy, each at the result of the one before.
   virtual Outcome apply(System&, State& state) = 0;
 };
 

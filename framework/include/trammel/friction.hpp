@@ -13,7 +13,8 @@ struct Regularised {
   double critical_velocity = 0;  // [m/s] where mu is reached
 };
 
-// F_t in the cone of mu_0 F_n while sticking (rows), -mu F_n s/|s| while slipping (a force that may couple rows: W != G).
+// F_t in the cone of mu_0 F_n while sticking (rows), -mu F_n s/|s| while slipping (a force that may couple rows: W !=
+// G).
 struct Coulomb {
   double static_coefficient = 0;   // mu_0
   double kinetic_coefficient = 0;  // mu <= mu_0

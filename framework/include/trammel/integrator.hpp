@@ -19,9 +19,9 @@ struct State {
 
 // Claims of a method; each is measured by its tests.
 struct Traits {
-  int order = 1;             // of q and v with constant steps, constraints included
+  int order = 1;  // of q and v with constant steps, constraints included
   bool implicit = false;
-  int steps = 1;             // of memory: 1 for one-step methods, 4 for fourth-order Adams
+  int steps = 1;                // of memory: 1 for one-step methods, 4 for fourth-order Adams
   bool holds_position = false;  // g = 0 at the end of each step, to the iteration's tolerance
   bool holds_velocity = false;  // G v + g_t = 0 likewise
 };
@@ -33,8 +33,9 @@ class Integrator : public Component {
   // Something jumped, or sizes changed: forget the past, start from `now`. Always called before the first step.
   virtual void restart(System&, const State& now) = 0;
 
-  // A trial: from `now` to `next` over h > 0. Leaves no trace but `next`: the Simulator repeats it with other h to locate
-  // events. `next` comes in with any content of any size; reject instead of returning numbers that are not finite.
+  // A trial: from `now` to `next` over h > 0. Leaves no trace but `next`: the Simulator repeats it with other h to
+  // locate events. `next` comes in with any content of any size; reject instead of returning numbers that are not
+  // finite.
   virtual Outcome step(System&, const State& now, double h, State& next) = 0;
 
   // The trial became the solution: history moves here and only here.

@@ -11,11 +11,11 @@ namespace trammel {
 //     V = J v + V_t        A = J v' + bias
 // V_t is the part prescribed by time (a moving base); J acts on the body's dofs listed in `dofs`.
 struct Motion {
-  Vec3 x;            // position, world axes [m]
-  Mat3 R;            // orientation: columns are the marker's axes in world axes
-  double angle = 0;  // planar: of the marker's x axis, counts full turns [rad]
-  Vec6 V;            // velocity [m/s; rad/s]
-  Vec6 bias;         // acceleration at v' = 0 [m/s^2; rad/s^2]
+  Vec3 x;                 // position, world axes [m]
+  Mat3 R;                 // orientation: columns are the marker's axes in world axes
+  double angle = 0;       // planar: of the marker's x axis, counts full turns [rad]
+  Vec6 V;                 // velocity [m/s; rad/s]
+  Vec6 bias;              // acceleration at v' = 0 [m/s^2; rad/s^2]
   std::vector<int> dofs;  // local velocity indices of the body, set once per layout
   Jac J;                  // twist_size x dofs.size()
 };
@@ -26,10 +26,10 @@ using Wrench = Vec6;
 // Constraint rows between two markers A and B (n <= 6 of them).
 //     g_dot = H_A V_A + H_B V_B + g_t,        H_A A_A + H_B A_B = gamma
 struct Rows {
-  Vec6 g;        // (n)
-  Mat6 H_A, H_B; // (n x twist)
-  Vec6 g_t;      // (n) partial derivative by time
-  Vec6 gamma;    // (n) without the markers' bias, which assembly subtracts
+  Vec6 g;         // (n)
+  Mat6 H_A, H_B;  // (n x twist)
+  Vec6 g_t;       // (n) partial derivative by time
+  Vec6 gamma;     // (n) without the markers' bias, which assembly subtracts
 
   // All zero, n rows.
   void resize(int n, Space space);

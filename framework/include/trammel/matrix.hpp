@@ -1,12 +1,10 @@
 // Where components add their blocks, without knowing where the entries live.
 //
-// A component adds in its own indices; the framework has set the origin. Into dense storage an addition is a plain loop.
-// Into sparse storage the first assembly records which slots the sequence of calls touches, and later ones replay it; a
-// different order of calls only costs a new recording.
+// A component adds in its own indices; the framework has set the origin and owns the storage. An addition is a plain
+// loop: no virtual call per entry.
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include <trammel/types.hpp>
 
@@ -21,21 +19,15 @@ class Matrix {
   // entry(dofs[i], dofs[j]) += c * block(i, j)
   void add(std::span<const int> dofs, Block block, double c = 1) { add(dofs, dofs, block, c); }
   void add(std::span<const int> rows, std::span<const int> columns, Block block, double c = 1);
-  void add(int i, int j, double value) { add_entry(row_ + i, column_ + j, value); }
+  void add(int i, int j, double value) { data_[(column_ + j) * stride_ + row_ + i] += value; }
 
   // --- for the framework ---
-  struct Pattern;  // the recorded sequence of a sparse matrix
-
-  static Matrix onto(Mat& dense);            // adds into an existing dense matrix
-  static Matrix onto(Pattern& sparse);       // records into, or replays onto, a sparse pattern
+  static Matrix onto(Mat& dense);                                     // adds into an existing matrix
   void origin(int row, int column) { row_ = row, column_ = column; }  // what a component calls (0, 0)
 
  private:
-  void add_entry(int i, int j, double value);
-
   double* data_ = nullptr;  // column-major
   Eigen::Index stride_ = 0;
-  Pattern* pattern_ = nullptr;
   int row_ = 0, column_ = 0;
 };
 

@@ -2,7 +2,8 @@
 //
 //     q' = N(q) v                                  q configuration (nq), on a manifold; v velocity (nv)
 //     M(q) v' = f(t, q, v) - W(t, q)^T lambda      M mass matrix; f applied, elastic and gyroscopic forces
-//     g(t, q) = 0,   G = (dg/dq) N                 nc bilateral rows, may be redundant; W = G unless friction couples rows
+//     g(t, q) = 0,   G = (dg/dq) N                 nc bilateral rows, may be redundant; W = G unless friction couples
+//     rows
 //
 // and the levels derived from it, G v + g_t = 0 and G v' = gamma(t, q, v). Contacts, events, storage (dense or sparse),
 // redundancy and the meaning of the coordinates are the System's affair.
@@ -26,6 +27,10 @@ struct Blend {
   double c_k = 0;
 };
 
+// Which of two kept factorisations: GGL needs the iteration matrix and the projection onto the position rows side by
+// side.
+enum class Factors { iteration, projection };
+
 class System {
  public:
   virtual ~System();
@@ -47,18 +52,20 @@ class System {
   virtual const Vec& g() = 0;      // (nc)
   virtual const Vec& g_dot() = 0;  // (nc)  G v + g_t
 
-  virtual void add_mass_times(double c, const Vec& a, Vec& r) = 0;         // r += c M a           (nv)
-  virtual void add_reaction(double c, const Vec& lambda, Vec& r) = 0;      // r += c W^T lambda    (nv)
+  virtual void add_mass_times(double c, const Vec& a, Vec& r) = 0;     // r += c M a           (nv)
+  virtual void add_reaction(double c, const Vec& lambda, Vec& r) = 0;  // r += c W^T lambda    (nv)
 
-  // Solves M a + W^T lambda = f, G a = gamma - stabilisation. Redundant rows: a is unique, lambda the one of minimum norm.
-  // Throws when M is singular on the null space of G.
+  // Solves M a + W^T lambda = f, G a = gamma - stabilisation. Redundant rows: a is unique, lambda the one of minimum
+  // norm. Throws when M is singular on the null space of G.
   virtual void accelerate(Stabilisation, Vec& a, Vec& lambda) = 0;
 
   // Factorises [S W^T; G 0] at this point; a and lambda enter D and K through d(M a)/dq and d(W^T lambda)/dq.
-  // The factors stay valid over later move_to calls (a modified Newton iteration) until the next factorise or accelerate.
-  virtual void factorise(Blend, const Vec& a, const Vec& lambda) = 0;
-  // Solves [S W^T; G 0] (da, dlambda) = -(r, rc) with the last factors. False: singular, reject the step.
-  [[nodiscard]] virtual bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda) = 0;
+  // The factors stay valid over later move_to calls (a modified Newton iteration) until the next factorise of the same
+  // kind or a change of sizes.
+  virtual void factorise(Blend, const Vec& a, const Vec& lambda, Factors = Factors::iteration) = 0;
+  // Solves [S W^T; G 0] (da, dlambda) = -(r, rc) with those factors. False: singular, reject the step.
+  [[nodiscard]] virtual bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda,
+                                     Factors = Factors::iteration) = 0;
 
  protected:
   System() = default;

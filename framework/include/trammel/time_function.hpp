@@ -16,7 +16,8 @@ class TimeFunction {
 
   TimeFunction() = default;  // the constant 0
   TimeFunction(double constant) : constant_(constant) {}
-  explicit TimeFunction(std::shared_ptr<const Code> code, std::string text) : code_(std::move(code)), text_(std::move(text)) {}
+  explicit TimeFunction(std::shared_ptr<const Code> code, std::string text)
+      : code_(std::move(code)), text_(std::move(text)) {}
 
   bool is_constant() const { return !code_; }
   double operator()(double t) const { return code_ ? jet(t).value : constant_; }

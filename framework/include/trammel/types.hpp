@@ -24,15 +24,21 @@ struct Sizes {
 
 // A planar scene has planar coordinates throughout: vectors of 2, one rotation. Nothing spatial is carried along.
 enum class Space { planar, spatial };
-constexpr int dimension(Space space) { return space == Space::planar ? 2 : 3; }  // of a position
-constexpr int rotations(Space space) { return space == Space::planar ? 1 : 3; }  // of an angular velocity
-constexpr int twist_size(Space space) { return dimension(space) + rotations(space); }
+constexpr int dimension(Space space) {
+  return space == Space::planar ? 2 : 3;
+}  // of a position
+constexpr int rotations(Space space) {
+  return space == Space::planar ? 1 : 3;
+}  // of an angular velocity
+constexpr int twist_size(Space space) {
+  return dimension(space) + rotations(space);
+}
 
 // Small vectors and matrices with the scene's dimension and room for space: they never touch the heap.
-using Vec3 = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;                  // 2 or 3 entries
-using Vec6 = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;                  // 3 or 6: linear, then angular
-using Mat3 = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;     // 2x2 or 3x3
-using Mat6 = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;     // rows x twist
+using Vec3 = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;                      // 2 or 3 entries
+using Vec6 = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;                      // 3 or 6: linear, then angular
+using Mat3 = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;         // 2x2 or 3x3
+using Mat6 = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;         // rows x twist
 using Jac = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // twist x dofs of one body
 
 // What a component may know of the scene around it.

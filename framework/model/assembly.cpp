@@ -1,0 +1,253 @@
+#include "model/assembly.hpp"
+
+#include "model/numeric_derivative.hpp"
+
+namespace trammel::model {
+
+AssembledSystem::Work::Work(std::shared_ptr<const Model> m) : model(std::move(m)), chain(*model) {
+  for (const JointEntry& entry : model->joints) joint_slots.push_back({chain.slot(entry.A), chain.slot(entry.B)});
+  for (const ForceEntry& entry : model->forces) force_slots.push_back({chain.slot(entry.A), chain.slot(entry.B)});
+  for (const ContactEntry& entry : model->contacts) contact_slots.push_back({chain.slot(entry.A), chain.slot(entry.B)});
+  contact_rows.resize(model->contacts.size());
+  modes.contacts.resize(model->contacts.size());
+  contact_row.assign(model->contacts.size(), -1);
+  sizes = model->sizes;
+}
+
+void AssembledSystem::Work::move_to(double t_new, const Vec& q_new, const Vec& v_new) {
+  if (point > 0 && t == t_new && q == q_new && v == v_new) return;
+  t = t_new;
+  q = q_new;
+  v = v_new;
+  ++point;
+  chain.new_point();
+  mass_fresh = mass_fresh && model->constant_mass;
+  force_fresh = rows_fresh = false;
+}
+
+const Mat& AssembledSystem::Work::mass() {
+  if (mass_fresh) return M;
+  M.setZero(sizes.nv, sizes.nv);
+  Matrix target = Matrix::onto(M);
+  for (const BodyEntry& entry : model->bodies) {
+    called(entry.name, "mass");
+    target.origin(entry.v0, entry.v0);
+    entry.body->mass(t, q.segment(entry.q0, entry.nq), target);
+  }
+  mass_fresh = true;
+  return M;
+}
+
+const Vec& AssembledSystem::Work::force() {
+  if (force_fresh) return f;
+  ++counts.residual_evaluations;
+  f.setZero(sizes.nv);
+  for (const BodyEntry& entry : model->bodies) {
+    called(entry.name, "force");
+    entry.body->force(t, q.segment(entry.q0, entry.nq), v.segment(entry.v0, entry.nv), f.segment(entry.v0, entry.nv));
+  }
+  const int twist = twist_size(model->world.space);
+  for (std::size_t i = 0; i < force_slots.size(); ++i) {
+    const auto [A, B] = force_slots[i];
+    called(model->forces[i].name, "wrench");
+    on_A.setZero(twist);
+    on_B.setZero(twist);
+    model->forces[i].force->wrench(t, motion(A), motion(B), on_A, on_B);
+    chain.add_wrench(A, on_A, 1, f);
+    chain.add_wrench(B, on_B, 1, f);
+  }
+  for (std::size_t i = 0; i < contact_slots.size(); ++i) {
+    const ContactForce* law = model->contacts[i].force;
+    if (!law || !modes.contacts[i].closed) continue;
+    const Rows& r = contact(int(i));
+    const auto [A, B] = contact_slots[i];
+    const double rate = r.H_A.row(0).dot(motion(A).V) + r.H_B.row(0).dot(motion(B).V);
+    called(model->contacts[i].name, "normal");
+    const double N = law->normal(r.g(0), rate, modes.contacts[i].approach_speed);
+    chain.add_wrench(A, r.H_A.row(0).transpose(), N, f);
+    chain.add_wrench(B, r.H_B.row(0).transpose(), N, f);
+  }
+  force_fresh = true;
+  return f;
+}
+
+const Rows& AssembledSystem::Work::contact(int i) {
+  ContactRows& cache = contact_rows[std::size_t(i)];
+  if (cache.point != point) {
+    const auto [A, B] = contact_slots[std::size_t(i)];
+    called(model->contacts[std::size_t(i)].name, "motion");
+    cache.rows.resize(1, model->world.space);
+    model::contact_rows(model->contacts[std::size_t(i)].geometry, motion(A), motion(B), false, cache.rows);
+    cache.point = point;
+  }
+  return cache.rows;
+}
+
+void AssembledSystem::Work::evaluate_rows() {
+  if (rows_fresh) return;
+  g.resize(sizes.nc);
+  g_dot.resize(sizes.nc);
+  gamma.resize(sizes.nc);
+  G.setZero(sizes.nc, sizes.nv);
+  const auto place = [&](const Rows& r, Pair pair, int row) {
+    const Motion &A = motion(pair.A), &B = motion(pair.B);
+    const auto n = r.g.size();
+    g.segment(row, n) = r.g;
+    g_dot.segment(row, n) = r.g_t;
+    g_dot.segment(row, n).noalias() += r.H_A * A.V;
+    g_dot.segment(row, n).noalias() += r.H_B * B.V;
+    gamma.segment(row, n) = r.gamma;
+    gamma.segment(row, n).noalias() -= r.H_A * A.bias;
+    gamma.segment(row, n).noalias() -= r.H_B * B.bias;
+    chain.add_rows(pair.A, row, r.H_A, G);
+    chain.add_rows(pair.B, row, r.H_B, G);
+  };
+  for (std::size_t i = 0; i < joint_slots.size(); ++i) {
+    const JointEntry& entry = model->joints[i];
+    called(entry.name, "rows");
+    rows.resize(entry.rows, model->world.space);
+    entry.joint->rows(t, motion(joint_slots[i].A), motion(joint_slots[i].B), rows);
+    place(rows, joint_slots[i], entry.row);
+  }
+  for (std::size_t i = 0; i < contact_slots.size(); ++i) {
+    const int row = contact_row[i];
+    if (row < 0) continue;
+    place(contact(int(i)), contact_slots[i], row);
+    g(row) -= modes.contacts[i].offset;
+  }
+  rows_fresh = true;
+}
+
+namespace {
+
+// H^T lambda as wrenches on both markers.
+class JointReaction final : public PairWrench {
+ public:
+  JointReaction(const JointEntry& entry, double t, const Vec& lambda, Space space)
+      : entry_(entry), t_(t), lambda_(lambda), space_(space) {}
+  void operator()(const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
+    Rows rows;
+    rows.resize(entry_.rows, space_);
+    entry_.joint->rows(t_, A, B, rows);
+    on_A = rows.H_A.transpose() * lambda_.segment(entry_.row, entry_.rows);
+    on_B = rows.H_B.transpose() * lambda_.segment(entry_.row, entry_.rows);
+  }
+  bool depends_on_velocity() const override { return false; }
+
+ private:
+  const JointEntry& entry_;
+  double t_;
+  const Vec& lambda_;
+  Space space_;
+};
+
+class ForceWrench final : public PairWrench {
+ public:
+  ForceWrench(const Force& force, double t) : force_(force), t_(t) {}
+  void operator()(const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
+    force_.wrench(t_, A, B, on_A, on_B);
+  }
+  bool depends_on_velocity() const override { return true; }
+
+ private:
+  const Force& force_;
+  double t_;
+};
+
+}  // namespace
+
+// S += c_m M + c_d D + c_k K, D and K of M a - f + W^T lambda.
+void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S) {
+  ++counts.jacobian_evaluations;
+  Matrix target = Matrix::onto(S);
+  for (const BodyEntry& entry : model->bodies) {
+    called(entry.name, "tangent");
+    const auto q_body = q.segment(entry.q0, entry.nq);
+    const auto v_body = v.segment(entry.v0, entry.nv);
+    const auto a_body = a.segment(entry.v0, entry.nv);
+    target.origin(entry.v0, entry.v0);
+    if (entry.tangent) {
+      entry.tangent->add_tangent(t, q_body, v_body, a_body, c, target);
+      continue;
+    }
+    entry.body->mass(t, q_body, target);
+    if (c.c_m != 1) {
+      Mat M_body = Mat::Zero(entry.nv, entry.nv);
+      Matrix alone = Matrix::onto(M_body);
+      entry.body->mass(t, q_body, alone);
+      target.add(0, 0, M_body, c.c_m - 1);
+    }
+    Mat block;
+    if (c.c_d != 0) {
+      velocity_differences(
+          v_body,
+          [&](const Vec& moved, Vec& out) {
+            out.setZero(entry.nv);
+            entry.body->force(t, q_body, moved, out);
+          },
+          block);
+      target.add(0, 0, block, -c.c_d);
+    }
+    if (c.c_k != 0) {
+      Mat M_body;
+      tangent_differences(
+          entry, q_body,
+          [&](const Vec& moved, Vec& out) {
+            out.setZero(entry.nv);
+            entry.body->force(t, moved, v_body, out);
+            M_body.setZero(entry.nv, entry.nv);
+            Matrix alone = Matrix::onto(M_body);
+            entry.body->mass(t, moved, alone);
+            out = M_body * a_body - out;
+          },
+          block);
+      target.add(0, 0, block, c.c_k);
+    }
+  }
+  for (std::size_t i = 0; i < force_slots.size(); ++i) {
+    called(model->forces[i].name, "wrench");
+    add_pair_tangent(chain, force_slots[i].A, force_slots[i].B, t, q, v, ForceWrench(*model->forces[i].force, t),
+                     -c.c_k, -c.c_d, S);
+  }
+  for (std::size_t i = 0; i < joint_slots.size() && c.c_k != 0; ++i) {
+    called(model->joints[i].name, "rows");
+    add_pair_tangent(chain, joint_slots[i].A, joint_slots[i].B, t, q, v,
+                     JointReaction(model->joints[i], t, lambda, model->world.space), c.c_k, 0, S);
+  }
+  for (std::size_t i = 0; i < contact_slots.size(); ++i) {
+    if (!modes.contacts[i].closed) continue;
+    const auto [A, B] = contact_slots[i];
+    const Rows& r = contact(int(i));
+    double pull = 0;  // W^T lambda of the row, or -f of the law
+    if (contact_row[i] >= 0) {
+      pull = lambda(contact_row[i]);
+    } else {
+      const double rate = r.H_A.row(0).dot(motion(A).V) + r.H_B.row(0).dot(motion(B).V);
+      const double approach = modes.contacts[i].approach_speed;
+      const ContactForce* law = model->contacts[i].force;
+      pull = -law->normal(r.g(0), rate, approach);
+      const auto [by_gap, by_rate] = law->slope(r.g(0), rate, approach);
+      const double weight = -(c.c_k * by_gap + c.c_d * by_rate);
+      const std::array<std::pair<int, const Mat6*>, 2> sides = {{{A, &r.H_A}, {B, &r.H_B}}};
+      for (const auto& [slot, H] : sides)
+        for (const auto& [other, H_other] : sides)
+          chain.add_pair(slot, other, H->row(0).transpose() * H_other->row(0), weight, S);
+    }
+    if (c.c_k == 0 || pull == 0) continue;
+    chain.add_reaction_derivative(A, t, q, r.H_A.row(0).transpose(), c.c_k * pull, S);
+    chain.add_reaction_derivative(B, t, q, r.H_B.row(0).transpose(), c.c_k * pull, S);
+  }
+}
+
+bool AssembledSystem::Work::factorise_mass(Kept& store) {
+  evaluate_rows();
+  if (store.mass_factorised && model->constant_mass) {
+    store.mass.change_rows(G);
+    return true;
+  }
+  ++counts.factorizations;
+  store.mass_factorised = store.mass.factorise(mass(), G);
+  return store.mass_factorised;
+}
+
+}  // namespace trammel::model

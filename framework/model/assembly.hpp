@@ -1,0 +1,84 @@
+// What an AssembledSystem keeps between calls: the current point, what was evaluated there, and the factors.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "model/assembled_system.hpp"
+#include "model/marker_chain.hpp"
+#include "numerics/kkt.hpp"
+
+namespace trammel::model {
+
+struct AssembledSystem::Work {
+  explicit Work(std::shared_ptr<const Model> m);
+
+  // Markers of one joint, force or contact.
+  struct Pair {
+    int A, B;
+  };
+  struct ContactRows {
+    long long point = -1;
+    Rows rows;
+  };
+  // One kept factorisation: M alone has the cheaper, symmetric one.
+  struct Kept {
+    bool mass_only = false;
+    numerics::MassKkt mass;
+    bool mass_factorised = false;  // for constant mass matrices: once
+    numerics::IterationKkt iteration;
+  };
+
+  void move_to(double t_new, const Vec& q_new, const Vec& v_new);
+  const Motion& motion(int slot) { return chain.motion(slot, t, q, v); }
+
+  const Mat& mass();
+  const Vec& force();
+  void evaluate_rows();  // g, g_dot, gamma, G
+  const Rows& contact(int i);
+  void add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S);
+  bool factorise_mass(Kept& kept);
+
+  void called(const std::string& component, const char* call) { site = {&component, call}; }
+
+  std::shared_ptr<const Model> model;
+  MarkerChain chain;
+  std::vector<Pair> joint_slots, force_slots, contact_slots;
+  Modes modes;
+  std::vector<int> contact_row;  // row in g, -1 while open or compliant
+  Sizes sizes;
+
+  double t = 0;
+  Vec q, v;
+  long long point = 0;
+  bool mass_fresh = false, force_fresh = false, rows_fresh = false;
+
+  Mat M, G;
+  Vec f, g, g_dot, gamma;
+  Kept at_point;
+  std::array<Kept, 2> kept;
+  Counts counts;
+  CallSite site;
+
+  // scratch
+  Rows rows;
+  std::vector<ContactRows> contact_rows;
+  Wrench on_A, on_B;
+  Vec right, right_rows;
+};
+
+// d of the generalised force of a pair of markers, whose wrenches are a function of both motions, by differences of the
+// poses and velocities: S += c_k d(J^T w)/dq + c_d d(J^T w)/dv. Of the markers' own motion only J^T's change with q is
+// included beside; that V depends on q at fixed v is left out (it is of the order damping x speed / length beside the
+// stiffness, and Newton's iteration corrects for it).
+class PairWrench {
+ public:
+  virtual ~PairWrench() = default;
+  virtual void operator()(const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const = 0;
+  virtual bool depends_on_velocity() const = 0;
+};
+void add_pair_tangent(MarkerChain& chain, int A, int B, double t, const Vec& q, const Vec& v, const PairWrench& wrench,
+                      double c_k, double c_d, Mat& S);
+
+}  // namespace trammel::model

@@ -1,0 +1,35 @@
+#include "model/model.hpp"
+
+namespace trammel::model {
+
+void Model::lay_out() {
+  sizes = {};
+  flat = true;
+  constant_mass = true;
+  for (BodyEntry& entry : bodies) {
+    const Coordinates coordinates = entry.body->coordinates();
+    entry.parts.assign(coordinates.parts().begin(), coordinates.parts().end());
+    entry.q0 = sizes.nq, entry.nq = coordinates.nq();
+    entry.v0 = sizes.nv, entry.nv = coordinates.nv();
+    sizes.nq += entry.nq;
+    sizes.nv += entry.nv;
+    for (const Coordinates::Part& part : entry.parts) flat = flat && part.kind == Coordinates::Kind::flat;
+    constant_mass = constant_mass && entry.body->mass_is_constant();
+    const Body* body = entry.body.get();
+    entry.tangent = dynamic_cast<const ExactTangent*>(body);
+    entry.reaction_derivative = dynamic_cast<const ReactionDerivative*>(body);
+    entry.observed = dynamic_cast<const Observed*>(body);
+    entry.drawn = dynamic_cast<const Drawn*>(body);
+  }
+  for (JointEntry& entry : joints) {
+    entry.row = sizes.nc;
+    entry.rows = entry.joint->row_count(world.space);
+    sizes.nc += entry.rows;
+  }
+  for (ContactEntry& entry : contacts) {
+    entry.restitution = dynamic_cast<const Restitution*>(entry.law.get());
+    entry.force = dynamic_cast<const ContactForce*>(entry.law.get());
+  }
+}
+
+}  // namespace trammel::model

@@ -1,0 +1,102 @@
+#include "model/marker_chain.hpp"
+
+#include <cmath>
+
+#include "model/numeric_derivative.hpp"
+
+namespace trammel::model {
+
+MarkerChain::MarkerChain(const Model& model) : model_(model) {}
+
+int MarkerChain::slot(MarkerRef marker) {
+  for (std::size_t i = 0; i < slots_.size(); ++i)
+    if (slots_[i].marker.body == marker.body && slots_[i].marker.marker == marker.marker) return int(i);
+  Slot slot;
+  slot.marker = marker;
+  if (marker.body < 0) {
+    const int n = twist_size(model_.world.space), dim = dimension(model_.world.space);
+    const GroundFrame& frame = model_.ground_frames[std::size_t(marker.marker)];
+    slot.motion.x = frame.x.size() == dim ? frame.x : Vec3(Vec3::Zero(dim));
+    slot.motion.R.setIdentity(dim, dim);
+    const double c = std::cos(frame.angle), s = std::sin(frame.angle);
+    slot.motion.R.topLeftCorner<2, 2>() << c, -s, s, c;
+    slot.motion.angle = frame.angle;
+    slot.motion.V.setZero(n);
+    slot.motion.bias.setZero(n);
+    slot.motion.J.resize(n, 0);
+  }
+  slots_.push_back(std::move(slot));
+  return int(slots_.size()) - 1;
+}
+
+void MarkerChain::evaluate(Slot& slot, double t, const Vec& q, const Vec& v) const {
+  const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
+  entry.body->motion(slot.marker.marker, t, q.segment(entry.q0, entry.nq), v.segment(entry.v0, entry.nv), slot.motion);
+}
+
+const Motion& MarkerChain::motion(int index, double t, const Vec& q, const Vec& v) {
+  Slot& slot = slots_[std::size_t(index)];
+  if (slot.point != point_) {
+    if (slot.marker.body >= 0) evaluate(slot, t, q, v);
+    slot.point = point_;
+  }
+  return slot.motion;
+}
+
+void MarkerChain::add_wrench(int index, const Wrench& wrench, double c, Vec& f) const {
+  const Slot& slot = slots_[std::size_t(index)];
+  if (slot.marker.body < 0) return;
+  const int v0 = model_.bodies[std::size_t(slot.marker.body)].v0;
+  const auto& dofs = slot.motion.dofs;
+  for (std::size_t j = 0; j < dofs.size(); ++j) f(v0 + dofs[j]) += c * slot.motion.J.col(Eigen::Index(j)).dot(wrench);
+}
+
+void MarkerChain::add_rows(int index, int row, const Mat6& H, Mat& G) const {
+  const Slot& slot = slots_[std::size_t(index)];
+  if (slot.marker.body < 0) return;
+  const int v0 = model_.bodies[std::size_t(slot.marker.body)].v0;
+  const auto& dofs = slot.motion.dofs;
+  for (std::size_t j = 0; j < dofs.size(); ++j)
+    for (Eigen::Index i = 0; i < H.rows(); ++i)
+      G(row + i, v0 + dofs[j]) += H.row(i).dot(slot.motion.J.col(Eigen::Index(j)));
+}
+
+void MarkerChain::add_pair(int index, int other, const Mat6& D, double c, Mat& S) const {
+  const Slot& a = slots_[std::size_t(index)];
+  const Slot& b = slots_[std::size_t(other)];
+  if (a.marker.body < 0 || b.marker.body < 0) return;
+  const int row0 = model_.bodies[std::size_t(a.marker.body)].v0;
+  const int column0 = model_.bodies[std::size_t(b.marker.body)].v0;
+  for (std::size_t j = 0; j < b.motion.dofs.size(); ++j) {
+    const Vec6 column = D * b.motion.J.col(Eigen::Index(j));
+    for (std::size_t i = 0; i < a.motion.dofs.size(); ++i)
+      S(row0 + a.motion.dofs[i], column0 + b.motion.dofs[j]) += c * a.motion.J.col(Eigen::Index(i)).dot(column);
+  }
+}
+
+void MarkerChain::add_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c, Mat& S) {
+  Slot& slot = slots_[std::size_t(index)];
+  if (slot.marker.body < 0) return;
+  const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
+  if (!entry.reaction_derivative) return add_numeric_reaction_derivative(slot, t, q, F, c, S);
+  Matrix target = Matrix::onto(S);
+  target.origin(entry.v0, entry.v0);
+  entry.reaction_derivative->add_reaction_derivative(slot.marker.marker, t, q.segment(entry.q0, entry.nq), F, c,
+                                                     target);
+}
+
+void MarkerChain::add_numeric_reaction_derivative(Slot& slot, double t, const Vec& q, const Wrench& F, double c,
+                                                  Mat& S) {
+  const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
+  v_zero_.setZero(entry.nv);
+  const auto generalised_force = [&](const Vec& q_body, Vec& out) {
+    probe_.dofs = slot.motion.dofs;
+    entry.body->motion(slot.marker.marker, t, q_body, v_zero_, probe_);
+    out.setZero(entry.nv);
+    for (std::size_t j = 0; j < probe_.dofs.size(); ++j) out(probe_.dofs[j]) = probe_.J.col(Eigen::Index(j)).dot(F);
+  };
+  tangent_differences(entry, q.segment(entry.q0, entry.nq), generalised_force, block_);
+  S.block(entry.v0, entry.v0, entry.nv, entry.nv) += c * block_;
+}
+
+}  // namespace trammel::model

@@ -1,0 +1,47 @@
+// Markers on their way into the system: each body marker that something uses is evaluated once per point, and wrenches
+// and rows at markers become entries of the system's vectors and matrices through its Jacobian.
+#pragma once
+
+#include <deque>
+
+#include "model/model.hpp"
+
+namespace trammel::model {
+
+class MarkerChain {
+ public:
+  explicit MarkerChain(const Model& model);
+
+  // Slots stand for markers that are in use.
+  int slot(MarkerRef marker);
+  void new_point() { ++point_; }
+  const Motion& motion(int slot, double t, const Vec& q, const Vec& v);
+  int body(int slot) const { return slots_[std::size_t(slot)].marker.body; }  // -1: ground
+
+  // f += c J^T wrench
+  void add_wrench(int slot, const Wrench& wrench, double c, Vec& f) const;
+  // G(row + i, :) += H(i, :) J
+  void add_rows(int slot, int row, const Mat6& H, Mat& G) const;
+  // S(dofs, dofs') += c J^T D J' for a twist x twist matrix D between two slots
+  void add_pair(int slot, int other, const Mat6& D, double c, Mat& S) const;
+  // S += c d(J^T F)/dq of the marker's body
+  void add_reaction_derivative(int slot, double t, const Vec& q, const Wrench& F, double c, Mat& S);
+
+ private:
+  struct Slot {
+    MarkerRef marker;
+    long long point = -1;
+    Motion motion;
+  };
+  void evaluate(Slot& slot, double t, const Vec& q, const Vec& v) const;
+  void add_numeric_reaction_derivative(Slot& slot, double t, const Vec& q, const Wrench& F, double c, Mat& S);
+
+  const Model& model_;
+  std::deque<Slot> slots_;  // references to motions stay valid
+  long long point_ = 0;
+  Motion probe_;  // for the differences
+  Vec v_zero_;
+  Mat block_;
+};
+
+}  // namespace trammel::model

@@ -1,0 +1,116 @@
+#include "numerics/kkt.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trammel::numerics {
+
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+// Rows count as dependent when a pivot of G M^-1 G^T is this small against its own row's diagonal: the square of the
+// sine of the angle to the rows before it. sqrt(eps) for the sine leaves room for violated position rows (redundant
+// rows are dependent only on the manifold) and the decomposition decides the rest.
+constexpr double dependent = 1e-10;
+
+bool pivots_are_safe(const Mat& factor, const Mat& matrix) {
+  for (Eigen::Index i = 0; i < factor.rows(); ++i)
+    if (!(factor(i, i) * factor(i, i) > dependent * matrix(i, i))) return false;
+  return true;
+}
+
+}  // namespace
+
+bool MassKkt::factorise(const Mat& M, const Mat& G) {
+  mass_.compute(M);
+  if (mass_.info() != Eigen::Success) return false;
+  change_rows(G);
+  return true;
+}
+
+void MassKkt::change_rows(const Mat& G) {
+  redundant_ = false;
+  B_.resize(G.cols(), G.rows());
+  if (G.rows() == 0) return;
+  B_ = G.transpose();
+  mass_.matrixL().solveInPlace(B_);
+  schur_.resize(G.rows(), G.rows());
+  schur_.noalias() = B_.transpose() * B_;
+  schur_llt_.compute(schur_);
+  redundant_ = schur_llt_.info() != Eigen::Success || !pivots_are_safe(schur_llt_.matrixLLT(), schur_);
+  if (!redundant_) return;
+  cod_.setThreshold(std::sqrt(eps));
+  cod_.compute(B_);
+}
+
+// With z = L^T x:  z = L^-1 b - B y,  B^T z = c.
+void MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
+  z_ = b;
+  mass_.matrixL().solveInPlace(z_);
+  y.resize(B_.cols());
+  if (redundant_) {
+    const Vec particular = cod_.transpose().solve(c);
+    y = cod_.solve(z_ - particular);
+    z_.noalias() -= B_ * y;
+  } else if (B_.cols() > 0) {
+    y = -c;
+    y.noalias() += B_.transpose() * z_;
+    schur_llt_.solveInPlace(y);
+    z_.noalias() -= B_ * y;
+  }
+  mass_.matrixU().solveInPlace(z_);
+  x = z_;
+}
+
+Mat& IterationKkt::begin(Eigen::Index nv, Eigen::Index nc) {
+  nv_ = nv;
+  full_.setZero(nv + nc, nv + nc);
+  return full_;
+}
+
+void IterationKkt::factorise(const Mat& W, const Mat& G) {
+  const auto nc = G.rows();
+  if (nc > 0) {
+    full_.topRightCorner(nv_, nc) = W.transpose();
+    full_.bottomLeftCorner(nc, nv_) = G;
+  }
+  singular_ = false;
+  if (full_.rows() == 0) return;
+  lu_.compute(full_);
+  // Redundant rows leave a pivot at round-off of the largest one in a column; unlike scales of S and G do not, because
+  // a pivot is compared with its own column.
+  const Mat& factors = lu_.matrixLU();
+  for (Eigen::Index j = 0; j < factors.cols(); ++j) {
+    const double scale = full_.col(j).cwiseAbs().maxCoeff();
+    if (!(std::abs(factors(j, j)) > 8 * eps * scale)) singular_ = true;
+  }
+  if (singular_ && full_.allFinite()) {
+    cod_.setThreshold(Eigen::Default);
+    cod_.compute(full_);
+  }
+}
+
+bool IterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
+  const auto nc = c.size();
+  right_.resize(nv_ + nc);
+  right_.head(nv_) = b;
+  right_.tail(nc) = c;
+  if (!right_.allFinite()) return false;
+  if (right_.size() == 0) {
+    solution_.resize(0);
+  } else if (!singular_) {
+    solution_ = lu_.solve(right_);
+  } else {
+    solution_ = cod_.solve(right_);
+    // A least-squares answer that leaves a residual is no solution.
+    const double residual = (full_ * solution_ - right_).norm();
+    if (!(residual <= 1e-6 * right_.norm())) return false;
+  }
+  x = solution_.head(nv_);
+  y = solution_.tail(nc);
+  return solution_.allFinite();
+}
+
+}  // namespace trammel::numerics

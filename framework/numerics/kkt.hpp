@@ -1,0 +1,59 @@
+// The saddle-point systems of constrained dynamics, dense:
+//
+//     [S W^T] [x]   [b]
+//     [G  0 ] [y] = [c]        S: nv x nv, G and W: nc x nv
+//
+// Two factorisations, by what S is:
+//  - Mass: S = M symmetric positive definite, W = G. Cholesky of M and of the Schur complement G M^-1 G^T. Redundant
+//  rows
+//    are found by the complement's pivots and then solved by a complete orthogonal decomposition of L^-1 G^T: x stays
+//    unique, y is the one of minimum norm, and the condition number is not squared.
+//  - Iteration: S any matrix. LU of the whole with row pivoting; if it is singular, the minimum-norm solution.
+// Storage is kept from one factorisation to the next: no allocation at constant sizes while rows are independent.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include <trammel/types.hpp>
+
+namespace trammel::numerics {
+
+class MassKkt {
+ public:
+  // False: M is not positive definite. `G` may have no rows.
+  bool factorise(const Mat& M, const Mat& G);
+  // Keeps the factors of M, takes new rows.
+  void change_rows(const Mat& G);
+  void solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
+  bool redundant() const { return redundant_; }
+
+ private:
+  Eigen::LLT<Mat> mass_;
+  Mat B_;      // L^-1 G^T (nv x nc)
+  Mat schur_;  // B^T B
+  Eigen::LLT<Mat> schur_llt_;
+  Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
+  Vec z_, w_;
+  bool redundant_ = false;
+};
+
+class IterationKkt {
+ public:
+  // The caller fills S() (nv x nv, zero on entry) after `begin` and then calls `factorise`.
+  Mat& begin(Eigen::Index nv, Eigen::Index nc);
+  void factorise(const Mat& W, const Mat& G);
+  // False: not solvable (singular beyond redundant rows), or not finite.
+  [[nodiscard]] bool solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
+
+ private:
+  Mat full_;
+  Eigen::PartialPivLU<Mat> lu_;
+  Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
+  Vec right_, solution_;
+  Eigen::Index nv_ = 0;
+  bool singular_ = false;
+};
+
+}  // namespace trammel::numerics
