@@ -1,0 +1,82 @@
+// A point with mass, in the plane or in space.
+//
+//     q = x,   m x'' = f        x [m] world axes, m [kg]
+//
+// It has no orientation: its marker's axes are the world's, moments on it have no effect. Bodies in natural coordinates
+// are point masses held together by `distance` joints (Garcia de Jalon, Bayo 1994).
+#include <array>
+
+#include <trammel/body.hpp>
+#include <trammel/plugin.hpp>
+
+namespace {
+
+using namespace trammel;
+
+struct PointMass : Body, ExactTangent, ReactionDerivative, Drawn {
+  double mass_ = 0;
+  std::optional<Vec3> position_, velocity_;  // left out: zero, of the scene's dimension
+
+  void prepare(const World& world) override {
+    space_ = world.space;
+    gravity_ = world.gravity;
+    if (!position_) position_ = Vec3::Zero(dim());
+    if (!velocity_) velocity_ = Vec3::Zero(dim());
+  }
+
+  Coordinates coordinates() const override { return Coordinates::flat(dim()); }
+
+  void initial(Out q, Out v) const override {
+    q = *position_;
+    v = *velocity_;
+  }
+
+  void mass(double, In, Matrix& M) const override { add_mass(1, M); }
+  bool mass_is_constant() const override { return true; }
+  void force(double, In, In, Out f) const override { f += mass_ * gravity_; }
+
+  Energy energy(double, In q, In v) const override {
+    return {.kinetic = 0.5 * mass_ * v.squaredNorm(), .potential = -mass_ * gravity_.dot(q)};
+  }
+
+  std::span<const std::string> markers() const override { return names_; }
+
+  void motion(int, double, In q, In v, Motion& motion) const override {
+    motion.x = q;
+    motion.R = Mat3::Identity(dim(), dim());
+    motion.angle = 0;
+    motion.V = Vec6::Zero(twist_size(space_));
+    motion.V.head(dim()) = v;
+    motion.bias = Vec6::Zero(twist_size(space_));
+    motion.dofs.resize(std::size_t(dim()));
+    for (int i = 0; i < dim(); ++i) motion.dofs[std::size_t(i)] = i;
+    motion.J.setIdentity(twist_size(space_), dim());
+  }
+
+  // Gravity is uniform and nothing turns: only the mass is left, and a wrench's generalised force does not depend on q.
+  void add_tangent(double, In, In, In, Blend c, Matrix& S) const override { add_mass(c.c_m, S); }
+  void add_reaction_derivative(int, double, In, const Wrench&, double, Matrix&) const override {}
+
+  void shape(double, In q, Mat& points) const override { points = q; }
+
+ private:
+  int dim() const { return dimension(space_); }
+  void add_mass(double c, Matrix& M) const {
+    for (int i = 0; i < dim(); ++i) M.add(i, i, c * mass_);
+  }
+
+  Space space_ = Space::planar;
+  Vec3 gravity_;
+  std::array<std::string, 2> names_ = {"point", "com"};  // two names of one marker
+};
+
+}  // namespace
+
+TRAMMEL_PLUGIN(trammel::body<PointMass>("point_mass", "point with mass, planar or spatial")
+                   .source("J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994")
+                   .parameter("mass", &PointMass::mass_,
+                              {.unit = "kg", .min = 0, .above_min = true, .required = true, .doc = "mass"})
+                   .parameter("position", &PointMass::position_,
+                              {.unit = "m", .doc = "at the start; origin if left out"})
+                   .parameter("velocity", &PointMass::velocity_,
+                              {.unit = "m/s", .doc = "at the start; rest if left out"}))
