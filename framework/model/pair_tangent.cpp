@@ -62,7 +62,7 @@ void add_pair_tangent(MarkerChain& chain, int slot_A, int slot_B, double t, cons
     if (chain.body(slots[moved]) < 0) continue;
     if (c_k != 0) {
       const auto pose = [&](Motion& m, int i, double sign) {
-        const double s = difference_step(i < m.x.size() ? m.x(i) : 1.0);
+        const double s = difference_step(i < m.x.size() ? now[moved].x(i) : 1.0);
         displace(now[moved], i, sign * s, m);
         return s;
       };
