@@ -1,0 +1,54 @@
+#include "scene/suggestion.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+
+namespace trammel::scene {
+
+namespace {
+
+// Optimal string alignment distance; case differences count half, so "HHT_alpha" is nearest to "hht_alpha".
+double distance(std::string_view a, std::string_view b) {
+  const std::size_t n = b.size();
+  std::vector<double> before(n + 1), previous(n + 1), row(n + 1);
+  for (std::size_t j = 0; j <= n; ++j) previous[j] = double(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = double(i);
+    for (std::size_t j = 1; j <= n; ++j) {
+      const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+      const double replace = a[i - 1] == b[j - 1] ? 0 : lower(a[i - 1]) == lower(b[j - 1]) ? 0.5 : 1;
+      row[j] = std::min({previous[j] + 1, row[j - 1] + 1, previous[j - 1] + replace});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    std::swap(before, previous);
+    std::swap(previous, row);
+  }
+  return previous[n];
+}
+
+}  // namespace
+
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t longest = 200;  // nobody mistypes more; keeps the cost of hostile input bounded
+  if (word.size() > longest) return {};
+  double best = std::numeric_limits<double>::infinity();
+  std::string found;
+  for (const std::string& candidate : candidates) {
+    const double d = distance(word, candidate);
+    if (d < best) best = d, found = candidate;
+  }
+  const double near = std::max(2.0, double(std::max(word.size(), found.size())) / 3);
+  return best <= near && best < double(word.size()) ? found : std::string();
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+  if (candidates.empty()) return {};
+  std::string text = "; known: ";
+  for (std::size_t i = 0; i < candidates.size(); ++i) text += (i ? ", " : "") + candidates[i];
+  const std::string guess = nearest(word, candidates);
+  if (!guess.empty()) text += ". Did you mean \"" + guess + "\"?";
+  return text;
+}
+
+}  // namespace trammel::scene
