@@ -1,0 +1,66 @@
+// Explicit Runge-Kutta methods on the first-order form of a System,
+//
+//     q' = N(q) v,     v' = a(t, q, v) from M a + W^T lambda = f,  G a = gamma - 2 delta (G v + g_t) - epsilon^2 g
+//
+// treating q as numbers: stages are put back onto the manifold before anything is evaluated there (an extension of the
+// field off the manifold, so the order stays), and so is the result.
+#pragma once
+
+#include <initializer_list>
+#include <vector>
+
+#include <trammel/integrator.hpp>
+
+namespace trammel {
+
+// The derivative of (q, v) at a point, and the multipliers there.
+struct Slope {
+  Vec q, v, lambda;
+};
+
+// A Butcher tableau. `a` holds its rows i = 1 .. stages-1 one after the other, row i with i entries.
+struct Tableau {
+  int stages;
+  const double* c;
+  const double* a;
+  const double* b;
+};
+
+class RungeKutta {
+ public:
+  static constexpr const char* diverged = "the step left the finite numbers: too large for an explicit method";
+
+  explicit RungeKutta(const Tableau& tableau);
+
+  Stabilisation baumgarte;
+
+  // The slope at a point. False: beyond the range of any model.
+  bool evaluate(System& s, double t, const Vec& q, const Vec& v, Slope& slope);
+
+  // One step; `first` is the slope at `now`. next.a and next.lambda are those at the step's end.
+  Outcome step(System& s, const State& now, const Slope& first, double h, State& next);
+  // next.q onto its manifold, next.a and next.lambda from the slope there.
+  Outcome end(System& s, State& next);
+
+  // The slopes of the last step: its stages, then that of its end (number `stages`), then those added here: at now.t +
+  // c h, `row` with a weight for each slope so far.
+  bool add_stage(System& s, const State& now, double h, double c, const double* row);
+  // h sum_i weights[i] k_i over the first n slopes.
+  void combine(const double* weights, int n, double h, Vec& dq, Vec& dv) const;
+  // The step's interior at theta in [0, 1], in Hairer's nested form: the cubic Hermite polynomial and, row by row,
+  // terms of higher degree h sum_i row[i] k_i over all slopes.
+  void interpolate(const System& s, const State& now, const State& next, double h, double theta,
+                   std::initializer_list<const double*> rows, State& at) const;
+
+ private:
+  Tableau tableau_;
+  std::vector<Slope> k_;
+  int filled_ = 0;
+  mutable Vec dq_, dv_;
+  Vec q_, v_, on_manifold_;
+};
+
+// The same local error (numbers of q) as increments: the end's q less that of the embedded method.
+void error_increment(const System& s, const Vec& q, const Vec& e, Vec& embedded, Vec& increment);
+
+}  // namespace trammel

@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <trammel/newmark_step.hpp>
+
+namespace trammel {
+
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+double largest(const Vec& x) {
+  return x.size() ? x.lpNorm<Eigen::Infinity>() : 0;
+}
+double relative(double change, double size) {
+  return change == 0 ? 0 : change / size;
+}
+
+}  // namespace
+
+void NewmarkStep::begin(const System& s, const State& now, double h, double c_q, double c_v, State& next) {
+  const Sizes sizes = s.sizes();
+  h_ = h, c_q_ = c_q, c_v_ = c_v;
+  size_q_ = largest(now.q) + h * largest(now.v);
+  size_v_ = largest(now.v) + h * largest(now.a);
+  pi_.setZero(sizes.nv);
+  zero_.setZero(sizes.nv);
+  next.t = now.t + h;
+  next.a = now.a;
+  next.lambda = now.lambda;
+  newton.start();
+  if (sizes.nv == 0) newton.judge(0, true);  // nothing to solve for
+}
+
+void NewmarkStep::update(const System& s, const State& now, State& next) {
+  increment_ = dq + c_q_ * next.a + pi_;
+  s.retract(now.q, increment_, next.q);
+  next.v = v + c_v_ * next.a;
+}
+
+void NewmarkStep::move(System& s, const State& now, State& next) {
+  update(s, now, next);
+  s.move_to(next.t, next.q, next.v);
+}
+
+bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
+  // pi's own increment is wanted even where there are no rows, as zero.
+  dpi_ = zero_;
+  if (s.sizes().nc == 0) {
+    rc_.resize(0);
+    if (!s.correct(r, rc_, da_, dlambda_)) return false;
+  } else if (formulation == Formulation::index3) {
+    rc_ = s.g() / c_q_;
+    if (!s.correct(r, rc_, da_, dlambda_)) return false;
+  } else {
+    rc_ = s.g_dot() / c_v_;
+    if (!s.correct(r, rc_, da_, dlambda_)) return false;
+    // g after that increment, which moves q by c_q da with G da = -rc.
+    rc_ = s.g() - c_q_ * rc_;
+    if (!s.correct(zero_, rc_, dpi_, mu_)) return false;
+  }
+  next.a += da_;
+  next.lambda += dlambda_;
+  pi_ += dpi_;
+  return true;
+}
+
+void NewmarkStep::correct(System& s, Blend blend, const Vec& r, State& next) {
+  if (newton.wants_factors()) s.factorise(blend, next.a, next.lambda);
+  if (!correct_rows(s, r, next)) return newton.fail("the iteration matrix is singular");
+  if (!next.a.allFinite() || !next.lambda.allFinite()) return newton.fail("Newton's iteration left the finite numbers");
+
+  const double da = largest(da_);
+  const double change_q = c_q_ * da + largest(dpi_), change_v = c_v_ * da;
+  const double size_q = size_q_ + c_q_ * largest(next.a), size_v = size_v_ + c_v_ * largest(next.a);
+  const bool at_round_off = change_q <= 64 * eps * size_q || largest(r) <= 64 * eps * largest(s.f());
+  newton.judge(std::max(relative(change_q, size_q), relative(change_v, size_v)), at_round_off);
+}
+
+Outcome NewmarkStep::finish(System& s, const State& now, State& next) {
+  if (!newton.converged()) return newton.outcome();
+  if (s.sizes().nc > 0) {
+    // The rows' own last increment costs no force.
+    move(s, now, next);
+    if (!correct_rows(s, zero_, next)) return Outcome::reject("the iteration matrix is singular");
+    // Rows of position divide their round-off by h^2. Where that is no longer small beside the velocity, say so.
+    const double noise = eps * size_q_ * c_v_ / std::max(c_q_, std::numeric_limits<double>::min());
+    if (formulation == Formulation::index3 && noise > 1e-3 * size_v_)
+      return Outcome::reject(
+          "the step is too small for formulation index3: round-off of the positions outweighs the velocity");
+  }
+  update(s, now, next);
+  if (!(next.q.allFinite() && next.v.allFinite() && next.a.allFinite() && next.lambda.allFinite()))
+    return Outcome::reject("the step left the finite numbers");
+  return Outcome::accept();
+}
+
+}  // namespace trammel

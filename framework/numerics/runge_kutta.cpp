@@ -1,0 +1,103 @@
+#include <cmath>
+
+#include <trammel/runge_kutta.hpp>
+
+namespace trammel {
+
+namespace {
+
+// Far beyond any model's range, and small enough for a model to square and square again.
+bool within_range(const Vec& x) {
+  return x.size() == 0 || (x.allFinite() && x.lpNorm<Eigen::Infinity>() < 1e60);
+}
+
+}  // namespace
+
+RungeKutta::RungeKutta(const Tableau& tableau) : tableau_(tableau), k_(std::size_t(tableau.stages) + 1) {}
+
+bool RungeKutta::evaluate(System& s, double t, const Vec& q, const Vec& v, Slope& slope) {
+  if (!within_range(q) || !within_range(v)) return false;
+  on_manifold_ = q;
+  s.normalise(on_manifold_);
+  s.rate(on_manifold_, v, slope.q);
+  s.move_to(t, on_manifold_, v);
+  s.accelerate(baumgarte, slope.v, slope.lambda);
+  return within_range(slope.q) && within_range(slope.v) && within_range(slope.lambda);
+}
+
+void RungeKutta::combine(const double* weights, int n, double h, Vec& dq, Vec& dv) const {
+  dq.setZero(k_[0].q.size());
+  dv.setZero(k_[0].v.size());
+  for (int i = 0; i < n; ++i) {
+    if (weights[i] == 0) continue;
+    dq += h * weights[i] * k_[std::size_t(i)].q;
+    dv += h * weights[i] * k_[std::size_t(i)].v;
+  }
+}
+
+Outcome RungeKutta::step(System& s, const State& now, const Slope& first, double h, State& next) {
+  const int stages = tableau_.stages;
+  k_[0] = first;
+  filled_ = 1;
+  for (const double* row = tableau_.a; filled_ < stages; row += filled_ - 1)
+    if (!add_stage(s, now, h, tableau_.c[filled_], row)) return Outcome::reject(diverged);
+
+  combine(tableau_.b, stages, h, dq_, dv_);
+  next.t = now.t + h;
+  next.q = now.q + dq_;
+  next.v = now.v + dv_;
+  return end(s, next);
+}
+
+Outcome RungeKutta::end(System& s, State& next) {
+  if (!within_range(next.q) || !within_range(next.v)) return Outcome::reject(diverged);
+  s.normalise(next.q);
+  Slope& slope = k_[std::size_t(filled_++)];
+  if (!evaluate(s, next.t, next.q, next.v, slope)) return Outcome::reject(diverged);
+  next.a = slope.v;
+  next.lambda = slope.lambda;
+  return Outcome::accept();
+}
+
+bool RungeKutta::add_stage(System& s, const State& now, double h, double c, const double* row) {
+  combine(row, filled_, h, dq_, dv_);
+  q_ = now.q + dq_;
+  v_ = now.v + dv_;
+  if (k_.size() == std::size_t(filled_)) k_.emplace_back();
+  return evaluate(s, now.t + c * h, q_, v_, k_[std::size_t(filled_++)]);
+}
+
+void RungeKutta::interpolate(const System& s, const State& now, const State& next, double h, double theta,
+                             std::initializer_list<const double*> rows, State& at) const {
+  const Slope& first = k_[0];
+  const Slope& last = k_[std::size_t(tableau_.stages)];
+  // Hairer's nested form, from the inside out: y_0 + theta (F_0 + (1 - theta) (F_1 + theta (F_2 + (1 - theta) (F_3 +
+  // ...)))).
+  at.q.setZero(now.q.size());
+  at.v.setZero(now.v.size());
+  int level = 2 + int(rows.size());
+  for (const double* const* row = rows.end(); row != rows.begin(); --level) {
+    combine(*--row, filled_, h, dq_, dv_);
+    const double weight = level % 2 ? 1 - theta : theta;
+    at.q = weight * (dq_ + at.q);
+    at.v = weight * (dv_ + at.v);
+  }
+  dq_ = next.q - now.q;
+  dv_ = next.v - now.v;
+  at.q = theta * (2 * dq_ - h * (first.q + last.q) + at.q);
+  at.v = theta * (2 * dv_ - h * (first.v + last.v) + at.v);
+  at.q = (1 - theta) * (h * first.q - dq_ + at.q);
+  at.v = (1 - theta) * (h * first.v - dv_ + at.v);
+  at.q = now.q + theta * (dq_ + at.q);
+  at.v = now.v + theta * (dv_ + at.v);
+  at.t = now.t + theta * h;
+  s.normalise(at.q);
+}
+
+void error_increment(const System& s, const Vec& q, const Vec& e, Vec& embedded, Vec& increment) {
+  embedded = q - e;
+  s.normalise(embedded);
+  s.difference(q, embedded, increment);
+}
+
+}  // namespace trammel

@@ -1,0 +1,73 @@
+// The classical Runge-Kutta method of fourth order, on the first-order form of RungeKutta with Baumgarte's
+// stabilisation.
+//
+//     k_1 = F(t, y), k_2 = F(t + h/2, y + h/2 k_1), k_3 = F(t + h/2, y + h/2 k_2), k_4 = F(t + h, y + h k_3)
+//     y_{n+1} = y_n + h/6 (k_1 + 2 k_2 + 2 k_3 + k_4),       y = (q, v)
+//
+// Error estimate: with k_5 = F(t + h, y_{n+1}) in place of k_4 the formula is of third order; the difference h/6 (k_4 -
+// k_5) shrinks with h^4. Kutta, Z. Math. Phys. 46, 435-453 (1901).
+#include <trammel/error_norm.hpp>
+#include <trammel/plugin.hpp>
+#include <trammel/runge_kutta.hpp>
+
+namespace {
+
+using namespace trammel;
+
+constexpr double c[] = {0, 0.5, 0.5, 1};
+constexpr double a[] = {0.5, 0, 0.5, 0, 0, 1};
+constexpr double b[] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+constexpr double less_embedded[] = {0, 0, 0, 1.0 / 6, -1.0 / 6};
+
+class RungeKutta4 final : public Integrator, public ErrorEstimate {
+ public:
+  double delta = 0, epsilon = 0;
+
+  void prepare(const World&) override { method_.baumgarte = {delta, epsilon}; }
+  Traits traits() const override { return {.order = 4}; }
+
+  void restart(System& s, const State& now) override { method_.evaluate(s, now.t, now.q, now.v, slope_); }
+
+  Outcome step(System& s, const State& now, double h, State& next) override {
+    h_ = h;
+    return method_.step(s, now, slope_, h, next);
+  }
+
+  // The slope at the step's end is the first one of the next.
+  void accept(System& s, const State& next) override {
+    s.rate(next.q, next.v, slope_.q);
+    slope_.v = next.a;
+    slope_.lambda = next.lambda;
+  }
+
+  double error(System& s, const State& now, const State& next, const Tolerance& tolerance) override {
+    method_.combine(less_embedded, 5, h_, e_, e_v_);
+    error_increment(s, next.q, e_, embedded_, e_q_);
+    return error_norm(e_q_, e_v_, now, next, tolerance);
+  }
+  int error_order() const override { return 4; }
+
+  void archive(Archive& archive) override {
+    archive("slope_q", slope_.q);
+    archive("slope_v", slope_.v);
+    archive("slope_lambda", slope_.lambda);
+  }
+
+ private:
+  RungeKutta method_{{4, c, a, b}};
+  Slope slope_;   // at the last accepted point
+  double h_ = 0;  // of the last trial
+  Vec e_, e_q_, e_v_, embedded_;
+};
+
+}  // namespace
+
+TRAMMEL_PLUGIN(
+    trammel::integrator<RungeKutta4>("runge_kutta_4", "the classical Runge-Kutta method of fourth order")
+        .source("Kutta 1901, Z. Math. Phys. 46, 435-453; Baumgarte 1972, Comput. Methods Appl. Mech. Eng. 1, 1-16")
+        .parameter("delta", &RungeKutta4::delta,
+                   {.unit = "1/s",
+                    .min = 0,
+                    .doc = "Baumgarte's weight of the velocity rows: g'' + 2 delta g' + epsilon^2 g = 0"})
+        .parameter("epsilon", &RungeKutta4::epsilon,
+                   {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"}))
