@@ -1,0 +1,179 @@
+#include "plugin/describe.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "plugin/guard.hpp"
+
+namespace trammel::plugin {
+
+namespace {
+
+const char* noun(Parameter::Type type) {
+  switch (type) {
+    case Parameter::Type::number:
+      return "a number";
+    case Parameter::Type::integer:
+      return "a whole number";
+    case Parameter::Type::boolean:
+      return "true or false";
+    case Parameter::Type::text:
+      return "a text";
+    case Parameter::Type::vector:
+      return "a vector";
+    case Parameter::Type::numbers:
+      return "an array of numbers";
+    case Parameter::Type::time_function:
+      return "a number or an expression of t";
+    case Parameter::Type::named_numbers:
+      return "an object of named numbers";
+    case Parameter::Type::named_vectors:
+      return "an object of named vectors";
+  }
+  return "a value";
+}
+
+std::string quoted(const std::string& text) {
+  return fmt::format("\"{}\"", text);
+}
+
+template <class T>
+std::string array(const T& numbers) {
+  return fmt::format("[{}]", fmt::join(numbers.begin(), numbers.end(), ", "));
+}
+
+std::string text_of(std::monostate) {
+  return "";
+}
+std::string text_of(double x) {
+  return fmt::format("{}", x);
+}
+std::string text_of(int n) {
+  return fmt::format("{}", n);
+}
+std::string text_of(bool b) {
+  return b ? "true" : "false";
+}
+std::string text_of(const std::string& s) {
+  return quoted(s);
+}
+std::string text_of(const Vec3& x) {
+  return array(x);
+}
+std::string text_of(const std::vector<double>& x) {
+  return array(x);
+}
+std::string text_of(const TimeFunction& f) {
+  return f.is_constant() ? text_of(f(0)) : quoted(f.text());
+}
+
+template <class T>
+std::string text_of(const Named<T>& named) {
+  std::string text;
+  for (const auto& [name, value] : named)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", quoted(name), text_of(value));
+  return "{" + text + "}";
+}
+
+// A text broken at blanks into lines of at most 96 characters.
+std::string wrapped(std::string_view text, const std::string& indent) {
+  std::string lines, line;
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(text.size(), word.size() + 1));
+    if (!line.empty() && indent.size() + line.size() + 1 + word.size() > 96) {
+      lines += indent + line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + std::string(word);
+  }
+  return line.empty() ? lines : lines + indent + line + "\n";
+}
+
+std::string describe(const Entry& entry, const Parameter& parameter, std::size_t name_width) {
+  const ParameterTraits& traits = parameter.traits;
+  std::string line = fmt::format("  {:<{}}  {}", parameter.name, name_width, expected(parameter));
+  if (const std::string value = text(default_of(entry, parameter)); traits.required)
+    line += "; required";
+  else
+    line += value.empty() ? "; may be left out" : "; default " + value;
+  line += "\n";
+  const std::string indent(name_width + 4, ' ');
+  line += wrapped(traits.doc, indent);
+  if (const std::string usual = range(traits.usual_min, false, traits.usual_max); !usual.empty())
+    line += indent + "usually " + usual + "\n";
+  return line;
+}
+
+// The JSON object a scene would hold: required parameters, to be filled in.
+std::string example(const Declaration& declaration) {
+  std::string text = fmt::format("{{\"type\": \"{}\"", declaration.name);
+  for (const Parameter& parameter : declaration.parameters)
+    if (parameter.traits.required && parameter.name.find('.') == std::string::npos)
+      text += fmt::format(", \"{}\": ...", parameter.name);
+  return text + "}";
+}
+
+}  // namespace
+
+std::string range(double min, bool above_min, double max) {
+  if (std::isfinite(min) && std::isfinite(max) && !above_min) return fmt::format("{} to {}", min, max);
+  const std::string low = std::isfinite(min) ? fmt::format("{} {}", above_min ? ">" : ">=", min) : "";
+  const std::string high = std::isfinite(max) ? fmt::format("<= {}", max) : "";
+  return low + (low.empty() || high.empty() ? "" : " and ") + high;
+}
+
+std::string expected(const Parameter& parameter) {
+  if (!parameter.choices.empty()) {
+    std::string names;
+    for (const std::string& choice : parameter.choices) names += (names.empty() ? "" : ", ") + quoted(choice);
+    return (parameter.choices.size() > 1 ? "one of " : "") + names;
+  }
+  const ParameterTraits& traits = parameter.traits;
+  std::string text = noun(parameter.type);
+  if (const std::string bounds = range(traits.min, traits.above_min, traits.max); !bounds.empty()) text += " " + bounds;
+  if (const std::string_view unit = traits.unit; unit != "1" && !unit.empty()) text += fmt::format(" [{}]", unit);
+  return text;
+}
+
+std::string text(const ParameterValue& value) {
+  return std::visit([](const auto& x) { return text_of(x); }, value);
+}
+
+ParameterValue default_of(const Entry& entry, const Parameter& parameter) {
+  return guard(entry.origin(""), "its constructor", {}, [&] { return parameter.get(*entry.declaration.make()); });
+}
+
+std::string describe(const Entry& entry) {
+  const Declaration& declaration = entry.declaration;
+  std::string page = fmt::format("{} ({})\n", declaration.name, to_string(declaration.kind));
+  page += wrapped(declaration.summary, "  ");
+  if (!declaration.source.empty()) page += wrapped("Source: " + declaration.source, "  ");
+  page += fmt::format("  Library: {}\n  In a scene: {}\n\n", entry.file, example(declaration));
+  if (declaration.parameters.empty()) return page + "No parameters.\n";
+
+  page += "Parameters\n";
+  std::size_t width = 0;
+  for (const Parameter& parameter : declaration.parameters) width = std::max(width, parameter.name.size());
+  for (const Parameter& parameter : declaration.parameters) page += describe(entry, parameter, width);
+  return page;
+}
+
+std::string list(const std::vector<const Entry*>& entries) {
+  std::size_t width = 0;
+  for (const Entry* entry : entries) width = std::max(width, entry->declaration.name.size());
+  std::string text;
+  const Declaration* previous = nullptr;
+  for (const Entry* entry : entries) {
+    const Declaration& declaration = entry->declaration;
+    if (!previous || previous->kind != declaration.kind)
+      text += fmt::format("{}{}\n", previous ? "\n" : "", to_string(declaration.kind));
+    text += fmt::format("  {:<{}}  {}\n", declaration.name, width, declaration.summary);
+    previous = &declaration;
+  }
+  return text;
+}
+
+}  // namespace trammel::plugin

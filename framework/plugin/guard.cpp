@@ -1,0 +1,36 @@
+#include "plugin/guard.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+namespace trammel::plugin {
+
+PassesThroughPlugins::~PassesThroughPlugins() = default;
+
+void rethrow_as_plugin_error(const Origin& origin, const char* call, std::optional<double> t) {
+  try {
+    throw;
+  } catch (const PluginError&) {
+    throw;  // from a component that this one called through the System
+  } catch (const PassesThroughPlugins&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw PluginError(origin, call, fmt::format("it threw: {}", e.what()), t);
+  } catch (...) {
+    throw PluginError(origin, call, "it threw something that is no std::exception", t);
+  }
+}
+
+void throw_not_finite(const Origin& origin, const char* call, double t, const char* what, Eigen::Index entry,
+                      double value) {
+  const std::string name = entry < 0 ? what : fmt::format("{}[{}]", what, entry);
+  throw PluginError(origin, call, fmt::format("it returned {} = {}; expected a finite number", name, value), t);
+}
+
+void throw_wrong_size(const Origin& origin, const char* call, double t, const char* what, Eigen::Index found,
+                      Eigen::Index expected) {
+  throw PluginError(origin, call, fmt::format("it returned {} with {} entries; expected {}", what, found, expected), t);
+}
+
+}  // namespace trammel::plugin

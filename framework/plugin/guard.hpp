@@ -1,0 +1,62 @@
+// The guard around calls into plugins: whatever is thrown becomes one PluginError that names library, call and time,
+// and what comes back is checked for size and finiteness. Nothing thrown: no allocation, a few instructions.
+//
+//     guard(origin, "force", t, [&] { body.force(t, q, v, f); });
+//     require_finite(origin, "force", t, "f", f);
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <trammel/types.hpp>
+
+#include "plugin/plugin_error.hpp"
+
+namespace trammel::plugin {
+
+// Errors of the framework that may pass through a plugin's frames, such as a singular mass matrix found while an
+// integrator asks for accelerations. They are not the plugin's fault, so the guard lets them pass.
+class PassesThroughPlugins {
+ public:
+  virtual ~PassesThroughPlugins();
+};
+
+// Inside a catch block: rethrows what must pass (PluginError, PassesThroughPlugins), the rest as a PluginError.
+[[noreturn]] void rethrow_as_plugin_error(const Origin& origin, const char* call, std::optional<double> t);
+
+template <class Call>
+decltype(auto) guard(const Origin& origin, const char* call, std::optional<double> t, Call&& body) {
+  try {
+    return std::forward<Call>(body)();
+  } catch (...) {
+    rethrow_as_plugin_error(origin, call, t);
+  }
+}
+
+[[noreturn]] void throw_not_finite(const Origin&, const char* call, double t, const char* what, Eigen::Index entry,
+                                   double value);
+[[noreturn]] void throw_wrong_size(const Origin&, const char* call, double t, const char* what, Eigen::Index found,
+                                   Eigen::Index expected);
+
+// `what` names the result in the message: "f", "kinetic energy".
+inline void require_finite(const Origin& origin, const char* call, double t, const char* what, double value) {
+  if (!std::isfinite(value)) throw_not_finite(origin, call, t, what, -1, value);
+}
+
+template <class Derived>
+void require_finite(const Origin& origin, const char* call, double t, const char* what,
+                    const Eigen::DenseBase<Derived>& x) {
+  // x - x is 0 for finite numbers and NaN for all others; a sum of such terms vectorises.
+  if (const auto& d = x.derived(); d.size() != 0 && !((d.array() - d.array()).sum() == 0))
+    for (Eigen::Index j = 0, entry = 0; j < d.cols(); ++j)
+      for (Eigen::Index i = 0; i < d.rows(); ++i, ++entry)
+        if (!std::isfinite(d.coeff(i, j))) throw_not_finite(origin, call, t, what, entry, d.coeff(i, j));
+}
+
+inline void require_size(const Origin& origin, const char* call, double t, const char* what, Eigen::Index found,
+                         Eigen::Index expected) {
+  if (found != expected) throw_wrong_size(origin, call, t, what, found, expected);
+}
+
+}  // namespace trammel::plugin

@@ -1,0 +1,246 @@
+#include "plugin/registry.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/dll/runtime_symbol_info.hpp>
+#include <boost/dll/shared_library.hpp>
+#include <cstdlib>
+#include <tuple>
+
+#include "plugin/fingerprint.hpp"
+#include "plugin/library_section.hpp"
+#include "plugin/rehearsal.hpp"
+#include "scene/suggestion.hpp"
+
+namespace trammel::plugin {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* entry_point = "trammel_declarations";
+constexpr const char* extension = ".so";
+
+std::string full_path(const fs::path& file) {
+  std::error_code error;
+  const fs::path path = fs::canonical(file, error);
+  return (error ? fs::absolute(file) : path).string();
+}
+
+// <prefix>/lib/trammel for <prefix>/lib/libtrammel.so; the same in a build folder.
+fs::path installed_folder() {
+  return fs::path(boost::dll::this_line_location().parent_path().string()) / "trammel";
+}
+
+// Runs the library's own code. The handle is given up on purpose: a library is never unloaded.
+const Declarations& open(const std::string& file) {
+  namespace dll = boost::dll;
+  auto* library = new dll::shared_library;  // NOLINT: lives as long as the process
+  boost::dll::fs::error_code failed;
+  library->load(file, dll::load_mode::rtld_now | dll::load_mode::rtld_local, failed);
+  if (failed) {
+    const char* text = ::dlerror();  // Boost.DLL's own text is an unrelated errno
+    delete library;
+    throw PluginError(file, text ? text : "cannot be loaded");
+  }
+  if (!library->has(entry_point))
+    throw PluginError(file, fmt::format("it exports no {}: TRAMMEL_PLUGIN(...) must stand outside anonymous namespaces",
+                                        entry_point));
+  try {
+    const Declarations* declarations = library->get<const Declarations*()>(entry_point)();
+    if (!declarations) throw PluginError(file, "its declarations are null");
+    return *declarations;
+  } catch (const std::exception& e) {
+    throw PluginError(file, fmt::format("it threw while declaring its components: {}", e.what()));
+  } catch (...) {
+    throw PluginError(file, "it threw something that is no std::exception while declaring its components");
+  }
+}
+
+bool is_name(std::string_view name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_';
+  });
+}
+
+// What the builder's types cannot rule out.
+void require_sound(const Declaration& declaration, const std::string& file) {
+  const auto refuse = [&](const std::string& cause) {
+    throw PluginError(file, fmt::format("{} \"{}\": {}", to_string(declaration.kind), declaration.name, cause));
+  };
+  if (!is_name(declaration.name)) refuse("a component's name has lower-case letters, digits and _ only");
+  for (auto p = declaration.parameters.begin(); p != declaration.parameters.end(); ++p) {
+    if (p->name.empty()) refuse("a parameter has no name");
+    for (auto other = declaration.parameters.begin(); other != p; ++other)
+      if (other->name == p->name || other->name.starts_with(p->name + ".") || p->name.starts_with(other->name + "."))
+        refuse(fmt::format("parameters \"{}\" and \"{}\" would share a key", other->name, p->name));
+  }
+}
+
+std::vector<fs::path> libraries_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& item : fs::directory_iterator(folder, error))
+    if (item.path().extension() == extension && !item.is_directory(error)) files.push_back(item.path());
+  std::sort(files.begin(), files.end());  // the same order on every machine
+  return files;
+}
+
+}  // namespace
+
+Origin Entry::origin(std::string scene_path) const {
+  return {file, fmt::format("{} {}", to_string(declaration.kind), declaration.name), std::move(scene_path)};
+}
+
+Registry::Registry(Start start) {
+  if (start == Start::empty) return;
+  if (fs::is_directory(installed_folder())) folders_.push_back(installed_folder());
+  const char* variable = std::getenv("TRAMMEL_PLUGIN_PATH");
+  std::string_view paths = variable ? variable : "";
+  while (!paths.empty()) {
+    const std::string_view path = paths.substr(0, paths.find(':'));
+    if (!path.empty()) search(path);
+    paths.remove_prefix(std::min(paths.size(), path.size() + 1));
+  }
+}
+
+void Registry::search(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return load(path);
+  folders_.push_back(path);
+  names_looked_for_.clear();
+  folders_loaded_ = false;
+}
+
+void Registry::search_scene(const scene::Value& root, scene::Problems& problems) {
+  const scene::Value* plugins = root.find("plugins");
+  if (!plugins) return;
+  if (plugins->type() != scene::Value::Type::array) {
+    problems.error(
+        plugins->problem(fmt::format("expected an array of files and folders, found {}", plugins->type_name())));
+    return;
+  }
+  for (const scene::Value& item : plugins->items()) {
+    const auto path = item.read_text(problems);
+    if (!path) continue;
+    const fs::path file = fs::path(item.position().file).parent_path() / *path;
+    if (std::error_code error; fs::exists(file, error))
+      search(file);
+    else
+      problems.error(item.problem(fmt::format("no such file or folder: {}", file.string())));
+  }
+}
+
+void Registry::load(const fs::path& library) {
+  const std::string file = full_path(library);
+  if (std::find(files_.begin(), files_.end(), file) != files_.end()) return;
+  const auto section = library_section(file, ".trammel");
+  if (!section) throw PluginError(file, "not a Trammel plugin: it has no .trammel section (TRAMMEL_PLUGIN makes it)");
+  if (const std::string differences = mismatch(*section, host_fingerprint()); !differences.empty())
+    throw PluginError(file, fmt::format("built for another program: {}", differences));
+  rehearse_loading(file);
+  add(open(file), file);
+  files_.push_back(file);
+}
+
+void Registry::add(const Declarations& declarations, const std::string& file) {
+  if (declarations.empty()) throw PluginError(file, "it declares no component");
+  for (auto d = declarations.begin(); d != declarations.end(); ++d) {
+    require_sound(*d, file);
+    const auto same = [&](const Declaration& other) { return other.kind == d->kind && other.name == d->name; };
+    if (std::any_of(declarations.begin(), d, same))
+      throw PluginError(file, fmt::format("it declares {} \"{}\" twice", to_string(d->kind), d->name));
+    if (const Entry* other = loaded(d->kind, d->name))
+      throw PluginError(file, fmt::format("it declares {} \"{}\", which {} declares already", to_string(d->kind),
+                                          d->name, other->file));
+  }
+  for (const Declaration& declaration : declarations)
+    entries_.push_back(std::make_unique<Entry>(Entry{declaration, file}));
+}
+
+const Entry* Registry::loaded(Kind kind, std::string_view name) const {
+  for (const auto& entry : entries_)
+    if (entry->declaration.kind == kind && entry->declaration.name == name) return entry.get();
+  return nullptr;
+}
+
+// NAME.so of every folder, not of the first alone: two libraries with one name are an error, not a matter of order.
+void Registry::look_for(std::string_view name) {
+  if (!is_name(name) || !names_looked_for_.emplace(name).second) return;
+  for (const fs::path& folder : folders_)
+    if (const fs::path file = folder / (std::string(name) + extension); fs::exists(file)) load(file);
+}
+
+void Registry::load_folders() {
+  if (folders_loaded_) return;
+  folders_loaded_ = true;
+  failures_.clear();
+  for (const fs::path& folder : folders_)
+    for (const fs::path& file : libraries_in(folder)) try {
+        if (library_section(file, ".trammel")) load(file);  // a folder may hold other libraries too
+      } catch (const PluginError& e) {
+        failures_.push_back(e);
+      }
+}
+
+const Entry& Registry::find(Kind kind, std::string_view name) {
+  look_for(name);
+  if (const Entry* entry = loaded(kind, name)) return *entry;
+  load_folders();
+  if (const Entry* entry = loaded(kind, name)) return *entry;
+  throw UnknownComponent(unknown(to_string(kind), name, &kind));
+}
+
+const Entry* Registry::find(Kind kind, const scene::Value& name, scene::Problems& problems) {
+  const auto text = name.read_text(problems);
+  if (!text) return nullptr;
+  try {
+    return &find(kind, *text);
+  } catch (const UnknownComponent& e) {
+    problems.error(name.problem(e.what()));
+    return nullptr;
+  }
+}
+
+std::vector<const Entry*> Registry::find_any(std::string_view name) {
+  look_for(name);
+  load_folders();
+  std::vector<const Entry*> found = all();
+  std::erase_if(found, [&](const Entry* entry) { return entry->declaration.name != name; });
+  if (found.empty()) throw UnknownComponent(unknown("component", name, nullptr));
+  return found;
+}
+
+std::vector<const Entry*> Registry::all() {
+  load_folders();
+  std::vector<const Entry*> entries;
+  for (const auto& entry : entries_) entries.push_back(entry.get());
+  std::sort(entries.begin(), entries.end(), [](const Entry* a, const Entry* b) {
+    return std::tie(a->declaration.kind, a->declaration.name) < std::tie(b->declaration.kind, b->declaration.name);
+  });
+  return entries;
+}
+
+// no body "rigid_bdy". Did you mean "rigid_body"?
+std::string Registry::unknown(std::string_view what, std::string_view name, const Kind* kind) const {
+  std::vector<std::string> names;
+  std::string other_kind;
+  for (const auto& entry : entries_) {
+    const Declaration& declaration = entry->declaration;
+    if (!kind || declaration.kind == *kind)
+      names.push_back(declaration.name);
+    else if (declaration.name == name)
+      other_kind = to_string(declaration.kind);
+  }
+  std::string text = fmt::format("no {} \"{}\"", what, name);
+  if (!other_kind.empty()) text += fmt::format("; \"{}\" is a {}", name, other_kind);
+  text += names.empty() ? fmt::format("; no {} was found at all", what) : scene::did_you_mean(name, names);
+  if (names.empty() && folders_.empty())
+    text += " (no plugin folder is searched: give --plugin or TRAMMEL_PLUGIN_PATH)";
+  for (const PluginError& failure : failures_) text += fmt::format("; not searched: {}", failure.what());
+  return text;
+}
+
+}  // namespace trammel::plugin

@@ -1,0 +1,223 @@
+// JSON Schema of scenes: the frame of DESIGN.md section 4, filled with what the declarations say. Editors complete and
+// check scenes with it as they are written; `trammel validate` knows more (names of markers, dimensions, expressions).
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "plugin/describe.hpp"
+#include "plugin/parameters.hpp"
+
+namespace trammel::plugin {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json reference(const std::string& name) {
+  return {{"$ref", "#/$defs/" + name}};
+}
+Json any_of(Json a, Json b) {
+  return {{"anyOf", Json::array({std::move(a), std::move(b)})}};
+}
+
+Json object(Json properties, const std::vector<std::string>& required = {}) {
+  Json schema = {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+  if (!required.empty()) schema["required"] = required;
+  return schema;
+}
+
+Json keyed(Json member) {
+  return {{"type", "object"}, {"additionalProperties", std::move(member)}};
+}
+
+Json with(Json schema, const std::string& description) {
+  if (!description.empty()) schema["description"] = description;
+  return schema;
+}
+
+// A literal number within the range, or an expression, whose value only the program knows.
+Json number(const char* type, const ParameterTraits& traits) {
+  Json literal = {{"type", type}};
+  if (std::isfinite(traits.min)) literal[traits.above_min ? "exclusiveMinimum" : "minimum"] = traits.min;
+  if (std::isfinite(traits.max)) literal["maximum"] = traits.max;
+  return any_of(std::move(literal), reference("expression"));
+}
+
+Json array_of(Json item) {
+  return {{"type", "array"}, {"items", std::move(item)}};
+}
+
+Json vector(const ParameterTraits& traits) {
+  Json schema = array_of(number("number", traits));
+  schema["minItems"] = 2;
+  schema["maxItems"] = 3;
+  return schema;
+}
+
+Json type_of(const Parameter& parameter) {
+  const ParameterTraits& traits = parameter.traits;
+  switch (parameter.type) {
+    case Parameter::Type::number:
+    case Parameter::Type::time_function:
+      return number("number", traits);
+    case Parameter::Type::integer:
+      return number("integer", traits);
+    case Parameter::Type::boolean:
+      return {{"type", "boolean"}};
+    case Parameter::Type::text:
+      if (parameter.choices.empty()) return {{"type", "string"}};
+      return any_of({{"enum", parameter.choices}}, reference("expression"));
+    case Parameter::Type::numbers:
+      return array_of(number("number", traits));
+    case Parameter::Type::vector:
+      return vector(traits);
+    case Parameter::Type::named_numbers:
+      return keyed(number("number", traits));
+    case Parameter::Type::named_vectors:
+      return keyed(vector(traits));
+  }
+  return Json::object();
+}
+
+Json default_value(const Entry& entry, const Parameter& parameter) {
+  const std::string value = text(default_of(entry, parameter));
+  const Json json = Json::parse(value, nullptr, false);  // infinity and the like have no JSON
+  return json.is_discarded() ? Json() : json;
+}
+
+Json schema_of(const Entry& entry, const Parameter& parameter) {
+  Json schema = type_of(parameter);
+  const std::string unit = parameter.traits.unit;
+  std::string description = parameter.traits.doc;
+  if (!unit.empty() && unit != "1") description += fmt::format("{}[{}]", description.empty() ? "" : " ", unit);
+  schema = with(std::move(schema), description);
+  if (!parameter.traits.required)
+    if (Json value = default_value(entry, parameter); !value.is_null()) schema["default"] = std::move(value);
+  return schema;
+}
+
+// Puts a parameter's schema into the nested object that its dotted name says.
+void place(Json& object_schema, const std::string& dotted, Json schema, bool required) {
+  const auto dot = dotted.find('.');
+  const std::string key = dotted.substr(0, dot);
+  if (dot == std::string::npos) {
+    object_schema["properties"][key] = std::move(schema);
+    if (required) object_schema["required"].push_back(key);
+    return;
+  }
+  Json& inner = object_schema["properties"][key];
+  if (inner.is_null()) inner = object(Json::object());
+  place(inner, dotted.substr(dot + 1), std::move(schema), required);
+}
+
+Json schema_of(const Entry& entry) {
+  const Declaration& declaration = entry.declaration;
+  Json properties = Json::object();
+  for (const std::string& key : framework_keys(declaration.kind))
+    properties[key] = key == "type" ? Json{{"const", declaration.name}} : reference(key);
+  Json schema = with(object(std::move(properties), {"type"}), declaration.summary);
+  if (declaration.kind == Kind::integrator) schema["required"].push_back("step");
+  if (declaration.kind == Kind::joint || declaration.kind == Kind::contact) schema["required"].push_back("between");
+  for (const Parameter& parameter : declaration.parameters)
+    place(schema, parameter.name, schema_of(entry, parameter), parameter.traits.required);
+  return schema;
+}
+
+std::string definition(const Declaration& declaration) {
+  return fmt::format("{}.{}", to_string(declaration.kind), declaration.name);
+}
+
+// Objects of one kind: "type" is one of the names, and the rest is what that name declares.
+Json choice_of(Kind kind, const std::vector<const Entry*>& entries) {
+  Json names = Json::array(), cases = Json::array();
+  for (const Entry* entry : entries) {
+    const Declaration& declaration = entry->declaration;
+    if (declaration.kind != kind) continue;
+    names.push_back(declaration.name);
+    cases.push_back({{"if", {{"properties", {{"type", {{"const", declaration.name}}}}}, {"required", {"type"}}}},
+                     {"then", reference(definition(declaration))}});
+  }
+  Json schema = {{"type", "object"}, {"required", {"type"}}};
+  if (names.empty()) return schema;
+  schema["properties"] = {{"type", {{"enum", std::move(names)}}}};
+  schema["allOf"] = std::move(cases);
+  return schema;
+}
+
+Json correction(const std::vector<const Entry*>& entries) {
+  Json names = Json::array();
+  for (const Entry* entry : entries)
+    if (entry->declaration.kind == Kind::correction) names.push_back(entry->declaration.name);
+  if (names.empty()) return {{"type", "string"}};
+  return {{"enum", std::move(names)}};
+}
+
+// What several places of a scene share.
+void define_common(Json& definitions) {
+  const Json number = reference("number");
+  definitions["expression"] =
+      with({{"type", "string"}, {"pattern", "^="}}, "\"=...\", evaluated in the scene's parameters");
+  definitions["number"] = any_of({{"type", "number"}}, reference("expression"));
+  definitions["positive"] = any_of({{"type", "number"}, {"exclusiveMinimum", 0}}, reference("expression"));
+  definitions["vector"] = array_of(number);
+  Json frame = object({{"point", reference("vector")}, {"angle", number}});
+  definitions["marker"] = with(any_of({{"type", "string"}}, std::move(frame)),
+                               "\"ground\", a body's marker such as \"beam.tip\", or a frame fixed in the world");
+  definitions["on"] = reference("marker");
+  Json plane =
+      object({{"point", reference("vector")}, {"normal", reference("vector")}, {"on", reference("marker")}}, {"point"});
+  plane["required"].push_back("normal");
+  definitions["between"] = array_of(any_of(reference("marker"), object({{"plane", std::move(plane)}}, {"plane"})));
+  definitions["between"]["minItems"] = 2;
+  definitions["between"]["maxItems"] = 2;
+  Json controlled = object({{"tolerance", reference("positive")},
+                            {"relative", number},
+                            {"absolute", number},
+                            {"initial", reference("positive")},
+                            {"min", number},
+                            {"max", reference("positive")}});
+  definitions["step"] =
+      with(any_of(reference("positive"), std::move(controlled)), "fixed [s], or controlled to a tolerance");
+  definitions["contact_step"] = with(reference("step"), "the step while a contact is closed; \"step\" if left out");
+}
+
+}  // namespace
+
+std::string schema(const std::vector<const Entry*>& entries) {
+  Json definitions = Json::object();
+  define_common(definitions);
+  for (const Kind kind : {Kind::integrator, Kind::body, Kind::joint, Kind::force, Kind::contact, Kind::friction})
+    definitions[to_string(kind)] = choice_of(kind, entries);
+  for (const Entry* entry : entries) definitions[definition(entry->declaration)] = schema_of(*entry);
+
+  const Json number = reference("number"), positive = reference("positive"), text = {{"type", "string"}};
+  const Json texts = array_of(text);
+  Json properties;
+  properties["trammel"] = with({{"const", 1}}, "version of the scene format");
+  properties["title"] = text;
+  properties["description"] = text;
+  properties["space"] = {{"enum", {"planar", "spatial"}}};
+  properties["gravity"] = with(reference("vector"), "[m/s^2]");
+  properties["plugins"] = with(texts, "libraries and folders of libraries, relative to this file");
+  properties["parameters"] = with(keyed({{"type", {"number", "string"}}}), "names for expressions");
+  properties["include"] = with(any_of(text, texts), "scenes that this one extends; this one wins");
+  properties["bodies"] = keyed(reference("body"));
+  properties["joints"] = keyed(reference("joint"));
+  properties["forces"] = keyed(reference("force"));
+  properties["contacts"] = keyed(reference("contact"));
+  properties["integrator"] = reference("integrator");
+  properties["initial"] = object({{"consistent", {{"enum", {"check", "project"}}}}});
+  properties["simulate"] =
+      object({{"start", number}, {"until", number}, {"chatter_steps", number}, {"event_limit", positive}}, {"until"});
+  properties["record"] = object({{"every", positive}, {"observe", keyed(text)}});
+  properties["corrections"] =
+      object({{"position", correction(entries)}, {"velocity", correction(entries)}, {"energy", {{"type", "boolean"}}}});
+
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Trammel scene"}};
+  schema.update(object(std::move(properties)));
+  schema["$defs"] = std::move(definitions);
+  return schema.dump(2);
+}
+
+}  // namespace trammel::plugin
