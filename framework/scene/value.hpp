@@ -26,8 +26,8 @@ struct Position {
 
 struct Problem {
   Position at;
-  std::string path;     // dotted JSON path, "" for the file itself
-  std::string message;  // what was found, what was expected, the nearest valid name
+  std::string path;          // dotted JSON path, "" for the file itself
+  std::string message;       // what was found, what was expected, the nearest valid name
   std::string text() const;  // "beam_impact.json:14:21: contacts.tip.between[0]: no marker ..."
 };
 
@@ -79,10 +79,10 @@ class Value {
 
   // Typed readers. An expression string ("=2*pi*E") is evaluated in the scene's parameters. On a mismatch they report to
   // `problems` and return nothing.
-  std::optional<double> read_number(Problems&) const;      // finite
-  std::optional<int> read_integer(Problems&) const;        // 3 or 3.0, not 3.7
+  std::optional<double> read_number(Problems&) const;  // finite
+  std::optional<int> read_integer(Problems&) const;    // 3 or 3.0, not 3.7
   std::optional<bool> read_boolean(Problems&) const;
-  std::optional<std::string> read_text(Problems&) const;   // an expression may name a text parameter
+  std::optional<std::string> read_text(Problems&) const;  // an expression may name a text parameter
   std::optional<std::vector<double>> read_numbers(Problems&) const;
   std::optional<TimeFunction> read_time_function(Problems&) const;  // a number, or an expression that may contain t
 

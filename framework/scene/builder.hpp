@@ -1,0 +1,38 @@
+// How the files of this folder make and change Values; nobody else does.
+#pragma once
+
+#include "scene/value.hpp"
+
+namespace trammel::scene {
+
+class Builder {
+ public:
+  using Content = std::variant<std::monostate, bool, double, std::string, Items, Members>;
+
+  static Value make(Content content, Position at);
+  static Items& items(Value& value) { return std::get<Items>(value.content_); }
+  static Members& members(Value& value) { return std::get<Members>(value.content_); }
+  static void place(Value& value, Position at) { value.position_ = std::move(at); }
+  static Value* find(Value& object, std::string_view key);
+  // Dotted paths and the scene's parameters, for the whole tree.
+  static void finish(Value& value, const std::string& path, const std::shared_ptr<const Value::Parameters>& parameters);
+  static std::uint64_t hash(const Value& value);  // independent of the order of members
+};
+
+// One file or text, as it stands. Throws SceneError.
+std::string read_file(const std::string& file);
+Value parse_text(const std::string& text, const std::string& file);
+
+// `over` onto `base`: objects merge member by member, anything else replaces. An object with another "type" replaces the
+// whole one: parameters of one component mean nothing to another.
+void merge(Value& base, Value&& over);
+
+// The root with all its "include" files merged under it, depth first.
+Value resolve_includes(Value&& root, const std::string& file);
+
+void apply(const Override& override, Value& root);
+
+// The "parameters" block, evaluated; expressions in it may use one another.
+std::shared_ptr<const Value::Parameters> evaluate_parameters(const Value& root);
+
+}  // namespace trammel::scene

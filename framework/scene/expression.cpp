@@ -1,0 +1,232 @@
+#include "scene/expression.hpp"
+
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "scene/jet_code.hpp"
+#include "scene/suggestion.hpp"
+
+namespace trammel::scene {
+
+namespace {
+
+using Code = TimeFunction::Code;
+using Op = Code::Op;
+
+struct Function {
+  const char* name;
+  Op op;
+  int arguments;
+};
+
+constexpr Function functions[] = {
+    {"sin", Op::sin, 1},   {"cos", Op::cos, 1},     {"tan", Op::tan, 1},   {"asin", Op::asin, 1}, {"acos", Op::acos, 1},
+    {"atan", Op::atan, 1}, {"atan2", Op::atan2, 2}, {"sinh", Op::sinh, 1}, {"cosh", Op::cosh, 1}, {"tanh", Op::tanh, 1},
+    {"exp", Op::exp, 1},   {"log", Op::log, 1},     {"sqrt", Op::sqrt, 1}, {"abs", Op::abs, 1},   {"sign", Op::sign, 1},
+    {"step", Op::step, 1}, {"floor", Op::floor, 1}, {"ceil", Op::ceil, 1}, {"min", Op::min, 2},   {"max", Op::max, 2},
+    {"pow", Op::power, 2},
+};
+
+bool starts_name(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
+}
+bool continues_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
+
+// Recursive descent. sum: product {+- product}; product: unary {*/ unary}; unary: -unary | power; power: atom [^ unary].
+class Compiler {
+ public:
+  Compiler(std::string_view text, const Lookup& lookup, bool with_time)
+      : text_(text), lookup_(lookup), with_time_(with_time) {}
+
+  Code compile() {
+    sum();
+    skip_space();
+    if (at_ < text_.size()) fail(fmt::format("found '{}', expected an operator or the end", text_[at_]));
+    return std::move(code_);
+  }
+  bool uses_time() const { return uses_time_; }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const { throw ExpressionError(int(at_) + 1, message); }
+
+  void skip_space() {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
+  }
+  bool take(char c) {
+    skip_space();
+    if (at_ >= text_.size() || text_[at_] != c) return false;
+    ++at_;
+    return true;
+  }
+  void emit(Op op, double number = 0) {
+    code_.instructions.push_back({op, number});
+    if (op == Op::number || op == Op::time) {
+      if (++depth_ > int(Code::stack_size)) fail("the expression is too deeply nested");
+    } else if (Code::is_binary(op)) {
+      --depth_;
+    }
+  }
+
+  void sum() {
+    if (++nesting_ > 100) fail("the expression is too deeply nested");
+    product();
+    for (;;) {
+      if (take('+')) {
+        product();
+        emit(Op::add);
+      } else if (take('-')) {
+        product();
+        emit(Op::subtract);
+      } else {
+        break;
+      }
+    }
+    --nesting_;
+  }
+
+  void product() {
+    unary();
+    for (;;) {
+      if (take('*')) {
+        unary();
+        emit(Op::multiply);
+      } else if (take('/')) {
+        unary();
+        emit(Op::divide);
+      } else {
+        return;
+      }
+    }
+  }
+
+  void unary() {
+    int minus = 0;
+    for (;;) {
+      if (take('-'))
+        ++minus;
+      else if (!take('+'))
+        break;
+    }
+    power();
+    if (minus % 2) emit(Op::negate);
+  }
+
+  void power() {
+    atom();
+    if (!take('^')) return;
+    if (++nesting_ > 100) fail("the expression is too deeply nested");
+    unary();
+    --nesting_;
+    emit(Op::power);
+  }
+
+  void atom() {
+    skip_space();
+    if (at_ >= text_.size()) fail("the expression ends where a number, a name or '(' was expected");
+    const char c = text_[at_];
+    if (c == '(') {
+      ++at_;
+      sum();
+      if (!take(')')) fail("expected ')'");
+    } else if (std::isdigit(static_cast<unsigned char>(c)) || c == '.') {
+      number();
+    } else if (starts_name(c)) {
+      name();
+    } else {
+      fail(fmt::format("found '{}', expected a number, a name or '('", c));
+    }
+  }
+
+  void number() {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+    if (error != std::errc() || !std::isfinite(value)) fail("the number is too large, too small or malformed");
+    at_ = std::size_t(end - text_.data());
+    emit(Op::number, value);
+  }
+
+  void name() {
+    const std::size_t start = at_;
+    while (at_ < text_.size() && continues_name(text_[at_])) ++at_;
+    const std::string_view word = text_.substr(start, at_ - start);
+    const int column = int(start) + 1;
+    if (take('(')) return call(word, column);
+    if (word == "pi") return emit(Op::number, std::numbers::pi);
+    if (word == "t") {
+      if (!with_time_) throw ExpressionError(column, "`t` stands only where a law of time is expected");
+      uses_time_ = true;
+      return emit(Op::time);
+    }
+    emit(Op::number, lookup_(word, column));
+  }
+
+  void call(std::string_view word, int column) {
+    std::vector<std::string> names;
+    for (const Function& f : functions) {
+      if (word != f.name) {
+        names.push_back(f.name);
+        continue;
+      }
+      for (int i = 0; i < f.arguments; ++i) {
+        if (i > 0 && !take(',')) fail(fmt::format("{} takes {} arguments; expected ','", f.name, f.arguments));
+        sum();
+      }
+      if (!take(')'))
+        fail(fmt::format("{} takes {} argument{}; expected ')'", f.name, f.arguments, f.arguments > 1 ? "s" : ""));
+      return emit(f.op);
+    }
+    throw ExpressionError(column, fmt::format("no function \"{}\"{}", word, did_you_mean(word, names)));
+  }
+
+  std::string_view text_;
+  const Lookup& lookup_;
+  bool with_time_;
+  Code code_;
+  std::size_t at_ = 0;
+  int depth_ = 0, nesting_ = 0;
+  bool uses_time_ = false;
+};
+
+}  // namespace
+
+TimeFunction compile_time_function(std::string_view text, const Lookup& lookup) {
+  Compiler compiler(text, lookup, true);
+  auto code = std::make_shared<const Code>(compiler.compile());
+  const TimeFunction law(code, std::string(text));
+  if (compiler.uses_time()) return law;
+  const double value = law(0);
+  if (!std::isfinite(value)) throw ExpressionError(1, fmt::format("the value is {}, expected a finite number", value));
+  return TimeFunction(value);
+}
+
+double evaluate(std::string_view text, const Lookup& lookup) {
+  Compiler compiler(text, lookup, false);
+  const double value = TimeFunction(std::make_shared<const Code>(compiler.compile()), std::string(text))(0);
+  if (!std::isfinite(value)) throw ExpressionError(1, fmt::format("the value is {}, expected a finite number", value));
+  return value;
+}
+
+const std::vector<std::string>& expression_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = {"pi", "t"};
+    for (const Function& f : functions) all.push_back(f.name);
+    return all;
+  }();
+  return names;
+}
+
+bool is_name(std::string_view text) {
+  if (text.empty() || !starts_name(text[0])) return false;
+  for (const char c : text)
+    if (!continues_name(c)) return false;
+  return true;
+}
+
+}  // namespace trammel::scene

@@ -1,0 +1,43 @@
+// Expressions in scenes: "2*pi*E*I/L" over named parameters, and laws of time such as "0.2*sin(2*pi*5*t)".
+//
+// Compiled once to a postfix code that works on jets (value, first and second derivative by t), so that a law of time has
+// exact rates. Operators + - * / ^ with the usual precedence (^ binds tighter than a leading minus, and to the right),
+// parentheses, numbers, `pi`, parameters by name, `t` where a law of time is expected, and the functions listed in
+// expression.cpp.
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <trammel/time_function.hpp>
+
+#include "scene/value.hpp"
+
+namespace trammel::scene {
+
+class ExpressionError : public std::runtime_error {
+ public:
+  ExpressionError(int column, const std::string& message) : std::runtime_error(message), column_(column) {}
+  int column() const { return column_; }  // in the expression, from 1
+
+ private:
+  int column_;
+};
+
+// Looks up a parameter's number; throws ExpressionError.
+using Lookup = std::function<double(std::string_view name, int column)>;
+
+// `text` without the leading "=". Throws ExpressionError.
+TimeFunction compile_time_function(std::string_view text, const Lookup& lookup);
+double evaluate(std::string_view text, const Lookup& lookup);  // finite, free of t
+
+// Names an expression may use beside parameters, for suggestions.
+const std::vector<std::string>& expression_names();
+
+// True when the whole text is one name.
+bool is_name(std::string_view text);
+
+}  // namespace trammel::scene

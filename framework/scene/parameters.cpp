@@ -1,0 +1,112 @@
+#include <map>
+
+#include <fmt/format.h>
+
+#include "scene/builder.hpp"
+#include "scene/expression.hpp"
+#include "scene/suggestion.hpp"
+
+namespace trammel::scene {
+
+namespace {
+
+using Result = std::variant<double, std::string>;
+
+// Evaluates parameters in the order they need one another.
+class Evaluation {
+ public:
+  Evaluation(const Members& members, Problems& problems) : members_(members), problems_(problems) {}
+
+  const Result* value_of(const std::string& name, const Value& value) {
+    if (const auto known = done_.find(name); known != done_.end()) return known->second ? &*known->second : nullptr;
+    std::optional<Result> result;
+    open_.push_back(name);
+    if (value.type() == Value::Type::number)
+      result = *value.read_number(problems_);
+    else if (value.type() != Value::Type::text)
+      problems_.error(
+          value.problem(fmt::format("found {}, expected a number, a text or an expression", value.type_name())));
+    else if (value.text().empty() || value.text()[0] != '=')
+      result = value.text();
+    else
+      result = expression(value);
+    open_.pop_back();
+    auto& slot = done_[name] = std::move(result);
+    return slot ? &*slot : nullptr;
+  }
+
+ private:
+  std::optional<Result> expression(const Value& value) {
+    const std::string_view text = std::string_view(value.text()).substr(1);
+    try {
+      if (is_name(text))
+        if (const Value* other = find(text)) {
+          const Result* result = need(std::string(text), *other, 1);
+          if (!result) return std::nullopt;
+          return *result;
+        }
+      return evaluate(text, [this](std::string_view name, int column) { return number(name, column); });
+    } catch (const ExpressionError& error) {
+      problems_.error(value.problem(
+          fmt::format("in the expression \"{}\", column {}: {}", value.text(), error.column() + 1, error.what())));
+      return std::nullopt;
+    }
+  }
+
+  double number(std::string_view name, int column) {
+    const Value* other = find(name);
+    if (!other) {
+      std::vector<std::string> names = expression_names();
+      for (const auto& [key, value] : members_) names.push_back(key);
+      throw ExpressionError(column, fmt::format("no parameter \"{}\"{}", name, did_you_mean(name, names)));
+    }
+    const Result* result = need(std::string(name), *other, column);
+    if (!result) throw ExpressionError(column, fmt::format("the parameter \"{}\" has no value", name));
+    if (const double* x = std::get_if<double>(result)) return *x;
+    throw ExpressionError(column, fmt::format("the parameter \"{}\" is a text, expected a number", name));
+  }
+
+  const Result* need(const std::string& name, const Value& value, int column) {
+    for (const std::string& waiting : open_)
+      if (waiting == name) {
+        std::string circle;
+        for (const std::string& link : open_) circle += link + " -> ";
+        throw ExpressionError(column, "parameters go round in a circle: " + circle + name);
+      }
+    return value_of(name, value);
+  }
+
+  const Value* find(std::string_view name) const {
+    for (const auto& [key, value] : members_)
+      if (key == name) return &value;
+    return nullptr;
+  }
+
+  const Members& members_;
+  Problems& problems_;
+  std::map<std::string, std::optional<Result>> done_;
+  std::vector<std::string> open_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Value::Parameters> evaluate_parameters(const Value& root) {
+  auto parameters = std::make_shared<Value::Parameters>();
+  const Value* block = root.find("parameters");
+  if (!block) return parameters;
+  Problems problems;
+  if (block->type() != Value::Type::object)
+    throw SceneError({block->problem(fmt::format("found {}, expected an object of named values", block->type_name()))});
+  Evaluation evaluation(block->members(), problems);
+  for (const auto& [name, value] : block->members()) {
+    if (!is_name(name) || name == "t" || name == "pi")
+      problems.error(
+          value.problem(fmt::format("\"{}\" cannot name a parameter: letters, digits and _, not t or pi", name)));
+    else if (const Result* result = evaluation.value_of(name, value))
+      parameters->emplace_back(name, *result);
+  }
+  problems.throw_if_any();
+  return parameters;
+}
+
+}  // namespace trammel::scene

@@ -1,0 +1,239 @@
+// Reads JSON with comments by nlohmann-json's event parser, over an iterator that counts bytes: each value learns where it
+// starts. What that parser lets pass is refused here: duplicate keys, numbers that vanish or overflow, deep nesting.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <unordered_set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "scene/builder.hpp"
+
+namespace trammel::scene {
+
+namespace {
+
+constexpr int deepest = 100;
+constexpr std::uintmax_t largest_file = 64u << 20;
+
+// Walks a text and tells how far it got, also to those who hold no copy of it.
+class CountingIterator {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  CountingIterator(const char* at, const char** furthest) : at_(at), furthest_(furthest) {}
+  reference operator*() const { return *at_; }
+  CountingIterator& operator++() {
+    *furthest_ = ++at_;
+    return *this;
+  }
+  bool operator==(const CountingIterator& other) const { return at_ == other.at_; }
+  bool operator!=(const CountingIterator& other) const { return at_ != other.at_; }
+
+ private:
+  const char* at_;
+  const char** furthest_;
+};
+
+class Lines {
+ public:
+  Lines(const std::string& text, const std::string& file) : file_(file) {
+    starts_.push_back(0);
+    for (std::size_t i = 0; i < text.size(); ++i)
+      if (text[i] == '\n') starts_.push_back(i + 1);
+  }
+  Position at(std::size_t offset) const {
+    const auto line = std::upper_bound(starts_.begin(), starts_.end(), offset) - starts_.begin();
+    return {file_, int(line), int(offset - starts_[std::size_t(line - 1)]) + 1};
+  }
+
+ private:
+  const std::string& file_;
+  std::vector<std::size_t> starts_;
+};
+
+class Tree {
+ public:
+  Tree(const std::string& text, const std::string& file)
+      : text_(text), begin_(text.data()), furthest_(text.data()), lines_(text, file) {}
+
+  Value parse() {
+    const char* end = begin_ + text_.size();
+    nlohmann::json::sax_parse(CountingIterator(begin_, &furthest_), CountingIterator(end, &furthest_), this,
+                              nlohmann::json::input_format_t::json, true, true);
+    problems_.throw_if_any();
+    return std::move(root_);
+  }
+
+  // --- events ---
+  bool null() { return scalar({}, consumed() - 4); }
+  bool boolean(bool value) { return scalar(value, consumed() - (value ? 4 : 5)); }
+  bool number_integer(std::int64_t value) { return scalar(double(value), number_start()); }
+  bool number_unsigned(std::uint64_t value) { return scalar(double(value), number_start()); }
+  bool number_float(double value, const std::string& digits) {
+    if (value == 0 && digits.substr(0, digits.find_first_of("eE")).find_first_of("123456789") != std::string::npos)
+      return refuse(number_start(), fmt::format("{} is too small for a number, it would become 0", digits));
+    return scalar(value, number_start());
+  }
+  bool string(std::string& value) { return scalar(std::move(value), string_start()); }
+  bool binary(std::vector<std::uint8_t>&) { return false; }
+
+  bool start_object(std::size_t) { return open(Members()); }
+  bool key(std::string& name) {
+    Frame& frame = open_.back();
+    if (!frame.keys.insert(name).second) {
+      problems_.error({lines_.at(string_start()), join(name),
+                       fmt::format("the key \"{}\" stands here a second time; each key may stand once", name)});
+    }
+    frame.key = std::move(name);
+    return true;
+  }
+  bool end_object() { return close(); }
+  bool start_array(std::size_t) { return open(Items()); }
+  bool end_array() { return close(); }
+
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& error) {
+    std::string what = error.what();
+    if (error.id == 406) {  // number overflow
+      const std::size_t start = number_start();
+      problems_.error({lines_.at(start), here(),
+                       fmt::format("{} is too large for a number", text_.substr(start, consumed() - start))});
+      return false;
+    }
+    // "[json.exception...] parse error at line 1, column 2: syntax error while parsing value - invalid literal; last read..."
+    if (const auto colon = what.find(": "); colon != std::string::npos) what = what.substr(colon + 2);
+    const std::size_t at = std::min(consumed() ? consumed() - 1 : 0, text_.size());
+    problems_.error({lines_.at(at), here(), "not valid JSON: " + what});
+    return false;
+  }
+
+ private:
+  struct Frame {
+    Value value;
+    std::string key;
+    std::unordered_set<std::string> keys;
+  };
+
+  std::size_t consumed() const { return std::size_t(furthest_ - begin_); }
+
+  // The parser has read one character past a number, unless the text ended.
+  std::size_t number_start() const {
+    const auto part = [](char c) {
+      return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
+    };
+    std::size_t i = consumed();
+    if (i > 0 && !part(text_[i - 1])) --i;
+    while (i > 0 && part(text_[i - 1])) --i;
+    return i;
+  }
+  // Inside a string a quote stands behind an odd number of backslashes.
+  std::size_t string_start() const {
+    std::size_t i = consumed() - 1;
+    for (;;) {
+      do --i;
+      while (i > 0 && text_[i] != '"');
+      std::size_t backslashes = 0;
+      while (backslashes < i && text_[i - 1 - backslashes] == '\\') ++backslashes;
+      if (backslashes % 2 == 0) return i;
+    }
+  }
+
+  std::string here() const {
+    std::string path;
+    for (const Frame& frame : open_) append(frame, frame.key, path);
+    return path;
+  }
+  std::string join(const std::string& name) const {
+    std::string path;
+    for (const Frame& frame : open_) append(frame, &frame == &open_.back() ? name : frame.key, path);
+    return path;
+  }
+  static void append(const Frame& frame, const std::string& key, std::string& path) {
+    if (frame.value.type() == Value::Type::array)
+      path += fmt::format("[{}]", frame.value.items().size());
+    else if (!key.empty())
+      path += (path.empty() ? "" : ".") + key;
+  }
+
+  bool refuse(std::size_t at, std::string message) {
+    problems_.error({lines_.at(at), here(), std::move(message)});
+    return false;
+  }
+  bool scalar(Builder::Content content, std::size_t start) {
+    place(Builder::make(std::move(content), lines_.at(start)));
+    return true;
+  }
+  bool open(Builder::Content content) {
+    const std::size_t start = consumed() - 1;
+    if (open_.size() >= deepest) return refuse(start, fmt::format("nested deeper than {} levels", deepest));
+    open_.push_back({Builder::make(std::move(content), lines_.at(start)), {}, {}});
+    return true;
+  }
+  bool close() {
+    Value done = std::move(open_.back().value);
+    open_.pop_back();
+    place(std::move(done));
+    return true;
+  }
+  void place(Value value) {
+    if (open_.empty())
+      root_ = std::move(value);
+    else if (open_.back().value.type() == Value::Type::array)
+      Builder::items(open_.back().value).push_back(std::move(value));
+    else
+      Builder::members(open_.back().value).emplace_back(open_.back().key, std::move(value));
+  }
+
+  const std::string& text_;
+  const char* begin_;
+  const char* furthest_;
+  Lines lines_;
+  Problems problems_;
+  std::vector<Frame> open_;
+  Value root_;
+};
+
+[[noreturn]] void fail(const std::string& file, std::string message) {
+  throw SceneError({{{file, 0, 0}, "", std::move(message)}});
+}
+
+}  // namespace
+
+std::string read_file(const std::string& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (status.type() == std::filesystem::file_type::not_found) fail(file, "no such file");
+  if (status.type() == std::filesystem::file_type::directory) fail(file, "is a directory, expected a scene file");
+  if (status.type() == std::filesystem::file_type::regular) {
+    const auto size = std::filesystem::file_size(file, error);
+    if (!error && size > largest_file)
+      fail(file, fmt::format("has {} bytes; a scene has at most {} (64 MiB)", size, largest_file));
+  }
+  std::ifstream in(file, std::ios::binary);
+  if (!in) fail(file, "cannot be opened for reading");
+  std::string text;
+  char block[1 << 16];
+  while (in.read(block, sizeof block) || in.gcount() > 0) {
+    text.append(block, std::size_t(in.gcount()));
+    if (text.size() > largest_file) fail(file, fmt::format("is longer than {} bytes (64 MiB)", largest_file));
+  }
+  if (in.bad()) fail(file, "cannot be read");
+  return text;
+}
+
+Value parse_text(const std::string& text, const std::string& file) {
+  if (text.find('\0') != std::string::npos) fail(file, "holds binary data, expected a JSON text");
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail(file, "is empty, expected a JSON object");
+  Value root = Tree(text, file).parse();
+  if (root.type() != Value::Type::object)
+    throw SceneError({root.problem(fmt::format("found {}, expected an object", root.type_name()))});
+  return root;
+}
+
+}  // namespace trammel::scene

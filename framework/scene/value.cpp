@@ -1,0 +1,261 @@
+#include "scene/value.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "scene/builder.hpp"
+#include "scene/expression.hpp"
+#include "scene/suggestion.hpp"
+
+namespace trammel::scene {
+
+std::string Problem::text() const {
+  std::string where = at.file;
+  if (at.line > 0) where += fmt::format(":{}:{}", at.line, at.column);
+  return where + ": " + (path.empty() ? "" : path + ": ") + message;
+}
+
+namespace {
+
+std::string all_texts(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + problem.text();
+  return text;
+}
+
+}  // namespace
+
+SceneError::SceneError(std::vector<Problem> problems)
+    : std::runtime_error(all_texts(problems)), problems_(std::move(problems)) {}
+
+void Problems::error(Problem problem) {
+  errors_.push_back(std::move(problem));
+}
+void Problems::warning(Problem problem) {
+  warnings_.push_back(std::move(problem));
+}
+void Problems::throw_if_any() const {
+  if (!errors_.empty()) throw SceneError(errors_);
+}
+
+Value::Type Value::type() const {
+  return Type(content_.index());
+}
+
+const char* Value::type_name() const {
+  static constexpr const char* names[] = {"null", "true or false", "a number", "a text", "an array", "an object"};
+  return names[content_.index()];
+}
+
+const Value* Value::find(std::string_view key) const {
+  if (type() != Type::object) return nullptr;
+  for (const auto& [name, value] : members())
+    if (name == key) return &value;
+  return nullptr;
+}
+
+const Value* Value::at_path(std::string_view dotted) const {
+  const Value* value = this;
+  while (value && !dotted.empty()) {
+    const auto dot = dotted.find('.');
+    value = value->find(dotted.substr(0, dot));
+    dotted = dot == std::string_view::npos ? std::string_view() : dotted.substr(dot + 1);
+  }
+  return value;
+}
+
+namespace {
+
+bool is_expression(const Value& value) {
+  return value.type() == Value::Type::text && !value.text().empty() && value.text()[0] == '=';
+}
+
+std::string found(const Value& value) {
+  switch (value.type()) {
+    case Value::Type::text:
+      return fmt::format("found the text \"{}\"", value.text());
+    case Value::Type::boolean:
+      return value.boolean() ? "found true" : "found false";
+    default:
+      return fmt::format("found {}", value.type_name());
+  }
+}
+
+// The scene's parameters as a Lookup.
+Lookup lookup_in(const Value::Parameters* parameters) {
+  return [parameters](std::string_view name, int column) -> double {
+    std::vector<std::string> names = expression_names();
+    if (parameters)
+      for (const auto& [key, value] : *parameters) {
+        names.push_back(key);
+        if (key != name) continue;
+        if (const double* number = std::get_if<double>(&value)) return *number;
+        throw ExpressionError(column, fmt::format("the parameter \"{}\" is a text, expected a number", name));
+      }
+    throw ExpressionError(column, fmt::format("no parameter \"{}\"{}", name, did_you_mean(name, names)));
+  };
+}
+
+// Runs `compile` on the expression behind "="; a failure becomes a problem that quotes it.
+template <class Compile>
+auto compiled(const Value& value, Problems& problems, Compile compile)
+    -> std::optional<decltype(compile(std::string_view()))> {
+  try {
+    return compile(std::string_view(value.text()).substr(1));
+  } catch (const ExpressionError& error) {
+    problems.error(value.problem(
+        fmt::format("in the expression \"{}\", column {}: {}", value.text(), error.column() + 1, error.what())));
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::optional<double> Value::read_number(Problems& problems) const {
+  if (type() == Type::number) return std::get<double>(content_);
+  if (is_expression(*this))
+    return compiled(*this, problems, [&](auto text) { return evaluate(text, lookup_in(parameters_.get())); });
+  problems.error(problem(found(*this) + ", expected a number" +
+                         (type() == Type::text ? " (an expression starts with \"=\")" : "")));
+  return std::nullopt;
+}
+
+std::optional<int> Value::read_integer(Problems& problems) const {
+  const auto number = read_number(problems);
+  if (!number) return std::nullopt;
+  if (*number != std::floor(*number)) {
+    problems.error(problem(fmt::format("found {}, expected a whole number", *number)));
+    return std::nullopt;
+  }
+  if (std::abs(*number) > 2147483647.0) {
+    problems.error(problem(fmt::format("found {}, expected a whole number of at most 9 digits", *number)));
+    return std::nullopt;
+  }
+  return int(*number);
+}
+
+std::optional<bool> Value::read_boolean(Problems& problems) const {
+  if (type() == Type::boolean) return boolean();
+  problems.error(problem(found(*this) + ", expected true or false"));
+  return std::nullopt;
+}
+
+std::optional<std::string> Value::read_text(Problems& problems) const {
+  if (type() != Type::text) {
+    problems.error(problem(found(*this) + ", expected a text"));
+    return std::nullopt;
+  }
+  if (!is_expression(*this)) return text();
+  const std::string_view name = std::string_view(text()).substr(1);
+  std::vector<std::string> names;
+  if (parameters_)
+    for (const auto& [key, value] : *parameters_) {
+      if (key == name && std::holds_alternative<std::string>(value)) return std::get<std::string>(value);
+      if (std::holds_alternative<std::string>(value)) names.push_back(key);
+    }
+  problems.error(problem(fmt::format("found the expression \"{}\", expected a text or the name of a text parameter{}",
+                                     text(), did_you_mean(name, names))));
+  return std::nullopt;
+}
+
+std::optional<std::vector<double>> Value::read_numbers(Problems& problems) const {
+  if (type() != Type::array) {
+    problems.error(problem(found(*this) + ", expected an array of numbers"));
+    return std::nullopt;
+  }
+  std::vector<double> numbers;
+  bool good = true;
+  for (const Value& item : items()) {
+    const auto number = item.read_number(problems);
+    good = good && number.has_value();
+    numbers.push_back(number.value_or(0));
+  }
+  if (!good) return std::nullopt;
+  return numbers;
+}
+
+std::optional<TimeFunction> Value::read_time_function(Problems& problems) const {
+  if (is_expression(*this))
+    return compiled(*this, problems,
+                    [&](auto text) { return compile_time_function(text, lookup_in(parameters_.get())); });
+  const auto number = read_number(problems);
+  if (!number) return std::nullopt;
+  return TimeFunction(*number);
+}
+
+Value Builder::make(Content content, Position at) {
+  Value value;
+  value.content_ = std::move(content);
+  value.position_ = std::move(at);
+  return value;
+}
+
+Value* Builder::find(Value& object, std::string_view key) {
+  return const_cast<Value*>(std::as_const(object).find(key));
+}
+
+void Builder::finish(Value& value, const std::string& path,
+                     const std::shared_ptr<const Value::Parameters>& parameters) {
+  value.path_ = path;
+  value.parameters_ = parameters;
+  if (value.type() == Value::Type::array) {
+    int i = 0;
+    for (Value& item : items(value)) finish(item, fmt::format("{}[{}]", path, i++), parameters);
+  } else if (value.type() == Value::Type::object) {
+    for (auto& [name, member] : members(value)) finish(member, path.empty() ? name : path + "." + name, parameters);
+  }
+}
+
+namespace {
+
+// FNV-1a.
+struct Hash {
+  std::uint64_t state = 14695981039346656037u;
+  void add(const void* data, std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) state = (state ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211u;
+  }
+  template <class T>
+  void add_value(T x) {
+    add(&x, sizeof x);
+  }
+};
+
+}  // namespace
+
+std::uint64_t Builder::hash(const Value& value) {
+  Hash h;
+  h.add_value(int(value.type()));
+  switch (value.type()) {
+    case Value::Type::null:
+      break;
+    case Value::Type::boolean:
+      h.add_value(value.boolean());
+      break;
+    case Value::Type::number:
+      h.add_value(std::get<double>(value.content_) + 0.0);
+      break;  // -0 is 0
+    case Value::Type::text:
+      h.add(value.text().data(), value.text().size());
+      break;
+    case Value::Type::array:
+      for (const Value& item : value.items()) h.add_value(hash(item));
+      break;
+    case Value::Type::object: {
+      std::vector<std::uint64_t> each;
+      for (const auto& [name, member] : value.members()) {
+        Hash pair;
+        pair.add(name.data(), name.size());
+        pair.add_value(hash(member));
+        each.push_back(pair.state);
+      }
+      std::sort(each.begin(), each.end());
+      for (const std::uint64_t x : each) h.add_value(x);
+    }
+  }
+  return h.state;
+}
+
+}  // namespace trammel::scene
