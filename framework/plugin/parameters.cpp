@@ -249,7 +249,7 @@ std::unique_ptr<Component> make(const Entry& entry, const Value& object, std::sp
 void throw_wrong_interface(const Entry& entry) {
   throw PluginError(
       entry.origin(""), "its constructor",
-      fmt::format("it is declared as a {} but does not derive from that interface", to_string(entry.declaration.kind)));
+      fmt::format("it is declared as {} but does not derive from that interface", to_string(entry.declaration.kind)));
 }
 
 const Entry* entry_of(Registry& registry, Kind kind, const Value& object, Problems& problems) {
@@ -260,7 +260,7 @@ const Entry* entry_of(Registry& registry, Kind kind, const Value& object, Proble
   const Value* type = object.find("type");
   if (!type) {
     problems.error(object.problem(
-        fmt::format("\"type\" is missing: the name of a {} ('trammel list' shows them)", to_string(kind))));
+        fmt::format("\"type\" is missing: which {} it is ('trammel list' shows them)", to_string(kind))));
     return nullptr;
   }
   return registry.find(kind, *type, problems);

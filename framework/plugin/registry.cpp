@@ -46,8 +46,7 @@ const Declarations& open(const std::string& file) {
     throw PluginError(file, text ? text : "cannot be loaded");
   }
   if (!library->has(entry_point))
-    throw PluginError(file, fmt::format("it exports no {}: TRAMMEL_PLUGIN(...) must stand outside anonymous namespaces",
-                                        entry_point));
+    throw PluginError(file, fmt::format("it exports no function {}; is it hidden by a linker script?", entry_point));
   try {
     const Declarations* declarations = library->get<const Declarations*()>(entry_point)();
     if (!declarations) throw PluginError(file, "its declarations are null");
@@ -63,6 +62,10 @@ bool is_name(std::string_view name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
     return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_';
   });
+}
+
+const char* article(std::string_view kind) {
+  return kind.starts_with('i') ? "an" : "a";
 }
 
 // What the builder's types cannot rule out.
@@ -235,7 +238,7 @@ std::string Registry::unknown(std::string_view what, std::string_view name, cons
       other_kind = to_string(declaration.kind);
   }
   std::string text = fmt::format("no {} \"{}\"", what, name);
-  if (!other_kind.empty()) text += fmt::format("; \"{}\" is a {}", name, other_kind);
+  if (!other_kind.empty()) text += fmt::format("; \"{}\" is {} {}", name, article(other_kind), other_kind);
   text += names.empty() ? fmt::format("; no {} was found at all", what) : scene::did_you_mean(name, names);
   if (names.empty() && folders_.empty())
     text += " (no plugin folder is searched: give --plugin or TRAMMEL_PLUGIN_PATH)";

@@ -20,7 +20,6 @@ namespace trammel::plugin {
 
 namespace {
 
-constexpr int milliseconds_allowed = 10'000;
 constexpr int report_to = 3;  // where the child's end of the pipe is
 
 [[noreturn]] void report_and_end(const char* text) {
@@ -28,7 +27,7 @@ constexpr int report_to = 3;  // where the child's end of the pipe is
   ::_exit(written < 0 ? 2 : 1);
 }
 
-// Runs in the child instead of std::terminate's message and abort.
+// Runs in the child in place of std::terminate's message and abort.
 [[noreturn]] void report_exception() {
   try {
     if (std::current_exception()) throw;
@@ -40,8 +39,9 @@ constexpr int report_to = 3;  // where the child's end of the pipe is
   report_and_end("it ended the program (std::terminate) while it was loaded");
 }
 
-// Never returns: whatever happens here, the parent reads it from the pipe or from the way the child ended.
-[[noreturn]] void child(const char* file, int pipe_end) {
+// Never returns: whatever happens here, the parent reads it from the pipe or from the way the child ended. An exception may
+// come through the loader's frames or end there; noexcept makes both end in report_exception.
+[[noreturn]] void child(const char* file, int pipe_end) noexcept {
   ::dup2(pipe_end, report_to);
   if (const int silence = ::open("/dev/null", O_RDWR); silence >= 0)
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(silence, standard);
@@ -51,14 +51,14 @@ constexpr int report_to = 3;  // where the child's end of the pipe is
   report_and_end("ok");
 }
 
-std::string read_report(int pipe_end) {
+std::string read_report(int pipe_end, std::chrono::milliseconds limit) {
   std::string report;
   std::array<char, 512> buffer;
   for (;;) {
     pollfd ready{pipe_end, POLLIN, 0};
-    const int answer = ::poll(&ready, 1, milliseconds_allowed);
+    const int answer = ::poll(&ready, 1, static_cast<int>(limit.count()));
     if (answer < 0 && errno == EINTR) continue;
-    if (answer <= 0) return fmt::format("it did not finish loading within {} s", milliseconds_allowed / 1000);
+    if (answer <= 0) return fmt::format("it did not finish loading within {} ms", limit.count());
     const auto count = ::read(pipe_end, buffer.data(), buffer.size());
     if (count <= 0) return report;
     report.append(buffer.data(), static_cast<std::size_t>(count));
@@ -74,7 +74,7 @@ int wait_for(pid_t process) {
 
 }  // namespace
 
-void rehearse_loading(const std::filesystem::path& file) {
+void rehearse_loading(const std::filesystem::path& file, std::chrono::milliseconds limit) {
   const std::string name = file.string();
   std::array<int, 2> pipe_ends;
   if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
@@ -86,7 +86,7 @@ void rehearse_loading(const std::filesystem::path& file) {
     ::close(pipe_ends[0]);
     throw PluginError(name, fmt::format("cannot be tried out: {}", std::strerror(errno)));
   }
-  const std::string report = read_report(pipe_ends[0]);
+  const std::string report = read_report(pipe_ends[0], limit);
   ::close(pipe_ends[0]);
   if (report != "ok") ::kill(process, SIGKILL);  // it may still be running
   const int status = wait_for(process);

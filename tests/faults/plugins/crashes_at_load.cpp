@@ -1,0 +1,17 @@
+// A global's constructor is killed by a signal.
+#include <csignal>
+
+#include <trammel/correction.hpp>
+#include <trammel/plugin.hpp>
+
+namespace {
+struct Crash {
+  Crash() { std::raise(SIGKILL); }
+} crash;
+
+struct Idle : trammel::Correction {
+  trammel::Outcome apply(trammel::System&, trammel::State&) override { return trammel::Outcome::accept(); }
+};
+}  // namespace
+
+TRAMMEL_PLUGIN(trammel::correction<Idle>("crashes_at_load", "does nothing"))

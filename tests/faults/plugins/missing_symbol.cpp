@@ -1,0 +1,16 @@
+// Calls a function that nobody defines.
+#include <trammel/correction.hpp>
+#include <trammel/plugin.hpp>
+
+void a_function_that_nobody_defines();
+
+namespace {
+struct Idle : trammel::Correction {
+  trammel::Outcome apply(trammel::System&, trammel::State&) override {
+    a_function_that_nobody_defines();
+    return trammel::Outcome::accept();
+  }
+};
+}  // namespace
+
+TRAMMEL_PLUGIN(trammel::correction<Idle>("missing_symbol", "does nothing"))

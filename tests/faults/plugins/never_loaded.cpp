@@ -1,0 +1,19 @@
+// A global's constructor waits for something that never comes.
+#include <unistd.h>
+
+#include <trammel/correction.hpp>
+#include <trammel/plugin.hpp>
+
+namespace {
+struct Patient {
+  Patient() {
+    for (;;) ::pause();
+  }
+} patient;
+
+struct Idle : trammel::Correction {
+  trammel::Outcome apply(trammel::System&, trammel::State&) override { return trammel::Outcome::accept(); }
+};
+}  // namespace
+
+TRAMMEL_PLUGIN(trammel::correction<Idle>("never_loaded", "does nothing"))

@@ -1,0 +1,11 @@
+// Declares the same name twice.
+#include <trammel/correction.hpp>
+#include <trammel/plugin.hpp>
+
+namespace {
+struct Idle : trammel::Correction {
+  trammel::Outcome apply(trammel::System&, trammel::State&) override { return trammel::Outcome::accept(); }
+};
+}  // namespace
+
+TRAMMEL_PLUGIN(trammel::correction<Idle>("idle", "does nothing"), trammel::correction<Idle>("idle", "nor does this"))

@@ -1,0 +1,61 @@
+#include "plugin/fingerprint.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace trammel::plugin {
+namespace {
+
+using testing::HasSubstr;
+
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+  return text.replace(text.find(what), what.size(), with);
+}
+
+const std::string host = "trammel plugin\nsdk=2.3\ncompiler=gcc 12\neigen=3.4.0\neigen_align=64\n";
+
+TEST(Fingerprint, OfThisProgramFitsItself) {
+  EXPECT_EQ(mismatch(host_fingerprint(), host_fingerprint()), "");
+}
+
+TEST(Fingerprint, NamesWhatEigenAlignmentDependsOn) {
+  EXPECT_THAT(std::string(host_fingerprint()), HasSubstr("\neigen_align=64\neigen_static_align=16\n"));
+}
+
+TEST(Fingerprint, NamesBothValuesOfADifference) {
+  EXPECT_EQ(mismatch(replaced(host, "eigen_align=64", "eigen_align=32"), host),
+            "eigen_align: the plugin has 32, this program 64");
+}
+
+TEST(Fingerprint, NamesEveryDifference) {
+  const std::string plugin = replaced(replaced(host, "gcc 12", "gcc 13"), "3.4.0", "3.3.9");
+  EXPECT_EQ(mismatch(plugin, host),
+            "compiler: the plugin has gcc 13, this program gcc 12; eigen: the plugin has 3.3.9, this program 3.4.0");
+}
+
+TEST(Fingerprint, TakesAPluginOfAnOlderMinorSdk) {
+  EXPECT_EQ(mismatch(replaced(host, "2.3", "2.0"), host), "");
+}
+
+TEST(Fingerprint, RefusesAPluginOfANewerMinorSdk) {
+  EXPECT_EQ(mismatch(replaced(host, "2.3", "2.4"), host), "sdk: the plugin has 2.4, this program 2.3");
+}
+
+TEST(Fingerprint, RefusesAPluginOfAnotherMajorSdk) {
+  EXPECT_EQ(mismatch(replaced(host, "2.3", "1.3"), host), "sdk: the plugin has 1.3, this program 2.3");
+}
+
+TEST(Fingerprint, RefusesAnSdkThatIsNoVersion) {
+  EXPECT_EQ(mismatch(replaced(host, "2.3", "two"), host), "sdk: the plugin has two, this program 2.3");
+}
+
+TEST(Fingerprint, RefusesAMissingLine) {
+  EXPECT_EQ(mismatch(replaced(host, "eigen=3.4.0\n", ""), host), "eigen: the plugin has nothing, this program 3.4.0");
+}
+
+TEST(Fingerprint, RefusesOtherBytes) {
+  EXPECT_THAT(mismatch(std::string("\x7f\0abc", 5), host), HasSubstr("does not start with"));
+}
+
+}  // namespace
+}  // namespace trammel::plugin
