@@ -15,20 +15,18 @@ using namespace trammel;
 
 struct PointMass : Body, ExactTangent, ReactionDerivative, Drawn {
   double mass_ = 0;
-  std::optional<Vec3> position_, velocity_;  // left out: zero, of the scene's dimension
+  Vec3 position_ = Vec3::Zero(2), velocity_ = Vec3::Zero(2);
 
   void prepare(const World& world) override {
     space_ = world.space;
     gravity_ = world.gravity;
-    if (!position_) position_ = Vec3::Zero(dim());
-    if (!velocity_) velocity_ = Vec3::Zero(dim());
   }
 
   Coordinates coordinates() const override { return Coordinates::flat(dim()); }
 
   void initial(Out q, Out v) const override {
-    q = *position_;
-    v = *velocity_;
+    q = position_;
+    v = velocity_;
   }
 
   void mass(double, In, Matrix& M) const override { add_mass(1, M); }
@@ -76,7 +74,5 @@ TRAMMEL_PLUGIN(trammel::body<PointMass>("point_mass", "point with mass, planar o
                    .source("J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994")
                    .parameter("mass", &PointMass::mass_,
                               {.unit = "kg", .min = 0, .above_min = true, .required = true, .doc = "mass"})
-                   .parameter("position", &PointMass::position_,
-                              {.unit = "m", .doc = "at the start; origin if left out"})
-                   .parameter("velocity", &PointMass::velocity_,
-                              {.unit = "m/s", .doc = "at the start; rest if left out"}))
+                   .parameter("position", &PointMass::position_, {.unit = "m", .doc = "at the start"})
+                   .parameter("velocity", &PointMass::velocity_, {.unit = "m/s", .doc = "at the start"}))

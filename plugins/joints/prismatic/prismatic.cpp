@@ -16,21 +16,22 @@ using namespace trammel;
 using Eigen::Vector2d;
 
 struct Prismatic : Joint {
-  Vec3 axis = Vector2d::UnitX();
+  std::optional<Vec3> axis;  // left out: x
   TimeFunction angle;
 
   void prepare(const World& world) override {
     if (world.space != Space::planar)
       throw ParameterError("type", "prismatic is planar; this scene is spatial. Set \"space\": \"planar\"");
-    const double length = axis.stableNorm();
+    axis_ = axis.value_or(Vector2d::UnitX());
+    const double length = axis_.stableNorm();
     if (!(length > 0))
       throw ParameterError("axis", "the axis is zero; expected a direction in marker A's axes, e.g. [1, 0]");
-    axis /= length;
+    axis_ /= length;
   }
   int row_count(Space) const override { return 2; }
 
   void rows(double t, const Motion& A, const Motion& B, Rows& rows) const override {
-    const Vector2d s = A.R * axis;
+    const Vector2d s = A.R * axis_;
     const Vector2d n(-s.y(), s.x());
     const Vector2d d = B.x - A.x;
     const Vector2d d_dot = B.V.head<2>() - A.V.head<2>();
@@ -45,6 +46,9 @@ struct Prismatic : Joint {
     rows.g_t(1) = -offset.rate;
     rows.gamma << omega * (2 * s.dot(d_dot) + omega * n.dot(d)), offset.second;
   }
+
+ private:
+  Vector2d axis_;
 };
 
 }  // namespace
@@ -52,6 +56,7 @@ struct Prismatic : Joint {
 TRAMMEL_PLUGIN(trammel::joint<Prismatic>("prismatic",
                                          "planar slider: B moves along an axis of A and does not turn against it")
                    .source("A. A. Shabana, Dynamics of Multibody Systems: prismatic joint")
-                   .parameter("axis", &Prismatic::axis, {.doc = "direction of sliding in marker A's axes, any length"})
+                   .parameter("axis", &Prismatic::axis,
+                              {.doc = "direction of sliding in marker A's axes, any length; [1, 0] if left out"})
                    .parameter("angle", &Prismatic::angle,
                               {.unit = "rad", .doc = "of B's frame against A's; a number or a law of t"}))
