@@ -21,10 +21,8 @@ Json any_of(Json a, Json b) {
   return {{"anyOf", Json::array({std::move(a), std::move(b)})}};
 }
 
-Json object(Json properties, const std::vector<std::string>& required = {}) {
-  Json schema = {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
-  if (!required.empty()) schema["required"] = required;
-  return schema;
+Json object(Json properties) {
+  return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
 }
 
 Json keyed(Json member) {
@@ -88,27 +86,28 @@ Json default_value(const Entry& entry, const Parameter& parameter) {
 
 Json schema_of(const Entry& entry, const Parameter& parameter) {
   Json schema = type_of(parameter);
-  const std::string unit = parameter.traits.unit;
-  std::string description = parameter.traits.doc;
-  if (!unit.empty() && unit != "1") description += fmt::format("{}[{}]", description.empty() ? "" : " ", unit);
+  const ParameterTraits& traits = parameter.traits;
+  std::vector<std::string> notes;
+  if (*traits.doc) notes.push_back(traits.doc);
+  if (const std::string unit = traits.unit; !unit.empty() && unit != "1") notes.push_back("[" + unit + "]");
+  if (traits.required) notes.push_back("(required)");
+  const std::string description = fmt::format("{}", fmt::join(notes, " "));
   schema = with(std::move(schema), description);
-  if (!parameter.traits.required)
+  if (!traits.required)
     if (Json value = default_value(entry, parameter); !value.is_null()) schema["default"] = std::move(value);
   return schema;
 }
 
 // Puts a parameter's schema into the nested object that its dotted name says.
-void place(Json& object_schema, const std::string& dotted, Json schema, bool required) {
+void place(Json& object_schema, const std::string& dotted, Json schema) {
   const auto dot = dotted.find('.');
-  const std::string key = dotted.substr(0, dot);
+  Json& member = object_schema["properties"][dotted.substr(0, dot)];
   if (dot == std::string::npos) {
-    object_schema["properties"][key] = std::move(schema);
-    if (required) object_schema["required"].push_back(key);
+    member = std::move(schema);
     return;
   }
-  Json& inner = object_schema["properties"][key];
-  if (inner.is_null()) inner = object(Json::object());
-  place(inner, dotted.substr(dot + 1), std::move(schema), required);
+  if (member.is_null()) member = object(Json::object());
+  place(member, dotted.substr(dot + 1), std::move(schema));
 }
 
 Json schema_of(const Entry& entry) {
@@ -116,11 +115,8 @@ Json schema_of(const Entry& entry) {
   Json properties = Json::object();
   for (const std::string& key : framework_keys(declaration.kind))
     properties[key] = key == "type" ? Json{{"const", declaration.name}} : reference(key);
-  Json schema = with(object(std::move(properties), {"type"}), declaration.summary);
-  if (declaration.kind == Kind::integrator) schema["required"].push_back("step");
-  if (declaration.kind == Kind::joint || declaration.kind == Kind::contact) schema["required"].push_back("between");
-  for (const Parameter& parameter : declaration.parameters)
-    place(schema, parameter.name, schema_of(entry, parameter), parameter.traits.required);
+  Json schema = with(object(std::move(properties)), declaration.summary);
+  for (const Parameter& parameter : declaration.parameters) place(schema, parameter.name, schema_of(entry, parameter));
   return schema;
 }
 
@@ -138,7 +134,7 @@ Json choice_of(Kind kind, const std::vector<const Entry*>& entries) {
     cases.push_back({{"if", {{"properties", {{"type", {{"const", declaration.name}}}}}, {"required", {"type"}}}},
                      {"then", reference(definition(declaration))}});
   }
-  Json schema = {{"type", "object"}, {"required", {"type"}}};
+  Json schema = {{"type", "object"}};
   if (names.empty()) return schema;
   schema["properties"] = {{"type", {{"enum", std::move(names)}}}};
   schema["allOf"] = std::move(cases);
@@ -165,10 +161,8 @@ void define_common(Json& definitions) {
   definitions["marker"] = with(any_of({{"type", "string"}}, std::move(frame)),
                                "\"ground\", a body's marker such as \"beam.tip\", or a frame fixed in the world");
   definitions["on"] = reference("marker");
-  Json plane =
-      object({{"point", reference("vector")}, {"normal", reference("vector")}, {"on", reference("marker")}}, {"point"});
-  plane["required"].push_back("normal");
-  definitions["between"] = array_of(any_of(reference("marker"), object({{"plane", std::move(plane)}}, {"plane"})));
+  Json plane = object({{"point", reference("vector")}, {"normal", reference("vector")}, {"on", reference("marker")}});
+  definitions["between"] = array_of(any_of(reference("marker"), object({{"plane", std::move(plane)}})));
   definitions["between"]["minItems"] = 2;
   definitions["between"]["maxItems"] = 2;
   Json controlled = object({{"tolerance", reference("positive")},
@@ -209,7 +203,7 @@ std::string schema(const std::vector<const Entry*>& entries) {
   properties["integrator"] = reference("integrator");
   properties["initial"] = object({{"consistent", {{"enum", {"check", "project"}}}}});
   properties["simulate"] =
-      object({{"start", number}, {"until", number}, {"chatter_steps", number}, {"event_limit", positive}}, {"until"});
+      object({{"start", number}, {"until", number}, {"chatter_steps", number}, {"event_limit", positive}});
   properties["record"] = object({{"every", positive}, {"observe", keyed(text)}});
   properties["corrections"] =
       object({{"position", correction(entries)}, {"velocity", correction(entries)}, {"energy", {{"type", "boolean"}}}});
