@@ -13,17 +13,18 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 double largest(const Vec& x) {
   return x.size() ? x.lpNorm<Eigen::Infinity>() : 0;
 }
+// Near the smallest normal numbers (a motion damped out) nothing is left to be relative to.
 double relative(double change, double size) {
-  return change == 0 ? 0 : change / size;
+  return change / (size + 1e-280);
 }
 
 }  // namespace
 
 void NewmarkStep::begin(const System& s, const State& now, double h, double c_q, double c_v, State& next) {
   const Sizes sizes = s.sizes();
-  h_ = h, c_q_ = c_q, c_v_ = c_v;
-  size_q_ = largest(now.q) + h * largest(now.v);
-  size_v_ = largest(now.v) + h * largest(now.a);
+  c_q_ = c_q, c_v_ = c_v;
+  size_q_ = largest(now.q) + h * largest(now.v) + h * h * largest(now.a) + largest(dq);
+  size_v_ = largest(now.v) + h * largest(now.a) + largest(v);
   pi_.setZero(sizes.nv);
   zero_.setZero(sizes.nv);
   next.t = now.t + h;
@@ -63,6 +64,9 @@ bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
   next.a += da_;
   next.lambda += dlambda_;
   pi_ += dpi_;
+  const double da = largest(da_), a = largest(next.a);
+  change_q_ = relative(c_q_ * da + largest(dpi_), size_q_ + c_q_ * a);
+  change_v_ = relative(c_v_ * da, size_v_ + c_v_ * a);
   return true;
 }
 
@@ -71,19 +75,21 @@ void NewmarkStep::correct(System& s, Blend blend, const Vec& r, State& next) {
   if (!correct_rows(s, r, next)) return newton.fail("the iteration matrix is singular");
   if (!next.a.allFinite() || !next.lambda.allFinite()) return newton.fail("Newton's iteration left the finite numbers");
 
-  const double da = largest(da_);
-  const double change_q = c_q_ * da + largest(dpi_), change_v = c_v_ * da;
-  const double size_q = size_q_ + c_q_ * largest(next.a), size_v = size_v_ + c_v_ * largest(next.a);
-  const bool at_round_off = change_q <= 64 * eps * size_q || largest(r) <= 64 * eps * largest(s.f());
-  newton.judge(std::max(relative(change_q, size_q), relative(change_v, size_v)), at_round_off);
+  const bool at_round_off = change_q_ <= 64 * eps || largest(r) <= 64 * eps * largest(s.f());
+  newton.judge(std::max(change_q_, change_v_), at_round_off);
 }
 
 Outcome NewmarkStep::finish(System& s, const State& now, State& next) {
   if (!newton.converged()) return newton.outcome();
   if (s.sizes().nc > 0) {
-    // The rows' own last increment costs no force.
-    move(s, now, next);
-    if (!correct_rows(s, zero_, next)) return Outcome::reject("the iteration matrix is singular");
+    // The rows alone cost no force. They converge as the iteration did.
+    double change = 0;
+    int passes = 0;
+    do {
+      move(s, now, next);
+      if (!correct_rows(s, zero_, next)) return Outcome::reject("the iteration matrix is singular");
+      change = formulation == Formulation::index3 ? change_q_ : std::max(change_q_, change_v_);
+    } while (change * newton.rate() > eps && ++passes < 4);
     // Rows of position divide their round-off by h^2. Where that is no longer small beside the velocity, say so.
     const double noise = eps * size_q_ * c_v_ / std::max(c_q_, std::numeric_limits<double>::min());
     if (formulation == Formulation::index3 && noise > 1e-3 * size_v_)

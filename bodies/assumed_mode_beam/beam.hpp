@@ -1,0 +1,117 @@
+// A slender beam by assumed modes: a floating frame at the root that turns by theta, axial and transverse cantilever modes,
+// and the foreshortening that bending brings with it.
+//
+//     r = o + R(theta) (r_h + x + u_x, u_y),    u_x = Phi_x A - 1/2 B^T H(x) B,    u_y = Phi_y B
+//     q = ([o_x, o_y,] [theta,] A_1..A_n, B_1..B_N)        o only for mount "free", theta not for mount "clamped"
+//
+// Guo, Zhang, Chen, Acta Physica Sinica 66, 164501 (2017), eqs (1) to (4), here by the acceleration of the material:
+//
+//     M = int rho S J^T J dx,    f = -int rho S J^T (alpha - gravity) dx - (0, 0, K1 A, K2 B),
+//
+// J = (d r / d q) and alpha the acceleration at v' = 0, both in the beam's axes. Euler-Bernoulli; no rotary inertia of the
+// cross section; axial strain is that of Phi_x A alone.
+//
+// `coupling` says what deformation and overall motion know of each other:
+//     full     the above
+//     linear   without foreshortening (H = 0): wrong beyond slow rotation, where it misses the geometric stiffening
+//     none     the inertia of the undeformed beam: a constant mass matrix, no gyroscopic terms
+// Each is the Lagrangian system of its own kinetic energy, so each conserves energy.
+#pragma once
+
+#include <optional>
+
+#include <trammel/body.hpp>
+#include <trammel/parameters.hpp>
+#include <trammel/time_function.hpp>
+
+#include "field.hpp"
+
+namespace trammel::beam {
+
+enum class Coupling { none, linear, full };
+
+class AssumedModeBeam final : public Body,
+                              public ExactTangent,
+                              public ReactionDerivative,
+                              public Observed,
+                              public Drawn {
+ public:
+  // Parameters; see the declaration in plugin.cpp.
+  double length = 1, area = 0, second_moment = 0, density = 0, youngs_modulus = 0;
+  int axial_modes = 0, transverse_modes = 0;
+  Coupling coupling = Coupling::full;
+  std::optional<Vec3> hinge, clamped, free;
+  double angle = 0, angular_velocity = 0;
+  Vec3 velocity;
+  double hub_inertia = 0, hub_radius = 0;
+  TimeFunction torque;
+  Named<double> extra_markers;
+  std::vector<double> axial, transverse, axial_rate, transverse_rate;
+
+  AssumedModeBeam();
+  void prepare(const World& world) override;
+
+  Coordinates coordinates() const override { return Coordinates::flat(n_); }
+  void initial(Out q, Out v) const override;
+  void mass(double t, In q, Matrix& M) const override;
+  bool mass_is_constant() const override { return coupling == Coupling::none; }
+  void force(double t, In q, In v, Out f) const override;
+  Energy energy(double t, In q, In v) const override;
+  Power power(double t, In q, In v) const override;
+  std::span<const std::string> markers() const override { return marker_names_; }
+  void motion(int marker, double t, In q, In v, Motion& motion) const override;
+
+  void add_tangent(double t, In q, In v, In a, Blend c, Matrix& S) const override;
+  void add_reaction_derivative(int marker, double t, In q, const Wrench& F, double c, Matrix& S) const override;
+
+  std::span<const std::string> observables() const override { return observable_names_; }
+  double observe(int observable, double t, In q, In v) const override;
+  void shape(double t, In q, Mat& points) const override;
+
+ private:
+  using Local = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * most_modes + 3, 2 * most_modes + 3>;
+  // Where things stand in q and v; -1: not there.
+  int i_o_ = -1, i_theta_ = -1, i_A_ = 0, i_B_ = 0, n_ = 0;
+
+  double theta(In q) const { return i_theta_ >= 0 ? q(i_theta_) : angle; }
+  double omega(In v) const { return i_theta_ >= 0 ? v(i_theta_) : 0; }
+  Eigen::Vector2d gravity_in_beam(double theta) const;
+  Eigen::Vector2d origin(In q) const;
+
+  template <bool foreshortening>
+  void add_mass(In q, Local& M) const;
+  template <bool foreshortening>
+  void add_force(In q, In v, Out f) const;
+  template <bool foreshortening>
+  void add_tangent_of(In q, In v, In a, Blend c, Local& S) const;
+  // coupling none
+  void add_uncoupled_mass(Local& M) const;
+  void add_uncoupled_force(In q, Out f) const;
+  void add_uncoupled_tangent(In q, Blend c, Local& S) const;
+  void add_local_mass(In q, Local& M) const;
+  double potential(In q) const;
+  void check_amplitudes(const char* name, const std::vector<double>& given, int modes) const;
+  // Position (X, Y), slope of u_y and p at one station of the marker table.
+  struct Station {
+    double X, Y, slope;
+    double p[most_modes];
+  };
+  Station station(const ShapeTable& table, int k, In q) const;
+
+  Eigen::Vector2d gravity_ = Eigen::Vector2d::Zero();
+  Shape shape_;
+  std::optional<ShapeTable> table_;    // quadrature stations, weights times rho S
+  std::optional<ShapeTable> markers_;  // at the markers
+  std::optional<ShapeTable> outline_;  // for drawing
+  double mass_ = 0;                    // rho S L
+  double S0_ = 0, I0_ = 0;             // int (r_h + x) dm, int (r_h + x)^2 dm
+  Vec Sx_, Sy_;                        // int Phi_x dm, int Phi_y dm
+  Vec Dx_, Dy_;                        // int (r_h + x) Phi dm
+  Mat Mxy_;                            // int Phi_x^T Phi_y dm
+  std::vector<Mat> D_;                 // D_[i](j, m) = int Phi_x,i H_jm dm
+  std::vector<Mat> F_;                 // F_[i](j, m) = int Phi_y,i H_jm dm
+  Vec K1_, K2_;
+  std::vector<std::string> marker_names_, observable_names_;
+};
+
+}  // namespace trammel::beam
