@@ -48,8 +48,9 @@ class NewmarkStep {
   void update(const System& s, const State& now, State& next);
   bool correct_rows(System& s, const Vec& r, State& next);
 
-  double h_ = 0, c_q_ = 0, c_v_ = 0;
-  double size_q_ = 0, size_v_ = 0;  // of the unknowns, for relative changes
+  double c_q_ = 0, c_v_ = 0;
+  double size_q_ = 0, size_v_ = 0;      // of q and v
+  double change_q_ = 0, change_v_ = 0;  // by the last increment, relative to them
   Vec pi_, increment_, da_, dlambda_, rc_, zero_, dpi_, mu_;
 };
 

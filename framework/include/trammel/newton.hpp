@@ -30,6 +30,7 @@ class Newton {
   // After an increment of relative size `change` was applied. `at_round_off`: a further one could not be more than
   // noise.
   void judge(double change, bool at_round_off);
+  double rate() const { return rate_; }  // theta of the last two increments; 1 if there was one only
   void fail(const char* reason);
   Outcome outcome() const { return converged() ? Outcome::accept() : Outcome::reject(reason_); }
 
@@ -38,7 +39,7 @@ class Newton {
   State state_ = State::failed;
   bool wants_factors_ = true;
   int iterations_ = 0;
-  double last_change_ = 0;
+  double last_change_ = 0, rate_ = 1;
   const char* reason_ = "Newton's iteration was not run";
 };
 

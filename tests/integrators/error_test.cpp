@@ -1,0 +1,130 @@
+// Error estimates shrink with the order claimed and are near the true local error; dense output has its order.
+#include "support.hpp"
+#include "systems.hpp"
+
+namespace trammel::test {
+namespace {
+
+struct Estimated {
+  Form form;
+  double h;  // of the largest step
+};
+class ErrorEstimated : public testing::TestWithParam<Estimated> {};
+
+TEST_P(ErrorEstimated, ShrinksWithItsOrder) {
+  double claimed = 0;  // of the last trial: Adams' own differs from that of its starter
+  const Fit f = fit(1, 4, [&](int n) {
+    Pendulum s;
+    auto method = make(GetParam().form.name, GetParam().form.settings);
+    auto& estimate = dynamic_cast<ErrorEstimate&>(*method);
+    const double h = GetParam().h / n;
+    const State start = s.start();
+    method->restart(s, start);
+    const State now = advance(*method, s, start, h, 5 * n);  // to the same time; a history is filled
+    State next;
+    if (!method->step(s, now, h, next)) throw std::runtime_error("rejected");
+    claimed = estimate.error_order();
+    return estimate.error(s, now, next, {.relative = 0, .absolute = 1});
+  });
+  EXPECT_NEAR(f.order, claimed, 0.35) << f.table;
+}
+
+TEST_P(ErrorEstimated, IsTheTrueLocalErrorWithinAFactorOfTen) {
+  // Embedded pairs estimate the error of the lower order: an upper bound.
+  Oscillators s({1, 2}, 0.1);
+  auto method = make(GetParam().form.name, GetParam().form.settings);
+  auto& estimate = dynamic_cast<ErrorEstimate&>(*method);
+  const State start = s.start();
+  method->restart(s, start);
+  const double h = GetParam().h;
+  State now = advance(*method, s, start, h, 5), next;
+  ASSERT_TRUE(method->step(s, now, h, next));
+  const double estimated = estimate.error(s, now, next, {.relative = 0, .absolute = 1});
+  // The exact flow from `now`: by dop853 in 50 steps.
+  auto fine = make("dop853");
+  const State exact = run(*fine, s, now, now.t + h, 50);
+  const double error = std::sqrt(((next.q - exact.q).squaredNorm() + (next.v - exact.v).squaredNorm()) / 4);
+  EXPECT_GE(estimated, error / 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Integrators, ErrorEstimated,
+    testing::Values(Estimated{{"hht_alpha", {{"alpha", -0.1}}}, 0.02}, Estimated{{"hht_alpha", {{"alpha", 0.0}}}, 0.02},
+                    Estimated{{"newmark", {}}, 0.02}, Estimated{{"newmark", {{"beta", 0.3025}, {"gamma", 0.6}}}, 0.02},
+                    Estimated{{"generalized_alpha", {{"rho_inf", 0.8}}}, 0.02},
+                    Estimated{{"adams_baumgarte", {{"epsilon", 10.0}}}, 0.01},
+                    Estimated{{"adams_baumgarte", {{"predictor", std::string("ab3")}, {"epsilon", 10.0}}}, 0.01},
+                    Estimated{{"runge_kutta_4", {}}, 0.04}, Estimated{{"dormand_prince", {}}, 0.04},
+                    Estimated{{"dop853", {}}, 0.16}),
+    [](const testing::TestParamInfo<Estimated>& tested) {
+      return tested.param.form.name + "_" + std::to_string(tested.index);
+    });
+
+TEST(NewmarkError, AlsoMeasuresTheFirstStepAfterARestart) {
+  Oscillators s({2});
+  auto method = make("newmark");
+  auto& estimate = dynamic_cast<ErrorEstimate&>(*method);
+  const State start = s.start();
+  State next;
+  const double h = 1e-2;
+  method->restart(s, start);
+  ASSERT_TRUE(method->step(s, start, h, next));
+  const double estimated = estimate.error(s, start, next, {.relative = 0, .absolute = 1});
+  // From rest at q = 1: e_v = h^3/12 v''' = h^3/12 omega^4 q, e_q is of the next order; over two components.
+  EXPECT_NEAR(estimated / (h * h * h / 12 * 16 / std::sqrt(2.0)), 1,
+              0.02);  // next term: (omega h)^2 and the difference's h/1000
+}
+
+struct Dense {
+  std::string name;
+  int order, n;
+};
+class DenseOutputOf : public testing::TestWithParam<Dense> {};
+
+TEST_P(DenseOutputOf, HasItsOrderInsideTheStep) {
+  Oscillators s({1, 2}, 0.1);
+  const Fit f = fit(GetParam().n, 4, [&](int n) {
+    auto method = make(GetParam().name);
+    auto& dense = dynamic_cast<DenseOutput&>(*method);
+    State now = s.start(), next, at;
+    method->restart(s, now);
+    const double h = 2.0 / n;
+    double error = 0;
+    for (int i = 0; i < n; ++i) {
+      if (!method->step(s, now, h, next)) throw std::runtime_error("rejected");
+      for (const double theta : {0.2, 0.5, 0.7}) {
+        dense.interpolate(s, now, next, theta, at);
+        const State exact = s.exact(at.t);
+        error = std::max(error, (at.q - exact.q).norm() + (at.v - exact.v).norm());
+      }
+      method->accept(s, next);
+      std::swap(now, next);
+    }
+    return error;
+  });
+  // Locally of one order more; summed up over the run the method's own error, of one order more as well, may mix in.
+  EXPECT_GE(f.order, GetParam().order + 0.7) << f.table;
+  EXPECT_LE(f.order, GetParam().order + 1.3) << f.table;
+}
+
+TEST_P(DenseOutputOf, MeetsTheStepAtItsEnds) {
+  Pendulum s;
+  auto method = make(GetParam().name);
+  auto& dense = dynamic_cast<DenseOutput&>(*method);
+  const State now = s.start();
+  State next, at;
+  method->restart(s, now);
+  ASSERT_TRUE(method->step(s, now, 0.05, next));
+  dense.interpolate(s, now, next, 0, at);
+  EXPECT_TRUE(same_bits(at.q, now.q) && same_bits(at.v, now.v));
+  dense.interpolate(s, now, next, 1, at);
+  EXPECT_LE((at.q - next.q).norm() + (at.v - next.v).norm(), 2e-15);  // one rounding of a sum
+  EXPECT_NEAR(at.t, next.t, 1e-16);
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, DenseOutputOf,
+                         testing::Values(Dense{"dormand_prince", 4, 20}, Dense{"dop853", 7, 4}),
+                         [](const testing::TestParamInfo<Dense>& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace trammel::test
