@@ -134,7 +134,7 @@ void AssembledSystem::add_reaction(double c, const Vec& lambda, Vec& r) {
 
 void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
   Work& w = *work_;
-  if (!w.factorise_mass(w.at_point)) throw std::runtime_error("the mass matrix is not positive definite");
+  if (!w.factorise_mass(w.at_point)) throw NotSolvable("the mass matrix is not positive definite");
   w.right = w.force();
   w.right_rows = w.gamma - 2 * s.alpha * w.g_dot - s.beta * s.beta * w.g;
   w.at_point.mass.solve(w.right, w.right_rows, a, lambda);
@@ -145,7 +145,7 @@ void AssembledSystem::factorise(Blend blend, const Vec& a, const Vec& lambda, Fa
   Work::Kept& kept = w.kept[std::size_t(which)];
   kept.mass_only = blend.c_m == 1 && blend.c_d == 0 && blend.c_k == 0;
   if (kept.mass_only) {
-    if (!w.factorise_mass(kept)) throw std::runtime_error("the mass matrix is not positive definite");
+    if (!w.factorise_mass(kept)) throw NotSolvable("the mass matrix is not positive definite");
     return;
   }
   w.evaluate_rows();
@@ -156,6 +156,7 @@ void AssembledSystem::factorise(Blend blend, const Vec& a, const Vec& lambda, Fa
 
 bool AssembledSystem::correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda, Factors which) {
   Work& w = *work_;
+  if (which == Factors::iteration) ++w.counts.newton_iterations;
   Work::Kept& kept = w.kept[std::size_t(which)];
   w.right = -r;
   w.right_rows = -rc;
@@ -207,7 +208,7 @@ void AssembledSystem::impulse_response(const std::vector<int>& contacts, Mat& ju
   const auto n = Eigen::Index(contacts.size());
   numerics::MassKkt held;
   if (!held.factorise(w.mass(), w.G.topRows(w.model->sizes.nc)))
-    throw std::runtime_error("the mass matrix is not positive definite");
+    throw NotSolvable("the mass matrix is not positive definite");
   const Vec no_rows = Vec::Zero(w.model->sizes.nc);
   Mat N = Mat::Zero(w.sizes.nv, n);
   jump.resize(w.sizes.nv, n);

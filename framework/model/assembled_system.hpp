@@ -2,11 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <trammel/system.hpp>
 
 #include "model/model.hpp"
+#include "plugin/guard.hpp"
 
 namespace trammel::model {
 
@@ -26,9 +29,16 @@ struct Counts {
   long long residual_evaluations = 0;  // evaluations of f
   long long jacobian_evaluations = 0;  // of the iteration matrix
   long long factorizations = 0;
+  long long newton_iterations = 0;  // solves with the iteration matrix
 };
 
-// The component and method that were called last: who to name when a plugin throws.
+// The equations of motion have no solution at a point: a fault of the scene, not of a plugin that asked for it.
+class NotSolvable : public std::runtime_error, public plugin::PassesThroughPlugins {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// The component and method that are being called: who to name when one of them throws. No component: none is.
 struct CallSite {
   const std::string* component = nullptr;  // name in the scene, "bodies.beam"
   const char* call = "";

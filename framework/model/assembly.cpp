@@ -34,6 +34,7 @@ const Mat& AssembledSystem::Work::mass() {
     target.origin(entry.v0, entry.v0);
     entry.body->mass(t, q.segment(entry.q0, entry.nq), target);
   }
+  returned();
   mass_fresh = true;
   return M;
 }
@@ -67,6 +68,7 @@ const Vec& AssembledSystem::Work::force() {
     chain.add_wrench(A, r.H_A.row(0).transpose(), N, f);
     chain.add_wrench(B, r.H_B.row(0).transpose(), N, f);
   }
+  returned();
   force_fresh = true;
   return f;
 }
@@ -78,6 +80,7 @@ const Rows& AssembledSystem::Work::contact(int i) {
     called(model->contacts[std::size_t(i)].name, "motion");
     cache.rows.resize(1, model->world.space);
     model::contact_rows(model->contacts[std::size_t(i)].geometry, motion(A), motion(B), false, cache.rows);
+    returned();
     cache.point = point;
   }
   return cache.rows;
@@ -115,6 +118,7 @@ void AssembledSystem::Work::evaluate_rows() {
     place(contact(int(i)), contact_slots[i], row);
     g(row) -= modes.contacts[i].offset;
   }
+  returned();
   rows_fresh = true;
 }
 
@@ -237,6 +241,7 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
     chain.add_reaction_derivative(A, t, q, r.H_A.row(0).transpose(), c.c_k * pull, S);
     chain.add_reaction_derivative(B, t, q, r.H_B.row(0).transpose(), c.c_k * pull, S);
   }
+  returned();
 }
 
 bool AssembledSystem::Work::factorise_mass(Kept& store) {

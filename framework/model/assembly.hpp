@@ -41,6 +41,7 @@ struct AssembledSystem::Work {
   bool factorise_mass(Kept& kept);
 
   void called(const std::string& component, const char* call) { site = {&component, call}; }
+  void returned() { site.component = nullptr; }
 
   std::shared_ptr<const Model> model;
   MarkerChain chain;

@@ -24,6 +24,7 @@ Energy AssembledSystem::energy() {
       w.called(w.model->contacts[i].name, "potential");
       sum.elastic += w.model->contacts[i].force->potential(w.contact(int(i)).g(0));
     }
+  w.returned();
   return sum;
 }
 
@@ -55,6 +56,7 @@ AssembledSystem::Balance AssembledSystem::balance(const Vec& lambda) {
     w.evaluate_rows();
     sum.constraints = -lambda.dot(w.G * w.v);
   }
+  w.returned();
   return sum;
 }
 

@@ -18,10 +18,10 @@ struct Progress {
 };
 
 struct RunOptions {
-  std::filesystem::path out;                        // results folder, made if missing
-  bool resume = false;                              // continue from out/checkpoint.cbor
-  std::atomic<bool>* interrupt = nullptr;           // set by a signal handler: stop after this step, keep everything
-  std::function<void(const Progress&)> progress;    // called about ten times a second of wall-clock time
+  std::filesystem::path out;                      // results folder, made if missing
+  bool resume = false;                            // continue from out/checkpoint.cbor
+  std::atomic<bool>* interrupt = nullptr;         // set by a signal handler: stop after this step, keep everything
+  std::function<void(const Progress&)> progress;  // called about ten times a second of wall-clock time
 };
 
 enum class Status { done, failed, interrupted };
@@ -30,7 +30,7 @@ struct RunReport {
   Status status = Status::done;
   std::string reason;       // why it failed: time, step and cause
   std::string result_json;  // as written to out/result.json
-  std::string summary;      // a few lines for a person: what was simulated, impacts, energy by cause, norms, cost, where
+  std::string summary;  // a few lines for a person: what was simulated, impacts, energy by cause, norms, cost, where
 };
 
 // Throws scene::SceneError for bad input, plugin::PluginError for a plugin that misbehaves (results so far are kept).

@@ -1,0 +1,217 @@
+#include "model/build.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "model/scene_keys.hpp"
+#include "plugin/parameters.hpp"
+
+namespace trammel::model {
+namespace {
+
+using plugin::Made;
+using plugin::Registry;
+using scene::Problems;
+using scene::Value;
+
+class Builder {
+ public:
+  Builder(const Value& root, Registry& registry, Problems& problems)
+      : root_(root), registry_(registry), problems_(problems), model_(std::make_shared<Model>()) {}
+
+  std::shared_ptr<Model> build() {
+    check_keys(root_,
+               {"trammel", "title", "description", "plugins", "space", "gravity", "parameters", "bodies", "joints",
+                "forces", "contacts", "integrator", "corrections", "initial", "simulate", "record"},
+               problems_);
+    read_version();
+    read_world();
+    each("bodies", [this](const std::string& name, const Value& value) { add_body(name, value); });
+    if (model_->bodies.empty() && problems_.empty()) problems_.error(root_.problem("the scene has no bodies"));
+    each("joints", [this](const std::string& name, const Value& value) { add_joint(name, value); });
+    each("forces", [this](const std::string& name, const Value& value) { add_force(name, value); });
+    each("contacts", [this](const std::string& name, const Value& value) { add_contact(name, value); });
+    model_->lay_out();
+    return model_;
+  }
+
+ private:
+  void read_version() {
+    const Value* version = root_.find("trammel");
+    if (!version) return problems_.error(root_.problem("\"trammel\": 1 is missing: the version of the scene format"));
+    const auto number = version->read_integer(problems_);
+    if (number && *number != 1)
+      problems_.error(version->problem(fmt::format("found version {} of the scene format, expected 1", *number)));
+  }
+
+  void read_world() {
+    if (const Value* space = root_.find("space")) {
+      const auto text = space->read_text(problems_);
+      if (text && *text != "planar" && *text != "spatial")
+        problems_.error(space->problem(fmt::format("found \"{}\", expected \"planar\" or \"spatial\"", *text)));
+      if (text && *text == "spatial") model_->world.space = Space::spatial;
+    }
+    const Space space = model_->world.space;
+    model_->world.gravity = Vec3::Zero(dimension(space));
+    if (const Value* gravity = root_.find("gravity"))
+      if (const auto g = read_vector(*gravity, space, problems_)) model_->world.gravity = *g;
+    model_->ground_frames[0].x = Vec3::Zero(dimension(space));
+  }
+
+  template <class Add>
+  void each(const char* group, Add add) {
+    const Value* objects = root_.find(group);
+    if (!objects) return;
+    if (objects->type() != Value::Type::object)
+      return problems_.error(
+          objects->problem(fmt::format("found {}, expected an object keyed by name", objects->type_name())));
+    for (const auto& [name, value] : objects->members()) {
+      if (name.empty() || name.find_first_of(".,\"\n\r") != std::string::npos)
+        problems_.error(value.problem(
+            fmt::format("\"{}\" cannot be a name: names are not empty and have no dot, comma or quote", name)));
+      else if (value.type() != Value::Type::object)
+        problems_.error(value.problem(fmt::format("found {}, expected an object with \"type\"", value.type_name())));
+      else
+        add(name, value);
+    }
+  }
+
+  void add_body(const std::string& name, const Value& value) {
+    for (const char* reserved : {"ground", "energy", "contacts", "joints"})
+      if (name == reserved)
+        problems_.error(value.problem(fmt::format("a body cannot be called \"{}\": observables use this name", name)));
+    auto [body, origin] = plugin::make<Body>(registry_, Kind::body, value, model_->world, problems_);
+    if (!body) {
+      missing_bodies_ = true;
+      return;
+    }
+    BodyEntry entry;
+    entry.name = name;
+    entry.tangent = dynamic_cast<const ExactTangent*>(body.get());
+    entry.reaction_derivative = dynamic_cast<const ReactionDerivative*>(body.get());
+    entry.observed = dynamic_cast<const Observed*>(body.get());
+    entry.drawn = dynamic_cast<const Drawn*>(body.get());
+    entry.body = std::move(body);
+    model_->bodies.push_back(std::move(entry));
+  }
+
+  // A marker; while a body is missing because of other problems, unknown names would be false alarms.
+  std::optional<MarkerRef> marker(const Value& value) {
+    if (!missing_bodies_) return read_marker(value, *model_, problems_);
+    Problems ignored;
+    return read_marker(value, *model_, ignored);
+  }
+
+  // The two entries of "between"; nullptr: reported.
+  const scene::Items* between(const Value& object) {
+    const Value* pair = object.find("between");
+    if (!pair) {
+      problems_.error(object.problem("\"between\": [A, B] is missing: the two markers it acts between"));
+      return nullptr;
+    }
+    if (pair->type() != Value::Type::array || pair->items().size() != 2) {
+      problems_.error(pair->problem("expected two entries: \"between\": [A, B]"));
+      return nullptr;
+    }
+    return &pair->items();
+  }
+
+  void add_joint(const std::string& name, const Value& value) {
+    auto [joint, origin] = plugin::make<Joint>(registry_, Kind::joint, value, model_->world, problems_);
+    const scene::Items* pair = between(value);
+    if (!pair) return;
+    const auto A = marker((*pair)[0]), B = marker((*pair)[1]);
+    if (!joint || !A || !B) return;
+    JointEntry entry;
+    entry.name = name;
+    entry.joint = std::move(joint);
+    entry.A = *A, entry.B = *B;
+    model_->joints.push_back(std::move(entry));
+  }
+
+  void add_force(const std::string& name, const Value& value) {
+    auto [force, origin] = plugin::make<Force>(registry_, Kind::force, value, model_->world, problems_);
+    std::optional<MarkerRef> A, B;
+    if (const Value* on = value.find("on")) {
+      if (value.find("between")) problems_.error(on->problem("give either \"on\" or \"between\", not both"));
+      A = MarkerRef{}, B = marker(*on);
+    } else if (!value.find("between")) {
+      problems_.error(value.problem("give \"between\": [A, B], or \"on\": A for a force from outside"));
+    } else if (const scene::Items* pair = between(value)) {
+      A = marker((*pair)[0]), B = marker((*pair)[1]);
+    }
+    if (!force || !A || !B) return;
+    ForceEntry entry;
+    entry.name = name;
+    entry.force = std::move(force);
+    entry.A = *A, entry.B = *B;
+    model_->forces.push_back(std::move(entry));
+  }
+
+  // {"plane": {"point": [..], "normal": [..], "on": marker}}: point and normal in the marker's axes.
+  bool read_plane(const Value& value, ContactEntry& entry) {
+    const Value* plane = value.find("plane");
+    if (!plane) {
+      problems_.error(
+          value.problem("expected {\"plane\": {\"point\": ..., \"normal\": ...}} as the second of \"between\""));
+      return false;
+    }
+    check_keys(value, {"plane"}, problems_);
+    if (!check_keys(*plane, {"point", "normal", "on"}, problems_)) return false;
+    for (const char* key : {"point", "normal"})
+      if (!plane->find(key)) problems_.error(plane->problem(fmt::format("\"{}\" is missing", key)));
+    if (const Value* on = plane->find("on")) {
+      const auto B = marker(*on);
+      if (!B) return false;
+      entry.B = *B;
+    }
+    if (!plane->find("point") || !plane->find("normal")) return false;
+    const auto point = read_vector(*plane->find("point"), model_->world.space, problems_);
+    const auto normal = read_vector(*plane->find("normal"), model_->world.space, problems_);
+    if (!point || !normal) return false;
+    const double length = normal->stableNorm();
+    if (!(length > 0)) {
+      problems_.error(
+          plane->find("normal")->problem("the normal has length 0; expected the direction of the free side"));
+      return false;
+    }
+    entry.geometry.point = *point;
+    entry.geometry.normal = *normal / length;
+    return true;
+  }
+
+  void add_contact(const std::string& name, const Value& value) {
+    ContactEntry entry;
+    entry.name = name;
+    auto [law, origin] = plugin::make<Component>(registry_, Kind::contact, value, model_->world, problems_);
+    if (const Value* friction = value.find("friction"))
+      entry.friction = plugin::make<Friction>(registry_, Kind::friction, *friction, model_->world, problems_).component;
+    const scene::Items* pair = between(value);
+    if (!pair) return;
+    const auto A = marker((*pair)[0]);
+    if (!read_plane((*pair)[1], entry) || !A || !law) return;
+    entry.A = *A;
+    entry.restitution = dynamic_cast<const Restitution*>(law.get());
+    entry.force = dynamic_cast<const ContactForce*>(law.get());
+    if (!entry.restitution == !entry.force)
+      throw plugin::PluginError(origin, "load", "a contact law is either a Restitution or a ContactForce, exactly one");
+    entry.law = std::move(law);
+    model_->contacts.push_back(std::move(entry));
+  }
+
+  const Value& root_;
+  Registry& registry_;
+  Problems& problems_;
+  std::shared_ptr<Model> model_;
+  bool missing_bodies_ = false;
+};
+
+}  // namespace
+
+std::shared_ptr<Model> build(const Value& root, Registry& registry, Problems& problems) {
+  return Builder(root, registry, problems).build();
+}
+
+}  // namespace trammel::model

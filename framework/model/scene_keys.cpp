@@ -1,0 +1,88 @@
+#include "model/scene_keys.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scene/suggestion.hpp"
+
+namespace trammel::model {
+namespace {
+
+using scene::Problems;
+using scene::Value;
+
+}  // namespace
+
+bool check_keys(const Value& object, const std::vector<std::string>& keys, Problems& problems) {
+  if (object.type() != Value::Type::object) {
+    problems.error(
+        object.problem(fmt::format("found {}, expected an object with {}", object.type_name(), fmt::join(keys, ", "))));
+    return false;
+  }
+  for (const auto& [key, value] : object.members())
+    if (std::find(keys.begin(), keys.end(), key) == keys.end())
+      problems.error(value.problem(fmt::format("unknown key \"{}\"{}", key, scene::did_you_mean(key, keys))));
+  return true;
+}
+
+std::optional<Vec3> read_vector(const Value& value, Space space, Problems& problems) {
+  const auto numbers = value.read_numbers(problems);
+  if (!numbers) return {};
+  if (int(numbers->size()) != dimension(space)) {
+    problems.error(value.problem(fmt::format("found {} numbers, expected {}: the scene is {}", numbers->size(),
+                                             dimension(space), space == Space::planar ? "planar" : "spatial")));
+    return {};
+  }
+  return Vec3(Eigen::Map<const Vec>(numbers->data(), Eigen::Index(numbers->size())));
+}
+
+std::vector<std::string> marker_names(const Model& model) {
+  std::vector<std::string> names = {"ground"};
+  for (const BodyEntry& entry : model.bodies)
+    for (const std::string& marker : entry.body->markers()) names.push_back(entry.name + "." + marker);
+  return names;
+}
+
+std::optional<MarkerRef> find_marker(const Model& model, std::string_view name) {
+  if (name == "ground") return MarkerRef{};
+  for (int b = 0; b < int(model.bodies.size()); ++b) {
+    const BodyEntry& entry = model.bodies[b];
+    if (name.size() <= entry.name.size() || !name.starts_with(entry.name) || name[entry.name.size()] != '.') continue;
+    const auto markers = entry.body->markers();
+    const auto found = std::find(markers.begin(), markers.end(), name.substr(entry.name.size() + 1));
+    if (found != markers.end()) return MarkerRef{b, int(found - markers.begin())};
+  }
+  return {};
+}
+
+std::optional<MarkerRef> read_marker(const Value& value, Model& model, Problems& problems) {
+  if (value.type() == Value::Type::object) {
+    if (!value.find("point")) {
+      problems.error(
+          value.problem("found an object, expected a marker's name or a fixed frame {\"point\": ..., \"angle\": ...}"));
+      return {};
+    }
+    check_keys(value, {"point", "angle"}, problems);
+    GroundFrame frame;
+    const auto point = read_vector(*value.find("point"), model.world.space, problems);
+    if (const Value* angle = value.find("angle")) {
+      if (model.world.space == Space::spatial)
+        problems.error(angle->problem("only a planar scene's frame has an angle"));
+      frame.angle = angle->read_number(problems).value_or(0);
+    }
+    if (!point) return {};
+    frame.x = *point;
+    model.ground_frames.push_back(frame);
+    return MarkerRef{-1, int(model.ground_frames.size()) - 1};
+  }
+  const auto name = value.read_text(problems);
+  if (!name) return {};
+  if (const auto marker = find_marker(model, *name)) return marker;
+  problems.error(
+      value.problem(fmt::format("no marker \"{}\"{}", *name, scene::did_you_mean(*name, marker_names(model)))));
+  return {};
+}
+
+}  // namespace trammel::model

@@ -1,0 +1,27 @@
+// Reading a scene's objects and marker names into a Model: what is shared by bodies, joints, forces, contacts and observables.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/model.hpp"
+#include "scene/value.hpp"
+
+namespace trammel::model {
+
+// Reports every member of `object` that is not in `keys`, with the nearest that is. False: not an object (reported).
+bool check_keys(const scene::Value& object, const std::vector<std::string>& keys, scene::Problems& problems);
+
+// A vector of the scene's dimension.
+std::optional<Vec3> read_vector(const scene::Value& value, Space space, scene::Problems& problems);
+
+// Every marker of the model: "ground", "beam.root", "beam.tip".
+std::vector<std::string> marker_names(const Model& model);
+std::optional<MarkerRef> find_marker(const Model& model, std::string_view name);
+
+// A marker's name, or a fixed frame {"point": [x, y], "angle": a}, which is added to the model.
+std::optional<MarkerRef> read_marker(const scene::Value& value, Model& model, scene::Problems& problems);
+
+}  // namespace trammel::model

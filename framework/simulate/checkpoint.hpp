@@ -1,0 +1,50 @@
+// A checkpoint: everything that decides how a run goes on, bit for bit, in one CBOR file that is renamed into place.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <trammel/archive.hpp>
+
+#include "scene/value.hpp"
+
+namespace trammel::simulate {
+
+// Writes values into a JSON object, or reads them back.
+class JsonArchive final : public Archive {
+ public:
+  enum class Direction { write, read };
+  JsonArchive(nlohmann::json& data, Direction direction) : data_(data), direction_(direction) {}
+  using Archive::operator();
+  void operator()(std::string_view name, bool& value) override;
+  void operator()(std::string_view name, int& value) override;
+  void operator()(std::string_view name, long long& value) override;
+  void operator()(std::string_view name, double& value) override;
+  void operator()(std::string_view name, std::string& value) override;
+  void operator()(std::string_view name, Vec& value) override;
+
+  // An object of its own, for a component whose names might repeat ours.
+  JsonArchive nested(std::string_view name);
+  bool reading() const { return direction_ == Direction::read; }
+
+ private:
+  template <class T>
+  void transfer(std::string_view name, T& value);
+  nlohmann::json& data_;
+  Direction direction_;
+};
+
+// Of everything in the scene but simulate.until: a run may be resumed with a later end.
+std::uint64_t resume_hash(const scene::Value& root);
+
+void write_checkpoint(const std::filesystem::path& file, std::uint64_t scene_hash, const nlohmann::json& data);
+// Throws SceneError if the file is missing, damaged, or of another scene.
+nlohmann::json read_checkpoint(const std::filesystem::path& file, std::uint64_t scene_hash);
+
+// For a checkpoint that reads well but does not fit.
+[[noreturn]] void refuse_checkpoint(const std::filesystem::path& file, const std::string& why);
+
+}  // namespace trammel::simulate

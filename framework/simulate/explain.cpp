@@ -1,0 +1,135 @@
+// `trammel explain`: what was built, what each part costs, what was left out.
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "simulate/setup.hpp"
+#include "simulate/simulator.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// The least of several samples, each long enough for the clock [s].
+template <class Call>
+double least_time(Call call) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int sample = 0; sample < 5; ++sample) {
+    int n = 0;
+    const Clock::time_point begin = Clock::now();
+    double passed = 0;
+    do {
+      call(), ++n;
+      passed = std::chrono::duration<double>(Clock::now() - begin).count();
+    } while (passed < 2e-3 && n < 100000);
+    least = std::min(least, passed / n);
+  }
+  return least;
+}
+
+std::string step_text(const StepChoice& choice) {
+  if (choice.fixed) return fmt::format("{:.6g} s", *choice.fixed);
+  return fmt::format("error-controlled, relative {:.3g}, absolute {:.3g}", choice.tolerance.relative,
+                     choice.tolerance.absolute);
+}
+
+class Text {
+ public:
+  void section(const std::string& title) { text_ += title + "\n"; }
+  template <class... Args>
+  void line(const char* format, const Args&... args) {
+    text_ += "  " + fmt::format(fmt::runtime(format), args...) + "\n";
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+void built(Text& text, const scene::Scene& scene, const plugin::Registry& registry, const Setup& setup) {
+  const model::Model& model = *setup.model;
+  const auto type = [&](const char* group, const std::string& name) {
+    const scene::Value* value = scene.root().at_path(fmt::format("{}.{}.type", group, name));
+    return value && value->type() == scene::Value::Type::text ? value->text() : std::string();
+  };
+  text.section("Built");
+  text.line("{} scene: nq = {}, nv = {}, joint rows = {}", model.world.space == Space::planar ? "planar" : "spatial",
+            model.sizes.nq, model.sizes.nv, model.sizes.nc);
+  for (const model::BodyEntry& body : model.bodies)
+    text.line("bodies.{} ({}): nq = {}, nv = {}, {} markers; derivatives {}", body.name, type("bodies", body.name),
+              body.nq, body.nv, body.body->markers().size(), body.tangent ? "exact" : "by differences");
+  for (const model::JointEntry& joint : model.joints)
+    text.line("joints.{} ({}): {} rows", joint.name, type("joints", joint.name), joint.rows);
+  for (const model::ForceEntry& force : model.forces)
+    text.line("forces.{} ({})", force.name, type("forces", force.name));
+  for (const model::ContactEntry& contact : model.contacts)
+    text.line("contacts.{} ({}): {}, {}", contact.name, type("contacts", contact.name),
+              contact.restitution ? "impulse and row" : "compliant force",
+              contact.friction ? "friction" : "frictionless");
+  text.line("integrator {}: step {}{}", setup.integrator_type, step_text(setup.settings.step),
+            setup.settings.own_contact_step ? ", in contact " + step_text(setup.settings.contact_step) : "");
+  text.section("Plugins loaded");
+  for (const std::string& file : registry.files()) text.line("{}", file);
+}
+
+void costs(Text& text, Setup& setup) {
+  text.section("Cost (microseconds, this machine, at the initial state)");
+  model::AssembledSystem system(setup.model);
+  model::Modes open;
+  open.contacts.resize(setup.model->contacts.size());
+  system.set_modes(open);
+  State now = setup.initial, next;
+  const auto move = [&] { system.move_to(now.t, now.q, now.v); };
+  move();
+  system.accelerate({}, now.a, now.lambda);
+  Vec a, lambda;
+  text.line("f: {:.3g}", 1e6 * least_time([&] { move(), system.f(); }));
+  text.line("accelerations (M, f, rows, solution): {:.3g}",
+            1e6 * least_time([&] { move(), system.accelerate({}, a, lambda); }));
+  for (int i = 0; i < int(setup.model->contacts.size()); ++i)
+    text.line("gap and its rate of contacts.{}: {:.3g}", setup.model->contacts[i].name,
+              1e6 * least_time([&] { move(), system.gap(i), system.gap_rate(i); }));
+  const StepChoice& choice = setup.settings.step;
+  const double h = choice.fixed ? *choice.fixed : choice.initial > 0 ? choice.initial : 1e-4;
+  setup.integrator->restart(system, now);
+  if (!setup.integrator->step(system, now, h, next)) {
+    text.line("one step of {:.3g} s: refused at the initial state", h);
+    return;
+  }
+  text.line("one step of {:.3g} s: {:.3g}", h, 1e6 * least_time([&] {
+                                                 if (!setup.integrator->step(system, now, h, next)) next = now;
+                                               }));
+}
+
+void left_out(Text& text, const Setup& setup) {
+  const model::Model& model = *setup.model;
+  text.section("Left out");
+  if (model.sizes.nc == 0)
+    text.line("{}", model.contacts.empty()
+                        ? "no joints, no contacts: the system is an ODE and solved as one"
+                        : "no joints: while no contact is closed the system is an ODE and solved as one");
+  if (model.contacts.empty())
+    text.line("no contacts: no event functions are watched");
+  else
+    text.line("contact rows and forces exist only while their contact is closed");
+  if (model.forces.empty()) text.line("no force elements between markers");
+  if (model.flat) text.line("no rotation coordinates: configurations are plain vectors");
+  if (model.constant_mass) text.line("the mass matrix is constant");
+  if (model.world.space == Space::planar) text.line("nothing spatial: two translations and one rotation");
+  if (model.world.gravity.isZero(0)) text.line("no gravity");
+  if (setup.corrections.empty()) text.line("no corrections after steps");
+}
+
+}  // namespace
+
+std::string explain(const scene::Scene& scene, plugin::Registry& registry) {
+  Setup setup = set_up(scene, registry);
+  Text text;
+  built(text, scene, registry, setup);
+  costs(text, setup);
+  left_out(text, setup);
+  return text.text();
+}
+
+}  // namespace trammel::simulate

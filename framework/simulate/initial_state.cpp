@@ -1,0 +1,121 @@
+#include "simulate/initial_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace trammel::simulate {
+namespace {
+
+constexpr double tolerance = 1e-8;    // [m], [rad], [m/s], [rad/s]
+constexpr double penetration = 1e-9;  // [m]
+
+bool project_position(model::AssembledSystem& system, State& s) {
+  Vec zero = Vec::Zero(system.sizes().nv), dq, mu, q;
+  const Vec no_force = Vec::Zero(system.sizes().nc);
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 50; ++i) {
+    system.move_to(s.t, s.q, s.v);
+    const Vec g = system.g();
+    const double now = g.norm();
+    if (!std::isfinite(now)) return false;
+    if (now < 1e-15 || (now < 1e-11 && now > 0.5 * before)) return true;
+    before = now;
+    system.factorise({1, 0, 0}, zero, no_force);
+    if (!system.correct(zero, g, dq, mu)) return false;
+    system.retract(s.q, dq, q);
+    s.q = q;
+  }
+  return before < tolerance;
+}
+
+bool project_velocity(model::AssembledSystem& system, State& s) {
+  Vec zero = Vec::Zero(system.sizes().nv), dv, mu;
+  const Vec no_force = Vec::Zero(system.sizes().nc);
+  for (int i = 0; i < 2; ++i) {
+    system.move_to(s.t, s.q, s.v);
+    const Vec g_dot = system.g_dot();
+    system.factorise({1, 0, 0}, zero, no_force);
+    if (!system.correct(zero, g_dot, dv, mu)) return false;
+    s.v += dv;
+  }
+  system.move_to(s.t, s.q, s.v);
+  return system.g_dot().norm() < tolerance * std::max(1.0, s.v.norm());
+}
+
+// "bodies.rod moves by up to 0.012" for each body that the projection moves.
+std::string moves(model::AssembledSystem& system, const State& from, const State& to) {
+  Vec dq;
+  system.difference(to.q, from.q, dq);
+  std::string text;
+  for (const model::BodyEntry& body : system.model().bodies) {
+    if (body.nv == 0) continue;
+    const double by = dq.segment(body.v0, body.nv).cwiseAbs().maxCoeff();
+    const double rate = (to.v - from.v).segment(body.v0, body.nv).cwiseAbs().maxCoeff();
+    if (by <= 0 && rate <= 0) continue;
+    text += fmt::format("{}bodies.{} by up to {:.3g} (m, rad) and {:.3g} (m/s, rad/s)", text.empty() ? "" : ", ",
+                        body.name, by, rate);
+  }
+  return text;
+}
+
+void check_joints(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
+  system.move_to(s.t, s.q, s.v);
+  const Vec g = system.g(), g_dot = system.g_dot();
+  State nearest = s;
+  bool wrong = false;
+  for (const model::JointEntry& joint : system.model().joints) {
+    const double position = g.segment(joint.row, joint.rows).norm(),
+                 velocity = g_dot.segment(joint.row, joint.rows).norm();
+    if (position <= tolerance && velocity <= tolerance * std::max(1.0, s.v.norm())) continue;
+    const scene::Value* at = root.at_path("joints." + joint.name);
+    problems.error((at ? *at : root)
+                       .problem(fmt::format("the initial state does not satisfy this joint: off by {:.6g} (m, rad) in "
+                                            "position and {:.6g} (m/s, rad/s) in velocity",
+                                            position, velocity)));
+    wrong = true;
+  }
+  if (!wrong) return;
+  const bool found = project_position(system, nearest) && project_velocity(system, nearest);
+  problems.error(root.problem(
+      found
+          ? fmt::format(
+                "the nearest consistent initial state moves {}; \"initial\": {{\"consistent\": \"project\"}} takes it",
+                moves(system, s, nearest))
+          : "no consistent initial state was found nearby: the joints contradict each other, or the bodies are far "
+            "off"));
+}
+
+}  // namespace
+
+State initial_state(model::AssembledSystem& system, double t, bool project, const scene::Value& root,
+                    scene::Problems& problems) {
+  State s;
+  s.t = t;
+  system.initial(s.q, s.v);
+  model::Modes open;
+  open.contacts.resize(system.model().contacts.size());
+  system.set_modes(open);
+  if (system.sizes().nc > 0) {
+    if (!project)
+      check_joints(system, s, root, problems);
+    else if (!project_position(system, s) || !project_velocity(system, s))
+      problems.error(
+          root.problem("no consistent initial state was found nearby: the joints contradict each other, or the bodies "
+                       "are far off"));
+  }
+  system.move_to(t, s.q, s.v);
+  for (int i = 0; i < int(system.model().contacts.size()); ++i) {
+    const double gap = system.gap(i);
+    const scene::Value* at = root.at_path("contacts." + system.model().contacts[i].name);
+    if (!(gap >= -penetration))
+      problems.error(
+          (at ? *at : root)
+              .problem(fmt::format("the initial state penetrates the plane by {:.6g} m; expected a gap >= 0", -gap)));
+  }
+  return s;
+}
+
+}  // namespace trammel::simulate

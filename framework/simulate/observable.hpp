@@ -1,0 +1,51 @@
+// What "record": {"observe": {"name": "what"}} may name, evaluated at a moment of the run.
+//
+//     BODY.OBSERVABLE                 a body's own scalars: "beam.angle"
+//     BODY.MARKER.x y z vx vy vz ax ay az angle omega alpha      in world axes; angle, omega, alpha in planar scenes
+//     contacts.NAME.gap gap_rate force closed                    force [N] >= 0 pushes; closed is 0 or 1
+//     joints.NAME.reaction            2-norm of the joint's multipliers
+//     energy.kinetic potential elastic total                     [J]
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <trammel/integrator.hpp>
+
+#include "model/assembled_system.hpp"
+#include "scene/value.hpp"
+
+namespace trammel::simulate {
+
+// The system moved to one state of the solution; accelerations and multipliers are solved for when first asked for, from the
+// equations of motion, whatever the integrator keeps.
+class Moment {
+ public:
+  Moment(model::AssembledSystem& system, const State& state) : system_(system), state_(state) {
+    system_.move_to(state.t, state.q, state.v);
+  }
+  model::AssembledSystem& system() { return system_; }
+  const State& state() const { return state_; }
+  const Vec& a() { return solve(), a_; }
+  const Vec& lambda() { return solve(), lambda_; }
+  const Energy& energy();
+
+ private:
+  void solve();
+  model::AssembledSystem& system_;
+  const State& state_;
+  Vec a_, lambda_;
+  Energy energy_;
+  bool solved_ = false, energy_known_ = false;
+};
+
+struct Column {
+  std::string name;  // in the header
+  std::function<double(Moment&)> value;
+};
+
+// The columns "record" asks for, in scene order; unknown names are reported with the nearest.
+std::vector<Column> read_observables(const scene::Value& root, const model::Model& model, scene::Problems& problems);
+
+}  // namespace trammel::simulate

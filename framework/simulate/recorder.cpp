@@ -1,0 +1,106 @@
+#include "simulate/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace trammel::simulate {
+
+void ConstraintNorms::raise_to(const ConstraintNorms& other) {
+  position = std::max(position, other.position);
+  velocity = std::max(velocity, other.velocity);
+  acceleration = std::max(acceleration, other.acceleration);
+}
+
+ConstraintNorms constraint_norms(model::AssembledSystem& system, const State& state, Vec& scratch) {
+  ConstraintNorms norms;
+  if (system.sizes().nc == 0) return norms;
+  norms.position = system.g().norm();
+  norms.velocity = system.g_dot().norm();
+  system.constraint_acceleration(state.a, scratch);
+  norms.acceleration = scratch.norm();
+  return norms;
+}
+
+Recorder::Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns,
+                   std::optional<Lengths> keep)
+    : model_(model), columns_(std::move(columns)) {
+  const bool drawn =
+      std::any_of(model.bodies.begin(), model.bodies.end(), [](const auto& entry) { return entry.drawn != nullptr; });
+  if (keep) {
+    series_.emplace(folder / "series.csv", keep->series);
+    events_.emplace(folder / "events.csv", keep->events);
+    if (drawn) animation_.emplace(folder / "animation.ndjson", keep->animation);
+    return;
+  }
+  series_.emplace(folder / "series.csv");
+  events_.emplace(folder / "events.csv");
+  if (drawn) animation_.emplace(folder / "animation.ndjson");
+  std::string header = "t";
+  for (const Column& column : columns_) header += "," + column.name;
+  series_->append(header +
+                  ",energy_kinetic,energy_potential,energy_elastic,energy_total,"
+                  "constraint_position,constraint_velocity,constraint_acceleration\n");
+  events_->append("t,kind,component,detail\n");
+}
+
+void Recorder::row(model::AssembledSystem& system, const State& state) {
+  Moment moment(system, state);
+  const auto number = [out = std::back_inserter(series_->buffer())](double x) { fmt::format_to(out, ",{:.17g}", x); };
+  fmt::format_to(std::back_inserter(series_->buffer()), "{:.17g}", state.t);
+  for (const Column& column : columns_) number(column.value(moment));
+  const Energy& energy = moment.energy();
+  number(energy.kinetic), number(energy.potential), number(energy.elastic), number(energy.total());
+  const ConstraintNorms norms = constraint_norms(system, state, scratch_);
+  number(norms.position), number(norms.velocity), number(norms.acceleration);
+  series_->buffer() += '\n';
+  series_->appended();
+  if (animation_) animate(state);
+}
+
+void Recorder::animate(const State& state) {
+  std::string& line = animation_->buffer();
+  fmt::format_to(std::back_inserter(line), "{{\"t\":{:.9g},\"shapes\":{{", state.t);
+  const char* separator = "";
+  for (const model::BodyEntry& entry : model_.bodies) {
+    if (!entry.drawn) continue;
+    entry.drawn->shape(state.t, state.q.segment(entry.q0, entry.nq), shape_);
+    fmt::format_to(std::back_inserter(line), "{}{}:[", separator, nlohmann::json(entry.name).dump());
+    separator = ",";
+    for (Eigen::Index j = 0; j < shape_.cols(); ++j) {
+      line += j ? ",[" : "[";
+      for (Eigen::Index i = 0; i < shape_.rows(); ++i)
+        fmt::format_to(std::back_inserter(line), "{}{:.5g}", i ? "," : "", shape_(i, j));
+      line += ']';
+    }
+    line += ']';
+  }
+  line += "}}\n";
+  animation_->appended();
+}
+
+void Recorder::event(const ContactEvent& event) {
+  const std::string& name = model_.contacts[event.contact].name;
+  auto out = std::back_inserter(events_->buffer());
+  fmt::format_to(out, "{:.17g},{},contacts.{},", event.t, to_string(event.kind), name);
+  if (event.kind == ContactEvent::Kind::impact)
+    fmt::format_to(out, "impulse={:.17g} approach={:.17g} separation={:.17g} energy_lost={:.17g}", event.impulse,
+                   event.approach, event.separation, event.energy_lost);
+  else if (event.kind == ContactEvent::Kind::close)
+    fmt::format_to(out, "approach={:.17g}", event.approach);
+  else
+    fmt::format_to(out, "separation={:.17g}", event.separation);
+  events_->buffer() += '\n';
+  events_->appended();
+}
+
+void Recorder::flush() {
+  series_->flush();
+  events_->flush();
+  if (animation_) animation_->flush();
+}
+
+}  // namespace trammel::simulate

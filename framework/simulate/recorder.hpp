@@ -1,0 +1,45 @@
+// The logs of a run: series.csv, events.csv and animation.ndjson in the results folder.
+#pragma once
+
+#include <optional>
+
+#include "simulate/contact_event.hpp"
+#include "simulate/log_file.hpp"
+#include "simulate/observable.hpp"
+
+namespace trammel::simulate {
+
+// 2-norms over the active rows.
+struct ConstraintNorms {
+  double position = 0;      // of g
+  double velocity = 0;      // of G v + g_t
+  double acceleration = 0;  // of G a - gamma with the integrator's own a
+  void raise_to(const ConstraintNorms& other);
+};
+// The system has been moved to the state.
+ConstraintNorms constraint_norms(model::AssembledSystem& system, const State& state, Vec& scratch);
+
+class Recorder {
+ public:
+  struct Lengths {
+    long long series = 0, events = 0, animation = 0;  // [bytes]
+  };
+  // A new folder's logs, or those of an interrupted run shortened to `keep`.
+  Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns,
+           std::optional<Lengths> keep);
+
+  void row(model::AssembledSystem& system, const State& state);
+  void event(const ContactEvent& event);
+  void flush();
+  Lengths lengths() const { return {series_->length(), events_->length(), animation_ ? animation_->length() : 0}; }
+
+ private:
+  void animate(const State& state);
+  const model::Model& model_;
+  std::vector<Column> columns_;
+  std::optional<LogFile> series_, events_, animation_;
+  Mat shape_;
+  Vec scratch_;
+};
+
+}  // namespace trammel::simulate

@@ -1,0 +1,119 @@
+#include "simulate/result.hpp"
+
+#include <fmt/format.h>
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include <trammel/plugin.hpp>
+
+namespace trammel::simulate {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json versions() {
+  return {{"trammel_sdk", fmt::format("{}.{}", TRAMMEL_SDK_MAJOR, TRAMMEL_SDK_MINOR)},
+          {"compiler", __VERSION__},
+          {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+}
+
+json counts(Simulator& simulator) {
+  const Statistics& s = simulator.statistics();
+  const model::Counts& c = simulator.system().counts();
+  return {{"steps", s.steps},
+          {"contact_steps", s.contact_steps},
+          {"rejected", s.rejected},
+          {"locating_steps", s.locating_steps},
+          {"residual_evaluations", c.residual_evaluations},
+          {"jacobian_evaluations", c.jacobian_evaluations},
+          {"factorizations", c.factorizations},
+          {"newton_iterations", c.newton_iterations},
+          {"events", s.events},
+          {"impacts", s.impacts}};
+}
+
+json sizes(const Statistics& statistics) {
+  json list = json::array();
+  for (const Statistics::SizesAt& at : statistics.sizes)
+    list.push_back({{"t", at.t}, {"nq", at.sizes.nq}, {"nv", at.sizes.nv}, {"nc", at.sizes.nc}});
+  return list;
+}
+
+json dissipated(const model::Model& model, const Ledger& ledger, double drift) {
+  json impact = json::object();
+  for (std::size_t i = 0; i < ledger.impacts().size(); ++i)
+    if (model.contacts[i].restitution) impact[model.contacts[i].name] = ledger.impacts()[i];
+  return {{"impact", impact},
+          {"impact_total", ledger.impact_total()},
+          {"contact_damping", ledger.contact_damping()},
+          {"dampers", ledger.dampers()},
+          {"numerical", -drift}};
+}
+
+json energy(const Energy& e) {
+  return {{"kinetic", e.kinetic}, {"potential", e.potential}, {"elastic", e.elastic}, {"total", e.total()}};
+}
+
+}  // namespace
+
+const char* to_string(Status status) {
+  switch (status) {
+    case Status::done:
+      return "done";
+    case Status::failed:
+      return "failed";
+    case Status::interrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+std::string result_json(const scene::Scene& scene, const plugin::Registry& registry, const Setup& setup,
+                        Simulator& simulator, const Outcomes& outcomes) {
+  const Statistics& statistics = simulator.statistics();
+  const Ledger& ledger = simulator.ledger();
+  const State& state = simulator.state();
+  const Energy end = simulator.energy_at_state();
+  const double drift = simulator.energy_drift();
+  json plugins = json::array();
+  for (const std::string& file : registry.files())
+    plugins.push_back({{"name", std::filesystem::path(file).stem().string()}, {"file", file}});
+  std::vector<std::string> warnings = setup.warnings;
+  warnings.insert(warnings.end(), simulator.warnings().begin(), simulator.warnings().end());
+  const scene::Value* title = scene.root().find("title");
+  const json result = {
+      {"trammel_result", 1},
+      {"status", to_string(outcomes.status)},
+      {"reason", outcomes.reason},
+      {"scene", scene.file()},
+      {"title", title && title->type() == scene::Value::Type::text ? title->text() : ""},
+      {"scene_hash", fmt::format("{:016x}", scene.hash())},
+      {"versions", versions()},
+      {"plugins", plugins},
+      {"integrator", setup.integrator_type},
+      {"t_start", setup.settings.start},
+      {"t_end", state.t},
+      {"t_until", setup.settings.until},
+      {"wall_time_s", outcomes.cost.wall},
+      {"cpu_time_s", outcomes.cost.cpu},
+      {"resumed", outcomes.resumed},
+      {"counts", counts(simulator)},
+      {"smallest_step", statistics.smallest_step},
+      {"largest_step", statistics.largest_step},
+      {"energy_start", ledger.energy_start()},
+      {"energy_end", energy(end)},
+      {"energy_supplied",
+       {{"drives", ledger.drives()}, {"constraints", ledger.constraints()}, {"total", ledger.supplied()}}},
+      {"energy_drift", drift},
+      {"energy_dissipated", dissipated(*setup.model, ledger, drift)},
+      {"constraint_maxima",
+       {{"position", statistics.largest.position},
+        {"velocity", statistics.largest.velocity},
+        {"acceleration", statistics.largest.acceleration}}},
+      {"sizes", sizes(statistics)},
+      {"sizes_left_out", statistics.sizes_left_out},
+      {"warnings", warnings}};
+  return result.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace trammel::simulate

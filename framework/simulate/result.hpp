@@ -1,0 +1,33 @@
+// result.json and the summary: what came out of a run.
+#pragma once
+
+#include <string>
+
+#include "simulate/setup.hpp"
+#include "simulate/simulator.hpp"
+
+namespace trammel::simulate {
+
+struct Cost {
+  double wall = 0, cpu = 0;  // [s] of the simulation alone, earlier parts of a resumed run included
+};
+
+struct Outcomes {
+  Status status = Status::done;
+  std::string reason;
+  Cost cost;
+  bool resumed = false;
+};
+
+const char* to_string(Status status);
+
+// As JSON text. energy_dissipated by cause, positive when energy was lost; numerical is what no cause explains and energy_drift
+// its negative: E - (E_start + supplied - dissipated by the named causes).
+std::string result_json(const scene::Scene& scene, const plugin::Registry& registry, const Setup& setup,
+                        Simulator& simulator, const Outcomes& outcomes);
+
+// A few lines for a person.
+std::string summary(const scene::Scene& scene, const Setup& setup, Simulator& simulator, const Outcomes& outcomes,
+                    const std::filesystem::path& folder);
+
+}  // namespace trammel::simulate

@@ -1,0 +1,97 @@
+#include "simulate/setup.hpp"
+
+#include <fmt/format.h>
+
+#include "model/assembled_system.hpp"
+#include "model/build.hpp"
+#include "model/scene_keys.hpp"
+#include "plugin/parameters.hpp"
+#include "simulate/initial_state.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+using scene::Problems;
+using scene::Value;
+
+// Names of integrators with an error estimate, of those that can be found.
+std::string with_error_estimate(plugin::Registry& registry) {
+  std::string names;
+  for (const plugin::Entry* entry : registry.all()) {
+    if (entry->declaration.kind != Kind::integrator) continue;
+    const std::unique_ptr<Component> candidate = entry->declaration.make();
+    if (dynamic_cast<const ErrorEstimate*>(candidate.get()))
+      names += (names.empty() ? "" : ", ") + entry->declaration.name;
+  }
+  return names.empty() ? "none found" : names;
+}
+
+void read_integrator(const Value& root, plugin::Registry& registry, Setup& setup, Problems& problems) {
+  const Value* value = root.find("integrator");
+  if (!value)
+    return problems.error(root.problem("\"integrator\" is missing, such as {\"type\": \"hht_alpha\", \"step\": 1e-4}"));
+  auto made = plugin::make<Integrator>(registry, Kind::integrator, *value, setup.model->world, problems);
+  if (!made.component) return;
+  setup.integrator = std::move(made.component);
+  setup.integrator_origin = std::move(made.origin);
+  if (const Value* type = value->find("type")) setup.integrator_type = type->read_text(problems).value_or("");
+  if (dynamic_cast<const ErrorEstimate*>(setup.integrator.get())) return;
+  for (const auto& [key, choice] :
+       {std::pair{"step", &setup.settings.step}, std::pair{"contact_step", &setup.settings.contact_step}})
+    if (const Value* step = value->find(key); step && !choice->fixed)
+      problems.error(step->problem(
+          fmt::format("\"{}\" cannot estimate its error, so it takes fixed steps only; those that can: {}",
+                      setup.integrator_type, with_error_estimate(registry))));
+}
+
+// "corrections": {"position": "minimum_norm", "velocity": {"type": "minimum_norm", ...}, "energy": true}
+void read_corrections(const Value& root, plugin::Registry& registry, Setup& setup, Problems& problems) {
+  const Value* corrections = root.find("corrections");
+  if (!corrections || !model::check_keys(*corrections, {"position", "velocity", "energy"}, problems)) return;
+  for (const char* part : {"position", "velocity", "energy"}) {
+    const Value* value = corrections->find(part);
+    if (!value) continue;
+    if (value->type() == Value::Type::boolean && !value->boolean()) continue;
+    const plugin::Entry* entry = nullptr;
+    if (value->type() == Value::Type::object) {
+      entry = plugin::entry_of(registry, Kind::correction, *value, problems);
+    } else if (value->type() == Value::Type::boolean) {
+      try {
+        entry = &registry.find(Kind::correction, part);
+      } catch (const plugin::UnknownComponent& e) {
+        problems.error(value->problem(e.what()));
+      }
+    } else {
+      entry = registry.find(Kind::correction, *value, problems);
+    }
+    if (!entry) continue;
+    auto made = plugin::make<Correction>(*entry, *value, setup.model->world, problems);
+    if (made.component) setup.corrections.push_back(std::move(made.component));
+  }
+}
+
+}  // namespace
+
+Setup set_up(const scene::Scene& scene, plugin::Registry& registry) {
+  const Value& root = scene.root();
+  Setup setup;
+  Problems problems;
+  if (root.type() != Value::Type::object) {
+    problems.error(root.problem(fmt::format("found {}, expected a scene: an object", root.type_name())));
+    problems.throw_if_any();
+  }
+  registry.search_scene(root, problems);
+  setup.settings = read_settings(root, problems);
+  setup.model = model::build(root, registry, problems);
+  read_integrator(root, registry, setup, problems);
+  read_corrections(root, registry, setup, problems);
+  if (problems.empty()) setup.columns = read_observables(root, *setup.model, problems);
+  problems.throw_if_any();
+  model::AssembledSystem system(setup.model);
+  setup.initial = initial_state(system, setup.settings.start, setup.settings.project_initial, root, problems);
+  problems.throw_if_any();
+  for (const scene::Problem& warning : problems.warnings()) setup.warnings.push_back(warning.text());
+  return setup;
+}
+
+}  // namespace trammel::simulate

@@ -1,0 +1,34 @@
+// A scene made ready to run: model, integrator, corrections, settings and columns, with every problem of the scene reported.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <trammel/correction.hpp>
+#include <trammel/integrator.hpp>
+
+#include "model/model.hpp"
+#include "plugin/plugin_error.hpp"
+#include "simulate/observable.hpp"
+#include "simulate/settings.hpp"
+#include "simulate/simulation.hpp"
+
+namespace trammel::simulate {
+
+struct Setup {
+  std::shared_ptr<const model::Model> model;
+  std::unique_ptr<Integrator> integrator;
+  plugin::Origin integrator_origin;
+  std::string integrator_type;
+  std::vector<std::unique_ptr<Correction>> corrections;  // position, velocity, energy
+  Settings settings;
+  std::vector<Column> columns;
+  State initial;
+  std::vector<std::string> warnings;
+};
+
+// Throws SceneError, PluginError.
+Setup set_up(const scene::Scene& scene, plugin::Registry& registry);
+
+}  // namespace trammel::simulate

@@ -1,0 +1,221 @@
+// Runs a scene from the first line to the last: set-up, logs, the loop, checkpoints, and the results at every end.
+#include "simulate/simulation.hpp"
+
+#include <chrono>
+#include <ctime>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "simulate/blame.hpp"
+#include "simulate/checkpoint.hpp"
+#include "simulate/result.hpp"
+#include "simulate/run_failed.hpp"
+#include "simulate/simulator.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+double seconds(Clock::duration d) {
+  return std::chrono::duration<double>(d).count();
+}
+double cpu_now() {
+  return double(std::clock()) / CLOCKS_PER_SEC;
+}
+
+constexpr double between_checkpoints = 2;  // [s] wall-clock
+constexpr double between_progress = 0.1;   // [s]
+
+class Run {
+ public:
+  Run(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options)
+      : scene_(scene),
+        registry_(registry),
+        options_(options),
+        setup_(set_up(scene, registry)),
+        hash_(resume_hash(scene.root())) {}
+
+  RunReport operator()() {
+    std::vector<Correction*> corrections;
+    for (const auto& correction : setup_.corrections) corrections.push_back(correction.get());
+    simulator_.emplace(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
+    try {
+      open();
+      loop();
+      finish();
+    } catch (const RunFailed& e) {
+      end(Status::failed, e.what());
+    } catch (const model::NotSolvable& e) {
+      end(Status::failed, where(e.what()));
+    } catch (const OutputError& e) {
+      end(Status::failed, fmt::format("{}; t = {:.9g} s was reached", e.what(), simulator_->state().t));
+    } catch (const plugin::PluginError& e) {
+      end(Status::failed, e.what());
+      throw;
+    } catch (const scene::SceneError&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      end(Status::failed, where("out of memory"));
+    } catch (const std::exception& e) {
+      const plugin::PluginError error = blame(e, setup_, simulator_->system().last_call(), scene_.root(), registry_,
+                                              simulator_->state().t, simulator_->statistics().steps + 1);
+      end(Status::failed, error.what());
+      throw error;
+    }
+    return std::move(report_);
+  }
+
+ private:
+  std::string where(const char* what) const {
+    return fmt::format("at t = {:.9g} s, step {}: {}", simulator_->state().t, simulator_->statistics().steps + 1, what);
+  }
+
+  void open() {
+    wall_start_ = Clock::now();
+    cpu_start_ = cpu_now();
+    std::optional<Recorder::Lengths> keep;
+    if (options_.resume) {
+      keep = read();
+    } else {
+      std::error_code error;
+      fs::create_directories(options_.out, error);
+      if (error)
+        throw OutputError(fmt::format("cannot make the results folder {}: {}", options_.out.string(), error.message()));
+      for (const char* stale : {"checkpoint.cbor", "result.json"}) fs::remove(options_.out / stale, error);
+    }
+    recorder_.emplace(options_.out, *setup_.model, setup_.columns, keep);
+    if (!options_.resume) simulator_->start(setup_.initial);
+  }
+
+  void loop() {
+    Clock::time_point checked = Clock::now(), checkpointed = checked, shown = checked;
+    long long stride = 1, since = 0;  // steps between looks at the clock, about 1 ms
+    for (;;) {
+      if (options_.interrupt && options_.interrupt->load(std::memory_order_relaxed)) {
+        status_ = Status::interrupted;
+        return;
+      }
+      if (!simulator_->advance(*recorder_)) return;
+      if (++since < stride) continue;
+      since = 0;
+      const Clock::time_point now = Clock::now();
+      const double passed = seconds(now - checked);
+      if (passed < 1e-3 && stride < (1 << 16))
+        stride *= 2;
+      else if (passed > 4e-3 && stride > 1)
+        stride /= 2;
+      checked = now;
+      if (options_.progress && seconds(now - shown) >= between_progress) show(), shown = now;
+      if (seconds(now - checkpointed) >= between_checkpoints) write(), checkpointed = Clock::now();
+    }
+  }
+
+  void show() {
+    const Statistics& s = simulator_->statistics();
+    options_.progress({simulator_->state().t, setup_.settings.until, s.steps, int(s.impacts)});
+  }
+
+  void finish() {
+    write();
+    if (options_.progress) show();
+    end(status_, status_ == Status::interrupted ? fmt::format("interrupted at t = {:.9g} s after {} steps",
+                                                              simulator_->state().t, simulator_->statistics().steps)
+                                                : "");
+  }
+
+  Cost cost() const {
+    return {before_.wall + seconds(Clock::now() - wall_start_), before_.cpu + (cpu_now() - cpu_start_)};
+  }
+
+  // Logs first: a checkpoint never tells of bytes that are not there.
+  void write() {
+    recorder_->flush();
+    json data = json::object();
+    JsonArchive archive(data, JsonArchive::Direction::write);
+    exchange(archive);
+    Recorder::Lengths lengths = recorder_->lengths();
+    archive("bytes_series", lengths.series), archive("bytes_events", lengths.events),
+        archive("bytes_animation", lengths.animation);
+    Cost so_far = cost();
+    archive("wall", so_far.wall), archive("cpu", so_far.cpu);
+    write_checkpoint(options_.out / "checkpoint.cbor", hash_, data);
+  }
+
+  Recorder::Lengths read() {
+    const fs::path file = options_.out / "checkpoint.cbor";
+    json data = read_checkpoint(file, hash_);
+    Recorder::Lengths lengths;
+    try {
+      JsonArchive archive(data, JsonArchive::Direction::read);
+      exchange(archive);
+      archive("bytes_series", lengths.series), archive("bytes_events", lengths.events),
+          archive("bytes_animation", lengths.animation);
+      archive("wall", before_.wall), archive("cpu", before_.cpu);
+    } catch (const json::exception& e) {
+      refuse_checkpoint(file, fmt::format("its content does not fit this program ({}); start the run anew", e.what()));
+    }
+    simulator_->resume();
+    if (simulator_->state().t > setup_.settings.until)
+      refuse_checkpoint(file, fmt::format("it has reached t = {:.9g} s already, the scene ends at {:.9g} s",
+                                          simulator_->state().t, setup_.settings.until));
+    return lengths;
+  }
+
+  void exchange(JsonArchive& archive) {
+    simulator_->archive(archive);
+    JsonArchive integrator = archive.nested("integrator");
+    setup_.integrator->archive(integrator);
+  }
+
+  // Everything known is kept; what cannot be written any more is told in the reason.
+  void end(Status status, const std::string& reason) {
+    Outcomes outcomes{status, reason, cost(), options_.resume};
+    try {
+      if (recorder_) recorder_->flush();
+    } catch (const OutputError& e) {
+      if (outcomes.reason.empty()) outcomes.reason = e.what();
+      outcomes.status = Status::failed;
+    }
+    report_.result_json = result_json(scene_, registry_, setup_, *simulator_, outcomes);
+    try {
+      write_whole(options_.out / "result.json", report_.result_json);
+    } catch (const OutputError& e) {
+      if (outcomes.status != Status::failed) outcomes.reason = e.what();
+      outcomes.status = Status::failed;
+    }
+    report_.status = outcomes.status;
+    report_.reason = outcomes.reason;
+    report_.summary = summary(scene_, setup_, *simulator_, outcomes, options_.out);
+  }
+
+  const scene::Scene& scene_;
+  plugin::Registry& registry_;
+  const RunOptions& options_;
+  Setup setup_;
+  std::uint64_t hash_;
+  std::optional<Simulator> simulator_;
+  std::optional<Recorder> recorder_;
+  Status status_ = Status::done;
+  RunReport report_;
+  Clock::time_point wall_start_;
+  double cpu_start_ = 0;
+  Cost before_;
+};
+
+}  // namespace
+
+RunReport run(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options) {
+  return Run(scene, registry, options)();
+}
+
+std::string validate(const scene::Scene& scene, plugin::Registry& registry) {
+  std::string text;
+  for (const std::string& warning : set_up(scene, registry).warnings) text += warning + "\n";
+  return text;
+}
+
+}  // namespace trammel::simulate

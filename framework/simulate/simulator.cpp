@@ -1,0 +1,275 @@
+#include "simulate/simulator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "plugin/guard.hpp"
+#include "simulate/run_failed.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr std::size_t most_warnings = 20;
+
+double chatter_time(const Settings& settings) {
+  return settings.chatter_steps * settings.contact_step.fixed.value_or(0);
+}
+
+int error_order(Integrator& integrator) {
+  const auto* estimate = dynamic_cast<const ErrorEstimate*>(&integrator);
+  return estimate ? estimate->error_order() : 1;
+}
+
+}  // namespace
+
+Simulator::Simulator(std::shared_ptr<const model::Model> model, Integrator& integrator, const Settings& settings,
+                     std::vector<Correction*> corrections)
+    : settings_(settings),
+      system_(std::move(model)),
+      integrator_(integrator),
+      estimate_(dynamic_cast<ErrorEstimate*>(&integrator)),
+      dense_(dynamic_cast<DenseOutput*>(&integrator)),
+      corrections_(std::move(corrections)),
+      free_control_(settings.step, settings.until - settings.start, error_order(integrator)),
+      contact_control_(settings.contact_step, settings.until - settings.start, error_order(integrator)),
+      modes_(system_, chatter_time(settings)),
+      location_(system_, integrator),
+      ledger_(system_) {}
+
+void Simulator::start(State initial) {
+  now_ = std::move(initial);
+  window_start_ = now_.t;
+  system_.move_to(now_.t, now_.q, now_.v);
+  ContactChanges changes;
+  const double near = 1e-9;  // [m] a scene's positions are written with so many digits
+  for (int i = 0; i < int(system_.model().contacts.size()); ++i) {
+    if (system_.gap(i) > near || system_.gap_rate(i) > 1e-9) continue;
+    if (system_.model().contacts[i].force)
+      changes.toggled.push_back(i);
+    else
+      changes.struck.push_back(i);
+  }
+  ledger_.start(now_);
+  if (changes.empty()) {
+    system_.accelerate({}, now_.a, now_.lambda);
+    at_new_modes();
+  } else {
+    settle(changes);
+  }
+}
+
+void Simulator::resume() {
+  in_contact_ = modes_.any_closed();
+}
+
+double Simulator::record_time(long long k) const {
+  const double t = settings_.start + double(k) * settings_.every;
+  return t > settings_.until - 1e-9 * settings_.every ? settings_.until : t;
+}
+
+// The rows that are due at the state itself.
+void Simulator::record_due(Recorder& recorder) {
+  while (!last_row_ && record_time(records_) <= now_.t) {
+    recorder.row(system_, now_);
+    last_row_ = record_time(records_) >= settings_.until;
+    ++records_;
+  }
+}
+
+bool Simulator::advance(Recorder& recorder) {
+  write_events(recorder);
+  record_due(recorder);
+  if (now_.t >= settings_.until) return false;
+  const double stop = dense_ && control().controlled() ? settings_.until : record_time(records_);
+  for (;;) {
+    const StepControl::Proposal proposal = control().propose(now_.t, stop);
+    double h = proposal.h, error = 0;
+    EventLocation::Found found = EventLocation::Found::nothing;
+    if (!try_step(proposal, h, found, error)) continue;
+    accept(h, h < proposal.h, proposal, error);
+    record_inside(recorder);
+    if (found == EventLocation::Found::event) settle(location_.changes());
+    return true;
+  }
+}
+
+bool Simulator::try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error) {
+  const Outcome outcome = integrator_.step(system_, now_, h, next_);
+  if (!outcome) return refuse(proposal, outcome.reason()), false;
+  if (!next_.q.allFinite() || !next_.v.allFinite() || !next_.a.allFinite()) {
+    if (!control().controlled()) fail_not_finite(h);
+    return refuse(proposal, "numbers that are not finite"), false;
+  }
+  if (control().controlled()) {
+    error = estimate_->error(system_, now_, next_, control().tolerance());
+    if (!(error <= 1)) {
+      ++statistics_.rejected;
+      control().rejected_for_error(h, error);
+      if (control().too_small(now_.t))
+        fail(h, fmt::format("the error cannot be kept below the tolerance with steps of at least {:.3g} s",
+                            control().smallest(now_.t)));
+      return false;
+    }
+  }
+  if (location_.watches()) {
+    found = location_.examine(now_, h, next_);
+    if (found == EventLocation::Found::step_refused)
+      return refuse(proposal, "a shorter step, tried to locate an event, was refused"), false;
+  }
+  return true;
+}
+
+void Simulator::refuse(const StepControl::Proposal& proposal, const char* reason) {
+  ++statistics_.rejected;
+  StepControl& steps = control();
+  steps.rejected(proposal.h);
+  if (!steps.controlled() && warnings_.size() < most_warnings)
+    warnings_.push_back(
+        fmt::format("t = {:.9g} s: a step of {:.3g} s was refused ({}) and halved", now_.t, proposal.h, reason));
+  if (!steps.too_small(now_.t)) return;
+  system_.move_to(now_.t, now_.q, now_.v);
+  fail(proposal.h, reason);
+}
+
+void Simulator::fail(double h, const std::string& why) const {
+  throw RunFailed(fmt::format("at t = {:.9g} s, step {} of {:.3g} s: {}", now_.t, statistics_.steps + 1, h, why));
+}
+
+// Names the component to blame, if one is: looked for where the step began, and at the times it went to.
+void Simulator::fail_not_finite(double h) {
+  for (const double part : {0.0, 0.5, 1.0}) {
+    system_.move_to(now_.t + part * h, now_.q, now_.v);
+    const model::CallSite site = system_.find_not_finite();
+    if (site.component)
+      fail(h, fmt::format("{} of \"{}\" gave numbers that are not finite", site.call, *site.component));
+  }
+  fail(h, "the solution diverged: numbers that are not finite. The step may be too long for the method");
+}
+
+void Simulator::correct() {
+  for (Correction* correction : corrections_)
+    if (const Outcome outcome = correction->apply(system_, next_); !outcome) fail(next_.t - now_.t, outcome.reason());
+}
+
+void Simulator::accept(double h, bool shortened, const StepControl::Proposal& proposal, double error) {
+  // The method's own t is t + h; only the times that others rely on are set.
+  if (!shortened && proposal.t_next != next_.t) next_.t = proposal.t_next;
+  const double stop = record_time(records_);
+  if (std::abs(stop - next_.t) <= 4 * eps * std::abs(stop)) next_.t = stop;
+  correct();
+  integrator_.accept(system_, next_);
+  if (shortened)
+    control().interrupted();
+  else
+    control().accepted(proposal, error);
+  ++statistics_.steps;
+  if (in_contact_) ++statistics_.contact_steps;
+  if (!shortened) {
+    if (statistics_.smallest_step == 0 || h < statistics_.smallest_step) statistics_.smallest_step = h;
+    statistics_.largest_step = std::max(statistics_.largest_step, h);
+  }
+  ledger_.step(now_, next_);
+  if (system_.sizes().nc > 0) {
+    system_.move_to(next_.t, next_.q, next_.v);
+    statistics_.largest.raise_to(constraint_norms(system_, next_, scratch_));
+  }
+  statistics_.locating_steps = location_.steps_tried();
+  location_.accept(h);
+  std::swap(now_, next_);
+}
+
+// Rows due inside the last step (next_ -> now_), by the method's own interpolation.
+void Simulator::record_inside(Recorder& recorder) {
+  if (!dense_ || !control().controlled()) return;
+  const double h = now_.t - next_.t;
+  for (double t = record_time(records_); !last_row_ && t < now_.t; t = record_time(records_)) {
+    dense_->interpolate(system_, next_, now_, (t - next_.t) / h, inside_);
+    inside_.t = t;
+    system_.move_to(t, inside_.q, inside_.v);
+    system_.accelerate({}, inside_.a, inside_.lambda);
+    recorder.row(system_, inside_);
+    ++records_;
+  }
+}
+
+void Simulator::settle(const ContactChanges& changes) {
+  const std::size_t before = events_.size();
+  ledger_.moving_rows(-modes_.settle(now_, changes, events_));
+  for (std::size_t i = before; i < events_.size(); ++i) {
+    ++statistics_.events;
+    if (events_[i].kind != ContactEvent::Kind::impact) continue;
+    ++statistics_.impacts;
+    ledger_.impact(events_[i].contact, events_[i].energy_lost);
+  }
+  window_events_ += 1;
+  guard_against_storm();
+  at_new_modes();
+}
+
+void Simulator::at_new_modes() {
+  in_contact_ = modes_.any_closed();
+  free_control_.interrupted();
+  contact_control_.interrupted();
+  integrator_.restart(system_, now_);
+  location_.restart(now_);
+  ledger_.restart(now_);
+  statistics_.note_sizes(now_.t, system_.sizes());
+}
+
+void Simulator::guard_against_storm() {
+  const double window = (settings_.until - settings_.start) * 1e-3;
+  if (now_.t > window_start_ + window) window_start_ = now_.t, window_events_ = 1;
+  if (window_events_ <= settings_.event_limit) return;
+  throw RunFailed(fmt::format(
+      "event storm at t = {:.9g} s: more than {} events within {:.3g} s, the last of contact \"{}\"; raise "
+      "capture_speed of that contact, or simulate.event_limit if they are real",
+      now_.t, settings_.event_limit, now_.t - window_start_, system_.model().contacts[events_.back().contact].name));
+}
+
+Energy Simulator::energy_at_state() {
+  if (now_.q.size() == 0) return {};
+  system_.move_to(now_.t, now_.q, now_.v);
+  return system_.energy();
+}
+
+double Simulator::energy_drift() {
+  const double dissipated = ledger_.impact_total() + ledger_.contact_damping() + ledger_.dampers();
+  return energy_at_state().total() - (ledger_.energy_start() + ledger_.supplied() - dissipated);
+}
+
+void Simulator::write_events(Recorder& recorder) {
+  for (const ContactEvent& event : events_) recorder.event(event);
+  events_.clear();
+}
+
+void Simulator::archive(Archive& a) {
+  a("t", now_.t), a("q", now_.q), a("v", now_.v), a("a", now_.a), a("lambda", now_.lambda);
+  model::Modes modes = system_.modes();
+  for (std::size_t i = 0; i < modes.contacts.size(); ++i) {
+    const std::string name = fmt::format("contact_{}_", i);
+    a(name + "closed", modes.contacts[i].closed);
+    a(name + "approach_speed", modes.contacts[i].approach_speed);
+    a(name + "offset", modes.contacts[i].offset);
+  }
+  const auto same = [](const model::ContactMode& x, const model::ContactMode& y) {
+    return x.closed == y.closed && x.approach_speed == y.approach_speed && x.offset == y.offset;
+  };
+  const auto& current = system_.modes().contacts;
+  if (!std::equal(current.begin(), current.end(), modes.contacts.begin(), same)) system_.set_modes(modes);
+  a("records", records_), a("last_row", last_row_), a("window_start", window_start_),
+      a("window_events", window_events_);
+  model::Counts& counts = system_.counts();
+  a("residual_evaluations", counts.residual_evaluations), a("jacobian_evaluations", counts.jacobian_evaluations);
+  a("factorizations", counts.factorizations), a("newton_iterations", counts.newton_iterations);
+  free_control_.archive(a, "step_");
+  contact_control_.archive(a, "contact_step_");
+  ledger_.archive(a);
+  statistics_.archive(a);
+  location_.archive(a);
+}
+
+}  // namespace trammel::simulate

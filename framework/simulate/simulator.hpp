@@ -1,0 +1,88 @@
+// The time loop: steps, events, corrections, records.
+//
+// An iteration tries a step towards the next stop (a record time, or the end), lets EventLocation shorten it to the first
+// event, corrects, accepts, and settles the event. Every iteration that does not end the run either advances t or is a
+// rejected step, and rejections in a row are bounded by the step control; an event advances t by at least 4 units in its last
+// place, and more than `event_limit` events in a thousandth of the run end it. So the loop cannot hang.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <trammel/correction.hpp>
+
+#include "simulate/contact_mode.hpp"
+#include "simulate/event_location.hpp"
+#include "simulate/ledger.hpp"
+#include "simulate/recorder.hpp"
+#include "simulate/settings.hpp"
+#include "simulate/statistics.hpp"
+#include "simulate/step_control.hpp"
+
+namespace trammel::simulate {
+
+class Simulator {
+ public:
+  Simulator(std::shared_ptr<const model::Model> model, Integrator& integrator, const Settings& settings,
+            std::vector<Correction*> corrections);
+
+  void start(State initial);  // at settings.start; contacts that touch are settled before the first step
+  void archive(Archive& a);   // all that decides how the run goes on, but the integrator
+  void resume();              // after archives were read
+
+  // One accepted step, with what it ends in; false: the end is reached and recorded. Throws RunFailed, PluginError,
+  // OutputError; the state then is the last accepted one.
+  bool advance(Recorder& recorder);
+
+  const State& state() const { return now_; }
+  const Settings& settings() const { return settings_; }
+  model::AssembledSystem& system() { return system_; }
+  const Statistics& statistics() const { return statistics_; }
+  const Ledger& ledger() const { return ledger_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  Energy energy_at_state();
+  double energy_drift();  // [J] what no cause in the ledger explains
+
+ private:
+  StepControl& control() { return in_contact_ ? contact_control_ : free_control_; }
+  double record_time(long long k) const;
+  void record_due(Recorder& recorder);
+  bool try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
+  void refuse(const StepControl::Proposal& proposal, const char* reason);
+  [[noreturn]] void fail(double h, const std::string& why) const;
+  [[noreturn]] void fail_not_finite(double h);
+  void correct();
+  void accept(double h, bool shortened, const StepControl::Proposal& proposal, double error);
+  void record_inside(Recorder& recorder);
+  void settle(const ContactChanges& changes);
+  void guard_against_storm();
+  void write_events(Recorder& recorder);
+  void at_new_modes();
+
+  Settings settings_;
+  model::AssembledSystem system_;
+  Integrator& integrator_;
+  ErrorEstimate* estimate_;
+  DenseOutput* dense_;
+  std::vector<Correction*> corrections_;
+  StepControl free_control_, contact_control_;
+  ContactModes modes_;
+  EventLocation location_;
+  Ledger ledger_;
+  Statistics statistics_;
+
+  State now_, next_, inside_;
+  bool in_contact_ = false;
+  long long records_ = 0;  // written
+  bool last_row_ = false;  // the row at the end is written
+  double window_start_ = 0;
+  long long window_events_ = 0;
+  std::vector<ContactEvent> events_;
+  std::vector<std::string> warnings_;
+  Vec scratch_;
+};
+
+}  // namespace trammel::simulate

@@ -1,0 +1,81 @@
+#include "simulate/step_control.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trammel::simulate {
+namespace {
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr int most_halvings = 10;  // of a fixed step that the method refuses
+}  // namespace
+
+StepControl::StepControl(const StepChoice& choice, double span, int order)
+    : choice_(choice), span_(span), order_(order) {
+  if (span_ > 0) choice_.most = std::min(choice_.most, span_ / 50);  // so that no bounce is stepped over unseen
+  wish_ = choice_.initial > 0 ? choice_.initial : std::min(choice_.most, std::max(span_ * 1e-3, choice_.least));
+}
+
+double StepControl::smallest(double t) const {
+  return std::max(choice_.least, 16 * eps * std::max(std::abs(t), span_));
+}
+
+StepControl::Proposal StepControl::propose(double t, double stop) {
+  if (controlled()) {
+    const double left = stop - t;
+    const double h = std::min(wish_, choice_.most);
+    if (h >= left * (1 - 1e-10)) return {left, stop};
+    if (2 * h > left) return {left / 2, t + left / 2};
+    return {h, t + h};
+  }
+  if (planned_ == 0 || stop_ != stop) {
+    const double length = stop - t, h = *choice_.fixed;
+    t0_ = t, stop_ = stop, done_ = 0;
+    planned_ = std::max(1LL, static_cast<long long>(std::ceil(length / h - 1e-9)));
+    h_ = length / double(planned_);
+    const double rounding = 4 * eps * std::max(std::abs(stop), std::abs(t));
+    if (std::abs(h_ - h) * double(planned_) <= rounding) h_ = h;
+  }
+  const double t_next = done_ + 1 == planned_ ? stop_ : t0_ + double(done_ + 1) * h_;
+  if (halvings_ == 0) return {h_, t_next};
+  const double h = std::ldexp(t_next - t, -halvings_);
+  return {h, t + h};
+}
+
+void StepControl::accepted(const Proposal& taken, double error) {
+  if (!controlled()) {
+    ++done_;
+    if (done_ == planned_ || halvings_ > 0) planned_ = 0;
+    halvings_ = 0;
+    return;
+  }
+  const double e = std::max(error, 1e-4), p = order_;
+  const double factor = std::clamp(0.9 * std::pow(e, -0.7 / p) * std::pow(error_before_, 0.4 / p), 0.2, 5.0);
+  const double next = taken.h * factor;
+  const bool shortened = taken.h < std::min(wish_, choice_.most) * (1 - 1e-9);
+  wish_ = std::min(shortened ? std::max(next, wish_) : next, choice_.most);
+  error_before_ = e;
+}
+
+void StepControl::rejected_for_error(double h, double error) {
+  const double factor = std::isfinite(error) ? std::clamp(0.9 * std::pow(error, -1.0 / order_), 0.1, 0.9) : 0.1;
+  wish_ = h * factor;
+}
+
+void StepControl::rejected(double h) {
+  if (controlled())
+    wish_ = h / 4;
+  else
+    ++halvings_;
+}
+
+bool StepControl::too_small(double t) const {
+  return controlled() ? wish_ < smallest(t) : halvings_ > most_halvings;
+}
+
+void StepControl::archive(Archive& a, const std::string& prefix) {
+  a(prefix + "t0", t0_), a(prefix + "stop", stop_), a(prefix + "h", h_), a(prefix + "planned", planned_);
+  a(prefix + "done", done_), a(prefix + "halvings", halvings_);
+  a(prefix + "wish", wish_), a(prefix + "error_before", error_before_);
+}
+
+}  // namespace trammel::simulate

@@ -1,0 +1,60 @@
+// The length of the next step.
+//
+// Fixed steps land on the times asked for: from t to the next stop T there are n = ceil((T - t)/h) equal steps, and the last
+// one ends at T exactly, so no drift accumulates. If (T - t)/n is h up to the rounding of T and t, h itself is used, bit for
+// bit the same each time, as multistep methods like it.
+//
+// With a tolerance the steps follow the PI controller of Gustafsson (Hairer, Wanner II, IV.2): after a step with error e <= 1
+//
+//     h <- h min(5, max(0.2, 0.9 e^(-0.7/p) e_old^(0.4/p))),     after a rejected one h <- h min(1, max(0.1, 0.9 e^(-1/p)))
+//
+// with p the order of the estimate. A step shortened only to reach a stop does not shorten the ones after it.
+#pragma once
+
+#include <string>
+
+#include <trammel/archive.hpp>
+
+#include "simulate/settings.hpp"
+
+namespace trammel::simulate {
+
+class StepControl {
+ public:
+  // `span`: length of the run [s]; `order` of the error estimate, 0 for fixed steps.
+  StepControl(const StepChoice& choice, double span, int order);
+
+  bool controlled() const { return !choice_.fixed; }
+  double fixed_step() const { return choice_.fixed.value_or(0); }
+  const Tolerance& tolerance() const { return choice_.tolerance; }
+
+  struct Proposal {
+    double h;       // [s]
+    double t_next;  // [s] time at its end, exact
+  };
+  Proposal propose(double t, double stop);
+
+  void accepted(const Proposal& taken, double error);  // the whole proposal became the solution
+  void rejected_for_error(double h, double error);
+  void rejected(double h);         // the method refused: try half of it
+  bool too_small(double t) const;  // after rejections: no step is left to try
+  // Events, other modes: what was planned up to the next stop is void.
+  void interrupted() { planned_ = 0; }
+  double smallest(double t) const;  // [s]
+
+  void archive(Archive& a, const std::string& prefix);
+
+ private:
+  StepChoice choice_;
+  double span_;
+  int order_;
+  // fixed: the plan from t0 to the stop
+  double t0_ = 0, stop_ = 0, h_ = 0;
+  long long planned_ = 0, done_ = 0;
+  int halvings_ = 0;
+  // controlled
+  double wish_ = 0;  // [s]
+  double error_before_ = 1;
+};
+
+}  // namespace trammel::simulate

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include "simulate/result.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+std::string counted(std::size_t n, const char* one, const char* many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+std::string causes(const model::Model& model, const Ledger& ledger, double drift) {
+  std::string text;
+  const auto add = [&text](const std::string& cause, double energy) {
+    if (energy != 0) text += fmt::format("{}{} {:.6g} J", text.empty() ? "" : ", ", cause, energy);
+  };
+  for (std::size_t i = 0; i < ledger.impacts().size(); ++i)
+    add("impacts of " + model.contacts[i].name, ledger.impacts()[i]);
+  add("contact damping", ledger.contact_damping());
+  add("dampers", ledger.dampers());
+  add("numerical", -drift);
+  return text.empty() ? "nothing" : text;
+}
+
+}  // namespace
+
+std::string summary(const scene::Scene& scene, const Setup& setup, Simulator& simulator, const Outcomes& outcomes,
+                    const std::filesystem::path& folder) {
+  const model::Model& model = *setup.model;
+  const Statistics& s = simulator.statistics();
+  const Ledger& ledger = simulator.ledger();
+  const State& state = simulator.state();
+  const scene::Value* title = scene.root().find("title");
+  std::string text =
+      fmt::format("{}\n", title && title->type() == scene::Value::Type::text ? title->text() : scene.file());
+  const auto line = [&text](const char* what, const std::string& value) {
+    text += fmt::format("  {:<12}{}\n", what, value);
+  };
+  line("simulated",
+       fmt::format("{:.6g} s to {:.6g} s with {}; {}, {}, {}", setup.settings.start, state.t, setup.integrator_type,
+                   counted(model.bodies.size(), "body", "bodies"), counted(model.joints.size(), "joint", "joints"),
+                   counted(model.contacts.size(), "contact", "contacts")));
+  if (!model.contacts.empty())
+    line("contact",
+         fmt::format("{}, {}, {} of {} steps in contact", counted(std::size_t(s.impacts), "impact", "impacts"),
+                     counted(std::size_t(s.events), "event", "events"), s.contact_steps, s.steps));
+  const double end = simulator.energy_at_state().total();
+  line("energy", fmt::format("{:.9g} J -> {:.9g} J; supplied {:.6g} J; lost to {}", ledger.energy_start(), end,
+                             ledger.supplied(), causes(model, ledger, simulator.energy_drift())));
+  if (s.largest.position > 0 || s.largest.velocity > 0 || s.largest.acceleration > 0)
+    line("constraints", fmt::format("largest norms: position {:.3g}, velocity {:.3g}, acceleration {:.3g}",
+                                    s.largest.position, s.largest.velocity, s.largest.acceleration));
+  const double per_step = s.steps > 0 ? 1e6 * outcomes.cost.cpu / double(s.steps) : 0;
+  line("cost", fmt::format("{} steps, {} rejected, {} to locate events; {:.3g} s of CPU time, {:.3g} us per step",
+                           s.steps, s.rejected, s.locating_steps, outcomes.cost.cpu, per_step));
+  for (const std::string& warning : setup.warnings) line("warning", warning);
+  for (const std::string& warning : simulator.warnings()) line("warning", warning);
+  line("results", folder.string());
+  if (!outcomes.reason.empty()) line(to_string(outcomes.status), outcomes.reason);
+  return text;
+}
+
+}  // namespace trammel::simulate
