@@ -213,15 +213,6 @@ double evaluate(std::string_view text, const Lookup& lookup) {
   return value;
 }
 
-const std::vector<std::string>& expression_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all = {"pi", "t"};
-    for (const Function& f : functions) all.push_back(f.name);
-    return all;
-  }();
-  return names;
-}
-
 bool is_name(std::string_view text) {
   if (text.empty() || !starts_name(text[0])) return false;
   for (const char c : text)

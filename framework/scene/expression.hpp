@@ -34,9 +34,6 @@ using Lookup = std::function<double(std::string_view name, int column)>;
 TimeFunction compile_time_function(std::string_view text, const Lookup& lookup);
 double evaluate(std::string_view text, const Lookup& lookup);  // finite, free of t
 
-// Names an expression may use beside parameters, for suggestions.
-const std::vector<std::string>& expression_names();
-
 // True when the whole text is one name.
 bool is_name(std::string_view text);
 

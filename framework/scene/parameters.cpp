@@ -56,7 +56,7 @@ class Evaluation {
   double number(std::string_view name, int column) {
     const Value* other = find(name);
     if (!other) {
-      std::vector<std::string> names = expression_names();
+      std::vector<std::string> names = {"pi"};
       for (const auto& [key, value] : members_) names.push_back(key);
       throw ExpressionError(column, fmt::format("no parameter \"{}\"{}", name, did_you_mean(name, names)));
     }

@@ -16,6 +16,7 @@ namespace trammel::scene {
 namespace {
 
 constexpr int deepest = 100;
+constexpr std::string_view number_characters = "0123456789.+-eE";
 constexpr std::uintmax_t largest_file = 64u << 20;
 
 // Walks a text and tells how far it got, also to those who hold no copy of it.
@@ -101,10 +102,8 @@ class Tree {
   bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& error) {
     std::string what = error.what();
     if (error.id == 406) {  // number overflow
-      const std::size_t start = number_start();
-      problems_.error({lines_.at(start), here(),
-                       fmt::format("{} is too large for a number", text_.substr(start, consumed() - start))});
-      return false;
+      const std::size_t start = number_start(), length = text_.find_first_not_of(number_characters, start) - start;
+      return refuse(start, fmt::format("{} is too large for a number", text_.substr(start, length)));
     }
     // "[json.exception...] parse error at line 1, column 2: syntax error while parsing value - invalid literal; last read..."
     if (const auto colon = what.find(": "); colon != std::string::npos) what = what.substr(colon + 2);
@@ -124,9 +123,7 @@ class Tree {
 
   // The parser has read one character past a number, unless the text ended.
   std::size_t number_start() const {
-    const auto part = [](char c) {
-      return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
-    };
+    const auto part = [](char c) { return number_characters.find(c) != std::string_view::npos; };
     std::size_t i = consumed();
     if (i > 0 && !part(text_[i - 1])) --i;
     while (i > 0 && part(text_[i - 1])) --i;

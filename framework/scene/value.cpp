@@ -87,7 +87,7 @@ std::string found(const Value& value) {
 // The scene's parameters as a Lookup.
 Lookup lookup_in(const Value::Parameters* parameters) {
   return [parameters](std::string_view name, int column) -> double {
-    std::vector<std::string> names = expression_names();
+    std::vector<std::string> names = {"pi"};
     if (parameters)
       for (const auto& [key, value] : *parameters) {
         names.push_back(key);
