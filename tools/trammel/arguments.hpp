@@ -1,0 +1,70 @@
+// The command line: commands, their options, and what the user gave.
+//
+//     trammel COMMAND [OPERAND]... [--option VALUE | --option=VALUE | --flag]...
+#pragma once
+
+#include <map>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trammel::tool {
+
+// Process exit codes, a contract with scripts.
+enum Exit { done = 0, failed = 1, bad_input = 2, bad_plugin = 3, interrupted = 130 };
+
+// The command line itself is wrong. Exit code 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Option {
+  std::string_view name;   // "--out"
+  std::string_view value;  // what the value is called in the help, "DIR"; empty: a flag
+  std::string_view help;
+};
+
+class Arguments;
+
+struct Command {
+  std::string_view name;
+  std::string_view operand;  // "SCENE"; empty: takes none
+  std::string_view summary;
+  std::vector<Option> options;
+  Exit (*run)(const Arguments&);
+
+  std::string help() const;
+};
+
+class Arguments {
+ public:
+  // Throws UsageError naming what was found and the nearest option.
+  Arguments(const Command& command, std::span<const std::string> words);
+
+  const std::string& operand() const { return operand_; }
+  bool has(std::string_view option) const { return values_.contains(option); }
+  const std::string& last(std::string_view option) const;       // of an option that was given
+  std::vector<std::string> all(std::string_view option) const;  // in the order given
+
+ private:
+  std::string operand_;
+  std::map<std::string, std::vector<std::string>, std::less<>> values_;
+};
+
+// Options that several commands share.
+inline constexpr Option kSet{"--set", "PATH=VALUE",
+                             "change a value of the scene, e.g. contacts.tip.restitution=0.3 (repeatable)"};
+inline constexpr Option kPlugin{"--plugin", "LIB", "a plugin library, or a folder of them (repeatable)"};
+inline constexpr Option kJson{"--json", "", "print one JSON object on standard output and nothing else"};
+
+// One function per file of the same name.
+Command run_command();
+Command validate_command();
+Command explain_command();
+Command list_command();
+Command describe_command();
+Command schema_command();
+
+}  // namespace trammel::tool

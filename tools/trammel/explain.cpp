@@ -1,0 +1,30 @@
+// trammel explain SCENE: what was built, what each part costs per step, what was left out.
+#include <fmt/format.h>
+
+#include "arguments.hpp"
+#include "input.hpp"
+#include "simulate/simulation.hpp"
+
+namespace trammel::tool {
+
+namespace {
+
+Exit explain(const Arguments& arguments) {
+  const scene::Scene scene = load_scene(arguments);
+  plugin::Registry registry;
+  load_plugins(arguments, registry);
+  fmt::print("{}", simulate::explain(scene, registry));
+  return Exit::done;
+}
+
+}  // namespace
+
+Command explain_command() {
+  return {"explain",
+          "SCENE",
+          "Show what is built from a scene, what each part costs, what is left out.",
+          {kSet, kPlugin},
+          explain};
+}
+
+}  // namespace trammel::tool

@@ -1,0 +1,39 @@
+#include "input.hpp"
+
+#include <cstdio>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace trammel::tool {
+
+scene::Scene load_scene(const Arguments& arguments) {
+  std::vector<scene::Override> overrides;
+  for (const std::string& text : arguments.all("--set")) {
+    const auto equals = text.find('=');
+    if (equals == text.npos || equals == 0)
+      throw UsageError(fmt::format("--set {}: expected PATH=VALUE, e.g. --set contacts.tip.restitution=0.3", text));
+    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return scene::Scene::load(arguments.operand(), overrides);
+}
+
+void load_plugins(const Arguments& arguments, plugin::Registry& registry) {
+  for (const std::string& library : arguments.all("--plugin")) registry.search(library);
+}
+
+void print_json(const nlohmann::ordered_json& object) {
+  // Names of files need not be UTF-8; what is not is replaced, so that the output stays JSON.
+  std::puts(object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> all;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) all.push_back(line);
+  return all;
+}
+
+}  // namespace trammel::tool

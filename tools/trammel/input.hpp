@@ -1,0 +1,25 @@
+// What every command reads and writes alike: the scene, plugins, JSON, errors.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "arguments.hpp"
+#include "plugin/registry.hpp"
+#include "scene/value.hpp"
+
+namespace trammel::tool {
+
+// The operand with its --set overrides. Throws scene::SceneError.
+scene::Scene load_scene(const Arguments& arguments);
+
+// Adds the libraries and folders given by --plugin. Throws plugin::PluginError.
+void load_plugins(const Arguments& arguments, plugin::Registry& registry);
+
+void print_json(const nlohmann::ordered_json& object);
+
+std::vector<std::string> lines(const std::string& text);  // without empty ones
+
+}  // namespace trammel::tool

@@ -1,0 +1,43 @@
+// trammel list: every component that scenes can name.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "arguments.hpp"
+#include "input.hpp"
+#include "plugin/describe.hpp"
+
+namespace trammel::tool {
+
+namespace {
+
+Exit list(const Arguments& arguments) {
+  plugin::Registry registry;
+  load_plugins(arguments, registry);
+  const auto entries = registry.all();
+  if (arguments.has("--json")) {
+    nlohmann::ordered_json components = nlohmann::ordered_json::array(), unusable = nlohmann::ordered_json::array();
+    for (const plugin::Entry* entry : entries) {
+      const Declaration& declaration = entry->declaration;
+      components.push_back({{"kind", to_string(declaration.kind)},
+                            {"name", declaration.name},
+                            {"summary", declaration.summary},
+                            {"source", declaration.source},
+                            {"file", entry->file}});
+    }
+    for (const plugin::PluginError& error : registry.failures())
+      unusable.push_back({{"file", error.origin().file}, {"message", error.what()}});
+    print_json({{"status", "done"}, {"components", components}, {"unusable", unusable}});
+    return Exit::done;
+  }
+  fmt::print("{}", plugin::list(entries));
+  for (const plugin::PluginError& error : registry.failures()) fmt::print(stderr, "warning: {}\n", error.what());
+  return Exit::done;
+}
+
+}  // namespace
+
+Command list_command() {
+  return {"list", "", "List all components: integrators, bodies, joints, forces, contacts.", {kPlugin, kJson}, list};
+}
+
+}  // namespace trammel::tool

@@ -1,0 +1,123 @@
+// trammel: the command-line program. Finds the command, and turns whatever went wrong into one exit code and one
+// message.
+//
+// Exit codes: 0 done, 1 the run failed (results kept), 2 bad input, 3 bad plugin, 130 interrupted (resumable).
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <new>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "arguments.hpp"
+#include "input.hpp"
+#include "scene/suggestion.hpp"
+
+namespace trammel::tool {
+
+namespace {
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> all = {run_command(),  validate_command(), explain_command(),
+                                           list_command(), describe_command(), schema_command()};
+  return all;
+}
+
+void print_help() {
+  fmt::print("Trammel simulates flexible multibody systems with contact.\n\n");
+  for (const Command& command : commands())
+    fmt::print("  trammel {:<20} {}\n", fmt::format("{} {}", command.name, command.operand), command.summary);
+  fmt::print("\n'trammel COMMAND --help' shows a command's options.\n");
+}
+
+const Command& find_command(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Command& command : commands()) {
+    if (command.name == name) return command;
+    names.emplace_back(command.name);
+  }
+  throw UsageError(fmt::format("there is no command '{}'{}", name, scene::did_you_mean(name, names)));
+}
+
+Exit dispatch(std::span<const std::string> words) {
+  if (words.empty() || words[0] == "help" || words[0] == "--help" || words[0] == "-h") {
+    if (words.size() > 1)
+      fmt::print("{}", find_command(words[1]).help());
+    else
+      print_help();
+    return words.empty() ? Exit::bad_input : Exit::done;
+  }
+  if (words[0] == "--version") {
+    fmt::print("trammel {}\n", TRAMMEL_VERSION);
+    return Exit::done;
+  }
+  const Command& command = find_command(words[0]);
+  const auto rest = words.subspan(1);
+  for (const std::string& word : rest) {
+    if (word == "--") break;
+    if (word == "--help" || word == "-h") {
+      fmt::print("{}", command.help());
+      return Exit::done;
+    }
+  }
+  return command.run(Arguments(command, rest));
+}
+
+// One problem without a place in a file.
+std::vector<scene::Problem> problem(const std::exception& error) {
+  return {{{}, "", error.what()}};
+}
+
+void report(const std::vector<scene::Problem>& problems, const char* text, bool json) {
+  if (!json) {
+    std::fprintf(stderr, "%s\n", text);
+    return;
+  }
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const scene::Problem& p : problems)
+    all.push_back(
+        {{"file", p.at.file}, {"line", p.at.line}, {"column", p.at.column}, {"path", p.path}, {"message", p.message}});
+  print_json({{"status", "error"}, {"problems", all}});
+}
+
+int run_program(std::span<const std::string> words) {
+  const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
+  const auto fail = [&](Exit code, const std::vector<scene::Problem>& problems, const std::string& text) {
+    report(problems, text.c_str(), json);
+    return code;
+  };
+  try {
+    return dispatch(words);
+  } catch (const scene::SceneError& error) {
+    return fail(Exit::bad_input, error.problems(), error.what());
+  } catch (const UsageError& error) {
+    return fail(Exit::bad_input, problem(error), fmt::format("trammel: {}", error.what()));
+  } catch (const plugin::PluginError& error) {
+    return fail(Exit::bad_plugin, problem(error), fmt::format("trammel: {}", error.what()));
+  } catch (const std::bad_alloc&) {
+    const std::runtime_error error("out of memory");
+    return fail(Exit::failed, problem(error), "trammel: out of memory");
+  } catch (const std::exception& error) {
+    return fail(Exit::failed, problem(error), fmt::format("trammel: {}", error.what()));
+  } catch (...) {
+    const std::runtime_error error("something unexpected went wrong: an exception that is no std::exception");
+    return fail(Exit::failed, problem(error), fmt::format("trammel: {}", error.what()));
+  }
+}
+
+}  // namespace
+
+}  // namespace trammel::tool
+
+int main(int argc, char** argv) {
+  // A file that meets its size limit is then an error of the write, with results kept, and not the end of the process.
+  std::signal(SIGXFSZ, SIG_IGN);
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const int code = trammel::tool::run_program(words);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+    fmt::print(stderr, "trammel: could not write to standard output\n");
+    return code == 0 ? 1 : code;
+  }
+  return code;
+}

@@ -1,0 +1,37 @@
+// trammel validate SCENE: read everything and build the model without running.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "arguments.hpp"
+#include "input.hpp"
+#include "simulate/simulation.hpp"
+
+namespace trammel::tool {
+
+namespace {
+
+Exit validate(const Arguments& arguments) {
+  const scene::Scene scene = load_scene(arguments);
+  plugin::Registry registry;
+  load_plugins(arguments, registry);
+  const std::string warnings = simulate::validate(scene, registry);
+  if (arguments.has("--json")) {
+    print_json({{"status", "done"}, {"scene", arguments.operand()}, {"warnings", lines(warnings)}});
+  } else {
+    for (const std::string& warning : lines(warnings)) fmt::print(stderr, "warning: {}\n", warning);
+    fmt::print("{} is valid\n", arguments.operand());
+  }
+  return Exit::done;
+}
+
+}  // namespace
+
+Command validate_command() {
+  return {"validate",
+          "SCENE",
+          "Check a scene without running it; every problem is reported.",
+          {kSet, kPlugin, kJson},
+          validate};
+}
+
+}  // namespace trammel::tool
