@@ -34,23 +34,22 @@ fs::path installed_folder() {
   return fs::path(boost::dll::this_line_location().parent_path().string()) / "trammel";
 }
 
-// Runs the library's own code. The handle is given up on purpose: a library is never unloaded.
+// Runs the library's own code.
 const Declarations& open(const std::string& file) {
   namespace dll = boost::dll;
-  auto* library = new dll::shared_library;  // NOLINT: lives as long as the process
+  dll::shared_library library;
   boost::dll::fs::error_code failed;
-  library->load(file, dll::load_mode::rtld_now | dll::load_mode::rtld_local, failed);
+  library.load(file, dll::load_mode::rtld_now | dll::load_mode::rtld_local, failed);
   if (failed) {
     const char* text = ::dlerror();  // Boost.DLL's own text is an unrelated errno
-    delete library;
     throw PluginError(file, text ? text : "cannot be loaded");
   }
-  if (!library->has(entry_point))
+  // From here on it stays: objects, exceptions and texts of it may outlive every handle.
+  ::dlopen(file.c_str(), RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
+  if (!library.has(entry_point))
     throw PluginError(file, fmt::format("it exports no function {}; is it hidden by a linker script?", entry_point));
   try {
-    const Declarations* declarations = library->get<const Declarations*()>(entry_point)();
-    if (!declarations) throw PluginError(file, "its declarations are null");
-    return *declarations;
+    return *library.get<const Declarations*()>(entry_point)();
   } catch (const std::exception& e) {
     throw PluginError(file, fmt::format("it threw while declaring its components: {}", e.what()));
   } catch (...) {
