@@ -14,8 +14,9 @@
 // `coupling` says what deformation and overall motion know of each other:
 //     full     the above
 //     linear   without foreshortening (H = 0): wrong beyond slow rotation, where it misses the geometric stiffening
-//     none     the inertia of the undeformed beam: a constant mass matrix, no gyroscopic terms
-// Each is the Lagrangian system of its own kinetic energy, so each conserves energy.
+//     none     the inertia of the undeformed beam: a constant mass matrix, no gyroscopic or centrifugal terms
+// Each is the Lagrangian system of its own kinetic energy, so each conserves energy. That is why `none` needs a held root:
+// with a free one, its kinetic energy would feel the uniform motion of the whole.
 #pragma once
 
 #include <optional>
@@ -24,7 +25,7 @@
 #include <trammel/parameters.hpp>
 #include <trammel/time_function.hpp>
 
-#include "field.hpp"
+#include "inertia_basis.hpp"
 
 namespace trammel::beam {
 
@@ -69,47 +70,59 @@ class AssumedModeBeam final : public Body,
   void shape(double t, In q, Mat& points) const override;
 
  private:
-  using Local = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * most_modes + 3, 2 * most_modes + 3>;
-  // Where things stand in q and v; -1: not there.
-  int i_o_ = -1, i_theta_ = -1, i_A_ = 0, i_B_ = 0, n_ = 0;
+  static constexpr int most_coordinates = 2 * most_modes + 3;
+  using Local = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_coordinates, most_coordinates>;
+
+  // The deformed beam as coefficients in the inertia basis: X = X0 + Phi_x A - 1/2 B^T H B, Y = Phi_y B, and the rows
+  // p_i = (H B)_i, of length basis.row(). On the stack: no allocation, and several threads may use one beam.
+  struct Deformation {
+    alignas(64) double X[InertiaBasis::most], Y[InertiaBasis::most], p[most_modes * InertiaBasis::most_row];
+  };
+  // The velocities of the deformation in the beam's axes, Phi_x Ad - B^T H Bd and Phi_y Bd.
+  struct DeformationRate {
+    alignas(64) double x[InertiaBasis::most], y[InertiaBasis::most];
+  };
+  void deform(In q, Deformation& at) const;
+  void deform_rate(const Deformation& at, In v, DeformationRate& rate) const;
+  void foreshorten(const double* b, double* rows) const;                // (H b)_i as rows
+  void add_bending_square(double c, const double* b, double* y) const;  // y += c b^T H b
 
   double theta(In q) const { return i_theta_ >= 0 ? q(i_theta_) : angle; }
   double omega(In v) const { return i_theta_ >= 0 ? v(i_theta_) : 0; }
-  Eigen::Vector2d gravity_in_beam(double theta) const;
   Eigen::Vector2d origin(In q) const;
 
-  template <bool foreshortening>
+  // The equations of motion for the couplings full and linear ...
   void add_mass(In q, Local& M) const;
-  template <bool foreshortening>
   void add_force(In q, In v, Out f) const;
-  template <bool foreshortening>
   void add_tangent_of(In q, In v, In a, Blend c, Local& S) const;
-  // coupling none
+  // ... their rows and columns of the origin, with mount free ...
+  void add_origin_mass(const Deformation& at, double theta, Local& M) const;
+  // ... and for the coupling none.
   void add_uncoupled_mass(Local& M) const;
   void add_uncoupled_force(In q, Out f) const;
   void add_uncoupled_tangent(In q, Blend c, Local& S) const;
-  void add_local_mass(In q, Local& M) const;
-  double potential(In q) const;
-  void check_amplitudes(const char* name, const std::vector<double>& given, int modes) const;
-  // Position (X, Y), slope of u_y and p at one station of the marker table.
-  struct Station {
-    double X, Y, slope;
-    double p[most_modes];
-  };
-  Station station(const ShapeTable& table, int k, In q) const;
 
+  Local local_mass(In q) const;
+  double potential(In q) const;
+  void check_parameters(const World& world) const;
+  void check_amplitudes(const char* name, const std::vector<double>& given, int modes) const;
+
+  // Position in the beam's axes, slope of u_y and p at one point.
+  struct Point {
+    double X, Y, slope;
+    alignas(64) double p[padded(most_modes)];
+  };
+  Point point(const PointShape& shape, In q) const;
+
+  // Where things stand in q and v; -1: not there.
+  int i_o_ = -1, i_theta_ = -1, i_A_ = 0, i_B_ = 0, n_ = 0;
   Eigen::Vector2d gravity_ = Eigen::Vector2d::Zero();
-  Shape shape_;
-  std::optional<ShapeTable> table_;    // quadrature stations, weights times rho S
-  std::optional<ShapeTable> markers_;  // at the markers
-  std::optional<ShapeTable> outline_;  // for drawing
-  double mass_ = 0;                    // rho S L
-  double S0_ = 0, I0_ = 0;             // int (r_h + x) dm, int (r_h + x)^2 dm
-  Vec Sx_, Sy_;                        // int Phi_x dm, int Phi_y dm
-  Vec Dx_, Dy_;                        // int (r_h + x) Phi dm
-  Mat Mxy_;                            // int Phi_x^T Phi_y dm
-  std::vector<Mat> D_;                 // D_[i](j, m) = int Phi_x,i H_jm dm
-  std::vector<Mat> F_;                 // F_[i](j, m) = int Phi_y,i H_jm dm
+  std::optional<InertiaBasis> basis_;
+  std::vector<PointShape> marker_shapes_, outline_shapes_;
+  double mass_ = 0;        // rho S L
+  double S0_ = 0, I0_ = 0; // int X0 dm, int X0^2 dm
+  Vec Sx_, Sy_, Dy_;       // int Phi_x dm, int Phi_y dm, int X0 Phi_y dm
+  Mat Mxy_;                // int Phi_x^T Phi_y dm, columns padded
   Vec K1_, K2_;
   std::vector<std::string> marker_names_, observable_names_;
 };

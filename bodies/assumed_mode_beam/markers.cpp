@@ -1,31 +1,30 @@
-// The beam's markers, observables and outline: the motion of single stations.
+// The beam's markers, observables and outline: the motion of single points of its axis.
 #include <cmath>
 
 #include "beam.hpp"
 
 namespace trammel::beam {
 
-AssumedModeBeam::Station AssumedModeBeam::station(const ShapeTable& table, int k, In q) const {
+AssumedModeBeam::Point AssumedModeBeam::point(const PointShape& shape, In q) const {
   const int N = transverse_modes;
   const double *A = q.data() + i_A_, *B = q.data() + i_B_;
-  Station at{table.X0()[k], 0, 0, {}};
-  for (int i = 0; i < axial_modes; ++i) at.X += table.phi_x(i)[k] * A[i];
+  Point at{shape.X0, 0, 0, {}};
+  for (int i = 0; i < axial_modes; ++i) at.X += shape.phi_x(i) * A[i];
   for (int i = 0; i < N; ++i) {
-    at.Y += table.phi_y(i)[k] * B[i];
-    at.slope += table.slope_y(i)[k] * B[i];
-    at.p[i] = 0;
-    if (coupling != Coupling::full) continue;
-    for (int j = 0; j < N; ++j) at.p[i] += table.H(i, j)[k] * B[j];
-    at.X -= 0.5 * B[i] * at.p[i];
+    at.Y += shape.phi_y(i) * B[i];
+    at.slope += shape.slope_y(i) * B[i];
   }
+  if (coupling != Coupling::full || N == 0) return at;
+  combine(padded(N), N, shape.H.data(), padded(N), B, at.p);
+  for (int i = 0; i < N; ++i) at.X -= 0.5 * B[i] * at.p[i];
   return at;
 }
 
 // With the coupling none the kinetic energy knows only the undeformed beam, but a marker is where the material is.
 void AssumedModeBeam::motion(int marker, double, In q, In v, Motion& motion) const {
-  const ShapeTable& table = *markers_;
+  const PointShape& shape = marker_shapes_[std::size_t(marker)];
   const int N = transverse_modes;
-  const Station at = station(table, marker, q);
+  const Point at = point(shape, q);
   const double *Ad = v.data() + i_A_, *Bd = v.data() + i_B_;
   const double w = omega(v), angle_now = theta(q), c = std::cos(angle_now), s = std::sin(angle_now);
   const Eigen::Vector2d o = origin(q);
@@ -50,18 +49,18 @@ void AssumedModeBeam::motion(int marker, double, In q, In v, Motion& motion) con
   if (i_o_ >= 0) motion.J(0, i_o_) = motion.J(1, i_o_ + 1) = 1;
   if (i_theta_ >= 0) column(i_theta_, -at.Y, at.X, 1);
   for (int i = 0; i < axial_modes; ++i) {
-    column(i_A_ + i, table.phi_x(i)[marker], 0, 0);
-    ud_x += table.phi_x(i)[marker] * Ad[i];
+    column(i_A_ + i, shape.phi_x(i), 0, 0);
+    ud_x += shape.phi_x(i) * Ad[i];
   }
   for (int i = 0; i < N; ++i) {
-    const double phi = table.phi_y(i)[marker], slope = table.slope_y(i)[marker];
+    const double phi = shape.phi_y(i), slope = shape.slope_y(i);
     column(i_B_ + i, -at.p[i], phi, tilt * slope);
     ud_x -= at.p[i] * Bd[i];
     ud_y += phi * Bd[i];
     slope_rate += slope * Bd[i];
     if (coupling != Coupling::full) continue;
-    bending += table.H(i, i)[marker] * Bd[i] * Bd[i];
-    for (int j = 0; j < i; ++j) bending += 2 * table.H(i, j)[marker] * Bd[i] * Bd[j];
+    bending += shape.H(i, i) * Bd[i] * Bd[i];
+    for (int j = 0; j < i; ++j) bending += 2 * shape.H(i, j) * Bd[i] * Bd[j];
   }
   const double V1 = ud_x - w * at.Y, V2 = ud_y + w * at.X;
   motion.V << c * V1 - s * V2, s * V1 + c * V2, w + tilt * slope_rate;
@@ -72,8 +71,8 @@ void AssumedModeBeam::motion(int marker, double, In q, In v, Motion& motion) con
 
 // J^T F by q, F = (force, moment) fixed in the world; force in the beam's axes is b, with db/dtheta = (b_2, -b_1).
 void AssumedModeBeam::add_reaction_derivative(int marker, double, In q, const Wrench& F, double c, Matrix& S) const {
-  const ShapeTable& table = *markers_;
-  const Station at = station(table, marker, q);
+  const PointShape& shape = marker_shapes_[std::size_t(marker)];
+  const Point at = point(shape, q);
   const double angle_now = theta(q), cosine = std::cos(angle_now), sine = std::sin(angle_now);
   const double b1 = cosine * F(0) + sine * F(1), b2 = -sine * F(0) + cosine * F(1);
   const auto symmetric = [&](int i, int j, double value) {
@@ -82,15 +81,14 @@ void AssumedModeBeam::add_reaction_derivative(int marker, double, In q, const Wr
   };
   if (i_theta_ >= 0) {
     S.add(i_theta_, i_theta_, c * (-at.Y * b2 - at.X * b1));
-    for (int i = 0; i < axial_modes; ++i) symmetric(i_theta_, i_A_ + i, table.phi_x(i)[marker] * b2);
-    for (int i = 0; i < transverse_modes; ++i)
-      symmetric(i_theta_, i_B_ + i, -at.p[i] * b2 - table.phi_y(i)[marker] * b1);
+    for (int i = 0; i < axial_modes; ++i) symmetric(i_theta_, i_A_ + i, shape.phi_x(i) * b2);
+    for (int i = 0; i < transverse_modes; ++i) symmetric(i_theta_, i_B_ + i, -at.p[i] * b2 - shape.phi_y(i) * b1);
   }
   const double tilt = 1 / (1 + at.slope * at.slope), turning = -2 * at.slope * tilt * tilt * F(2);
   for (int i = 0; i < transverse_modes; ++i)
     for (int j = 0; j < transverse_modes; ++j) {
-      double value = turning * table.slope_y(i)[marker] * table.slope_y(j)[marker];
-      if (coupling == Coupling::full) value -= table.H(i, j)[marker] * b1;
+      double value = turning * shape.slope_y(i) * shape.slope_y(j);
+      if (coupling == Coupling::full) value -= shape.H(i, j) * b1;
       S.add(i_B_ + i, i_B_ + j, c * value);
     }
 }
@@ -102,9 +100,9 @@ double AssumedModeBeam::observe(int observable, double, In q, In v) const {
     case 1:
       return omega(v);
     case 2:
-      return station(*markers_, 1, q).X - hub_radius - length;
+      return point(marker_shapes_[1], q).X - hub_radius - length;
     case 3:
-      return station(*markers_, 1, q).Y;
+      return point(marker_shapes_[1], q).Y;
     default:
       break;
   }
@@ -115,9 +113,9 @@ double AssumedModeBeam::observe(int observable, double, In q, In v) const {
 void AssumedModeBeam::shape(double, In q, Mat& points) const {
   const Eigen::Vector2d o = origin(q);
   const double c = std::cos(theta(q)), s = std::sin(theta(q));
-  points.resize(2, outline_stations);
-  for (int k = 0; k < outline_stations; ++k) {
-    const Station at = station(*outline_, k, q);
+  points.resize(2, Eigen::Index(outline_shapes_.size()));
+  for (Eigen::Index k = 0; k < points.cols(); ++k) {
+    const Point at = point(outline_shapes_[std::size_t(k)], q);
     points.col(k) << o(0) + c * at.X - s * at.Y, o(1) + s * at.X + c * at.Y;
   }
 }

@@ -9,6 +9,7 @@
 
 #include <Eigen/Cholesky>
 #include <nlohmann/json.hpp>
+#include <trammel/quadrature.hpp>
 
 namespace trammel::beam {
 namespace {

@@ -1,0 +1,32 @@
+#include "point_shape.hpp"
+
+#include <trammel/quadrature.hpp>
+
+#include "vector_loops.hpp"
+
+namespace trammel::beam {
+
+std::vector<PointShape> shapes_at(const Shape& shape, const Vec& x, bool foreshortening) {
+  const int n_axial = int(shape.axial.size()), N = int(shape.transverse.size());
+  // A product of two slopes has at most 2 N - 1 half waves on the beam.
+  const Quadrature unit = foreshortening && N > 0 ? gauss_legendre(6 * N + 12, 0, 1) : Quadrature{};
+  Mat slopes(unit.x.size(), N);
+
+  std::vector<PointShape> points(std::size_t(x.size()));
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    PointShape& at = points[std::size_t(k)];
+    at.X0 = shape.hub_radius + x(k);
+    at.phi_x = Vec::NullaryExpr(n_axial, [&](Eigen::Index i) { return shape.axial[std::size_t(i)].value(x(k)); });
+    at.phi_y = Vec::NullaryExpr(N, [&](Eigen::Index i) { return shape.transverse[std::size_t(i)].value(x(k)); });
+    at.slope_y = Vec::NullaryExpr(N, [&](Eigen::Index i) { return shape.transverse[std::size_t(i)].slope(x(k)); });
+    if (!foreshortening) continue;
+    for (int i = 0; i < N; ++i)
+      for (Eigen::Index g = 0; g < unit.x.size(); ++g)
+        slopes(g, i) = shape.transverse[std::size_t(i)].slope(x(k) * unit.x(g));
+    at.H = Mat::Zero(padded(N), N);
+    at.H.topRows(N) = slopes.transpose() * (x(k) * unit.weight).asDiagonal() * slopes;
+  }
+  return points;
+}
+
+}  // namespace trammel::beam
