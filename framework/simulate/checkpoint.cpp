@@ -75,10 +75,12 @@ constexpr int format = 1;
 
 template <class T>
 void JsonArchive::transfer(std::string_view name, T& value) {
-  if (direction_ == Direction::write)
-    data_[std::string(name)] = value;
-  else
+  if (direction_ == Direction::write) {
+    if (!data_.emplace(std::string(name), value).second)
+      throw std::logic_error(fmt::format("\"{}\" is archived twice", name));  // one would be lost
+  } else {
     value = data_.at(std::string(name)).get<T>();
+  }
 }
 
 void JsonArchive::operator()(std::string_view name, bool& value) {

@@ -60,7 +60,7 @@ void Ledger::archive(Archive& a) {
   a("power_drives", now_.drives), a("power_dampers", now_.dampers), a("power_contacts", now_.contacts);
   a("power_constraints", now_.constraints);
   Vec impacts = Eigen::Map<const Vec>(impacts_.data(), Eigen::Index(impacts_.size()));
-  a("impacts", impacts);
+  a("lost_to_impacts", impacts);
   impacts_.assign(impacts.data(), impacts.data() + impacts.size());
 }
 

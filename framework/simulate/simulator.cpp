@@ -34,8 +34,8 @@ Simulator::Simulator(std::shared_ptr<const model::Model> model, Integrator& inte
       estimate_(dynamic_cast<ErrorEstimate*>(&integrator)),
       dense_(dynamic_cast<DenseOutput*>(&integrator)),
       corrections_(std::move(corrections)),
-      free_control_(settings.step, settings.until - settings.start, error_order(integrator)),
-      contact_control_(settings.contact_step, settings.until - settings.start, error_order(integrator)),
+      free_control_(settings.step, settings.every, error_order(integrator)),
+      contact_control_(settings.contact_step, settings.every, error_order(integrator)),
       modes_(system_, chatter_time(settings)),
       location_(system_, integrator),
       ledger_(system_) {}

@@ -9,14 +9,15 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr int most_halvings = 10;  // of a fixed step that the method refuses
 }  // namespace
 
-StepControl::StepControl(const StepChoice& choice, double span, int order)
-    : choice_(choice), span_(span), order_(order) {
-  if (span_ > 0) choice_.most = std::min(choice_.most, span_ / 50);  // so that no bounce is stepped over unseen
-  wish_ = choice_.initial > 0 ? choice_.initial : std::min(choice_.most, std::max(span_ * 1e-3, choice_.least));
+StepControl::StepControl(const StepChoice& choice, double every, int order)
+    : choice_(choice), every_(every), order_(order) {
+  choice_.most = std::min(choice_.most, 20 * every_);
+  wish_ = choice_.initial > 0 ? choice_.initial : std::max(every_, choice_.least);
+  wish_ = std::min(wish_, choice_.most);
 }
 
 double StepControl::smallest(double t) const {
-  return std::max(choice_.least, 16 * eps * std::max(std::abs(t), span_));
+  return std::max(choice_.least, 16 * eps * std::max(std::abs(t), every_));
 }
 
 StepControl::Proposal StepControl::propose(double t, double stop) {

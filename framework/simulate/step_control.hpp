@@ -21,8 +21,9 @@ namespace trammel::simulate {
 
 class StepControl {
  public:
-  // `span`: length of the run [s]; `order` of the error estimate, 0 for fixed steps.
-  StepControl(const StepChoice& choice, double span, int order);
+  // `every`: time between records [s], which gives the scale where the scene leaves it open (not the end of the run, so
+  // that a run resumed with a later end takes the same steps); `order` of the error estimate.
+  StepControl(const StepChoice& choice, double every, int order);
 
   bool controlled() const { return !choice_.fixed; }
   double fixed_step() const { return choice_.fixed.value_or(0); }
@@ -46,7 +47,7 @@ class StepControl {
 
  private:
   StepChoice choice_;
-  double span_;
+  double every_;
   int order_;
   // fixed: the plan from t0 to the stop
   double t0_ = 0, stop_ = 0, h_ = 0;
