@@ -20,6 +20,8 @@ Place place_of(std::string_view call) {
   return {"bodies", Kind::body};
 }
 
+}  // namespace
+
 plugin::Origin origin_of(const model::CallSite& site, const scene::Value& root, plugin::Registry& registry) {
   const Place place = place_of(site.call);
   const std::string path = fmt::format("{}.{}", place.group, *site.component);
@@ -30,8 +32,6 @@ plugin::Origin origin_of(const model::CallSite& site, const scene::Value& root, 
     }
   return {"", to_string(place.kind), path};
 }
-
-}  // namespace
 
 plugin::PluginError blame(const std::exception& e, const Setup& setup, const model::CallSite& site,
                           const scene::Value& root, plugin::Registry& registry, double t, long long step) {

@@ -14,4 +14,7 @@ namespace trammel::simulate {
 plugin::PluginError blame(const std::exception& e, const Setup& setup, const model::CallSite& site,
                           const scene::Value& root, plugin::Registry& registry, double t, long long step);
 
+// Where the component comes from, that was called there.
+plugin::Origin origin_of(const model::CallSite& site, const scene::Value& root, plugin::Registry& registry);
+
 }  // namespace trammel::simulate

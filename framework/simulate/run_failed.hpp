@@ -3,11 +3,24 @@
 
 #include <stdexcept>
 
+#include "model/assembled_system.hpp"
+
 namespace trammel::simulate {
 
 class RunFailed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+// Because a component answered with numbers that are not finite. Not a PluginError: a law of time in the scene, such as
+// sqrt(1-t), has the same effect.
+class NotFinite : public RunFailed {
+ public:
+  NotFinite(const std::string& when, const model::CallSite& where) : RunFailed(when), site_(where) {}
+  const model::CallSite& site() const { return site_; }
+
+ private:
+  model::CallSite site_;
 };
 
 }  // namespace trammel::simulate

@@ -47,6 +47,10 @@ class Run {
       open();
       loop();
       finish();
+    } catch (const NotFinite& e) {
+      const plugin::Origin origin = origin_of(e.site(), scene_.root(), registry_);
+      end(Status::failed, fmt::format("{}: {} ({} of {}) gave numbers that are not finite in its \"{}\"", e.what(),
+                                      origin.path, origin.component, origin.file, e.site().call));
     } catch (const RunFailed& e) {
       end(Status::failed, e.what());
     } catch (const model::NotSolvable& e) {

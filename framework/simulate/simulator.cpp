@@ -131,22 +131,33 @@ void Simulator::refuse(const StepControl::Proposal& proposal, const char* reason
     warnings_.push_back(
         fmt::format("t = {:.9g} s: a step of {:.3g} s was refused ({}) and halved", now_.t, proposal.h, reason));
   if (!steps.too_small(now_.t)) return;
+  find_culprit(proposal.h);
   system_.move_to(now_.t, now_.q, now_.v);
   fail(proposal.h, reason);
 }
 
-void Simulator::fail(double h, const std::string& why) const {
-  throw RunFailed(fmt::format("at t = {:.9g} s, step {} of {:.3g} s: {}", now_.t, statistics_.steps + 1, h, why));
+std::string Simulator::when(double h) const {
+  return fmt::format("at t = {:.9g} s, step {} of {:.3g} s", now_.t, statistics_.steps + 1, h);
 }
 
-// Names the component to blame, if one is: looked for where the step began, and at the times it went to.
-void Simulator::fail_not_finite(double h) {
-  for (const double part : {0.0, 0.5, 1.0}) {
+void Simulator::fail(double h, const std::string& why) const {
+  throw RunFailed(fmt::format("{}: {}", when(h), why));
+}
+
+// Throws if a component answers with numbers that are not finite where the step began, or at the times it went to. Not when
+// the state itself is near the end of the numbers: then any component's answer may overflow.
+void Simulator::find_culprit(double h) {
+  const double size = std::max(now_.q.lpNorm<Eigen::Infinity>(), now_.v.lpNorm<Eigen::Infinity>());
+  if (!(size < 1e30)) return;
+  for (const double part : {0.0, 0.5, 1.0, 2.0}) {
     system_.move_to(now_.t + part * h, now_.q, now_.v);
     const model::CallSite site = system_.find_not_finite();
-    if (site.component)
-      fail(h, fmt::format("{} of \"{}\" gave numbers that are not finite", site.call, *site.component));
+    if (site.component) throw NotFinite(when(h), site);
   }
+}
+
+void Simulator::fail_not_finite(double h) {
+  find_culprit(h);
   fail(h, "the solution diverged: numbers that are not finite. The step may be too long for the method");
 }
 

@@ -52,7 +52,9 @@ class Simulator {
   void record_due(Recorder& recorder);
   bool try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
   void refuse(const StepControl::Proposal& proposal, const char* reason);
+  std::string when(double h) const;
   [[noreturn]] void fail(double h, const std::string& why) const;
+  void find_culprit(double h);
   [[noreturn]] void fail_not_finite(double h);
   void correct();
   void accept(double h, bool shortened, const StepControl::Proposal& proposal, double error);
