@@ -64,6 +64,10 @@ void Simulator::start(State initial) {
 
 void Simulator::resume() {
   in_contact_ = modes_.any_closed();
+  if (!last_row_ || now_.t >= settings_.until) return;
+  // The end has moved: go on with rows at their multiples. The row at the former end may not have been one of them.
+  last_row_ = false;
+  if (settings_.start + double(records_ - 1) * settings_.every > now_.t + 1e-9 * settings_.every) --records_;
 }
 
 double Simulator::record_time(long long k) const {
@@ -92,7 +96,12 @@ bool Simulator::advance(Recorder& recorder) {
     if (!try_step(proposal, h, found, error)) continue;
     accept(h, h < proposal.h, proposal, error);
     record_inside(recorder);
-    if (found == EventLocation::Found::event) settle(location_.changes());
+    if (found == EventLocation::Found::event) {
+      settle(location_.changes());
+      const int contact = events_.empty() ? -1 : events_.back().contact;
+      write_events(recorder);  // now: a checkpoint may follow
+      guard_against_storm(contact);
+    }
     return true;
   }
 }
@@ -217,7 +226,6 @@ void Simulator::settle(const ContactChanges& changes) {
     ledger_.impact(events_[i].contact, events_[i].energy_lost);
   }
   window_events_ += 1;
-  guard_against_storm();
   at_new_modes();
 }
 
@@ -231,14 +239,16 @@ void Simulator::at_new_modes() {
   statistics_.note_sizes(now_.t, system_.sizes());
 }
 
-void Simulator::guard_against_storm() {
+void Simulator::guard_against_storm(int contact) {
   const double window = (settings_.until - settings_.start) * 1e-3;
   if (now_.t > window_start_ + window) window_start_ = now_.t, window_events_ = 1;
   if (window_events_ <= settings_.event_limit) return;
   throw RunFailed(fmt::format(
-      "event storm at t = {:.9g} s: more than {} events within {:.3g} s, the last of contact \"{}\"; raise "
-      "capture_speed of that contact, or simulate.event_limit if they are real",
-      now_.t, settings_.event_limit, now_.t - window_start_, system_.model().contacts[events_.back().contact].name));
+      "event storm at t = {:.9g} s, step {}: more than {} events within {:.3g} s{}; raise capture_speed of that "
+      "contact, "
+      "or simulate.event_limit if they are real",
+      now_.t, statistics_.steps, settings_.event_limit, now_.t - window_start_,
+      contact < 0 ? "" : fmt::format(", the last of contact \"{}\"", system_.model().contacts[contact].name)));
 }
 
 Energy Simulator::energy_at_state() {

@@ -60,7 +60,7 @@ class Simulator {
   void accept(double h, bool shortened, const StepControl::Proposal& proposal, double error);
   void record_inside(Recorder& recorder);
   void settle(const ContactChanges& changes);
-  void guard_against_storm();
+  void guard_against_storm(int contact);  // the last one; -1: unknown
   void write_events(Recorder& recorder);
   void at_new_modes();
 

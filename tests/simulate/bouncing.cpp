@@ -1,0 +1,133 @@
+// Impacts against closed forms: a ball under gravity (parabolas, exact for every method here) and a mass on a spring.
+//
+//     ball from h = 1 m, g = 10:  t_n = sqrt(2h/g) + 2 v0/g (e + ... + e^n),  v_n = e^n v0,  apex h e^(2n)
+#include <cmath>
+#include <numbers>
+
+#include "run_scene.hpp"
+#include "scenes.hpp"
+
+namespace trammel::test {
+namespace {
+
+using std::numbers::pi;
+
+const double v0 = std::sqrt(20.0), t0 = std::sqrt(0.2);
+
+double impact_time(int n, double e) {
+  double t = t0;
+  for (int i = 1; i <= n; ++i) t += 0.2 * v0 * std::pow(e, i);
+  return t;
+}
+
+class BouncingBall : public testing::TestWithParam<Method> {};
+
+TEST_P(BouncingBall, StrikesWhenAndAsFastAsItsClosedForm) {
+  const double e = 0.9;
+  const Finished run = run_text(ball, {{"integrator", GetParam().json}, {"contacts.floor.restitution", "0.9"}});
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  const std::vector<Event> impacts = run.of_kind("impact");
+  ASSERT_EQ(impacts.size(), 3u);  // at 0.447, 1.252, 1.977 s
+  for (int n = 0; n < 3; ++n) {
+    // Round-off of the steps, 2000 of them at most, and of t.
+    EXPECT_NEAR(impacts[n].t, impact_time(n, e), 1e-11);
+    EXPECT_NEAR(impacts[n].detail.at("approach"), std::pow(e, n) * v0, 1e-10);
+    EXPECT_DOUBLE_EQ(impacts[n].detail.at("separation"), e * impacts[n].detail.at("approach"));
+    EXPECT_NEAR(impacts[n].detail.at("impulse"), 0.1 * (1 + e) * std::pow(e, n) * v0, 1e-11);
+  }
+}
+
+TEST_P(BouncingBall, RisesToItsApexes) {
+  const double e = 0.9, apex_time = impact_time(0, e) + e * v0 / 10;
+  const Finished run = run_text(ball, {{"integrator", GetParam().json},
+                                       {"contacts.floor.restitution", "0.9"},
+                                       {"simulate.until", fmt::format("{:.17g}", apex_time)}});
+  EXPECT_NEAR(run.end("y"), e * e, 1e-10);
+  EXPECT_NEAR(run.end("x"), 0.5 * apex_time, 1e-10);  // the floor is smooth
+}
+
+INSTANTIATE_TEST_SUITE_P(FixedSteps, BouncingBall, testing::ValuesIn(fixed_methods("1e-3")), method_name);
+INSTANTIATE_TEST_SUITE_P(Controlled, BouncingBall, testing::ValuesIn(controlled_methods("1e-12")), method_name);
+
+TEST(BouncingBallSticks, WhereTheNextFlightWouldBeShorterThanThreeSteps) {
+  const double h = 1e-3, e = 0.5;
+  const Finished run = run_text(ball);
+  int last = 0;
+  while (2 * v0 * std::pow(e, last + 1) / 10 >= 3 * h) ++last;
+  EXPECT_EQ(run.result["counts"]["impacts"], last + 1);
+  const std::vector<Event> closed = run.of_kind("contact_close");
+  ASSERT_EQ(closed.size(), 1u);
+  EXPECT_NEAR(closed[0].t, impact_time(last, e), 1e-11);
+  EXPECT_EQ(run.events.back().kind, "contact_close");
+}
+
+TEST(BouncingBallSticks, BelowTheCaptureSpeedWithControlledSteps) {
+  const Finished run = run_text(ball, {{"integrator", R"({"type": "dop853", "step": {"tolerance": 1e-10}})"},
+                                       {"contacts.floor.capture_speed", "1e-3"}});
+  int last = 0;
+  while (v0 * std::pow(0.5, last) > 1e-3) ++last;
+  EXPECT_EQ(run.result["counts"]["impacts"], last + 1);
+  ASSERT_EQ(run.of_kind("contact_close").size(), 1u);
+  EXPECT_NEAR(run.of_kind("contact_close")[0].t, impact_time(last, 0.5), 1e-11);
+}
+
+TEST(BouncingBallSticks, AfterEveryFlightIfChatterIsAskedFor) {
+  const Finished run = run_text(ball, {{"simulate.chatter_steps", "1e4"}});  // flights up to 10 s
+  EXPECT_EQ(run.result["counts"]["impacts"], 1);
+  EXPECT_EQ(run.of_kind("contact_close").size(), 1u);
+}
+
+TEST(PlasticImpact, RestsAtOnceHeldByItsWeight) {
+  const Finished run = run_text(ball, {{"contacts.floor.restitution", "0"}});
+  ASSERT_EQ(run.events.size(), 2u);
+  EXPECT_EQ(run.events[0].kind, "impact");
+  EXPECT_EQ(run.events[1].kind, "contact_close");
+  EXPECT_NEAR(run.end("y"), 0, 1e-15);
+  EXPECT_NEAR(run.end("force"), 1, 1e-12);  // m g
+  EXPECT_NEAR(run.end("x"), 1, 1e-12);
+  EXPECT_NEAR(run.result["energy_dissipated"]["impact_total"], 1, 1e-11);  // m g h
+}
+
+TEST(ElasticImpact, KeepsTheEnergy) {
+  const Finished run = run_text(ball, {{"contacts.floor.restitution", "1"}, {"simulate.until", "50"}});
+  EXPECT_EQ(run.result["counts"]["impacts"], int((50 - t0) / (2 * t0)) + 1);
+  // 56 impacts located to an ulp of t; m g v ulp(50) = 3e-14 each, and 50000 steps of round-off.
+  EXPECT_NEAR(run.end("energy_total"), 1.0125, 1e-11);
+  EXPECT_EQ(run.result["energy_dissipated"]["impact_total"], 0);
+}
+
+TEST(OscillatorAgainstAWall, FliesHalfAPeriodWhateverItsSpeed) {
+  const Finished run = run_text(oscillator);
+  const std::vector<Event> impacts = run.of_kind("impact");
+  ASSERT_EQ(impacts.size(), 3u);
+  for (int n = 0; n < 3; ++n) {
+    // Fourth order: h^4/120 of phase a unit of time.
+    EXPECT_NEAR(impacts[n].t, pi / 2 + n * pi, 1e-8 / 120 * 10);
+    EXPECT_NEAR(impacts[n].detail.at("approach"), std::pow(0.5, n), 1e-9);
+  }
+}
+
+TEST(OscillatorAgainstAWall, IsStruckToTheToleranceOfControlledSteps) {
+  for (const Method& method : controlled_methods("1e-11")) {
+    if (method.name == "hht_alpha_controlled") continue;  // second order: too many steps at this tolerance
+    const Finished run = run_text(oscillator, {{"integrator", method.json}});
+    const std::vector<Event> impacts = run.of_kind("impact");
+    ASSERT_EQ(impacts.size(), 3u) << method.name;
+    for (int n = 0; n < 3; ++n)
+      EXPECT_NEAR(impacts[n].t, pi / 2 + n * pi, 1e-9) << method.name;  // 100 steps of the tolerance
+  }
+}
+
+TEST(OscillatorAgainstAWall, ConvergesWithTheOrderOfTheMethod) {
+  // Locating an event must not cost the method its order: the error of the third impact falls by 2^p.
+  for (const auto& [type, factor] : {std::pair{"newmark", 4.0}, {"runge_kutta_4", 16.0}}) {
+    const auto error = [&](const char* step) {
+      const Finished run = run_text(oscillator, {{"integrator.type", type}, {"integrator.step", step}});
+      return run.of_kind("impact").at(2).t - 2.5 * pi;
+    };
+    EXPECT_NEAR(error("0.05") / error("0.025"), factor, 0.1 * factor) << type;
+  }
+}
+
+}  // namespace
+}  // namespace trammel::test

@@ -1,0 +1,115 @@
+// Runs that cannot go on say when, in which step and why, and keep what they have.
+#include <gmock/gmock.h>
+
+#include "run_scene.hpp"
+#include "scenes.hpp"
+
+namespace trammel::test {
+namespace {
+
+using testing::HasSubstr;
+
+// sqrt(0.505 - t): not a number from then on.
+const Overrides breaks_at_0505 = {
+    {"forces.bad", R"json({"type": "load", "on": "ball.point", "force": {"x": "=sqrt(0.505-t)", "y": 0}})json"},
+    {"bodies.ball.position", "[0, 100]"}};
+
+class ForceThatIsNotANumber : public testing::TestWithParam<Method> {};
+
+TEST_P(ForceThatIsNotANumber, EndsTheRunAndIsNamed) {
+  Overrides overrides = breaks_at_0505;
+  overrides.push_back({"integrator", GetParam().json});
+  const Finished run = run_text(ball, overrides);
+  EXPECT_EQ(run.report.status, simulate::Status::failed);
+  EXPECT_THAT(run.report.reason, HasSubstr("at t = 0.50"));
+  EXPECT_THAT(run.report.reason, HasSubstr("step "));
+  EXPECT_THAT(run.report.reason, HasSubstr("forces.bad (force load of "));
+  EXPECT_THAT(run.report.reason, HasSubstr("load.so) gave numbers that are not finite in its \"wrench\""));
+}
+
+TEST_P(ForceThatIsNotANumber, LeavesTheRowsBefore) {
+  Overrides overrides = breaks_at_0505;
+  overrides.push_back({"integrator", GetParam().json});
+  const Finished run = run_text(ball, overrides);
+  ASSERT_EQ(run.series.at("t").size(), 51u);  // 0, 0.01 ... 0.5
+  for (const double y : run.series.at("y")) EXPECT_TRUE(std::isfinite(y));
+  EXPECT_EQ(run.result["status"], "failed");
+}
+
+std::vector<Method> all_methods() {
+  std::vector<Method> methods = fixed_methods("1e-3");
+  for (const Method& method : controlled_methods("1e-9")) methods.push_back(method);
+  return methods;
+}
+INSTANTIATE_TEST_SUITE_P(With, ForceThatIsNotANumber, testing::ValuesIn(all_methods()), method_name);
+
+TEST(DivergingRun, IsNotBlamedOnAComponent) {
+  // h omega = 10: explicit Runge-Kutta multiplies by about 400 a step until the numbers end.
+  const Finished run = run_text(
+      oscillator,
+      {{"forces.spring.stiffness", "1e4"}, {"integrator.step", "0.1"}, {"contacts", "{}"}, {"simulate.until", "1000"}});
+  EXPECT_EQ(run.report.status, simulate::Status::failed);
+  EXPECT_THAT(run.report.reason, HasSubstr("at t = "));
+  EXPECT_THAT(run.report.reason, testing::Not(HasSubstr("spring")));
+}
+
+TEST(EventStorm, EndsTheRunWithAWayOut) {
+  const Finished run = run_text(ball, {{"contacts.floor.restitution", "0.999"},
+                                       {"simulate.event_limit", "5"},
+                                       {"integrator", R"({"type": "dop853", "step": {"tolerance": 1e-9}})"},
+                                       {"bodies.ball.position", "[0, 1e-6]"}});
+  EXPECT_EQ(run.report.status, simulate::Status::failed);
+  EXPECT_THAT(run.report.reason, HasSubstr("event storm at t = "));
+  EXPECT_THAT(run.report.reason, HasSubstr("\"floor\""));
+  EXPECT_THAT(run.report.reason, HasSubstr("capture_speed"));
+  EXPECT_FALSE(run.events.empty());  // what led to it is kept
+}
+
+TEST(StepOfAFixedMethod, ThatIsRefusedIsHalvedAndToldAsAWarning) {
+  // Three iterations of Newton do not suffice at steps of 0.1 s; they do at a fraction of that.
+  const Finished run =
+      run_text(struck_bar, {{"integrator", R"({"type": "hht_alpha", "step": 0.1, "max_iterations": 3})"},
+                            {"contacts", "{}"},
+                            {"record", R"({"every": 0.1})"}});
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_GT(run.result["counts"]["rejected"], 0);
+  ASSERT_FALSE(run.result["warnings"].empty());
+  EXPECT_THAT(run.result["warnings"][0].get<std::string>(),
+              HasSubstr("was refused (Newton's iteration did not converge) and halved"));
+}
+
+std::string refusal(const std::string& scene, const Overrides& overrides) {
+  try {
+    run_text(scene, overrides);
+  } catch (const scene::SceneError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(InconsistentStart, IsRefusedWithByHowMuchAndTheNearestOne) {
+  const std::string said = refusal(struck_bar, {{"bodies.bar.position", "[0.403, 0.304]"}});
+  EXPECT_THAT(said, HasSubstr("off by 0.005 (m, rad) in position"));
+  EXPECT_THAT(said, HasSubstr("the nearest consistent initial state moves bodies.bar by up to"));
+  EXPECT_THAT(said, HasSubstr("\"consistent\": \"project\""));
+}
+
+TEST(InconsistentStart, IsRefusedForItsVelocityToo) {
+  EXPECT_THAT(refusal(struck_bar, {{"bodies.bar.velocity", "[0.25, 0]"}}), HasSubstr("0.25 (m/s, rad/s) in velocity"));
+}
+
+TEST(InconsistentStart, IsMovedOntoTheJointsWhenAskedFor) {
+  const Finished run = run_text(struck_bar, {{"bodies.bar.position", "[0.403, 0.304]"},
+                                             {"bodies.bar.velocity", "[0.25, 0]"},
+                                             {"initial", R"({"consistent": "project"})"}});
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_LT(run.series.at("constraint_position").front(), 1e-14);
+  EXPECT_LT(run.series.at("constraint_velocity").front(), 1e-14);
+}
+
+TEST(InconsistentStart, InsideAPlaneTellsTheDepth) {
+  EXPECT_THAT(refusal(ball, {{"bodies.ball.position", "[0, -0.25]"}}), HasSubstr("penetrates the plane by 0.25 m"));
+}
+
+}  // namespace
+}  // namespace trammel::test

@@ -1,0 +1,80 @@
+// Every joule has a cause: what the ledger says against closed forms, and nothing left over but the method's error.
+#include <cmath>
+
+#include "run_scene.hpp"
+#include "scenes.hpp"
+
+namespace trammel::test {
+namespace {
+
+double drift(const Finished& run) {
+  return run.result["energy_drift"];
+}
+
+// Of a mass of 1 kg at 2 m/s, x(t) = x0 + ..., without gravity.
+const std::string puck = R"({
+  "trammel": 1, "space": "planar", "gravity": [0, 0],
+  "bodies": {"mass": {"type": "point_mass", "mass": 1, "position": [1, 0], "velocity": [2, 0]}},
+  "integrator": {"type": "runge_kutta_4", "step": 1e-3},
+  "simulate": {"until": 1},
+  "record": {"every": 0.1}
+})";
+
+TEST(EnergyLedger, GivesADamperWhatItTook) {
+  // v' = -c v: dissipated 2 J (1 - exp(-2 c t)).
+  const Finished run = run_text(
+      puck,
+      {{"forces.damper",
+        R"({"type": "spring_damper", "between": ["ground", "mass.point"], "stiffness": 0, "damping": 3, "length": 1})"}});
+  EXPECT_NEAR(run.result["energy_dissipated"]["dampers"], 2 * (1 - std::exp(-6.0)), 1e-11);  // Simpson and RK4: (c h)^4
+  EXPECT_NEAR(drift(run), 0, 1e-11);
+}
+
+TEST(EnergyLedger, GivesALoadWhatItSupplied) {
+  // v = 2 + sin(5 t): 1/2 v^2 - 2.
+  const Finished run = run_text(
+      puck,
+      {{"forces.load", R"json({"type": "load", "on": "mass.point", "force": {"x": "=5*cos(5*t)", "y": 0}})json"}});
+  const double v = 2 + std::sin(5.0);
+  EXPECT_NEAR(run.result["energy_supplied"]["drives"], v * v / 2 - 2, 1e-11);
+  EXPECT_NEAR(drift(run), 0, 1e-11);
+}
+
+TEST(EnergyLedger, GivesImpactsWhatTheyTook) {
+  const Finished run = run_text(ball);
+  double lost = 0;
+  for (const Event& impact : run.of_kind("impact")) lost += impact.detail.at("energy_lost");
+  EXPECT_DOUBLE_EQ(run.result["energy_dissipated"]["impact_total"], lost);
+  EXPECT_DOUBLE_EQ(run.result["energy_dissipated"]["impact"]["floor"], lost);
+  EXPECT_NEAR(lost, 1, 1e-11);  // all of m g h: the ball rests
+  EXPECT_NEAR(drift(run), 0, 1e-12);
+}
+
+TEST(EnergyLedger, GivesAMovingJointItsWork) {
+  // A crank of inertia 1/3 about its axle, turned at 10 rad/s: the drive lifts and lowers its weight.
+  const Finished run = run_file("tour/05_slider_crank.json");
+  EXPECT_NEAR(run.result["energy_supplied"]["constraints"],
+              run.result["energy_end"]["total"].get<double>() - run.result["energy_start"].get<double>(), 1e-4);
+  EXPECT_NE(run.result["energy_supplied"]["constraints"], 0);
+  EXPECT_EQ(run.result["energy_supplied"]["drives"], 0);
+}
+
+TEST(EnergyLedger, ClosesForAllCausesAtOnceWithTheOrderOfTheMethod) {
+  const auto left_over = [](const std::string& type, const char* step) {
+    return std::abs(drift(run_text(struck_bar, {{"integrator.type", type}, {"integrator.step", step}})));
+  };
+  // Explicit methods let a closed row drift; what they lose with it is of the order of the method as well.
+  EXPECT_LT(left_over("runge_kutta_4", "1e-3"), 1e-9);
+  EXPECT_LT(left_over("dop853", "1e-3"), 1e-9);
+  EXPECT_NEAR(left_over("newmark", "1e-3") / left_over("newmark", "5e-4"), 4, 1);
+}
+
+TEST(EnergyLedger, OfAConservativeMotionHasNothingInIt) {
+  const Finished run = run_text(oscillator, {{"contacts", "{}"}, {"bodies.mass.position", "[0, 1.5]"}});
+  EXPECT_EQ(run.result["energy_supplied"]["total"], 0);
+  EXPECT_EQ(run.result["energy_dissipated"]["dampers"], 0);
+  EXPECT_NEAR(drift(run), 0, 2e-12);  // RK4 damps by (h omega)^6 / 72 of the 0.125 J a step, 1000 steps
+}
+
+}  // namespace
+}  // namespace trammel::test
