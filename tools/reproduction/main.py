@@ -1,0 +1,65 @@
+"""tools/reproduce SYSTEM: runs the scenes of a system's paper, draws its figures, fills its tables, judges its claims.
+
+A system is a module of this folder with TITLE, FIGURES (a list of Figure), CLAIMS (a list of Claim), and TABLES, a list of
+(name, title, runs, rows of the results): beam.py is one.
+"""
+import argparse
+import csv
+import importlib
+import os
+import pathlib
+import shutil
+import sys
+import time
+
+import claims
+import figures
+from runs import Results
+
+HERE = pathlib.Path(__file__).resolve().parent
+PARTS = {"main", "runs", "figures", "claims"}
+
+
+def main():
+    systems = sorted(p.stem for p in HERE.glob("*.py") if p.stem not in PARTS)
+    parser = argparse.ArgumentParser(prog="tools/reproduce", description="Redraws a paper's figures and checks its claims.")
+    parser.add_argument("system", choices=systems)
+    parser.add_argument("--out", type=pathlib.Path, help="results folder; default out/reproduce/SYSTEM")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time; default one per core")
+    options = parser.parse_args()
+    system = importlib.import_module(options.system)
+    out = options.out or pathlib.Path("out/reproduce") / options.system
+    shutil.rmtree(out / "runs", ignore_errors=True)
+    out.mkdir(parents=True, exist_ok=True)
+
+    start = time.monotonic()
+    results = Results(out / "runs")
+    results.compute([run for figure in system.FIGURES for run in figure.runs()]
+                    + [run for _, _, runs, _ in system.TABLES for run in runs]
+                    + [run for claim in system.CLAIMS for run in claim.runs], options.jobs)
+    for figure in system.FIGURES:
+        figures.write(figure, results, out)
+    text = [f"# {system.TITLE}", "", "Written by `tools/reproduce " + options.system + "`; every number of Trammel's was computed"
+            " by the runs in `runs/`, whose `command` files tell how.", ""]
+    for name, title, _, rows_of in system.TABLES:
+        header, *rows = rows_of(results)
+        with open(out / f"{name}.csv", "w", newline="") as file:
+            csv.writer(file).writerows([header, *rows])
+        text += [f"## {title}", "", claims.markdown(header, rows), ""]
+    table = claims.markdown(["claim", "paper", "Trammel", "holds", "why"], [claim.row(results) for claim in system.CLAIMS])
+    text += ["## Claims", "", table, ""]
+    if results.unexpected:
+        text += ["## Runs that failed", "", *("    " + line for line in results.unexpected), ""]
+    (out / "claims.md").write_text("\n".join(text))
+
+    print("\n".join(text))
+    print(f"{len(results.of_key)} runs, {len(system.FIGURES)} figures, {time.monotonic() - start:.0f} s. Curves (SVG, CSV) and "
+          f"claims.md are in {out}")
+    return 1 if results.unexpected else 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit(130)

@@ -1,0 +1,142 @@
+"""Runs of `trammel run`: started in parallel, each combination of scene and overrides once, results read as arrays."""
+import concurrent.futures
+import csv
+import dataclasses
+import functools
+import hashlib
+import json
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COMMENT_OR_STRING = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.S)
+
+
+@dataclasses.dataclass(frozen=True)
+class Run:
+    """A scene (path below scenes/, without .json) with `--set` values. may_fail: a claim says that this run breaks down."""
+
+    scene: str
+    values: tuple = ()
+    may_fail: bool = False
+
+    def command_line(self):
+        return [str(ROOT / "scenes" / f"{self.scene}.json"), *(x for path, v in self.values for x in ("--set", f"{path}={v}"))]
+
+    @functools.cache
+    def key(self):
+        """Equal for runs that compute the same: figures of one paper share many."""
+        content = _load(ROOT / "scenes" / f"{self.scene}.json")
+        for path, value in self.values:
+            *objects, last = path.split(".")
+            place = content
+            for name in objects:
+                place = place.setdefault(name, {})
+            place[last] = value
+        content.pop("title", None)
+        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:12]
+
+
+def run(scene, may_fail=False, **values):
+    """run("beam_impact/hht", parameters__N=5): dots of a path are written as two underscores."""
+    return Run(scene, tuple(sorted((k.replace("__", "."), v) for k, v in values.items())), may_fail)
+
+
+class Result:
+    """What a run left: columns of series.csv (`result["theta"]`), events, and result.json in `info`."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.info = json.loads((folder / "result.json").read_text())
+        with open(folder / "series.csv") as file:
+            names = file.readline().strip().split(",")
+        table = np.loadtxt(folder / "series.csv", delimiter=",", skiprows=1, ndmin=2)
+        self.columns = dict(zip(names, table.T))
+        with open(folder / "events.csv") as file:
+            self.events = [
+                (float(row["t"]), row["kind"], dict(item.split("=", 1) for item in row["detail"].split() if "=" in item))
+                for row in csv.DictReader(file)
+            ]
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+    @property
+    def t(self):
+        return self.columns["t"]
+
+    @property
+    def counts(self):
+        return self.info["counts"]
+
+    @property
+    def done(self):
+        return self.info["status"] == "done"
+
+    @property
+    def cpu(self):
+        return self.info["cpu_time_s"]
+
+
+class Results:
+    """The results of all runs, by run."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.of_key = {}
+        self.unexpected = []
+
+    def __getitem__(self, wanted):
+        return self.of_key[wanted.key()]
+
+    def compute(self, runs, jobs):
+        todo = {}
+        for wanted in runs:
+            todo.setdefault(wanted.key(), wanted)
+        start = time.monotonic()
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            waiting = {pool.submit(self._one, key, wanted): wanted for key, wanted in todo.items()}
+            for n, future in enumerate(concurrent.futures.as_completed(waiting), 1):
+                future.result()
+                print(f"  {n}/{len(todo)} runs, {time.monotonic() - start:.0f} s", end="\r" if sys.stderr.isatty() else "\n",
+                      file=sys.stderr, flush=True)
+
+    def _one(self, key, wanted):
+        folder = self.folder / f"{wanted.scene.replace('/', '_')}_{key}"
+        folder.mkdir(parents=True, exist_ok=True)
+        command = [os.environ["TRAMMEL"], "run", *wanted.command_line(), "--quiet", "--out", str(folder)]
+        (folder / "command").write_text(" ".join(command) + "\n")
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode not in (0, 1) or not (folder / "result.json").exists():
+            raise SystemExit(f"tools/reproduce: {' '.join(command)}\n{done.stderr}")
+        if done.returncode and not wanted.may_fail:
+            self.unexpected.append(f"{' '.join(command)}\n    {done.stderr.strip()}")
+        self.of_key[key] = Result(folder)
+
+
+def _load(path):
+    text = COMMENT_OR_STRING.sub(lambda m: m[0] if m[0].startswith('"') else " ", path.read_text())
+    content = json.loads(text)
+    include = content.pop("include", None)
+    return _merge(_load(path.parent / include), content) if include else content
+
+
+def _merge(base, changes):
+    if not (isinstance(base, dict) and isinstance(changes, dict)) or changes.get("type", base.get("type")) != base.get("type"):
+        return changes
+    return {name: _merge(base[name], changes[name]) if name in base and name in changes else changes.get(name, base.get(name))
+            for name in {**base, **changes}}
+
+
+def significant(x, digits=3):
+    """4 digits of 0.00123 or 1.8e-7 as people write them."""
+    if x == 0 or not math.isfinite(x):
+        return f"{x:g}"
+    return f"{x:.{digits}g}"
