@@ -203,7 +203,7 @@ std::string schema(const std::vector<const Entry*>& entries) {
   properties["integrator"] = reference("integrator");
   properties["initial"] = object({{"consistent", {{"enum", {"check", "project"}}}}});
   properties["simulate"] =
-      object({{"start", number}, {"until", number}, {"chatter_steps", number}, {"event_limit", positive}});
+      object({{"start", number}, {"until", number}, {"contact_hold", number}, {"chatter_steps", number}, {"event_limit", positive}});
   properties["record"] = object({{"every", positive}, {"observe", keyed(text)}});
   properties["corrections"] =
       object({{"position", correction(entries)}, {"velocity", correction(entries)}, {"energy", {{"type", "boolean"}}}});

@@ -55,9 +55,10 @@ void read_simulate(const Value& root, Settings& settings, Problems& problems) {
     problems.error(at.problem("the end of the run is missing: give \"simulate\": {\"until\": 2.0} [s]"));
     if (!simulate) return;
   }
-  check_keys(*simulate, {"start", "until", "chatter_steps", "event_limit"}, problems);
+  check_keys(*simulate, {"start", "until", "contact_hold", "chatter_steps", "event_limit"}, problems);
   settings.start = number(*simulate, "start", 0, -std::numeric_limits<double>::infinity(), true, "s", problems);
   settings.until = number(*simulate, "until", settings.start, settings.start, true, "s", problems);
+  settings.contact_hold = number(*simulate, "contact_hold", 0, 0, true, "s", problems);
   settings.chatter_steps = number(*simulate, "chatter_steps", settings.chatter_steps, 0, true, "steps", problems);
   settings.event_limit = static_cast<long long>(
       number(*simulate, "event_limit", double(settings.event_limit), 1, true, "events", problems));

@@ -1,7 +1,7 @@
 // What a scene says about the run itself: steps, times, records, corrections.
 //
 //     "integrator": {..., "step": 1e-4, "contact_step": {"tolerance": 1e-9}}     contact_step: while a contact is closed
-//     "simulate":   {"start": 0, "until": 2, "chatter_steps": 3, "event_limit": 1000000}
+//     "simulate":   {"start": 0, "until": 2, "contact_hold": 0, "chatter_steps": 3, "event_limit": 1000000}
 //     "initial":    {"consistent": "check" | "project"}
 //     "record":     {"every": 1e-3, "observe": {"tip_y": "beam.tip.y"}}
 #pragma once
@@ -29,6 +29,7 @@ struct Settings {
   bool own_contact_step = false;    // the scene gives contact_step
   double start = 0, until = 0;      // [s]
   double every = 0;                 // [s] between records
+  double contact_hold = 0;          // [s] contact_step goes on so long after an event: the flights within a bounce
   double chatter_steps = 3;         // a rebound that lasts fewer fixed steps sticks; 0: never
   long long event_limit = 1000000;  // in a thousandth of the run
   bool project_initial = false;

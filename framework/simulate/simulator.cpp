@@ -54,6 +54,7 @@ void Simulator::start(State initial) {
       changes.struck.push_back(i);
   }
   ledger_.start(now_);
+  energy_start_ = energy_at_state();
   if (changes.empty()) {
     system_.accelerate({}, now_.a, now_.lambda);
     at_new_modes();
@@ -81,7 +82,32 @@ void Simulator::record_due(Recorder& recorder) {
     recorder.row(system_, now_);
     last_row_ = record_time(records_) >= settings_.until;
     ++records_;
+    judge_energy();
   }
+}
+
+// Energy without a cause, relative to what was there at the start, fell or rose, came in and went out. A nanojoule more keeps
+// round-off of a system at rest from counting.
+double Simulator::relative_drift() {
+  const double potential = energy_at_state().potential;
+  const double moved = energy_start_.kinetic + std::abs(energy_start_.elastic) +
+                       std::abs(potential - energy_start_.potential) + std::abs(ledger_.supplied()) +
+                       ledger_.impact_total() + ledger_.contact_damping() + ledger_.dampers();
+  return std::abs(energy_drift()) / (moved + 1e-9 * (1 + std::abs(ledger_.energy_start())));
+}
+
+// A method that is unstable with its step may give finite nonsense for long. Its energy tells.
+void Simulator::judge_energy() {
+  const double drift = relative_drift();
+  if (!(drift < 1e3))
+    throw RunFailed(fmt::format(
+        "at t = {:.9g} s, step {}: the solution diverged: its energy changed by {:.3g} J that no force supplied or "
+        "took, {:.3g} times what moved. The step may be too long for the method",
+        now_.t, statistics_.steps, energy_drift(), drift));
+  if (last_row_ && drift > 0.05)
+    warnings_.push_back(fmt::format(
+        "the method itself changed the energy by {:.3g} J, {:.2g} times all that moved; shorter steps change less",
+        energy_drift(), drift));
 }
 
 bool Simulator::advance(Recorder& recorder) {
@@ -226,6 +252,7 @@ void Simulator::settle(const ContactChanges& changes) {
     ledger_.impact(events_[i].contact, events_[i].energy_lost);
   }
   window_events_ += 1;
+  hold_until_ = now_.t + settings_.contact_hold;
   at_new_modes();
 }
 
@@ -268,6 +295,8 @@ void Simulator::write_events(Recorder& recorder) {
 }
 
 void Simulator::archive(Archive& a) {
+  a("start_kinetic", energy_start_.kinetic), a("start_potential", energy_start_.potential);
+  a("start_elastic", energy_start_.elastic);
   a("t", now_.t), a("q", now_.q), a("v", now_.v), a("a", now_.a), a("lambda", now_.lambda);
   model::Modes modes = system_.modes();
   for (std::size_t i = 0; i < modes.contacts.size(); ++i) {
@@ -281,6 +310,7 @@ void Simulator::archive(Archive& a) {
   };
   const auto& current = system_.modes().contacts;
   if (!std::equal(current.begin(), current.end(), modes.contacts.begin(), same)) system_.set_modes(modes);
+  a("hold_until", hold_until_);
   a("records", records_), a("last_row", last_row_), a("window_start", window_start_),
       a("window_events", window_events_);
   model::Counts& counts = system_.counts();

@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,9 +48,11 @@ class Simulator {
   double energy_drift();  // [J] what no cause in the ledger explains
 
  private:
-  StepControl& control() { return in_contact_ ? contact_control_ : free_control_; }
+  StepControl& control() { return in_contact_ || now_.t < hold_until_ ? contact_control_ : free_control_; }
   double record_time(long long k) const;
   void record_due(Recorder& recorder);
+  double relative_drift();
+  void judge_energy();
   bool try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
   void refuse(const StepControl::Proposal& proposal, const char* reason);
   std::string when(double h) const;
@@ -78,8 +81,10 @@ class Simulator {
 
   State now_, next_, inside_;
   bool in_contact_ = false;
-  long long records_ = 0;  // written
-  bool last_row_ = false;  // the row at the end is written
+  double hold_until_ = -std::numeric_limits<double>::infinity();  // [s] contact steps until then
+  long long records_ = 0;                                         // written
+  bool last_row_ = false;                                         // the row at the end is written
+  Energy energy_start_;
   double window_start_ = 0;
   long long window_events_ = 0;
   std::vector<ContactEvent> events_;
