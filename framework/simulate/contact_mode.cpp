@@ -45,9 +45,10 @@ double ContactModes::settle(State& state, const ContactChanges& changes, std::ve
     const bool struck = contains(changes.struck, c.contact);
     carry = carry || ((struck || contains(changes.released, c.contact)) &&
                       treatment(c.contact).restart == Restitution::Restart::carry);
-    if (struck || (!c.was_closed && c.impulse > 0)) {
+    if (!c.was_closed && c.impulse > 0)
       events.push_back(
           {state.t, ContactEvent::Kind::impact, c.contact, c.impulse, -c.before, c.after, c.energy_lost()});
+    if (struck || (!c.was_closed && c.impulse > 0)) {
       modes_.contacts[c.contact].approach_speed = -c.before;
     }
   }

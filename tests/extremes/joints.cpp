@@ -1,0 +1,71 @@
+// Joined bodies whose masses differ by 1e9.
+#include <cmath>
+#include <numbers>
+
+#include "outcome.hpp"
+
+namespace trammel::test {
+namespace {
+
+// Two points, A hung on the ground, B on A, each by 1 m.
+std::string chain(const char* mass_of_A, const char* mass_of_B, const char* integrator) {
+  return fmt::format(R"json({{
+    "trammel": 1, "space": "planar", "gravity": [0, -9.81],
+    "bodies": {{
+      "A": {{"type": "point_mass", "mass": {}, "position": [0.1, "=-sqrt(0.99)"]}},
+      "B": {{"type": "point_mass", "mass": {}, "position": [0.2, "=-2*sqrt(0.99)"]}}
+    }},
+    "joints": {{"upper": {{"type": "distance", "between": ["ground", "A.point"], "length": 1}},
+               "lower": {{"type": "distance", "between": ["A.point", "B.point"], "length": 1}}}},
+    "integrator": {},
+    "simulate": {{"until": 2}},
+    "record": {{"every": 0.01, "observe": {{"xA": "A.point.x", "xB": "B.point.x"}}}}
+  }})json",
+                     mass_of_A, mass_of_B, integrator);
+}
+
+TEST(MassRatio, OfABillionBelowALightLinkSwingsAsOnePendulumOfTwiceTheLength) {
+  // The light mass stays on the line: a pendulum of 2 m from asin(0.1), period 2 pi sqrt(2/g) (1 + theta^2/16).
+  const Finished run = run_text(chain("1e-9", "1", R"({"type": "hht_alpha", "alpha": -0.1, "step": 1e-3})"));
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  const double theta = std::asin(0.1), period = 2 * std::numbers::pi * std::sqrt(2 / 9.81) * (1 + theta * theta / 16);
+  const auto& x = run.series.at("xB");
+  const auto at = [&](double t) { return 0.2 * std::cos(2 * std::numbers::pi * t / period); };
+  for (std::size_t k = 0; k < x.size(); k += 20) EXPECT_NEAR(x[k], at(double(k) * 0.01), 2e-4) << k;
+  EXPECT_LT(run.result["constraint_maxima"]["position"], 1e-12);
+}
+
+TEST(MassRatio, OfABillionAboveALightLinkSwingsAsIfItWereAlone) {
+  const Finished run = run_text(chain("1", "1e-9", R"({"type": "dop853", "step": {"tolerance": 1e-11}})"));
+  const Finished alone = run_text(chain("1", "1e-12", R"({"type": "dop853", "step": {"tolerance": 1e-11}})"));
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  for (std::size_t k = 0; k < run.series.at("xA").size(); k += 20)
+    EXPECT_NEAR(run.series.at("xA")[k], alone.series.at("xA")[k], 2e-8) << k;  // the light one's weight, 1e-9, over 2 s
+  // The rows are not stabilised: some 700 steps of 1e-11 in the rate, 2 s long, against 9.81 N.
+  EXPECT_NEAR(run.result["energy_drift"], 0, 1.4e-7);
+}
+
+TEST(MassRatio, OfABillionInAnImpactLeavesTheHeavyBodyAlone) {
+  // A light point on a rod strikes; the heavy one at the other end falls on, and pushes the light one aside.
+  const Finished run = run_text(R"json({
+    "trammel": 1, "space": "planar", "gravity": [0, -10],
+    "bodies": {"heavy": {"type": "point_mass", "mass": 1e6, "position": [0, 2]},
+               "light": {"type": "point_mass", "mass": 1e-3, "position": [1, 1]}},
+    "joints": {"link": {"type": "distance", "between": ["heavy.point", "light.point"], "length": "=sqrt(2)"}},
+    "contacts": {"floor": {"type": "constraint_method", "restitution": 0,
+                           "between": ["light.point", {"plane": {"point": [0, 0], "normal": [0, 1]}}]}},
+    "integrator": {"type": "hht_alpha", "alpha": 0, "step": 1e-4},
+    "simulate": {"until": 0.5},
+    "record": {"every": 0.01, "observe": {"heavy_y": "heavy.point.y", "light_x": "light.point.x"}}
+  })json");
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  ASSERT_FALSE(run.events.empty());
+  EXPECT_NEAR(run.events[0].t, std::sqrt(0.2), 1e-9);
+  // The heavy one holds the light one along the rod, at 45 degrees: half of its mobility is left, so 2 m v stop it.
+  EXPECT_NEAR(run.events[0].detail.at("impulse"), 2 * 1e-3 * std::sqrt(20.0), 1e-10);
+  EXPECT_NEAR(run.end("heavy_y"), 2 - 5 * 0.25, 1e-8);  // and falls on freely
+  EXPECT_LT(run.result["constraint_maxima"]["position"], 1e-12);
+}
+
+}  // namespace
+}  // namespace trammel::test
