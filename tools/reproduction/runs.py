@@ -9,6 +9,7 @@ import math
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -16,6 +17,7 @@ import time
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+TIME_LIMIT = 150  # [s] of one run; the longest takes a fifth of it
 COMMENT_OR_STRING = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.S)
 
 
@@ -113,11 +115,16 @@ class Results:
         folder.mkdir(parents=True, exist_ok=True)
         command = [os.environ["TRAMMEL"], "run", *wanted.command_line(), "--quiet", "--out", str(folder)]
         (folder / "command").write_text(" ".join(command) + "\n")
-        done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode not in (0, 1) or not (folder / "result.json").exists():
-            raise SystemExit(f"tools/reproduce: {' '.join(command)}\n{done.stderr}")
-        if done.returncode and not wanted.may_fail:
-            self.unexpected.append(f"{' '.join(command)}\n    {done.stderr.strip()}")
+        child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        try:
+            message = child.communicate(timeout=TIME_LIMIT)[1]
+        except subprocess.TimeoutExpired:
+            child.send_signal(signal.SIGINT)  # keeps the results so far
+            message = f"stopped after {TIME_LIMIT} s\n{child.communicate()[1]}"
+        if child.returncode not in (0, 1, 130) or not (folder / "result.json").exists():
+            raise SystemExit(f"tools/reproduce: {' '.join(command)}\n{message}")
+        if child.returncode and not wanted.may_fail:
+            self.unexpected.append(f"{' '.join(command)}\n        {message.splitlines()[0]}")
         self.of_key[key] = Result(folder)
 
 
