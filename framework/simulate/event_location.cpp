@@ -170,11 +170,14 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
     bool found = false;
     while (!found && apart > resolution) {
       apart /= 2;
-      const double f = watched(i, step_to(now, apart, i));
+      const Values& there = step_to(now, apart, i);
+      const double f = watched(i, there);
       if (f > 0)
         bracket.low = apart, bracket.f_low = f, found = true;
-      else
+      else if (happened(i, there))
         bracket.high = apart, bracket.f_high = f;
+      else  // so near that nothing is to be seen yet: a step to there would find no event, and so without end
+        break;
     }
     if (!found) return bracket.high;
   }

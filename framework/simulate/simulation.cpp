@@ -1,6 +1,7 @@
 // Runs a scene from the first line to the last: set-up, logs, the loop, checkpoints, and the results at every end.
 #include "simulate/simulation.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <optional>
@@ -48,9 +49,7 @@ class Run {
       loop();
       finish();
     } catch (const NotFinite& e) {
-      const plugin::Origin origin = origin_of(e.site(), scene_.root(), registry_);
-      end(Status::failed, fmt::format("{}: {} ({} of {}) gave numbers that are not finite in its \"{}\"", e.what(),
-                                      origin.path, origin.component, origin.file, e.site().call));
+      not_finite(e);
     } catch (const RunFailed& e) {
       end(Status::failed, e.what());
     } catch (const model::NotSolvable& e) {
@@ -76,6 +75,30 @@ class Run {
  private:
   std::string where(const char* what) const {
     return fmt::format("at t = {:.9g} s, step {}: {}", simulator_->state().t, simulator_->statistics().steps + 1, what);
+  }
+
+  // The scene's fault if the component follows a law of time written there, such as sqrt(1-t); else the plugin's.
+  void not_finite(const NotFinite& e) {
+    const plugin::Origin origin = origin_of(e.site(), scene_.root(), registry_);
+    const scene::Value* entry = scene_.root().at_path(origin.path);
+    if (entry && has_expression(*entry))
+      return end(Status::failed, fmt::format("{}: {} ({} of {}) gave numbers that are not finite in its \"{}\"",
+                                             e.what(), origin.path, origin.component, origin.file, e.site().call));
+    const plugin::PluginError error =
+        plugin::PluginError(origin, e.site().call, "it gave numbers that are not finite", simulator_->state().t)
+            .in_step(simulator_->statistics().steps + 1);
+    end(Status::failed, error.what());
+    throw error;
+  }
+
+  static bool has_expression(const scene::Value& value) {
+    using Type = scene::Value::Type;
+    if (value.type() == Type::text) return value.text().starts_with("=");
+    if (value.type() == Type::array) return std::any_of(value.items().begin(), value.items().end(), has_expression);
+    if (value.type() == Type::object)
+      return std::any_of(value.members().begin(), value.members().end(),
+                         [](const auto& member) { return has_expression(member.second); });
+    return false;
   }
 
   void open() {

@@ -125,7 +125,7 @@ TEST(ContactClosedAtTheStart, AndSeparatingFliesOff) {
 
 TEST(MillionImpacts, AreCountedAndKeepTheEnergy) {
   // Between two walls 1 m apart at 1000 m/s: an impact each millisecond.
-  const Finished run = run_text(R"({
+  const Finished run = run_scene(scene::Scene::parse(R"({
     "trammel": 1, "space": "planar", "gravity": [0, 0],
     "bodies": {"ball": {"type": "point_mass", "mass": 1, "position": [0.5, 0], "velocity": [1000, 0]}},
     "contacts": {
@@ -134,7 +134,9 @@ TEST(MillionImpacts, AreCountedAndKeepTheEnergy) {
     },
     "integrator": {"type": "runge_kutta_4", "step": 1e-3},
     "simulate": {"until": 1000}, "record": {"every": 10, "observe": {"x": "ball.point.x"}}
-  })");
+  })",
+                                                     "test.json"),
+                                 false);
   ASSERT_TRUE(run.done()) << run.report.reason;
   EXPECT_EQ(run.result["counts"]["impacts"], 1000000);
   EXPECT_EQ(run.end("energy_kinetic"), 5e5);

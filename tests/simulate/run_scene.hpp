@@ -109,7 +109,7 @@ inline std::vector<Event> read_events(const std::filesystem::path& file) {
   return events;
 }
 
-inline Finished run_scene(const scene::Scene& scene) {
+inline Finished run_scene(const scene::Scene& scene, bool with_events = true) {
   const Folder folder;
   simulate::RunOptions options;
   options.out = folder.path();
@@ -117,7 +117,7 @@ inline Finished run_scene(const scene::Scene& scene) {
   finished.report = simulate::run(scene, registry(), options);
   finished.result = nlohmann::json::parse(finished.report.result_json);
   finished.series = read_series(folder.path() / "series.csv");
-  finished.events = read_events(folder.path() / "events.csv");
+  if (with_events) finished.events = read_events(folder.path() / "events.csv");
   return finished;
 }
 
