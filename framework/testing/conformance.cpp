@@ -1,0 +1,106 @@
+// What the Simulator relies on when it repeats steps to locate events, and when it resumes a run: bit for bit.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <variant>
+
+#include <trammel/testing.hpp>
+
+namespace trammel {
+namespace {
+
+constexpr double h = 5e-3;  // [s]
+constexpr int steps = 12;
+
+class MemoryArchive final : public Archive {
+ public:
+  bool reading = false;
+  using Archive::operator();
+  void operator()(std::string_view name, bool& x) override { exchange(name, x); }
+  void operator()(std::string_view name, int& x) override { exchange(name, x); }
+  void operator()(std::string_view name, long long& x) override { exchange(name, x); }
+  void operator()(std::string_view name, double& x) override { exchange(name, x); }
+  void operator()(std::string_view name, std::string& x) override { exchange(name, x); }
+  void operator()(std::string_view name, Vec& x) override { exchange(name, x); }
+
+ private:
+  template <class T>
+  void exchange(std::string_view name, T& x) {
+    if (reading)
+      x = std::get<T>(kept_.at(std::string(name)));
+    else
+      kept_[std::string(name)] = x;
+  }
+  std::map<std::string, std::variant<bool, int, long long, double, std::string, Vec>> kept_;
+};
+
+bool same(const Vec& a, const Vec& b) {
+  return a.size() == b.size() && (a.array() == b.array()).all();
+}
+bool same(const State& a, const State& b) {
+  return a.t == b.t && same(a.q, b.q) && same(a.v, b.v) && same(a.a, b.a) && same(a.lambda, b.lambda);
+}
+
+bool advance(Integrator& method, System& s, State& now, State& next) {
+  if (!method.step(s, now, h, next)) return false;
+  method.accept(s, next);
+  std::swap(now, next);
+  return true;
+}
+
+}  // namespace
+
+void Report::claim(const std::string& sentence, bool true_, const std::string& found) {
+  holds = holds && true_;
+  table += fmt::format("{} {}{}{}\n", true_ ? "holds:" : "FAILS:", sentence, found.empty() ? "" : ": ", found);
+}
+
+Report trial_leaves_no_trace(const Maker& make, const Problem& problem) {
+  const auto plain = make(), tried = make();
+  const auto s = problem.system(), t = problem.system();
+  State a = problem.solution(0), b = a, next, other, wild;
+  plain->restart(*s, a);
+  tried->restart(*t, b);
+  bool stepped = true, now_kept = true, equal = true;
+  int where = 0;
+  for (int i = 0; i < steps && stepped && now_kept && equal; ++i) {
+    where = i + 1;
+    const State before = b;
+    for (const double trial : {1e-3, 3e-4, 0.2, 1e-7}) {
+      wild = {std::nan(""), Vec::Constant(7, std::nan("")), Vec(0), Vec::Constant(1, 1e300), Vec::Constant(3, 2)};
+      static_cast<void>(tried->step(*t, b, trial, wild));  // may well be rejected
+    }
+    now_kept = same(before, b);
+    stepped = advance(*plain, *s, a, next) && advance(*tried, *t, b, other);
+    equal = same(a, b);
+  }
+  Report report;
+  const std::string at = fmt::format("in step {}", where);
+  report.claim("steps of 5 ms are accepted", stepped, stepped ? "" : at);
+  report.claim("a trial leaves `now` as it was", now_kept, now_kept ? "" : at);
+  report.claim("trials change no bit of the run", equal, equal ? "" : at);
+  return report;
+}
+
+Report resumes_bitwise(const Maker& make, const Problem& problem) {
+  const auto method = make(), resumed = make();
+  const auto s = problem.system(), t = problem.system();
+  State now = problem.solution(0), next;
+  method->restart(*s, now);
+  bool stepped = true;
+  for (int i = 0; i < steps; ++i) stepped = stepped && advance(*method, *s, now, next);
+  MemoryArchive memory;
+  method->archive(memory);
+  memory.reading = true;
+  resumed->archive(memory);
+  State again = now;
+  for (int i = 0; i < steps; ++i)
+    stepped = stepped && advance(*method, *s, now, next) && advance(*resumed, *t, again, next);
+  Report report;
+  report.claim("steps of 5 ms are accepted", stepped);
+  report.claim("resumes from its archive bit for bit", same(now, again));
+  return report;
+}
+
+}  // namespace trammel

@@ -1,0 +1,49 @@
+// Orders: the slope of log(error) over log(h) by least squares, from halvings of h.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include <trammel/testing.hpp>
+
+namespace trammel {
+namespace {
+
+double slope(const std::vector<double>& x, const std::vector<double>& y) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  const double n = double(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) sx += x[i], sy += y[i], sxx += x[i] * x[i], sxy += x[i] * y[i];
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+}  // namespace
+
+Fit measure_order(const Maker& make, const Problem& problem, int n, int runs) {
+  if (!problem.closed_form) throw std::invalid_argument(problem.name + " has no closed form to compare with");
+  const State start = problem.solution(0), end = problem.solution(problem.until);
+  Fit fit;
+  fit.table = fmt::format("{}\n{:>8} {:>12} {:>12} {:>12}\n", problem.name, "steps", "q", "v", "lambda");
+  std::vector<double> x, q, v, lambda;
+  for (int i = 0; i < runs; ++i, n *= 2) {
+    const auto method = make();
+    const auto system = problem.system();
+    const State s = integrate(*method, *system, start, problem.until, n);
+    const double eq = (s.q - end.q).norm(), ev = (s.v - end.v).norm(), el = (s.lambda - end.lambda).norm();
+    x.push_back(-std::log(n)), q.push_back(std::log(eq)), v.push_back(std::log(ev)), lambda.push_back(std::log(el));
+    fit.table += fmt::format("{:8} {:12.4e} {:12.4e} {:12.4e}\n", n, eq, ev, el);
+  }
+  fit.order_q = slope(x, q), fit.order_v = slope(x, v);
+  fit.order_lambda = end.lambda.size() ? slope(x, lambda) : std::nan("");
+  fit.table += fmt::format("{:>8} {:12.4f} {:12.4f} {:12.4f}\n", "order", fit.order_q, fit.order_v, fit.order_lambda);
+  return fit;
+}
+
+Report check_order(const Maker& make, const Problem& problem, double order, int n, double tolerance) {
+  const Fit fit = measure_order(make, problem, n);
+  Report report;
+  report.claim(fmt::format("q and v are of order {} on {}", order, problem.name),
+               std::abs(fit.order_q - order) <= tolerance && std::abs(fit.order_v - order) <= tolerance, fit.table);
+  return report;
+}
+
+}  // namespace trammel

@@ -1,0 +1,88 @@
+// A point of 1 kg on a rod of 1 m: theta'' = -g sin(theta), in one coordinate and in two with a row.
+//
+//     sin(theta/2) = k sn(w t + u_0; k),  theta' = 2 k w cn,  w^2 = g,  k^2 = sin^2(theta_0/2) + omega_0^2/(4 g)
+//
+// Source: Whittaker, Analytical Dynamics, section 44; sn and cn by descending Landen steps, Abramowitz and Stegun 16.4.
+#include <array>
+#include <cmath>
+
+#include <trammel/testing_problems.hpp>
+
+namespace trammel::problems {
+namespace {
+
+constexpr double g = 9.81;  // [m/s^2]
+
+double amplitude(double u, double k) {
+  std::array<double, 12> a{1}, c{k};
+  double b = std::sqrt(1 - k * k);
+  std::size_t n = 0;
+  while (std::abs(c[n]) > 1e-17 && n + 1 < a.size()) {
+    a[n + 1] = (a[n] + b) / 2;
+    c[n + 1] = (a[n] - b) / 2;
+    b = std::sqrt(a[n] * b);
+    ++n;
+  }
+  double phi = std::ldexp(a[n] * u, int(n));
+  for (; n > 0; --n) phi = (phi + std::asin(c[n] / a[n] * std::sin(phi))) / 2;
+  return phi;
+}
+
+std::pair<double, double> swing(double theta_0, double omega_0, double t) {
+  const double w = std::sqrt(g), s0 = std::sin(theta_0 / 2), k = std::hypot(s0, omega_0 / (2 * w));
+  const double phi = amplitude(w * t + std::ellint_1(k, std::asin(std::min(1.0, s0 / k))), k);
+  return {2 * std::asin(k * std::sin(phi)), 2 * k * w * std::cos(phi)};
+}
+
+}  // namespace
+
+Problem pendulum(double theta_0, double omega_0) {
+  Problem p{"pendulum", "theta'' = -g sin(theta)", "Whittaker, Analytical Dynamics, section 44"};
+  p.M = Mat::Ones(1, 1);
+  p.force = [](double, const Vec& q, const Vec&) -> Vec { return Vec::Constant(1, -g * std::sin(q[0])); };
+  p.exact = [=](double t, Vec& q, Vec& v) {
+    const auto [theta, rate] = swing(theta_0, omega_0, t);
+    q = Vec::Constant(1, theta), v = Vec::Constant(1, rate);
+  };
+  p.energy = {g, [](const State& s) { return s.v.squaredNorm() / 2 - g * std::cos(s.q[0]); }};
+  return p;
+}
+
+Problem pendulum_with_rod(double theta_0, double omega_0, std::vector<double> row_weights) {
+  Problem p{"pendulum_with_rod", "x'' = -lambda x, y'' = -g - lambda y, (x^2 + y^2 - 1)/2 = 0",
+            "Whittaker, Analytical Dynamics, section 44"};
+  p.M = Mat::Identity(2, 2);
+  p.force = [](double, const Vec&, const Vec&) -> Vec { return Eigen::Vector2d(0, -g); };
+  const Vec w = Eigen::Map<Vec>(row_weights.data(), Eigen::Index(row_weights.size()));
+  p.rows = [w](double, const Vec& q, const Vec& v) -> Rows {
+    return {w * (q.squaredNorm() - 1) / 2, 0 * w, -w * v.squaredNorm(), w * q.transpose()};
+  };
+  p.exact = [=](double t, Vec& q, Vec& v) {
+    const auto [theta, rate] = swing(theta_0, omega_0, t);
+    q = Eigen::Vector2d(std::sin(theta), -std::cos(theta));
+    v = rate * Eigen::Vector2d(std::cos(theta), std::sin(theta));
+  };
+  p.energy = {g, [](const State& s) { return s.v.squaredNorm() / 2 + g * s.q[1]; }};
+  return p;
+}
+
+Problem stiff_pendulum(double k) {
+  Problem p{"stiff_pendulum", "x'' = -k (r - 1) x/r, y'' = -g - k (r - 1) y/r", "Hairer and Wanner II, section VII.2"};
+  p.closed_form = false;
+  p.M = Mat::Identity(2, 2);
+  p.force = [=](double, const Vec& q, const Vec&) -> Vec {
+    return Eigen::Vector2d(0, -g) - k * (q.norm() - 1) * q.normalized();
+  };
+  p.exact = [=](double, Vec& q, Vec& v) {  // the start, with the static stretch
+    const double theta = 1, rate = 0.4, r = 1 + (g * std::cos(theta) + rate * rate) / k;
+    q = r * Eigen::Vector2d(std::sin(theta), -std::cos(theta));
+    v = rate * Eigen::Vector2d(std::cos(theta), std::sin(theta));
+  };
+  p.energy = {g, [=](const State& s) {
+                const double d = s.q.norm() - 1;
+                return s.v.squaredNorm() / 2 + g * s.q[1] + k * d * d / 2;
+              }};
+  return p;
+}
+
+}  // namespace trammel::problems
