@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <trammel/runge_kutta.hpp>
 
@@ -25,13 +27,13 @@ bool RungeKutta::evaluate(System& s, double t, const Vec& q, const Vec& v, Slope
   return within_range(slope.q) && within_range(slope.v) && within_range(slope.lambda);
 }
 
-void RungeKutta::combine(const double* weights, int n, double h, Vec& dq, Vec& dv) const {
+void RungeKutta::combine(const double* weights, int n, Vec& dq, Vec& dv) const {
   dq.setZero(k_[0].q.size());
   dv.setZero(k_[0].v.size());
   for (int i = 0; i < n; ++i) {
     if (weights[i] == 0) continue;
-    dq += h * weights[i] * k_[std::size_t(i)].q;
-    dv += h * weights[i] * k_[std::size_t(i)].v;
+    dq += h_ * weights[i] * k_[std::size_t(i)].q;
+    dv += h_ * weights[i] * k_[std::size_t(i)].v;
   }
 }
 
@@ -39,10 +41,11 @@ Outcome RungeKutta::step(System& s, const State& now, const Slope& first, double
   const int stages = tableau_.stages;
   k_[0] = first;
   filled_ = 1;
+  h_ = h;
   for (const double* row = tableau_.a; filled_ < stages; row += filled_ - 1)
-    if (!add_stage(s, now, h, tableau_.c[filled_], row)) return Outcome::reject(diverged);
+    if (!add_stage(s, now, tableau_.c[filled_], row)) return Outcome::reject(diverged);
 
-  combine(tableau_.b, stages, h, dq_, dv_);
+  combine(tableau_.b, stages, dq_, dv_);
   next.t = now.t + h;
   next.q = now.q + dq_;
   next.v = now.v + dv_;
@@ -59,16 +62,27 @@ Outcome RungeKutta::end(System& s, State& next) {
   return Outcome::accept();
 }
 
-bool RungeKutta::add_stage(System& s, const State& now, double h, double c, const double* row) {
-  combine(row, filled_, h, dq_, dv_);
+bool RungeKutta::add_stage(System& s, const State& now, double c, const double* row) {
+  combine(row, filled_, dq_, dv_);
   q_ = now.q + dq_;
   v_ = now.v + dv_;
   if (k_.size() == std::size_t(filled_)) k_.emplace_back();
-  return evaluate(s, now.t + c * h, q_, v_, k_[std::size_t(filled_++)]);
+  return evaluate(s, now.t + c * h_, q_, v_, k_[std::size_t(filled_++)]);
 }
 
-void RungeKutta::interpolate(const System& s, const State& now, const State& next, double h, double theta,
-                             std::initializer_list<const double*> rows, State& at) const {
+bool RungeKutta::recall(System& s, const State& now, const State& next) {
+  // By its length, as t is rounded, and its end's acceleration: either alone may be that of another step.
+  const double h = next.t - now.t;
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(now.t), std::abs(next.t));
+  const Vec& a = k_[std::size_t(tableau_.stages)].v;
+  if (filled_ > tableau_.stages && std::abs(h - h_) <= rounding && a.size() == next.a.size() && a == next.a)
+    return true;
+  const Slope first = k_[0];
+  return step(s, now, first, h, repeated_).accepted();
+}
+
+void RungeKutta::interpolate(const System& s, const State& now, const State& next, double theta,
+                             std::initializer_list<const double*> rows, State& at) {
   const Slope& first = k_[0];
   const Slope& last = k_[std::size_t(tableau_.stages)];
   // Hairer's nested form, from the inside out: y_0 + theta (F_0 + (1 - theta) (F_1 + theta (F_2 + (1 - theta) (F_3 +
@@ -77,20 +91,20 @@ void RungeKutta::interpolate(const System& s, const State& now, const State& nex
   at.v.setZero(now.v.size());
   int level = 2 + int(rows.size());
   for (const double* const* row = rows.end(); row != rows.begin(); --level) {
-    combine(*--row, filled_, h, dq_, dv_);
+    combine(*--row, filled_, dq_, dv_);
     const double weight = level % 2 ? 1 - theta : theta;
     at.q = weight * (dq_ + at.q);
     at.v = weight * (dv_ + at.v);
   }
   dq_ = next.q - now.q;
   dv_ = next.v - now.v;
-  at.q = theta * (2 * dq_ - h * (first.q + last.q) + at.q);
-  at.v = theta * (2 * dv_ - h * (first.v + last.v) + at.v);
-  at.q = (1 - theta) * (h * first.q - dq_ + at.q);
-  at.v = (1 - theta) * (h * first.v - dv_ + at.v);
+  at.q = theta * (2 * dq_ - h_ * (first.q + last.q) + at.q);
+  at.v = theta * (2 * dv_ - h_ * (first.v + last.v) + at.v);
+  at.q = (1 - theta) * (h_ * first.q - dq_ + at.q);
+  at.v = (1 - theta) * (h_ * first.v - dv_ + at.v);
   at.q = now.q + theta * (dq_ + at.q);
   at.v = now.v + theta * (dv_ + at.v);
-  at.t = now.t + theta * h;
+  at.t = now.t + theta * h_;
   s.normalise(at.q);
 }
 

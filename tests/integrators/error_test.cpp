@@ -122,6 +122,35 @@ TEST_P(DenseOutputOf, MeetsTheStepAtItsEnds) {
   EXPECT_NEAR(at.t, next.t, 1e-16);
 }
 
+TEST_P(DenseOutputOf, LooksIntoTheStepItIsGivenAfterOtherTrials) {
+  Pendulum s;
+  auto method = make(GetParam().name);
+  auto& dense = dynamic_cast<DenseOutput&>(*method);
+  const State now = s.start();
+  State next, other, before, after;
+  method->restart(s, now);
+  ASSERT_TRUE(method->step(s, now, 0.05, next));
+  dense.interpolate(s, now, next, 0.4, before);
+  ASSERT_TRUE(method->step(s, now, 0.01, other));
+  method->accept(s, next);
+  dense.interpolate(s, now, next, 0.4, after);
+  EXPECT_TRUE(same_bits(before.q, after.q) && same_bits(before.v, after.v));
+}
+
+TEST_P(DenseOutputOf, TellsStepsApartWhoseAccelerationsAgree) {
+  Oscillators s({0});  // no force: every step ends with the same acceleration
+  auto method = make(GetParam().name);
+  auto& dense = dynamic_cast<DenseOutput&>(*method);
+  State now = s.start(), next, other, at;
+  now.v.setOnes();
+  method->restart(s, now);
+  ASSERT_TRUE(method->step(s, now, 0.05, next));
+  ASSERT_TRUE(method->step(s, now, 0.01, other));
+  dense.interpolate(s, now, next, 0.4, at);
+  EXPECT_NEAR(at.t, now.t + 0.02, 1e-16);
+  EXPECT_LE((at.q - now.q - 0.02 * now.v).norm(), 1e-15);  // uniform motion, to roundings of numbers near 1
+}
+
 INSTANTIATE_TEST_SUITE_P(Integrators, DenseOutputOf,
                          testing::Values(Dense{"dormand_prince", 4, 20}, Dense{"dop853", 7, 4}),
                          [](const testing::TestParamInfo<Dense>& tested) { return tested.param.name; });

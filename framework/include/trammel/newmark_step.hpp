@@ -1,10 +1,10 @@
 // One implicit step of a Newmark-type method (Newmark, HHT-alpha, generalised alpha), whose unknowns are the
 // accelerations a and multipliers lambda at the step's end and which differ in their equation of motion only:
 //
-//     q_{n+1} = q_n (+) (dq + c_q a_{n+1} + pi),     v_{n+1} = v + c_v a_{n+1}       dq, v: what Newmark's formulas
-//     know residual(t, q, v, a, lambda)_{n+1} = 0                                         the method's own, left to the
-//     caller stabilised (index 2):  G v + g_t = 0,   S pi + W^T mu = 0,   g = 0             both hold at the step's end
-//     index 3:               g = 0            (pi = 0)                               only the positions hold
+//     q_{n+1} = q_n (+) (dq + c_q a_{n+1} + pi),   v_{n+1} = v + c_v a_{n+1}    dq, v: what Newmark's formulas know
+//     residual(t, q, v, a, lambda)_{n+1} = 0                                    the method's own, left to the caller
+//     stabilised (index 2):  G v + g_t = 0,   S pi + W^T mu = 0,   g = 0        both hold at the step's end
+//     index 3:               g = 0            (pi = 0)                          only the positions hold
 //
 // The stabilised form is that of Gear, Gupta and Leimkuhler (J. Comput. Appl. Math. 12, 77-90, 1985). Its position
 // correction pi, of the order h^3, is weighted by the iteration matrix S = M + O(h) D + O(h^2) K: by the masses, and by

@@ -39,25 +39,30 @@ class RungeKutta {
 
   // One step; `first` is the slope at `now`. next.a and next.lambda are those at the step's end.
   Outcome step(System& s, const State& now, const Slope& first, double h, State& next);
-  // next.q onto its manifold, next.a and next.lambda from the slope there.
-  Outcome end(System& s, State& next);
 
-  // The slopes of the last step: its stages, then that of its end (number `stages`), then those added here: at now.t +
-  // c h, `row` with a weight for each slope so far.
-  bool add_stage(System& s, const State& now, double h, double c, const double* row);
+  // --- of the last step: its slopes are those of its stages, of its end, then those added here ---
+  int slopes() const { return filled_; }
+  double h() const { return h_; }
+  // Makes the step from `now` to `next` the last one: repeats it if another was tried since.
+  bool recall(System& s, const State& now, const State& next);
+  // The slope at now.t + c h; `row` has a weight for each slope so far.
+  bool add_stage(System& s, const State& now, double c, const double* row);
   // h sum_i weights[i] k_i over the first n slopes.
-  void combine(const double* weights, int n, double h, Vec& dq, Vec& dv) const;
-  // The step's interior at theta in [0, 1], in Hairer's nested form: the cubic Hermite polynomial and, row by row,
-  // terms of higher degree h sum_i row[i] k_i over all slopes.
-  void interpolate(const System& s, const State& now, const State& next, double h, double theta,
-                   std::initializer_list<const double*> rows, State& at) const;
+  void combine(const double* weights, int n, Vec& dq, Vec& dv) const;
+  // The step's interior at theta in [0, 1], in Hairer's nested form: the cubic Hermite polynomial and, row by row, terms
+  // of higher degree h sum_i row[i] k_i over all slopes.
+  void interpolate(const System& s, const State& now, const State& next, double theta,
+                   std::initializer_list<const double*> rows, State& at);
 
  private:
+  Outcome end(System& s, State& next);
+
   Tableau tableau_;
   std::vector<Slope> k_;
   int filled_ = 0;
-  mutable Vec dq_, dv_;
-  Vec q_, v_, on_manifold_;
+  double h_ = 0;
+  Vec dq_, dv_, q_, v_, on_manifold_;
+  State repeated_;
 };
 
 // The same local error (numbers of q) as increments: the end's q less that of the embedded method.

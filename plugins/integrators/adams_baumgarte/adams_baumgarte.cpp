@@ -1,9 +1,8 @@
 // Adams-Bashforth-Moulton of fourth order in PECE form with Baumgarte's stabilisation, on the first-order form y = (q,
 // v), y' = F(t, y) of RungeKutta:
 //
-//     P  y* = y_n + h/24 (55 F_n - 59 F_{n-1} + 37 F_{n-2} - 9 F_{n-3})          "ab4", as published
-//        y* = y_n + h/12 (23 F_n - 16 F_{n-1} + 5 F_{n-2})                       "ab3": stable on the imaginary axis
-//        to 1.178
+//     P  y* = y_n + h/24 (55 F_n - 59 F_{n-1} + 37 F_{n-2} - 9 F_{n-3})    "ab4", as published
+//        y* = y_n + h/12 (23 F_n - 16 F_{n-1} + 5 F_{n-2})                 "ab3", stable to omega h = 1.178
 //     C  y_{n+1} = y_n + h/24 (9 F(t_{n+1}, y*) + 19 F_n - 5 F_{n-1} + F_{n-2})
 //
 // started by the classical Runge-Kutta method of the same order, after a restart and whenever h changes. With the AB4
@@ -13,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <trammel/error_norm.hpp>
@@ -45,10 +45,10 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
     starter_.evaluate(s, now.t, now.q, now.v, past_[0]);
     filled_ = 1;
     h_ = 0;
+    t_ = now.t;
   }
 
   Outcome step(System& s, const State& now, double h, State& next) override {
-    trial_t_ = now.t + h;
     trial_h_ = h;
     multistep_ = filled_ >= past_wanted() && same_step(h);
     if (!multistep_) return starter_.step(s, now, past_[0], h, next);
@@ -56,11 +56,11 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
     add_past(predictor == Predictor::ab4 ? bashforth_4 : bashforth_3, h, dq_, dv_);
     predicted_q_ = now.q + dq_;
     predicted_v_ = now.v + dv_;
-    if (!starter_.evaluate(s, trial_t_, predicted_q_, predicted_v_, predicted_))
+    if (!starter_.evaluate(s, now.t + h, predicted_q_, predicted_v_, predicted_))
       return Outcome::reject(RungeKutta::diverged);
 
     add_past(moulton_4, h, dq_, dv_);
-    next.t = trial_t_;
+    next.t = now.t + h;
     next.q = now.q + dq_ + h * 9.0 / 24 * predicted_.q;
     next.v = now.v + dv_ + h * 9.0 / 24 * predicted_.v;
     if (!starter_.evaluate(s, next.t, next.q, next.v, corrected_)) return Outcome::reject(RungeKutta::diverged);
@@ -71,11 +71,10 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   }
 
   void accept(System& s, const State& next) override {
-    if (next.t != trial_t_)
-      filled_ = 0;  // not the last trial: nothing is known about the distance
-    else if (!same_step(trial_h_))
-      filled_ = 1;  // only the step's start lies one h back
-    h_ = trial_h_;
+    const double h = step_to(next.t);
+    if (!same_step(h)) filled_ = 1;  // only the step's start lies one h back
+    h_ = h;
+    t_ = next.t;
     std::rotate(past_.begin(), past_.end() - 1, past_.end());
     s.rate(next.q, next.v, past_[0].q);
     past_[0].v = next.a;
@@ -89,7 +88,7 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
       e_ = milne * (next.q - predicted_q_);
       e_v_ = milne * (next.v - predicted_v_);
     } else {
-      starter_.combine(starter_less_embedded, 5, trial_h_, e_, e_v_);
+      starter_.combine(starter_less_embedded, 5, e_, e_v_);
     }
     error_increment(s, next.q, e_, embedded_, e_q_);
     return error_norm(e_q_, e_v_, now, next, tolerance);
@@ -99,6 +98,7 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   void archive(Archive& archive) override {
     archive("filled", filled_);
     archive("h", h_);
+    archive("t", t_);
     for (std::size_t i = 0; i < past_.size(); ++i) {
       const std::string name = "past_" + std::to_string(i);
       archive(name + "_q", past_[i].q);
@@ -110,6 +110,15 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
  private:
   int past_wanted() const { return predictor == Predictor::ab4 ? 4 : 3; }
   bool same_step(double h) const { return std::abs(h - h_) <= 1e-9 * h; }
+
+  // The step accepted last, exactly: t is rounded, and another step may have been tried since.
+  double step_to(double t) const {
+    const double h = t - t_,
+                 rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), std::abs(t_));
+    for (const double known : {trial_h_, h_})
+      if (std::abs(h - known) <= rounding) return known;
+    return h;
+  }
 
   void add_past(const double* weights, double h, Vec& dq, Vec& dv) const {
     dq = h * weights[0] * past_[0].q;
@@ -124,9 +133,10 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   std::array<Slope, 4> past_;  // at the last accepted point, one h before, ...
   int filled_ = 0;             // so many of them are valid
   double h_ = 0;               // their distance
+  double t_ = 0;               // of the first
   // Of the last trial.
   bool multistep_ = false;
-  double trial_t_ = 0, trial_h_ = 0;
+  double trial_h_ = 0;
   Slope predicted_, corrected_;
   Vec dq_, dv_, predicted_q_, predicted_v_, e_, e_q_, e_v_, embedded_;
 };

@@ -107,8 +107,6 @@ class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput
   void restart(System& s, const State& now) override { method_.evaluate(s, now.t, now.q, now.v, slope_); }
 
   Outcome step(System& s, const State& now, double h, State& next) override {
-    h_ = h;
-    dense_ready_ = false;
     return method_.step(s, now, slope_, h, next);
   }
 
@@ -127,13 +125,13 @@ class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput
   int error_order() const override { return 8; }
 
   void interpolate(System& s, const State& now, const State& next, double theta, State& at) override {
-    if (!dense_ready_) {
-      method_.add_stage(s, now, h_, c_dense[0], a_dense_1);
-      method_.add_stage(s, now, h_, c_dense[1], a_dense_2);
-      method_.add_stage(s, now, h_, c_dense[2], a_dense_3);
-      dense_ready_ = true;
+    method_.recall(s, now, next);
+    if (method_.slopes() == 13) {
+      method_.add_stage(s, now, c_dense[0], a_dense_1);
+      method_.add_stage(s, now, c_dense[1], a_dense_2);
+      method_.add_stage(s, now, c_dense[2], a_dense_3);
     }
-    method_.interpolate(s, now, next, h_, theta, {dense_4, dense_5, dense_6, dense_7}, at);
+    method_.interpolate(s, now, next, theta, {dense_4, dense_5, dense_6, dense_7}, at);
   }
 
   void archive(Archive& archive) override {
@@ -145,15 +143,13 @@ class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput
  private:
   double difference_norm(const System& s, const double* weights, const State& now, const State& next,
                          const Tolerance& t) {
-    method_.combine(weights, 12, h_, e_, e_v_);
+    method_.combine(weights, 12, e_, e_v_);
     error_increment(s, next.q, e_, embedded_, e_q_);
     return error_norm(e_q_, e_v_, now, next, t);
   }
 
   RungeKutta method_{{12, c, a, b}};
-  Slope slope_;   // at the last accepted point
-  double h_ = 0;  // of the last trial
-  bool dense_ready_ = false;
+  Slope slope_;  // at the last accepted point
   Vec e_, e_q_, e_v_, embedded_;
 };
 

@@ -36,7 +36,6 @@ class DormandPrince final : public Integrator, public ErrorEstimate, public Dens
   void restart(System& s, const State& now) override { method_.evaluate(s, now.t, now.q, now.v, slope_); }
 
   Outcome step(System& s, const State& now, double h, State& next) override {
-    h_ = h;
     return method_.step(s, now, slope_, h, next);
   }
 
@@ -48,14 +47,15 @@ class DormandPrince final : public Integrator, public ErrorEstimate, public Dens
   }
 
   double error(System& s, const State& now, const State& next, const Tolerance& tolerance) override {
-    method_.combine(less_embedded, 7, h_, e_, e_v_);
+    method_.combine(less_embedded, 7, e_, e_v_);
     error_increment(s, next.q, e_, embedded_, e_q_);
     return error_norm(e_q_, e_v_, now, next, tolerance);
   }
   int error_order() const override { return 5; }
 
   void interpolate(System& s, const State& now, const State& next, double theta, State& at) override {
-    method_.interpolate(s, now, next, h_, theta, {dense}, at);
+    method_.recall(s, now, next);
+    method_.interpolate(s, now, next, theta, {dense}, at);
   }
 
   void archive(Archive& archive) override {
@@ -66,8 +66,7 @@ class DormandPrince final : public Integrator, public ErrorEstimate, public Dens
 
  private:
   RungeKutta method_{{6, c, a, b}};
-  Slope slope_;   // at the last accepted point
-  double h_ = 0;  // of the last trial
+  Slope slope_;  // at the last accepted point
   Vec e_, e_q_, e_v_, embedded_;
 };
 

@@ -3,9 +3,10 @@
 //
 //     (M A + W^T lambda - f)_{n+1} = 0
 //     (1 - alpha_m) a_{n+1} + alpha_m a_n = (1 - alpha_f) A_{n+1} + alpha_f A_n
-//     q_{n+1} = q_n (+) (h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1})),   v_{n+1} = v_n + h ((1 - gamma) a_n + gamma
-//     a_{n+1}) alpha_m = (2 rho - 1)/(rho + 1),  alpha_f = rho/(rho + 1),  gamma = 1/2 + alpha_f - alpha_m,  beta =
-//     (gamma + 1/2)^2 / 4
+//     q_{n+1} = q_n (+) (h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1}))
+//     v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1})
+//     alpha_m = (2 rho - 1)/(rho + 1),   alpha_f = rho/(rho + 1)
+//     gamma = 1/2 + alpha_f - alpha_m,   beta = (gamma + 1/2)^2 / 4
 //
 // rho in [0, 1] is the spectral radius for infinitely fast modes. Rows as in NewmarkStep (stabilised or index 3).
 // Chung, Hulbert, J. Appl. Mech. 60(2), 371-375 (1993); Arnold, Bruls, Multibody Syst. Dyn. 18, 185-202 (2007).

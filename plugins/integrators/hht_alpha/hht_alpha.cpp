@@ -1,9 +1,9 @@
 // The alpha method of Hilber, Hughes and Taylor for constrained mechanical systems.
 //
 //     1/(1+alpha) (M a)_{n+1} - (f - W^T lambda)_{n+1} + alpha/(1+alpha) (f - W^T lambda)_n = 0
-//     q_{n+1} = q_n (+) (h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1})),   v_{n+1} = v_n + h ((1 - gamma) a_n + gamma
-//     a_{n+1}) gamma = 1/2 - alpha,   beta = (1 - alpha)^2 / 4,   alpha in [-1/3, 0];  some texts write alpha for our
-//     -alpha
+//     q_{n+1} = q_n (+) (h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1}))
+//     v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1})
+//     gamma = 1/2 - alpha,   beta = (1 - alpha)^2 / 4,   alpha in [-1/3, 0];   some texts write alpha for our -alpha
 //
 // with the rows of NewmarkStep (stabilised or index 3). a_n is the method's own: it stands for q'' at t_n + alpha h.
 // Negrut, Rampalli, Ottarsson, Sajdak, J. Comput. Nonlinear Dynam. 2(1), 73-85 (2007); Jay, Negrut, ETNA 26, 190-208
@@ -59,8 +59,8 @@ class HhtAlpha final : public Integrator, public ErrorEstimate {
   }
 
   void accept(System& s, const State& next) override {
-    // Another point than the last trial's (a correction moved it): evaluate there.
-    if (next.t == trial_t_ && next.a == trial_a_ && next.lambda == trial_lambda_)
+    // Another trial's end than the last one's: evaluate there.
+    if (same(next.a, trial_a_) && same(next.lambda, trial_lambda_))
       p_ = trial_p_;
     else
       evaluate_p(s, next);
@@ -78,6 +78,8 @@ class HhtAlpha final : public Integrator, public ErrorEstimate {
   }
 
  private:
+  static bool same(const Vec& x, const Vec& y) { return x.size() == y.size() && x == y; }
+
   void evaluate_p(System& s, const State& at) {
     s.move_to(at.t, at.q, at.v);
     p_ = s.f();
@@ -87,7 +89,6 @@ class HhtAlpha final : public Integrator, public ErrorEstimate {
   // p at the trial's end by the equation just solved, (1 + alpha) p_{n+1} = M a_{n+1} + alpha p_n: no further
   // evaluation of f.
   void keep_p(System& s, const State& next) {
-    trial_t_ = next.t;
     trial_a_ = next.a;
     trial_lambda_ = next.lambda;
     trial_p_ = alpha / (1 + alpha) * p_;
@@ -99,7 +100,6 @@ class HhtAlpha final : public Integrator, public ErrorEstimate {
   NewmarkError error_;
   Vec p_;  // f - W^T lambda at the last accepted point
   Vec r_, trial_p_, trial_a_, trial_lambda_;
-  double trial_t_ = 0;
 };
 
 }  // namespace

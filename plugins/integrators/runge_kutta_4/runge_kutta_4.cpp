@@ -29,7 +29,6 @@ class RungeKutta4 final : public Integrator, public ErrorEstimate {
   void restart(System& s, const State& now) override { method_.evaluate(s, now.t, now.q, now.v, slope_); }
 
   Outcome step(System& s, const State& now, double h, State& next) override {
-    h_ = h;
     return method_.step(s, now, slope_, h, next);
   }
 
@@ -41,7 +40,7 @@ class RungeKutta4 final : public Integrator, public ErrorEstimate {
   }
 
   double error(System& s, const State& now, const State& next, const Tolerance& tolerance) override {
-    method_.combine(less_embedded, 5, h_, e_, e_v_);
+    method_.combine(less_embedded, 5, e_, e_v_);
     error_increment(s, next.q, e_, embedded_, e_q_);
     return error_norm(e_q_, e_v_, now, next, tolerance);
   }
@@ -55,8 +54,7 @@ class RungeKutta4 final : public Integrator, public ErrorEstimate {
 
  private:
   RungeKutta method_{{4, c, a, b}};
-  Slope slope_;   // at the last accepted point
-  double h_ = 0;  // of the last trial
+  Slope slope_;  // at the last accepted point
   Vec e_, e_q_, e_v_, embedded_;
 };
 
