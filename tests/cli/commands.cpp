@@ -1,0 +1,239 @@
+// The program's commands, its exit codes and what it prints where.
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using cli::trammel;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const fs::path kScenes = fs::path(TRAMMEL_SOURCE_DIR) / "tests/cli/scenes";
+const std::string kBounce = (kScenes / "bounce.json").string();
+const std::string kPendulum = (kScenes / "pendulum.json").string();
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> all;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) all.push_back(line);
+  return all;
+}
+
+TEST(Commands, HelpNamesEachOfThem) {
+  const auto result = trammel({"help"});
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* name : {"run", "validate", "explain", "list", "describe", "schema"})
+    EXPECT_THAT(result.out, HasSubstr("trammel " + std::string(name)));
+  EXPECT_EQ(result.err, "");
+}
+
+TEST(Commands, EachShowsItsOptions) {
+  for (const char* name : {"run", "validate", "explain", "list", "describe", "schema"}) {
+    const auto result = trammel({name, "--help"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.out, StartsWith("trammel " + std::string(name)));
+    EXPECT_THAT(result.out, HasSubstr("--plugin LIB"));
+  }
+}
+
+TEST(Commands, VersionIsPrinted) {
+  const auto result = trammel({"--version"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, testing::MatchesRegex("trammel [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+struct Mistake {
+  std::vector<std::string> words;
+  std::string message;
+};
+
+TEST(CommandLine, MistakesExitWith2AndNameTheNearest) {
+  const std::vector<Mistake> mistakes = {
+      {{"rnu", kBounce}, "Did you mean \"run\"?"},
+      {{"run", kBounce, "--ot", "x"}, "Did you mean \"--out\"?"},
+      {{"run", kBounce, "--jsno"}, "Did you mean \"--json\"?"},
+      {{"run", kBounce, "--out"}, "--out needs a value: --out DIR"},
+      {{"run", kBounce, "--quiet=yes"}, "--quiet takes no value, found '--quiet=yes'"},
+      {{"run"}, "'trammel run' needs a SCENE"},
+      {{"run", kBounce, kPendulum}, "'trammel run' takes one SCENE, found also"},
+      {{"list", "integrators"}, "'trammel list' takes no argument, found 'integrators'"},
+      {{"run", kBounce, "--out", "a", "--resume", "b"}, "--out and --resume exclude each other"},
+      {{"run", kBounce, "--resume", "nowhere"}, "there is no nowhere/checkpoint.cbor to continue from"},
+      {{"describe", "hht_alfa"}, "Did you mean \"hht_alpha\"?"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    const auto result = trammel(mistake.words);
+    EXPECT_EQ(result.exit_code, 2) << mistake.message;
+    EXPECT_THAT(result.err, StartsWith("trammel: "));
+    EXPECT_THAT(result.err, HasSubstr(mistake.message));
+    EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
+    EXPECT_EQ(result.out, "");
+  }
+}
+
+TEST(List, NamesTheComponentsOfEveryKind) {
+  const auto result = trammel({"list"});
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* name : {"hht_alpha", "runge_kutta_4", "assumed_mode_beam", "rigid_body", "revolute", "spring_damper",
+                           "constraint_method", "continuous_force"})
+    EXPECT_THAT(result.out, HasSubstr(name));
+  EXPECT_EQ(result.err, "");
+}
+
+TEST(List, GivesJsonWithTheLibraryOfEachComponent) {
+  const json all = json::parse(trammel({"list", "--json"}).out);
+  EXPECT_EQ(all["status"], "done");
+  bool found = false;
+  for (const json& component : all["components"]) {
+    found = found || component["name"] == "hht_alpha";
+    EXPECT_TRUE(fs::exists(component["file"].get<std::string>())) << component;
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST(Describe, ShowsParametersWithRangeAndDefault) {
+  const auto result = trammel({"describe", "constraint_method"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("restitution"));
+  EXPECT_THAT(result.out, HasSubstr("0 to 1"));
+  EXPECT_THAT(result.out, HasSubstr("capture_speed"));
+  EXPECT_THAT(result.out, HasSubstr("m/s"));
+}
+
+TEST(Schema, IsAJsonSchemaThatKnowsTheComponents) {
+  const auto result = trammel({"schema"});
+  EXPECT_EQ(result.exit_code, 0);
+  const json schema = json::parse(result.out);
+  EXPECT_THAT(schema["$schema"].get<std::string>(), HasSubstr("json-schema.org"));
+  EXPECT_TRUE(schema["$defs"].contains("body.assumed_mode_beam"));
+}
+
+TEST(Validate, AcceptsEveryCommittedScene) {
+  int scenes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(TRAMMEL_SOURCE_DIR) / "scenes"))
+    if (entry.path().extension() == ".json") {
+      ++scenes;
+      const auto result = trammel({"validate", entry.path().string()});
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+    }
+  EXPECT_GT(scenes, 0);
+}
+
+TEST(Explain, NamesTheIntegratorAndTheBodies) {
+  const auto result = trammel({"explain", kPendulum});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* text : {"hht_alpha", "rigid_body", "revolute"}) EXPECT_THAT(result.out, HasSubstr(text));
+}
+
+TEST(Run, WritesIntoOutAndTheScenesNameByDefault) {
+  const cli::TemporaryFolder folder;
+  const auto result = trammel({"run", kBounce}, {.folder = folder.path()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("out/bounce"));
+  for (const char* file : {"series.csv", "events.csv", "result.json", "checkpoint.cbor"})
+    EXPECT_TRUE(fs::exists(folder.path() / "out/bounce" / file)) << file;
+}
+
+TEST(Run, HasTheColumnsOfTheContract) {
+  const cli::TemporaryFolder folder;
+  ASSERT_EQ(trammel({"run", kBounce, "--out", "r"}, {.folder = folder.path()}).exit_code, 0);
+  EXPECT_EQ(lines(cli::read_file(folder.path() / "r/series.csv")).front(),
+            "t,height,energy_kinetic,energy_potential,energy_elastic,energy_total,constraint_position,"
+            "constraint_velocity,constraint_acceleration");
+  EXPECT_EQ(lines(cli::read_file(folder.path() / "r/events.csv")).front(), "t,kind,component,detail");
+}
+
+TEST(Run, DrawsNoProgressBarIntoAFile) {
+  const cli::TemporaryFolder folder;
+  EXPECT_EQ(trammel({"run", kBounce}, {.folder = folder.path()}).err, "");
+}
+
+TEST(Run, DrawsAProgressBarOnATerminalAndRemovesIt) {
+  const cli::TemporaryFolder folder;
+  const std::string scene = (kScenes / "long_bounce.json").string();
+  const auto result = trammel({"run", scene}, {.folder = folder.path(), .terminal = true});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, testing::ContainsRegex("\\[#*\\.*\\] +[0-9]+ %  t = .* s, [0-9]+ steps, [0-9]+ impacts"));
+  EXPECT_THAT(result.err, testing::EndsWith("\r\033[K"));
+}
+
+TEST(Run, DrawsNoProgressBarWithJsonOrWhenQuiet) {
+  const cli::TemporaryFolder folder;
+  for (const char* option : {"--json", "--quiet"})
+    EXPECT_EQ(trammel({"run", kBounce, option}, {.folder = folder.path(), .terminal = true}).err, "");
+}
+
+TEST(Run, IsSilentWhenQuiet) {
+  const cli::TemporaryFolder folder;
+  const auto result = trammel({"run", kBounce, "--quiet"}, {.folder = folder.path()});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out + result.err, "");
+}
+
+TEST(Run, OverwritesAnEarlierResultWithNothingLeftBehind) {
+  const cli::TemporaryFolder folder;
+  ASSERT_EQ(trammel({"run", kBounce, "--out", "twice"}, {.folder = folder.path()}).exit_code, 0);
+  for (const char* out : {"twice", "once"})
+    ASSERT_EQ(
+        trammel({"run", kBounce, "--out", out, "--set", "simulate.until=0.3"}, {.folder = folder.path()}).exit_code, 0);
+  // The other files tell of CPU time.
+  for (const char* file : {"series.csv", "events.csv", "animation.ndjson"})
+    EXPECT_EQ(cli::read_file(folder.path() / "twice" / file), cli::read_file(folder.path() / "once" / file)) << file;
+  const auto count = [&](const char* out) {
+    return std::distance(fs::directory_iterator(folder.path() / out), fs::directory_iterator());
+  };
+  EXPECT_EQ(count("twice"), count("once"));
+}
+
+TEST(Set, ChangesAValueByItsPath) {
+  const cli::TemporaryFolder folder;
+  ASSERT_EQ(trammel({"run", kBounce, "--out", "r", "--set", "bodies.ball.position=[0, 5]", "--set=simulate.until=0"},
+                    {.folder = folder.path()})
+                .exit_code,
+            0);
+  EXPECT_THAT(lines(cli::read_file(folder.path() / "r/series.csv")).at(1), StartsWith("0,5,"));
+}
+
+TEST(Json, OfARunIsOneObjectAndNothingElse) {
+  const cli::TemporaryFolder folder;
+  const auto result = trammel({"run", kBounce, "--json"}, {.folder = folder.path()});
+  EXPECT_EQ(result.exit_code, 0);
+  const json object = json::parse(result.out);  // throws on anything after the object
+  EXPECT_TRUE(object.is_object());
+  EXPECT_EQ(object, json::parse(cli::read_file(folder.path() / "out/bounce/result.json")));
+  EXPECT_EQ(object["status"], "done");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST(Json, OfBadInputHoldsEveryProblemWithItsPlace) {
+  const auto result =
+      trammel({"validate", "several_problems.json", "--json"}, {.folder = kScenes.parent_path() / "cases"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err, "");
+  const json object = json::parse(result.out);
+  EXPECT_EQ(object["status"], "error");
+  EXPECT_EQ(object["problems"].size(), 4u);
+  for (const json& problem : object["problems"]) {
+    EXPECT_EQ(problem["file"], "several_problems.json");
+    EXPECT_GT(problem["line"], 1);
+    EXPECT_GT(problem["column"], 1);
+    EXPECT_NE(problem["path"], "");
+    EXPECT_NE(problem["message"], "");
+  }
+}
+
+TEST(Json, OfAMistakeOnTheCommandLineIsAnObjectToo) {
+  const auto result = trammel({"run", kBounce, "--json", "--ot", "x"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(json::parse(result.out)["status"], "error");
+  EXPECT_EQ(result.err, "");
+}
+
+}  // namespace

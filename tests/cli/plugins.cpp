@@ -1,0 +1,132 @@
+// Plugins that misbehave: exit code 3, one line that names the library and the cause, results so far kept.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using cli::trammel;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string kBounce = (fs::path(TRAMMEL_SOURCE_DIR) / "tests/cli/scenes/bounce.json").string();
+const fs::path kPlugins = fs::path(TRAMMEL_BUILD_DIR) / "tests/plugins";
+
+class Plugin : public testing::Test {
+ protected:
+  // Runs the bouncing point with a library, and with what names its component in the scene.
+  cli::Result run(const fs::path& library, const std::vector<std::string>& settings = {}) {
+    std::vector<std::string> words = {"run", kBounce, "--plugin", library.string()};
+    for (const std::string& setting : settings) {
+      words.push_back("--set");
+      words.push_back(setting);
+    }
+    return trammel(words, {.folder = folder.path()});
+  }
+
+  void expect_refused(const fs::path& library, const std::string& cause,
+                      const std::vector<std::string>& settings = {}) {
+    const auto result = run(library, settings);
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_THAT(result.err, StartsWith("trammel: plugin "));
+    EXPECT_THAT(result.err, HasSubstr(library.filename().string()));
+    EXPECT_THAT(result.err, HasSubstr(cause));
+  }
+
+  cli::TemporaryFolder folder;
+};
+
+TEST_F(Plugin, ThatIsSoundIsUsed) {
+  const auto result = run(kPlugins / "good.so", {"integrator.type=good", "integrator.damping=0.1"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  bool listed = false;
+  const json found = json::parse(cli::read_file(folder.path() / "out/bounce/result.json"));
+  for (const json& plugin : found["plugins"]) listed = listed || plugin.dump().find("good.so") != std::string::npos;
+  EXPECT_TRUE(listed);
+}
+
+TEST_F(Plugin, ThatIsSoundIsFoundInThePluginPath) {
+  const auto result =
+      trammel({"run", kBounce, "--set", "integrator.type=good"},
+              {.folder = folder.path(), .environment = {{"TRAMMEL_PLUGIN_PATH", (kPlugins / "good.so").string()}}});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(Plugin, ThatIsMissingIsNamed) {
+  expect_refused("no_such_library.so", "no such file");
+}
+
+TEST_F(Plugin, ThatIsTruncatedIsRefusedBeforeItIsLoaded) {
+  const fs::path copy = folder.path() / "half.so";
+  fs::copy_file(kPlugins / "good.so", copy);
+  fs::resize_file(copy, fs::file_size(copy) / 2);
+  expect_refused(copy, "truncated");
+}
+
+TEST_F(Plugin, ThatIsATextFileIsRefused) {
+  const fs::path file = folder.path() / "text.so";
+  cli::write_file(file, "this is no library\n");
+  expect_refused(file, "not a shared library");
+}
+
+TEST_F(Plugin, ThatIsAnotherLibraryIsRefused) {
+  expect_refused(kPlugins / "not_a_plugin.so", "not a Trammel plugin");
+}
+
+TEST_F(Plugin, OfAnotherAbiIsRefusedWithBothValues) {
+  expect_refused(kPlugins / "other_abi.so", "the plugin has 32, this program 64");
+}
+
+TEST_F(Plugin, ThatThrowsWhileItIsLoadedIsReported) {
+  expect_refused(kPlugins / "throws_at_load.so", "no licence found");
+}
+
+TEST_F(Plugin, ThatCrashesWhileItIsLoadedDoesNotTakeTheProgramWithIt) {
+  expect_refused(kPlugins / "crashes_at_load.so", "while it is loaded");
+}
+
+TEST_F(Plugin, ThatThrowsInItsConstructorIsReported) {
+  expect_refused(kPlugins / "throws_in_constructor.so", "out of luck", {"corrections.position=throws_in_constructor"});
+}
+
+TEST_F(Plugin, ThatThrowsInStep1000KeepsTheResultsSoFar) {
+  expect_refused(kPlugins / "throws_in_step_1000.so", "the thousandth step is one too many",
+                 {"integrator.type=throws_in_step_1000", "bodies.ball.position=[0,100]", "simulate.until=3"});
+  const auto result = run(kPlugins / "throws_in_step_1000.so",
+                          {"integrator.type=throws_in_step_1000", "bodies.ball.position=[0,100]", "simulate.until=3"});
+  EXPECT_THAT(result.err, HasSubstr("integrator throws_in_step_1000"));
+  EXPECT_THAT(result.err, HasSubstr("step 1000"));
+  EXPECT_THAT(result.err, HasSubstr("0.999"));
+  // Header, and rows at 0, 0.01, ..., 0.99 at least.
+  const std::string series = cli::read_file(folder.path() / "out/bounce/series.csv");
+  EXPECT_GE(std::count(series.begin(), series.end(), '\n'), 101);
+  EXPECT_EQ(json::parse(cli::read_file(folder.path() / "out/bounce/result.json"))["status"], "failed");
+}
+
+TEST_F(Plugin, ThatReturnsNanIsNamedWithTheTime) {
+  const std::string scene = R"({"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+    "bodies": {"p": {"type": "returns_nan"}}, "integrator": {"type": "runge_kutta_4", "step": 1e-3},
+    "simulate": {"until": 1}})";
+  cli::write_file(folder.path() / "nan.json", scene);
+  const auto result =
+      trammel({"run", "nan.json", "--plugin", (kPlugins / "returns_nan.so").string()}, {.folder = folder.path()});
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("body returns_nan"));
+  EXPECT_THAT(result.err, HasSubstr("force"));
+  EXPECT_THAT(result.err, HasSubstr("t = 0.5"));
+}
+
+TEST_F(Plugin, ErrorWithJsonIsOneObject) {
+  const auto result = trammel({"run", kBounce, "--json", "--plugin", "no_such_library.so"}, {.folder = folder.path()});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(json::parse(result.out)["status"], "error");
+}
+
+}  // namespace
