@@ -27,27 +27,38 @@ inline AnyPack& at(double* x) {
 inline double total(const Pack& s) {
   return (s[0] + s[2]) + (s[1] + s[3]);
 }
+// The totals of four packs.
+inline Pack totals(const Pack& s0, const Pack& s1, const Pack& s2, const Pack& s3) {
+  const Pack low = __builtin_shufflevector(s0, s1, 0, 4, 2, 6) + __builtin_shufflevector(s0, s1, 1, 5, 3, 7);
+  const Pack high = __builtin_shufflevector(s2, s3, 0, 4, 2, 6) + __builtin_shufflevector(s2, s3, 1, 5, 3, 7);
+  return __builtin_shufflevector(low, high, 0, 1, 4, 5) + __builtin_shufflevector(low, high, 2, 3, 6, 7);
+}
 
-// `packs` packs of y, from all rows.
+// `packs` packs of y, from all rows. Few packs take two rows at a time, so that enough sums are in flight.
 template <int packs, bool add>
 inline void combine_packs(int m, const double* x, int stride, const double* c, double* y) {
-  Pack sum[packs];
-  for (int p = 0; p < packs; ++p) {
-    if constexpr (add)
-      sum[p] = at(y + pack * p);
-    else
-      sum[p] = Pack{};
-  }
-  for (int j = 0; j < m; ++j, x += stride)
+  constexpr bool two_rows = packs <= 4;
+  Pack sum[packs], second[packs] = {};
+  for (int p = 0; p < packs; ++p) sum[p] = add ? Pack(at(y + pack * p)) : Pack{};
+  int j = 0;
+  if constexpr (two_rows)
+    for (; j + 2 <= m; j += 2, x += 2 * stride)
+      for (int p = 0; p < packs; ++p) {
+        sum[p] += c[j] * at(x + pack * p);
+        second[p] += c[j + 1] * at(x + stride + pack * p);
+      }
+  for (; j < m; ++j, x += stride)
     for (int p = 0; p < packs; ++p) sum[p] += c[j] * at(x + pack * p);
-  for (int p = 0; p < packs; ++p) at(y + pack * p) = sum[p];
+  for (int p = 0; p < packs; ++p) at(y + pack * p) = two_rows ? sum[p] + second[p] : sum[p];
 }
 
 template <bool add>
 inline void combine_rows(int n, int m, const double* x, int stride, const double* c, double* y) {
   int k = 0;
-  for (; k + 4 * pack <= n; k += 4 * pack) combine_packs<4, add>(m, x + k, stride, c, y + k);
-  for (; k < n; k += pack) combine_packs<1, add>(m, x + k, stride, c, y + k);
+  for (; k + 8 * pack <= n; k += 8 * pack) combine_packs<8, add>(m, x + k, stride, c, y + k);
+  if (k + 4 * pack <= n) combine_packs<4, add>(m, x + k, stride, c, y + k), k += 4 * pack;
+  if (k + 2 * pack <= n) combine_packs<2, add>(m, x + k, stride, c, y + k), k += 2 * pack;
+  if (k < n) combine_packs<1, add>(m, x + k, stride, c, y + k);
 }
 
 }  // namespace detail
@@ -88,8 +99,11 @@ inline void add_products(int n, int m, const double* x, int stride, const double
       s2 += detail::at(x2 + k) * yk;
       s3 += detail::at(x3 + k) * yk;
     }
-    const double sums[4] = {detail::total(s0), detail::total(s1), detail::total(s2), detail::total(s3)};
-    for (int r = 0; r < rows; ++r) out[i + r] += scale * sums[r];
+    const detail::Pack sums = scale * detail::totals(s0, s1, s2, s3);
+    if (rows == 4)
+      detail::at(out + i) += sums;
+    else
+      for (int r = 0; r < rows; ++r) out[i + r] += sums[r];
   }
 }
 

@@ -10,9 +10,14 @@ Matrix Matrix::onto(Mat& dense) {
 }
 
 void Matrix::add(int i0, int j0, Block block, double c) {
-  using Place = Eigen::Map<Mat, 0, Eigen::OuterStride<>>;
-  Place(data_ + (column_ + j0) * stride_ + row_ + i0, block.rows(), block.cols(), Eigen::OuterStride<>(stride_))
-      .noalias() += c * block;
+  // Plain loops: for blocks of a few columns an expression of Eigen's costs four times as much.
+  Eigen::Index rows = block.rows(), columns = block.cols();
+  if (rows == stride_ && rows == block.outerStride()) rows *= columns, columns = 1;  // a body alone: one long column
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    double* to = data_ + (column_ + j0 + j) * stride_ + row_ + i0;
+    const double* from = block.data() + j * block.outerStride();
+    for (Eigen::Index i = 0; i < rows; ++i) to[i] += c * from[i];
+  }
 }
 
 void Matrix::add(std::span<const int> rows, std::span<const int> columns, Block block, double c) {
