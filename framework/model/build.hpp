@@ -12,7 +12,8 @@ namespace trammel::model {
 // Everything a scene may hold at its top; unknown keys are errors.
 //     "joints":   {"hinge": {"type": "revolute", "between": ["ground", "rod.end"], ...}}
 //     "forces":   {"spring": {"type": "spring_damper", "between": [A, B], ...}, "push": {"type": "load", "on": "rod.tip", ...}}
-//     "contacts": {"tip": {"type": "constraint_method", "between": [A, {"plane": {"point", "normal", "on": B}}], "friction": {...}}}
+//     "contacts": {"tip": {"type": "constraint_method", "between": [A, {"plane": {"point", "normal", "on": B}}]}}
+// A "friction" of a contact is an error: nothing evaluates it yet.
 // A and B are markers, or fixed frames {"point": [x, y], "angle": a}. All problems are reported; the model returned then lacks
 // what they are about. Throws PluginError when a plugin misbehaves.
 std::shared_ptr<Model> build(const scene::Value& root, plugin::Registry& registry, scene::Problems& problems);

@@ -37,6 +37,16 @@ void set_row(Mat6& H, int row, const Vec3& d, const Vec3& r, double sign) {
 
 }  // namespace
 
+PointOnPlane::PointOnPlane(const Vec3& p, const Vec3& n) : point(p), normal(n) {
+  if (n.size() == 2) {
+    tangents = Eigen::Vector2d(n(1), -n(0));  // the free side to the left of the slip direction
+  } else {
+    const Eigen::Vector3d axis = n, first = axis.unitOrthogonal();
+    tangents.resize(3, 2);
+    tangents << first, axis.cross(first);
+  }
+}
+
 // gap = n . (x_A - p_B). With d = x_A - x_B the point of B under A moves like a point at d, so
 //     gap_rate = n . (V_A - V_B - omega_B x d)
 //     gap_acceleration = n . (A_A - A_B - alpha_B x d) - n . omega_B x (omega_B x d) + n' . (V_A - V_B - omega_B x d)
@@ -58,14 +68,7 @@ void contact_rows(const PointOnPlane& plane, const Motion& A, const Motion& B, b
   if (!tangents) return;
 
   for (int i = 1; i < dim; ++i) {
-    Vec3 s(dim);
-    if (dim == 2) {
-      s << n(1), -n(0);  // the free side to the left of the slip direction
-    } else {
-      const Eigen::Vector3d normal = n;
-      const Eigen::Vector3d first = normal.unitOrthogonal();
-      s = i == 1 ? first : Eigen::Vector3d(normal.cross(first));
-    }
+    const Vec3 s = B.R * plane.tangents.col(i - 1);
     set_row(rows.H_A, i, s, r_A, 1);
     set_row(rows.H_B, i, s, d, -1);
     rows.gamma(i) = s.dot(transport);

@@ -10,7 +10,6 @@
 #include <trammel/body.hpp>
 #include <trammel/contact.hpp>
 #include <trammel/force.hpp>
-#include <trammel/friction.hpp>
 #include <trammel/joint.hpp>
 
 namespace trammel::model {
@@ -49,7 +48,10 @@ struct ForceEntry {
 
 // A point of A against a plane carried by B: gap = n . (x_A - p), p and n in B's axes; n points to the free side.
 struct PointOnPlane {
+  PointOnPlane() = default;
+  PointOnPlane(const Vec3& p, const Vec3& n);  // n of length 1
   Vec3 point, normal;
+  Mat3 tangents;  // columns in B's axes: fixed in B, so that slip is measured in the same directions throughout
 };
 
 struct ContactEntry {
@@ -57,7 +59,6 @@ struct ContactEntry {
   MarkerRef A, B;
   PointOnPlane geometry;
   std::unique_ptr<Component> law;
-  std::unique_ptr<Friction> friction;  // null: frictionless
   // The law's kind, looked up once; exactly one is set.
   const Restitution* restitution = nullptr;
   const ContactForce* force = nullptr;
@@ -85,7 +86,8 @@ struct Model {
 };
 
 // Rows of the contact's geometry: row 0 the gap, G, g_t and gamma of the normal direction; with `tangents` further rows
-// are the slip velocities (their g is 0).
+// are the slip velocities along B's tangents. Where such a row is held its g is the displacement since sticking began; that
+// takes an anchor, which the geometry does not know: g comes back as 0.
 void contact_rows(const PointOnPlane& plane, const Motion& A, const Motion& B, bool tangents, Rows& rows);
 
 }  // namespace trammel::model

@@ -64,5 +64,58 @@ TEST(PointOnPlane, SlipVelocityIsThatOfThePointOverThePlane) {
   EXPECT_NEAR(rate_at(0.7, 1), tangent.dot(A.V.head<2>() - B.V.head<2>() - swept), 1e-14);
 }
 
+// In space: the plane turns about an axis that is not its normal.
+Motion tumbling_frame(double t) {
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -1).normalized();
+  Motion m;
+  m.x = Eigen::Vector3d(0.1 * t, std::sin(t), 0);
+  m.R = Eigen::AngleAxisd(0.3 + t * t, axis).toRotationMatrix();
+  m.V = (Vec6(6) << 0.1, std::cos(t), 0, 2 * t * axis).finished();
+  m.bias = (Vec6(6) << 0, -std::sin(t), 0, 2 * axis).finished();
+  return m;
+}
+
+Motion point_in_space(double t) {
+  Motion m;
+  m.x = Eigen::Vector3d(std::cos(2 * t), 1 + std::sin(3 * t), t * t);
+  m.R.setIdentity(3, 3);
+  m.V = (Vec6(6) << -2 * std::sin(2 * t), 3 * std::cos(3 * t), 2 * t, 0, 0, 0).finished();
+  m.bias = (Vec6(6) << -4 * std::cos(2 * t), -9 * std::sin(3 * t), 2, 0, 0, 0).finished();
+  return m;
+}
+
+const Eigen::Vector3d normal_in_space(0.48, 0.6, 0.64);
+
+Rows rows_in_space(double t) {
+  Rows rows;
+  rows.resize(3, Space::spatial);
+  contact_rows({Eigen::Vector3d(0.2, -0.1, 0.3), normal_in_space}, point_in_space(t), tumbling_frame(t), true, rows);
+  return rows;
+}
+
+Vec rates_in_space(double t) {
+  const Rows rows = rows_in_space(t);
+  return rows.H_A * point_in_space(t).V + rows.H_B * tumbling_frame(t).V;
+}
+
+TEST(PointOnPlane, TangentsAreFixedInThePlanesBody) {
+  const Mat3 first =
+      tumbling_frame(0.7).R.transpose() * Mat3(rows_in_space(0.7).H_A.bottomLeftCorner(2, 3).transpose());
+  const Mat3 later =
+      tumbling_frame(2.1).R.transpose() * Mat3(rows_in_space(2.1).H_A.bottomLeftCorner(2, 3).transpose());
+  EXPECT_LT((first - later).norm(), 1e-14);
+}
+
+TEST(PointOnPlane, TangentsAndNormalAreOrthonormalInSpace) {
+  const Mat3 axes = rows_in_space(0.7).H_A.leftCols(3);
+  EXPECT_LT((axes * axes.transpose() - Mat3(Eigen::Matrix3d::Identity())).norm(), 1e-14);
+}
+
+TEST(PointOnPlane, GammaMakesTheAccelerationsOfGapAndSlipInSpace) {
+  const Rows rows = rows_in_space(0.7);
+  const Vec acceleration = rows.H_A * point_in_space(0.7).bias + rows.H_B * tumbling_frame(0.7).bias - rows.gamma;
+  EXPECT_LT((acceleration - (rates_in_space(0.7 + s) - rates_in_space(0.7 - s)) / (2 * s)).norm(), 1e-7);
+}
+
 }  // namespace
 }  // namespace trammel::model
