@@ -1,0 +1,37 @@
+"""Builds bin/trammel, runs a scene pinned to one core, gives back what it cost."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(os.environ.get("TRAMMEL_BUILD_DIR", ROOT / "build"))
+
+
+def build():
+    subprocess.run([ROOT / "tools/build", "trammel_program", "plugins/all", "bodies/all"], check=True, stdout=sys.stderr)
+
+
+def run(scene, values, events=False):
+    """result.json of a run, None if it was refused; `events`: with the time of the last event as "last_event"."""
+    pin = ["taskset", "-c", str(max(os.sched_getaffinity(0)))] if shutil.which("taskset") else []
+    overrides = [x for path, value in values.items() for x in ("--set", f"{path}={value}")]
+    with tempfile.TemporaryDirectory() as out:
+        command = [*pin, BUILD / "bin/trammel", "run", ROOT / f"scenes/{scene}.json", *overrides, "--quiet", "--out", out]
+        message = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True).stderr
+        path = pathlib.Path(out)
+        if not (path / "result.json").exists():
+            print(" ".join(map(str, command)) + "\n" + message, file=sys.stderr)
+            return None
+        result = json.loads((path / "result.json").read_text())
+        if events:
+            rows = (path / "events.csv").read_text().splitlines()[1:]
+            result["last_event"] = float(rows[-1].split(",")[0]) if rows else None
+        return result
+
+
+def load():
+    return "load average " + " ".join(f"{x:.1f}" for x in os.getloadavg()) + f" on {os.cpu_count()} cores"
