@@ -132,6 +132,17 @@ void AssembledSystem::add_reaction(double c, const Vec& lambda, Vec& r) {
   r.noalias() += c * (work_->G.transpose() * lambda);
 }
 
+void AssembledSystem::add_rows_times(double c, const Vec& x, Vec& rc) {
+  if (work_->sizes.nc == 0) return;
+  work_->evaluate_rows();
+  rc.noalias() += c * (work_->G * x);
+}
+
+// No contact's friction couples rows here: W = G.
+void AssembledSystem::add_rows_force(double c, const Vec& mu, Vec& r) {
+  add_reaction(c, mu, r);
+}
+
 void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
   Work& w = *work_;
   if (!w.factorise_mass(w.at_point)) throw NotSolvable("the mass matrix is not positive definite");

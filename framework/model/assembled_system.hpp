@@ -60,6 +60,9 @@ class AssembledSystem final : public System {
   const Vec& g_dot() override;
   void add_mass_times(double c, const Vec& a, Vec& r) override;
   void add_reaction(double c, const Vec& lambda, Vec& r) override;
+  void add_rows_times(double c, const Vec& x, Vec& rc) override;
+  void add_rows_force(double c, const Vec& mu, Vec& r) override;
+  Energy energy() override;  // of all bodies, forces and closed compliant contacts
   void accelerate(Stabilisation, Vec& a, Vec& lambda) override;
   void factorise(Blend, const Vec& a, const Vec& lambda, Factors kept = Factors::iteration) override;
   [[nodiscard]] bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda,
@@ -84,7 +87,6 @@ class AssembledSystem final : public System {
   // contacts[j].
   void impulse_response(const std::vector<int>& contacts, Mat& jump, Mat& delassus);
 
-  Energy energy();           // of all bodies, forces and closed compliant contacts
   struct Balance {           // power of what energy() does not hold, by cause [W]
     double drives = 0;       // supplied by bodies' drives and loads
     double dampers = 0;      // dissipated in bodies and forces

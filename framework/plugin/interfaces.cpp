@@ -22,6 +22,7 @@ ParameterError::~ParameterError() = default;
 ErrorEstimate::~ErrorEstimate() = default;
 DenseOutput::~DenseOutput() = default;
 Resizable::~Resizable() = default;
+Transfer::~Transfer() = default;
 
 // Abilities of bodies.
 ExactTangent::~ExactTangent() = default;

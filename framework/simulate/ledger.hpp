@@ -28,6 +28,7 @@ class Ledger {
   void moving_rows(double supplied) { constraints_ += supplied; }
 
   double energy_start() const { return energy_start_; }
+  double energy() const { return energy_start_ + supplied() - (impact_total() + contacts_ + dampers_); }  // due by now
   double supplied() const { return drives_ + constraints_; }
   double drives() const { return drives_; }
   double constraints() const { return constraints_; }

@@ -196,6 +196,10 @@ class Run {
     simulator_->archive(archive);
     JsonArchive integrator = archive.nested("integrator");
     setup_.integrator->archive(integrator);
+    for (std::size_t i = 0; i < setup_.corrections.size(); ++i) {
+      JsonArchive correction = archive.nested(fmt::format("correction_{}", i));
+      setup_.corrections[i]->archive(correction);
+    }
   }
 
   // Everything known is kept; what cannot be written any more is told in the reason.

@@ -196,9 +196,20 @@ void Simulator::fail_not_finite(double h) {
   fail(h, "the solution diverged: numbers that are not finite. The step may be too long for the method");
 }
 
-void Simulator::correct() {
+// The ledger follows the method's own step: what a correction adds or takes is nobody's supply.
+void Simulator::step_ledger_and_correct() {
+  ledger_.step(now_, next_);
+  uncorrected_ = next_;
+  const Correction::Step step{now_, uncorrected_, ledger_.energy()};
   for (Correction* correction : corrections_)
-    if (const Outcome outcome = correction->apply(system_, next_); !outcome) fail(next_.t - now_.t, outcome.reason());
+    if (const Outcome outcome = correction->apply(system_, step, next_); !outcome)
+      fail(next_.t - now_.t, outcome.reason());
+  if (next_.q == uncorrected_.q && next_.v == uncorrected_.v) return;
+  if (!next_.q.allFinite() || !next_.v.allFinite())
+    fail(next_.t - now_.t, "a correction gave numbers that are not finite");
+  system_.move_to(next_.t, next_.q, next_.v);
+  system_.accelerate({}, next_.a, next_.lambda);
+  ledger_.restart(next_);
 }
 
 void Simulator::accept(double h, bool shortened, const StepControl::Proposal& proposal, double error) {
@@ -206,8 +217,8 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
   if (!shortened && proposal.t_next != next_.t) next_.t = proposal.t_next;
   const double stop = record_time(records_);
   if (std::abs(stop - next_.t) <= 4 * eps * std::abs(stop)) next_.t = stop;
-  correct();
-  integrator_.accept(system_, next_);
+  if (!corrections_.empty()) step_ledger_and_correct();
+  integrator_.accept(system_, now_, next_);
   if (shortened)
     control().interrupted();
   else
@@ -218,7 +229,7 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
     if (statistics_.smallest_step == 0 || h < statistics_.smallest_step) statistics_.smallest_step = h;
     statistics_.largest_step = std::max(statistics_.largest_step, h);
   }
-  ledger_.step(now_, next_);
+  if (corrections_.empty()) ledger_.step(now_, next_);
   if (system_.sizes().nc > 0) {
     system_.move_to(next_.t, next_.q, next_.v);
     statistics_.largest.raise_to(constraint_norms(system_, next_, scratch_));
@@ -261,6 +272,7 @@ void Simulator::at_new_modes() {
   free_control_.interrupted();
   contact_control_.interrupted();
   integrator_.restart(system_, now_);
+  for (Correction* correction : corrections_) correction->restart(system_, now_);
   location_.restart(now_);
   ledger_.restart(now_);
   statistics_.note_sizes(now_.t, system_.sizes());
@@ -285,8 +297,7 @@ Energy Simulator::energy_at_state() {
 }
 
 double Simulator::energy_drift() {
-  const double dissipated = ledger_.impact_total() + ledger_.contact_damping() + ledger_.dampers();
-  return energy_at_state().total() - (ledger_.energy_start() + ledger_.supplied() - dissipated);
+  return energy_at_state().total() - ledger_.energy();
 }
 
 void Simulator::write_events(Recorder& recorder) {

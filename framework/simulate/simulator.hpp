@@ -59,7 +59,7 @@ class Simulator {
   [[noreturn]] void fail(double h, const std::string& why) const;
   void find_culprit(double h);
   [[noreturn]] void fail_not_finite(double h);
-  void correct();
+  void step_ledger_and_correct();
   void accept(double h, bool shortened, const StepControl::Proposal& proposal, double error);
   void record_inside(Recorder& recorder);
   void settle(const ContactChanges& changes);
@@ -79,7 +79,7 @@ class Simulator {
   Ledger ledger_;
   Statistics statistics_;
 
-  State now_, next_, inside_;
+  State now_, next_, inside_, uncorrected_;
   bool in_contact_ = false;
   double hold_until_ = -std::numeric_limits<double>::infinity();  // [s] contact steps until then
   long long records_ = 0;                                         // written

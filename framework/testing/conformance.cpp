@@ -44,7 +44,7 @@ bool same(const State& a, const State& b) {
 
 bool advance(Integrator& method, System& s, State& now, State& next) {
   if (!method.step(s, now, h, next)) return false;
-  method.accept(s, next);
+  method.accept(s, now, next);
   std::swap(now, next);
   return true;
 }

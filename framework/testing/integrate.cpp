@@ -40,7 +40,7 @@ State integrate(Integrator& method, System& system, const State& start, double u
   for (int i = 0; i < n; ++i) {
     if (const Outcome outcome = method.step(system, now, h, next); !outcome)
       throw std::runtime_error(fmt::format("step {} at t = {:.6g} s was rejected: {}", i + 1, now.t, outcome.reason()));
-    method.accept(system, next);
+    method.accept(system, now, next);
     std::swap(now, next);
     if (after_each_step) after_each_step(now);
   }

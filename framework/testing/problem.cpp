@@ -5,6 +5,7 @@
 // (Golub and Van Loan, section 5.5), derivatives by central differences. It shares no code with the framework's assembly, so
 // that an integrator fails for its own reasons only.
 #include <Eigen/Dense>
+#include <cmath>
 
 #include <trammel/testing_problems.hpp>
 
@@ -40,7 +41,15 @@ class ProblemSystem final : public System {
   const Vec& g() override { return rows_.g; }
   const Vec& g_dot() override { return g_dot_; }
   void add_mass_times(double c, const Vec& a, Vec& r) override { r += c * (p_.M * a); }
-  void add_reaction(double c, const Vec& lambda, Vec& r) override { r += c * (rows_.G.transpose() * lambda); }
+  void add_reaction(double c, const Vec& lambda, Vec& r) override { add_rows_force(c, lambda, r); }
+  void add_rows_times(double c, const Vec& x, Vec& rc) override { rc += c * (rows_.G * x); }
+  void add_rows_force(double c, const Vec& mu, Vec& r) override { r += c * (rows_.G.transpose() * mu); }
+  // A problem that does not conserve its energy names no potential.
+  Energy energy() override {
+    const double kinetic = 0.5 * v_.dot(p_.M * v_);
+    if (!p_.energy.value) return {.kinetic = kinetic, .potential = std::nan("")};
+    return {.kinetic = kinetic, .potential = p_.energy.value({t_, q_, v_, {}, {}}) - kinetic};
+  }
 
   void accelerate(Stabilisation s, Vec& a, Vec& lambda) override {
     solve(factored(p_.M), f(), rows_.gamma - 2 * s.alpha * g_dot_ - s.beta * s.beta * rows_.g, a, lambda);

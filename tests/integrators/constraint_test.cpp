@@ -17,7 +17,7 @@ TEST_P(Stabilised, HoldsPositionsAndVelocitiesToRoundOffAfterEachStep) {
     method->restart(s, now);
     for (int i = 0; i < 100; ++i) {
       ASSERT_TRUE(method->step(s, now, h, next));
-      method->accept(s, next);
+      method->accept(s, now, next);
       s.move_to(next.t, next.q, next.v);
       // A few roundings of numbers of size 1 (positions) and of size |v| <= 10.
       ASSERT_LE(std::abs(s.g()[0]), 1e-15) << "h = " << h << ", step " << i;

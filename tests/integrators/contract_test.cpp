@@ -25,10 +25,10 @@ TEST_P(EveryIntegrator, LeavesNoTraceOfATrial) {
       estimate->error(t, b, other, {});
     }
     ASSERT_TRUE(plain->step(s, a, 5e-3, next));
-    plain->accept(s, next);
+    plain->accept(s, a, next);
     std::swap(a, next);
     ASSERT_TRUE(tried->step(t, b, 5e-3, other));
-    tried->accept(t, other);
+    tried->accept(t, b, other);
     std::swap(b, other);
     ASSERT_TRUE(same_bits(a, b)) << "step " << i;
   }
@@ -43,12 +43,12 @@ TEST_P(EveryIntegrator, TakesAnEarlierTrialAsTheSolution) {
   looked->restart(t, b);
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(plain->step(s, a, 5e-3, next));
-    plain->accept(s, next);
+    plain->accept(s, a, next);
     std::swap(a, next);
     ASSERT_TRUE(looked->step(t, b, 5e-3, other));
     ASSERT_TRUE(looked->step(t, b, 2e-3, closer));
     other.t = std::nextafter(other.t, 1e9);
-    looked->accept(t, other);
+    looked->accept(t, b, other);
     std::swap(b, other);
   }
   // HHT's p is then evaluated, not taken over: Newton's tolerance. The others repeat the same operations.
@@ -138,7 +138,7 @@ TEST_P(EveryIntegrator, EndsAnyStepInFiniteNumbersOrARejection) {
         }
         ASSERT_TRUE(next.q.allFinite() && next.v.allFinite() && next.a.allFinite() && next.lambda.allFinite())
             << "system " << i << ", h = 1e" << e;
-        m->accept(*systems[i], next);
+        m->accept(*systems[i], now, next);
         std::swap(now, next);
       }
     }

@@ -30,7 +30,11 @@ class DenseSystem : public System {
   const Vec& g() override { return rows_.g; }
   const Vec& g_dot() override { return g_dot_; }
   void add_mass_times(double c, const Vec& a, Vec& r) override { r += c * (mass() * a); }
-  void add_reaction(double c, const Vec& lambda, Vec& r) override { r += c * (rows_.G.transpose() * lambda); }
+  void add_reaction(double c, const Vec& lambda, Vec& r) override { add_rows_force(c, lambda, r); }
+  void add_rows_times(double c, const Vec& x, Vec& rc) override { rc += c * (rows_.G * x); }
+  void add_rows_force(double c, const Vec& mu, Vec& r) override { r += c * (rows_.G.transpose() * mu); }
+  // Forces need not have a potential here.
+  Energy energy() override { return {.kinetic = 0.5 * v_.dot(mass() * v_), .potential = std::nan("")}; }
 
   void accelerate(Stabilisation s, Vec& a, Vec& lambda) override {
     const Vec b = rows_.gamma - 2 * s.alpha * g_dot_ - s.beta * s.beta * rows_.g;

@@ -97,7 +97,7 @@ TEST_P(DenseOutputOf, HasItsOrderInsideTheStep) {
         const State exact = s.exact(at.t);
         error = std::max(error, (at.q - exact.q).norm() + (at.v - exact.v).norm());
       }
-      method->accept(s, next);
+      method->accept(s, now, next);
       std::swap(now, next);
     }
     return error;
@@ -132,7 +132,7 @@ TEST_P(DenseOutputOf, LooksIntoTheStepItIsGivenAfterOtherTrials) {
   ASSERT_TRUE(method->step(s, now, 0.05, next));
   dense.interpolate(s, now, next, 0.4, before);
   ASSERT_TRUE(method->step(s, now, 0.01, other));
-  method->accept(s, next);
+  method->accept(s, now, next);
   dense.interpolate(s, now, next, 0.4, after);
   EXPECT_TRUE(same_bits(before.q, after.q) && same_bits(before.v, after.v));
 }

@@ -39,7 +39,7 @@ Mat newmark_amplification(const std::string& name, const Settings& settings, dou
       memory.reading = false;
     }
     if (const Outcome outcome = method->step(s, now, 1, next); !outcome) throw std::runtime_error(outcome.reason());
-    method->accept(s, next);
+    method->accept(s, now, next);
     method->archive(memory);
     A.col(j) << next.q, next.v, own ? memory.vectors.at("a") : next.a;
   }
@@ -137,7 +137,7 @@ double remembered_radius(System& s, const std::string& name, const Settings& set
     method->archive(memory);
     State next;
     if (const Outcome outcome = method->step(s, now, 1, next); !outcome) throw std::runtime_error(outcome.reason());
-    method->accept(s, next);
+    method->accept(s, now, next);
     memory.reading = false;
     method->archive(memory);
     A(0, j) = next.q[0], A(1, j) = next.v[0];

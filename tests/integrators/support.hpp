@@ -44,7 +44,7 @@ inline State advance(Integrator& method, System& s, State now, double h, int n) 
   for (int i = 0; i < n; ++i) {
     const Outcome outcome = method.step(s, now, h, next);
     if (!outcome) throw std::runtime_error(outcome.reason());
-    method.accept(s, next);
+    method.accept(s, now, next);
     std::swap(now, next);
   }
   return now;

@@ -62,6 +62,21 @@ TEST(AssembledSystem, AccelerationsSatisfyMotionAndRows) {
   EXPECT_LT(rc.norm(), round_off);
 }
 
+TEST(AssembledSystem, RowsAloneGiveTheirRatesAndTheirForces) {
+  At at(double_pendulum(false));
+  Vec rates = Vec::Ones(2), force = Vec::Ones(4);
+  const Eigen::Vector2d mu(2, -5);
+  at.system.add_rows_times(3, at.v, rates);  // no row depends on time: G v = g_dot
+  at.system.add_rows_force(3, mu, force);
+  EXPECT_LT((rates - Vec::Ones(2) - 3 * at.system.g_dot()).norm(), round_off);
+  // The same power either way.
+  EXPECT_NEAR(at.v.dot(force - Vec::Ones(4)), 3 * mu.dot(at.system.g_dot()), round_off);
+  const Vec x = Eigen::Vector4d(1, -2, 3, 4);
+  Vec Gx = Vec::Zero(2);
+  at.system.add_rows_times(1, x, Gx);
+  EXPECT_NEAR(x.dot(force - Vec::Ones(4)), 3 * mu.dot(Gx), round_off);
+}
+
 TEST(AssembledSystem, BaumgarteTermsEnterTheRows) {
   At at(double_pendulum(false));
   Vec a, lambda, rc;

@@ -28,7 +28,7 @@ class Euler final : public Integrator {
     s.accelerate({}, next.a, next.lambda);
     return Outcome::accept();
   }
-  void accept(System&, const State&) override {
+  void accept(System&, const State&, const State&) override {
     if (defect_ == Defect::forgets_archive) count_ += 1;
   }
 

@@ -3,14 +3,18 @@
 //     M(q) a = f(t, q, v)       for the body alone, gravity included
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include <trammel/archive.hpp>
 #include <trammel/component.hpp>
 #include <trammel/marker.hpp>
 #include <trammel/matrix.hpp>
 #include <trammel/system.hpp>
+#include <trammel/transfer.hpp>
 
 namespace trammel {
 
@@ -85,13 +89,22 @@ class Drawn {
   virtual void shape(double t, In q, Mat& points) const = 0;
 };
 
-// A body that may replace its coordinates during the run (mesh refinement). `refine` is called between steps, after the
-// event function of one of its triggers fired; afterwards coordinates(), markers() and motion() are the new ones.
+// Why and where a body is asked to refine.
+struct RefineCause {
+  std::string_view contact;                      // name in the scene of the contact that has just closed
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();  // surface parameters (u, v) of the place; 0 for a body without Surface
+};
+
+// A body that may replace its coordinates during the run (mesh refinement).
 class Refinable {
  public:
   virtual ~Refinable();
-  // Fills the linear map of the body's own q and v; false: nothing to refine.
-  virtual bool refine(double t, In q, In v, Mat& Q, Mat& V, Vec& q_0) = 0;
+  // Called between steps; null: nothing to refine. Afterwards coordinates(), mass, force and motion() are the new ones.
+  // Markers keep their names and indices; Motion objects are fresh, nothing kept in them is from before. The framework
+  // moves q and v by the transfer and solves a and lambda anew.
+  virtual std::unique_ptr<Transfer> refine(double t, In q, In v, const RefineCause& cause) = 0;
+  // What it takes to build the refined coordinates again when a run resumes; coordinates() is asked after reading.
+  virtual void archive(Archive&) = 0;
 };
 
 // Nearest point of a body's surface, for contact. The point is given by surface parameters (u, v).

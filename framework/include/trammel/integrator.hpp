@@ -8,6 +8,7 @@
 #include <trammel/component.hpp>
 #include <trammel/outcome.hpp>
 #include <trammel/system.hpp>
+#include <trammel/transfer.hpp>
 
 namespace trammel {
 
@@ -38,8 +39,9 @@ class Integrator : public Component {
   // finite.
   virtual Outcome step(System&, const State& now, double h, State& next) = 0;
 
-  // The trial became the solution: history moves here and only here.
-  virtual void accept(System&, const State& /*next*/) {}
+  // The trial from `now` became the solution: history moves here and only here. After a correction `next` is not what
+  // the trial gave; its a and lambda are solved anew.
+  virtual void accept(System&, const State& /*now*/, const State& /*next*/) {}
 
   // History for resuming.
   virtual void archive(Archive&) {}
@@ -69,16 +71,13 @@ class DenseOutput {
   virtual void interpolate(System&, const State& now, const State& next, double theta, State& at) = 0;
 };
 
-// The system's coordinates were replaced through linear maps, q_new = Q q + q_0, v_new = V v (a refined mesh).
-struct Transfer {
-  Mat Q, V;
-  Vec q_0;
-};
-
+// For a system whose coordinates were replaced by others (a refined mesh).
 class Resizable {
  public:
   virtual ~Resizable();
-  // Carries the history through the transfer; called instead of `restart`.
+  // Carries the history through the transfer; called instead of `restart`. `now` is in the new coordinates already, its a
+  // and lambda solved anew. Of the history velocities, accelerations and increments go through Transfer::v; forces and
+  // multipliers do not transfer: evaluate them anew.
   virtual void resize(System&, const Transfer&, const State& now) = 0;
 };
 

@@ -19,8 +19,8 @@
 #include <trammel/parameters.hpp>
 
 // The SDK that these headers are. Major: a virtual was added or changed; minor: abilities were added (CHANGES.md).
-#define TRAMMEL_SDK_MAJOR 0
-#define TRAMMEL_SDK_MINOR 1
+#define TRAMMEL_SDK_MAJOR 1
+#define TRAMMEL_SDK_MINOR 0
 
 namespace trammel {
 using Declarations = std::vector<Declaration>;

@@ -1,9 +1,8 @@
 // What an integrator sees: the whole mechanical system at one point (t, q, v).
 //
 //     q' = N(q) v                                  q configuration (nq), on a manifold; v velocity (nv)
-//     M(q) v' = f(t, q, v) - W(t, q)^T lambda      M mass matrix; f applied, elastic and gyroscopic forces
-//     g(t, q) = 0,   G = (dg/dq) N                 nc bilateral rows, may be redundant; W = G unless friction couples
-//     rows
+//     M(q) v' = f(t, q, v) - W(t, q, v)^T lambda   M mass matrix; f applied, elastic and gyroscopic forces
+//     g(t, q) = 0,   G = (dg/dq) N                 nc rows, may be redundant; W = G unless sliding friction couples them
 //
 // and the levels derived from it, G v + g_t = 0 and G v' = gamma(t, q, v). Contacts, events, storage (dense or sparse),
 // redundancy and the meaning of the coordinates are the System's affair.
@@ -54,16 +53,25 @@ class System {
 
   virtual void add_mass_times(double c, const Vec& a, Vec& r) = 0;     // r += c M a           (nv)
   virtual void add_reaction(double c, const Vec& lambda, Vec& r) = 0;  // r += c W^T lambda    (nv)
+  // The rows alone, without what friction adds to their reaction.
+  virtual void add_rows_times(double c, const Vec& x, Vec& rc) = 0;  // rc += c G x      (nc)
+  virtual void add_rows_force(double c, const Vec& mu, Vec& r) = 0;  // r += c G^T mu    (nv)
 
-  // Solves M a + W^T lambda = f, G a = gamma - stabilisation. Redundant rows: a is unique, lambda the one of minimum
-  // norm. Throws when M is singular on the null space of G.
+  virtual Energy energy() = 0;  // of everything that stores some [J]
+
+  // Solves M a + W^T lambda = f, G a = gamma - stabilisation. Redundant rows: lambda is the one of minimum norm. With
+  // W = G all choices give the same a and W^T lambda; with W != G they need not, and it is this one that decides.
+  // Throws when M is singular on the null space of G.
   virtual void accelerate(Stabilisation, Vec& a, Vec& lambda) = 0;
 
-  // Factorises [S W^T; G 0] at this point; a and lambda enter D and K through d(M a)/dq and d(W^T lambda)/dq.
+  // Factorises [S W^T; G 0] at this point, or [S G^T; G 0] for Factors::projection, never with W: along friction's
+  // direction a correction of the rows would move a sliding body along its plane, or be singular where G W^T is.
+  // a and lambda enter D and K through d(M a)/dq and d(W^T lambda)/dq.
   // The factors stay valid over later move_to calls (a modified Newton iteration) until the next factorise of the same
   // kind or a change of sizes.
   virtual void factorise(Blend, const Vec& a, const Vec& lambda, Factors = Factors::iteration) = 0;
-  // Solves [S W^T; G 0] (da, dlambda) = -(r, rc) with those factors. False: singular, reject the step.
+  // Solves for (da, dlambda) with the right-hand side -(r, rc) and those factors; redundant rows as in `accelerate`.
+  // False: singular, reject the step.
   [[nodiscard]] virtual bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda,
                                      Factors = Factors::iteration) = 0;
 

@@ -45,7 +45,6 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
     starter_.evaluate(s, now.t, now.q, now.v, past_[0]);
     filled_ = 1;
     h_ = 0;
-    t_ = now.t;
   }
 
   Outcome step(System& s, const State& now, double h, State& next) override {
@@ -70,11 +69,10 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
     return Outcome::accept();
   }
 
-  void accept(System& s, const State& next) override {
-    const double h = step_to(next.t);
+  void accept(System& s, const State& now, const State& next) override {
+    const double h = step_to(now.t, next.t);
     if (!same_step(h)) filled_ = 1;  // only the step's start lies one h back
     h_ = h;
-    t_ = next.t;
     std::rotate(past_.begin(), past_.end() - 1, past_.end());
     s.rate(next.q, next.v, past_[0].q);
     past_[0].v = next.a;
@@ -98,7 +96,6 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   void archive(Archive& archive) override {
     archive("filled", filled_);
     archive("h", h_);
-    archive("t", t_);
     for (std::size_t i = 0; i < past_.size(); ++i) {
       const std::string name = "past_" + std::to_string(i);
       archive(name + "_q", past_[i].q);
@@ -112,9 +109,9 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   bool same_step(double h) const { return std::abs(h - h_) <= 1e-9 * h; }
 
   // The step accepted last, exactly: t is rounded, and another step may have been tried since.
-  double step_to(double t) const {
-    const double h = t - t_,
-                 rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), std::abs(t_));
+  double step_to(double from, double to) const {
+    const double h = to - from;
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(from), std::abs(to));
     for (const double known : {trial_h_, h_})
       if (std::abs(h - known) <= rounding) return known;
     return h;
@@ -133,7 +130,6 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   std::array<Slope, 4> past_;  // at the last accepted point, one h before, ...
   int filled_ = 0;             // so many of them are valid
   double h_ = 0;               // their distance
-  double t_ = 0;               // of the first
   // Of the last trial.
   bool multistep_ = false;
   double trial_h_ = 0;

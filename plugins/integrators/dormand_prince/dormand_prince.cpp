@@ -40,7 +40,7 @@ class DormandPrince final : public Integrator, public ErrorEstimate, public Dens
   }
 
   // The slope at the step's end is the first one of the next.
-  void accept(System& s, const State& next) override {
+  void accept(System& s, const State& /*now*/, const State& next) override {
     s.rate(next.q, next.v, slope_.q);
     slope_.v = next.a;
     slope_.lambda = next.lambda;

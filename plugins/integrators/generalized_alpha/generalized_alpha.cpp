@@ -65,7 +65,7 @@ class GeneralizedAlpha final : public Integrator, public ErrorEstimate {
     return step_.finish(s, now, next);
   }
 
-  void accept(System&, const State& next) override {
+  void accept(System&, const State& /*now*/, const State& next) override {
     a_ = ((1 - alpha_f_) * next.a + alpha_f_ * A_ - alpha_m_ * a_) / (1 - alpha_m_);
     A_ = next.a;
     error_.accept(next);

@@ -58,7 +58,7 @@ class HhtAlpha final : public Integrator, public ErrorEstimate {
     return outcome;
   }
 
-  void accept(System& s, const State& next) override {
+  void accept(System& s, const State& /*now*/, const State& next) override {
     // Another trial's end than the last one's: evaluate there.
     if (same(next.a, trial_a_) && same(next.lambda, trial_lambda_))
       p_ = trial_p_;

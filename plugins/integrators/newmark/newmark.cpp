@@ -54,7 +54,7 @@ class Newmark final : public Integrator, public ErrorEstimate {
     return step_.finish(s, now, next);
   }
 
-  void accept(System&, const State& next) override { error_.accept(next); }
+  void accept(System&, const State& /*now*/, const State& next) override { error_.accept(next); }
   double error(System& s, const State& now, const State& next, const Tolerance& t) override {
     return error_(s, now, next, t);
   }

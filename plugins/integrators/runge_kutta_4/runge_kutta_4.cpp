@@ -33,7 +33,7 @@ class RungeKutta4 final : public Integrator, public ErrorEstimate {
   }
 
   // The slope at the step's end is the first one of the next.
-  void accept(System& s, const State& next) override {
+  void accept(System& s, const State& /*now*/, const State& next) override {
     s.rate(next.q, next.v, slope_.q);
     slope_.v = next.a;
     slope_.lambda = next.lambda;

@@ -6,7 +6,7 @@ void a_function_that_nobody_defines();
 
 namespace {
 struct Idle : trammel::Correction {
-  trammel::Outcome apply(trammel::System&, trammel::State&) override {
+  trammel::Outcome apply(trammel::System&, const Step&, trammel::State&) override {
     a_function_that_nobody_defines();
     return trammel::Outcome::accept();
   }

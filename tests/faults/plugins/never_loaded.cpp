@@ -12,7 +12,7 @@ struct Patient {
 } patient;
 
 struct Idle : trammel::Correction {
-  trammel::Outcome apply(trammel::System&, trammel::State&) override { return trammel::Outcome::accept(); }
+  trammel::Outcome apply(trammel::System&, const Step&, trammel::State&) override { return trammel::Outcome::accept(); }
 };
 }  // namespace
 

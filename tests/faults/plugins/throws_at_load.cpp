@@ -10,7 +10,7 @@ struct Licence {
 } licence;
 
 struct Idle : trammel::Correction {
-  trammel::Outcome apply(trammel::System&, trammel::State&) override { return trammel::Outcome::accept(); }
+  trammel::Outcome apply(trammel::System&, const Step&, trammel::State&) override { return trammel::Outcome::accept(); }
 };
 }  // namespace
 

@@ -7,7 +7,7 @@
 namespace {
 struct Idle : trammel::Correction {
   Idle() { throw std::runtime_error("out of luck"); }
-  trammel::Outcome apply(trammel::System&, trammel::State&) override { return trammel::Outcome::accept(); }
+  trammel::Outcome apply(trammel::System&, const Step&, trammel::State&) override { return trammel::Outcome::accept(); }
 };
 }  // namespace
 

@@ -5,7 +5,7 @@
 namespace {
 struct Idle : trammel::Correction {
   void prepare(const trammel::World&) override { throw 42; }
-  trammel::Outcome apply(trammel::System&, trammel::State&) override { return trammel::Outcome::accept(); }
+  trammel::Outcome apply(trammel::System&, const Step&, trammel::State&) override { return trammel::Outcome::accept(); }
 };
 }  // namespace
 

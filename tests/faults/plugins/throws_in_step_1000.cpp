@@ -21,7 +21,7 @@ struct ThrowsInStep1000 : Integrator {
     s.accelerate({}, next.a, next.lambda);
     return Outcome::accept();
   }
-  void accept(System&, const State&) override { ++accepted_; }
+  void accept(System&, const State&, const State&) override { ++accepted_; }
   void archive(Archive& a) override { a("accepted", accepted_); }
 
  private:
