@@ -64,7 +64,7 @@ void register_all() {
       {"full", Coupling::full}, {"linear", Coupling::linear}, {"none", Coupling::none}};
   for (const auto& [name, function] : functions)
     for (const auto& [coupling_name, coupling] : couplings)
-      for (const int N : {3, 5, 7, 9, 20, 30})
+      for (const int N : {3, 5, 7, 9, 15, 20, 30})
         benchmark::RegisterBenchmark((std::string(name) + "/" + coupling_name + "/" + std::to_string(N)).c_str(),
                                      [=](benchmark::State& state) { function(state, Bench(N, coupling)); });
 }
