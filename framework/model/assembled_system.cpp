@@ -40,6 +40,14 @@ void AssembledSystem::set_modes(const Modes& modes) {
   w.rows_fresh = w.force_fresh = false;
 }
 
+void AssembledSystem::lay_out() {
+  auto fresh = std::make_unique<Work>(work_->model);
+  fresh->counts = work_->counts;
+  const Modes modes = work_->modes;
+  work_ = std::move(fresh);
+  set_modes(modes);
+}
+
 int AssembledSystem::contact_row(int contact) const {
   return work_->contact_row[std::size_t(contact)];
 }

@@ -73,6 +73,7 @@ class AssembledSystem final : public System {
   // Which contacts are closed; changes sizes().nc. Rows: the joints', then those of closed Restitution contacts in
   // order.
   void set_modes(const Modes& modes);
+  void lay_out();  // the model was laid out anew: forgets all that was evaluated, keeps the modes and counts
   const Modes& modes() const;
   int contact_row(int contact) const;  // its row in g while closed, else -1; the normal force is -lambda of that row
   void initial(Vec& q, Vec& v) const;  // from the bodies' parameters

@@ -15,11 +15,13 @@ void Model::lay_out() {
     sizes.nv += entry.nv;
     for (const Coordinates::Part& part : entry.parts) flat = flat && part.kind == Coordinates::Kind::flat;
     constant_mass = constant_mass && entry.body->mass_is_constant();
-    const Body* body = entry.body.get();
+    Body* body = entry.body.get();
     entry.tangent = dynamic_cast<const ExactTangent*>(body);
     entry.reaction_derivative = dynamic_cast<const ReactionDerivative*>(body);
     entry.observed = dynamic_cast<const Observed*>(body);
     entry.drawn = dynamic_cast<const Drawn*>(body);
+    entry.momentum = dynamic_cast<const HasMomentum*>(body);
+    entry.refinable = dynamic_cast<Refinable*>(body);
   }
   for (JointEntry& entry : joints) {
     entry.row = sizes.nc;

@@ -31,6 +31,8 @@ struct BodyEntry {
   const ReactionDerivative* reaction_derivative = nullptr;
   const Observed* observed = nullptr;
   const Drawn* drawn = nullptr;
+  const HasMomentum* momentum = nullptr;
+  Refinable* refinable = nullptr;
 };
 
 struct JointEntry {

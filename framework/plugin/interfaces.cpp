@@ -30,6 +30,7 @@ ReactionDerivative::~ReactionDerivative() = default;
 Observed::~Observed() = default;
 Drawn::~Drawn() = default;
 Refinable::~Refinable() = default;
+HasMomentum::~HasMomentum() = default;
 Surface::~Surface() = default;
 
 void Archive::operator()(std::string_view name, std::vector<Vec>& values) {

@@ -56,7 +56,7 @@ double Ledger::impact_total() const {
 
 void Ledger::archive(Archive& a) {
   a("energy_start", energy_start_), a("drives", drives_), a("constraints", constraints_), a("dampers", dampers_);
-  a("contacts", contacts_);
+  a("contacts", contacts_), a("refinements", refinements_);
   a("power_drives", now_.drives), a("power_dampers", now_.dampers), a("power_contacts", now_.contacts);
   a("power_constraints", now_.constraints);
   Vec impacts = Eigen::Map<const Vec>(impacts_.data(), Eigen::Index(impacts_.size()));

@@ -1,6 +1,7 @@
 #include "simulate/recorder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -93,6 +94,33 @@ void Recorder::event(const ContactEvent& event) {
     fmt::format_to(out, "approach={:.17g}", event.approach);
   else
     fmt::format_to(out, "separation={:.17g}", event.separation);
+  events_->buffer() += '\n';
+  events_->appended();
+}
+
+void Recorder::event(const RefineEvent& event) {
+  auto out = std::back_inserter(events_->buffer());
+  fmt::format_to(out, "{:.17g},refine,bodies.{},cause={}", event.t, model_.bodies[std::size_t(event.body)].name,
+                 event.cause);
+  const auto pair = [&out](const char* what, auto before, auto after) {
+    fmt::format_to(out, " {0}_before={1:.17g} {0}_after={2:.17g}", what, before, after);
+  };
+  const RefineEvent::Side &before = event.before, &after = event.after;
+  pair("coordinates", double(before.sizes.nq), double(after.sizes.nq));
+  pair("kinetic", before.energy.kinetic, after.energy.kinetic);
+  pair("potential", before.energy.potential, after.energy.potential);
+  pair("elastic", before.energy.elastic, after.energy.elastic);
+  if (before.momentum && after.momentum) {
+    static constexpr std::array axes = {"x", "y", "z"};
+    pair("mass", before.momentum->mass, after.momentum->mass);
+    for (Eigen::Index i = 0; i < before.momentum->linear.size(); ++i)
+      pair(fmt::format("momentum_{}", axes[std::size_t(i)]).c_str(), before.momentum->linear(i),
+           after.momentum->linear(i));
+    const auto spins = before.momentum->angular.size();
+    for (Eigen::Index i = 0; i < spins; ++i)
+      pair(fmt::format("spin_{}", axes[std::size_t(spins == 1 ? 2 : i)]).c_str(), before.momentum->angular(i),
+           after.momentum->angular(i));
+  }
   events_->buffer() += '\n';
   events_->appended();
 }

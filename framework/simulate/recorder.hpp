@@ -6,6 +6,7 @@
 #include "simulate/contact_event.hpp"
 #include "simulate/log_file.hpp"
 #include "simulate/observable.hpp"
+#include "simulate/refine_event.hpp"
 
 namespace trammel::simulate {
 
@@ -30,6 +31,7 @@ class Recorder {
 
   void row(model::AssembledSystem& system, const State& state);
   void event(const ContactEvent& event);
+  void event(const RefineEvent& event);
   void flush();
   Lengths lengths() const { return {series_->length(), events_->length(), animation_ ? animation_->length() : 0}; }
 

@@ -104,6 +104,7 @@ std::string result_json(const scene::Scene& scene, const plugin::Registry& regis
       {"energy_end", energy(end)},
       {"energy_supplied",
        {{"drives", ledger.drives()}, {"constraints", ledger.constraints()}, {"total", ledger.supplied()}}},
+      {"energy_of_refinements", ledger.refinements()},
       {"energy_drift", drift},
       {"energy_dissipated", dissipated(*setup.model, ledger, drift)},
       {"constraint_maxima",

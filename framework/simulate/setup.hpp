@@ -17,7 +17,7 @@
 namespace trammel::simulate {
 
 struct Setup {
-  std::shared_ptr<const model::Model> model;
+  std::shared_ptr<model::Model> model;
   std::unique_ptr<Integrator> integrator;
   plugin::Origin integrator_origin;
   std::string integrator_type;

@@ -163,7 +163,7 @@ class Run {
     recorder_->flush();
     json data = json::object();
     JsonArchive archive(data, JsonArchive::Direction::write);
-    exchange(archive);
+    simulator_->archive(archive);
     Recorder::Lengths lengths = recorder_->lengths();
     archive("bytes_series", lengths.series), archive("bytes_events", lengths.events),
         archive("bytes_animation", lengths.animation);
@@ -178,7 +178,7 @@ class Run {
     Recorder::Lengths lengths;
     try {
       JsonArchive archive(data, JsonArchive::Direction::read);
-      exchange(archive);
+      simulator_->archive(archive);
       archive("bytes_series", lengths.series), archive("bytes_events", lengths.events),
           archive("bytes_animation", lengths.animation);
       archive("wall", before_.wall), archive("cpu", before_.cpu);
@@ -190,16 +190,6 @@ class Run {
       refuse_checkpoint(file, fmt::format("it has reached t = {:.9g} s already, the scene ends at {:.9g} s",
                                           simulator_->state().t, setup_.settings.until));
     return lengths;
-  }
-
-  void exchange(JsonArchive& archive) {
-    simulator_->archive(archive);
-    JsonArchive integrator = archive.nested("integrator");
-    setup_.integrator->archive(integrator);
-    for (std::size_t i = 0; i < setup_.corrections.size(); ++i) {
-      JsonArchive correction = archive.nested(fmt::format("correction_{}", i));
-      setup_.corrections[i]->archive(correction);
-    }
   }
 
   // Everything known is kept; what cannot be written any more is told in the reason.

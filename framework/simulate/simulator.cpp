@@ -26,10 +26,10 @@ int error_order(Integrator& integrator) {
 
 }  // namespace
 
-Simulator::Simulator(std::shared_ptr<const model::Model> model, Integrator& integrator, const Settings& settings,
+Simulator::Simulator(std::shared_ptr<model::Model> model, Integrator& integrator, const Settings& settings,
                      std::vector<Correction*> corrections)
     : settings_(settings),
-      system_(std::move(model)),
+      system_(model),
       integrator_(integrator),
       estimate_(dynamic_cast<ErrorEstimate*>(&integrator)),
       dense_(dynamic_cast<DenseOutput*>(&integrator)),
@@ -38,7 +38,8 @@ Simulator::Simulator(std::shared_ptr<const model::Model> model, Integrator& inte
       contact_control_(settings.contact_step, settings.every, error_order(integrator)),
       modes_(system_, chatter_time(settings)),
       location_(system_, integrator),
-      ledger_(system_) {}
+      ledger_(system_),
+      refinement_(std::move(model), system_) {}
 
 void Simulator::start(State initial) {
   now_ = std::move(initial);
@@ -92,7 +93,8 @@ double Simulator::relative_drift() {
   const double potential = energy_at_state().potential;
   const double moved = energy_start_.kinetic + std::abs(energy_start_.elastic) +
                        std::abs(potential - energy_start_.potential) + std::abs(ledger_.supplied()) +
-                       ledger_.impact_total() + ledger_.contact_damping() + ledger_.dampers();
+                       std::abs(ledger_.refinements()) + ledger_.impact_total() + ledger_.contact_damping() +
+                       ledger_.dampers();
   return std::abs(energy_drift()) / (moved + 1e-9 * (1 + std::abs(ledger_.energy_start())));
 }
 
@@ -128,6 +130,7 @@ bool Simulator::advance(Recorder& recorder) {
       write_events(recorder);  // now: a checkpoint may follow
       guard_against_storm(contact);
     }
+    if (refinement_.possible()) refine(recorder, -1);
     return true;
   }
 }
@@ -268,10 +271,14 @@ void Simulator::settle(const ContactChanges& changes) {
 }
 
 void Simulator::at_new_modes() {
+  integrator_.restart(system_, now_);
+  restart_all_but_integrator();
+}
+
+void Simulator::restart_all_but_integrator() {
   in_contact_ = modes_.any_closed();
   free_control_.interrupted();
   contact_control_.interrupted();
-  integrator_.restart(system_, now_);
   for (Correction* correction : corrections_) correction->restart(system_, now_);
   location_.restart(now_);
   ledger_.restart(now_);
@@ -302,10 +309,49 @@ double Simulator::energy_drift() {
 
 void Simulator::write_events(Recorder& recorder) {
   for (const ContactEvent& event : events_) recorder.event(event);
+  if (refinement_.possible())
+    for (const ContactEvent& event : events_)
+      if (event.kind == ContactEvent::Kind::close || event.kind == ContactEvent::Kind::impact)
+        refine(recorder, event.contact);
   events_.clear();
 }
 
-void Simulator::archive(Archive& a) {
+// `contact`: the one that has just closed, -1 after a step.
+void Simulator::refine(Recorder& recorder, int contact) {
+  const Transfer* transfer = refinement_.refine(now_, contact);
+  if (!transfer) return;
+  for (const RefineEvent& event : refinement_.events()) recorder.event(event);
+  ledger_.refinement(refinement_.gained());
+  if (auto* resizable = dynamic_cast<Resizable*>(&integrator_))
+    resizable->resize(system_, *transfer, now_);
+  else
+    integrator_.restart(system_, now_);
+  restart_all_but_integrator();
+}
+
+// Bodies first: those that are refined decide the sizes of all that follows.
+void Simulator::archive(JsonArchive& a) {
+  archive_bodies(a);
+  archive_state(a);
+  JsonArchive integrator = a.nested("integrator");
+  integrator_.archive(integrator);
+  for (std::size_t i = 0; i < corrections_.size(); ++i) {
+    JsonArchive correction = a.nested(fmt::format("correction_{}", i));
+    corrections_[i]->archive(correction);
+  }
+}
+
+void Simulator::archive_bodies(JsonArchive& a) {
+  if (!refinement_.possible()) return;
+  for (const model::BodyEntry& entry : system_.model().bodies) {
+    if (!entry.refinable) continue;
+    JsonArchive body = a.nested("body_" + entry.name);
+    entry.refinable->archive(body);
+  }
+  if (a.reading()) refinement_.lay_out();
+}
+
+void Simulator::archive_state(Archive& a) {
   a("start_kinetic", energy_start_.kinetic), a("start_potential", energy_start_.potential);
   a("start_elastic", energy_start_.elastic);
   a("t", now_.t), a("q", now_.q), a("v", now_.v), a("a", now_.a), a("lambda", now_.lambda);

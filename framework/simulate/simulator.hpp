@@ -15,10 +15,12 @@
 
 #include <trammel/correction.hpp>
 
+#include "simulate/checkpoint.hpp"
 #include "simulate/contact_mode.hpp"
 #include "simulate/event_location.hpp"
 #include "simulate/ledger.hpp"
 #include "simulate/recorder.hpp"
+#include "simulate/refinement.hpp"
 #include "simulate/settings.hpp"
 #include "simulate/statistics.hpp"
 #include "simulate/step_control.hpp"
@@ -27,12 +29,12 @@ namespace trammel::simulate {
 
 class Simulator {
  public:
-  Simulator(std::shared_ptr<const model::Model> model, Integrator& integrator, const Settings& settings,
+  Simulator(std::shared_ptr<model::Model> model, Integrator& integrator, const Settings& settings,
             std::vector<Correction*> corrections);
 
-  void start(State initial);  // at settings.start; contacts that touch are settled before the first step
-  void archive(Archive& a);   // all that decides how the run goes on, but the integrator
-  void resume();              // after archives were read
+  void start(State initial);     // at settings.start; contacts that touch are settled before the first step
+  void archive(JsonArchive& a);  // all that decides how the run goes on
+  void resume();                 // after the archive was read
 
   // One accepted step, with what it ends in; false: the end is reached and recorded. Throws RunFailed, PluginError,
   // OutputError; the state then is the last accepted one.
@@ -49,6 +51,8 @@ class Simulator {
 
  private:
   StepControl& control() { return in_contact_ || now_.t < hold_until_ ? contact_control_ : free_control_; }
+  void archive_bodies(JsonArchive& a);
+  void archive_state(Archive& a);
   double record_time(long long k) const;
   void record_due(Recorder& recorder);
   double relative_drift();
@@ -65,7 +69,9 @@ class Simulator {
   void settle(const ContactChanges& changes);
   void guard_against_storm(int contact);  // the last one; -1: unknown
   void write_events(Recorder& recorder);
+  void refine(Recorder& recorder, int contact);
   void at_new_modes();
+  void restart_all_but_integrator();
 
   Settings settings_;
   model::AssembledSystem system_;
@@ -77,6 +83,7 @@ class Simulator {
   ContactModes modes_;
   EventLocation location_;
   Ledger ledger_;
+  Refinement refinement_;
   Statistics statistics_;
 
   State now_, next_, inside_, uncorrected_;

@@ -18,6 +18,7 @@ std::string causes(const model::Model& model, const Ledger& ledger, double drift
     add("impacts of " + model.contacts[i].name, ledger.impacts()[i]);
   add("contact damping", ledger.contact_damping());
   add("dampers", ledger.dampers());
+  add("refinements", -ledger.refinements());
   add("numerical", -drift);
   return text.empty() ? "nothing" : text;
 }

@@ -1,82 +1,11 @@
 // A run that is cut and resumed gives the bytes of one that was not.
 //
 // The program's side of it, signals and files, is in tests/cli/interruption.cpp; here runs are cut after exact numbers of steps.
-#include <optional>
-
-#include "run_scene.hpp"
+#include "run_in_pieces.hpp"
 #include "scenes.hpp"
-#include "simulate/checkpoint.hpp"
-#include "simulate/setup.hpp"
-#include "simulate/simulator.hpp"
 
 namespace trammel::test {
 namespace {
-
-using simulate::JsonArchive;
-using simulate::Recorder;
-
-// One piece of a run: a fresh set-up, resumed from `data` if there is any, for so many steps.
-struct Piece {
-  bool ended = false;
-  bool in_contact = false;
-  long long steps = 0;
-};
-
-Piece run_piece(const scene::Scene& scene, const std::filesystem::path& folder, nlohmann::json& data,
-                Recorder::Lengths& lengths, long long most_steps) {
-  simulate::Setup setup = simulate::set_up(scene, registry());
-  simulate::Simulator simulator(setup.model, *setup.integrator, setup.settings, {});
-  const auto exchange = [&](JsonArchive::Direction direction) {
-    JsonArchive archive(data, direction);
-    simulator.archive(archive);
-    JsonArchive nested = archive.nested("integrator");
-    setup.integrator->archive(nested);
-  };
-  std::optional<Recorder> recorder;
-  if (data.is_null()) {
-    recorder.emplace(folder, *setup.model, setup.columns, std::nullopt);
-    simulator.start(setup.initial);
-  } else {
-    recorder.emplace(folder, *setup.model, setup.columns, lengths);
-    exchange(JsonArchive::Direction::read);
-    simulator.resume();
-  }
-  Piece piece;
-  while (most_steps-- > 0 && !piece.ended) piece.ended = !simulator.advance(*recorder);
-  recorder->flush();
-  lengths = recorder->lengths();
-  data = nlohmann::json::object();
-  exchange(JsonArchive::Direction::write);
-  data = nlohmann::json::from_cbor(nlohmann::json::to_cbor(data));  // as the file holds it
-  piece.steps = simulator.statistics().steps;
-  for (const auto& mode : simulator.system().modes().contacts) piece.in_contact = piece.in_contact || mode.closed;
-  return piece;
-}
-
-struct Logs {
-  std::string series, events;
-  nlohmann::json data;
-  long long steps = 0;
-  int cuts_in_contact = 0;
-};
-
-// Cut after every `stride` steps.
-Logs run_in_pieces(const scene::Scene& scene, long long stride) {
-  const Folder folder;
-  std::filesystem::create_directories(folder.path());
-  Logs logs;
-  Recorder::Lengths lengths;
-  for (Piece piece; !piece.ended;) {
-    piece = run_piece(scene, folder.path(), logs.data, lengths, stride);
-    logs.steps = piece.steps;
-    logs.cuts_in_contact += piece.in_contact;
-  }
-  for (const char* work : {"factorizations", "residual_evaluations"})
-    logs.data.erase(work);  // each piece begins with some
-  logs.series = read_text(folder.path() / "series.csv");
-  logs.events = read_text(folder.path() / "events.csv");
-  return logs;
-}
 
 class Resumed : public testing::TestWithParam<Method> {
  protected:

@@ -91,7 +91,9 @@ class Drawn {
 
 // Why and where a body is asked to refine.
 struct RefineCause {
-  std::string_view contact;                      // name in the scene of the contact that has just closed
+  // Name in the scene of the contact that has just closed; empty: a step has ended, which is the time for triggers of the
+  // body's own (a moment, an indicator).
+  std::string_view contact;
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  // surface parameters (u, v) of the place; 0 for a body without Surface
 };
 
@@ -99,12 +101,26 @@ struct RefineCause {
 class Refinable {
  public:
   virtual ~Refinable();
-  // Called between steps; null: nothing to refine. Afterwards coordinates(), mass, force and motion() are the new ones.
+  // Asked after every step and every closing of a contact of the body: cheap while there is nothing to do.
+  virtual bool due(double t, In q, In v, const RefineCause& cause) const = 0;
+  // Called when due; null: nothing could be refined. Afterwards coordinates(), mass, force and motion() are the new ones.
   // Markers keep their names and indices; Motion objects are fresh, nothing kept in them is from before. The framework
   // moves q and v by the transfer and solves a and lambda anew.
   virtual std::unique_ptr<Transfer> refine(double t, In q, In v, const RefineCause& cause) = 0;
   // What it takes to build the refined coordinates again when a run resumes; coordinates() is asked after reading.
   virtual void archive(Archive&) = 0;
+};
+
+// Mass and momentum, for the balance at a refinement.
+struct Momentum {
+  double mass = 0;  // [kg]
+  Vec3 linear;      // [kg m/s], world axes
+  Vec3 angular;     // about the origin of the world [kg m^2/s]: 1 entry planar, 3 spatial
+};
+class HasMomentum {
+ public:
+  virtual ~HasMomentum();
+  virtual Momentum momentum(double t, In q, In v) const = 0;
 };
 
 // Nearest point of a body's surface, for contact. The point is given by surface parameters (u, v).

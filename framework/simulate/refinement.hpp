@@ -1,0 +1,45 @@
+// Refinement in the time loop: bodies are asked after every step and when one of their contacts has closed; the state is
+// carried over and what the new coordinates changed is reported.
+//
+//     q, v by the bodies' transfers;   a, lambda from the equations of motion in the new coordinates
+//
+// A nested refinement changes neither shape nor velocity, so mass, momentum and energies stay; the event tells them before
+// and after, and what the energy did change is a cause of its own in the ledger.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <trammel/integrator.hpp>
+
+#include "model/assembled_system.hpp"
+#include "model/refinement.hpp"
+#include "simulate/refine_event.hpp"
+
+namespace trammel::simulate {
+
+class Refinement {
+ public:
+  Refinement(std::shared_ptr<model::Model> model, model::AssembledSystem& system);
+
+  void lay_out();  // bodies were read from an archive
+  bool possible() const { return !refinable_.empty(); }
+  // Null: nothing was refined. Else `state` is in the new coordinates, its a and lambda solved, and the energy changed by
+  // `gained()`. `contact`: index of the one that has just closed, -1 after a step.
+  const Transfer* refine(State& state, int contact);
+  const std::vector<RefineEvent>& events() const { return events_; }
+  double gained() const { return gained_; }  // [J] by the last refinement
+
+ private:
+  RefineEvent::Side side(const State& state, int body) const;
+  void find_due(const State& state, int contact, const RefineCause& cause);
+
+  std::shared_ptr<model::Model> model_;
+  model::AssembledSystem& system_;
+  std::vector<int> refinable_, due_, refined_;  // bodies
+  std::unique_ptr<model::JoinedTransfer> transfer_;
+  std::vector<RefineEvent> events_;
+  double gained_ = 0;
+};
+
+}  // namespace trammel::simulate
