@@ -46,7 +46,7 @@ def values(curve, results):
 
 
 def write(figure, results, folder):
-    columns = 2 if len(figure.panels) > 1 else 1
+    columns = 3 if len(figure.panels) % 3 == 0 else 2 if len(figure.panels) > 1 else 1
     rows = -(-len(figure.panels) // columns)
     picture, axes = plt.subplots(rows, columns, figsize=(5.2 * columns, 3.1 * rows), squeeze=False, layout="constrained")
     for ax, panel in zip(axes.flat, figure.panels):
