@@ -162,12 +162,18 @@ void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
 void AssembledSystem::factorise(Blend blend, const Vec& a, const Vec& lambda, Factors which) {
   Work& w = *work_;
   Work::Kept& kept = w.kept[std::size_t(which)];
-  kept.mass_only = blend.c_m == 1 && blend.c_d == 0 && blend.c_k == 0;
-  if (kept.mass_only) {
-    if (!w.factorise_mass(kept)) throw NotSolvable("the mass matrix is not positive definite");
+  const bool no_tangent = blend.c_d == 0 && blend.c_k == 0;
+  const bool mass_only = no_tangent && blend.c_m == 1 && blend.c_1 == 0;
+  const bool identity_only = no_tangent && blend.c_m == 0 && blend.c_1 == 1;
+  kept.symmetric = mass_only || identity_only;
+  if (mass_only && !w.factorise_mass(kept)) throw NotSolvable("the mass matrix is not positive definite");
+  if (mass_only) return;
+  w.evaluate_rows();
+  if (identity_only) {
+    kept.mass_factorised = false;
+    kept.mass.factorise(Mat::Identity(w.sizes.nv, w.sizes.nv), w.G);
     return;
   }
-  w.evaluate_rows();
   ++w.counts.factorizations;
   w.add_tangent(blend, a, lambda, kept.iteration.begin(w.sizes.nv, w.sizes.nc));
   kept.iteration.factorise(w.G, w.G);
@@ -179,7 +185,7 @@ bool AssembledSystem::correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda
   Work::Kept& kept = w.kept[std::size_t(which)];
   w.right = -r;
   w.right_rows = -rc;
-  if (!kept.mass_only) return kept.iteration.solve(w.right, w.right_rows, da, dlambda);
+  if (!kept.symmetric) return kept.iteration.solve(w.right, w.right_rows, da, dlambda);
   kept.mass.solve(w.right, w.right_rows, da, dlambda);
   return da.allFinite() && dlambda.allFinite();
 }

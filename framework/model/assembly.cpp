@@ -160,9 +160,10 @@ class ForceWrench final : public PairWrench {
 
 }  // namespace
 
-// S += c_m M + c_d D + c_k K, D and K of M a - f + W^T lambda.
+// S += c_m M + c_d D + c_k K + c_1 1, D and K of M a - f + W^T lambda.
 void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S) {
   ++counts.jacobian_evaluations;
+  S.diagonal().head(sizes.nv).array() += c.c_1;
   Matrix target = Matrix::onto(S);
   for (const BodyEntry& entry : model->bodies) {
     called(entry.name, "tangent");

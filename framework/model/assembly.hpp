@@ -22,9 +22,9 @@ struct AssembledSystem::Work {
     long long point = -1;
     Rows rows;
   };
-  // One kept factorisation: M alone has the cheaper, symmetric one.
+  // One kept factorisation: M or the identity alone has the cheaper, symmetric one.
   struct Kept {
-    bool mass_only = false;
+    bool symmetric = false;  // of M or the identity alone
     numerics::MassKkt mass;
     bool mass_factorised = false;  // for constant mass matrices: once
     numerics::IterationKkt iteration;

@@ -206,7 +206,7 @@ std::string schema(const std::vector<const Entry*>& entries) {
       object({{"start", number}, {"until", number}, {"contact_hold", number}, {"chatter_steps", number}, {"event_limit", positive}});
   properties["record"] = object({{"every", positive}, {"observe", keyed(text)}});
   properties["corrections"] =
-      object({{"position", correction(entries)}, {"velocity", correction(entries)}, {"energy", {{"type", "boolean"}}}});
+      object({{"position", correction(entries)}, {"velocity", correction(entries)}, {"energy", any_of({{"type", "boolean"}}, correction(entries))}});
 
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Trammel scene"}};
   schema.update(object(std::move(properties)));

@@ -44,11 +44,24 @@ void read_integrator(const Value& root, plugin::Registry& registry, Setup& setup
                       setup.integrator_type, with_error_estimate(registry))));
 }
 
+std::string that_correct(Correction::Level level, plugin::Registry& registry) {
+  std::string names;
+  for (const plugin::Entry* entry : registry.all()) {
+    if (entry->declaration.kind != Kind::correction) continue;
+    const std::unique_ptr<Component> candidate = entry->declaration.make();
+    const auto* correction = dynamic_cast<const Correction*>(candidate.get());
+    if (correction && correction->corrects(level)) names += (names.empty() ? "" : ", ") + entry->declaration.name;
+  }
+  return names.empty() ? "none found" : names;
+}
+
 // "corrections": {"position": "minimum_norm", "velocity": {"type": "minimum_norm", ...}, "energy": true}
 void read_corrections(const Value& root, plugin::Registry& registry, Setup& setup, Problems& problems) {
   const Value* corrections = root.find("corrections");
   if (!corrections || !model::check_keys(*corrections, {"position", "velocity", "energy"}, problems)) return;
-  for (const char* part : {"position", "velocity", "energy"}) {
+  using Level = Correction::Level;
+  for (const auto& [part, level] :
+       {std::pair{"position", Level::position}, {"velocity", Level::velocity}, {"energy", Level::energy}}) {
     const Value* value = corrections->find(part);
     if (!value) continue;
     if (value->type() == Value::Type::boolean && !value->boolean()) continue;
@@ -66,7 +79,11 @@ void read_corrections(const Value& root, plugin::Registry& registry, Setup& setu
     }
     if (!entry) continue;
     auto made = plugin::make<Correction>(*entry, *value, setup.model->world, problems);
-    if (made.component) setup.corrections.push_back(std::move(made.component));
+    if (!made.component) continue;
+    if (!made.component->corrects(level))
+      problems.error(value->problem(fmt::format("\"{}\" does not correct the {}; those that do: {}",
+                                                entry->declaration.name, part, that_correct(level, registry))));
+    setup.corrections.push_back({level, std::move(made.component)});
   }
 }
 

@@ -21,7 +21,11 @@ struct Setup {
   std::unique_ptr<Integrator> integrator;
   plugin::Origin integrator_origin;
   std::string integrator_type;
-  std::vector<std::unique_ptr<Correction>> corrections;  // position, velocity, energy
+  struct LevelCorrection {
+    Correction::Level level;
+    std::unique_ptr<Correction> correction;
+  };
+  std::vector<LevelCorrection> corrections;  // in the order they are applied
   Settings settings;
   std::vector<Column> columns;
   State initial;

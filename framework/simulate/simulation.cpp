@@ -41,8 +41,8 @@ class Run {
         hash_(resume_hash(scene.root())) {}
 
   RunReport operator()() {
-    std::vector<Correction*> corrections;
-    for (const auto& correction : setup_.corrections) corrections.push_back(correction.get());
+    std::vector<Simulator::LevelCorrection> corrections;
+    for (const auto& [level, correction] : setup_.corrections) corrections.push_back({level, correction.get()});
     simulator_.emplace(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
     try {
       open();

@@ -27,7 +27,7 @@ int error_order(Integrator& integrator) {
 }  // namespace
 
 Simulator::Simulator(std::shared_ptr<model::Model> model, Integrator& integrator, const Settings& settings,
-                     std::vector<Correction*> corrections)
+                     std::vector<LevelCorrection> corrections)
     : settings_(settings),
       system_(model),
       integrator_(integrator),
@@ -204,8 +204,8 @@ void Simulator::step_ledger_and_correct() {
   ledger_.step(now_, next_);
   uncorrected_ = next_;
   const Correction::Step step{now_, uncorrected_, ledger_.energy()};
-  for (Correction* correction : corrections_)
-    if (const Outcome outcome = correction->apply(system_, step, next_); !outcome)
+  for (const auto& [level, correction] : corrections_)
+    if (const Outcome outcome = correction->apply(level, system_, step, next_); !outcome)
       fail(next_.t - now_.t, outcome.reason());
   if (next_.q == uncorrected_.q && next_.v == uncorrected_.v) return;
   if (!next_.q.allFinite() || !next_.v.allFinite())
@@ -279,7 +279,7 @@ void Simulator::restart_all_but_integrator() {
   in_contact_ = modes_.any_closed();
   free_control_.interrupted();
   contact_control_.interrupted();
-  for (Correction* correction : corrections_) correction->restart(system_, now_);
+  for (const auto& entry : corrections_) entry.correction->restart(system_, now_);
   location_.restart(now_);
   ledger_.restart(now_);
   statistics_.note_sizes(now_.t, system_.sizes());
@@ -337,7 +337,7 @@ void Simulator::archive(JsonArchive& a) {
   integrator_.archive(integrator);
   for (std::size_t i = 0; i < corrections_.size(); ++i) {
     JsonArchive correction = a.nested(fmt::format("correction_{}", i));
-    corrections_[i]->archive(correction);
+    corrections_[i].correction->archive(correction);
   }
 }
 

@@ -29,8 +29,12 @@ namespace trammel::simulate {
 
 class Simulator {
  public:
+  struct LevelCorrection {
+    Correction::Level level;
+    Correction* correction;
+  };
   Simulator(std::shared_ptr<model::Model> model, Integrator& integrator, const Settings& settings,
-            std::vector<Correction*> corrections);
+            std::vector<LevelCorrection> corrections);
 
   void start(State initial);     // at settings.start; contacts that touch are settled before the first step
   void archive(JsonArchive& a);  // all that decides how the run goes on
@@ -78,7 +82,7 @@ class Simulator {
   Integrator& integrator_;
   ErrorEstimate* estimate_;
   DenseOutput* dense_;
-  std::vector<Correction*> corrections_;
+  std::vector<LevelCorrection> corrections_;
   StepControl free_control_, contact_control_;
   ContactModes modes_;
   EventLocation location_;

@@ -55,7 +55,7 @@ class ProblemSystem final : public System {
     solve(factored(p_.M), f(), rows_.gamma - 2 * s.alpha * g_dot_ - s.beta * s.beta * rows_.g, a, lambda);
   }
   void factorise(Blend c, const Vec&, const Vec& lambda, Factors which) override {
-    kept_[int(which)] = factored(c.c_m * p_.M + tangent(c, lambda));
+    kept_[int(which)] = factored(c.c_m * p_.M + tangent(c, lambda) + c.c_1 * Mat::Identity(n_, n_));
   }
   bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda, Factors which) override {
     solve(kept_[int(which)], -r, -rc, da, dlambda);

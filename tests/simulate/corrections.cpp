@@ -14,7 +14,8 @@ namespace {
 class Nudge final : public Correction {
  public:
   explicit Nudge(double factor) : factor_(factor) {}
-  Outcome apply(System&, const Step& step, State& state) override {
+  bool corrects(Level level) const override { return level == Level::velocity; }
+  Outcome apply(Level, System&, const Step& step, State& state) override {
     h = state.t - step.now.t;
     energy = step.energy;
     uncorrected_v = step.uncorrected.v;
@@ -53,7 +54,7 @@ const std::string swinging = R"({
 struct OneStep {
   OneStep(const std::string& text, Correction& correction)
       : setup(simulate::set_up(scene::Scene::parse(text, "test.json"), registry())),
-        simulator(setup.model, *setup.integrator, setup.settings, {&correction}),
+        simulator(setup.model, *setup.integrator, setup.settings, {{Correction::Level::velocity, &correction}}),
         recorder(made(folder.path()), *setup.model, setup.columns, std::nullopt) {
     simulator.start(setup.initial);
     simulator.advance(recorder);

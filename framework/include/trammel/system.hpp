@@ -18,12 +18,13 @@ struct Stabilisation {
   double beta = 0;
 };
 
-// Weights of the iteration matrix S = c_m M + c_d D + c_k K with D = d(M a - f + W^T lambda)/dv and K the same by q,
+// Weights of the iteration matrix S = c_m M + c_d D + c_k K + c_1 1 with D = d(M a - f + W^T lambda)/dv and K the same by q,
 // where q varies by increments in the tangent space (nv x nv).
 struct Blend {
   double c_m = 1;
   double c_d = 0;
   double c_k = 0;
+  double c_1 = 0;  // of the identity: with it alone, [1 G^T; G 0] gives solutions of minimum norm
 };
 
 // Which of two kept factorisations: GGL needs the iteration matrix and the projection onto the position rows side by

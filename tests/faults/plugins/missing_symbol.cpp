@@ -6,7 +6,8 @@ void a_function_that_nobody_defines();
 
 namespace {
 struct Idle : trammel::Correction {
-  trammel::Outcome apply(trammel::System&, const Step&, trammel::State&) override {
+  bool corrects(Level) const override { return true; }
+  trammel::Outcome apply(Level, trammel::System&, const Step&, trammel::State&) override {
     a_function_that_nobody_defines();
     return trammel::Outcome::accept();
   }

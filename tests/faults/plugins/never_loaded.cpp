@@ -12,7 +12,10 @@ struct Patient {
 } patient;
 
 struct Idle : trammel::Correction {
-  trammel::Outcome apply(trammel::System&, const Step&, trammel::State&) override { return trammel::Outcome::accept(); }
+  bool corrects(Level) const override { return true; }
+  trammel::Outcome apply(Level, trammel::System&, const Step&, trammel::State&) override {
+    return trammel::Outcome::accept();
+  }
 };
 }  // namespace
 

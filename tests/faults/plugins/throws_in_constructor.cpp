@@ -7,7 +7,10 @@
 namespace {
 struct Idle : trammel::Correction {
   Idle() { throw std::runtime_error("out of luck"); }
-  trammel::Outcome apply(trammel::System&, const Step&, trammel::State&) override { return trammel::Outcome::accept(); }
+  bool corrects(Level) const override { return true; }
+  trammel::Outcome apply(Level, trammel::System&, const Step&, trammel::State&) override {
+    return trammel::Outcome::accept();
+  }
 };
 }  // namespace
 

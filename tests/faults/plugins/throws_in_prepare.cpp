@@ -5,7 +5,10 @@
 namespace {
 struct Idle : trammel::Correction {
   void prepare(const trammel::World&) override { throw 42; }
-  trammel::Outcome apply(trammel::System&, const Step&, trammel::State&) override { return trammel::Outcome::accept(); }
+  bool corrects(Level) const override { return true; }
+  trammel::Outcome apply(Level, trammel::System&, const Step&, trammel::State&) override {
+    return trammel::Outcome::accept();
+  }
 };
 }  // namespace
 

@@ -1,0 +1,84 @@
+// Velocities carried from the null space of the rows where the step ended into that of the corrected place:
+//
+//     V = null(G(q)),   V' = null(G(q')),   v = V Z + v_rows      V'^T V = X S Y^T  (singular values)
+//     v' = V' X Y^T Z + v_t                 v_t: what moving rows ask for, G v_t = -g_t, of least norm
+//
+// X Y^T is the rotation that brings V nearest to V' (Procrustes), so the coefficients Z stay and with them the norm of v; with
+// bases orthonormal in M the kinetic energy stays. Momenta change by the second order of the correction.
+// Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), section 4. Dense: the cost grows with the cube of the sizes.
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include <trammel/correction.hpp>
+#include <trammel/plugin.hpp>
+
+namespace {
+
+using namespace trammel;
+
+class NullSpaceRotation final : public Correction {
+ public:
+  enum class Metric { mass, identity };
+  Metric metric = Metric::mass;
+
+  bool corrects(Level level) const override { return level == Level::velocity; }
+
+  // With v = L^-T w (M = L L^T, or L = 1) the metric of w is Euclidean and its rows are B = G L^-T.
+  Outcome apply(Level, System& s, const Step& step, State& state) override {
+    if (s.sizes().nc == 0) return Outcome::accept();
+    move(s, step.uncorrected);
+    const Vec w = L_.transpose() * state.v;
+    const Mat V = null_space(B_);
+    const Vec free = V.transpose() * w;
+    move(s, state);
+    const Mat V_new = null_space(B_);
+    if (V.cols() != V_new.cols())
+      return Outcome::reject("the rank of the rows changes with the correction of the positions");
+    const Eigen::JacobiSVD<Mat> svd(V_new.transpose() * V, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    Vec moving = s.g_dot();  // g_t
+    s.add_rows_times(-1, state.v, moving);
+    Vec w_new = V_new * (svd.matrixU() * (svd.matrixV().transpose() * free));
+    if (!moving.isZero(1e-14 * (1 + w.norm()))) w_new -= cod_.solve(moving);
+    state.v = L_.transpose().triangularView<Eigen::Upper>().solve(w_new);
+    return Outcome::accept();
+  }
+
+ private:
+  // L_ and B_ = G L^-T at a state, G by its products with unit vectors.
+  void move(System& s, const State& state) {
+    s.move_to(state.t, state.q, state.v);
+    const auto nv = Eigen::Index(s.sizes().nv), nc = Eigen::Index(s.sizes().nc);
+    L_.setIdentity(nv, nv);
+    Mat M = Mat::Zero(nv, nv);
+    B_.setZero(nc, nv);
+    for (Eigen::Index j = 0; j < nv; ++j) {
+      const Vec unit = Vec::Unit(nv, j);
+      Vec column = Vec::Zero(nv), row = Vec::Zero(nc);
+      if (metric == Metric::mass) s.add_mass_times(1, unit, column), M.col(j) = column;
+      s.add_rows_times(1, unit, row), B_.col(j) = row;
+    }
+    if (metric == Metric::mass) L_ = M.llt().matrixL();
+    B_ = L_.triangularView<Eigen::Lower>().solve(B_.transpose()).transpose();
+  }
+
+  Mat null_space(const Mat& B) {
+    cod_.setThreshold(1e-9);  // redundant rows differ by the square of what is violated
+    cod_.compute(B);
+    const Mat Z = cod_.matrixZ();  // B = Q [T 0; 0 0] Z
+    const auto rank = cod_.rank();
+    return (cod_.colsPermutation() * Z.transpose()).rightCols(B.cols() - rank);
+  }
+
+  Mat L_, B_;
+  Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
+};
+
+}  // namespace
+
+TRAMMEL_PLUGIN(
+    trammel::correction<NullSpaceRotation>("null_space_rotation", "velocities: turned with the null space of the rows")
+        .source("Chen Xiangyang 2002, Chinese J. Comput. Mech. 19, 74-77")
+        .choice("metric", &NullSpaceRotation::metric,
+                {{"mass", NullSpaceRotation::Metric::mass}, {"identity", NullSpaceRotation::Metric::identity}},
+                {.doc = "what stays: the kinetic energy, or the norm of v"}))

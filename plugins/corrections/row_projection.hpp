@@ -1,0 +1,60 @@
+// Position and velocity rows restored by the smallest change, in the metric of a matrix S (the identity or M):
+//
+//     q <- q (+) dq,   [S G^T; G 0] (dq, mu) = -(0, g)            repeated (Newton) until g is at round-off
+//     v <- v + dv,     [S G^T; G 0] (dv, mu) = -(0, G v + g_t)    at the new q; once, and once more for its round-off
+//
+// With S = 1 this is dq = -G^+ g (Moore-Penrose), with S = M dq = -M^-1 G^T (G M^-1 G^T)^+ g. Both are the step-wise
+// corrections of Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), after Taylor's series of g about q.
+#pragma once
+
+#include <trammel/correction.hpp>
+
+namespace trammel {
+
+class RowProjection {
+ public:
+  explicit RowProjection(Blend metric) : metric_(metric) {}
+
+  Outcome position(System& s, State& state) {
+    double before = 0;
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      s.move_to(state.t, state.q, state.v);
+      const double violation = s.sizes().nc > 0 ? s.g().lpNorm<Eigen::Infinity>() : 0;
+      if (!(violation > 0)) return Outcome::accept();
+      // Converged quadratically, so where a step no longer halves it the rest is round-off, if it is small at all.
+      if (iteration > 0 && violation > 0.5 * before)
+        return violation <= settled ? Outcome::accept() : Outcome::reject("the correction of the positions diverges");
+      before = violation;
+      if (!solve(s, s.g())) return Outcome::reject("the correction of the positions has no solution");
+      s.retract(state.q, change_, moved_);
+      state.q = moved_;
+    }
+    return Outcome::reject("the correction of the positions does not converge");
+  }
+
+  Outcome velocity(System& s, State& state) {
+    for (int pass = 0; pass < 2; ++pass) {
+      s.move_to(state.t, state.q, state.v);
+      if (s.sizes().nc == 0 || s.g_dot().isZero(0)) break;
+      if (!solve(s, s.g_dot())) return Outcome::reject("the correction of the velocities has no solution");
+      state.v += change_;
+    }
+    return Outcome::accept();
+  }
+
+ private:
+  static constexpr int most_iterations = 20;
+  static constexpr double settled = 1e-9;  // [unit of the rows] far above round-off, far below a useful violation
+
+  bool solve(System& s, const Vec& violation) {
+    right_ = violation;
+    zero_.setZero(s.sizes().nv);
+    s.factorise(metric_, zero_, zero_rows_.setZero(right_.size()), Factors::projection);
+    return s.correct(zero_, right_, change_, multipliers_, Factors::projection);
+  }
+
+  Blend metric_;
+  Vec right_, zero_, zero_rows_, change_, multipliers_, moved_;
+};
+
+}  // namespace trammel
