@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <utility>
 
 namespace trammel::scene {
 
@@ -27,6 +28,19 @@ double distance(std::string_view a, std::string_view b) {
   return previous[n];
 }
 
+// All of a list that can be read at a glance, the nearest of a longer one.
+std::vector<std::string> worth_showing(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t glance = 24, few = 12, longest = 200;
+  if (candidates.size() <= glance) return candidates;
+  std::vector<std::pair<double, const std::string*>> ranked;
+  for (const std::string& candidate : candidates)
+    ranked.emplace_back(distance(word.substr(0, longest), candidate), &candidate);
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+  std::vector<std::string> shown;
+  for (std::size_t i = 0; i < few; ++i) shown.push_back(*ranked[i].second);
+  return shown;
+}
+
 }  // namespace
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
@@ -44,8 +58,10 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
   if (candidates.empty()) return {};
+  const std::vector<std::string> shown = worth_showing(word, candidates);
   std::string text = "; known: ";
-  for (std::size_t i = 0; i < candidates.size(); ++i) text += (i ? ", " : "") + candidates[i];
+  for (std::size_t i = 0; i < shown.size(); ++i) text += (i ? ", " : "") + shown[i];
+  if (shown.size() < candidates.size()) text += " and " + std::to_string(candidates.size() - shown.size()) + " more";
   const std::string guess = nearest(word, candidates);
   if (!guess.empty()) text += ". Did you mean \"" + guess + "\"?";
   return text;

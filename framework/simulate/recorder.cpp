@@ -125,10 +125,34 @@ void Recorder::event(const RefineEvent& event) {
   events_->appended();
 }
 
+std::vector<LogFile*> Recorder::files() {
+  std::vector<LogFile*> all = {&*series_, &*events_};
+  if (animation_) all.push_back(&*animation_);
+  return all;
+}
+
 void Recorder::flush() {
-  series_->flush();
-  events_->flush();
-  if (animation_) animation_->flush();
+  for (LogFile* file : files()) file->flush();  // each: one may still find room
+  check();
+}
+
+void Recorder::check() const {
+  for (const std::optional<LogFile>* file : {&series_, &events_, &animation_})
+    if (*file && !(*file)->problem().empty()) throw OutputError((*file)->problem());
+}
+
+std::string Recorder::missing() {
+  std::string text;
+  for (const LogFile* file : files())
+    if (const long long lines = file->unwritten_lines(); lines > 0)
+      text += fmt::format("{}{} lacks its last {} line{}", text.empty() ? "" : ", ", file->name(), lines,
+                          lines == 1 ? "" : "s");
+  return text;
+}
+
+void Recorder::rescue() const noexcept {
+  for (const std::optional<LogFile>* file : {&series_, &events_, &animation_})
+    if (*file) (*file)->rescue();
 }
 
 }  // namespace trammel::simulate

@@ -32,11 +32,15 @@ class Recorder {
   void row(model::AssembledSystem& system, const State& state);
   void event(const ContactEvent& event);
   void event(const RefineEvent& event);
-  void flush();
+  void flush();                  // throws OutputError once all files were tried
+  void check() const;            // throws OutputError if a file could not take what it was given; nothing is lost yet
+  std::string missing();         // which files lack how many lines that could not be written; empty: none
+  void rescue() const noexcept;  // for a signal handler: whole lines still in memory go out
   Lengths lengths() const { return {series_->length(), events_->length(), animation_ ? animation_->length() : 0}; }
 
  private:
   void animate(const State& state);
+  std::vector<LogFile*> files();
   const model::Model& model_;
   std::vector<Column> columns_;
   std::optional<LogFile> series_, events_, animation_;

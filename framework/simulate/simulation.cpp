@@ -10,6 +10,7 @@
 
 #include "simulate/blame.hpp"
 #include "simulate/checkpoint.hpp"
+#include "simulate/crash_witness.hpp"
 #include "simulate/result.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/simulator.hpp"
@@ -30,6 +31,8 @@ double cpu_now() {
 
 constexpr double between_checkpoints = 2;  // [s] wall-clock
 constexpr double between_progress = 0.1;   // [s]
+// Room held for the end of a run on a full disk [bytes]: three buffers of logs, the result, and the checkpoint's numbers.
+constexpr long long room_for_logs = 1 << 19, room_per_number = 256;
 
 class Run {
  public:
@@ -40,10 +43,17 @@ class Run {
         setup_(set_up(scene, registry)),
         hash_(resume_hash(scene.root())) {}
 
+  ~Run() {
+    if (options_.witness) options_.witness->leave();
+  }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
   RunReport operator()() {
     std::vector<Simulator::LevelCorrection> corrections;
     for (const auto& [level, correction] : setup_.corrections) corrections.push_back({level, correction.get()});
     simulator_.emplace(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
+    if (options_.witness) options_.witness->follow(setup_, scene_.root(), registry_, *simulator_);
     try {
       open();
       loop();
@@ -55,7 +65,7 @@ class Run {
     } catch (const model::NotSolvable& e) {
       end(Status::failed, where(e.what()));
     } catch (const OutputError& e) {
-      end(Status::failed, fmt::format("{}; t = {:.9g} s was reached", e.what(), simulator_->state().t));
+      out_of_room(e);
     } catch (const plugin::PluginError& e) {
       end(Status::failed, e.what());
       throw;
@@ -114,7 +124,10 @@ class Run {
         throw OutputError(fmt::format("cannot make the results folder {}: {}", options_.out.string(), error.message()));
       for (const char* stale : {"checkpoint.cbor", "result.json"}) fs::remove(options_.out / stale, error);
     }
+    const Sizes& sizes = setup_.model->sizes;
+    reserve_.emplace(options_.out, room_for_logs + room_per_number * (sizes.nq + sizes.nv + sizes.nc));
     recorder_.emplace(options_.out, *setup_.model, setup_.columns, keep);
+    if (options_.witness) options_.witness->record_with(*recorder_);
     if (!options_.resume) simulator_->start(setup_.initial);
   }
 
@@ -126,7 +139,9 @@ class Run {
         status_ = Status::interrupted;
         return;
       }
-      if (!simulator_->advance(*recorder_)) return;
+      const bool more = simulator_->advance(*recorder_);
+      recorder_->check();  // between steps, where a checkpoint is possible
+      if (!more) return;
       if (++since < stride) continue;
       since = 0;
       const Clock::time_point now = Clock::now();
@@ -192,8 +207,28 @@ class Run {
     return lengths;
   }
 
+  // The reserve's room goes to the last lines and a checkpoint. A limit on the length of one file may still stop a log.
+  void out_of_room(const OutputError& e) {
+    reserve_.reset();
+    std::string reason = e.what();
+    if (recorder_) {
+      reason += fmt::format("; t = {:.9g} s was reached", simulator_->state().t);
+      try {
+        write();
+        reason += ", and all of it is kept: make room and go on with --resume";
+      } catch (const OutputError&) {
+        if (const std::string missing = recorder_->missing(); !missing.empty()) reason += "; " + missing;
+        std::error_code error;
+        if (fs::exists(options_.out / "checkpoint.cbor", error))
+          reason += "; --resume goes on from the last checkpoint";
+      }
+    }
+    end(Status::failed, reason);
+  }
+
   // Everything known is kept; what cannot be written any more is told in the reason.
   void end(Status status, const std::string& reason) {
+    reserve_.reset();
     Outcomes outcomes{status, reason, cost(), options_.resume};
     try {
       if (recorder_) recorder_->flush();
@@ -205,7 +240,7 @@ class Run {
     try {
       write_whole(options_.out / "result.json", report_.result_json);
     } catch (const OutputError& e) {
-      if (outcomes.status != Status::failed) outcomes.reason = e.what();
+      outcomes.reason += (outcomes.reason.empty() ? "" : "; ") + std::string(e.what());
       outcomes.status = Status::failed;
     }
     report_.status = outcomes.status;
@@ -219,6 +254,7 @@ class Run {
   Setup setup_;
   std::uint64_t hash_;
   std::optional<Simulator> simulator_;
+  std::optional<Reserve> reserve_;
   std::optional<Recorder> recorder_;
   Status status_ = Status::done;
   RunReport report_;

@@ -17,10 +17,13 @@ struct Progress {
   int impacts = 0;
 };
 
+class CrashWitness;
+
 struct RunOptions {
   std::filesystem::path out;                      // results folder, made if missing
   bool resume = false;                            // continue from out/checkpoint.cbor
   std::atomic<bool>* interrupt = nullptr;         // set by a signal handler: stop after this step, keep everything
+  CrashWitness* witness = nullptr;                // told what a handler of crashes needs
   std::function<void(const Progress&)> progress;  // called about ten times a second of wall-clock time
 };
 

@@ -1,5 +1,6 @@
 // Files that are no scenes, and folders that cannot take results.
 #include <fcntl.h>
+#include <sys/mount.h>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
@@ -109,6 +110,63 @@ TEST(Results, OnAFullDiskEndTheRunAndAreKeptSoFar) {
   EXPECT_THAT(result.err, HasSubstr("r/series.csv"));
   EXPECT_THAT(result.err, HasSubstr("File too large"));
   EXPECT_THAT(cli::read_file(folder.path() / "r/series.csv"), StartsWith("t,height,"));
+}
+
+TEST(Results, OfWhichOneFileMeetsItsLimitKeepTheOthersWholeAndSayWhatIsMissing) {
+  const cli::TemporaryFolder folder;
+  const auto result = trammel({"run", kBounce, "--out", "r", "--set", "simulate.until=20"},
+                              {.folder = folder.path(), .file_size_limit = 20000});
+  EXPECT_THAT(result.err, testing::ContainsRegex("series.csv lacks its last [0-9]+ lines"));
+  const std::string series = cli::read_file(folder.path() / "r/series.csv");
+  EXPECT_LE(series.size(), 20000u);
+  EXPECT_EQ(series.back(), '\n');
+  EXPECT_GT(cli::read_file(folder.path() / "r/events.csv").size(), 100u);
+  const auto found = nlohmann::json::parse(cli::read_file(folder.path() / "r/result.json"));
+  EXPECT_EQ(found["status"], "failed");
+  EXPECT_THAT(std::string(found["reason"]), HasSubstr("series.csv"));
+}
+
+// A disk of its own, where the tests may mount one.
+class SmallDisk : public testing::Test {
+ protected:
+  static constexpr const char* size = "size=700k";
+  void SetUp() override {
+    fs::create_directory(disk);
+    if (mount("tmpfs", disk.c_str(), "tmpfs", 0, size) != 0) GTEST_SKIP() << "no right to mount a small disk";
+    mounted = true;
+  }
+  void TearDown() override {
+    if (mounted) umount(disk.c_str());
+  }
+  cli::TemporaryFolder folder;
+  fs::path disk = folder.path() / "disk";
+  bool mounted = false;
+};
+
+TEST_F(SmallDisk, ThatFillsUpLosesNothingAndTheRunGoesOnOnceThereIsRoom) {
+  const std::vector<std::string> finely = {"--set", "simulate.until=5", "--set", "record.every=1e-4"};
+  const auto run = [&](std::vector<std::string> words) {
+    words.insert(words.end(), finely.begin(), finely.end());
+    return trammel(words, {.folder = folder.path()});
+  };
+  const auto full = run({"run", kBounce, "--out", "disk/r"});
+  EXPECT_EQ(full.exit_code, 1) << full.err;
+  EXPECT_THAT(full.err, HasSubstr("No space left on device"));
+  EXPECT_THAT(full.err, HasSubstr("--resume"));
+  EXPECT_EQ(nlohmann::json::parse(cli::read_file(disk / "r/result.json"))["status"], "failed");
+
+  ASSERT_EQ(mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT, "size=64m"), 0);
+  EXPECT_EQ(run({"run", kBounce, "--resume", "disk/r"}).exit_code, 0);
+  EXPECT_EQ(run({"run", kBounce, "--out", "whole"}).exit_code, 0);
+  for (const char* file : {"series.csv", "events.csv"})
+    EXPECT_TRUE(cli::read_file(disk / "r" / file) == cli::read_file(folder.path() / "whole" / file)) << file;
+}
+
+TEST_F(SmallDisk, ThatIsFullFromTheStartIsRefusedBeforeTheRun) {
+  cli::write_file(disk / "much", std::string(600000, 'x'));
+  const auto result = trammel({"run", kBounce, "--out", "disk/r"}, {.folder = folder.path()});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("KiB must be free"));
 }
 
 TEST(Results, OnAFullStandardOutputAreAnError) {

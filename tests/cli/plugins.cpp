@@ -122,6 +122,30 @@ TEST_F(Plugin, ThatReturnsNanIsNamedWithTheTime) {
   EXPECT_THAT(result.err, HasSubstr("t = 0.5"));
 }
 
+// A sanitizer reports crashes by itself, so the program leaves them to it.
+#if !defined(__SANITIZE_ADDRESS__)
+TEST_F(Plugin, ThatCrashesIsNamedWithTheCallAndTheTimeAndRecordsAreKept) {
+  for (const auto& [how, signal] :
+       {std::pair{"memory", "SIGSEGV"}, std::pair{"stack", "SIGSEGV"}, std::pair{"abort", "SIGABRT"}}) {
+    const std::string scene = R"({"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+      "bodies": {"p": {"type": "crashes_in_force", "how": ")" +
+                              std::string(how) + R"("}},
+      "integrator": {"type": "runge_kutta_4", "step": 1e-3}, "simulate": {"until": 1}, "record": {"every": 0.01}})";
+    cli::write_file(folder.path() / "crash.json", scene);
+    const std::string library = (kPlugins / "crashes_in_force.so").string();
+    const auto result = trammel({"run", "crash.json", "--plugin", library}, {.folder = folder.path()});
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_THAT(result.err, StartsWith("trammel: plugin "));
+    EXPECT_THAT(result.err, HasSubstr("crashes_in_force.so: body crashes_in_force (bodies.p): force at t = 0.49"));
+    EXPECT_THAT(result.err, HasSubstr(signal));
+    const std::string series = cli::read_file(folder.path() / "out/crash/series.csv");
+    EXPECT_EQ(std::count(series.begin(), series.end(), '\n'), 1 + 50);  // header; 0 to 0.49 s
+    const auto json_result = trammel({"run", "crash.json", "--json", "--plugin", library}, {.folder = folder.path()});
+    EXPECT_EQ(json::parse(json_result.out)["status"], "error");
+  }
+}
+#endif
+
 TEST_F(Plugin, ErrorWithJsonIsOneObject) {
   const auto result = trammel({"run", kBounce, "--json", "--plugin", "no_such_library.so"}, {.folder = folder.path()});
   EXPECT_EQ(result.exit_code, 3);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "arguments.hpp"
+#include "crash.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
@@ -58,6 +59,7 @@ Exit run(const Arguments& arguments) {
 
   require_writable(options.out);
   options.interrupt = &watch_for_interrupts();
+  options.witness = &watch_for_crashes(json);
   simulate::RunReport report;
   {
     ProgressBar bar(!json && !quiet);

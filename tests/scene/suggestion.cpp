@@ -1,0 +1,32 @@
+#include "scene/suggestion.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using trammel::scene::did_you_mean;
+
+std::vector<std::string> numbered(int n) {
+  std::vector<std::string> names;
+  for (int i = 1; i <= n; ++i) names.push_back("beam.mode_" + std::to_string(i));
+  return names;
+}
+
+TEST(DidYouMean, ShowsAListThatCanBeReadAtAGlanceWhole) {
+  const std::string text = did_you_mean("beam.mod_3", numbered(24));
+  EXPECT_THAT(text, HasSubstr("beam.mode_24"));
+  EXPECT_THAT(text, HasSubstr("Did you mean \"beam.mode_3\"?"));
+}
+
+TEST(DidYouMean, ShowsTheNearestOfALongListAndHowManyMoreThereAre) {
+  std::vector<std::string> names = numbered(25);
+  names.emplace_back("energy.total");
+  const std::string text = did_you_mean("energy.totl", names);
+  EXPECT_THAT(text, HasSubstr("; known: energy.total, "));
+  EXPECT_THAT(text, HasSubstr(" and 14 more. Did you mean \"energy.total\"?"));
+}
+
+}  // namespace
