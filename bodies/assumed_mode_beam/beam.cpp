@@ -78,17 +78,21 @@ void AssumedModeBeam::prepare(const World& world) {
   marker_shapes_ = shapes_at(shape, marker_x, foreshortening);
   outline_shapes_ = shapes_at(shape, Vec::LinSpaced(outline_points, 0, length), foreshortening);
 
-  const InertiaBasis& b = *basis_;
-  const Eigen::Map<const Vec> one(b.one(), b.size()), X0(b.X0(), b.size());
-  const Eigen::Map<const Mat> phi_x(b.phi_x(), b.size(), n_axial), phi_y(b.phi_y(), b.size(), N);
+  const Mat& integrals = basis_->integrals();
+  const auto with_x = integrals.middleCols(2, n_axial), with_y = integrals.rightCols(N);
   mass_ = line_density * length;
-  S0_ = one.dot(X0);
-  I0_ = X0.dot(X0);
-  Sx_ = phi_x.transpose() * one;
-  Sy_ = phi_y.transpose() * one;
-  Dy_ = phi_y.transpose() * X0;
+  S0_ = integrals(0, 1);
+  I0_ = integrals(1, 1);
+  Sx_ = with_x.row(0);
+  Sy_ = with_y.row(0);
+  Dx_ = Vec::Zero(padded(n_axial));
+  Dx_.head(n_axial) = with_x.row(1);
+  Dy_ = Vec::Zero(padded(N));
+  Dy_.head(N) = with_y.row(1);
   Mxy_ = Mat::Zero(padded(n_axial), N);
-  Mxy_.topRows(n_axial) = phi_x.transpose() * phi_y;
+  Mxy_.topRows(n_axial) = with_y.middleRows(2, n_axial);
+  Myx_ = Mat::Zero(padded(N), n_axial);
+  Myx_.topRows(N) = with_x.bottomRows(N);
   K1_.resize(n_axial), K2_.resize(N);
   for (int i = 0; i < n_axial; ++i)
     K1_(i) = youngs_modulus * area * std::pow(shape.axial[std::size_t(i)].wave_number(), 2) * length / 2;
@@ -119,53 +123,43 @@ Eigen::Vector2d AssumedModeBeam::origin(In q) const {
   return hinge ? *hinge : *clamped;
 }
 
-AssumedModeBeam::Local AssumedModeBeam::local_mass(In q) const {
-  Local M = Local::Zero(n_, n_);
-  if (coupling == Coupling::none)
-    add_uncoupled_mass(M);
-  else
-    add_mass(q, M);
-  return M;
-}
-
 void AssumedModeBeam::mass(double, In q, Matrix& M) const {
-  M.add(0, 0, local_mass(q));
+  if (coupling == Coupling::none)
+    add_uncoupled_mass(1, M);
+  else
+    add_coupled_mass(q, M);
 }
 
 void AssumedModeBeam::force(double t, In q, In v, Out f) const {
   if (coupling == Coupling::none)
     add_uncoupled_force(q, f);
   else
-    add_force(q, v, f);
+    add_coupled_force(q, v, f);
   if (i_theta_ >= 0) f(i_theta_) += torque(t);
 }
 
 void AssumedModeBeam::add_tangent(double, In q, In v, In a, Blend c, Matrix& S) const {
-  Local local = Local::Zero(n_, n_);
   if (coupling == Coupling::none)
-    add_uncoupled_tangent(q, c, local);
+    add_uncoupled_tangent(q, c, S);
   else
-    add_tangent_of(q, v, a, c, local);
-  S.add(0, 0, local);
-}
-
-double AssumedModeBeam::potential(In q) const {
-  Eigen::Vector2d moment;  // int (X, Y) dm
-  if (coupling == Coupling::none) {
-    moment << S0_ + Sx_.dot(q.segment(i_A_, axial_modes)), Sy_.dot(q.segment(i_B_, transverse_modes));
-  } else {
-    Deformation at;
-    deform(q, at);
-    moment << dot(basis_->size(), basis_->one(), at.X), dot(basis_->size(), basis_->one(), at.Y);
-  }
-  return -gravity_.dot(mass_ * origin(q) + Eigen::Rotation2Dd(theta(q)) * moment);
+    add_coupled_tangent(q, v, a, c, S);
 }
 
 Energy AssumedModeBeam::energy(double, In q, In v) const {
-  const auto A = q.segment(i_A_, axial_modes).array(), B = q.segment(i_B_, transverse_modes).array();
-  return {.kinetic = 0.5 * v.dot(local_mass(q) * v),
-          .potential = potential(q),
-          .elastic = 0.5 * ((K1_.array() * A * A).sum() + (K2_.array() * B * B).sum())};
+  const auto A = q.segment(i_A_, axial_modes), B = q.segment(i_B_, transverse_modes);
+  Energy e{.elastic = 0.5 * ((K1_.array() * A.array().square()).sum() + (K2_.array() * B.array().square()).sum())};
+  Eigen::Vector2d moment;  // int (X, Y) dm
+  if (coupling == Coupling::none) {
+    e.kinetic = uncoupled_kinetic_energy(v);
+    moment << S0_ + Sx_.dot(A), Sy_.dot(B);
+  } else {
+    Deformation at;
+    deform(q, at);
+    e.kinetic = coupled_kinetic_energy(q, v, at);
+    moment = first_moment(q, at);
+  }
+  e.potential = -gravity_.dot(mass_ * origin(q) + Eigen::Rotation2Dd(theta(q)) * moment);
+  return e;
 }
 
 Power AssumedModeBeam::power(double t, In, In v) const {

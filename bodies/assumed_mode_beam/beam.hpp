@@ -26,6 +26,7 @@
 #include <trammel/time_function.hpp>
 
 #include "inertia_basis.hpp"
+#include "sizes.hpp"
 
 namespace trammel::beam {
 
@@ -70,40 +71,56 @@ class AssumedModeBeam final : public Body,
   void shape(double t, In q, Mat& points) const override;
 
  private:
-  static constexpr int most_coordinates = 2 * most_modes + 3;
-  using Local = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_coordinates, most_coordinates>;
-
-  // The deformed beam as coefficients in the inertia basis: X = X0 + Phi_x A - 1/2 B^T H B, Y = Phi_y B, and the rows
-  // p_i = (H B)_i, of length basis.row(). On the stack: no allocation, and several threads may use one beam.
+  // Coefficients in the inertia basis of L = X0 + Phi_x A, F = 1/2 B^T H B, X = L - F, Y = Phi_y B, and the rows
+  // p_i = (H B)_i; behind those of F and p their integrals with Phi_x, as in the rows of H. On the stack: no allocation,
+  // and several threads may use one beam.
   struct Deformation {
-    alignas(64) double X[InertiaBasis::most], Y[InertiaBasis::most], p[most_modes * InertiaBasis::most_row];
+    alignas(64) double L[InertiaBasis::most], X[InertiaBasis::most], Y[InertiaBasis::most];
+    alignas(64) double F[InertiaBasis::most_row], p[most_modes * InertiaBasis::most_row];
   };
-  // The velocities of the deformation in the beam's axes, Phi_x Ad - B^T H Bd and Phi_y Bd.
-  struct DeformationRate {
-    alignas(64) double x[InertiaBasis::most], y[InertiaBasis::most];
-  };
+  AnySizes sizes() const;
+  template <class Sizes>
+  void deform(const Sizes& s, In q, Deformation& at) const;
   void deform(In q, Deformation& at) const;
-  void deform_rate(const Deformation& at, In v, DeformationRate& rate) const;
-  void foreshorten(const double* b, double* rows) const;                // (H b)_i as rows
-  void add_bending_square(double c, const double* b, double* y) const;  // y += c b^T H b
+  template <class Sizes>
+  void foreshorten(const Sizes& s, const double* b, double* rows) const;  // (H b)_i as rows
+  template <class Sizes>
+  void bending_square(const Sizes& s, const double* b, double* y) const;  // y = b^T H b
+  template <class Sizes>
+  void shortening_rate(const Sizes& s, const Deformation& at, const double* Bd, double* P) const;
+  template <class Sizes>
+  double turning_inertia(const Sizes& s, const double* A, const double* B, const Deformation& at) const;
+  Eigen::Vector2d first_moment(In q, const Deformation& at) const;
 
   double theta(In q) const { return i_theta_ >= 0 ? q(i_theta_) : angle; }
   double omega(In v) const { return i_theta_ >= 0 ? v(i_theta_) : 0; }
   Eigen::Vector2d origin(In q) const;
 
   // The equations of motion for the couplings full and linear ...
-  void add_mass(In q, Local& M) const;
-  void add_force(In q, In v, Out f) const;
-  void add_tangent_of(In q, In v, In a, Blend c, Local& S) const;
-  // ... their rows and columns of the origin, with mount free ...
-  void add_origin_mass(const Deformation& at, double theta, Local& M) const;
+  template <class Sizes>
+  void add_mass(const Sizes& s, In q, const Deformation& at, Matrix& M) const;
+  void add_origin_mass(In q, const Deformation& at, Matrix& M) const;
+  template <class Sizes>
+  void add_force(const Sizes& s, In q, In v, const Deformation& at, Out f) const;
+  void add_coupled_mass(In q, Matrix& M) const;
+  void add_coupled_force(In q, In v, Out f) const;
+  double coupled_kinetic_energy(In q, In v, const Deformation& at) const;
+  // ... their tangent ...
+  struct TangentPoint;
+  template <class Sizes>
+  void prepare_tangent(const Sizes& s, In q, TangentPoint& t) const;
+  template <class Sizes>
+  void add_modal_tangent(const Sizes& s, const TangentPoint& t, Matrix& S) const;
+  template <class Sizes>
+  void add_turning_tangent(const Sizes& s, const TangentPoint& t, Matrix& S) const;
+  void add_origin_tangent(const TangentPoint& t, Matrix& S) const;
+  void add_coupled_tangent(In q, In v, In a, Blend c, Matrix& S) const;
   // ... and for the coupling none.
-  void add_uncoupled_mass(Local& M) const;
+  void add_uncoupled_mass(double c, Matrix& M) const;
   void add_uncoupled_force(In q, Out f) const;
-  void add_uncoupled_tangent(In q, Blend c, Local& S) const;
+  void add_uncoupled_tangent(In q, Blend c, Matrix& S) const;
+  double uncoupled_kinetic_energy(In v) const;
 
-  Local local_mass(In q) const;
-  double potential(In q) const;
   void check_parameters(const World& world) const;
   void check_amplitudes(const char* name, const std::vector<double>& given, int modes) const;
 
@@ -119,10 +136,11 @@ class AssumedModeBeam final : public Body,
   Eigen::Vector2d gravity_ = Eigen::Vector2d::Zero();
   std::optional<InertiaBasis> basis_;
   std::vector<PointShape> marker_shapes_, outline_shapes_;
-  double mass_ = 0;        // rho S L
-  double S0_ = 0, I0_ = 0; // int X0 dm, int X0^2 dm
-  Vec Sx_, Sy_, Dy_;       // int Phi_x dm, int Phi_y dm, int X0 Phi_y dm
-  Mat Mxy_;                // int Phi_x^T Phi_y dm, columns padded
+  double mass_ = 0;         // rho S L
+  double S0_ = 0, I0_ = 0;  // int X0 dm, int X0^2 dm
+  Vec Sx_, Sy_;             // int Phi_x dm, int Phi_y dm
+  Vec Dx_, Dy_;             // int X0 Phi_x dm, int X0 Phi_y dm, padded
+  Mat Mxy_, Myx_;           // int Phi_x^T Phi_y dm and its transpose, columns padded
   Vec K1_, K2_;
   std::vector<std::string> marker_names_, observable_names_;
 };

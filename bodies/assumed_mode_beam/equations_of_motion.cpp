@@ -1,129 +1,173 @@
-// The beam's mass matrix and forces, couplings full and linear (without foreshortening every loop over p is empty).
+// The beam's mass matrix and forces, couplings full and linear (without foreshortening, F and p vanish).
 //
 // In the beam's axes the columns of J are
 //     o: R^T,   theta: (-Y, X),   A_i: (Phi_x,i, 0),   B_i: (-p_i, Phi_y,i)
-// and every integral over the mass is a product of coefficients in the InertiaBasis.
+// With L = X0 + Phi_x A, F = 1/2 B^T H B and P = p Bd,
+//     X = L - F,   Y = Phi_y B,   ud_x = Phi_x Ad - P,   ud_y = Phi_y Bd.
+// Integrals of modes with modes are constants (the modes of a kind are orthogonal), those with F, P or p_i are products of
+// coefficients in the InertiaBasis; below, (f g) stands for int f g dm.
 #include <Eigen/Geometry>
 
-#include "beam.hpp"
+#include "deformation.hpp"
 
 namespace trammel::beam {
 
-void AssumedModeBeam::foreshorten(const double* b, double* rows) const {
-  const int N = transverse_modes, n = N * basis_->row();
-  combine(n, N, basis_->H(0), n, b, rows);
+AnySizes AssumedModeBeam::sizes() const {
+  return {axial_modes, transverse_modes, basis_->size(), basis_->row()};
 }
 
-// By the symmetric half of H.
-void AssumedModeBeam::add_bending_square(double c, const double* b, double* y) const {
-  for (int i = 0; i < transverse_modes; ++i) {
-    double products[most_modes];
-    for (int j = 0; j < i; ++j) products[j] = 2 * c * b[i] * b[j];
-    products[i] = c * b[i] * b[i];
-    add_combination(basis_->bending_size(), i + 1, basis_->H(i), basis_->row(), products, y);
-  }
-}
-
-void AssumedModeBeam::deform(In q, Deformation& at) const {
+// M = int J^T J dm
+template <class Sizes>
+void AssumedModeBeam::add_mass(const Sizes& s, In q, const Deformation& at, Matrix& M) const {
   const InertiaBasis& b = *basis_;
-  const int N = transverse_modes;
   const double *A = q.data() + i_A_, *B = q.data() + i_B_;
-  std::copy_n(b.X0(), b.size(), at.X);
-  add_combination(b.size(), axial_modes, b.phi_x(), b.size(), A, at.X);
-  combine(b.size(), N, b.phi_y(), b.size(), B, at.Y);
-  if (b.bending_size() == 0) return;
-  foreshorten(B, at.p);
-  double half_B[most_modes];
-  for (int i = 0; i < N; ++i) half_B[i] = -0.5 * B[i];
-  add_combination(b.bending_size(), N, at.p, b.row(), half_B, at.X);
-}
-
-void AssumedModeBeam::deform_rate(const Deformation& at, In v, DeformationRate& rate) const {
-  const InertiaBasis& b = *basis_;
-  const int N = transverse_modes;
-  const double *Ad = v.data() + i_A_, *Bd = v.data() + i_B_;
-  combine(b.size(), axial_modes, b.phi_x(), b.size(), Ad, rate.x);
-  combine(b.size(), N, b.phi_y(), b.size(), Bd, rate.y);
-  if (b.bending_size() == 0) return;
-  double minus_Bd[most_modes];
-  for (int i = 0; i < N; ++i) minus_Bd[i] = -Bd[i];
-  add_combination(b.bending_size(), N, at.p, b.row(), minus_Bd, rate.x);
-}
-
-// M = int J^T J dm, the upper half first.
-void AssumedModeBeam::add_mass(In q, Local& M) const {
-  const InertiaBasis& b = *basis_;
-  const int n = b.size(), r = b.bending_size(), N = transverse_modes;
-  Deformation at;
-  deform(q, at);
-
-  for (int i = 0; i < axial_modes; ++i) M(i_A_ + i, i_A_ + i) = mass_ / 2;
-  for (int i = 0; i < N; ++i) M(i_B_ + i, i_B_ + i) = mass_;
-  if (r > 0)
-    for (int i = 0; i < N; ++i) {
-      const double* p = at.p + i * b.row();
-      double* column = &M(0, i_B_ + i);
-      add_products(r, i + 1, at.p, b.row(), p, 1, column + i_B_);
-      for (int k = 0; k < axial_modes; ++k) column[i_A_ + k] = -p[r + k];
+  const auto symmetric = [&](int i, int j, double value) {
+    M.add(i, j, value);
+    M.add(j, i, value);
+  };
+  for (int i = 0; i < s.n_axial; ++i) M.add(i_A_ + i, i_A_ + i, mass_ / 2);
+  for (int i = 0; i < s.N; ++i) M.add(i_B_ + i, i_B_ + i, mass_);
+  if (s.size > 0)
+    for (int j = 0; j < s.N; ++j) {
+      const double* p = at.p + j * s.row;
+      double pp[padded(most_modes)];
+      products(s.size, j + 1, Rows{at.p, s.row}, p, pp);
+      for (int i = 0; i < j; ++i) symmetric(i_B_ + i, i_B_ + j, pp[i]);
+      M.add(i_B_ + j, i_B_ + j, pp[j]);
+      for (int i = 0; i < s.n_axial; ++i) symmetric(i_A_ + i, i_B_ + j, -p[s.size + i]);
     }
+  if (i_theta_ < 0) return;
 
-  if (i_theta_ >= 0) {
-    double by_A[padded(most_modes)], by_B[most_modes] = {};
-    combine(int(Mxy_.rows()), N, Mxy_.data(), int(Mxy_.rows()), q.data() + i_B_, by_A);
-    add_products(n, N, b.phi_y(), n, at.X, 1, by_B);
-    if (r > 0) add_products(r, N, at.p, b.row(), at.Y, 1, by_B);
-    M(i_theta_, i_theta_) = hub_inertia + dot(n, at.X, at.X) + dot(n, at.Y, at.Y);
-    for (int i = 0; i < axial_modes; ++i) M(i_theta_, i_A_ + i) = -by_A[i];
-    for (int i = 0; i < N; ++i) M(i_theta_, i_B_ + i) = by_B[i];
+  // (Y Phi_x),  (X Phi_y) + (Y p),  (X X) + (Y Y)
+  double Y_x[padded(most_modes)], L_y[padded(most_modes)], F_y[padded(most_modes)] = {}, Y_p[padded(most_modes)] = {};
+  combine(padded(s.n_axial), s.N, Rows{Mxy_.data(), padded(s.n_axial)}, B, Y_x);
+  std::copy_n(Dy_.data(), int(padded(s.N)), L_y);
+  add_combination(padded(s.N), s.n_axial, Rows{Myx_.data(), padded(s.N)}, A, L_y);
+  if (s.size > 0) {
+    products(s.size, s.N, Rows{b.phi_y(), s.size}, at.F, F_y);
+    products(s.size, s.N, Rows{at.p, s.row}, at.Y, Y_p);
   }
-  if (i_o_ >= 0) add_origin_mass(at, theta(q), M);
-
-  for (int j = 0; j < n_; ++j)
-    for (int i = 0; i < j; ++i) M(j, i) = M(i, j);
+  for (int i = 0; i < s.n_axial; ++i) symmetric(i_theta_, i_A_ + i, -Y_x[i]);
+  for (int i = 0; i < s.N; ++i) symmetric(i_theta_, i_B_ + i, L_y[i] - F_y[i] + Y_p[i]);
+  M.add(i_theta_, i_theta_, turning_inertia(s, A, B, at));
+  if (i_o_ >= 0) add_origin_mass(q, at, M);
 }
 
-void AssumedModeBeam::add_origin_mass(const Deformation& at, double angle_now, Local& M) const {
+// int (X, Y) dm
+Eigen::Vector2d AssumedModeBeam::first_moment(In q, const Deformation& at) const {
+  const auto A = q.segment(i_A_, axial_modes), B = q.segment(i_B_, transverse_modes);
+  return {S0_ + Sx_.dot(A) - dot(basis_->size(), basis_->one(), at.F), Sy_.dot(B)};
+}
+
+void AssumedModeBeam::add_origin_mass(In q, const Deformation& at, Matrix& M) const {
   const InertiaBasis& b = *basis_;
-  const int r = b.bending_size();
-  const Eigen::Matrix2d R = Eigen::Rotation2Dd(angle_now).toRotationMatrix();
-  M(i_o_, i_o_) = M(i_o_ + 1, i_o_ + 1) = mass_;
-  M.block<2, 1>(i_o_, i_theta_) = R * Eigen::Vector2d(-dot(b.size(), b.one(), at.Y), dot(b.size(), b.one(), at.X));
-  for (int i = 0; i < axial_modes; ++i) M.block<2, 1>(i_o_, i_A_ + i) = R.col(0) * Sx_(i);
-  for (int i = 0; i < transverse_modes; ++i) {
-    const double P = r > 0 ? dot(r, b.one(), at.p + i * b.row()) : 0;
-    M.block<2, 1>(i_o_, i_B_ + i) = R * Eigen::Vector2d(-P, Sy_(i));
-  }
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(theta(q)).toRotationMatrix();
+  const auto add = [&](int j, double J_1, double J_2) {
+    const Eigen::Vector2d column = R * Eigen::Vector2d(J_1, J_2);
+    for (int i = 0; i < 2; ++i) {
+      M.add(i_o_ + i, j, column(i));
+      M.add(j, i_o_ + i, column(i));
+    }
+  };
+  M.add(i_o_, i_o_, mass_);
+  M.add(i_o_ + 1, i_o_ + 1, mass_);
+  const Eigen::Vector2d moment = first_moment(q, at);
+  add(i_theta_, -moment(1), moment(0));
+  for (int i = 0; i < axial_modes; ++i) add(i_A_ + i, Sx_(i), 0);
+  for (int i = 0; i < transverse_modes; ++i)
+    add(i_B_ + i, b.size() > 0 ? -dot(b.size(), b.one(), at.p + i * b.row()) : 0, Sy_(i));
 }
 
 // f = -int J^T (alpha - gravity) dm - K with the acceleration at v' = 0
-//     alpha_1 = -Bd^T H Bd - 2 w ud_y - w^2 X,    alpha_2 = 2 w ud_x - w^2 Y.
-void AssumedModeBeam::add_force(In q, In v, Out f) const {
+//     alpha_1 = -D - 2 w ud_y - w^2 X,   alpha_2 = 2 w ud_x - w^2 Y,   D = Bd^T H Bd
+template <class Sizes>
+void AssumedModeBeam::add_force(const Sizes& s, In q, In v, const Deformation& at, Out f) const {
   const InertiaBasis& b = *basis_;
-  const int n = b.size(), r = b.bending_size(), N = transverse_modes;
+  const double *A = q.data() + i_A_, *B = q.data() + i_B_, *Ad = v.data() + i_A_, *Bd = v.data() + i_B_;
   const double w = omega(v);
   const Eigen::Matrix2d axes = Eigen::Rotation2Dd(theta(q)).toRotationMatrix();
-  const Eigen::Vector2d gravity = axes.transpose() * gravity_;
-  Deformation at;
-  deform(q, at);
-  DeformationRate rate;
-  deform_rate(at, v, rate);
+  const Eigen::Vector2d g = axes.transpose() * gravity_;
+  alignas(64) double D[InertiaBasis::most_row], P[InertiaBasis::most_row];
+  bending_square(s, Bd, D);
+  shortening_rate(s, at, Bd, P);
 
-  alignas(64) double a1[InertiaBasis::most], a2[InertiaBasis::most];
-  for (int k = 0; k < n; ++k) {
-    a1[k] = -2 * w * rate.y[k] - w * w * at.X[k] - gravity(0) * b.one()[k];
-    a2[k] = 2 * w * rate.x[k] - w * w * at.Y[k] - gravity(1) * b.one()[k];
+  // (Phi_x alpha_1) and (Phi_y alpha_2) - (p alpha_1)
+  double y_x[padded(most_modes)], x_y[padded(most_modes)], P_y[padded(most_modes)] = {}, p_a1[padded(most_modes)] = {};
+  combine(padded(s.n_axial), s.N, Rows{Mxy_.data(), padded(s.n_axial)}, Bd, y_x);
+  combine(padded(s.N), s.n_axial, Rows{Myx_.data(), padded(s.N)}, Ad, x_y);
+  if (s.size > 0) {
+    alignas(64) double a1[InertiaBasis::most];
+    combine(s.size, s.N, Rows{b.phi_y(), s.size}, Bd, a1);
+    for (int k = 0; k < s.size; ++k) a1[k] = -D[k] - 2 * w * a1[k] - w * w * at.X[k] - g(0) * b.one()[k];
+    products(s.size, s.N, Rows{at.p, s.row}, a1, p_a1);
+    products(s.size, s.N, Rows{b.phi_y(), s.size}, P, P_y);
   }
-  if (r > 0) add_bending_square(-1, v.data() + i_B_, a1);
+  const double *F_x = at.F + s.size, *D_x = D + s.size;
+  for (int i = 0; i < s.n_axial; ++i)
+    f(i_A_ + i) +=
+        D_x[i] + 2 * w * y_x[i] + w * w * (Dx_(i) + mass_ / 2 * A[i] - F_x[i]) + g(0) * Sx_(i) - K1_(i) * A[i];
+  for (int i = 0; i < s.N; ++i)
+    f(i_B_ + i) += p_a1[i] - 2 * w * (x_y[i] - P_y[i]) + w * w * mass_ * B[i] + g(1) * Sy_(i) - K2_(i) * B[i];
+  if (i_theta_ < 0) return;
 
-  double* f_A = f.data() + i_A_;
-  double* f_B = f.data() + i_B_;
-  add_products(n, axial_modes, b.phi_x(), n, a1, -1, f_A);
-  add_products(n, N, b.phi_y(), n, a2, -1, f_B);
-  if (r > 0) add_products(r, N, at.p, b.row(), a1, 1, f_B);
-  for (int i = 0; i < axial_modes; ++i) f_A[i] -= K1_(i) * q(i_A_ + i);
-  for (int i = 0; i < N; ++i) f_B[i] -= K2_(i) * q(i_B_ + i);
-  if (i_theta_ >= 0) f(i_theta_) += dot(n, at.Y, a1) - dot(n, at.X, a2);
-  if (i_o_ >= 0) f.segment<2>(i_o_) -= axes * Eigen::Vector2d(dot(n, b.one(), a1), dot(n, b.one(), a2));
+  // (Y alpha_1) - (X alpha_2); here w^2 cancels.
+  const Eigen::Vector2d moment = first_moment(q, at);
+  double X_x = -dot(s.size, at.X, P);  // (X ud_x)
+  for (int i = 0; i < s.n_axial; ++i) X_x += Ad[i] * (Dx_(i) + mass_ / 2 * A[i] - F_x[i]);
+  const double Y_y = mass_ * sum_of_products(s.N, B, Bd);  // (Y ud_y)
+  f(i_theta_) += -dot(s.size, at.Y, D) - 2 * w * (X_x + Y_y) + g(1) * moment(0) - g(0) * moment(1);
+  if (i_o_ < 0) return;
+  double x = -dot(s.size, b.one(), P), y = 0;  // int ud dm
+  for (int i = 0; i < s.n_axial; ++i) x += Sx_(i) * Ad[i];
+  for (int i = 0; i < s.N; ++i) y += Sy_(i) * Bd[i];
+  const double a1 = -dot(s.size, b.one(), D) - 2 * w * y - w * w * moment(0);
+  const double a2 = 2 * w * x - w * w * moment(1);
+  f.segment<2>(i_o_) += mass_ * gravity_ - axes * Eigen::Vector2d(a1, a2);
+}
+
+// 2 T = int |ud + w (-Y, X) + R^T o'|^2 dm + hub inertia w^2
+double AssumedModeBeam::coupled_kinetic_energy(In q, In v, const Deformation& at) const {
+  const InertiaBasis& b = *basis_;
+  const AnySizes s = sizes();
+  const auto A = q.segment(i_A_, s.n_axial), B = q.segment(i_B_, s.N), Ad = v.segment(i_A_, s.n_axial),
+             Bd = v.segment(i_B_, s.N);
+  alignas(64) double P[InertiaBasis::most_row], ud_y[InertiaBasis::most];
+  shortening_rate(s, at, Bd.data(), P);
+  combine(s.size, s.N, Rows{b.phi_y(), s.size}, Bd.data(), ud_y);
+  const auto Mxy = Mxy_.topRows(s.n_axial);
+  const double w = omega(v);
+  const double xd_xd =
+      mass_ / 2 * Ad.squaredNorm() - 2 * sum_of_products(s.n_axial, Ad.data(), P + s.size) + dot(s.size, P, P);
+  const double X_yd = Dy_.head(s.N).dot(Bd) + A.dot(Mxy.lazyProduct(Bd)) - dot(s.size, at.F, ud_y);
+  const double Y_xd = Ad.dot(Mxy.lazyProduct(B)) - dot(s.size, at.Y, P);
+  double twice =
+      xd_xd + mass_ * Bd.squaredNorm() + w * w * turning_inertia(s, A.data(), B.data(), at) + 2 * w * (X_yd - Y_xd);
+  if (i_o_ >= 0) {
+    const Eigen::Vector2d moment = first_moment(q, at), o_dot = v.segment<2>(i_o_);
+    const Eigen::Vector2d momentum(Sx_.dot(Ad) - dot(s.size, b.one(), P) - w * moment(1), Sy_.dot(Bd) + w * moment(0));
+    twice += mass_ * o_dot.squaredNorm() + 2 * o_dot.dot(Eigen::Rotation2Dd(theta(q)) * momentum);
+  }
+  return twice / 2;
+}
+
+void AssumedModeBeam::deform(In q, Deformation& at) const {
+  deform(sizes(), q, at);
+}
+
+void AssumedModeBeam::add_coupled_mass(In q, Matrix& M) const {
+  with_known(sizes(), [&](const auto& s) {
+    Deformation at;
+    deform(s, q, at);
+    add_mass(s, q, at, M);
+  });
+}
+
+void AssumedModeBeam::add_coupled_force(In q, In v, Out f) const {
+  with_known(sizes(), [&](const auto& s) {
+    Deformation at;
+    deform(s, q, at);
+    add_force(s, q, v, at, f);
+  });
 }
 
 }  // namespace trammel::beam

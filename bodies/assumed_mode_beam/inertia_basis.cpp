@@ -27,7 +27,7 @@ InertiaBasis::InertiaBasis(const std::vector<PointShape>& at, const Vec& weight)
   const bool foreshortening = N > 0 && at.front().H.size() > 0;
 
   // Values times the root of the weight: products of columns are integrals.
-  Mat functions(n, 2 + axial_ + N), bending(n, foreshortening ? N * N : 0);
+  Mat functions(n, 2 + axial_ + N), bending(n, foreshortening ? N * (N + 1) / 2 : 0);
   for (Eigen::Index g = 0; g < n; ++g) {
     const PointShape& p = at[std::size_t(g)];
     const double root = std::sqrt(weight(g));
@@ -35,35 +35,24 @@ InertiaBasis::InertiaBasis(const std::vector<PointShape>& at, const Vec& weight)
     functions(g, 1) = root * p.X0;
     functions.row(g).segment(2, axial_) = root * p.phi_x;
     functions.row(g).tail(N) = root * p.phi_y;
-    if (foreshortening) bending.row(g) = root * p.H.topRows(N).reshaped();
+    for (int i = 0, k = 0; foreshortening && i < N; ++i)
+      for (int j = 0; j <= i; ++j) bending(g, k++) = root * p.H(i, j);
   }
+  integrals_ = functions.transpose() * functions;
 
-  Mat psi_bending(n, 0);
-  if (foreshortening) {
-    Mat half(n, N * (N + 1) / 2);
-    for (int i = 0, k = 0; i < N; ++i)
-      for (int j = 0; j <= i; ++j) half.col(k++) = bending.col(i * N + j);
-    psi_bending = orthonormal_span(half, half.colwise().norm());
-  }
-  const Mat in_bending = psi_bending.transpose() * functions;
-  const Mat rest = functions - psi_bending * in_bending;
-  const Mat psi_rest = orthonormal_span(rest, functions.colwise().norm());
-
-  bending_size_ = padded(int(psi_bending.cols()));
-  size_ = bending_size_ + padded(int(psi_rest.cols()));
-  row_ = bending_size_ + padded(axial_);
+  const Mat psi = foreshortening ? orthonormal_span(bending, bending.colwise().norm()) : Mat(n, 0);
+  size_ = padded(int(psi.cols()));
+  row_ = size_ + padded(axial_);
   functions_ = Mat::Zero(size_, functions.cols());
-  functions_.topRows(in_bending.rows()) = in_bending;
-  // Of the rest alone: its last directions are short, and psi_bending is in them by round-off over their length.
-  functions_.middleRows(bending_size_, psi_rest.cols()) = psi_rest.transpose() * rest;
-
-  const auto axial = functions.middleCols(2, axial_);
-  H_ = Mat::Zero(row_, bending.cols());
-  H_.topRows(psi_bending.cols()) = psi_bending.transpose() * bending;
-  H_.middleRows(bending_size_, axial_) = axial.transpose() * bending;
-  phi_y_rows_ = Mat::Zero(row_, N);
-  phi_y_rows_.topRows(bending_size_) = functions_.topRightCorner(bending_size_, N);
-  phi_y_rows_.middleRows(bending_size_, axial_) = axial.transpose() * functions.rightCols(N);
+  functions_.topRows(psi.cols()) = psi.transpose() * functions;
+  half_H_ = Mat::Zero(row_, bending.cols());
+  half_H_.topRows(psi.cols()) = psi.transpose() * bending;
+  half_H_.middleRows(size_, axial_) = functions.middleCols(2, axial_).transpose() * bending;
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) {
+      const std::ptrdiff_t low = std::min(i, j), high = std::max(i, j);
+      H_offsets_.push_back((high * (high + 1) / 2 + low) * row_);
+    }
 }
 
 }  // namespace trammel::beam

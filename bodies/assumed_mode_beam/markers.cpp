@@ -15,7 +15,7 @@ AssumedModeBeam::Point AssumedModeBeam::point(const PointShape& shape, In q) con
     at.slope += shape.slope_y(i) * B[i];
   }
   if (coupling != Coupling::full || N == 0) return at;
-  combine(padded(N), N, shape.H.data(), padded(N), B, at.p);
+  combine(padded(N), N, Rows{shape.H.data(), padded(N)}, B, at.p);
   for (int i = 0; i < N; ++i) at.X -= 0.5 * B[i] * at.p[i];
   return at;
 }

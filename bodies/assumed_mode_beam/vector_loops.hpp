@@ -1,10 +1,13 @@
 // The two inner loops of the beam: linear combinations of rows, and products of rows with a vector.
 //
-// Row j starts at x + j * stride. Lengths n are multiples of 4 (rows are padded with zeros), so each loop works on packs of
+// Row j is rows[j]: at even distances (Rows) or anywhere (ScatteredRows). Lengths n are multiples of 4 (rows are padded with zeros), so each loop works on packs of
 // four numbers with several sums in flight, which a compiler may not arrange by itself without reordering everything else.
+// Lengths and numbers of rows are int, or Fixed where they are known when compiling: then the loops leave no trace.
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <type_traits>
 
 namespace trammel::beam {
 
@@ -12,6 +15,20 @@ inline constexpr int pack = 4;
 constexpr int padded(int n) {
   return (n + pack - 1) / pack * pack;
 }
+
+struct Rows {
+  const double* first;
+  int stride;
+  const double* operator[](int j) const { return first + std::ptrdiff_t(j) * stride; }
+};
+struct ScatteredRows {
+  const double* first;
+  const std::ptrdiff_t* offsets;
+  const double* operator[](int j) const { return first + offsets[j]; }
+};
+
+template <int n>
+using Fixed = std::integral_constant<int, n>;
 
 namespace detail {
 
@@ -34,46 +51,58 @@ inline Pack totals(const Pack& s0, const Pack& s1, const Pack& s2, const Pack& s
   return __builtin_shufflevector(low, high, 0, 1, 4, 5) + __builtin_shufflevector(low, high, 2, 3, 6, 7);
 }
 
-// `packs` packs of y, from all rows. Few packs take two rows at a time, so that enough sums are in flight.
-template <int packs, bool add>
-inline void combine_packs(int m, const double* x, int stride, const double* c, double* y) {
+// `packs` packs of y from the k-th number on, from all rows. Few packs take two rows at a time, so that enough sums are in
+// flight.
+template <int packs, bool add, class Count, class Table>
+inline void combine_packs(Count m, const Table& rows, int k, const double* c, double* y) {
   constexpr bool two_rows = packs <= 4;
   Pack sum[packs], second[packs] = {};
-  for (int p = 0; p < packs; ++p) sum[p] = add ? Pack(at(y + pack * p)) : Pack{};
+  for (int p = 0; p < packs; ++p) sum[p] = add ? Pack(at(y + k + pack * p)) : Pack{};
   int j = 0;
   if constexpr (two_rows)
-    for (; j + 2 <= m; j += 2, x += 2 * stride)
+    for (; j + 2 <= m; j += 2) {
+      const double *x = rows[j] + k, *next = rows[j + 1] + k;
       for (int p = 0; p < packs; ++p) {
         sum[p] += c[j] * at(x + pack * p);
-        second[p] += c[j + 1] * at(x + stride + pack * p);
+        second[p] += c[j + 1] * at(next + pack * p);
       }
-  for (; j < m; ++j, x += stride)
+    }
+  for (; j < m; ++j) {
+    const double* x = rows[j] + k;
     for (int p = 0; p < packs; ++p) sum[p] += c[j] * at(x + pack * p);
-  for (int p = 0; p < packs; ++p) at(y + pack * p) = two_rows ? sum[p] + second[p] : sum[p];
+  }
+  for (int p = 0; p < packs; ++p) at(y + k + pack * p) = two_rows ? sum[p] + second[p] : sum[p];
 }
 
-template <bool add>
-inline void combine_rows(int n, int m, const double* x, int stride, const double* c, double* y) {
-  int k = 0;
-  for (; k + 8 * pack <= n; k += 8 * pack) combine_packs<8, add>(m, x + k, stride, c, y + k);
-  if (k + 4 * pack <= n) combine_packs<4, add>(m, x + k, stride, c, y + k), k += 4 * pack;
-  if (k + 2 * pack <= n) combine_packs<2, add>(m, x + k, stride, c, y + k), k += 2 * pack;
-  if (k < n) combine_packs<1, add>(m, x + k, stride, c, y + k);
+template <bool add, class Length, class Count, class Table>
+inline void combine_rows(Length n, Count m, const Table& rows, const double* c, double* y) {
+  if constexpr (!std::is_same_v<Length, int>) {
+    combine_packs<Length::value / pack, add>(m, rows, 0, c, y);
+  } else {
+    int k = 0;
+    for (; k + 8 * pack <= n; k += 8 * pack) combine_packs<8, add>(m, rows, k, c, y);
+    if (k + 4 * pack <= n) combine_packs<4, add>(m, rows, k, c, y), k += 4 * pack;
+    if (k + 2 * pack <= n) combine_packs<2, add>(m, rows, k, c, y), k += 2 * pack;
+    if (k < n) combine_packs<1, add>(m, rows, k, c, y);
+  }
 }
 
 }  // namespace detail
 
-// y = sum_j c_j x_j  over m rows of length n
-inline void combine(int n, int m, const double* x, int stride, const double* c, double* y) {
-  detail::combine_rows<false>(n, m, x, stride, c, y);
+// y = sum_j c_j rows_j  over m rows of length n
+template <class Length, class Count, class Table>
+inline void combine(Length n, Count m, const Table& rows, const double* c, double* y) {
+  detail::combine_rows<false>(n, m, rows, c, y);
 }
-// y += sum_j c_j x_j
-inline void add_combination(int n, int m, const double* x, int stride, const double* c, double* y) {
-  detail::combine_rows<true>(n, m, x, stride, c, y);
+// y += sum_j c_j rows_j
+template <class Length, class Count, class Table>
+inline void add_combination(Length n, Count m, const Table& rows, const double* c, double* y) {
+  detail::combine_rows<true>(n, m, rows, c, y);
 }
 
 // sum x y
-inline double dot(int n, const double* x, const double* y) {
+template <class Length>
+inline double dot(Length n, const double* x, const double* y) {
   detail::Pack even{}, odd{};
   int k = 0;
   for (; k + 2 * pack <= n; k += 2 * pack) {
@@ -84,13 +113,12 @@ inline double dot(int n, const double* x, const double* y) {
   return detail::total(even + odd);
 }
 
-// out_i += scale x_i . y  over m rows; four at a time, the last ones repeated where fewer remain
-inline void add_products(int n, int m, const double* x, int stride, const double* y, double scale, double* out) {
-  for (int i = 0; i < m; i += 4) {
-    const int rows = std::min(4, m - i);
-    const double* x0 = x + std::ptrdiff_t(i) * stride;
-    const double *x1 = rows > 1 ? x0 + stride : x0, *x2 = rows > 2 ? x1 + stride : x1,
-                 *x3 = rows > 3 ? x2 + stride : x2;
+// out_i = rows_i . y  over m rows, four at a time; where fewer remain, the last is repeated into out's padding
+template <class Length, class Count>
+inline void products(Length n, Count m, Rows rows, const double* y, double* out) {
+  const auto row = [&](int i) { return rows[std::min<int>(i, m - 1)]; };
+  for (int i = 0; i < m; i += pack) {
+    const double *x0 = row(i), *x1 = row(i + 1), *x2 = row(i + 2), *x3 = row(i + 3);
     detail::Pack s0{}, s1{}, s2{}, s3{};
     for (int k = 0; k < n; k += pack) {
       const detail::Pack yk = detail::at(y + k);
@@ -99,11 +127,7 @@ inline void add_products(int n, int m, const double* x, int stride, const double
       s2 += detail::at(x2 + k) * yk;
       s3 += detail::at(x3 + k) * yk;
     }
-    const detail::Pack sums = scale * detail::totals(s0, s1, s2, s3);
-    if (rows == 4)
-      detail::at(out + i) += sums;
-    else
-      for (int r = 0; r < rows; ++r) out[i + r] += sums[r];
+    detail::at(out + i) = detail::totals(s0, s1, s2, s3);
   }
 }
 

@@ -1,0 +1,32 @@
+// The numbers that the beam's loops run over. Each is an int, or known when compiling: for the usual few modes the loops
+// are so short that running them costs as much as what they do.
+#pragma once
+
+#include "vector_loops.hpp"
+
+namespace trammel::beam {
+
+template <class Modes, class Length, class Row>
+struct Sizes {
+  Modes n_axial, N;
+  Length size;  // of the basis of the foreshortening's functions, 0 without; inertia_basis.hpp
+  Row row;      // of these functions' rows
+};
+using AnySizes = Sizes<int, int, int>;
+template <int modes, int size>
+using KnownSizes = Sizes<Fixed<modes>, Fixed<size>, Fixed<size + padded(modes)>>;
+
+// f(sizes), known ones where there are such.
+template <class F>
+void with_known(const AnySizes& any, F&& f) {
+  const auto are = [&](const auto& known) {
+    return any.N == known.N && any.n_axial == known.n_axial && any.size == known.size && any.row == known.row;
+  };
+  if (const KnownSizes<3, 8> known; are(known)) return f(known);
+  if (const KnownSizes<5, 16> known; are(known)) return f(known);
+  if (const KnownSizes<7, 24> known; are(known)) return f(known);
+  if (const KnownSizes<9, 32> known; are(known)) return f(known);
+  f(any);
+}
+
+}  // namespace trammel::beam
