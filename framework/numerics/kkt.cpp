@@ -77,6 +77,7 @@ void IterationKkt::factorise(const Mat& W, const Mat& G) {
     full_.bottomLeftCorner(nc, nv_) = G;
   }
   singular_ = false;
+  finite_ = true;
   if (full_.rows() == 0) return;
   lu_.compute(full_);
   // Redundant rows leave a pivot at round-off of the largest one in a column; unlike scales of S and G do not, because
@@ -86,7 +87,8 @@ void IterationKkt::factorise(const Mat& W, const Mat& G) {
     const double scale = full_.col(j).cwiseAbs().maxCoeff();
     if (!(std::abs(factors(j, j)) > 8 * eps * scale)) singular_ = true;
   }
-  if (singular_ && full_.allFinite()) {
+  finite_ = !singular_ || full_.allFinite();
+  if (singular_ && finite_) {
     cod_.setThreshold(Eigen::Default);
     cod_.compute(full_);
   }
@@ -97,7 +99,7 @@ bool IterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   right_.resize(nv_ + nc);
   right_.head(nv_) = b;
   right_.tail(nc) = c;
-  if (!right_.allFinite()) return false;
+  if (!finite_ || !right_.allFinite()) return false;
   if (right_.size() == 0) {
     solution_.resize(0);
   } else if (!singular_) {

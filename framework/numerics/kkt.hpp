@@ -4,8 +4,7 @@
 //     [G  0 ] [y] = [c]        S: nv x nv, G and W: nc x nv
 //
 // Two factorisations, by what S is:
-//  - Mass: S = M symmetric positive definite, W = G. Cholesky of M and of the Schur complement G M^-1 G^T. Redundant
-//  rows
+//  - Mass: S = M symmetric positive definite, W = G. Cholesky of M and of the Schur complement G M^-1 G^T. Redundant rows
 //    are found by the complement's pivots and then solved by a complete orthogonal decomposition of L^-1 G^T: x stays
 //    unique, y is the one of minimum norm, and the condition number is not squared.
 //  - Iteration: S any matrix. LU of the whole with row pivoting; if it is singular, the minimum-norm solution.
@@ -53,7 +52,7 @@ class IterationKkt {
   Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
   Vec right_, solution_;
   Eigen::Index nv_ = 0;
-  bool singular_ = false;
+  bool singular_ = false, finite_ = true;
 };
 
 }  // namespace trammel::numerics

@@ -2,45 +2,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
-#include <variant>
 
 #include <trammel/testing.hpp>
+#include <trammel/testing_archive.hpp>
 
 namespace trammel {
 namespace {
 
 constexpr double h = 5e-3;  // [s]
 constexpr int steps = 12;
-
-class MemoryArchive final : public Archive {
- public:
-  bool reading = false;
-  using Archive::operator();
-  void operator()(std::string_view name, bool& x) override { exchange(name, x); }
-  void operator()(std::string_view name, int& x) override { exchange(name, x); }
-  void operator()(std::string_view name, long long& x) override { exchange(name, x); }
-  void operator()(std::string_view name, double& x) override { exchange(name, x); }
-  void operator()(std::string_view name, std::string& x) override { exchange(name, x); }
-  void operator()(std::string_view name, Vec& x) override { exchange(name, x); }
-
- private:
-  template <class T>
-  void exchange(std::string_view name, T& x) {
-    if (reading)
-      x = std::get<T>(kept_.at(std::string(name)));
-    else
-      kept_[std::string(name)] = x;
-  }
-  std::map<std::string, std::variant<bool, int, long long, double, std::string, Vec>> kept_;
-};
-
-bool same(const Vec& a, const Vec& b) {
-  return a.size() == b.size() && (a.array() == b.array()).all();
-}
-bool same(const State& a, const State& b) {
-  return a.t == b.t && same(a.q, b.q) && same(a.v, b.v) && same(a.a, b.a) && same(a.lambda, b.lambda);
-}
 
 bool advance(Integrator& method, System& s, State& now, State& next) {
   if (!method.step(s, now, h, next)) return false;
@@ -51,9 +21,27 @@ bool advance(Integrator& method, System& s, State& now, State& next) {
 
 }  // namespace
 
+bool same_bits(const Vec& a, const Vec& b) {
+  return a.size() == b.size() && (a.array() == b.array()).all();
+}
+bool same_bits(const State& a, const State& b) {
+  return a.t == b.t && same_bits(a.q, b.q) && same_bits(a.v, b.v) && same_bits(a.a, b.a) &&
+         same_bits(a.lambda, b.lambda);
+}
+
 void Report::claim(const std::string& sentence, bool true_, const std::string& found) {
   holds = holds && true_;
   table += fmt::format("{} {}{}{}\n", true_ ? "holds:" : "FAILS:", sentence, found.empty() ? "" : ": ", found);
+}
+
+Report Check::operator()() const {
+  try {
+    return find_out();
+  } catch (const std::exception& e) {
+    Report report;
+    report.claim("nothing is thrown", false, e.what());
+    return report;
+  }
 }
 
 Report trial_leaves_no_trace(const Maker& make, const Problem& problem) {
@@ -71,9 +59,9 @@ Report trial_leaves_no_trace(const Maker& make, const Problem& problem) {
       wild = {std::nan(""), Vec::Constant(7, std::nan("")), Vec(0), Vec::Constant(1, 1e300), Vec::Constant(3, 2)};
       static_cast<void>(tried->step(*t, b, trial, wild));  // may well be rejected
     }
-    now_kept = same(before, b);
+    now_kept = same_bits(before, b);
     stepped = advance(*plain, *s, a, next) && advance(*tried, *t, b, other);
-    equal = same(a, b);
+    equal = same_bits(a, b);
   }
   Report report;
   const std::string at = fmt::format("in step {}", where);
@@ -99,7 +87,7 @@ Report resumes_bitwise(const Maker& make, const Problem& problem) {
     stepped = stepped && advance(*method, *s, now, next) && advance(*resumed, *t, again, next);
   Report report;
   report.claim("steps of 5 ms are accepted", stepped);
-  report.claim("resumes from its archive bit for bit", same(now, again));
+  report.claim("resumes from its archive bit for bit", same_bits(now, again));
   return report;
 }
 

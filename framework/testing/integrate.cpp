@@ -1,28 +1,23 @@
 // Making an integrator from a plugin, and the loop of a run without events.
 #include <fmt/format.h>
 
-#include <map>
-#include <mutex>
 #include <stdexcept>
 
 #include <trammel/testing.hpp>
 
-#include "plugin/registry.hpp"
+#include "testing/plugin_folder.hpp"
 
 namespace trammel {
 
 Maker from_plugin(const std::string& folder, const std::string& name,
                   const std::vector<std::pair<std::string, ParameterValue>>& settings) {
-  // Shared with what it makes through the Maker: plugins stay loaded by the loader's mark anyway.
-  auto registry = std::make_shared<plugin::Registry>(plugin::Registry::Start::empty);
-  registry->search(folder);
-  const Declaration& declaration = registry->find(Kind::integrator, name).declaration;
+  const Declaration& declaration = plugin_folder(folder).find(Kind::integrator, name).declaration;
   for (const auto& [key, value] : settings) {
     bool known = false;
     for (const Parameter& p : declaration.parameters) known = known || p.name == key;
     if (!known) throw std::runtime_error(fmt::format("{} has no parameter \"{}\"", name, key));
   }
-  return [registry, &declaration, settings] {
+  return [&declaration, settings] {
     std::unique_ptr<Component> component = declaration.make();
     for (const auto& [key, value] : settings)
       for (const Parameter& p : declaration.parameters)

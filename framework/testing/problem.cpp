@@ -18,19 +18,24 @@ class ProblemSystem final : public System {
     Vec q, v;
     p_.exact(0, q, v);
     n_ = v.size();
+    nq_ = int(q.size());
     m_ = rows(0, q, v).g.size();
     // Masses differ by 1e9: the saddle-point matrix is scaled to entries about 1 before it is decomposed. One factor for all
     // multipliers keeps their minimum norm.
     scale_.resize(n_ + m_);
     scale_.head(n_) = p_.M.diagonal().cwiseSqrt().cwiseInverse();
-    const double largest = (rows(0, q, v).G * scale_.head(n_).asDiagonal()).cwiseAbs().sum();
-    scale_.tail(m_).setConstant(m_ ? 1 / largest : 1);
+    const double largest = m_ ? (rows(0, q, v).G * scale_.head(n_).asDiagonal()).cwiseAbs().sum() : 1;
+    scale_.tail(m_).setConstant(1 / largest);
   }
-  Sizes sizes() const override { return {int(n_), int(n_), int(m_)}; }
-  void rate(const Vec&, const Vec& v, Vec& q_dot) const override { q_dot = v; }
-  void normalise(Vec&) const override {}
-  void retract(const Vec& q, const Vec& dq, Vec& q_new) const override { q_new = q + dq; }
-  void difference(const Vec& q1, const Vec& q0, Vec& dq) const override { dq = q1 - q0; }
+  Sizes sizes() const override { return {nq_, int(n_), int(m_)}; }
+  void rate(const Vec& q, const Vec& v, Vec& q_dot) const override { q_dot = on_.rate ? on_.rate(q, v) : v; }
+  void normalise(Vec& q) const override {
+    if (on_.normalise) q = on_.normalise(q);
+  }
+  void retract(const Vec& q, const Vec& dq, Vec& q_new) const override { q_new = moved(q, dq); }
+  void difference(const Vec& q1, const Vec& q0, Vec& dq) const override {
+    dq = on_.difference ? on_.difference(q1, q0) : Vec(q1 - q0);
+  }
 
   void move_to(double t, const Vec& q, const Vec& v) override {
     t_ = t, q_ = q, v_ = v;
@@ -55,28 +60,38 @@ class ProblemSystem final : public System {
     solve(factored(p_.M), f(), rows_.gamma - 2 * s.alpha * g_dot_ - s.beta * s.beta * rows_.g, a, lambda);
   }
   void factorise(Blend c, const Vec&, const Vec& lambda, Factors which) override {
-    kept_[int(which)] = factored(c.c_m * p_.M + tangent(c, lambda) + c.c_1 * Mat::Identity(n_, n_));
+    const Mat S = c.c_m * p_.M + tangent(c, lambda) + c.c_1 * Mat::Identity(n_, n_);
+    finite_[int(which)] = S.allFinite();
+    kept_[int(which)] = factored(S);
   }
   bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda, Factors which) override {
+    // A decomposition by rank takes what is not a number for nothing.
+    if (!finite_[int(which)] || !r.allFinite() || !rc.allFinite()) return false;
     solve(kept_[int(which)], -r, -rc, da, dlambda);
     return da.allFinite() && dlambda.allFinite();
   }
 
  private:
+  using Rows = Problem::Rows;
   using Factored = Eigen::CompleteOrthogonalDecomposition<Mat>;
 
   Rows rows(double t, const Vec& q, const Vec& v) const {
     return p_.rows ? p_.rows(t, q, v) : Rows{Vec(0), Vec(0), Vec(0), Mat(0, n_)};
   }
+  Vec moved(const Vec& q, const Vec& dq) const { return on_.retract ? on_.retract(q, dq) : Vec(q + dq); }
   Mat tangent(const Blend& c, const Vec& lambda) const {
     Mat T = Mat::Zero(n_, n_);
+    if (c.c_d == 0 && c.c_k == 0) return T;
+    if (p_.tangent) T = p_.tangent(c, q_, v_);
     const double d = 1e-6;
-    for (Eigen::Index j = 0; (c.c_d != 0 || c.c_k != 0) && j < n_; ++j) {
-      const Vec e = d * Vec::Unit(n_, j);
-      const Rows up = rows(t_, q_ + e, v_), down = rows(t_, q_ - e, v_);
-      const Vec K = p_.force(t_, q_ - e, v_) - p_.force(t_, q_ + e, v_) + (up.G - down.G).transpose() * lambda;
-      const Vec D = p_.force(t_, q_, v_ - e) - p_.force(t_, q_, v_ + e);
-      T.col(j) = (c.c_k * K + c.c_d * D) / (2 * d);
+    for (Eigen::Index j = 0; j < n_ && (m_ > 0 || !p_.tangent); ++j) {
+      const Vec e = d * Vec::Unit(n_, j), plus = moved(q_, e), minus = moved(q_, -e);
+      Vec K = (rows(t_, plus, v_).G - rows(t_, minus, v_).G).transpose() * lambda, D = Vec::Zero(n_);
+      if (!p_.tangent) {
+        K += p_.force(t_, minus, v_) - p_.force(t_, plus, v_);
+        D = p_.force(t_, q_, v_ - e) - p_.force(t_, q_, v_ + e);
+      }
+      T.col(j) += (c.c_k * K + c.c_d * D) / (2 * d);
     }
     return T;
   }
@@ -85,23 +100,26 @@ class ProblemSystem final : public System {
     A.topLeftCorner(n_, n_) = S;
     A.bottomLeftCorner(m_, n_) = rows_.G;
     A.topRightCorner(n_, m_) = rows_.G.transpose();
-    return Factored(scale_.asDiagonal() * A * scale_.asDiagonal());
+    return A.size() ? Factored(scale_.asDiagonal() * A * scale_.asDiagonal()) : Factored();
   }
   void solve(const Factored& s, const Vec& b, const Vec& c, Vec& x, Vec& y) const {
     Vec right(n_ + m_);
     right << b, c;
-    const Vec z = scale_.cwiseProduct(s.solve(scale_.cwiseProduct(right)));
+    const Vec z = right.size() ? Vec(scale_.cwiseProduct(s.solve(scale_.cwiseProduct(right)))) : right;
     x = z.head(n_);
     y = z.tail(m_);
   }
 
   Problem p_;
+  const Manifold& on_ = p_.manifold;
+  int nq_ = 0;
   Eigen::Index n_ = 0, m_ = 0;
   Vec scale_;
   double t_ = 0;
   Vec q_, v_, f_, g_dot_;
   Rows rows_;
   Factored kept_[2];
+  bool finite_[2] = {};
 };
 
 }  // namespace

@@ -1,11 +1,10 @@
-// Against the published system's unit vectors (tests/data/beam/unit_N*.json, made by two independent implementations) and
-// against itself: derivatives, power balance, invariance.
+// Against the published system's unit vectors (tests/data/beam/unit_N*.json, made by two independent implementations).
+// Derivatives and balances are checked by tests/plugins/shipped_components.cpp.
 #include "../../bodies/assumed_mode_beam/beam.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <random>
 
 #include <Eigen/Cholesky>
 #include <nlohmann/json.hpp>
@@ -50,13 +49,6 @@ Vec force(const Body& beam, const Vec& q, const Vec& v) {
   Vec f = Vec::Zero(v.size());
   beam.force(0, q, v, f);
   return f;
-}
-
-Mat tangent(const AssumedModeBeam& beam, const Vec& q, const Vec& v, const Vec& a, Blend c) {
-  Mat S = Mat::Zero(v.size(), v.size());
-  Matrix target = Matrix::onto(S);
-  beam.add_tangent(0, q, v, a, c, target);
-  return S;
 }
 
 struct Reference {
@@ -116,113 +108,6 @@ TEST_P(BeamReference, EnergiesAgree) {
   EXPECT_NEAR(e.kinetic, r.data["E_kin"].get<double>(), 1e-12);
   EXPECT_NEAR(e.elastic, r.data["E_el"].get<double>(), 1e-11);
   EXPECT_NEAR(e.potential, r.data["E_grav"].get<double>(), 1e-12);
-}
-
-struct Case {
-  Coupling coupling;
-  Mount mount;
-};
-
-class BeamCase : public testing::TestWithParam<Case> {
- protected:
-  // Random states with deformations of some per cent, where every term counts; the stiffest terms do not drown the rest.
-  BeamCase() : beam(make(3, GetParam().coupling, GetParam().mount, 0.2, 0.05)) {
-    beam->coordinates();
-    const int n = beam->coordinates().nv();
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> u(-1, 1);
-    const auto fill = [&](double size) { return Vec(Vec::NullaryExpr(n, [&] { return size * u(random); })); };
-    q = fill(0.02);
-    if (GetParam().mount == Mount::hinge) q(0) = 0.7;
-    if (GetParam().mount == Mount::free) q.head<3>() << 0.4, -0.2, 0.7;
-    v = fill(2);
-    a = fill(30);
-  }
-  std::unique_ptr<AssumedModeBeam> beam;
-  Vec q, v, a;
-};
-INSTANTIATE_TEST_SUITE_P(All, BeamCase,
-                         testing::Values(Case{Coupling::full, Mount::hinge}, Case{Coupling::full, Mount::clamped},
-                                         Case{Coupling::full, Mount::free}, Case{Coupling::linear, Mount::hinge},
-                                         Case{Coupling::linear, Mount::free}, Case{Coupling::none, Mount::hinge},
-                                         Case{Coupling::none, Mount::clamped}));
-
-TEST_P(BeamCase, MassMatrixIsSymmetricAndPositive) {
-  const Mat M = mass(*beam, q);
-  EXPECT_EQ(M, M.transpose());
-  EXPECT_EQ(M.llt().info(), Eigen::Success);
-}
-
-// dE/dt along M a = f is dE/dq . v + v . f without drives; the first by differences along v.
-TEST_P(BeamCase, EnergyChangesByNoMoreThanTheDrives) {
-  const double s = 1e-6, by_force = force(*beam, q, v).dot(v);
-  const double by_motion = (beam->energy(0, q + s * v, v).total() - beam->energy(0, q - s * v, v).total()) / (2 * s);
-  // Truncation s^2 times the third derivative; round-off eps E / s.
-  EXPECT_NEAR(by_motion + by_force, 0, 1e-9 * std::abs(by_force) + 1e-9 * beam->energy(0, q, v).total());
-}
-
-TEST_P(BeamCase, TangentIsTheDerivativeOfTheResidual) {
-  const int n = int(q.size());
-  const auto residual = [&](const Vec& q_, const Vec& v_) { return Vec(mass(*beam, q_) * a - force(*beam, q_, v_)); };
-  Mat D(n, n), K(n, n);
-  const double s = 1e-6;
-  for (int j = 0; j < n; ++j) {
-    const Vec e = s * Vec::Unit(n, j);
-    K.col(j) = (residual(q + e, v) - residual(q - e, v)) / (2 * s);
-    D.col(j) = (residual(q, v + e) - residual(q, v - e)) / (2 * s);
-  }
-  const Mat by_mass = tangent(*beam, q, v, a, {1, 0, 0}) - mass(*beam, q);
-  EXPECT_LT(by_mass.norm(), 1e-13 * mass(*beam, q).norm());
-  const Mat D_error = tangent(*beam, q, v, a, {0, 1, 0}) - D, K_error = tangent(*beam, q, v, a, {0, 0, 1}) - K;
-  // Round-off of the residual, at most eps 1e7 over 1e-6: 2e-3 beside stiffnesses of 1e6 and more; the small entries come
-  // in the rows without stiffness and are asked for more.
-  EXPECT_LT(D_error.lpNorm<Eigen::Infinity>(), 3e-3);
-  EXPECT_LT(K_error.lpNorm<Eigen::Infinity>(), 1e-8 * std::max(1.0, K.lpNorm<Eigen::Infinity>()));
-  if (GetParam().mount != Mount::clamped) {
-    const int theta = GetParam().mount == Mount::free ? 2 : 0;
-    EXPECT_LT((D_error.row(theta)).norm(), 1e-7);
-    EXPECT_LT((K_error.row(theta)).norm(), 1e-6);
-  }
-  // A blend is the sum of its parts.
-  const Mat blended = tangent(*beam, q, v, a, {2, 0.3, 0.7});
-  const Mat parts =
-      2 * mass(*beam, q) + 0.3 * tangent(*beam, q, v, a, {0, 1, 0}) + 0.7 * tangent(*beam, q, v, a, {0, 0, 1});
-  EXPECT_LT((blended - parts).norm(), 1e-13 * parts.norm());
-}
-
-TEST_P(BeamCase, MarkerJacobianAndBiasAreDerivativesOfItsMotion) {
-  for (int marker = 0; marker < 2; ++marker) {
-    const double s = 1e-6;
-    const auto at = [&](double t) {
-      Motion m;
-      beam->motion(marker, 0, q + t * v + t * t / 2 * a, v + t * a, m);
-      return m;
-    };
-    const Motion m = at(0), plus = at(s), minus = at(-s);
-    EXPECT_LT((m.J * v - m.V).norm(), 1e-12);
-    EXPECT_LT(((plus.x - minus.x) / (2 * s) - m.V.head<2>()).norm(), 1e-8);
-    EXPECT_NEAR((plus.angle - minus.angle) / (2 * s), m.V(2), 2e-8);  // slopes turn at 30 rad/s: s^2 30^3
-    EXPECT_LT(((plus.V - minus.V) / (2 * s) - m.J * a - m.bias).norm(), 1e-5);
-  }
-}
-
-TEST_P(BeamCase, ReactionDerivativeIsThatOfItsGeneralisedForce) {
-  const int n = int(q.size());
-  const Wrench F = Eigen::Vector3d(3, -5, 2);
-  const auto generalised = [&](const Vec& q_) {
-    Motion m;
-    beam->motion(1, 0, q_, v, m);
-    return Vec(m.J.transpose() * F);
-  };
-  Mat expected(n, n), S = Mat::Zero(n, n);
-  const double s = 1e-6;
-  for (int j = 0; j < n; ++j) {
-    const Vec e = s * Vec::Unit(n, j);
-    expected.col(j) = (generalised(q + e) - generalised(q - e)) / (2 * s);
-  }
-  Matrix target = Matrix::onto(S);
-  beam->add_reaction_derivative(1, 0, q, F, 2, target);
-  EXPECT_LT((S - 2 * expected).lpNorm<Eigen::Infinity>(), 1e-6);  // third derivatives of atan(slope), slope 16 a unit
 }
 
 TEST(Beam, EnergyOfTheFreeBeamIsUnchangedByRigidMotion) {

@@ -1,6 +1,5 @@
 // Error estimates shrink with the order claimed and are near the true local error; dense output has its order.
 #include "support.hpp"
-#include "systems.hpp"
 
 namespace trammel::test {
 namespace {
@@ -13,8 +12,8 @@ class ErrorEstimated : public testing::TestWithParam<Estimated> {};
 
 TEST_P(ErrorEstimated, ShrinksWithItsOrder) {
   double claimed = 0;  // of the last trial: Adams' own differs from that of its starter
-  const Fit f = fit(1, 4, [&](int n) {
-    Pendulum s;
+  const Order f = fit_order(1, 4, [&](int n) {
+    Posed s(problems::pendulum_with_rod());
     auto method = make(GetParam().form.name, GetParam().form.settings);
     auto& estimate = dynamic_cast<ErrorEstimate&>(*method);
     const double h = GetParam().h / n;
@@ -26,12 +25,12 @@ TEST_P(ErrorEstimated, ShrinksWithItsOrder) {
     claimed = estimate.error_order();
     return estimate.error(s, now, next, {.relative = 0, .absolute = 1});
   });
-  EXPECT_NEAR(f.order, claimed, 0.35) << f.table;
+  EXPECT_NEAR(f.value, claimed, 0.35) << f.table;
 }
 
 TEST_P(ErrorEstimated, IsTheTrueLocalErrorWithinAFactorOfTen) {
   // Embedded pairs estimate the error of the lower order: an upper bound.
-  Oscillators s({1, 2}, 0.1);
+  Posed s(oscillators({1, 2}, 0.1));
   auto method = make(GetParam().form.name, GetParam().form.settings);
   auto& estimate = dynamic_cast<ErrorEstimate&>(*method);
   const State start = s.start();
@@ -42,7 +41,7 @@ TEST_P(ErrorEstimated, IsTheTrueLocalErrorWithinAFactorOfTen) {
   const double estimated = estimate.error(s, now, next, {.relative = 0, .absolute = 1});
   // The exact flow from `now`: by dop853 in 50 steps.
   auto fine = make("dop853");
-  const State exact = run(*fine, s, now, now.t + h, 50);
+  const State exact = integrate(*fine, s, now, now.t + h, 50);
   const double error = std::sqrt(((next.q - exact.q).squaredNorm() + (next.v - exact.v).squaredNorm()) / 4);
   EXPECT_GE(estimated, error / 10);
 }
@@ -61,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 TEST(NewmarkError, AlsoMeasuresTheFirstStepAfterARestart) {
-  Oscillators s({2});
+  Posed s(oscillators({2}));
   auto method = make("newmark");
   auto& estimate = dynamic_cast<ErrorEstimate&>(*method);
   const State start = s.start();
@@ -82,8 +81,8 @@ struct Dense {
 class DenseOutputOf : public testing::TestWithParam<Dense> {};
 
 TEST_P(DenseOutputOf, HasItsOrderInsideTheStep) {
-  Oscillators s({1, 2}, 0.1);
-  const Fit f = fit(GetParam().n, 4, [&](int n) {
+  Posed s(oscillators({1, 2}, 0.1));
+  const Order f = fit_order(GetParam().n, 4, [&](int n) {
     auto method = make(GetParam().name);
     auto& dense = dynamic_cast<DenseOutput&>(*method);
     State now = s.start(), next, at;
@@ -103,12 +102,12 @@ TEST_P(DenseOutputOf, HasItsOrderInsideTheStep) {
     return error;
   });
   // Locally of one order more; summed up over the run the method's own error, of one order more as well, may mix in.
-  EXPECT_GE(f.order, GetParam().order + 0.7) << f.table;
-  EXPECT_LE(f.order, GetParam().order + 1.3) << f.table;
+  EXPECT_GE(f.value, GetParam().order + 0.7) << f.table;
+  EXPECT_LE(f.value, GetParam().order + 1.3) << f.table;
 }
 
 TEST_P(DenseOutputOf, MeetsTheStepAtItsEnds) {
-  Pendulum s;
+  Posed s(problems::pendulum_with_rod());
   auto method = make(GetParam().name);
   auto& dense = dynamic_cast<DenseOutput&>(*method);
   const State now = s.start();
@@ -123,7 +122,7 @@ TEST_P(DenseOutputOf, MeetsTheStepAtItsEnds) {
 }
 
 TEST_P(DenseOutputOf, LooksIntoTheStepItIsGivenAfterOtherTrials) {
-  Pendulum s;
+  Posed s(problems::pendulum_with_rod());
   auto method = make(GetParam().name);
   auto& dense = dynamic_cast<DenseOutput&>(*method);
   const State now = s.start();
@@ -138,7 +137,7 @@ TEST_P(DenseOutputOf, LooksIntoTheStepItIsGivenAfterOtherTrials) {
 }
 
 TEST_P(DenseOutputOf, TellsStepsApartWhoseAccelerationsAgree) {
-  Oscillators s({0});  // no force: every step ends with the same acceleration
+  Posed s(oscillators({0}));  // no force: every step ends with the same acceleration
   auto method = make(GetParam().name);
   auto& dense = dynamic_cast<DenseOutput&>(*method);
   State now = s.start(), next, other, at;

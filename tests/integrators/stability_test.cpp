@@ -4,9 +4,9 @@
 #include <limits>
 
 #include <nlohmann/json.hpp>
+#include <trammel/testing_archive.hpp>
 
 #include "support.hpp"
-#include "systems.hpp"
 
 namespace trammel::test {
 namespace {
@@ -23,7 +23,7 @@ double spectral_radius(const Mat& A) {
 // The amplification of (d, h v, h^2 a) over one step of h = 1, column by column. Methods with accelerations of their own
 // beside the true ones ("a" in their archive) get the column's there.
 Mat newmark_amplification(const std::string& name, const Settings& settings, double Omega) {
-  Oscillators s({Omega});
+  Posed s(oscillators({Omega}));
   Mat A(3, 3);
   for (int j = 0; j < 3; ++j) {
     auto method = make(name, settings);
@@ -101,23 +101,19 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 // A particle on a row g = q: Baumgarte's test equation.
-class Held final : public DenseSystem {
- public:
-  Sizes sizes() const override { return {1, 1, 1}; }
-
- protected:
-  Mat mass() const override { return Mat::Ones(1, 1); }
-  Vec force(double, const Vec&, const Vec&) const override { return Vec::Zero(1); }
-  void rows(double, const Vec& q, const Vec&, Rows& r) const override {
-    r = {q, Vec::Zero(1), Vec::Zero(1), Mat::Ones(1, 1)};
-  }
-};
+Problem held() {
+  Problem p = particle([](double, const Vec&, const Vec&) -> Vec { return Vec::Zero(1); });
+  p.rows = [](double, const Vec& q, const Vec&) -> Problem::Rows {
+    return {q, Vec::Zero(1), Vec::Zero(1), Mat::Ones(1, 1)};
+  };
+  return p;
+}
 
 // The amplification over one step of h = 1 of (q, v) and of whatever vectors the method remembers, on a linear system of one
 // coordinate: each is set to 1 in turn. What it remembers follows from (q, v), so the eigenvalues are the method's own and 0.
-double remembered_radius(System& s, const std::string& name, const Settings& settings) {
+double remembered_radius(Posed& s, const std::string& name, const Settings& settings) {
   auto method = make(name, settings);
-  const int nc = s.sizes().nc;
+  const int nc = s->sizes().nc;
   const State zero{0, Vec::Zero(1), Vec::Zero(1), Vec::Zero(1), Vec::Zero(nc)};
   method->restart(s, zero);
   State now = advance(*method, s, zero, 1, 4);  // fills the history
@@ -164,11 +160,11 @@ class StabilityLimit : public testing::TestWithParam<Limits> {};
 TEST_P(StabilityLimit, OnBothAxesIsThatOfTheTable) {
   const auto table = reference().at("explicit_stability_limits").at(GetParam().row);
   const double imaginary = stability_limit([&](double z) {
-    Oscillators s({z});
+    Posed s(oscillators({z}));
     return remembered_radius(s, GetParam().name, GetParam().settings);
   });
   const double real = stability_limit([&](double z) {
-    Oscillators s({0}, z / 2);  // v' = -z v
+    Posed s(oscillators({0}, z / 2));  // v' = -z v
     return remembered_radius(s, GetParam().name, GetParam().settings);
   });
   // Eight digits are given; near Dormand-Prince's limit the radius leaves 1 with a slope of 1e-3 only. On the imaginary axis ABM-PECE grows everywhere: where that passes 1e-9 a step depends on the
@@ -190,7 +186,7 @@ TEST_P(BaumgarteBound, OnDeltaIsThatOfTheTable) {
   const auto [row, name] = GetParam();
   for (const auto& [ratio, bound] : reference().at("baumgarte").at(row).items()) {
     const double epsilon_over_delta = std::stod(ratio);
-    Held s;
+    Posed s(held());
     const double found = stability_limit([&](double z) {
       return remembered_radius(s, name, {{"delta", z}, {"epsilon", epsilon_over_delta * z}});
     });
@@ -205,11 +201,11 @@ INSTANTIATE_TEST_SUITE_P(Integrators, BaumgarteBound,
 
 TEST(Dop853, IsStableOnBothAxesAsItsManualSays) {
   const double imaginary = stability_limit([](double z) {
-    Oscillators s({z});
+    Posed s(oscillators({z}));
     return remembered_radius(s, "dop853", {});
   });
   const double real = stability_limit([](double z) {
-    Oscillators s({0}, z / 2);  // v' = -z v
+    Posed s(oscillators({0}, z / 2));  // v' = -z v
     return remembered_radius(s, "dop853", {});
   });
   EXPECT_NEAR(imaginary, 5.96, 0.01);
@@ -220,7 +216,7 @@ TEST(AdamsBaumgarte, GrowsWeaklyOnTheWholeImaginaryAxisAsPublished) {
   // Growth per step less 1 at omega h, methods.json; six digits.
   for (const auto& [z, growth] :
        {std::pair{0.1, 1.58693e-07}, {0.2, 9.63625e-06}, {0.5, 0.00153164}, {1.0, 0.117174}}) {
-    Oscillators s({z});
+    Posed s(oscillators({z}));
     EXPECT_NEAR((remembered_radius(s, "adams_baumgarte", {}) - 1) / growth, 1, 1e-5) << "omega h = " << z;
   }
 }

@@ -26,7 +26,14 @@ Maker from_plugin(const std::string& folder, const std::string& name,
 State integrate(Integrator& method, System& system, const State& start, double until, int n,
                 const std::function<void(const State&)>& after_each_step = {});
 
-// Errors at n, 2n, 4n... steps and the least-squares slope of their logarithms over h.
+// The least-squares slope of log(error) over log(h), from n, 2n, 4n, ... steps.
+struct Order {
+  double value = 0;
+  std::string table;
+};
+Order fit_order(int n, int runs, const std::function<double(int n)>& error);
+
+// The same for a problem's closed form; errors are root mean squares over all steps of a run.
 struct Fit {
   double order_q = 0, order_v = 0, order_lambda = 0;  // lambda: NaN without rows
   std::string table;
@@ -53,12 +60,36 @@ struct ConstraintDrift {
 };
 ConstraintDrift constraint_drift(const Maker& method, const Problem& problem, int n);
 
+// Equal bit for bit, NaN equal to nothing.
+bool same_bits(const Vec& a, const Vec& b);
+bool same_bits(const State& a, const State& b);
+
 struct Report {
   bool holds = true;
   std::string table;
   explicit operator bool() const { return holds; }
   void claim(const std::string& sentence, bool true_, const std::string& found = "");
 };
+// A claim by name ("HasItsOrderOnThePendulum") and what finds out whether it holds. `register_suite` (testing_suites.hpp)
+// makes a test of each.
+struct Check {
+  std::string name;
+  std::function<Report()> find_out;
+  // A component that throws has failed the check.
+  Report operator()() const;
+};
+
+// All checks of an integrator, for `register_suite`.
+struct IntegratorClaims {
+  double order = 1;
+  int steps = 64;              // per second, where convergence is asymptotic
+  double imaginary_limit = 0;  // of stability; 0: not claimed
+  double real_limit = 0;       // likewise
+  double energy = 0.05;        // largest relative change on the pendulum
+  double constraints = 1e-2;   // [m, m/s] largest violation where the method does not hold the rows
+};
+std::vector<Check> integrator_checks(const Maker& method, const IntegratorClaims& claims);
+
 // `order` is met by q and v from both sides to `tolerance`.
 Report check_order(const Maker& method, const Problem& problem, double order, int n, double tolerance = 0.2);
 // The limit on the axis is `limit`, relatively to 1e-3.

@@ -1,7 +1,7 @@
 // Problems with known answers, for measuring integrators. Each lives in a file of its own under
 // framework/testing/problems, where its formulas are.
 //
-//     M v' = f(t, q, v) - G^T lambda,   g(t, q) = 0,   q' = v,   M constant
+//     M v' = f(t, q, v) - G^T lambda,   g(t, q) = 0,   q' = N(q) v,   M constant
 #pragma once
 
 #include <functional>
@@ -14,18 +14,26 @@
 
 namespace trammel {
 
-struct Rows {
-  Vec g, g_t, gamma;  // G v + g_t = 0, G v' = gamma
-  Mat G;
-};
-
 // Something constant along exact solutions; changes are divided by `scale`.
 struct Invariant {
   double scale = 1;
   std::function<double(const State&)> value;
 };
 
+// Configurations that are no vectors; empty functions: q' = v, and increments add.
+struct Manifold {
+  std::function<Vec(const Vec& q, const Vec& v)> rate = {};
+  std::function<Vec(const Vec& q)> normalise = {};
+  std::function<Vec(const Vec& q, const Vec& dq)> retract = {};
+  std::function<Vec(const Vec& q1, const Vec& q0)> difference = {};
+};
+
 struct Problem {
+  struct Rows {
+    Vec g, g_t, gamma;  // G v + g_t = 0, G v' = gamma
+    Mat G;
+  };
+
   std::string name, equations, source;
   double until = 1;  // [s] where solutions are compared; from t = 0
   Mat M = {};
@@ -34,6 +42,9 @@ struct Problem {
   std::function<void(double t, Vec& q, Vec& v)> exact = {};  // without a closed form: fills the start only, whatever t
   bool closed_form = true;
   Invariant energy = {};  // without a value: not conserved
+  // c_d D + c_k K of the force, D = -df/dv, K = -df/dq; empty: by differences.
+  std::function<Mat(const Blend& c, const Vec& q, const Vec& v)> tangent = {};
+  Manifold manifold = {};
 
   // Solved by a dense orthogonal decomposition, derivatives by differences: shares no code with the framework's assembly.
   std::unique_ptr<System> system() const;
@@ -56,6 +67,8 @@ Problem pendulum_with_rod(double theta_0 = 1, double omega_0 = 0.4, std::vector<
 Problem stiff_pendulum(double k = 1e4);
 // A bead on a straight wire turning at the given rate [rad/s], in gravity.
 Problem bead_on_turning_wire(double turning = 2);
+// A heavy symmetric top on its tip, q a unit quaternion (w, x, y, z), v its angular velocity in body axes. The start only.
+Problem heavy_top(double spin = 20);
 // Masses 1 kg and 1/ratio kg on a massless rod of 1 m, turning in free flight.
 Problem dumbbell(double ratio = 1e9);
 

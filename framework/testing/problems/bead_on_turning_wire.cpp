@@ -15,7 +15,7 @@ Problem bead_on_turning_wire(double W) {
             "Goldstein, section 1.6"};
   p.M = Mat::Identity(2, 2);
   p.force = [](double, const Vec&, const Vec&) -> Vec { return Eigen::Vector2d(0, -g); };
-  p.rows = [W](double t, const Vec& q, const Vec& v) -> Rows {
+  p.rows = [W](double t, const Vec& q, const Vec& v) -> Problem::Rows {
     const Eigen::Vector2d along(std::cos(W * t), std::sin(W * t)), across(-along[1], along[0]);
     return {Vec::Constant(1, across.dot(q)), Vec::Constant(1, -W * along.dot(q)),
             Vec::Constant(1, 2 * W * along.dot(v) + W * W * across.dot(q)), across.transpose()};

@@ -11,7 +11,7 @@ Problem dumbbell(double ratio) {
   const double m1 = 1, m2 = 1 / ratio, rate = 3;
   p.M = Eigen::Vector4d(m1, m1, m2, m2).asDiagonal();
   p.force = [](double, const Vec&, const Vec&) -> Vec { return Vec::Zero(4); };
-  p.rows = [](double, const Vec& q, const Vec& v) -> Rows {
+  p.rows = [](double, const Vec& q, const Vec& v) -> Problem::Rows {
     const Eigen::Vector2d d = q.tail<2>() - q.head<2>(), u = v.tail<2>() - v.head<2>();
     Mat G(1, 4);
     G << -d.transpose(), d.transpose();

@@ -8,7 +8,7 @@ namespace trammel::problems {
 
 Problem oscillator(double omega, double zeta) {
   Problem p{"oscillator", "x'' = -omega^2 x - 2 zeta omega x'", "Meirovitch, chapter 2"};
-  p.until = 2;  // where no part of the usual methods' errors happens to vanish
+  p.until = 2;
   p.M = Mat::Ones(1, 1);
   const double mu = zeta * omega, w = std::sqrt(omega * omega - mu * mu);
   p.force = [=](double, const Vec& q, const Vec& v) -> Vec { return -omega * omega * q - 2 * mu * v; };

@@ -54,7 +54,7 @@ Problem pendulum_with_rod(double theta_0, double omega_0, std::vector<double> ro
   p.M = Mat::Identity(2, 2);
   p.force = [](double, const Vec&, const Vec&) -> Vec { return Eigen::Vector2d(0, -g); };
   const Vec w = Eigen::Map<Vec>(row_weights.data(), Eigen::Index(row_weights.size()));
-  p.rows = [w](double, const Vec& q, const Vec& v) -> Rows {
+  p.rows = [w](double, const Vec& q, const Vec& v) -> Problem::Rows {
     return {w * (q.squaredNorm() - 1) / 2, 0 * w, -w * v.squaredNorm(), w * q.transpose()};
   };
   p.exact = [=](double t, Vec& q, Vec& v) {

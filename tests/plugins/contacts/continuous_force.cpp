@@ -1,4 +1,4 @@
-// The compliant contact law: it only pushes, starts at zero, loses energy, and rebounds as its equation says.
+// The compliant contact law beyond the checks of shipped_components.cpp: its formulas, and rebounds as they say.
 #include <algorithm>
 #include <cmath>
 
@@ -6,7 +6,6 @@
 #include <trammel/contact.hpp>
 
 #include "../made.hpp"
-#include "../moving_marker.hpp"
 
 namespace trammel::test {
 namespace {
@@ -44,43 +43,11 @@ TEST_P(ContinuousForce, IsTheFormulaOfItsPaper) {
   EXPECT_NEAR(law->normal(-delta, -delta_dot, v0), expected, 1e-12 * expected);  // round-off
 }
 
-TEST_P(ContinuousForce, NeverPulls) {
-  for (double gap = -1e-3; gap <= 1e-3; gap += 1e-5)
-    for (double rate = -10; rate <= 10; rate += 0.25) EXPECT_GE(law->normal(gap, rate, 1), 0) << gap << " " << rate;
-}
-
-TEST_P(ContinuousForce, StartsAtZero) {
-  for (double rate : {-5.0, 0.0, 5.0}) {
-    EXPECT_EQ(law->normal(0, rate, 1), 0);
-    EXPECT_EQ(law->normal(1e-9, rate, 1), 0);
-    // K delta^1.5 = 1e-10 N at 1e-12 m; the largest damping here multiplies it by 5 * 30.4.
-    EXPECT_LT(law->normal(-1e-12, rate, 1), 2e-8);
-  }
-}
-
-TEST_P(ContinuousForce, SlopeIsItsDerivative) {
-  const double gap = -4e-4, v0 = 1.5;
-  for (double rate : {-1.0, 0.02}) {  // not cut, for any law
-    const ContactForce::Slope slope = law->slope(gap, rate, v0);
-    const double by_gap = derivative([&](double x) { return law->normal(x, rate, v0); }, gap, 1e-7);
-    const double by_rate = derivative([&](double x) { return law->normal(gap, x, v0); }, rate);
-    EXPECT_NEAR(slope.by_gap, by_gap, 1e-8 * std::abs(by_gap));  // (h / gap)^4 and eps F / h
-    EXPECT_NEAR(slope.by_rate, by_rate, 1e-8 * std::abs(by_gap));
-  }
-}
-
 TEST_P(ContinuousForce, IsCutWithItsSlopeWhereTheFormulaWouldPull) {
   const double factor = GetParam().factor, beyond = 2 / std::max(factor, 1e-3);  // 1 - factor * beyond = -1, if damped
   EXPECT_EQ(law->normal(-1e-4, beyond, 1) == 0, factor > 0);
   EXPECT_EQ(law->slope(-1e-4, beyond, 1).by_gap == 0, factor > 0);
   EXPECT_EQ(law->slope(-1e-4, beyond, 1).by_rate, 0);
-}
-
-TEST_P(ContinuousForce, ForceAtRestIsMinusTheGradientOfThePotential) {
-  const double expected = -derivative([&](double gap) { return law->potential(gap); }, -4e-4, 1e-7);
-  EXPECT_NEAR(law->normal(-4e-4, 0, 1), expected, 1e-8 * expected);
-  EXPECT_EQ(law->potential(0), 0);
-  EXPECT_EQ(law->potential(0.1), 0);
 }
 
 TEST_P(ContinuousForce, HasNoDampingIfItWasClosedAtRest) {
@@ -90,16 +57,11 @@ TEST_P(ContinuousForce, HasNoDampingIfItWasClosedAtRest) {
 
 // A mass of 1 kg strikes at 1 m/s: (gap, rate) by the classical Runge-Kutta method in 2e4 steps per contact, to the
 // crossing.
-struct Impact {
-  double rebound;      // rate at the end over speed at the start: the realised restitution
-  double energy_gain;  // largest increase of kinetic and stored energy over a step
-};
-
-Impact strike(const ContactForce& law) {
+// Returned: rate at the end over speed at the start, the realised restitution.
+double strike(const ContactForce& law) {
   const double h = 1e-7;  // an impact takes 2 ms
-  double x = 0, v = -1, gain = 0;
+  double x = 0, v = -1;
   const auto force = [&](double gap, double rate) { return law.normal(gap, rate, 1); };
-  double energy = 0.5;
   while (true) {
     const double a1 = force(x, v);
     const double a2 = force(x + h / 2 * v, v + h / 2 * a1);
@@ -107,21 +69,14 @@ Impact strike(const ContactForce& law) {
     const double a4 = force(x + h * v + h * h / 2 * a2, v + h * a3);
     const double x_next = x + h * v + h * h / 6 * (a1 + a2 + a3);
     const double v_next = v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
-    if (x_next >= 0) return {v_next, gain};  // the force ends as delta^1.5: v is constant to 1e-10 over the last step
+    if (x_next >= 0) return v_next;  // the force ends as delta^1.5: v is constant to 1e-10 over the last step
     x = x_next, v = v_next;
-    const double now = 0.5 * v * v + law.potential(x);
-    gain = std::max(gain, now - energy);
-    energy = now;
   }
-}
-
-TEST_P(ContinuousForce, EnergyNeverGrowsOverAnImpact) {
-  EXPECT_LT(strike(*law).energy_gain, 1e-13);  // round-off and the method's error of a step, of 0.5 J
 }
 
 // m v dv / (1 + c v / v0) = -K delta^n d delta, integrated in and out.
 TEST_P(ContinuousForce, ReboundsAsTheEnergyIntegralSays) {
-  const double c = GetParam().factor, e = strike(*law).rebound;
+  const double c = GetParam().factor, e = strike(*law);
   EXPECT_NEAR(c * (1 + e), std::log((1 + c) / (1 - c * e)), 1e-6 * (1 + c / (1 - c * e)));  // d/de times 1e-6
 }
 
@@ -134,18 +89,18 @@ TEST(ContinuousForceOfThePaper, RealisesTheRestitutionsOfTheReference) {
   const double reference[][2] = {{0, 0.66296},   {0.1, 0.66527}, {0.3, 0.68422},
                                  {0.5, 0.72524}, {0.7, 0.79597}, {0.9, 0.91318}};
   for (const auto& [nominal, realised] : reference)
-    EXPECT_NEAR(strike(*contact("paper", nominal)).rebound, realised, 6e-6) << "nominal " << nominal;
+    EXPECT_NEAR(strike(*contact("paper", nominal)), realised, 6e-6) << "nominal " << nominal;
 }
 
 TEST(ContinuousForceOfThePaper, RealisesTheSameRestitutionForAnyExponent) {
-  EXPECT_NEAR(strike(*contact("paper", 0.3, 1.2)).rebound, 0.68422, 6e-6);
-  EXPECT_NEAR(strike(*contact("paper", 0.3, 2.0)).rebound, 0.68422, 6e-6);
+  EXPECT_NEAR(strike(*contact("paper", 0.3, 1.2)), 0.68422, 6e-6);
+  EXPECT_NEAR(strike(*contact("paper", 0.3, 2.0)), 0.68422, 6e-6);
 }
 
 TEST(ContinuousForceOfFlores, RealisesNearlyTheNominalRestitution) {
   // The factor 8 (1 - e) / (5 e) comes from an approximate energy balance; its closed form is off by 0.0455 at most (e = 0.24).
   for (double e : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0})
-    EXPECT_NEAR(strike(*contact("flores", e)).rebound, e, 0.046) << "nominal " << e;
+    EXPECT_NEAR(strike(*contact("flores", e)), e, 0.046) << "nominal " << e;
 }
 
 TEST(ContinuousForceOfFlores, RefusesRestitutionZeroByName) {

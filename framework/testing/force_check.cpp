@@ -1,0 +1,146 @@
+// What a force owes the assembly, along known motions of its two markers, with V the stored energy:
+//
+//     dV/dt + F_A . V_A + F_B . V_B = supplied - dissipated,  dissipated >= 0
+//     F_A + F_B = 0, moments about the origin too (but for loads from outside)
+//     Q F(A, B) = F(Q A, Q B) for a turn Q of the scene (likewise)
+//     F has a derivative by pose and velocity, which the framework takes by differences
+#include <fmt/format.h>
+
+#include <trammel/testing_components.hpp>
+#include <trammel/testing_markers.hpp>
+
+#include "testing/difference.hpp"
+
+namespace trammel {
+namespace {
+
+constexpr double times[] = {0.1, 0.7, 1.3, 1.9};  // [s]
+constexpr double step = 0.05;                     // [s, m, rad] largest of the differences: motions change over 0.5
+
+struct Wrenches {
+  Wrench on_A, on_B;
+};
+
+struct Tried {
+  std::unique_ptr<Force> force;
+  Space space;
+  Reaction reaction;
+  MovingPair pair;
+
+  Tried(const MakerOf<Force>& make, Space s, Reaction r) : force(make()), space(s), reaction(r), pair(moving_pair(s)) {}
+
+  Wrenches wrenches(double t, const Motion& A, const Motion& B) const {
+    Wrenches w{Wrench::Zero(A.V.size()), Wrench::Zero(B.V.size())};
+    force->wrench(t, A, B, w.on_A, w.on_B);
+    return w;
+  }
+  Wrenches along(double t) const { return wrenches(t, pair.a.at(t), pair.b.at(t)); }
+};
+
+Report energy_balances(const Tried& f) {
+  return compare("power of the wrenches is taken from the potential, supplied or dissipated", [&](Comparison& c) {
+    for (const double t : times) {
+      const Motion A = f.pair.a.at(t), B = f.pair.b.at(t);
+      const Wrenches w = f.wrenches(t, A, B);
+      const Power P = f.force->power(t, A, B);
+      const double by_wrench = w.on_A.dot(A.V) + w.on_B.dot(B.V);
+      const Difference stored = difference(
+          [&](double s) { return Vec::Constant(1, f.force->potential(t + s, f.pair.a.at(t + s), f.pair.b.at(t + s))); },
+          step);
+      const double noise = 1e-13 * (w.on_A.cwiseAbs().dot(A.V.cwiseAbs()) + w.on_B.cwiseAbs().dot(B.V.cwiseAbs()));
+      c.derivative(Vec::Constant(1, P.supplied - P.dissipated - by_wrench), stored,
+                   fmt::format("d(potential)/dt at t = {}", t), noise);
+    }
+  });
+}
+
+Report only_dissipates(const Tried& f) {
+  return compare("dissipated power is not negative", [&](Comparison& c) {
+    for (const double t : times) {
+      const double power = f.force->power(t, f.pair.a.at(t), f.pair.b.at(t)).dissipated;
+      c.holds(power >= 0, fmt::format("{:.6g} W at t = {}", power, t));
+    }
+  });
+}
+
+Report action_is_reaction(const Tried& f) {
+  return compare("wrenches on A and B are equal and opposite", [&](Comparison& c) {
+    if (f.reaction == Reaction::outside) return;
+    for (const double t : times) {
+      const Motion A = f.pair.a.at(t), B = f.pair.b.at(t);
+      const Wrenches w = f.wrenches(t, A, B);
+      const Vec on_A = about_origin(w.on_A, A.x), on_B = about_origin(w.on_B, B.x);
+      c.within(on_A, -on_B, 1e-13 * (on_A.norm() + on_B.norm()), fmt::format("at t = {}", t));
+    }
+  });
+}
+
+Report turns_with_the_scene(const Tried& f) {
+  return compare("wrenches turn with the scene", [&](Comparison& c) {
+    if (f.reaction == Reaction::outside) return;
+    for (const double t : times) {
+      Vec6 turn = Vec6::Zero(twist_size(f.space));
+      turn.tail(rotations(f.space)) = Eigen::Vector3d(0.7, -0.4, 0.9).head(rotations(f.space));
+      Motion origin = marker_at(Vec::Zero(turn.size()), Vec::Zero(turn.size()));
+      const Mat3 Q = displaced(origin, turn).R;
+      const auto turned_twist = [&](Vec6 w) {
+        w.head(Q.rows()) = (Q * w.head(Q.rows())).eval();
+        if (f.space == Space::spatial) w.tail(3) = (Q * w.tail(3)).eval();
+        return w;
+      };
+      const auto turned = [&](const Motion& m) {
+        Motion n = displaced(m, turn);
+        n.x = Q * m.x;
+        n.V = turned_twist(m.V);
+        return n;
+      };
+      const Motion A = f.pair.a.at(t), B = f.pair.b.at(t);
+      const Wrenches w = f.wrenches(t, A, B), v = f.wrenches(t, turned(A), turned(B));
+      const double round_off = 1e-12 * (w.on_A.norm() + w.on_B.norm());
+      c.within(v.on_A, turned_twist(w.on_A), round_off, fmt::format("on A at t = {}", t));
+      c.within(v.on_B, turned_twist(w.on_B), round_off, fmt::format("on B at t = {}", t));
+    }
+  });
+}
+
+// Central differences of a kink converge, to the mean of its slopes: both sides are asked.
+Report has_a_derivative(const Tried& f) {
+  return compare("wrenches have a derivative by pose and velocity", [&](Comparison& c) {
+    const int n = twist_size(f.space);
+    for (const double t : times) {
+      const Motion A = f.pair.a.at(t), B = f.pair.b.at(t);
+      for (int i = 0; i < 2 * n; ++i) {
+        const auto moved = [&](double s) {
+          Motion m = i < n ? displaced(B, s * Vec6::Unit(n, i)) : B;
+          if (i >= n) m.V(i - n) += s;
+          const Wrenches w = f.wrenches(t, A, m);
+          Vec both(2 * n);
+          both << w.on_A, w.on_B;
+          return both;
+        };
+        const Difference d = difference(moved, step);
+        const double h = 1e-6;
+        const Vec right = (moved(h) - moved(0)) / h, left = (moved(0) - moved(-h)) / h;
+        const double scale = d.value.cwiseAbs().maxCoeff() + d.size / d.h;
+        c.derivative(d.value, d, fmt::format("by {} of B at t = {}", i < n ? "pose" : "velocity", t));
+        c.within(right, left, 1e-3 * scale, fmt::format("by {} of B at t = {}", i < n ? "pose" : "velocity", t));
+      }
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<Check> force_checks(const MakerOf<Force>& make, Space space, Reaction reaction) {
+  using Look = Report (*)(const Tried&);
+  const std::pair<const char*, Look> all[] = {
+      {"EnergyBalances", energy_balances},      {"OnlyDissipates", only_dissipates},
+      {"ActionIsReaction", action_is_reaction}, {"TurnsWithTheScene", turns_with_the_scene},
+      {"HasADerivative", has_a_derivative},
+  };
+  std::vector<Check> checks;
+  for (const auto& [name, look] : all) checks.push_back({name, [=] { return look(Tried(make, space, reaction)); }});
+  return checks;
+}
+
+}  // namespace trammel

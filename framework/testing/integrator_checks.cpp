@@ -1,0 +1,31 @@
+// The claims of an integrator that a suite of tests looks into.
+#include <trammel/testing.hpp>
+
+namespace trammel {
+
+std::vector<Check> integrator_checks(const Maker& make, const IntegratorClaims& c) {
+  using namespace problems;
+  const int fine = 2 * c.steps;
+  std::vector<Check> checks = {
+      {"HasItsOrderOnTheDampedOscillator", [=] { return check_order(make, oscillator(2, 0.1), c.order, c.steps); }},
+      {"HasItsOrderOnThePendulum", [=] { return check_order(make, pendulum(), c.order, c.steps); }},
+      {"HasItsOrderOnThePendulumWithRod", [=] { return check_order(make, pendulum_with_rod(), c.order, fine); }},
+      {"HoldsTheEnergyOfThePendulum", [=] { return check_energy(make, pendulum(), c.steps, c.energy); }},
+      {"HoldsTheRowOfThePendulum", [=] { return check_constraints(make, pendulum_with_rod(), fine, c.constraints); }},
+      {"HoldsRepeatedRows",
+       [=] {
+         return check_constraints(make, pendulum_with_rod(1, 0.4, {1, 2}), fine, c.constraints);
+       }},
+      {"LeavesNoTraceOfATrial", [=] { return trial_leaves_no_trace(make, pendulum_with_rod()); }},
+      {"ResumesBitForBit", [=] { return resumes_bitwise(make, pendulum_with_rod()); }},
+  };
+  if (c.imaginary_limit > 0)
+    checks.push_back(
+        {"IsStableOnTheImaginaryAxis", [=] { return check_stability(make, Axis::imaginary, c.imaginary_limit); }});
+  if (c.real_limit > 0)
+    checks.push_back(
+        {"IsStableOnTheRealAxis", [=] { return check_stability(make, Axis::negative_real, c.real_limit); }});
+  return checks;
+}
+
+}  // namespace trammel

@@ -1,0 +1,103 @@
+// Problems of the test harness posed as systems, and a few that only these tests need.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <trammel/testing.hpp>
+
+namespace trammel::test {
+
+// A problem with its System; used as one.
+class Posed {
+ public:
+  explicit Posed(Problem problem) : problem_(std::move(problem)), system_(problem_.system()) {}
+  operator System&() { return *system_; }
+  System* operator->() { return system_.get(); }
+
+  State start() const { return problem_.solution(0); }
+  State exact(double t) const { return problem_.solution(t); }
+  // The consistent state there.
+  State at(double t, const Vec& q, const Vec& v) {
+    State s{t, q, v, {}, {}};
+    system_->move_to(t, q, v);
+    system_->accelerate({}, s.a, s.lambda);
+    return s;
+  }
+
+ private:
+  Problem problem_;
+  std::unique_ptr<System> system_;
+};
+
+// q_i'' = -omega_i^2 q_i - 2 mu q_i', from q = 1, v = 0.
+inline Problem oscillators(std::vector<double> frequencies, double mu = 0) {
+  const Vec omega = Eigen::Map<Vec>(frequencies.data(), Eigen::Index(frequencies.size()));
+  Problem p;
+  p.name = "oscillators";
+  p.M = Mat::Identity(omega.size(), omega.size());
+  p.force = [=](double, const Vec& q, const Vec& v) -> Vec {
+    return -(omega.array().square() * q.array()).matrix() - 2 * mu * v;
+  };
+  p.tangent = [=](const Blend& c, const Vec&, const Vec&) -> Mat {
+    return (c.c_k * omega.array().square() + c.c_d * 2 * mu).matrix().asDiagonal();
+  };
+  p.exact = [=](double t, Vec& q, Vec& v) {
+    q = Vec::Ones(omega.size()), v = Vec::Zero(omega.size());
+    for (Eigen::Index i = 0; i < omega.size() && t != 0; ++i) {  // w = 0 without a frequency: the start only
+      const double w = std::sqrt(omega[i] * omega[i] - mu * mu), e = std::exp(-mu * t);
+      q[i] = e * (std::cos(w * t) + mu / w * std::sin(w * t));
+      v[i] = -e * (w + mu * mu / w) * std::sin(w * t);
+    }
+  };
+  return p;
+}
+
+// The pendulum with a rod whose pivot swings: g = ((x - p)^2 + y^2 - 1)/2, p = wind sin 3t. The start only.
+inline Problem pendulum_in_wind(double wind = 0.2) {
+  Problem p = problems::pendulum_with_rod();
+  p.closed_form = false;
+  p.rows = [wind](double t, const Vec& q, const Vec& v) -> Problem::Rows {
+    const double x = wind * std::sin(3 * t), x_t = 3 * wind * std::cos(3 * t), x_tt = -9 * x;
+    const Eigen::Vector2d d(q[0] - x, q[1]), u(v[0] - x_t, v[1]);
+    return {Vec::Constant(1, (d.squaredNorm() - 1) / 2), Vec::Constant(1, -d[0] * x_t),
+            Vec::Constant(1, -u.squaredNorm() + d[0] * x_tt), d.transpose()};
+  };
+  p.exact = [wind, still = p.exact](double, Vec& q, Vec& v) {
+    still(0, q, v);
+    v[0] += 3 * wind;
+  };
+  return p;
+}
+
+// The pendulum with its rod taken off.
+inline Problem flight() {
+  Problem p = problems::pendulum_with_rod();
+  p.rows = {};
+  return p;
+}
+
+// One coordinate of unit mass under a force, from q = start at rest. The start only.
+inline Problem particle(std::function<Vec(double, const Vec&, const Vec&)> force, double start = 0) {
+  Problem p;
+  p.name = "particle";
+  p.closed_form = false;
+  p.M = Mat::Ones(1, 1);
+  p.force = std::move(force);
+  p.exact = [start](double, Vec& q, Vec& v) { q = Vec::Constant(1, start), v = Vec::Zero(1); };
+  return p;
+}
+
+// Nothing moves: nv = 0.
+inline Problem nothing() {
+  Problem p;
+  p.name = "nothing";
+  p.M = Mat(0, 0);
+  p.force = [](double, const Vec&, const Vec&) { return Vec(0); };
+  p.exact = [](double, Vec& q, Vec& v) { q = v = Vec(0); };
+  return p;
+}
+
+}  // namespace trammel::test

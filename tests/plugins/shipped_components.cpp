@@ -1,0 +1,141 @@
+// Every component that Trammel ships goes through the checks that authors of others use, in every form that differs.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include <trammel/testing_suites.hpp>
+
+#include "made.hpp"
+
+namespace trammel::test {
+namespace {
+
+const std::string folder = TRAMMEL_BUILD_DIR "/lib/trammel";
+
+struct Shipped {
+  std::string name, form, entry;  // name: as in a scene
+  Space space = Space::planar;
+};
+World world_of(const Shipped& s) {
+  return s.space == Space::planar ? planar() : spatial();
+}
+std::string suite(const std::string& kind, const Shipped& s) {
+  return kind + "_" + s.name + (s.form.empty() ? "" : "_" + s.form);
+}
+
+const char* const plain_beam = R"({"type": "assumed_mode_beam", "length": 1, "area": 3.14e-4, "second_moment": 7.85e-9,
+  "density": 2766.7, "youngs_modulus": 6.8952e10, "modes": {"axial": 3, "transverse": 3}, "angle": 0.7,
+  "markers": {"middle": 0.4}, )";
+std::string beam(const std::string& more) {
+  return plain_beam + more + "}";
+}
+const std::string hinge = R"("mount": {"hinge": [0.3, -0.1]}, "hub_radius": 0.2, "hub_inertia": 0.05)";
+
+const std::vector<Shipped>& bodies() {
+  static const std::vector<Shipped> all = {
+      {"rigid_body", "",
+       R"({"type": "rigid_body", "mass": 2, "inertia": 0.3, "angle": 0.4, "markers": {"tip": [0.6, 0.1]}})"},
+      {"point_mass", "planar", R"({"type": "point_mass", "mass": 2.5})"},
+      {"point_mass", "spatial", R"({"type": "point_mass", "mass": 2.5})", Space::spatial},
+      {"assumed_mode_beam", "hinged", beam(hinge)},
+      {"assumed_mode_beam", "driven", beam(hinge + R"x(, "torque": "=3*sin(5*t)")x")},
+      {"assumed_mode_beam", "clamped", beam(R"("mount": {"clamped": [0, 0]})")},
+      {"assumed_mode_beam", "free", beam(R"("mount": {"free": [0.5, 1]})")},
+      {"assumed_mode_beam", "linear", beam(hinge + R"(, "coupling": "linear")")},
+      {"assumed_mode_beam", "uncoupled", beam(hinge + R"(, "coupling": "none")")},
+      {"assumed_mode_beam", "uncoupled_clamped", beam(R"("mount": {"clamped": [0, 0]}, "coupling": "none")")},
+  };
+  return all;
+}
+// Amplitudes of some per cent of the beam's length, where every term counts.
+BodyStates states_of(const Shipped& s) {
+  return s.name == "assumed_mode_beam" ? BodyStates{.q = 0.02, .v = 2} : BodyStates{.q = 1, .v = 3};
+}
+
+const std::vector<Shipped>& joints() {
+  static const std::vector<Shipped> all = {
+      {"revolute", "", R"({"type": "revolute"})"},
+      {"prismatic", "", R"({"type": "prismatic", "axis": [2, 1], "angle": 0.3})"},
+      {"prismatic", "driven", R"({"type": "prismatic", "axis": [0, 1], "angle": "=sin(3*t)*0.4"})"},
+      {"fixed", "", R"({"type": "fixed", "angle": -0.2})"},
+      {"fixed", "driven", R"({"type": "fixed", "angle": "=(1+t)^2-3*t"})"},
+      {"distance", "", R"({"type": "distance", "length": 1.3})"},
+      {"distance", "driven", R"({"type": "distance", "length": "=sin(2*t)*0.4+1.3"})"},
+      {"distance", "spatial", R"({"type": "distance", "length": 1.3})", Space::spatial},
+      {"distance", "spatial_driven", R"({"type": "distance", "length": "=sin(2*t)*0.4+1.3"})", Space::spatial},
+  };
+  return all;
+}
+
+const std::vector<Shipped>& forces() {
+  static const std::vector<Shipped> all = {
+      {"spring_damper", "", R"({"type": "spring_damper", "stiffness": 40, "damping": 3, "length": 0.7})"},
+      {"spring_damper", "spring", R"({"type": "spring_damper", "stiffness": 40, "length": 0.7})"},
+      {"spring_damper", "damper", R"({"type": "spring_damper", "damping": 3})"},
+      {"spring_damper", "spatial", R"({"type": "spring_damper", "stiffness": 40, "damping": 3, "length": 0.7})",
+       Space::spatial},
+      {"torsional_spring", "", R"({"type": "torsional_spring", "stiffness": 12, "damping": 0.8, "angle": 0.4})"},
+      {"load", "", R"({"type": "load", "force": {"x": "=3*t", "y": -2}, "moment": "=cos(t)*1"})"},
+      {"load", "follower", R"({"type": "load", "force": {"x": 5, "y": "=sin(t)*1"}, "frame": "body"})"},
+      {"load", "spatial", R"({"type": "load", "force": {"x": 1, "z": "=-4*t"}})", Space::spatial},
+  };
+  return all;
+}
+
+std::string compliant(const std::string& damping, double e) {
+  return R"({"type": "continuous_force", "stiffness": 1e8, "damping": ")" + damping + R"(", "restitution": )" +
+         std::to_string(e) + "}";
+}
+const std::vector<Shipped>& compliant_contacts() {
+  static const std::vector<Shipped> all = {
+      {"continuous_force", "none", compliant("none", 0.3)},
+      {"continuous_force", "hunt_crossley", compliant("hunt_crossley", 0.3)},
+      {"continuous_force", "lankarani_nikravesh", compliant("lankarani_nikravesh", 0.3)},
+      {"continuous_force", "paper", compliant("paper", 0.3)},
+      {"continuous_force", "flores", compliant("flores", 0.3)},
+      {"continuous_force", "flores_nearly_plastic", compliant("flores", 0.05)},
+  };
+  return all;
+}
+const std::vector<Shipped>& set_valued_contacts() {
+  static const std::vector<Shipped> all = {
+      {"constraint_method", "", R"({"type": "constraint_method", "restitution": 0.3})"},
+      {"constraint_method", "elastic", R"({"type": "constraint_method", "restitution": 1, "capture_speed": 1e-3})"},
+  };
+  return all;
+}
+
+bool register_all() {
+  for (const Shipped& s : bodies())
+    register_suite(suite("Body", s), body_checks(from_entry<Body>(folder, s.entry, world_of(s)), states_of(s)));
+  for (const Shipped& s : joints())
+    register_suite(suite("Joint", s), joint_checks(from_entry<Joint>(folder, s.entry, world_of(s)), s.space));
+  for (const Shipped& s : forces())
+    register_suite(suite("Force", s), force_checks(from_entry<Force>(folder, s.entry, world_of(s)), s.space,
+                                                   s.name == "load" ? Reaction::outside : Reaction::on_A));
+  for (const Shipped& s : compliant_contacts())
+    register_suite(suite("Contact", s), contact_force_checks(from_entry<ContactForce>(folder, s.entry)));
+  for (const Shipped& s : set_valued_contacts())
+    register_suite(suite("Contact", s), restitution_checks(from_entry<Restitution>(folder, s.entry)));
+  return true;
+}
+const bool registered = register_all();
+
+TEST(ShippedComponents, AreAllChecked) {
+  std::set<std::pair<Kind, std::string>> checked;
+  for (const Shipped& s : bodies()) checked.insert({Kind::body, s.name});
+  for (const Shipped& s : joints()) checked.insert({Kind::joint, s.name});
+  for (const Shipped& s : forces()) checked.insert({Kind::force, s.name});
+  for (const Shipped& s : compliant_contacts()) checked.insert({Kind::contact, s.name});
+  for (const Shipped& s : set_valued_contacts()) checked.insert({Kind::contact, s.name});
+  for (const plugin::Entry* entry : registry().all()) {
+    const Kind kind = entry->declaration.kind;
+    if (kind != Kind::body && kind != Kind::joint && kind != Kind::force && kind != Kind::contact) continue;
+    EXPECT_TRUE(checked.contains({kind, entry->declaration.name}))
+        << to_string(kind) << " " << entry->declaration.name << " has no line in " << __FILE__;
+  }
+}
+
+}  // namespace
+}  // namespace trammel::test
