@@ -33,7 +33,7 @@ struct Order {
 };
 Order fit_order(int n, int runs, const std::function<double(int n)>& error);
 
-// The same for a problem's closed form; errors are root mean squares over all steps of a run.
+// The same for a problem's closed form; errors of q and v are root mean squares over all steps of a run.
 struct Fit {
   double order_q = 0, order_v = 0, order_lambda = 0;  // lambda: NaN without rows
   std::string table;
