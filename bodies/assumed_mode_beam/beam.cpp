@@ -138,6 +138,16 @@ void AssumedModeBeam::force(double t, In q, In v, Out f) const {
   if (i_theta_ >= 0) f(i_theta_) += torque(t);
 }
 
+void AssumedModeBeam::mass_and_force(double t, In q, In v, Matrix& M, Out f) const {
+  if (coupling == Coupling::none) {
+    add_uncoupled_mass(1, M);
+    add_uncoupled_force(q, f);
+  } else {
+    add_coupled_mass_and_force(q, v, M, f);
+  }
+  if (i_theta_ >= 0) f(i_theta_) += torque(t);
+}
+
 void AssumedModeBeam::add_tangent(double, In q, In v, In a, Blend c, Matrix& S) const {
   if (coupling == Coupling::none)
     add_uncoupled_tangent(q, c, S);

@@ -33,6 +33,7 @@ namespace trammel::beam {
 enum class Coupling { none, linear, full };
 
 class AssumedModeBeam final : public Body,
+                              public MassAndForce,
                               public ExactTangent,
                               public ReactionDerivative,
                               public Observed,
@@ -58,6 +59,7 @@ class AssumedModeBeam final : public Body,
   void mass(double t, In q, Matrix& M) const override;
   bool mass_is_constant() const override { return coupling == Coupling::none; }
   void force(double t, In q, In v, Out f) const override;
+  void mass_and_force(double t, In q, In v, Matrix& M, Out f) const override;
   Energy energy(double t, In q, In v) const override;
   Power power(double t, In q, In v) const override;
   std::span<const std::string> markers() const override { return marker_names_; }
@@ -104,6 +106,7 @@ class AssumedModeBeam final : public Body,
   void add_force(const Sizes& s, In q, In v, const Deformation& at, Out f) const;
   void add_coupled_mass(In q, Matrix& M) const;
   void add_coupled_force(In q, In v, Out f) const;
+  void add_coupled_mass_and_force(In q, In v, Matrix& M, Out f) const;
   double coupled_kinetic_energy(In q, In v, const Deformation& at) const;
   // ... their tangent ...
   struct TangentPoint;

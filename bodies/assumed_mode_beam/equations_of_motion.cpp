@@ -170,4 +170,13 @@ void AssumedModeBeam::add_coupled_force(In q, In v, Out f) const {
   });
 }
 
+void AssumedModeBeam::add_coupled_mass_and_force(In q, In v, Matrix& M, Out f) const {
+  with_known(sizes(), [&](const auto& s) {
+    Deformation at;
+    deform(s, q, at);
+    add_mass(s, q, at, M);
+    add_force(s, q, v, at, f);
+  });
+}
+
 }  // namespace trammel::beam

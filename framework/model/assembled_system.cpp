@@ -37,7 +37,7 @@ void AssembledSystem::set_modes(const Modes& modes) {
   for (std::size_t i = 0; i < modes.contacts.size(); ++i)
     w.contact_row[i] = modes.contacts[i].closed && w.model->contacts[i].restitution ? row++ : -1;
   w.sizes.nc = row;
-  w.rows_fresh = w.force_fresh = false;
+  w.rows_fresh = w.bodies_fresh = w.force_fresh = false;
 }
 
 void AssembledSystem::lay_out() {

@@ -22,31 +22,41 @@ void AssembledSystem::Work::move_to(double t_new, const Vec& q_new, const Vec& v
   ++point;
   chain.new_point();
   mass_fresh = mass_fresh && model->constant_mass;
-  force_fresh = rows_fresh = false;
+  bodies_fresh = force_fresh = rows_fresh = false;
+}
+
+// M, unless it is constant and there already, and what the bodies add to f. Whoever asks for one needs the other soon.
+void AssembledSystem::Work::evaluate_bodies() {
+  ++counts.residual_evaluations;
+  if (!mass_fresh) M.setZero(sizes.nv, sizes.nv);
+  f.setZero(sizes.nv);
+  Matrix target = Matrix::onto(M);
+  for (const BodyEntry& entry : model->bodies) {
+    const auto q_body = q.segment(entry.q0, entry.nq);
+    const auto v_body = v.segment(entry.v0, entry.nv);
+    target.origin(entry.v0, entry.v0);
+    if (!mass_fresh && entry.mass_and_force) {
+      called(entry.name, "mass_and_force");
+      entry.mass_and_force->mass_and_force(t, q_body, v_body, target, f.segment(entry.v0, entry.nv));
+      continue;
+    }
+    called(entry.name, "mass");
+    if (!mass_fresh) entry.body->mass(t, q_body, target);
+    called(entry.name, "force");
+    entry.body->force(t, q_body, v_body, f.segment(entry.v0, entry.nv));
+  }
+  returned();
+  mass_fresh = bodies_fresh = true;
 }
 
 const Mat& AssembledSystem::Work::mass() {
-  if (mass_fresh) return M;
-  M.setZero(sizes.nv, sizes.nv);
-  Matrix target = Matrix::onto(M);
-  for (const BodyEntry& entry : model->bodies) {
-    called(entry.name, "mass");
-    target.origin(entry.v0, entry.v0);
-    entry.body->mass(t, q.segment(entry.q0, entry.nq), target);
-  }
-  returned();
-  mass_fresh = true;
+  if (!mass_fresh) evaluate_bodies();
   return M;
 }
 
 const Vec& AssembledSystem::Work::force() {
   if (force_fresh) return f;
-  ++counts.residual_evaluations;
-  f.setZero(sizes.nv);
-  for (const BodyEntry& entry : model->bodies) {
-    called(entry.name, "force");
-    entry.body->force(t, q.segment(entry.q0, entry.nq), v.segment(entry.v0, entry.nv), f.segment(entry.v0, entry.nv));
-  }
+  if (!bodies_fresh) evaluate_bodies();
   const int twist = twist_size(model->world.space);
   for (std::size_t i = 0; i < force_slots.size(); ++i) {
     const auto [A, B] = force_slots[i];

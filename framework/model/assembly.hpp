@@ -33,6 +33,7 @@ struct AssembledSystem::Work {
   void move_to(double t_new, const Vec& q_new, const Vec& v_new);
   const Motion& motion(int slot) { return chain.motion(slot, t, q, v); }
 
+  void evaluate_bodies();
   const Mat& mass();
   const Vec& force();
   void evaluate_rows();  // g, g_dot, gamma, G
@@ -53,7 +54,8 @@ struct AssembledSystem::Work {
   double t = 0;
   Vec q, v;
   long long point = 0;
-  bool mass_fresh = false, force_fresh = false, rows_fresh = false;
+  bool mass_fresh = false, rows_fresh = false;
+  bool bodies_fresh = false, force_fresh = false;  // f holds what the bodies add; all of it
 
   Mat M, G;
   Vec f, g, g_dot, gamma;

@@ -16,6 +16,7 @@ void Model::lay_out() {
     for (const Coordinates::Part& part : entry.parts) flat = flat && part.kind == Coordinates::Kind::flat;
     constant_mass = constant_mass && entry.body->mass_is_constant();
     Body* body = entry.body.get();
+    entry.mass_and_force = dynamic_cast<const MassAndForce*>(body);
     entry.tangent = dynamic_cast<const ExactTangent*>(body);
     entry.reaction_derivative = dynamic_cast<const ReactionDerivative*>(body);
     entry.observed = dynamic_cast<const Observed*>(body);

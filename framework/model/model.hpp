@@ -27,6 +27,7 @@ struct BodyEntry {
   int q0 = 0, v0 = 0, nq = 0, nv = 0;
   std::vector<Coordinates::Part> parts;
   // Abilities, looked up once.
+  const MassAndForce* mass_and_force = nullptr;
   const ExactTangent* tangent = nullptr;
   const ReactionDerivative* reaction_derivative = nullptr;
   const Observed* observed = nullptr;

@@ -25,6 +25,7 @@ Resizable::~Resizable() = default;
 Transfer::~Transfer() = default;
 
 // Abilities of bodies.
+MassAndForce::~MassAndForce() = default;
 ExactTangent::~ExactTangent() = default;
 ReactionDerivative::~ReactionDerivative() = default;
 Observed::~Observed() = default;

@@ -60,6 +60,13 @@ class Body : public Component {
 
 // Abilities. A missing one is replaced by differences within this one body, so the cost stays local.
 
+// mass and force of one point together, for a body where both begin with the same work.
+class MassAndForce {
+ public:
+  virtual ~MassAndForce();
+  virtual void mass_and_force(double t, In q, In v, Matrix& M, Out f) const = 0;
+};
+
 // Exact derivatives: S += c_m M + c_d D + c_k K with D = -df/dv, K = d(M a - f)/dq (increments in the tangent space).
 class ExactTangent {
  public:
