@@ -87,7 +87,8 @@ std::string wrapped(std::string_view text, const std::string& indent) {
       lines += indent + line + "\n";
       line.clear();
     }
-    line += (line.empty() ? "" : " ") + std::string(word);
+    if (!line.empty()) line += ' ';
+    line += word;
   }
   return line.empty() ? lines : lines + indent + line + "\n";
 }
