@@ -82,10 +82,9 @@ void IterationKkt::factorise(const Mat& W, const Mat& G) {
   lu_.compute(full_);
   // Redundant rows leave a pivot at round-off of the largest one in a column; unlike scales of S and G do not, because
   // a pivot is compared with its own column.
-  const Mat& factors = lu_.matrixLU();
-  for (Eigen::Index j = 0; j < factors.cols(); ++j) {
+  for (Eigen::Index j = 0; j < full_.cols(); ++j) {
     const double scale = full_.col(j).cwiseAbs().maxCoeff();
-    if (!(std::abs(factors(j, j)) > 8 * eps * scale)) singular_ = true;
+    if (!(std::abs(lu_.pivot(j)) > 8 * eps * scale)) singular_ = true;
   }
   finite_ = !singular_ || full_.allFinite();
   if (singular_ && finite_) {
@@ -103,7 +102,7 @@ bool IterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   if (right_.size() == 0) {
     solution_.resize(0);
   } else if (!singular_) {
-    solution_ = lu_.solve(right_);
+    lu_.solve(right_, solution_);
   } else {
     solution_ = cod_.solve(right_);
     // A least-squares answer that leaves a residual is no solution; unless it is the round-off in which redundant rows

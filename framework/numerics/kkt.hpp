@@ -12,10 +12,11 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include <trammel/types.hpp>
+
+#include "numerics/lu.hpp"
 
 namespace trammel::numerics {
 
@@ -48,7 +49,7 @@ class IterationKkt {
 
  private:
   Mat full_;
-  Eigen::PartialPivLU<Mat> lu_;
+  Lu lu_;
   Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
   Vec right_, solution_;
   Eigen::Index nv_ = 0;
