@@ -45,6 +45,9 @@ const std::vector<Shipped>& bodies() {
       {"assumed_mode_beam", "linear", beam(hinge + R"(, "coupling": "linear")")},
       {"assumed_mode_beam", "uncoupled", beam(hinge + R"(, "coupling": "none")")},
       {"assumed_mode_beam", "uncoupled_clamped", beam(R"("mount": {"clamped": [0, 0]}, "coupling": "none")")},
+      // Large, so that random displacements of a metre stay smooth.
+      {"tspline_plate", "", R"({"type": "tspline_plate", "thickness": 3, "density": 0.01, "youngs_modulus": 10,
+        "geometry": {"along_u": [30, 0, 0], "along_v": [0, 30, 0]}, "mesh": {"elements": "1x1"}})", Space::spatial},
   };
   return all;
 }

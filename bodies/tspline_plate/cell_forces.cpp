@@ -1,0 +1,113 @@
+#include "cell_forces.hpp"
+
+#include <algorithm>
+
+#include "packs.hpp"
+#include "viscous_point.hpp"
+
+namespace trammel::plate {
+
+void gather(const Cell& cell, In of_q, CellVectors& u) {
+  std::fill_n(u, 3 * cell.padded, 0.0);
+  for (const Cell::Local& t : cell.terms)
+    u[t.component % 3 * cell.padded + t.component / 3] += t.factor * of_q(cell.dofs[std::size_t(t.dof)]);
+}
+
+void scatter(const Cell& cell, const CellVectors& f, double factor, Out of_q) {
+  for (const Cell::Local& t : cell.terms)
+    of_q(cell.dofs[std::size_t(t.dof)]) += factor * t.factor * f[t.component % 3 * cell.padded + t.component / 3];
+}
+
+void add_elastic(const Cell& cell, const CellVectors& u, const CellVectors* v, double tau, CellVectors* f,
+                 CellEnergy* energy) {
+  const int n = cell.padded;
+  DeformedPoint at;
+  Vectors5 d, rate, g;
+  for (std::size_t p = 0; p < cell.points.size(); ++p) {
+    const ReferencePoint& reference = cell.points[p];
+    const double* shape = &cell.shape[p * 5 * std::size_t(n)];
+    const double dA = cell.weight[p];
+    interpolate(n, shape, u, d.data());
+    deform(reference, d, at);
+    Strain N = reference.membrane * at.eps, M = reference.bending * at.kappa;
+    if (energy) {
+      energy->membrane += 0.5 * dA * N.dot(at.eps);
+      energy->bending += 0.5 * dA * M.dot(at.kappa);
+    }
+    if (v && tau > 0) {
+      interpolate(n, shape, *v, rate.data());
+      const StrainRate s = strain_rate(at, rate);
+      const Strain N_rate = tau * (reference.membrane * s.eps), M_rate = tau * (reference.bending * s.kappa);
+      if (energy) energy->dissipated += dA * (N_rate.dot(s.eps) + M_rate.dot(s.kappa));
+      N += N_rate, M += M_rate;
+    }
+    if (!f) continue;
+    g.setZero();
+    add_gradient(at, N, M, g);
+    g *= dA;
+    distribute(n, shape, g.data(), *f);
+  }
+}
+
+namespace {
+
+constexpr int most_points = 36;
+constexpr int most_planes = 9;  // xx yy zz xy xz yz, and yx zx zy where damping makes the tangent unsymmetric
+constexpr int plane_of[3][3] = {{0, 3, 4}, {6, 1, 5}, {7, 8, 2}};
+constexpr int mirrored[3] = {3, 4, 5};  // of the planes 6, 7, 8
+
+}  // namespace
+
+void cell_tangent(const Cell& cell, const CellVectors& u, const CellVectors* v, double tau, Blend c,
+                  double mass_damping, double* block) {
+  const int n = cell.padded, size = 3 * cell.functions;
+  const bool viscous = v && tau > 0;
+  const int planes = viscous ? 9 : 6;
+  alignas(64) double K[most_planes][most_functions * most_functions];
+  if (c.c_k != 0 || (viscous && c.c_d != 0)) {
+    alignas(64) double G[most_planes][5 * most_points * most_functions];
+    DeformedPoint at;
+    Vectors5 d, rate;
+    for (std::size_t p = 0; p < cell.points.size(); ++p) {
+      const ReferencePoint& reference = cell.points[p];
+      const double* shape = &cell.shape[p * 5 * std::size_t(n)];
+      interpolate(n, shape, u, d.data());
+      deform(reference, d, at);
+      Strain N = reference.membrane * at.eps, M = reference.bending * at.kappa;
+      double H[most_planes][25] = {};
+      if (!viscous) {
+        add_hessian(reference, at, N, M, c.c_k * cell.weight[p], reinterpret_cast<Planes&>(H));
+      } else {
+        interpolate(n, shape, *v, rate.data());
+        const StrainRate s = strain_rate(at, rate);
+        N += tau * (reference.membrane * s.eps), M += tau * (reference.bending * s.kappa);
+        add_hessian(reference, at, N, M, c.c_k * cell.weight[p], reinterpret_cast<Planes&>(H));
+        for (int plane = 6; plane < 9; ++plane)
+          for (int a = 0; a < 5; ++a)
+            for (int b = 0; b < 5; ++b) H[plane][5 * a + b] = H[mirrored[plane - 6]][5 * b + a];
+        add_viscous(reference, at, rate, tau * cell.weight[p], c.c_d, c.c_k, H);
+      }
+      for (int plane = 0; plane < planes; ++plane) apply_hessian(n, H[plane], shape, &G[plane][5 * p * std::size_t(n)]);
+    }
+    for (int plane = 0; plane < planes; ++plane)
+      product(5 * int(cell.points.size()), n, cell.shape.data(), G[plane], K[plane]);
+  } else {
+    for (auto& plane : K) std::fill_n(plane, n * n, 0.0);
+  }
+
+  const double c_mass = c.c_m + c.c_d * mass_damping;
+  for (int J = 0; J < cell.functions; ++J)
+    for (int j = 0; j < 3; ++j) {
+      double* column = block + (3 * J + j) * size;
+      for (int i = 0; i < 3; ++i) {
+        const bool transposed = !viscous && i > j;
+        const double* plane = K[transposed ? plane_of[j][i] : plane_of[i][j]];
+        const int of_I = transposed ? 1 : n, of_J = transposed ? n : 1;
+        for (int I = 0; I < cell.functions; ++I) column[3 * I + i] = plane[I * of_I + J * of_J];
+      }
+      const double* mass = &cell.mass[std::size_t(J * n)];
+      for (int I = 0; I < cell.functions; ++I) column[3 * I + j] += c_mass * mass[I];
+    }
+}
+
+}  // namespace trammel::plate

@@ -1,0 +1,168 @@
+#include "edge.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace trammel::plate {
+
+EdgeRows rows(const TsplineBasis& basis, const Edge& edge) {
+  const auto d = std::size_t(edge.direction);
+  const int last = basis.mesh().edges().lines(edge.direction) - 1;
+  const int edge_line = edge.high ? last - 2 : 2, second_line = edge.high ? last - 3 : 3;
+  EdgeRows result;
+  for (int i = 0; i < basis.size(); ++i) {
+    const int line = basis.anchors()[std::size_t(i)].at[d];
+    if (line == edge_line) result.edge.push_back(i);
+    if (line == second_line) result.second.push_back(i);
+  }
+  return result;
+}
+
+Eigen::Vector2d on_edge(const TsplineBasis& basis, const Edge& edge, double along) {
+  const auto& knots = basis.mesh().knots(edge.direction);
+  const double across = edge.high ? knots.back() : knots.front();
+  return edge.direction == 0 ? Eigen::Vector2d(across, along) : Eigen::Vector2d(along, across);
+}
+
+std::vector<int> axes_in(const std::string& text) {
+  std::vector<int> result;
+  for (char c : text) {
+    if (c < 'x' || c > 'z') return {};
+    if (std::find(result.begin(), result.end(), c - 'x') != result.end()) return {};
+    result.push_back(c - 'x');
+  }
+  return result;
+}
+
+namespace {
+
+struct Tangents {
+  Eigen::Vector3d u, v;
+};
+
+Tangents tangents(const TsplineBasis& basis, const Points& points, const Eigen::Vector2d& at) {
+  ShapeValues shape;
+  const int cell = basis.cell_at(at.x(), at.y());
+  basis.evaluate(cell, at.x(), at.y(), shape);
+  Tangents t{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  const auto& functions = basis.cells()[std::size_t(cell)].functions;
+  for (std::size_t f = 0; f < functions.size(); ++f) {
+    t.u += shape.R_u(Eigen::Index(f)) * points.row(functions[f]).transpose();
+    t.v += shape.R_v(Eigen::Index(f)) * points.row(functions[f]).transpose();
+  }
+  return t;
+}
+
+// Greville abscissa along the edge: the middle of the control point's influence.
+double abscissa(const TsplineBasis& basis, const Edge& edge, int anchor) {
+  const LocalKnots& k = basis.anchors()[std::size_t(anchor)].knots[std::size_t(1 - edge.direction)];
+  return (k[1] + k[2] + k[3]) / 3;
+}
+
+std::vector<Term> along(int anchor, const Eigen::Vector3d& direction) {
+  std::vector<Term> condition;
+  for (int c = 0; c < 3; ++c) condition.push_back({3 * anchor + c, direction(c)});
+  return condition;
+}
+
+// Directions that are an axis up to round-off become one, so that holding them deletes a coordinate.
+Eigen::Vector3d snapped(Eigen::Vector3d direction) {
+  for (int c = 0; c < 3; ++c)
+    if (std::abs(direction(c)) < 1e-12) direction(c) = 0;
+  return direction.normalized();
+}
+
+// In the surface, across the edge: the normal of the plane of symmetry.
+Eigen::Vector3d across_edge(const TsplineBasis& basis, const Points& points, const Edge& edge, int anchor) {
+  const Tangents t = tangents(basis, points, on_edge(basis, edge, abscissa(basis, edge, anchor)));
+  const Eigen::Vector3d run = (edge.direction == 0 ? t.v : t.u).normalized();
+  const Eigen::Vector3d across = edge.direction == 0 ? t.u : t.v;
+  return snapped((across - across.dot(run) * run).normalized());
+}
+
+void clamp_slope(const TsplineBasis& basis, const Points& points, const Edge& edge, const EdgeRows& r, Elimination& e) {
+  for (int i : r.second) {
+    const Tangents t = tangents(basis, points, on_edge(basis, edge, abscissa(basis, edge, i)));
+    e.hold(along(i, snapped(t.u.cross(t.v).normalized())));
+  }
+}
+
+void mirror(const TsplineBasis& basis, const Points& points, const Edge& edge, const EdgeRows& r, Elimination& e) {
+  const Eigen::Vector3d normal = across_edge(basis, points, edge, r.edge.front());
+  for (int i : r.edge) {
+    if (across_edge(basis, points, edge, i).cross(normal).norm() > 1e-9)
+      throw std::invalid_argument(
+          "symmetric: the edge does not lie in one plane that the surface meets at right angles");
+    e.hold(along(i, normal));
+  }
+  const Eigen::Vector3d first = snapped(normal.unitOrthogonal()), second = snapped(normal.cross(first));
+  for (std::size_t k = 0; k < r.edge.size(); ++k)
+    for (const Eigen::Vector3d& direction : {first, second}) {
+      auto tie = along(r.second[k], direction);
+      for (const Term& t : along(r.edge[k], -direction)) tie.push_back(t);
+      e.hold(std::move(tie));
+    }
+}
+
+}  // namespace
+
+void hold_edge(const TsplineBasis& basis, const Points& points, const Edge& edge, const std::string& condition,
+               Elimination& e) {
+  if (condition == "free") return;
+  const EdgeRows r = rows(basis, edge);
+  if (condition == "symmetric") {
+    mirror(basis, points, edge, r, e);
+    return;
+  }
+  const bool all = condition == "hinged" || condition == "clamped";
+  const std::vector<int> axes = all ? std::vector<int>{0, 1, 2} : axes_in(condition);
+  if (axes.empty())
+    throw std::invalid_argument(
+        fmt::format("found \"{}\", expected free, hinged, clamped, symmetric or held axes such as "
+                    "\"z\" or \"xz\"",
+                    condition));
+  for (int i : r.edge)
+    for (int axis : axes) e.hold(3 * i + axis);
+  if (condition == "clamped") clamp_slope(basis, points, edge, r, e);
+}
+
+namespace {
+
+// w_s / (tau w_e): how the slope at the edge grows with the distance of the second row.
+double slope_factor(const TsplineBasis& basis, const Edge& edge, int edge_anchor, int second_anchor) {
+  const LocalKnots& k = basis.anchors()[std::size_t(edge_anchor)].knots[std::size_t(edge.direction)];
+  return basis.weights()(second_anchor) / (k[4] - k[0]) / basis.weights()(edge_anchor);
+}
+
+}  // namespace
+
+void join_ends(const TsplineBasis& basis, const Points& points, int direction, Elimination& e) {
+  const Edge low{direction, false}, high{direction, true};
+  const EdgeRows a = rows(basis, low), b = rows(basis, high);
+  const auto across = std::size_t(1 - direction);
+  const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+  bool match = a.edge.size() == b.edge.size();
+  for (std::size_t k = 0; match && k < a.edge.size(); ++k)
+    match =
+        basis.anchors()[std::size_t(a.edge[k])].knots[across] == basis.anchors()[std::size_t(b.edge[k])].knots[across];
+  if (!match) throw std::invalid_argument("the two edges are divided differently; refine both sides alike");
+  for (std::size_t k = 0; k < a.edge.size(); ++k) {
+    const double fa = slope_factor(basis, low, a.edge[k], a.second[k]),
+                 fb = slope_factor(basis, high, b.edge[k], b.second[k]);
+    const Eigen::RowVector3d edge_point = points.row(a.edge[k]);
+    if ((edge_point - points.row(b.edge[k])).norm() > 1e-9 * size)
+      throw std::invalid_argument("the two edges do not lie on each other");
+    const Eigen::RowVector3d kink =
+        fa * (points.row(a.second[k]) - edge_point) - fb * (edge_point - points.row(b.second[k]));
+    if (kink.norm() > 1e-9 * size * (fa + fb))
+      throw std::invalid_argument("the surface has a kink there; C1 is needed");
+    for (int axis = 0; axis < 3; ++axis) {
+      e.hold({{3 * b.edge[k] + axis, 1}, {3 * a.edge[k] + axis, -1}});
+      e.hold({{3 * a.edge[k] + axis, fa + fb}, {3 * a.second[k] + axis, -fa}, {3 * b.second[k] + axis, -fb}});
+    }
+  }
+}
+
+}  // namespace trammel::plate

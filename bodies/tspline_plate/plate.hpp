@@ -1,0 +1,142 @@
+// A thin plate or shell without rotational coordinates: Kirchhoff-Love on rational bicubic T-splines, St Venant-Kirchhoff
+// material, any displacements. It may replace its mesh by a finer one during the run.
+//
+//     r(u, v, t) = sum R_i (P_i + u_i),   M q'' = -dU/dq - damping + loads,   u = B q
+//     U = 1/2 int (h eps^T C^ eps + h^3/12 kappa^T C^ kappa) dA,    M = rho h int R_i R_j dA (constant)
+//
+// q are displacements of control points, 0 in the reference, less what the edges hold (elimination.hpp).
+// Kiendl, Bletzinger, Linhard, Wuechner, CMAME 198, 2009; Wang, Cui, Yu, Lan, Lu, Chinese Journal of Theoretical and
+// Applied Mechanics 53(8), 2021. The paper's formulas are lost in the copy at hand; these are Kiendl's.
+#pragma once
+
+#include <optional>
+
+#include <trammel/body.hpp>
+#include <trammel/parameters.hpp>
+
+#include "discretisation.hpp"
+#include "edge.hpp"
+#include "loads.hpp"
+#include "stress.hpp"
+#include "surface_point.hpp"
+#include "t_junction.hpp"
+
+namespace trammel::plate {
+
+class TsplinePlate final : public Body,
+                           public ExactTangent,
+                           public ReactionDerivative,
+                           public Observed,
+                           public Drawn,
+                           public Surface,
+                           public Refinable,
+                           public HasMomentum {
+ public:
+  // Parameters; see the declaration in plugin.cpp.
+  enum class Shape { rectangle, ring, cylinder, sphere, points };
+  Shape shape_kind = Shape::rectangle;
+  Vec3 origin = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ(), start = Eigen::Vector3d::UnitX();
+  std::optional<Vec3> along_u, along_v;
+  std::optional<double> inner_radius, radius, length;
+  double from = 0, to = 1.5707963267948966, south = 0, north = 1.5707963267948966;
+  std::vector<double> control_points, weights;
+
+  std::string elements = "10x10";
+  std::vector<double> knots_u, knots_v, partial_lines, crossed;
+  Closure closure = Closure::both;
+
+  double thickness = 0, density = 0, youngs_modulus = 0, poissons_ratio = 0.3;
+  int quadrature = 3;
+  std::string edge_u0 = "free", edge_u1 = "free", edge_v0 = "free", edge_v1 = "free";
+  std::string corner_u0v0 = "free", corner_u1v0 = "free", corner_u0v1 = "free", corner_u1v1 = "free";
+  std::string held_axes;
+  enum class Joined { none, u, v };
+  Joined joined = Joined::none;
+
+  double mass_damping = 0, stiffness_damping = 0;
+  TimeFunction pressure, load_factor{1.0};
+  TimeFunction moment_u0, moment_u1, moment_v0, moment_v1;
+  Vec3 load = Eigen::Vector3d::Zero();
+  std::optional<Vec3> force_u0, force_u1, force_v0, force_v1;
+  double pressure_u0 = 0, pressure_u1 = 0, pressure_v0 = 0, pressure_v1 = 0;
+  Vec3 velocity = Eigen::Vector3d::Zero(), angular_velocity = Eigen::Vector3d::Zero();
+  Named<Vec3> extra_markers;
+
+  std::string refine_on;
+  std::optional<double> refine_at;
+  std::vector<double> refine_elements;
+
+  void prepare(const World& world) override;
+
+  Coordinates coordinates() const override { return Coordinates::flat(mesh_->coordinates.coordinates()); }
+  void initial(Out q, Out v) const override;
+  void mass(double t, In q, Matrix& M) const override;
+  bool mass_is_constant() const override { return true; }
+  void force(double t, In q, In v, Out f) const override;
+  Energy energy(double t, In q, In v) const override;
+  Power power(double t, In q, In v) const override;
+  std::span<const std::string> markers() const override { return marker_names_; }
+  void motion(int marker, double t, In q, In v, Motion& motion) const override;
+
+  void add_tangent(double t, In q, In v, In a, Blend c, Matrix& S) const override;
+  void add_reaction_derivative(int marker, double t, In q, const Wrench& F, double c, Matrix& S) const override;
+
+  std::span<const std::string> observables() const override { return observable_names_; }
+  double observe(int observable, double t, In q, In v) const override;
+  void shape(double t, In q, Mat& points) const override;
+
+  void nearest(double t, In q, const Vec3& x, Eigen::Vector2d& parameters, Vec3& point, Vec3& normal) const override;
+  void motion_at(const Eigen::Vector2d& parameters, double t, In q, In v, Motion& motion) const override;
+
+  bool due(double t, In q, In v, const RefineCause& cause) const override;
+  std::unique_ptr<Transfer> refine(double t, In q, In v, const RefineCause& cause) override;
+  void archive(Archive& archive) override;
+  Momentum momentum(double t, In q, In v) const override;
+
+  // Crosses these elements, closes the mesh and takes it over; the transfer of q and v comes back.
+  std::unique_ptr<Transfer> refine_elements_in(const std::vector<Box<double>>& boxes);
+  const Discretisation& mesh() const { return *mesh_; }
+  CellEnergy strain_energy(In q) const;
+  StressState stress_at(double u, double v, In q) const;
+
+ private:
+  struct Marker {
+    double u, v, height;
+    SurfacePoint point;
+  };
+
+  // The parameters of edge k in the order of `edges`, and of corner k: u0v0, u1v0, u0v1, u1v1.
+  const std::string& edge_condition(std::size_t k) const {
+    return *std::array{&edge_u0, &edge_u1, &edge_v0, &edge_v1}[k];
+  }
+  const std::string& corner_condition(std::size_t k) const {
+    return *std::array{&corner_u0v0, &corner_u1v0, &corner_u0v1, &corner_u1v1}[k];
+  }
+  const TimeFunction& edge_moment(std::size_t k) const {
+    return *std::array{&moment_u0, &moment_u1, &moment_v0, &moment_v1}[k];
+  }
+  Vector3 edge_load(std::size_t k, const Vector3& outward) const;  // dead, of edge k [N/m]
+  bool has_edge_load(std::size_t k) const;
+
+  void check_parameters(const World& world) const;
+  ControlNet first_net() const;
+  ControlNet net_of_shape() const;
+  TMesh first_mesh() const;
+  void take(ControlNet net);  // builds everything that depends on the mesh
+  void place_markers();
+  void gather_dead_loads();
+  void add_loads(double t, In q, Out f) const;
+  double dead_factor(double t) const { return load_factor(t); }
+  bool damped() const { return mass_damping > 0 || stiffness_damping > 0; }
+
+  Eigen::Vector3d gravity_ = Eigen::Vector3d::Zero();
+  std::unique_ptr<Discretisation> mesh_;
+  Vec weight_force_;                                   // of gravity, on q [N]
+  Vec dead_force_;                                     // of `load`, edge_force, edge_pressure at load_factor 1
+  std::array<std::vector<EdgePoint>, 4> edge_points_;  // of edges with a moment
+  std::vector<std::string> marker_names_, observable_names_;
+  std::vector<Marker> marker_points_;
+  std::vector<std::vector<Box<double>>> refinements_;  // crossed so far, to be repeated when a run resumes
+};
+
+}  // namespace trammel::plate

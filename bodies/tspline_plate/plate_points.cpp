@@ -1,0 +1,144 @@
+// Single points of the plate: markers, nearest point for contact, observables, outline.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "plate.hpp"
+
+namespace trammel::plate {
+
+void TsplinePlate::motion(int marker, double, In q, In v, Motion& motion) const {
+  plate::motion(*mesh_, marker_points_[std::size_t(marker)].point, q, v, motion);
+}
+
+void TsplinePlate::add_reaction_derivative(int marker, double, In q, const Wrench& F, double c, Matrix& S) const {
+  plate::add_reaction_derivative(*mesh_, marker_points_[std::size_t(marker)].point, q, F, c, S);
+}
+
+void TsplinePlate::motion_at(const Eigen::Vector2d& parameters, double, In q, In v, Motion& motion) const {
+  plate::motion(*mesh_, surface_point(*mesh_, parameters.x(), parameters.y()), q, v, motion);
+}
+
+StressState TsplinePlate::stress_at(double u, double v, In q) const {
+  return stress(*mesh_, {thickness, youngs_modulus, poissons_ratio}, surface_point(*mesh_, u, v), q);
+}
+
+double TsplinePlate::observe(int observable, double, In q, In) const {
+  const Section section{thickness, youngs_modulus, poissons_ratio};
+  const auto face = [](const auto& of, int which) { return which == 0 ? of.top : which == 1 ? of.middle : of.bottom; };
+  if (observable < 3) return face(largest_stress(*mesh_, section, q), observable);
+  if (observable == 3) return strain_energy(q).membrane;
+  if (observable == 4) return strain_energy(q).bending;
+  if (observable == 5) return double(mesh_->basis.mesh().elements().size());
+  const auto marker = std::size_t(observable - 6) / 3;
+  return von_mises(face(stress(*mesh_, section, marker_points_[marker].point, q), (observable - 6) % 3));
+}
+
+// A grid drawn in one go: lines v = const to and fro, then lines u = const.
+void TsplinePlate::shape(double, In q, Mat& points) const {
+  constexpr int lines = 9, steps = 16;
+  const auto &u = mesh_->basis.mesh().knots(0), &v = mesh_->basis.mesh().knots(1);
+  points.resize(3, 2 * lines * (steps + 1));
+  Eigen::Index column = 0;
+  for (int direction = 0; direction < 2; ++direction)
+    for (int line = 0; line < lines; ++line)
+      for (int k = 0; k <= steps; ++k) {
+        const double across = double(line) / (lines - 1), along = double(line % 2 == 0 ? k : steps - k) / steps;
+        const double s = direction == 0 ? along : across, t = direction == 0 ? across : along;
+        const SurfacePoint at =
+            surface_point(*mesh_, u.front() + s * (u.back() - u.front()), v.front() + t * (v.back() - v.front()));
+        points.col(column++) = place(*mesh_, at, q).r;
+      }
+}
+
+namespace {
+
+struct Candidate {
+  double distance;
+  Eigen::Vector2d at;
+  bool operator<(const Candidate& other) const { return distance < other.distance; }
+};
+
+// Newton's method for (r - x) . r_u = (r - x) . r_v = 0 within the patch; where the full matrix is not positive the part
+// without curvature, which always leads down. On an edge the parameter across it is held while it would lead outside.
+Candidate descend(const Discretisation& mesh, In q, const Vector3& x, Candidate from) {
+  const auto &ku = mesh.basis.mesh().knots(0), &kv = mesh.basis.mesh().knots(1);
+  const Eigen::Vector2d low(ku.front(), kv.front()), high(ku.back(), kv.back());
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    const SurfacePoint point = surface_point(mesh, from.at.x(), from.at.y());
+    const Place p = place(mesh, point, q);
+    SurfacePoint second = point;
+    second.shape.R = point.shape.R_uv, second.shape.R_u = point.shape.R_uu, second.shape.R_v = point.shape.R_vv;
+    const Place c = place(mesh, second, q);  // r_uv, r_uu, r_vv
+    const Vector3 gap = p.r - x;
+    const Eigen::Vector2d gradient(gap.dot(p.a1), gap.dot(p.a2));
+    Eigen::Matrix2d flat, full;
+    flat << p.a1.dot(p.a1), p.a1.dot(p.a2), p.a1.dot(p.a2), p.a2.dot(p.a2);
+    full << flat(0, 0) + gap.dot(c.a1), flat(0, 1) + gap.dot(c.r), flat(0, 1) + gap.dot(c.r),
+        flat(1, 1) + gap.dot(c.a2);
+    Eigen::Matrix2d matrix = full.determinant() > 0.1 * flat.determinant() && full(0, 0) > 0 ? full : flat;
+    Eigen::Vector2d rhs = -gradient;
+    for (int i = 0; i < 2; ++i)
+      if ((from.at(i) <= low(i) && gradient(i) > 0) || (from.at(i) >= high(i) && gradient(i) < 0)) {
+        matrix(0, 1) = matrix(1, 0) = 0;
+        rhs(i) = 0;
+      }
+    const Eigen::Vector2d step = matrix.inverse() * rhs;
+    Candidate next = from;
+    // At the minimum the distance is flat: round-off must not reject the last, best steps.
+    const double allowed = from.distance + 1e-14 * (from.distance + x.norm());
+    for (double scale = 1; scale > 1e-3; scale /= 2) {
+      next.at = (from.at + scale * step).cwiseMax(low).cwiseMin(high);
+      next.distance = (place(mesh, surface_point(mesh, next.at.x(), next.at.y()), q).r - x).norm();
+      if (next.distance <= allowed) break;
+    }
+    if (next.distance > allowed) return from;
+    const double moved = ((next.at - from.at).array() / (high - low).array()).abs().maxCoeff();
+    from = next;
+    if (moved < 1e-14) return from;
+  }
+  return from;
+}
+
+}  // namespace
+
+// From the middles of the three nearest cells: a folded sheet has several nearby points.
+void TsplinePlate::nearest(double, In q, const Vec3& x, Eigen::Vector2d& parameters, Vec3& point, Vec3& normal) const {
+  const Vector3 target = x;
+  Candidate starts[3];
+  int found = 0;
+  CellVectors u;
+  for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {
+    const Cell& cell = mesh_->cells[c];
+    const auto& [low, high] = mesh_->basis.cells()[c].parameters;
+    gather(cell, q, u);
+    const double* R = &cell.value[cell.points.size() / 2 * std::size_t(cell.padded)];  // a point in the middle
+    Vector3 r = Vector3::Zero();
+    for (int f = 0; f < cell.functions; ++f)
+      r += R[f] * (mesh_->points.row(cell.nodes[std::size_t(f)]).transpose() +
+                   Vector3(u[f], u[cell.padded + f], u[2 * cell.padded + f]));
+    const Candidate middle{(r - target).norm(), {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2}};
+    if (found < 3)
+      starts[found++] = middle;
+    else if (middle < starts[2])
+      starts[2] = middle;
+    std::sort(starts, starts + found);
+  }
+  Candidate best{std::numeric_limits<double>::infinity(), {0, 0}};
+  for (int k = 0; k < found; ++k) {
+    const Eigen::Vector2d from_middle = starts[k].at;
+    const double distance =
+        (place(*mesh_, surface_point(*mesh_, from_middle.x(), from_middle.y()), q).r - target).norm();
+    const Candidate other = descend(*mesh_, q, target, {distance, from_middle});
+    if (other.distance < best.distance * (1 - 1e-9)) best = other;
+  }
+  const Place at = place(*mesh_, surface_point(*mesh_, best.at.x(), best.at.y()), q);
+  parameters = best.at;
+  point = at.r;
+  normal = at.a1.cross(at.a2).normalized();
+}
+
+}  // namespace trammel::plate
