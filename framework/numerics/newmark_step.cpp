@@ -45,6 +45,20 @@ void NewmarkStep::move(System& s, const State& now, State& next) {
   s.move_to(next.t, next.q, next.v);
 }
 
+void NewmarkStep::factorise(System& s, Blend blend, const State& next) {
+  s.factorise(blend, next.a, next.lambda);
+  of_pi_ = Factors::iteration;
+  if (s.sizes().nc == 0 || formulation == Formulation::index3) return;
+  // W = G gives the same force for any multipliers, to the last bit. The vectors are free until rows are corrected.
+  rc_.setLinSpaced(s.sizes().nc, 1, 2);
+  da_ = dpi_ = zero_;
+  s.add_reaction(1, rc_, da_);
+  s.add_rows_force(1, rc_, dpi_);
+  if (da_ == dpi_) return;
+  s.factorise(blend, next.a, next.lambda, Factors::projection);
+  of_pi_ = Factors::projection;
+}
+
 bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
   // pi's own increment is wanted even where there are no rows, as zero.
   dpi_ = zero_;
@@ -59,7 +73,7 @@ bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
     if (!s.correct(r, rc_, da_, dlambda_)) return false;
     // g after that increment, which moves q by c_q da with G da = -rc.
     rc_ = s.g() - c_q_ * rc_;
-    if (!s.correct(zero_, rc_, dpi_, mu_)) return false;
+    if (!s.correct(zero_, rc_, dpi_, mu_, of_pi_)) return false;
   }
   next.a += da_;
   next.lambda += dlambda_;
@@ -71,7 +85,7 @@ bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
 }
 
 void NewmarkStep::correct(System& s, Blend blend, const Vec& r, State& next) {
-  if (newton.wants_factors()) s.factorise(blend, next.a, next.lambda);
+  if (newton.wants_factors()) factorise(s, blend, next);
   if (!correct_rows(s, r, next)) return newton.fail("the iteration matrix is singular");
   if (!next.a.allFinite() || !next.lambda.allFinite()) return newton.fail("Newton's iteration left the finite numbers");
 

@@ -1,6 +1,6 @@
 // A Problem as a System: dense, by a complete orthogonal decomposition of the whole saddle-point matrix
 //
-//     [S G^T; G 0] (x, y) = (b, c)        y of minimum norm where rows repeat
+//     [S W^T; G 0] (x, y) = (b, c)        y of minimum norm where rows repeat; W = G but with friction
 //
 // (Golub and Van Loan, section 5.5), derivatives by central differences. It shares no code with the framework's assembly, so
 // that an integrator fails for its own reasons only.
@@ -46,7 +46,7 @@ class ProblemSystem final : public System {
   const Vec& g() override { return rows_.g; }
   const Vec& g_dot() override { return g_dot_; }
   void add_mass_times(double c, const Vec& a, Vec& r) override { r += c * (p_.M * a); }
-  void add_reaction(double c, const Vec& lambda, Vec& r) override { add_rows_force(c, lambda, r); }
+  void add_reaction(double c, const Vec& lambda, Vec& r) override { r += c * (W().transpose() * lambda); }
   void add_rows_times(double c, const Vec& x, Vec& rc) override { rc += c * (rows_.G * x); }
   void add_rows_force(double c, const Vec& mu, Vec& r) override { r += c * (rows_.G.transpose() * mu); }
   // A problem that does not conserve its energy names no potential.
@@ -57,12 +57,12 @@ class ProblemSystem final : public System {
   }
 
   void accelerate(Stabilisation s, Vec& a, Vec& lambda) override {
-    solve(factored(p_.M), f(), rows_.gamma - 2 * s.alpha * g_dot_ - s.beta * s.beta * rows_.g, a, lambda);
+    solve(factored(p_.M, W()), f(), rows_.gamma - 2 * s.alpha * g_dot_ - s.beta * s.beta * rows_.g, a, lambda);
   }
   void factorise(Blend c, const Vec&, const Vec& lambda, Factors which) override {
     const Mat S = c.c_m * p_.M + tangent(c, lambda) + c.c_1 * Mat::Identity(n_, n_);
     finite_[int(which)] = S.allFinite();
-    kept_[int(which)] = factored(S);
+    kept_[int(which)] = factored(S, which == Factors::iteration ? W() : rows_.G);
   }
   bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda, Factors which) override {
     // A decomposition by rank takes what is not a number for nothing.
@@ -86,7 +86,7 @@ class ProblemSystem final : public System {
     const double d = 1e-6;
     for (Eigen::Index j = 0; j < n_ && (m_ > 0 || !p_.tangent); ++j) {
       const Vec e = d * Vec::Unit(n_, j), plus = moved(q_, e), minus = moved(q_, -e);
-      Vec K = (rows(t_, plus, v_).G - rows(t_, minus, v_).G).transpose() * lambda, D = Vec::Zero(n_);
+      Vec K = (W(rows(t_, plus, v_)) - W(rows(t_, minus, v_))).transpose() * lambda, D = Vec::Zero(n_);
       if (!p_.tangent) {
         K += p_.force(t_, minus, v_) - p_.force(t_, plus, v_);
         D = p_.force(t_, q_, v_ - e) - p_.force(t_, q_, v_ + e);
@@ -95,11 +95,13 @@ class ProblemSystem final : public System {
     }
     return T;
   }
-  Factored factored(const Mat& S) const {
+  static const Mat& W(const Rows& rows) { return rows.W.size() ? rows.W : rows.G; }
+  const Mat& W() const { return W(rows_); }
+  Factored factored(const Mat& S, const Mat& W) const {
     Mat A = Mat::Zero(n_ + m_, n_ + m_);
     A.topLeftCorner(n_, n_) = S;
     A.bottomLeftCorner(m_, n_) = rows_.G;
-    A.topRightCorner(n_, m_) = rows_.G.transpose();
+    A.topRightCorner(n_, m_) = W.transpose();
     return A.size() ? Factored(scale_.asDiagonal() * A * scale_.asDiagonal()) : Factored();
   }
   void solve(const Factored& s, const Vec& b, const Vec& c, Vec& x, Vec& y) const {

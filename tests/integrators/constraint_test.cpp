@@ -37,6 +37,17 @@ TEST_P(Stabilised, KeepsTheMultiplierFreeOfRoundOffAtSmallSteps) {
   EXPECT_NEAR(end.lambda[0], lambda[0], 2e-5);
 }
 
+TEST_P(Stabilised, MovesPositionsAcrossTheirRowsWhereFrictionTiltsTheReactions) {
+  Posed s(sliding(0.5, 1e-3));
+  const State start = s.start();
+  auto method = make(GetParam().name, GetParam().settings);
+  State next;
+  method->restart(s, start);
+  ASSERT_TRUE(method->step(s, start, 1e-2, next));
+  EXPECT_LE(std::abs(next.q[1]), 1e-15);             // round-off
+  EXPECT_NEAR(next.q[0], start.q[0] + 1e-2, 1e-15);  // along the reaction it would be off by 0.5e-3
+}
+
 INSTANTIATE_TEST_SUITE_P(Integrators, Stabilised,
                          testing::Values(Form{"hht_alpha", {{"alpha", -0.15}}}, Form{"hht_alpha", {{"alpha", 0.0}}},
                                          Form{"hht_alpha", {{"alpha", -1.0 / 3}}}, Form{"newmark", {}},

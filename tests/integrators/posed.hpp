@@ -72,6 +72,21 @@ inline Problem pendulum_in_wind(double wind = 0.2) {
   return p;
 }
 
+// 1 kg sliding to the right at 1 m/s on the plane y = 0 with friction mu and nothing that presses it, `above` the plane. The
+// start only.
+inline Problem sliding(double mu, double above) {
+  Problem p;
+  p.name = "sliding";
+  p.closed_form = false;
+  p.M = Mat::Identity(2, 2);
+  p.force = [](double, const Vec&, const Vec&) -> Vec { return Vec::Zero(2); };
+  p.rows = [mu](double, const Vec& q, const Vec&) -> Problem::Rows {
+    return {q.tail(1), Vec::Zero(1), Vec::Zero(1), Eigen::RowVector2d(0, 1), Eigen::RowVector2d(-mu, 1)};
+  };
+  p.exact = [above](double, Vec& q, Vec& v) { q = Eigen::Vector2d(0, above), v = Eigen::Vector2d(1, 0); };
+  return p;
+}
+
 // The pendulum with its rod taken off.
 inline Problem flight() {
   Problem p = problems::pendulum_with_rod();

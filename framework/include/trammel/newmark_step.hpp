@@ -3,13 +3,14 @@
 //
 //     q_{n+1} = q_n (+) (dq + c_q a_{n+1} + pi),   v_{n+1} = v + c_v a_{n+1}    dq, v: what Newmark's formulas know
 //     residual(t, q, v, a, lambda)_{n+1} = 0                                    the method's own, left to the caller
-//     stabilised (index 2):  G v + g_t = 0,   S pi + W^T mu = 0,   g = 0        both hold at the step's end
+//     stabilised (index 2):  G v + g_t = 0,   S pi + G^T mu = 0,   g = 0        both hold at the step's end
 //     index 3:               g = 0            (pi = 0)                          only the positions hold
 //
 // The stabilised form is that of Gear, Gupta and Leimkuhler (J. Comput. Appl. Math. 12, 77-90, 1985). Its position
 // correction pi, of the order h^3, is weighted by the iteration matrix S = M + O(h) D + O(h^2) K: by the masses, and by
 // the stiffness where a mode is too fast for the step. (Unweighted, by G G^T, it would bend the high modes; and with S
-// the factors of the iteration serve twice.) A system without rows pays for nothing of this.
+// the factors of the iteration serve twice.) Where sliding friction tilts the reactions, W != G, pi takes factors of its own:
+// along W^T it would move what slides along its plane. A system without rows pays for nothing of this.
 //
 //     step.dq = h * now.v + ...;   step.v = now.v + ...;
 //     step.begin(s, now, h, c_q, c_v, next);
@@ -45,12 +46,14 @@ class NewmarkStep {
   Outcome finish(System& s, const State& now, State& next);
 
  private:
+  void factorise(System& s, Blend blend, const State& next);
   void update(const System& s, const State& now, State& next);
   bool correct_rows(System& s, const Vec& r, State& next);
 
   double c_q_ = 0, c_v_ = 0;
   double size_q_ = 0, size_v_ = 0;      // of q and v
   double change_q_ = 0, change_v_ = 0;  // by the last increment, relative to them
+  Factors of_pi_ = Factors::iteration;  // projection where they differ
   Vec pi_, increment_, da_, dlambda_, rc_, zero_, dpi_, mu_;
 };
 

@@ -1,7 +1,7 @@
 // Problems with known answers, for measuring integrators. Each lives in a file of its own under
 // framework/testing/problems, where its formulas are.
 //
-//     M v' = f(t, q, v) - G^T lambda,   g(t, q) = 0,   q' = N(q) v,   M constant
+//     M v' = f(t, q, v) - W^T lambda,   g(t, q) = 0,   q' = N(q) v,   M constant; W = G but with friction
 #pragma once
 
 #include <functional>
@@ -32,6 +32,7 @@ struct Problem {
   struct Rows {
     Vec g, g_t, gamma;  // G v + g_t = 0, G v' = gamma
     Mat G;
+    Mat W = {};  // of the reactions -W^T lambda, where friction tilts them; empty: G
   };
 
   std::string name, equations, source;
