@@ -35,4 +35,7 @@ void apply(const Override& override, Value& root);
 // The "parameters" block, evaluated; expressions in it may use one another.
 std::shared_ptr<const Value::Parameters> evaluate_parameters(const Value& root);
 
+// A warning for each parameter that was set and that nothing in the scene uses, directly or through another parameter.
+std::vector<Problem> set_in_vain(const Value& root, const std::vector<Override>& overrides);
+
 }  // namespace trammel::scene

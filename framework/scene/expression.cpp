@@ -220,4 +220,20 @@ bool is_name(std::string_view text) {
   return true;
 }
 
+std::vector<std::string_view> names_in(std::string_view text) {
+  std::vector<std::string_view> names;
+  for (std::size_t at = 0, start = 0; at < text.size(); start = at) {
+    if (starts_name(text[at])) {
+      while (at < text.size() && (continues_name(text[at]) || text[at] == '.')) ++at;
+      names.push_back(text.substr(start, at - start));
+    } else if (std::isdigit(static_cast<unsigned char>(text[at]))) {
+      double number = 0;  // 1e5 holds no name
+      at = std::size_t(std::from_chars(text.data() + at, text.data() + text.size(), number).ptr - text.data());
+    } else {
+      ++at;
+    }
+  }
+  return names;
+}
+
 }  // namespace trammel::scene

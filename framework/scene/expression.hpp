@@ -37,4 +37,7 @@ double evaluate(std::string_view text, const Lookup& lookup);  // finite, free o
 // True when the whole text is one name.
 bool is_name(std::string_view text);
 
+// All names in it, of parameters and functions and dotted ones; what is no expression may hold some too.
+std::vector<std::string_view> names_in(std::string_view text);
+
 }  // namespace trammel::scene

@@ -53,7 +53,8 @@ void apply(const Override& override, Value& root) {
       fail(walked, fmt::format("is {}, it has no member \"{}\"", value->type_name(), key));
     const bool last = dot == std::string::npos;
     Value* next = Builder::find(*value, key);
-    if (!next && (index || (!last && value != &root))) {
+    const bool parameter = walked == "parameters";  // one that the scene does not declare would act on nothing
+    if (!next && (index || parameter || (!last && value != &root))) {
       std::vector<std::string> names;
       for (const auto& [name, member] : value->members()) names.push_back(name);
       fail(walked, fmt::format("has no member \"{}\"{}", key, did_you_mean(key, names)));

@@ -2,33 +2,23 @@
 
 namespace trammel::scene {
 
-namespace {
-
-// Parameters first: their values decide nothing about the tree, but every other value may use them.
-Value finish(Value root, const std::vector<Override>& overrides) {
-  for (const Override& override : overrides) apply(override, root);
-  Builder::finish(root, "", nullptr);
-  const auto parameters = evaluate_parameters(root);
-  Builder::finish(root, "", parameters);
-  return root;
+Scene::Scene(const std::string& text, const std::string& file, const std::vector<Override>& overrides)
+    : root_(resolve_includes(parse_text(text, file), file)), file_(file) {
+  for (const Override& override : overrides) apply(override, root_);
+  // Parameters first: their values decide nothing about the tree, but every other value may use them.
+  Builder::finish(root_, "", nullptr);
+  const auto parameters = evaluate_parameters(root_);
+  Builder::finish(root_, "", parameters);
+  warnings_ = set_in_vain(root_, overrides);
+  hash_ = Builder::hash(root_);
 }
 
-}  // namespace
-
 Scene Scene::load(const std::string& file, const std::vector<Override>& overrides) {
-  Scene scene;
-  scene.file_ = file;
-  scene.root_ = finish(resolve_includes(parse_text(read_file(file), file), file), overrides);
-  scene.hash_ = Builder::hash(scene.root_);
-  return scene;
+  return Scene(read_file(file), file, overrides);
 }
 
 Scene Scene::parse(const std::string& text, const std::string& name, const std::vector<Override>& overrides) {
-  Scene scene;
-  scene.file_ = name;
-  scene.root_ = finish(resolve_includes(parse_text(text, name), name), overrides);
-  scene.hash_ = Builder::hash(scene.root_);
-  return scene;
+  return Scene(text, name, overrides);
 }
 
 }  // namespace trammel::scene

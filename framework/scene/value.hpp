@@ -110,11 +110,15 @@ class Scene {
 
   const Value& root() const { return root_; }
   const std::string& file() const { return file_; }
+  const std::vector<Problem>& warnings() const { return warnings_; }
   std::uint64_t hash() const { return hash_; }  // of the resolved content: the same for a scene that means the same
 
  private:
+  Scene(const std::string& text, const std::string& file, const std::vector<Override>& overrides);
+
   Value root_;
   std::string file_;
+  std::vector<Problem> warnings_;
   std::uint64_t hash_ = 0;
 };
 

@@ -92,6 +92,7 @@ void read_corrections(const Value& root, plugin::Registry& registry, Setup& setu
 Setup set_up(const scene::Scene& scene, plugin::Registry& registry) {
   const Value& root = scene.root();
   Setup setup;
+  for (const scene::Problem& warning : scene.warnings()) setup.warnings.push_back(warning.text());
   Problems problems;
   if (root.type() != Value::Type::object) {
     problems.error(root.problem(fmt::format("found {}, expected a scene: an object", root.type_name())));

@@ -15,9 +15,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const fs::path kScenes = fs::path(TRAMMEL_SOURCE_DIR) / "tests/cli/scenes";
-const std::string kBounce = (kScenes / "bounce.json").string();
-const std::string kPendulum = (kScenes / "pendulum.json").string();
+const std::string kPendulum = (cli::scenes / "pendulum.json").string();
 
 std::vector<std::string> lines(const std::string& text) {
   std::vector<std::string> all;
@@ -56,16 +54,16 @@ struct Mistake {
 
 TEST(CommandLine, MistakesExitWith2AndNameTheNearest) {
   const std::vector<Mistake> mistakes = {
-      {{"rnu", kBounce}, "Did you mean \"run\"?"},
-      {{"run", kBounce, "--ot", "x"}, "Did you mean \"--out\"?"},
-      {{"run", kBounce, "--jsno"}, "Did you mean \"--json\"?"},
-      {{"run", kBounce, "--out"}, "--out needs a value: --out DIR"},
-      {{"run", kBounce, "--quiet=yes"}, "--quiet takes no value, found '--quiet=yes'"},
+      {{"rnu", cli::bounce}, "Did you mean \"run\"?"},
+      {{"run", cli::bounce, "--ot", "x"}, "Did you mean \"--out\"?"},
+      {{"run", cli::bounce, "--jsno"}, "Did you mean \"--json\"?"},
+      {{"run", cli::bounce, "--out"}, "--out needs a value: --out DIR"},
+      {{"run", cli::bounce, "--quiet=yes"}, "--quiet takes no value, found '--quiet=yes'"},
       {{"run"}, "'trammel run' needs a SCENE"},
-      {{"run", kBounce, kPendulum}, "'trammel run' takes one SCENE, found also"},
+      {{"run", cli::bounce, kPendulum}, "'trammel run' takes one SCENE, found also"},
       {{"list", "integrators"}, "'trammel list' takes no argument, found 'integrators'"},
-      {{"run", kBounce, "--out", "a", "--resume", "b"}, "--out and --resume exclude each other"},
-      {{"run", kBounce, "--resume", "nowhere"}, "there is no nowhere/checkpoint.cbor to continue from"},
+      {{"run", cli::bounce, "--out", "a", "--resume", "b"}, "--out and --resume exclude each other"},
+      {{"run", cli::bounce, "--resume", "nowhere"}, "there is no nowhere/checkpoint.cbor to continue from"},
       {{"describe", "hht_alfa"}, "Did you mean \"hht_alpha\"?"},
   };
   for (const Mistake& mistake : mistakes) {
@@ -126,6 +124,14 @@ TEST(Validate, AcceptsEveryCommittedScene) {
   EXPECT_GT(scenes, 0);
 }
 
+TEST(Validate, WarnsOfAParameterThatIsSetInVain) {
+  const auto result =
+      trammel({"validate", cli::bounce, "--set", "contacts.floor.restitution=0.5", "--set", "parameters.e=0.3"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err,
+            "warning: --set parameters.e=0.3: parameters.e: has no effect: nothing in this scene uses it\n");
+}
+
 TEST(Explain, NamesTheIntegratorAndTheBodies) {
   const auto result = trammel({"explain", kPendulum});
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -134,7 +140,7 @@ TEST(Explain, NamesTheIntegratorAndTheBodies) {
 
 TEST(Run, WritesIntoOutAndTheScenesNameByDefault) {
   const cli::TemporaryFolder folder;
-  const auto result = trammel({"run", kBounce}, {.folder = folder.path()});
+  const auto result = trammel({"run", cli::bounce}, {.folder = folder.path()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("out/bounce"));
   for (const char* file : {"series.csv", "events.csv", "result.json", "checkpoint.cbor"})
@@ -143,7 +149,7 @@ TEST(Run, WritesIntoOutAndTheScenesNameByDefault) {
 
 TEST(Run, HasTheColumnsOfTheContract) {
   const cli::TemporaryFolder folder;
-  ASSERT_EQ(trammel({"run", kBounce, "--out", "r"}, {.folder = folder.path()}).exit_code, 0);
+  ASSERT_EQ(trammel({"run", cli::bounce, "--out", "r"}, {.folder = folder.path()}).exit_code, 0);
   EXPECT_EQ(lines(cli::read_file(folder.path() / "r/series.csv")).front(),
             "t,height,energy_kinetic,energy_potential,energy_elastic,energy_total,constraint_position,"
             "constraint_velocity,constraint_acceleration");
@@ -152,12 +158,12 @@ TEST(Run, HasTheColumnsOfTheContract) {
 
 TEST(Run, DrawsNoProgressBarIntoAFile) {
   const cli::TemporaryFolder folder;
-  EXPECT_EQ(trammel({"run", kBounce}, {.folder = folder.path()}).err, "");
+  EXPECT_EQ(trammel({"run", cli::bounce}, {.folder = folder.path()}).err, "");
 }
 
 TEST(Run, DrawsAProgressBarOnATerminalAndRemovesIt) {
   const cli::TemporaryFolder folder;
-  const std::string scene = (kScenes / "long_bounce.json").string();
+  const std::string scene = (cli::scenes / "long_bounce.json").string();
   const auto result = trammel({"run", scene}, {.folder = folder.path(), .terminal = true});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.err, testing::ContainsRegex("\\[#*\\.*\\] +[0-9]+ %  t = .* s, [0-9]+ steps, [0-9]+ impacts"));
@@ -167,22 +173,23 @@ TEST(Run, DrawsAProgressBarOnATerminalAndRemovesIt) {
 TEST(Run, DrawsNoProgressBarWithJsonOrWhenQuiet) {
   const cli::TemporaryFolder folder;
   for (const char* option : {"--json", "--quiet"})
-    EXPECT_EQ(trammel({"run", kBounce, option}, {.folder = folder.path(), .terminal = true}).err, "");
+    EXPECT_EQ(trammel({"run", cli::bounce, option}, {.folder = folder.path(), .terminal = true}).err, "");
 }
 
 TEST(Run, IsSilentWhenQuiet) {
   const cli::TemporaryFolder folder;
-  const auto result = trammel({"run", kBounce, "--quiet"}, {.folder = folder.path()});
+  const auto result = trammel({"run", cli::bounce, "--quiet"}, {.folder = folder.path()});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.out + result.err, "");
 }
 
 TEST(Run, OverwritesAnEarlierResultWithNothingLeftBehind) {
   const cli::TemporaryFolder folder;
-  ASSERT_EQ(trammel({"run", kBounce, "--out", "twice"}, {.folder = folder.path()}).exit_code, 0);
+  ASSERT_EQ(trammel({"run", cli::bounce, "--out", "twice"}, {.folder = folder.path()}).exit_code, 0);
   for (const char* out : {"twice", "once"})
     ASSERT_EQ(
-        trammel({"run", kBounce, "--out", out, "--set", "simulate.until=0.3"}, {.folder = folder.path()}).exit_code, 0);
+        trammel({"run", cli::bounce, "--out", out, "--set", "simulate.until=0.3"}, {.folder = folder.path()}).exit_code,
+        0);
   // The other files tell of CPU time.
   for (const char* file : {"series.csv", "events.csv", "animation.ndjson"})
     EXPECT_EQ(cli::read_file(folder.path() / "twice" / file), cli::read_file(folder.path() / "once" / file)) << file;
@@ -194,16 +201,17 @@ TEST(Run, OverwritesAnEarlierResultWithNothingLeftBehind) {
 
 TEST(Set, ChangesAValueByItsPath) {
   const cli::TemporaryFolder folder;
-  ASSERT_EQ(trammel({"run", kBounce, "--out", "r", "--set", "bodies.ball.position=[0, 5]", "--set=simulate.until=0"},
-                    {.folder = folder.path()})
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      trammel({"run", cli::bounce, "--out", "r", "--set", "bodies.ball.position=[0, 5]", "--set=simulate.until=0"},
+              {.folder = folder.path()})
+          .exit_code,
+      0);
   EXPECT_THAT(lines(cli::read_file(folder.path() / "r/series.csv")).at(1), StartsWith("0,5,"));
 }
 
 TEST(Json, OfARunIsOneObjectAndNothingElse) {
   const cli::TemporaryFolder folder;
-  const auto result = trammel({"run", kBounce, "--json"}, {.folder = folder.path()});
+  const auto result = trammel({"run", cli::bounce, "--json"}, {.folder = folder.path()});
   EXPECT_EQ(result.exit_code, 0);
   const json object = json::parse(result.out);  // throws on anything after the object
   EXPECT_TRUE(object.is_object());
@@ -214,7 +222,7 @@ TEST(Json, OfARunIsOneObjectAndNothingElse) {
 
 TEST(Json, OfBadInputHoldsEveryProblemWithItsPlace) {
   const auto result =
-      trammel({"validate", "several_problems.json", "--json"}, {.folder = kScenes.parent_path() / "cases"});
+      trammel({"validate", "several_problems.json", "--json"}, {.folder = cli::scenes.parent_path() / "cases"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.err, "");
   const json object = json::parse(result.out);
@@ -230,7 +238,7 @@ TEST(Json, OfBadInputHoldsEveryProblemWithItsPlace) {
 }
 
 TEST(Json, OfAMistakeOnTheCommandLineIsAnObjectToo) {
-  const auto result = trammel({"run", kBounce, "--json", "--ot", "x"});
+  const auto result = trammel({"run", cli::bounce, "--json", "--ot", "x"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(json::parse(result.out)["status"], "error");
   EXPECT_EQ(result.err, "");

@@ -82,6 +82,20 @@ TEST(Override, TakesBareTextAndJson) {
   EXPECT_EQ(number(scene, "b"), 2);
 }
 
+TEST(Override, WarnsOfParametersThatNothingUses) {
+  const std::string scene = R"({"parameters": {"e": 0.3, "a": 1, "twice": "=2*a", "b": 2, "four": "=2*b", "who": "me"},
+                                "x": "=1e5 + four", "name": "=who"})";
+  const auto warned = [&](const std::string& name) {
+    const auto warnings = Scene::parse(scene, "s", {{"parameters." + name, "1"}}).warnings();
+    return !warnings.empty();
+  };
+  EXPECT_TRUE(Scene::parse(scene, "s").warnings().empty());
+  EXPECT_TRUE(warned("e"));  // 1e5 is a number
+  EXPECT_TRUE(warned("a"));  // used by "twice", which nothing uses
+  EXPECT_FALSE(warned("b"));
+  EXPECT_FALSE(warned("who"));
+}
+
 TEST(Override, NamesTheNearestMemberOnItsWay) {
   const auto error = error_of([] { Scene::parse(R"({"contacts": {"tip": {}}})", "s", {{"contacts.tpi.e", "1"}}); });
   EXPECT_EQ(error, "--set contacts.tpi.e=1: contacts: has no member \"tpi\"; known: tip. Did you mean \"tip\"?");
