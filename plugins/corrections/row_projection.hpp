@@ -11,10 +11,15 @@
 
 namespace trammel {
 
-class RowProjection {
+template <Blend S>
+class RowProjection final : public Correction {
  public:
-  explicit RowProjection(Blend metric) : metric_(metric) {}
+  bool corrects(Level level) const override { return level == Level::position || level == Level::velocity; }
+  Outcome apply(Level level, System& s, const Step&, State& state) override {
+    return level == Level::position ? position(s, state) : velocity(s, state);
+  }
 
+ private:
   Outcome position(System& s, State& state) {
     double before = 0;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -42,18 +47,16 @@ class RowProjection {
     return Outcome::accept();
   }
 
- private:
   static constexpr int most_iterations = 20;
   static constexpr double settled = 1e-9;  // [unit of the rows] far above round-off, far below a useful violation
 
   bool solve(System& s, const Vec& violation) {
     right_ = violation;
     zero_.setZero(s.sizes().nv);
-    s.factorise(metric_, zero_, zero_rows_.setZero(right_.size()), Factors::projection);
+    s.factorise(S, zero_, zero_rows_.setZero(right_.size()), Factors::projection);
     return s.correct(zero_, right_, change_, multipliers_, Factors::projection);
   }
 
-  Blend metric_;
   Vec right_, zero_, zero_rows_, change_, multipliers_, moved_;
 };
 

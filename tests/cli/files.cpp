@@ -16,8 +16,6 @@ using cli::trammel;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string kBounce = (fs::path(TRAMMEL_SOURCE_DIR) / "tests/cli/scenes/bounce.json").string();
-
 class SceneFile : public testing::Test {
  protected:
   // Validates scene.json of the test's folder: exit code 2, one line that begins with the file's name.
@@ -71,7 +69,7 @@ TEST_F(SceneFile, NestedAHundredThousandDeepIsRefusedAtTheLimit) {
 }
 
 TEST_F(SceneFile, NestedExpressionsDoNotOverflowTheStack) {
-  write("{\"include\": \"" + kBounce + "\", \"simulate\": {\"until\": \"=" + std::string(100000, '(') + "1" +
+  write("{\"include\": \"" + cli::bounce + "\", \"simulate\": {\"until\": \"=" + std::string(100000, '(') + "1" +
         std::string(100000, ')') + "\"}}");
   EXPECT_THAT(error_of(), HasSubstr("simulate.until"));
 }
@@ -95,7 +93,7 @@ TEST(Results, CannotGoBelowAFile) {
   const cli::TemporaryFolder folder;
   cli::write_file(folder.path() / "file", "");
   for (const char* out : {"file", "file/below", "/proc/trammel"}) {
-    const auto result = trammel({"run", kBounce, "--out", out}, {.folder = folder.path()});
+    const auto result = trammel({"run", cli::bounce, "--out", out}, {.folder = folder.path()});
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_THAT(result.err, StartsWith("trammel: cannot write results to " + std::string(out) + ": "));
   }
@@ -104,7 +102,7 @@ TEST(Results, CannotGoBelowAFile) {
 // A disk that is full stops a write in the middle; a limit on the size of files does the same without a disk.
 TEST(Results, OnAFullDiskEndTheRunAndAreKeptSoFar) {
   const cli::TemporaryFolder folder;
-  const auto result = trammel({"run", kBounce, "--out", "r", "--set", "simulate.until=20"},
+  const auto result = trammel({"run", cli::bounce, "--out", "r", "--set", "simulate.until=20"},
                               {.folder = folder.path(), .file_size_limit = 20000});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("r/series.csv"));
@@ -114,7 +112,7 @@ TEST(Results, OnAFullDiskEndTheRunAndAreKeptSoFar) {
 
 TEST(Results, OfWhichOneFileMeetsItsLimitKeepTheOthersWholeAndSayWhatIsMissing) {
   const cli::TemporaryFolder folder;
-  const auto result = trammel({"run", kBounce, "--out", "r", "--set", "simulate.until=20"},
+  const auto result = trammel({"run", cli::bounce, "--out", "r", "--set", "simulate.until=20"},
                               {.folder = folder.path(), .file_size_limit = 20000});
   EXPECT_THAT(result.err, testing::ContainsRegex("series.csv lacks its last [0-9]+ lines"));
   const std::string series = cli::read_file(folder.path() / "r/series.csv");
@@ -149,29 +147,29 @@ TEST_F(SmallDisk, ThatFillsUpLosesNothingAndTheRunGoesOnOnceThereIsRoom) {
     words.insert(words.end(), finely.begin(), finely.end());
     return trammel(words, {.folder = folder.path()});
   };
-  const auto full = run({"run", kBounce, "--out", "disk/r"});
+  const auto full = run({"run", cli::bounce, "--out", "disk/r"});
   EXPECT_EQ(full.exit_code, 1) << full.err;
   EXPECT_THAT(full.err, HasSubstr("No space left on device"));
   EXPECT_THAT(full.err, HasSubstr("--resume"));
   EXPECT_EQ(nlohmann::json::parse(cli::read_file(disk / "r/result.json"))["status"], "failed");
 
   ASSERT_EQ(mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT, "size=64m"), 0);
-  EXPECT_EQ(run({"run", kBounce, "--resume", "disk/r"}).exit_code, 0);
-  EXPECT_EQ(run({"run", kBounce, "--out", "whole"}).exit_code, 0);
+  EXPECT_EQ(run({"run", cli::bounce, "--resume", "disk/r"}).exit_code, 0);
+  EXPECT_EQ(run({"run", cli::bounce, "--out", "whole"}).exit_code, 0);
   for (const char* file : {"series.csv", "events.csv"})
     EXPECT_TRUE(cli::read_file(disk / "r" / file) == cli::read_file(folder.path() / "whole" / file)) << file;
 }
 
 TEST_F(SmallDisk, ThatIsFullFromTheStartIsRefusedBeforeTheRun) {
   cli::write_file(disk / "much", std::string(600000, 'x'));
-  const auto result = trammel({"run", kBounce, "--out", "disk/r"}, {.folder = folder.path()});
+  const auto result = trammel({"run", cli::bounce, "--out", "disk/r"}, {.folder = folder.path()});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("KiB must be free"));
 }
 
 TEST(Results, OnAFullStandardOutputAreAnError) {
   const cli::TemporaryFolder folder;
-  const auto result = trammel({"run", kBounce, "--json"}, {.folder = folder.path(), .stdout_to = "/dev/full"});
+  const auto result = trammel({"run", cli::bounce, "--json"}, {.folder = folder.path(), .stdout_to = "/dev/full"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("standard output"));
 }

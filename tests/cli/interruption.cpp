@@ -15,15 +15,13 @@ using cli::trammel;
 using nlohmann::json;
 using testing::HasSubstr;
 
-const fs::path kScenes = fs::path(TRAMMEL_SOURCE_DIR) / "tests/cli/scenes";
-
 // No machine reaches this end before the signal comes.
 constexpr double kFarAway = 1e6;  // [s]
 
 // `option` is --out or --resume.
 std::vector<std::string> run_of(const std::string& scene, const std::string& option, const std::string& folder,
                                 double until) {
-  return {"run", (kScenes / scene).string(), option, folder, "--set", "simulate.until=" + std::to_string(until)};
+  return {"run", (cli::scenes / scene).string(), option, folder, "--set", "simulate.until=" + std::to_string(until)};
 }
 
 // The time of the last whole row; 0 if there is none yet.
@@ -100,8 +98,8 @@ TEST_F(Interrupt, LeavesAResultThatSaysSo) {
 TEST_F(Interrupt, DoesNotResumeWithAnotherScene) {
   ASSERT_EQ(stop_early().exit_code, 130);
   for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"run", (kScenes / "pendulum.json").string(), "--resume", "broken"},
-        {"run", (kScenes / "long_bounce.json").string(), "--resume", "broken", "--set", "bodies.ball.mass=2"}}) {
+       {std::vector<std::string>{"run", (cli::scenes / "pendulum.json").string(), "--resume", "broken"},
+        {"run", (cli::scenes / "long_bounce.json").string(), "--resume", "broken", "--set", "bodies.ball.mass=2"}}) {
     const auto result = trammel(words, {.folder = folder.path()});
     EXPECT_EQ(result.exit_code, 2) << result.err;
     EXPECT_THAT(result.err, HasSubstr("scene"));
@@ -113,7 +111,7 @@ TEST_F(Interrupt, DoesNotResumeFromADamagedCheckpoint) {
   const fs::path checkpoint = folder.path() / "broken/checkpoint.cbor";
   fs::resize_file(checkpoint, fs::file_size(checkpoint) / 2);
   const auto result =
-      trammel({"run", (kScenes / "long_bounce.json").string(), "--resume", "broken"}, {.folder = folder.path()});
+      trammel({"run", (cli::scenes / "long_bounce.json").string(), "--resume", "broken"}, {.folder = folder.path()});
   EXPECT_EQ(result.exit_code, 2) << result.err;
   EXPECT_THAT(result.err, HasSubstr("checkpoint.cbor"));
 }

@@ -13,14 +13,13 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string kBounce = (fs::path(TRAMMEL_SOURCE_DIR) / "tests/cli/scenes/bounce.json").string();
 const fs::path kPlugins = fs::path(TRAMMEL_BUILD_DIR) / "tests/plugins";
 
 class Plugin : public testing::Test {
  protected:
   // Runs the bouncing point with a library, and with what names its component in the scene.
   cli::Result run(const fs::path& library, const std::vector<std::string>& settings = {}) {
-    std::vector<std::string> words = {"run", kBounce, "--plugin", library.string()};
+    std::vector<std::string> words = {"run", cli::bounce, "--plugin", library.string()};
     for (const std::string& setting : settings) {
       words.push_back("--set");
       words.push_back(setting);
@@ -53,7 +52,7 @@ TEST_F(Plugin, ThatIsSoundIsUsed) {
 
 TEST_F(Plugin, ThatIsSoundIsFoundInThePluginPath) {
   const auto result =
-      trammel({"run", kBounce, "--set", "integrator.type=good"},
+      trammel({"run", cli::bounce, "--set", "integrator.type=good"},
               {.folder = folder.path(), .environment = {{"TRAMMEL_PLUGIN_PATH", (kPlugins / "good.so").string()}}});
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
@@ -111,13 +110,13 @@ TEST_F(Plugin, ThatThrowsInStep1000KeepsTheResultsSoFar) {
 
 TEST_F(Plugin, ThatReturnsNanIsNamedWithTheTime) {
   const std::string scene = R"({"trammel": 1, "space": "planar", "gravity": [0, -9.81],
-    "bodies": {"p": {"type": "returns_nan"}}, "integrator": {"type": "runge_kutta_4", "step": 1e-3},
+    "bodies": {"p": {"type": "spoilt_force"}}, "integrator": {"type": "runge_kutta_4", "step": 1e-3},
     "simulate": {"until": 1}})";
   cli::write_file(folder.path() / "nan.json", scene);
   const auto result =
-      trammel({"run", "nan.json", "--plugin", (kPlugins / "returns_nan.so").string()}, {.folder = folder.path()});
+      trammel({"run", "nan.json", "--plugin", (kPlugins / "spoilt_force.so").string()}, {.folder = folder.path()});
   EXPECT_EQ(result.exit_code, 3) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("body returns_nan"));
+  EXPECT_THAT(result.err, HasSubstr("body spoilt_force"));
   EXPECT_THAT(result.err, HasSubstr("force"));
   EXPECT_THAT(result.err, HasSubstr("t = 0.5"));
 }
@@ -128,15 +127,15 @@ TEST_F(Plugin, ThatCrashesIsNamedWithTheCallAndTheTimeAndRecordsAreKept) {
   for (const auto& [how, signal] :
        {std::pair{"memory", "SIGSEGV"}, std::pair{"stack", "SIGSEGV"}, std::pair{"abort", "SIGABRT"}}) {
     const std::string scene = R"({"trammel": 1, "space": "planar", "gravity": [0, -9.81],
-      "bodies": {"p": {"type": "crashes_in_force", "how": ")" +
+      "bodies": {"p": {"type": "spoilt_force", "how": ")" +
                               std::string(how) + R"("}},
       "integrator": {"type": "runge_kutta_4", "step": 1e-3}, "simulate": {"until": 1}, "record": {"every": 0.01}})";
     cli::write_file(folder.path() / "crash.json", scene);
-    const std::string library = (kPlugins / "crashes_in_force.so").string();
+    const std::string library = (kPlugins / "spoilt_force.so").string();
     const auto result = trammel({"run", "crash.json", "--plugin", library}, {.folder = folder.path()});
     EXPECT_EQ(result.exit_code, 3) << result.err;
     EXPECT_THAT(result.err, StartsWith("trammel: plugin "));
-    EXPECT_THAT(result.err, HasSubstr("crashes_in_force.so: body crashes_in_force (bodies.p): force at t = 0.49"));
+    EXPECT_THAT(result.err, HasSubstr("spoilt_force.so: body spoilt_force (bodies.p): force at t = 0.49"));
     EXPECT_THAT(result.err, HasSubstr(signal));
     const std::string series = cli::read_file(folder.path() / "out/crash/series.csv");
     EXPECT_EQ(std::count(series.begin(), series.end(), '\n'), 1 + 50);  // header; 0 to 0.49 s
@@ -147,7 +146,8 @@ TEST_F(Plugin, ThatCrashesIsNamedWithTheCallAndTheTimeAndRecordsAreKept) {
 #endif
 
 TEST_F(Plugin, ErrorWithJsonIsOneObject) {
-  const auto result = trammel({"run", kBounce, "--json", "--plugin", "no_such_library.so"}, {.folder = folder.path()});
+  const auto result =
+      trammel({"run", cli::bounce, "--json", "--plugin", "no_such_library.so"}, {.folder = folder.path()});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(json::parse(result.out)["status"], "error");

@@ -11,6 +11,10 @@
 
 namespace cli {
 
+// Scenes that are run in a moment.
+inline const std::filesystem::path scenes = std::filesystem::path(TRAMMEL_SOURCE_DIR) / "tests/cli/scenes";
+inline const std::string bounce = (scenes / "bounce.json").string();
+
 struct Setting {
   std::filesystem::path folder = ".";                                 // working folder of the child
   std::vector<std::pair<std::string, std::string>> environment = {};  // added to ours

@@ -86,12 +86,12 @@ TEST(Registry, FindsAComponentInALibraryOfAnotherName) {
 TEST(Registry, SearchesTheEnvironmentsPath) {
   const Folder first, second;
   first.copy("good", "good.so");
-  const auto file = second.copy("returns_nan", "library_of_a_friend.so");
+  const auto file = second.copy("spoilt_force", "library_of_a_friend.so");
   ::setenv("TRAMMEL_PLUGIN_PATH", (first.path().string() + "::" + file.string()).c_str(), 1);
   Registry registry;
   ::unsetenv("TRAMMEL_PLUGIN_PATH");
   EXPECT_EQ(registry.find(Kind::integrator, "good").declaration.name, "good");
-  EXPECT_EQ(registry.find(Kind::body, "returns_nan").declaration.name, "returns_nan");
+  EXPECT_EQ(registry.find(Kind::body, "spoilt_force").declaration.name, "spoilt_force");
 }
 
 TEST(Registry, SearchesTheScenesPluginsBesideTheSceneFile) {
@@ -184,7 +184,7 @@ TEST(Registry, RefusesANameThatWouldLeaveTheFolder) {
   const Folder folder;
   Registry registry = empty_registry();
   registry.search(folder.path());
-  EXPECT_THAT(unknown(registry, Kind::body, "../../tests/plugins/returns_nan"), HasSubstr("no body"));
+  EXPECT_THAT(unknown(registry, Kind::body, "../../tests/plugins/spoilt_force"), HasSubstr("no body"));
 }
 
 TEST(Registry, ReportsAnUnknownTypeWhereItStands) {

@@ -4,22 +4,7 @@
 
 #include "../row_projection.hpp"
 
-namespace {
-
-using namespace trammel;
-
-class MassWeighted final : public Correction {
- public:
-  bool corrects(Level level) const override { return level == Level::position || level == Level::velocity; }
-  Outcome apply(Level level, System& s, const Step&, State& state) override {
-    return level == Level::position ? projection_.position(s, state) : projection_.velocity(s, state);
-  }
-
- private:
-  RowProjection projection_{Blend{.c_m = 1}};
-};
-
-}  // namespace
+using MassWeighted = trammel::RowProjection<trammel::Blend{.c_m = 1}>;
 
 TRAMMEL_PLUGIN(trammel::correction<MassWeighted>("mass_weighted",
                                                  "positions, velocities: the change that internal forces would make")

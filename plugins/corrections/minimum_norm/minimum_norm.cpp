@@ -4,22 +4,7 @@
 
 #include "../row_projection.hpp"
 
-namespace {
-
-using namespace trammel;
-
-class MinimumNorm final : public Correction {
- public:
-  bool corrects(Level level) const override { return level == Level::position || level == Level::velocity; }
-  Outcome apply(Level level, System& s, const Step&, State& state) override {
-    return level == Level::position ? projection_.position(s, state) : projection_.velocity(s, state);
-  }
-
- private:
-  RowProjection projection_{Blend{.c_m = 0, .c_1 = 1}};
-};
-
-}  // namespace
+using MinimumNorm = trammel::RowProjection<trammel::Blend{.c_m = 0, .c_1 = 1}>;
 
 TRAMMEL_PLUGIN(trammel::correction<MinimumNorm>("minimum_norm",
                                                 "positions, velocities: the smallest change of the coordinates")

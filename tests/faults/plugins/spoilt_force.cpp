@@ -1,7 +1,7 @@
-// A falling point mass whose force, from a given time on, reads from address 0, overflows the stack, or aborts.
+// A falling point mass whose force, from a given time on, is not a number, reads from address 0, overflows the stack, or aborts.
 #include <array>
-#include <csignal>
 #include <cstdlib>
+#include <limits>
 #include <string>
 
 #include <trammel/body.hpp>
@@ -18,16 +18,17 @@ double endless(int depth) {
   return page[depth % 4096] == 1 ? endless(depth + 1) + page[0] : 0;
 }
 
-double crash(const std::string& how, int depth) {
+double spoil(const std::string& how, int depth) {
+  if (how == "nan") return std::numeric_limits<double>::quiet_NaN();
   if (how == "abort") std::abort();
   if (how == "stack") return endless(depth);
   double* volatile nowhere = nullptr;
   return *nowhere;
 }
 
-struct CrashesInForce : Body {
+struct SpoiltForce : Body {
   double from = 0.5;  // [s]
-  std::string how = "memory";
+  std::string how = "nan";
 
   void prepare(const World& world) override {
     gravity_ = world.gravity;
@@ -43,7 +44,7 @@ struct CrashesInForce : Body {
   }
   void force(double t, In, In, Out f) const override {
     f += gravity_;
-    if (t >= from) f[0] = crash(how, 1);
+    if (t >= from) f[0] = spoil(how, 1);
   }
   Energy energy(double, In q, In v) const override { return {0.5 * v.squaredNorm(), -gravity_.dot(q), 0}; }
   std::span<const std::string> markers() const override { return markers_; }
@@ -68,7 +69,7 @@ struct CrashesInForce : Body {
 
 }  // namespace
 
-TRAMMEL_PLUGIN(body<CrashesInForce>("crashes_in_force", "point mass whose force crashes from a given time on")
+TRAMMEL_PLUGIN(body<SpoiltForce>("spoilt_force", "point mass whose force goes wrong from a given time on")
                    .source("none")
-                   .parameter("from", &CrashesInForce::from, {.unit = "s", .doc = "when it begins"})
-                   .parameter("how", &CrashesInForce::how, {.doc = "memory, stack, abort"}))
+                   .parameter("from", &SpoiltForce::from, {.unit = "s", .doc = "when it begins"})
+                   .parameter("how", &SpoiltForce::how, {.doc = "nan, memory, stack, abort"}))
