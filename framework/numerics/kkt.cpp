@@ -23,44 +23,64 @@ bool pivots_are_safe(const Mat& factor, const Mat& matrix) {
 
 }  // namespace
 
-bool MassKkt::factorise(const Mat& M, const Mat& G) {
-  mass_.compute(M);
-  if (mass_.info() != Eigen::Success) return false;
-  change_rows(G);
+bool MassKkt::factorise(const Mat& M, const Mat& G, const Mat& W) {
+  if (!mass_.compute(M)) return false;
+  change_rows(G, W);
   return true;
 }
 
-void MassKkt::change_rows(const Mat& G) {
+void MassKkt::change_rows(const Mat& G, const Mat& W) {
   redundant_ = false;
+  coupled_ = &W != &G;
   B_.resize(G.cols(), G.rows());
   if (G.rows() == 0) return;
   B_ = G.transpose();
-  mass_.matrixL().solveInPlace(B_);
+  mass_.solve_lower(B_);
   schur_.resize(G.rows(), G.rows());
+  if (coupled_) return complement(W);
   schur_.noalias() = B_.transpose() * B_;
-  schur_llt_.compute(schur_);
-  redundant_ = schur_llt_.info() != Eigen::Success || !pivots_are_safe(schur_llt_.matrixLLT(), schur_);
+  redundant_ = !schur_cholesky_.compute(schur_) || !pivots_are_safe(schur_cholesky_.factor(), schur_);
   if (!redundant_) return;
   cod_.setThreshold(std::sqrt(eps));
   cod_.compute(B_);
 }
 
-// With z = L^T x:  z = L^-1 b - B y,  B^T z = c.
+void MassKkt::complement(const Mat& W) {
+  C_ = W.transpose();
+  mass_.solve_lower(C_);
+  schur_.noalias() = B_.transpose() * C_;
+  schur_lu_.compute(schur_);
+  for (Eigen::Index j = 0; j < schur_.cols(); ++j)
+    if (!(std::abs(schur_lu_.pivot(j)) > dependent * schur_.col(j).cwiseAbs().maxCoeff())) redundant_ = true;
+  if (!redundant_) return;
+  cod_.setThreshold(dependent);
+  cod_.compute(schur_);
+}
+
+// With z = L^T x:  z = L^-1 b - B y,  B^T z = c;  or with C for the first B.
 void MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   z_ = b;
-  mass_.matrixL().solveInPlace(z_);
+  mass_.solve_lower(z_);
   y.resize(B_.cols());
-  if (redundant_) {
+  if (coupled_ && B_.cols() > 0) {
+    w_ = -c;
+    w_.noalias() += B_.transpose() * z_;
+    if (redundant_)
+      y = cod_.solve(w_);
+    else
+      schur_lu_.solve(w_, y);
+    z_.noalias() -= C_ * y;
+  } else if (redundant_) {
     const Vec particular = cod_.transpose().solve(c);
     y = cod_.solve(z_ - particular);
     z_.noalias() -= B_ * y;
   } else if (B_.cols() > 0) {
     y = -c;
     y.noalias() += B_.transpose() * z_;
-    schur_llt_.solveInPlace(y);
+    schur_cholesky_.solve(y);
     z_.noalias() -= B_ * y;
   }
-  mass_.matrixU().solveInPlace(z_);
+  mass_.solve_transposed(z_);
   x = z_;
 }
 
