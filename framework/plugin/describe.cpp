@@ -26,7 +26,7 @@ const char* noun(Parameter::Type type) {
     case Parameter::Type::numbers:
       return "an array of numbers";
     case Parameter::Type::time_function:
-      return "a number or an expression of t";
+      return "a number, an expression of t or a table";
     case Parameter::Type::named_numbers:
       return "an object of named numbers";
     case Parameter::Type::named_vectors:

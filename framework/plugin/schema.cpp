@@ -57,8 +57,9 @@ Json type_of(const Parameter& parameter) {
   const ParameterTraits& traits = parameter.traits;
   switch (parameter.type) {
     case Parameter::Type::number:
-    case Parameter::Type::time_function:
       return number("number", traits);
+    case Parameter::Type::time_function:
+      return any_of(number("number", traits), reference("table"));
     case Parameter::Type::integer:
       return number("integer", traits);
     case Parameter::Type::boolean:
@@ -156,6 +157,13 @@ void define_common(Json& definitions) {
       with({{"type", "string"}, {"pattern", "^="}}, "\"=...\", evaluated in the scene's parameters");
   definitions["number"] = any_of({{"type", "number"}}, reference("expression"));
   definitions["positive"] = any_of({{"type", "number"}, {"exclusiveMinimum", 0}}, reference("expression"));
+  Json column = {{"type", {"string", "integer"}}};
+  definitions["table"] = with(object({{"table", {{"type", "string"}}},
+                                      {"time", column},
+                                      {"column", column},
+                                      {"holds", {{"enum", {"values", "accelerations"}}}},
+                                      {"scale", number}}),
+                              "a law of time from a text table, its columns by name or by number from 1");
   definitions["vector"] = array_of(number);
   Json frame = object({{"point", reference("vector")}, {"angle", number}});
   definitions["marker"] = with(any_of({{"type", "string"}}, std::move(frame)),
@@ -163,6 +171,7 @@ void define_common(Json& definitions) {
   definitions["on"] = reference("marker");
   Json plane = object({{"point", reference("vector")}, {"normal", reference("vector")}, {"on", reference("marker")}});
   definitions["between"] = array_of(any_of(reference("marker"), object({{"plane", std::move(plane)}})));
+  definitions["radius"] = with(number, "[m] of a disk or sphere around the first marker; 0: a point");
   definitions["between"]["minItems"] = 2;
   definitions["between"]["maxItems"] = 2;
   Json controlled = object({{"tolerance", reference("positive")},
@@ -201,10 +210,17 @@ std::string schema(const std::vector<const Entry*>& entries) {
   properties["forces"] = keyed(reference("force"));
   properties["contacts"] = keyed(reference("contact"));
   properties["integrator"] = reference("integrator");
-  properties["initial"] = object({{"consistent", {{"enum", {"check", "project"}}}}});
-  properties["simulate"] =
-      object({{"start", number}, {"until", number}, {"contact_hold", number}, {"chatter_steps", number}, {"event_limit", positive}});
-  properties["record"] = object({{"every", positive}, {"observe", keyed(text)}});
+  properties["initial"] = any_of({{"enum", {"check", "project", "equilibrium"}}},
+                                 object({{"consistent", {{"enum", {"check", "project"}}}}}));
+  properties["simulate"] = object({{"start", number},
+                                   {"until", number},
+                                   {"contact_hold", number},
+                                   {"chatter_steps", number},
+                                   {"event_limit", positive}});
+  properties["record"] = object(
+      {{"every", positive},
+       {"observe",
+        keyed(any_of(text, object({{"of", text}, {"relative_to", text}, {"since_start", {{"type", "boolean"}}}})))}});
   properties["corrections"] =
       object({{"position", correction(entries)}, {"velocity", correction(entries)}, {"energy", any_of({{"type", "boolean"}}, correction(entries))}});
 

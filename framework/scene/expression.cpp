@@ -15,7 +15,7 @@ namespace trammel::scene {
 
 namespace {
 
-using Code = TimeFunction::Code;
+using Code = JetCode;
 using Op = Code::Op;
 
 struct Function {

@@ -1,14 +1,15 @@
-// The postfix code behind a TimeFunction.
+// The postfix code of an expression of t.
 #pragma once
 
 #include <vector>
 
-#include <trammel/time_function.hpp>
+#include "scene/law_code.hpp"
 
 namespace trammel {
 
-class TimeFunction::Code {
+class JetCode final : public TimeFunction::Code {
  public:
+  using Jet = TimeFunction::Jet;
   enum class Op {
     number,
     time,
@@ -40,6 +41,7 @@ class TimeFunction::Code {
     ceil
   };
   static bool is_binary(Op op) { return op >= Op::add && op <= Op::max; }
+  static bool switches(Op op) { return op == Op::min || op == Op::max || op >= Op::abs; }
   struct Instruction {
     Op op;
     double number = 0;
@@ -47,6 +49,12 @@ class TimeFunction::Code {
 
   static constexpr std::size_t stack_size = 64;  // the compiler refuses expressions that need more
   std::vector<Instruction> instructions;
+
+  Jet jet(double t) const override;
+  void branches(double t, std::vector<double>& way) const override;
+
+ private:
+  Jet run(double t, std::vector<double>* way) const;
 };
 
 }  // namespace trammel

@@ -8,7 +8,7 @@ namespace trammel {
 namespace {
 
 using Jet = TimeFunction::Jet;
-using Code = TimeFunction::Code;
+using Code = JetCode;
 
 // f(u) by the chain rule: f, f' and f'' at u.
 Jet chain(const Jet& u, double f, double df, double ddf) {
@@ -129,25 +129,57 @@ Jet apply(Code::Op op, const Jet& a, const Jet& b) {
   }
 }
 
+// Which way a switch is thrown: of one argument, or of two.
+double way_of(Code::Op op, const Jet& u) {
+  switch (op) {
+    case Code::Op::floor:
+      return std::floor(u.value);
+    case Code::Op::ceil:
+      return std::ceil(u.value);
+    case Code::Op::sign:
+      return u.value > 0 ? 1 : u.value < 0 ? -1 : 0;
+    default:
+      return u.value < 0 ? 0 : 1;
+  }
+}
+double way_of(Code::Op op, const Jet& a, const Jet& b) {
+  return op == Code::Op::min ? b.value < a.value : b.value > a.value;
+}
+
 }  // namespace
 
-Jet TimeFunction::jet(double t) const {
-  if (!code_) return {constant_, 0, 0};
-  std::array<Jet, Code::stack_size> stack;
+Jet JetCode::jet(double t) const {
+  return run(t, nullptr);
+}
+
+void JetCode::branches(double t, std::vector<double>& way) const {
+  way.clear();
+  run(t, &way);
+}
+
+Jet JetCode::run(double t, std::vector<double>* way) const {
+  std::array<Jet, stack_size> stack;
   std::size_t top = 0;  // one past the last
-  for (const Code::Instruction& i : code_->instructions) {
-    if (i.op == Code::Op::number) {
+  for (const Instruction& i : instructions) {
+    const bool noted = way && switches(i.op);
+    if (i.op == Op::number) {
       stack[top++] = {i.number, 0, 0};
-    } else if (i.op == Code::Op::time) {
+    } else if (i.op == Op::time) {
       stack[top++] = {t, 1, 0};
-    } else if (Code::is_binary(i.op)) {
+    } else if (is_binary(i.op)) {
       --top;
+      if (noted) way->push_back(way_of(i.op, stack[top - 1], stack[top]));
       stack[top - 1] = apply(i.op, stack[top - 1], stack[top]);
     } else {
+      if (noted) way->push_back(way_of(i.op, stack[top - 1]));
       stack[top - 1] = apply(i.op, stack[top - 1]);
     }
   }
   return stack[0];
+}
+
+Jet TimeFunction::jet(double t) const {
+  return code_ ? code_->jet(t) : Jet{constant_, 0, 0};
 }
 
 std::string TimeFunction::text() const {

@@ -8,6 +8,7 @@
 
 #include "scene/builder.hpp"
 #include "scene/expression.hpp"
+#include "scene/motion_table.hpp"
 #include "scene/suggestion.hpp"
 
 namespace trammel::scene {
@@ -178,6 +179,7 @@ std::optional<std::vector<double>> Value::read_numbers(Problems& problems) const
 }
 
 std::optional<TimeFunction> Value::read_time_function(Problems& problems) const {
+  if (type() == Type::object) return read_motion_table(*this, problems);
   if (is_expression(*this))
     return compiled(*this, problems,
                     [&](auto text) { return compile_time_function(text, lookup_in(parameters_.get())); });

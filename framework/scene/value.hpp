@@ -84,7 +84,8 @@ class Value {
   std::optional<bool> read_boolean(Problems&) const;
   std::optional<std::string> read_text(Problems&) const;  // an expression may name a text parameter
   std::optional<std::vector<double>> read_numbers(Problems&) const;
-  std::optional<TimeFunction> read_time_function(Problems&) const;  // a number, or an expression that may contain t
+  // A number, an expression that may contain t, or a table (motion_table.hpp).
+  std::optional<TimeFunction> read_time_function(Problems&) const;
 
   using Parameters = std::vector<std::pair<std::string, std::variant<double, std::string>>>;
 

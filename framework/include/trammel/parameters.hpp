@@ -34,7 +34,7 @@ using Named = std::vector<std::pair<std::string, T>>;
 //   double, int, bool, std::string    a number, a whole number, true/false, text
 //   Vec3                              a vector of the scene's dimension: 2 entries planar, 3 spatial
 //   std::vector<double>               any number of numbers
-//   TimeFunction                      a number or an expression of t
+//   TimeFunction                      a number, an expression of t or a table
 //   Named<double>, Named<Vec3>        objects keyed by name
 //   an enum                           one of the names given to .choice(...)
 using ParameterValue = std::variant<std::monostate, double, int, bool, std::string, Vec3, std::vector<double>, TimeFunction,
@@ -50,6 +50,7 @@ struct ParameterTraits {
   bool above_min = false;  // min itself is refused too ("greater than")
   bool required = false;
   const char* doc = "";
+  int derivatives = 0;  // of a law of time that the component asks for: the law and all but the last must not jump
 };
 
 struct Parameter {

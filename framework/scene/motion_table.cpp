@@ -1,0 +1,180 @@
+#include "scene/motion_table.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "scene/builder.hpp"
+#include "scene/suggestion.hpp"
+#include "scene/tabulated_law.hpp"
+
+namespace trammel::scene {
+namespace {
+
+constexpr std::size_t fewest_rows = 4;  // of a table worth the name
+
+using Cells = std::vector<std::string_view>;
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blank = " \t\r";
+  const auto first = text.find_first_not_of(blank);
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+// By commas if there are any, else by semicolons, else by blanks.
+Cells cells_of(std::string_view line) {
+  const char separator = line.find(',') != line.npos ? ',' : line.find(';') != line.npos ? ';' : ' ';
+  Cells cells;
+  for (std::size_t at = 0; at <= line.size();) {
+    const auto end = separator == ' ' ? line.find_first_of(" \t", at) : line.find(separator, at);
+    const auto cell = trimmed(line.substr(at, std::min(end, line.size()) - at));
+    if (separator != ' ' || !cell.empty()) cells.push_back(cell);
+    at = end == line.npos ? line.size() + 1 : end + 1;
+  }
+  return cells;
+}
+
+std::optional<double> number_of(std::string_view cell) {
+  if (cell.starts_with('+')) cell.remove_prefix(1);
+  double x = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), x);
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(x)) return {};
+  return x;
+}
+
+class Table {
+ public:
+  Table(const Value& object, Problems& problems) : object_(object), problems_(problems) {}
+
+  std::optional<TimeFunction> read() {
+    static const std::vector<std::string> keys = {"table", "time", "column", "holds", "scale"};
+    for (const auto& [key, value] : object_.members())
+      if (std::find(keys.begin(), keys.end(), key) == keys.end())
+        problems_.error(value.problem(fmt::format("unknown key \"{}\"{}", key, did_you_mean(key, keys))));
+    const Value* table = object_.find("table");
+    if (!table) {
+      problems_.error(
+          object_.problem("found an object, expected a number, an expression of t or {\"table\": FILE, ...}"));
+      return {};
+    }
+    const auto name = table->read_text(problems_);
+    if (!name || !read_options()) return {};
+    file_ = (std::filesystem::path(table->position().file).parent_path() / *name).string();
+    try {
+      text_ = read_file(file_);
+    } catch (const SceneError& error) {
+      problems_.error(table->problem(fmt::format("cannot read the table \"{}\": {}", *name, error.what())));
+      return {};
+    }
+    if (!read_rows()) return {};
+    auto law = accelerations_ ? TabulatedLaw::of_accelerations(std::move(t_), std::move(x_))
+                              : TabulatedLaw::of_values(std::move(t_), std::move(x_));
+    return TimeFunction(std::make_shared<const TabulatedLaw>(std::move(law)), fmt::format("table {}", *name));
+  }
+
+ private:
+  bool read_options() {
+    if (const Value* holds = object_.find("holds")) {
+      const auto text = holds->read_text(problems_);
+      if (!text) return false;
+      if (*text != "values" && *text != "accelerations") {
+        problems_.error(holds->problem(fmt::format("found \"{}\", expected \"values\" or \"accelerations\"", *text)));
+        return false;
+      }
+      accelerations_ = *text == "accelerations";
+    }
+    if (const Value* scale = object_.find("scale")) {
+      const auto factor = scale->read_number(problems_);
+      if (!factor) return false;
+      scale_ = *factor;
+    }
+    return true;
+  }
+
+  bool read_rows() {
+    int line_number = 0;
+    bool first = true;
+    for (std::size_t at = 0; at < text_.size();) {
+      const auto end = std::min(text_.find('\n', at), text_.size());
+      const auto line = trimmed(std::string_view(text_).substr(at, end - at));
+      at = end + 1;
+      ++line_number;
+      if (line.empty() || line.starts_with('#')) continue;
+      const Cells cells = cells_of(line);
+      if (std::exchange(first, false)) {
+        const bool names =
+            std::none_of(cells.begin(), cells.end(), [](auto cell) { return number_of(cell).has_value(); });
+        const Cells header = names ? cells : Cells();
+        if (!find_column("time", 1, header, cells.size(), time_) ||
+            !find_column("column", 2, header, cells.size(), column_))
+          return false;
+        if (names) continue;
+      }
+      if (!add_row(cells, line_number)) return false;
+    }
+    if (t_.size() >= fewest_rows) return true;
+    return complain(line_number, fmt::format("found {} rows, expected at least {}", t_.size(), fewest_rows));
+  }
+
+  // A column by its name in the header or its number from 1; the index from 0.
+  bool find_column(const char* key, int fallback, const Cells& header, std::size_t count, std::size_t& index) {
+    const Value* value = object_.find(key);
+    if (value && value->type() == Value::Type::text && !value->text().starts_with("=")) {
+      const auto found = std::find(header.begin(), header.end(), value->text());
+      index = std::size_t(found - header.begin());
+      if (found != header.end()) return true;
+      const std::vector<std::string> names(header.begin(), header.end());
+      problems_.error(value->problem(
+          header.empty()
+              ? fmt::format("{} has no line that names its columns, so give a number from 1", file_)
+              : fmt::format("{} has no column \"{}\"{}", file_, value->text(), did_you_mean(value->text(), names))));
+      return false;
+    }
+    const std::optional<int> number = value ? value->read_integer(problems_) : fallback;
+    if (!number) return false;
+    index = std::size_t(*number - 1);
+    if (*number >= 1 && index < count) return true;
+    problems_.error((value ? *value : object_)
+                        .problem(fmt::format("found column {}, but {} has columns 1 to {}", *number, file_, count)));
+    return false;
+  }
+
+  bool add_row(const Cells& cells, int line) {
+    if (cells.size() <= std::max(time_, column_))
+      return complain(line,
+                      fmt::format("found {} cells, expected at least {}", cells.size(), std::max(time_, column_) + 1));
+    const auto t = number_of(cells[time_]), x = number_of(cells[column_]);
+    if (!t || !x) return complain(line, fmt::format("found \"{}\", expected a number", cells[t ? column_ : time_]));
+    if (!t_.empty() && !(*t > t_.back()))
+      return complain(line, fmt::format("the time {} does not come after {} in the row before", *t, t_.back()));
+    t_.push_back(*t);
+    x_.push_back(scale_ * *x);
+    return true;
+  }
+
+  bool complain(int line, std::string message) {
+    problems_.error({{file_, line, 1}, object_.path(), std::move(message)});
+    return false;
+  }
+
+  const Value& object_;
+  Problems& problems_;
+  std::string file_, text_;
+  bool accelerations_ = false;
+  double scale_ = 1;
+  std::size_t time_ = 0, column_ = 1;
+  std::vector<double> t_, x_;
+};
+
+}  // namespace
+
+std::optional<TimeFunction> read_motion_table(const Value& object, Problems& problems) {
+  return Table(object, problems).read();
+}
+
+}  // namespace trammel::scene

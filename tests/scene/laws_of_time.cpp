@@ -1,0 +1,231 @@
+// Laws of time from tables, and where laws jump.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "scene/continuity.hpp"
+#include "scene/expression.hpp"
+#include "scene/tabulated_law.hpp"
+#include "scene/value.hpp"
+
+namespace trammel::scene {
+namespace {
+
+using std::numbers::pi;
+using Jet = TimeFunction::Jet;
+
+// sin^4: it and its first two derivatives are 0 at 0 and at pi, as the spline's ends.
+Jet pulse(double t) {
+  const double s = std::sin(t), c = std::cos(t);
+  return {s * s * s * s, 4 * s * s * s * c, 12 * s * s * c * c - 4 * s * s * s * s};
+}
+
+struct Samples {
+  std::vector<double> t, x;
+};
+Samples sampled(int rows, const std::function<double(double)>& x) {
+  Samples samples;
+  for (int i = 0; i < rows; ++i) samples.t.push_back(pi * i / (rows - 1)), samples.x.push_back(x(samples.t.back()));
+  return samples;
+}
+
+double largest_error(const TabulatedLaw& law, double Jet::*part) {
+  double largest = 0;
+  for (double t = 0; t < pi; t += 0.0123) largest = std::max(largest, std::abs(law.jet(t).*part - pulse(t).*part));
+  return largest;
+}
+
+TEST(TabulatedLaw, PassesThroughItsRows) {
+  const Samples samples = sampled(20, [](double t) { return pulse(t).value; });
+  const TabulatedLaw law = TabulatedLaw::of_values(samples.t, samples.x);
+  for (std::size_t i = 0; i < samples.t.size(); ++i) EXPECT_NEAR(law.jet(samples.t[i]).value, samples.x[i], 1e-15);
+}
+
+// The quintic spline is of order 6, each derivative of one less; rows at half the distance divide the errors by 64, 32, 16.
+// Ratios are within 15 % of that between these tables.
+TEST(TabulatedLaw, OfValuesIsOfOrderSix) {
+  const auto law = [](int rows) {
+    const Samples samples = sampled(rows, [](double t) { return pulse(t).value; });
+    return TabulatedLaw::of_values(samples.t, samples.x);
+  };
+  const TabulatedLaw coarse = law(65), fine = law(129);
+  EXPECT_NEAR(std::log2(largest_error(coarse, &Jet::value) / largest_error(fine, &Jet::value)), 6, 0.2);
+  EXPECT_NEAR(std::log2(largest_error(coarse, &Jet::rate) / largest_error(fine, &Jet::rate)), 5, 0.2);
+  EXPECT_NEAR(std::log2(largest_error(coarse, &Jet::second) / largest_error(fine, &Jet::second)), 4, 0.2);
+}
+
+TEST(TabulatedLaw, OfAccelerationsIsTheirSecondIntegral) {
+  const auto error = [](int rows) {
+    const Samples samples = sampled(rows, [](double t) { return pulse(t).second; });
+    return largest_error(TabulatedLaw::of_accelerations(samples.t, samples.x), &Jet::value);
+  };
+  // The natural ends of the cubic spline (its bend is 0 there, that of sin^4'' is 24) leave order 2 in the acceleration of
+  // the outermost pieces, whose part in the displacement is of order 3.
+  EXPECT_LT(error(257), 1e-5);
+  EXPECT_NEAR(std::log2(error(129) / error(257)), 3, 0.2);
+}
+
+// Rows at unlike distances: the first four derivatives are the same from both sides of each row.
+TEST(TabulatedLaw, IsFourTimesContinuouslyDifferentiable) {
+  const std::vector<double> t = {0, 0.3, 0.5, 1.1, 1.2, 2}, x = {0, 1, -0.5, 0.3, 0.7, 0.2};
+  for (const TabulatedLaw& law : {TabulatedLaw::of_values(t, x), TabulatedLaw::of_accelerations(t, x)})
+    for (std::size_t i = 1; i + 1 < t.size(); ++i) {
+      const double h = 1e-4;
+      const Jet before = law.jet(t[i] - 1e-12), after = law.jet(t[i] + 1e-12);
+      EXPECT_NEAR(before.value, after.value, 1e-9);
+      EXPECT_NEAR(before.rate, after.rate, 1e-8);
+      EXPECT_NEAR(before.second, after.second, 1e-6);
+      // One-sided differences, each half a step off: they differ by h times the next derivative, of 1e4 at most here.
+      const auto third = [&](double step) { return (law.jet(t[i] + step).second - law.jet(t[i]).second) / step; };
+      const auto fourth = [&](double step) {
+        return (law.jet(t[i] + 2 * step).second - 2 * law.jet(t[i] + step).second + law.jet(t[i]).second) /
+               (step * step);
+      };
+      EXPECT_NEAR(third(-h), third(h), 2) << i;
+      EXPECT_NEAR(fourth(-h), fourth(h), 10) << i;
+    }
+}
+
+TEST(TabulatedLaw, RestsBeforeItsFirstRowAndAfterItsLast) {
+  const TabulatedLaw law = TabulatedLaw::of_values({1, 2, 3, 4}, {5, 6, 5, 7});
+  for (const double t : {-10.0, 1.0, 4.0, 20.0}) {
+    const Jet jet = law.jet(t);
+    EXPECT_NEAR(jet.value, t < 2 ? 5 : 7, 1e-14);
+    EXPECT_NEAR(jet.rate, 0, 1e-13);
+    EXPECT_NEAR(jet.second, 0, 1e-12);
+  }
+}
+
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / fmt::format("trammel_laws_{}", ::getpid())) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::string file(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << text;
+    return (path_ / name).string();
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+struct Read {
+  std::optional<TimeFunction> law;
+  std::string problems;
+};
+Read read(const std::string& table, const std::string& entry) {
+  const Folder folder;
+  folder.file("quake.csv", table);
+  const Scene scene = Scene::load(folder.file("scene.json", "{\"x\": " + entry + "}"));
+  Problems problems;
+  Read result;
+  result.law = scene.root().find("x")->read_time_function(problems);
+  for (const Problem& problem : problems.errors()) result.problems += problem.text() + "\n";
+  return result;
+}
+
+TEST(MotionTable, IsReadFromTheSceneFilesFolder) {
+  const Read read_ =
+      read("# El Centro\nt, a_x, a_y\n0, 0, 0\n1, 2, 0\n2, 3e-1, 0\n\n3, 0, 1\n", R"({"table": "quake.csv"})");
+  ASSERT_TRUE(read_.law) << read_.problems;
+  EXPECT_NEAR((*read_.law)(1), 2, 1e-15);
+  EXPECT_EQ((*read_.law)(2), 0.3);
+}
+
+TEST(MotionTable, FindsColumnsByNameAndByNumber) {
+  const char* table = "x;time;y\n5;0;0\n6;1;1\n7;2;0\n8;3;4\n";
+  for (const char* entry : {R"({"table": "quake.csv", "time": "time", "column": "y", "scale": 10})",
+                            R"({"table": "quake.csv", "time": 2, "column": 3, "scale": "=5+5"})"}) {
+    const Read read_ = read(table, entry);
+    ASSERT_TRUE(read_.law) << read_.problems;
+    EXPECT_NEAR((*read_.law)(3), 40, 1e-13);
+  }
+}
+
+TEST(MotionTable, MayBeSeparatedByBlanks) {
+  const Read read_ = read("0.0   1\n  1.0\t2 \n2.0 3\n3.0 4\n", R"({"table": "quake.csv", "holds": "accelerations"})");
+  ASSERT_TRUE(read_.law) << read_.problems;
+  EXPECT_DOUBLE_EQ(read_.law->jet(2).second, 3);
+  EXPECT_NEAR(read_.law->jet(3).rate, 7.5, 1e-14);  // a = 1 + t
+}
+
+struct Wrong {
+  const char *table, *entry, *message;
+};
+void PrintTo(const Wrong& wrong, std::ostream* out) {
+  *out << wrong.entry;
+}
+class WrongTable : public testing::TestWithParam<Wrong> {};
+TEST_P(WrongTable, IsRefusedWithItsPlace) {
+  const Read read_ = read(GetParam().table, GetParam().entry);
+  EXPECT_NE(read_.problems.find(GetParam().message), std::string::npos) << read_.problems;
+}
+const char* const good = "t,x\n0,0\n1,1\n2,0\n3,0\n";
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongTable,
+    testing::Values(
+        Wrong{"t,x\n0,0\n1,1\n0.5,2\n3,4\n", R"({"table": "quake.csv"})",
+              "quake.csv:4:1: x: the time 0.5 does not come after 1 in the row before"},
+        Wrong{"t,x\n0,0\n1,1\n1,2\n3,4\n", R"({"table": "quake.csv"})",
+              "quake.csv:4:1: x: the time 1 does not come after 1"},
+        Wrong{"0,0\n1,1\n", R"({"table": "quake.csv"})", "quake.csv:2:1: x: found 2 rows, expected at least 4"},
+        Wrong{"", R"({"table": "quake.csv"})", "found 0 rows"},
+        Wrong{"0,0\n1,one\n2,2\n3,3\n", R"({"table": "quake.csv"})",
+              "quake.csv:2:1: x: found \"one\", expected a number"},
+        Wrong{"0,0\n1,nan\n2,2\n3,3\n", R"({"table": "quake.csv"})", "found \"nan\", expected a number"},
+        Wrong{"0,0\n1\n2,2\n3,3\n", R"({"table": "quake.csv"})",
+              "quake.csv:2:1: x: found 1 cells, expected at least 2"},
+        Wrong{good, R"({"table": "quake.csv", "column": "y"})", "has no column \"y\"; known: t, x"},
+        Wrong{good, R"({"table": "quake.csv", "column": 3})", "found column 3, but"},
+        Wrong{good, R"({"table": "quake.csv", "time": 0})", "found column 0, but"},
+        Wrong{good, R"({"table": "quake.csv", "holds": "acceleration"})",
+              "found \"acceleration\", expected \"values\" or \"accelerations\""},
+        Wrong{good, R"({"table": "quack.csv"})", "cannot read the table \"quack.csv\""},
+        Wrong{good, R"({"table": "quake.csv", "colum": 2})", "unknown key \"colum\""},
+        Wrong{good, R"({"file": "quake.csv"})", "expected a number, an expression of t or {\"table\": FILE, ...}"}));
+
+TimeFunction law(const char* text) {
+  return compile_time_function(text, [](std::string_view, int) { return 0.0; });
+}
+
+TEST(Continuity, JumpsOfTheValueAndOfTheRateAreFoundToTheLastDigit) {
+  const auto step = find_jump(law("step(t - 0.7)"), 1, 0, 2);
+  ASSERT_TRUE(step);
+  EXPECT_EQ(step->t, 0.7);
+  EXPECT_EQ(step->derivative, 0);
+  EXPECT_DOUBLE_EQ(step->by, 1);
+  const auto corner = find_jump(law("abs(sin(t))"), 2, 0.1, 4);
+  ASSERT_TRUE(corner);
+  EXPECT_NEAR(corner->t, pi, 1e-15);
+  EXPECT_EQ(corner->derivative, 1);
+  EXPECT_NEAR(corner->by, 2, 1e-12);
+}
+
+TEST(Continuity, ACornerIsNoJumpOfTheValue) {
+  EXPECT_FALSE(find_jump(law("max(0, t - 1)"), 1, 0, 2));
+}
+
+TEST(Continuity, AJumpOfTheLastDerivativeIsAllowed) {
+  EXPECT_FALSE(find_jump(law("max(0, t - 1)^2"), 2, 0, 2));
+  EXPECT_FALSE(find_jump(law("step(t - 1)*(t - 1)^2"), 2, 0, 2));
+}
+
+TEST(Continuity, ASwitchThatIsThrownAtTheStartIsNoJump) {
+  EXPECT_FALSE(find_jump(law("step(t)*sin(t)"), 2, 0, 2));
+}
+
+TEST(Continuity, ALawWithoutSwitchesHasNoJump) {
+  EXPECT_FALSE(find_jump(law("1/(t - 1)"), 2, 0, 2));
+}
+
+}  // namespace
+}  // namespace trammel::scene
