@@ -34,8 +34,19 @@ void AssembledSystem::set_modes(const Modes& modes) {
   Work& w = *work_;
   w.modes = modes;
   int row = w.model->sizes.nc;
-  for (std::size_t i = 0; i < modes.contacts.size(); ++i)
-    w.contact_row[i] = modes.contacts[i].closed && w.model->contacts[i].restitution ? row++ : -1;
+  const int tangents = dimension(w.model->world.space) - 1;
+  w.judged.clear();
+  w.judged_friction.setZero(Eigen::Index(modes.contacts.size()));
+  for (std::size_t i = 0; i < modes.contacts.size(); ++i) {
+    const ContactMode& mode = modes.contacts[i];
+    const ContactEntry& entry = w.model->contacts[i];
+    w.contact_row[i] = mode.closed && entry.restitution ? row++ : -1;
+    const bool sticks = mode.closed && mode.friction == ContactMode::Friction::stick;
+    const bool held = sticks && entry.coulomb->decide() == SetValuedFriction::Decide::at_events;
+    if (sticks && !held) w.judged.push_back(int(i));
+    w.stick_row[i] = held ? row : -1;
+    if (held) row += tangents;
+  }
   w.sizes.nc = row;
   w.rows_fresh = w.bodies_fresh = w.force_fresh = false;
 }
@@ -52,12 +63,23 @@ int AssembledSystem::contact_row(int contact) const {
   return work_->contact_row[std::size_t(contact)];
 }
 
+int AssembledSystem::stick_row(int contact) const {
+  return work_->stick_row[std::size_t(contact)];
+}
+
 void AssembledSystem::initial(Vec& q, Vec& v) const {
   const Sizes n = work_->model->sizes;
   q.setZero(n.nq);
   v.setZero(n.nv);
   for (const BodyEntry& entry : work_->model->bodies)
     entry.body->initial(q.segment(entry.q0, entry.nq), v.segment(entry.v0, entry.nv));
+}
+
+void AssembledSystem::hold_still(bool still) {
+  Work& w = *work_;
+  w.chain.hold_still(still);
+  if (w.point > 0) ++w.point;  // else there is no point yet
+  w.bodies_fresh = w.force_fresh = w.rows_fresh = false;
 }
 
 namespace {
@@ -137,7 +159,7 @@ void AssembledSystem::add_mass_times(double c, const Vec& a, Vec& r) {
 void AssembledSystem::add_reaction(double c, const Vec& lambda, Vec& r) {
   if (work_->sizes.nc == 0) return;
   work_->evaluate_rows();
-  r.noalias() += c * (work_->G.transpose() * lambda);
+  r.noalias() += c * (work_->reactions().transpose() * lambda);
 }
 
 void AssembledSystem::add_rows_times(double c, const Vec& x, Vec& rc) {
@@ -146,17 +168,19 @@ void AssembledSystem::add_rows_times(double c, const Vec& x, Vec& rc) {
   rc.noalias() += c * (work_->G * x);
 }
 
-// No contact's friction couples rows here: W = G.
 void AssembledSystem::add_rows_force(double c, const Vec& mu, Vec& r) {
-  add_reaction(c, mu, r);
+  if (work_->sizes.nc == 0) return;
+  work_->evaluate_rows();
+  r.noalias() += c * (work_->G.transpose() * mu);
 }
 
 void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
   Work& w = *work_;
-  if (!w.factorise_mass(w.at_point)) throw NotSolvable("the mass matrix is not positive definite");
+  if (!w.factorise_mass(w.at_point, true)) throw NotSolvable("the mass matrix is not positive definite");
   w.right = w.force();
   w.right_rows = w.gamma - 2 * s.alpha * w.g_dot - s.beta * s.beta * w.g;
   w.at_point.mass.solve(w.right, w.right_rows, a, lambda);
+  if (!w.judged.empty()) w.judge_friction(a, lambda);
 }
 
 void AssembledSystem::factorise(Blend blend, const Vec& a, const Vec& lambda, Factors which) {
@@ -166,7 +190,8 @@ void AssembledSystem::factorise(Blend blend, const Vec& a, const Vec& lambda, Fa
   const bool mass_only = no_tangent && blend.c_m == 1 && blend.c_1 == 0;
   const bool identity_only = no_tangent && blend.c_m == 0 && blend.c_1 == 1;
   kept.symmetric = mass_only || identity_only;
-  if (mass_only && !w.factorise_mass(kept)) throw NotSolvable("the mass matrix is not positive definite");
+  if (mass_only && !w.factorise_mass(kept, which == Factors::iteration))
+    throw NotSolvable("the mass matrix is not positive definite");
   if (mass_only) return;
   w.evaluate_rows();
   if (identity_only) {
@@ -176,7 +201,7 @@ void AssembledSystem::factorise(Blend blend, const Vec& a, const Vec& lambda, Fa
   }
   ++w.counts.factorizations;
   w.add_tangent(blend, a, lambda, kept.iteration.begin(w.sizes.nv, w.sizes.nc));
-  kept.iteration.factorise(w.G, w.G);
+  kept.iteration.factorise(which == Factors::iteration ? w.reactions() : w.G, w.G);
 }
 
 bool AssembledSystem::correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda, Factors which) {
@@ -190,69 +215,6 @@ bool AssembledSystem::correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda
   return da.allFinite() && dlambda.allFinite();
 }
 
-double AssembledSystem::gap(int contact) {
-  return work_->contact(contact).g(0);
-}
-
-double AssembledSystem::gap_rate(int contact) {
-  Work& w = *work_;
-  const Rows& r = w.contact(contact);
-  const auto [A, B] = w.contact_slots[std::size_t(contact)];
-  return r.H_A.row(0).dot(w.motion(A).V) + r.H_B.row(0).dot(w.motion(B).V);
-}
-
-double AssembledSystem::gap_acceleration(int contact, const Vec& a) {
-  Work& w = *work_;
-  const Rows& r = w.contact(contact);
-  double sum = -r.gamma(0);
-  const auto add = [&](int slot, const auto& H) {
-    const Motion& m = w.motion(slot);
-    sum += H.dot(m.bias);
-    if (w.chain.body(slot) < 0) return;
-    const int v0 = w.model->bodies[std::size_t(w.chain.body(slot))].v0;
-    for (std::size_t j = 0; j < m.dofs.size(); ++j) sum += H.dot(m.J.col(Eigen::Index(j))) * a(v0 + m.dofs[j]);
-  };
-  const auto [A, B] = w.contact_slots[std::size_t(contact)];
-  add(A, r.H_A.row(0));
-  add(B, r.H_B.row(0));
-  return sum;
-}
-
-double AssembledSystem::normal_force(int contact, const Vec& lambda) {
-  Work& w = *work_;
-  const auto i = std::size_t(contact);
-  if (w.contact_row[i] >= 0) return -lambda(w.contact_row[i]);
-  const ContactForce* law = w.model->contacts[i].force;
-  if (!law || !w.modes.contacts[i].closed) return 0;
-  return law->normal(gap(contact), gap_rate(contact), w.modes.contacts[i].approach_speed);
-}
-
-void AssembledSystem::impulse_response(const std::vector<int>& contacts, Mat& jump, Mat& delassus) {
-  Work& w = *work_;
-  w.evaluate_rows();
-  const auto n = Eigen::Index(contacts.size());
-  numerics::MassKkt held;
-  if (!held.factorise(w.mass(), w.G.topRows(w.model->sizes.nc)))
-    throw NotSolvable("the mass matrix is not positive definite");
-  const Vec no_rows = Vec::Zero(w.model->sizes.nc);
-  Mat N = Mat::Zero(w.sizes.nv, n);
-  jump.resize(w.sizes.nv, n);
-  Vec dv, impulses;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const int contact = contacts[std::size_t(i)];
-    const Rows& r = w.contact(contact);
-    const auto [A, B] = w.contact_slots[std::size_t(contact)];
-    w.motion(A), w.motion(B);
-    Vec column = Vec::Zero(w.sizes.nv);
-    w.chain.add_wrench(A, r.H_A.row(0).transpose(), 1, column);
-    w.chain.add_wrench(B, r.H_B.row(0).transpose(), 1, column);
-    N.col(i) = column;
-    held.solve(column, no_rows, dv, impulses);
-    jump.col(i) = dv;
-  }
-  delassus = N.transpose() * jump;
-}
-
 void AssembledSystem::constraint_acceleration(const Vec& a, Vec& r) {
   work_->evaluate_rows();
   r = -work_->gamma;
@@ -262,6 +224,10 @@ void AssembledSystem::constraint_acceleration(const Vec& a, Vec& r) {
 const Motion& AssembledSystem::motion(MarkerRef marker) {
   Work& w = *work_;
   return w.motion(w.chain.slot(marker));
+}
+
+bool AssembledSystem::redundant() const {
+  return work_->at_point.mass.redundant();
 }
 
 }  // namespace trammel::model

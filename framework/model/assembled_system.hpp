@@ -18,6 +18,20 @@ struct ContactMode {
   bool closed = false;        // Restitution: its row is active; ContactForce: its force is evaluated
   double approach_speed = 0;  // [m/s] at the last onset
   double offset = 0;          // [m] the row holds gap = offset; 0 but where an onset was not located
+
+  // Of set-valued friction, while closed. Stick: rows hold the slip at 0. Slide: F_t = -mu F_n direction.
+  enum class Friction { none, stick, slide };
+  Friction friction = Friction::none;
+  double direction = 0;  // slide: +1 or -1, sign of the slip velocity along the tangent
+  double anchor = 0;     // [m] stick: coordinate along the tangent that is held
+
+  bool operator==(const ContactMode&) const = default;
+};
+
+// A direction of a contact: row 0 its normal, from 1 on its tangents.
+struct ContactDirection {
+  int contact = 0;
+  int row = 0;
 };
 
 struct Modes {
@@ -70,34 +84,49 @@ class AssembledSystem final : public System {
 
   // --- for the Simulator ---
   const Model& model() const;
-  // Which contacts are closed; changes sizes().nc. Rows: the joints', then those of closed Restitution contacts in
-  // order.
+  // Which contacts are closed and stick; changes sizes().nc. Rows: the joints', then contact by contact that of the gap
+  // (closed Restitution contacts) and those of the tangents (sticking ones of either kind).
   void set_modes(const Modes& modes);
   void lay_out();  // the model was laid out anew: forgets all that was evaluated, keeps the modes and counts
   const Modes& modes() const;
   int contact_row(int contact) const;  // its row in g while closed, else -1; the normal force is -lambda of that row
+  int stick_row(int contact) const;    // its first tangential row while it sticks, else -1; friction is -lambda of it
   void initial(Vec& q, Vec& v) const;  // from the bodies' parameters
+  // For statics: points have v = 0, markers that a law of time moves stand still where they are, and contacts stick by rows,
+  // however their friction decides. Modes are to be set anew afterwards.
+  void hold_still(bool still);
 
   // At the point of the last move_to. Each evaluates only what it needs.
   double gap(int contact);
   double gap_rate(int contact);
-  double gap_acceleration(int contact, const Vec& a);   // for an acceleration of the system
-  double normal_force(int contact, const Vec& lambda);  // [N] >= 0 pushes; of either kind of law
+  double rate(ContactDirection direction);                        // [m/s] of the gap, or slip velocity
+  double acceleration(ContactDirection direction, const Vec& a);  // [m/s^2] for an acceleration of the system
+  double coordinate(ContactDirection direction);                  // [m] gap, or place along the tangent
+  double normal_force(int contact, const Vec& lambda);            // [N] >= 0 pushes; of either kind of law
+  double friction_force(int contact, const Vec& lambda);          // [N] on A along the (first) tangent
   // Velocity jump by impulses on contacts, bilateral rows held (M dv + G_b^T L_b = sum_i n_i L_i): column i of `jump`
-  // is dv for a unit impulse on contacts[i], and delassus(i, j) the change of gap rate of contacts[i] by a unit on
-  // contacts[j].
-  void impulse_response(const std::vector<int>& contacts, Mat& jump, Mat& delassus);
+  // is dv for a unit impulse along directions[i], and delassus(i, j) the change of the rate of directions[i] by a unit
+  // along directions[j].
+  void impulse_response(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus);
+  // Rows depended on each other at the last `accelerate`: lambda is one choice of many.
+  bool redundant() const;
+  // [rad/s] What an impulse along a direction sets in motion, x = response, swings back with omega^2 = x K x / x M x at
+  // first (Rayleigh's quotient; K the stiffness, bilateral rows held): the highest of them. 0: none swings back.
+  double highest_frequency(const std::vector<ContactDirection>& directions);
 
   struct Balance {           // power of what energy() does not hold, by cause [W]
     double drives = 0;       // supplied by bodies' drives and loads
     double dampers = 0;      // dissipated in bodies and forces
     double contacts = 0;     // dissipated in compliant contacts
-    double constraints = 0;  // supplied by time-dependent rows: -lambda . W v
+    double constraints = 0;  // supplied by time-dependent rows: -lambda . G v
+    double markers = 0;      // supplied by forces and contacts at markers that move by a law of time
+    Vec friction;            // dissipated in sliding, contact by contact
   };
   Balance balance(const Vec& lambda);
   void constraint_acceleration(const Vec& a, Vec& r);  // G a - gamma
 
-  const Motion& motion(MarkerRef marker);  // at the current point
+  const Motion& motion(MarkerRef marker);     // at the current point
+  const Motion& contact_marker(int contact);  // of its A
   const CallSite& last_call() const;
   // Finds the first component whose answer at the current point is not finite; component is null if all are.
   CallSite find_not_finite();

@@ -11,6 +11,7 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m) : model(std::move(m)
   contact_rows.resize(model->contacts.size());
   modes.contacts.resize(model->contacts.size());
   contact_row.assign(model->contacts.size(), -1);
+  stick_row.assign(model->contacts.size(), -1);
   sizes = model->sizes;
 }
 
@@ -72,11 +73,15 @@ const Vec& AssembledSystem::Work::force() {
     if (!law || !modes.contacts[i].closed) continue;
     const Rows& r = contact(int(i));
     const auto [A, B] = contact_slots[i];
-    const double rate = r.H_A.row(0).dot(motion(A).V) + r.H_B.row(0).dot(motion(B).V);
+    const double rate = contact_rate(int(i), 0);
     called(model->contacts[i].name, "normal");
     const double N = law->normal(r.g(0), rate, modes.contacts[i].approach_speed);
     chain.add_wrench(A, r.H_A.row(0).transpose(), N, f);
     chain.add_wrench(B, r.H_B.row(0).transpose(), N, f);
+    if (const double ratio = friction_ratio(int(i)); ratio != 0) {
+      chain.add_wrench(A, r.H_A.row(1).transpose(), ratio * N, f);
+      chain.add_wrench(B, r.H_B.row(1).transpose(), ratio * N, f);
+    }
   }
   returned();
   force_fresh = true;
@@ -88,12 +93,37 @@ const Rows& AssembledSystem::Work::contact(int i) {
   if (cache.point != point) {
     const auto [A, B] = contact_slots[std::size_t(i)];
     called(model->contacts[std::size_t(i)].name, "motion");
-    cache.rows.resize(1, model->world.space);
-    model::contact_rows(model->contacts[std::size_t(i)].geometry, motion(A), motion(B), false, cache.rows);
+    const ContactEntry& entry = model->contacts[std::size_t(i)];
+    const bool tangents = entry.friction != nullptr;
+    cache.rows.resize(tangents ? dimension(model->world.space) : 1, model->world.space);
+    model::contact_rows(entry.geometry, motion(A), motion(B), tangents, cache.rows);
     returned();
     cache.point = point;
   }
   return cache.rows;
+}
+
+double AssembledSystem::Work::contact_rate(int i, int row) {
+  const Rows& r = contact(i);
+  const auto [A, B] = contact_slots[std::size_t(i)];
+  return r.H_A.row(row).dot(motion(A).V) + r.H_B.row(row).dot(motion(B).V);
+}
+
+double AssembledSystem::Work::friction_ratio(int i) {
+  const ContactEntry& entry = model->contacts[std::size_t(i)];
+  const ContactMode& mode = modes.contacts[std::size_t(i)];
+  if (entry.coulomb) {
+    if (mode.friction != ContactMode::Friction::slide) return 0;
+    return -mode.direction * entry.coulomb->kinetic_coefficient(std::abs(contact_rate(i, 1)));
+  }
+  if (!entry.smooth) return 0;
+  const double slip = contact_rate(i, 1);
+  return std::copysign(entry.smooth->ratio(std::abs(slip)), -slip);
+}
+
+double AssembledSystem::Work::friction_damping(int i) {
+  const ContactEntry& entry = model->contacts[std::size_t(i)];
+  return entry.smooth ? entry.smooth->slope(std::abs(contact_rate(i, 1))) : 0;
 }
 
 void AssembledSystem::Work::evaluate_rows() {
@@ -102,34 +132,55 @@ void AssembledSystem::Work::evaluate_rows() {
   g_dot.resize(sizes.nc);
   gamma.resize(sizes.nc);
   G.setZero(sizes.nc, sizes.nv);
-  const auto place = [&](const Rows& r, Pair pair, int row) {
+  // Rows first .. first + n - 1 of r become rows `row` and on.
+  const auto place = [&](const Rows& r, Pair pair, int row, Eigen::Index first, Eigen::Index n) {
     const Motion &A = motion(pair.A), &B = motion(pair.B);
-    const auto n = r.g.size();
-    g.segment(row, n) = r.g;
-    g_dot.segment(row, n) = r.g_t;
-    g_dot.segment(row, n).noalias() += r.H_A * A.V;
-    g_dot.segment(row, n).noalias() += r.H_B * B.V;
-    gamma.segment(row, n) = r.gamma;
-    gamma.segment(row, n).noalias() -= r.H_A * A.bias;
-    gamma.segment(row, n).noalias() -= r.H_B * B.bias;
-    chain.add_rows(pair.A, row, r.H_A, G);
-    chain.add_rows(pair.B, row, r.H_B, G);
+    const Mat6 H_A = r.H_A.middleRows(first, n), H_B = r.H_B.middleRows(first, n);
+    g.segment(row, n) = r.g.segment(first, n);
+    g_dot.segment(row, n) = r.g_t.segment(first, n);
+    g_dot.segment(row, n).noalias() += H_A * A.V;
+    g_dot.segment(row, n).noalias() += H_B * B.V;
+    gamma.segment(row, n) = r.gamma.segment(first, n);
+    gamma.segment(row, n).noalias() -= H_A * A.bias;
+    gamma.segment(row, n).noalias() -= H_B * B.bias;
+    chain.add_rows(pair.A, row, H_A, G);
+    chain.add_rows(pair.B, row, H_B, G);
   };
   for (std::size_t i = 0; i < joint_slots.size(); ++i) {
     const JointEntry& entry = model->joints[i];
     called(entry.name, "rows");
     rows.resize(entry.rows, model->world.space);
     entry.joint->rows(t, motion(joint_slots[i].A), motion(joint_slots[i].B), rows);
-    place(rows, joint_slots[i], entry.row);
+    place(rows, joint_slots[i], entry.row, 0, entry.rows);
   }
+  coupled = false;
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
-    const int row = contact_row[i];
-    if (row < 0) continue;
-    place(contact(int(i)), contact_slots[i], row);
-    g(row) -= modes.contacts[i].offset;
+    if (const int row = contact_row[i]; row >= 0) {
+      place(contact(int(i)), contact_slots[i], row, 0, 1);
+      g(row) -= modes.contacts[i].offset;
+      coupled = coupled || friction_ratio(int(i)) != 0;
+    }
+    if (const int row = stick_row[i]; row >= 0) {
+      place(contact(int(i)), contact_slots[i], row, 1, contact(int(i)).g.size() - 1);
+      g(row) -= modes.contacts[i].anchor;
+    }
   }
+  if (coupled) couple_reactions();
   returned();
   rows_fresh = true;
+}
+
+// W: where a contact slides, the friction beside the force of its row.
+void AssembledSystem::Work::couple_reactions() {
+  W = G;
+  for (std::size_t i = 0; i < contact_slots.size(); ++i) {
+    if (contact_row[i] < 0) continue;
+    const double ratio = friction_ratio(int(i));
+    if (ratio == 0) continue;
+    const Rows& r = contact(int(i));
+    chain.add_rows(contact_slots[i].A, contact_row[i], ratio * r.H_A.row(1), W);
+    chain.add_rows(contact_slots[i].B, contact_row[i], ratio * r.H_B.row(1), W);
+  }
 }
 
 namespace {
@@ -233,36 +284,45 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
     if (!modes.contacts[i].closed) continue;
     const auto [A, B] = contact_slots[i];
     const Rows& r = contact(int(i));
+    const double ratio = friction_ratio(int(i));
+    // Force of the contact per unit of pressure, along the normal and beside it.
+    Wrench push_A = r.H_A.row(0), push_B = r.H_B.row(0);
+    if (ratio != 0) push_A += ratio * r.H_A.row(1).transpose(), push_B += ratio * r.H_B.row(1).transpose();
+    const auto add = [&](int row, double weight, const Wrench& w_A, const Wrench& w_B) {
+      chain.add_pair(A, A, w_A * r.H_A.row(row), weight, S), chain.add_pair(A, B, w_A * r.H_B.row(row), weight, S);
+      chain.add_pair(B, A, w_B * r.H_A.row(row), weight, S), chain.add_pair(B, B, w_B * r.H_B.row(row), weight, S);
+    };
     double pull = 0;  // W^T lambda of the row, or -f of the law
     if (contact_row[i] >= 0) {
       pull = lambda(contact_row[i]);
     } else {
-      const double rate = r.H_A.row(0).dot(motion(A).V) + r.H_B.row(0).dot(motion(B).V);
-      const double approach = modes.contacts[i].approach_speed;
+      const double rate = contact_rate(int(i), 0), approach = modes.contacts[i].approach_speed;
       const ContactForce* law = model->contacts[i].force;
       pull = -law->normal(r.g(0), rate, approach);
       const auto [by_gap, by_rate] = law->slope(r.g(0), rate, approach);
-      const double weight = -(c.c_k * by_gap + c.c_d * by_rate);
-      const std::array<std::pair<int, const Mat6*>, 2> sides = {{{A, &r.H_A}, {B, &r.H_B}}};
-      for (const auto& [slot, H] : sides)
-        for (const auto& [other, H_other] : sides)
-          chain.add_pair(slot, other, H->row(0).transpose() * H_other->row(0), weight, S);
+      add(0, -(c.c_k * by_gap + c.c_d * by_rate), push_A, push_B);
     }
-    if (c.c_k == 0 || pull == 0) continue;
-    chain.add_reaction_derivative(A, t, q, r.H_A.row(0).transpose(), c.c_k * pull, S);
-    chain.add_reaction_derivative(B, t, q, r.H_B.row(0).transpose(), c.c_k * pull, S);
+    if (const double damping = c.c_d * -pull * friction_damping(int(i)); damping != 0)
+      add(1, damping, r.H_A.row(1), r.H_B.row(1));
+    if (c.c_k == 0) continue;
+    push_A *= pull, push_B *= pull;
+    if (const int row = stick_row[i]; row >= 0)
+      push_A += lambda(row) * r.H_A.row(1).transpose(), push_B += lambda(row) * r.H_B.row(1).transpose();
+    chain.add_reaction_derivative(A, t, q, push_A, c.c_k, S);
+    chain.add_reaction_derivative(B, t, q, push_B, c.c_k, S);
   }
   returned();
 }
 
-bool AssembledSystem::Work::factorise_mass(Kept& store) {
+bool AssembledSystem::Work::factorise_mass(Kept& store, bool with_friction) {
   evaluate_rows();
+  const Mat& reaction = with_friction ? reactions() : G;
   if (store.mass_factorised && model->constant_mass) {
-    store.mass.change_rows(G);
+    store.mass.change_rows(G, reaction);
     return true;
   }
   ++counts.factorizations;
-  store.mass_factorised = store.mass.factorise(mass(), G);
+  store.mass_factorised = store.mass.factorise(mass(), G, reaction);
   return store.mass_factorised;
 }
 

@@ -36,10 +36,17 @@ struct AssembledSystem::Work {
   void evaluate_bodies();
   const Mat& mass();
   const Vec& force();
-  void evaluate_rows();  // g, g_dot, gamma, G
+  void evaluate_rows();  // g, g_dot, gamma, G, W
+  void couple_reactions();
   const Rows& contact(int i);
+  double contact_rate(int i, int row);
+  double contact_acceleration(int i, int row, const Vec& a);
+  void judge_friction(Vec& a, Vec& lambda);  // adds that of `judged`
+  double friction_ratio(int i);    // F_t / F_n along the tangent while sliding; 0 where rows or nothing hold it
+  double friction_damping(int i);  // -d(F_t / F_n)/d(slip velocity) [s/m]
+  const Mat& reactions() const { return coupled ? W : G; }  // after evaluate_rows
   void add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S);
-  bool factorise_mass(Kept& kept);
+  bool factorise_mass(Kept& kept, bool with_friction);
 
   void called(const std::string& component, const char* call) { site = {&component, call}; }
   void returned() { site.component = nullptr; }
@@ -49,6 +56,10 @@ struct AssembledSystem::Work {
   std::vector<Pair> joint_slots, force_slots, contact_slots;
   Modes modes;
   std::vector<int> contact_row;  // row in g, -1 while open or compliant
+  std::vector<int> stick_row;    // first tangential row in g, -1 while it does not stick
+  std::vector<int> judged;       // closed contacts at rest whose friction every evaluation finds anew
+  Vec judged_friction;           // [N] by contact, at the last accelerate
+  bool coupled = false;          // a row's force has a sliding friction beside it: W != G
   Sizes sizes;
 
   double t = 0;
@@ -57,7 +68,7 @@ struct AssembledSystem::Work {
   bool mass_fresh = false, rows_fresh = false;
   bool bodies_fresh = false, force_fresh = false;  // f holds what the bodies add; all of it
 
-  Mat M, G;
+  Mat M, G, W;
   Vec f, g, g_dot, gamma;
   Kept at_point;
   std::array<Kept, 2> kept;

@@ -177,25 +177,49 @@ class Builder {
           plane->find("normal")->problem("the normal has length 0; expected the direction of the free side"));
       return false;
     }
+    const double radius = entry.geometry.radius;
     entry.geometry = PointOnPlane(*point, *normal / length);
+    entry.geometry.radius = radius;
     return true;
+  }
+
+  void add_friction(const Value& value, ContactEntry& entry) {
+    if (model_->world.space == Space::spatial)
+      return problems_.error(value.problem("friction is evaluated in planar scenes only; this one is spatial"));
+    auto [law, origin] = plugin::make<Component>(registry_, Kind::friction, value, model_->world, problems_);
+    if (!law) return;
+    entry.coulomb = dynamic_cast<const SetValuedFriction*>(law.get());
+    entry.smooth = dynamic_cast<const SmoothFriction*>(law.get());
+    if (!entry.coulomb == !entry.smooth)
+      throw plugin::PluginError(origin, "load",
+                                "a friction law is either a SetValuedFriction or a SmoothFriction, exactly one");
+    entry.friction = std::move(law);
+    if (entry.restitution && entry.coulomb && entry.coulomb->decide() == SetValuedFriction::Decide::every_evaluation)
+      problems_.error(
+          value.problem("friction that is decided at every evaluation takes the normal force as given: it needs a "
+                        "compliant contact, such "
+                        "as continuous_force"));
   }
 
   void add_contact(const std::string& name, const Value& value) {
     ContactEntry entry;
     entry.name = name;
     auto [law, origin] = plugin::make<Component>(registry_, Kind::contact, value, model_->world, problems_);
-    if (const Value* friction = value.find("friction"))
-      problems_.error(friction->problem("friction is not evaluated yet by this version; remove it"));
     const scene::Items* pair = between(value);
     if (!pair) return;
     const auto A = marker((*pair)[0]);
+    if (const Value* radius = value.find("radius")) {
+      entry.geometry.radius = radius->read_number(problems_).value_or(0);
+      if (entry.geometry.radius < 0)
+        problems_.error(radius->problem(fmt::format("found {}, expected a radius >= 0 [m]", entry.geometry.radius)));
+    }
     if (!read_plane((*pair)[1], entry) || !A || !law) return;
     entry.A = *A;
     entry.restitution = dynamic_cast<const Restitution*>(law.get());
     entry.force = dynamic_cast<const ContactForce*>(law.get());
     if (!entry.restitution == !entry.force)
       throw plugin::PluginError(origin, "load", "a contact law is either a Restitution or a ContactForce, exactly one");
+    if (const Value* friction = value.find("friction")) add_friction(*friction, entry);
     entry.law = std::move(law);
     model_->contacts.push_back(std::move(entry));
   }

@@ -47,31 +47,43 @@ PointOnPlane::PointOnPlane(const Vec3& p, const Vec3& n) : point(p), normal(n) {
   }
 }
 
-// gap = n . (x_A - p_B). With d = x_A - x_B the point of B under A moves like a point at d, so
+// gap = n . (x_A - p_B) - radius. With d = x_A - x_B the point of B under A moves like a point at d, so
 //     gap_rate = n . (V_A - V_B - omega_B x d)
 //     gap_acceleration = n . (A_A - A_B - alpha_B x d) - n . omega_B x (omega_B x d) + n' . (V_A - V_B - omega_B x d)
 //     ...
 // collected in gamma with the relative velocity u in B's turning frame: gamma = n.(w x (w x d)) + 2 n.(w x u).
+//
+// A round body touches at r = -radius n from its centre, whichever of its points that is, and slips with
+//     s . u + (omega_A - omega_B) . (r x s),
+// where r x s turns with B. The coordinate of which this is the rate, in the plane, counts the angle that A has rolled.
 void contact_rows(const PointOnPlane& plane, const Motion& A, const Motion& B, bool tangents, Rows& rows) {
   const Vec3 n = B.R * plane.normal;
   const Vec3 d = A.x - B.x;
   const auto dim = d.size();
-  const Vec3 r_A = Vec3::Zero(dim);
+  const Vec3 r = -plane.radius * n;
   const Vec3 swept = cross(B.V, d);
   const Vec3 u = A.V.head(dim) - B.V.head(dim) - swept;  // relative velocity, seen in B's frame, world axes
   const Vec3 transport = cross(B.V, swept) + 2 * cross(B.V, u);
 
-  rows.g(0) = n.dot(d - B.R * plane.point);
-  set_row(rows.H_A, 0, n, r_A, 1);
+  rows.g(0) = n.dot(d - B.R * plane.point) - plane.radius;
+  set_row(rows.H_A, 0, n, r, 1);
   set_row(rows.H_B, 0, n, d, -1);
   rows.gamma(0) = n.dot(transport);
   if (!tangents) return;
 
   for (int i = 1; i < dim; ++i) {
     const Vec3 s = B.R * plane.tangents.col(i - 1);
-    set_row(rows.H_A, i, s, r_A, 1);
-    set_row(rows.H_B, i, s, d, -1);
+    set_row(rows.H_A, i, s, r, 1);
+    set_row(rows.H_B, i, s, d + r, -1);
+    rows.g(i) = s.dot(d);
     rows.gamma(i) = s.dot(transport);
+    const auto arm = rows.H_A.row(i).tail(rotations(dim == 2 ? Space::planar : Space::spatial));  // r x s
+    if (dim == 2) {
+      rows.g(i) += arm(0) * (A.angle - B.angle);
+    } else {
+      const Eigen::Vector3d spin = A.V.tail<3>() - B.V.tail<3>(), omega_B = B.V.tail<3>(), moment = arm.transpose();
+      rows.gamma(i) -= spin.dot(omega_B.cross(moment));
+    }
   }
 }
 

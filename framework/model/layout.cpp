@@ -32,6 +32,8 @@ void Model::lay_out() {
   for (ContactEntry& entry : contacts) {
     entry.restitution = dynamic_cast<const Restitution*>(entry.law.get());
     entry.force = dynamic_cast<const ContactForce*>(entry.law.get());
+    entry.coulomb = dynamic_cast<const SetValuedFriction*>(entry.friction.get());
+    entry.smooth = dynamic_cast<const SmoothFriction*>(entry.friction.get());
   }
 }
 

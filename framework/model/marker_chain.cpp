@@ -38,6 +38,7 @@ const Motion& MarkerChain::motion(int index, double t, const Vec& q, const Vec& 
   Slot& slot = slots_[std::size_t(index)];
   if (slot.point != point_) {
     if (slot.marker.body >= 0) evaluate(slot, t, q, v);
+    if (still_) slot.motion.V.setZero(), slot.motion.bias.setZero();
     slot.point = point_;
   }
   return slot.motion;

@@ -14,7 +14,11 @@ class MarkerChain {
 
   // Slots stand for markers that are in use.
   int slot(MarkerRef marker);
+  int slots() const { return int(slots_.size()); }
   void new_point() { ++point_; }
+  // Markers keep their places, and what a law of time gives them of velocity and acceleration counts as 0; for v = 0 only.
+  void hold_still(bool still) { still_ = still, ++point_; }
+  bool held_still() const { return still_; }
   const Motion& motion(int slot, double t, const Vec& q, const Vec& v);
   int body(int slot) const { return slots_[std::size_t(slot)].marker.body; }  // -1: ground
 
@@ -39,6 +43,7 @@ class MarkerChain {
   const Model& model_;
   std::deque<Slot> slots_;  // references to motions stay valid
   long long point_ = 0;
+  bool still_ = false;
   Motion probe_;  // for the differences
   Vec v_zero_;
   Mat block_;

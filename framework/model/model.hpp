@@ -10,6 +10,7 @@
 #include <trammel/body.hpp>
 #include <trammel/contact.hpp>
 #include <trammel/force.hpp>
+#include <trammel/friction.hpp>
 #include <trammel/joint.hpp>
 
 namespace trammel::model {
@@ -49,11 +50,13 @@ struct ForceEntry {
   MarkerRef A, B;
 };
 
-// A point of A against a plane carried by B: gap = n . (x_A - p), p and n in B's axes; n points to the free side.
+// A point of A, or a disk or sphere around it, against a plane carried by B: gap = n . (x_A - p) - radius, p and n in B's axes;
+// n points to the free side.
 struct PointOnPlane {
   PointOnPlane() = default;
   PointOnPlane(const Vec3& p, const Vec3& n);  // n of length 1
   Vec3 point, normal;
+  double radius = 0;  // [m]
   Mat3 tangents;  // columns in B's axes: fixed in B, so that slip is measured in the same directions throughout
 };
 
@@ -65,6 +68,10 @@ struct ContactEntry {
   // The law's kind, looked up once; exactly one is set.
   const Restitution* restitution = nullptr;
   const ContactForce* force = nullptr;
+  std::unique_ptr<Component> friction;  // null: frictionless
+  // Its kind, looked up once; at most one is set.
+  const SetValuedFriction* coulomb = nullptr;
+  const SmoothFriction* smooth = nullptr;
 };
 
 // A frame fixed in the world.
@@ -89,8 +96,8 @@ struct Model {
 };
 
 // Rows of the contact's geometry: row 0 the gap, G, g_t and gamma of the normal direction; with `tangents` further rows
-// are the slip velocities along B's tangents. Where such a row is held its g is the displacement since sticking began; that
-// takes an anchor, which the geometry does not know: g comes back as 0.
+// are the directions along B's tangents: g is the coordinate of A in B's plane, its rate the slip velocity. Where such a
+// row is held the coordinate at which sticking began is subtracted; the geometry does not know it.
 void contact_rows(const PointOnPlane& plane, const Motion& A, const Motion& B, bool tangents, Rows& rows);
 
 }  // namespace trammel::model

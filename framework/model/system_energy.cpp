@@ -28,9 +28,35 @@ Energy AssembledSystem::energy() {
   return sum;
 }
 
+namespace {
+
+// w . V_t: the power of a wrench on a marker in the motion V_t = V - J v that a law of time gives it; it is no power on
+// coordinates. What is left of V by round-off alone is no such motion.
+double power_of_law(const Motion& marker, const Vec& v, int v0, const Wrench& wrench) {
+  double power = 0;
+  for (Eigen::Index i = 0; i < marker.V.size(); ++i) {
+    double V_t = marker.V(i), size = std::abs(V_t);
+    for (std::size_t j = 0; j < marker.dofs.size(); ++j) {
+      const double part = marker.J(i, Eigen::Index(j)) * v(v0 + marker.dofs[j]);
+      V_t -= part, size += std::abs(part);
+    }
+    if (std::abs(V_t) > 1e-14 * size) power += wrench(i) * V_t;
+  }
+  return power;
+}
+
+}  // namespace
+
+// Along the motion d(energy)/dt is the power of all wrenches on coordinates, so what they do on markers in V_t (a base that
+// moves by a law) leaves the system there: it counts as supplied with the other sign.
 AssembledSystem::Balance AssembledSystem::balance(const Vec& lambda) {
   Work& w = *work_;
   Balance sum;
+  sum.friction.setZero(Eigen::Index(w.contact_slots.size()));
+  const auto moved_by_law = [&](int slot, const Wrench& wrench) {
+    if (const int body = w.chain.body(slot); body >= 0)
+      sum.markers -= power_of_law(w.motion(slot), w.v, w.model->bodies[std::size_t(body)].v0, wrench);
+  };
   for (const BodyEntry& entry : w.model->bodies) {
     w.called(entry.name, "power");
     const Power p = entry.body->power(w.t, w.q.segment(entry.q0, entry.nq), w.v.segment(entry.v0, entry.nv));
@@ -43,18 +69,46 @@ AssembledSystem::Balance AssembledSystem::balance(const Vec& lambda) {
     const Power p = w.model->forces[i].force->power(w.t, w.motion(A), w.motion(B));
     sum.drives += p.supplied;
     sum.dampers += p.dissipated;
+    w.called(w.model->forces[i].name, "wrench");
+    w.on_A.setZero(twist_size(w.model->world.space));
+    w.on_B.setZero(twist_size(w.model->world.space));
+    w.model->forces[i].force->wrench(w.t, w.motion(A), w.motion(B), w.on_A, w.on_B);
+    moved_by_law(A, w.on_A);
+    moved_by_law(B, w.on_B);
+  }
+  if (!w.judged.empty()) {
+    Vec a, unused;
+    accelerate({}, a, unused);
   }
   for (std::size_t i = 0; i < w.contact_slots.size(); ++i) {
+    if (!w.modes.contacts[i].closed) continue;
+    const Rows& r = w.contact(int(i));
+    const double ratio = w.friction_ratio(int(i)), slip = w.model->contacts[i].friction ? w.contact_rate(int(i), 1) : 0;
+    if (w.contact_row[i] >= 0) {
+      // Its rows' power, below, is all of it but for the friction that slides beside them.
+      sum.friction(Eigen::Index(i)) = lambda(w.contact_row[i]) * ratio * slip;
+      continue;
+    }
     const ContactForce* law = w.model->contacts[i].force;
-    if (!law || !w.modes.contacts[i].closed) continue;
-    const double gap = w.contact(int(i)).g(0), rate = gap_rate(int(i)), approach = w.modes.contacts[i].approach_speed;
+    const double gap = r.g(0), rate = gap_rate(int(i)), approach = w.modes.contacts[i].approach_speed;
     w.called(w.model->contacts[i].name, "normal");
     // What the law gives beyond its elastic part, which is its value at rest.
-    sum.contacts -= (law->normal(gap, rate, approach) - law->normal(gap, 0, approach)) * rate;
+    const double normal = law->normal(gap, rate, approach);
+    sum.contacts -= (normal - law->normal(gap, 0, approach)) * rate;
+    const double friction = ratio * normal + w.judged_friction(Eigen::Index(i));
+    sum.friction(Eigen::Index(i)) = -friction * slip;
+    const auto [A, B] = w.contact_slots[i];
+    for (const auto& [slot, H] : {std::pair{A, &r.H_A}, std::pair{B, &r.H_B}}) {
+      Wrench wrench = normal * H->row(0).transpose();
+      if (friction != 0) wrench += friction * H->row(1).transpose();
+      moved_by_law(slot, wrench);
+    }
   }
   if (w.sizes.nc > 0) {
     w.evaluate_rows();
-    sum.constraints = -lambda.dot(w.G * w.v);
+    sum.constraints = -lambda.dot(w.reactions() * w.v);
+    for (std::size_t i = 0; i < w.contact_slots.size(); ++i)
+      if (w.contact_row[i] >= 0) sum.constraints += sum.friction(Eigen::Index(i));
   }
   w.returned();
   return sum;
@@ -72,6 +126,12 @@ CallSite AssembledSystem::find_not_finite() {
     Matrix target = Matrix::onto(M);
     entry.body->mass(w.t, q, target);
     if (!M.allFinite()) return {&entry.name, "mass"};
+  }
+  for (int slot = 0; slot < w.chain.slots(); ++slot) {
+    if (w.chain.body(slot) < 0) continue;
+    const Motion& m = w.motion(slot);
+    if (!m.x.allFinite() || !m.V.allFinite() || !m.bias.allFinite() || !m.J.allFinite())
+      return {&w.model->bodies[std::size_t(w.chain.body(slot))].name, "motion"};
   }
   for (std::size_t i = 0; i < w.force_slots.size(); ++i) {
     const auto [A, B] = w.force_slots[i];

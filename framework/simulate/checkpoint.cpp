@@ -69,7 +69,7 @@ std::uint64_t checksum(const std::vector<std::uint8_t>& data) {
   return hash.value();
 }
 
-constexpr int format = 1;
+constexpr int format = 2;
 
 }  // namespace
 

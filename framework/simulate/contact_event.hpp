@@ -5,10 +5,13 @@ namespace trammel::simulate {
 
 struct ContactEvent {
   enum class Kind {
-    impact,  // velocities jumped
-    close,   // a row or a force became active
-    open,    // it ended: the contact would pull
-    lift,    // after an impact without rebound the gap accelerates apart: it stays open
+    impact,    // velocities jumped
+    close,     // a row or a force became active
+    open,      // it ended: the contact would pull
+    lift,      // after an impact without rebound the gap accelerates apart: it stays open
+    stick,     // friction holds it from now on
+    slip,      // it slides from now on
+    reversal,  // it slid through rest: from now on the other way
   };
   double t = 0;  // [s]
   Kind kind = Kind::impact;
@@ -17,6 +20,8 @@ struct ContactEvent {
   double approach = 0;     // [m/s] = -gap_rate before
   double separation = 0;   // [m/s] = gap_rate after
   double energy_lost = 0;  // [J] kinetic, through this contact
+  double friction = 0;     // impact: impulse along the tangent [N s]; stick, slip, reversal: the force [N]
+  double direction = 0;    // slip, reversal: of the slip velocity along the tangent, +1 or -1
 };
 
 inline const char* to_string(ContactEvent::Kind kind) {
@@ -29,6 +34,12 @@ inline const char* to_string(ContactEvent::Kind kind) {
       return "contact_open";
     case ContactEvent::Kind::lift:
       return "lift";
+    case ContactEvent::Kind::stick:
+      return "stick";
+    case ContactEvent::Kind::slip:
+      return "slip";
+    case ContactEvent::Kind::reversal:
+      return "reversal";
   }
   return "";
 }

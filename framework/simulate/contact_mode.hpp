@@ -1,18 +1,33 @@
-// Which contacts are closed, and what happens at an event: impacts, then the accelerations decide.
+// Which contacts are closed and which of them stick, and what happens at an event: impacts, then the accelerations decide.
 //
 // Rules for set-valued contacts (Restitution), at an event at time t:
 //  1. Impact of every contact that touches and closes, with all that touch or are closed (impact.hpp).
-//  2. Capture: slower than capture_speed, e = 0. With fixed steps also a rebound whose flight 2 u+/|gap acceleration| would
-//     last fewer than chatter_steps contact steps: the impact is solved again with e = 0 for it. Each repetition lowers the
-//     number of contacts with e > 0, so this ends.
-//  3. Contacts that then touch without rate are candidates. They close where the forces of the linear complementarity problem
+//  2. Capture: slower than capture_speed, e = 0. Also a rebound that the steps in contact cannot follow: with fixed ones whose
+//     flight 2 u+/|gap acceleration| would last fewer than chatter_steps of them; with controlled ones that would rise less
+//     than chatter_steps times the error they may make in a position. The impact is solved again with e = 0 for it. Each
+//     repetition lowers the number of contacts with e > 0, so this ends.
+//  3. Contacts that then touch without rate are candidates. They close where the forces of the complementarity problem
 //         A = A_free + D N,   0 <= N complementary to A >= 0      (A gap accelerations, N normal forces)
 //     push; where the gap accelerates apart they stay open ("lift").
-//  4. A closed contact opens where its normal force falls through 0; the others are decided anew as in 3.
+//  4. A closed contact opens where its normal force falls through 0; the others are decided anew as in 3. Among redundant
+//     contacts (three feet of a planar block) the single forces mean nothing: they open only where 3 says so.
 // `rebound: constrained` makes candidates of contacts that separate at e u-, `restart: carry` leaves a as it was and starts
 // the multipliers of new rows from 0, `onset: next_step` only changes when an event is seen.
 //
 // Compliant contacts (ContactForce) switch their force on when the gap falls through 0 and off when it rises through 0.
+//
+// Set-valued friction, of either kind, is part of the same problem (contact_problem.hpp), in which the compliant contacts'
+// normal forces are given:
+//  5. A contact slides, T = -mu N sgn(slip), or it rests: new contacts without slip, those that stick, and those whose slip
+//     has just reached 0. Those at rest stick where mu_0 (and, once they let go, mu) suffices; else they slide the way they
+//     accelerate.
+//  6. A contact whose friction has reached its bound lets go: mu decides at once; if it accelerates neither way (mu = mu_0)
+//     it slides against the force that held it. All others at rest are checked at the same instant.
+//  7. What was left of the slip of those at rest by the steps (a drift) is ended by the least change of v.
+//  8. Where rigid contacts have no solution with finite forces (Painleve's rod), the slip stops in an impact without collision:
+//     rule 1 with nothing approaching. If that has none, the run ends with a message; so do modes that contradict each other
+//     at one instant (Simulator).
+// Degenerate cases: contact_forces.hpp. Where there are several solutions it is Lemke's, which looks first where no force is.
 #pragma once
 
 #include <vector>
@@ -20,7 +35,10 @@
 #include <trammel/integrator.hpp>
 
 #include "simulate/contact_event.hpp"
+#include "simulate/contact_problem.hpp"
+#include "simulate/contact_scale.hpp"
 #include "simulate/impact.hpp"
+#include "simulate/settings.hpp"
 
 namespace trammel::simulate {
 
@@ -29,45 +47,78 @@ struct ContactChanges {
   std::vector<int> struck;    // open Restitution contacts whose gap fell through 0
   std::vector<int> released;  // closed Restitution contacts whose force fell through 0
   std::vector<int> toggled;   // ContactForce: force on or off
-  bool empty() const { return struck.empty() && released.empty() && toggled.empty(); }
-  void clear() { struck.clear(), released.clear(), toggled.clear(); }
+  std::vector<int> yielded;   // sticking contacts whose friction reached its bound
+  std::vector<int> stopped;   // sliding contacts whose slip reached 0
+  bool empty() const {
+    return struck.empty() && released.empty() && toggled.empty() && yielded.empty() && stopped.empty();
+  }
+  void clear() { struck.clear(), released.clear(), toggled.clear(), yielded.clear(), stopped.clear(); }
 };
 
 class ContactModes {
  public:
-  // `chatter_time`: rebounds shorter than this stick [s]; 0: none.
-  ContactModes(model::AssembledSystem& system, double chatter_time) : system_(system), chatter_time_(chatter_time) {}
+  ContactModes(model::AssembledSystem& system, const ContactScale& scale, const Settings& settings)
+      : system_(system), scale_(scale), steps_(settings.contact_step), chatter_steps_(settings.chatter_steps) {}
 
   // Applies the changes at `state`: v jumps, modes and sizes change, a and lambda are solved anew. Appends the events.
   // Returns the kinetic energy that impacts took, beyond what is attributed to contacts, i.e. through moving rows [J].
   double settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
 
   bool any_closed() const;
-  // Closer than this counts as touching [m]: round-off of positions of the size of the scene.
-  static double touching_gap(const State& state);
+
+  struct Verdict {
+    bool opens = false, slips = false;
+  };
+  // By contact, what rules 3 and 5 would do to those that are closed and stick now.
+  const std::vector<Verdict>& foresee(const State& state);
+  // [s] Of steps with error control, so that no double zero of a slip velocity is stepped over: a third of the shortest
+  // period in which a blow on a closed contact with set-valued friction swings back. Below half of it a swing turns at most
+  // once within a step, so two zeros in it show in the slopes at its ends.
+  double step_limit(const State& state);
+  // Less than this is no friction force [N]: it moves the contact less than `no_acceleration`.
+  double friction_noise(int contact);
 
  private:
+  using Friction = model::ContactMode::Friction;
+  using Kind = ContactEvent::Kind;
+
   void toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events);
-  void find_touching(const State& state, const ContactChanges& changes);
+  void forces_before(const State& state, const ContactChanges& changes);
+  void find_touching(const ContactChanges& changes);
   double strike(State& state);
   bool capture_chatter(const State& state, const Vec& v);
+  bool cannot_follow(double separation, double acceleration) const;
   void find_candidates(const ContactChanges& changes);
-  void free_accelerations(double t, const Vec& q, const Vec& v);
-  void close_pushing(const State& state);
-  void finish(State& state, const std::vector<int>& rows_before, const Vec& lambda_before, bool carry,
-              std::vector<ContactEvent>& events);
+  void open_all(model::Modes& modes) const;
+  void gather(const ContactChanges& changes, bool jumped);
+  void add_friction(Participant& p, const ContactChanges& changes, bool jumped);
+  [[nodiscard]] bool decide(State& state, const ContactChanges& changes, bool jumped);  // false: no solution
+  void accelerate_participants();
+  bool stays_closed(const Participant& p) const;
+  void take_verdict(const Participant& p, const ContactChanges& changes);
+  void finish(State& state, bool carry);
+  void tell_normal(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
+  void tell_friction(const State& state, std::vector<ContactEvent>& events);
+  double nothing() const;
+  [[noreturn]] void fail_without_solution(const char* what) const;
   Restitution::Treatment treatment(int contact) const {
     return system_.model().contacts[contact].restitution->treatment();
   }
 
   model::AssembledSystem& system_;
-  double chatter_time_;
+  const ContactScale& scale_;
+  const StepChoice& steps_;
+  double chatter_steps_;
   Impact impact_;
+  ContactProblem problem_;
   model::Modes before_, modes_;
   std::vector<TouchingContact> touching_;
-  std::vector<int> candidates_;
-  std::vector<bool> pushes_;
-  Vec dv_, v_before_, a_, lambda_, gap_accelerations_;
+  std::vector<int> candidates_, rows_before_, sticks_before_;
+  std::vector<double> held_by_;  // by contact: its friction before the event [N]
+  std::vector<Verdict> verdicts_;
+  bool redundant_ = false;
+  double largest_ = 0;  // of the accelerations without the forces sought
+  Vec dv_, v_before_, a_, lambda_, lambda_before_;
 };
 
 }  // namespace trammel::simulate

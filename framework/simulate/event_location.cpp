@@ -5,132 +5,234 @@
 #include <limits>
 
 #include "numerics/root_bracket.hpp"
+#include "simulate/between_states.hpp"
 
 namespace trammel::simulate {
 namespace {
 
+using Friction = model::ContactMode::Friction;
+
 constexpr double eps = std::numeric_limits<double>::epsilon();
-// A rate nearer to 0 is the round-off of a separation or of a projection, not an approach.
-constexpr double rate_noise = 1e-12;  // [m/s]
 
 // Thrown and caught in this file: the integrator refused one of the steps that locate an event.
 struct StepRefused {};
 
 }  // namespace
 
-// The cubic with values F and slopes S at both ends of [low, high] (Hermite); S_low < 0 < S_high, so it has one minimum.
+// The cubic with values F and slopes S at both ends of [low, high] (Hermite).
 struct EventLocation::Cubic {
   double low, high, F_low, F_high, S_low, S_high;
-  struct Minimum {
-    double at, value;
-  };
-  Minimum minimum() const {
+  double at = 0, minimum = 0;  // filled by `dips`
+
+  // Whether it has a minimum inside.
+  bool dips() {
     const double h = high - low, d = (F_high - F_low) / h;
     const double a = 3 * (S_low + S_high - 2 * d), b = 2 * (3 * d - 2 * S_low - S_high),
                  c = S_low;  // slope: a x^2 + b x + c
-    const double root = std::sqrt(std::max(0.0, b * b - 4 * a * c));
-    const double x =
-        std::clamp(b >= 0 ? -2 * c / (b + root) : (root - b) / (2 * a), 1e-3, 1 - 1e-3);  // where the slope rises
-    const double value = F_low + h * x * (c + x * (b / 2 + x * a / 3));
-    return {low + h * x, value};
+    const double discriminant = b * b - 4 * a * c;
+    if (discriminant < 0) return false;
+    const double root = std::sqrt(discriminant);
+    double x = b >= 0 ? -2 * c / (b + root) : (root - b) / (2 * a);  // where the slope rises
+    if (S_low < 0 && S_high > 0) x = std::clamp(x, 1e-3, 1 - 1e-3);
+    if (!(x >= 1e-3 && x <= 1 - 1e-3)) return false;
+    at = low + h * x;
+    minimum = value(x);
+    return true;
+  }
+  double value(double x) const {
+    const double h = high - low, d = (F_high - F_low) / h;
+    return F_low + h * x * (S_low + x * (3 * d - 2 * S_low - S_high + x * (S_low + S_high - 2 * d)));
   }
 };
 
-EventLocation::EventLocation(model::AssembledSystem& system, Integrator& integrator)
+EventLocation::EventLocation(model::AssembledSystem& system, Integrator& integrator, ContactModes& modes,
+                             const ContactScale& scale)
     : system_(system),
       integrator_(integrator),
-      own_force_(!integrator.traits().holds_position && !integrator.traits().holds_velocity),
-      now_(system.model().contacts.size()),
-      next_(now_),
-      probe_(now_),
-      force_before_(now_.size()) {}
+      modes_(modes),
+      scale_(scale),
+      own_force_(!integrator.traits().holds_position && !integrator.traits().holds_velocity) {}
 
-bool EventLocation::by_force(int i) const {
-  return closed(i) && system_.model().contacts[i].restitution;
-}
-
-bool EventLocation::at_step_ends(int i) const {
-  const Restitution* law = system_.model().contacts[i].restitution;
-  return law && !closed(i) && law->treatment().onset == Restitution::Onset::next_step;
-}
-
-double EventLocation::watched(int i, const Values& values) const {
-  if (by_force(i)) return values.force;
-  return closed(i) ? -values.gap : values.gap;
-}
-
-double EventLocation::slope(int i, const Values& values) const {
-  return closed(i) ? -values.rate : values.rate;
-}
-
-bool EventLocation::happened(int i, const Values& end) const {
-  if (by_force(i)) return end.force < 0;
-  return watched(i, end) < 0 && (slope(i, end) < -rate_noise || watched(i, now_[i]) > near_);
-}
-
-void EventLocation::evaluate(const State& state, std::vector<Values>& values) {
-  system_.move_to(state.t, state.q, state.v);
-  const Vec* lambda = nullptr;
-  for (int i = 0; i < int(values.size()); ++i) {
-    values[i].gap = system_.gap(i);
-    values[i].rate = system_.gap_rate(i);
-    values[i].force = 0;
-    if (!by_force(i)) continue;
-    if (!lambda) {
-      lambda = own_force_ ? &state.lambda : &lambda_;
-      if (!own_force_) system_.accelerate({}, a_, lambda_);
-    }
-    values[i].force = system_.normal_force(i, *lambda);
+void EventLocation::watch(int contact) {
+  const model::ContactEntry& entry = system_.model().contacts[contact];
+  const model::ContactMode& mode = system_.modes().contacts[contact];
+  if (!mode.closed) {
+    const bool at_ends = entry.restitution && entry.restitution->treatment().onset == Restitution::Onset::next_step;
+    watches_.push_back({.contact = contact, .kind = Kind::approach, .at_ends = at_ends, .noise = scale_.touching()});
+    return;
   }
+  if (entry.restitution)
+    watches_.push_back({.contact = contact, .kind = Kind::press});
+  else
+    watches_.push_back({.contact = contact, .kind = Kind::leave, .noise = scale_.touching()});
+  if (mode.friction == Friction::slide)
+    watches_.push_back({.contact = contact, .kind = Kind::slide, .noise = scale_.at_rest()});
+  else if (mode.friction == Friction::stick)
+    watches_.push_back({.contact = contact,
+                        .kind = Kind::hold,
+                        .at_ends = entry.coulomb->decide() == SetValuedFriction::Decide::every_evaluation});
 }
 
 void EventLocation::restart(const State& now) {
-  if (!watches()) return;
-  near_ = ContactModes::touching_gap(now);
-  h_before_ = 0;
+  watches_.clear();
+  h_before_ = longest_ = 0;
+  system_.move_to(now.t, now.q, now.v);
+  for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
+  next_.resize(watches_.size()), probe_.resize(watches_.size());
   evaluate(now, now_);
+  // Sticking begins on its bound where the normal force begins at 0, and where mu = mu_0.
+  for (int w = 0; w < int(watches_.size()); ++w)
+    if (watches_[w].kind == Kind::hold && !watches_[w].at_ends && now_[w].f <= 1e-9 * watches_[w].bound)
+      watches_[w].noise = modes_.friction_noise(watches_[w].contact);
 }
 
 void EventLocation::accept(double h) {
-  for (std::size_t i = 0; i < now_.size(); ++i) force_before_[i] = now_[i].force;
+  for (std::size_t w = 0; w < watches_.size(); ++w) watches_[w].force_before = now_[w].f;
   h_before_ = h;
   now_.swap(next_);
 }
 
-const EventLocation::Values& EventLocation::step_to(const State& now, double h, int i) {
+double EventLocation::force(Watch& watch, const Vec& lambda) {
+  const double N = system_.normal_force(watch.contact, lambda);
+  if (watch.kind == Kind::press) return N;
+  watch.bound = system_.model().contacts[watch.contact].coulomb->static_coefficient() * N;
+  return watch.bound - std::abs(system_.friction_force(watch.contact, lambda));
+}
+
+void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
+  system_.move_to(state.t, state.q, state.v);
+  values.resize(watches_.size());
+  const Vec* lambda = nullptr;
+  bool lets_go = false;
+  for (int w = 0; w < int(watches_.size()); ++w) {
+    Watch& watch = watches_[w];
+    Value& value = values[w] = {};
+    if (by_force(w)) {
+      if (watch.kind == Kind::hold && watch.at_ends) {
+        value.f = scale_.no_acceleration() - std::abs(system_.acceleration({watch.contact, 1}, state.a));
+        continue;
+      }
+      if (!lambda) {
+        lambda = own_force_ ? &state.lambda : &lambda_;
+        if (!own_force_) system_.accelerate({}, a_, lambda_);
+      }
+      value.f = force(watch, *lambda);
+      lets_go = lets_go || value.f < 0;
+      continue;
+    }
+    if (watch.kind == Kind::slide) {
+      const double direction = system_.modes().contacts[watch.contact].direction;
+      value.f = direction * system_.rate({watch.contact, 1});
+      value.slope = direction * system_.acceleration({watch.contact, 1}, state.a);
+      continue;
+    }
+    const double sign = watch.kind == Kind::leave ? -1 : 1;
+    value.f = sign * system_.gap(watch.contact);
+    value.slope = sign * system_.gap_rate(watch.contact);
+  }
+  if (lets_go && system_.redundant()) ask_complementarity(state, values);
+}
+
+// Signs from the complementarity problem, sizes as they are.
+void EventLocation::ask_complementarity(const State& state, std::vector<Value>& values) {
+  const std::vector<ContactModes::Verdict>& verdicts = modes_.foresee(state);
+  for (int w = 0; w < int(watches_.size()); ++w) {
+    if (!by_force(w) || watches_[w].at_ends) continue;
+    const ContactModes::Verdict& verdict = verdicts[watches_[w].contact];
+    const bool goes = watches_[w].kind == Kind::press ? verdict.opens : verdict.opens || verdict.slips;
+    const double size = std::max(std::abs(values[w].f), 2 * watches_[w].noise + std::numeric_limits<double>::min());
+    values[w].f = goes ? -size : size;
+  }
+}
+
+// Just after an event a function at round-off of 0 tells nothing, unless it goes on falling; nor does one that began below
+// it (a row that had drifted, an onset that was not located), unless it falls further.
+bool EventLocation::happened(int w, const Value& end) const {
+  if (!(end.f < 0)) return false;
+  if (!just_handled(w) || end.f < std::min(now_[w].f, 0.0) - watches_[w].noise) return true;
+  return watches_[w].kind != Kind::slide && !by_force(w) && end.slope < -scale_.at_rest();
+}
+
+const EventLocation::Value& EventLocation::step_to(const State& now, double h, int w) {
   ++steps_tried_;
   if (!integrator_.step(system_, now, h, trial_)) throw StepRefused{};
   evaluate(trial_, probe_);
-  return probe_[i];
+  return probe_[w];
 }
 
-EventLocation::Found EventLocation::examine(const State& now, double& h, State& next) {
+void EventLocation::find_suspects(const State& now, double h, const State& next) {
+  for (int w = 0; w < int(watches_.size()); ++w) {
+    Suspect suspect{w, h, next_[w].f};
+    if (watches_[w].at_ends) {
+      if (next_[w].f < 0 && (by_force(w) || next_[w].slope < -scale_.at_rest())) at_end_.push_back(w);
+    } else if (happened(w, next_[w]) || dips(now, h, next, w, suspect) || returns(now, h, w, suspect)) {
+      suspects_.push_back(suspect);
+    }
+  }
+}
+
+// Whether the step is too long to tell what the functions did within it.
+bool EventLocation::hides(const State& now, double h, const State& next) {
+  longest_ = std::max(longest_, h);
+  if (watches_.empty() || h < 1e-6 * longest_) return false;
+  constexpr double part = 0.3819660112501051;  // of the golden section
+  state_between(system_, now, next, part, between_.q, between_.v, dq_);
+  between_.t = now.t + part * h;
+  system_.move_to(between_.t, between_.q, between_.v);
+  bool forces_needed = false;
+  for (int w = 0; w < int(watches_.size()); ++w) {
+    const Watch& watch = watches_[w];
+    if (watch.at_ends || watch.kind == Kind::slide) continue;
+    if (by_force(w)) {
+      forces_needed = true;
+      continue;
+    }
+    const Value &begin = now_[w], &end = next_[w];
+    const Cubic cubic{0, h, begin.f, end.f, begin.slope, end.slope};
+    const double there = (watch.kind == Kind::leave ? -1 : 1) * system_.gap(watch.contact);
+    const double off = std::abs(there - cubic.value(part)), size = std::max(std::abs(begin.f), std::abs(end.f));
+    if (off > 0.05 * size && 4 * off > std::min({begin.f, end.f, there}) && off > scale_.touching()) return true;
+  }
+  if (!forces_needed) return false;
+  if (h_before_ == 0) {
+    system_.accelerate({}, between_.a, between_.lambda);
+    evaluate(between_, probe_);
+  }
+  for (int w = 0; w < int(watches_.size()); ++w) {
+    if (watches_[w].at_ends || !by_force(w)) continue;
+    const double size = std::max({std::abs(now_[w].f), std::abs(next_[w].f), watches_[w].bound});
+    const double straight = h_before_ == 0 ? now_[w].f + part * (next_[w].f - now_[w].f)
+                                           : now_[w].f + (now_[w].f - watches_[w].force_before) * (h / h_before_);
+    const double found = h_before_ == 0 ? probe_[w].f : next_[w].f;
+    if (std::abs(found - straight) > 0.5 * size) return true;
+  }
+  return false;
+}
+
+EventLocation::Found EventLocation::examine(const State& now, double& h, State& next, bool may_shorten) {
   evaluate(next, next_);
+  if (may_shorten && hides(now, h, next)) return Found::step_too_long;
   suspects_.clear();
   at_end_.clear();
   changes_.clear();
+  int first = -1;
   try {
-    for (int i = 0; i < int(now_.size()); ++i) {
-      Suspect suspect{i, h, watched(i, next_[i])};
-      if (at_step_ends(i)) {
-        if (next_[i].gap < 0 && next_[i].rate < -rate_noise) at_end_.push_back(i);
-      } else if (happened(i, next_[i]) || dips(now, h, next, i, suspect)) {
-        suspects_.push_back(suspect);
-      }
-    }
+    find_suspects(now, h, next);
     if (suspects_.empty()) {
       if (at_end_.empty()) return Found::nothing;
-      changes_.struck = at_end_;
+      for (const int w : at_end_) report(w);
       return Found::event;
     }
     double h_event = h;
     for (Suspect& suspect : suspects_) {
       if (suspect.high > h_event) {  // only if it comes before the earliest so far
-        const Values& there = step_to(now, h_event, suspect.contact);
-        if (!happened(suspect.contact, there)) continue;
-        suspect.high = h_event, suspect.f_high = watched(suspect.contact, there);
+        const Value& there = step_to(now, h_event, suspect.watch);
+        if (!happened(suspect.watch, there)) continue;
+        suspect.high = h_event, suspect.f_high = there.f;
       }
-      h_event = std::min(h_event, locate(now, suspect));
+      const double located = locate(now, suspect);
+      if (first < 0 || located < h_event) first = suspect.watch;
+      h_event = std::min(h_event, located);
     }
     h_event = std::min(h, std::max(h_event, 4 * eps * std::max(std::abs(now.t), std::abs(now.t + h))));
     if (h_event < h) {
@@ -142,111 +244,148 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
   } catch (const StepRefused&) {
     return Found::step_refused;
   }
-  collect(next);
-  return changes_.empty() ? Found::nothing : Found::event;
+  report(first);
+  collect();
+  return Found::event;
 }
 
-// What has happened at the end of the shortened step: the contact it was located for, and all others at the same instant.
-void EventLocation::collect(const State& next) {
-  const double same = std::max(near_, 4 * ContactModes::touching_gap(next));
-  for (int i = 0; i < int(now_.size()); ++i) {
-    if (by_force(i)) {
-      if (next_[i].force <= 0) changes_.released.push_back(i);
-      continue;
-    }
-    const bool compliant = !system_.model().contacts[i].restitution;
-    if (at_step_ends(i) ? next_[i].gap < 0 && next_[i].rate < -rate_noise
-                        : watched(i, next_[i]) <= same && slope(i, next_[i]) < -rate_noise)
-      (compliant ? changes_.toggled : changes_.struck).push_back(i);
+void EventLocation::report(int w) {
+  const int contact = watches_[w].contact;
+  const auto add = [contact](std::vector<int>& list) {
+    if (std::find(list.begin(), list.end(), contact) == list.end()) list.push_back(contact);
+  };
+  switch (watches_[w].kind) {
+    case Kind::approach:
+      return add(system_.model().contacts[contact].restitution ? changes_.struck : changes_.toggled);
+    case Kind::leave:
+      return add(changes_.toggled);
+    case Kind::press:
+      return add(changes_.released);
+    case Kind::hold:
+      return add(changes_.yielded);
+    case Kind::slide:
+      return add(changes_.stopped);
+  }
+}
+
+// All others that happen at the same instant as the one that was located.
+void EventLocation::collect() {
+  const double noise = 4 * scale_.touching();
+  for (int w = 0; w < int(watches_.size()); ++w) {
+    const Value& end = next_[w];
+    const bool falls = end.slope < -scale_.at_rest();
+    if (watches_[w].at_ends ? end.f < 0 && (by_force(w) || falls)
+        : by_force(w)       ? end.f <= 1e-12 * watches_[w].bound && !just_handled(w)
+        : watches_[w].kind == Kind::slide
+            ? end.f <= watches_[w].noise && !just_handled(w) && end.slope < -scale_.no_acceleration()
+            : end.f <= noise && falls)
+      report(w);
   }
 }
 
 double EventLocation::locate(const State& now, const Suspect& suspect) {
-  const int i = suspect.contact;
+  const int w = suspect.watch;
   const double resolution = 2 * eps * std::max(std::abs(now.t), std::abs(now.t + suspect.high));
-  numerics::RootBracket bracket{0, suspect.high, watched(i, now_[i]), suspect.f_high};
-  if (bracket.f_low <= (by_force(i) ? 0 : near_)) {  // just separated: look for a moment when it was apart
+  numerics::RootBracket bracket{0, suspect.high, now_[w].f, suspect.f_high};
+  if (just_handled(w)) {  // look for a moment when it was apart
     double apart = suspect.high;
     bool found = false;
     while (!found && apart > resolution) {
       apart /= 2;
-      const Values& there = step_to(now, apart, i);
-      const double f = watched(i, there);
-      if (f > 0)
-        bracket.low = apart, bracket.f_low = f, found = true;
-      else if (happened(i, there))
-        bracket.high = apart, bracket.f_high = f;
+      const Value& there = step_to(now, apart, w);
+      if (there.f > 0)
+        bracket.low = apart, bracket.f_low = there.f, found = true;
+      else if (happened(w, there))
+        bracket.high = apart, bracket.f_high = there.f;
       else  // so near that nothing is to be seen yet: a step to there would find no event, and so without end
         break;
     }
     if (!found) return bracket.high;
   }
   if (bracket.f_high >= 0) return bracket.high;
-  bracket = numerics::narrow([&](double h) { return watched(i, step_to(now, h, i)); }, bracket, resolution);
+  bracket = numerics::narrow([&](double h) { return step_to(now, h, w).f; }, bracket, resolution);
   return bracket.high;
 }
 
-// Whether the function, positive at both ends, is negative between them.
-bool EventLocation::dips(const State& now, double h, const State& next, int i, Suspect& suspect) {
-  const bool force = by_force(i);
-  Cubic cubic{0, h, watched(i, now_[i]), watched(i, next_[i]), 0, 0};
-  if (cubic.F_low <= (force ? 0 : near_) || cubic.F_high <= 0) return false;
+// Whether the function, not negative at both ends, is negative between them.
+bool EventLocation::dips(const State& now, double h, const State& next, int w, Suspect& suspect) {
+  const bool force = by_force(w);
+  Cubic cubic{0, h, now_[w].f, next_[w].f, now_[w].slope, next_[w].slope};
+  if (cubic.F_high <= 0 || (force && just_handled(w))) return false;
+  if (just_handled(w) && cubic.S_low <= 0) return false;
   if (force) {
-    if (!worth_slopes(i, h)) return false;
-    cubic.S_low = force_slope(now, 1e-3 * h, i);
-    cubic.S_high = force_slope(next, -1e-3 * h, i);
-  } else {
-    cubic.S_low = slope(i, now_[i]), cubic.S_high = slope(i, next_[i]);
+    if (!worth_slopes(w, h)) return false;
+    cubic.S_low = force_slope(now, 1e-3 * h, w);
+    cubic.S_high = force_slope(next, -1e-3 * h, w);
   }
   for (int probes = 0; probes < 6; ++probes) {
-    if (!(cubic.S_low < 0 && cubic.S_high > 0)) return false;
-    const Cubic::Minimum minimum = cubic.minimum();
-    if (minimum.value > 0.25 * std::min(cubic.F_low, cubic.F_high)) return false;
-    const Values there = step_to(now, minimum.at, i);
-    const double F = watched(i, there);
-    if (F < 0) {
-      suspect.high = minimum.at, suspect.f_high = F;
+    if (!cubic.dips() || cubic.minimum > 0.25 * std::min(cubic.F_low, cubic.F_high)) return false;
+    const double at = cubic.at;
+    const Value there = step_to(now, at, w);
+    if (there.f < 0 && happened(w, there)) {
+      suspect.high = at, suspect.f_high = there.f;
       return true;
     }
-    const double S = force ? force_slope(trial_, 1e-3 * h, i) : slope(i, there);
-    if (S < 0)
-      cubic.low = minimum.at, cubic.F_low = F, cubic.S_low = S;
+    const double slope = force ? force_slope(trial_, 1e-3 * h, w) : there.slope;
+    if (slope < 0)
+      cubic.low = at, cubic.F_low = there.f, cubic.S_low = slope;
     else
-      cubic.high = minimum.at, cubic.F_high = F, cubic.S_high = S;
+      cubic.high = at, cubic.F_high = there.f, cubic.S_high = slope;
   }
   return false;
 }
 
+// A gap that an event has just left at 0 with the rate u and acceleration A < 0 closes again after -2 u/A or so.
+bool EventLocation::returns(const State& now, double h, int w, Suspect& suspect) {
+  if (by_force(w) || watches_[w].kind == Kind::slide || !just_handled(w) || !(now_[w].slope > 0)) return false;
+  system_.move_to(now.t, now.q, now.v);
+  const double A = (watches_[w].kind == Kind::leave ? -1 : 1) * system_.acceleration({watches_[w].contact, 0}, now.a);
+  const double at = -2.5 * now_[w].slope / A;
+  if (!(A < 0 && at < h)) return false;
+  const Value there = step_to(now, at, w);
+  if (!happened(w, there)) return false;
+  suspect.high = at, suspect.f_high = there.f;
+  return true;
+}
+
 // Slopes of the force cost a solution of the equations of motion each; they are asked for when the force is so small, compared
 // with its change and the bend of its last three values, that it could have crossed 0 and come back.
-bool EventLocation::worth_slopes(int i, double h) const {
-  const double least = std::min(now_[i].force, next_[i].force), change = std::abs(next_[i].force - now_[i].force);
+bool EventLocation::worth_slopes(int w, double h) const {
+  const double least = std::min(now_[w].f, next_[w].f), change = std::abs(next_[w].f - now_[w].f);
   if (h_before_ == 0) return true;
-  const double bend = std::abs((next_[i].force - now_[i].force) - (now_[i].force - force_before_[i]) * (h / h_before_));
+  const double bend = std::abs((next_[w].f - now_[w].f) - (now_[w].f - watches_[w].force_before) * (h / h_before_));
   return least < 0.5 * (change + bend);
 }
 
-double EventLocation::force_slope(const State& state, double dt, int i) {
+double EventLocation::force_slope(const State& state, double dt, int w) {
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
-  const double force = system_.normal_force(i, lambda_);
+  const double before = force(watches_[w], lambda_);
   dq_ = dt * state.v + (0.5 * dt * dt) * state.a;
   system_.retract(state.q, dq_, moved_.q);
   moved_.v = state.v + dt * state.a;
   system_.move_to(state.t + dt, moved_.q, moved_.v);
   system_.accelerate({}, a_, lambda_);
-  return (system_.normal_force(i, lambda_) - force) / dt;
+  return (force(watches_[w], lambda_) - before) / dt;
 }
 
 void EventLocation::archive(Archive& a) {
-  const auto n = Eigen::Index(now_.size());
+  const auto n = Eigen::Index(watches_.size());
   Mat values(n, 4);
-  for (Eigen::Index i = 0; i < n; ++i) values.row(i) << now_[i].gap, now_[i].rate, now_[i].force, force_before_[i];
+  for (Eigen::Index w = 0; w < n; ++w)
+    values.row(w) << now_[w].f, now_[w].slope, watches_[w].noise, watches_[w].force_before;
   Vec flat = Eigen::Map<const Vec>(values.data(), values.size());
-  a("watched", flat), a("h_before", h_before_), a("near", near_), a("steps_tried", steps_tried_);
-  if (flat.size() != values.size()) return;  // of another scene: refused elsewhere
-  for (Eigen::Index i = 0; i < n; ++i)
-    now_[i] = {flat[i], flat[n + i], flat[2 * n + i]}, force_before_[i] = flat[3 * n + i];
+  a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_);
+  if (watches_.empty() && flat.size() > 0) {  // reading: the modes are back, their watches not yet
+    for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
+    next_.resize(watches_.size()), probe_.resize(watches_.size()), now_.resize(watches_.size());
+  }
+  const auto m = Eigen::Index(watches_.size());
+  if (flat.size() != 4 * m) return;  // of another scene: refused elsewhere
+  for (Eigen::Index w = 0; w < m; ++w) {
+    now_[w] = {flat[w], flat[m + w]};
+    watches_[w].noise = flat[2 * m + w], watches_[w].force_before = flat[3 * m + w];
+  }
 }
 
 }  // namespace trammel::simulate

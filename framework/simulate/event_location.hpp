@@ -1,16 +1,28 @@
 // Finds the first event of a contact inside a trial step, and shortens the step to it.
 //
-// Each contact has a function that is positive until its event:
-//     open contact: gap       compliant contact in touch: -gap       closed contact (Restitution): its normal force
+// Each contact is watched through functions that are positive until their event:
+//     approach   open contact                    gap
+//     leave      compliant contact in touch      -gap
+//     press      closed contact (Restitution)    its normal force N
+//     hold       sticking contact                mu_0 N - |T|, T the friction that holds it
+//     slide      sliding contact                 slip velocity along its direction
 // An event shows in three ways: the function is negative at the step's end; it was positive at both ends but dipped between
-// them (its slope turns from - to +: the cubic through both ends tells where to look); or, just after a separation, where the
-// function starts at round-off, gap < 0 and gap_rate < 0 at the end. It is located by repeating the step with other lengths,
-// so to the accuracy of the method itself, down to the rounding of t; the earliest event of all contacts counts.
+// them (the cubic through values and slopes of both ends tells where to look); or, just after an event that left it at
+// round-off of 0, the parabola of its start says that it came back within the step. It is located by repeating the step
+// with other lengths, so to the accuracy of the method itself, down to the rounding of t; the earliest event counts.
+// Of an event that was just handled only round-off is ignored (ContactScale).
+//
+// An integrator with error control sees what time alone does to these functions only through the motion: not at all where
+// everything is held, and a table that shakes under a ball in flight moves nothing. So a controlled step is too long if a
+// function departs from the form assumed here by so much that it could have crossed 0 unseen: gaps, at an irrational part of
+// the step, from their cubic; forces, one step ahead, from their tangent. What a jump of a law leaves is taken by steps too
+// short to matter.
 //
 // A shortened step still has a length of at least 4 units in the last place of t, so every event advances time.
 //
-// The normal force comes from the equations of motion at the step's end; methods that satisfy neither position nor velocity
-// rows work on the level of accelerations, there lambda itself is that force, with their stabilisation.
+// Forces come from the equations of motion at the step's end; methods that satisfy neither position nor velocity rows work on
+// the level of accelerations, there lambda itself is that force, with their stabilisation. Where rows are redundant lambda is
+// one choice of many: whether a contact lets go is then decided by the complementarity problem (contact_mode.hpp).
 #pragma once
 
 #include <vector>
@@ -18,19 +30,21 @@
 #include <trammel/integrator.hpp>
 
 #include "simulate/contact_mode.hpp"
+#include "simulate/contact_scale.hpp"
 
 namespace trammel::simulate {
 
 class EventLocation {
  public:
-  EventLocation(model::AssembledSystem& system, Integrator& integrator);
+  EventLocation(model::AssembledSystem& system, Integrator& integrator, ContactModes& modes, const ContactScale& scale);
 
-  bool watches() const { return !now_.empty(); }  // there is a contact
-  void restart(const State& now);                 // modes or state changed
+  bool watches() const { return !system_.model().contacts.empty(); }
+  void restart(const State& now);  // modes or state changed
 
-  enum class Found { nothing, event, step_refused };
+  enum class Found { nothing, event, step_refused, step_too_long };
   // Looks at the trial now -> next over h. Found::event: h and next are shortened to it, `changes` tells what happened.
-  Found examine(const State& now, double& h, State& next);
+  // Found::step_too_long only if `may_shorten`: next is not to be taken.
+  Found examine(const State& now, double& h, State& next, bool may_shorten);
   const ContactChanges& changes() const { return changes_; }
   long long steps_tried() const { return steps_tried_; }
   void accept(double h);  // next became the solution
@@ -38,40 +52,56 @@ class EventLocation {
   void archive(Archive& a);
 
  private:
-  struct Values {
-    double gap = 0, rate = 0, force = 0;
+  enum class Kind { approach, leave, press, hold, slide };
+  struct Watch {
+    int contact;
+    Kind kind;
+    bool at_ends = false;     // judged at the ends of steps only, never located
+    double noise = 0;         // no nearer to 0 than this at first, and it has just had its event
+    double force_before = 0;  // one step before now
+    double bound = 0;         // of friction, where it was asked for last [N]
+  };
+  struct Value {
+    double f = 0, slope = 0;  // slopes of forces are not known
   };
   struct Suspect {
-    int contact;
+    int watch;
     double high, f_high;  // [s] length of a step after which the event has happened, and the function there
   };
   struct Cubic;
 
-  bool closed(int i) const { return system_.modes().contacts[i].closed; }
-  bool by_force(int i) const;
-  bool at_step_ends(int i) const;
-  double watched(int i, const Values& values) const;
-  double slope(int i, const Values& values) const;
-  bool happened(int i, const Values& end) const;
-  void evaluate(const State& state, std::vector<Values>& values);
-  const Values& step_to(const State& now, double h, int i);
-  bool dips(const State& now, double h, const State& next, int i, Suspect& suspect);
-  bool worth_slopes(int i, double h) const;
-  double force_slope(const State& state, double dt, int i);
+  void watch(int contact);
+  bool by_force(int w) const { return watches_[w].kind == Kind::press || watches_[w].kind == Kind::hold; }
+  double force(Watch& watch, const Vec& lambda);
+  void evaluate(const State& state, std::vector<Value>& values);
+  void ask_complementarity(const State& state, std::vector<Value>& values);
+  bool just_handled(int w) const { return now_[w].f <= watches_[w].noise; }
+  bool happened(int w, const Value& end) const;
+  const Value& step_to(const State& now, double h, int w);
+  bool hides(const State& now, double h, const State& next);
+  bool dips(const State& now, double h, const State& next, int w, Suspect& suspect);
+  bool returns(const State& now, double h, int w, Suspect& suspect);
+  bool worth_slopes(int w, double h) const;
+  double force_slope(const State& state, double dt, int w);
+  void find_suspects(const State& now, double h, const State& next);
   double locate(const State& now, const Suspect& suspect);
-  void collect(const State& next);
+  void collect();
+  void report(int w);
 
   model::AssembledSystem& system_;
   Integrator& integrator_;
+  ContactModes& modes_;
+  const ContactScale& scale_;
   bool own_force_;  // the integrator's lambda is the force
-  double near_ = 0;
-  std::vector<Values> now_, next_, probe_;
-  std::vector<double> force_before_;  // one step before now
-  double h_before_ = 0;               // [s] 0: no step yet since the last change
+  std::vector<Watch> watches_;
+  std::vector<Value> now_, next_, probe_;
+  double h_before_ = 0;  // [s] 0: no step yet since the last change
+  double longest_ = 0;   // [s] step tried since then
   std::vector<Suspect> suspects_;
   std::vector<int> at_end_;
   ContactChanges changes_;
   State trial_, moved_;
+  State between_;
   Vec a_, lambda_, dq_;
   long long steps_tried_ = 0;
 };

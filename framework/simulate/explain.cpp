@@ -64,8 +64,11 @@ void built(Text& text, const scene::Scene& scene, const plugin::Registry& regist
   for (const model::ForceEntry& force : model.forces)
     text.line("forces.{} ({})", force.name, type("forces", force.name));
   for (const model::ContactEntry& contact : model.contacts)
-    text.line("contacts.{} ({}): {}, frictionless", contact.name, type("contacts", contact.name),
-              contact.restitution ? "impulse and row" : "compliant force");
+    text.line("contacts.{} ({}): {}, {}", contact.name, type("contacts", contact.name),
+              contact.restitution ? "impulse and row" : "compliant force",
+              contact.coulomb  ? "sticks in rows and slides by a force"
+              : contact.smooth ? "friction as a force"
+                               : "frictionless");
   text.line("integrator {}: step {}{}", setup.integrator_type, step_text(setup.settings.step),
             setup.settings.own_contact_step ? ", in contact " + step_text(setup.settings.contact_step) : "");
   text.section("Plugins loaded");

@@ -1,25 +1,41 @@
 #include "simulate/impact.hpp"
 
-#include "numerics/lcp.hpp"
+#include <cmath>
 
 namespace trammel::simulate {
 
-bool Impact::solve(model::AssembledSystem& system, std::vector<TouchingContact>& touching, Vec& dv) {
-  const auto n = Eigen::Index(touching.size());
-  contacts_.clear();
-  for (const TouchingContact& c : touching) contacts_.push_back(c.contact);
-  system.impulse_response(contacts_, jump_, delassus_);
-  q_.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    q_[i] = touching[i].was_closed ? 0 : (1 + touching[i].restitution) * touching[i].before;
-  if (numerics::solve_lcp(delassus_, q_, impulses_, slack_) != numerics::LcpOutcome::solved) return false;
-  dv.noalias() = jump_ * impulses_;
-  for (Eigen::Index i = 0; i < n; ++i) {
+bool Impact::solve(model::AssembledSystem& system, double at_rest, std::vector<TouchingContact>& touching, Vec& dv) {
+  problem_.who.clear();
+  for (TouchingContact& c : touching) {
+    const model::ContactEntry& entry = system.model().contacts[c.contact];
+    Participant p;
+    p.contact = c.contact;
+    p.a_n = c.was_closed ? 0 : (1 + c.restitution) * c.before;
+    if (entry.friction) p.a_t = c.slip_before = system.rate({c.contact, 1});
+    if (entry.coulomb) {
+      p.tangent = Participant::Tangent::resting;
+      p.mu_0 = entry.coulomb->static_coefficient();
+      p.mu = entry.coulomb->kinetic_coefficient(std::abs(p.a_t));
+    } else if (entry.smooth) {
+      p.tangent = Participant::Tangent::sliding;
+      p.ratio = std::copysign(entry.smooth->ratio(std::abs(p.a_t)), -p.a_t);
+    }
+    problem_.who.push_back(p);
+  }
+  problem_.prepare(system);
+  if (!problem_.solve(at_rest)) return false;
+  problem_.jump(dv);
+  for (std::size_t i = 0; i < touching.size(); ++i) {
     TouchingContact& c = touching[i];
-    c.impulse = impulses_[i];
+    const Participant& p = problem_.who[i];
+    c.impulse = p.N;
     // From the complementarity itself where the impulse acts: -e u- exactly, without the round-off of D L.
-    c.after = impulses_[i] > 0 ? (c.was_closed ? c.before : -c.restitution * c.before)
-                               : c.before + delassus_.row(i).dot(impulses_);
+    if (c.impulse > 0)
+      c.after = c.was_closed ? c.before : -c.restitution * c.before;
+    else
+      c.after = p.a_n - (c.was_closed ? -c.before : c.restitution * c.before);
+    c.friction = p.T;
+    c.slip_after = p.a_t;
   }
   return true;
 }

@@ -1,18 +1,23 @@
-// Newton's impact law for all contacts that touch, solved together.
+// Newton's impact law with Coulomb's friction for all contacts that touch, solved together.
 //
-//     M (v+ - v-) + G_b^T L_b = sum_i n_i L_i,       u_i = gap rate [m/s], negative when closing;  bilateral rows keep theirs
+//     M (v+ - v-) + G_b^T L_b = sum_i n_i L_i + t_i T_i,    u_i = gap rate [m/s], negative when closing; s_i slip velocity;
+//                                                         bilateral rows keep their rates
 //     0 <= L_i  complementary to  u_i+ + e_i u_i- >= 0     for contacts that were open
 //     0 <= L_i  complementary to  u_i+ - u_i-     >= 0     for contacts that were closed (they keep u-, 0 but for round-off)
+//     |T_i| <= mu_0 L_i where s_i+ = 0 (it sticks),  T_i = -mu L_i sgn(s_i+) elsewhere
 //
-// L_i [N s] are the impulses, e_i the restitution of the contact's law at approach speed -u_i-; slower than the law's
-// capture_speed e_i = 0. With D the Delassus matrix, u+ = u- + D L makes it a linear complementarity problem in L. Several
+// L_i, T_i [N s] are the impulses, e_i the restitution of the contact's law at approach speed -u_i-; slower than the law's
+// capture_speed e_i = 0. The friction impulse is one Coulomb decision over the whole impact, judged by the slip at its end
+// (Moreau): a slip that stops and turns within the impact is not followed, and with e > 0 an eccentric impact may gain
+// energy (Kane's paradox; the ledger would show it). With D the Delassus matrix it is a linear complementarity problem. Several
 // contacts at once are one problem; nature may answer otherwise (Pfeiffer, Glocker 1996), and a chain of equal balls does.
-// Energy lost through contact i is -L_i (u_i- + u_i+)/2; the sum is the loss of kinetic energy if no row depends on time.
+// Energy lost through contact i is -L_i (u_i- + u_i+)/2 - T_i (s_i- + s_i+)/2; the sum is the loss of kinetic energy if no
+// row depends on time.
 #pragma once
 
 #include <vector>
 
-#include "model/assembled_system.hpp"
+#include "simulate/contact_problem.hpp"
 
 namespace trammel::simulate {
 
@@ -23,19 +28,20 @@ struct TouchingContact {
   double restitution = 0;  // e
   double impulse = 0;      // L [N s]
   double after = 0;        // u+ [m/s]
-  double energy_lost() const { return -0.5 * impulse * (before + after); }
+  double friction = 0;     // T [N s]
+  double slip_before = 0, slip_after = 0;
+  double energy_lost() const { return -0.5 * (impulse * (before + after) + friction * (slip_before + slip_after)); }
 };
 
 class Impact {
  public:
-  // At the system's current point. `before` and `was_closed` of each are filled in; the jump of v is returned in `dv`.
-  // False: the problem has no solution.
-  [[nodiscard]] bool solve(model::AssembledSystem& system, std::vector<TouchingContact>& touching, Vec& dv);
+  // At the system's current point. `before`, `was_closed` and `restitution` of each are filled in; the jump of v is
+  // returned in `dv`. `at_rest` [m/s]: slower is no slip. False: the problem has no solution.
+  [[nodiscard]] bool solve(model::AssembledSystem& system, double at_rest, std::vector<TouchingContact>& touching,
+                           Vec& dv);
 
  private:
-  std::vector<int> contacts_;
-  Mat jump_, delassus_;
-  Vec q_, impulses_, slack_;
+  ContactProblem problem_;
 };
 
 }  // namespace trammel::simulate

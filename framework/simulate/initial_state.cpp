@@ -6,11 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "simulate/contact_scale.hpp"
+#include "simulate/equilibrium.hpp"
+
 namespace trammel::simulate {
 namespace {
 
-constexpr double tolerance = 1e-8;    // [m], [rad], [m/s], [rad/s]
-constexpr double penetration = 1e-9;  // [m]
+constexpr double tolerance = 1e-8;  // [m], [rad], [m/s], [rad/s]
 
 bool project_position(model::AssembledSystem& system, State& s) {
   Vec zero = Vec::Zero(system.sizes().nv), dq, mu, q;
@@ -90,7 +92,7 @@ void check_joints(model::AssembledSystem& system, const State& s, const scene::V
 
 }  // namespace
 
-State initial_state(model::AssembledSystem& system, double t, bool project, const scene::Value& root,
+State initial_state(model::AssembledSystem& system, double t, Settings::Initial wanted, const scene::Value& root,
                     scene::Problems& problems) {
   State s;
   s.t = t;
@@ -99,18 +101,24 @@ State initial_state(model::AssembledSystem& system, double t, bool project, cons
   open.contacts.resize(system.model().contacts.size());
   system.set_modes(open);
   if (system.sizes().nc > 0) {
-    if (!project)
+    if (wanted == Settings::Initial::check)
       check_joints(system, s, root, problems);
     else if (!project_position(system, s) || !project_velocity(system, s))
       problems.error(
           root.problem("no consistent initial state was found nearby: the joints contradict each other, or the bodies "
                        "are far off"));
   }
+  if (wanted == Settings::Initial::equilibrium && problems.empty())
+    if (const auto why = find_equilibrium(system, s))
+      problems.error((root.find("initial") ? *root.find("initial") : root).problem(*why));
   system.move_to(t, s.q, s.v);
+  ContactScale scale;
+  scale.take_all(system);
   for (int i = 0; i < int(system.model().contacts.size()); ++i) {
+    if (system.model().contacts[i].force) continue;  // compliant: it starts under load
     const double gap = system.gap(i);
     const scene::Value* at = root.at_path("contacts." + system.model().contacts[i].name);
-    if (!(gap >= -penetration))
+    if (!(gap >= -scale.written_length()))
       problems.error(
           (at ? *at : root)
               .problem(fmt::format("the initial state penetrates the plane by {:.6g} m; expected a gap >= 0", -gap)));

@@ -8,12 +8,14 @@
 
 #include "model/assembled_system.hpp"
 #include "scene/value.hpp"
+#include "simulate/settings.hpp"
 
 namespace trammel::simulate {
 
 // t, q and v of the start. Rows violated by more than 1e-8 (m, rad; m/s, rad/s) are an error that tells by how much and what
-// the nearest consistent state would change; with `project` that state is taken. A contact that penetrates is an error.
-State initial_state(model::AssembledSystem& system, double t, bool project, const scene::Value& root,
+// the nearest consistent state would change; with `project` that state is taken, with `equilibrium` one at rest near it. A
+// contact that penetrates is an error.
+State initial_state(model::AssembledSystem& system, double t, Settings::Initial wanted, const scene::Value& root,
                     scene::Problems& problems);
 
 }  // namespace trammel::simulate

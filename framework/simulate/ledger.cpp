@@ -3,18 +3,24 @@
 #include <cmath>
 #include <numeric>
 
+#include "simulate/between_states.hpp"
+
 namespace trammel::simulate {
 namespace {
 
 using Balance = model::AssembledSystem::Balance;
 
 double size(const Balance& p) {
-  return std::abs(p.drives) + std::abs(p.dampers) + std::abs(p.contacts) + std::abs(p.constraints);
+  return std::abs(p.drives) + std::abs(p.dampers) + std::abs(p.contacts) + std::abs(p.constraints) +
+         std::abs(p.markers) + p.friction.lpNorm<1>();
 }
 
 }  // namespace
 
-Ledger::Ledger(model::AssembledSystem& system) : system_(system), impacts_(system.model().contacts.size()) {}
+Ledger::Ledger(model::AssembledSystem& system) : system_(system), impacts_(system.model().contacts.size()) {
+  friction_.setZero(Eigen::Index(impacts_.size()));
+  now_.friction = friction_;
+}
 
 Balance Ledger::balance(double t, const Vec& q, const Vec& v, const Vec& lambda) {
   system_.move_to(t, q, v);
@@ -28,26 +34,35 @@ void Ledger::start(const State& state) {
 
 void Ledger::restart(const State& state) {
   now_ = balance(state.t, state.q, state.v, state.lambda);
+  g_dot_ = system_.g_dot();
 }
 
 void Ledger::step(const State& now, const State& next) {
   const Balance end = balance(next.t, next.q, next.v, next.lambda);
+  g_dot_end_ = system_.g_dot();
   const double h = next.t - now.t, power = size(now_) + size(end);
   // A closed contact's row does work at the level of round-off; that is not worth an evaluation.
   if (power * h > 1e-16 * std::abs(energy_start_)) {
-    system_.difference(next.q, now.q, dq_);
-    dq_ = 0.5 * dq_ + (h / 8) * (now.v - next.v);
-    system_.retract(now.q, dq_, q_);
-    v_ = 0.5 * (now.v + next.v) + (h / 8) * (now.a - next.a);
+    state_between(system_, now, next, 0.5, q_, v_, dq_);
     lambda_ = 0.5 * (now.lambda + next.lambda);
-    const Balance middle = balance(now.t + h / 2, q_, v_, lambda_);
+    Balance middle = balance(now.t + h / 2, q_, v_, lambda_);
+    // Reactions do not follow their mean where they swing within a step.
+    if (std::abs(now_.constraints) + std::abs(end.constraints) + std::abs(middle.constraints) > 1e-9 * power) {
+      system_.accelerate({}, a_, lambda_);
+      middle = system_.balance(lambda_);
+    }
+    // The interpolation leaves the rows between two states that are on them; the motion does not.
+    if (lambda_.size() > 0) middle.constraints += lambda_.dot(system_.g_dot() - 0.5 * (g_dot_ + g_dot_end_));
     const auto simpson = [h](double begin, double mid, double finish) { return h / 6 * (begin + 4 * mid + finish); };
     drives_ += simpson(now_.drives, middle.drives, end.drives);
     dampers_ += simpson(now_.dampers, middle.dampers, end.dampers);
     contacts_ += simpson(now_.contacts, middle.contacts, end.contacts);
     constraints_ += simpson(now_.constraints, middle.constraints, end.constraints);
+    markers_ += simpson(now_.markers, middle.markers, end.markers);
+    friction_ += h / 6 * (now_.friction + 4 * middle.friction + end.friction);
   }
   now_ = end;
+  g_dot_.swap(g_dot_end_);
 }
 
 double Ledger::impact_total() const {
@@ -59,6 +74,9 @@ void Ledger::archive(Archive& a) {
   a("contacts", contacts_), a("refinements", refinements_);
   a("power_drives", now_.drives), a("power_dampers", now_.dampers), a("power_contacts", now_.contacts);
   a("power_constraints", now_.constraints);
+  a("markers", markers_), a("friction", friction_);
+  a("g_dot", g_dot_);
+  a("power_markers", now_.markers), a("power_friction", now_.friction);
   Vec impacts = Eigen::Map<const Vec>(impacts_.data(), Eigen::Index(impacts_.size()));
   a("lost_to_impacts", impacts);
   impacts_.assign(impacts.data(), impacts.data() + impacts.size());

@@ -1,6 +1,7 @@
 // Where the energy goes.
 //
-//     E_start + supplied + refinements = E + dissipated,       dissipated = impacts + contact damping + dampers + numerical
+//     E_start + supplied + refinements = E + dissipated
+//     dissipated = impacts + contact damping + friction + dampers + numerical
 //
 // Impacts are exact (impact.hpp). Powers of drives, moving rows, dampers and compliant contacts are integrated along accepted
 // steps by Simpson's rule, the state in the middle from the cubic Hermite interpolation of v and the matching one of q;
@@ -29,12 +30,15 @@ class Ledger {
   void refinement(double gained) { refinements_ += gained; }
 
   double energy_start() const { return energy_start_; }
-  double energy() const { return energy_start_ + supplied() + refinements_ - (impact_total() + contacts_ + dampers_); }  // due by now
-  double supplied() const { return drives_ + constraints_; }
+  double energy() const { return energy_start_ + supplied() + refinements_ - dissipated(); }  // due by now
+  double supplied() const { return drives_ + constraints_ + markers_; }
+  double dissipated() const { return impact_total() + contacts_ + friction_.sum() + dampers_; }
   double drives() const { return drives_; }
   double constraints() const { return constraints_; }
+  double markers() const { return markers_; }
   double refinements() const { return refinements_; }  // gained where coordinates were replaced
   double dampers() const { return dampers_; }
+  const Vec& friction() const { return friction_; }  // by contact
   double contact_damping() const { return contacts_; }
   const std::vector<double>& impacts() const { return impacts_; }
   double impact_total() const;
@@ -45,9 +49,12 @@ class Ledger {
   model::AssembledSystem::Balance balance(double t, const Vec& q, const Vec& v, const Vec& lambda);
   model::AssembledSystem& system_;
   model::AssembledSystem::Balance now_;
-  double energy_start_ = 0, drives_ = 0, constraints_ = 0, dampers_ = 0, contacts_ = 0, refinements_ = 0;  // [J]
+  double energy_start_ = 0, drives_ = 0, constraints_ = 0, markers_ = 0, dampers_ = 0, contacts_ = 0;  // [J]
+  double refinements_ = 0;                                                                             // [J]
+  Vec friction_;
   std::vector<double> impacts_;
-  Vec q_, v_, dq_, lambda_;
+  Vec g_dot_, g_dot_end_;  // at `now` and at the step's end
+  Vec q_, v_, a_, dq_, lambda_;
 };
 
 }  // namespace trammel::simulate

@@ -1,12 +1,14 @@
 #include "simulate/observable.hpp"
 
 #include <algorithm>
-#include <array>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "model/scene_keys.hpp"
 #include "scene/suggestion.hpp"
+#include "simulate/relative_motion.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -16,35 +18,13 @@ using model::Model;
 using Value = std::function<double(Moment&)>;
 using Choices = std::vector<std::pair<std::string, Value>>;  // full names
 
-double acceleration(Moment& moment, MarkerRef marker, int component) {
-  const Vec& a = moment.a();
-  const Motion& motion = moment.system().motion(marker);
-  double sum = motion.bias.size() > component ? motion.bias[component] : 0;
-  if (marker.body < 0) return sum;
-  const int v0 = moment.system().model().bodies[marker.body].v0;
-  for (std::size_t k = 0; k < motion.dofs.size(); ++k)
-    sum += motion.J(component, Eigen::Index(k)) * a[v0 + motion.dofs[k]];
-  return sum;
-}
-
 void add_marker(const std::string& name, MarkerRef marker, Space space, Choices& choices) {
-  static constexpr std::array axes = {"x", "y", "z"};
-  const int n = dimension(space);
-  for (int i = 0; i < n; ++i)
-    choices.emplace_back(fmt::format("{}.{}", name, axes[i]),
-                         [=](Moment& m) { return m.system().motion(marker).x[i]; });
-  for (int i = 0; i < n; ++i)
-    choices.emplace_back(fmt::format("{}.v{}", name, axes[i]),
-                         [=](Moment& m) { return m.system().motion(marker).V[i]; });
-  for (int i = 0; i < n; ++i)
-    choices.emplace_back(fmt::format("{}.a{}", name, axes[i]), [=](Moment& m) { return acceleration(m, marker, i); });
-  if (space == Space::spatial) return;
-  choices.emplace_back(name + ".angle", [=](Moment& m) { return m.system().motion(marker).angle; });
-  choices.emplace_back(name + ".omega", [=](Moment& m) { return m.system().motion(marker).V[2]; });
-  choices.emplace_back(name + ".alpha", [=](Moment& m) { return acceleration(m, marker, 2); });
+  for (const auto& [component, what] : motion_components(space))
+    choices.emplace_back(fmt::format("{}.{}", name, component),
+                         [marker, what = what](Moment& m) { return seen_from(m, marker, MarkerRef{}, what); });
 }
 
-void add_contact(const std::string& name, int i, Choices& choices) {
+void add_contact(const std::string& name, int i, bool friction, Choices& choices) {
   choices.emplace_back(name + ".gap", [=](Moment& m) { return m.system().gap(i); });
   choices.emplace_back(name + ".gap_rate", [=](Moment& m) { return m.system().gap_rate(i); });
   choices.emplace_back(name + ".force", [=](Moment& m) {
@@ -52,6 +32,17 @@ void add_contact(const std::string& name, int i, Choices& choices) {
     const Vec& lambda = m.lambda();
     return m.system().normal_force(i, lambda);
   });
+  if (friction) {
+    choices.emplace_back(name + ".slip", [=](Moment& m) { return m.system().rate({i, 1}); });
+    choices.emplace_back(name + ".friction", [=](Moment& m) {
+      if (!m.system().modes().contacts[i].closed) return 0.0;
+      const Vec& lambda = m.lambda();
+      return m.system().friction_force(i, lambda);
+    });
+    choices.emplace_back(name + ".sticks", [=](Moment& m) {
+      return m.system().modes().contacts[i].friction == model::ContactMode::Friction::stick ? 1.0 : 0.0;
+    });
+  }
   choices.emplace_back(name + ".closed", [=](Moment& m) { return m.system().modes().contacts[i].closed ? 1.0 : 0.0; });
 }
 
@@ -71,7 +62,8 @@ Choices all_choices(const Model& model) {
     for (int k = 0; k < int(markers.size()); ++k)
       add_marker(entry.name + "." + markers[k], {b, k}, model.world.space, choices);
   }
-  for (int i = 0; i < int(model.contacts.size()); ++i) add_contact("contacts." + model.contacts[i].name, i, choices);
+  for (int i = 0; i < int(model.contacts.size()); ++i)
+    add_contact("contacts." + model.contacts[i].name, i, model.contacts[i].friction != nullptr, choices);
   for (const model::JointEntry& entry : model.joints)
     choices.emplace_back("joints." + entry.name + ".reaction",
                          [&entry](Moment& m) { return m.lambda().segment(entry.row, entry.rows).norm(); });
@@ -82,6 +74,61 @@ Choices all_choices(const Model& model) {
   return choices;
 }
 
+// {"of": "block.com.x", "relative_to": "table.origin", "since_start": true}: a marker's motion seen from another one.
+class MotionReader {
+ public:
+  MotionReader(const Model& model, scene::Problems& problems) : model_(model), problems_(problems) {
+    const std::vector<std::string> markers = model::marker_names(model);
+    for (const auto& [component, what] : motion_components(model.world.space))
+      for (const std::string& marker : markers) names_.push_back(marker + "." + component);
+  }
+
+  std::optional<Column> read(const std::string& name, const scene::Value& value) {
+    if (!model::check_keys(value, {"of", "relative_to", "since_start"}, problems_)) return {};
+    const scene::Value* of = value.find("of");
+    if (!of) {
+      problems_.error(value.problem("\"of\" is missing: a marker's motion, such as \"beam.tip.y\""));
+      return {};
+    }
+    const auto text = of->read_text(problems_);
+    if (!text) return {};
+    const auto dot = text->rfind('.');
+    const auto A = dot == text->npos ? std::nullopt : model::find_marker(model_, text->substr(0, dot));
+    std::optional<MotionComponent> what;
+    for (const auto& [component, candidate] : motion_components(model_.world.space))
+      if (A && text->substr(dot + 1) == component) what = candidate;
+    if (!what) {
+      problems_.error(
+          of->problem(fmt::format("no motion \"{}\" of a marker{}", *text, scene::did_you_mean(*text, names_))));
+      return {};
+    }
+    const auto B = observer(value.find("relative_to"));
+    if (!B) return {};
+    Column column{name, [A = *A, B = *B, what = *what](Moment& m) { return seen_from(m, A, B, what); }, false};
+    if (const scene::Value* since = value.find("since_start"))
+      column.since_start = since->read_boolean(problems_).value_or(false);
+    if (column.since_start && what->order > 0)
+      problems_.error(value.find("since_start")->problem("only a place or an angle is taken since the start"));
+    return column;
+  }
+
+ private:
+  std::optional<MarkerRef> observer(const scene::Value* value) {
+    if (!value) return MarkerRef{};
+    const auto text = value->read_text(problems_);
+    if (!text) return {};
+    const auto B = model::find_marker(model_, *text);
+    if (!B)
+      problems_.error(value->problem(
+          fmt::format("no marker \"{}\"{}", *text, scene::did_you_mean(*text, model::marker_names(model_)))));
+    return B;
+  }
+
+  const Model& model_;
+  scene::Problems& problems_;
+  std::vector<std::string> names_;
+};
+
 }  // namespace
 
 const Energy& Moment::energy() {
@@ -91,6 +138,13 @@ const Energy& Moment::energy() {
 
 void Moment::solve() {
   if (!std::exchange(solved_, true)) system_.accelerate({}, a_, lambda_);
+}
+
+void begin_columns(std::vector<Column>& columns, model::AssembledSystem& system, const State& start) {
+  Moment moment(system, start);
+  for (Column& column : columns)
+    if (column.since_start)
+      column.value = [value = column.value, begin = column.value(moment)](Moment& m) { return value(m) - begin; };
 }
 
 std::vector<Column> read_observables(const scene::Value& root, const Model& model, scene::Problems& problems) {
@@ -105,16 +159,21 @@ std::vector<Column> read_observables(const scene::Value& root, const Model& mode
   Choices choices = all_choices(model);
   std::vector<std::string> names;
   for (const auto& choice : choices) names.push_back(choice.first);
+  MotionReader motions(model, problems);
   for (const auto& [name, value] : observe->members()) {
     if (name.empty() || name == "t" || name.find_first_of(",\"\n\r") != std::string::npos)
       problems.error(value.problem(fmt::format("\"{}\" cannot be a column's name", name)));
+    if (value.type() == scene::Value::Type::object) {
+      if (auto column = motions.read(name, value)) columns.push_back(std::move(*column));
+      continue;
+    }
     const auto what = value.read_text(problems);
     if (!what) continue;
     const auto found = std::find(names.begin(), names.end(), *what);
     if (found == names.end())
       problems.error(value.problem(fmt::format("no observable \"{}\"{}", *what, scene::did_you_mean(*what, names))));
     else
-      columns.push_back({name, choices[std::size_t(found - names.begin())].second});
+      columns.push_back({name, choices[std::size_t(found - names.begin())].second, false});
   }
   return columns;
 }

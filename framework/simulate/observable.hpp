@@ -5,6 +5,9 @@
 //     contacts.NAME.gap gap_rate force closed                    force [N] >= 0 pushes; closed is 0 or 1
 //     joints.NAME.reaction            2-norm of the joint's multipliers
 //     energy.kinetic potential elastic total                     [J]
+//
+// or {"of": "block.com.x", "relative_to": "table.origin", "since_start": true}: a marker's motion as seen from another one
+// (relative_motion.hpp), with "since_start" less its value at the start.
 #pragma once
 
 #include <functional>
@@ -43,9 +46,13 @@ class Moment {
 struct Column {
   std::string name;  // in the header
   std::function<double(Moment&)> value;
+  bool since_start = false;  // less the value at the start; so from begin_columns on
 };
 
 // The columns "record" asks for, in scene order; unknown names are reported with the nearest.
 std::vector<Column> read_observables(const scene::Value& root, const model::Model& model, scene::Problems& problems);
+
+// Tells the columns the state that the run starts from, also when it resumes.
+void begin_columns(std::vector<Column>& columns, model::AssembledSystem& system, const State& start);
 
 }  // namespace trammel::simulate

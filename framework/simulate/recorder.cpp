@@ -88,8 +88,12 @@ void Recorder::event(const ContactEvent& event) {
   auto out = std::back_inserter(events_->buffer());
   fmt::format_to(out, "{:.17g},{},contacts.{},", event.t, to_string(event.kind), name);
   if (event.kind == ContactEvent::Kind::impact)
-    fmt::format_to(out, "impulse={:.17g} approach={:.17g} separation={:.17g} energy_lost={:.17g}", event.impulse,
-                   event.approach, event.separation, event.energy_lost);
+    fmt::format_to(out, "impulse={:.17g} approach={:.17g} separation={:.17g} energy_lost={:.17g} friction={:.17g}",
+                   event.impulse, event.approach, event.separation, event.energy_lost, event.friction);
+  else if (event.kind == ContactEvent::Kind::stick)
+    fmt::format_to(out, "friction={:.17g}", event.friction);
+  else if (event.kind == ContactEvent::Kind::slip || event.kind == ContactEvent::Kind::reversal)
+    fmt::format_to(out, "friction={:.17g} direction={:g}", event.friction, event.direction);
   else if (event.kind == ContactEvent::Kind::close)
     fmt::format_to(out, "approach={:.17g}", event.approach);
   else

@@ -43,9 +43,14 @@ json dissipated(const model::Model& model, const Ledger& ledger, double drift) {
   json impact = json::object();
   for (std::size_t i = 0; i < ledger.impacts().size(); ++i)
     if (model.contacts[i].restitution) impact[model.contacts[i].name] = ledger.impacts()[i];
+  json friction = json::object();
+  for (std::size_t i = 0; i < model.contacts.size(); ++i)
+    if (model.contacts[i].friction) friction[model.contacts[i].name] = ledger.friction()[Eigen::Index(i)];
   return {{"impact", impact},
           {"impact_total", ledger.impact_total()},
           {"contact_damping", ledger.contact_damping()},
+          {"friction", friction},
+          {"friction_total", ledger.friction().sum()},
           {"dampers", ledger.dampers()},
           {"numerical", -drift}};
 }
@@ -81,39 +86,41 @@ std::string result_json(const scene::Scene& scene, const plugin::Registry& regis
   std::vector<std::string> warnings = setup.warnings;
   warnings.insert(warnings.end(), simulator.warnings().begin(), simulator.warnings().end());
   const scene::Value* title = scene.root().find("title");
-  const json result = {
-      {"trammel_result", 1},
-      {"status", to_string(outcomes.status)},
-      {"reason", outcomes.reason},
-      {"scene", scene.file()},
-      {"title", title && title->type() == scene::Value::Type::text ? title->text() : ""},
-      {"scene_hash", fmt::format("{:016x}", scene.hash())},
-      {"versions", versions()},
-      {"plugins", plugins},
-      {"integrator", setup.integrator_type},
-      {"t_start", setup.settings.start},
-      {"t_end", state.t},
-      {"t_until", setup.settings.until},
-      {"wall_time_s", outcomes.cost.wall},
-      {"cpu_time_s", outcomes.cost.cpu},
-      {"resumed", outcomes.resumed},
-      {"counts", counts(simulator)},
-      {"smallest_step", statistics.smallest_step},
-      {"largest_step", statistics.largest_step},
-      {"energy_start", ledger.energy_start()},
-      {"energy_end", energy(end)},
-      {"energy_supplied",
-       {{"drives", ledger.drives()}, {"constraints", ledger.constraints()}, {"total", ledger.supplied()}}},
-      {"energy_of_refinements", ledger.refinements()},
-      {"energy_drift", drift},
-      {"energy_dissipated", dissipated(*setup.model, ledger, drift)},
-      {"constraint_maxima",
-       {{"position", statistics.largest.position},
-        {"velocity", statistics.largest.velocity},
-        {"acceleration", statistics.largest.acceleration}}},
-      {"sizes", sizes(statistics)},
-      {"sizes_left_out", statistics.sizes_left_out},
-      {"warnings", warnings}};
+  const json result = {{"trammel_result", 1},
+                       {"status", to_string(outcomes.status)},
+                       {"reason", outcomes.reason},
+                       {"scene", scene.file()},
+                       {"title", title && title->type() == scene::Value::Type::text ? title->text() : ""},
+                       {"scene_hash", fmt::format("{:016x}", scene.hash())},
+                       {"versions", versions()},
+                       {"plugins", plugins},
+                       {"integrator", setup.integrator_type},
+                       {"t_start", setup.settings.start},
+                       {"t_end", state.t},
+                       {"t_until", setup.settings.until},
+                       {"wall_time_s", outcomes.cost.wall},
+                       {"cpu_time_s", outcomes.cost.cpu},
+                       {"resumed", outcomes.resumed},
+                       {"counts", counts(simulator)},
+                       {"smallest_step", statistics.smallest_step},
+                       {"largest_step", statistics.largest_step},
+                       {"energy_start", ledger.energy_start()},
+                       {"energy_end", energy(end)},
+                       {"energy_supplied",
+                        {{"drives", ledger.drives()},
+                         {"constraints", ledger.constraints()},
+                         {"moving_markers", ledger.markers()},
+                         {"total", ledger.supplied()}}},
+                       {"energy_of_refinements", ledger.refinements()},
+                       {"energy_drift", drift},
+                       {"energy_dissipated", dissipated(*setup.model, ledger, drift)},
+                       {"constraint_maxima",
+                        {{"position", statistics.largest.position},
+                         {"velocity", statistics.largest.velocity},
+                         {"acceleration", statistics.largest.acceleration}}},
+                       {"sizes", sizes(statistics)},
+                       {"sizes_left_out", statistics.sizes_left_out},
+                       {"warnings", warnings}};
   return result.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

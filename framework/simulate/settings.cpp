@@ -1,8 +1,12 @@
 #include "simulate/settings.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "model/scene_keys.hpp"
+#include "scene/suggestion.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -76,6 +80,26 @@ void read_record(const Value& root, Settings& settings, Problems& problems) {
         record->problem(fmt::format("{} s recorded every {} s are more than 1e9 rows", length, settings.every)));
 }
 
+Settings::Initial read_initial(const Value& value, Problems& problems) {
+  const Value* choice = &value;
+  std::vector<std::string> names = {"check", "project"};
+  if (value.type() == Value::Type::object) {
+    check_keys(value, {"consistent"}, problems);
+    choice = value.find("consistent");
+    if (!choice) return Settings::Initial::check;
+  } else {
+    names.push_back("equilibrium");
+  }
+  const auto text = choice->read_text(problems);
+  if (!text) return Settings::Initial::check;
+  if (std::find(names.begin(), names.end(), *text) == names.end())
+    problems.error(choice->problem(fmt::format("found \"{}\", expected \"{}\"{}", *text, fmt::join(names, "\" or \""),
+                                               scene::did_you_mean(*text, names))));
+  return *text == "equilibrium" ? Settings::Initial::equilibrium
+         : *text == "project"   ? Settings::Initial::project
+                                : Settings::Initial::check;
+}
+
 }  // namespace
 
 Settings read_settings(const Value& root, Problems& problems) {
@@ -94,15 +118,7 @@ Settings read_settings(const Value& root, Problems& problems) {
       settings.contact_step = settings.step;
     }
   }
-  if (const Value* initial = root.find("initial")) {
-    check_keys(*initial, {"consistent"}, problems);
-    if (const Value* consistent = initial->find("consistent")) {
-      const auto text = consistent->read_text(problems);
-      if (text && *text != "check" && *text != "project")
-        problems.error(consistent->problem(fmt::format("found \"{}\", expected \"check\" or \"project\"", *text)));
-      settings.project_initial = text && *text == "project";
-    }
-  }
+  if (const Value* initial = root.find("initial")) settings.initial = read_initial(*initial, problems);
   return settings;
 }
 

@@ -2,7 +2,7 @@
 //
 //     "integrator": {..., "step": 1e-4, "contact_step": {"tolerance": 1e-9}}     contact_step: while a contact is closed
 //     "simulate":   {"start": 0, "until": 2, "contact_hold": 0, "chatter_steps": 3, "event_limit": 1000000}
-//     "initial":    {"consistent": "check" | "project"}
+//     "initial":    "check" | "project" | "equilibrium", or {"consistent": "check" | "project"}
 //     "record":     {"every": 1e-3, "observe": {"tip_y": "beam.tip.y"}}
 #pragma once
 
@@ -32,7 +32,10 @@ struct Settings {
   double contact_hold = 0;          // [s] contact_step goes on so long after an event: the flights within a bounce
   double chatter_steps = 3;         // a rebound that lasts fewer fixed steps sticks; 0: never
   long long event_limit = 1000000;  // in a thousandth of the run
-  bool project_initial = false;
+  // What is done with the state that the bodies' parameters give: nothing, if it satisfies the joints; moved onto them; moved
+  // to rest (equilibrium.hpp).
+  enum class Initial { check, project, equilibrium };
+  Initial initial = Initial::check;
 };
 
 // Reads all but the integrator's own parameters and the observables; every problem goes to `problems`.

@@ -7,6 +7,7 @@
 #include "model/scene_keys.hpp"
 #include "plugin/parameters.hpp"
 #include "simulate/initial_state.hpp"
+#include "simulate/smooth_laws.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -35,6 +36,13 @@ void read_integrator(const Value& root, plugin::Registry& registry, Setup& setup
   setup.integrator = std::move(made.component);
   setup.integrator_origin = std::move(made.origin);
   if (const Value* type = value->find("type")) setup.integrator_type = type->read_text(problems).value_or("");
+  for (const model::ContactEntry& contact : setup.model->contacts)
+    if (contact.coulomb && contact.coulomb->decide() == SetValuedFriction::Decide::every_evaluation &&
+        setup.integrator->traits().implicit)
+      problems.error(
+          value->problem(fmt::format("the friction of contacts.{} is decided at every evaluation, which takes an "
+                                     "explicit method such as runge_kutta_4",
+                                     contact.name)));
   if (dynamic_cast<const ErrorEstimate*>(setup.integrator.get())) return;
   for (const auto& [key, choice] :
        {std::pair{"step", &setup.settings.step}, std::pair{"contact_step", &setup.settings.contact_step}})
@@ -104,10 +112,12 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry) {
   read_integrator(root, registry, setup, problems);
   read_corrections(root, registry, setup, problems);
   if (problems.empty()) setup.columns = read_observables(root, *setup.model, problems);
+  if (problems.empty()) check_laws(root, registry, setup.settings.start, setup.settings.until, problems);
   problems.throw_if_any();
   model::AssembledSystem system(setup.model);
-  setup.initial = initial_state(system, setup.settings.start, setup.settings.project_initial, root, problems);
+  setup.initial = initial_state(system, setup.settings.start, setup.settings.initial, root, problems);
   problems.throw_if_any();
+  begin_columns(setup.columns, system, setup.initial);
   for (const scene::Problem& warning : problems.warnings()) setup.warnings.push_back(warning.text());
   return setup;
 }

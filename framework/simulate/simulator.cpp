@@ -15,10 +15,6 @@ namespace {
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr std::size_t most_warnings = 20;
 
-double chatter_time(const Settings& settings) {
-  return settings.chatter_steps * settings.contact_step.fixed.value_or(0);
-}
-
 int error_order(Integrator& integrator) {
   const auto* estimate = dynamic_cast<const ErrorEstimate*>(&integrator);
   return estimate ? estimate->error_order() : 1;
@@ -36,8 +32,8 @@ Simulator::Simulator(std::shared_ptr<model::Model> model, Integrator& integrator
       corrections_(std::move(corrections)),
       free_control_(settings.step, settings.every, error_order(integrator)),
       contact_control_(settings.contact_step, settings.every, error_order(integrator)),
-      modes_(system_, chatter_time(settings)),
-      location_(system_, integrator),
+      modes_(system_, scale_, settings_),
+      location_(system_, integrator, modes_, scale_),
       ledger_(system_),
       refinement_(std::move(model), system_) {}
 
@@ -45,23 +41,21 @@ void Simulator::start(State initial) {
   now_ = std::move(initial);
   window_start_ = now_.t;
   system_.move_to(now_.t, now_.q, now_.v);
-  ContactChanges changes;
-  const double near = 1e-9;  // [m] a scene's positions are written with so many digits
+  scale_.take_all(system_);
+  ContactChanges pressing, striking;
   for (int i = 0; i < int(system_.model().contacts.size()); ++i) {
-    if (system_.gap(i) > near || system_.gap_rate(i) > 1e-9) continue;
-    if (system_.model().contacts[i].force)
-      changes.toggled.push_back(i);
-    else
-      changes.struck.push_back(i);
+    const bool compliant = system_.model().contacts[i].force, pressed = system_.gap(i) < -scale_.touching();
+    if (system_.gap(i) > scale_.written_length()) continue;
+    if (system_.gap_rate(i) > scale_.written_speed() && !(compliant && pressed)) continue;
+    compliant ? pressing.toggled.push_back(i) : striking.struck.push_back(i);
   }
+  if (!pressing.empty()) settle(pressing);  // what they store is there from the first instant
   ledger_.start(now_);
   energy_start_ = energy_at_state();
-  if (changes.empty()) {
-    system_.accelerate({}, now_.a, now_.lambda);
-    at_new_modes();
-  } else {
-    settle(changes);
-  }
+  if (!striking.empty()) return settle(striking);
+  if (!pressing.empty()) return;
+  system_.accelerate({}, now_.a, now_.lambda);
+  at_new_modes();
 }
 
 void Simulator::resume() {
@@ -93,14 +87,14 @@ double Simulator::relative_drift() {
   const double potential = energy_at_state().potential;
   const double moved = energy_start_.kinetic + std::abs(energy_start_.elastic) +
                        std::abs(potential - energy_start_.potential) + std::abs(ledger_.supplied()) +
-                       std::abs(ledger_.refinements()) + ledger_.impact_total() + ledger_.contact_damping() +
-                       ledger_.dampers();
+                       std::abs(ledger_.refinements()) + ledger_.dissipated();
   return std::abs(energy_drift()) / (moved + 1e-9 * (1 + std::abs(ledger_.energy_start())));
 }
 
 // A method that is unstable with its step may give finite nonsense for long. Its energy tells.
 void Simulator::judge_energy() {
   const double drift = relative_drift();
+  if (!std::isfinite(drift)) find_culprit(0);
   if (!(drift < 1e3))
     throw RunFailed(fmt::format(
         "at t = {:.9g} s, step {}: the solution diverged: its energy changed by {:.3g} J that no force supplied or "
@@ -118,7 +112,7 @@ bool Simulator::advance(Recorder& recorder) {
   if (now_.t >= settings_.until) return false;
   const double stop = dense_ && control().controlled() ? settings_.until : record_time(records_);
   for (;;) {
-    const StepControl::Proposal proposal = control().propose(now_.t, stop);
+    const StepControl::Proposal proposal = control().propose(now_.t, stop, step_limit_);
     double h = proposal.h, error = 0;
     EventLocation::Found found = EventLocation::Found::nothing;
     if (!try_step(proposal, h, found, error)) continue;
@@ -128,6 +122,7 @@ bool Simulator::advance(Recorder& recorder) {
       settle(location_.changes());
       const int contact = events_.empty() ? -1 : events_.back().contact;
       write_events(recorder);  // now: a checkpoint may follow
+      guard_against_standstill(h, proposal.h, contact);
       guard_against_storm(contact);
     }
     if (refinement_.possible()) refine(recorder, -1);
@@ -154,9 +149,12 @@ bool Simulator::try_step(const StepControl::Proposal& proposal, double& h, Event
     }
   }
   if (location_.watches()) {
-    found = location_.examine(now_, h, next_);
+    const bool may_shorten = control().controlled() && h > 64 * control().smallest(now_.t);
+    found = location_.examine(now_, h, next_, may_shorten);
     if (found == EventLocation::Found::step_refused)
       return refuse(proposal, "a shorter step, tried to locate an event, was refused"), false;
+    if (found == EventLocation::Found::step_too_long)
+      return refuse(proposal, "it is too long to tell what contacts did within it"), false;
   }
   return true;
 }
@@ -237,6 +235,7 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
     system_.move_to(next_.t, next_.q, next_.v);
     statistics_.largest.raise_to(constraint_norms(system_, next_, scratch_));
   }
+  if (location_.watches()) scale_.take_contacts(system_);
   statistics_.locating_steps = location_.steps_tried();
   location_.accept(h);
   std::swap(now_, next_);
@@ -277,12 +276,27 @@ void Simulator::at_new_modes() {
 
 void Simulator::restart_all_but_integrator() {
   in_contact_ = modes_.any_closed();
+  step_limit_ = control().controlled() ? modes_.step_limit(now_) : std::numeric_limits<double>::infinity();
   free_control_.interrupted();
   contact_control_.interrupted();
   for (const auto& entry : corrections_) entry.correction->restart(system_, now_);
   location_.restart(now_);
   ledger_.restart(now_);
   statistics_.note_sizes(now_.t, system_.sizes());
+}
+
+// Events that hardly move t, one after the other, are no motion but a contradiction in the model: its modes exclude each other.
+void Simulator::guard_against_standstill(double h, double wanted, int contact) {
+  standing_ = h <= 64 * eps * (std::abs(now_.t) + wanted) ? standing_ + 1 : 0;
+  const int contacts = int(system_.model().contacts.size());
+  if (standing_ <= 100 + 10 * contacts) return;
+  throw RunFailed(fmt::format(
+      "at t = {:.9g} s, step {}: {} events in a row without progress in time{}: the contacts' modes contradict each "
+      "other, as "
+      "they do where much friction leaves no motion of rigid contacts; a compliant law, such as continuous_force, has "
+      "one",
+      now_.t, statistics_.steps, standing_,
+      contact < 0 ? "" : fmt::format(", the last of contact \"{}\"", system_.model().contacts[contact].name)));
 }
 
 void Simulator::guard_against_storm(int contact) {
@@ -361,15 +375,18 @@ void Simulator::archive_state(Archive& a) {
     a(name + "closed", modes.contacts[i].closed);
     a(name + "approach_speed", modes.contacts[i].approach_speed);
     a(name + "offset", modes.contacts[i].offset);
+    int friction = int(modes.contacts[i].friction);
+    a(name + "friction", friction);
+    modes.contacts[i].friction = model::ContactMode::Friction(friction);
+    a(name + "direction", modes.contacts[i].direction);
+    a(name + "anchor", modes.contacts[i].anchor);
   }
-  const auto same = [](const model::ContactMode& x, const model::ContactMode& y) {
-    return x.closed == y.closed && x.approach_speed == y.approach_speed && x.offset == y.offset;
-  };
   const auto& current = system_.modes().contacts;
-  if (!std::equal(current.begin(), current.end(), modes.contacts.begin(), same)) system_.set_modes(modes);
-  a("hold_until", hold_until_);
+  if (!std::equal(current.begin(), current.end(), modes.contacts.begin())) system_.set_modes(modes);
+  scale_.archive(a);
+  a("hold_until", hold_until_), a("step_limit", step_limit_);
   a("records", records_), a("last_row", last_row_), a("window_start", window_start_),
-      a("window_events", window_events_);
+      a("window_events", window_events_), a("standing", standing_);
   model::Counts& counts = system_.counts();
   a("residual_evaluations", counts.residual_evaluations), a("jacobian_evaluations", counts.jacobian_evaluations);
   a("factorizations", counts.factorizations), a("newton_iterations", counts.newton_iterations);

@@ -3,7 +3,8 @@
 // An iteration tries a step towards the next stop (a record time, or the end), lets EventLocation shorten it to the first
 // event, corrects, accepts, and settles the event. Every iteration that does not end the run either advances t or is a
 // rejected step, and rejections in a row are bounded by the step control; an event advances t by at least 4 units in its last
-// place, and more than `event_limit` events in a thousandth of the run end it. So the loop cannot hang.
+// place; some hundred of them in a row that advance it by little more, or more than `event_limit` events in a thousandth of
+// the run, end it. So the loop cannot hang.
 #pragma once
 
 #include <atomic>
@@ -17,6 +18,7 @@
 
 #include "simulate/checkpoint.hpp"
 #include "simulate/contact_mode.hpp"
+#include "simulate/contact_scale.hpp"
 #include "simulate/event_location.hpp"
 #include "simulate/ledger.hpp"
 #include "simulate/recorder.hpp"
@@ -71,6 +73,7 @@ class Simulator {
   void accept(double h, bool shortened, const StepControl::Proposal& proposal, double error);
   void record_inside(Recorder& recorder);
   void settle(const ContactChanges& changes);
+  void guard_against_standstill(double h, double wanted, int contact);
   void guard_against_storm(int contact);  // the last one; -1: unknown
   void write_events(Recorder& recorder);
   void refine(Recorder& recorder, int contact);
@@ -84,6 +87,7 @@ class Simulator {
   DenseOutput* dense_;
   std::vector<LevelCorrection> corrections_;
   StepControl free_control_, contact_control_;
+  ContactScale scale_;
   ContactModes modes_;
   EventLocation location_;
   Ledger ledger_;
@@ -92,12 +96,14 @@ class Simulator {
 
   State now_, next_, inside_, uncorrected_;
   bool in_contact_ = false;
+  double step_limit_ = std::numeric_limits<double>::infinity();   // [s] ContactModes::step_limit
   double hold_until_ = -std::numeric_limits<double>::infinity();  // [s] contact steps until then
   long long records_ = 0;                                         // written
   bool last_row_ = false;                                         // the row at the end is written
   Energy energy_start_;
   double window_start_ = 0;
   long long window_events_ = 0;
+  int standing_ = 0;  // events in a row that hardly moved t
   std::vector<ContactEvent> events_;
   std::vector<std::string> warnings_;
   Vec scratch_;

@@ -20,10 +20,10 @@ double StepControl::smallest(double t) const {
   return std::max(choice_.least, 16 * eps * std::max(std::abs(t), every_));
 }
 
-StepControl::Proposal StepControl::propose(double t, double stop) {
+StepControl::Proposal StepControl::propose(double t, double stop, double most) {
   if (controlled()) {
     const double left = stop - t;
-    const double h = std::min(wish_, choice_.most);
+    const double h = std::min({wish_, choice_.most, most});
     if (h >= left * (1 - 1e-10)) return {left, stop};
     if (2 * h > left) return {left / 2, t + left / 2};
     return {h, t + h};

@@ -33,7 +33,7 @@ class StepControl {
     double h;       // [s]
     double t_next;  // [s] time at its end, exact
   };
-  Proposal propose(double t, double stop);
+  Proposal propose(double t, double stop, double most);  // `most` [s]: limits controlled steps
 
   void accepted(const Proposal& taken, double error);  // the whole proposal became the solution
   void rejected_for_error(double h, double error);

@@ -83,7 +83,7 @@ Report energy_balances(const TriedBody& b) {
   return compare("dE/dt = supplied - dissipated along M a = f", [&](Comparison& c) {
     for (const BodyAt& at : b.at()) {
       const Mat M = symmetric(b.mass(at));
-      const Vec f = b.force(at), a = Eigen::CompleteOrthogonalDecomposition<Mat>(M).solve(f);
+      const Vec f = b.force(at), a = b.nv ? Eigen::CompleteOrthogonalDecomposition<Mat>(M).solve(f) : f;
       const Power P = b.body->power(at.t, at.q, at.v);
       const Vec residual = M * a - f;  // not 0 where a coordinate has no mass
       const Difference rate = difference(

@@ -22,12 +22,12 @@ class SetValuedFriction : public Component {
  public:
   enum class Decide {
     at_events,         // stick or slide changes at located events, and is fixed between them
-    every_evaluation,  // found anew at each evaluation, by a complementarity problem; no events
+    every_evaluation,  // its force anew at each evaluation; needs a compliant contact, an explicit method
   };
   virtual double static_coefficient() const = 0;              // mu_0
   virtual double kinetic_coefficient(double slip) const = 0;  // mu(|s|) <= mu_0
   virtual Decide decide() const = 0;
-  virtual double stick_speed() const = 0;  // [m/s] slower than this counts as sticking
+  virtual double stick_speed() const = 0;  // [m/s] slower sticks at a touch; 0: round-off only, right at events
 };
 
 }  // namespace trammel

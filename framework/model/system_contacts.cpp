@@ -1,0 +1,142 @@
+// What the Simulator asks of contacts: gaps, rates, accelerations, forces, and the answer to impulses.
+#include <algorithm>
+#include <cmath>
+
+#include "model/assembly.hpp"
+#include "numerics/contact_forces.hpp"
+
+namespace trammel::model {
+
+double AssembledSystem::gap(int contact) {
+  return work_->contact(contact).g(0);
+}
+
+double AssembledSystem::coordinate(ContactDirection d) {
+  return work_->contact(d.contact).g(d.row);
+}
+
+double AssembledSystem::gap_rate(int contact) {
+  return work_->contact_rate(contact, 0);
+}
+
+double AssembledSystem::rate(ContactDirection d) {
+  return work_->contact_rate(d.contact, d.row);
+}
+
+double AssembledSystem::acceleration(ContactDirection d, const Vec& a) {
+  return work_->contact_acceleration(d.contact, d.row, a);
+}
+
+double AssembledSystem::Work::contact_acceleration(int i, int row, const Vec& a) {
+  const Rows& r = contact(i);
+  double sum = -r.gamma(row);
+  const auto add = [&](int slot, const auto& H) {
+    const Motion& m = motion(slot);
+    sum += H.dot(m.bias);
+    if (chain.body(slot) < 0) return;
+    const int v0 = model->bodies[std::size_t(chain.body(slot))].v0;
+    for (std::size_t j = 0; j < m.dofs.size(); ++j) sum += H.dot(m.J.col(Eigen::Index(j))) * a(v0 + m.dofs[j]);
+  };
+  const auto [A, B] = contact_slots[std::size_t(i)];
+  add(A, r.H_A.row(row));
+  add(B, r.H_B.row(row));
+  return sum;
+}
+
+double AssembledSystem::normal_force(int contact, const Vec& lambda) {
+  Work& w = *work_;
+  const auto i = std::size_t(contact);
+  if (w.contact_row[i] >= 0) return -lambda(w.contact_row[i]);
+  const ContactForce* law = w.model->contacts[i].force;
+  if (!law || !w.modes.contacts[i].closed) return 0;
+  return law->normal(gap(contact), gap_rate(contact), w.modes.contacts[i].approach_speed);
+}
+
+double AssembledSystem::friction_force(int contact, const Vec& lambda) {
+  Work& w = *work_;
+  if (const int row = w.stick_row[std::size_t(contact)]; row >= 0) return -lambda(row);
+  if (!w.model->contacts[std::size_t(contact)].friction) return 0;
+  if (std::find(w.judged.begin(), w.judged.end(), contact) != w.judged.end()) return w.judged_friction[contact];
+  return w.friction_ratio(contact) * normal_force(contact, lambda);
+}
+
+void AssembledSystem::impulse_response(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus) {
+  Work& w = *work_;
+  w.evaluate_rows();
+  const auto n = Eigen::Index(directions.size());
+  numerics::MassKkt held;
+  if (!held.factorise(w.mass(), w.G.topRows(w.model->sizes.nc)))
+    throw NotSolvable("the mass matrix is not positive definite");
+  const Vec no_rows = Vec::Zero(w.model->sizes.nc);
+  Mat N = Mat::Zero(w.sizes.nv, n);
+  jump.resize(w.sizes.nv, n);
+  Vec dv, impulses, column;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const ContactDirection d = directions[std::size_t(i)];
+    const Rows& r = w.contact(d.contact);
+    const auto [A, B] = w.contact_slots[std::size_t(d.contact)];
+    w.motion(A), w.motion(B);
+    column.setZero(w.sizes.nv);
+    w.chain.add_wrench(A, r.H_A.row(d.row).transpose(), 1, column);
+    w.chain.add_wrench(B, r.H_B.row(d.row).transpose(), 1, column);
+    N.col(i) = column;
+    held.solve(column, no_rows, dv, impulses);
+    jump.col(i) = dv;
+  }
+  delassus.noalias() = N.transpose() * jump;
+}
+
+double AssembledSystem::highest_frequency(const std::vector<ContactDirection>& directions) {
+  if (directions.empty()) return 0;
+  Work& w = *work_;
+  Mat jump, delassus;
+  impulse_response(directions, jump, delassus);
+  Mat K = Mat::Zero(w.sizes.nv, w.sizes.nv);
+  w.add_tangent({0, 0, 1}, Vec::Zero(w.sizes.nv), Vec::Zero(w.sizes.nc), K);
+  const Mat KX = K * jump, MX = w.mass() * jump;
+  double highest = 0;
+  for (Eigen::Index i = 0; i < jump.cols(); ++i) {
+    const double stiffness = jump.col(i).dot(KX.col(i)), mass = jump.col(i).dot(MX.col(i));
+    if (stiffness > 0 && mass > 0) highest = std::max(highest, std::sqrt(stiffness / mass));
+  }
+  return highest;
+}
+
+// Method lcp_every_step: friction of the feet at rest from the problem of Zhang and Wang 2017, (32)-(39), with
+// A = W_T^T P W_T, P the inverse of the mass on the rows' null space.
+void AssembledSystem::Work::judge_friction(Vec& a, Vec& lambda) {
+  const auto n = Eigen::Index(judged.size());
+  Mat response(sizes.nv, n), reaction(sizes.nc, n), columns = Mat::Zero(sizes.nv, n);
+  Vec b(n), column, x, y, T, a_t;
+  std::vector<numerics::ContactPoint> points;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const int i = judged[std::size_t(k)];
+    const Rows& r = contact(i);
+    const auto [A, B] = contact_slots[std::size_t(i)];
+    column.setZero(sizes.nv);
+    chain.add_wrench(A, r.H_A.row(1).transpose(), 1, column);
+    chain.add_wrench(B, r.H_B.row(1).transpose(), 1, column);
+    columns.col(k) = column;
+    at_point.mass.solve(column, Vec::Zero(sizes.nc), x, y);
+    response.col(k) = x, reaction.col(k) = y;
+    b[k] = contact_acceleration(i, 1, a);
+    const ContactEntry& entry = model->contacts[std::size_t(i)];
+    points.push_back(
+        {.tangent = int(k),
+         .kind = numerics::ContactPoint::Tangent::resting,
+         .coefficient = entry.coulomb->static_coefficient(),
+         .given = entry.force->normal(r.g(0), contact_rate(i, 0), modes.contacts[std::size_t(i)].approach_speed)});
+  }
+  if (numerics::solve_contacts(points, columns.transpose() * response, b, T, a_t) != numerics::LcpOutcome::solved)
+    throw NotSolvable("the friction of the feet at rest was not found");
+  a.noalias() += response * T;
+  lambda.noalias() += reaction * T;
+  for (Eigen::Index k = 0; k < n; ++k) judged_friction[judged[std::size_t(k)]] = T[k];
+}
+
+const Motion& AssembledSystem::contact_marker(int contact) {
+  Work& w = *work_;
+  return w.motion(w.contact_slots[std::size_t(contact)].A);
+}
+
+}  // namespace trammel::model

@@ -1,0 +1,53 @@
+// The contacts that take part in one instant, and their forces or impulses: numerics/contact_forces.hpp for a System.
+//
+// Static and kinetic coefficients: every tangent at rest is first held with mu_0; those that it cannot hold get mu, and the
+// problem is solved again, so that the others are checked against what is left. Each repetition lets at least one more go, so
+// this ends; a tangent that mu holds after all stays at rest.
+#pragma once
+
+#include <vector>
+
+#include "model/assembled_system.hpp"
+#include "numerics/contact_forces.hpp"
+
+namespace trammel::simulate {
+
+struct Participant {
+  enum class Tangent { none, resting, sliding };
+  int contact = 0;
+  bool unilateral = true;  // its normal force is unknown
+  double given = 0;        // [N] else
+  Tangent tangent = Tangent::none;
+  double mu_0 = 0, mu = 0;  // resting
+  double ratio = 0;         // sliding: T / N
+  double direction = 0;     // sliding: sign of the slip velocity
+  bool let_go = false;      // resting: mu from the start; in the end: mu_0 did not hold it
+  double free_n = 0;        // a_n without the forces to be found
+
+  // Found: force [N] or impulse [N s], and acceleration or velocity, along normal and tangent.
+  double N = 0, T = 0, a_n = 0, a_t = 0;
+};
+
+class ContactProblem {
+ public:
+  std::vector<Participant> who;
+
+  void prepare(model::AssembledSystem& system);  // their directions at the system's point
+  // Of each participant: what its normal and its tangent do without the forces to be found, in `a_n` and `a_t`.
+  // `nothing`: smaller is 0. False: no solution.
+  [[nodiscard]] bool solve(double nothing);
+  // Change of v by the forces found as impulses.
+  void jump(Vec& dv) const;
+  // The least change of v that ends the slip `a_t` of all tangents at rest and leaves the unilateral normals alone.
+  void end_slip(Vec& dv) const;
+
+ private:
+  bool solve_once();
+
+  std::vector<model::ContactDirection> directions_;
+  std::vector<numerics::ContactPoint> points_;
+  Mat jump_, delassus_;
+  Vec b_, F_, a_;
+};
+
+}  // namespace trammel::simulate

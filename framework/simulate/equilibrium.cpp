@@ -1,0 +1,217 @@
+#include "simulate/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace trammel::simulate {
+namespace {
+
+constexpr int most_steps = 300;
+constexpr double tau_first = 1e-3, tau_last = 100;  // [s]
+// Round-off of coordinates of the order of 1 m.
+constexpr double settled = 1e-14;  // [m, rad]
+
+class Rest {
+ public:
+  Rest(model::AssembledSystem& system, State& state)
+      : system_(system),
+        state_(state),
+        nv_(system.sizes().nv),
+        zero_v_(Vec::Zero(nv_)),
+        modes_{std::vector<model::ContactMode>(system.model().contacts.size())} {
+    system_.hold_still(true);
+    close_what_may_push();
+  }
+  ~Rest() {
+    system_.hold_still(false);
+    system_.set_modes({std::vector<model::ContactMode>(modes_.contacts.size())});
+  }
+  Rest(const Rest&) = delete;
+  Rest& operator=(const Rest&) = delete;
+
+  bool settle() {
+    double tau = tau_first;
+    double unbalanced = look(state_.q);
+    for (int i = 0; i < most_steps; ++i) {
+      Vec q_next;
+      const bool found = step(tau, q_next);
+      const double change = found ? dq_.lpNorm<Eigen::Infinity>() : 0;
+      if (!std::isfinite(change) || change > 1e6) return false;
+      if (found && change <= settled * std::max(1.0, state_.q.lpNorm<Eigen::Infinity>())) {
+        if (tau < 1) {  // small because damped, perhaps
+          tau *= 10;
+          continue;
+        }
+        if (!release_pulling()) return true;
+        unbalanced = look(state_.q);
+        continue;
+      }
+      // What the linearised equations promise of the unbalanced acceleration along itself, and what the step really gives.
+      const double noise = 1e-12 * scale_, with_forces = found ? a_.dot(mass_times(dq_)) : -1;
+      const double promised = unbalanced > noise ? with_forces / (unbalanced * tau * tau) : 0;
+      const double next = found ? look(q_next) : 0;
+      const bool against = with_forces < 0 && unbalanced > noise;
+      if (!found || against || !(std::abs(next - promised) <= 1.5 * unbalanced + noise)) {
+        tau /= 4;
+        look(state_.q);
+        if (tau < 1e-12) return false;
+        continue;
+      }
+      const double shrunk = next > 0 ? unbalanced / next : 10;
+      tau = std::min(tau_last, tau * 2 * std::clamp(shrunk, 0.7, 5.0));
+      state_.q = q_next;
+      unbalanced = close_penetrating() ? look(state_.q) : next;
+    }
+    return false;
+  }
+
+  // The body that the forces accelerate most, and by how much.
+  std::string culprit() {
+    look(state_.q);
+    const model::BodyEntry* worst = nullptr;
+    double largest = 0;
+    for (const model::BodyEntry& body : system_.model().bodies) {
+      if (body.nv == 0) continue;
+      const double a = a_.segment(body.v0, body.nv).lpNorm<Eigen::Infinity>();
+      if (!worst || !(a <= largest)) worst = &body, largest = a;
+    }
+    return worst
+               ? fmt::format("bodies.{} is left with an acceleration of {:.3g} (m/s^2, rad/s^2)", worst->name, largest)
+               : std::string("nothing can move");
+  }
+
+  // q' of the equilibrium as time goes on; see the header. `state.q` is settled.
+  void follow() {
+    look(state_.q);
+    carry_along();
+    look(state_.q);
+    const double dt = 1e-4, tau = 1;
+    state_.v = zero_v_;
+    const Vec lambda = lambda_;
+    Vec ahead, behind, q, rows, dv, mu;
+    for (int i = 0; i < 40; ++i) {
+      unbalance(state_.t + dt, dt * state_.v, lambda, ahead);
+      unbalance(state_.t - dt, -dt * state_.v, lambda, behind);
+      ahead = (ahead - behind) / (2 * dt);
+      system_.hold_still(false);
+      system_.move_to(state_.t, state_.q, state_.v);
+      rows = system_.g_dot();
+      system_.hold_still(true);
+      system_.move_to(state_.t, state_.q, zero_v_);
+      system_.factorise({1 / (tau * tau), 0, 1}, zero_v_, lambda);
+      if (!system_.correct(ahead, rows, dv, mu)) return;
+      state_.v += dv;
+      if (dv.lpNorm<Eigen::Infinity>() <= settled * state_.v.lpNorm<Eigen::Infinity>()) return;
+    }
+  }
+
+ private:
+  Vec mass_times(const Vec& x) {
+    Vec r = zero_v_;
+    system_.add_mass_times(1, x, r);
+    return r;
+  }
+
+  // Moves the system to q at rest, finds a_ and lambda_ there, and returns |a| in the norm of the mass matrix.
+  double look(const Vec& q) {
+    system_.move_to(state_.t, q, zero_v_);
+    const Vec right = -system_.f();
+    system_.factorise({1, 0, 0}, zero_v_, Vec::Zero(system_.sizes().nc), Factors::projection);
+    if (!system_.correct(right, Vec::Zero(system_.sizes().nc), a_, lambda_, Factors::projection))
+      return std::numeric_limits<double>::infinity();
+    const double unbalanced = std::sqrt(std::max(0.0, a_.dot(mass_times(a_))));
+    scale_ = std::max(scale_, unbalanced);
+    return unbalanced;
+  }
+
+  // dq_ and where it leads, from where the system is.
+  bool step(double tau, Vec& q_next) {
+    residual_ = -system_.f();
+    system_.add_reaction(1, lambda_, residual_);
+    system_.factorise({1 / (tau * tau), 0, 1}, zero_v_, lambda_);
+    Vec dlambda;
+    if (!system_.correct(residual_, system_.g(), dq_, dlambda)) return false;
+    system_.retract(state_.q, dq_, q_next);
+    return true;
+  }
+
+  // f - G^T lambda with the other sign, at another time and place.
+  void unbalance(double t, const Vec& dq, const Vec& lambda, Vec& r) {
+    Vec q;
+    system_.retract(state_.q, dq, q);
+    system_.move_to(t, q, zero_v_);
+    r = -system_.f();
+    system_.add_reaction(1, lambda, r);
+  }
+
+  // Compliant contacts, whose law says 0 while they are apart, and rows of contacts that touch.
+  void close_what_may_push() {
+    system_.set_modes(modes_);
+    system_.move_to(state_.t, state_.q, zero_v_);
+    for (int i = 0; i < int(modes_.contacts.size()); ++i)
+      modes_.contacts[std::size_t(i)].closed = system_.model().contacts[std::size_t(i)].force || system_.gap(i) <= 1e-9;
+    system_.set_modes(modes_);
+  }
+
+  bool close_penetrating() {
+    bool changed = false;
+    for (int i = 0; i < int(modes_.contacts.size()); ++i) {
+      bool& closed = modes_.contacts[std::size_t(i)].closed;
+      if (closed || system_.gap(i) >= 0) continue;
+      closed = changed = true;
+    }
+    if (changed) system_.set_modes(modes_);
+    return changed;
+  }
+
+  // Each contact is let go once at most: a set that opens and closes for ever has no equilibrium.
+  bool release_pulling() {
+    look(state_.q);
+    bool changed = false;
+    for (int i = 0; i < int(modes_.contacts.size()); ++i) {
+      if (!modes_.contacts[std::size_t(i)].closed || system_.contact_row(i) < 0 || released_ >= 100) continue;
+      if (system_.normal_force(i, lambda_) >= -1e-9 * lambda_.lpNorm<Eigen::Infinity>()) continue;
+      modes_.contacts[std::size_t(i)].closed = false;
+      changed = true, ++released_;
+    }
+    if (changed) system_.set_modes(modes_);
+    return changed;
+  }
+
+  // What rests on something with friction goes with it.
+  void carry_along() {
+    for (std::size_t i = 0; i < modes_.contacts.size(); ++i) {
+      const model::ContactEntry& contact = system_.model().contacts[i];
+      model::ContactMode& mode = modes_.contacts[i];
+      mode.closed = mode.closed && (contact.restitution || system_.gap(int(i)) < 0);
+      if (mode.closed && contact.coulomb && contact.coulomb->static_coefficient() > 0)
+        mode.friction = model::ContactMode::Friction::stick;
+    }
+    system_.set_modes(modes_);
+  }
+
+  model::AssembledSystem& system_;
+  State& state_;
+  int nv_;
+  Vec zero_v_;
+  model::Modes modes_;
+  Vec a_, lambda_, dq_, residual_;
+  double scale_ = 0;
+  int released_ = 0;
+};
+
+}  // namespace
+
+std::optional<std::string> find_equilibrium(model::AssembledSystem& system, State& state) {
+  Rest rest(system, state);
+  if (rest.settle()) {
+    rest.follow();
+    return {};
+  }
+  return fmt::format("no static equilibrium was found: {}", rest.culprit());
+}
+
+}  // namespace trammel::simulate

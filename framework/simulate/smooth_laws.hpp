@@ -1,0 +1,13 @@
+// Laws of time whose derivatives enter the equations of motion must have them: the length of a rod, the place of a base.
+#pragma once
+
+#include "plugin/parameters.hpp"
+#include "scene/value.hpp"
+
+namespace trammel::simulate {
+
+// Reports the first jump in the run of each law that a component of the scene differentiates.
+void check_laws(const scene::Value& root, plugin::Registry& registry, double begin, double end,
+                scene::Problems& problems);
+
+}  // namespace trammel::simulate
