@@ -45,9 +45,16 @@ const std::vector<Shipped>& bodies() {
       {"assumed_mode_beam", "linear", beam(hinge + R"(, "coupling": "linear")")},
       {"assumed_mode_beam", "uncoupled", beam(hinge + R"(, "coupling": "none")")},
       {"assumed_mode_beam", "uncoupled_clamped", beam(R"("mount": {"clamped": [0, 0]}, "coupling": "none")")},
+      {"moving_base", "planar",
+       R"x({"type": "moving_base", "x": "=0.3*sin(2*t)", "y": "=0.1*t^2", "angle": "=0.4*cos(3*t)",
+        "markers": {"corner": [1.5, -0.7]}})x"},
+      {"moving_base", "spatial", R"x({"type": "moving_base", "x": "=0.3*sin(2*t)", "y": "=t", "z": "=0.1*t^3",
+        "angle": "=0.4*cos(3*t)", "axis": [1, 2, -2], "markers": {"corner": [1.5, -0.7, 0.4]}})x",
+       Space::spatial},
       // Large, so that random displacements of a metre stay smooth.
       {"tspline_plate", "", R"({"type": "tspline_plate", "thickness": 3, "density": 0.01, "youngs_modulus": 10,
-        "geometry": {"along_u": [30, 0, 0], "along_v": [0, 30, 0]}, "mesh": {"elements": "1x1"}})", Space::spatial},
+        "geometry": {"along_u": [30, 0, 0], "along_v": [0, 30, 0]}, "mesh": {"elements": "1x1"}})",
+       Space::spatial},
   };
   return all;
 }

@@ -129,5 +129,88 @@ TEST(OscillatorAgainstAWall, ConvergesWithTheOrderOfTheMethod) {
   }
 }
 
+// Pressed on the wall by a stretched spring, y'' = -y - 1 (y from the wall): each flight of speed u lasts 2 atan(u). At the
+// end of a step of a period and a bit the mass would be back above the wall, or rising below it.
+TEST(ReboundWithinAStep, IsFoundHoweverFarTheFreeStepGoes) {
+  for (const char* step : {"0.5", "2", "5.2", "6.2", "6.4", "7"}) {
+    const Finished run =
+        run_text(oscillator, {{"bodies.mass.position", "[0, 1]"},
+                              {"bodies.mass.velocity", "[0, 1]"},
+                              {"forces.spring.length", "0"},
+                              {"contacts.wall.restitution", "0.8"},
+                              {"simulate.until", "7"},
+                              {"simulate.chatter_steps", "0"},
+                              {"record.every", "7"},
+                              {"integrator", fmt::format(R"({{"type": "dop853", "step": {}}})", step)}});
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    const std::vector<Event> impacts = run.of_kind("impact");
+    double u = 1, t = 0;
+    std::size_t n = 0;
+    while (t + 2 * std::atan(u) < 7) {
+      t += 2 * std::atan(u);
+      ASSERT_LT(n, impacts.size()) << step;
+      // One step a flight, of pi/2 at most: eighth order leaves d = 3e-6 of the first, whose rate, off by as much, moves all
+      // that follow by 2 d (0.8 + 0.64 + ...).
+      EXPECT_NEAR(impacts[n].t, t, 9 * 3e-6) << step;
+      u *= 0.8, ++n;
+    }
+    EXPECT_EQ(n, 7u);
+    EXPECT_EQ(impacts.size(), n) << step;
+  }
+}
+
+TEST(BouncingBallSticks, WhereControlledStepsCannotTellItsRiseFromTheirError) {
+  // Rises of e^(2n) m; the steps may be wrong by 1e-6 (1 + 1 m), three times that sticks.
+  const Finished run = run_text(ball, {{"integrator", R"({"type": "dop853", "step": {"tolerance": 1e-6}})"}});
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  int last = 0;
+  while (std::pow(0.25, last + 1) >= 6e-6) ++last;
+  EXPECT_EQ(run.result["counts"]["impacts"], last + 1);
+  ASSERT_EQ(run.of_kind("contact_close").size(), 1u);
+}
+
+// The ball's scene with all lengths times s.
+Finished scaled(double s, const char* contact) {
+  return run_text(ball, {{"gravity", fmt::format("[0, {:.17g}]", -10 * s)},
+                         {"bodies.ball.position", fmt::format("[0, {:.17g}]", s)},
+                         {"bodies.ball.velocity", fmt::format("[{:.17g}, 0]", 0.5 * s)},
+                         {"contacts.floor", contact},
+                         {"integrator", R"({"type": "runge_kutta_4", "step": 1e-3})"}});
+}
+
+TEST(ScaledScene, HasTheSameEventsScaled) {
+  for (const double s : {1e-6, 1e-3, 1e3, 1e6}) {
+    const auto rigid = [](double scale) {
+      return fmt::format(R"({{"type": "constraint_method", "restitution": 0.5, "capture_speed": {:.17g},
+          "between": ["ball.point", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}})",
+                         1e-6 * scale);
+    };
+    const Finished one = scaled(1, rigid(1).c_str()), run = scaled(s, rigid(s).c_str());
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    ASSERT_EQ(run.events.size(), one.events.size()) << s;
+    for (std::size_t i = 0; i < one.events.size(); ++i) {
+      EXPECT_EQ(run.events[i].kind, one.events[i].kind);
+      EXPECT_NEAR(run.events[i].t, one.events[i].t, 1e-11);  // round-off of 2000 steps
+      if (one.events[i].kind != "impact") continue;
+      EXPECT_NEAR(run.events[i].detail.at("impulse") / s, one.events[i].detail.at("impulse"), 1e-10);
+    }
+    EXPECT_NEAR(run.end("x") / s, one.end("x"), 1e-12);
+  }
+}
+
+TEST(ScaledScene, OfACompliantContactHasTheSameEventsScaled) {
+  const auto soft = [](double) {
+    return R"({"type": "continuous_force", "stiffness": 1e3, "exponent": 1, "restitution": 0.8,
+          "between": ["ball.point", {"plane": {"point": [0, 0], "normal": [0, 1]}}]})";
+  };
+  const Finished one = scaled(1, soft(1));
+  for (const double s : {1e-6, 1e6}) {
+    const Finished run = scaled(s, soft(s));
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    ASSERT_EQ(run.events.size(), one.events.size()) << s;
+    for (std::size_t i = 0; i < one.events.size(); ++i) EXPECT_NEAR(run.events[i].t, one.events[i].t, 1e-10);
+  }
+}
+
 }  // namespace
 }  // namespace trammel::test

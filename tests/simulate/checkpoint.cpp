@@ -23,7 +23,7 @@ TEST_P(Resumed, RunOfAStruckBarEndsWithTheSameBytes) {
   EXPECT_GT(pieces.cuts_in_contact, 0);
   EXPECT_TRUE(pieces.series == whole.series);
   EXPECT_TRUE(pieces.events == whole.events);
-  EXPECT_TRUE(pieces.data == whole.data);  // and so would all that follows
+  EXPECT_EQ(nlohmann::json::diff(whole.data, pieces.data).dump(), "[]");  // and so would all that follows
 }
 
 TEST_P(Resumed, RunCutAfterEveryStepEndsWithTheSameBytes) {
@@ -36,7 +36,7 @@ TEST_P(Resumed, RunCutAfterEveryStepEndsWithTheSameBytes) {
   const Logs whole = run_in_pieces(bounces, 1LL << 60), pieces = run_in_pieces(bounces, 1);
   EXPECT_TRUE(pieces.series == whole.series);
   EXPECT_TRUE(pieces.events == whole.events);
-  EXPECT_TRUE(pieces.data == whole.data);
+  EXPECT_EQ(nlohmann::json::diff(whole.data, pieces.data).dump(), "[]");
 }
 
 std::vector<Method> all_methods() {

@@ -76,5 +76,40 @@ TEST(EnergyLedger, OfAConservativeMotionHasNothingInIt) {
   EXPECT_NEAR(drift(run), 0, 2e-12);  // RK4 damps by (h omega)^6 / 72 of the 0.125 J a step, 1000 steps
 }
 
+// A mass beside a point that sways by 0.1 sin(5 t), tied to it or struck by it.
+const std::string swaying = fmt::format(R"({{
+  "trammel": 1, "gravity": [0, 0], "plugins": ["{}/tests/plugins/swaying_point.so"],
+  "bodies": {{"base": {{"type": "swaying_point", "amplitude": [0.1, 0], "rate": 5}},
+             "mass": {{"type": "point_mass", "mass": 1, "position": [1, 0]}}}},
+  "integrator": {{"type": "dop853", "step": 1e-3}},
+  "simulate": {{"until": 2}}, "record": {{"every": 0.5}}
+}})",
+                                        TRAMMEL_BUILD_DIR);
+
+TEST(EnergyLedger, GivesAPointMovedByALawTheWorkItDoesThroughASpring) {
+  const Finished run = run_text(
+      swaying, {{"forces.spring", R"({"type": "spring_damper", "between": ["base.point", "mass.point"], "stiffness": 9,
+                                      "damping": 0.1, "length": 1})"}});
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  const double supplied = run.result["energy_supplied"]["moving_markers"];
+  EXPECT_GT(std::abs(supplied), 1e-3);
+  EXPECT_NEAR(drift(run), 0, 1e-11);  // Simpson's rule: (h omega)^4 / 2880 of a few watts
+}
+
+TEST(EnergyLedger, GivesAPointMovedByALawTheWorkItDoesThroughAContact) {
+  const Finished run = run_text(
+      swaying, {{"bodies.mass.position", "[0.05, 0]"},
+                {"bodies.mass.velocity", "[0, 0.3]"},
+                {"contacts.bat", R"({"type": "continuous_force", "stiffness": 1e4, "exponent": 1, "damping": "none",
+                    "between": ["mass.point", {"plane": {"point": [0, 0], "normal": [1, 0], "on": "base.point"}}],
+                    "friction": {"type": "coulomb", "static": 0.3, "kinetic": 0.2}})"},
+                {"integrator", R"({"type": "dop853", "step": 1e-3, "contact_step": 1e-5})"}});
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  ASSERT_FALSE(run.of_kind("contact_close").empty());
+  EXPECT_GT(run.result["energy_supplied"]["moving_markers"], 1e-3);
+  EXPECT_GT(run.result["energy_dissipated"]["friction"]["bat"], 1e-4);
+  EXPECT_NEAR(drift(run), 0, 1e-9);
+}
+
 }  // namespace
 }  // namespace trammel::test

@@ -5,8 +5,10 @@
 //     hunt_crossley        3 (1 - e) / 2       Hunt, Crossley, J. Appl. Mech. 42, 440 (1975)
 //     lankarani_nikravesh  3 (1 - e^2) / 4     Lankarani, Nikravesh, J. Mech. Des. 112, 369 (1990)
 //     paper                the same; Guo, Zhang, Chen 2017 write it K |eta|^1.5 (1 - c eta') with eta the gap
-//     flores               8 (1 - e) / (5 e)   Flores, Machado, Silva, Martins, Multibody Syst. Dyn. 25, 357 (2011); e
-//     > 0 none                 0                   Hertz
+//     flores               8 (1 - e) / (5 e)   Flores, Machado, Silva, Martins, Multibody Syst. Dyn. 25, 357 (2011); e > 0
+//     none                 0                   Hertz
+//     coefficient          instead             F = K delta^n + c2 delta^p delta' with c2 and p given; p = n is Hunt and
+//                                              Crossley's form, p = 0 a damper that jumps at the touch
 //
 // v0 is the approach speed at the last onset; a contact that was closed at rest (v0 = 0) has no damping. F is cut at 0
 // when it would pull. The restitution e is nominal: a mass that strikes a wall leaves it with e* of its speed, whatever
@@ -22,7 +24,8 @@ namespace {
 using namespace trammel;
 
 struct ContinuousForce : ContactForce {
-  enum class Damping { none, hunt_crossley, lankarani_nikravesh, flores };
+  enum class Damping { none, hunt_crossley, lankarani_nikravesh, flores, coefficient };
+  double c2 = 0, p = 1.5;
   double stiffness = 0, exponent = 1.5, restitution = 1;
   Damping damping = Damping::lankarani_nikravesh;
 
@@ -30,12 +33,14 @@ struct ContinuousForce : ContactForce {
     if (damping == Damping::flores && restitution == 0)
       throw ParameterError("restitution",
                            "the damping law \"flores\" divides by it: found 0, expected more than 0 up to 1");
+    if (c2 > 0 && damping != Damping::coefficient)
+      throw ParameterError("damping_coefficient", "only \"damping\": \"coefficient\" uses it");
     factor_ = factor();
   }
 
   double normal(double gap, double gap_rate, double approach_speed) const override {
     if (!(gap < 0)) return 0;
-    const double F = stiffness * std::pow(-gap, exponent) * (1 - loss(approach_speed) * gap_rate);
+    const double F = elastic(-gap) * (1 - loss(approach_speed) * gap_rate) - damper(-gap) * gap_rate;
     return F > 0 ? F : 0;
   }
 
@@ -45,14 +50,17 @@ struct ContinuousForce : ContactForce {
 
   Slope slope(double gap, double gap_rate, double approach_speed) const override {
     if (!(gap < 0)) return {};
-    const double c = loss(approach_speed);
-    const double hysteresis = 1 - c * gap_rate;
-    if (!(hysteresis > 0)) return {};
-    const double elastic = stiffness * std::pow(-gap, exponent);
-    return {.by_gap = exponent * elastic / gap * hysteresis, .by_rate = -c * elastic};
+    const double c = loss(approach_speed), F = elastic(-gap), d = damper(-gap);
+    if (!(F * (1 - c * gap_rate) - d * gap_rate > 0)) return {};
+    return {.by_gap = exponent * F / gap * (1 - c * gap_rate) - p * d / gap * gap_rate, .by_rate = -c * F - d};
   }
 
  private:
+  double elastic(double depth) const { return stiffness * std::pow(depth, exponent); }
+  double damper(double depth) const {
+    if (c2 == 0) return 0;
+    return c2 * (p == exponent ? elastic(depth) / stiffness : std::pow(depth, p));
+  }
   double factor() const {
     const double e = restitution;
     switch (damping) {
@@ -63,6 +71,7 @@ struct ContinuousForce : ContactForce {
       case Damping::flores:
         return 1.6 * (1 - e) / e;
       case Damping::none:
+      case Damping::coefficient:
         break;
     }
     return 0;
@@ -87,5 +96,10 @@ TRAMMEL_PLUGIN(trammel::contact<ContinuousForce>("continuous_force", "Hertz-type
                             {"paper", ContinuousForce::Damping::lankarani_nikravesh},
                             {"hunt_crossley", ContinuousForce::Damping::hunt_crossley},
                             {"flores", ContinuousForce::Damping::flores},
-                            {"none", ContinuousForce::Damping::none}},
-                           {.doc = "law of the damping factor; \"paper\" is another name of lankarani_nikravesh"}))
+                            {"none", ContinuousForce::Damping::none},
+                            {"coefficient", ContinuousForce::Damping::coefficient}},
+                           {.doc = "law of the damping factor; \"paper\" is another name of lankarani_nikravesh"})
+                   .parameter("damping_coefficient", &ContinuousForce::c2,
+                              {.unit = "N s/m^(p+1)", .min = 0, .doc = "c2, with \"damping\": \"coefficient\""})
+                   .parameter("damping_exponent", &ContinuousForce::p,
+                              {.min = 0, .usual_max = 3, .doc = "p, with \"damping\": \"coefficient\""}))

@@ -47,7 +47,8 @@ struct Distance : Joint {
 
 }  // namespace
 
-TRAMMEL_PLUGIN(trammel::joint<Distance>("distance", "massless rod: two markers keep their distance")
-                   .source("J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994")
-                   .parameter("length", &Distance::length,
-                              {.unit = "m", .required = true, .doc = "distance > 0; a number or a law of t"}))
+TRAMMEL_PLUGIN(
+    trammel::joint<Distance>("distance", "massless rod: two markers keep their distance")
+        .source("J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994")
+        .parameter("length", &Distance::length,
+                   {.unit = "m", .required = true, .doc = "distance > 0; a number or a law of t", .derivatives = 2}))

@@ -31,7 +31,8 @@ struct Fixed : Joint {
 
 }  // namespace
 
-TRAMMEL_PLUGIN(trammel::joint<Fixed>("fixed", "planar weld: two markers share one point and one orientation")
-                   .source("A. A. Shabana, Dynamics of Multibody Systems: rigid joint")
-                   .parameter("angle", &Fixed::angle,
-                              {.unit = "rad", .doc = "of B's frame against A's; a number or a law of t"}))
+TRAMMEL_PLUGIN(
+    trammel::joint<Fixed>("fixed", "planar weld: two markers share one point and one orientation")
+        .source("A. A. Shabana, Dynamics of Multibody Systems: rigid joint")
+        .parameter("angle", &Fixed::angle,
+                   {.unit = "rad", .doc = "of B's frame against A's; a number or a law of t", .derivatives = 2}))

@@ -53,10 +53,10 @@ struct Prismatic : Joint {
 
 }  // namespace
 
-TRAMMEL_PLUGIN(trammel::joint<Prismatic>("prismatic",
-                                         "planar slider: B moves along an axis of A and does not turn against it")
-                   .source("A. A. Shabana, Dynamics of Multibody Systems: prismatic joint")
-                   .parameter("axis", &Prismatic::axis,
-                              {.doc = "direction of sliding in marker A's axes, any length; [1, 0] if left out"})
-                   .parameter("angle", &Prismatic::angle,
-                              {.unit = "rad", .doc = "of B's frame against A's; a number or a law of t"}))
+TRAMMEL_PLUGIN(
+    trammel::joint<Prismatic>("prismatic", "planar slider: B moves along an axis of A and does not turn against it")
+        .source("A. A. Shabana, Dynamics of Multibody Systems: prismatic joint")
+        .parameter("axis", &Prismatic::axis,
+                   {.doc = "direction of sliding in marker A's axes, any length; [1, 0] if left out"})
+        .parameter("angle", &Prismatic::angle,
+                   {.unit = "rad", .doc = "of B's frame against A's; a number or a law of t", .derivatives = 2}))
