@@ -44,7 +44,7 @@ State struck(const Case& c, int modes, plugin::Registry& registry) {
   system.initial(s.q, s.v);
   system.move_to(0, s.q, s.v);
   Mat jump, delassus;
-  system.impulse_response({0}, jump, delassus);
+  system.impulse_response({{0, 0}}, jump, delassus);
   s.v -= jump.col(0) * (system.gap_rate(0) / delassus(0, 0));
   return s;
 }

@@ -1,6 +1,6 @@
 """tools/reproduce SYSTEM: runs the scenes of a system's paper, draws its figures, fills its tables, judges its claims.
 
-A system is a module of this folder, its name one word, with TITLE, FIGURES (a list of Figure), CLAIMS (a list of Claim), and TABLES, a list of
+A system is a module of this folder with TITLE, FIGURES (a list of Figure), CLAIMS (a list of Claim), and TABLES, a list of
 (name, title, runs, rows of the results): beam.py is one.
 """
 import argparse
@@ -17,11 +17,11 @@ import figures
 from runs import Results
 
 HERE = pathlib.Path(__file__).resolve().parent
-PARTS = {"main", "runs", "figures", "claims"}
+PARTS = {"main", "runs", "figures", "claims", "beam_table_1"}
 
 
 def main():
-    systems = sorted(p.stem for p in HERE.glob("*.py") if p.stem not in PARTS and "_" not in p.stem)
+    systems = sorted(p.stem for p in HERE.glob("*.py") if p.stem not in PARTS)
     parser = argparse.ArgumentParser(prog="tools/reproduce", description="Redraws a paper's figures and checks its claims.")
     parser.add_argument("system", choices=systems)
     parser.add_argument("--out", type=pathlib.Path, help="results folder; default out/reproduce/SYSTEM")
