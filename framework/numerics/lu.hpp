@@ -1,7 +1,8 @@
 // P A = L U by Gaussian elimination with row pivoting, dense, and the solves with it.
 //
-// Plain loops by columns: for a few dozen unknowns Eigen's blocked algorithm costs twice as much for the factors and three times
-// for a solve. Larger matrices are left to it.
+// Plain loops by columns: up to 20 unknowns Eigen's blocked algorithm takes twice as long for the factors, at 47 1.4 times, and
+// 1.2 to 2 times as long for a solve. An HHT step of the beam takes 2.33 instead of 2.70 us (7 unknowns), 12.0 instead of 13.7 us
+// (19). Larger matrices are left to Eigen.
 #pragma once
 
 #include <vector>

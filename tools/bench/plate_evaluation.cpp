@@ -61,7 +61,7 @@ void tangent_of_cells(benchmark::State& state) {
 void refinement(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
-    const auto plate = clamped(10);
+    const auto plate = clamped(int(state.range(0)));
     const TMesh& mesh = plate->mesh().basis.mesh();
     const auto faces = mesh.elements();
     std::vector<Box<double>> boxes;
@@ -73,7 +73,7 @@ void refinement(benchmark::State& state) {
 
 BENCHMARK(force)->Arg(10)->Arg(14)->Arg(40)->Unit(benchmark::kMicrosecond);
 BENCHMARK(tangent_of_cells)->Arg(10)->Arg(14)->Arg(40)->Unit(benchmark::kMicrosecond);
-BENCHMARK(refinement)->Unit(benchmark::kMillisecond);
+BENCHMARK(refinement)->Arg(10)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace trammel::plate
