@@ -137,6 +137,8 @@ std::string explain(const scene::Scene& scene, plugin::Registry& registry) {
   built(text, scene, registry, setup);
   costs(text, setup);
   left_out(text, setup);
+  if (!setup.warnings.empty()) text.section("Warnings");
+  for (const std::string& warning : setup.warnings) text.line("{}", warning);
   return text.text();
 }
 

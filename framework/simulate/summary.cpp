@@ -16,6 +16,8 @@ std::string causes(const model::Model& model, const Ledger& ledger, double drift
   };
   for (std::size_t i = 0; i < ledger.impacts().size(); ++i)
     add("impacts of " + model.contacts[i].name, ledger.impacts()[i]);
+  for (std::size_t i = 0; i < model.contacts.size(); ++i)
+    add("friction of " + model.contacts[i].name, ledger.friction()[Eigen::Index(i)]);
   add("contact damping", ledger.contact_damping());
   add("dampers", ledger.dampers());
   add("refinements", -ledger.refinements());

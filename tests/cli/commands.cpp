@@ -13,6 +13,7 @@ namespace fs = std::filesystem;
 using cli::trammel;
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 const std::string kPendulum = (cli::scenes / "pendulum.json").string();
@@ -136,6 +137,21 @@ TEST(Explain, NamesTheIntegratorAndTheBodies) {
   const auto result = trammel({"explain", kPendulum});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   for (const char* text : {"hht_alpha", "rigid_body", "revolute"}) EXPECT_THAT(result.out, HasSubstr(text));
+}
+
+TEST(Explain, ShowsTheWarningsOfASceneToo) {
+  EXPECT_THAT(trammel({"explain", cli::bounce}).out, Not(HasSubstr("Warnings")));
+  const auto vain =
+      trammel({"explain", cli::bounce, "--set", "contacts.floor.restitution=0.5", "--set", "parameters.e=0.3"});
+  EXPECT_THAT(vain.out, HasSubstr("Warnings\n  --set parameters.e=0.3"));
+}
+
+TEST(Run, SumsUpWhatFrictionTook) {
+  const cli::TemporaryFolder folder;
+  const fs::path scene = fs::path(TRAMMEL_SOURCE_DIR) / "scenes/friction/stopping.json";
+  const auto result = trammel({"run", scene.string()}, {.folder = folder.path()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("lost to friction of sole 0.5 J"));
 }
 
 TEST(Run, WritesIntoOutAndTheScenesNameByDefault) {

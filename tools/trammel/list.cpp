@@ -37,7 +37,11 @@ Exit list(const Arguments& arguments) {
 }  // namespace
 
 Command list_command() {
-  return {"list", "", "List all components: integrators, bodies, joints, forces, contacts.", {kPlugin, kJson}, list};
+  return {"list",
+          "",
+          "List all components: integrators, bodies, joints, forces, contacts, friction, corrections.",
+          {kPlugin, kJson},
+          list};
 }
 
 }  // namespace trammel::tool
