@@ -30,6 +30,7 @@
 // Degenerate cases: contact_forces.hpp. Where there are several solutions it is Lemke's, which looks first where no force is.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <trammel/integrator.hpp>
@@ -54,6 +55,10 @@ struct ContactChanges {
   }
   void clear() { struck.clear(), released.clear(), toggled.clear(), yielded.clear(), stopped.clear(); }
 };
+
+inline bool contains(const std::vector<int>& contacts, int i) {
+  return std::find(contacts.begin(), contacts.end(), i) != contacts.end();
+}
 
 class ContactModes {
  public:

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "numerics/root_bracket.hpp"
-#include "simulate/between_states.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -18,32 +17,6 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 struct StepRefused {};
 
 }  // namespace
-
-// The cubic with values F and slopes S at both ends of [low, high] (Hermite).
-struct EventLocation::Cubic {
-  double low, high, F_low, F_high, S_low, S_high;
-  double at = 0, minimum = 0;  // filled by `dips`
-
-  // Whether it has a minimum inside.
-  bool dips() {
-    const double h = high - low, d = (F_high - F_low) / h;
-    const double a = 3 * (S_low + S_high - 2 * d), b = 2 * (3 * d - 2 * S_low - S_high),
-                 c = S_low;  // slope: a x^2 + b x + c
-    const double discriminant = b * b - 4 * a * c;
-    if (discriminant < 0) return false;
-    const double root = std::sqrt(discriminant);
-    double x = b >= 0 ? -2 * c / (b + root) : (root - b) / (2 * a);  // where the slope rises
-    if (S_low < 0 && S_high > 0) x = std::clamp(x, 1e-3, 1 - 1e-3);
-    if (!(x >= 1e-3 && x <= 1 - 1e-3)) return false;
-    at = low + h * x;
-    minimum = value(x);
-    return true;
-  }
-  double value(double x) const {
-    const double h = high - low, d = (F_high - F_low) / h;
-    return F_low + h * x * (S_low + x * (3 * d - 2 * S_low - S_high + x * (S_low + S_high - 2 * d)));
-  }
-};
 
 EventLocation::EventLocation(model::AssembledSystem& system, Integrator& integrator, ContactModes& modes,
                              const ContactScale& scale)
@@ -171,44 +144,6 @@ void EventLocation::find_suspects(const State& now, double h, const State& next)
   }
 }
 
-// Whether the step is too long to tell what the functions did within it.
-bool EventLocation::hides(const State& now, double h, const State& next) {
-  longest_ = std::max(longest_, h);
-  if (watches_.empty() || h < 1e-6 * longest_) return false;
-  constexpr double part = 0.3819660112501051;  // of the golden section
-  state_between(system_, now, next, part, between_.q, between_.v, dq_);
-  between_.t = now.t + part * h;
-  system_.move_to(between_.t, between_.q, between_.v);
-  bool forces_needed = false;
-  for (int w = 0; w < int(watches_.size()); ++w) {
-    const Watch& watch = watches_[w];
-    if (watch.at_ends || watch.kind == Kind::slide) continue;
-    if (by_force(w)) {
-      forces_needed = true;
-      continue;
-    }
-    const Value &begin = now_[w], &end = next_[w];
-    const Cubic cubic{0, h, begin.f, end.f, begin.slope, end.slope};
-    const double there = (watch.kind == Kind::leave ? -1 : 1) * system_.gap(watch.contact);
-    const double off = std::abs(there - cubic.value(part)), size = std::max(std::abs(begin.f), std::abs(end.f));
-    if (off > 0.05 * size && 4 * off > std::min({begin.f, end.f, there}) && off > scale_.touching()) return true;
-  }
-  if (!forces_needed) return false;
-  if (h_before_ == 0) {
-    system_.accelerate({}, between_.a, between_.lambda);
-    evaluate(between_, probe_);
-  }
-  for (int w = 0; w < int(watches_.size()); ++w) {
-    if (watches_[w].at_ends || !by_force(w)) continue;
-    const double size = std::max({std::abs(now_[w].f), std::abs(next_[w].f), watches_[w].bound});
-    const double straight = h_before_ == 0 ? now_[w].f + part * (next_[w].f - now_[w].f)
-                                           : now_[w].f + (now_[w].f - watches_[w].force_before) * (h / h_before_);
-    const double found = h_before_ == 0 ? probe_[w].f : next_[w].f;
-    if (std::abs(found - straight) > 0.5 * size) return true;
-  }
-  return false;
-}
-
 EventLocation::Found EventLocation::examine(const State& now, double& h, State& next, bool may_shorten) {
   evaluate(next, next_);
   if (may_shorten && hides(now, h, next)) return Found::step_too_long;
@@ -305,68 +240,6 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
   if (bracket.f_high >= 0) return bracket.high;
   bracket = numerics::narrow([&](double h) { return step_to(now, h, w).f; }, bracket, resolution);
   return bracket.high;
-}
-
-// Whether the function, not negative at both ends, is negative between them.
-bool EventLocation::dips(const State& now, double h, const State& next, int w, Suspect& suspect) {
-  const bool force = by_force(w);
-  Cubic cubic{0, h, now_[w].f, next_[w].f, now_[w].slope, next_[w].slope};
-  if (cubic.F_high <= 0 || (force && just_handled(w))) return false;
-  if (just_handled(w) && cubic.S_low <= 0) return false;
-  if (force) {
-    if (!worth_slopes(w, h)) return false;
-    cubic.S_low = force_slope(now, 1e-3 * h, w);
-    cubic.S_high = force_slope(next, -1e-3 * h, w);
-  }
-  for (int probes = 0; probes < 6; ++probes) {
-    if (!cubic.dips() || cubic.minimum > 0.25 * std::min(cubic.F_low, cubic.F_high)) return false;
-    const double at = cubic.at;
-    const Value there = step_to(now, at, w);
-    if (there.f < 0 && happened(w, there)) {
-      suspect.high = at, suspect.f_high = there.f;
-      return true;
-    }
-    const double slope = force ? force_slope(trial_, 1e-3 * h, w) : there.slope;
-    if (slope < 0)
-      cubic.low = at, cubic.F_low = there.f, cubic.S_low = slope;
-    else
-      cubic.high = at, cubic.F_high = there.f, cubic.S_high = slope;
-  }
-  return false;
-}
-
-// A gap that an event has just left at 0 with the rate u and acceleration A < 0 closes again after -2 u/A or so.
-bool EventLocation::returns(const State& now, double h, int w, Suspect& suspect) {
-  if (by_force(w) || watches_[w].kind == Kind::slide || !just_handled(w) || !(now_[w].slope > 0)) return false;
-  system_.move_to(now.t, now.q, now.v);
-  const double A = (watches_[w].kind == Kind::leave ? -1 : 1) * system_.acceleration({watches_[w].contact, 0}, now.a);
-  const double at = -2.5 * now_[w].slope / A;
-  if (!(A < 0 && at < h)) return false;
-  const Value there = step_to(now, at, w);
-  if (!happened(w, there)) return false;
-  suspect.high = at, suspect.f_high = there.f;
-  return true;
-}
-
-// Slopes of the force cost a solution of the equations of motion each; they are asked for when the force is so small, compared
-// with its change and the bend of its last three values, that it could have crossed 0 and come back.
-bool EventLocation::worth_slopes(int w, double h) const {
-  const double least = std::min(now_[w].f, next_[w].f), change = std::abs(next_[w].f - now_[w].f);
-  if (h_before_ == 0) return true;
-  const double bend = std::abs((next_[w].f - now_[w].f) - (now_[w].f - watches_[w].force_before) * (h / h_before_));
-  return least < 0.5 * (change + bend);
-}
-
-double EventLocation::force_slope(const State& state, double dt, int w) {
-  system_.move_to(state.t, state.q, state.v);
-  system_.accelerate({}, a_, lambda_);
-  const double before = force(watches_[w], lambda_);
-  dq_ = dt * state.v + (0.5 * dt * dt) * state.a;
-  system_.retract(state.q, dq_, moved_.q);
-  moved_.v = state.v + dt * state.a;
-  system_.move_to(state.t + dt, moved_.q, moved_.v);
-  system_.accelerate({}, a_, lambda_);
-  return (force(watches_[w], lambda_) - before) / dt;
 }
 
 void EventLocation::archive(Archive& a) {

@@ -1,0 +1,95 @@
+// Events of a run: what follows from a contact's change or a refinement, and what may not go on for ever.
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "simulate/run_failed.hpp"
+#include "simulate/simulator.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+void Simulator::settle(const ContactChanges& changes) {
+  const std::size_t before = events_.size();
+  ledger_.moving_rows(-modes_.settle(now_, changes, events_));
+  for (std::size_t i = before; i < events_.size(); ++i) {
+    ++statistics_.events;
+    if (events_[i].kind != ContactEvent::Kind::impact) continue;
+    ++statistics_.impacts;
+    ledger_.impact(events_[i].contact, events_[i].energy_lost);
+  }
+  window_events_ += 1;
+  hold_until_ = now_.t + settings_.contact_hold;
+  at_new_modes();
+}
+
+void Simulator::at_new_modes() {
+  integrator_.restart(system_, now_);
+  restart_all_but_integrator();
+}
+
+void Simulator::restart_all_but_integrator() {
+  in_contact_ = modes_.any_closed();
+  step_limit_ = control().controlled() ? modes_.step_limit(now_) : std::numeric_limits<double>::infinity();
+  free_control_.interrupted();
+  contact_control_.interrupted();
+  for (const auto& entry : corrections_) entry.correction->restart(system_, now_);
+  location_.restart(now_);
+  ledger_.restart(now_);
+  statistics_.note_sizes(now_.t, system_.sizes());
+}
+
+// Events that hardly move t, one after the other, are no motion but a contradiction in the model: its modes exclude each other.
+void Simulator::guard_against_standstill(double h, double wanted, int contact) {
+  standing_ = h <= 64 * eps * (std::abs(now_.t) + wanted) ? standing_ + 1 : 0;
+  const int contacts = int(system_.model().contacts.size());
+  if (standing_ <= 100 + 10 * contacts) return;
+  throw RunFailed(fmt::format(
+      "at t = {:.9g} s, step {}: {} events in a row without progress in time{}: the contacts' modes contradict each "
+      "other, as "
+      "they do where much friction leaves no motion of rigid contacts; a compliant law, such as continuous_force, has "
+      "one",
+      now_.t, statistics_.steps, standing_,
+      contact < 0 ? "" : fmt::format(", the last of contact \"{}\"", system_.model().contacts[contact].name)));
+}
+
+void Simulator::guard_against_storm(int contact) {
+  const double window = (settings_.until - settings_.start) * 1e-3;
+  if (now_.t > window_start_ + window) window_start_ = now_.t, window_events_ = 1;
+  if (window_events_ <= settings_.event_limit) return;
+  throw RunFailed(fmt::format(
+      "event storm at t = {:.9g} s, step {}: more than {} events within {:.3g} s{}; raise capture_speed of that "
+      "contact, "
+      "or simulate.event_limit if they are real",
+      now_.t, statistics_.steps, settings_.event_limit, now_.t - window_start_,
+      contact < 0 ? "" : fmt::format(", the last of contact \"{}\"", system_.model().contacts[contact].name)));
+}
+
+void Simulator::write_events(Recorder& recorder) {
+  for (const ContactEvent& event : events_) recorder.event(event);
+  if (refinement_.possible())
+    for (const ContactEvent& event : events_)
+      if (event.kind == ContactEvent::Kind::close || event.kind == ContactEvent::Kind::impact)
+        refine(recorder, event.contact);
+  events_.clear();
+}
+
+// `contact`: the one that has just closed, -1 after a step.
+void Simulator::refine(Recorder& recorder, int contact) {
+  const Transfer* transfer = refinement_.refine(now_, contact);
+  if (!transfer) return;
+  for (const RefineEvent& event : refinement_.events()) recorder.event(event);
+  ledger_.refinement(refinement_.gained());
+  if (auto* resizable = dynamic_cast<Resizable*>(&integrator_))
+    resizable->resize(system_, *transfer, now_);
+  else
+    integrator_.restart(system_, now_);
+  restart_all_but_integrator();
+}
+
+}  // namespace trammel::simulate
