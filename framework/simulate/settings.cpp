@@ -102,21 +102,27 @@ Settings::Initial read_initial(const Value& value, Problems& problems) {
 
 }  // namespace
 
+const Value& integrator_entry(const Value& root) {
+  if (const Value* given = root.find("integrator")) return *given;
+  static const scene::Scene chosen =
+      scene::Scene::parse(R"({"type": "dop853", "step": {"tolerance": 1e-9}})", "Trammel's choice of an integrator");
+  return chosen.root();
+}
+
 Settings read_settings(const Value& root, Problems& problems) {
   Settings settings;
   read_simulate(root, settings, problems);
   read_record(root, settings, problems);
-  if (const Value* integrator = root.find("integrator")) {
-    if (const Value* step = integrator->find("step"))
-      settings.step = read_step(*step, problems);
-    else
-      problems.error(integrator->problem("\"step\" is missing: a length in s, or {\"tolerance\": 1e-9}"));
-    if (const Value* contact = integrator->find("contact_step")) {
-      settings.contact_step = read_step(*contact, problems);
-      settings.own_contact_step = true;
-    } else {
-      settings.contact_step = settings.step;
-    }
+  const Value& integrator = integrator_entry(root);
+  if (const Value* step = integrator.find("step"))
+    settings.step = read_step(*step, problems);
+  else
+    problems.error(integrator.problem("\"step\" is missing: a length in s, or {\"tolerance\": 1e-9}"));
+  if (const Value* contact = integrator.find("contact_step")) {
+    settings.contact_step = read_step(*contact, problems);
+    settings.own_contact_step = true;
+  } else {
+    settings.contact_step = settings.step;
   }
   if (const Value* initial = root.find("initial")) settings.initial = read_initial(*initial, problems);
   return settings;

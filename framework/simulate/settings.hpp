@@ -38,6 +38,10 @@ struct Settings {
   Initial initial = Initial::check;
 };
 
+// What the scene says of its integrator. Without a word: dop853 with errors below 1e-9, which needs no step to be chosen and
+// locates contacts and friction as events.
+const scene::Value& integrator_entry(const scene::Value& root);
+
 // Reads all but the integrator's own parameters and the observables; every problem goes to `problems`.
 Settings read_settings(const scene::Value& root, scene::Problems& problems);
 

@@ -28,25 +28,23 @@ std::string with_error_estimate(plugin::Registry& registry) {
 }
 
 void read_integrator(const Value& root, plugin::Registry& registry, Setup& setup, Problems& problems) {
-  const Value* value = root.find("integrator");
-  if (!value)
-    return problems.error(root.problem("\"integrator\" is missing, such as {\"type\": \"hht_alpha\", \"step\": 1e-4}"));
-  auto made = plugin::make<Integrator>(registry, Kind::integrator, *value, setup.model->world, problems);
+  const Value& value = integrator_entry(root);
+  auto made = plugin::make<Integrator>(registry, Kind::integrator, value, setup.model->world, problems);
   if (!made.component) return;
   setup.integrator = std::move(made.component);
   setup.integrator_origin = std::move(made.origin);
-  if (const Value* type = value->find("type")) setup.integrator_type = type->read_text(problems).value_or("");
+  if (const Value* type = value.find("type")) setup.integrator_type = type->read_text(problems).value_or("");
   for (const model::ContactEntry& contact : setup.model->contacts)
     if (contact.coulomb && contact.coulomb->decide() == SetValuedFriction::Decide::every_evaluation &&
         setup.integrator->traits().implicit)
       problems.error(
-          value->problem(fmt::format("the friction of contacts.{} is decided at every evaluation, which takes an "
-                                     "explicit method such as runge_kutta_4",
-                                     contact.name)));
+          value.problem(fmt::format("the friction of contacts.{} is decided at every evaluation, which takes an "
+                                    "explicit method such as runge_kutta_4",
+                                    contact.name)));
   if (dynamic_cast<const ErrorEstimate*>(setup.integrator.get())) return;
   for (const auto& [key, choice] :
        {std::pair{"step", &setup.settings.step}, std::pair{"contact_step", &setup.settings.contact_step}})
-    if (const Value* step = value->find(key); step && !choice->fixed)
+    if (const Value* step = value.find(key); step && !choice->fixed)
       problems.error(step->problem(
           fmt::format("\"{}\" cannot estimate its error, so it takes fixed steps only; those that can: {}",
                       setup.integrator_type, with_error_estimate(registry))));

@@ -139,6 +139,11 @@ TEST(Explain, NamesTheIntegratorAndTheBodies) {
   for (const char* text : {"hht_alpha", "rigid_body", "revolute"}) EXPECT_THAT(result.out, HasSubstr(text));
 }
 
+TEST(Explain, NamesTheIntegratorThatASceneWithoutOneGets) {
+  const auto result = trammel({"explain", TRAMMEL_SOURCE_DIR "/tests/cli/scenes/no_integrator.json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("integrator dop853: step error-controlled, relative 1e-09"));
+}
 TEST(Explain, ShowsTheWarningsOfASceneToo) {
   EXPECT_THAT(trammel({"explain", cli::bounce}).out, Not(HasSubstr("Warnings")));
   const auto vain =
