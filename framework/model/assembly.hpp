@@ -76,6 +76,7 @@ struct AssembledSystem::Work {
   CallSite site;
 
   // scratch
+  Balance power;
   Rows rows;
   std::vector<ContactRows> contact_rows;
   Wrench on_A, on_B;

@@ -49,9 +49,10 @@ double power_of_law(const Motion& marker, const Vec& v, int v0, const Wrench& wr
 
 // Along the motion d(energy)/dt is the power of all wrenches on coordinates, so what they do on markers in V_t (a base that
 // moves by a law) leaves the system there: it counts as supplied with the other sign.
-AssembledSystem::Balance AssembledSystem::balance(const Vec& lambda) {
+const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
   Work& w = *work_;
-  Balance sum;
+  Balance& sum = w.power;
+  sum.drives = sum.dampers = sum.contacts = sum.constraints = sum.markers = 0;
   sum.friction.setZero(Eigen::Index(w.contact_slots.size()));
   const auto moved_by_law = [&](int slot, const Wrench& wrench) {
     if (const int body = w.chain.body(slot); body >= 0)

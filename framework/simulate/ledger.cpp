@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "simulate/between_states.hpp"
 
@@ -22,7 +23,7 @@ Ledger::Ledger(model::AssembledSystem& system) : system_(system), impacts_(syste
   now_.friction = friction_;
 }
 
-Balance Ledger::balance(double t, const Vec& q, const Vec& v, const Vec& lambda) {
+const Balance& Ledger::balance(double t, const Vec& q, const Vec& v, const Vec& lambda) {
   system_.move_to(t, q, v);
   return system_.balance(lambda);
 }
@@ -38,30 +39,30 @@ void Ledger::restart(const State& state) {
 }
 
 void Ledger::step(const State& now, const State& next) {
-  const Balance end = balance(next.t, next.q, next.v, next.lambda);
+  end_ = balance(next.t, next.q, next.v, next.lambda);
   g_dot_end_ = system_.g_dot();
-  const double h = next.t - now.t, power = size(now_) + size(end);
+  const double h = next.t - now.t, power = size(now_) + size(end_);
   // A closed contact's row does work at the level of round-off; that is not worth an evaluation.
   if (power * h > 1e-16 * std::abs(energy_start_)) {
     state_between(system_, now, next, 0.5, q_, v_, dq_);
     lambda_ = 0.5 * (now.lambda + next.lambda);
-    Balance middle = balance(now.t + h / 2, q_, v_, lambda_);
+    middle_ = balance(now.t + h / 2, q_, v_, lambda_);
     // Reactions do not follow their mean where they swing within a step.
-    if (std::abs(now_.constraints) + std::abs(end.constraints) + std::abs(middle.constraints) > 1e-9 * power) {
+    if (std::abs(now_.constraints) + std::abs(end_.constraints) + std::abs(middle_.constraints) > 1e-9 * power) {
       system_.accelerate({}, a_, lambda_);
-      middle = system_.balance(lambda_);
+      middle_ = system_.balance(lambda_);
     }
     // The interpolation leaves the rows between two states that are on them; the motion does not.
-    if (lambda_.size() > 0) middle.constraints += lambda_.dot(system_.g_dot() - 0.5 * (g_dot_ + g_dot_end_));
+    if (lambda_.size() > 0) middle_.constraints += lambda_.dot(system_.g_dot() - 0.5 * (g_dot_ + g_dot_end_));
     const auto simpson = [h](double begin, double mid, double finish) { return h / 6 * (begin + 4 * mid + finish); };
-    drives_ += simpson(now_.drives, middle.drives, end.drives);
-    dampers_ += simpson(now_.dampers, middle.dampers, end.dampers);
-    contacts_ += simpson(now_.contacts, middle.contacts, end.contacts);
-    constraints_ += simpson(now_.constraints, middle.constraints, end.constraints);
-    markers_ += simpson(now_.markers, middle.markers, end.markers);
-    friction_ += h / 6 * (now_.friction + 4 * middle.friction + end.friction);
+    drives_ += simpson(now_.drives, middle_.drives, end_.drives);
+    dampers_ += simpson(now_.dampers, middle_.dampers, end_.dampers);
+    contacts_ += simpson(now_.contacts, middle_.contacts, end_.contacts);
+    constraints_ += simpson(now_.constraints, middle_.constraints, end_.constraints);
+    markers_ += simpson(now_.markers, middle_.markers, end_.markers);
+    friction_ += h / 6 * (now_.friction + 4 * middle_.friction + end_.friction);
   }
-  now_ = end;
+  std::swap(now_, end_);
   g_dot_.swap(g_dot_end_);
 }
 

@@ -46,9 +46,9 @@ class Ledger {
   void archive(Archive& a);
 
  private:
-  model::AssembledSystem::Balance balance(double t, const Vec& q, const Vec& v, const Vec& lambda);
+  const model::AssembledSystem::Balance& balance(double t, const Vec& q, const Vec& v, const Vec& lambda);
   model::AssembledSystem& system_;
-  model::AssembledSystem::Balance now_;
+  model::AssembledSystem::Balance now_, middle_, end_;
   double energy_start_ = 0, drives_ = 0, constraints_ = 0, markers_ = 0, dampers_ = 0, contacts_ = 0;  // [J]
   double refinements_ = 0;                                                                             // [J]
   Vec friction_;

@@ -206,6 +206,14 @@ TEST(AssembledSystem, ACompliantContactActsOnlyWhileClosed) {
   EXPECT_NEAR(at.system.balance(Vec()).contacts, 30 * 3, 1e-10);  // 10 N s/m at 3 m/s
 }
 
+// It is asked for in every step.
+TEST(AssembledSystem, ReusesTheMemoryOfItsBalance) {
+  At at(particle_over_plane(std::make_unique<Cubic>()));
+  const double* const friction = at.system.balance(Vec()).friction.data();
+  at.system.move_to(1, at.q, at.v);
+  EXPECT_EQ(at.system.balance(Vec()).friction.data(), friction);
+}
+
 TEST(AssembledSystem, NamesTheComponentThatIsNotFinite) {
   At at(double_pendulum(false));
   at.q(2) = std::numeric_limits<double>::quiet_NaN();
