@@ -177,9 +177,8 @@ void AssembledSystem::add_rows_force(double c, const Vec& mu, Vec& r) {
 void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
   Work& w = *work_;
   if (!w.factorise_mass(w.at_point, true)) throw NotSolvable("the mass matrix is not positive definite");
-  w.right = w.force();
   w.right_rows = w.gamma - 2 * s.alpha * w.g_dot - s.beta * s.beta * w.g;
-  w.at_point.mass.solve(w.right, w.right_rows, a, lambda);
+  w.at_point.mass.solve(w.force(), w.right_rows, a, lambda);
   if (!w.judged.empty()) w.judge_friction(a, lambda);
 }
 

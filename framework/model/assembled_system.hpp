@@ -122,7 +122,7 @@ class AssembledSystem final : public System {
     double markers = 0;      // supplied by forces and contacts at markers that move by a law of time
     Vec friction;            // dissipated in sliding, contact by contact
   };
-  const Balance& balance(const Vec& lambda);  // valid until the next call
+  const Balance& balance(const Vec& lambda);           // valid until the next call
   void constraint_acceleration(const Vec& a, Vec& r);  // G a - gamma
 
   const Motion& motion(MarkerRef marker);     // at the current point

@@ -1,8 +1,9 @@
 #include "numerics/cholesky.hpp"
 
-#include <Eigen/Cholesky>
-
+#include <algorithm>
 #include <cmath>
+
+#include "numerics/packs.hpp"
 
 namespace trammel::numerics {
 
@@ -10,56 +11,76 @@ namespace {
 
 constexpr Eigen::Index small = 48;  // from about here on blocks are faster
 
-// Each column less what those before it contribute, then divided by the root of its pivot.
-bool factorise_by_columns(Mat& L) {
-  const Eigen::Index n = L.rows();
+}  // namespace
+
+bool Cholesky::compute(const Mat& M) {
+  const Eigen::Index n = M.rows();
+  if (n > small) {
+    resize(0);
+    return blocks_.compute(M).info() == Eigen::Success && blocks_.matrixLLT().diagonal().allFinite();  // NaN: "success"
+  }
+  resize(n);
+  for (Eigen::Index j = 0; j < n; ++j) std::copy(M.data() + j * n + j, M.data() + (j + 1) * n, &L_(j, j));
+  return factorise_by_columns();
+}
+
+void Cholesky::resize(Eigen::Index n) {
+  if (L_.cols() == n) return;
+  L_.setZero(padded(n), n), U_.setZero(padded(n), n);
+  inverse_.resize(n), root_.resize(n), inverse_root_.resize(n);
+  rest_.setZero(padded(n));
+}
+
+// Each column less what those before it contribute, then divided by its pivot.
+bool Cholesky::factorise_by_columns() {
+  const Eigen::Index n = L_.cols(), stride = L_.rows();
+  double *const L = L_.data(), *const U = U_.data();
   for (Eigen::Index j = 0; j < n; ++j) {
-    double* const column = L.data() + j * n;
-    for (Eigen::Index k = 0; k < j; ++k) {
-      const double* const before = L.data() + k * n;
-      const double share = before[j];
-      for (Eigen::Index i = j; i < n; ++i) column[i] -= share * before[i];
+    double* const column = L + j * stride;
+    const double* const shares = U + j * stride;
+    for (Eigen::Index i = pack_of(j); i < stride; i += pack) {
+      Pack rest = pack_at(column + i);
+      for (Eigen::Index k = 0; k < j; ++k) rest -= shares[k] * pack_at(L + k * stride + i);
+      pack_at(column + i) = rest;
     }
     if (!(column[j] > 0) || !std::isfinite(column[j])) return false;
-    column[j] = std::sqrt(column[j]);
-    const double scale = 1 / column[j];
-    for (Eigen::Index i = j + 1; i < n; ++i) column[i] *= scale;
+    const double inverse = inverse_[j] = 1 / column[j];
+    root_[j] = std::sqrt(column[j]), inverse_root_[j] = inverse * root_[j];
+    for (Eigen::Index i = j; i < n; ++i) U[i * stride + j] = column[i];
+    for (Eigen::Index i = pack_of(j); i < stride; i += pack) pack_at(column + i) *= inverse;
   }
   return true;
 }
 
-}  // namespace
-
-bool Cholesky::compute(const Mat& M) {
-  L_ = M;
-  if (L_.rows() <= small) return factorise_by_columns(L_);
-  return Eigen::LLT<Eigen::Ref<Mat>>(L_).info() == Eigen::Success && L_.diagonal().allFinite();  // NaN: "success"
-}
-
-void Cholesky::solve_lower(Eigen::Ref<Vec> x) const {
-  const Eigen::Index n = L_.rows();
-  double* const values = x.data();
+// By columns. A known number is taken out before the loop runs over its place, too.
+void Cholesky::solve_lower(Eigen::Ref<Vec> x) {
+  if (in_blocks()) return blocks_.matrixL().solveInPlace(x);
+  const Eigen::Index n = L_.cols(), stride = L_.rows();
+  double* const rest = rest_.data();
+  std::copy_n(x.data(), n, rest);
   for (Eigen::Index j = 0; j < n; ++j) {
-    const double* const column = L_.data() + j * n;
-    const double known = values[j] /= column[j];
-    for (Eigen::Index i = j + 1; i < n; ++i) values[i] -= column[i] * known;
+    const double known = rest[j];
+    x[j] = known * inverse_root_[j];
+    subtract(known, L_.data() + j * stride, rest, j + 1, stride);
   }
 }
 
-void Cholesky::solve_lower(Mat& X) const {
+void Cholesky::solve_lower(Mat& X) {
   for (Eigen::Index j = 0; j < X.cols(); ++j) solve_lower(X.col(j));
 }
 
-void Cholesky::solve_transposed(Eigen::Ref<Vec> x) const {
-  const Eigen::Index n = L_.rows();
+void Cholesky::solve_transposed(Eigen::Ref<Vec> x) {
+  if (in_blocks()) return blocks_.matrixU().solveInPlace(x);
+  const Eigen::Index n = L_.cols(), stride = L_.rows();
+  double* const rest = rest_.data();
+  for (Eigen::Index j = 0; j < n; ++j) rest[j] = x[j] * root_[j];
   for (Eigen::Index j = n - 1; j >= 0; --j) {
-    const Eigen::Index below = n - 1 - j;
-    const double known = Eigen::Map<const Vec>(L_.data() + j * n + j + 1, below).dot(x.tail(below));
-    x[j] = (x[j] - known) / L_(j, j);
+    const double known = x[j] = rest[j] * inverse_[j];
+    subtract(known, U_.data() + j * stride, rest, 0, j);
   }
 }
 
-void Cholesky::solve(Eigen::Ref<Vec> x) const {
+void Cholesky::solve(Eigen::Ref<Vec> x) {
   solve_lower(x);
   solve_transposed(x);
 }

@@ -1,8 +1,11 @@
-// M = L L^T of a symmetric positive definite matrix, dense, and the triangular solves with L.
+// M = C C^T of a symmetric positive definite matrix, dense, and the triangular solves with C.
 //
-// Plain loops by columns: for a few dozen unknowns Eigen's decomposition costs three times as much (it works by rows and
-// also keeps a norm). Larger matrices are left to Eigen's blocked algorithm, which wins by its use of the cache.
+// C = L D^1/2 with M = L D L^T: so no root stands between one column and the next. Plain loops by columns (packs.hpp): for a few
+// dozen unknowns Eigen's decomposition costs three times as much (it works by rows and also keeps a norm). Larger matrices are
+// left to Eigen's blocked algorithm, which wins by its use of the cache.
 #pragma once
+
+#include <Eigen/Cholesky>
 
 #include <trammel/types.hpp>
 
@@ -12,15 +15,22 @@ class Cholesky {
  public:
   // Reads the lower triangle. False: not positive definite, or not finite.
   [[nodiscard]] bool compute(const Mat& M);
-  const Mat& factor() const { return L_; }  // its lower triangle is L
+  double pivot(Eigen::Index j) const { return in_blocks() ? blocks_.matrixLLT()(j, j) : root_[j]; }  // C_jj
 
-  void solve_lower(Eigen::Ref<Vec> x) const;       // x := L^-1 x
-  void solve_lower(Mat& X) const;                  // by columns
-  void solve_transposed(Eigen::Ref<Vec> x) const;  // x := L^-T x
-  void solve(Eigen::Ref<Vec> x) const;             // x := M^-1 x
+  void solve_lower(Eigen::Ref<Vec> x);       // x := C^-1 x
+  void solve_lower(Mat& X);                  // by columns
+  void solve_transposed(Eigen::Ref<Vec> x);  // x := C^-T x
+  void solve(Eigen::Ref<Vec> x);             // x := M^-1 x
 
  private:
-  Mat L_;
+  bool in_blocks() const { return L_.cols() == 0; }
+  void resize(Eigen::Index n);
+  bool factorise_by_columns();
+
+  Mat L_, U_;                          // L and D L^T, columns padded; on their other sides anything
+  Vec inverse_, root_, inverse_root_;  // of D
+  Vec rest_;                           // scratch
+  Eigen::LLT<Mat> blocks_;
 };
 
 }  // namespace trammel::numerics

@@ -15,10 +15,20 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 // rows are dependent only on the manifold) and the decomposition decides the rest.
 constexpr double dependent = 1e-10;
 
-bool pivots_are_safe(const Mat& factor, const Mat& matrix) {
-  for (Eigen::Index i = 0; i < factor.rows(); ++i)
-    if (!(factor(i, i) * factor(i, i) > dependent * matrix(i, i))) return false;
+bool pivots_are_safe(const Cholesky& factors, const Mat& matrix) {
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    if (!(factors.pivot(i) * factors.pivot(i) > dependent * matrix(i, i))) return false;
   return true;
+}
+
+// Redundant rows leave a pivot at round-off of the largest one in a column; unlike scales of S and G do not, because a pivot
+// is compared with its own column. Asked of all columns at once is cheaper, and nearly always enough.
+bool pivots_are_safe(const Lu& factors, const Mat& matrix) {
+  const auto is_safe = [&](Eigen::Index j, double scale) { return std::abs(factors.pivot(j)) > 8 * eps * scale; };
+  const double largest = matrix.cwiseAbs().maxCoeff();
+  Eigen::Index j = 0;
+  while (j < matrix.cols() && (is_safe(j, largest) || is_safe(j, matrix.col(j).cwiseAbs().maxCoeff()))) ++j;
+  return j == matrix.cols();
 }
 
 }  // namespace
@@ -39,7 +49,7 @@ void MassKkt::change_rows(const Mat& G, const Mat& W) {
   schur_.resize(G.rows(), G.rows());
   if (coupled_) return complement(W);
   schur_.noalias() = B_.transpose() * B_;
-  redundant_ = !schur_cholesky_.compute(schur_) || !pivots_are_safe(schur_cholesky_.factor(), schur_);
+  redundant_ = !schur_cholesky_.compute(schur_) || !pivots_are_safe(schur_cholesky_, schur_);
   if (!redundant_) return;
   cod_.setThreshold(std::sqrt(eps));
   cod_.compute(B_);
@@ -57,31 +67,30 @@ void MassKkt::complement(const Mat& W) {
   cod_.compute(schur_);
 }
 
-// With z = L^T x:  z = L^-1 b - B y,  B^T z = c;  or with C for the first B.
+// x is z = L^T x before the last line:  z = L^-1 b - B y,  B^T z = c;  or with C for the first B.
 void MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
-  z_ = b;
-  mass_.solve_lower(z_);
+  x = b;
+  mass_.solve_lower(x);
   y.resize(B_.cols());
   if (coupled_ && B_.cols() > 0) {
     w_ = -c;
-    w_.noalias() += B_.transpose() * z_;
+    w_.noalias() += B_.transpose() * x;
     if (redundant_)
       y = cod_.solve(w_);
     else
       schur_lu_.solve(w_, y);
-    z_.noalias() -= C_ * y;
+    x.noalias() -= C_ * y;
   } else if (redundant_) {
     const Vec particular = cod_.transpose().solve(c);
-    y = cod_.solve(z_ - particular);
-    z_.noalias() -= B_ * y;
+    y = cod_.solve(x - particular);
+    x.noalias() -= B_ * y;
   } else if (B_.cols() > 0) {
     y = -c;
-    y.noalias() += B_.transpose() * z_;
+    y.noalias() += B_.transpose() * x;
     schur_cholesky_.solve(y);
-    z_.noalias() -= B_ * y;
+    x.noalias() -= B_ * y;
   }
-  mass_.solve_transposed(z_);
-  x = z_;
+  mass_.solve_transposed(x);
 }
 
 Mat& IterationKkt::begin(Eigen::Index nv, Eigen::Index nc) {
@@ -100,12 +109,7 @@ void IterationKkt::factorise(const Mat& W, const Mat& G) {
   finite_ = true;
   if (full_.rows() == 0) return;
   lu_.compute(full_);
-  // Redundant rows leave a pivot at round-off of the largest one in a column; unlike scales of S and G do not, because
-  // a pivot is compared with its own column.
-  for (Eigen::Index j = 0; j < full_.cols(); ++j) {
-    const double scale = full_.col(j).cwiseAbs().maxCoeff();
-    if (!(std::abs(lu_.pivot(j)) > 8 * eps * scale)) singular_ = true;
-  }
+  singular_ = !pivots_are_safe(lu_, full_);
   finite_ = !singular_ || full_.allFinite();
   if (singular_ && finite_) {
     cod_.setThreshold(Eigen::Default);
@@ -115,15 +119,21 @@ void IterationKkt::factorise(const Mat& W, const Mat& G) {
 
 bool IterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   const auto nc = c.size();
+  if (!finite_) return false;
+  if (nc == 0 && nv_ > 0 && !singular_) {
+    lu_.solve(b, x);
+    y.resize(0);
+    return x.allFinite();
+  }
   right_.resize(nv_ + nc);
   right_.head(nv_) = b;
   right_.tail(nc) = c;
-  if (!finite_ || !right_.allFinite()) return false;
   if (right_.size() == 0) {
     solution_.resize(0);
   } else if (!singular_) {
     lu_.solve(right_, solution_);
   } else {
+    if (!right_.allFinite()) return false;
     solution_ = cod_.solve(right_);
     // A least-squares answer that leaves a residual is no solution; unless it is the round-off in which redundant rows
     // differ, of positions of the order of 1.

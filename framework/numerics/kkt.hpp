@@ -42,7 +42,7 @@ class MassKkt {
   Lu schur_lu_;
   Cholesky schur_cholesky_;
   Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
-  Vec z_, w_;
+  Vec w_;
   bool redundant_ = false, coupled_ = false;
 };
 

@@ -1,8 +1,11 @@
 #include "numerics/lu.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
+
+#include "numerics/packs.hpp"
 
 namespace trammel::numerics {
 
@@ -13,58 +16,71 @@ constexpr Eigen::Index small = 48;  // from about here on blocks are faster
 }  // namespace
 
 void Lu::compute(const Mat& A) {
-  if (A.rows() > small) {
+  const Eigen::Index n = A.rows();
+  if (n > small) {
     rows_.clear();
     blocks_.compute(A);
     return;
   }
-  LU_ = A;
-  rows_.resize(std::size_t(A.rows()));
+  if (LU_.cols() != n) {
+    LU_.setZero(padded(n), n);
+    rest_.setZero(LU_.rows());
+    y_.setZero(LU_.rows());
+    inverse_pivots_.resize(n);
+    rows_.resize(std::size_t(n));
+  }
+  for (Eigen::Index j = 0; j < n; ++j) std::copy_n(A.data() + j * n, n, LU_.data() + j * LU_.rows());
   std::iota(rows_.begin(), rows_.end(), Eigen::Index(0));
   eliminate();
 }
 
 void Lu::eliminate() {
-  const Eigen::Index n = LU_.rows();
+  const Eigen::Index n = LU_.cols(), stride = LU_.rows();
   double* const data = LU_.data();
+  double multipliers[small];
   for (Eigen::Index j = 0; j < n; ++j) {
-    double* const column = data + j * n;
+    double* const column = data + j * stride;
     Eigen::Index p = j;
     for (Eigen::Index i = j + 1; i < n; ++i)
       if (std::abs(column[i]) > std::abs(column[p])) p = i;
     if (p != j) {
-      for (Eigen::Index k = 0; k < n; ++k) std::swap(data[k * n + j], data[k * n + p]);
+      for (Eigen::Index k = 0; k < n; ++k) std::swap(data[k * stride + j], data[k * stride + p]);
       std::swap(rows_[std::size_t(j)], rows_[std::size_t(p)]);
     }
-    if (column[j] == 0) continue;
-    const double scale = 1 / column[j];
-    for (Eigen::Index i = j + 1; i < n; ++i) column[i] *= scale;
+    const double inverse = inverse_pivots_[j] = 1 / column[j];
+    if (column[j] == 0 || j + 1 == n) continue;
+    // Multipliers of the rows below the pivot, 0 for those above, which are done.
+    const Eigen::Index first = pack_of(j + 1);
+    const Pack below = rows_from(j + 1);
+    pack_at(multipliers + first) = inverse * below * pack_at(column + first);
+    pack_at(column + first) = pack_at(multipliers + first) + (1 - below) * pack_at(column + first);
+    for (Eigen::Index i = first + pack; i < stride; i += pack)
+      pack_at(multipliers + i) = pack_at(column + i) *= inverse;
     for (Eigen::Index k = j + 1; k < n; ++k) {
-      double* const right = data + k * n;
-      const double share = right[j];
-      for (Eigen::Index i = j + 1; i < n; ++i) right[i] -= share * column[i];
+      double* const right = data + k * stride;
+      subtract(right[j], multipliers, right, first, stride);
     }
   }
 }
 
-void Lu::solve(const Vec& b, Vec& x) const {
+// Forward and back, by columns. A known number is taken out before the loop runs over its place, too.
+void Lu::solve(const Vec& b, Vec& x) {
   if (in_blocks()) {
     x = blocks_.solve(b);
     return;
   }
-  const Eigen::Index n = LU_.rows();
-  x.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) x[i] = b[rows_[std::size_t(i)]];
-  double* const values = x.data();
+  const Eigen::Index n = LU_.cols(), stride = LU_.rows();
+  const double* const data = LU_.data();
+  double *const rest = rest_.data(), *const y = y_.data();
+  for (Eigen::Index i = 0; i < n; ++i) rest[i] = b[rows_[std::size_t(i)]];
   for (Eigen::Index j = 0; j < n; ++j) {
-    const double* const column = LU_.data() + j * n;
-    const double known = values[j];
-    for (Eigen::Index i = j + 1; i < n; ++i) values[i] -= column[i] * known;
+    y[j] = rest[j];
+    subtract(y[j], data + j * stride, rest, j + 1, stride);
   }
+  x.resize(n);
   for (Eigen::Index j = n - 1; j >= 0; --j) {
-    const double* const column = LU_.data() + j * n;
-    const double known = values[j] /= column[j];
-    for (Eigen::Index i = 0; i < j; ++i) values[i] -= column[i] * known;
+    x[j] = y[j] * inverse_pivots_[j];
+    subtract(x[j], data + j * stride, y, 0, j);
   }
 }
 

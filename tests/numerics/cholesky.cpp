@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+
+#include <Eigen/LU>
 
 namespace trammel::test {
 namespace {
@@ -14,12 +17,26 @@ Mat positive(Eigen::Index n) {
 
 class CholeskyOf : public testing::TestWithParam<int> {};
 
-TEST_P(CholeskyOf, ReproducesTheMatrix) {
+// C^-1 M C^-T = 1
+TEST_P(CholeskyOf, SplitsTheMatrixIntoEqualHalves) {
   const Mat M = positive(GetParam());
   numerics::Cholesky cholesky;
   ASSERT_TRUE(cholesky.compute(M));
-  const Mat L = cholesky.factor().triangularView<Eigen::Lower>();
-  EXPECT_LE((L * L.transpose() - M).lpNorm<Eigen::Infinity>(), 1e-14);
+  Mat half = M;
+  cholesky.solve_lower(half);
+  Mat whole = half.transpose();
+  cholesky.solve_lower(whole);
+  EXPECT_LE((whole - Mat::Identity(GetParam(), GetParam())).lpNorm<Eigen::Infinity>(), 1e-14);
+}
+
+TEST_P(CholeskyOf, TellsThePivotsOfTheHalves) {
+  const Mat M = positive(GetParam());
+  numerics::Cholesky cholesky;
+  ASSERT_TRUE(cholesky.compute(M));
+  double product = 1;
+  for (int j = 0; j < GetParam(); ++j) product *= cholesky.pivot(j);
+  const double expected = std::sqrt(M.determinant());
+  EXPECT_NEAR(product, expected, 1e-13 * expected);
 }
 
 TEST_P(CholeskyOf, Solves) {
