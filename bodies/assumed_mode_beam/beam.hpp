@@ -92,6 +92,8 @@ class AssumedModeBeam final : public Body,
   void shortening_rate(const Sizes& s, const Deformation& at, const double* Bd, double* P) const;
   template <class Sizes>
   double turning_inertia(const Sizes& s, const double* A, const double* B, const Deformation& at) const;
+  template <class Sizes>
+  Eigen::Vector2d first_moment(const Sizes& s, const double* A, const double* B, const Deformation& at) const;
   Eigen::Vector2d first_moment(In q, const Deformation& at) const;
 
   double theta(In q) const { return i_theta_ >= 0 ? q(i_theta_) : angle; }

@@ -53,6 +53,14 @@ void AssumedModeBeam::shortening_rate(const Sizes& s, const Deformation& at, con
     std::fill_n(P, int(s.row), 0.0);
 }
 
+// int (X, Y) dm
+template <class Sizes>
+Eigen::Vector2d AssumedModeBeam::first_moment(const Sizes& s, const double* A, const double* B,
+                                              const Deformation& at) const {
+  const double X = S0_ + sum_of_products(s.n_axial, Sx_.data(), A) - dot(s.size, basis_->one(), at.F);
+  return {X, sum_of_products(s.N, Sy_.data(), B)};
+}
+
 // hub inertia + (X X) + (Y Y)
 template <class Sizes>
 double AssumedModeBeam::turning_inertia(const Sizes& s, const double* A, const double* B, const Deformation& at) const {

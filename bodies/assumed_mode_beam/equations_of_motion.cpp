@@ -53,10 +53,8 @@ void AssumedModeBeam::add_mass(const Sizes& s, In q, const Deformation& at, Matr
   if (i_o_ >= 0) add_origin_mass(q, at, M);
 }
 
-// int (X, Y) dm
 Eigen::Vector2d AssumedModeBeam::first_moment(In q, const Deformation& at) const {
-  const auto A = q.segment(i_A_, axial_modes), B = q.segment(i_B_, transverse_modes);
-  return {S0_ + Sx_.dot(A) - dot(basis_->size(), basis_->one(), at.F), Sy_.dot(B)};
+  return first_moment(sizes(), q.data() + i_A_, q.data() + i_B_, at);
 }
 
 void AssumedModeBeam::add_origin_mass(In q, const Deformation& at, Matrix& M) const {
@@ -111,7 +109,7 @@ void AssumedModeBeam::add_force(const Sizes& s, In q, In v, const Deformation& a
   if (i_theta_ < 0) return;
 
   // (Y alpha_1) - (X alpha_2); here w^2 cancels.
-  const Eigen::Vector2d moment = first_moment(q, at);
+  const Eigen::Vector2d moment = first_moment(s, A, B, at);
   double X_x = -dot(s.size, at.X, P);  // (X ud_x)
   for (int i = 0; i < s.n_axial; ++i) X_x += Ad[i] * (Dx_(i) + mass_ / 2 * A[i] - F_x[i]);
   const double Y_y = mass_ * sum_of_products(s.N, B, Bd);  // (Y ud_y)

@@ -40,7 +40,7 @@ void AssumedModeBeam::prepare_tangent(const Sizes& z, In q, TangentPoint& t) con
   bending_square(z, t.Bd, t.D);
   shortening_rate(z, t.at, t.Bd, t.P);
   shortening_rate(z, t.at, t.Bdd, t.P_dot);
-  t.X = first_moment(q, t.at);
+  t.X = first_moment(z, t.A, t.B, t.at);
   if (z.size == 0) return;
 
   double by_s[most_modes], by_e[most_modes];

@@ -25,8 +25,9 @@ void NewmarkStep::begin(const System& s, const State& now, double h, double c_q,
   c_q_ = c_q, c_v_ = c_v;
   size_q_ = largest(now.q) + h * largest(now.v) + h * h * largest(now.a) + largest(dq);
   size_v_ = largest(now.v) + h * largest(now.a) + largest(v);
-  pi_.setZero(sizes.nv);
-  zero_.setZero(sizes.nv);
+  zero_.setZero(sizes.nc > 0 ? sizes.nv : 0);
+  pi_.setZero(formulation == Formulation::stabilised ? zero_.size() : 0);
+  dpi_.resize(pi_.size());
   next.t = now.t + h;
   next.a = now.a;
   next.lambda = now.lambda;
@@ -35,7 +36,8 @@ void NewmarkStep::begin(const System& s, const State& now, double h, double c_q,
 }
 
 void NewmarkStep::update(const System& s, const State& now, State& next) {
-  increment_ = dq + c_q_ * next.a + pi_;
+  increment_ = dq + c_q_ * next.a;
+  if (pi_.size() > 0) increment_ += pi_;
   s.retract(now.q, increment_, next.q);
   next.v = v + c_v_ * next.a;
 }
@@ -60,8 +62,6 @@ void NewmarkStep::factorise(System& s, Blend blend, const State& next) {
 }
 
 bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
-  // pi's own increment is wanted even where there are no rows, as zero.
-  dpi_ = zero_;
   if (s.sizes().nc == 0) {
     rc_.resize(0);
     if (!s.correct(r, rc_, da_, dlambda_)) return false;
@@ -74,10 +74,10 @@ bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
     // g after that increment, which moves q by c_q da with G da = -rc.
     rc_ = s.g() - c_q_ * rc_;
     if (!s.correct(zero_, rc_, dpi_, mu_, of_pi_)) return false;
+    pi_ += dpi_;
   }
   next.a += da_;
   next.lambda += dlambda_;
-  pi_ += dpi_;
   const double da = largest(da_), a = largest(next.a);
   change_q_ = relative(c_q_ * da + largest(dpi_), size_q_ + c_q_ * a);
   change_v_ = relative(c_v_ * da, size_v_ + c_v_ * a);
@@ -87,10 +87,9 @@ bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
 void NewmarkStep::correct(System& s, Blend blend, const Vec& r, State& next) {
   if (newton.wants_factors()) factorise(s, blend, next);
   if (!correct_rows(s, r, next)) return newton.fail("the iteration matrix is singular");
-  if (!next.a.allFinite() || !next.lambda.allFinite()) return newton.fail("Newton's iteration left the finite numbers");
-
-  const bool at_round_off = change_q_ <= 64 * eps || largest(r) <= 64 * eps * largest(s.f());
-  newton.judge(std::max(change_q_, change_v_), at_round_off);
+  const double change = std::max(change_q_, change_v_);
+  const bool at_round_off = !newton.fast(change) && (change_q_ <= 64 * eps || largest(r) <= 64 * eps * largest(s.f()));
+  newton.judge(change, at_round_off);
 }
 
 Outcome NewmarkStep::finish(System& s, const State& now, State& next) {

@@ -54,7 +54,8 @@ class NewmarkStep {
   double size_q_ = 0, size_v_ = 0;      // of q and v
   double change_q_ = 0, change_v_ = 0;  // by the last increment, relative to them
   Factors of_pi_ = Factors::iteration;  // projection where they differ
-  Vec pi_, increment_, da_, dlambda_, rc_, zero_, dpi_, mu_;
+  Vec pi_, dpi_, zero_;                 // empty where there is no pi; zero_ where there are no rows
+  Vec increment_, da_, dlambda_, rc_, mu_;
 };
 
 }  // namespace trammel

@@ -27,6 +27,8 @@ class Newton {
   bool iterating() const { return state_ == State::iterating; }
   bool converged() const { return state_ == State::converged; }
   bool wants_factors() const { return wants_factors_; }
+  // Whether an increment of this size is one of a fast iteration, so that round-off need not be asked for.
+  bool fast(double change) const { return iterations_ == 0 || change < 0.5 * last_change_; }
   // After an increment of relative size `change` was applied. `at_round_off`: a further one could not be more than
   // noise.
   void judge(double change, bool at_round_off);

@@ -52,16 +52,14 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
     multistep_ = filled_ >= past_wanted() && same_step(h);
     if (!multistep_) return starter_.step(s, now, past_[0], h, next);
 
-    add_past(predictor == Predictor::ab4 ? bashforth_4 : bashforth_3, h, dq_, dv_);
-    predicted_q_ = now.q + dq_;
-    predicted_v_ = now.v + dv_;
+    go_on(now, h, predictor == Predictor::ab4 ? bashforth_4 : bashforth_3, predicted_q_, predicted_v_);
     if (!starter_.evaluate(s, now.t + h, predicted_q_, predicted_v_, predicted_))
       return Outcome::reject(RungeKutta::diverged);
 
-    add_past(moulton_4, h, dq_, dv_);
     next.t = now.t + h;
-    next.q = now.q + dq_ + h * 9.0 / 24 * predicted_.q;
-    next.v = now.v + dv_ + h * 9.0 / 24 * predicted_.v;
+    go_on(now, h, moulton_4, next.q, next.v);
+    next.q += h * 9.0 / 24 * predicted_.q;
+    next.v += h * 9.0 / 24 * predicted_.v;
     if (!starter_.evaluate(s, next.t, next.q, next.v, corrected_)) return Outcome::reject(RungeKutta::diverged);
     s.normalise(next.q);
     next.a = corrected_.v;
@@ -117,13 +115,14 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
     return h;
   }
 
-  void add_past(const double* weights, double h, Vec& dq, Vec& dv) const {
-    dq = h * weights[0] * past_[0].q;
-    dv = h * weights[0] * past_[0].v;
-    for (std::size_t i = 1; i < past_.size() && weights[i] != 0; ++i) {
-      dq += h * weights[i] * past_[i].q;
-      dv += h * weights[i] * past_[i].v;
-    }
+  // y_n + h sum_i weights_i F_{n-i}
+  void go_on(const State& now, double h, const double* weights, Vec& q, Vec& v) const {
+    const double w[] = {h * weights[0], h * weights[1], h * weights[2], h * weights[3]};
+    q = now.q + w[0] * past_[0].q + w[1] * past_[1].q + w[2] * past_[2].q;
+    v = now.v + w[0] * past_[0].v + w[1] * past_[1].v + w[2] * past_[2].v;
+    if (weights[3] == 0) return;  // nor need there be a fourth
+    q += w[3] * past_[3].q;
+    v += w[3] * past_[3].v;
   }
 
   RungeKutta starter_{{4, c, a, b}};
@@ -134,7 +133,7 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   bool multistep_ = false;
   double trial_h_ = 0;
   Slope predicted_, corrected_;
-  Vec dq_, dv_, predicted_q_, predicted_v_, e_, e_q_, e_v_, embedded_;
+  Vec predicted_q_, predicted_v_, e_, e_q_, e_v_, embedded_;
 };
 
 }  // namespace
