@@ -1,5 +1,6 @@
 #include "model/assembled_system.hpp"
 
+#include <limits>
 #include <stdexcept>
 
 #include "model/assembly.hpp"
@@ -7,8 +8,8 @@
 
 namespace trammel::model {
 
-AssembledSystem::AssembledSystem(std::shared_ptr<const Model> model)
-    : work_(std::make_unique<Work>(std::move(model))) {}
+AssembledSystem::AssembledSystem(std::shared_ptr<const Model> model, Storage storage)
+    : work_(std::make_unique<Work>(std::move(model), storage)) {}
 AssembledSystem::~AssembledSystem() = default;
 
 const Model& AssembledSystem::model() const {
@@ -48,11 +49,12 @@ void AssembledSystem::set_modes(const Modes& modes) {
     if (held) row += tangents;
   }
   w.sizes.nc = row;
+  w.lay_out_blocks();
   w.rows_fresh = w.bodies_fresh = w.force_fresh = false;
 }
 
 void AssembledSystem::lay_out() {
-  auto fresh = std::make_unique<Work>(work_->model);
+  auto fresh = std::make_unique<Work>(work_->model, work_->storage);
   fresh->counts = work_->counts;
   const Modes modes = work_->modes;
   work_ = std::move(fresh);
@@ -153,71 +155,64 @@ const Vec& AssembledSystem::g_dot() {
 }
 
 void AssembledSystem::add_mass_times(double c, const Vec& a, Vec& r) {
-  r.noalias() += c * (work_->mass() * a);
+  work_->add_mass_times(c, a, r);
 }
 
 void AssembledSystem::add_reaction(double c, const Vec& lambda, Vec& r) {
   if (work_->sizes.nc == 0) return;
   work_->evaluate_rows();
-  r.noalias() += c * (work_->reactions().transpose() * lambda);
+  work_->add_reaction(c, lambda, r);
 }
 
 void AssembledSystem::add_rows_times(double c, const Vec& x, Vec& rc) {
   if (work_->sizes.nc == 0) return;
   work_->evaluate_rows();
-  rc.noalias() += c * (work_->G * x);
+  work_->add_rows_times(c, x, rc);
 }
 
 void AssembledSystem::add_rows_force(double c, const Vec& mu, Vec& r) {
   if (work_->sizes.nc == 0) return;
   work_->evaluate_rows();
-  r.noalias() += c * (work_->G.transpose() * mu);
+  work_->add_rows_force(c, mu, r);
 }
 
 void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
   Work& w = *work_;
-  if (!w.factorise_mass(w.at_point, true)) throw NotSolvable("the mass matrix is not positive definite");
+  w.evaluate_rows();
+  if (!w.factorise_mass(Work::at_point, true, w.for_motion()))
+    throw NotSolvable("the mass matrix is not positive definite");
   w.right_rows = w.gamma - 2 * s.alpha * w.g_dot - s.beta * s.beta * w.g;
-  w.at_point.mass.solve(w.force(), w.right_rows, a, lambda);
+  // Who asked looks for the component whose answer is not finite.
+  if (!w.solve(Work::at_point, w.force(), w.right_rows, a, lambda))
+    a.setConstant(w.sizes.nv, std::numeric_limits<double>::quiet_NaN());
   if (!w.judged.empty()) w.judge_friction(a, lambda);
 }
 
 void AssembledSystem::factorise(Blend blend, const Vec& a, const Vec& lambda, Factors which) {
   Work& w = *work_;
-  Work::Kept& kept = w.kept[std::size_t(which)];
-  const bool no_tangent = blend.c_d == 0 && blend.c_k == 0;
+  const auto store = Work::Store(which);
+  const bool no_tangent = blend.c_d == 0 && blend.c_k == 0, with_friction = which == Factors::iteration;
   const bool mass_only = no_tangent && blend.c_m == 1 && blend.c_1 == 0;
   const bool identity_only = no_tangent && blend.c_m == 0 && blend.c_1 == 1;
-  kept.symmetric = mass_only || identity_only;
-  if (mass_only && !w.factorise_mass(kept, which == Factors::iteration))
-    throw NotSolvable("the mass matrix is not positive definite");
-  if (mass_only) return;
   w.evaluate_rows();
-  if (identity_only) {
-    kept.mass_factorised = false;
-    kept.mass.factorise(Mat::Identity(w.sizes.nv, w.sizes.nv), w.G);
-    return;
-  }
-  ++w.counts.factorizations;
-  w.add_tangent(blend, a, lambda, kept.iteration.begin(w.sizes.nv, w.sizes.nc));
-  kept.iteration.factorise(which == Factors::iteration ? w.reactions() : w.G, w.G);
+  if (identity_only) return w.factorise_identity(store);
+  if (!mass_only) return w.factorise_tangent(store, blend, a, lambda, with_friction);
+  if (!w.factorise_mass(store, with_friction, w.for_projection()))
+    throw NotSolvable("the mass matrix is not positive definite");
 }
 
 bool AssembledSystem::correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda, Factors which) {
   Work& w = *work_;
   if (which == Factors::iteration) ++w.counts.newton_iterations;
-  Work::Kept& kept = w.kept[std::size_t(which)];
   w.right = -r;
   w.right_rows = -rc;
-  if (!kept.symmetric) return kept.iteration.solve(w.right, w.right_rows, da, dlambda);
-  kept.mass.solve(w.right, w.right_rows, da, dlambda);
-  return da.allFinite() && dlambda.allFinite();
+  return w.solve(Work::Store(which), w.right, w.right_rows, da, dlambda);
 }
 
 void AssembledSystem::constraint_acceleration(const Vec& a, Vec& r) {
   work_->evaluate_rows();
   r = -work_->gamma;
-  if (work_->sizes.nc > 0) r.noalias() += work_->G * a;
+  if (work_->sizes.nc > 0) work_->add_rows_times(1, a, r);
 }
 
 const Motion& AssembledSystem::motion(MarkerRef marker) {
@@ -226,7 +221,7 @@ const Motion& AssembledSystem::motion(MarkerRef marker) {
 }
 
 bool AssembledSystem::redundant() const {
-  return work_->at_point.mass.redundant();
+  return work_->redundant(Work::at_point);
 }
 
 }  // namespace trammel::model

@@ -58,9 +58,12 @@ struct CallSite {
   const char* call = "";
 };
 
+// Dense matrices, or blocks by bodies with sparse factorisations; automatic: by BodyBlocks::worthwhile.
+enum class Storage { automatic, dense, blocks };
+
 class AssembledSystem final : public System {
  public:
-  explicit AssembledSystem(std::shared_ptr<const Model> model);
+  explicit AssembledSystem(std::shared_ptr<const Model> model, Storage storage = Storage::automatic);
   ~AssembledSystem() override;
 
   Sizes sizes() const override;

@@ -4,7 +4,10 @@
 
 namespace trammel::model {
 
-AssembledSystem::Work::Work(std::shared_ptr<const Model> m) : model(std::move(m)), chain(*model) {
+AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
+    : model(std::move(m)), storage(how), chain(*model) {
+  if (storage == Storage::blocks || (storage == Storage::automatic && BodyBlocks::worthwhile(*model)))
+    blocks.emplace(*model);
   for (const JointEntry& entry : model->joints) joint_slots.push_back({chain.slot(entry.A), chain.slot(entry.B)});
   for (const ForceEntry& entry : model->forces) force_slots.push_back({chain.slot(entry.A), chain.slot(entry.B)});
   for (const ContactEntry& entry : model->contacts) contact_slots.push_back({chain.slot(entry.A), chain.slot(entry.B)});
@@ -13,6 +16,19 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m) : model(std::move(m)
   contact_row.assign(model->contacts.size(), -1);
   stick_row.assign(model->contacts.size(), -1);
   sizes = model->sizes;
+  lay_out_blocks();
+}
+
+void AssembledSystem::Work::lay_out_blocks() {
+  if (!blocks) return;
+  std::vector<BodyBlocks::Tie> ties;
+  for (const JointEntry& joint : model->joints) ties.push_back({joint.row, joint.rows, joint.A.body, joint.B.body});
+  for (std::size_t i = 0; i < contact_row.size(); ++i) {
+    const auto [A, B] = std::pair{model->contacts[i].A.body, model->contacts[i].B.body};
+    if (contact_row[i] >= 0) ties.push_back({contact_row[i], 1, A, B});
+    if (stick_row[i] >= 0) ties.push_back({stick_row[i], dimension(model->world.space) - 1, A, B});
+  }
+  blocks->lay_out(ties);
 }
 
 void AssembledSystem::Work::move_to(double t_new, const Vec& q_new, const Vec& v_new) {
@@ -29,13 +45,15 @@ void AssembledSystem::Work::move_to(double t_new, const Vec& q_new, const Vec& v
 // M, unless it is constant and there already, and what the bodies add to f. Whoever asks for one needs the other soon.
 void AssembledSystem::Work::evaluate_bodies() {
   ++counts.residual_evaluations;
-  if (!mass_fresh) M.setZero(sizes.nv, sizes.nv);
+  if (!mass_fresh && !blocks) M.setZero(sizes.nv, sizes.nv);
   f.setZero(sizes.nv);
-  Matrix target = Matrix::onto(M);
-  for (const BodyEntry& entry : model->bodies) {
+  for (std::size_t k = 0; k < model->bodies.size(); ++k) {
+    const BodyEntry& entry = model->bodies[k];
     const auto q_body = q.segment(entry.q0, entry.nq);
     const auto v_body = v.segment(entry.v0, entry.nv);
-    target.origin(entry.v0, entry.v0);
+    Matrix target = Matrix::onto(blocks ? blocks->mass(k) : M);
+    if (!blocks) target.origin(entry.v0, entry.v0);
+    if (!mass_fresh && blocks) blocks->mass(k).setZero();
     if (!mass_fresh && entry.mass_and_force) {
       called(entry.name, "mass_and_force");
       entry.mass_and_force->mass_and_force(t, q_body, v_body, target, f.segment(entry.v0, entry.nv));
@@ -50,9 +68,8 @@ void AssembledSystem::Work::evaluate_bodies() {
   mass_fresh = bodies_fresh = true;
 }
 
-const Mat& AssembledSystem::Work::mass() {
+void AssembledSystem::Work::evaluate_mass() {
   if (!mass_fresh) evaluate_bodies();
-  return M;
 }
 
 const Vec& AssembledSystem::Work::force() {
@@ -131,7 +148,10 @@ void AssembledSystem::Work::evaluate_rows() {
   g.resize(sizes.nc);
   g_dot.resize(sizes.nc);
   gamma.resize(sizes.nc);
-  G.setZero(sizes.nc, sizes.nv);
+  if (blocks)
+    blocks->clear_rows();
+  else
+    G.setZero(sizes.nc, sizes.nv);
   // Rows first .. first + n - 1 of r become rows `row` and on.
   const auto place = [&](const Rows& r, Pair pair, int row, Eigen::Index first, Eigen::Index n) {
     const Motion &A = motion(pair.A), &B = motion(pair.B);
@@ -143,8 +163,8 @@ void AssembledSystem::Work::evaluate_rows() {
     gamma.segment(row, n) = r.gamma.segment(first, n);
     gamma.segment(row, n).noalias() -= H_A * A.bias;
     gamma.segment(row, n).noalias() -= H_B * B.bias;
-    chain.add_rows(pair.A, row, H_A, G);
-    chain.add_rows(pair.B, row, H_B, G);
+    add_rows(pair.A, row, H_A);
+    add_rows(pair.B, row, H_B);
   };
   for (std::size_t i = 0; i < joint_slots.size(); ++i) {
     const JointEntry& entry = model->joints[i];
@@ -170,16 +190,32 @@ void AssembledSystem::Work::evaluate_rows() {
   rows_fresh = true;
 }
 
+void AssembledSystem::Work::add_rows(int slot, int row, const Mat6& H) {
+  if (blocks)
+    blocks->add_rows(chain.body(slot), row, motion(slot), H);
+  else
+    chain.add_rows(slot, row, H, G);
+}
+
 // W: where a contact slides, the friction beside the force of its row.
 void AssembledSystem::Work::couple_reactions() {
-  W = G;
+  const auto add_friction = [this](int slot, int row, const Mat6& H) {
+    if (blocks)
+      blocks->add_reaction(chain.body(slot), row, motion(slot), H);
+    else
+      chain.add_rows(slot, row, H, W);
+  };
+  if (blocks)
+    blocks->couple();
+  else
+    W = G;
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
     if (contact_row[i] < 0) continue;
     const double ratio = friction_ratio(int(i));
     if (ratio == 0) continue;
     const Rows& r = contact(int(i));
-    chain.add_rows(contact_slots[i].A, contact_row[i], ratio * r.H_A.row(1), W);
-    chain.add_rows(contact_slots[i].B, contact_row[i], ratio * r.H_B.row(1), W);
+    add_friction(contact_slots[i].A, contact_row[i], ratio * r.H_A.row(1));
+    add_friction(contact_slots[i].B, contact_row[i], ratio * r.H_B.row(1));
   }
 }
 
@@ -277,6 +313,10 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
   }
   for (std::size_t i = 0; i < joint_slots.size() && c.c_k != 0; ++i) {
     called(model->joints[i].name, "rows");
+    if (model->joints[i].tangent) {
+      add_exact_reaction(i, lambda, c.c_k, S);
+      continue;
+    }
     add_pair_tangent(chain, joint_slots[i].A, joint_slots[i].B, t, q, v,
                      JointReaction(model->joints[i], t, lambda, model->world.space), c.c_k, 0, S);
   }
@@ -314,16 +354,23 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
   returned();
 }
 
-bool AssembledSystem::Work::factorise_mass(Kept& store, bool with_friction) {
-  evaluate_rows();
-  const Mat& reaction = with_friction ? reactions() : G;
-  if (store.mass_factorised && model->constant_mass) {
-    store.mass.change_rows(G, reaction);
-    return true;
-  }
-  ++counts.factorizations;
-  store.mass_factorised = store.mass.factorise(mass(), G, reaction);
-  return store.mass_factorised;
+// S += c d(G^T lambda)/dq of a joint that knows how its wrenches turn with the markers.
+void AssembledSystem::Work::add_exact_reaction(std::size_t joint, const Vec& lambda, double c, Mat& S) {
+  const JointEntry& entry = model->joints[joint];
+  const auto [slot_A, slot_B] = joint_slots[joint];
+  const Motion &A = motion(slot_A), &B = motion(slot_B);
+  const Vec6 own = lambda.segment(entry.row, entry.rows);
+  const auto twist = A.V.size();
+  for (Mat6* block : {&wrench_by.AA, &wrench_by.AB, &wrench_by.BA, &wrench_by.BB}) block->setZero(twist, twist);
+  entry.tangent->add_reaction_tangent(t, A, B, own, wrench_by);
+  chain.add_pair(slot_A, slot_A, wrench_by.AA, c, S);
+  chain.add_pair(slot_A, slot_B, wrench_by.AB, c, S);
+  chain.add_pair(slot_B, slot_A, wrench_by.BA, c, S);
+  chain.add_pair(slot_B, slot_B, wrench_by.BB, c, S);
+  rows.resize(entry.rows, model->world.space);
+  entry.joint->rows(t, A, B, rows);
+  chain.add_reaction_derivative(slot_A, t, q, rows.H_A.transpose() * own, c, S);
+  chain.add_reaction_derivative(slot_B, t, q, rows.H_B.transpose() * own, c, S);
 }
 
 }  // namespace trammel::model

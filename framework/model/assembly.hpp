@@ -2,17 +2,20 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "model/assembled_system.hpp"
+#include "model/body_blocks.hpp"
 #include "model/marker_chain.hpp"
 #include "numerics/kkt.hpp"
 
 namespace trammel::model {
 
 struct AssembledSystem::Work {
-  explicit Work(std::shared_ptr<const Model> m);
+  Work(std::shared_ptr<const Model> m, Storage storage);
 
   // Markers of one joint, force or contact.
   struct Pair {
@@ -22,7 +25,9 @@ struct AssembledSystem::Work {
     long long point = -1;
     Rows rows;
   };
-  // One kept factorisation: M or the identity alone has the cheaper, symmetric one.
+  // The kept factorisations: those of System::Factors, and that of the point's accelerations.
+  enum Store : std::size_t { iteration, projection, at_point };
+  // Dense: M or the identity alone has the cheaper, symmetric one.
   struct Kept {
     bool symmetric = false;  // of M or the identity alone
     numerics::MassKkt mass;
@@ -33,10 +38,17 @@ struct AssembledSystem::Work {
   void move_to(double t_new, const Vec& q_new, const Vec& v_new);
   const Motion& motion(int slot) { return chain.motion(slot, t, q, v); }
 
-  void evaluate_bodies();
-  const Mat& mass();
+  void lay_out_blocks();   // their rows, for the contacts' modes
+  void evaluate_bodies();  // mass and what bodies add to f
+  void evaluate_mass();
+  // r += c M a; and, after evaluate_rows, rc += c G x, r += c G^T y, r += c W^T y.
+  void add_mass_times(double c, const Vec& a, Vec& r);
+  void add_rows_times(double c, const Vec& x, Vec& rc);
+  void add_rows_force(double c, const Vec& y, Vec& r);
+  void add_reaction(double c, const Vec& y, Vec& r);
   const Vec& force();
   void evaluate_rows();  // g, g_dot, gamma, G, W
+  void add_rows(int slot, int row, const Mat6& H);
   void couple_reactions();
   const Rows& contact(int i);
   double contact_rate(int i, int row);
@@ -44,14 +56,26 @@ struct AssembledSystem::Work {
   void judge_friction(Vec& a, Vec& lambda);  // adds that of `judged`
   double friction_ratio(int i);    // F_t / F_n along the tangent while sliding; 0 where rows or nothing hold it
   double friction_damping(int i);  // -d(F_t / F_n)/d(slip velocity) [s/m]
-  const Mat& reactions() const { return coupled ? W : G; }  // after evaluate_rows
   void add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S);
-  bool factorise_mass(Kept& kept, bool with_friction);
+  bool factorise_mass(Store store, bool with_friction, double rank_tolerance);
+  void factorise_identity(Store store);
+  void factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda, bool with_friction);
+  bool redundant(Store store) const;  // rows, at its last factorise_mass
+  [[nodiscard]] bool solve(Store store, const Vec& b, const Vec& c, Vec& x, Vec& y);
+  // A solver for the change of v by impulses, the joints' rows held.
+  std::function<void(const Vec& impulse, Vec& dv)> with_joints_held();
+
+  void add_exact_reaction(std::size_t joint, const Vec& lambda, double c, Mat& S);
+  // Of rows, by what solves with them; after evaluate_rows.
+  double violation() const { return g.size() ? g.lpNorm<Eigen::Infinity>() : 0; }
+  double for_motion() const { return numerics::rank_tolerance_of_motion(violation()); }
+  double for_projection() const { return numerics::rank_tolerance_of_projection(violation()); }
 
   void called(const std::string& component, const char* call) { site = {&component, call}; }
   void returned() { site.component = nullptr; }
 
   std::shared_ptr<const Model> model;
+  Storage storage;
   MarkerChain chain;
   std::vector<Pair> joint_slots, force_slots, contact_slots;
   Modes modes;
@@ -69,15 +93,17 @@ struct AssembledSystem::Work {
   bool bodies_fresh = false, force_fresh = false;  // f holds what the bodies add; all of it
 
   Mat M, G, W;
+  Mat tangent;  // of factorise_tangent with blocks
   Vec f, g, g_dot, gamma;
-  Kept at_point;
-  std::array<Kept, 2> kept;
+  std::array<Kept, 3> kept;
+  std::optional<BodyBlocks> blocks;  // in place of M, G, W and their factors where bodies are many
   Counts counts;
   CallSite site;
 
   // scratch
   Balance power;
   Rows rows;
+  PairTangent wrench_by;
   std::vector<ContactRows> contact_rows;
   Wrench on_A, on_B;
   Vec right, right_rows;

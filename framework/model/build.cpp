@@ -124,6 +124,11 @@ class Builder {
     if (!pair) return;
     const auto A = marker((*pair)[0]), B = marker((*pair)[1]);
     if (!joint || !A || !B) return;
+    if (A->body == B->body)
+      return problems_.error(value.problem(
+          A->body < 0 ? std::string("both markers are fixed in the world; a joint ties a body to something else")
+                      : fmt::format("both markers belong to bodies.{}; a joint ties a body to something else",
+                                    model_->bodies[std::size_t(A->body)].name)));
     JointEntry entry;
     entry.name = name;
     entry.joint = std::move(joint);

@@ -27,6 +27,7 @@ void Model::lay_out() {
   for (JointEntry& entry : joints) {
     entry.row = sizes.nc;
     entry.rows = entry.joint->row_count(world.space);
+    entry.tangent = dynamic_cast<const ReactionTangent*>(static_cast<const Joint*>(entry.joint.get()));
     sizes.nc += entry.rows;
   }
   for (ContactEntry& entry : contacts) {

@@ -1,6 +1,6 @@
 #include "model/marker_chain.hpp"
 
-#include <cmath>
+#include <Eigen/Geometry>
 
 #include "model/numeric_derivative.hpp"
 
@@ -17,9 +17,7 @@ int MarkerChain::slot(MarkerRef marker) {
     const int n = twist_size(model_.world.space), dim = dimension(model_.world.space);
     const GroundFrame& frame = model_.ground_frames[std::size_t(marker.marker)];
     slot.motion.x = frame.x.size() == dim ? frame.x : Vec3(Vec3::Zero(dim));
-    slot.motion.R.setIdentity(dim, dim);
-    const double c = std::cos(frame.angle), s = std::sin(frame.angle);
-    slot.motion.R.topLeftCorner<2, 2>() << c, -s, s, c;
+    slot.motion.R = Eigen::AngleAxisd(frame.angle, frame.axis).toRotationMatrix().topLeftCorner(dim, dim);
     slot.motion.angle = frame.angle;
     slot.motion.V.setZero(n);
     slot.motion.bias.setZero(n);

@@ -40,6 +40,7 @@ struct BodyEntry {
 struct JointEntry {
   std::string name;
   std::unique_ptr<Joint> joint;
+  const ReactionTangent* tangent = nullptr;  // ability, looked up once
   MarkerRef A, B;
   int row = 0, rows = 0;  // place in g
 };
@@ -77,7 +78,8 @@ struct ContactEntry {
 // A frame fixed in the world.
 struct GroundFrame {
   Vec3 x;
-  double angle = 0;
+  double angle = 0;                                 // in space about `axis`
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // of length 1
 };
 
 struct Model {

@@ -64,13 +64,18 @@ std::optional<MarkerRef> read_marker(const Value& value, Model& model, Problems&
           value.problem("found an object, expected a marker's name or a fixed frame {\"point\": ..., \"angle\": ...}"));
       return {};
     }
-    check_keys(value, {"point", "angle"}, problems);
+    check_keys(value, {"point", "angle", "axis"}, problems);
     GroundFrame frame;
     const auto point = read_vector(*value.find("point"), model.world.space, problems);
-    if (const Value* angle = value.find("angle")) {
-      if (model.world.space == Space::spatial)
-        problems.error(angle->problem("only a planar scene's frame has an angle"));
-      frame.angle = angle->read_number(problems).value_or(0);
+    if (const Value* angle = value.find("angle")) frame.angle = angle->read_number(problems).value_or(0);
+    if (const Value* axis = value.find("axis")) {
+      const auto direction = read_vector(*axis, model.world.space, problems);
+      if (model.world.space == Space::planar)
+        problems.error(axis->problem("a planar scene's frame turns about the plane's normal; remove the axis"));
+      else if (direction && !(direction->stableNorm() > 0))
+        problems.error(axis->problem("the axis has length 0; expected a direction, e.g. [0, 0, 1]"));
+      else if (direction)
+        frame.axis = direction->stableNormalized();
     }
     if (!point) return {};
     frame.x = *point;

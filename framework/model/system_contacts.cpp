@@ -64,13 +64,10 @@ void AssembledSystem::impulse_response(const std::vector<ContactDirection>& dire
   Work& w = *work_;
   w.evaluate_rows();
   const auto n = Eigen::Index(directions.size());
-  numerics::MassKkt held;
-  if (!held.factorise(w.mass(), w.G.topRows(w.model->sizes.nc)))
-    throw NotSolvable("the mass matrix is not positive definite");
-  const Vec no_rows = Vec::Zero(w.model->sizes.nc);
+  const auto respond = w.with_joints_held();
   Mat N = Mat::Zero(w.sizes.nv, n);
   jump.resize(w.sizes.nv, n);
-  Vec dv, impulses, column;
+  Vec dv, column;
   for (Eigen::Index i = 0; i < n; ++i) {
     const ContactDirection d = directions[std::size_t(i)];
     const Rows& r = w.contact(d.contact);
@@ -80,7 +77,7 @@ void AssembledSystem::impulse_response(const std::vector<ContactDirection>& dire
     w.chain.add_wrench(A, r.H_A.row(d.row).transpose(), 1, column);
     w.chain.add_wrench(B, r.H_B.row(d.row).transpose(), 1, column);
     N.col(i) = column;
-    held.solve(column, no_rows, dv, impulses);
+    respond(column, dv);
     jump.col(i) = dv;
   }
   delassus.noalias() = N.transpose() * jump;
@@ -93,7 +90,14 @@ double AssembledSystem::highest_frequency(const std::vector<ContactDirection>& d
   impulse_response(directions, jump, delassus);
   Mat K = Mat::Zero(w.sizes.nv, w.sizes.nv);
   w.add_tangent({0, 0, 1}, Vec::Zero(w.sizes.nv), Vec::Zero(w.sizes.nc), K);
-  const Mat KX = K * jump, MX = w.mass() * jump;
+  const Mat KX = K * jump;
+  Mat MX = Mat::Zero(jump.rows(), jump.cols());
+  Vec column;
+  for (Eigen::Index i = 0; i < jump.cols(); ++i) {
+    column.setZero(jump.rows());
+    w.add_mass_times(1, jump.col(i), column);
+    MX.col(i) = column;
+  }
   double highest = 0;
   for (Eigen::Index i = 0; i < jump.cols(); ++i) {
     const double stiffness = jump.col(i).dot(KX.col(i)), mass = jump.col(i).dot(MX.col(i));
@@ -117,7 +121,8 @@ void AssembledSystem::Work::judge_friction(Vec& a, Vec& lambda) {
     chain.add_wrench(A, r.H_A.row(1).transpose(), 1, column);
     chain.add_wrench(B, r.H_B.row(1).transpose(), 1, column);
     columns.col(k) = column;
-    at_point.mass.solve(column, Vec::Zero(sizes.nc), x, y);
+    if (!solve(at_point, column, Vec::Zero(sizes.nc), x, y))
+      throw NotSolvable("the friction of the feet at rest was not found");
     response.col(k) = x, reaction.col(k) = y;
     b[k] = contact_acceleration(i, 1, a);
     const ContactEntry& entry = model->contacts[std::size_t(i)];

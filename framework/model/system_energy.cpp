@@ -107,7 +107,10 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
   }
   if (w.sizes.nc > 0) {
     w.evaluate_rows();
-    sum.constraints = -lambda.dot(w.reactions() * w.v);
+    Vec& reaction = w.right;
+    reaction.setZero(w.sizes.nv);
+    w.add_reaction(1, lambda, reaction);
+    sum.constraints = -reaction.dot(w.v);
     for (std::size_t i = 0; i < w.contact_slots.size(); ++i)
       if (w.contact_row[i] >= 0) sum.constraints += sum.friction(Eigen::Index(i));
   }

@@ -10,36 +10,31 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-// Rows count as dependent when a pivot of G M^-1 G^T is this small against its own row's diagonal: the square of the
-// sine of the angle to the rows before it. sqrt(eps) for the sine leaves room for violated position rows (redundant
-// rows are dependent only on the manifold) and the decomposition decides the rest.
-constexpr double dependent = 1e-10;
-
-bool pivots_are_safe(const Cholesky& factors, const Mat& matrix) {
+// The pivots of G M^-1 G^T over its diagonal are squares of those sines, row by row against the rows before. They are only
+// a warning, given early; the decomposition decides.
+bool pivots_are_safe(const Cholesky& factors, const Mat& matrix, double tolerance) {
+  const double safe = 100 * tolerance * tolerance;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    if (!(factors.pivot(i) * factors.pivot(i) > dependent * matrix(i, i))) return false;
+    if (!(factors.pivot(i) * factors.pivot(i) > safe * matrix(i, i))) return false;
   return true;
-}
-
-// Redundant rows leave a pivot at round-off of the largest one in a column; unlike scales of S and G do not, because a pivot
-// is compared with its own column. Asked of all columns at once is cheaper, and nearly always enough.
-bool pivots_are_safe(const Lu& factors, const Mat& matrix) {
-  const auto is_safe = [&](Eigen::Index j, double scale) { return std::abs(factors.pivot(j)) > 8 * eps * scale; };
-  const double largest = matrix.cwiseAbs().maxCoeff();
-  Eigen::Index j = 0;
-  while (j < matrix.cols() && (is_safe(j, largest) || is_safe(j, matrix.col(j).cwiseAbs().maxCoeff()))) ++j;
-  return j == matrix.cols();
 }
 
 }  // namespace
 
-bool MassKkt::factorise(const Mat& M, const Mat& G, const Mat& W) {
+double rank_tolerance_of_projection(double violation) {
+  return std::clamp(10 * violation, 1e-7, 1e-2);
+}
+double rank_tolerance_of_motion(double violation) {
+  return rank_tolerance_of_projection(std::sqrt(violation));
+}
+
+bool MassKkt::factorise(const Mat& M, const Mat& G, const Mat& W, double rank_tolerance) {
   if (!mass_.compute(M)) return false;
-  change_rows(G, W);
+  change_rows(G, W, rank_tolerance);
   return true;
 }
 
-void MassKkt::change_rows(const Mat& G, const Mat& W) {
+void MassKkt::change_rows(const Mat& G, const Mat& W, double rank_tolerance) {
   redundant_ = false;
   coupled_ = &W != &G;
   B_.resize(G.cols(), G.rows());
@@ -47,23 +42,40 @@ void MassKkt::change_rows(const Mat& G, const Mat& W) {
   B_ = G.transpose();
   mass_.solve_lower(B_);
   schur_.resize(G.rows(), G.rows());
-  if (coupled_) return complement(W);
+  if (coupled_) return complement(W, rank_tolerance);
   schur_.noalias() = B_.transpose() * B_;
-  redundant_ = !schur_cholesky_.compute(schur_) || !pivots_are_safe(schur_cholesky_, schur_);
-  if (!redundant_) return;
-  cod_.setThreshold(std::sqrt(eps));
-  cod_.compute(B_);
+  redundant_ = !schur_cholesky_.compute(schur_) || !pivots_are_safe(schur_cholesky_, schur_, rank_tolerance);
+  if (redundant_) merge_rows(rank_tolerance);
 }
 
-void MassKkt::complement(const Mat& W) {
+// A decomposition with pivoting alone would leave U uncertain by what the rows part by, differently from call to call: then
+// the accelerations were no smooth function of the state, and a Runge-Kutta method of second order. A step of the power
+// method, with the square of that, takes it to round-off.
+void MassKkt::merge_rows(double rank_tolerance) {
+  const auto nc = B_.cols();
+  Eigen::ColPivHouseholderQR<Mat> rank(nc, B_.rows());
+  rank.setThreshold(rank_tolerance);
+  rank.compute(B_.transpose());
+  const Mat range = schur_ * (rank.householderQ() * Mat::Identity(nc, rank.rank())).eval();
+  merged_ = Eigen::HouseholderQR<Mat>(range).householderQ() * Mat::Identity(nc, rank.rank());
+  cod_.setThreshold(Eigen::Default);
+  cod_.compute(B_ * merged_);
+}
+
+// Its pivots are of the order of the squares of those sines too, and of its own round-off.
+void MassKkt::complement(const Mat& W, double rank_tolerance) {
+  constexpr double round_off = 1e-10;
+  const double dependent = rank_tolerance * rank_tolerance;
   C_ = W.transpose();
   mass_.solve_lower(C_);
   schur_.noalias() = B_.transpose() * C_;
   schur_lu_.compute(schur_);
-  for (Eigen::Index j = 0; j < schur_.cols(); ++j)
-    if (!(std::abs(schur_lu_.pivot(j)) > dependent * schur_.col(j).cwiseAbs().maxCoeff())) redundant_ = true;
+  for (Eigen::Index j = 0; j < schur_.cols(); ++j) {
+    const double scale = schur_.col(j).cwiseAbs().maxCoeff();
+    if (!(std::abs(schur_lu_.pivot(j)) > std::max(round_off, 100 * dependent) * scale)) redundant_ = true;
+  }
   if (!redundant_) return;
-  cod_.setThreshold(dependent);
+  cod_.setThreshold(std::max(round_off, dependent));
   cod_.compute(schur_);
 }
 
@@ -81,8 +93,8 @@ void MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
       schur_lu_.solve(w_, y);
     x.noalias() -= C_ * y;
   } else if (redundant_) {
-    const Vec particular = cod_.transpose().solve(c);
-    y = cod_.solve(x - particular);
+    const Vec particular = cod_.transpose().solve(merged_.transpose() * c);
+    y = merged_ * cod_.solve(x - particular);
     x.noalias() -= B_ * y;
   } else if (B_.cols() > 0) {
     y = -c;
@@ -99,17 +111,38 @@ Mat& IterationKkt::begin(Eigen::Index nv, Eigen::Index nc) {
   return full_;
 }
 
-void IterationKkt::factorise(const Mat& W, const Mat& G) {
+namespace {
+
+// In the columns from `first` on. A pivot is compared with its own column, so unlike scales of S and G make none small; the
+// largest entry of all is asked first, which is cheaper and nearly always enough.
+bool has_small_pivot(const Lu& lu, const Mat& matrix, Eigen::Index first, double smallest) {
+  const double largest = matrix.cwiseAbs().maxCoeff();
+  const auto is_safe = [&](Eigen::Index j, double scale) { return std::abs(lu.pivot(j)) > smallest * scale; };
+  for (Eigen::Index j = first; j < matrix.cols(); ++j)
+    if (!is_safe(j, largest) && !is_safe(j, matrix.col(j).cwiseAbs().maxCoeff())) return true;
+  return false;
+}
+
+}  // namespace
+
+void IterationKkt::factorise(const Mat& W, const Mat& G, double rank_tolerance) {
   const auto nc = G.rows();
   if (nc > 0) {
     full_.topRightCorner(nv_, nc) = W.transpose();
     full_.bottomLeftCorner(nc, nv_) = G;
   }
-  singular_ = false;
+  redundant_ = singular_ = false;
   finite_ = true;
   if (full_.rows() == 0) return;
   lu_.compute(full_);
-  singular_ = !pivots_are_safe(lu_, full_);
+  // Dependent rows show in the columns of W. Only a warning, given early; the rows' own decomposition decides.
+  if (has_small_pivot(lu_, full_, nv_, 100 * rank_tolerance)) {
+    finite_ = full_.allFinite();
+    if (!finite_) return;
+    redundant_ = merge_rows(W, G, rank_tolerance);
+    if (redundant_) lu_.compute(full_);
+  }
+  singular_ = has_small_pivot(lu_, full_, 0, 8 * eps);
   finite_ = !singular_ || full_.allFinite();
   if (singular_ && finite_) {
     cod_.setThreshold(Eigen::Default);
@@ -117,17 +150,42 @@ void IterationKkt::factorise(const Mat& W, const Mat& G) {
   }
 }
 
+// The rank of the rows at length one: then pivots are sines of the angle to other rows. False: they are independent.
+bool IterationKkt::merge_rows(const Mat& W, const Mat& G, double rank_tolerance) {
+  const auto nc = G.rows();
+  const Vec lengths = G.rowwise().norm();
+  Mat unit = G;
+  for (Eigen::Index i = 0; i < nc; ++i)
+    if (lengths[i] > 0) unit.row(i) /= lengths[i];
+  Eigen::ColPivHouseholderQR<Mat> qr(nc, nv_);
+  qr.setThreshold(rank_tolerance);
+  qr.compute(unit);
+  const auto rank = qr.rank();
+  if (rank == nc) return false;
+  const Mat range = lengths.asDiagonal() * (qr.householderQ() * Mat::Identity(nc, rank)).eval();
+  merged_ = Eigen::HouseholderQR<Mat>(range).householderQ() * Mat::Identity(nc, rank);
+  Mat small = Mat::Zero(nv_ + rank, nv_ + rank);
+  small.topLeftCorner(nv_, nv_) = full_.topLeftCorner(nv_, nv_);
+  small.topRightCorner(nv_, rank) = W.transpose() * merged_;
+  small.bottomLeftCorner(rank, nv_) = merged_.transpose() * G;
+  full_.swap(small);
+  return true;
+}
+
 bool IterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
-  const auto nc = c.size();
   if (!finite_) return false;
-  if (nc == 0 && nv_ > 0 && !singular_) {
+  const auto rows = redundant_ ? merged_.cols() : c.size();
+  if (rows == 0 && nv_ > 0 && !singular_) {
     lu_.solve(b, x);
-    y.resize(0);
+    y.setZero(c.size());
     return x.allFinite();
   }
-  right_.resize(nv_ + nc);
+  right_.resize(nv_ + rows);
   right_.head(nv_) = b;
-  right_.tail(nc) = c;
+  if (redundant_)
+    right_.tail(rows).noalias() = merged_.transpose() * c;
+  else
+    right_.tail(rows) = c;
   if (right_.size() == 0) {
     solution_.resize(0);
   } else if (!singular_) {
@@ -135,16 +193,18 @@ bool IterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   } else {
     if (!right_.allFinite()) return false;
     solution_ = cod_.solve(right_);
-    // A least-squares answer that leaves a residual is no solution; unless it is the round-off in which redundant rows
-    // differ, of positions of the order of 1.
+    // A least-squares answer that leaves a residual is no solution; unless it is round-off of positions of the order of 1.
     const Vec residual = full_ * solution_ - right_;
     const double noise = 1e-13, S = full_.topLeftCorner(nv_, nv_).cwiseAbs().maxCoeff();
-    const double G = std::max(1.0, full_.bottomLeftCorner(nc, nv_).cwiseAbs().maxCoeff());
-    const bool round_off = residual.head(nv_).norm() <= noise * S && residual.tail(nc).norm() <= noise * G;
+    const double G = std::max(1.0, full_.bottomLeftCorner(rows, nv_).cwiseAbs().maxCoeff());
+    const bool round_off = residual.head(nv_).norm() <= noise * S && residual.tail(rows).norm() <= noise * G;
     if (!(residual.norm() <= 1e-6 * right_.norm() || round_off)) return false;
   }
   x = solution_.head(nv_);
-  y = solution_.tail(nc);
+  if (redundant_)
+    y = merged_ * solution_.tail(rows);
+  else
+    y = solution_.tail(rows);
   return solution_.allFinite();
 }
 

@@ -4,11 +4,14 @@
 //     [G  0 ] [y] = [c]        S: nv x nv, G and W: nc x nv
 //
 // Two factorisations, by what S is:
-//  - Mass: S = M symmetric positive definite. Cholesky of M and of the Schur complement G M^-1 G^T. Redundant rows
-//    are found by the complement's pivots and then solved by a complete orthogonal decomposition of L^-1 G^T: x stays
-//    unique, y is the one of minimum norm, and the condition number is not squared. With W other than G (sliding
-//    friction) the complement G M^-1 W^T is factorised as it is, by LU, redundant or singular ones orthogonally.
-//  - Iteration: S any matrix. LU of the whole with row pivoting; if it is singular, the minimum-norm solution.
+//  - Mass: S = M symmetric positive definite. Cholesky of M and of the Schur complement G M^-1 G^T, whose pivots warn of
+//    redundant rows; those are solved by orthogonal decompositions of L^-1 G^T: x stays unique, and the condition number is
+//    not squared. With W other than G (sliding friction) the complement G M^-1 W^T is factorised as it is, by LU, redundant
+//    or singular ones orthogonally.
+//  - Iteration: S any matrix. LU of the whole with row pivoting. If it is singular beyond redundant rows, the minimum-norm
+//    solution.
+// Of redundant rows combinations U^T G are taken in their place, U an orthonormal basis of their range: y = U z is of minimum
+// norm, and what of c is outside the range, which no x reaches, is left.
 // Storage is kept from one factorisation to the next: no allocation at constant sizes while rows are independent.
 #pragma once
 
@@ -21,24 +24,33 @@
 
 namespace trammel::numerics {
 
+// Below which sine of the angle to the others a row counts as dependent on them, for rows that are off by `violation` (max norm
+// of g, of lengths of order one). Redundant rows are dependent only where they hold: otherwise they part by the violation, and
+// must not pass for new ones. For accelerations there is more: where branches of motion cross, rows part by the distance from the
+// crossing, and the violation shifts the state by itself over that distance; nearer than its root they tell nothing of the branch.
+double rank_tolerance_of_projection(double violation);
+double rank_tolerance_of_motion(double violation);
+
 class MassKkt {
  public:
   // False: M is not positive definite. `G` may have no rows.
-  bool factorise(const Mat& M, const Mat& G, const Mat& W);
+  bool factorise(const Mat& M, const Mat& G, const Mat& W, double rank_tolerance = rank_tolerance_of_projection(0));
   bool factorise(const Mat& M, const Mat& G) { return factorise(M, G, G); }
   // Keeps the factors of M, takes new rows. W may be the same object as G.
-  void change_rows(const Mat& G, const Mat& W);
+  void change_rows(const Mat& G, const Mat& W, double rank_tolerance = rank_tolerance_of_projection(0));
   void change_rows(const Mat& G) { change_rows(G, G); }
   void solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
   bool redundant() const { return redundant_; }
 
  private:
-  Cholesky mass_;
-  void complement(const Mat& W);
+  void complement(const Mat& W, double rank_tolerance);
+  void merge_rows(double rank_tolerance);
 
-  Mat B_;      // L^-1 G^T (nv x nc)
-  Mat C_;      // L^-1 W^T, where W is not G
-  Mat schur_;  // B^T B or B^T C
+  Cholesky mass_;
+  Mat B_;       // L^-1 G^T (nv x nc)
+  Mat C_;       // L^-1 W^T, where W is not G
+  Mat schur_;   // B^T B or B^T C
+  Mat merged_;  // U, nc x rank, while redundant
   Lu schur_lu_;
   Cholesky schur_cholesky_;
   Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
@@ -50,17 +62,20 @@ class IterationKkt {
  public:
   // The caller fills S() (nv x nv, zero on entry) after `begin` and then calls `factorise`.
   Mat& begin(Eigen::Index nv, Eigen::Index nc);
-  void factorise(const Mat& W, const Mat& G);
+  void factorise(const Mat& W, const Mat& G, double rank_tolerance = rank_tolerance_of_projection(0));
   // False: not solvable (singular beyond redundant rows), or not finite.
   [[nodiscard]] bool solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
 
  private:
+  bool merge_rows(const Mat& W, const Mat& G, double rank_tolerance);
+
   Mat full_;
+  Mat merged_;  // U, nc x rank, while rows are redundant
   Lu lu_;
   Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
   Vec right_, solution_;
   Eigen::Index nv_ = 0;
-  bool singular_ = false, finite_ = true;
+  bool redundant_ = false, singular_ = false, finite_ = true;
 };
 
 }  // namespace trammel::numerics

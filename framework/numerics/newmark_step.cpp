@@ -96,13 +96,15 @@ Outcome NewmarkStep::finish(System& s, const State& now, State& next) {
   if (!newton.converged()) return newton.outcome();
   if (s.sizes().nc > 0) {
     // The rows alone cost no force. They converge as the iteration did.
-    double change = 0;
+    double change = 0, missed = 0;
     int passes = 0;
     do {
       move(s, now, next);
+      missed = largest(s.g());
       if (!correct_rows(s, zero_, next)) return Outcome::reject("the iteration matrix is singular");
       change = formulation == Formulation::index3 ? change_q_ : std::max(change_q_, change_v_);
     } while (change * newton.rate() > eps && ++passes < 4);
+    if (missed > std::max(1e-8, 1e-6 * size_q_)) return Outcome::reject("the joints' rows contradict each other");
     // Rows of position divide their round-off by h^2. Where that is no longer small beside the velocity, say so.
     const double noise = eps * size_q_ * c_v_ / std::max(c_q_, std::numeric_limits<double>::min());
     if (formulation == Formulation::index3 && noise > 1e-3 * size_v_)

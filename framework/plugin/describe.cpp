@@ -24,7 +24,7 @@ const char* noun(Parameter::Type type) {
     case Parameter::Type::vector:
       return "a vector";
     case Parameter::Type::numbers:
-      return "an array of numbers";
+      return "a number or an array of numbers";
     case Parameter::Type::time_function:
       return "a number, an expression of t or a table";
     case Parameter::Type::named_numbers:

@@ -81,7 +81,7 @@ class ValueReader {
       case Type::text:
         return choice(value, value.read_text(problems_));
       case Type::numbers:
-        return checked(value, value.read_numbers(problems_));
+        return checked(value, numbers(value));
       case Type::vector:
         return pass(vector(value));
       case Type::time_function:
@@ -136,6 +136,13 @@ class ValueReader {
     problems_.error(value.problem(fmt::format("found \"{}\", expected {}{}", *text, expected(parameter_),
                                               near.empty() ? "" : fmt::format(". Did you mean \"{}\"?", near))));
     return {};
+  }
+
+  // One number stands for a list of one.
+  std::optional<std::vector<double>> numbers(const Value& value) const {
+    if (value.type() == Value::Type::array) return value.read_numbers(problems_);
+    const auto number = value.read_number(problems_);
+    return number ? std::optional(std::vector{*number}) : std::nullopt;
   }
 
   std::optional<Vec3> vector(const Value& value) const {

@@ -68,7 +68,7 @@ Json type_of(const Parameter& parameter) {
       if (parameter.choices.empty()) return {{"type", "string"}};
       return any_of({{"enum", parameter.choices}}, reference("expression"));
     case Parameter::Type::numbers:
-      return array_of(number("number", traits));
+      return any_of(number("number", traits), array_of(number("number", traits)));
     case Parameter::Type::vector:
       return vector(traits);
     case Parameter::Type::named_numbers:
@@ -165,7 +165,7 @@ void define_common(Json& definitions) {
                                       {"scale", number}}),
                               "a law of time from a text table, its columns by name or by number from 1");
   definitions["vector"] = array_of(number);
-  Json frame = object({{"point", reference("vector")}, {"angle", number}});
+  Json frame = object({{"point", reference("vector")}, {"angle", number}, {"axis", reference("vector")}});
   definitions["marker"] = with(any_of({{"type", "string"}}, std::move(frame)),
                                "\"ground\", a body's marker such as \"beam.tip\", or a frame fixed in the world");
   definitions["on"] = reference("marker");

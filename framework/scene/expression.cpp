@@ -1,5 +1,6 @@
 #include "scene/expression.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -42,8 +43,11 @@ bool continues_name(char c) {
 // Recursive descent. sum: product {+- product}; product: unary {*/ unary}; unary: -unary | power; power: atom [^ unary].
 class Compiler {
  public:
-  Compiler(std::string_view text, const Lookup& lookup, bool with_time)
-      : text_(text), lookup_(lookup), with_time_(with_time) {}
+  // Called with a dotted name; true: it is a quantity, whose number is to be put in before each evaluation.
+  using Quantity = std::function<bool(std::string_view name, std::size_t instruction)>;
+
+  Compiler(std::string_view text, const Lookup& lookup, bool with_time, Quantity quantity = {})
+      : text_(text), lookup_(lookup), with_time_(with_time), quantity_(std::move(quantity)) {}
 
   Code compile() {
     sum();
@@ -154,7 +158,7 @@ class Compiler {
 
   void name() {
     const std::size_t start = at_;
-    while (at_ < text_.size() && continues_name(text_[at_])) ++at_;
+    while (at_ < text_.size() && (continues_name(text_[at_]) || (quantity_ && text_[at_] == '.'))) ++at_;
     const std::string_view word = text_.substr(start, at_ - start);
     const int column = int(start) + 1;
     if (take('(')) return call(word, column);
@@ -164,6 +168,7 @@ class Compiler {
       uses_time_ = true;
       return emit(Op::time);
     }
+    if (quantity_ && quantity_(word, code_.instructions.size())) return emit(Op::number);
     emit(Op::number, lookup_(word, column));
   }
 
@@ -188,6 +193,7 @@ class Compiler {
   std::string_view text_;
   const Lookup& lookup_;
   bool with_time_;
+  Quantity quantity_;
   Code code_;
   std::size_t at_ = 0;
   int depth_ = 0, nesting_ = 0;
@@ -211,6 +217,25 @@ double evaluate(std::string_view text, const Lookup& lookup) {
   const double value = TimeFunction(std::make_shared<const Code>(compiler.compile()), std::string(text))(0);
   if (!std::isfinite(value)) throw ExpressionError(1, fmt::format("the value is {}, expected a finite number", value));
   return value;
+}
+
+Formula::Formula(std::string_view text, const std::vector<std::string>& names, const Lookup& lookup) {
+  const Compiler::Quantity quantity = [&](std::string_view name, std::size_t instruction) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) return false;
+    const int index = int(found - names.begin());
+    const auto used = std::find(uses_.begin(), uses_.end(), index);
+    slots_.emplace_back(instruction, std::size_t(used - uses_.begin()));
+    if (used == uses_.end()) uses_.push_back(index);
+    return true;
+  };
+  code_ = std::make_shared<const Code>(Compiler(text, lookup, false, quantity).compile());
+}
+
+double Formula::operator()(const std::vector<double>& values) const {
+  auto code = std::make_shared<JetCode>(*code_);
+  for (const auto& [instruction, value] : slots_) code->instructions[instruction].number = values[value];
+  return TimeFunction(std::move(code), "")(0);
 }
 
 bool is_name(std::string_view text) {

@@ -7,14 +7,20 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <trammel/time_function.hpp>
 
 #include "scene/value.hpp"
+
+namespace trammel {
+class JetCode;
+}
 
 namespace trammel::scene {
 
@@ -33,6 +39,22 @@ using Lookup = std::function<double(std::string_view name, int column)>;
 // `text` without the leading "=". Throws ExpressionError.
 TimeFunction compile_time_function(std::string_view text, const Lookup& lookup);
 double evaluate(std::string_view text, const Lookup& lookup);  // finite, free of t
+
+// A value of quantities that change from call to call: "atan2(bob.point.x, -bob.point.y)" over dotted names.
+class Formula {
+ public:
+  // `names`: the quantities there are; what is none of them is looked up once. Throws ExpressionError.
+  Formula(std::string_view text, const std::vector<std::string>& names, const Lookup& lookup);
+
+  // Those it uses, as indices into `names`, each once; `values` in the same order.
+  const std::vector<int>& uses() const { return uses_; }
+  double operator()(const std::vector<double>& values) const;
+
+ private:
+  std::shared_ptr<const JetCode> code_;
+  std::vector<std::pair<std::size_t, std::size_t>> slots_;  // instruction, index into uses_
+  std::vector<int> uses_;
+};
 
 // True when the whole text is one name.
 bool is_name(std::string_view text);

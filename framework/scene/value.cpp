@@ -188,6 +188,15 @@ std::optional<TimeFunction> Value::read_time_function(Problems& problems) const 
   return TimeFunction(*number);
 }
 
+std::optional<Formula> Value::read_formula(const std::vector<std::string>& names, Problems& problems) const {
+  return compiled(*this, problems, [&](std::string_view text) {
+    return Formula(text, names, [&](std::string_view name, int column) -> double {
+      if (name.find('.') == name.npos) return lookup_in(parameters_.get())(name, column);
+      throw ExpressionError(column, fmt::format("no quantity \"{}\"{}", name, did_you_mean(name, names)));
+    });
+  });
+}
+
 Value Builder::make(Content content, Position at) {
   Value value;
   value.content_ = std::move(content);

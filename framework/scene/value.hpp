@@ -59,6 +59,8 @@ class Value;
 using Members = std::vector<std::pair<std::string, Value>>;  // in file order, keys unique
 using Items = std::vector<Value>;
 
+class Formula;
+
 class Value {
  public:
   enum class Type { null, boolean, number, text, array, object };
@@ -86,6 +88,8 @@ class Value {
   std::optional<std::vector<double>> read_numbers(Problems&) const;
   // A number, an expression that may contain t, or a table (motion_table.hpp).
   std::optional<TimeFunction> read_time_function(Problems&) const;
+  // "=..." over these dotted names, which change from call to call, and the scene's parameters.
+  std::optional<Formula> read_formula(const std::vector<std::string>& names, Problems&) const;
 
   using Parameters = std::vector<std::pair<std::string, std::variant<double, std::string>>>;
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "model/body_blocks.hpp"
+#include "simulate/redundancy.hpp"
 #include "simulate/setup.hpp"
 #include "simulate/simulator.hpp"
 
@@ -56,6 +58,10 @@ void built(Text& text, const scene::Scene& scene, const plugin::Registry& regist
   text.section("Built");
   text.line("{} scene: nq = {}, nv = {}, joint rows = {}", model.world.space == Space::planar ? "planar" : "spatial",
             model.sizes.nq, model.sizes.nv, model.sizes.nc);
+  if (model.sizes.nc > 0)
+    text.line("matrices: {}", model::BodyBlocks::worthwhile(model)
+                                  ? "blocks by body; sparse factorisations, ordered once for a pattern"
+                                  : "dense");
   for (const model::BodyEntry& body : model.bodies)
     text.line("bodies.{} ({}): nq = {}, nv = {}, {} markers; derivatives {}", body.name, type("bodies", body.name),
               body.nq, body.nv, body.body->markers().size(), body.tangent ? "exact" : "by differences");
@@ -73,6 +79,16 @@ void built(Text& text, const scene::Scene& scene, const plugin::Registry& regist
             setup.settings.own_contact_step ? ", in contact " + step_text(setup.settings.contact_step) : "");
   text.section("Plugins loaded");
   for (const std::string& file : registry.files()) text.line("{}", file);
+}
+
+void redundant(Text& text, Setup& setup) {
+  if (setup.model->sizes.nc == 0) return;
+  model::AssembledSystem system(setup.model);
+  const std::vector<RedundantRows> found = redundant_rows(system, setup.initial);
+  if (found.empty()) return;
+  text.section("Redundant rows at the initial state (accelerations are unique, multipliers those of minimum norm)");
+  for (const RedundantRows& joint : found)
+    text.line("joints.{}: {} of {} rows follow from the rows before", joint.joint, joint.redundant, joint.of);
 }
 
 void costs(Text& text, Setup& setup) {
@@ -135,6 +151,7 @@ std::string explain(const scene::Scene& scene, plugin::Registry& registry) {
   Setup setup = set_up(scene, registry);
   Text text;
   built(text, scene, registry, setup);
+  redundant(text, setup);
   costs(text, setup);
   left_out(text, setup);
   if (!setup.warnings.empty()) text.section("Warnings");

@@ -5,6 +5,9 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "simulate/redundancy.hpp"
 
 #include "simulate/contact_scale.hpp"
 #include "simulate/equilibrium.hpp"
@@ -63,6 +66,39 @@ std::string moves(model::AssembledSystem& system, const State& from, const State
   return text;
 }
 
+// Why no consistent state was found, and which joints are to blame.
+std::string contradiction(model::AssembledSystem& system, const State& start) {
+  const std::vector<std::string> names = smallest_conflict(system, start);
+  if (names.empty())
+    return "no consistent initial state was found nearby: the joints contradict each other, or the bodies are far off";
+  if (names.size() == 1)
+    return fmt::format("no consistent initial state was found nearby: joints.{} alone cannot hold from there",
+                       names[0]);
+  return fmt::format(
+      "no consistent initial state was found nearby: joints.{} contradict each other; without any one of them "
+      "the rest can hold",
+      fmt::join(names, ", joints."));
+}
+
+// Rows that hold as they are, and still ask for accelerations that no motion has.
+void check_motion(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
+  Vec a, lambda, missed;
+  system.move_to(s.t, s.q, s.v);
+  try {
+    system.accelerate({}, a, lambda);
+  } catch (const model::NotSolvable&) {
+    return;  // the run's own first solution says so, with its time
+  }
+  system.constraint_acceleration(a, missed);
+  if (missed.norm() <= 1e-6 * std::max(1.0, a.norm())) return;
+  const std::vector<std::string> names = smallest_conflict(system, s);
+  if (!names.empty())
+    problems.error(
+        root.problem(fmt::format("joints.{} hold at the start but prescribe motions that contradict each other; "
+                                 "without any one of them the rest can hold",
+                                 fmt::join(names, ", joints."))));
+}
+
 void check_joints(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
   system.move_to(s.t, s.q, s.v);
   const Vec g = system.g(), g_dot = system.g_dot();
@@ -86,8 +122,7 @@ void check_joints(model::AssembledSystem& system, const State& s, const scene::V
           ? fmt::format(
                 "the nearest consistent initial state moves {}; \"initial\": {{\"consistent\": \"project\"}} takes it",
                 moves(system, s, nearest))
-          : "no consistent initial state was found nearby: the joints contradict each other, or the bodies are far "
-            "off"));
+          : contradiction(system, s)));
 }
 
 }  // namespace
@@ -104,9 +139,8 @@ State initial_state(model::AssembledSystem& system, double t, Settings::Initial 
     if (wanted == Settings::Initial::check)
       check_joints(system, s, root, problems);
     else if (!project_position(system, s) || !project_velocity(system, s))
-      problems.error(
-          root.problem("no consistent initial state was found nearby: the joints contradict each other, or the bodies "
-                       "are far off"));
+      problems.error(root.problem(contradiction(system, s)));
+    if (problems.empty()) check_motion(system, s, root, problems);
   }
   if (wanted == Settings::Initial::equilibrium && problems.empty())
     if (const auto why = find_equilibrium(system, s))

@@ -1,12 +1,14 @@
 #include "simulate/observable.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "model/scene_keys.hpp"
+#include "scene/expression.hpp"
 #include "scene/suggestion.hpp"
 #include "simulate/relative_motion.hpp"
 
@@ -72,6 +74,20 @@ Choices all_choices(const Model& model) {
   choices.emplace_back("energy.elastic", [](Moment& m) { return m.energy().elastic; });
   choices.emplace_back("energy.total", [](Moment& m) { return m.energy().total(); });
   return choices;
+}
+
+// A column computed from others: "=rod.angle - crank.angle".
+Value derived(const std::string& name, const std::string& text, const scene::Formula& formula, const Choices& choices) {
+  std::vector<Value> inputs;
+  for (const int i : formula.uses()) inputs.push_back(choices[std::size_t(i)].second);
+  return [=](Moment& m) {
+    std::vector<double> values;
+    for (const Value& input : inputs) values.push_back(input(m));
+    const double value = formula(values);
+    if (!std::isfinite(value))
+      throw model::NotSolvable(fmt::format("record.observe.{}: \"{}\" is {}", name, text, value));
+    return value;
+  };
 }
 
 // {"of": "block.com.x", "relative_to": "table.origin", "since_start": true}: a marker's motion seen from another one.
@@ -165,6 +181,11 @@ std::vector<Column> read_observables(const scene::Value& root, const Model& mode
       problems.error(value.problem(fmt::format("\"{}\" cannot be a column's name", name)));
     if (value.type() == scene::Value::Type::object) {
       if (auto column = motions.read(name, value)) columns.push_back(std::move(*column));
+      continue;
+    }
+    if (value.type() == scene::Value::Type::text && value.text().starts_with("=")) {
+      if (const auto formula = value.read_formula(names, problems))
+        columns.push_back({name, derived(name, value.text(), *formula, choices), false});
       continue;
     }
     const auto what = value.read_text(problems);

@@ -39,6 +39,9 @@ std::vector<std::pair<std::string, MotionComponent>> motion_components(Space spa
   if (space == Space::planar)
     for (const auto& [name, order] : {std::pair{"angle", 0}, std::pair{"omega", 1}, std::pair{"alpha", 2}})
       all.emplace_back(name, MotionComponent{order, 2});
+  else
+    for (const auto& [name, order] : {std::pair{"omega_", 1}, std::pair{"alpha_", 2}})
+      for (int i = 0; i < 3; ++i) all.emplace_back(std::string(name) + axes[i], MotionComponent{order, 3 + i});
   return all;
 }
 
@@ -50,8 +53,9 @@ double seen_from(Moment& moment, model::MarkerRef A, model::MarkerRef B, MotionC
   Vector3d d = Vector3d::Zero();
   d.head(dim) = at_A.x - at_B.x;
   const auto in_B = [&](const Twist& twist) {
-    if (angular) return twist.angular[2];
-    return at_B.R.col(what.component).dot(twist.linear.head(dim));
+    if (angular && dim == 2) return twist.angular[2];
+    const Vector3d& vector = angular ? twist.angular : twist.linear;
+    return at_B.R.col(what.component % dim).dot(vector.head(dim));
   };
   if (what.order == 0) return at_B.R.col(what.component).dot(d.head(dim));
   Twist V = at_A.V;
@@ -63,7 +67,7 @@ double seen_from(Moment& moment, model::MarkerRef A, model::MarkerRef B, MotionC
   const Twist a_B = acceleration(moment, B, at_B);
   a.linear -=
       a_B.linear + a_B.angular.cross(d) + V_B.angular.cross(V_B.angular.cross(d)) + 2 * V_B.angular.cross(V.linear);
-  a.angular -= a_B.angular;
+  a.angular -= a_B.angular + V_B.angular.cross(V.angular);
   return in_B(a);
 }
 

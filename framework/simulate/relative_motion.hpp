@@ -4,8 +4,9 @@
 //     u = R_B^T (V_A - V_B - omega_B x d)
 //     a = R_B^T (A_A - A_B - alpha_B x d - omega_B x (omega_B x d) - 2 omega_B x R_B u)
 //
-// and the differences of angle, angular velocity and angular acceleration (in B's axes). Seen from the ground this is the
-// motion in world axes.
+//     w = R_B^T (omega_A - omega_B),   R_B^T (alpha_A - alpha_B - omega_B x R_B w)
+//
+// and the difference of angles in the plane. Seen from the ground this is the motion in world axes.
 #pragma once
 
 #include <string>
@@ -22,7 +23,8 @@ struct MotionComponent {
   int component;  // as in a twist: linear, then angular
 };
 
-// The names that may follow a marker's: x y z vx vy vz ax ay az; in the plane angle omega alpha too.
+// The names that may follow a marker's: x y z vx vy vz ax ay az; in the plane angle omega alpha too, in space
+// omega_x ... alpha_z.
 std::vector<std::pair<std::string, MotionComponent>> motion_components(Space space);
 
 double seen_from(Moment& moment, model::MarkerRef A, model::MarkerRef B, MotionComponent what);

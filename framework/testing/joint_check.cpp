@@ -112,19 +112,54 @@ Report reactions_balance(const Tried& j) {
   });
 }
 
+// Of joints that offer it.
+Report reaction_tangent_is_that_of_the_wrenches(const Tried& j) {
+  return compare("the reaction's derivative is that of H^T lambda", [&](Comparison& c) {
+    const Vec6 lambda = Vec::LinSpaced(j.joint->row_count(j.space), 1.5, -0.7);
+    const auto* exact = dynamic_cast<const ReactionTangent*>(j.joint.get());
+    if (!exact) return;
+    const int n = twist_size(j.space);
+    for (const double t : times) {
+      const Motion A = j.pair.a.at(t), B = j.pair.b.at(t);
+      PairTangent K;
+      for (Mat6* block : {&K.AA, &K.AB, &K.BA, &K.BB}) block->setZero(n, n);
+      exact->add_reaction_tangent(t, A, B, lambda, K);
+      const auto wrenches = [&](const Motion& a, const Motion& b) {
+        const Rows r = j.rows(t, a, b);
+        Vec both(2 * n);
+        both << r.H_A.transpose() * lambda, r.H_B.transpose() * lambda;
+        return both;
+      };
+      for (int i = 0; i < n; ++i) {
+        const Vec6 e = Vec6::Unit(n, i);
+        Vec by_A(2 * n), by_B(2 * n);
+        by_A << K.AA.col(i), K.BA.col(i);
+        by_B << K.AB.col(i), K.BB.col(i);
+        c.derivative(by_A, difference([&](double s) { return wrenches(displaced(A, s * e), B); }, step),
+                     fmt::format("by twist {} of A at t = {}", i, t));
+        c.derivative(by_B, difference([&](double s) { return wrenches(A, displaced(B, s * e)); }, step),
+                     fmt::format("by twist {} of B at t = {}", i, t));
+      }
+    }
+  });
+}
+
 }  // namespace
 
-std::vector<Check> joint_checks(const MakerOf<Joint>& make, Space space) {
+std::vector<Check> joint_checks(const MakerOf<Joint>& make, Space space, Reaction reaction) {
   using Look = Report (*)(const Tried&);
   const std::pair<const char*, Look> all[] = {
       {"RowsHaveTheirSizes", rows_have_their_sizes},
       {"JacobianIsTheGradient", jacobian_is_the_gradient},
       {"TimeDerivativeIsThatOfFrozenMarkers", g_t_is_the_time_derivative},
       {"GammaIsTheRestOfTheAcceleration", gamma_is_the_rest_of_the_acceleration},
+      {"ReactionTangentIsThatOfTheWrenches", reaction_tangent_is_that_of_the_wrenches},
       {"ReactionsBalance", reactions_balance},
   };
   std::vector<Check> checks;
-  for (const auto& [name, look] : all) checks.push_back({name, [=] { return look(Tried(make, space)); }});
+  for (const auto& [name, look] : all)
+    if (look != reactions_balance || reaction == Reaction::on_A)
+      checks.push_back({name, [=] { return look(Tried(make, space)); }});
   return checks;
 }
 

@@ -15,4 +15,19 @@ class Joint : public Component {
   virtual void rows(double t, const Motion& A, const Motion& B, Rows& rows) const = 0;
 };
 
+// How the wrenches H^T lambda on both markers change with small twists of both (translation, then rotation about world axes):
+// d(wrench on A) = AA d(twist of A) + AB d(twist of B), and so on.
+struct PairTangent {
+  Mat6 AA, AB, BA, BB;
+};
+
+// Ability of joints: that derivative exactly; by differences of `rows` where it is missing.
+class ReactionTangent {
+ public:
+  virtual ~ReactionTangent();
+  // Adds to K, which comes in with the twists' size.
+  virtual void add_reaction_tangent(double t, const Motion& A, const Motion& B, const Vec6& lambda,
+                                    PairTangent& K) const = 0;
+};
+
 }  // namespace trammel

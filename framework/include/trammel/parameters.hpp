@@ -33,7 +33,7 @@ using Named = std::vector<std::pair<std::string, T>>;
 // The types a parameter's member may have; std::optional<T> makes leaving it out distinguishable.
 //   double, int, bool, std::string    a number, a whole number, true/false, text
 //   Vec3                              a vector of the scene's dimension: 2 entries planar, 3 spatial
-//   std::vector<double>               any number of numbers
+//   std::vector<double>               any number of numbers; a single one may stand without brackets
 //   TimeFunction                      a number, an expression of t or a table
 //   Named<double>, Named<Vec3>        objects keyed by name
 //   an enum                           one of the names given to .choice(...)

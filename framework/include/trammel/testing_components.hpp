@@ -53,10 +53,10 @@ struct BodyStates {
 };
 std::vector<Check> body_checks(const MakerOf<Body>& make, const BodyStates& states = {});
 
-std::vector<Check> joint_checks(const MakerOf<Joint>& make, Space space = Space::planar);
-
-// An external force (a load) acts on B only and owes no reaction.
+// A load acts on B only and owes no reaction; the bearings of gears take part of theirs.
 enum class Reaction { on_A, outside };
+std::vector<Check> joint_checks(const MakerOf<Joint>& make, Space space = Space::planar,
+                                Reaction reaction = Reaction::on_A);
 std::vector<Check> force_checks(const MakerOf<Force>& make, Space space = Space::planar,
                                 Reaction reaction = Reaction::on_A);
 

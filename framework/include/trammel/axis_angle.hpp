@@ -1,0 +1,64 @@
+// The angle of one frame against another about an axis fixed in the first, with its exact gradient: what rotary springs,
+// drives and gears measure. In the plane, the difference of the markers' angles, which counts full turns.
+//
+//     psi = atan2(y . w, x . w)        x, y, n a right-handed triad of A, w the direction of B that is x where R_A = R_B
+//     psi' = h . (omega_B - omega_A),  h = (n - s w)/(1 - s^2),  s = n . w       s = 0 while B turns about the axis alone
+//
+// In space psi [rad] lies in (-pi, pi], and means nothing where B's w points along the axis.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include <trammel/marker.hpp>
+
+namespace trammel {
+
+class AxisAngle {
+ public:
+  AxisAngle() = default;
+  explicit AxisAngle(const Eigen::Vector3d& unit_axis) : n_(unit_axis), x_(n_.unitOrthogonal()), y_(n_.cross(x_)) {}
+
+  double angle(const Motion& A, const Motion& B) const {
+    if (planar(A)) return B.angle - A.angle;
+    const Eigen::Vector3d w = A.R.transpose() * (B.R * x_);
+    return std::atan2(y_.dot(w), x_.dot(w));
+  }
+
+  // h in world axes (1 or 3 entries): the moment of a generalised force 1 on psi; -h on A.
+  Vec3 gradient(const Motion& A, const Motion& B) const {
+    if (planar(A)) return Vec3::Ones(1);
+    const auto [n, w, s] = directions(A, B);
+    return Vec3(Eigen::Vector3d((n - s * w) / (1 - s * s)));
+  }
+
+  double rate(const Motion& A, const Motion& B) const {
+    const auto turns = A.V.size() - A.x.size();
+    return gradient(A, B).dot(B.V.tail(turns) - A.V.tail(turns));
+  }
+
+  // d h/d(turn of B) in space, A at rest.
+  Eigen::Matrix3d gradient_by_turn(const Motion& A, const Motion& B) const {
+    const auto [n, w, s] = directions(A, B);
+    const double c2 = 1 - s * s;
+    const Eigen::Matrix3d tilde_w{{0, -w.z(), w.y()}, {w.z(), 0, -w.x()}, {-w.y(), w.x(), 0}};
+    return (w * n.transpose() + s * Eigen::Matrix3d::Identity() - 2 * s / c2 * (n - s * w) * n.transpose()) / c2 *
+           tilde_w;
+  }
+
+ private:
+  struct Directions {
+    Eigen::Vector3d n, w;
+    double s;
+  };
+  static bool planar(const Motion& A) { return A.x.size() == 2; }
+  Directions directions(const Motion& A, const Motion& B) const {
+    const Eigen::Vector3d n = A.R * n_, w = B.R * x_;
+    return {n, w, n.dot(w)};
+  }
+
+  Eigen::Vector3d n_ = Eigen::Vector3d::UnitZ(), x_ = Eigen::Vector3d::UnitX(), y_ = Eigen::Vector3d::UnitY();
+};
+
+}  // namespace trammel

@@ -1,0 +1,132 @@
+#include "model/body_blocks.hpp"
+
+#include <algorithm>
+
+namespace trammel::model {
+
+using numerics::BodyBlock;
+
+bool BodyBlocks::worthwhile(const Model& model) {
+  constexpr int least_bodies = 6, least_unknowns = 80;
+  return int(model.bodies.size()) >= least_bodies && model.sizes.nv + model.sizes.nc >= least_unknowns &&
+         model.sizes.nc > 0;
+}
+
+BodyBlocks::BodyBlocks(const Model& model) : model_(model) {
+  for (const BodyEntry& entry : model.bodies) {
+    BodyBlock& block = bodies_.emplace_back();
+    block.v0 = entry.v0;
+    block.M.setZero(entry.nv, entry.nv);
+  }
+  const auto tie = [this](const auto& entry) {
+    const int a = entry.A.body, b = entry.B.body;
+    if (a < 0 || b < 0 || a == b) return;
+    tied_.push_back({a, b});
+    tied_.push_back({b, a});
+  };
+  for (const JointEntry& joint : model.joints) tie(joint);
+  for (const ForceEntry& force : model.forces) tie(force);
+  for (const ContactEntry& contact : model.contacts) tie(contact);
+  std::sort(tied_.begin(), tied_.end());
+  tied_.erase(std::unique(tied_.begin(), tied_.end()), tied_.end());
+}
+
+void BodyBlocks::lay_out(std::span<const Tie> ties) {
+  for (BodyBlock& block : bodies_) block.rows.clear();
+  for (const Tie& tie : ties)
+    for (int i = tie.first; i < tie.first + tie.count; ++i) {
+      if (tie.A >= 0) bodies_[std::size_t(tie.A)].rows.push_back(i);
+      if (tie.B >= 0 && tie.B != tie.A) bodies_[std::size_t(tie.B)].rows.push_back(i);
+    }
+  for (BodyBlock& block : bodies_) block.Gt.setZero(block.M.rows(), Eigen::Index(block.rows.size()));
+}
+
+void BodyBlocks::clear_rows() {
+  for (BodyBlock& block : bodies_) block.Gt.setZero();
+}
+
+namespace {
+
+void add(const BodyBlock& block, int row, const Motion& marker, const Mat6& H, Mat& transposed) {
+  const auto column = std::lower_bound(block.rows.begin(), block.rows.end(), row) - block.rows.begin();
+  for (Eigen::Index j = 0; j < marker.J.cols(); ++j)
+    for (Eigen::Index i = 0; i < H.rows(); ++i)
+      transposed(marker.dofs[std::size_t(j)], column + i) += H.row(i).dot(marker.J.col(j));
+}
+
+}  // namespace
+
+void BodyBlocks::add_rows(int body, int row, const Motion& marker, const Mat6& H) {
+  if (body < 0) return;
+  BodyBlock& block = bodies_[std::size_t(body)];
+  add(block, row, marker, H, block.Gt);
+}
+
+void BodyBlocks::couple() {
+  for (BodyBlock& block : bodies_) block.Wt = block.Gt;
+}
+
+void BodyBlocks::add_reaction(int body, int row, const Motion& marker, const Mat6& H) {
+  if (body < 0) return;
+  BodyBlock& block = bodies_[std::size_t(body)];
+  add(block, row, marker, H, block.Wt);
+}
+
+// With sliding friction the whole is not symmetric; the symmetric factors still tell which rows are redundant.
+bool BodyBlocks::factorise_mass(Kept& store, int nc, bool reuse, bool sliding, double rank_tolerance) {
+  using Metric = numerics::SparseMassKkt::Metric;
+  store.by = Kept::By::mass;
+  if (!store.mass.factorise(bodies_, nc, reuse ? Metric::mass_of_before : Metric::mass, rank_tolerance)) return false;
+  if (!sliding) return true;
+  if (store.mass.redundant()) return factorise_dense(store, nc, rank_tolerance);
+  store.by = Kept::By::iteration;
+  store.iteration.factorise(bodies_, model_.sizes.nv, nc, true, [this](auto&& add) {
+    for (const BodyBlock& block : bodies_)
+      for (Eigen::Index j = 0; j < block.M.cols(); ++j)
+        for (Eigen::Index i = 0; i < block.M.rows(); ++i) add(block.v0 + int(i), block.v0 + int(j), block.M(i, j));
+  });
+  return true;
+}
+
+bool BodyBlocks::factorise_dense(Kept& store, int nc, double rank_tolerance) const {
+  store.by = Kept::By::dense;
+  const int nv = model_.sizes.nv;
+  Mat M = Mat::Zero(nv, nv), G = Mat::Zero(nc, nv), W = G;
+  for (const BodyBlock& block : bodies_) {
+    const Eigen::Index n = block.M.rows();
+    M.block(block.v0, block.v0, n, n) = block.M;
+    for (std::size_t i = 0; i < block.rows.size(); ++i) {
+      G.row(block.rows[i]).segment(block.v0, n) = block.Gt.col(Eigen::Index(i)).transpose();
+      W.row(block.rows[i]).segment(block.v0, n) = block.Wt.col(Eigen::Index(i)).transpose();
+    }
+  }
+  return store.dense.factorise(M, G, W, rank_tolerance);
+}
+
+void BodyBlocks::factorise_identity(Kept& store, int nc, double rank_tolerance) {
+  store.by = Kept::By::mass;
+  store.mass.factorise(bodies_, nc, numerics::SparseMassKkt::Metric::identity, rank_tolerance);
+}
+
+void BodyBlocks::factorise_tangent(Kept& store, int nc, const Mat& S, bool sliding) {
+  store.by = Kept::By::iteration;
+  store.iteration.factorise(bodies_, model_.sizes.nv, nc, sliding, [&](auto&& add) {
+    const auto add_block = [&](const BodyEntry& row, const BodyEntry& column) {
+      for (int j = column.v0; j < column.v0 + column.nv; ++j)
+        for (int i = row.v0; i < row.v0 + row.nv; ++i) add(i, j, S(i, j));
+    };
+    for (const BodyEntry& entry : model_.bodies) add_block(entry, entry);
+    for (const auto& [a, b] : tied_) add_block(model_.bodies[std::size_t(a)], model_.bodies[std::size_t(b)]);
+  });
+}
+
+bool BodyBlocks::solve(Kept& store, const Vec& b, const Vec& c, Vec& x, Vec& y) {
+  if (store.by == Kept::By::iteration) return store.iteration.solve(b, c, x, y);
+  if (store.by == Kept::By::mass)
+    store.mass.solve(bodies_, b, c, x, y);
+  else
+    store.dense.solve(b, c, x, y);
+  return x.allFinite() && y.allFinite();
+}
+
+}  // namespace trammel::model

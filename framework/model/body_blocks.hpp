@@ -1,0 +1,61 @@
+// The equations of many bodies kept body by body: masses and rows of G as dense blocks, solved by the sparse factorisations
+// of numerics/sparse_kkt.hpp. In place of the dense matrices where bodies are many.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <trammel/system.hpp>
+
+#include "model/model.hpp"
+#include "numerics/kkt.hpp"
+#include "numerics/sparse_kkt.hpp"
+
+namespace trammel::model {
+
+class BodyBlocks {
+ public:
+  // So many bodies and unknowns that blocks are the faster way (measured on the spatial chain).
+  static bool worthwhile(const Model& model);
+
+  explicit BodyBlocks(const Model& model);
+
+  // Rows first .. first + count - 1 of g are between bodies A and B (-1: the ground). Given in ascending order; the masses stay.
+  struct Tie {
+    int first, count, A, B;
+  };
+  void lay_out(std::span<const Tie> ties);
+
+  std::vector<numerics::BodyBlock>& bodies() { return bodies_; }
+  Mat& mass(std::size_t body) { return bodies_[body].M; }
+  void clear_rows();
+  void add_rows(int body, int row, const Motion& marker, const Mat6& H);  // G += H J; row: the first of H's
+  void couple();                                                          // W = G, for more to be added to W:
+  void add_reaction(int body, int row, const Motion& marker, const Mat6& H);
+
+  // One kept factorisation, as AssembledSystem's: of M or the identity with W = G, or of any S and W. Redundant rows with sliding
+  // friction beside them are left to the dense one, which finds the least squares that the sparse LU cannot.
+  struct Kept {
+    enum class By { mass, iteration, dense } by = By::mass;
+    numerics::SparseMassKkt mass;
+    numerics::SparseIterationKkt iteration;
+    numerics::MassKkt dense;
+  };
+  std::array<Kept, 3> kept;
+  // False: a body's mass is not positive definite. `reuse`: the masses are as before. `sliding`: with W, else G alone.
+  bool factorise_mass(Kept& store, int nc, bool reuse, bool sliding, double rank_tolerance);
+  void factorise_identity(Kept& store, int nc, double rank_tolerance);
+  // Of S the blocks of bodies, and of pairs that something ties, are taken.
+  void factorise_tangent(Kept& store, int nc, const Mat& S, bool sliding);
+  [[nodiscard]] bool solve(Kept& store, const Vec& b, const Vec& c, Vec& x, Vec& y);  // false: not solvable
+
+ private:
+  bool factorise_dense(Kept& store, int nc, double rank_tolerance) const;
+
+  const Model& model_;
+  std::vector<numerics::BodyBlock> bodies_;
+  std::vector<std::array<int, 2>> tied_;  // pairs of bodies, both orders, each once
+};
+
+}  // namespace trammel::model

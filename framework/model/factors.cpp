@@ -1,0 +1,112 @@
+// The system's matrices at the point, times vectors and factorised: dense, or by BodyBlocks where bodies are many.
+#include "model/assembly.hpp"
+
+namespace trammel::model {
+
+void AssembledSystem::Work::add_mass_times(double c, const Vec& a, Vec& r) {
+  evaluate_mass();
+  if (blocks)
+    numerics::add_mass_times(blocks->bodies(), c, a, r);
+  else
+    r.noalias() += c * (M * a);
+}
+
+void AssembledSystem::Work::add_rows_times(double c, const Vec& x, Vec& rc) {
+  if (blocks)
+    numerics::add_rows_times(blocks->bodies(), c, x, rc);
+  else
+    rc.noalias() += c * (G * x);
+}
+
+void AssembledSystem::Work::add_rows_force(double c, const Vec& y, Vec& r) {
+  if (blocks)
+    numerics::add_rows_force(blocks->bodies(), c, y, r);
+  else
+    r.noalias() += c * (G.transpose() * y);
+}
+
+void AssembledSystem::Work::add_reaction(double c, const Vec& y, Vec& r) {
+  if (!coupled)
+    add_rows_force(c, y, r);
+  else if (blocks)
+    numerics::add_reaction(blocks->bodies(), c, y, r);
+  else
+    r.noalias() += c * (W.transpose() * y);
+}
+
+bool AssembledSystem::Work::factorise_mass(Store store, bool with_friction, double rank_tolerance) {
+  evaluate_rows();
+  const bool reuse = kept[store].mass_factorised && model->constant_mass;
+  Kept& dense = kept[store];
+  dense.symmetric = true;
+  if (!reuse) evaluate_mass(), ++counts.factorizations;
+  const bool sliding = with_friction && coupled;
+  if (blocks) {
+    dense.mass_factorised = blocks->factorise_mass(blocks->kept[store], sizes.nc, reuse, sliding, rank_tolerance);
+  } else if (reuse) {
+    dense.mass.change_rows(G, sliding ? W : G, rank_tolerance);
+  } else {
+    dense.mass_factorised = dense.mass.factorise(M, G, sliding ? W : G, rank_tolerance);
+  }
+  return dense.mass_factorised;
+}
+
+void AssembledSystem::Work::factorise_identity(Store store) {
+  evaluate_rows();
+  kept[store].symmetric = true;
+  kept[store].mass_factorised = false;
+  if (blocks)
+    blocks->factorise_identity(blocks->kept[store], sizes.nc, for_projection());
+  else
+    kept[store].mass.factorise(Mat::Identity(sizes.nv, sizes.nv), G, G, for_projection());
+}
+
+void AssembledSystem::Work::factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda,
+                                              bool with_friction) {
+  evaluate_rows();
+  ++counts.factorizations;
+  kept[store].symmetric = false;
+  const bool sliding = with_friction && coupled;
+  Mat& S = blocks ? tangent : kept[store].iteration.begin(sizes.nv, sizes.nc);
+  if (blocks) S.setZero(sizes.nv, sizes.nv);
+  add_tangent(c, a, lambda, S);
+  if (blocks)
+    blocks->factorise_tangent(blocks->kept[store], sizes.nc, S, sliding);
+  else
+    kept[store].iteration.factorise(sliding ? W : G, G, for_projection());
+}
+
+bool AssembledSystem::Work::solve(Store store, const Vec& b, const Vec& c, Vec& x, Vec& y) {
+  if (blocks) return blocks->solve(blocks->kept[store], b, c, x, y);
+  if (!kept[store].symmetric) return kept[store].iteration.solve(b, c, x, y);
+  kept[store].mass.solve(b, c, x, y);
+  return x.allFinite() && y.allFinite();
+}
+
+bool AssembledSystem::Work::redundant(Store store) const {
+  return blocks ? blocks->kept[store].mass.redundant() : kept[store].mass.redundant();
+}
+
+std::function<void(const Vec& impulse, Vec& dv)> AssembledSystem::Work::with_joints_held() {
+  evaluate_rows();
+  evaluate_mass();
+  const int joint_rows = model->sizes.nc;
+  const auto solver = [joint_rows](auto&& solve) {
+    return [joint_rows, solve](const Vec& impulse, Vec& dv) {
+      Vec on_joints;
+      solve(impulse, Vec(Vec::Zero(joint_rows)), dv, on_joints);
+    };
+  };
+  if (blocks) {
+    const auto held = std::make_shared<numerics::SparseMassKkt>();
+    if (!held->factorise(blocks->bodies(), joint_rows, numerics::SparseMassKkt::Metric::mass))
+      throw NotSolvable("the mass matrix is not positive definite");
+    return solver(
+        [held, this](const Vec& b, const Vec& c, Vec& x, Vec& y) { held->solve(blocks->bodies(), b, c, x, y); });
+  }
+  const auto held = std::make_shared<numerics::MassKkt>();
+  if (!held->factorise(M, G.topRows(joint_rows))) throw NotSolvable("the mass matrix is not positive definite");
+  return solver([held](const Vec& b, const Vec& c, Vec& x, Vec& y) { held->solve(b, c, x, y); });
+}
+
+}  // namespace trammel::model

@@ -1,0 +1,248 @@
+#include <trammel/joint_rows.hpp>
+
+#include <trammel/component.hpp>
+
+namespace trammel {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+// Products with an angular velocity: C(n) omega = omega x n, C(n)^T d = n x d.
+template <int D>
+struct Plane {  // D = 2
+  static constexpr int rotations = 1;
+  using Vector = Eigen::Vector2d;
+  using Turn = Eigen::Matrix<double, 1, 1>;
+  static Eigen::Matrix<double, 2, 1> C(const Vector& n) { return {-n.y(), n.x()}; }
+};
+template <int D>
+struct Spatial {
+  static constexpr int rotations = 3;
+  using Vector = Vector3d;
+  using Turn = Vector3d;
+  static Matrix3d C(const Vector& n) { return Matrix3d{{0, n.z(), -n.y()}, {-n.z(), 0, n.x()}, {n.y(), -n.x(), 0}}; }
+};
+template <int D>
+using Of = std::conditional_t<D == 2, Plane<D>, Spatial<D>>;
+
+Matrix3d tilde(const Vector3d& a) {
+  return Spatial<3>::C(a).transpose();
+}
+
+// Any right-handed triad with n first.
+Matrix3d triad(const Vector3d& n) {
+  Matrix3d e;
+  e.col(0) = n;
+  e.col(1) = n.unitOrthogonal();
+  e.col(2) = n.cross(Vector3d(e.col(1)));
+  return e;
+}
+
+}  // namespace
+
+ReactionTangent::~ReactionTangent() = default;
+
+Vec3 unit_axis(const Vec3& axis, const char* parameter) {
+  const double length = axis.stableNorm();
+  if (!(length > 0))
+    throw ParameterError(parameter, "the direction has length 0; expected a direction, e.g. [1, 0, 0]");
+  return axis / length;
+}
+
+Vector3d spatial_axis(const World& world, const std::optional<Vec3>& axis, const char* parameter,
+                      const Vector3d& otherwise) {
+  if (!axis) return otherwise;
+  if (world.space == Space::planar)
+    throw ParameterError(parameter, "this scene is planar, where everything turns about the plane's normal; remove it");
+  return unit_axis(*axis, parameter);
+}
+
+Quaterniond unit_quaternion(const World& world, const std::vector<double>& wxyz, const char* parameter) {
+  if (wxyz.empty()) return Quaterniond::Identity();
+  if (world.space == Space::planar)
+    throw ParameterError(parameter, "this scene is planar; give \"angle\" in its place");
+  const Eigen::Map<const Vec> p(wxyz.data(), Eigen::Index(wxyz.size()));
+  if (p.size() != 4 || !(p.stableNorm() > 0))
+    throw ParameterError(parameter, "expected a quaternion [w, x, y, z] that is not zero");
+  const Vec unit = p.stableNormalized();
+  return {unit(0), unit(1), unit(2), unit(3)};
+}
+
+JointRows& JointRows::same_point() {
+  rows_.push_back(SamePoint{});
+  return *this;
+}
+
+JointRows& JointRows::offset(const Vec3& n, TimeFunction p) {
+  rows_.push_back(Offset{n, std::move(p)});
+  return *this;
+}
+
+JointRows& JointRows::across(const Vec3& n) {
+  if (space_ == Space::planar) return offset(Eigen::Vector2d(-n(1), n(0)));
+  const Matrix3d e = triad(n);
+  return offset(Vector3d(e.col(1))).offset(Vector3d(e.col(2)));
+}
+
+JointRows& JointRows::dot(const Vector3d& a, const Vector3d& b) {
+  rows_.push_back(Dot{a, b, Vector3d::UnitZ(), {}});
+  return *this;
+}
+
+JointRows& JointRows::parallel(const Vector3d& n_A, const Vector3d& n_B) {
+  if (space_ == Space::planar) return *this;
+  const Matrix3d e = triad(n_A);
+  return dot(e.col(1), n_B).dot(e.col(2), n_B);
+}
+
+JointRows& JointRows::angle(const Vec3& n, const Quaterniond& Q, TimeFunction phi) {
+  if (space_ == Space::planar) {
+    rows_.push_back(Angle{std::move(phi)});
+    return *this;
+  }
+  const Matrix3d e = triad(n);
+  // a . b = e_2 . turn(delta) (-e_3) = sin(delta)
+  rows_.push_back(Dot{e.col(1), Q.conjugate() * Vector3d(-e.col(2)), n, std::move(phi)});
+  return *this;
+}
+
+JointRows& JointRows::orientation(const Vec3& n, const Quaterniond& Q, TimeFunction phi) {
+  angle(n, Q, phi);
+  if (space_ == Space::planar) return *this;
+  const Matrix3d e = triad(n);
+  const Vector3d n_B = Q.conjugate() * Vector3d(n);
+  return dot(e.col(1), n_B).dot(e.col(2), n_B);
+}
+
+int JointRows::count() const {
+  int n = 0;
+  for (const Row& row : rows_) n += std::holds_alternative<SamePoint>(row) ? dimension(space_) : 1;
+  return n;
+}
+
+// One joint at one instant.
+template <int D>
+struct JointRows::Evaluation {
+  static constexpr int turns = Of<D>::rotations;
+  using Vector = typename Of<D>::Vector;
+  using Turn = typename Of<D>::Turn;
+
+  Evaluation(double time, const Motion& of_A, const Motion& of_B)
+      : t(time),
+        A(of_A),
+        B(of_B),
+        d(of_B.x - of_A.x),
+        d_dot(of_B.V.head<D>() - of_A.V.head<D>()),
+        omega(of_A.V.tail<turns>()) {}
+
+  void place(const SamePoint&, int& i, Rows& r) const {
+    r.g.segment<D>(i) = d;
+    r.H_A.block<D, D>(i, 0).diagonal().setConstant(-1);
+    r.H_B.block<D, D>(i, 0).diagonal().setConstant(1);
+    i += D;
+  }
+
+  void place(const Offset& row, int& i, Rows& r) const {
+    const Vector n = A.R * row.n;
+    const auto p = row.p.jet(t);
+    const Vector n_dot = Of<D>::C(n) * omega;
+    r.g(i) = n.dot(d) - p.value;
+    r.g_t(i) = -p.rate;
+    r.gamma(i) = -2 * n_dot.dot(d_dot) - (Of<D>::C(n_dot) * omega).dot(d) + p.second;
+    r.H_A.row(i).template head<D>() = -n.transpose();
+    r.H_A.row(i).template tail<turns>() = (Of<D>::C(n).transpose() * d).transpose();
+    r.H_B.row(i).template head<D>() = n.transpose();
+    ++i;
+  }
+
+  void place(const Dot& row, int& i, Rows& r) const {
+    if constexpr (D == 3) {
+      const auto phi = row.phi.jet(t);
+      const Vector3d n = A.R * row.axis, a = turned(row, phi.value), b = B.R * row.b, c = a.cross(b);
+      const Vector3d omega_a = omega + phi.rate * n, omega_b = B.V.tail<3>();
+      const Vector3d c_dot = omega_a.cross(a).cross(b) + a.cross(omega_b.cross(b));
+      const Vector3d alpha = phi.second * n + phi.rate * omega.cross(n);  // of the turned A besides alpha_A
+      r.g(i) = a.dot(b);
+      r.g_t(i) = phi.rate * n.dot(c);
+      r.gamma(i) = -alpha.dot(c) - (omega_a - omega_b).dot(c_dot);
+      r.H_A.row(i).template tail<3>() = c.transpose();
+      r.H_B.row(i).template tail<3>() = -c.transpose();
+      ++i;
+    }
+  }
+
+  void place(const Angle& row, int& i, Rows& r) const {
+    const auto phi = row.phi.jet(t);
+    r.g(i) = B.angle - A.angle - phi.value;
+    r.g_t(i) = -phi.rate;
+    r.gamma(i) = phi.second;
+    r.H_A(i, D) = -1;
+    r.H_B(i, D) = 1;
+    ++i;
+  }
+
+  void vary(const SamePoint&, const double*& lambda, PairTangent&) const { lambda += D; }
+  void vary(const Angle&, const double*& lambda, PairTangent&) const { ++lambda; }
+
+  // W_A = lambda (-n, n x d), W_B = lambda (n, 0)
+  void vary(const Offset& row, const double*& lambda, PairTangent& K) const {
+    const double l = *lambda++;
+    const Vector n = A.R * row.n;
+    const auto C = Of<D>::C(n);
+    K.AA.topRightCorner<D, turns>() -= l * C;
+    K.BA.topRightCorner<D, turns>() += l * C;
+    K.AA.bottomLeftCorner<turns, D>() -= l * C.transpose();
+    K.AB.bottomLeftCorner<turns, D>() += l * C.transpose();
+    K.AA.bottomRightCorner<turns, turns>() -= l * Of<D>::C(d).transpose() * C;
+  }
+
+  // W_A = lambda (0, a x b) = -W_B
+  void vary(const Dot& row, const double*& lambda, PairTangent& K) const {
+    const double l = *lambda++;
+    if constexpr (D == 3) {
+      const Matrix3d a = tilde(turned(row, row.phi(t))), b = tilde(B.R * row.b);
+      const Matrix3d by_A = l * b * a, by_B = -l * a * b;
+      K.AA.bottomRightCorner<3, 3>() += by_A;
+      K.BA.bottomRightCorner<3, 3>() -= by_A;
+      K.AB.bottomRightCorner<3, 3>() += by_B;
+      K.BB.bottomRightCorner<3, 3>() -= by_B;
+    }
+  }
+
+  Vector3d turned(const Dot& row, double phi) const {
+    return phi == 0 ? Vector3d(A.R * row.a) : Vector3d(A.R * (Eigen::AngleAxisd(phi, row.axis) * row.a));
+  }
+
+  double t;
+  const Motion &A, &B;
+  Vector d, d_dot;
+  Turn omega;
+};
+
+void JointRows::rows(double t, const Motion& A, const Motion& B, Rows& rows) const {
+  int i = 0;
+  const auto place_all = [&](const auto& evaluation) {
+    for (const Row& row : rows_) std::visit([&](const auto& one) { evaluation.place(one, i, rows); }, row);
+  };
+  if (space_ == Space::planar)
+    place_all(Evaluation<2>(t, A, B));
+  else
+    place_all(Evaluation<3>(t, A, B));
+}
+
+void JointRows::add_reaction_tangent(double t, const Motion& A, const Motion& B, const Vec6& lambda,
+                                     PairTangent& K) const {
+  const double* each = lambda.data();
+  const auto vary_all = [&](const auto& evaluation) {
+    for (const Row& row : rows_) std::visit([&](const auto& one) { evaluation.vary(one, each, K); }, row);
+  };
+  if (space_ == Space::planar)
+    vary_all(Evaluation<2>(t, A, B));
+  else
+    vary_all(Evaluation<3>(t, A, B));
+}
+
+}  // namespace trammel
