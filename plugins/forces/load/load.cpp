@@ -15,14 +15,17 @@ struct Load : Force {
   enum class Frame { world, body };
   Frame frame = Frame::world;
   TimeFunction force_x, force_y;
-  std::optional<TimeFunction> force_z;  // spatial scenes only
-  std::optional<TimeFunction> moment;   // planar scenes only
+  std::optional<TimeFunction> force_z, torque_x, torque_y, torque_z;  // spatial scenes only
+  std::optional<TimeFunction> moment;                                 // planar scenes only
 
   void prepare(const World& world) override {
-    if (world.space == Space::planar && force_z)
-      throw ParameterError("force.z", "this scene is planar: a load has force.x, force.y and moment");
-    if (world.space == Space::spatial && moment)
-      throw ParameterError("moment", "this scene is spatial: a load has force.x, force.y and force.z, no moment");
+    const bool spatial = world.space == Space::spatial;
+    for (const auto& [name, given] : {std::pair{"force.z", &force_z}, std::pair{"torque.x", &torque_x},
+                                      std::pair{"torque.y", &torque_y}, std::pair{"torque.z", &torque_z}})
+      if (!spatial && *given)
+        throw ParameterError(name, "this scene is planar: a load has force.x, force.y and moment");
+    if (spatial && moment)
+      throw ParameterError("moment", "this scene is spatial: a moment is given as torque.x, torque.y and torque.z");
   }
 
   void wrench(double t, const Motion&, const Motion& B, Wrench&, Wrench& on_B) const override { on_B += at(t, B); }
@@ -31,27 +34,35 @@ struct Load : Force {
 
  private:
   Wrench at(double t, const Motion& B) const {
-    const auto dim = B.x.size();
-    Vec3 F(dim);
-    F(0) = force_x(t);
-    F(1) = force_y(t);
-    if (dim == 3) F(2) = force_z ? (*force_z)(t) : 0;
-    Wrench w = Wrench::Zero(B.V.size());
-    w.head(dim) = frame == Frame::body ? Vec3(B.R * F) : F;
-    if (moment) w(2) = (*moment)(t);
+    const auto at_t = [t](const std::optional<TimeFunction>& law) { return law ? (*law)(t) : 0.0; };
+    if (B.x.size() == 2) {
+      Wrench w(3);
+      w << force_x(t), force_y(t), at_t(moment);
+      if (frame == Frame::body) w.head<2>() = B.R * w.head<2>().eval();
+      return w;
+    }
+    Wrench w(6);
+    w << force_x(t), force_y(t), at_t(force_z), at_t(torque_x), at_t(torque_y), at_t(torque_z);
+    if (frame == Frame::body) {
+      w.head<3>() = B.R * w.head<3>().eval();
+      w.tail<3>() = B.R * w.tail<3>().eval();
+    }
     return w;
   }
 };
 
 }  // namespace
 
-TRAMMEL_PLUGIN(trammel::force<Load>("load", "force and moment on a marker as laws of time")
-                   .source("an applied wrench")
-                   .parameter("force.x", &Load::force_x, {.unit = "N", .doc = "a number or a law of t"})
-                   .parameter("force.y", &Load::force_y, {.unit = "N", .doc = "a number or a law of t"})
-                   .parameter("force.z", &Load::force_z,
-                              {.unit = "N", .doc = "in spatial scenes; a number or a law of t"})
-                   .parameter("moment", &Load::moment,
-                              {.unit = "N m", .doc = "in planar scenes, counter-clockwise; a number or a law of t"})
-                   .choice("frame", &Load::frame, {{"world", Load::Frame::world}, {"body", Load::Frame::body}},
-                           {.doc = "axes of the force: the world's, or the marker's"}))
+TRAMMEL_PLUGIN(
+    trammel::force<Load>("load", "force and moment on a marker as laws of time")
+        .source("an applied wrench")
+        .parameter("force.x", &Load::force_x, {.unit = "N", .doc = "a number or a law of t"})
+        .parameter("force.y", &Load::force_y, {.unit = "N", .doc = "a number or a law of t"})
+        .parameter("force.z", &Load::force_z, {.unit = "N", .doc = "in spatial scenes; a number or a law of t"})
+        .parameter("moment", &Load::moment,
+                   {.unit = "N m", .doc = "in planar scenes, counter-clockwise; a number or a law of t"})
+        .parameter("torque.x", &Load::torque_x, {.unit = "N m", .doc = "in spatial scenes; a number or a law of t"})
+        .parameter("torque.y", &Load::torque_y, {.unit = "N m", .doc = "in spatial scenes; a number or a law of t"})
+        .parameter("torque.z", &Load::torque_z, {.unit = "N m", .doc = "in spatial scenes; a number or a law of t"})
+        .choice("frame", &Load::frame, {{"world", Load::Frame::world}, {"body", Load::Frame::body}},
+                {.doc = "axes of force and torque: the world's, or the marker's"}))

@@ -1,10 +1,17 @@
-// A planar rotary spring and damper between two markers' frames.
+// A rotary spring and damper between two markers' frames, about an axis of the first.
 //
-//     M = k (phi - angle) + c phi'        phi = theta_B - theta_A, counting full turns
+//     M = k (phi - angle) + c phi'        phi: angle of B against A about the axis, see axis_angle.hpp
 //     U = k (phi - angle)^2 / 2           dissipated power c phi'^2
 //
-// A is turned with +M and B with -M [N m], counter-clockwise positive.
+// A is turned with +M h and B with -M h [N m], h the gradient of phi: the axis itself while a hinge holds it. In the plane
+// phi = theta_B - theta_A counts full turns; in space phi - angle is taken into [-pi, pi], so that half a turn away from
+// rest the spring snaps over.
+#include <cmath>
+#include <numbers>
+
+#include <trammel/axis_angle.hpp>
 #include <trammel/force.hpp>
+#include <trammel/joint_rows.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
@@ -13,17 +20,17 @@ using namespace trammel;
 
 struct TorsionalSpring : Force {
   double stiffness = 0, damping = 0, angle = 0;
+  std::optional<Vec3> axis;
 
   void prepare(const World& world) override {
-    if (world.space != Space::planar)
-      throw ParameterError("type", "torsional_spring is planar; this scene is spatial, where it would need an axis");
     if (stiffness == 0 && damping == 0) throw ParameterError("stiffness", "give stiffness, damping or both");
+    phi_ = AxisAngle(spatial_axis(world, axis, "axis"));
   }
 
   void wrench(double, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
-    const double moment = stiffness * twist(A, B) + damping * (B.V(2) - A.V(2));
-    on_A(2) += moment;
-    on_B(2) -= moment;
+    const Vec3 moment = (stiffness * twist(A, B) + damping * phi_.rate(A, B)) * phi_.gradient(A, B);
+    on_A.tail(moment.size()) += moment;
+    on_B.tail(moment.size()) -= moment;
   }
 
   double potential(double, const Motion& A, const Motion& B) const override {
@@ -31,19 +38,25 @@ struct TorsionalSpring : Force {
   }
 
   Power power(double, const Motion& A, const Motion& B) const override {
-    const double phi_dot = B.V(2) - A.V(2);
+    const double phi_dot = phi_.rate(A, B);
     return {.dissipated = damping * phi_dot * phi_dot};
   }
 
  private:
-  double twist(const Motion& A, const Motion& B) const { return B.angle - A.angle - angle; }
+  double twist(const Motion& A, const Motion& B) const {
+    const double from_rest = phi_.angle(A, B) - angle;
+    return A.x.size() == 2 ? from_rest : std::remainder(from_rest, 2 * std::numbers::pi);
+  }
+
+  AxisAngle phi_;
 };
 
 }  // namespace
 
-TRAMMEL_PLUGIN(trammel::force<TorsionalSpring>("torsional_spring",
-                                               "planar rotary spring and damper between two markers")
+TRAMMEL_PLUGIN(trammel::force<TorsionalSpring>("torsional_spring", "rotary spring and damper between two markers")
                    .source("Hooke's law with viscous damping in the relative angle")
                    .parameter("stiffness", &TorsionalSpring::stiffness, {.unit = "N m/rad", .min = 0, .doc = "k"})
                    .parameter("damping", &TorsionalSpring::damping, {.unit = "N m s/rad", .min = 0, .doc = "c"})
-                   .parameter("angle", &TorsionalSpring::angle, {.unit = "rad", .doc = "theta_B - theta_A at rest"}))
+                   .parameter("angle", &TorsionalSpring::angle, {.unit = "rad", .doc = "of B against A at rest"})
+                   .parameter("axis", &TorsionalSpring::axis,
+                              {.doc = "spatial: in marker A's axes; [0, 0, 1] if left out"}))

@@ -18,7 +18,7 @@ namespace {
 
 using namespace trammel;
 
-struct Distance : Joint {
+struct Distance : Joint, ReactionTangent {
   TimeFunction length;
 
   void prepare(const World&) override {
@@ -42,6 +42,16 @@ struct Distance : Joint {
     rows.g_t(0) = -(stretch + 1) * L_dot / 2;
     rows.gamma(0) = -d_dot.squaredNorm() / L + 2 * d.dot(d_dot) * L_dot / (L * L) + (stretch + 1) * L_ddot / 2 -
                     stretch * L_dot * L_dot / L;
+  }
+
+  // The wrenches are -+ lambda d / L.
+  void add_reaction_tangent(double t, const Motion& A, const Motion&, const Vec6& lambda,
+                            PairTangent& K) const override {
+    const double k = lambda(0) / length(t);
+    for (Eigen::Index i = 0; i < A.x.size(); ++i) {
+      K.AA(i, i) += k, K.BB(i, i) += k;
+      K.AB(i, i) -= k, K.BA(i, i) -= k;
+    }
   }
 };
 

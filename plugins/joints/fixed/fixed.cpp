@@ -1,38 +1,38 @@
-// A planar weld: the two markers keep one place and one relative angle.
+// A weld: the two markers keep one place and one relative orientation, which may turn by a law of time (a rotary drive).
 //
-//     g = (x_B - x_A,  theta_B - theta_A - angle) = 0   (3 rows)
+//     g = (x_B - x_A, orientation of B against A) = 0        3 rows planar, 6 spatial
 //
-// The angle may be a law of time, which makes the weld an ideal rotary drive. lambda [N, N, N m], world axes.
-#include <trammel/joint.hpp>
+// planar theta_B = theta_A + angle; spatial R_B = R_A turn(axis, angle) orientation. lambda [N, N m].
+#include <trammel/joint_rows.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
 
 using namespace trammel;
+using Eigen::Vector3d;
 
-struct Fixed : Joint {
+struct Fixed : RowJoint {
   TimeFunction angle;
+  std::optional<Vec3> axis;
+  std::vector<double> orientation;
 
-  void prepare(const World& world) override {
-    if (world.space != Space::planar)
-      throw ParameterError("type", "fixed is planar; this scene is spatial. Set \"space\": \"planar\"");
-  }
-  int row_count(Space) const override { return 3; }
-
-  void rows(double t, const Motion& A, const Motion& B, Rows& rows) const override {
-    const TimeFunction::Jet offset = angle.jet(t);
-    rows.g << B.x - A.x, B.angle - A.angle - offset.value;
-    rows.H_A = -Eigen::Matrix3d::Identity();
-    rows.H_B = Eigen::Matrix3d::Identity();
-    rows.g_t(2) = -offset.rate;
-    rows.gamma(2) = offset.second;
+  JointRows made_of(const World& world) const override {
+    return JointRows(world.space)
+        .same_point()
+        .orientation(spatial_axis(world, axis, "axis"), unit_quaternion(world, orientation, "orientation"), angle);
   }
 };
 
 }  // namespace
 
 TRAMMEL_PLUGIN(
-    trammel::joint<Fixed>("fixed", "planar weld: two markers share one point and one orientation")
+    trammel::joint<Fixed>("fixed", "weld: two markers share one point and one orientation")
         .source("A. A. Shabana, Dynamics of Multibody Systems: rigid joint")
         .parameter("angle", &Fixed::angle,
-                   {.unit = "rad", .doc = "of B's frame against A's; a number or a law of t", .derivatives = 2}))
+                   {.unit = "rad",
+                    .doc = "of B's frame against A's, in space about axis; a number or a law of t",
+                    .derivatives = 2})
+        .parameter("axis", &Fixed::axis,
+                   {.doc = "spatial: what angle turns about, in marker A's axes; [0, 0, 1] if left out"})
+        .parameter("orientation", &Fixed::orientation,
+                   {.doc = "spatial: of B's frame against A's at angle 0, quaternion [w, x, y, z]; none if empty"}))

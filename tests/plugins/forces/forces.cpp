@@ -44,6 +44,25 @@ TEST(TorsionalSpring, CountsFullTurns) {
   EXPECT_DOUBLE_EQ(w.on_B(2), -2 * turns);
 }
 
+TEST(TorsionalSpring, TurnsAboutItsAxisInSpace) {
+  const auto spring =
+      made<Force>(Kind::force, R"({"type": "torsional_spring", "stiffness": 2, "axis": [0, 3, 0]})", spatial());
+  const Wrenches w =
+      wrenches(*spring, 0, marker_at(Vec::Zero(6), Vec::Zero(6)), marker_at(0.4 * Vec::Unit(6, 4), Vec::Zero(6)));
+  EXPECT_LT((w.on_B.tail<3>() + 0.8 * Eigen::Vector3d::UnitY()).norm(), 1e-15);
+}
+
+TEST(Drive, HasItsStallMomentAtRestAndNoneAtItsFreeSpeed) {
+  const auto drive = made<Force>(Kind::force, R"({"type": "drive", "stall": 4, "free_speed": 30})");
+  const auto moment = [&](double speed) {
+    return wrenches(*drive, 0, marker_at(Vec::Zero(3), Vec::Zero(3)), marker_at(Vec::Zero(3), speed * Vec::Unit(3, 2)))
+        .on_B(2);
+  };
+  EXPECT_DOUBLE_EQ(moment(0), 4);
+  EXPECT_DOUBLE_EQ(moment(15), 2);
+  EXPECT_DOUBLE_EQ(moment(30), 0);
+}
+
 TEST(Load, FollowsItsLawsOfTimeInWorldAxes) {
   const auto load =
       made<Force>(Kind::force, R"({"type": "load", "force": {"x": "=3*t", "y": -2}, "moment": "=cos(t)*1"})");
@@ -80,7 +99,11 @@ TEST(Forces, RefuseWhatTheyCannotDo) {
   const auto refused = [](const char* entry, const World& world, const char* reason) {
     EXPECT_NE(refusal(Kind::force, entry, world).find(reason), std::string::npos) << refusal(Kind::force, entry, world);
   };
-  refused(R"({"type": "torsional_spring", "stiffness": 1})", spatial(), "this scene is spatial");
+  refused(R"({"type": "torsional_spring", "stiffness": 1, "axis": [0, 1]})", planar(), "this scene is planar");
+  refused(R"({"type": "bushing"})", planar(), "give stiffness");
+  refused(R"({"type": "bushing", "torsional_stiffness": 1})", spatial(), "expected three numbers");
+  refused(R"({"type": "drive", "stall": 1})", planar(), "free_speed");
+  refused(R"({"type": "load", "torque": {"x": 1}})", planar(), "this scene is planar");
   refused(R"({"type": "torsional_spring"})", planar(), "give stiffness, damping or both");
   refused(R"({"type": "spring_damper"})", planar(), "give stiffness, damping or both");
   refused(R"({"type": "spring_damper", "stiffness": 5})", planar(), "needs its rest length");

@@ -26,14 +26,34 @@ TEST(Prismatic, MeasuresTheDistanceFromTheGuideWhateverTheAxisLength) {
 }
 
 TEST(Joints, RefuseWhatTheyCannotDo) {
-  for (const char* planar_only : {"revolute", "prismatic", "fixed"}) {
-    const std::string entry = std::string(R"({"type": ")") + planar_only + "\"}";
-    EXPECT_NE(refusal(Kind::joint, entry, spatial()).find("this scene is spatial"), std::string::npos) << planar_only;
-    EXPECT_EQ(refusal(Kind::joint, entry), "") << planar_only;
+  for (const char* spatial_only : {"universal", "cylindrical"}) {
+    const std::string entry = std::string(R"({"type": ")") + spatial_only + "\"}";
+    EXPECT_NE(refusal(Kind::joint, entry).find("this scene is planar"), std::string::npos) << spatial_only;
+    EXPECT_EQ(refusal(Kind::joint, entry, spatial()), "") << spatial_only;
   }
+  EXPECT_NE(refusal(Kind::joint, R"({"type": "revolute", "axis": [0, 1]})").find("this scene is planar"),
+            std::string::npos);
+  EXPECT_NE(refusal(Kind::joint, R"({"type": "revolute", "axis": [0, 0, 0]})", spatial()).find("axis"),
+            std::string::npos);
+  EXPECT_NE(refusal(Kind::joint, R"({"type": "fixed", "orientation": [1, 0]})", spatial()).find("quaternion"),
+            std::string::npos);
+  EXPECT_NE(refusal(Kind::joint, R"({"type": "gear", "teeth": [1.5, 2]})").find("whole numbers"), std::string::npos);
   EXPECT_NE(refusal(Kind::joint, R"({"type": "prismatic", "axis": [0, 0]})").find("axis"), std::string::npos);
   EXPECT_NE(refusal(Kind::joint, R"({"type": "distance"})").find("length"), std::string::npos);
   EXPECT_NE(refusal(Kind::joint, R"({"type": "distance", "length": -1})").find("greater than 0"), std::string::npos);
+}
+
+TEST(Gear, KeepsTheRatioOfItsTeethOverManyTurns) {
+  const auto gear = made<Joint>(Kind::joint, R"({"type": "gear", "teeth": [12, 17]})", spatial());
+  const auto turned = [](double angle) { return marker_at(angle * Vec::Unit(6, 5), Vec::Zero(6)); };
+  Rows rows;
+  for (double angle : {0.0, 1.0, 40.0, -300.0}) {
+    rows.resize(1, Space::spatial);
+    gear->rows(0, turned(17 * angle), turned(-12 * angle), rows);
+    EXPECT_NEAR(rows.g(0), 0, 1e-12) << angle;  // round-off of 5100 rad
+    gear->rows(0, turned(17 * angle), turned(-12 * angle + 0.01), rows);
+    EXPECT_NEAR(rows.g(0), 0.01, 1e-12) << angle;
+  }
 }
 
 TEST(Distance, RefusesALengthThatVanishesDuringTheRun) {
