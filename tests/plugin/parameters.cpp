@@ -212,7 +212,7 @@ TEST(Parameters, WithTooManyNumbersForTheSpaceAreRefused) {
 
 TEST(Parameters, HaveTheirRangeInEveryEntry) {
   EXPECT_THAT(make_with(R"("weights": [1, -2])").problem(),
-              StartsWith("weights: found -2, expected an array of numbers >= 0"));
+              StartsWith("weights: found -2, expected a number or an array of numbers >= 0"));
   EXPECT_THAT(make_with(R"("position": [1, 101])").problem(),
               StartsWith("position: found 101, expected a vector <= 100"));
   EXPECT_THAT(make_with(R"("stations": {"tip": 2})").problem(), StartsWith("stations.tip: found 2"));

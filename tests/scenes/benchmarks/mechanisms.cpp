@@ -1,0 +1,123 @@
+// Benchmarks of closed loops and chains.
+#include <cmath>
+
+#include "benchmark.hpp"
+
+namespace trammel::test {
+namespace {
+
+TEST(BenchmarkAndrews, MeetsItsReference) {
+  const auto data = reference("andrews");
+  const Finished run = run_benchmark("andrews");
+  expect_accepted(data, "beta(0.03) rad", run.end("beta"));
+  expect_accepted(data, "theta(0.03) rad", run.end("theta"));
+  expect_accepted(data, "gamma(0.03) rad", run.end("gamma"));
+  expect_accepted(data, "epsilon(0.03) rad", run.end("epsilon"));
+  expect_accepted(data, "beta_dot(0.03) rad/s", run.end("beta_dot"));
+  expect_accepted(data, "max |g| at end, m", run.end("constraint_position"));
+}
+
+TEST(BenchmarkSliderCrank, MeetsItsReference) {
+  const auto data = reference("flexible_slider_crank");
+  const Finished run = run_benchmark("slider_crank");
+  expect_accepted(data, "phi2(0.1)", run.end("phi2"));
+  expect_accepted(data, "x3(0.1) m", run.end("x3"));
+  expect_accepted(data, "q1(0.1) m", run.end("q1"));
+  expect_accepted(data, "q2(0.1) m", run.end("q2"));
+  expect_accepted(data, "q3(0.1) m", run.end("q3"));
+  expect_accepted(data, "q4(0.1) m", run.end("q4"));
+}
+
+TEST(BenchmarkA02, StaysOnItsBranchThroughTwentySingularPositions) {
+  const auto data = reference("iftomm_a02_n_four_bar");
+  const Finished run = run_benchmark("a02_n2");
+  expect_accepted(data, "N=2 B0 x(10)", run.end("B0_x"));
+  expect_accepted(data, "N=2 B0 y(10)", run.end("B0_y"));
+}
+
+TEST(BenchmarkA04, MovesThoughItsRowsAreRedundant) {
+  const auto data = reference("iftomm_a04_bricard");
+  const Finished run = run_benchmark("a04");
+  expect_accepted(data, "P2 x(10) m", run.end("P2_x"));
+  expect_accepted(data, "P2 y(10) m", run.end("P2_y"));
+  expect_accepted(data, "P2 z(10) m", run.end("P2_z"));
+  expect_accepted(data, "P3 y(1.2) m", at(run, 1.2, "P3_y"));
+  expect_accepted(data, "energy drift J", spread(run.series.at("energy_total")));
+  expect_accepted(data, "closure error m", run.end("constraint_position"));
+}
+
+TEST(BenchmarkA04, ExplainNamesItsRedundantRow) {
+  const scene::Scene scene = scene::Scene::load(TRAMMEL_SOURCE_DIR "/scenes/benchmarks/a04.json");
+  EXPECT_NE(simulate::explain(scene, registry()).find("joints.P5: 1 of 5 rows follow from the rows before"),
+            std::string::npos);
+}
+
+// Steps of 1e-3 s at rates omega up to 3.5 rad/s, in lengths of 1 m: the trapezoidal rule's (h omega)^2 / 12 for methods of
+// second order, (h omega)^4 for the others.
+struct Expected {
+  const char* method;
+  double within;
+};
+class RedundantRows : public testing::TestWithParam<Expected> {};
+
+TEST_P(RedundantRows, AreOrdinaryToEveryMethod) {
+  const auto data = reference("iftomm_a04_bricard");
+  const Finished run = run_benchmark(
+      "a04", {{"integrator.type", GetParam().method}, {"integrator.step", "1e-3"}, {"simulate.until", "1"}});
+  const auto& at_1s = data.at("reference").at("t_P2xyz_P3xyz_every_0.1s").at(9);
+  EXPECT_NEAR(run.end("P2_x"), at_1s.at(1).get<double>(), GetParam().within);
+  EXPECT_NEAR(run.end("P2_y"), at_1s.at(2).get<double>(), GetParam().within);
+  EXPECT_NEAR(run.end("P2_z"), at_1s.at(3).get<double>(), GetParam().within);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, RedundantRows,
+                         testing::Values(Expected{"runge_kutta_4", 1.5e-10}, Expected{"dormand_prince", 1.5e-10},
+                                         Expected{"dop853", 1.5e-10}, Expected{"adams_baumgarte", 1.5e-10},
+                                         Expected{"newmark", 1e-6}, Expected{"hht_alpha", 1e-6},
+                                         Expected{"generalized_alpha", 1e-6}),
+                         [](const auto& method) { return std::string(method.param.method); });
+
+// Stages lie off the rows, where redundant ones part: what is solved there must still be smooth in the state.
+TEST(BenchmarkA04, LeavesRungeKuttaItsFourthOrder) {
+  const double x = reference("iftomm_a04_bricard").at("reference").at("t_P2xyz_P3xyz_every_0.1s").at(9).at(1);
+  const auto error = [x](const char* step) {
+    return std::abs(
+        run_benchmark("a04", {{"integrator.type", "runge_kutta_4"}, {"integrator.step", step}, {"simulate.until", "1"}})
+            .end("P2_x") -
+        x);
+  };
+  EXPECT_NEAR(std::log2(error("4e-3") / error("2e-3")), 4, 0.1);  // 2.5e-12 m at the finer, above round-off
+}
+
+TEST(RedundantRowsThatPart, StopANewmarkStepWithAReason) {
+  // Two rods between the same points, one of which begins to grow at 0.5 s.
+  const Finished run = run_text(R"({
+    "trammel": 1, "gravity": [0, -9.81], "bodies": {"bob": {"type": "point_mass", "mass": 1, "position": [1, 0]}},
+    "joints": {"rod": {"type": "distance", "between": ["ground", "bob.point"], "length": 1},
+               "growing": {"type": "distance", "between": ["ground", "bob.point"], "length": "=1+max(0,t-0.5)^3"}},
+    "integrator": {"type": "newmark", "step": 1e-2}, "simulate": {"until": 1}, "record": {"every": 0.1}})");
+  EXPECT_FALSE(run.done());
+  EXPECT_NE(run.report.reason.find("contradict each other"), std::string::npos) << run.report.reason;
+  EXPECT_GE(run.series.at("t").back(), 0.5);
+}
+
+TEST(BenchmarkA05, MeetsItsReference) {
+  const auto data = reference("iftomm_a05_flyball");
+  const Finished run = run_benchmark("a05");
+  expect_accepted(data, "s(10) m", run.end("s"));
+  expect_accepted(data, "s(1) m", at(run, 1, "s"));
+  expect_accepted(data, "Omega(10) rad/s", run.end("Omega"));
+  const auto& s = run.series.at("s");
+  expect_accepted(data, "max s m", *std::max_element(s.begin(), s.end()));
+}
+
+TEST(BenchmarkChain10, MeetsItsReference) {
+  const auto data = reference("chain_pendulum_3d");
+  const Finished run = run_benchmark("chain_10");
+  expect_accepted(data, "n=10 tip x(1)", run.end("tip_x"));
+  expect_accepted(data, "n=10 tip y(1)", run.end("tip_y"));
+  expect_accepted(data, "n=10 tip z(1)", run.end("tip_z"));
+}
+
+}  // namespace
+}  // namespace trammel::test
