@@ -43,7 +43,8 @@ void AssembledSystem::set_modes(const Modes& modes) {
     const ContactEntry& entry = w.model->contacts[i];
     w.contact_row[i] = mode.closed && entry.restitution ? row++ : -1;
     const bool sticks = mode.closed && mode.friction == ContactMode::Friction::stick;
-    const bool held = sticks && entry.coulomb->decide() == SetValuedFriction::Decide::at_events;
+    const bool held =
+        sticks && (w.chain.held_still() || entry.coulomb->decide() == SetValuedFriction::Decide::at_events);
     if (sticks && !held) w.judged.push_back(int(i));
     w.stick_row[i] = held ? row : -1;
     if (held) row += tangents;

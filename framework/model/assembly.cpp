@@ -155,14 +155,18 @@ void AssembledSystem::Work::evaluate_rows() {
   // Rows first .. first + n - 1 of r become rows `row` and on.
   const auto place = [&](const Rows& r, Pair pair, int row, Eigen::Index first, Eigen::Index n) {
     const Motion &A = motion(pair.A), &B = motion(pair.B);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      double rate = r.g_t(first + i), free = r.gamma(first + i);
+      for (Eigen::Index k = 0; k < A.V.size(); ++k) {
+        const double a = r.H_A(first + i, k), b = r.H_B(first + i, k);
+        rate += a * A.V(k) + b * B.V(k);
+        free -= a * A.bias(k) + b * B.bias(k);
+      }
+      g(row + i) = r.g(first + i);
+      g_dot(row + i) = rate;
+      gamma(row + i) = free;
+    }
     const Mat6 H_A = r.H_A.middleRows(first, n), H_B = r.H_B.middleRows(first, n);
-    g.segment(row, n) = r.g.segment(first, n);
-    g_dot.segment(row, n) = r.g_t.segment(first, n);
-    g_dot.segment(row, n).noalias() += H_A * A.V;
-    g_dot.segment(row, n).noalias() += H_B * B.V;
-    gamma.segment(row, n) = r.gamma.segment(first, n);
-    gamma.segment(row, n).noalias() -= H_A * A.bias;
-    gamma.segment(row, n).noalias() -= H_B * B.bias;
     add_rows(pair.A, row, H_A);
     add_rows(pair.B, row, H_B);
   };

@@ -19,20 +19,29 @@ namespace model {
 
 namespace {
 
-// omega x r in the plane and in space; omega is the angular part of a twist.
-Vec3 cross(const Vec6& twist, const Vec3& r) {
-  if (r.size() == 2) return Eigen::Vector2d(-twist(2) * r(1), twist(2) * r(0));
-  return Eigen::Vector3d(twist.tail<3>()).cross(Eigen::Vector3d(r));
+// A vector in the plane or in space, of a size the compiler knows.
+template <int dim>
+using Point = Eigen::Matrix<double, dim, 1>;
+
+// omega x r; omega is the angular part of a twist.
+template <int dim>
+Point<dim> cross(const Vec6& twist, const Point<dim>& r) {
+  if constexpr (dim == 2)
+    return {-twist(2) * r(1), twist(2) * r(0)};
+  else
+    return twist.tail<3>().cross(r);
 }
 
 // The row of a unit force d through the point r away from the marker's origin: (d, r x d).
-void set_row(Mat6& H, int row, const Vec3& d, const Vec3& r, double sign) {
-  const auto n = d.size();
-  H.row(row).head(n) = sign * d.transpose();
-  if (n == 2)
+template <int dim>
+void set_row(Mat6& H, int row, const Point<dim>& d, const Point<dim>& r, double sign) {
+  for (int k = 0; k < dim; ++k) H(row, k) = sign * d(k);
+  if constexpr (dim == 2) {
     H(row, 2) = sign * (r(0) * d(1) - r(1) * d(0));
-  else
-    H.row(row).tail<3>() = sign * Eigen::Vector3d(r).cross(Eigen::Vector3d(d)).transpose();
+  } else {
+    const Eigen::Vector3d moment = r.cross(d);
+    for (int k = 0; k < 3; ++k) H(row, 3 + k) = sign * moment(k);
+  }
 }
 
 }  // namespace
@@ -56,35 +65,44 @@ PointOnPlane::PointOnPlane(const Vec3& p, const Vec3& n) : point(p), normal(n) {
 // A round body touches at r = -radius n from its centre, whichever of its points that is, and slips with
 //     s . u + (omega_A - omega_B) . (r x s),
 // where r x s turns with B. The coordinate of which this is the rate, in the plane, counts the angle that A has rolled.
-void contact_rows(const PointOnPlane& plane, const Motion& A, const Motion& B, bool tangents, Rows& rows) {
-  const Vec3 n = B.R * plane.normal;
-  const Vec3 d = A.x - B.x;
-  const auto dim = d.size();
-  const Vec3 r = -plane.radius * n;
-  const Vec3 swept = cross(B.V, d);
-  const Vec3 u = A.V.head(dim) - B.V.head(dim) - swept;  // relative velocity, seen in B's frame, world axes
-  const Vec3 transport = cross(B.V, swept) + 2 * cross(B.V, u);
+template <int dim>
+void contact_rows_in(const PointOnPlane& plane, const Motion& A, const Motion& B, bool tangents, Rows& rows) {
+  const Eigen::Matrix<double, dim, dim> R = B.R.topLeftCorner<dim, dim>();
+  const Point<dim> n = R * plane.normal.head<dim>();
+  const Point<dim> d = A.x.head<dim>() - B.x.head<dim>();
+  const Point<dim> r = -plane.radius * n;
+  const Point<dim> swept = cross<dim>(B.V, d);
+  // Relative velocity, seen in B's frame, world axes.
+  const Point<dim> u = A.V.head<dim>() - B.V.head<dim>() - swept;
+  const Point<dim> transport = cross<dim>(B.V, swept) + 2 * cross<dim>(B.V, u);
 
-  rows.g(0) = n.dot(d - B.R * plane.point) - plane.radius;
-  set_row(rows.H_A, 0, n, r, 1);
-  set_row(rows.H_B, 0, n, d, -1);
+  rows.g(0) = n.dot(d - R * plane.point.head<dim>()) - plane.radius;
+  set_row<dim>(rows.H_A, 0, n, r, 1);
+  set_row<dim>(rows.H_B, 0, n, d, -1);
   rows.gamma(0) = n.dot(transport);
   if (!tangents) return;
 
   for (int i = 1; i < dim; ++i) {
-    const Vec3 s = B.R * plane.tangents.col(i - 1);
-    set_row(rows.H_A, i, s, r, 1);
-    set_row(rows.H_B, i, s, d + r, -1);
+    const Point<dim> s = R * plane.tangents.col(i - 1).head<dim>();
+    set_row<dim>(rows.H_A, i, s, r, 1);
+    set_row<dim>(rows.H_B, i, s, d + r, -1);
     rows.g(i) = s.dot(d);
     rows.gamma(i) = s.dot(transport);
-    const auto arm = rows.H_A.row(i).tail(rotations(dim == 2 ? Space::planar : Space::spatial));  // r x s
-    if (dim == 2) {
-      rows.g(i) += arm(0) * (A.angle - B.angle);
+    if constexpr (dim == 2) {
+      const double arm = rows.H_A(i, 2);  // r x s
+      rows.g(i) += arm * (A.angle - B.angle);
     } else {
-      const Eigen::Vector3d spin = A.V.tail<3>() - B.V.tail<3>(), omega_B = B.V.tail<3>(), moment = arm.transpose();
+      const Eigen::Vector3d spin = A.V.tail<3>() - B.V.tail<3>(), omega_B = B.V.tail<3>(), moment = r.cross(s);
       rows.gamma(i) -= spin.dot(omega_B.cross(moment));
     }
   }
+}
+
+void contact_rows(const PointOnPlane& plane, const Motion& A, const Motion& B, bool tangents, Rows& rows) {
+  if (A.x.size() == 2)
+    contact_rows_in<2>(plane, A, B, tangents, rows);
+  else
+    contact_rows_in<3>(plane, A, B, tangents, rows);
 }
 
 }  // namespace model

@@ -47,7 +47,13 @@ void MarkerChain::add_wrench(int index, const Wrench& wrench, double c, Vec& f) 
   if (slot.marker.body < 0) return;
   const int v0 = model_.bodies[std::size_t(slot.marker.body)].v0;
   const auto& dofs = slot.motion.dofs;
-  for (std::size_t j = 0; j < dofs.size(); ++j) f(v0 + dofs[j]) += c * slot.motion.J.col(Eigen::Index(j)).dot(wrench);
+  const Jac& J = slot.motion.J;
+  const int twist = int(J.rows());
+  for (std::size_t j = 0; j < dofs.size(); ++j) {
+    double sum = 0;
+    for (int k = 0; k < twist; ++k) sum += J(k, Eigen::Index(j)) * wrench(k);
+    f(v0 + dofs[j]) += c * sum;
+  }
 }
 
 void MarkerChain::add_rows(int index, int row, const Mat6& H, Mat& G) const {
@@ -55,9 +61,14 @@ void MarkerChain::add_rows(int index, int row, const Mat6& H, Mat& G) const {
   if (slot.marker.body < 0) return;
   const int v0 = model_.bodies[std::size_t(slot.marker.body)].v0;
   const auto& dofs = slot.motion.dofs;
-  for (std::size_t j = 0; j < dofs.size(); ++j)
-    for (Eigen::Index i = 0; i < H.rows(); ++i)
-      G(row + i, v0 + dofs[j]) += H.row(i).dot(slot.motion.J.col(Eigen::Index(j)));
+  const auto rows = H.rows(), twist = slot.motion.J.rows(), columns = slot.motion.J.cols();
+  const double *const h = H.data(), *const J = slot.motion.J.data();  // by columns; by rows
+  for (Eigen::Index j = 0; j < columns; ++j)
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      double sum = 0;
+      for (Eigen::Index k = 0; k < twist; ++k) sum += h[k * rows + i] * J[k * columns + j];
+      G(row + i, v0 + dofs[std::size_t(j)]) += sum;
+    }
 }
 
 void MarkerChain::add_pair(int index, int other, const Mat6& D, double c, Mat& S) const {

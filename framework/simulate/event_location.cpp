@@ -146,6 +146,8 @@ void EventLocation::find_suspects(const State& now, double h, const State& next)
 
 EventLocation::Found EventLocation::examine(const State& now, double& h, State& next, bool may_shorten) {
   evaluate(next, next_);
+  for (const Value& value : next_)
+    if (!std::isfinite(value.f)) return Found::not_finite;
   if (may_shorten && hides(now, h, next)) return Found::step_too_long;
   suspects_.clear();
   at_end_.clear();

@@ -41,9 +41,10 @@ class EventLocation {
   bool watches() const { return !system_.model().contacts.empty(); }
   void restart(const State& now);  // modes or state changed
 
-  enum class Found { nothing, event, step_refused, step_too_long };
+  enum class Found { nothing, event, step_refused, step_too_long, not_finite };
   // Looks at the trial now -> next over h. Found::event: h and next are shortened to it, `changes` tells what happened.
-  // Found::step_too_long only if `may_shorten`: next is not to be taken.
+  // Found::step_too_long only if `may_shorten`: next is not to be taken. Found::not_finite: at next a gap or a force is no
+  // number, though the state may be (a law of time that ended under a body).
   Found examine(const State& now, double& h, State& next, bool may_shorten);
   const ContactChanges& changes() const { return changes_; }
   long long steps_tried() const { return steps_tried_; }

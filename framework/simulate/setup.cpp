@@ -6,6 +6,7 @@
 #include "model/build.hpp"
 #include "model/scene_keys.hpp"
 #include "plugin/parameters.hpp"
+#include "simulate/contact_reach.hpp"
 #include "simulate/initial_state.hpp"
 #include "simulate/smooth_laws.hpp"
 
@@ -113,6 +114,11 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry) {
   if (problems.empty()) check_laws(root, registry, setup.settings.start, setup.settings.until, problems);
   problems.throw_if_any();
   model::AssembledSystem system(setup.model);
+  State start;
+  start.t = setup.settings.start;
+  system.initial(start.q, start.v);
+  check_reach(system, start, root, problems);
+  problems.throw_if_any();
   setup.initial = initial_state(system, setup.settings.start, setup.settings.initial, root, problems);
   problems.throw_if_any();
   begin_columns(setup.columns, system, setup.initial);

@@ -133,10 +133,12 @@ bool Simulator::advance(Recorder& recorder) {
 bool Simulator::try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error) {
   const Outcome outcome = integrator_.step(system_, now_, h, next_);
   if (!outcome) return refuse(proposal, outcome.reason()), false;
-  if (!next_.q.allFinite() || !next_.v.allFinite() || !next_.a.allFinite()) {
+  const auto refuse_not_finite = [&] {
     if (!control().controlled()) fail_not_finite(h);
-    return refuse(proposal, "numbers that are not finite"), false;
-  }
+    refuse(proposal, "numbers that are not finite");
+    return false;
+  };
+  if (!next_.q.allFinite() || !next_.v.allFinite() || !next_.a.allFinite()) return refuse_not_finite();
   if (control().controlled()) {
     error = estimate_->error(system_, now_, next_, control().tolerance());
     if (!(error <= 1)) {
@@ -151,6 +153,7 @@ bool Simulator::try_step(const StepControl::Proposal& proposal, double& h, Event
   if (location_.watches()) {
     const bool may_shorten = control().controlled() && h > 64 * control().smallest(now_.t);
     found = location_.examine(now_, h, next_, may_shorten);
+    if (found == EventLocation::Found::not_finite) return refuse_not_finite();
     if (found == EventLocation::Found::step_refused)
       return refuse(proposal, "a shorter step, tried to locate an event, was refused"), false;
     if (found == EventLocation::Found::step_too_long)

@@ -101,6 +101,18 @@ TEST(Equilibrium, OnATableInUniformTranslationMovesWithIt) {
   EXPECT_NEAR(run.end("omega"), 0, 1e-11);
 }
 
+TEST(Equilibrium, OnATableMovesWithItWhicheverWayFrictionIsDecided) {
+  const Finished run = at_rest(
+      R"json({"table": {"type": "moving_base", "x": "=0.3*sin(7*t)"}, "block": {"type": "point_mass", "mass": 3}})json",
+      R"("contacts": {"foot": {"type": "continuous_force", "stiffness": 1e5, "restitution": 0.5,
+          "friction": {"type": "coulomb", "static": 0.5, "kinetic": 0.4, "method": "lcp_every_step"},
+          "between": ["block.point", {"plane": {"point": [0, 0], "normal": [0, 1], "on": "table.origin"}}]}})",
+      R"({"vx": "block.point.vx"})");
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_NEAR(run.end("vx"), 2.1, 1e-12);
+  EXPECT_EQ(run.of_kind("slip").size(), 0u);
+}
+
 TEST(Equilibrium, OfADrivenRodFollowsItsDrive) {
   // A pendulum on a hinge that a base carries round: its equilibrium hangs below the hinge, which moves with omega x r.
   const Finished run = at_rest(

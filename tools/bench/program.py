@@ -1,4 +1,5 @@
 """Builds bin/trammel, runs a scene pinned to one core, gives back what it cost."""
+import csv
 import json
 import os
 import pathlib
@@ -15,12 +16,12 @@ def build():
     subprocess.run([ROOT / "tools/build", "trammel_program", "plugins/all", "bodies/all"], check=True, stdout=sys.stderr)
 
 
-def run(scene, values, events=False):
-    """result.json of a run, None if it was refused; `events`: with the time of the last event as "last_event"."""
+def run(scene, values, events=False, series=False):
+    """result.json of a run, None if it was refused; `events`: with the time of the last event as "last_event"; `series`: with its rows."""
     pin = ["taskset", "-c", str(max(os.sched_getaffinity(0)))] if shutil.which("taskset") else []
     overrides = [x for path, value in values.items() for x in ("--set", f"{path}={value}")]
     with tempfile.TemporaryDirectory() as out:
-        command = [*pin, BUILD / "bin/trammel", "run", ROOT / f"scenes/{scene}.json", *overrides, "--quiet", "--out", out]
+        command = [*pin, BUILD / "bin/trammel", "run", scene if isinstance(scene, pathlib.Path) else ROOT / f"scenes/{scene}.json", *overrides, "--quiet", "--out", out]
         message = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True).stderr
         path = pathlib.Path(out)
         if not (path / "result.json").exists():
@@ -30,6 +31,9 @@ def run(scene, values, events=False):
         if events:
             rows = (path / "events.csv").read_text().splitlines()[1:]
             result["last_event"] = float(rows[-1].split(",")[0]) if rows else None
+        if series:
+            with open(path / "series.csv", newline="") as file:
+                result["series"] = [{name: float(x) for name, x in row.items()} for row in csv.DictReader(file)]
         return result
 
 

@@ -25,7 +25,8 @@ FINE = {name: scene(name, integrator__step__tolerance=1e-11, record__every=1e-2)
 OTHER = {name: scene(name, integrator='{"type": "dormand_prince", "step": {"tolerance": 1e-10}}', record__every=1e-2) for name in ("2a", "3h")}
 DROPS = {h: scene("drop_paper_scheme", parameters__h=h, simulate__until=0.9, record__every=1e-2) for h in (1e-5, 1e-6, 1e-7)}
 SCHEME = {h: scene("paper_scheme", parameters__h=h, record__every=0.1) for h in (1e-5, 1e-6)}
-EVENTS = {tol: scene("1a", simulate__until=10, integrator__step__tolerance=tol) for tol in (1e-6, 1e-7, 1e-8, 1e-9, 1e-10)}
+EVENTS = {(method, tol): scene("1a", simulate__until=10, integrator__type=method, integrator__step__tolerance=tol)
+          for method, tols in (("dormand_prince", (1e-6, 1e-7)), ("dop853", (1e-6, 1e-8, 1e-9, 1e-10))) for tol in tols}
 BEST = scene("1a", simulate__until=10, integrator__step__tolerance=1e-12)
 
 
@@ -91,7 +92,8 @@ def displacements(results):
 def costs(results):
     rows = [["method", "steps", "evaluations of f", "CPU [s]", "largest error of x_xd to 10 s [m]"]]
     best = results[BEST]
-    runs = [(f"paper's scheme, h = {s(h)} s", SCHEME[h]) for h in SCHEME] + [(f"event-driven, tolerance {s(tol)}", EVENTS[tol]) for tol in EVENTS]
+    runs = [(f"paper's scheme, h = {s(h)} s", SCHEME[h]) for h in SCHEME] + [
+        (f"events, {method}, tolerance {s(tol)}", which) for (method, tol), which in EVENTS.items()]
     for name, which in runs:
         r = results[which]
         rows.append([name, r.counts["steps"], r.counts["residual_evaluations"], s(r.cpu), s(error(r, best), 2)])
