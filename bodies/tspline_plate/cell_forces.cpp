@@ -59,14 +59,14 @@ constexpr int mirrored[3] = {3, 4, 5};  // of the planes 6, 7, 8
 }  // namespace
 
 void cell_tangent(const Cell& cell, const CellVectors& u, const CellVectors* v, double tau, Blend c,
-                  double mass_damping, double* block) {
+                  double mass_damping, double* block, const CarriedStrains* carried) {
   const int n = cell.padded, size = 3 * cell.functions;
   const bool viscous = v && tau > 0;
   const int planes = viscous ? 9 : 6;
   alignas(64) double K[most_planes][most_functions * most_functions];
   if (c.c_k != 0 || (viscous && c.c_d != 0)) {
     alignas(64) double G[most_planes][5 * most_points * most_functions];
-    DeformedPoint at;
+    DeformedPoint at, from;
     Vectors5 d, rate;
     for (std::size_t p = 0; p < cell.points.size(); ++p) {
       const ReferencePoint& reference = cell.points[p];
@@ -74,6 +74,13 @@ void cell_tangent(const Cell& cell, const CellVectors& u, const CellVectors* v, 
       interpolate(n, shape, u, d.data());
       deform(reference, d, at);
       Strain N = reference.membrane * at.eps, M = reference.bending * at.kappa;
+      if (carried) {
+        interpolate(n, shape, carried->from, d.data());
+        interpolate(n, shape, carried->increment, rate.data());
+        deform(reference, d, from);
+        const StrainRate s = strain_rate(from, rate);
+        N = reference.membrane * (from.eps + s.eps), M = reference.bending * (from.kappa + s.kappa);
+      }
       double H[most_planes][25] = {};
       if (!viscous) {
         add_hessian(reference, at, N, M, c.c_k * cell.weight[p], reinterpret_cast<Planes&>(H));

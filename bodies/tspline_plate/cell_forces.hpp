@@ -25,8 +25,12 @@ struct CellEnergy {
 void add_elastic(const Cell& cell, const CellVectors& u, const CellVectors* v, double tau, CellVectors* f,
                  CellEnergy* energy);
 
-// block(3 I + i, 3 J + j) = c_k K + c_d D + c_m M, column-major of size 3 functions.
+// block(3 I + i, 3 J + j) = c_k K + c_d D + c_m M, column-major of size 3 functions. `carried`, for a cell without
+// damping: the stresses of K are not those at u.
+struct CarriedStrains {
+  CellVectors from, increment;  // strain(from) + d(strain)/du increment
+};
 void cell_tangent(const Cell& cell, const CellVectors& u, const CellVectors* v, double tau, Blend c,
-                  double mass_damping, double* block);
+                  double mass_damping, double* block, const CarriedStrains* carried = nullptr);
 
 }  // namespace trammel::plate

@@ -94,7 +94,7 @@ TMesh TsplinePlate::first_mesh() const {
         m < 1 || n > 1000 || m > 1000)
       throw ParameterError("mesh.elements",
                            fmt::format("found \"{}\", expected two whole numbers such as \"10x10\"", elements));
-    u = even_knots(n), v = even_knots(m);
+    u = even_knots(elements_u > 0 ? elements_u : n), v = even_knots(elements_v > 0 ? elements_v : m);
   }
   if (shape_kind != Shape::points && (u.front() != 0 || u.back() != 1 || v.front() != 0 || v.back() != 1))
     throw ParameterError("mesh.u", "knots of this geometry go from 0 to 1, in u and v");

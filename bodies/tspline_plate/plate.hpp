@@ -25,10 +25,12 @@ namespace trammel::plate {
 
 class TsplinePlate final : public Body,
                            public ExactTangent,
+                           public CarriedStress,
                            public ReactionDerivative,
                            public Observed,
                            public Drawn,
                            public Surface,
+                           public SampledSurface,
                            public Refinable,
                            public HasMomentum {
  public:
@@ -42,6 +44,7 @@ class TsplinePlate final : public Body,
   std::vector<double> control_points, weights;
 
   std::string elements = "10x10";
+  int elements_u = 0, elements_v = 0;
   std::vector<double> knots_u, knots_v, partial_lines, crossed;
   Closure closure = Closure::both;
 
@@ -79,6 +82,7 @@ class TsplinePlate final : public Body,
   void motion(int marker, double t, In q, In v, Motion& motion) const override;
 
   void add_tangent(double t, In q, In v, In a, Blend c, Matrix& S) const override;
+  void add_tangent_with_stress_from(double t, In q, In q_from, In dq, double c, Matrix& S) const override;
   void add_reaction_derivative(int marker, double t, In q, const Wrench& F, double c, Matrix& S) const override;
 
   std::span<const std::string> observables() const override { return observable_names_; }
@@ -87,6 +91,11 @@ class TsplinePlate final : public Body,
 
   void nearest(double t, In q, const Vec3& x, Eigen::Vector2d& parameters, Vec3& point, Vec3& normal) const override;
   void motion_at(const Eigen::Vector2d& parameters, double t, In q, In v, Motion& motion) const override;
+
+  double half_thickness() const override { return thickness / 2; }
+  int patches() const override { return int(mesh_->cells.size()); }
+  void bounds(int patch, In q, Vec3& low, Vec3& high) const override;
+  void sample(int patch, double spacing, SurfacePatch& out) const override;
 
   bool due(double t, In q, In v, const RefineCause& cause) const override;
   std::unique_ptr<Transfer> refine(double t, In q, In v, const RefineCause& cause) override;
@@ -126,6 +135,7 @@ class TsplinePlate final : public Body,
   void place_markers();
   void gather_dead_loads();
   void add_loads(double t, In q, Out f) const;
+  void add_load_tangent(double t, In q, double c, Matrix& S) const;
   double dead_factor(double t) const { return load_factor(t); }
   bool damped() const { return mass_damping > 0 || stiffness_damping > 0; }
 

@@ -157,18 +157,44 @@ Power TsplinePlate::power(double t, In q, In v) const {
 void TsplinePlate::add_tangent(double t, In q, In v, In, Blend c, Matrix& S) const {
   double block[most_components * most_components];
   CellVectors u, rate;
-  const double p = pressure(t);
   const bool viscous = stiffness_damping > 0;
   for (const Cell& cell : mesh_->cells) {
     gather(cell, q, u);
     if (viscous) gather(cell, v, rate);
     cell_tangent(cell, u, viscous ? &rate : nullptr, stiffness_damping, c, mass_damping, block);
-    if (p != 0 && c.c_k != 0) add_pressure_tangent(cell, u, p, c.c_k, block);
     add_block(cell, block, S);
   }
+  if (c.c_k != 0) add_load_tangent(t, q, c.c_k, S);
+}
+
+// At rest, where damping has no stress.
+void TsplinePlate::add_tangent_with_stress_from(double t, In q, In q_from, In dq, double c, Matrix& S) const {
+  double block[most_components * most_components];
+  CellVectors u;
+  CarriedStrains carried;
+  for (const Cell& cell : mesh_->cells) {
+    gather(cell, q, u), gather(cell, q_from, carried.from), gather(cell, dq, carried.increment);
+    cell_tangent(cell, u, nullptr, 0, {0, 0, c}, 0, block, &carried);
+    add_block(cell, block, S);
+  }
+  add_load_tangent(t, q, c, S);
+}
+
+void TsplinePlate::add_load_tangent(double t, In q, double c, Matrix& S) const {
   for (std::size_t k = 0; k < 4; ++k)
     if (!edge_points_[k].empty())
-      add_edge_moment_tangent(*mesh_, edges[k], edge_points_[k], edge_moment(k)(t), q, c.c_k, S);
+      add_edge_moment_tangent(*mesh_, edges[k], edge_points_[k], edge_moment(k)(t), q, c, S);
+  const double p = pressure(t);
+  if (p == 0) return;
+  double block[most_components * most_components];
+  CellVectors u;
+  for (const Cell& cell : mesh_->cells) {
+    const int size = 3 * cell.functions;
+    std::fill_n(block, size * size, 0.0);
+    gather(cell, q, u);
+    add_pressure_tangent(cell, u, p, c, block);
+    add_block(cell, block, S);
+  }
 }
 
 }  // namespace trammel::plate

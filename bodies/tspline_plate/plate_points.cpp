@@ -141,4 +141,54 @@ void TsplinePlate::nearest(double, In q, const Vec3& x, Eigen::Vector2d& paramet
   normal = at.a1.cross(at.a2).normalized();
 }
 
+// A cell lies in the convex hull of its control points, as its functions are not negative and sum to 1.
+void TsplinePlate::bounds(int patch, In q, Vec3& low, Vec3& high) const {
+  const Cell& cell = mesh_->cells[std::size_t(patch)];
+  CellVectors u;
+  gather(cell, q, u);
+  Vector3 least = Vector3::Constant(std::numeric_limits<double>::infinity()), most = -least;
+  for (int f = 0; f < cell.functions; ++f) {
+    const Vector3 at = mesh_->points.row(cell.nodes[std::size_t(f)]).transpose() +
+                       Vector3(u[f], u[cell.padded + f], u[2 * cell.padded + f]);
+    least = least.cwiseMin(at), most = most.cwiseMax(at);
+  }
+  low = least, high = most;
+}
+
+// Middles of equal rectangles of the cell's parameters.
+void TsplinePlate::sample(int patch, double spacing, SurfacePatch& out) const {
+  const Cell& cell = mesh_->cells[std::size_t(patch)];
+  const auto& [low, high] = mesh_->basis.cells()[std::size_t(patch)].parameters;
+  const double du = high[0] - low[0], dv = high[1] - low[1];
+  const Vec still = Vec::Zero(mesh_->coordinates.coordinates());
+  double along_u_longest = 0, along_v_longest = 0;
+  for (const double a : {0.0, 0.5, 1.0})
+    for (const double b : {0.0, 0.5, 1.0}) {
+      const double inside = 1 - 1e-9;  // of this cell, not of the next
+      const Place at = place(*mesh_, surface_point(*mesh_, low[0] + inside * a * du, low[1] + inside * b * dv), still);
+      along_u_longest = std::max(along_u_longest, at.a1.norm() * du);
+      along_v_longest = std::max(along_v_longest, at.a2.norm() * dv);
+    }
+  // A spacing that fits up to round-off is taken.
+  const auto count = [&](double side) { return std::max(1, int(std::ceil(side / spacing - 1e-6))); };
+  const int n = count(along_u_longest), m = count(along_v_longest);
+  out.dofs = cell.dofs;
+  out.R.resize(n * m, cell.functions);
+  out.X.resize(n * m, 3);
+  out.area.resize(n * m);
+  Eigen::Index k = 0;
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < n; ++i, ++k) {
+      const SurfacePoint at = surface_point(*mesh_, low[0] + (i + 0.5) / n * du, low[1] + (j + 0.5) / m * dv);
+      const Place reference = place(*mesh_, at, still);
+      out.R.row(k) = at.shape.R.head(cell.functions).transpose();
+      out.X.row(k) = reference.r.transpose();
+      out.area(k) = reference.a1.cross(reference.a2).norm() * du / n * dv / m;
+    }
+  out.B.resize(0, 0);
+  if (cell.plain) return;
+  out.B.setZero(3 * cell.functions, Eigen::Index(cell.dofs.size()));
+  for (const Cell::Local& t : cell.terms) out.B(t.component, t.dof) += t.factor;
+}
+
 }  // namespace trammel::plate

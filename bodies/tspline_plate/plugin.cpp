@@ -39,6 +39,8 @@ TRAMMEL_PLUGIN(
                    {.unit = "m", .doc = "points: x, y, z of each, by rows from v0"})
         .parameter("geometry.weights", &P::weights, {.doc = "points: one a control point; none: all 1"})
         .parameter("mesh.elements", &P::elements, {.doc = "along u and v, of equal size"})
+        .parameter("mesh.elements_u", &P::elements_u, {.min = 0, .doc = "their number along u instead, if above 0"})
+        .parameter("mesh.elements_v", &P::elements_v, {.min = 0, .doc = "their number along v instead, if above 0"})
         .parameter("mesh.u", &P::knots_u, {.doc = "distinct knots instead; inner ones may stand twice"})
         .parameter("mesh.v", &P::knots_v, {.doc = "distinct knots instead"})
         .parameter("mesh.partial", &P::partial_lines,

@@ -52,6 +52,8 @@ void AssembledSystem::set_modes(const Modes& modes) {
   w.sizes.nc = row;
   w.lay_out_blocks();
   w.rows_fresh = w.bodies_fresh = w.force_fresh = false;
+  for (auto& surface : w.surfaces)
+    if (surface) surface->point = -1;
 }
 
 void AssembledSystem::lay_out() {
@@ -83,6 +85,14 @@ void AssembledSystem::hold_still(bool still) {
   w.chain.hold_still(still);
   if (w.point > 0) ++w.point;  // else there is no point yet
   w.bodies_fresh = w.force_fresh = w.rows_fresh = false;
+}
+
+void AssembledSystem::carry_stress(const Vec& q, const Vec& dq) {
+  work_->carried_stress = {q, dq};
+}
+
+void AssembledSystem::carry_no_stress() {
+  work_->carried_stress.reset();
 }
 
 namespace {

@@ -98,6 +98,9 @@ class AssembledSystem final : public System {
   // For statics: points have v = 0, markers that a law of time moves stand still where they are, and contacts stick by rows,
   // however their friction decides. Modes are to be set anew afterwards.
   void hold_still(bool still);
+  // For statics: from now on K has the stresses at `q` carried on linearly by dq, in bodies with CarriedStress.
+  void carry_stress(const Vec& q, const Vec& dq);
+  void carry_no_stress();  // K is exact again
 
   // At the point of the last move_to. Each evaluates only what it needs.
   double gap(int contact);

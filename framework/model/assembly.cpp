@@ -10,7 +10,12 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
     blocks.emplace(*model);
   for (const JointEntry& entry : model->joints) joint_slots.push_back({chain.slot(entry.A), chain.slot(entry.B)});
   for (const ForceEntry& entry : model->forces) force_slots.push_back({chain.slot(entry.A), chain.slot(entry.B)});
-  for (const ContactEntry& entry : model->contacts) contact_slots.push_back({chain.slot(entry.A), chain.slot(entry.B)});
+  for (const ContactEntry& entry : model->contacts) {
+    const int B = entry.surface ? chain.surface_slot(entry.surface->body) : chain.slot(entry.B);
+    contact_slots.push_back({chain.slot(entry.A), B});
+    surfaces.emplace_back();
+    if (entry.surface) surfaces.back().emplace(Pressed{SurfaceContact(*model, entry)});
+  }
   contact_rows.resize(model->contacts.size());
   modes.contacts.resize(model->contacts.size());
   contact_row.assign(model->contacts.size(), -1);
@@ -88,6 +93,12 @@ const Vec& AssembledSystem::Work::force() {
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
     const ContactForce* law = model->contacts[i].force;
     if (!law || !modes.contacts[i].closed) continue;
+    if (surfaces[i]) {
+      const SurfaceContact& pressed = surface(i);
+      chain.add_wrench(contact_slots[i].A, pressed.on_sphere(), 1, f);
+      pressed.add_force(f);
+      continue;
+    }
     const Rows& r = contact(int(i));
     const auto [A, B] = contact_slots[i];
     const double rate = contact_rate(int(i), 0);
@@ -113,11 +124,28 @@ const Rows& AssembledSystem::Work::contact(int i) {
     const ContactEntry& entry = model->contacts[std::size_t(i)];
     const bool tangents = entry.friction != nullptr;
     cache.rows.resize(tangents ? dimension(model->world.space) : 1, model->world.space);
-    model::contact_rows(entry.geometry, motion(A), motion(B), tangents, cache.rows);
+    if (entry.surface) {
+      const double thick = model->bodies[std::size_t(entry.surface->body)].surface->half_thickness();
+      const Motion& sphere = motion(A);
+      surface_row(entry.geometry.radius + thick, sphere, chain.nearest(B, sphere.x, t, q, v), cache.rows);
+    } else {
+      model::contact_rows(entry.geometry, motion(A), motion(B), tangents, cache.rows);
+    }
     returned();
     cache.point = point;
   }
   return cache.rows;
+}
+
+SurfaceContact& AssembledSystem::Work::surface(std::size_t i) {
+  Pressed& pressed = *surfaces[i];
+  if (pressed.point != point) {
+    called(model->contacts[i].name, "normal");
+    pressed.contact.evaluate(motion(contact_slots[i].A), q, v, modes.contacts[i].approach_speed);
+    returned();
+    pressed.point = point;
+  }
+  return pressed.contact;
 }
 
 double AssembledSystem::Work::contact_rate(int i, int row) {
@@ -272,6 +300,11 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
     const auto v_body = v.segment(entry.v0, entry.nv);
     const auto a_body = a.segment(entry.v0, entry.nv);
     target.origin(entry.v0, entry.v0);
+    if (carried_stress && entry.carried_stress && c.c_m == 0 && c.c_d == 0) {
+      entry.carried_stress->add_tangent_with_stress_from(t, q_body, carried_stress->q.segment(entry.q0, entry.nq),
+                                                         carried_stress->dq.segment(entry.v0, entry.nv), c.c_k, target);
+      continue;
+    }
     if (entry.tangent) {
       entry.tangent->add_tangent(t, q_body, v_body, a_body, c, target);
       continue;
@@ -326,6 +359,12 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
   }
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
     if (!modes.contacts[i].closed) continue;
+    if (surfaces[i]) {
+      const SurfaceContact& pressed = surface(i);
+      pressed.add_tangent(chain, contact_slots[i].A, c.c_k, c.c_d, S);
+      if (c.c_k != 0) chain.add_reaction_derivative(contact_slots[i].A, t, q, -pressed.on_sphere(), c.c_k, S);
+      continue;
+    }
     const auto [A, B] = contact_slots[i];
     const Rows& r = contact(int(i));
     const double ratio = friction_ratio(int(i));

@@ -10,6 +10,7 @@
 #include "model/assembled_system.hpp"
 #include "model/body_blocks.hpp"
 #include "model/marker_chain.hpp"
+#include "model/surface_contact.hpp"
 #include "numerics/kkt.hpp"
 
 namespace trammel::model {
@@ -51,6 +52,7 @@ struct AssembledSystem::Work {
   void add_rows(int slot, int row, const Mat6& H);
   void couple_reactions();
   const Rows& contact(int i);
+  SurfaceContact& surface(std::size_t i);  // at this point, of a contact that has one
   double contact_rate(int i, int row);
   double contact_acceleration(int i, int row, const Vec& a);
   void judge_friction(Vec& a, Vec& lambda);  // adds that of `judged`
@@ -85,6 +87,10 @@ struct AssembledSystem::Work {
   Vec judged_friction;           // [N] by contact, at the last accelerate
   bool coupled = false;          // a row's force has a sliding friction beside it: W != G
   Sizes sizes;
+  struct CarriedFrom {
+    Vec q, dq;
+  };
+  std::optional<CarriedFrom> carried_stress;  // none: K is exact
 
   double t = 0;
   Vec q, v;
@@ -105,6 +111,11 @@ struct AssembledSystem::Work {
   Rows rows;
   PairTangent wrench_by;
   std::vector<ContactRows> contact_rows;
+  struct Pressed {
+    SurfaceContact contact;
+    long long point = -1;
+  };
+  std::vector<std::optional<Pressed>> surfaces;  // by contact
   Wrench on_A, on_B;
   Vec right, right_rows;
 };

@@ -7,6 +7,7 @@
 
 #include "model/scene_keys.hpp"
 #include "plugin/parameters.hpp"
+#include "scene/suggestion.hpp"
 
 namespace trammel::model {
 namespace {
@@ -24,7 +25,7 @@ class Builder {
   std::shared_ptr<Model> build() {
     check_keys(root_,
                {"trammel", "title", "description", "plugins", "space", "gravity", "parameters", "bodies", "joints",
-                "forces", "contacts", "integrator", "corrections", "initial", "simulate", "record"},
+                "forces", "contacts", "integrator", "corrections", "initial", "simulate", "static", "record"},
                problems_);
     read_version();
     read_world();
@@ -160,7 +161,8 @@ class Builder {
     const Value* plane = value.find("plane");
     if (!plane) {
       problems_.error(
-          value.problem("expected {\"plane\": {\"point\": ..., \"normal\": ...}} as the second of \"between\""));
+          value.problem("expected {\"plane\": {\"point\": ..., \"normal\": ...}} or {\"surface\": body} as the second "
+                        "of \"between\""));
       return false;
     }
     check_keys(value, {"plane"}, problems_);
@@ -188,7 +190,52 @@ class Builder {
     return true;
   }
 
+  // {"surface": "plate"}: of a body that has one.
+  bool read_surface(const Value& value, ContactEntry& entry) {
+    check_keys(value, {"surface"}, problems_);
+    const auto name = value.find("surface")->read_text(problems_);
+    if (!name) return false;
+    std::vector<std::string> with_surface;
+    int body = -1;
+    for (int b = 0; b < int(model_->bodies.size()); ++b) {
+      const BodyEntry& candidate = model_->bodies[std::size_t(b)];
+      if (!dynamic_cast<const SampledSurface*>(candidate.body.get()) ||
+          !dynamic_cast<const Surface*>(candidate.body.get()))
+        continue;
+      with_surface.push_back(candidate.name);
+      if (candidate.name == *name) body = b;
+    }
+    if (body < 0) {
+      problems_.error(value.problem(
+          with_surface.empty()
+              ? std::string("no body of this scene has a surface; tspline_plate is one")
+              : fmt::format("no body \"{}\" with a surface{}", *name, scene::did_you_mean(*name, with_surface))));
+      return false;
+    }
+    if (!(entry.geometry.radius > 0)) {
+      problems_.error(value.problem("a surface is touched by a sphere: give the contact its \"radius\" [m]"));
+      return false;
+    }
+    const double radius = entry.geometry.radius;
+    entry.geometry = PointOnPlane(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ());
+    entry.geometry.radius = radius;
+    entry.B.body = body;
+    entry.surface.emplace().body = body;
+    return true;
+  }
+
+  void add_surface_friction(const Value& value, ContactEntry& entry) {
+    auto [law, origin] = plugin::make<Component>(registry_, Kind::friction, value, model_->world, problems_);
+    if (!law) return;
+    entry.surface->friction = dynamic_cast<const SmoothFriction*>(law.get());
+    if (!entry.surface->friction)
+      problems_.error(value.problem(
+          "on a surface friction is a force at each point: it takes a smooth law such as regularized_coulomb"));
+    entry.surface->friction_law = std::move(law);
+  }
+
   void add_friction(const Value& value, ContactEntry& entry) {
+    if (entry.surface) return add_surface_friction(value, entry);
     if (model_->world.space == Space::spatial)
       return problems_.error(value.problem("friction is evaluated in planar scenes only; this one is spatial"));
     auto [law, origin] = plugin::make<Component>(registry_, Kind::friction, value, model_->world, problems_);
@@ -218,12 +265,20 @@ class Builder {
       if (entry.geometry.radius < 0)
         problems_.error(radius->problem(fmt::format("found {}, expected a radius >= 0 [m]", entry.geometry.radius)));
     }
-    if (!read_plane((*pair)[1], entry) || !A || !law) return;
+    const Value& second = (*pair)[1];
+    const bool on_surface = second.type() == Value::Type::object && second.find("surface");
+    if (!(on_surface ? read_surface(second, entry) : read_plane(second, entry)) || !A || !law) return;
     entry.A = *A;
     entry.restitution = dynamic_cast<const Restitution*>(law.get());
     entry.force = dynamic_cast<const ContactForce*>(law.get());
     if (!entry.restitution == !entry.force)
       throw plugin::PluginError(origin, "load", "a contact law is either a Restitution or a ContactForce, exactly one");
+    const bool by_points = dynamic_cast<const ForceBySurfacePoints*>(law.get()) != nullptr;
+    if (by_points != on_surface)
+      return problems_.error(value.problem(
+          by_points
+              ? "this law acts at the points of a surface: expected {\"surface\": body} as the second of \"between\""
+              : "a surface takes a law that acts at its points, such as \"penalty\""));
     if (const Value* friction = value.find("friction")) add_friction(*friction, entry);
     entry.law = std::move(law);
     model_->contacts.push_back(std::move(entry));

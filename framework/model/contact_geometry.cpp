@@ -105,5 +105,15 @@ void contact_rows(const PointOnPlane& plane, const Motion& A, const Motion& B, b
     contact_rows_in<3>(plane, A, B, tangents, rows);
 }
 
+// gamma is left 0: it would be the curvature of the surface, and only laws with rows use it.
+void surface_row(double reach, const Motion& A, const Motion& B, Rows& rows) {
+  const Vec3 d = A.x - B.x;
+  const double length = d.norm();
+  const Vec3 n = length > 0 ? Vec3(d / length) : Vec3(B.R.col(2));
+  rows.g(0) = length - reach;
+  rows.H_A.row(0).head(3) = n.transpose();
+  rows.H_B.row(0).head(3) = -n.transpose();
+}
+
 }  // namespace model
 }  // namespace trammel

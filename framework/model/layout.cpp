@@ -18,11 +18,14 @@ void Model::lay_out() {
     Body* body = entry.body.get();
     entry.mass_and_force = dynamic_cast<const MassAndForce*>(body);
     entry.tangent = dynamic_cast<const ExactTangent*>(body);
+    entry.carried_stress = dynamic_cast<const CarriedStress*>(body);
     entry.reaction_derivative = dynamic_cast<const ReactionDerivative*>(body);
     entry.observed = dynamic_cast<const Observed*>(body);
     entry.drawn = dynamic_cast<const Drawn*>(body);
     entry.momentum = dynamic_cast<const HasMomentum*>(body);
     entry.refinable = dynamic_cast<Refinable*>(body);
+    entry.surface = dynamic_cast<const Surface*>(body);
+    entry.samples = dynamic_cast<const SampledSurface*>(body);
   }
   for (JointEntry& entry : joints) {
     entry.row = sizes.nc;
@@ -34,6 +37,7 @@ void Model::lay_out() {
     entry.restitution = dynamic_cast<const Restitution*>(entry.law.get());
     entry.force = dynamic_cast<const ContactForce*>(entry.law.get());
     entry.coulomb = dynamic_cast<const SetValuedFriction*>(entry.friction.get());
+    if (entry.surface) entry.surface->by_points = dynamic_cast<const ForceBySurfacePoints*>(entry.law.get());
     entry.smooth = dynamic_cast<const SmoothFriction*>(entry.friction.get());
   }
 }

@@ -10,7 +10,8 @@ MarkerChain::MarkerChain(const Model& model) : model_(model) {}
 
 int MarkerChain::slot(MarkerRef marker) {
   for (std::size_t i = 0; i < slots_.size(); ++i)
-    if (slots_[i].marker.body == marker.body && slots_[i].marker.marker == marker.marker) return int(i);
+    if (!slots_[i].surface && slots_[i].marker.body == marker.body && slots_[i].marker.marker == marker.marker)
+      return int(i);
   Slot slot;
   slot.marker = marker;
   if (marker.body < 0) {
@@ -25,6 +26,28 @@ int MarkerChain::slot(MarkerRef marker) {
   }
   slots_.push_back(std::move(slot));
   return int(slots_.size()) - 1;
+}
+
+int MarkerChain::surface_slot(int body) {
+  Slot slot;
+  slot.marker.body = body;
+  slot.surface = true;
+  slots_.push_back(std::move(slot));
+  return int(slots_.size()) - 1;
+}
+
+const Motion& MarkerChain::nearest(int index, const Vec3& to, double t, const Vec& q, const Vec& v) {
+  Slot& slot = slots_[std::size_t(index)];
+  if (slot.point == point_) return slot.motion;
+  const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
+  const auto q_body = q.segment(entry.q0, entry.nq);
+  Eigen::Vector2d parameters;
+  Vec3 x, normal;
+  entry.surface->nearest(t, q_body, to, parameters, x, normal);
+  entry.surface->motion_at(parameters, t, q_body, v.segment(entry.v0, entry.nv), slot.motion);
+  if (still_) slot.motion.V.setZero(), slot.motion.bias.setZero();
+  slot.point = point_;
+  return slot.motion;
 }
 
 void MarkerChain::evaluate(Slot& slot, double t, const Vec& q, const Vec& v) const {

@@ -14,12 +14,18 @@ class MarkerChain {
 
   // Slots stand for markers that are in use.
   int slot(MarkerRef marker);
+  // The point of a body's surface that is nearest to some other point; `nearest` finds it, once per point of the system.
+  int surface_slot(int body);
+  const Motion& nearest(int slot, const Vec3& to, double t, const Vec& q, const Vec& v);
+  bool on_surface(int slot) const { return slots_[std::size_t(slot)].surface; }
   int slots() const { return int(slots_.size()); }
   void new_point() { ++point_; }
   // Markers keep their places, and what a law of time gives them of velocity and acceleration counts as 0; for v = 0 only.
   void hold_still(bool still) { still_ = still, ++point_; }
   bool held_still() const { return still_; }
   const Motion& motion(int slot, double t, const Vec& q, const Vec& v);
+  const Motion& last_motion(int slot) const { return slots_[std::size_t(slot)].motion; }
+  int first_velocity(int slot) const { return model_.bodies[std::size_t(body(slot))].v0; }
   int body(int slot) const { return slots_[std::size_t(slot)].marker.body; }  // -1: ground
 
   // f += c J^T wrench
@@ -34,6 +40,7 @@ class MarkerChain {
  private:
   struct Slot {
     MarkerRef marker;
+    bool surface = false;
     long long point = -1;
     Motion motion;
   };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -30,11 +31,14 @@ struct BodyEntry {
   // Abilities, looked up once.
   const MassAndForce* mass_and_force = nullptr;
   const ExactTangent* tangent = nullptr;
+  const CarriedStress* carried_stress = nullptr;
   const ReactionDerivative* reaction_derivative = nullptr;
   const Observed* observed = nullptr;
   const Drawn* drawn = nullptr;
   const HasMomentum* momentum = nullptr;
   Refinable* refinable = nullptr;
+  const Surface* surface = nullptr;
+  const SampledSurface* samples = nullptr;
 };
 
 struct JointEntry {
@@ -58,13 +62,23 @@ struct PointOnPlane {
   PointOnPlane(const Vec3& p, const Vec3& n);  // n of length 1
   Vec3 point, normal;
   double radius = 0;  // [m]
-  Mat3 tangents;  // columns in B's axes: fixed in B, so that slip is measured in the same directions throughout
+  Mat3 tangents;      // columns in B's axes: fixed in B, so that slip is measured in the same directions throughout
+};
+
+// A sphere around A against the surface of a body: gap = |x_A - x| - radius - half thickness, x the surface's nearest point. The
+// forces act at all points that the sphere has reached (surface_contact.hpp).
+struct SphereOnSurface {
+  int body = -1;
+  const ForceBySurfacePoints* by_points = nullptr;  // of the contact's law
+  std::unique_ptr<Component> friction_law;          // null: frictionless
+  const SmoothFriction* friction = nullptr;
 };
 
 struct ContactEntry {
   std::string name;
   MarkerRef A, B;
-  PointOnPlane geometry;
+  PointOnPlane geometry;  // with a surface the radius alone
+  std::optional<SphereOnSurface> surface;
   std::unique_ptr<Component> law;
   // The law's kind, looked up once; exactly one is set.
   const Restitution* restitution = nullptr;
@@ -101,5 +115,7 @@ struct Model {
 // are the directions along B's tangents: g is the coordinate of A in B's plane, its rate the slip velocity. Where such a
 // row is held the coordinate at which sticking began is subtracted; the geometry does not know it.
 void contact_rows(const PointOnPlane& plane, const Motion& A, const Motion& B, bool tangents, Rows& rows);
+// The gap alone, between a sphere around A and the point B of a surface that is nearest to it; both radii in `reach`.
+void surface_row(double reach, const Motion& A, const Motion& B, Rows& rows);
 
 }  // namespace trammel::model

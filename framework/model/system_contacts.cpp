@@ -49,6 +49,7 @@ double AssembledSystem::normal_force(int contact, const Vec& lambda) {
   if (w.contact_row[i] >= 0) return -lambda(w.contact_row[i]);
   const ContactForce* law = w.model->contacts[i].force;
   if (!law || !w.modes.contacts[i].closed) return 0;
+  if (w.surfaces[i]) return w.surface(i).normal_force();
   return law->normal(gap(contact), gap_rate(contact), w.modes.contacts[i].approach_speed);
 }
 

@@ -22,7 +22,8 @@ Energy AssembledSystem::energy() {
   for (std::size_t i = 0; i < w.contact_slots.size(); ++i)
     if (w.model->contacts[i].force && w.modes.contacts[i].closed) {
       w.called(w.model->contacts[i].name, "potential");
-      sum.elastic += w.model->contacts[i].force->potential(w.contact(int(i)).g(0));
+      sum.elastic +=
+          w.surfaces[i] ? w.surface(i).potential() : w.model->contacts[i].force->potential(w.contact(int(i)).g(0));
     }
   w.returned();
   return sum;
@@ -83,6 +84,13 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
   }
   for (std::size_t i = 0; i < w.contact_slots.size(); ++i) {
     if (!w.modes.contacts[i].closed) continue;
+    if (w.surfaces[i]) {
+      const SurfaceContact& pressed = w.surface(i);
+      sum.contacts += pressed.damping_power();
+      sum.friction(Eigen::Index(i)) = pressed.friction_power();
+      moved_by_law(w.contact_slots[i].A, pressed.on_sphere());
+      continue;
+    }
     const Rows& r = w.contact(int(i));
     const double ratio = w.friction_ratio(int(i)), slip = w.model->contacts[i].friction ? w.contact_rate(int(i), 1) : 0;
     if (w.contact_row[i] >= 0) {
@@ -132,7 +140,7 @@ CallSite AssembledSystem::find_not_finite() {
     if (!M.allFinite()) return {&entry.name, "mass"};
   }
   for (int slot = 0; slot < w.chain.slots(); ++slot) {
-    if (w.chain.body(slot) < 0) continue;
+    if (w.chain.body(slot) < 0 || w.chain.on_surface(slot)) continue;
     const Motion& m = w.motion(slot);
     if (!m.x.allFinite() || !m.V.allFinite() || !m.bias.allFinite() || !m.J.allFinite())
       return {&w.model->bodies[std::size_t(w.chain.body(slot))].name, "motion"};

@@ -4,6 +4,7 @@
 #include <trammel/archive.hpp>
 #include <trammel/body.hpp>
 #include <trammel/component.hpp>
+#include <trammel/contact.hpp>
 #include <trammel/integrator.hpp>
 #include <trammel/parameters.hpp>
 #include <trammel/system.hpp>
@@ -32,6 +33,9 @@ Observed::~Observed() = default;
 Drawn::~Drawn() = default;
 Refinable::~Refinable() = default;
 HasMomentum::~HasMomentum() = default;
+CarriedStress::~CarriedStress() = default;
+SampledSurface::~SampledSurface() = default;
+ForceBySurfacePoints::~ForceBySurfacePoints() = default;
 Surface::~Surface() = default;
 
 void Archive::operator()(std::string_view name, std::vector<Vec>& values) {

@@ -170,7 +170,8 @@ void define_common(Json& definitions) {
                                "\"ground\", a body's marker such as \"beam.tip\", or a frame fixed in the world");
   definitions["on"] = reference("marker");
   Json plane = object({{"point", reference("vector")}, {"normal", reference("vector")}, {"on", reference("marker")}});
-  definitions["between"] = array_of(any_of(reference("marker"), object({{"plane", std::move(plane)}})));
+  definitions["between"] = array_of(any_of(
+      reference("marker"), any_of(object({{"plane", std::move(plane)}}), object({{"surface", {{"type", "string"}}}}))));
   definitions["radius"] = with(number, "[m] of a disk or sphere around the first marker; 0: a point");
   definitions["between"]["minItems"] = 2;
   definitions["between"]["maxItems"] = 2;
@@ -203,7 +204,7 @@ std::string schema(const std::vector<const Entry*>& entries) {
   properties["space"] = {{"enum", {"planar", "spatial"}}};
   properties["gravity"] = with(reference("vector"), "[m/s^2]");
   properties["plugins"] = with(texts, "libraries and folders of libraries, relative to this file");
-  properties["parameters"] = with(keyed({{"type", {"number", "string"}}}), "names for expressions");
+  properties["parameters"] = with(keyed({{"type", {"number", "string", "object"}}}), "names for expressions");
   properties["include"] = with(any_of(text, texts), "scenes that this one extends; this one wins");
   properties["bodies"] = keyed(reference("body"));
   properties["joints"] = keyed(reference("joint"));
@@ -217,12 +218,18 @@ std::string schema(const std::vector<const Entry*>& entries) {
                                    {"contact_hold", number},
                                    {"chatter_steps", number},
                                    {"event_limit", positive}});
+  properties["static"] = with(object({{"steps", positive},
+                                      {"tolerance", positive},
+                                      {"iterations", positive},
+                                      {"arc_length", {{"type", "boolean"}}}}),
+                              "load steps of 'trammel static', from simulate.start to simulate.until (1 if left out)");
   properties["record"] = object(
       {{"every", positive},
        {"observe",
         keyed(any_of(text, object({{"of", text}, {"relative_to", text}, {"since_start", {{"type", "boolean"}}}})))}});
-  properties["corrections"] =
-      object({{"position", correction(entries)}, {"velocity", correction(entries)}, {"energy", any_of({{"type", "boolean"}}, correction(entries))}});
+  properties["corrections"] = object({{"position", correction(entries)},
+                                      {"velocity", correction(entries)},
+                                      {"energy", any_of({{"type", "boolean"}}, correction(entries))}});
 
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Trammel scene"}};
   schema.update(object(std::move(properties)));

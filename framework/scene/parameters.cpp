@@ -1,6 +1,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "scene/builder.hpp"
 #include "scene/expression.hpp"
@@ -19,23 +20,50 @@ class Evaluation {
 
   const Result* value_of(const std::string& name, const Value& value) {
     if (const auto known = done_.find(name); known != done_.end()) return known->second ? &*known->second : nullptr;
-    std::optional<Result> result;
     open_.push_back(name);
-    if (value.type() == Value::Type::number)
-      result = *value.read_number(problems_);
-    else if (value.type() != Value::Type::text)
-      problems_.error(
-          value.problem(fmt::format("found {}, expected a number, a text or an expression", value.type_name())));
-    else if (value.text().empty() || value.text()[0] != '=')
-      result = value.text();
-    else
-      result = expression(value);
+    std::optional<Result> result = result_of(value);
     open_.pop_back();
     auto& slot = done_[name] = std::move(result);
     return slot ? &*slot : nullptr;
   }
 
  private:
+  std::optional<Result> result_of(const Value& value) {
+    if (value.type() == Value::Type::number) return *value.read_number(problems_);
+    if (value.type() == Value::Type::object) return choice(value);
+    if (value.type() != Value::Type::text) {
+      problems_.error(value.problem(
+          fmt::format("found {}, expected a number, a text, an expression or a choice", value.type_name())));
+      return std::nullopt;
+    }
+    if (value.text().empty() || value.text()[0] != '=') return value.text();
+    return expression(value);
+  }
+
+  // {"by": "=mesh", "values": {"coarse": 4, "fine": 16}, "otherwise": 8}: by the value of another parameter, a text.
+  std::optional<Result> choice(const Value& value) {
+    const Value *by = value.find("by"), *values = value.find("values"), *otherwise = value.find("otherwise");
+    if (!by || !values || values->type() != Value::Type::object) {
+      problems_.error(
+          value.problem("found an object, expected a choice {\"by\": \"=NAME\", \"values\": {TEXT: VALUE, ...}, "
+                        "\"otherwise\": VALUE}"));
+      return std::nullopt;
+    }
+    const std::optional<Result> key = result_of(*by);
+    if (!key) return std::nullopt;
+    const std::string* text = std::get_if<std::string>(&*key);
+    std::vector<std::string> names;
+    for (const auto& [name, member] : values->members()) {
+      if (text && name == *text) return result_of(member);
+      names.push_back(name);
+    }
+    if (otherwise) return result_of(*otherwise);
+    problems_.error(by->problem(text ? fmt::format("found \"{}\", expected one of {}{}", *text, fmt::join(names, ", "),
+                                                   did_you_mean(*text, names))
+                                     : fmt::format("found a number, expected one of {}", fmt::join(names, ", "))));
+    return std::nullopt;
+  }
+
   std::optional<Result> expression(const Value& value) {
     const std::string_view text = std::string_view(value.text()).substr(1);
     try {

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "simulate/resting_contacts.hpp"
+
 namespace trammel::simulate {
 namespace {
 
@@ -17,20 +19,10 @@ constexpr double settled = 1e-14;  // [m, rad]
 class Rest {
  public:
   Rest(model::AssembledSystem& system, State& state)
-      : system_(system),
-        state_(state),
-        nv_(system.sizes().nv),
-        zero_v_(Vec::Zero(nv_)),
-        modes_{std::vector<model::ContactMode>(system.model().contacts.size())} {
-    system_.hold_still(true);
-    close_what_may_push();
+      : system_(system), state_(state), nv_(system.sizes().nv), zero_v_(Vec::Zero(nv_)), contacts_(system) {
+    system_.move_to(state_.t, state_.q, zero_v_);
+    contacts_.close_what_may_push();
   }
-  ~Rest() {
-    system_.hold_still(false);
-    system_.set_modes({std::vector<model::ContactMode>(modes_.contacts.size())});
-  }
-  Rest(const Rest&) = delete;
-  Rest& operator=(const Rest&) = delete;
 
   bool settle() {
     double tau = tau_first;
@@ -45,7 +37,8 @@ class Rest {
           tau *= 10;
           continue;
         }
-        if (!release_pulling()) return true;
+        look(state_.q);
+        if (!contacts_.release_pulling(lambda_)) return true;
         unbalanced = look(state_.q);
         continue;
       }
@@ -63,7 +56,7 @@ class Rest {
       const double shrunk = next > 0 ? unbalanced / next : 10;
       tau = std::min(tau_last, tau * 2 * std::clamp(shrunk, 0.7, 5.0));
       state_.q = q_next;
-      unbalanced = close_penetrating() ? look(state_.q) : next;
+      unbalanced = contacts_.close_penetrating() ? look(state_.q) : next;
     }
     return false;
   }
@@ -86,7 +79,7 @@ class Rest {
   // q' of the equilibrium as time goes on; see the header. `state.q` is settled.
   void follow() {
     look(state_.q);
-    carry_along();
+    contacts_.carry_along();
     look(state_.q);
     const double dt = 1e-4, tau = 1;
     state_.v = zero_v_;
@@ -147,60 +140,13 @@ class Rest {
     system_.add_reaction(1, lambda, r);
   }
 
-  // Compliant contacts, whose law says 0 while they are apart, and rows of contacts that touch.
-  void close_what_may_push() {
-    system_.set_modes(modes_);
-    system_.move_to(state_.t, state_.q, zero_v_);
-    for (int i = 0; i < int(modes_.contacts.size()); ++i)
-      modes_.contacts[std::size_t(i)].closed = system_.model().contacts[std::size_t(i)].force || system_.gap(i) <= 1e-9;
-    system_.set_modes(modes_);
-  }
-
-  bool close_penetrating() {
-    bool changed = false;
-    for (int i = 0; i < int(modes_.contacts.size()); ++i) {
-      bool& closed = modes_.contacts[std::size_t(i)].closed;
-      if (closed || system_.gap(i) >= 0) continue;
-      closed = changed = true;
-    }
-    if (changed) system_.set_modes(modes_);
-    return changed;
-  }
-
-  // Each contact is let go once at most: a set that opens and closes for ever has no equilibrium.
-  bool release_pulling() {
-    look(state_.q);
-    bool changed = false;
-    for (int i = 0; i < int(modes_.contacts.size()); ++i) {
-      if (!modes_.contacts[std::size_t(i)].closed || system_.contact_row(i) < 0 || released_ >= 100) continue;
-      if (system_.normal_force(i, lambda_) >= -1e-9 * lambda_.lpNorm<Eigen::Infinity>()) continue;
-      modes_.contacts[std::size_t(i)].closed = false;
-      changed = true, ++released_;
-    }
-    if (changed) system_.set_modes(modes_);
-    return changed;
-  }
-
-  // What rests on something with friction goes with it.
-  void carry_along() {
-    for (std::size_t i = 0; i < modes_.contacts.size(); ++i) {
-      const model::ContactEntry& contact = system_.model().contacts[i];
-      model::ContactMode& mode = modes_.contacts[i];
-      mode.closed = mode.closed && (contact.restitution || system_.gap(int(i)) < 0);
-      if (mode.closed && contact.coulomb && contact.coulomb->static_coefficient() > 0)
-        mode.friction = model::ContactMode::Friction::stick;
-    }
-    system_.set_modes(modes_);
-  }
-
   model::AssembledSystem& system_;
   State& state_;
   int nv_;
   Vec zero_v_;
-  model::Modes modes_;
+  RestingContacts contacts_;
   Vec a_, lambda_, dq_, residual_;
   double scale_ = 0;
-  int released_ = 0;
 };
 
 }  // namespace

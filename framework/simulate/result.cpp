@@ -55,11 +55,31 @@ json dissipated(const model::Model& model, const Ledger& ledger, double drift) {
           {"numerical", -drift}};
 }
 
-json energy(const Energy& e) {
+}  // namespace
+
+json to_json(const Energy& e) {
   return {{"kinetic", e.kinetic}, {"potential", e.potential}, {"elastic", e.elastic}, {"total", e.total()}};
 }
 
-}  // namespace
+std::string title_of(const scene::Scene& scene) {
+  const scene::Value* title = scene.root().find("title");
+  return title && title->type() == scene::Value::Type::text ? title->text() : scene.file();
+}
+
+json result_head(const scene::Scene& scene, const plugin::Registry& registry, const Outcomes& outcomes) {
+  json plugins = json::array();
+  for (const std::string& file : registry.files())
+    plugins.push_back({{"name", std::filesystem::path(file).stem().string()}, {"file", file}});
+  const bool titled = scene.root().find("title") != nullptr;
+  return {{"trammel_result", 1},
+          {"status", to_string(outcomes.status)},
+          {"reason", outcomes.reason},
+          {"scene", scene.file()},
+          {"title", titled ? title_of(scene) : ""},
+          {"scene_hash", fmt::format("{:016x}", scene.hash())},
+          {"versions", versions()},
+          {"plugins", plugins}};
+}
 
 const char* to_string(Status status) {
   switch (status) {
@@ -80,47 +100,36 @@ std::string result_json(const scene::Scene& scene, const plugin::Registry& regis
   const State& state = simulator.state();
   const Energy end = simulator.energy_at_state();
   const double drift = simulator.energy_drift();
-  json plugins = json::array();
-  for (const std::string& file : registry.files())
-    plugins.push_back({{"name", std::filesystem::path(file).stem().string()}, {"file", file}});
   std::vector<std::string> warnings = setup.warnings;
   warnings.insert(warnings.end(), simulator.warnings().begin(), simulator.warnings().end());
-  const scene::Value* title = scene.root().find("title");
-  const json result = {{"trammel_result", 1},
-                       {"status", to_string(outcomes.status)},
-                       {"reason", outcomes.reason},
-                       {"scene", scene.file()},
-                       {"title", title && title->type() == scene::Value::Type::text ? title->text() : ""},
-                       {"scene_hash", fmt::format("{:016x}", scene.hash())},
-                       {"versions", versions()},
-                       {"plugins", plugins},
-                       {"integrator", setup.integrator_type},
-                       {"t_start", setup.settings.start},
-                       {"t_end", state.t},
-                       {"t_until", setup.settings.until},
-                       {"wall_time_s", outcomes.cost.wall},
-                       {"cpu_time_s", outcomes.cost.cpu},
-                       {"resumed", outcomes.resumed},
-                       {"counts", counts(simulator)},
-                       {"smallest_step", statistics.smallest_step},
-                       {"largest_step", statistics.largest_step},
-                       {"energy_start", ledger.energy_start()},
-                       {"energy_end", energy(end)},
-                       {"energy_supplied",
-                        {{"drives", ledger.drives()},
-                         {"constraints", ledger.constraints()},
-                         {"moving_markers", ledger.markers()},
-                         {"total", ledger.supplied()}}},
-                       {"energy_of_refinements", ledger.refinements()},
-                       {"energy_drift", drift},
-                       {"energy_dissipated", dissipated(*setup.model, ledger, drift)},
-                       {"constraint_maxima",
-                        {{"position", statistics.largest.position},
-                         {"velocity", statistics.largest.velocity},
-                         {"acceleration", statistics.largest.acceleration}}},
-                       {"sizes", sizes(statistics)},
-                       {"sizes_left_out", statistics.sizes_left_out},
-                       {"warnings", warnings}};
+  json result = result_head(scene, registry, outcomes);
+  result.update(json{{"integrator", setup.integrator_type},
+                     {"t_start", setup.settings.start},
+                     {"t_end", state.t},
+                     {"t_until", setup.settings.until},
+                     {"wall_time_s", outcomes.cost.wall},
+                     {"cpu_time_s", outcomes.cost.cpu},
+                     {"resumed", outcomes.resumed},
+                     {"counts", counts(simulator)},
+                     {"smallest_step", statistics.smallest_step},
+                     {"largest_step", statistics.largest_step},
+                     {"energy_start", ledger.energy_start()},
+                     {"energy_end", to_json(end)},
+                     {"energy_supplied",
+                      {{"drives", ledger.drives()},
+                       {"constraints", ledger.constraints()},
+                       {"moving_markers", ledger.markers()},
+                       {"total", ledger.supplied()}}},
+                     {"energy_of_refinements", ledger.refinements()},
+                     {"energy_drift", drift},
+                     {"energy_dissipated", dissipated(*setup.model, ledger, drift)},
+                     {"constraint_maxima",
+                      {{"position", statistics.largest.position},
+                       {"velocity", statistics.largest.velocity},
+                       {"acceleration", statistics.largest.acceleration}}},
+                     {"sizes", sizes(statistics)},
+                     {"sizes_left_out", statistics.sizes_left_out},
+                     {"warnings", warnings}});
   return result.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "simulate/setup.hpp"
 #include "simulate/simulator.hpp"
 
@@ -20,6 +22,12 @@ struct Outcomes {
 };
 
 const char* to_string(Status status);
+
+// What every result.json begins with: status, reason, scene, versions, plugins.
+nlohmann::ordered_json result_head(const scene::Scene& scene, const plugin::Registry& registry,
+                                   const Outcomes& outcomes);
+nlohmann::ordered_json to_json(const Energy& energy);
+std::string title_of(const scene::Scene& scene);  // its file, if it has none
 
 // As JSON text. energy_dissipated by cause, positive when energy was lost; numerical is what no cause explains and energy_drift
 // its negative: E - (E_start + supplied - dissipated by the named causes).

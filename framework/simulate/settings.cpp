@@ -1,6 +1,7 @@
 #include "simulate/settings.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -52,8 +53,12 @@ StepChoice read_step(const Value& value, Problems& problems) {
   return choice;
 }
 
-void read_simulate(const Value& root, Settings& settings, Problems& problems) {
+void read_simulate(const Value& root, Purpose purpose, Settings& settings, Problems& problems) {
   const Value* simulate = root.find("simulate");
+  if (purpose == Purpose::statics && !simulate) {
+    settings.until = 1;
+    return;
+  }
   if (!simulate || !simulate->find("until")) {
     const Value& at = simulate ? *simulate : root;
     problems.error(at.problem("the end of the run is missing: give \"simulate\": {\"until\": 2.0} [s]"));
@@ -66,6 +71,26 @@ void read_simulate(const Value& root, Settings& settings, Problems& problems) {
   settings.chatter_steps = number(*simulate, "chatter_steps", settings.chatter_steps, 0, true, "steps", problems);
   settings.event_limit = static_cast<long long>(
       number(*simulate, "event_limit", double(settings.event_limit), 1, true, "events", problems));
+}
+
+void read_static(const Value& root, Settings& settings, Problems& problems) {
+  const Value* statics = root.find("static");
+  if (!statics || !check_keys(*statics, {"steps", "tolerance", "iterations", "arc_length"}, problems)) return;
+  const auto whole = [&](const char* key, int fallback) {
+    const double x = number(*statics, key, fallback, 1, true, "1", problems);
+    if (x == std::floor(x) && x <= 1e6) return int(x);
+    problems.error(statics->find(key)->problem(fmt::format("found {}, expected a whole number up to 1000000", x)));
+    return fallback;
+  };
+  settings.load_steps = whole("steps", settings.load_steps);
+  settings.load_iterations = whole("iterations", settings.load_iterations);
+  settings.load_tolerance = number(*statics, "tolerance", settings.load_tolerance, 0, false, "1", problems);
+  if (const Value* arc = statics->find("arc_length")) {
+    if (arc->type() == Value::Type::boolean)
+      settings.arc_length = arc->boolean();
+    else
+      problems.error(arc->problem(fmt::format("found {}, expected true or false", arc->type_name())));
+  }
 }
 
 void read_record(const Value& root, Settings& settings, Problems& problems) {
@@ -109,20 +134,27 @@ const Value& integrator_entry(const Value& root) {
   return chosen.root();
 }
 
-Settings read_settings(const Value& root, Problems& problems) {
+Purpose purpose_of(const Value& root) {
+  return root.find("static") && !root.find("integrator") ? Purpose::statics : Purpose::motion;
+}
+
+Settings read_settings(const Value& root, Purpose purpose, Problems& problems) {
   Settings settings;
-  read_simulate(root, settings, problems);
+  read_simulate(root, purpose, settings, problems);
+  read_static(root, settings, problems);
   read_record(root, settings, problems);
-  const Value& integrator = integrator_entry(root);
-  if (const Value* step = integrator.find("step"))
-    settings.step = read_step(*step, problems);
-  else
-    problems.error(integrator.problem("\"step\" is missing: a length in s, or {\"tolerance\": 1e-9}"));
-  if (const Value* contact = integrator.find("contact_step")) {
-    settings.contact_step = read_step(*contact, problems);
-    settings.own_contact_step = true;
-  } else {
-    settings.contact_step = settings.step;
+  if (purpose == Purpose::motion) {
+    const Value& integrator = integrator_entry(root);
+    if (const Value* step = integrator.find("step"))
+      settings.step = read_step(*step, problems);
+    else
+      problems.error(integrator.problem("\"step\" is missing: a length in s, or {\"tolerance\": 1e-9}"));
+    if (const Value* contact = integrator.find("contact_step")) {
+      settings.contact_step = read_step(*contact, problems);
+      settings.own_contact_step = true;
+    } else {
+      settings.contact_step = settings.step;
+    }
   }
   if (const Value* initial = root.find("initial")) settings.initial = read_initial(*initial, problems);
   return settings;

@@ -3,6 +3,7 @@
 //     "integrator": {..., "step": 1e-4, "contact_step": {"tolerance": 1e-9}}     contact_step: while a contact is closed
 //     "simulate":   {"start": 0, "until": 2, "contact_hold": 0, "chatter_steps": 3, "event_limit": 1000000}
 //     "initial":    "check" | "project" | "equilibrium", or {"consistent": "check" | "project"}
+//     "static":     {"steps": 10, "tolerance": 1e-9, "iterations": 20, "arc_length": false}     for `trammel static`
 //     "record":     {"every": 1e-3, "observe": {"tip_y": "beam.tip.y"}}
 #pragma once
 
@@ -36,13 +37,23 @@ struct Settings {
   // to rest (equilibrium.hpp).
   enum class Initial { check, project, equilibrium };
   Initial initial = Initial::check;
+
+  int load_steps = 10;           // of statics, from start to until
+  double load_tolerance = 1e-9;  // of what is left unbalanced, relative to the load
+  int load_iterations = 20;      // of Newton's method before a load step is divided
+  bool arc_length = false;       // the path may turn back in t
 };
 
 // What the scene says of its integrator. Without a word: dop853 with errors below 1e-9, which needs no step to be chosen and
 // locates contacts and friction as events.
 const scene::Value& integrator_entry(const scene::Value& root);
 
+// A scene in motion, or equilibria one after another under loads that follow t (load_path.hpp).
+enum class Purpose { motion, statics };
+// What a scene that says nothing else is for: statics if it has "static" and no "integrator".
+Purpose purpose_of(const scene::Value& root);
+
 // Reads all but the integrator's own parameters and the observables; every problem goes to `problems`.
-Settings read_settings(const scene::Value& root, scene::Problems& problems);
+Settings read_settings(const scene::Value& root, Purpose purpose, scene::Problems& problems);
 
 }  // namespace trammel::simulate

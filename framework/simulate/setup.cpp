@@ -29,6 +29,9 @@ std::string with_error_estimate(plugin::Registry& registry) {
 }
 
 void read_integrator(const Value& root, plugin::Registry& registry, Setup& setup, Problems& problems) {
+  if (const Value* statics = root.find("static"); statics && !root.find("integrator"))
+    return problems.error(
+        statics->problem("this scene is made for 'trammel static'; to run it, give it an \"integrator\""));
   const Value& value = integrator_entry(root);
   auto made = plugin::make<Integrator>(registry, Kind::integrator, value, setup.model->world, problems);
   if (!made.component) return;
@@ -96,7 +99,7 @@ void read_corrections(const Value& root, plugin::Registry& registry, Setup& setu
 
 }  // namespace
 
-Setup set_up(const scene::Scene& scene, plugin::Registry& registry) {
+Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purpose) {
   const Value& root = scene.root();
   Setup setup;
   for (const scene::Problem& warning : scene.warnings()) setup.warnings.push_back(warning.text());
@@ -106,10 +109,12 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry) {
     problems.throw_if_any();
   }
   registry.search_scene(root, problems);
-  setup.settings = read_settings(root, problems);
+  setup.settings = read_settings(root, purpose, problems);
   setup.model = model::build(root, registry, problems);
-  read_integrator(root, registry, setup, problems);
-  read_corrections(root, registry, setup, problems);
+  if (purpose == Purpose::motion) {
+    read_integrator(root, registry, setup, problems);
+    read_corrections(root, registry, setup, problems);
+  }
   if (problems.empty()) setup.columns = read_observables(root, *setup.model, problems);
   if (problems.empty()) check_laws(root, registry, setup.settings.start, setup.settings.until, problems);
   problems.throw_if_any();

@@ -32,7 +32,7 @@ struct Setup {
   std::vector<std::string> warnings;
 };
 
-// Throws SceneError, PluginError.
-Setup set_up(const scene::Scene& scene, plugin::Registry& registry);
+// Throws SceneError, PluginError. Statics needs no integrator, makes none and no corrections.
+Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purpose = Purpose::motion);
 
 }  // namespace trammel::simulate

@@ -271,7 +271,7 @@ RunReport run(const scene::Scene& scene, plugin::Registry& registry, const RunOp
 
 std::string validate(const scene::Scene& scene, plugin::Registry& registry) {
   std::string text;
-  for (const std::string& warning : set_up(scene, registry).warnings) text += warning + "\n";
+  for (const std::string& warning : set_up(scene, registry, purpose_of(scene.root())).warnings) text += warning + "\n";
   return text;
 }
 

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "simulate/result.hpp"
 
@@ -33,9 +34,7 @@ std::string summary(const scene::Scene& scene, const Setup& setup, Simulator& si
   const Statistics& s = simulator.statistics();
   const Ledger& ledger = simulator.ledger();
   const State& state = simulator.state();
-  const scene::Value* title = scene.root().find("title");
-  std::string text =
-      fmt::format("{}\n", title && title->type() == scene::Value::Type::text ? title->text() : scene.file());
+  std::string text = title_of(scene) + "\n";
   const auto line = [&text](const char* what, const std::string& value) {
     text += fmt::format("  {:<12}{}\n", what, value);
   };

@@ -28,13 +28,13 @@ std::vector<std::string> lines(const std::string& text) {
 TEST(Commands, HelpNamesEachOfThem) {
   const auto result = trammel({"help"});
   EXPECT_EQ(result.exit_code, 0);
-  for (const char* name : {"run", "validate", "explain", "list", "describe", "schema"})
+  for (const char* name : {"run", "static", "validate", "explain", "list", "describe", "schema"})
     EXPECT_THAT(result.out, HasSubstr("trammel " + std::string(name)));
   EXPECT_EQ(result.err, "");
 }
 
 TEST(Commands, EachShowsItsOptions) {
-  for (const char* name : {"run", "validate", "explain", "list", "describe", "schema"}) {
+  for (const char* name : {"run", "static", "validate", "explain", "list", "describe", "schema"}) {
     const auto result = trammel({name, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, StartsWith("trammel " + std::string(name)));
@@ -46,6 +46,19 @@ TEST(Commands, VersionIsPrinted) {
   const auto result = trammel({"--version"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.out, testing::MatchesRegex("trammel [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST(Static, LetsAPendulumHangAndWritesIt) {
+  const cli::TemporaryFolder folder;
+  const auto result = trammel({"static", kPendulum, "--json"}, {.folder = folder.path()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const json written = json::parse(cli::read_file(folder.path() / "out/pendulum/result.json"));
+  EXPECT_EQ(json::parse(result.out), written);
+  EXPECT_EQ(written["analysis"], "static");
+  EXPECT_EQ(written["load_steps"].size(), 11u);
+  const std::string last = lines(cli::read_file(folder.path() / "out/pendulum/series.csv")).back();
+  ASSERT_THAT(last, StartsWith("0.5,-"));
+  EXPECT_NEAR(std::stod(last.substr(4)), -1, 1e-12) << "bottom_y";
 }
 
 struct Mistake {

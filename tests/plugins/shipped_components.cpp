@@ -148,6 +148,7 @@ const std::vector<Shipped>& compliant_contacts() {
       {"continuous_force", "paper", compliant("paper", 0.3)},
       {"continuous_force", "flores", compliant("flores", 0.3)},
       {"continuous_force", "flores_nearly_plastic", compliant("flores", 0.05)},
+      {"penalty", "elastic", R"({"type": "penalty", "stiffness": 1e8})"},
   };
   return all;
 }

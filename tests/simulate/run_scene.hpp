@@ -109,12 +109,14 @@ inline std::vector<Event> read_events(const std::filesystem::path& file) {
   return events;
 }
 
-inline Finished run_scene(const scene::Scene& scene, bool with_events = true) {
+using Runner = simulate::RunReport (*)(const scene::Scene&, plugin::Registry&, const simulate::RunOptions&);
+
+inline Finished run_scene(const scene::Scene& scene, bool with_events = true, Runner run = simulate::run) {
   const Folder folder;
   simulate::RunOptions options;
   options.out = folder.path();
   Finished finished;
-  finished.report = simulate::run(scene, registry(), options);
+  finished.report = run(scene, registry(), options);
   finished.result = nlohmann::json::parse(finished.report.result_json);
   finished.series = read_series(folder.path() / "series.csv");
   if (with_events) finished.events = read_events(folder.path() / "events.csv");
@@ -123,6 +125,11 @@ inline Finished run_scene(const scene::Scene& scene, bool with_events = true) {
 
 inline Finished run_text(const std::string& text, const Overrides& overrides = {}) {
   return run_scene(scene::Scene::parse(text, "test.json", overrides));
+}
+
+// `trammel static` of a text.
+inline Finished run_static(const std::string& text, const Overrides& overrides = {}) {
+  return run_scene(scene::Scene::parse(text, "test.json", overrides), true, simulate::run_static);
 }
 
 // A scene of the repository.

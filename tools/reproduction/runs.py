@@ -33,6 +33,11 @@ class Run:
         return [str(ROOT / "scenes" / f"{self.scene}.json"), *(x for path, v in self.values for x in ("--set", f"{path}={v}"))]
 
     @functools.cache
+    def is_static(self):
+        content = _load(ROOT / "scenes" / f"{self.scene}.json")
+        return "static" in content and "integrator" not in content
+
+    @functools.cache
     def key(self):
         """Equal for runs that compute the same: figures of one paper share many."""
         content = _load(ROOT / "scenes" / f"{self.scene}.json")
@@ -113,7 +118,7 @@ class Results:
     def _one(self, key, wanted):
         folder = self.folder / f"{wanted.scene.replace('/', '_')}_{key}"
         folder.mkdir(parents=True, exist_ok=True)
-        command = [os.environ["TRAMMEL"], "run", *wanted.command_line(), "--quiet", "--out", str(folder)]
+        command = [os.environ["TRAMMEL"], "static" if wanted.is_static() else "run", *wanted.command_line(), "--quiet", "--out", str(folder)]
         (folder / "command").write_text(" ".join(command) + "\n")
         late = False
         child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)

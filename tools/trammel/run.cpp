@@ -1,16 +1,15 @@
 // trammel run SCENE: simulate and write the results folder.
-#include <cerrno>
 #include <filesystem>
 #include <system_error>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "arguments.hpp"
 #include "crash.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
+#include "results_folder.hpp"
 #include "simulate/simulation.hpp"
 
 namespace trammel::tool {
@@ -19,14 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Option kOut{"--out", "DIR", "results folder; default out/<scene name>"};
 constexpr Option kResume{"--resume", "DIR", "continue the interrupted run whose results are in DIR"};
-constexpr Option kQuiet{"--quiet", "", "no progress, no summary"};
 
-fs::path results_folder(const Arguments& arguments) {
-  if (!arguments.has("--resume"))
-    return arguments.has("--out") ? fs::path(arguments.last("--out"))
-                                  : fs::path("out") / fs::path(arguments.operand()).stem();
+fs::path folder_of_run(const Arguments& arguments) {
+  if (!arguments.has("--resume")) return results_folder(arguments);
   if (arguments.has("--out"))
     throw UsageError("--out and --resume exclude each other: a resumed run goes on in its own folder");
   const fs::path folder = arguments.last("--resume");
@@ -36,22 +31,11 @@ fs::path results_folder(const Arguments& arguments) {
   return folder;
 }
 
-// Before a long run starts, not at its first record.
-void require_writable(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error && !fs::is_directory(folder)) error = std::make_error_code(std::errc::not_a_directory);
-  if (!error && access(folder.c_str(), W_OK | X_OK) != 0) error = {errno, std::generic_category()};
-  if (error)
-    throw UsageError(
-        fmt::format("cannot write results to {}: {}; --out names another folder", folder.string(), error.message()));
-}
-
 Exit run(const Arguments& arguments) {
   const bool json = arguments.has("--json");
   const bool quiet = arguments.has("--quiet");
   simulate::RunOptions options;
-  options.out = results_folder(arguments);
+  options.out = folder_of_run(arguments);
   options.resume = arguments.has("--resume");
   const scene::Scene scene = load_scene(arguments);
   plugin::Registry registry;

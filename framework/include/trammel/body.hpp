@@ -74,6 +74,16 @@ class ExactTangent {
   virtual void add_tangent(double t, In q, In v, In a, Blend c, Matrix& S) const = 0;
 };
 
+// For statics of thin bodies. A sheet that an increment has bent is stretched by the square of its turn, and the stresses of
+// that stretch, which is to vanish, spoil the next tangent. S += c K at rest, but in the part of K that is due to stress with
+// stresses that follow the increment linearly, stress(from) + d(stress)/dq dq (mixed integration points; Magisano, Leonardi,
+// Garcea, Int. J. Numer. Meth. Engng. 109, 2017). With from = q and dq = 0 it is the exact tangent.
+class CarriedStress {
+ public:
+  virtual ~CarriedStress();
+  virtual void add_tangent_with_stress_from(double t, In q, In from, In dq, double c, Matrix& S) const = 0;
+};
+
 // S += c d(J^T F)/dq for a constant wrench F at a marker: the geometric stiffness of joints and contacts.
 class ReactionDerivative {
  public:
@@ -136,6 +146,29 @@ class Surface {
   virtual ~Surface();
   virtual void nearest(double t, In q, const Vec3& x, Eigen::Vector2d& parameters, Vec3& point, Vec3& normal) const = 0;
   virtual void motion_at(const Eigen::Vector2d& parameters, double t, In q, In v, Motion& motion) const = 0;
+  // The body's faces lie so far to both sides of that surface [m].
+  virtual double half_thickness() const { return 0; }
+};
+
+// Material points of one part of a surface (a cell of a mesh), which follow its nodes: x_p = X_p + sum_I R_pI u_I with the
+// nodes' displacements u_I = B q[dofs].
+struct SurfacePatch {
+  std::vector<int> dofs;  // coordinates of the body that move it
+  Mat R;                  // points x nodes
+  Mat X;                  // points x 3, positions at q = 0 [m]
+  Mat B;                  // (3 nodes) x dofs, node by node; empty: the identity
+  Vec area;               // that each point stands for [m^2]
+};
+// Ability beside Surface of bodies in space with flat coordinates: what a pressure of contact acts on. Constant but for a
+// refinement.
+class SampledSurface {
+ public:
+  virtual ~SampledSurface();
+  virtual int patches() const = 0;
+  // A box in world axes that contains the patch.
+  virtual void bounds(int patch, In q, Vec3& low, Vec3& high) const = 0;
+  // Points no further apart than `spacing` [m].
+  virtual void sample(int patch, double spacing, SurfacePatch& out) const = 0;
 };
 
 }  // namespace trammel

@@ -1,4 +1,7 @@
-// Coulomb's friction made smooth: T = -mu N tanh(slip / v_c). It sticks nowhere, it creeps with up to v_c.
+// Coulomb's friction made smooth. It sticks nowhere, it creeps with up to v_c.
+//
+//     tanh        T = -mu N tanh(y),       y = slip / v_c
+//     quadratic   T = -mu N y (2 - y) up to y = 1, -mu N beyond
 #include <cmath>
 
 #include <trammel/friction.hpp>
@@ -9,10 +12,17 @@ namespace {
 using namespace trammel;
 
 struct RegularizedCoulomb : SmoothFriction {
+  enum class Form { tanh, quadratic };
   double mu = 0, v_c = 1e-3;
+  Form form = Form::tanh;
 
-  double ratio(double slip) const override { return mu * std::tanh(slip / v_c); }
+  double ratio(double slip) const override {
+    const double y = slip / v_c;
+    if (form == Form::quadratic) return y < 1 ? mu * y * (2 - y) : mu;
+    return mu * std::tanh(y);
+  }
   double slope(double slip) const override {
+    if (form == Form::quadratic) return slip < v_c ? 2 * mu / v_c * (1 - slip / v_c) : 0;
     const double sech = 1 / std::cosh(std::min(slip / v_c, 300.0));
     return mu / v_c * sech * sech;
   }
@@ -25,4 +35,10 @@ TRAMMEL_PLUGIN(
         .source("E. Pennestri, V. Rossi, P. Salvini, P. P. Valentini, Nonlinear Dyn. 83, 1785 (2016): a review")
         .parameter("coefficient", &RegularizedCoulomb::mu, {.min = 0, .usual_max = 10, .required = true, .doc = "mu"})
         .parameter("critical_velocity", &RegularizedCoulomb::v_c,
-                   {.unit = "m/s", .min = 0, .above_min = true, .doc = "v_c: 76 % of the force is reached there"}))
+                   {.unit = "m/s",
+                    .min = 0,
+                    .above_min = true,
+                    .doc = "v_c: 76 % of the force is reached there, all with quadratic"})
+        .choice("form", &RegularizedCoulomb::form,
+                {{"tanh", RegularizedCoulomb::Form::tanh}, {"quadratic", RegularizedCoulomb::Form::quadratic}},
+                {.doc = "how the force rises"}))

@@ -1,0 +1,56 @@
+#include "simulate/resting_contacts.hpp"
+
+namespace trammel::simulate {
+
+RestingContacts::RestingContacts(model::AssembledSystem& system)
+    : system_(system), modes_{std::vector<model::ContactMode>(system.model().contacts.size())} {
+  system_.hold_still(true);
+  system_.set_modes(modes_);
+}
+
+RestingContacts::~RestingContacts() {
+  system_.hold_still(false);
+  system_.set_modes({std::vector<model::ContactMode>(modes_.contacts.size())});
+}
+
+void RestingContacts::close_what_may_push() {
+  for (std::size_t i = 0; i < modes_.contacts.size(); ++i)
+    modes_.contacts[i].closed = system_.model().contacts[i].force || system_.gap(int(i)) <= 1e-9;
+  system_.set_modes(modes_);
+}
+
+bool RestingContacts::close_penetrating() {
+  bool changed = false;
+  for (std::size_t i = 0; i < modes_.contacts.size(); ++i) {
+    bool& closed = modes_.contacts[i].closed;
+    if (closed || system_.gap(int(i)) >= 0) continue;
+    closed = changed = true;
+  }
+  if (changed) system_.set_modes(modes_);
+  return changed;
+}
+
+bool RestingContacts::release_pulling(const Vec& lambda) {
+  bool changed = false;
+  for (std::size_t i = 0; i < modes_.contacts.size(); ++i) {
+    if (!modes_.contacts[i].closed || system_.contact_row(int(i)) < 0 || released_ >= 100) continue;
+    if (system_.normal_force(int(i), lambda) >= -1e-9 * lambda.lpNorm<Eigen::Infinity>()) continue;
+    modes_.contacts[i].closed = false;
+    changed = true, ++released_;
+  }
+  if (changed) system_.set_modes(modes_);
+  return changed;
+}
+
+void RestingContacts::carry_along() {
+  for (std::size_t i = 0; i < modes_.contacts.size(); ++i) {
+    const model::ContactEntry& contact = system_.model().contacts[i];
+    model::ContactMode& mode = modes_.contacts[i];
+    mode.closed = mode.closed && (contact.restitution || system_.gap(int(i)) < 0);
+    if (mode.closed && contact.coulomb && contact.coulomb->static_coefficient() > 0)
+      mode.friction = model::ContactMode::Friction::stick;
+  }
+  system_.set_modes(modes_);
+}
+
+}  // namespace trammel::simulate

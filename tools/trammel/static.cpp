@@ -1,0 +1,48 @@
+// trammel static SCENE: equilibria under growing loads, and their results folder.
+#include <fmt/format.h>
+
+#include "arguments.hpp"
+#include "crash.hpp"
+#include "input.hpp"
+#include "interrupt.hpp"
+#include "progress.hpp"
+#include "results_folder.hpp"
+#include "simulate/simulation.hpp"
+
+namespace trammel::tool {
+
+namespace {
+
+Exit run(const Arguments& arguments) {
+  const bool json = arguments.has("--json"), quiet = arguments.has("--quiet");
+  simulate::RunOptions options;
+  options.out = results_folder(arguments);
+  const scene::Scene scene = load_scene(arguments);
+  plugin::Registry registry;
+  load_plugins(arguments, registry);
+  require_writable(options.out);
+  options.interrupt = &watch_for_interrupts();
+  simulate::RunReport report;
+  {
+    ProgressBar bar(!json && !quiet);
+    if (bar.visible()) options.progress = [&bar](const simulate::Progress& progress) { bar.draw(progress); };
+    report = simulate::run_static(scene, registry, options);
+  }
+  if (json) fmt::print("{}\n", report.result_json);
+  if (!json && !quiet) fmt::print("{}\n", report.summary);
+  if (report.status == simulate::Status::done) return Exit::done;
+  fmt::print(stderr, "trammel: {}\nResults up to there are in {}\n", report.reason, options.out.string());
+  return report.status == simulate::Status::interrupted ? Exit::interrupted : Exit::failed;
+}
+
+}  // namespace
+
+Command static_command() {
+  return {"static",
+          "SCENE",
+          "Find equilibria under growing loads: t is the load.",
+          {kOut, kSet, kPlugin, kJson, kQuiet},
+          run};
+}
+
+}  // namespace trammel::tool
