@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include <Eigen/QR>
+
 #include <fmt/format.h>
 
 #include "simulate/run_failed.hpp"
@@ -118,6 +120,7 @@ double ContactModes::strike(State& state) {
     if (!capture_chatter(state, state.v)) break;
     system_.move_to(state.t, state.q, v_before_);
   }
+  end_rocking(state);
   system_.move_to(state.t, state.q, state.v);
   double elsewhere = kinetic_before - system_.energy().kinetic;
   for (const TouchingContact& c : touching_) elsewhere -= c.energy_lost();
@@ -146,21 +149,54 @@ bool ContactModes::cannot_follow(double separation, double acceleration) const {
   return separation * separation < chatter_steps_ * error * 2 * -acceleration;
 }
 
-// Takes e = 0 where the rebound is too short to follow; true if there is such a contact.
-bool ContactModes::capture_chatter(const State& state, const Vec& v) {
-  const auto rebounds = [](const TouchingContact& c) { return c.restitution > 0 && c.impulse > 0; };
-  if (chatter_steps_ <= 0 || std::none_of(touching_.begin(), touching_.end(), rebounds)) return false;
+// a_ with all that touches open, which is left to the caller to undo.
+void ContactModes::accelerate_open(const State& state, const Vec& v) {
   model::Modes open = modes_;
   open_all(open);
   system_.set_modes(open);
   system_.move_to(state.t, state.q, v);
   system_.accelerate({}, a_, lambda_);
+}
+
+// Takes e = 0 where the rebound is too short to follow; true if there is such a contact.
+bool ContactModes::capture_chatter(const State& state, const Vec& v) {
+  const auto rebounds = [](const TouchingContact& c) { return c.restitution > 0 && c.impulse > 0; };
+  if (chatter_steps_ <= 0 || std::none_of(touching_.begin(), touching_.end(), rebounds)) return false;
+  accelerate_open(state, v);
   bool captured = false;
   for (TouchingContact& c : touching_)
     if (rebounds(c) && cannot_follow(c.after, system_.acceleration({c.contact, 0}, a_)))
       c.restitution = 0, captured = true;
   system_.set_modes(before_);
   return captured;
+}
+
+// Takes the rates of all that touch where some open, pushed by the impact of others, too little to follow.
+void ContactModes::end_rocking(State& state) {
+  const double at_rest = scale_.at_rest();
+  const auto opens = [at_rest](const TouchingContact& c) {
+    return c.was_closed && c.impulse == 0 && c.after > at_rest;
+  };
+  if (chatter_steps_ <= 0 || std::none_of(touching_.begin(), touching_.end(), opens)) return;
+  accelerate_open(state, state.v);
+  bool ends = true;
+  for (const TouchingContact& c : touching_)
+    ends = ends && (c.after <= at_rest || cannot_follow(c.after, system_.acceleration({c.contact, 0}, a_)));
+  system_.set_modes(before_);
+  if (!ends) return;
+  system_.move_to(state.t, state.q, state.v);
+  std::vector<model::ContactDirection> held;
+  for (const TouchingContact& c : touching_) {
+    held.push_back({c.contact, 0});
+    if (system_.model().contacts[c.contact].coulomb && std::abs(c.slip_after) <= at_rest)
+      held.push_back({c.contact, 1});
+  }
+  Vec rates(Eigen::Index(held.size()));
+  for (std::size_t i = 0; i < held.size(); ++i) rates[Eigen::Index(i)] = system_.rate(held[i]);
+  Mat jump, delassus;
+  system_.impulse_response(held, jump, delassus);
+  state.v -= jump * delassus.completeOrthogonalDecomposition().solve(rates);
+  for (TouchingContact& c : touching_) c.after = 0;
 }
 
 double ContactModes::step_limit(const State& state) {

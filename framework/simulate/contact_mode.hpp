@@ -5,7 +5,8 @@
 //  2. Capture: slower than capture_speed, e = 0. Also a rebound that the steps in contact cannot follow: with fixed ones whose
 //     flight 2 u+/|gap acceleration| would last fewer than chatter_steps of them; with controlled ones that would rise less
 //     than chatter_steps times the error they may make in a position. The impact is solved again with e = 0 for it. Each
-//     repetition lowers the number of contacts with e > 0, so this ends.
+//     repetition lowers the number of contacts with e > 0, so this ends. Contacts that open because others struck, and too
+//     little to follow (a block that rocks to rest: impacts without end in a finite time), keep no rate: all that touch rest.
 //  3. Contacts that then touch without rate are candidates. They close where the forces of the complementarity problem
 //         A = A_free + D N,   0 <= N complementary to A >= 0      (A gap accelerations, N normal forces)
 //     push; where the gap accelerates apart they stay open ("lift").
@@ -91,7 +92,9 @@ class ContactModes {
   void forces_before(const State& state, const ContactChanges& changes);
   void find_touching(const ContactChanges& changes);
   double strike(State& state);
+  void accelerate_open(const State& state, const Vec& v);
   bool capture_chatter(const State& state, const Vec& v);
+  void end_rocking(State& state);
   bool cannot_follow(double separation, double acceleration) const;
   void find_candidates(const ContactChanges& changes);
   void open_all(model::Modes& modes) const;

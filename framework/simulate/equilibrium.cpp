@@ -128,7 +128,23 @@ class Rest {
     Vec dlambda;
     if (!system_.correct(residual_, system_.g(), dq_, dlambda)) return false;
     system_.retract(state_.q, dq_, q_next);
+    onto_rows(q_next);
     return true;
+  }
+
+  // The least change of q that satisfies the rows: what a turn leaves there would pass for a step against the forces.
+  void onto_rows(Vec& q) {
+    const Vec no_force = Vec::Zero(system_.sizes().nc);
+    Vec dq, mu, moved;
+    for (int i = 0; i < 5; ++i) {
+      system_.move_to(state_.t, q, zero_v_);
+      const Vec g = system_.g();
+      if (g.size() == 0 || g.lpNorm<Eigen::Infinity>() <= settled * std::max(1.0, q.lpNorm<Eigen::Infinity>())) return;
+      system_.factorise({1, 0, 0}, zero_v_, no_force, Factors::projection);
+      if (!system_.correct(zero_v_, g, dq, mu, Factors::projection)) return;
+      system_.retract(q, dq, moved);
+      q = moved;
+    }
   }
 
   // f - G^T lambda with the other sign, at another time and place.

@@ -60,7 +60,9 @@ void LoadPath::begin() {
     system_.hold_still(true);
     system_.move_to(rest.t, rest.q, zero_);
     contacts_.close_what_may_push();
-    first = {settings_.start, rest.q, Vec::Zero(system_.sizes().nc)};
+    first = {settings_.start, rest.q, {}};
+    Vec a;
+    system_.accelerate({}, a, first.lambda);  // nothing accelerates: what holds a pendulum is its stiffness
     failure = solve(first, nullptr);
     if (failure != Failure::none) fail(settings_.start, failure);
   }

@@ -203,6 +203,17 @@ TEST(RockingBlock, FallsBackInHousnersTimeAndKeepsHisShareOfItsRate) {
   }
 }
 
+TEST(RockingBlock, ComesToRestAfterImpactsWithoutEnd) {
+  // Each impact leaves 1 - 1.5 sin(alpha)^2 = 0.876 of the rate, so all are over in a finite time; what is left of the last ones
+  // is too little to follow.
+  const Finished run = run_text(rocking(0.3, 1, 0.02, 2), {{"simulate.until", "5"}, {"record.every", "0.1"}});
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_GT(run.of_kind("impact").size(), 20u);
+  EXPECT_NEAR(run.end("theta"), 0, 1e-9);
+  EXPECT_NEAR(run.end("omega"), 0, 1e-9);
+  EXPECT_NEAR(run.result["energy_end"]["total"], 9.81, 1e-7);  // m g h
+}
+
 TEST(RigidBlockOnTwoFeet, SticksWithADeterminedSumAndEqualShares) {
   // Pulled by 3 N at its foot's height; N = 4.905 each. Held by -1.5 N each, the split of minimum norm.
   const Finished run = run_text(rocking(0.25, 1, 0, 0.6),

@@ -94,12 +94,14 @@ TEST(SurfaceContact, FrictionSlowsASlidingBallByMuG) {
                                 {{"bodies.ball.velocity", "[1, 0, 0]"},
                                  {"bodies.plate.youngs_modulus", "1e11"},  // as good as rigid
                                  {"bodies.ball.position", "[0.45, 0.5, 0.1099]"},
-                                 {"contacts.ball.damping", "1e5"}});
+                                 {"record.every", "1e-3"}});
   ASSERT_TRUE(run.done()) << run.report.reason;
   const auto &t = run.series.at("t"), &v = run.series.at("vx"), &force = run.series.at("force");
   double impulse = 0;  // trapezoidal, of the recorded force
   for (std::size_t i = 1; i < t.size(); ++i) impulse += (t[i] - t[i - 1]) * (force[i] + force[i - 1]) / 2;
-  EXPECT_NEAR(3 * (1 - v.back()) / (0.2 * impulse), 1, 0.1);
+  // Undamped: damping presses more on the points in front than behind, which slows it too. The normals of the points are
+  // tilted by some per cent, and their tangents with them.
+  EXPECT_NEAR(3 * (1 - v.back()) / (0.2 * impulse), 1, 0.02);
 }
 
 TEST(SurfaceContact, NeedsASphereAndALawByPoints) {
