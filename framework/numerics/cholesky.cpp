@@ -7,15 +7,9 @@
 
 namespace trammel::numerics {
 
-namespace {
-
-constexpr Eigen::Index small = 48;  // from about here on blocks are faster
-
-}  // namespace
-
 bool Cholesky::compute(const Mat& M) {
   const Eigen::Index n = M.rows();
-  if (n > small) {
+  if (n > most_in_packs) {
     resize(0);
     return blocks_.compute(M).info() == Eigen::Success && blocks_.matrixLLT().diagonal().allFinite();  // NaN: "success"
   }

@@ -9,15 +9,9 @@
 
 namespace trammel::numerics {
 
-namespace {
-
-constexpr Eigen::Index small = 48;  // from about here on blocks are faster
-
-}  // namespace
-
 void Lu::compute(const Mat& A) {
   const Eigen::Index n = A.rows();
-  if (n > small) {
+  if (n > most_in_packs) {
     rows_.clear();
     blocks_.compute(A);
     return;
@@ -37,7 +31,7 @@ void Lu::compute(const Mat& A) {
 void Lu::eliminate() {
   const Eigen::Index n = LU_.cols(), stride = LU_.rows();
   double* const data = LU_.data();
-  double multipliers[small];
+  double multipliers[most_in_packs];
   for (Eigen::Index j = 0; j < n; ++j) {
     double* const column = data + j * stride;
     Eigen::Index p = j;

@@ -11,6 +11,7 @@
 namespace trammel::numerics {
 
 inline constexpr Eigen::Index pack = 4;
+inline constexpr Eigen::Index most_in_packs = 48;  // unknowns; from about here on Eigen's blocked algorithms are faster
 constexpr Eigen::Index pack_of(Eigen::Index i) {
   return i / pack * pack;
 }

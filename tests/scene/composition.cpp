@@ -1,12 +1,10 @@
 // Parameters, includes and overrides.
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "scene/suggestion.hpp"
 #include "scene/value.hpp"
+
+#include "folder.hpp"
 
 namespace trammel::scene {
 namespace {
@@ -28,21 +26,6 @@ std::string error_of(Load load) {
   }
   return "no error";
 }
-
-class Folder {
- public:
-  Folder() : path_(std::filesystem::temp_directory_path() / ("trammel_composition_" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(path_ / "sub");
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string file(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name) << text;
-    return (path_ / name).string();
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 TEST(Parameters, UseOneAnotherInAnyOrder) {
   const Scene scene =
@@ -102,7 +85,7 @@ TEST(Override, NamesTheNearestMemberOnItsWay) {
 }
 
 TEST(Include, LetsTheIncludingFileWinMemberByMember) {
-  const Folder folder;
+  const Folder folder("trammel_composition");
   folder.file("base.json", R"({"a": {"x": 1, "y": 2}, "b": {"type": "one", "p": 1}, "c": {"type": "one", "p": 1}})");
   const Scene scene = Scene::load(folder.file(
       "top.json",
@@ -114,7 +97,7 @@ TEST(Include, LetsTheIncludingFileWinMemberByMember) {
 }
 
 TEST(Include, IsRelativeToTheIncludingFile) {
-  const Folder folder;
+  const Folder folder("trammel_composition");
   folder.file("base.json", R"({"a": 1})");
   folder.file("sub/middle.json", R"({"include": ["../base.json"], "b": 2})");
   const Scene scene = Scene::load(folder.file("top.json", R"({"include": "sub/middle.json"})"));
@@ -122,7 +105,7 @@ TEST(Include, IsRelativeToTheIncludingFile) {
 }
 
 TEST(Include, ReportsACircleWithItsChain) {
-  const Folder folder;
+  const Folder folder("trammel_composition");
   folder.file("b.json", R"({"include": "a.json"})");
   const std::string a = folder.file("a.json", R"({"include": "b.json"})");
   const auto error = error_of([&] { Scene::load(a); });
@@ -130,7 +113,7 @@ TEST(Include, ReportsACircleWithItsChain) {
 }
 
 TEST(Include, NamesAFileThatIsMissing) {
-  const Folder folder;
+  const Folder folder("trammel_composition");
   const std::string a = folder.file("a.json", R"({"include": "none.json"})");
   const auto error = error_of([&] { Scene::load(a); });
   EXPECT_NE(error.find("a.json:1:13: include: cannot include \"none.json\""), std::string::npos) << error;

@@ -1,10 +1,7 @@
 // Laws of time from tables, and where laws jump.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <numbers>
 
@@ -14,6 +11,8 @@
 #include "scene/expression.hpp"
 #include "scene/tabulated_law.hpp"
 #include "scene/value.hpp"
+
+#include "folder.hpp"
 
 namespace trammel::scene {
 namespace {
@@ -103,27 +102,12 @@ TEST(TabulatedLaw, RestsBeforeItsFirstRowAndAfterItsLast) {
   }
 }
 
-class Folder {
- public:
-  Folder() : path_(std::filesystem::temp_directory_path() / fmt::format("trammel_laws_{}", ::getpid())) {
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string file(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name) << text;
-    return (path_ / name).string();
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
 struct Read {
   std::optional<TimeFunction> law;
   std::string problems;
 };
 Read read(const std::string& table, const std::string& entry) {
-  const Folder folder;
+  const Folder folder("trammel_laws");
   folder.file("quake.csv", table);
   const Scene scene = Scene::load(folder.file("scene.json", "{\"x\": " + entry + "}"));
   Problems problems;
