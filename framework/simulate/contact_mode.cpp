@@ -32,7 +32,7 @@ double ContactModes::settle(State& state, const ContactChanges& changes, std::ve
   rows_before_.resize(n), sticks_before_.resize(n);
   for (int i = 0; i < n; ++i) rows_before_[i] = system_.contact_row(i), sticks_before_[i] = system_.stick_row(i);
   lambda_before_ = state.lambda;
-  forces_before(state, changes);
+  forces_before(changes);
   toggle(state, changes.toggled, events);
   find_touching(changes);
   const auto approaches = [this](const TouchingContact& c) { return c.before < -scale_.at_rest(); };
@@ -71,7 +71,7 @@ double ContactModes::settle(State& state, const ContactChanges& changes, std::ve
 }
 
 // What held the contacts that now yield; whether rows were redundant.
-void ContactModes::forces_before(const State&, const ContactChanges& changes) {
+void ContactModes::forces_before(const ContactChanges& changes) {
   held_by_.assign(system_.model().contacts.size(), 0.0);
   redundant_ = false;
   if (changes.yielded.empty() && changes.released.empty()) return;

@@ -89,7 +89,7 @@ class ContactModes {
   using Kind = ContactEvent::Kind;
 
   void toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events);
-  void forces_before(const State& state, const ContactChanges& changes);
+  void forces_before(const ContactChanges& changes);
   void find_touching(const ContactChanges& changes);
   double strike(State& state);
   void accelerate_open(const State& state, const Vec& v);

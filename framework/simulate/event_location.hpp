@@ -80,6 +80,8 @@ class EventLocation {
   bool happened(int w, const Value& end) const;
   const Value& step_to(const State& now, double h, int w);
   bool hides(const State& now, double h, const State& next);
+  bool hides_gap(double h);
+  bool hides_force(double h);
   bool dips(const State& now, double h, const State& next, int w, Suspect& suspect);
   bool returns(const State& now, double h, int w, Suspect& suspect);
   bool worth_slopes(int w, double h) const;

@@ -6,6 +6,12 @@
 #include "simulate/event_location.hpp"
 
 namespace trammel::simulate {
+namespace {
+
+// Where in a step `hides` looks: an irrational part of it, the golden section's, meets no law's period again and again.
+constexpr double inside = 0.3819660112501051;
+
+}  // namespace
 
 // The cubic with values F and slopes S at both ends of [low, high] (Hermite).
 struct EventLocation::Cubic {
@@ -36,34 +42,43 @@ struct EventLocation::Cubic {
 // Whether the step is too long to tell what the functions did within it.
 bool EventLocation::hides(const State& now, double h, const State& next) {
   longest_ = std::max(longest_, h);
-  if (watches_.empty() || h < 1e-6 * longest_) return false;
-  constexpr double part = 0.3819660112501051;  // of the golden section
-  state_between(system_, now, next, part, between_.q, between_.v, dq_);
-  between_.t = now.t + part * h;
-  system_.move_to(between_.t, between_.q, between_.v);
-  bool forces_needed = false;
+  if (h < 1e-6 * longest_) return false;
+  bool gaps = false, forces = false;
   for (int w = 0; w < int(watches_.size()); ++w) {
-    const Watch& watch = watches_[w];
-    if (watch.at_ends || watch.kind == Kind::slide) continue;
-    if (by_force(w)) {
-      forces_needed = true;
-      continue;
-    }
+    if (watches_[w].at_ends || watches_[w].kind == Kind::slide) continue;
+    (by_force(w) ? forces : gaps) = true;
+  }
+  if (gaps || (forces && h_before_ == 0)) {
+    state_between(system_, now, next, inside, between_.q, between_.v, dq_);
+    between_.t = now.t + inside * h;
+  }
+  return (gaps && hides_gap(h)) || (forces && hides_force(h));
+}
+
+bool EventLocation::hides_gap(double h) {
+  system_.move_to(between_.t, between_.q, between_.v);
+  for (int w = 0; w < int(watches_.size()); ++w) {
+    if (watches_[w].at_ends || watches_[w].kind == Kind::slide || by_force(w)) continue;
     const Value &begin = now_[w], &end = next_[w];
     const Cubic cubic{0, h, begin.f, end.f, begin.slope, end.slope};
-    const double there = (watch.kind == Kind::leave ? -1 : 1) * system_.gap(watch.contact);
-    const double off = std::abs(there - cubic.value(part)), size = std::max(std::abs(begin.f), std::abs(end.f));
+    const double there = (watches_[w].kind == Kind::leave ? -1 : 1) * system_.gap(watches_[w].contact);
+    const double off = std::abs(there - cubic.value(inside)), size = std::max(std::abs(begin.f), std::abs(end.f));
     if (off > 0.05 * size && 4 * off > std::min({begin.f, end.f, there}) && off > scale_.touching()) return true;
   }
-  if (!forces_needed) return false;
+  return false;
+}
+
+// From its tangent of the step before; in the first step, from the line between its ends.
+bool EventLocation::hides_force(double h) {
   if (h_before_ == 0) {
+    system_.move_to(between_.t, between_.q, between_.v);
     system_.accelerate({}, between_.a, between_.lambda);
     evaluate(between_, probe_);
   }
   for (int w = 0; w < int(watches_.size()); ++w) {
     if (watches_[w].at_ends || !by_force(w)) continue;
     const double size = std::max({std::abs(now_[w].f), std::abs(next_[w].f), watches_[w].bound});
-    const double straight = h_before_ == 0 ? now_[w].f + part * (next_[w].f - now_[w].f)
+    const double straight = h_before_ == 0 ? now_[w].f + inside * (next_[w].f - now_[w].f)
                                            : now_[w].f + (now_[w].f - watches_[w].force_before) * (h / h_before_);
     const double found = h_before_ == 0 ? probe_[w].f : next_[w].f;
     if (std::abs(found - straight) > 0.5 * size) return true;
