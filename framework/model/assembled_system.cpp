@@ -226,6 +226,11 @@ void AssembledSystem::constraint_acceleration(const Vec& a, Vec& r) {
   if (work_->sizes.nc > 0) work_->add_rows_times(1, a, r);
 }
 
+void AssembledSystem::add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S) {
+  work_->evaluate_rows();
+  work_->add_tangent(c, a, lambda, S);
+}
+
 const Motion& AssembledSystem::motion(MarkerRef marker) {
   Work& w = *work_;
   return w.motion(w.chain.slot(marker));

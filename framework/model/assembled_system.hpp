@@ -130,6 +130,8 @@ class AssembledSystem final : public System {
   };
   const Balance& balance(const Vec& lambda);           // valid until the next call
   void constraint_acceleration(const Vec& a, Vec& r);  // G a - gamma
+  // S += c_m M + c_d D + c_k K + c_1 1, the matrix that `factorise` takes (nv x nv).
+  void add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S);
 
   const Motion& motion(MarkerRef marker);     // at the current point
   const Motion& contact_marker(int contact);  // of its A

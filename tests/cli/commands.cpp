@@ -28,13 +28,13 @@ std::vector<std::string> lines(const std::string& text) {
 TEST(Commands, HelpNamesEachOfThem) {
   const auto result = trammel({"help"});
   EXPECT_EQ(result.exit_code, 0);
-  for (const char* name : {"run", "static", "validate", "explain", "list", "describe", "schema"})
+  for (const char* name : {"run", "static", "modes", "validate", "explain", "list", "describe", "schema"})
     EXPECT_THAT(result.out, HasSubstr("trammel " + std::string(name)));
   EXPECT_EQ(result.err, "");
 }
 
 TEST(Commands, EachShowsItsOptions) {
-  for (const char* name : {"run", "static", "validate", "explain", "list", "describe", "schema"}) {
+  for (const char* name : {"run", "static", "modes", "validate", "explain", "list", "describe", "schema"}) {
     const auto result = trammel({name, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, StartsWith("trammel " + std::string(name)));
@@ -61,6 +61,30 @@ TEST(Static, LetsAPendulumHangAndWritesIt) {
   EXPECT_NEAR(std::stod(last.substr(4)), -1, 1e-12) << "bottom_y";
 }
 
+TEST(Modes, WritesATableAndShapes) {
+  const cli::TemporaryFolder folder;
+  const auto result = trammel({"modes", kPendulum, "--json", "--count", "1"}, {.folder = folder.path()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const json written = json::parse(cli::read_file(folder.path() / "out/pendulum_modes/modes.json"));
+  EXPECT_EQ(json::parse(result.out), written);
+  EXPECT_EQ(written["analysis"], "modes");
+  EXPECT_EQ(written["modes"].size(), 1u);
+  EXPECT_THAT(lines(cli::read_file(folder.path() / "out/pendulum_modes/modes.csv")).front(),
+              "mode,kind,frequency_hz,frequency_rad_s,damping_ratio,real,imaginary");
+  EXPECT_THAT(cli::read_file(folder.path() / "out/pendulum_modes/shapes.csv"), StartsWith("mode,point,x,y,x_re,"));
+}
+
+TEST(Modes, OfACheckpointAreThoseOfItsTime) {
+  const cli::TemporaryFolder folder;
+  const cli::Setting there{.folder = folder.path()};
+  ASSERT_EQ(trammel({"run", kPendulum, "--set", "simulate.until=0.3", "--quiet"}, there).exit_code, 0);
+  const auto from = trammel({"modes", kPendulum, "--json", "--from", "out/pendulum"}, there);
+  const auto at = trammel({"modes", kPendulum, "--json", "--at", "0.3"}, there);
+  EXPECT_EQ(from.exit_code, 0) << from.err;
+  EXPECT_EQ(at.exit_code, 0) << at.err;
+  EXPECT_EQ(json::parse(from.out)["modes"], json::parse(at.out)["modes"]);
+}
+
 struct Mistake {
   std::vector<std::string> words;
   std::string message;
@@ -75,6 +99,13 @@ TEST(CommandLine, MistakesExitWith2AndNameTheNearest) {
       {{"run", cli::bounce, "--quiet=yes"}, "--quiet takes no value, found '--quiet=yes'"},
       {{"run"}, "'trammel run' needs a SCENE"},
       {{"run", cli::bounce, kPendulum}, "'trammel run' takes one SCENE, found also"},
+      {{"modes", kPendulum, "--count", "0"}, "--count 0: expected a whole number of modes from 1 to 100000"},
+      {{"modes", kPendulum, "--count", "1.5"}, "--count 1.5: expected a whole number"},
+      {{"modes", kPendulum, "--at", "later"}, "--at later: expected a time in s"},
+      {{"modes", kPendulum, "--at", "nan"}, "--at nan: expected a time in s"},
+      {{"modes", kPendulum, "--from", "nowhere"}, "there is no nowhere/checkpoint.cbor"},
+      {{"modes", kPendulum, "--from", "a", "--at", "1"}, "--at and --from exclude each other"},
+      {{"modes", kPendulum, "--stedy"}, "Did you mean \"--steady\"?"},
       {{"list", "integrators"}, "'trammel list' takes no argument, found 'integrators'"},
       {{"run", cli::bounce, "--out", "a", "--resume", "b"}, "--out and --resume exclude each other"},
       {{"run", cli::bounce, "--resume", "nowhere"}, "there is no nowhere/checkpoint.cbor to continue from"},

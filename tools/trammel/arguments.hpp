@@ -62,6 +62,7 @@ inline constexpr Option kJson{"--json", "", "print one JSON object on standard o
 // One function per file of the same name.
 Command run_command();
 Command static_command();
+Command modes_command();
 Command validate_command();
 Command explain_command();
 Command list_command();

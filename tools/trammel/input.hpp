@@ -12,8 +12,8 @@
 
 namespace trammel::tool {
 
-// The operand with its --set overrides. Throws scene::SceneError.
-scene::Scene load_scene(const Arguments& arguments);
+// The operand with its --set overrides, then `more`. Throws scene::SceneError.
+scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override> more = {});
 
 // Adds the libraries and folders given by --plugin. Throws plugin::PluginError.
 void load_plugins(const Arguments& arguments, plugin::Registry& registry);

@@ -1,0 +1,253 @@
+#include "simulate/modal_analysis.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "simulate/blame.hpp"
+#include "simulate/checkpoint.hpp"
+#include "simulate/krylov_modes.hpp"
+#include "simulate/load_path.hpp"
+#include "simulate/log_file.hpp"
+#include "simulate/mode_shapes.hpp"
+#include "simulate/normal_modes.hpp"
+#include "simulate/result.hpp"
+#include "simulate/run_failed.hpp"
+#include "simulate/simulator.hpp"
+#include "simulate/steady_motion.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
+
+// The scene at the state that the options ask for, with contacts as they are there.
+class Posed {
+ public:
+  Posed(const scene::Scene& scene, plugin::Registry& registry, const ModesOptions& options)
+      : setup_(set_up(scene, registry, purpose_of(scene.root()))) {
+    if (!setup_.integrator)
+      of_statics(options);
+    else
+      in_motion(scene, options);
+    if (!options.steady) return;
+    if (const auto why = find_steady_motion(system(), state_))
+      throw RunFailed(fmt::format("no steady motion was found from the state at t = {:.9g}: {}", state_.t, *why));
+    what_ = "in steady motion from " + what_;
+  }
+
+  model::AssembledSystem& system() { return simulator_ ? simulator_->system() : *statics_; }
+  const State& state() const { return state_; }
+  const std::string& what() const { return what_; }
+  Setup& setup() { return setup_; }
+
+ private:
+  void of_statics(const ModesOptions& options) {
+    if (options.from) throw RunFailed("--from needs a scene with an integrator: statics write no checkpoints");
+    statics_.emplace(setup_.model);
+    model::Modes open;
+    open.contacts.resize(setup_.model->contacts.size());
+    statics_->set_modes(open);
+    if (options.at) {
+      path_.emplace(*statics_, setup_.settings, setup_.initial);
+      do path_->advance();
+      while (!path_->at_end());
+      state_ = path_->state();
+      state_.a = Vec::Zero(setup_.model->sizes.nv);
+      what_ = "the equilibrium under the loads of that time";
+    } else {
+      state_ = setup_.initial;
+      settle();
+      what_ = "the start of the scene";
+    }
+  }
+
+  void in_motion(const scene::Scene& scene, const ModesOptions& options) {
+    std::vector<Simulator::LevelCorrection> corrections;
+    for (const auto& [level, correction] : setup_.corrections) corrections.push_back({level, correction.get()});
+    simulator_.emplace(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
+    const std::optional<fs::path> folder = options.from ? options.from
+                                           : options.at ? std::optional(options.out)
+                                                        : std::nullopt;
+    if (folder) {
+      nlohmann::json data = read_checkpoint(*folder / "checkpoint.cbor", resume_hash(scene.root()));
+      try {
+        JsonArchive archive(data, JsonArchive::Direction::read);
+        simulator_->archive(archive);
+      } catch (const nlohmann::json::exception& e) {
+        refuse_checkpoint(*folder / "checkpoint.cbor",
+                          fmt::format("its content does not fit this program ({})", e.what()));
+      }
+      what_ = options.from ? "the checkpoint in " + folder->string() : "a run to that time";
+    } else {
+      simulator_->start(setup_.initial);
+      what_ = "the start of the scene";
+    }
+    state_ = simulator_->state();
+    settle();
+  }
+
+  void settle() {
+    system().move_to(state_.t, state_.q, state_.v);
+    system().accelerate({}, state_.a, state_.lambda);
+  }
+
+  Setup setup_;
+  std::optional<Simulator> simulator_;
+  std::optional<model::AssembledSystem> statics_;
+  std::optional<LoadPath> path_;  // holds the contacts' modes
+  State state_;
+  std::string what_;
+};
+
+double hertz(double angular) {
+  return angular / (2 * std::numbers::pi);
+}
+
+class Report {
+ public:
+  Report(const scene::Scene& scene, const plugin::Registry& registry, Posed& posed, const Spectrum& spectrum)
+      : scene_(scene), registry_(registry), posed_(posed), spectrum_(spectrum) {}
+
+  json result(const Outcomes& outcomes) const {
+    json modes = json::array();
+    for (std::size_t i = 0; i < spectrum_.modes.size(); ++i) {
+      const Mode& mode = spectrum_.modes[i];
+      modes.push_back({{"mode", i + 1},
+                       {"kind", to_string(mode.kind)},
+                       {"frequency_hz", hertz(mode.lambda.imag())},
+                       {"frequency_rad_s", mode.lambda.imag()},
+                       {"damping_ratio", mode.damping_ratio()},
+                       {"eigenvalue", {{"real", mode.lambda.real()}, {"imaginary", mode.lambda.imag()}}}});
+    }
+    json all = result_head(scene_, registry_, outcomes);
+    const Sizes n = posed_.system().sizes();
+    all.update(json{{"analysis", "modes"},
+                    {"state", posed_.what()},
+                    {"t", posed_.state().t},
+                    {"largest_speed", size(posed_.state().v)},
+                    {"largest_acceleration", size(posed_.state().a)},
+                    {"sizes", {{"nq", n.nq}, {"nv", n.nv}, {"nc", n.nc}}},
+                    {"redundant_rows", spectrum_.redundant},
+                    {"degrees_of_freedom", spectrum_.degrees},
+                    {"unstable", unstable()},
+                    {"modes", modes},
+                    {"cpu_time_s", outcomes.cost.cpu},
+                    {"warnings", posed_.setup().warnings}});
+    return all;
+  }
+
+  std::string csv() const {
+    std::string text = "mode,kind,frequency_hz,frequency_rad_s,damping_ratio,real,imaginary\n";
+    for (std::size_t i = 0; i < spectrum_.modes.size(); ++i) {
+      const Mode& m = spectrum_.modes[i];
+      text += fmt::format("{},{},{:.15g},{:.15g},{:.15g},{:.15g},{:.15g}\n", i + 1, to_string(m.kind),
+                          hertz(m.lambda.imag()), m.lambda.imag(), m.damping_ratio(), m.lambda.real(), m.lambda.imag());
+    }
+    return text;
+  }
+
+  std::string summary(const fs::path& folder) const {
+    const State& s = posed_.state();
+    const Sizes n = posed_.system().sizes();
+    std::string text = title_of(scene_) + "\n";
+    const auto line = [&text](const char* what, const std::string& value) {
+      text += fmt::format("  {:<12}{}\n", what, value);
+    };
+    line("state", fmt::format("t = {:.9g}, {}", s.t, posed_.what()));
+    if (size(s.v) > 0)
+      line("", fmt::format("in motion, up to {:.3g} (m/s, rad/s): coefficients frozen there", size(s.v)));
+    if (size(s.a) > 1e-6)
+      line("", fmt::format("not in equilibrium: it accelerates by up to {:.3g} (m/s^2, rad/s^2)", size(s.a)));
+    line("freedom", spectrum_.degrees < 0
+                        ? fmt::format("nv = {}, nc = {}", n.nv, n.nc)
+                        : fmt::format("{} of nv = {}, nc = {}{}", spectrum_.degrees, n.nv, n.nc,
+                                      spectrum_.redundant ? fmt::format(" ({} redundant)", spectrum_.redundant) : ""));
+    if (spectrum_.modes.empty()) line("modes", "none: nothing can move");
+    if (!spectrum_.modes.empty())
+      text += fmt::format("\n  {:>4}  {:>14}  {:>14}  {:>14}  {:>14}\n", "mode", "frequency [Hz]", "[rad/s]",
+                          "damping ratio", "growth [1/s]");
+    for (std::size_t i = 0; i < spectrum_.modes.size(); ++i) {
+      const Mode& m = spectrum_.modes[i];
+      const bool plain = m.kind == Mode::Kind::oscillation;
+      text += fmt::format("  {:>4}  {:>14.8g}  {:>14.8g}  {:>14.6g}  {:>14.6g}{}\n", i + 1, hertz(m.lambda.imag()),
+                          m.lambda.imag(), m.damping_ratio() + 0.0, m.lambda.real() + 0.0,
+                          plain ? "" : fmt::format("  {}", to_string(m.kind)));
+    }
+    if (unstable() > 0)
+      text += fmt::format("\n  unstable    {} of these modes grow{}\n", unstable(), unstable() == 1 ? "s" : "");
+    for (const std::string& warning : posed_.setup().warnings) line("warning", warning);
+    line("results", folder.string());
+    return text;
+  }
+
+ private:
+  static double size(const Vec& x) { return x.size() ? x.lpNorm<Eigen::Infinity>() : 0; }
+  int unstable() const {
+    int sum = 0;
+    for (const Mode& mode : spectrum_.modes) sum += mode.unstable();
+    return sum;
+  }
+
+  const scene::Scene& scene_;
+  const plugin::Registry& registry_;
+  Posed& posed_;
+  const Spectrum& spectrum_;
+};
+
+Spectrum spectrum_of(Posed& posed, int count) {
+  const State& s = posed.state();
+  if (!s.a.allFinite()) throw RunFailed(fmt::format("at t = {:.9g}: the accelerations are not finite", s.t));
+  constexpr int null_space_limit = 1500, undamped_limit = 500, damped_limit = 200;  // a few seconds of dense matrices
+  if (s.q.size() > null_space_limit) return krylov_modes(posed.system(), s, count);
+  const Linearisation l = linearise(posed.system(), s);
+  const bool dense = l.M.rows() <= (l.D.isZero(0) ? undamped_limit : damped_limit) || count > l.M.rows() / 3;
+  return dense ? dense_modes(l, count) : krylov_modes(posed.system(), s, count);
+}
+
+}  // namespace
+
+RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, const ModesOptions& options) {
+  if (options.at && purpose_of(scene.root()) == Purpose::motion) {
+    RunOptions run_options;
+    run_options.out = options.out, run_options.interrupt = options.interrupt;
+    RunReport to_there = run(scene, registry, run_options);
+    if (to_there.status != Status::done) return to_there;
+  }
+  const std::clock_t began = std::clock();
+  Posed posed(scene, registry, options);
+  try {
+    const Spectrum spectrum = spectrum_of(posed, options.count);
+    Outcomes outcomes;
+    outcomes.cost.cpu = double(std::clock() - began) / CLOCKS_PER_SEC;
+    const Report report(scene, registry, posed, spectrum);
+    RunReport done;
+    done.result_json = report.result(outcomes).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+    std::error_code error;
+    fs::create_directories(options.out, error);
+    write_whole(options.out / "modes.json", done.result_json);
+    write_whole(options.out / "modes.csv", report.csv());
+    write_whole(options.out / "shapes.csv", shapes_csv(posed.system(), posed.state(), spectrum.modes));
+    done.summary = report.summary(options.out);
+    return done;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const RunFailed&) {
+    throw;
+  } catch (const model::NotSolvable&) {
+    throw;
+  } catch (const OutputError&) {
+    throw;
+  } catch (const plugin::PluginError&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw blame(e, posed.setup(), posed.system().last_call(), scene.root(), registry, posed.state().t, 0);
+  }
+}
+
+}  // namespace trammel::simulate

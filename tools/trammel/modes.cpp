@@ -1,0 +1,91 @@
+// trammel modes SCENE: frequencies, damping and shapes of small motions about a state, and their results folder.
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "arguments.hpp"
+#include "crash.hpp"
+#include "input.hpp"
+#include "interrupt.hpp"
+#include "results_folder.hpp"
+#include "simulate/modal_analysis.hpp"
+
+namespace trammel::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Option kFolder{"--out", "DIR", "results folder; default out/<scene name>_modes"};
+constexpr Option kAt{"--at", "TIME",
+                     "the state after a run to that time [s], or under the loads of it in a scene of statics"};
+constexpr Option kFrom{"--from", "DIR", "the state of the checkpoint in a results folder"};
+constexpr Option kSteady{"--steady", "", "the steady motion near that state: velocities stay, nothing accelerates"};
+constexpr Option kCount{"--count", "N", "so many of the lowest modes; default 10"};
+
+double number(const Arguments& arguments, const Option& option, const char* expected) {
+  const std::string& text = arguments.last(option.name);
+  double x = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(x))
+    throw UsageError(fmt::format("{} {}: expected {}", option.name, text, expected));
+  return x;
+}
+
+simulate::ModesOptions read(const Arguments& arguments) {
+  simulate::ModesOptions options;
+  options.out = arguments.has("--out") ? fs::path(arguments.last("--out"))
+                                       : fs::path("out") / (fs::path(arguments.operand()).stem().string() + "_modes");
+  if (arguments.has("--count")) {
+    const char* expected = "a whole number of modes from 1 to 100000";
+    const double count = number(arguments, kCount, expected);
+    if (!(count >= 1 && count <= 1e5 && count == std::floor(count)))
+      throw UsageError(fmt::format("--count {}: expected {}", arguments.last("--count"), expected));
+    options.count = int(count);
+  }
+  if (arguments.has("--at")) options.at = number(arguments, kAt, "a time in s");
+  if (arguments.has("--from")) {
+    if (options.at) throw UsageError("--at and --from exclude each other: a checkpoint has its own time");
+    const fs::path folder = arguments.last("--from");
+    std::error_code error;
+    if (!fs::exists(folder / "checkpoint.cbor", error))
+      throw UsageError(fmt::format("--from {0}: there is no {0}/checkpoint.cbor", folder.string()));
+    options.from = folder;
+  }
+  options.steady = arguments.has("--steady");
+  return options;
+}
+
+Exit run(const Arguments& arguments) {
+  const bool json = arguments.has("--json"), quiet = arguments.has("--quiet");
+  simulate::ModesOptions options = read(arguments);
+  std::vector<scene::Override> more;
+  if (options.at) more.push_back({"simulate.until", fmt::format("{:.17g}", *options.at)});
+  const scene::Scene scene = load_scene(arguments, std::move(more));
+  plugin::Registry registry;
+  load_plugins(arguments, registry);
+  require_writable(options.out);
+  options.interrupt = &watch_for_interrupts();
+  const simulate::RunReport report = simulate::analyse_modes(scene, registry, options);
+  if (report.status != simulate::Status::done) {
+    if (json) fmt::print("{}\n", report.result_json);
+    fmt::print(stderr, "trammel: on the way to t = {:.9g}: {}\n", *options.at, report.reason);
+    return report.status == simulate::Status::interrupted ? Exit::interrupted : Exit::failed;
+  }
+  if (json) fmt::print("{}\n", report.result_json);
+  if (!json && !quiet) fmt::print("{}\n", report.summary);
+  return Exit::done;
+}
+
+}  // namespace
+
+Command modes_command() {
+  return {"modes",
+          "SCENE",
+          "Find frequencies, damping and shapes of small motions about a state.",
+          {kFolder, kAt, kFrom, kSteady, kCount, kSet, kPlugin, kJson, kQuiet},
+          run};
+}
+
+}  // namespace trammel::tool
