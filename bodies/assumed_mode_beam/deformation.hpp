@@ -31,11 +31,11 @@ template <class Sizes>
 void AssumedModeBeam::deform(const Sizes& s, In q, Deformation& at) const {
   const InertiaBasis& b = *basis_;
   const double *A = q.data() + i_A_, *B = q.data() + i_B_;
-  std::copy_n(b.X0(), int(s.size), at.L);
-  add_combination(s.size, s.n_axial, Rows{b.phi_x(), s.size}, A, at.L);
+  combine_from(b.X0(), s.size, s.n_axial, Rows{b.phi_x(), s.size}, A, at.L);
   combine(s.size, s.N, Rows{b.phi_y(), s.size}, B, at.Y);
-  std::fill_n(at.F, int(s.row), 0.0);
-  if (s.size > 0) {
+  if (s.size == 0) {
+    std::fill_n(at.F, int(s.row), 0.0);
+  } else {
     foreshorten(s, B, at.p);
     double half_B[most_modes];
     for (int i = 0; i < s.N; ++i) half_B[i] = 0.5 * B[i];

@@ -18,39 +18,44 @@ AnySizes AssumedModeBeam::sizes() const {
 
 // M = int J^T J dm
 template <class Sizes>
-void AssumedModeBeam::add_mass(const Sizes& s, In q, const Deformation& at, Matrix& M) const {
+void AssumedModeBeam::add_mass(const Sizes& s, In q, const Deformation& at, Matrix& whole) const {
   const InertiaBasis& b = *basis_;
   const double *A = q.data() + i_A_, *B = q.data() + i_B_;
-  const auto symmetric = [&](int i, int j, double value) {
-    M.add(i, j, value);
-    M.add(j, i, value);
+  Matrix M = whole.from(i_A_, i_A_);
+  // Column j from row `first` on, and row j as well: in two loops, or the compiler doubts whether they meet.
+  const auto symmetric = [&](auto count, int first, int j, const double* values) {
+    for (int i = 0; i < count; ++i) M.add(first + i, j, values[i]);
+    for (int i = 0; i < count; ++i) M.add(j, first + i, values[i]);
   };
-  for (int i = 0; i < s.n_axial; ++i) M.add(i_A_ + i, i_A_ + i, mass_ / 2);
-  for (int i = 0; i < s.N; ++i) M.add(i_B_ + i, i_B_ + i, mass_);
+  for (int i = 0; i < s.n_axial; ++i) M.add(s.A(i), s.A(i), mass_ / 2);
+  for (int i = 0; i < s.N; ++i) M.add(s.B(i), s.B(i), mass_);
   if (s.size > 0)
     for (int j = 0; j < s.N; ++j) {
       const double* p = at.p + j * s.row;
       double pp[padded(most_modes)];
       products(s.size, j + 1, Rows{at.p, s.row}, p, pp);
-      for (int i = 0; i < j; ++i) symmetric(i_B_ + i, i_B_ + j, pp[i]);
-      M.add(i_B_ + j, i_B_ + j, pp[j]);
-      for (int i = 0; i < s.n_axial; ++i) symmetric(i_A_ + i, i_B_ + j, -p[s.size + i]);
+      symmetric(j, s.B(0), s.B(j), pp);
+      M.add(s.B(j), s.B(j), pp[j]);
+      double p_x[padded(most_modes)];
+      for (int i = 0; i < s.n_axial; ++i) p_x[i] = -p[s.size + i];
+      symmetric(s.n_axial, s.A(0), s.B(j), p_x);
     }
   if (i_theta_ < 0) return;
 
   // (Y Phi_x),  (X Phi_y) + (Y p),  (X X) + (Y Y)
   double Y_x[padded(most_modes)], L_y[padded(most_modes)], F_y[padded(most_modes)] = {}, Y_p[padded(most_modes)] = {};
   combine(padded(s.n_axial), s.N, Rows{Mxy_.data(), padded(s.n_axial)}, B, Y_x);
-  std::copy_n(Dy_.data(), int(padded(s.N)), L_y);
-  add_combination(padded(s.N), s.n_axial, Rows{Myx_.data(), padded(s.N)}, A, L_y);
+  combine_from(Dy_.data(), padded(s.N), s.n_axial, Rows{Myx_.data(), padded(s.N)}, A, L_y);
   if (s.size > 0) {
     products(s.size, s.N, Rows{b.phi_y(), s.size}, at.F, F_y);
     products(s.size, s.N, Rows{at.p, s.row}, at.Y, Y_p);
   }
-  for (int i = 0; i < s.n_axial; ++i) symmetric(i_theta_, i_A_ + i, -Y_x[i]);
-  for (int i = 0; i < s.N; ++i) symmetric(i_theta_, i_B_ + i, L_y[i] - F_y[i] + Y_p[i]);
-  M.add(i_theta_, i_theta_, turning_inertia(s, A, B, at));
-  if (i_o_ >= 0) add_origin_mass(q, at, M);
+  for (int i = 0; i < s.n_axial; ++i) Y_x[i] = -Y_x[i];
+  for (int i = 0; i < s.N; ++i) L_y[i] += Y_p[i] - F_y[i];
+  symmetric(s.n_axial, s.A(0), s.theta, Y_x);
+  symmetric(s.N, s.B(0), s.theta, L_y);
+  M.add(s.theta, s.theta, turning_inertia(s, A, B, at));
+  if (i_o_ >= 0) add_origin_mass(q, at, whole);
 }
 
 Eigen::Vector2d AssumedModeBeam::first_moment(In q, const Deformation& at) const {
@@ -101,11 +106,13 @@ void AssumedModeBeam::add_force(const Sizes& s, In q, In v, const Deformation& a
     products(s.size, s.N, Rows{b.phi_y(), s.size}, P, P_y);
   }
   const double *F_x = at.F + s.size, *D_x = D + s.size;
+  double f_A[most_modes], f_B[most_modes];  // complete before f is written, which might be what is read
   for (int i = 0; i < s.n_axial; ++i)
-    f(i_A_ + i) +=
-        D_x[i] + 2 * w * y_x[i] + w * w * (Dx_(i) + mass_ / 2 * A[i] - F_x[i]) + g(0) * Sx_(i) - K1_(i) * A[i];
+    f_A[i] = D_x[i] + 2 * w * y_x[i] + w * w * (Dx_(i) + mass_ / 2 * A[i] - F_x[i]) + g(0) * Sx_(i) - K1_(i) * A[i];
   for (int i = 0; i < s.N; ++i)
-    f(i_B_ + i) += p_a1[i] - 2 * w * (x_y[i] - P_y[i]) + w * w * mass_ * B[i] + g(1) * Sy_(i) - K2_(i) * B[i];
+    f_B[i] = p_a1[i] - 2 * w * (x_y[i] - P_y[i]) + w * w * mass_ * B[i] + g(1) * Sy_(i) - K2_(i) * B[i];
+  for (int i = 0; i < s.n_axial; ++i) f(i_A_ + i) += f_A[i];
+  for (int i = 0; i < s.N; ++i) f(i_B_ + i) += f_B[i];
   if (i_theta_ < 0) return;
 
   // (Y alpha_1) - (X alpha_2); here w^2 cancels.

@@ -12,6 +12,11 @@ struct Sizes {
   Modes n_axial, N;
   Length size;  // of the basis of the foreshortening's functions, 0 without; inertia_basis.hpp
   Row row;      // of these functions' rows
+
+  // Places of theta, A_i and B_i in a matrix counted from A_1's entry.
+  static constexpr int theta = -1;
+  static constexpr int A(int i) { return i; }
+  constexpr int B(int i) const { return n_axial + i; }
 };
 using AnySizes = Sizes<int, int, int>;
 template <int modes, int size>

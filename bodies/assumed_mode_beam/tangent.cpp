@@ -67,21 +67,22 @@ void AssumedModeBeam::prepare_tangent(const Sizes& z, In q, TangentPoint& t) con
 
 // Rows A and B by A and B.
 template <class Sizes>
-void AssumedModeBeam::add_modal_tangent(const Sizes& z, const TangentPoint& t, Matrix& S) const {
+void AssumedModeBeam::add_modal_tangent(const Sizes& z, const TangentPoint& t, Matrix& whole) const {
+  Matrix S = whole.from(i_A_, i_A_);
   const double *phi_y = basis_->phi_y(), c_k = t.c.c_k;
-  for (int i = 0; i < z.n_axial; ++i) S.add(i_A_ + i, i_A_ + i, t.k1 * mass_ / 2 + c_k * K1_(i));
+  for (int i = 0; i < z.n_axial; ++i) S.add(z.A(i), z.A(i), t.k1 * mass_ / 2 + c_k * K1_(i));
   for (int j = 0; j < z.N; ++j) {
-    const int B_j = i_B_ + j;
+    const int B_j = z.B(j);
     S.add(B_j, B_j, t.k1 * mass_ + c_k * K2_(j));
     for (int i = 0; i < z.n_axial; ++i) {
-      S.add(i_A_ + i, B_j, -t.k2 * Mxy_(i, j));
-      S.add(B_j, i_A_ + i, t.k2 * Mxy_(i, j));
+      S.add(z.A(i), B_j, -t.k2 * Mxy_(i, j));
+      S.add(B_j, z.A(i), t.k2 * Mxy_(i, j));
     }
     if (z.size == 0) continue;
     const double *p_j = t.at.p + j * z.row, *s_j = t.s + j * z.row, *phi_j = phi_y + j * z.size;
     for (int i = 0; i < z.n_axial; ++i) {
-      S.add(i_A_ + i, B_j, -s_j[z.size + i]);
-      S.add(B_j, i_A_ + i, -t.k1 * p_j[z.size + i]);
+      S.add(z.A(i), B_j, -s_j[z.size + i]);
+      S.add(B_j, z.A(i), -t.k1 * p_j[z.size + i]);
     }
     // p_i (k2 Phi_y,j + s_j) - Phi_y,i e_j - c_k H_ij alpha_1
     alignas(64) double sum[InertiaBasis::most];
@@ -90,15 +91,16 @@ void AssumedModeBeam::add_modal_tangent(const Sizes& z, const TangentPoint& t, M
     products(z.size, z.N, Rows{t.at.p, z.row}, sum, by_p);
     products(z.size, z.N, Rows{phi_y, z.size}, t.e + j * z.row, by_phi);
     products(z.size, j + 1, Rows{basis_->H(j), z.row}, t.a1, H_alpha);
-    for (int i = 0; i < z.N; ++i) S.add(i_B_ + i, B_j, by_p[i] - by_phi[i]);
-    for (int i = 0; i < j; ++i) S.add(B_j, i_B_ + i, -c_k * H_alpha[i]);
-    for (int i = 0; i <= j; ++i) S.add(i_B_ + i, B_j, -c_k * H_alpha[i]);
+    for (int i = 0; i < z.N; ++i) S.add(z.B(i), B_j, by_p[i] - by_phi[i]);
+    for (int i = 0; i < j; ++i) S.add(B_j, z.B(i), -c_k * H_alpha[i]);
+    for (int i = 0; i <= j; ++i) S.add(z.B(i), B_j, -c_k * H_alpha[i]);
   }
 }
 
 // Column and row theta.
 template <class Sizes>
-void AssumedModeBeam::add_turning_tangent(const Sizes& z, const TangentPoint& t, Matrix& S) const {
+void AssumedModeBeam::add_turning_tangent(const Sizes& z, const TangentPoint& t, Matrix& whole) const {
+  Matrix S = whole.from(i_A_, i_A_);
   const Blend c = t.c;
   const double w = t.w, c_a = t.k2 + c.c_k * t.w_dot;
   const auto axial_by = [&](const double* B, double* y) {  // (Phi_y B  Phi_x)
@@ -111,8 +113,8 @@ void AssumedModeBeam::add_turning_tangent(const Sizes& z, const TangentPoint& t,
   axial_by(t.B, Y_x), axial_by(t.Bd, yd_x), axial_by(t.Bdd, ydd_x);
   for (int i = 0; i < z.n_axial; ++i) {
     const double X_x = Dx_(i) + mass_ / 2 * t.A[i] - t.at.F[z.size + i], xd_x = mass_ / 2 * t.Ad[i] - t.P[z.size + i];
-    S.add(i_A_ + i, i_theta_, -c.c_m * Y_x[i] - 2 * c.c_d * (yd_x[i] + w * X_x) + c.c_k * t.b(1) * Sx_(i));
-    S.add(i_theta_, i_A_ + i, -c.c_m * Y_x[i] + c_a * X_x + c.c_k * (ydd_x[i] + 2 * w * xd_x + t.b(1) * Sx_(i)));
+    S.add(z.A(i), z.theta, -c.c_m * Y_x[i] - 2 * c.c_d * (yd_x[i] + w * X_x) + c.c_k * t.b(1) * Sx_(i));
+    S.add(z.theta, z.A(i), -c.c_m * Y_x[i] + c_a * X_x + c.c_k * (ydd_x[i] + 2 * w * xd_x + t.b(1) * Sx_(i)));
   }
 
   // With (p U1), (s Y) - (e X) - c_k (p alpha_2), and the share of F and its rates in (X Phi_y), (ud_x Phi_y), (alpha_1 Phi_y)
@@ -139,14 +141,14 @@ void AssumedModeBeam::add_turning_tangent(const Sizes& z, const TangentPoint& t,
   }
   for (int i = 0; i < z.N; ++i) {
     const double X_y = Dy_(i) + A_y[i], b_y = c.c_k * t.b(0) * Sy_(i);
-    S.add(i_B_ + i, i_theta_, column[i] + c.c_m * X_y + 2 * c.c_d * (Ad_y[i] - w * mass_ * t.B[i]) - b_y);
-    S.add(i_theta_, i_B_ + i,
+    S.add(z.B(i), z.theta, column[i] + c.c_m * X_y + 2 * c.c_d * (Ad_y[i] - w * mass_ * t.B[i]) - b_y);
+    S.add(z.theta, z.B(i),
           row[i] + c.c_m * X_y - c.c_k * Add_y[i] + mass_ * (c_a * t.B[i] + 2 * c.c_k * w * t.Bd[i]) - b_y);
   }
   double x_xd = -dot(z.size, t.at.X, t.P);  // (X ud_x) + (Y ud_y)
   for (int i = 0; i < z.n_axial; ++i) x_xd += t.Ad[i] * (Dx_(i) + mass_ / 2 * t.A[i] - t.at.F[z.size + i]);
   for (int i = 0; i < z.N; ++i) x_xd += mass_ * t.B[i] * t.Bd[i];
-  S.add(i_theta_, i_theta_, c.c_m * turning_inertia(z, t.A, t.B, t.at) + 2 * c.c_d * x_xd - c.c_k * t.b.dot(t.X));
+  S.add(z.theta, z.theta, c.c_m * turning_inertia(z, t.A, t.B, t.at) + 2 * c.c_d * x_xd - c.c_k * t.b.dot(t.X));
 }
 
 // Rows and columns of the origin: R int U dm, and J^T R^T.

@@ -51,13 +51,13 @@ inline Pack totals(const Pack& s0, const Pack& s1, const Pack& s2, const Pack& s
   return __builtin_shufflevector(low, high, 0, 1, 4, 5) + __builtin_shufflevector(low, high, 2, 3, 6, 7);
 }
 
-// `packs` packs of y from the k-th number on, from all rows. Few packs take two rows at a time, so that enough sums are in
-// flight.
-template <int packs, bool add, class Count, class Table>
-inline void combine_packs(Count m, const Table& rows, int k, const double* c, double* y) {
+// `packs` packs of y from the k-th number on, from all rows, added to those of `start`. Few packs take two rows at a time, so
+// that enough sums are in flight.
+template <int packs, class Start, class Count, class Table>
+inline void combine_packs(Count m, const Table& rows, int k, const double* c, Start start, double* y) {
   constexpr bool two_rows = packs <= 4;
   Pack sum[packs], second[packs] = {};
-  for (int p = 0; p < packs; ++p) sum[p] = add ? Pack(at(y + k + pack * p)) : Pack{};
+  for (int p = 0; p < packs; ++p) sum[p] = start.pack_at(k + pack * p);
   int j = 0;
   if constexpr (two_rows)
     for (; j + 2 <= m; j += 2) {
@@ -74,16 +74,24 @@ inline void combine_packs(Count m, const Table& rows, int k, const double* c, do
   for (int p = 0; p < packs; ++p) at(y + k + pack * p) = two_rows ? sum[p] + second[p] : sum[p];
 }
 
-template <bool add, class Length, class Count, class Table>
-inline void combine_rows(Length n, Count m, const Table& rows, const double* c, double* y) {
+struct Zeros {
+  Pack pack_at(int) const { return Pack{}; }
+};
+struct Numbers {
+  const double* x;
+  Pack pack_at(int k) const { return at(x + k); }
+};
+
+template <class Start, class Length, class Count, class Table>
+inline void combine_rows(Length n, Count m, const Table& rows, const double* c, Start start, double* y) {
   if constexpr (!std::is_same_v<Length, int>) {
-    combine_packs<Length::value / pack, add>(m, rows, 0, c, y);
+    combine_packs<Length::value / pack>(m, rows, 0, c, start, y);
   } else {
     int k = 0;
-    for (; k + 8 * pack <= n; k += 8 * pack) combine_packs<8, add>(m, rows, k, c, y);
-    if (k + 4 * pack <= n) combine_packs<4, add>(m, rows, k, c, y), k += 4 * pack;
-    if (k + 2 * pack <= n) combine_packs<2, add>(m, rows, k, c, y), k += 2 * pack;
-    if (k < n) combine_packs<1, add>(m, rows, k, c, y);
+    for (; k + 8 * pack <= n; k += 8 * pack) combine_packs<8>(m, rows, k, c, start, y);
+    if (k + 4 * pack <= n) combine_packs<4>(m, rows, k, c, start, y), k += 4 * pack;
+    if (k + 2 * pack <= n) combine_packs<2>(m, rows, k, c, start, y), k += 2 * pack;
+    if (k < n) combine_packs<1>(m, rows, k, c, start, y);
   }
 }
 
@@ -92,12 +100,12 @@ inline void combine_rows(Length n, Count m, const Table& rows, const double* c, 
 // y = sum_j c_j rows_j  over m rows of length n
 template <class Length, class Count, class Table>
 inline void combine(Length n, Count m, const Table& rows, const double* c, double* y) {
-  detail::combine_rows<false>(n, m, rows, c, y);
+  detail::combine_rows(n, m, rows, c, detail::Zeros{}, y);
 }
-// y += sum_j c_j rows_j
+// y = start + sum_j c_j rows_j
 template <class Length, class Count, class Table>
-inline void add_combination(Length n, Count m, const Table& rows, const double* c, double* y) {
-  detail::combine_rows<true>(n, m, rows, c, y);
+inline void combine_from(const double* start, Length n, Count m, const Table& rows, const double* c, double* y) {
+  detail::combine_rows(n, m, rows, c, detail::Numbers{start}, y);
 }
 
 // sum x y

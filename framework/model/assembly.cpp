@@ -56,8 +56,7 @@ void AssembledSystem::Work::evaluate_bodies() {
     const BodyEntry& entry = model->bodies[k];
     const auto q_body = q.segment(entry.q0, entry.nq);
     const auto v_body = v.segment(entry.v0, entry.nv);
-    Matrix target = Matrix::onto(blocks ? blocks->mass(k) : M);
-    if (!blocks) target.origin(entry.v0, entry.v0);
+    Matrix target = blocks ? Matrix::onto(blocks->mass(k)) : Matrix::onto(M).from(entry.v0, entry.v0);
     if (!mass_fresh && blocks) blocks->mass(k).setZero();
     if (!mass_fresh && entry.mass_and_force) {
       called(entry.name, "mass_and_force");
@@ -292,14 +291,14 @@ class ForceWrench final : public PairWrench {
 // S += c_m M + c_d D + c_k K + c_1 1, D and K of M a - f + W^T lambda.
 void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S) {
   ++counts.jacobian_evaluations;
-  S.diagonal().head(sizes.nv).array() += c.c_1;
-  Matrix target = Matrix::onto(S);
+  if (c.c_1 != 0) S.diagonal().head(sizes.nv).array() += c.c_1;
+  const Matrix whole = Matrix::onto(S);
   for (const BodyEntry& entry : model->bodies) {
+    Matrix target = whole.from(entry.v0, entry.v0);
     called(entry.name, "tangent");
     const auto q_body = q.segment(entry.q0, entry.nq);
     const auto v_body = v.segment(entry.v0, entry.nv);
     const auto a_body = a.segment(entry.v0, entry.nv);
-    target.origin(entry.v0, entry.v0);
     if (carried_stress && entry.carried_stress && c.c_m == 0 && c.c_d == 0) {
       entry.carried_stress->add_tangent_with_stress_from(t, q_body, carried_stress->q.segment(entry.q0, entry.nq),
                                                          carried_stress->dq.segment(entry.v0, entry.nv), c.c_k, target);

@@ -112,8 +112,7 @@ void MarkerChain::add_reaction_derivative(int index, double t, const Vec& q, con
   if (slot.marker.body < 0) return;
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
   if (!entry.reaction_derivative) return add_numeric_reaction_derivative(slot, t, q, F, c, S);
-  Matrix target = Matrix::onto(S);
-  target.origin(entry.v0, entry.v0);
+  Matrix target = Matrix::onto(S).from(entry.v0, entry.v0);
   entry.reaction_derivative->add_reaction_derivative(slot.marker.marker, t, q.segment(entry.q0, entry.nq), F, c,
                                                      target);
 }

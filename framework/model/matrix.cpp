@@ -4,7 +4,7 @@ namespace trammel {
 
 Matrix Matrix::onto(Mat& dense) {
   Matrix m;
-  m.data_ = dense.data();
+  m.origin_ = dense.data();
   m.stride_ = dense.outerStride();
   return m;
 }
@@ -14,7 +14,7 @@ void Matrix::add(int i0, int j0, Block block, double c) {
   Eigen::Index rows = block.rows(), columns = block.cols();
   if (rows == stride_ && rows == block.outerStride()) rows *= columns, columns = 1;  // a body alone: one long column
   for (Eigen::Index j = 0; j < columns; ++j) {
-    double* to = data_ + (column_ + j0 + j) * stride_ + row_ + i0;
+    double* to = origin_ + (j0 + j) * stride_ + i0;
     const double* from = block.data() + j * block.outerStride();
     for (Eigen::Index i = 0; i < rows; ++i) to[i] += c * from[i];
   }
@@ -22,7 +22,7 @@ void Matrix::add(int i0, int j0, Block block, double c) {
 
 void Matrix::add(std::span<const int> rows, std::span<const int> columns, Block block, double c) {
   for (std::size_t j = 0; j < columns.size(); ++j) {
-    double* column = data_ + (column_ + columns[j]) * stride_ + row_;
+    double* column = origin_ + columns[j] * stride_;
     for (std::size_t i = 0; i < rows.size(); ++i) column[rows[i]] += c * block(Eigen::Index(i), Eigen::Index(j));
   }
 }

@@ -153,15 +153,12 @@ void SurfaceContact::add_tangent(MarkerChain& chain, int slot, double c_k, doubl
       sphere_by_nodes = sphere_by_nodes * p.B;
       nodes_by_sphere = p.B.transpose() * nodes_by_sphere;
     }
-    Matrix target = Matrix::onto(S);
-    target.origin(body_.v0, body_.v0);
-    target.add(p.dofs, points_K);
+    const Matrix whole = Matrix::onto(S);
+    whole.from(body_.v0, body_.v0).add(p.dofs, points_K);
     if (sphere_body < 0) continue;
     const int v0 = chain.first_velocity(slot);
-    target.origin(v0, body_.v0);
-    target.add(sphere.dofs, p.dofs, sphere.J.transpose() * sphere_by_nodes);
-    target.origin(body_.v0, v0);
-    target.add(p.dofs, sphere.dofs, nodes_by_sphere * sphere.J);
+    whole.from(v0, body_.v0).add(sphere.dofs, p.dofs, sphere.J.transpose() * sphere_by_nodes);
+    whole.from(body_.v0, v0).add(p.dofs, sphere.dofs, nodes_by_sphere * sphere.J);
   }
   chain.add_pair(slot, slot, on_itself, 1, S);
 }

@@ -19,16 +19,21 @@ class Matrix {
   // entry(dofs[i], dofs[j]) += c * block(i, j)
   void add(std::span<const int> dofs, Block block, double c = 1) { add(dofs, dofs, block, c); }
   void add(std::span<const int> rows, std::span<const int> columns, Block block, double c = 1);
-  void add(int i, int j, double value) { data_[(column_ + j) * stride_ + row_ + i] += value; }
+  void add(int i, int j, double value) { origin_[j * stride_ + i] += value; }
+
+  // The same matrix, counted from entry (i, j): indices known when compiling then leave little to compute.
+  Matrix from(int i, int j) const {
+    Matrix shifted = *this;
+    shifted.origin_ += j * stride_ + i;
+    return shifted;
+  }
 
   // --- for the framework ---
-  static Matrix onto(Mat& dense);                                     // adds into an existing matrix
-  void origin(int row, int column) { row_ = row, column_ = column; }  // what a component calls (0, 0)
+  static Matrix onto(Mat& dense);  // adds into an existing matrix
 
  private:
-  double* data_ = nullptr;  // column-major
+  double* origin_ = nullptr;  // what a component calls (0, 0); column-major
   Eigen::Index stride_ = 0;
-  int row_ = 0, column_ = 0;
 };
 
 }  // namespace trammel
