@@ -1,14 +1,14 @@
 // The system's matrices at the point, times vectors and factorised: dense, or by BodyBlocks where bodies are many.
 #include "model/assembly.hpp"
+#include "numerics/packs.hpp"
 
 namespace trammel::model {
-
 void AssembledSystem::Work::add_mass_times(double c, const Vec& a, Vec& r) {
   evaluate_mass();
   if (blocks)
     numerics::add_mass_times(blocks->bodies(), c, a, r);
   else
-    r.noalias() += c * (M * a);
+    numerics::add_product(c, M, a, r);
 }
 
 void AssembledSystem::Work::add_rows_times(double c, const Vec& x, Vec& rc) {

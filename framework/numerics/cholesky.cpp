@@ -14,20 +14,53 @@ bool Cholesky::compute(const Mat& M) {
     return blocks_.compute(M).info() == Eigen::Success && blocks_.matrixLLT().diagonal().allFinite();  // NaN: "success"
   }
   resize(n);
+  if (of_few()) {
+    copy_few(M.data(), n, U_.data());
+    return factorise_few();
+  }
   for (Eigen::Index j = 0; j < n; ++j) std::copy(M.data() + j * n + j, M.data() + (j + 1) * n, &L_(j, j));
   return factorise_by_columns();
 }
 
 void Cholesky::resize(Eigen::Index n) {
-  if (L_.cols() == n) return;
-  L_.setZero(padded(n), n), U_.setZero(padded(n), n);
-  inverse_.resize(n), root_.resize(n), inverse_root_.resize(n);
-  rest_.setZero(padded(n));
+  if (n_ == n) return;
+  n_ = n;
+  const Eigen::Index stride = padded(n), columns = stride == few ? few : n;
+  L_.setIdentity(stride, columns), U_.setIdentity(stride, columns);
+  inverse_.setOnes(columns), root_.setOnes(columns), inverse_root_.setOnes(columns);
+  rest_.setZero(stride);
+}
+
+// As by columns, which are in registers.
+bool Cholesky::factorise_few() {
+  double *const L = L_.data(), *const LD = U_.data();
+  bool positive = true;
+#pragma GCC unroll 8
+  for (int j = 0; j < few; ++j) {
+    const int first = j / int(pack);
+    Pack column[few / pack];
+#pragma GCC unroll 2
+    for (int p = first; p < few / pack; ++p) {
+      column[p] = pack_at(LD + j * few + p * pack);
+#pragma GCC unroll 8
+      for (int k = 0; k < j; ++k) column[p] -= L[k * few + j] * pack_at(LD + k * few + p * pack);
+    }
+    const double pivot = column[first][j % pack];
+    positive &= pivot > 0 && std::isfinite(pivot);
+    const double inverse = inverse_[j] = 1 / pivot;
+    root_[j] = std::sqrt(pivot), inverse_root_[j] = inverse * root_[j];
+#pragma GCC unroll 2
+    for (int p = first; p < few / pack; ++p) {
+      pack_at(LD + j * few + p * pack) = column[p];
+      pack_at(L + j * few + p * pack) = column[p] * inverse;
+    }
+  }
+  return positive;
 }
 
 // Each column less what those before it contribute, then divided by its pivot.
 bool Cholesky::factorise_by_columns() {
-  const Eigen::Index n = L_.cols(), stride = L_.rows();
+  const Eigen::Index n = n_, stride = L_.rows();
   double *const L = L_.data(), *const U = U_.data();
   for (Eigen::Index j = 0; j < n; ++j) {
     double* const column = L + j * stride;
@@ -49,7 +82,13 @@ bool Cholesky::factorise_by_columns() {
 // By columns. A known number is taken out before the loop runs over its place, too.
 void Cholesky::solve_lower(Eigen::Ref<Vec> x) {
   if (in_blocks()) return blocks_.matrixL().solveInPlace(x);
-  const Eigen::Index n = L_.cols(), stride = L_.rows();
+  if (of_few()) {
+    FewNumbers y(n_, x.data());
+    y.solve_lower(L_.data());
+    y.scale(inverse_root_.data());
+    return y.copy_to(x.data(), n_);
+  }
+  const Eigen::Index n = n_, stride = L_.rows();
   double* const rest = rest_.data();
   std::copy_n(x.data(), n, rest);
   for (Eigen::Index j = 0; j < n; ++j) {
@@ -65,7 +104,13 @@ void Cholesky::solve_lower(Mat& X) {
 
 void Cholesky::solve_transposed(Eigen::Ref<Vec> x) {
   if (in_blocks()) return blocks_.matrixU().solveInPlace(x);
-  const Eigen::Index n = L_.cols(), stride = L_.rows();
+  if (of_few()) {
+    FewNumbers y(n_, x.data());
+    y.scale(inverse_root_.data());
+    y.solve_transposed(L_.data());
+    return y.copy_to(x.data(), n_);
+  }
+  const Eigen::Index n = n_, stride = L_.rows();
   double* const rest = rest_.data();
   for (Eigen::Index j = 0; j < n; ++j) rest[j] = x[j] * root_[j];
   for (Eigen::Index j = n - 1; j >= 0; --j) {
@@ -75,6 +120,13 @@ void Cholesky::solve_transposed(Eigen::Ref<Vec> x) {
 }
 
 void Cholesky::solve(Eigen::Ref<Vec> x) {
+  if (of_few()) {
+    FewNumbers y(n_, x.data());
+    y.solve_lower(L_.data());
+    y.scale(inverse_.data());
+    y.solve_transposed(L_.data());
+    return y.copy_to(x.data(), n_);
+  }
   solve_lower(x);
   solve_transposed(x);
 }

@@ -9,6 +9,8 @@
 
 #include <trammel/types.hpp>
 
+#include "numerics/packs.hpp"
+
 namespace trammel::numerics {
 
 class Cholesky {
@@ -23,11 +25,14 @@ class Cholesky {
   void solve(Eigen::Ref<Vec> x);             // x := M^-1 x
 
  private:
-  bool in_blocks() const { return L_.cols() == 0; }
+  bool in_blocks() const { return n_ == 0; }
+  bool of_few() const { return L_.rows() == few; }
   void resize(Eigen::Index n);
   bool factorise_by_columns();
+  bool factorise_few();
 
-  Mat L_, U_;                          // L and D L^T, columns padded; on their other sides anything
+  Eigen::Index n_ = 0;
+  Mat L_, U_;  // L and D L^T, of few unknowns L D; columns padded; on their other sides anything
   Vec inverse_, root_, inverse_root_;  // of D
   Vec rest_;                           // scratch
   Eigen::LLT<Mat> blocks_;

@@ -82,9 +82,10 @@ void MassKkt::complement(const Mat& W, double rank_tolerance) {
 // x is z = L^T x before the last line:  z = L^-1 b - B y,  B^T z = c;  or with C for the first B.
 void MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   x = b;
-  mass_.solve_lower(x);
   y.resize(B_.cols());
-  if (coupled_ && B_.cols() > 0) {
+  if (B_.cols() == 0) return mass_.solve(x);
+  mass_.solve_lower(x);
+  if (coupled_) {
     w_ = -c;
     w_.noalias() += B_.transpose() * x;
     if (redundant_)
@@ -96,7 +97,7 @@ void MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
     const Vec particular = cod_.transpose().solve(merged_.transpose() * c);
     y = merged_ * cod_.solve(x - particular);
     x.noalias() -= B_ * y;
-  } else if (B_.cols() > 0) {
+  } else {
     y = -c;
     y.noalias() += B_.transpose() * x;
     schur_cholesky_.solve(y);

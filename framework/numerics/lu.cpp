@@ -12,24 +12,28 @@ namespace trammel::numerics {
 void Lu::compute(const Mat& A) {
   const Eigen::Index n = A.rows();
   if (n > most_in_packs) {
-    rows_.clear();
+    n_ = 0;
     blocks_.compute(A);
     return;
   }
-  if (LU_.cols() != n) {
-    LU_.setZero(padded(n), n);
-    rest_.setZero(LU_.rows());
-    y_.setZero(LU_.rows());
-    inverse_pivots_.resize(n);
+  if (n_ != n) {
+    n_ = n;
+    LU_.setIdentity(padded(n), of_few() ? few : n);
+    rest_.setZero(LU_.rows()), y_.setZero(LU_.rows());
+    inverse_pivots_.setOnes(LU_.cols());
     rows_.resize(std::size_t(n));
   }
-  for (Eigen::Index j = 0; j < n; ++j) std::copy_n(A.data() + j * n, n, LU_.data() + j * LU_.rows());
+  if (of_few()) {
+    copy_few(A.data(), n, LU_.data());
+  } else {
+    for (Eigen::Index j = 0; j < n; ++j) std::copy_n(A.data() + j * n, n, LU_.data() + j * LU_.rows());
+  }
   std::iota(rows_.begin(), rows_.end(), Eigen::Index(0));
   eliminate();
 }
 
 void Lu::eliminate() {
-  const Eigen::Index n = LU_.cols(), stride = LU_.rows();
+  const Eigen::Index n = n_, stride = LU_.rows();
   double* const data = LU_.data();
   double multipliers[most_in_packs];
   for (Eigen::Index j = 0; j < n; ++j) {
@@ -63,15 +67,21 @@ void Lu::solve(const Vec& b, Vec& x) {
     x = blocks_.solve(b);
     return;
   }
-  const Eigen::Index n = LU_.cols(), stride = LU_.rows();
+  const Eigen::Index n = n_, stride = LU_.rows();
   const double* const data = LU_.data();
   double *const rest = rest_.data(), *const y = y_.data();
+  x.resize(n);
+  if (of_few()) {
+    FewNumbers few_y(n, b.data(), rows_.data());
+    few_y.solve_lower(data);
+    few_y.solve_upper(data, inverse_pivots_.data());
+    return few_y.copy_to(x.data(), n);
+  }
   for (Eigen::Index i = 0; i < n; ++i) rest[i] = b[rows_[std::size_t(i)]];
   for (Eigen::Index j = 0; j < n; ++j) {
     y[j] = rest[j];
     subtract(y[j], data + j * stride, rest, j + 1, stride);
   }
-  x.resize(n);
   for (Eigen::Index j = n - 1; j >= 0; --j) {
     x[j] = y[j] * inverse_pivots_[j];
     subtract(x[j], data + j * stride, y, 0, j);

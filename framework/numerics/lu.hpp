@@ -10,6 +10,8 @@
 
 #include <trammel/types.hpp>
 
+#include "numerics/packs.hpp"
+
 namespace trammel::numerics {
 
 class Lu {
@@ -19,9 +21,11 @@ class Lu {
   void solve(const Vec& b, Vec& x);  // not in place
 
  private:
-  bool in_blocks() const { return rows_.empty(); }
+  bool in_blocks() const { return n_ == 0; }
+  bool of_few() const { return !in_blocks() && padded(n_) == few; }
   void eliminate();
 
+  Eigen::Index n_ = 0;
   Mat LU_;                          // columns padded
   std::vector<Eigen::Index> rows_;  // LU_'s row i is A's row rows_[i]
   Vec inverse_pivots_, rest_, y_;
