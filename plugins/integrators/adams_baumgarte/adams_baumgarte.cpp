@@ -71,7 +71,10 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
     const double h = step_to(now.t, next.t);
     if (!same_step(h)) filled_ = 1;  // only the step's start lies one h back
     h_ = h;
-    std::rotate(past_.begin(), past_.end() - 1, past_.end());
+    for (std::size_t i = past_.size() - 1; i > 0; --i) {
+      past_[i].q.swap(past_[i - 1].q), past_[i].v.swap(past_[i - 1].v);
+      past_[i].lambda.swap(past_[i - 1].lambda);
+    }
     s.rate(next.q, next.v, past_[0].q);
     past_[0].v = next.a;
     past_[0].lambda = next.lambda;
@@ -118,11 +121,14 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   // y_n + h sum_i weights_i F_{n-i}
   void go_on(const State& now, double h, const double* weights, Vec& q, Vec& v) const {
     const double w[] = {h * weights[0], h * weights[1], h * weights[2], h * weights[3]};
-    q = now.q + w[0] * past_[0].q + w[1] * past_[1].q + w[2] * past_[2].q;
-    v = now.v + w[0] * past_[0].v + w[1] * past_[1].v + w[2] * past_[2].v;
-    if (weights[3] == 0) return;  // nor need there be a fourth
-    q += w[3] * past_[3].q;
-    v += w[3] * past_[3].v;
+    const auto three = [&](const Vec& y, Vec Slope::*F) {
+      return y + w[0] * past_[0].*F + w[1] * past_[1].*F + w[2] * past_[2].*F;
+    };
+    if (weights[3] == 0) {  // nor need there be a fourth
+      q = three(now.q, &Slope::q), v = three(now.v, &Slope::v);
+    } else {
+      q = three(now.q, &Slope::q) + w[3] * past_[3].q, v = three(now.v, &Slope::v) + w[3] * past_[3].v;
+    }
   }
 
   RungeKutta starter_{{4, c, a, b}};
