@@ -34,14 +34,21 @@ const CallSite& AssembledSystem::last_call() const {
 void AssembledSystem::set_modes(const Modes& modes) {
   Work& w = *work_;
   w.modes = modes;
+  const auto locks = [&](std::size_t i) {
+    const Restitution* law = w.model->contacts[i].restitution;
+    return modes.contacts[i].closed && law && law->treatment().release == Restitution::Release::never;
+  };
   int row = w.model->sizes.nc;
+  for (std::size_t i = 0; i < modes.contacts.size(); ++i)
+    if (locks(i)) w.contact_row[i] = row++;
+  w.held_rows = row;
   const int tangents = dimension(w.model->world.space) - 1;
   w.judged.clear();
   w.judged_friction.setZero(Eigen::Index(modes.contacts.size()));
   for (std::size_t i = 0; i < modes.contacts.size(); ++i) {
     const ContactMode& mode = modes.contacts[i];
     const ContactEntry& entry = w.model->contacts[i];
-    w.contact_row[i] = mode.closed && entry.restitution ? row++ : -1;
+    if (!locks(i)) w.contact_row[i] = mode.closed && entry.restitution ? row++ : -1;
     const bool sticks = mode.closed && mode.friction == ContactMode::Friction::stick;
     const bool held =
         sticks && (w.chain.held_still() || entry.coulomb->decide() == SetValuedFriction::Decide::at_events);
@@ -66,6 +73,10 @@ void AssembledSystem::lay_out() {
 
 int AssembledSystem::contact_row(int contact) const {
   return work_->contact_row[std::size_t(contact)];
+}
+
+int AssembledSystem::held_rows() const {
+  return work_->held_rows;
 }
 
 int AssembledSystem::stick_row(int contact) const {

@@ -87,12 +87,13 @@ class AssembledSystem final : public System {
 
   // --- for the Simulator ---
   const Model& model() const;
-  // Which contacts are closed and stick; changes sizes().nc. Rows: the joints', then contact by contact that of the gap
-  // (closed Restitution contacts) and those of the tangents (sticking ones of either kind).
+  // Which contacts are closed and stick; changes sizes().nc. Rows: the bodies' and joints', those of contacts that have
+  // locked, then contact by contact that of the gap (closed Restitution contacts) and those of the tangents (sticking ones).
   void set_modes(const Modes& modes);
   void lay_out();  // the model was laid out anew: forgets all that was evaluated, keeps the modes and counts
   const Modes& modes() const;
   int contact_row(int contact) const;  // its row in g while closed, else -1; the normal force is -lambda of that row
+  int held_rows() const;               // the first of g: of bodies, joints and contacts that have locked
   int stick_row(int contact) const;    // its first tangential row while it sticks, else -1; friction is -lambda of it
   void initial(Vec& q, Vec& v) const;  // from the bodies' parameters
   // For statics: points have v = 0, markers that a law of time moves stand still where they are, and contacts stick by rows,
@@ -124,7 +125,7 @@ class AssembledSystem final : public System {
     double drives = 0;       // supplied by bodies' drives and loads
     double dampers = 0;      // dissipated in bodies and forces
     double contacts = 0;     // dissipated in compliant contacts
-    double constraints = 0;  // supplied by time-dependent rows: -lambda . G v
+    double constraints = 0;  // supplied by time-dependent rows: lambda . g_t; by contacts' rows -lambda . G v
     double markers = 0;      // supplied by forces and contacts at markers that move by a law of time
     Vec friction;            // dissipated in sliding, contact by contact
   };

@@ -1,5 +1,7 @@
 #include "model/assembly.hpp"
 
+#include <algorithm>
+
 #include "model/numeric_derivative.hpp"
 
 namespace trammel::model {
@@ -8,11 +10,21 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
     : model(std::move(m)), storage(how), chain(*model) {
   if (storage == Storage::blocks || (storage == Storage::automatic && BodyBlocks::worthwhile(*model)))
     blocks.emplace(*model);
-  for (const JointEntry& entry : model->joints) joint_slots.push_back({chain.slot(entry.A), chain.slot(entry.B)});
-  for (const ForceEntry& entry : model->forces) force_slots.push_back({chain.slot(entry.A), chain.slot(entry.B)});
+  const auto slots_of = [this](const std::vector<MarkerRef>& markers) {
+    Slots at{.count = int(markers.size())};
+    int* const each[] = {&at.A, &at.B, &at.C, &at.D};
+    for (std::size_t k = 0; k < markers.size(); ++k) *each[k] = chain.slot(markers[k]);
+    return at;
+  };
+  for (const JointEntry& entry : model->joints) joint_slots.push_back(slots_of(entry.markers));
+  for (const ForceEntry& entry : model->forces) force_slots.push_back(slots_of({entry.A, entry.B}));
   for (const ContactEntry& entry : model->contacts) {
-    const int B = entry.surface ? chain.surface_slot(entry.surface->body) : chain.slot(entry.B);
-    contact_slots.push_back({chain.slot(entry.A), B});
+    if (entry.limit)
+      contact_slots.push_back(slots_of(entry.limit->markers));
+    else if (entry.surface)
+      contact_slots.push_back({.A = chain.slot(entry.A), .B = chain.surface_slot(entry.surface->body)});
+    else
+      contact_slots.push_back(slots_of({entry.A, entry.B}));
     surfaces.emplace_back();
     if (entry.surface) surfaces.back().emplace(Pressed{SurfaceContact(*model, entry)});
   }
@@ -21,18 +33,27 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
   contact_row.assign(model->contacts.size(), -1);
   stick_row.assign(model->contacts.size(), -1);
   sizes = model->sizes;
+  held_rows = sizes.nc;
   lay_out_blocks();
 }
 
 void AssembledSystem::Work::lay_out_blocks() {
   if (!blocks) return;
   std::vector<BodyBlocks::Tie> ties;
-  for (const JointEntry& joint : model->joints) ties.push_back({joint.row, joint.rows, joint.A.body, joint.B.body});
+  const auto tie = [&ties](int first, int count, const auto& markers) {
+    BodyBlocks::Tie& one = ties.emplace_back(BodyBlocks::Tie{first, count, {}});
+    for (const MarkerRef& marker : markers) one.bodies.push_back(marker.body);
+  };
+  for (std::size_t b = 0; b < model->bodies.size(); ++b)
+    if (const BodyEntry& body = model->bodies[b]; body.rows > 0) ties.push_back({body.row, body.rows, {int(b)}});
+  for (const JointEntry& joint : model->joints) tie(joint.row, joint.rows, joint.markers);
   for (std::size_t i = 0; i < contact_row.size(); ++i) {
-    const auto [A, B] = std::pair{model->contacts[i].A.body, model->contacts[i].B.body};
-    if (contact_row[i] >= 0) ties.push_back({contact_row[i], 1, A, B});
-    if (stick_row[i] >= 0) ties.push_back({stick_row[i], dimension(model->world.space) - 1, A, B});
+    const ContactEntry& contact = model->contacts[i];
+    const std::vector<MarkerRef> pair = {contact.A, contact.B};
+    if (contact_row[i] >= 0) tie(contact_row[i], 1, contact.limit ? contact.limit->markers : pair);
+    if (stick_row[i] >= 0) tie(stick_row[i], dimension(model->world.space) - 1, pair);
   }
+  std::sort(ties.begin(), ties.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   blocks->lay_out(ties);
 }
 
@@ -81,7 +102,7 @@ const Vec& AssembledSystem::Work::force() {
   if (!bodies_fresh) evaluate_bodies();
   const int twist = twist_size(model->world.space);
   for (std::size_t i = 0; i < force_slots.size(); ++i) {
-    const auto [A, B] = force_slots[i];
+    const int A = force_slots[i].A, B = force_slots[i].B;
     called(model->forces[i].name, "wrench");
     on_A.setZero(twist);
     on_B.setZero(twist);
@@ -99,16 +120,11 @@ const Vec& AssembledSystem::Work::force() {
       continue;
     }
     const Rows& r = contact(int(i));
-    const auto [A, B] = contact_slots[i];
     const double rate = contact_rate(int(i), 0);
     called(model->contacts[i].name, "normal");
     const double N = law->normal(r.g(0), rate, modes.contacts[i].approach_speed);
-    chain.add_wrench(A, r.H_A.row(0).transpose(), N, f);
-    chain.add_wrench(B, r.H_B.row(0).transpose(), N, f);
-    if (const double ratio = friction_ratio(int(i)); ratio != 0) {
-      chain.add_wrench(A, r.H_A.row(1).transpose(), ratio * N, f);
-      chain.add_wrench(B, r.H_B.row(1).transpose(), ratio * N, f);
-    }
+    add_row_force(contact_slots[i], r, 0, N, f);
+    if (const double ratio = friction_ratio(int(i)); ratio != 0) add_row_force(contact_slots[i], r, 1, ratio * N, f);
   }
   returned();
   force_fresh = true;
@@ -118,12 +134,19 @@ const Vec& AssembledSystem::Work::force() {
 const Rows& AssembledSystem::Work::contact(int i) {
   ContactRows& cache = contact_rows[std::size_t(i)];
   if (cache.point != point) {
-    const auto [A, B] = contact_slots[std::size_t(i)];
+    const Slots& at = contact_slots[std::size_t(i)];
+    const int A = at.A, B = at.B;
     called(model->contacts[std::size_t(i)].name, "motion");
     const ContactEntry& entry = model->contacts[std::size_t(i)];
     const bool tangents = entry.friction != nullptr;
     cache.rows.resize(tangents ? dimension(model->world.space) : 1, model->world.space);
-    if (entry.surface) {
+    if (entry.limit) {
+      evaluate_constraint(*entry.limit->joint, at, cache.rows);
+      if (const double side = entry.limit->side; side != 1) {
+        for (Vec6* each : {&cache.rows.g, &cache.rows.g_t, &cache.rows.gamma}) *each *= side;
+        for (int k = 0; k < at.count; ++k) cache.rows.H(k) *= side;
+      }
+    } else if (entry.surface) {
       const double thick = model->bodies[std::size_t(entry.surface->body)].surface->half_thickness();
       const Motion& sphere = motion(A);
       surface_row(entry.geometry.radius + thick, sphere, chain.nearest(B, sphere.x, t, q, v), cache.rows);
@@ -149,8 +172,10 @@ SurfaceContact& AssembledSystem::Work::surface(std::size_t i) {
 
 double AssembledSystem::Work::contact_rate(int i, int row) {
   const Rows& r = contact(i);
-  const auto [A, B] = contact_slots[std::size_t(i)];
-  return r.H_A.row(row).dot(motion(A).V) + r.H_B.row(row).dot(motion(B).V);
+  const Slots& at = contact_slots[std::size_t(i)];
+  double rate = r.g_t(row);
+  for (int k = 0; k < at.count; ++k) rate += r.H(k).row(row).dot(motion(at[k]).V);
+  return rate;
 }
 
 double AssembledSystem::Work::friction_ratio(int i) {
@@ -180,28 +205,32 @@ void AssembledSystem::Work::evaluate_rows() {
   else
     G.setZero(sizes.nc, sizes.nv);
   // Rows first .. first + n - 1 of r become rows `row` and on.
-  const auto place = [&](const Rows& r, Pair pair, int row, Eigen::Index first, Eigen::Index n) {
-    const Motion &A = motion(pair.A), &B = motion(pair.B);
+  const auto place = [&](const Rows& r, const Slots& at, int row, Eigen::Index first, Eigen::Index n) {
     for (Eigen::Index i = 0; i < n; ++i) {
       double rate = r.g_t(first + i), free = r.gamma(first + i);
-      for (Eigen::Index k = 0; k < A.V.size(); ++k) {
-        const double a = r.H_A(first + i, k), b = r.H_B(first + i, k);
-        rate += a * A.V(k) + b * B.V(k);
-        free -= a * A.bias(k) + b * B.bias(k);
+      for (int marker = 0; marker < at.count; ++marker) {
+        const Motion& m = motion(at[marker]);
+        const Mat6& H = r.H(marker);
+        for (Eigen::Index k = 0; k < m.V.size(); ++k) {
+          rate += H(first + i, k) * m.V(k);
+          free -= H(first + i, k) * m.bias(k);
+        }
       }
       g(row + i) = r.g(first + i);
       g_dot(row + i) = rate;
       gamma(row + i) = free;
     }
-    const Mat6 H_A = r.H_A.middleRows(first, n), H_B = r.H_B.middleRows(first, n);
-    add_rows(pair.A, row, H_A);
-    add_rows(pair.B, row, H_B);
+    for (int marker = 0; marker < at.count; ++marker) {
+      const Mat6 H = r.H(marker).middleRows(first, n);
+      add_rows(at[marker], row, H);
+    }
   };
+  for (const BodyEntry& entry : model->bodies)
+    if (entry.rows > 0) evaluate_own_rows(entry);
   for (std::size_t i = 0; i < joint_slots.size(); ++i) {
     const JointEntry& entry = model->joints[i];
     called(entry.name, "rows");
-    rows.resize(entry.rows, model->world.space);
-    entry.joint->rows(t, motion(joint_slots[i].A), motion(joint_slots[i].B), rows);
+    evaluate_constraint(*entry.joint, joint_slots[i], rows);
     place(rows, joint_slots[i], entry.row, 0, entry.rows);
   }
   coupled = false;
@@ -219,6 +248,32 @@ void AssembledSystem::Work::evaluate_rows() {
   if (coupled) couple_reactions();
   returned();
   rows_fresh = true;
+}
+
+void AssembledSystem::Work::evaluate_own_rows(const BodyEntry& entry) {
+  called(entry.name, "own_rows");
+  const auto v_body = v.segment(entry.v0, entry.nv);
+  own_rows.resize(entry.rows, entry.nv);
+  entry.constrained->own_rows(t, q.segment(entry.q0, entry.nq), v_body, own_rows);
+  g.segment(entry.row, entry.rows) = own_rows.g;
+  g_dot.segment(entry.row, entry.rows).noalias() = own_rows.G * v_body + own_rows.g_t;
+  gamma.segment(entry.row, entry.rows) = own_rows.gamma;
+  if (blocks)
+    blocks->add_own_rows(std::size_t(&entry - model->bodies.data()), entry.row, own_rows.G);
+  else
+    G.block(entry.row, entry.v0, entry.rows, entry.nv) += own_rows.G;
+}
+
+void AssembledSystem::Work::evaluate_constraint(const Constraint& constraint, const Slots& at, Rows& into) {
+  const Space space = model->world.space;
+  into.resize(constraint.row_count(space), space, at.count);
+  const std::array<const Motion*, Rows::most_markers> markers = {
+      &motion(at.A), &motion(at.B), at.count > 2 ? &motion(at.C) : nullptr, at.count > 3 ? &motion(at.D) : nullptr};
+  constraint.rows_between(t, Motions(markers.data(), std::size_t(at.count)), into);
+}
+
+void AssembledSystem::Work::add_row_force(const Slots& at, const Rows& r, int row, double c, Vec& sum) const {
+  for (int k = 0; k < at.count; ++k) chain.add_wrench(at[k], r.H(k).row(row).transpose(), c, sum);
 }
 
 void AssembledSystem::Work::add_rows(int slot, int row, const Mat6& H) {
@@ -252,32 +307,31 @@ void AssembledSystem::Work::couple_reactions() {
 
 namespace {
 
-// H^T lambda as wrenches on both markers.
-class JointReaction final : public PairWrench {
+// H^T lambda as wrenches on the markers.
+class Reaction final : public MarkerWrenches {
  public:
-  JointReaction(const JointEntry& entry, double t, const Vec& lambda, Space space)
-      : entry_(entry), t_(t), lambda_(lambda), space_(space) {}
-  void operator()(const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
+  Reaction(const Constraint& constraint, double t, const Vec6& lambda, Space space)
+      : constraint_(constraint), t_(t), lambda_(lambda), space_(space) {}
+  void operator()(Motions markers, std::span<Wrench> on) const override {
     Rows rows;
-    rows.resize(entry_.rows, space_);
-    entry_.joint->rows(t_, A, B, rows);
-    on_A = rows.H_A.transpose() * lambda_.segment(entry_.row, entry_.rows);
-    on_B = rows.H_B.transpose() * lambda_.segment(entry_.row, entry_.rows);
+    rows.resize(int(lambda_.size()), space_, int(markers.size()));
+    constraint_.rows_between(t_, markers, rows);
+    for (std::size_t k = 0; k < on.size(); ++k) on[k] = rows.H(int(k)).transpose() * lambda_;
   }
   bool depends_on_velocity() const override { return false; }
 
  private:
-  const JointEntry& entry_;
+  const Constraint& constraint_;
   double t_;
-  const Vec& lambda_;
+  const Vec6& lambda_;
   Space space_;
 };
 
-class ForceWrench final : public PairWrench {
+class ForceWrench final : public MarkerWrenches {
  public:
   ForceWrench(const Force& force, double t) : force_(force), t_(t) {}
-  void operator()(const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
-    force_.wrench(t_, A, B, on_A, on_B);
+  void operator()(Motions markers, std::span<Wrench> on) const override {
+    force_.wrench(t_, *markers[0], *markers[1], on[0], on[1]);
   }
   bool depends_on_velocity() const override { return true; }
 
@@ -299,6 +353,8 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
     const auto q_body = q.segment(entry.q0, entry.nq);
     const auto v_body = v.segment(entry.v0, entry.nv);
     const auto a_body = a.segment(entry.v0, entry.nv);
+    if (entry.rows > 0 && c.c_k != 0)
+      entry.constrained->add_own_rows_derivative(t, q_body, lambda.segment(entry.row, entry.rows), c.c_k, target);
     if (carried_stress && entry.carried_stress && c.c_m == 0 && c.c_d == 0) {
       entry.carried_stress->add_tangent_with_stress_from(t, q_body, carried_stress->q.segment(entry.q0, entry.nq),
                                                          carried_stress->dq.segment(entry.v0, entry.nv), c.c_k, target);
@@ -344,17 +400,13 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
   }
   for (std::size_t i = 0; i < force_slots.size(); ++i) {
     called(model->forces[i].name, "wrench");
-    add_pair_tangent(chain, force_slots[i].A, force_slots[i].B, t, q, v, ForceWrench(*model->forces[i].force, t),
-                     -c.c_k, -c.c_d, S);
+    const std::array<int, 2> both = {force_slots[i].A, force_slots[i].B};
+    add_wrench_tangent(chain, both, t, q, v, ForceWrench(*model->forces[i].force, t), -c.c_k, -c.c_d, S);
   }
   for (std::size_t i = 0; i < joint_slots.size() && c.c_k != 0; ++i) {
-    called(model->joints[i].name, "rows");
-    if (model->joints[i].tangent) {
-      add_exact_reaction(i, lambda, c.c_k, S);
-      continue;
-    }
-    add_pair_tangent(chain, joint_slots[i].A, joint_slots[i].B, t, q, v,
-                     JointReaction(model->joints[i], t, lambda, model->world.space), c.c_k, 0, S);
+    const JointEntry& entry = model->joints[i];
+    called(entry.name, "rows");
+    add_reaction_of(*entry.joint, entry.tangent, joint_slots[i], lambda.segment(entry.row, entry.rows), c.c_k, S);
   }
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
     if (!modes.contacts[i].closed) continue;
@@ -364,15 +416,18 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
       if (c.c_k != 0) chain.add_reaction_derivative(contact_slots[i].A, t, q, -pressed.on_sphere(), c.c_k, S);
       continue;
     }
-    const auto [A, B] = contact_slots[i];
+    const Slots& at = contact_slots[i];
     const Rows& r = contact(int(i));
     const double ratio = friction_ratio(int(i));
     // Force of the contact per unit of pressure, along the normal and beside it.
-    Wrench push_A = r.H_A.row(0), push_B = r.H_B.row(0);
-    if (ratio != 0) push_A += ratio * r.H_A.row(1).transpose(), push_B += ratio * r.H_B.row(1).transpose();
-    const auto add = [&](int row, double weight, const Wrench& w_A, const Wrench& w_B) {
-      chain.add_pair(A, A, w_A * r.H_A.row(row), weight, S), chain.add_pair(A, B, w_A * r.H_B.row(row), weight, S);
-      chain.add_pair(B, A, w_B * r.H_A.row(row), weight, S), chain.add_pair(B, B, w_B * r.H_B.row(row), weight, S);
+    std::array<Wrench, Rows::most_markers> push;
+    for (int k = 0; k < at.count; ++k) {
+      push[std::size_t(k)] = r.H(k).row(0);
+      if (ratio != 0) push[std::size_t(k)] += ratio * r.H(k).row(1).transpose();
+    }
+    const auto add = [&](int row, double weight, auto&& along) {
+      for (int k = 0; k < at.count; ++k)
+        for (int l = 0; l < at.count; ++l) chain.add_pair(at[k], at[l], along(k) * r.H(l).row(row), weight, S);
     };
     double pull = 0;  // W^T lambda of the row, or -f of the law
     if (contact_row[i] >= 0) {
@@ -382,37 +437,43 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
       const ContactForce* law = model->contacts[i].force;
       pull = -law->normal(r.g(0), rate, approach);
       const auto [by_gap, by_rate] = law->slope(r.g(0), rate, approach);
-      add(0, -(c.c_k * by_gap + c.c_d * by_rate), push_A, push_B);
+      add(0, -(c.c_k * by_gap + c.c_d * by_rate), [&](int k) -> const Wrench& { return push[std::size_t(k)]; });
     }
     if (const double damping = c.c_d * -pull * friction_damping(int(i)); damping != 0)
-      add(1, damping, r.H_A.row(1), r.H_B.row(1));
+      add(1, damping, [&](int k) -> Wrench { return r.H(k).row(1); });
     if (c.c_k == 0) continue;
-    push_A *= pull, push_B *= pull;
-    if (const int row = stick_row[i]; row >= 0)
-      push_A += lambda(row) * r.H_A.row(1).transpose(), push_B += lambda(row) * r.H_B.row(1).transpose();
-    chain.add_reaction_derivative(A, t, q, push_A, c.c_k, S);
-    chain.add_reaction_derivative(B, t, q, push_B, c.c_k, S);
+    if (const auto& limit = model->contacts[i].limit) {
+      add_reaction_of(*limit->joint, limit->tangent, at, Vec6::Constant(1, limit->side * pull), c.c_k, S);
+      continue;
+    }
+    for (int k = 0; k < at.count; ++k) {
+      Wrench& w = push[std::size_t(k)];
+      w *= pull;
+      if (const int row = stick_row[i]; row >= 0) w += lambda(row) * r.H(k).row(1).transpose();
+      chain.add_reaction_derivative(at[k], t, q, w, c.c_k, S);
+    }
   }
   returned();
 }
 
-// S += c d(G^T lambda)/dq of a joint that knows how its wrenches turn with the markers.
-void AssembledSystem::Work::add_exact_reaction(std::size_t joint, const Vec& lambda, double c, Mat& S) {
-  const JointEntry& entry = model->joints[joint];
-  const auto [slot_A, slot_B] = joint_slots[joint];
-  const Motion &A = motion(slot_A), &B = motion(slot_B);
-  const Vec6 own = lambda.segment(entry.row, entry.rows);
+void AssembledSystem::Work::add_reaction_of(const Constraint& constraint, const ReactionTangent* exact, const Slots& at,
+                                            const Vec6& lambda, double c, Mat& S) {
+  if (!exact) {
+    const std::array<int, Rows::most_markers> slots = {at.A, at.B, at.C, at.D};
+    const Reaction reaction(constraint, t, lambda, model->world.space);
+    return add_wrench_tangent(chain, std::span(slots).first(std::size_t(at.count)), t, q, v, reaction, c, 0, S);
+  }
+  const Motion &A = motion(at.A), &B = motion(at.B);
   const auto twist = A.V.size();
   for (Mat6* block : {&wrench_by.AA, &wrench_by.AB, &wrench_by.BA, &wrench_by.BB}) block->setZero(twist, twist);
-  entry.tangent->add_reaction_tangent(t, A, B, own, wrench_by);
-  chain.add_pair(slot_A, slot_A, wrench_by.AA, c, S);
-  chain.add_pair(slot_A, slot_B, wrench_by.AB, c, S);
-  chain.add_pair(slot_B, slot_A, wrench_by.BA, c, S);
-  chain.add_pair(slot_B, slot_B, wrench_by.BB, c, S);
-  rows.resize(entry.rows, model->world.space);
-  entry.joint->rows(t, A, B, rows);
-  chain.add_reaction_derivative(slot_A, t, q, rows.H_A.transpose() * own, c, S);
-  chain.add_reaction_derivative(slot_B, t, q, rows.H_B.transpose() * own, c, S);
+  exact->add_reaction_tangent(t, A, B, lambda, wrench_by);
+  chain.add_pair(at.A, at.A, wrench_by.AA, c, S);
+  chain.add_pair(at.A, at.B, wrench_by.AB, c, S);
+  chain.add_pair(at.B, at.A, wrench_by.BA, c, S);
+  chain.add_pair(at.B, at.B, wrench_by.BB, c, S);
+  evaluate_constraint(constraint, at, rows);
+  chain.add_reaction_derivative(at.A, t, q, rows.H_A.transpose() * lambda, c, S);
+  chain.add_reaction_derivative(at.B, t, q, rows.H_B.transpose() * lambda, c, S);
 }
 
 }  // namespace trammel::model

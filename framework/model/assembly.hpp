@@ -18,9 +18,10 @@ namespace trammel::model {
 struct AssembledSystem::Work {
   Work(std::shared_ptr<const Model> m, Storage storage);
 
-  // Markers of one joint, force or contact.
-  struct Pair {
-    int A, B;
+  // Markers of one joint, force or contact, A first.
+  struct Slots {
+    int A = 0, B = 0, C = 0, D = 0, count = 2;
+    int operator[](int k) const { return k == 0 ? A : k == 1 ? B : k == 2 ? C : D; }
   };
   struct ContactRows {
     long long point = -1;
@@ -49,7 +50,10 @@ struct AssembledSystem::Work {
   void add_reaction(double c, const Vec& y, Vec& r);
   const Vec& force();
   void evaluate_rows();  // g, g_dot, gamma, G, W
+  void evaluate_own_rows(const BodyEntry& entry);
+  void evaluate_constraint(const Constraint& constraint, const Slots& at, Rows& into);  // sized and filled
   void add_rows(int slot, int row, const Mat6& H);
+  void add_row_force(const Slots& at, const Rows& r, int row, double c, Vec& f) const;  // f += c J^T H^T
   void couple_reactions();
   const Rows& contact(int i);
   SurfaceContact& surface(std::size_t i);  // at this point, of a contact that has one
@@ -67,7 +71,9 @@ struct AssembledSystem::Work {
   // A solver for the change of v by impulses, the joints' rows held.
   std::function<void(const Vec& impulse, Vec& dv)> with_joints_held();
 
-  void add_exact_reaction(std::size_t joint, const Vec& lambda, double c, Mat& S);
+  // S += c d(G^T lambda)/dq, lambda of its rows alone.
+  void add_reaction_of(const Constraint& constraint, const ReactionTangent* exact, const Slots& at, const Vec6& lambda,
+                       double c, Mat& S);
   // Of rows, by what solves with them; after evaluate_rows.
   double violation() const { return g.size() ? g.lpNorm<Eigen::Infinity>() : 0; }
   double for_motion() const { return numerics::rank_tolerance_of_motion(violation()); }
@@ -79,7 +85,7 @@ struct AssembledSystem::Work {
   std::shared_ptr<const Model> model;
   Storage storage;
   MarkerChain chain;
-  std::vector<Pair> joint_slots, force_slots, contact_slots;
+  std::vector<Slots> joint_slots, force_slots, contact_slots;
   Modes modes;
   std::vector<int> contact_row;  // row in g, -1 while open or compliant
   std::vector<int> stick_row;    // first tangential row in g, -1 while it does not stick
@@ -87,6 +93,7 @@ struct AssembledSystem::Work {
   Vec judged_friction;           // [N] by contact, at the last accelerate
   bool coupled = false;          // a row's force has a sliding friction beside it: W != G
   Sizes sizes;
+  int held_rows = 0;  // the first rows of g, that hold through impacts: of bodies, joints and contacts that have locked
   struct CarriedFrom {
     Vec q, dq;
   };
@@ -109,6 +116,7 @@ struct AssembledSystem::Work {
   // scratch
   Balance power;
   Rows rows;
+  BodyRows own_rows;
   PairTangent wrench_by;
   std::vector<ContactRows> contact_rows;
   struct Pressed {
@@ -120,17 +128,18 @@ struct AssembledSystem::Work {
   Vec right, right_rows;
 };
 
-// d of the generalised force of a pair of markers, whose wrenches are a function of both motions, by differences of the
+// d of the generalised force of a few markers, whose wrenches are a function of their motions, by differences of the
 // poses and velocities: S += c_k d(J^T w)/dq + c_d d(J^T w)/dv. Of the markers' own motion only J^T's change with q is
 // included beside; that V depends on q at fixed v is left out (it is of the order damping x speed / length beside the
 // stiffness, and Newton's iteration corrects for it).
-class PairWrench {
+class MarkerWrenches {
  public:
-  virtual ~PairWrench() = default;
-  virtual void operator()(const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const = 0;
+  virtual ~MarkerWrenches() = default;
+  // `on` comes in with as many wrenches as markers, all zero.
+  virtual void operator()(Motions markers, std::span<Wrench> on) const = 0;
   virtual bool depends_on_velocity() const = 0;
 };
-void add_pair_tangent(MarkerChain& chain, int A, int B, double t, const Vec& q, const Vec& v, const PairWrench& wrench,
-                      double c_k, double c_d, Mat& S);
+void add_wrench_tangent(MarkerChain& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
+                        const MarkerWrenches& wrenches, double c_k, double c_d, Mat& S);
 
 }  // namespace trammel::model

@@ -18,15 +18,18 @@ BodyBlocks::BodyBlocks(const Model& model) : model_(model) {
     block.v0 = entry.v0;
     block.M.setZero(entry.nv, entry.nv);
   }
-  const auto tie = [this](const auto& entry) {
-    const int a = entry.A.body, b = entry.B.body;
-    if (a < 0 || b < 0 || a == b) return;
-    tied_.push_back({a, b});
-    tied_.push_back({b, a});
+  const auto tie = [this](const std::vector<MarkerRef>& markers) {
+    for (const MarkerRef& one : markers)
+      for (const MarkerRef& other : markers)
+        if (one.body >= 0 && other.body >= 0 && one.body != other.body) tied_.push_back({one.body, other.body});
   };
-  for (const JointEntry& joint : model.joints) tie(joint);
-  for (const ForceEntry& force : model.forces) tie(force);
-  for (const ContactEntry& contact : model.contacts) tie(contact);
+  for (const JointEntry& joint : model.joints) tie(joint.markers);
+  for (const ForceEntry& force : model.forces) tie({force.A, force.B});
+  for (const ContactEntry& contact : model.contacts)
+    if (contact.limit)
+      tie(contact.limit->markers);
+    else
+      tie({contact.A, contact.B});
   std::sort(tied_.begin(), tied_.end());
   tied_.erase(std::unique(tied_.begin(), tied_.end()), tied_.end());
 }
@@ -34,9 +37,10 @@ BodyBlocks::BodyBlocks(const Model& model) : model_(model) {
 void BodyBlocks::lay_out(std::span<const Tie> ties) {
   for (BodyBlock& block : bodies_) block.rows.clear();
   for (const Tie& tie : ties)
-    for (int i = tie.first; i < tie.first + tie.count; ++i) {
-      if (tie.A >= 0) bodies_[std::size_t(tie.A)].rows.push_back(i);
-      if (tie.B >= 0 && tie.B != tie.A) bodies_[std::size_t(tie.B)].rows.push_back(i);
+    for (auto body = tie.bodies.begin(); body != tie.bodies.end(); ++body) {
+      if (*body < 0 || std::find(tie.bodies.begin(), body, *body) != body) continue;
+      std::vector<int>& rows = bodies_[std::size_t(*body)].rows;
+      for (int i = tie.first; i < tie.first + tie.count; ++i) rows.push_back(i);
     }
   for (BodyBlock& block : bodies_) block.Gt.setZero(block.M.rows(), Eigen::Index(block.rows.size()));
 }
@@ -60,6 +64,12 @@ void BodyBlocks::add_rows(int body, int row, const Motion& marker, const Mat6& H
   if (body < 0) return;
   BodyBlock& block = bodies_[std::size_t(body)];
   add(block, row, marker, H, block.Gt);
+}
+
+void BodyBlocks::add_own_rows(std::size_t body, int row, const Mat& G) {
+  BodyBlock& block = bodies_[body];
+  const auto column = std::lower_bound(block.rows.begin(), block.rows.end(), row) - block.rows.begin();
+  block.Gt.middleCols(column, G.rows()) += G.transpose();
 }
 
 void BodyBlocks::couple() {

@@ -21,9 +21,10 @@ class BodyBlocks {
 
   explicit BodyBlocks(const Model& model);
 
-  // Rows first .. first + count - 1 of g are between bodies A and B (-1: the ground). Given in ascending order; the masses stay.
+  // Rows first .. first + count - 1 of g are between these bodies (-1: the ground). Given in ascending order; the masses stay.
   struct Tie {
-    int first, count, A, B;
+    int first, count;
+    std::vector<int> bodies;
   };
   void lay_out(std::span<const Tie> ties);
 
@@ -31,6 +32,7 @@ class BodyBlocks {
   Mat& mass(std::size_t body) { return bodies_[body].M; }
   void clear_rows();
   void add_rows(int body, int row, const Motion& marker, const Mat6& H);  // G += H J; row: the first of H's
+  void add_own_rows(std::size_t body, int row, const Mat& G);             // of a body alone
   void couple();                                                          // W = G, for more to be added to W:
   void add_reaction(int body, int row, const Motion& marker, const Mat6& H);
 

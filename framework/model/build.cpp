@@ -105,35 +105,51 @@ class Builder {
     return read_marker(value, *model_, ignored);
   }
 
-  // The two entries of "between"; nullptr: reported.
-  const scene::Items* between(const Value& object) {
-    const Value* pair = object.find("between");
-    if (!pair) {
-      problems_.error(object.problem("\"between\": [A, B] is missing: the two markers it acts between"));
+  // The entries of "between", as many as are wanted; nullptr: reported.
+  const scene::Items* between(const Value& object, std::size_t count = 2) {
+    static const char* const numbers[] = {"two", "three", "four"};
+    static const char* const lists[] = {"[A, B]", "[A, B, C]", "[A, B, C, D]"};
+    const Value* markers = object.find("between");
+    if (!markers) {
+      problems_.error(object.problem(fmt::format("\"between\": {} is missing: the {} markers it acts between",
+                                                 lists[count - 2], numbers[count - 2])));
       return nullptr;
     }
-    if (pair->type() != Value::Type::array || pair->items().size() != 2) {
-      problems_.error(pair->problem("expected two entries: \"between\": [A, B]"));
+    if (markers->type() != Value::Type::array || markers->items().size() != count) {
+      problems_.error(
+          markers->problem(fmt::format("expected {} entries: \"between\": {}", numbers[count - 2], lists[count - 2])));
       return nullptr;
     }
-    return &pair->items();
+    return &markers->items();
+  }
+
+  // A joint's markers, not all of one body; empty: reported.
+  std::vector<MarkerRef> markers_of(const Value& object, const Constraint* joint) {
+    const scene::Items* names = between(object, joint ? std::size_t(joint->marker_count()) : 2);
+    if (!names) return {};
+    std::vector<MarkerRef> markers;
+    for (const Value& name : *names)
+      if (const auto found = marker(name)) markers.push_back(*found);
+    if (markers.size() != names->size()) return {};
+    for (const MarkerRef& other : markers)
+      if (other.body != markers[0].body) return markers;
+    const char* const all = markers.size() == 2 ? "both" : "all";
+    const int body = markers[0].body;
+    problems_.error(object.problem(
+        body < 0 ? fmt::format("{} markers are fixed in the world; a joint ties a body to something else", all)
+                 : fmt::format("{} markers belong to bodies.{}; a joint ties a body to something else", all,
+                               model_->bodies[std::size_t(body)].name)));
+    return {};
   }
 
   void add_joint(const std::string& name, const Value& value) {
-    auto [joint, origin] = plugin::make<Joint>(registry_, Kind::joint, value, model_->world, problems_);
-    const scene::Items* pair = between(value);
-    if (!pair) return;
-    const auto A = marker((*pair)[0]), B = marker((*pair)[1]);
-    if (!joint || !A || !B) return;
-    if (A->body == B->body)
-      return problems_.error(value.problem(
-          A->body < 0 ? std::string("both markers are fixed in the world; a joint ties a body to something else")
-                      : fmt::format("both markers belong to bodies.{}; a joint ties a body to something else",
-                                    model_->bodies[std::size_t(A->body)].name)));
+    auto [joint, origin] = plugin::make<Constraint>(registry_, Kind::joint, value, model_->world, problems_);
+    std::vector<MarkerRef> markers = markers_of(value, joint.get());
+    if (!joint || markers.empty()) return;
     JointEntry entry;
     entry.name = name;
     entry.joint = std::move(joint);
-    entry.A = *A, entry.B = *B;
+    entry.markers = std::move(markers);
     model_->joints.push_back(std::move(entry));
   }
 
@@ -253,10 +269,48 @@ class Builder {
                         "as continuous_force"));
   }
 
+  // "reaches": a joint of one row, "between": its markers.
+  bool read_limit(const Value& value, ContactEntry& entry) {
+    const Value& reaches = *value.find("reaches");
+    auto [joint, origin] = plugin::make<Constraint>(registry_, Kind::joint, reaches, model_->world, problems_);
+    RowLimit limit;
+    limit.markers = markers_of(value, joint.get());
+    for (const char* key : {"radius", "friction"})
+      if (const Value* other = value.find(key))
+        problems_.error(
+            other->problem("it belongs to a contact with a plane or a surface; this one waits for a joint's row"));
+    if (const Value* own = reaches.find("between"))
+      problems_.error(own->problem("the markers stand in the contact's own \"between\""));
+    if (const Value* from = value.find("from")) {
+      const auto side = from->read_text(problems_);
+      if (side && *side != "above" && *side != "below")
+        problems_.error(from->problem(fmt::format("found \"{}\", expected \"above\" or \"below\"", *side)));
+      if (side == "below") limit.side = -1;
+    }
+    if (!joint || limit.markers.empty()) return false;
+    if (const int rows = joint->row_count(model_->world.space); rows != 1) {
+      problems_.error(reaches.problem(
+          fmt::format("found a joint of {} rows, expected one of a single row, such as distance", rows)));
+      return false;
+    }
+    limit.joint = std::move(joint);
+    entry.A = limit.markers[0], entry.B = limit.markers[1];
+    entry.geometry =
+        PointOnPlane(Vec3::Zero(dimension(model_->world.space)), Vec3::Unit(dimension(model_->world.space), 0));
+    entry.limit = std::move(limit);
+    return true;
+  }
+
   void add_contact(const std::string& name, const Value& value) {
     ContactEntry entry;
     entry.name = name;
     auto [law, origin] = plugin::make<Component>(registry_, Kind::contact, value, model_->world, problems_);
+    if (value.find("reaches")) {
+      if (!read_limit(value, entry) || !law) return;
+      return add_contact(std::move(entry), value, std::move(law), origin);
+    }
+    if (const Value* from = value.find("from"))
+      problems_.error(from->problem("it says from where \"reaches\" is approached, which is missing"));
     const scene::Items* pair = between(value);
     if (!pair) return;
     const auto A = marker((*pair)[0]);
@@ -269,6 +323,12 @@ class Builder {
     const bool on_surface = second.type() == Value::Type::object && second.find("surface");
     if (!(on_surface ? read_surface(second, entry) : read_plane(second, entry)) || !A || !law) return;
     entry.A = *A;
+    add_contact(std::move(entry), value, std::move(law), origin);
+  }
+
+  void add_contact(ContactEntry entry, const Value& value, std::unique_ptr<Component> law,
+                   const plugin::Origin& origin) {
+    const bool on_surface = entry.surface.has_value();
     entry.restitution = dynamic_cast<const Restitution*>(law.get());
     entry.force = dynamic_cast<const ContactForce*>(law.get());
     if (!entry.restitution == !entry.force)

@@ -1,18 +1,24 @@
 #include <Eigen/Geometry>
 
-#include <trammel/marker.hpp>
+#include <trammel/body.hpp>
 
 #include "model/model.hpp"
 
 namespace trammel {
 
-void Rows::resize(int n, Space space) {
+void Rows::resize(int n, Space space, int markers) {
   const int twist = twist_size(space);
   g.setZero(n);
   g_t.setZero(n);
   gamma.setZero(n);
-  H_A.setZero(n, twist);
-  H_B.setZero(n, twist);
+  for (int k = 0; k < most_markers; ++k) H(k).setZero(k < markers ? n : 0, twist);
+}
+
+void BodyRows::resize(int n, int nv) {
+  g.setZero(n);
+  g_t.setZero(n);
+  gamma.setZero(n);
+  G.setZero(n, nv);
 }
 
 namespace model {

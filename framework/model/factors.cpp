@@ -90,7 +90,7 @@ bool AssembledSystem::Work::redundant(Store store) const {
 std::function<void(const Vec& impulse, Vec& dv)> AssembledSystem::Work::with_joints_held() {
   evaluate_rows();
   evaluate_mass();
-  const int joint_rows = model->sizes.nc;
+  const int joint_rows = held_rows;
   const auto solver = [joint_rows](auto&& solve) {
     return [joint_rows, solve](const Vec& impulse, Vec& dv) {
       Vec on_joints;

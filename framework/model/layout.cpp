@@ -20,6 +20,10 @@ void Model::lay_out() {
     entry.tangent = dynamic_cast<const ExactTangent*>(body);
     entry.carried_stress = dynamic_cast<const CarriedStress*>(body);
     entry.reaction_derivative = dynamic_cast<const ReactionDerivative*>(body);
+    entry.constrained = dynamic_cast<const Constrained*>(body);
+    entry.row = sizes.nc;
+    entry.rows = entry.constrained ? entry.constrained->row_count() : 0;
+    sizes.nc += entry.rows;
     entry.observed = dynamic_cast<const Observed*>(body);
     entry.drawn = dynamic_cast<const Drawn*>(body);
     entry.momentum = dynamic_cast<const HasMomentum*>(body);
@@ -30,16 +34,25 @@ void Model::lay_out() {
   for (JointEntry& entry : joints) {
     entry.row = sizes.nc;
     entry.rows = entry.joint->row_count(world.space);
-    entry.tangent = dynamic_cast<const ReactionTangent*>(static_cast<const Joint*>(entry.joint.get()));
+    entry.tangent = dynamic_cast<const ReactionTangent*>(entry.joint.get());
     sizes.nc += entry.rows;
   }
   for (ContactEntry& entry : contacts) {
     entry.restitution = dynamic_cast<const Restitution*>(entry.law.get());
     entry.force = dynamic_cast<const ContactForce*>(entry.law.get());
     entry.coulomb = dynamic_cast<const SetValuedFriction*>(entry.friction.get());
+    if (entry.limit) entry.limit->tangent = dynamic_cast<const ReactionTangent*>(entry.limit->joint.get());
     if (entry.surface) entry.surface->by_points = dynamic_cast<const ForceBySurfacePoints*>(entry.law.get());
     entry.smooth = dynamic_cast<const SmoothFriction*>(entry.friction.get());
   }
+}
+
+std::vector<RowGroup> row_groups(const Model& model) {
+  std::vector<RowGroup> groups;
+  for (const BodyEntry& entry : model.bodies)
+    if (entry.rows > 0) groups.push_back({"bodies." + entry.name, entry.row, entry.rows});
+  for (const JointEntry& entry : model.joints) groups.push_back({"joints." + entry.name, entry.row, entry.rows});
+  return groups;
 }
 
 }  // namespace trammel::model

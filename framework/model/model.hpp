@@ -27,12 +27,14 @@ struct BodyEntry {
   std::unique_ptr<Body> body;
   // Place of its segment in q and v.
   int q0 = 0, v0 = 0, nq = 0, nv = 0;
+  int row = 0, rows = 0;  // of its own, in g
   std::vector<Coordinates::Part> parts;
   // Abilities, looked up once.
   const MassAndForce* mass_and_force = nullptr;
   const ExactTangent* tangent = nullptr;
   const CarriedStress* carried_stress = nullptr;
   const ReactionDerivative* reaction_derivative = nullptr;
+  const Constrained* constrained = nullptr;
   const Observed* observed = nullptr;
   const Drawn* drawn = nullptr;
   const HasMomentum* momentum = nullptr;
@@ -43,9 +45,9 @@ struct BodyEntry {
 
 struct JointEntry {
   std::string name;
-  std::unique_ptr<Joint> joint;
+  std::unique_ptr<Constraint> joint;
   const ReactionTangent* tangent = nullptr;  // ability, looked up once
-  MarkerRef A, B;
+  std::vector<MarkerRef> markers;
   int row = 0, rows = 0;  // place in g
 };
 
@@ -65,6 +67,14 @@ struct PointOnPlane {
   Mat3 tangents;      // columns in B's axes: fixed in B, so that slip is measured in the same directions throughout
 };
 
+// A row of a joint that may have one sign only: gap = side g, until the contact closes and holds it at 0.
+struct RowLimit {
+  std::unique_ptr<Constraint> joint;         // of one row
+  const ReactionTangent* tangent = nullptr;  // ability, looked up once
+  std::vector<MarkerRef> markers;
+  double side = 1;  // -1: the row comes from below
+};
+
 // A sphere around A against the surface of a body: gap = |x_A - x| - radius - half thickness, x the surface's nearest point. The
 // forces act at all points that the sphere has reached (surface_contact.hpp).
 struct SphereOnSurface {
@@ -77,7 +87,8 @@ struct SphereOnSurface {
 struct ContactEntry {
   std::string name;
   MarkerRef A, B;
-  PointOnPlane geometry;  // with a surface the radius alone
+  PointOnPlane geometry;          // with a surface the radius alone
+  std::optional<RowLimit> limit;  // in its place
   std::optional<SphereOnSurface> surface;
   std::unique_ptr<Component> law;
   // The law's kind, looked up once; exactly one is set.
@@ -103,13 +114,20 @@ struct Model {
   std::vector<ForceEntry> forces;
   std::vector<ContactEntry> contacts;
   std::vector<GroundFrame> ground_frames = {GroundFrame{}};
-  Sizes sizes;       // nc counts the joints' rows alone
+  Sizes sizes;       // nc counts the rows of bodies and joints alone
   bool flat = true;  // no rotation part anywhere: q is a plain vector
   bool constant_mass = true;
 
   // Places every body and joint in q, v and g. Called after the entries are complete, and after a refinement.
   void lay_out();
 };
+
+// Neighbouring rows of one source: "bodies.rod", "joints.hinge".
+struct RowGroup {
+  std::string path;  // in the scene
+  int first = 0, count = 0;
+};
+std::vector<RowGroup> row_groups(const Model& model);  // all rows but those of contacts, in their order
 
 // Rows of the contact's geometry: row 0 the gap, G, g_t and gamma of the normal direction; with `tangents` further rows
 // are the directions along B's tangents: g is the coordinate of A in B's plane, its rate the slip velocity. Where such a

@@ -33,32 +33,36 @@ void displace(const Motion& from, int i, double s, Motion& to) {
 
 }  // namespace
 
-void add_pair_tangent(MarkerChain& chain, int slot_A, int slot_B, double t, const Vec& q, const Vec& v,
-                      const PairWrench& wrench, double c_k, double c_d, Mat& S) {
-  const std::array<int, 2> slots = {slot_A, slot_B};
-  std::array<Motion, 2> now;
-  for (std::size_t k = 0; k < 2; ++k) now[k] = chain.motion(slots[k], t, q, v);
+void add_wrench_tangent(MarkerChain& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
+                        const MarkerWrenches& wrenches, double c_k, double c_d, Mat& S) {
+  const std::size_t n = slots.size();
+  std::vector<Motion> now(n), probe;
+  std::vector<const Motion*> seen(n);
+  for (std::size_t k = 0; k < n; ++k) now[k] = chain.motion(slots[k], t, q, v);
+  probe = now;
+  for (std::size_t k = 0; k < n; ++k) seen[k] = &probe[k];
   const auto twist = now[0].V.size();
-  std::array<Wrench, 2> plus, minus;
-  std::array<Mat6, 2> D;
+  std::vector<Wrench> plus(n), minus(n);
+  std::vector<Mat6> D(n);
+  const auto evaluate = [&](std::vector<Wrench>& on) {
+    for (Wrench& w : on) w.setZero(twist);
+    wrenches(seen, on);
+  };
 
   const auto difference = [&](std::size_t moved, auto&& move, double weight) {
     for (Mat6& block : D) block.setZero(twist, twist);
-    std::array<Motion, 2> probe = now;
     for (int i = 0; i < twist; ++i) {
       const double s = move(probe[moved], i, 1);
-      for (Wrench& w : plus) w.setZero(twist);
-      wrench(probe[0], probe[1], plus[0], plus[1]);
+      evaluate(plus);
       move(probe[moved], i, -1);
-      for (Wrench& w : minus) w.setZero(twist);
-      wrench(probe[0], probe[1], minus[0], minus[1]);
+      evaluate(minus);
       probe[moved] = now[moved];
-      for (std::size_t k = 0; k < 2; ++k) D[k].col(i) = (plus[k] - minus[k]) / (2 * s);
+      for (std::size_t k = 0; k < n; ++k) D[k].col(i) = (plus[k] - minus[k]) / (2 * s);
     }
-    for (std::size_t k = 0; k < 2; ++k) chain.add_pair(slots[k], slots[moved], D[k], weight, S);
+    for (std::size_t k = 0; k < n; ++k) chain.add_pair(slots[k], slots[moved], D[k], weight, S);
   };
 
-  for (std::size_t moved = 0; moved < 2; ++moved) {
+  for (std::size_t moved = 0; moved < n; ++moved) {
     if (chain.body(slots[moved]) < 0) continue;
     if (c_k != 0) {
       const auto pose = [&](Motion& m, int i, double sign) {
@@ -68,7 +72,7 @@ void add_pair_tangent(MarkerChain& chain, int slot_A, int slot_B, double t, cons
       };
       difference(moved, pose, c_k);
     }
-    if (c_d != 0 && wrench.depends_on_velocity()) {
+    if (c_d != 0 && wrenches.depends_on_velocity()) {
       const auto velocity = [&](Motion& m, int i, double sign) {
         const double s = difference_step(now[moved].V(i));
         m.V = now[moved].V;
@@ -79,10 +83,8 @@ void add_pair_tangent(MarkerChain& chain, int slot_A, int slot_B, double t, cons
     }
   }
   if (c_k == 0) return;
-  std::array<Wrench, 2> w;
-  for (Wrench& each : w) each.setZero(twist);
-  wrench(now[0], now[1], w[0], w[1]);
-  for (std::size_t k = 0; k < 2; ++k) chain.add_reaction_derivative(slots[k], t, q, w[k], c_k, S);
+  evaluate(plus);
+  for (std::size_t k = 0; k < n; ++k) chain.add_reaction_derivative(slots[k], t, q, plus[k], c_k, S);
 }
 
 }  // namespace trammel::model

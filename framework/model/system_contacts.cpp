@@ -37,9 +37,8 @@ double AssembledSystem::Work::contact_acceleration(int i, int row, const Vec& a)
     const int v0 = model->bodies[std::size_t(chain.body(slot))].v0;
     for (std::size_t j = 0; j < m.dofs.size(); ++j) sum += H.dot(m.J.col(Eigen::Index(j))) * a(v0 + m.dofs[j]);
   };
-  const auto [A, B] = contact_slots[std::size_t(i)];
-  add(A, r.H_A.row(row));
-  add(B, r.H_B.row(row));
+  const Slots& at = contact_slots[std::size_t(i)];
+  for (int k = 0; k < at.count; ++k) add(at[k], r.H(k).row(row));
   return sum;
 }
 
@@ -72,11 +71,10 @@ void AssembledSystem::impulse_response(const std::vector<ContactDirection>& dire
   for (Eigen::Index i = 0; i < n; ++i) {
     const ContactDirection d = directions[std::size_t(i)];
     const Rows& r = w.contact(d.contact);
-    const auto [A, B] = w.contact_slots[std::size_t(d.contact)];
-    w.motion(A), w.motion(B);
+    const Work::Slots& at = w.contact_slots[std::size_t(d.contact)];
+    for (int k = 0; k < at.count; ++k) w.motion(at[k]);
     column.setZero(w.sizes.nv);
-    w.chain.add_wrench(A, r.H_A.row(d.row).transpose(), 1, column);
-    w.chain.add_wrench(B, r.H_B.row(d.row).transpose(), 1, column);
+    w.add_row_force(at, r, d.row, 1, column);
     N.col(i) = column;
     respond(column, dv);
     jump.col(i) = dv;
@@ -117,10 +115,8 @@ void AssembledSystem::Work::judge_friction(Vec& a, Vec& lambda) {
   for (Eigen::Index k = 0; k < n; ++k) {
     const int i = judged[std::size_t(k)];
     const Rows& r = contact(i);
-    const auto [A, B] = contact_slots[std::size_t(i)];
     column.setZero(sizes.nv);
-    chain.add_wrench(A, r.H_A.row(1).transpose(), 1, column);
-    chain.add_wrench(B, r.H_B.row(1).transpose(), 1, column);
+    add_row_force(contact_slots[std::size_t(i)], r, 1, 1, column);
     columns.col(k) = column;
     if (!solve(at_point, column, Vec::Zero(sizes.nc), x, y))
       throw NotSolvable("the friction of the feet at rest was not found");

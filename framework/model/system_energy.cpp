@@ -15,7 +15,7 @@ Energy AssembledSystem::energy() {
     sum.elastic += e.elastic;
   }
   for (std::size_t i = 0; i < w.force_slots.size(); ++i) {
-    const auto [A, B] = w.force_slots[i];
+    const int A = w.force_slots[i].A, B = w.force_slots[i].B;
     w.called(w.model->forces[i].name, "potential");
     sum.elastic += w.model->forces[i].force->potential(w.t, w.motion(A), w.motion(B));
   }
@@ -66,7 +66,7 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     sum.dampers += p.dissipated;
   }
   for (std::size_t i = 0; i < w.force_slots.size(); ++i) {
-    const auto [A, B] = w.force_slots[i];
+    const int A = w.force_slots[i].A, B = w.force_slots[i].B;
     w.called(w.model->forces[i].name, "power");
     const Power p = w.model->forces[i].force->power(w.t, w.motion(A), w.motion(B));
     sum.drives += p.supplied;
@@ -106,11 +106,11 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     sum.contacts -= (normal - law->normal(gap, 0, approach)) * rate;
     const double friction = ratio * normal + w.judged_friction(Eigen::Index(i));
     sum.friction(Eigen::Index(i)) = -friction * slip;
-    const auto [A, B] = w.contact_slots[i];
-    for (const auto& [slot, H] : {std::pair{A, &r.H_A}, std::pair{B, &r.H_B}}) {
-      Wrench wrench = normal * H->row(0).transpose();
-      if (friction != 0) wrench += friction * H->row(1).transpose();
-      moved_by_law(slot, wrench);
+    const auto& at = w.contact_slots[i];
+    for (int k = 0; k < at.count; ++k) {
+      Wrench wrench = normal * r.H(k).row(0).transpose();
+      if (friction != 0) wrench += friction * r.H(k).row(1).transpose();
+      moved_by_law(at[k], wrench);
     }
   }
   if (w.sizes.nc > 0) {
@@ -119,6 +119,8 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     reaction.setZero(w.sizes.nv);
     w.add_reaction(1, lambda, reaction);
     sum.constraints = -reaction.dot(w.v);
+    // Rows of joints and bodies supply lambda . g_t; what they do on velocities that leave them is the method's error.
+    sum.constraints += lambda.head(w.held_rows).dot(w.g_dot.head(w.held_rows));
     for (std::size_t i = 0; i < w.contact_slots.size(); ++i)
       if (w.contact_row[i] >= 0) sum.constraints += sum.friction(Eigen::Index(i));
   }
@@ -138,6 +140,11 @@ CallSite AssembledSystem::find_not_finite() {
     Matrix target = Matrix::onto(M);
     entry.body->mass(w.t, q, target);
     if (!M.allFinite()) return {&entry.name, "mass"};
+    if (entry.rows == 0) continue;
+    w.own_rows.resize(entry.rows, entry.nv);
+    entry.constrained->own_rows(w.t, q, v, w.own_rows);
+    if (!w.own_rows.g.allFinite() || !w.own_rows.G.allFinite() || !w.own_rows.gamma.allFinite())
+      return {&entry.name, "own_rows"};
   }
   for (int slot = 0; slot < w.chain.slots(); ++slot) {
     if (w.chain.body(slot) < 0 || w.chain.on_surface(slot)) continue;
@@ -146,7 +153,7 @@ CallSite AssembledSystem::find_not_finite() {
       return {&w.model->bodies[std::size_t(w.chain.body(slot))].name, "motion"};
   }
   for (std::size_t i = 0; i < w.force_slots.size(); ++i) {
-    const auto [A, B] = w.force_slots[i];
+    const int A = w.force_slots[i].A, B = w.force_slots[i].B;
     const int twist = twist_size(w.model->world.space);
     w.on_A.setZero(twist);
     w.on_B.setZero(twist);
@@ -155,10 +162,10 @@ CallSite AssembledSystem::find_not_finite() {
   }
   for (std::size_t i = 0; i < w.joint_slots.size(); ++i) {
     const JointEntry& entry = w.model->joints[i];
-    w.rows.resize(entry.rows, w.model->world.space);
-    entry.joint->rows(w.t, w.motion(w.joint_slots[i].A), w.motion(w.joint_slots[i].B), w.rows);
-    if (!w.rows.g.allFinite() || !w.rows.H_A.allFinite() || !w.rows.H_B.allFinite() || !w.rows.gamma.allFinite())
-      return {&entry.name, "rows"};
+    w.evaluate_constraint(*entry.joint, w.joint_slots[i], w.rows);
+    if (!w.rows.g.allFinite() || !w.rows.gamma.allFinite()) return {&entry.name, "rows"};
+    for (int k = 0; k < w.joint_slots[i].count; ++k)
+      if (!w.rows.H(k).allFinite()) return {&entry.name, "rows"};
   }
   return {};
 }

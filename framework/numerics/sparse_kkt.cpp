@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace trammel::numerics {
 
@@ -10,6 +11,8 @@ namespace {
 // Of S's and G's scales. Large beside its round-off, so that corrections converge; its square root is the
 // singular value, relative to the largest, below which rows count as redundant.
 constexpr double regularisation = 1e-12;
+// Pivots of redundant rows of a long chain: above their round-off.
+constexpr double dependent = 1e-11;
 // Redundant rows part by no more than this where they are violated, the largest rank tolerance of kkt.hpp.
 constexpr double parting = 1e-2;
 
@@ -76,10 +79,22 @@ bool SparseMassKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, Metr
   }
   if (safe) return true;
   redundant_ = true;
-  // Large beside the complement's round-off, so that corrections converge and the unreachable is told from the rest.
-  eps_ = std::max(1e-10, rank_tolerance * rank_tolerance) * diagonal_.maxCoeff();
-  assemble(bodies, eps_);
+  rank_tolerance_ = rank_tolerance;
+  regular_ = false;
+  if (nc < long_chain) {
+    regularise(bodies);
+    return true;
+  }
+  if (!std::exchange(pattern_known_, true)) semidefinite_.analyse(schur_.matrix());
+  semidefinite_.factorise(schur_.matrix(), dependent);
   return true;
+}
+
+// Large beside the complement's round-off, so that corrections converge and the unreachable is told from the rest.
+void SparseMassKkt::regularise(const std::vector<BodyBlock>& bodies) {
+  eps_ = std::max(1e-10, rank_tolerance_ * rank_tolerance_) * diagonal_.maxCoeff();
+  assemble(bodies, eps_);
+  regular_ = true;
 }
 
 void SparseMassKkt::assemble(const std::vector<BodyBlock>& bodies, double eps) {
@@ -96,7 +111,7 @@ void SparseMassKkt::assemble(const std::vector<BodyBlock>& bodies, double eps) {
     }
     for (int i = 0; i < nc_; ++i) S.add(i, i, eps);
   });
-  if (fresh) ldlt_.analyzePattern(schur_.matrix());
+  if (fresh) ldlt_.analyzePattern(schur_.matrix()), pattern_known_ = false;
   ldlt_.factorize(schur_.matrix());
 }
 
@@ -118,10 +133,48 @@ void SparseMassKkt::remove_null_part(Vec& r) {
   }
 }
 
+// x += M^-1 G^T dy, until the rows G x = c hold as well as they can. False: they contradict each other.
+bool SparseMassKkt::conjugate_gradients(const std::vector<BodyBlock>& bodies, const Vec& c, Vec& x, Vec& y) {
+  constexpr int most = 60;
+  constexpr double enough = 1e-28;  // of the squared error, in the norm of the energy
+  const double scale = std::max(c.lpNorm<Eigen::Infinity>(), x.lpNorm<Eigen::Infinity>());
+  const Vec zero = Vec::Zero(x.size());
+  double first = 0, before = 0;
+  for (int i = 0; i < most; ++i) {
+    residual_ = -c;
+    add_rows_times(bodies, 1, x, residual_);
+    dy_ = residual_;
+    semidefinite_.solve(dy_);
+    const double error = residual_.dot(dy_);
+    if (i == 0) first = error;
+    // Near round-off errors grow again.
+    if (!(error > enough * first) || (error < 1e-20 * first && error > before)) break;
+    if (i == 0)
+      along_ = dy_;
+    else
+      along_ = dy_ + error / before * along_;
+    move(bodies, zero, along_, moved_);  // -M^-1 G^T along
+    right_.setZero(nc_);
+    add_rows_times(bodies, -1, moved_, right_);
+    const double step = error / along_.dot(right_);
+    if (!std::isfinite(step)) return false;
+    x += step * moved_;
+    y += step * along_;
+    before = error;
+  }
+  return residual_.lpNorm<Eigen::Infinity>() <= 1e-10 * scale;
+}
+
 void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
   y.setZero(nc_);
   move(bodies, b, y, x);
   if (nc_ == 0) return;
+  if (redundant_ && !regular_) {
+    if (conjugate_gradients(bodies, c, x, y)) return;
+    regularise(bodies);
+    y.setZero(nc_);
+    move(bodies, b, y, x);
+  }
   const double scale = std::max(c.lpNorm<Eigen::Infinity>(), x.lpNorm<Eigen::Infinity>());
   const auto residual = [&](Vec& r) {
     r = -c;

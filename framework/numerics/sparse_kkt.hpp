@@ -10,6 +10,11 @@
 // Redundant rows: the factorised matrix is the complement plus eps I (Iteration: -eps I in the corner), and residuals of the
 // unchanged equations are corrected with it. This is a proximal point iteration: its steps lie in the range of the rows, so
 // y comes out as the one of minimum norm, and directions of the rows with sigma^2 < eps count as redundant. x is unique.
+//
+// Long chains have such directions that are not redundant: their softest sigma falls with n^-2 (masts) or n^-3 (hoops). From
+// `long_chain` rows on redundant ones are left to conjugate gradients on the complement, which they see as a product of its factors,
+// so with sigma and not its square against round-off, preconditioned by semidefinite_ldlt.hpp. Then y is a solution of few entries
+// on redundant rows, not the one of minimum norm. Rows that contradict each other go the other way.
 #pragma once
 
 #include <vector>
@@ -19,6 +24,7 @@
 #include <Eigen/SparseLU>
 
 #include "numerics/recorded_matrix.hpp"
+#include "numerics/semidefinite_ldlt.hpp"
 
 namespace trammel::numerics {
 
@@ -39,6 +45,7 @@ void add_mass_times(const std::vector<BodyBlock>& bodies, double c, const Vec& a
 
 class SparseMassKkt {
  public:
+  static constexpr int long_chain = 1000;
   enum class Metric { mass, mass_of_before, identity };  // what stands for M; of_before: its factors are kept
   // Of the first nc rows. False: a body's mass is not positive definite. `rank_tolerance` as in kkt.hpp.
   bool factorise(const std::vector<BodyBlock>& bodies, int nc, Metric metric, double rank_tolerance = 1e-7);
@@ -54,15 +61,21 @@ class SparseMassKkt {
   void assemble(const std::vector<BodyBlock>& bodies, double eps);
   void move(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& y, Vec& x);  // x = M^-1 (b - G^T y)
 
+  void regularise(const std::vector<BodyBlock>& bodies);
   void remove_null_part(Vec& r);
+  bool conjugate_gradients(const std::vector<BodyBlock>& bodies, const Vec& c, Vec& x, Vec& y);
 
   int nc_ = 0;
   double eps_ = 0;  // while redundant
+  double rank_tolerance_ = 0;
   bool redundant_ = false;
+  bool regular_ = false;  // ldlt_ is that of the complement plus eps
   std::vector<Factor> factors_;
   RecordedMatrix schur_;  // lower triangle
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt_;
-  Vec diagonal_, z_, residual_, dy_;
+  SemidefiniteLdlt semidefinite_;
+  bool pattern_known_ = false;  // to semidefinite_
+  Vec diagonal_, z_, residual_, dy_, along_, moved_, right_;
 };
 
 class SparseIterationKkt {

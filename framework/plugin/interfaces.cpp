@@ -29,6 +29,7 @@ Transfer::~Transfer() = default;
 MassAndForce::~MassAndForce() = default;
 ExactTangent::~ExactTangent() = default;
 ReactionDerivative::~ReactionDerivative() = default;
+Constrained::~Constrained() = default;
 Observed::~Observed() = default;
 Drawn::~Drawn() = default;
 Refinable::~Refinable() = default;

@@ -209,7 +209,8 @@ scene::Problem refused(const Value& object, const ParameterError& e) {
 
 std::span<const std::string> framework_keys(Kind kind) {
   static const std::vector<std::string> joint{"type", "between"}, force{"type", "between", "on"},
-      contact{"type", "between", "radius", "friction"}, integrator{"type", "step", "contact_step"}, other{"type"};
+      contact{"type", "between", "radius", "friction", "reaches", "from"}, integrator{"type", "step", "contact_step"},
+      other{"type"};
   switch (kind) {
     case Kind::joint:
       return joint;

@@ -116,6 +116,9 @@ Json schema_of(const Entry& entry) {
   Json properties = Json::object();
   for (const std::string& key : framework_keys(declaration.kind))
     properties[key] = key == "type" ? Json{{"const", declaration.name}} : reference(key);
+  const Kind kind = declaration.kind;
+  if (kind == Kind::body || kind == Kind::joint || kind == Kind::force || kind == Kind::contact)
+    properties["for"] = reference("for");
   Json schema = with(object(std::move(properties)), declaration.summary);
   for (const Parameter& parameter : declaration.parameters) place(schema, parameter.name, schema_of(entry, parameter));
   return schema;
@@ -174,7 +177,13 @@ void define_common(Json& definitions) {
       reference("marker"), any_of(object({{"plane", std::move(plane)}}), object({{"surface", {{"type", "string"}}}}))));
   definitions["radius"] = with(number, "[m] of a disk or sphere around the first marker; 0: a point");
   definitions["between"]["minItems"] = 2;
-  definitions["between"]["maxItems"] = 2;
+  definitions["between"]["maxItems"] = 4;
+  definitions["reaches"] =
+      with(reference("joint"), "a joint of one row between the markers: the contact closes at its 0");
+  definitions["for"] =
+      with(keyed(any_of(number, array_of(number))),
+           "repeats this unit: {\"i\": n} counts 0 ... n - 1, {\"i\": [a, b]} a ... b; {i} in its texts");
+  definitions["from"] = with({{"enum", {"above", "below"}}}, "the side that \"reaches\" is approached from");
   Json controlled = object({{"tolerance", reference("positive")},
                             {"relative", number},
                             {"absolute", number},

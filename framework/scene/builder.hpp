@@ -10,6 +10,7 @@ class Builder {
   using Content = std::variant<std::monostate, bool, double, std::string, Items, Members>;
 
   static Value make(Content content, Position at);
+  static Value like(const Value& other, Content content);  // at its place, with its path and parameters
   static Items& items(Value& value) { return std::get<Items>(value.content_); }
   static Members& members(Value& value) { return std::get<Members>(value.content_); }
   static void place(Value& value, Position at) { value.position_ = std::move(at); }
@@ -34,6 +35,9 @@ void apply(const Override& override, Value& root);
 
 // The "parameters" block, evaluated; expressions in it may use one another.
 std::shared_ptr<const Value::Parameters> evaluate_parameters(const Value& root);
+
+// Puts copies in place of bodies, joints, forces and contacts with "for" (repeat.cpp). Throws SceneError.
+void repeat_units(Value& root, const Value::Parameters& parameters);
 
 // A warning for each parameter that was set and that nothing in the scene uses, directly or through another parameter.
 std::vector<Problem> set_in_vain(const Value& root, const std::vector<Override>& overrides);

@@ -10,6 +10,8 @@ Scene::Scene(const std::string& text, const std::string& file, const std::vector
   const auto parameters = evaluate_parameters(root_);
   Builder::finish(root_, "", parameters);
   warnings_ = set_in_vain(root_, overrides);
+  repeat_units(root_, *parameters);
+  Builder::finish(root_, "", parameters);
   hash_ = Builder::hash(root_);
 }
 

@@ -204,6 +204,12 @@ Value Builder::make(Content content, Position at) {
   return value;
 }
 
+Value Builder::like(const Value& other, Content content) {
+  Value value = other;
+  value.content_ = std::move(content);
+  return value;
+}
+
 Value* Builder::find(Value& object, std::string_view key) {
   return const_cast<Value*>(std::as_const(object).find(key));
 }

@@ -153,7 +153,7 @@ const std::vector<ContactModes::Verdict>& ContactModes::foresee(const State& sta
   const ContactChanges none;
   touching_.clear(), candidates_.clear();
   for (int i = 0; i < int(now.contacts.size()); ++i)
-    if (now.contacts[i].closed && system_.model().contacts[i].restitution)
+    if (now.contacts[i].closed && system_.model().contacts[i].restitution && !locks(i))
       touching_.push_back({.contact = i, .was_closed = true}), candidates_.push_back(i);
   verdicts_.assign(now.contacts.size(), {});
   gather(none, false);

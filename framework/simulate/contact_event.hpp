@@ -7,6 +7,7 @@ struct ContactEvent {
   enum class Kind {
     impact,    // velocities jumped
     close,     // a row or a force became active
+    latch,     // velocities jumped and a row became active for good
     open,      // it ended: the contact would pull
     lift,      // after an impact without rebound the gap accelerates apart: it stays open
     stick,     // friction holds it from now on
@@ -30,6 +31,8 @@ inline const char* to_string(ContactEvent::Kind kind) {
       return "impact";
     case ContactEvent::Kind::close:
       return "contact_close";
+    case ContactEvent::Kind::latch:
+      return "latch";
     case ContactEvent::Kind::open:
       return "contact_open";
     case ContactEvent::Kind::lift:

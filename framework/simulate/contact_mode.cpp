@@ -39,6 +39,7 @@ double ContactModes::settle(State& state, const ContactChanges& changes, std::ve
   bool jumped = !changes.struck.empty() && std::any_of(touching_.begin(), touching_.end(), approaches);
   double elsewhere = jumped ? strike(state) : 0;
   bool without_collision = false;
+  lock(state, changes, events);
   find_candidates(changes);
   if (!decide(state, changes, jumped)) {  // rule 8
     if (jumped) fail_without_solution("balance of forces");
@@ -46,6 +47,7 @@ double ContactModes::settle(State& state, const ContactChanges& changes, std::ve
     system_.set_modes(before_);
     system_.move_to(state.t, state.q, state.v);
     elsewhere += strike(state);
+    lock(state, changes, events);
     find_candidates(changes);
     if (!decide(state, changes, jumped)) fail_without_solution("balance of forces");
   }
@@ -101,6 +103,7 @@ void ContactModes::find_touching(const ContactChanges& changes) {
     const Restitution* law = system_.model().contacts[i].restitution;
     if (!law) continue;
     const bool closed = before_.contacts[i].closed, struck = contains(changes.struck, i);
+    if (closed && locks(i)) continue;
     if (!closed && !struck && system_.gap(i) > scale_.touching()) continue;
     TouchingContact c;
     c.contact = i;
@@ -125,6 +128,29 @@ double ContactModes::strike(State& state) {
   double elsewhere = kinetic_before - system_.energy().kinetic;
   for (const TouchingContact& c : touching_) elsewhere -= c.energy_lost();
   return elsewhere;
+}
+
+// Rule 9.
+void ContactModes::lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events) {
+  model::Modes held = before_;
+  const auto locked = [&](const TouchingContact& c) {
+    if (!locks(c.contact) || !(contains(changes.struck, c.contact) || c.impulse > 0) || c.after > scale_.at_rest())
+      return false;
+    held.contacts[c.contact].closed = modes_.contacts[c.contact].closed = true;
+    modes_.contacts[c.contact].approach_speed = -c.before;
+    events.push_back({.t = state.t,
+                      .kind = ContactEvent::Kind::latch,
+                      .contact = c.contact,
+                      .impulse = c.impulse,
+                      .approach = -c.before,
+                      .separation = c.after,
+                      .energy_lost = c.energy_lost()});
+    return true;
+  };
+  if (std::erase_if(touching_, locked) == 0) return;
+  before_ = held;
+  system_.set_modes(held);
+  system_.move_to(state.t, state.q, state.v);
 }
 
 void ContactModes::fail_without_solution(const char* what) const {

@@ -12,6 +12,8 @@
 //     push; where the gap accelerates apart they stay open ("lift").
 //  4. A closed contact opens where its normal force falls through 0; the others are decided anew as in 3. Among redundant
 //     contacts (three feet of a planar block) the single forces mean nothing: they open only where 3 says so.
+//  9. A contact that never releases (a latch) has locked after rule 1, if it touches without rate: it is no candidate, and its
+//     row is held like a joint's from then on, through the decision that follows and all later impacts.
 // `rebound: constrained` makes candidates of contacts that separate at e u-, `restart: carry` leaves a as it was and starts
 // the multipliers of new rows from 0, `onset: next_step` only changes when an event is seen.
 //
@@ -96,6 +98,7 @@ class ContactModes {
   bool capture_chatter(const State& state, const Vec& v);
   void end_rocking(State& state);
   bool cannot_follow(double separation, double acceleration) const;
+  void lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
   void find_candidates(const ContactChanges& changes);
   void open_all(model::Modes& modes) const;
   void gather(const ContactChanges& changes, bool jumped);
@@ -112,6 +115,7 @@ class ContactModes {
   Restitution::Treatment treatment(int contact) const {
     return system_.model().contacts[contact].restitution->treatment();
   }
+  bool locks(int contact) const { return treatment(contact).release == Restitution::Release::never; }
 
   model::AssembledSystem& system_;
   const ContactScale& scale_;

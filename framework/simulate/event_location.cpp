@@ -34,6 +34,7 @@ void EventLocation::watch(int contact) {
     watches_.push_back({.contact = contact, .kind = Kind::approach, .at_ends = at_ends, .noise = scale_.touching()});
     return;
   }
+  if (entry.restitution && entry.restitution->treatment().release == Restitution::Release::never) return;
   if (entry.restitution)
     watches_.push_back({.contact = contact, .kind = Kind::press});
   else

@@ -3,7 +3,7 @@
 // Each contact is watched through functions that are positive until their event:
 //     approach   open contact                    gap
 //     leave      compliant contact in touch      -gap
-//     press      closed contact (Restitution)    its normal force N
+//     press      closed contact (Restitution)    its normal force N; one that has locked needs no watch
 //     hold       sticking contact                mu_0 N - |T|, T the friction that holds it
 //     slide      sliding contact                 slip velocity along its direction
 // An event shows in three ways: the function is negative at the step's end; it was positive at both ends but dipped between

@@ -56,15 +56,16 @@ void built(Text& text, const scene::Scene& scene, const plugin::Registry& regist
     return value && value->type() == scene::Value::Type::text ? value->text() : std::string();
   };
   text.section("Built");
-  text.line("{} scene: nq = {}, nv = {}, joint rows = {}", model.world.space == Space::planar ? "planar" : "spatial",
-            model.sizes.nq, model.sizes.nv, model.sizes.nc);
+  text.line("{} scene: nq = {}, nv = {}, rows of joints and bodies = {}",
+            model.world.space == Space::planar ? "planar" : "spatial", model.sizes.nq, model.sizes.nv, model.sizes.nc);
   if (model.sizes.nc > 0)
     text.line("matrices: {}", model::BodyBlocks::worthwhile(model)
                                   ? "blocks by body; sparse factorisations, ordered once for a pattern"
                                   : "dense");
   for (const model::BodyEntry& body : model.bodies)
-    text.line("bodies.{} ({}): nq = {}, nv = {}, {} markers; derivatives {}", body.name, type("bodies", body.name),
-              body.nq, body.nv, body.body->markers().size(), body.tangent ? "exact" : "by differences");
+    text.line("bodies.{} ({}): nq = {}, nv = {}{}, {} markers; derivatives {}", body.name, type("bodies", body.name),
+              body.nq, body.nv, body.rows > 0 ? fmt::format(", {} rows of its own", body.rows) : "",
+              body.body->markers().size(), body.tangent ? "exact" : "by differences");
   for (const model::JointEntry& joint : model.joints)
     text.line("joints.{} ({}): {} rows", joint.name, type("joints", joint.name), joint.rows);
   for (const model::ForceEntry& force : model.forces)
@@ -87,8 +88,8 @@ void redundant(Text& text, Setup& setup) {
   const std::vector<RedundantRows> found = redundant_rows(system, setup.initial);
   if (found.empty()) return;
   text.section("Redundant rows at the initial state (accelerations are unique, multipliers those of minimum norm)");
-  for (const RedundantRows& joint : found)
-    text.line("joints.{}: {} of {} rows follow from the rows before", joint.joint, joint.redundant, joint.of);
+  for (const RedundantRows& rows : found)
+    text.line("{}: {} of {} rows follow from the rows before", rows.path, rows.redundant, rows.of);
 }
 
 void costs(Text& text, Setup& setup) {

@@ -66,18 +66,17 @@ std::string moves(model::AssembledSystem& system, const State& from, const State
   return text;
 }
 
-// Why no consistent state was found, and which joints are to blame.
+// Why no consistent state was found, and which joints and bodies are to blame.
 std::string contradiction(model::AssembledSystem& system, const State& start) {
-  const std::vector<std::string> names = smallest_conflict(system, start);
-  if (names.empty())
+  const std::vector<std::string> paths = smallest_conflict(system, start);
+  if (paths.empty())
     return "no consistent initial state was found nearby: the joints contradict each other, or the bodies are far off";
-  if (names.size() == 1)
-    return fmt::format("no consistent initial state was found nearby: joints.{} alone cannot hold from there",
-                       names[0]);
+  if (paths.size() == 1)
+    return fmt::format("no consistent initial state was found nearby: {} alone cannot hold from there", paths[0]);
   return fmt::format(
-      "no consistent initial state was found nearby: joints.{} contradict each other; without any one of them "
-      "the rest can hold",
-      fmt::join(names, ", joints."));
+      "no consistent initial state was found nearby: {} contradict each other; without any one of them the rest can "
+      "hold",
+      fmt::join(paths, ", "));
 }
 
 // Rows that hold as they are, and still ask for accelerations that no motion has.
@@ -91,28 +90,29 @@ void check_motion(model::AssembledSystem& system, const State& s, const scene::V
   }
   system.constraint_acceleration(a, missed);
   if (missed.norm() <= 1e-6 * std::max(1.0, a.norm())) return;
-  const std::vector<std::string> names = smallest_conflict(system, s);
-  if (!names.empty())
+  const std::vector<std::string> paths = smallest_conflict(system, s);
+  if (!paths.empty())
     problems.error(
-        root.problem(fmt::format("joints.{} hold at the start but prescribe motions that contradict each other; "
-                                 "without any one of them the rest can hold",
-                                 fmt::join(names, ", joints."))));
+        root.problem(fmt::format("{} hold at the start but prescribe motions that contradict each other; without any "
+                                 "one of them the rest can hold",
+                                 fmt::join(paths, ", "))));
 }
 
-void check_joints(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
+void check_rows(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
   system.move_to(s.t, s.q, s.v);
   const Vec g = system.g(), g_dot = system.g_dot();
   State nearest = s;
   bool wrong = false;
-  for (const model::JointEntry& joint : system.model().joints) {
-    const double position = g.segment(joint.row, joint.rows).norm(),
-                 velocity = g_dot.segment(joint.row, joint.rows).norm();
+  for (const model::RowGroup& rows : row_groups(system.model())) {
+    const double position = g.segment(rows.first, rows.count).norm(),
+                 velocity = g_dot.segment(rows.first, rows.count).norm();
     if (position <= tolerance && velocity <= tolerance * std::max(1.0, s.v.norm())) continue;
-    const scene::Value* at = root.at_path("joints." + joint.name);
-    problems.error((at ? *at : root)
-                       .problem(fmt::format("the initial state does not satisfy this joint: off by {:.6g} (m, rad) in "
-                                            "position and {:.6g} (m/s, rad/s) in velocity",
-                                            position, velocity)));
+    const scene::Value* at = root.at_path(rows.path);
+    problems.error(
+        (at ? *at : root)
+            .problem(fmt::format("the initial state does not satisfy this {}: off by {:.6g} (m, rad) in "
+                                 "position and {:.6g} (m/s, rad/s) in velocity",
+                                 rows.path.starts_with("joints.") ? "joint" : "body's own rows", position, velocity)));
     wrong = true;
   }
   if (!wrong) return;
@@ -137,7 +137,7 @@ State initial_state(model::AssembledSystem& system, double t, Settings::Initial 
   system.set_modes(open);
   if (system.sizes().nc > 0) {
     if (wanted == Settings::Initial::check)
-      check_joints(system, s, root, problems);
+      check_rows(system, s, root, problems);
     else if (!project_position(system, s) || !project_velocity(system, s))
       problems.error(root.problem(contradiction(system, s)));
     if (problems.empty()) check_motion(system, s, root, problems);
@@ -152,10 +152,15 @@ State initial_state(model::AssembledSystem& system, double t, Settings::Initial 
     if (system.model().contacts[i].force) continue;  // compliant: it starts under load
     const double gap = system.gap(i);
     const scene::Value* at = root.at_path("contacts." + system.model().contacts[i].name);
-    if (!(gap >= -scale.written_length()))
-      problems.error(
-          (at ? *at : root)
-              .problem(fmt::format("the initial state penetrates the plane by {:.6g} m; expected a gap >= 0", -gap)));
+    if (gap >= -scale.written_length()) continue;
+    const auto& limit = system.model().contacts[i].limit;
+    problems.error(
+        (at ? *at : root)
+            .problem(
+                limit ? fmt::format("the initial state has passed the value that this contact waits for by {:.6g} "
+                                    "(m, rad); expected a start {} it, or \"from\": \"{}\"",
+                                    -gap, limit->side > 0 ? "above" : "below", limit->side > 0 ? "below" : "above")
+                      : fmt::format("the initial state penetrates the plane by {:.6g} m; expected a gap >= 0", -gap)));
   }
   return s;
 }

@@ -52,8 +52,9 @@ void Ledger::step(const State& now, const State& next) {
       system_.accelerate({}, a_, lambda_);
       middle_ = system_.balance(lambda_);
     }
-    // The interpolation leaves the rows between two states that are on them; the motion does not.
-    if (lambda_.size() > 0) middle_.constraints += lambda_.dot(system_.g_dot() - 0.5 * (g_dot_ + g_dot_end_));
+    // The interpolation leaves contacts' rows between two states that are on them; the motion does not.
+    const auto n = lambda_.size() - system_.held_rows();
+    if (n > 0) middle_.constraints += lambda_.tail(n).dot((system_.g_dot() - 0.5 * (g_dot_ + g_dot_end_)).tail(n));
     const auto simpson = [h](double begin, double mid, double finish) { return h / 6 * (begin + 4 * mid + finish); };
     drives_ += simpson(now_.drives, middle_.drives, end_.drives);
     dampers_ += simpson(now_.dampers, middle_.dampers, end_.dampers);

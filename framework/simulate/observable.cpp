@@ -66,6 +66,10 @@ Choices all_choices(const Model& model) {
   }
   for (int i = 0; i < int(model.contacts.size()); ++i)
     add_contact("contacts." + model.contacts[i].name, i, model.contacts[i].friction != nullptr, choices);
+  for (const model::BodyEntry& entry : model.bodies)
+    if (entry.rows > 0)
+      choices.emplace_back(entry.name + ".reaction",
+                           [&entry](Moment& m) { return m.lambda().segment(entry.row, entry.rows).norm(); });
   for (const model::JointEntry& entry : model.joints)
     choices.emplace_back("joints." + entry.name + ".reaction",
                          [&entry](Moment& m) { return m.lambda().segment(entry.row, entry.rows).norm(); });

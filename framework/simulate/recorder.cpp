@@ -87,7 +87,7 @@ void Recorder::event(const ContactEvent& event) {
   const std::string& name = model_.contacts[event.contact].name;
   auto out = std::back_inserter(events_->buffer());
   fmt::format_to(out, "{:.17g},{},contacts.{},", event.t, to_string(event.kind), name);
-  if (event.kind == ContactEvent::Kind::impact)
+  if (event.kind == ContactEvent::Kind::impact || event.kind == ContactEvent::Kind::latch)
     fmt::format_to(out, "impulse={:.17g} approach={:.17g} separation={:.17g} energy_lost={:.17g} friction={:.17g}",
                    event.impulse, event.approach, event.separation, event.energy_lost, event.friction);
   else if (event.kind == ContactEvent::Kind::stick)

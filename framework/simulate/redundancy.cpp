@@ -11,7 +11,7 @@ namespace trammel::simulate {
 namespace {
 
 constexpr int most_rows = 1000;          // the search is dense: n^3 operations
-constexpr int most_joints = 60;          // each is left out once, and a state is looked for without it
+constexpr int most_groups = 60;          // each is left out once, and a state is looked for without it
 constexpr double rank_tolerance = 1e-7;  // sine of a row's angle to those before it
 constexpr double tolerance = 1e-8;       // [m], [rad] and their rates: what counts as satisfied
 
@@ -28,10 +28,11 @@ Mat transposed_rows(model::AssembledSystem& system) {
   return Gt;
 }
 
-// Rows of chosen joints.
+// Rows of chosen joints and bodies.
 class Chosen {
  public:
-  Chosen(model::AssembledSystem& system, std::vector<int> joints) : system_(system), joints_(std::move(joints)) {}
+  Chosen(model::AssembledSystem& system, std::vector<model::RowGroup> groups)
+      : system_(system), groups_(std::move(groups)) {}
 
   // Positions by Newton's method with steps of minimum norm, then velocities and accelerations, which are linear.
   bool can_hold(State s) const {
@@ -66,10 +67,8 @@ class Chosen {
  private:
   Vec rows_of(const Vec& all) const {
     std::vector<double> some;
-    for (int j : joints_) {
-      const model::JointEntry& joint = system_.model().joints[std::size_t(j)];
-      some.insert(some.end(), all.data() + joint.row, all.data() + joint.row + joint.rows);
-    }
+    for (const model::RowGroup& rows : groups_)
+      some.insert(some.end(), all.data() + rows.first, all.data() + rows.first + rows.count);
     return Eigen::Map<const Vec>(some.data(), Eigen::Index(some.size()));
   }
 
@@ -78,10 +77,9 @@ class Chosen {
     const Mat Gt = transposed_rows(system_);
     Mat G(r.size(), Gt.rows());
     Eigen::Index i = 0;
-    for (int j : joints_) {
-      const model::JointEntry& joint = system_.model().joints[std::size_t(j)];
-      G.middleRows(i, joint.rows) = Gt.middleCols(joint.row, joint.rows).transpose();
-      i += joint.rows;
+    for (const model::RowGroup& rows : groups_) {
+      G.middleRows(i, rows.count) = Gt.middleCols(rows.first, rows.count).transpose();
+      i += rows.count;
     }
     Eigen::CompleteOrthogonalDecomposition<Mat> decomposition;
     decomposition.setThreshold(rank_tolerance);
@@ -90,7 +88,7 @@ class Chosen {
   }
 
   model::AssembledSystem& system_;
-  std::vector<int> joints_;
+  std::vector<model::RowGroup> groups_;
 };
 
 }  // namespace
@@ -102,9 +100,9 @@ std::vector<RedundantRows> redundant_rows(model::AssembledSystem& system, const 
   const Mat Gt = transposed_rows(system);
   Mat basis(Gt.rows(), std::min(Gt.rows(), Gt.cols()));
   Eigen::Index rank = 0;
-  for (const model::JointEntry& joint : system.model().joints) {
-    RedundantRows here{joint.name, 0, joint.rows};
-    for (int i = joint.row; i < joint.row + joint.rows; ++i) {
+  for (const model::RowGroup& rows : row_groups(system.model())) {
+    RedundantRows here{rows.path, 0, rows.count};
+    for (int i = rows.first; i < rows.first + rows.count; ++i) {
       Vec part = Gt.col(i);
       const double length = part.norm();
       for (int twice = 0; twice < 2; ++twice)  // a second pass removes what round-off left of the first
@@ -120,19 +118,18 @@ std::vector<RedundantRows> redundant_rows(model::AssembledSystem& system, const 
 }
 
 std::vector<std::string> smallest_conflict(model::AssembledSystem& system, const State& start) {
-  std::vector<std::string> names;
-  const model::Model& model = system.model();
-  if (int(model.joints.size()) > most_joints || model.sizes.nc > most_rows) return names;
-  std::vector<int> conflict;
-  for (int joint = 0; joint < int(model.joints.size()); ++joint) conflict.push_back(joint);
-  if (Chosen(system, conflict).can_hold(start)) return names;
-  for (int joint = 0; joint < int(model.joints.size()); ++joint) {
-    std::vector<int> rest = conflict;
-    std::erase(rest, joint);
+  std::vector<std::string> paths;
+  const std::vector<model::RowGroup> all = row_groups(system.model());
+  if (int(all.size()) > most_groups || system.model().sizes.nc > most_rows) return paths;
+  if (Chosen(system, all).can_hold(start)) return paths;
+  std::vector<model::RowGroup> conflict = all;
+  for (const model::RowGroup& one : all) {
+    std::vector<model::RowGroup> rest = conflict;
+    std::erase_if(rest, [&](const model::RowGroup& rows) { return rows.first == one.first; });
     if (!Chosen(system, rest).can_hold(start)) conflict = std::move(rest);
   }
-  for (int joint : conflict) names.push_back(model.joints[std::size_t(joint)].name);
-  return names;
+  for (const model::RowGroup& rows : conflict) paths.push_back(rows.path);
+  return paths;
 }
 
 }  // namespace trammel::simulate

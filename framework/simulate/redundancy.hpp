@@ -1,7 +1,7 @@
-// Which joints say the same twice, and which contradict each other.
+// Which joints, and bodies with rows of their own, say the same twice, and which contradict each other.
 //
 // Rows are independent as long as each has a part perpendicular to all rows before it; a row without one is redundant.
-// Joints conflict when no state near the given one satisfies them all: their positions, their velocities G v = -g_t, or their
+// They conflict when no state near the given one satisfies them all: their positions, their velocities G v = -g_t, or their
 // accelerations G a = gamma. The conflicting set named is a smallest one: without any of its members the rest can hold.
 #pragma once
 
@@ -15,13 +15,13 @@
 namespace trammel::simulate {
 
 struct RedundantRows {
-  std::string joint;  // name in the scene
+  std::string path;  // in the scene: "joints.hinge", "bodies.rod"
   int redundant = 0, of = 0;
 };
 // In the scene's order, at the state; its positions should hold.
 std::vector<RedundantRows> redundant_rows(model::AssembledSystem& system, const State& state);
 
-// Joints' names in the scene's order; empty: all can hold, or there are too many to search.
+// Paths of joints and bodies in the order of their rows; empty: all can hold, or there are too many to search.
 std::vector<std::string> smallest_conflict(model::AssembledSystem& system, const State& start);
 
 }  // namespace trammel::simulate

@@ -4,6 +4,7 @@
 //     M symmetric, v^T M v >= 0, T(q, v) = v^T M v/2 + what time alone drives
 //     dE/ds = P + v^T (M a - f)                                 the last term is 0 along M a = f
 //     c_m M - c_d df/dv + c_k d(M a - f)/dq = the exact tangent, where it is offered
+//     of rows of its own: G = dg/dq, dg/dt = G v + g_t and d(that)/dt = G a - gamma along the path, K = d(G^T lambda)/dq
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <set>
@@ -143,6 +144,75 @@ Report tangent_is_exact(const TriedBody& b) {
   });
 }
 
+const Constrained* constrained(const TriedBody& b) {
+  return dynamic_cast<const Constrained*>(b.body.get());
+}
+BodyRows own_rows(const TriedBody& b, const BodyAt& at) {
+  BodyRows rows;
+  rows.resize(constrained(b)->row_count(), int(b.nv));
+  constrained(b)->own_rows(at.t, at.q, at.v, rows);
+  return rows;
+}
+
+Report own_rows_have_their_sizes(const TriedBody& b) {
+  return compare("rows of its own keep the sizes they come in with", [&](Comparison& c) {
+    if (!constrained(b)) return;
+    const int n = constrained(b)->row_count();
+    const BodyRows rows = own_rows(b, b.start());
+    c.holds(rows.g.size() == n && rows.g_t.size() == n && rows.gamma.size() == n && rows.G.rows() == n &&
+                rows.G.cols() == b.nv,
+            "an array of the rows was resized");
+  });
+}
+
+Report own_jacobian_is_the_gradient(const TriedBody& b) {
+  return compare("G is the gradient of g", [&](Comparison& c) {
+    if (!constrained(b)) return;
+    for (const BodyAt& at : b.at()) {
+      const Mat G = own_rows(b, at).G;
+      b.for_each_direction(
+          at, [&](const BodyAt& x) { return own_rows(b, x).g; }, true,
+          [&](Eigen::Index j, const Difference& d) { c.derivative(G.col(j), d, fmt::format("column {} of G", j)); });
+    }
+  });
+}
+
+Report own_rates_are_those_of_the_path(const TriedBody& b) {
+  return compare("dg/dt = G v + g_t and d(g_dot)/dt = G a - gamma", [&](Comparison& c) {
+    if (!constrained(b)) return;
+    const auto g_dot = [&](const BodyAt& x) {
+      const BodyRows rows = own_rows(b, x);
+      return Vec(rows.G * x.v + rows.g_t);
+    };
+    std::mt19937 random(b.states.seed + 2);
+    std::uniform_real_distribution<double> u(-1, 1);
+    for (const BodyAt& at : b.at()) {
+      const Vec a = Vec::NullaryExpr(b.nv, [&] { return b.states.v * b.states.v / b.states.q * u(random); });
+      const double step = b.path_step(at, a);
+      const BodyRows rows = own_rows(b, at);
+      c.derivative(g_dot(at), difference([&](double s) { return own_rows(b, b.along(at, a, s)).g; }, step),
+                   fmt::format("g_dot at t = {:.3g}", at.t));
+      c.derivative(rows.G * a - rows.gamma, difference([&](double s) { return g_dot(b.along(at, a, s)); }, step),
+                   fmt::format("g_ddot at t = {:.3g}", at.t));
+    }
+  });
+}
+
+Report own_reaction_derivative_is_exact(const TriedBody& b) {
+  return compare("the derivative of the reaction of its own rows is that of G^T lambda", [&](Comparison& c) {
+    if (!constrained(b)) return;
+    const Vec lambda = Vec::LinSpaced(constrained(b)->row_count(), 1.5, -0.7);
+    for (const BodyAt& at : b.at()) {
+      Mat K = Mat::Zero(b.nv, b.nv);
+      Matrix into = Matrix::onto(K);
+      constrained(b)->add_own_rows_derivative(at.t, at.q, lambda, 1, into);
+      b.for_each_direction(
+          at, [&](const BodyAt& x) { return Vec(own_rows(b, x).G.transpose() * lambda); }, true,
+          [&](Eigen::Index j, const Difference& d) { c.derivative(K.col(j), d, fmt::format("column {}", j)); });
+    }
+  });
+}
+
 // p and -p are one rotation.
 Report sees_rotations_not_quaternions(const TriedBody& b) {
   return compare("a quaternion and its negative give the same", [&](Comparison& c) {
@@ -205,6 +275,10 @@ std::vector<Check> body_checks(const MakerOf<Body>& make, const BodyStates& stat
       {"OnlyDissipates", only_dissipates},
       {"ForceAdds", force_adds},
       {"TangentIsExact", tangent_is_exact},
+      {"OwnRowsHaveTheirSizes", own_rows_have_their_sizes},
+      {"OwnJacobianIsTheGradient", own_jacobian_is_the_gradient},
+      {"OwnRatesAreThoseOfThePath", own_rates_are_those_of_the_path},
+      {"OwnReactionDerivativeIsExact", own_reaction_derivative_is_exact},
       {"SeesRotationsNotQuaternions", sees_rotations_not_quaternions},
       {"ShowsItself", shows_itself},
   };

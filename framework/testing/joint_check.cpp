@@ -1,7 +1,7 @@
-// What a joint owes the assembly, along known motions of its two markers, in general away from g = 0:
+// What a joint owes the assembly, along known motions of its two to four markers, in general away from g = 0:
 //
-//     dg/dt = H_A V_A + H_B V_B + g_t,    d(that)/dt = H_A A_A + H_B A_B - gamma
-//     H_A, H_B: gradients of g by the twists of the markers at fixed time, g_t: derivative by time at fixed markers
+//     dg/dt = H_A V_A + H_B V_B + ... + g_t,    d(that)/dt = H_A A_A + H_B A_B + ... - gamma
+//     H_A, H_B, ...: gradients of g by the twists of the markers at fixed time, g_t: derivative by time at fixed markers
 //     reactions -H_A^T lambda and -H_B^T lambda balance: in force everywhere, in moment where g = 0
 //
 // Rows that repeat each other are no fault.
@@ -22,30 +22,52 @@ namespace {
 constexpr double times[] = {0.1, 0.7, 1.9};  // [s]
 constexpr double step = 0.05;                // [s, m, rad] largest of the differences: motions change over 0.5
 
+using Markers = std::vector<Motion>;
+
 struct Tried {
-  std::unique_ptr<Joint> joint;
+  std::unique_ptr<Constraint> joint;
   Space space;
-  MovingPair pair;
+  std::vector<MovingMarker> moving;
 
-  Tried(const MakerOf<Joint>& make, Space s) : joint(make()), space(s), pair(moving_pair(s)) {}
+  Tried(const MakerOf<Constraint>& make, Space s) : joint(make()), space(s) {
+    const int n = joint->marker_count();
+    if (n < 2 || n > Rows::most_markers) throw std::length_error(fmt::format("{} markers, expected 2 to 4", n));
+    moving = moving_markers(s, n);
+  }
 
-  Rows rows(double t, const Motion& A, const Motion& B) const {
+  int count() const { return int(moving.size()); }
+  Rows rows(double t, const Markers& markers) const {
     const int n = joint->row_count(space), twist = twist_size(space);
     if (n < 1 || n > 6) throw std::length_error(fmt::format("{} rows, expected 1 to 6", n));
     Rows r;
-    r.resize(n, space);
-    joint->rows(t, A, B, r);
-    const bool kept = r.g.size() == n && r.g_t.size() == n && r.gamma.size() == n && r.H_A.rows() == n &&
-                      r.H_A.cols() == twist && r.H_B.rows() == n && r.H_B.cols() == twist;
+    r.resize(n, space, count());
+    std::vector<const Motion*> at;
+    for (const Motion& marker : markers) at.push_back(&marker);
+    joint->rows_between(t, at, r);
+    bool kept = r.g.size() == n && r.g_t.size() == n && r.gamma.size() == n;
+    for (int k = 0; k < count(); ++k) kept = kept && r.H(k).rows() == n && r.H(k).cols() == twist;
     if (!kept) throw std::length_error("an array of the rows was resized");
     return r;
   }
-  Rows along(double t) const { return rows(t, pair.a.at(t), pair.b.at(t)); }
+  Markers at(double t) const {
+    Markers markers;
+    for (const MovingMarker& each : moving) markers.push_back(each.at(t));
+    return markers;
+  }
+  Rows along(double t) const { return rows(t, at(t)); }
   Vec g_dot(double t) const {
     const Rows r = along(t);
-    return r.H_A * pair.a.at(t).V + r.H_B * pair.b.at(t).V + r.g_t;
+    Vec rate = r.g_t;
+    for (int k = 0; k < count(); ++k) rate += r.H(k) * moving[std::size_t(k)].at(t).V;
+    return rate;
   }
 };
+
+// The markers with one of them moved.
+Markers with_moved(Markers markers, int marker, const Vec6& by) {
+  markers[std::size_t(marker)] = displaced(markers[std::size_t(marker)], by);
+  return markers;
+}
 
 Report rows_have_their_sizes(const Tried& j) {
   return compare("rows keep the sizes they come in with",
@@ -53,17 +75,17 @@ Report rows_have_their_sizes(const Tried& j) {
 }
 
 Report jacobian_is_the_gradient(const Tried& j) {
-  return compare("H_A and H_B are the gradients of g", [&](Comparison& c) {
+  return compare("H_A, H_B, ... are the gradients of g", [&](Comparison& c) {
     for (const double t : times) {
-      const Motion A = j.pair.a.at(t), B = j.pair.b.at(t);
-      const Rows r = j.rows(t, A, B);
-      for (int i = 0; i < twist_size(j.space); ++i) {
-        const Vec6 e = Vec6::Unit(twist_size(j.space), i);
-        const auto by_A = [&](double s) { return Vec(j.rows(t, displaced(A, s * e), B).g); };
-        const auto by_B = [&](double s) { return Vec(j.rows(t, A, displaced(B, s * e)).g); };
-        c.derivative(r.H_A.col(i), difference(by_A, step), fmt::format("column {} of H_A at t = {}", i, t));
-        c.derivative(r.H_B.col(i), difference(by_B, step), fmt::format("column {} of H_B at t = {}", i, t));
-      }
+      const Markers markers = j.at(t);
+      const Rows r = j.rows(t, markers);
+      for (int k = 0; k < j.count(); ++k)
+        for (int i = 0; i < twist_size(j.space); ++i) {
+          const Vec6 e = Vec6::Unit(twist_size(j.space), i);
+          const auto g = [&](double s) { return Vec(j.rows(t, with_moved(markers, k, s * e)).g); };
+          c.derivative(r.H(k).col(i), difference(g, step),
+                       fmt::format("column {} of H_{} at t = {}", i, char('A' + k), t));
+        }
     }
   });
 }
@@ -71,8 +93,8 @@ Report jacobian_is_the_gradient(const Tried& j) {
 Report g_t_is_the_time_derivative(const Tried& j) {
   return compare("g_t is the derivative of g by time alone", [&](Comparison& c) {
     for (const double t : times) {
-      const Motion A = j.pair.a.at(t), B = j.pair.b.at(t);
-      c.derivative(j.rows(t, A, B).g_t, difference([&](double s) { return Vec(j.rows(t + s, A, B).g); }, step),
+      const Markers markers = j.at(t);
+      c.derivative(j.rows(t, markers).g_t, difference([&](double s) { return Vec(j.rows(t + s, markers).g); }, step),
                    fmt::format("g_t at t = {}", t));
     }
   });
@@ -80,31 +102,34 @@ Report g_t_is_the_time_derivative(const Tried& j) {
 
 // By the joint's own H and g_t, so that gamma alone is judged.
 Report gamma_is_the_rest_of_the_acceleration(const Tried& j) {
-  return compare("d(g_dot)/dt = H_A A_A + H_B A_B - gamma", [&](Comparison& c) {
+  return compare("d(g_dot)/dt = H_A A_A + H_B A_B + ... - gamma", [&](Comparison& c) {
     for (const double t : times) {
       const Rows r = j.along(t);
-      const Vec claimed = r.H_A * j.pair.a.acceleration(t) + r.H_B * j.pair.b.acceleration(t) - r.gamma;
+      Vec claimed = -r.gamma;
+      for (int k = 0; k < j.count(); ++k) claimed += r.H(k) * j.moving[std::size_t(k)].acceleration(t);
       c.derivative(claimed, difference([&](double s) { return j.g_dot(t + s); }, step), fmt::format("at t = {}", t));
     }
   });
 }
 
 Report reactions_balance(const Tried& j) {
-  return compare("reactions on A and B are equal and opposite", [&](Comparison& c) {
+  return compare("reactions on all markers balance", [&](Comparison& c) {
     for (const double t : times) {
-      const Motion A = j.pair.a.at(t);
-      Motion B = j.pair.b.at(t);
-      const auto n = A.x.size();
-      Rows r = j.rows(t, A, B);
-      c.within((r.H_A + r.H_B).leftCols(n), Mat::Zero(r.g.size(), n), 1e-13 * r.H_B.norm(), "force of each row");
+      Markers markers = j.at(t);
+      const auto n = markers[0].x.size();
+      Rows r = j.rows(t, markers);
+      Mat force = Mat::Zero(r.g.size(), n);
+      for (int k = 0; k < j.count(); ++k) force += r.H(k).leftCols(n);
+      c.within(force, Mat::Zero(r.g.size(), n), 1e-13 * r.H_B.norm(), "force of each row");
       // B is moved to where g = 0, by Newton's method.
       for (int i = 0; i < 50 && r.g.norm() > 1e-14; ++i) {
-        B = displaced(B, -Eigen::CompleteOrthogonalDecomposition<Mat>(r.H_B).solve(Vec(r.g)));
-        r = j.rows(t, A, B);
+        markers = with_moved(markers, 1, -Eigen::CompleteOrthogonalDecomposition<Mat>(r.H_B).solve(Vec(r.g)));
+        r = j.rows(t, markers);
       }
       if (!(r.g.norm() <= 1e-11)) return;  // no pose of B satisfies these rows: nothing to ask
       for (Eigen::Index i = 0; i < r.g.size(); ++i) {
-        const Vec sum = about_origin(r.H_A.row(i).transpose(), A.x) + about_origin(r.H_B.row(i).transpose(), B.x);
+        Vec sum = Vec::Zero(markers[0].V.size());
+        for (int k = 0; k < j.count(); ++k) sum += about_origin(r.H(k).row(i).transpose(), markers[std::size_t(k)].x);
         // What is left of g has an arm of its size; the rest is round-off.
         c.within(sum, Vec::Zero(sum.size()), 1e-10 * (1 + r.H_B.norm()), fmt::format("row {} at t = {}", i, t));
       }
@@ -117,15 +142,15 @@ Report reaction_tangent_is_that_of_the_wrenches(const Tried& j) {
   return compare("the reaction's derivative is that of H^T lambda", [&](Comparison& c) {
     const Vec6 lambda = Vec::LinSpaced(j.joint->row_count(j.space), 1.5, -0.7);
     const auto* exact = dynamic_cast<const ReactionTangent*>(j.joint.get());
-    if (!exact) return;
+    if (!exact || j.count() != 2) return;
     const int n = twist_size(j.space);
     for (const double t : times) {
-      const Motion A = j.pair.a.at(t), B = j.pair.b.at(t);
+      const Motion A = j.moving[0].at(t), B = j.moving[1].at(t);
       PairTangent K;
       for (Mat6* block : {&K.AA, &K.AB, &K.BA, &K.BB}) block->setZero(n, n);
       exact->add_reaction_tangent(t, A, B, lambda, K);
       const auto wrenches = [&](const Motion& a, const Motion& b) {
-        const Rows r = j.rows(t, a, b);
+        const Rows r = j.rows(t, {a, b});
         Vec both(2 * n);
         both << r.H_A.transpose() * lambda, r.H_B.transpose() * lambda;
         return both;
@@ -146,7 +171,7 @@ Report reaction_tangent_is_that_of_the_wrenches(const Tried& j) {
 
 }  // namespace
 
-std::vector<Check> joint_checks(const MakerOf<Joint>& make, Space space, Reaction reaction) {
+std::vector<Check> joint_checks(const MakerOf<Constraint>& make, Space space, Reaction reaction) {
   using Look = Report (*)(const Tried&);
   const std::pair<const char*, Look> all[] = {
       {"RowsHaveTheirSizes", rows_have_their_sizes},

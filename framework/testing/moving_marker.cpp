@@ -99,6 +99,21 @@ Vec6 MovingMarker::acceleration(double t) const {
   return a;
 }
 
+std::vector<MovingMarker> moving_markers(Space space, int count) {
+  const MovingPair pair = moving_pair(space);
+  std::vector<MovingMarker> all = {pair.a, pair.b};
+  const auto add = [&](double x, double y, double phase) {
+    std::vector<MovingMarker::Law> laws(std::size_t(twist_size(space)));
+    for (std::size_t i = 0; i < laws.size(); ++i)
+      laws[i] = {i == 0 ? x : i == 1 ? y : 0.2 * phase, 0.1 * phase, 0.4, 1.3 + 0.2 * double(i), phase * double(i + 1)};
+    all.emplace_back(std::move(laws));
+  };
+  add(0.9, -1.1, 0.8);
+  add(-0.8, 1.2, 1.7);
+  all.resize(std::size_t(count), pair.a);
+  return all;
+}
+
 MovingPair moving_pair(Space space) {
   if (space == Space::planar)
     return {MovingMarker({{0.3, 0.2, 0.5, 2.1, 0.4}, {-0.2, 0.4, 0.3, 1.7, 1.1}, {0.5, 1.3, 0.6, 2.6, 0.2}}),

@@ -7,6 +7,8 @@
 // corrections of Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), after Taylor's series of g about q.
 #pragma once
 
+#include <limits>
+
 #include <trammel/correction.hpp>
 
 namespace trammel {
@@ -25,7 +27,9 @@ class RowProjection final : public Correction {
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       s.move_to(state.t, state.q, state.v);
       const double violation = s.sizes().nc > 0 ? s.g().lpNorm<Eigen::Infinity>() : 0;
-      if (!(violation > 0)) return Outcome::accept();
+      // A coordinate that is to be 0 would go on falling by all its digits a step.
+      const double round_off = std::numeric_limits<double>::epsilon() * state.q.lpNorm<Eigen::Infinity>();
+      if (!(violation > round_off)) return Outcome::accept();
       // Converged quadratically, so where a step no longer halves it the rest is round-off, if it is small at all.
       if (iteration > 0 && violation > 0.5 * before)
         return violation <= settled ? Outcome::accept() : Outcome::reject("the correction of the positions diverges");

@@ -63,8 +63,7 @@ inline void add_rod(Model& model, MarkerRef A, MarkerRef B, double length) {
   model.joints.emplace_back();
   model.joints.back().name = "rod";
   model.joints.back().joint = std::make_unique<Rod>(length);
-  model.joints.back().A = A;
-  model.joints.back().B = B;
+  model.joints.back().markers = {A, B};
 }
 
 }  // namespace trammel::model::test

@@ -45,6 +45,9 @@ const std::vector<Shipped>& bodies() {
       {"slider_crank_rod", "", R"({"type": "slider_crank_rod", "angle": 0.4})"},
       {"point_mass", "planar", R"({"type": "point_mass", "mass": 2.5})"},
       {"point_mass", "spatial", R"({"type": "point_mass", "mass": 2.5})", Space::spatial},
+      {"bar", "planar", R"({"type": "bar", "mass": 2.5, "from": [0.3, -1], "to": [2.3, 3], "end_masses": [0.4, 1.1],
+        "markers": {"beyond": 1.2}})"},
+      {"bar", "spatial", R"({"type": "bar", "mass": 2.5, "from": [0.3, -1, 1], "to": [2.3, 3, -2]})", Space::spatial},
       {"assumed_mode_beam", "hinged", beam(hinge)},
       {"assumed_mode_beam", "driven", beam(hinge + R"x(, "torque": "=3*sin(5*t)")x")},
       {"assumed_mode_beam", "clamped", beam(R"("mount": {"clamped": [0, 0]})")},
@@ -99,6 +102,13 @@ const std::vector<Shipped>& joints() {
       {"gear", "", R"({"type": "gear", "teeth": [12, 17], "internal": true, "phase": 0.3})"},
       {"gear", "spatial", R"({"type": "gear", "teeth": [12, 17], "axis": [1, 2, 0], "axis_b": [0, 1, 1]})",
        Space::spatial},
+      {"equal_distance", "", R"({"type": "equal_distance", "length": 0.7})"},
+      {"equal_distance", "spatial", R"({"type": "equal_distance"})", Space::spatial},
+      {"synchronising_hinge", "", R"({"type": "synchronising_hinge", "angle": 0.6, "length": 0.7})"},
+      {"synchronising_hinge", "spatial", R"({"type": "synchronising_hinge", "angle": 0.6})", Space::spatial},
+      {"straight_hinge", "", R"({"type": "straight_hinge", "length": 0.7})"},
+      {"straight_hinge", "spatial", R"({"type": "straight_hinge"})", Space::spatial},
+      {"coplanar", "", R"({"type": "coplanar", "length": 0.7})", Space::spatial},
       {"prismatic", "", R"({"type": "prismatic", "axis": [2, 1], "angle": 0.3})"},
       {"prismatic", "driven", R"({"type": "prismatic", "axis": [0, 1], "angle": "=sin(3*t)*0.4"})"},
       {"fixed", "", R"({"type": "fixed", "angle": -0.2})"},
@@ -118,6 +128,8 @@ const std::vector<Shipped>& forces() {
       {"spring_damper", "damper", R"({"type": "spring_damper", "damping": 3})"},
       {"spring_damper", "spatial", R"({"type": "spring_damper", "stiffness": 40, "damping": 3, "length": 0.7})",
        Space::spatial},
+      {"hinge_spring", "", R"({"type": "hinge_spring", "stiffness": 2, "arms": [1.4, 1.7]})"},
+      {"hinge_spring", "spatial", R"({"type": "hinge_spring", "stiffness": 2, "arms": 1.9})", Space::spatial},
       {"torsional_spring", "", R"({"type": "torsional_spring", "stiffness": 12, "damping": 0.8, "angle": 0.4})"},
       {"torsional_spring", "spatial",
        R"({"type": "torsional_spring", "stiffness": 12, "damping": 0.8, "angle": 0.4, "axis": [1, 2, -1]})",
@@ -155,6 +167,7 @@ const std::vector<Shipped>& compliant_contacts() {
 const std::vector<Shipped>& set_valued_contacts() {
   static const std::vector<Shipped> all = {
       {"constraint_method", "", R"({"type": "constraint_method", "restitution": 0.3})"},
+      {"latch", "", R"({"type": "latch"})"},
       {"constraint_method", "elastic", R"({"type": "constraint_method", "restitution": 1, "capture_speed": 1e-3})"},
   };
   return all;
@@ -164,7 +177,7 @@ bool register_all() {
   for (const Shipped& s : bodies())
     register_suite(suite("Body", s), body_checks(from_entry<Body>(folder, s.entry, world_of(s)), states_of(s)));
   for (const Shipped& s : joints())
-    register_suite(suite("Joint", s), joint_checks(from_entry<Joint>(folder, s.entry, world_of(s)), s.space,
+    register_suite(suite("Joint", s), joint_checks(from_entry<Constraint>(folder, s.entry, world_of(s)), s.space,
                                                    s.name == "gear" ? Reaction::outside : Reaction::on_A));
   for (const Shipped& s : forces())
     register_suite(suite("Force", s), force_checks(from_entry<Force>(folder, s.entry, world_of(s)), s.space,

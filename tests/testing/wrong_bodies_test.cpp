@@ -1,6 +1,7 @@
 // The checks accept a right body and refuse wrong ones, each by the very checks that should find the defect.
 #include "elastic_pendulum.hpp"
 #include "free_top.hpp"
+#include "point_on_a_circle.hpp"
 #include "refusals.hpp"
 
 namespace trammel::test {
@@ -13,8 +14,13 @@ std::set<std::string> refusals_of(TopDefect defect) {
   return refusals(body_checks([=] { return std::make_unique<FreeTop>(defect); }));
 }
 
-TEST(BodyChecks, AcceptAnElasticPendulumAndATop) {
+std::set<std::string> refusals_of(CircleDefect defect) {
+  return refusals(body_checks([=] { return std::make_unique<PointOnACircle>(defect); }));
+}
+
+TEST(BodyChecks, AcceptRightBodies) {
   EXPECT_EQ(refusals_of(BodyDefect::none), Names());
+  EXPECT_EQ(refusals_of(CircleDefect::none), Names());
   EXPECT_EQ(refusals_of(TopDefect::none), Names());
 }
 
@@ -49,6 +55,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Refused{BodyDefect::reaction_derivative_without_radius, {"ReactionDerivativeIsExact"}},
                     Refused{BodyDefect::shape_comes_and_goes, {"ShowsItself"}}));
 
+TEST(BodyChecks, RefuseWrongRowsOfItsOwn) {
+  EXPECT_TRUE(refusals_of(CircleDefect::rows_resized).contains("OwnRowsHaveTheirSizes"));
+  EXPECT_EQ(refusals_of(CircleDefect::gradient_of_twice_the_row),
+            (Names{"OwnJacobianIsTheGradient", "OwnRatesAreThoseOfThePath"}));
+  EXPECT_EQ(refusals_of(CircleDefect::no_time_derivative), Names{"OwnRatesAreThoseOfThePath"});
+  EXPECT_EQ(refusals_of(CircleDefect::gamma_of_wrong_sign), Names{"OwnRatesAreThoseOfThePath"});
+  EXPECT_EQ(refusals_of(CircleDefect::no_reaction_derivative), Names{"OwnReactionDerivativeIsExact"});
+}
 TEST(BodyChecks, RefuseABodyThatStartsNowhere) {
   EXPECT_TRUE(refusals_of(BodyDefect::starts_nowhere).contains("StartsOnItsManifold"));
 }

@@ -28,6 +28,7 @@ class Panel:
     ylabel: str
     curves: list[Curve]
     log: bool = False
+    log_t: bool = False
 
 
 @dataclasses.dataclass
@@ -53,7 +54,7 @@ def write(figure, results, folder):
         drawn = [(curve.label, *values(curve, results)) for curve in panel.curves]
         for label, t, y in drawn:
             if panel.log:  # a norm is zero while no constraint is on
-                ax.semilogy(t[y > 0], y[y > 0], ".", markersize=2, label=label)
+                (ax.loglog if panel.log_t else ax.semilogy)(t[y > 0], y[y > 0], ".", markersize=2, label=label)
             else:
                 ax.plot(t, y, label=label)
         ax.set(title=panel.title, xlabel="t [s]", ylabel=panel.ylabel)

@@ -91,6 +91,25 @@ class ReactionDerivative {
   virtual void add_reaction_derivative(int marker, double t, In q, const Wrench& F, double c, Matrix& S) const = 0;
 };
 
+// Rows between a body's own coordinates, held like those of joints: a rod in natural coordinates keeps its length.
+//     g(t, q) = 0,      g_dot = G v + g_t,      G v' = gamma
+struct BodyRows {
+  Vec g, g_t, gamma;  // (n); g_t partial derivative by time
+  Mat G;              // n x nv
+
+  // All zero, n rows.
+  void resize(int n, int nv);
+};
+class Constrained {
+ public:
+  virtual ~Constrained();
+  virtual int row_count() const = 0;  // constant but for a refinement
+  // `rows` comes in with row_count rows, all zero.
+  virtual void own_rows(double t, In q, In v, BodyRows& rows) const = 0;
+  // S += c d(G^T lambda)/dq
+  virtual void add_own_rows_derivative(double t, In q, In lambda, double c, Matrix& S) const = 0;
+};
+
 // Named scalars of a body beyond its markers' motion, for recording: "angle", "transverse_1".
 class Observed {
  public:

@@ -12,14 +12,16 @@ namespace trammel {
 class Restitution : public Component {
  public:
   // How a run treats what the law leaves open; the second of each pair reproduces a simplification found in papers.
-  enum class Onset { located, next_step };   // the impact at the crossing, or at the end of the step that passed it
-  enum class Rebound { free, constrained };  // a separating contact is open, or its row is active at once
-  enum class Restart { consistent, carry };  // a, lambda solved anew at a change of mode, or carried over
+  enum class Onset { located, next_step };    // the impact at the crossing, or at the end of the step that passed it
+  enum class Rebound { free, constrained };   // a separating contact is open, or its row is active at once
+  enum class Restart { consistent, carry };   // a, lambda solved anew at a change of mode, or carried over
+  enum class Release { when_pulled, never };  // a closed contact opens where it would pull, or holds for good: a latch
   struct Treatment {
     Onset onset = Onset::located;
     Rebound rebound = Rebound::free;
     Restart restart = Restart::consistent;
     double capture_speed = 1e-6;  // [m/s] slower impacts have restitution 0, which ends a sequence of bounces
+    Release release = Release::when_pulled;
   };
 
   virtual double coefficient(double approach_speed) const = 0;  // e in [0, 1]: u+ = -e u-

@@ -1,18 +1,33 @@
-// A joint: constraint rows between two markers. It never sees bodies or coordinates; assembly forms
-//     G = H_A J_A + H_B J_B      and moves the markers' bias into gamma.
+// A joint: constraint rows between two markers, or more (Constraint). It never sees bodies or coordinates; assembly forms
+//     G = H_A J_A + H_B J_B + ...      and moves the markers' bias into gamma.
 // Planar and spatial scenes use the same joint; the twists' size tells (3 or 6).
 #pragma once
+
+#include <span>
 
 #include <trammel/component.hpp>
 #include <trammel/marker.hpp>
 
 namespace trammel {
 
-class Joint : public Component {
+using Motions = std::span<const Motion* const>;  // A, B, C, D in the scene's order
+
+// Rows between so many markers, 2 to Rows::most_markers of them.
+class Constraint : public Component {
  public:
+  virtual int marker_count() const = 0;
   virtual int row_count(Space) const = 0;
   // `rows` comes in with row_count rows, all zero.
+  virtual void rows_between(double t, Motions markers, Rows& rows) const = 0;
+};
+
+// Between two, as nearly all are.
+class Joint : public Constraint {
+ public:
   virtual void rows(double t, const Motion& A, const Motion& B, Rows& rows) const = 0;
+
+  int marker_count() const final { return 2; }
+  void rows_between(double t, Motions markers, Rows& r) const final { rows(t, *markers[0], *markers[1], r); }
 };
 
 // How the wrenches H^T lambda on both markers change with small twists of both (translation, then rotation about world axes):
@@ -21,7 +36,7 @@ struct PairTangent {
   Mat6 AA, AB, BA, BB;
 };
 
-// Ability of joints: that derivative exactly; by differences of `rows` where it is missing.
+// Ability of joints between two markers: that derivative exactly; by differences of the rows where it is missing.
 class ReactionTangent {
  public:
   virtual ~ReactionTangent();

@@ -23,16 +23,21 @@ struct Motion {
 // Force over moment, world axes, at the marker [N; N m]. Generalised force on the body: J^T wrench.
 using Wrench = Vec6;
 
-// Constraint rows between two markers A and B (n <= 6 of them).
-//     g_dot = H_A V_A + H_B V_B + g_t,        H_A A_A + H_B A_B = gamma
+// Constraint rows between markers A and B, or up to four (n <= 6 rows).
+//     g_dot = H_A V_A + H_B V_B + ... + g_t,        H_A A_A + H_B A_B + ... = gamma
 struct Rows {
-  Vec6 g;         // (n)
-  Mat6 H_A, H_B;  // (n x twist)
-  Vec6 g_t;       // (n) partial derivative by time
-  Vec6 gamma;     // (n) without the markers' bias, which assembly subtracts
+  static constexpr int most_markers = 4;
+
+  Vec6 g;                   // (n)
+  Mat6 H_A, H_B, H_C, H_D;  // (n x twist); without rows for markers that are not there
+  Vec6 g_t;                 // (n) partial derivative by time
+  Vec6 gamma;               // (n) without the markers' bias, which assembly subtracts
+
+  Mat6& H(int marker) { return marker == 0 ? H_A : marker == 1 ? H_B : marker == 2 ? H_C : H_D; }
+  const Mat6& H(int marker) const { return marker == 0 ? H_A : marker == 1 ? H_B : marker == 2 ? H_C : H_D; }
 
   // All zero, n rows.
-  void resize(int n, Space space);
+  void resize(int n, Space space, int markers = 2);
 };
 
 }  // namespace trammel

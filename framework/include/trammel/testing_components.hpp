@@ -31,10 +31,10 @@ std::unique_ptr<Component> make_component(const std::string& folder, Kind kind, 
                                           const World& world);
 
 template <class T>
-constexpr Kind kind_of = std::is_same_v<T, Body>    ? Kind::body
-                         : std::is_same_v<T, Joint> ? Kind::joint
-                         : std::is_same_v<T, Force> ? Kind::force
-                                                    : Kind::contact;
+constexpr Kind kind_of = std::is_same_v<T, Body>            ? Kind::body
+                         : std::is_base_of_v<Constraint, T> ? Kind::joint
+                         : std::is_same_v<T, Force>         ? Kind::force
+                                                            : Kind::contact;
 
 template <class T>
 MakerOf<T> from_entry(const std::string& folder, const std::string& entry, const World& world = {}) {
@@ -55,7 +55,7 @@ std::vector<Check> body_checks(const MakerOf<Body>& make, const BodyStates& stat
 
 // A load acts on B only and owes no reaction; the bearings of gears take part of theirs.
 enum class Reaction { on_A, outside };
-std::vector<Check> joint_checks(const MakerOf<Joint>& make, Space space = Space::planar,
+std::vector<Check> joint_checks(const MakerOf<Constraint>& make, Space space = Space::planar,
                                 Reaction reaction = Reaction::on_A);
 std::vector<Check> force_checks(const MakerOf<Force>& make, Space space = Space::planar,
                                 Reaction reaction = Reaction::on_A);

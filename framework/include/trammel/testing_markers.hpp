@@ -36,5 +36,7 @@ struct MovingPair {
   MovingMarker a, b;
 };
 MovingPair moving_pair(Space space);
+// These two, and more like them: up to four.
+std::vector<MovingMarker> moving_markers(Space space, int count);
 
 }  // namespace trammel

@@ -1,0 +1,70 @@
+// A torsion spring in the hinge of two arms, at rest where they are straight, seen from the arms' far ends A and B.
+//
+//     e = |x_B - x_A|,   e^2 = a^2 + b^2 + 2 a b cos(psi)          psi [rad] the bend: 0 straight, pi folded
+//     U = kappa psi^2 / 2,   force along AB  -dU/de = kappa (psi / sin(psi)) e / (a b)       pushes the ends apart
+//
+// psi/sin(psi) is an even function of psi: nothing singular at the straight position, where e = a + b, nor just beyond it by
+// round-off. Arms in natural coordinates have no axes that a torsional spring could act on. psi = pi, arms of equal length
+// folded onto each other, is a dead point, where the force has no bound.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <trammel/force.hpp>
+#include <trammel/plugin.hpp>
+
+namespace {
+
+using namespace trammel;
+
+struct HingeSpring : Force {
+  double stiffness = 0;
+  std::vector<double> arms;
+
+  void prepare(const World&) override {
+    if (arms.size() == 1) arms.push_back(arms[0]);
+    if (arms.size() != 2) throw ParameterError("arms", "expected one length for both arms, or two: [a, b]");
+  }
+
+  void wrench(double, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
+    const Vec3 d = B.x - A.x;
+    const Bend bend = bend_of(d.squaredNorm());
+    if (!(bend.cosine > -1))
+      throw std::domain_error("its arms are folded onto each other, where its force has no bound");
+    const Vec3 push = stiffness * bend.over_sine / (arms[0] * arms[1]) * d;
+    on_B.head(d.size()) += push;
+    on_A.head(d.size()) -= push;
+  }
+  double potential(double, const Motion& A, const Motion& B) const override {
+    return stiffness / 2 * bend_of((B.x - A.x).squaredNorm()).square;
+  }
+  Power power(double, const Motion&, const Motion&) const override { return {}; }
+
+ private:
+  struct Bend {
+    double cosine, square, over_sine;  // cos(psi), psi^2, psi/sin(psi)
+  };
+  // With w = 1 - cos(psi) near straight: psi^2 = 2 w + w^2/3 + 4 w^3/45 + ..., whatever the sign of w.
+  Bend bend_of(double e_squared) const {
+    const double a = arms[0], b = arms[1], w = ((a + b) * (a + b) - e_squared) / (2 * a * b);
+    if (std::abs(w) < 1e-3)
+      return {1 - w, w * (2 + w * (1.0 / 3 + w * (4.0 / 45 + w * (1.0 / 35 + w * (16.0 / 1575))))),
+              1 + w * (1.0 / 3 + w * (2.0 / 15 + w * (2.0 / 35 + w * (8.0 / 315))))};
+    const double psi = std::acos(std::clamp(1 - w, -1.0, 1.0));
+    return {1 - w, psi * psi, psi / std::sin(psi)};
+  }
+};
+
+}  // namespace
+
+TRAMMEL_PLUGIN(
+    trammel::force<HingeSpring>("hinge_spring", "torsion spring of a hinge between two arms, by their far ends")
+        .source("law of cosines; Chen Xiangyang 2002, Chinese J. Comput. Mech. 19, 74-77: folding members")
+        .parameter("stiffness", &HingeSpring::stiffness,
+                   {.unit = "N m/rad", .min = 0, .required = true, .doc = "kappa; at rest where the arms are straight"})
+        .parameter("arms", &HingeSpring::arms,
+                   {.unit = "m",
+                    .min = 0,
+                    .above_min = true,
+                    .required = true,
+                    .doc = "lengths: one number for both, or two"}))
