@@ -8,6 +8,9 @@ namespace trammel {
 
 namespace {
 
+// How far off the rows a projected slope may be taken [m, rad; relative to the speed]: at the end of a step, and inside.
+constexpr double round_off = 1e-15, inside = 1e-12;
+
 // Far beyond any model's range, and small enough for a model to square and square again.
 bool within_range(const Vec& x) {
   return x.squaredNorm() < 1e120;  // false for NaN too
@@ -18,13 +21,58 @@ bool within_range(const Vec& x) {
 RungeKutta::RungeKutta(const Tableau& tableau) : tableau_(tableau), k_(std::size_t(tableau.stages) + 1) {}
 
 bool RungeKutta::evaluate(System& s, double t, const Vec& q, const Vec& v, Slope& slope) {
+  return slope_at(s, t, q, v, round_off, slope);
+}
+
+bool RungeKutta::slope_at(System& s, double t, const Vec& q, const Vec& v, double settled, Slope& slope) {
   if (!within_range(q) || !within_range(v)) return false;
   on_manifold_ = q;
   s.normalise(on_manifold_);
-  s.rate(on_manifold_, v, slope.q);
-  s.move_to(t, on_manifold_, v);
+  held_v_ = v;
+  if (projects() && s.sizes().nc > 0 && !onto_rows(s, t, settled)) return false;
+  s.rate(on_manifold_, held_v_, slope.q);
+  s.move_to(t, on_manifold_, held_v_);
   s.accelerate(baumgarte, slope.v, slope.lambda);
   return within_range(slope.q) && within_range(slope.v) && within_range(slope.lambda);
+}
+
+// The first factors are off by the violation itself; the second, nearly in place, serve to the end.
+bool RungeKutta::onto_rows(System& s, double t, double settled) {
+  constexpr int most_iterations = 20;
+  constexpr double in_place = 1e-3, well = 0.1, lost = 1e-6;
+  zero_.setZero(s.sizes().nv);
+  no_force_.setZero(s.sizes().nc);
+  double factorised_at = std::numeric_limits<double>::infinity(), before = 0, violation = 0;
+  // False: settled, or down to round-off.
+  const auto remains = [&](int i, const Vec& off, double size) {
+    right_ = off;
+    before = violation;
+    violation = right_.lpNorm<Eigen::Infinity>();
+    return violation > settled * size && !(i > 0 && violation > 0.5 * before && violation < 1e-9 * size);
+  };
+  const auto solve = [&](int i, double off) {
+    if (off < factorised_at && (factorised_at > in_place || (i > 0 && violation > well * before))) {
+      s.factorise({1, 0, 0}, zero_, no_force_, Factors::projection);
+      factorised_at = off;
+    }
+    return s.correct(zero_, right_, change_, mu_, Factors::projection);
+  };
+  for (int i = 0; i < most_iterations; ++i) {
+    s.move_to(t, on_manifold_, held_v_);
+    if (!remains(i, s.g(), 1)) break;
+    if (!solve(i, violation)) return false;
+    s.retract(on_manifold_, change_, q_);
+    on_manifold_.swap(q_);
+  }
+  if (!(violation <= lost)) return false;
+  const double off = violation, speed = std::max(1.0, held_v_.lpNorm<Eigen::Infinity>());
+  for (int i = 0; i < most_iterations; ++i) {
+    s.move_to(t, on_manifold_, held_v_);
+    if (!remains(i, s.g_dot(), speed)) break;
+    if (!solve(i, off)) return false;
+    held_v_ += change_;
+  }
+  return within_range(on_manifold_) && within_range(held_v_);
 }
 
 void RungeKutta::combine(const double* weights, int n, Vec& dq, Vec& dv) const {
@@ -57,6 +105,7 @@ Outcome RungeKutta::end(System& s, State& next) {
   s.normalise(next.q);
   Slope& slope = k_[std::size_t(filled_++)];
   if (!evaluate(s, next.t, next.q, next.v, slope)) return Outcome::reject(diverged);
+  if (projects()) next.q = on_manifold_, next.v = held_v_;
   next.a = slope.v;
   next.lambda = slope.lambda;
   return Outcome::accept();
@@ -67,7 +116,7 @@ bool RungeKutta::add_stage(System& s, const State& now, double c, const double* 
   q_ = now.q + dq_;
   v_ = now.v + dv_;
   if (k_.size() == std::size_t(filled_)) k_.emplace_back();
-  return evaluate(s, now.t + c * h_, q_, v_, k_[std::size_t(filled_++)]);
+  return slope_at(s, now.t + c * h_, q_, v_, inside, k_[std::size_t(filled_++)]);
 }
 
 bool RungeKutta::recall(System& s, const State& now, const State& next) {
@@ -82,15 +131,15 @@ bool RungeKutta::recall(System& s, const State& now, const State& next) {
 }
 
 void RungeKutta::interpolate(const System& s, const State& now, const State& next, double theta,
-                             std::initializer_list<const double*> rows, State& at) {
+                             std::initializer_list<const double*> terms, State& at) {
   const Slope& first = k_[0];
   const Slope& last = k_[std::size_t(tableau_.stages)];
   // Hairer's nested form, from the inside out: y_0 + theta (F_0 + (1 - theta) (F_1 + theta (F_2 + (1 - theta) (F_3 +
   // ...)))).
   at.q.setZero(now.q.size());
   at.v.setZero(now.v.size());
-  int level = 2 + int(rows.size());
-  for (const double* const* row = rows.end(); row != rows.begin(); --level) {
+  int level = 2 + int(terms.size());
+  for (const double* const* row = terms.end(); row != terms.begin(); --level) {
     combine(*--row, filled_, dq_, dv_);
     const double weight = level % 2 ? 1 - theta : theta;
     at.q = weight * (dq_ + at.q);

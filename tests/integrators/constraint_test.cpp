@@ -52,7 +52,9 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Stabilised,
                          testing::Values(Form{"hht_alpha", {{"alpha", -0.15}}}, Form{"hht_alpha", {{"alpha", 0.0}}},
                                          Form{"hht_alpha", {{"alpha", -1.0 / 3}}}, Form{"newmark", {}},
                                          Form{"generalized_alpha", {{"rho_inf", 0.9}}},
-                                         Form{"generalized_alpha", {{"rho_inf", 0.0}}}),
+                                         Form{"generalized_alpha", {{"rho_inf", 0.0}}},
+                                         Form{"runge_kutta_4", {{"rows", std::string("projected")}}},
+                                         Form{"dop853", {{"rows", std::string("projected")}}}),
                          [](const testing::TestParamInfo<Form>& tested) {
                            return tested.param.name + "_" + std::to_string(tested.index);
                          });

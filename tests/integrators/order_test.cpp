@@ -127,7 +127,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Explicit{{"runge_kutta_4", {}}, 4, 20, 40, 40},
                     Explicit{{"adams_baumgarte", {{"epsilon", 10.0}}}, 4, 160, 320, 160},
                     Explicit{{"adams_baumgarte", {{"predictor", std::string("ab3")}}}, 4, 80, 160, 160},
-                    Explicit{{"dormand_prince", {}}, 5, 96, 160, 20}, Explicit{{"dop853", {}}, 8, 6, 10, 8}),
+                    Explicit{{"dormand_prince", {}}, 5, 96, 160, 20}, Explicit{{"dop853", {}}, 8, 6, 10, 8},
+                    Explicit{{"runge_kutta_4", {{"rows", std::string("projected")}}}, 4, 20, 40, 40}),
     [](const testing::TestParamInfo<Explicit>& tested) {
       return tested.param.form.name + "_" + std::to_string(tested.index);
     });

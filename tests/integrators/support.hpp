@@ -51,8 +51,11 @@ inline std::vector<Form> all_forms() {
           {"adams_baumgarte", {}},
           {"adams_baumgarte", {{"predictor", string("ab3")}}},
           {"runge_kutta_4", {}},
+          {"runge_kutta_4", {{"rows", string("projected")}}},
           {"dormand_prince", {}},
-          {"dop853", {}}};
+          {"dormand_prince", {{"rows", string("projected")}}},
+          {"dop853", {}},
+          {"dop853", {{"rows", string("projected")}}}};
 }
 inline std::string describe(const Form& form) {
   std::string text = form.name;

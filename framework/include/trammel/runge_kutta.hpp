@@ -7,6 +7,8 @@
 #pragma once
 
 #include <initializer_list>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <trammel/integrator.hpp>
@@ -33,6 +35,18 @@ class RungeKutta {
   explicit RungeKutta(const Tableau& tableau);
 
   Stabilisation baumgarte;
+  // How the field goes on off the rows:
+  //  - baumgarte: by the terms above;
+  //  - projected: as F(Pi(y)) with Pi the change of least kinetic energy, of positions and then of velocities, onto the rows. Steps
+  //    end there, and errors of the stages do not reach the accelerations: they lie off the rows by d = O(h^2), and where redundant
+  //    rows meet at an angle theta, near a change of their rank, d makes accelerations wrong by d / theta^2, which no shorter
+  //    step cures. It takes two factorisations a stage.
+  enum class Rows { baumgarte, projected };
+  Rows rows = Rows::baumgarte;
+  bool projects() const { return rows == Rows::projected; }
+  static std::vector<std::pair<std::string, Rows>> rows_choices() {
+    return {{"baumgarte", Rows::baumgarte}, {"projected", Rows::projected}};
+  }
 
   // The slope at a point. False: beyond the range of any model.
   bool evaluate(System& s, double t, const Vec& q, const Vec& v, Slope& slope);
@@ -52,16 +66,18 @@ class RungeKutta {
   // The step's interior at theta in [0, 1], in Hairer's nested form: the cubic Hermite polynomial and, row by row, terms
   // of higher degree h sum_i row[i] k_i over all slopes.
   void interpolate(const System& s, const State& now, const State& next, double theta,
-                   std::initializer_list<const double*> rows, State& at);
+                   std::initializer_list<const double*> terms, State& at);
 
  private:
   Outcome end(System& s, State& next);
+  bool slope_at(System& s, double t, const Vec& q, const Vec& v, double settled, Slope& slope);
+  bool onto_rows(System& s, double t, double settled);  // on_manifold_ and held_v_
 
   Tableau tableau_;
   std::vector<Slope> k_;
   int filled_ = 0;
   double h_ = 0;
-  Vec dq_, dv_, q_, v_, on_manifold_;
+  Vec dq_, dv_, q_, v_, on_manifold_, held_v_, right_, zero_, no_force_, change_, mu_;
   State repeated_;
 };
 

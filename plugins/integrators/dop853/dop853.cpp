@@ -100,9 +100,12 @@ constexpr double dense_7[] = {
 class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput {
  public:
   double delta = 10, epsilon = 10;
+  RungeKutta::Rows rows = RungeKutta::Rows::baumgarte;
 
-  void prepare(const World&) override { method_.baumgarte = {delta, epsilon}; }
-  Traits traits() const override { return {.order = 8}; }
+  void prepare(const World&) override { method_.baumgarte = {delta, epsilon}, method_.rows = rows; }
+  Traits traits() const override {
+    return {.order = 8, .holds_position = method_.projects(), .holds_velocity = method_.projects()};
+  }
 
   void restart(System& s, const State& now) override { method_.evaluate(s, now.t, now.q, now.v, slope_); }
 
@@ -164,4 +167,6 @@ TRAMMEL_PLUGIN(
                     .min = 0,
                     .doc = "Baumgarte's weight of the velocity rows: g'' + 2 delta g' + epsilon^2 g = 0"})
         .parameter("epsilon", &Dop853::epsilon,
-                   {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"}))
+                   {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"})
+        .choice("rows", &Dop853::rows, RungeKutta::rows_choices(),
+                {.doc = "baumgarte: stabilised off the rows; projected: every stage on them"}))

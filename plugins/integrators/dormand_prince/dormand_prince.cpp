@@ -29,9 +29,12 @@ constexpr double dense[] = {
 class DormandPrince final : public Integrator, public ErrorEstimate, public DenseOutput {
  public:
   double delta = 10, epsilon = 10;
+  RungeKutta::Rows rows = RungeKutta::Rows::baumgarte;
 
-  void prepare(const World&) override { method_.baumgarte = {delta, epsilon}; }
-  Traits traits() const override { return {.order = 5}; }
+  void prepare(const World&) override { method_.baumgarte = {delta, epsilon}, method_.rows = rows; }
+  Traits traits() const override {
+    return {.order = 5, .holds_position = method_.projects(), .holds_velocity = method_.projects()};
+  }
 
   void restart(System& s, const State& now) override { method_.evaluate(s, now.t, now.q, now.v, slope_); }
 
@@ -80,4 +83,6 @@ TRAMMEL_PLUGIN(trammel::integrator<DormandPrince>("dormand_prince",
                                .min = 0,
                                .doc = "Baumgarte's weight of the velocity rows: g'' + 2 delta g' + epsilon^2 g = 0"})
                    .parameter("epsilon", &DormandPrince::epsilon,
-                              {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"}))
+                              {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"})
+                   .choice("rows", &DormandPrince::rows, RungeKutta::rows_choices(),
+                           {.doc = "baumgarte: stabilised off the rows; projected: every stage on them"}))

@@ -22,9 +22,12 @@ constexpr double less_embedded[] = {0, 0, 0, 1.0 / 6, -1.0 / 6};
 class RungeKutta4 final : public Integrator, public ErrorEstimate {
  public:
   double delta = 0, epsilon = 0;
+  RungeKutta::Rows rows = RungeKutta::Rows::baumgarte;
 
-  void prepare(const World&) override { method_.baumgarte = {delta, epsilon}; }
-  Traits traits() const override { return {.order = 4}; }
+  void prepare(const World&) override { method_.baumgarte = {delta, epsilon}, method_.rows = rows; }
+  Traits traits() const override {
+    return {.order = 4, .holds_position = method_.projects(), .holds_velocity = method_.projects()};
+  }
 
   void restart(System& s, const State& now) override { method_.evaluate(s, now.t, now.q, now.v, slope_); }
 
@@ -68,4 +71,6 @@ TRAMMEL_PLUGIN(
                     .min = 0,
                     .doc = "Baumgarte's weight of the velocity rows: g'' + 2 delta g' + epsilon^2 g = 0"})
         .parameter("epsilon", &RungeKutta4::epsilon,
-                   {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"}))
+                   {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"})
+        .choice("rows", &RungeKutta4::rows, RungeKutta::rows_choices(),
+                {.doc = "baumgarte: stabilised off the rows; projected: every stage on them"}))

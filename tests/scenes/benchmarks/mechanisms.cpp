@@ -35,6 +35,23 @@ TEST(BenchmarkA02, StaysOnItsBranchThroughTwentySingularPositions) {
   expect_accepted(data, "N=2 B0 y(10)", run.end("B0_y"));
 }
 
+// Errors of a few hundred tolerances at 10 s, as the upright positions multiply them; at loose ones less regularly.
+TEST(BenchmarkA02, PassesItsSingularPositionsAtAnyTolerance) {
+  const auto data = reference("iftomm_a02_n_four_bar");
+  for (const char* tolerance : {"1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9"}) {
+    const Finished run = run_benchmark("a02_n2", {{"integrator.step.tolerance", tolerance}});
+    const double x = std::stod(data["reference"]["by_N"]["2"]["t=10_B0_x_y_vx_vy"][0].get<std::string>());
+    EXPECT_NEAR(run.end("B0_x"), x, 1e-6 + 100 * std::stod(tolerance)) << tolerance;
+  }
+}
+
+TEST(BenchmarkA02, WithTenWindowsMeetsItsReference) {
+  const auto by_n = reference("iftomm_a02_n_four_bar")["reference"]["by_N"]["10"]["t=10_B0_x_y_vx_vy"];
+  const Finished run = run_benchmark("a02_n10");
+  EXPECT_NEAR(run.end("B0_x"), std::stod(by_n[0].get<std::string>()), 1e-5);
+  EXPECT_NEAR(run.end("B0_y"), std::stod(by_n[1].get<std::string>()), 1e-5);
+}
+
 TEST(BenchmarkA04, MovesThoughItsRowsAreRedundant) {
   const auto data = reference("iftomm_a04_bricard");
   const Finished run = run_benchmark("a04");

@@ -1,0 +1,104 @@
+// The field's mechanisms: one evaluation of the accelerations, and whole runs at a tolerance.
+//
+//     tools/bench/run mechanism
+//
+// "evaluation": M, f, the joints' rows and the solution at a point that is new each time. "run": from the scene's start to its end with
+// events, ledger and records, without reading the scene; columns: 10 over the exponent of the tolerance, counters: evaluations, steps.
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include <fmt/format.h>
+
+#include "simulate/setup.hpp"
+#include "simulate/simulator.hpp"
+
+namespace trammel::bench {
+namespace {
+
+scene::Scene load(const std::string& name, const std::vector<scene::Override>& overrides = {}) {
+  return scene::Scene::load(TRAMMEL_SOURCE_DIR "/scenes/benchmarks/" + name + ".json", overrides);
+}
+
+void evaluations(benchmark::State& report, const std::string& name) {
+  plugin::Registry registry;
+  const simulate::Setup setup = simulate::set_up(load(name), registry);
+  model::AssembledSystem system(setup.model);
+  const Vec beside = setup.initial.v + Vec::Constant(setup.initial.v.size(), 1e-12);
+  Vec a, lambda;
+  bool there = false;
+  for (auto _ : report) {
+    there = !there;
+    system.move_to(0, setup.initial.q, there ? beside : setup.initial.v);
+    system.accelerate({}, a, lambda);
+    benchmark::DoNotOptimize(a.data());
+  }
+}
+
+// A folder of its own for the records, removed at the end.
+struct Folder {
+  std::filesystem::path path;
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "trammel_mechanism_XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder: " + name);
+    path = name;
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+};
+
+void whole_run(benchmark::State& report, const std::string& name, const std::string& integrator) {
+  plugin::Registry registry;
+  const double tolerance = std::pow(10.0, -double(report.range(0)) / 10);
+  const scene::Scene scene =
+      load(name, {scene::Override{"integrator", fmt::format(fmt::runtime(integrator), tolerance)}});
+  double evaluations = 0, steps = 0;
+  for (auto _ : report) {
+    report.PauseTiming();
+    const simulate::Setup setup = simulate::set_up(scene, registry);
+    const Folder folder;
+    simulate::Recorder recorder(folder.path, *setup.model, setup.columns, {});
+    simulate::Simulator simulator(setup.model, *setup.integrator, setup.settings, {});
+    report.ResumeTiming();
+    simulator.start(setup.initial);
+    while (simulator.advance(recorder))
+      ;
+    evaluations = double(simulator.system().counts().residual_evaluations);
+    steps = double(simulator.statistics().steps);
+  }
+  report.counters["evaluations"] = evaluations;
+  report.counters["steps"] = steps;
+}
+
+void register_all() {
+  for (const char* name :
+       {"andrews", "slider_crank", "a02_n2", "a02_n40", "a04", "chain_10", "chain_100", "chain_1000"})
+    benchmark::RegisterBenchmark(fmt::format("evaluation, {}", name).c_str(), [name](benchmark::State& report) {
+      evaluations(report, name);
+    })->Unit(benchmark::kMicrosecond);
+  const auto run = [](const char* title, const char* name, const char* integrator, std::vector<int> exponents) {
+    auto* b = benchmark::RegisterBenchmark(
+        fmt::format("run, {}", title).c_str(),
+        [name, integrator](benchmark::State& report) { whole_run(report, name, integrator); });
+    for (const int exponent : exponents) b->Arg(exponent);
+    b->Unit(benchmark::kMillisecond);
+  };
+  run("andrews", "andrews", R"({{"type": "dop853", "step": {{"tolerance": {}, "initial": 1e-5}}}})",
+      {40, 45, 50, 55, 60, 90});
+  run("a02_n40, projected", "a02_n40", R"({{"type": "dop853", "rows": "projected", "step": {{"tolerance": {}}}}})",
+      {30, 60, 90});
+}
+
+}  // namespace
+}  // namespace trammel::bench
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  trammel::bench::register_all();
+  benchmark::RunSpecifiedBenchmarks();
+}
