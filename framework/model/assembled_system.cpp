@@ -42,9 +42,8 @@ void AssembledSystem::set_modes(const Modes& modes) {
   for (std::size_t i = 0; i < modes.contacts.size(); ++i)
     if (locks(i)) w.contact_row[i] = row++;
   w.held_rows = row;
-  const int tangents = dimension(w.model->world.space) - 1;
   w.judged.clear();
-  w.judged_friction.setZero(Eigen::Index(modes.contacts.size()));
+  w.judged_friction.setZero(2, Eigen::Index(modes.contacts.size()));
   for (std::size_t i = 0; i < modes.contacts.size(); ++i) {
     const ContactMode& mode = modes.contacts[i];
     const ContactEntry& entry = w.model->contacts[i];
@@ -54,7 +53,7 @@ void AssembledSystem::set_modes(const Modes& modes) {
         sticks && (w.chain.held_still() || entry.coulomb->decide() == SetValuedFriction::Decide::at_events);
     if (sticks && !held) w.judged.push_back(int(i));
     w.stick_row[i] = held ? row : -1;
-    if (held) row += tangents;
+    if (held) row += w.tangents();
   }
   w.sizes.nc = row;
   w.lay_out_blocks();

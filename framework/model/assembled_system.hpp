@@ -9,6 +9,7 @@
 #include <trammel/system.hpp>
 
 #include "model/model.hpp"
+#include "model/slip.hpp"
 #include "plugin/guard.hpp"
 
 namespace trammel::model {
@@ -19,11 +20,14 @@ struct ContactMode {
   double approach_speed = 0;  // [m/s] at the last onset
   double offset = 0;          // [m] the row holds gap = offset; 0 but where an onset was not located
 
-  // Of set-valued friction, while closed. Stick: rows hold the slip at 0. Slide: F_t = -mu F_n direction.
+  // Of set-valued friction, while closed. Stick: rows hold the slip at 0. Slide: F_t = -mu F_n e (slip.hpp).
   enum class Friction { none, stick, slide };
   Friction friction = Friction::none;
-  double direction = 0;  // slide: +1 or -1, sign of the slip velocity along the tangent
-  double anchor = 0;     // [m] stick: coordinate along the tangent that is held
+  Tangential direction = Tangential::Zero();  // slide: of length 1, the slip's where the step began
+  double slow = 0;                            // [m/s] slide, in space: less slip across `direction` has no direction
+  Tangential anchor = Tangential::Zero();     // [m] stick: coordinates along the tangents that are held
+  // Stick of a round body in space: B's view of A where `anchor` was taken. What has rolled since then counts.
+  Eigen::Matrix3d rolled_from = Eigen::Matrix3d::Identity();
 
   bool operator==(const ContactMode&) const = default;
 };
@@ -110,7 +114,16 @@ class AssembledSystem final : public System {
   double acceleration(ContactDirection direction, const Vec& a);  // [m/s^2] for an acceleration of the system
   double coordinate(ContactDirection direction);                  // [m] gap, or place along the tangent
   double normal_force(int contact, const Vec& lambda);            // [N] >= 0 pushes; of either kind of law
-  double friction_force(int contact, const Vec& lambda);          // [N] on A along the (first) tangent
+  Tangential friction_force(int contact, const Vec& lambda);      // [N] on A
+  Tangential slip(int contact);                                   // [m/s]; of contacts with friction
+  Tangential slip_acceleration(int contact, const Vec& a);        // [m/s^2]
+  Vec3 told(int contact, const Tangential& x);                    // along the tangent; in space in world axes
+  int tangents() const;                                           // of a contact: 1 or 2
+  void anchor(int contact, ContactMode& mode);                    // what holds it at this place
+  // A step has become the solution, and the system is at its end: slip is measured from its direction there, in space, and
+  // what a round body rolls from its place there. Rolling in space is no function of the configuration; within a step the
+  // rotation stands for it to the second order, and joins the rates exactly.
+  void step_taken();
   // Velocity jump by impulses on contacts, bilateral rows held (M dv + G_b^T L_b = sum_i n_i L_i): column i of `jump`
   // is dv for a unit impulse along directions[i], and delassus(i, j) the change of the rate of directions[i] by a unit
   // along directions[j].

@@ -6,6 +6,18 @@
 
 namespace trammel::model {
 
+namespace {
+
+// The wrench of a contact on one of its markers: `normal` along its normal and `friction` along its tangents.
+Wrench pressed_by(const Mat6& H, double normal, const Tangential& friction) {
+  Wrench wrench = normal * H.row(0).transpose();
+  for (Eigen::Index k = 0; k + 1 < H.rows(); ++k)
+    if (friction[k] != 0) wrench += friction[k] * H.row(k + 1).transpose();
+  return wrench;
+}
+
+}  // namespace
+
 AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
     : model(std::move(m)), storage(how), chain(*model) {
   if (storage == Storage::blocks || (storage == Storage::automatic && BodyBlocks::worthwhile(*model)))
@@ -123,8 +135,9 @@ const Vec& AssembledSystem::Work::force() {
     const double rate = contact_rate(int(i), 0);
     called(model->contacts[i].name, "normal");
     const double N = law->normal(r.g(0), rate, modes.contacts[i].approach_speed);
-    add_row_force(contact_slots[i], r, 0, N, f);
-    if (const double ratio = friction_ratio(int(i)); ratio != 0) add_row_force(contact_slots[i], r, 1, ratio * N, f);
+    const Tangential ratio = friction_ratio(int(i));
+    const Slots& at = contact_slots[i];
+    for (int k = 0; k < at.count; ++k) chain.add_wrench(at[k], pressed_by(r.H(k), 1, ratio), N, f);
   }
   returned();
   force_fresh = true;
@@ -178,21 +191,44 @@ double AssembledSystem::Work::contact_rate(int i, int row) {
   return rate;
 }
 
-double AssembledSystem::Work::friction_ratio(int i) {
-  const ContactEntry& entry = model->contacts[std::size_t(i)];
-  const ContactMode& mode = modes.contacts[std::size_t(i)];
-  if (entry.coulomb) {
-    if (mode.friction != ContactMode::Friction::slide) return 0;
-    return -mode.direction * entry.coulomb->kinetic_coefficient(std::abs(contact_rate(i, 1)));
-  }
-  if (!entry.smooth) return 0;
-  const double slip = contact_rate(i, 1);
-  return std::copysign(entry.smooth->ratio(std::abs(slip)), -slip);
+Tangential AssembledSystem::Work::slip(int i) {
+  Tangential s = Tangential::Zero();
+  for (int k = 0; k < tangents(); ++k) s[k] = contact_rate(i, 1 + k);
+  return s;
 }
 
-double AssembledSystem::Work::friction_damping(int i) {
+SlipDirection AssembledSystem::Work::slip_direction(int i) {
+  const ContactMode& mode = modes.contacts[std::size_t(i)];
+  return {slip(i), mode.direction, mode.slow};
+}
+
+Tangential AssembledSystem::Work::friction_ratio(int i) {
   const ContactEntry& entry = model->contacts[std::size_t(i)];
-  return entry.smooth ? entry.smooth->slope(std::abs(contact_rate(i, 1))) : 0;
+  const ContactMode& mode = modes.contacts[std::size_t(i)];
+  if (entry.coulomb && mode.friction == ContactMode::Friction::slide) {
+    const Tangential s = slip(i);
+    return -entry.coulomb->kinetic_coefficient(s.norm()) * SlipDirection(s, mode.direction, mode.slow).unit();
+  }
+  if (!entry.smooth) return Tangential::Zero();
+  const Tangential s = slip(i);
+  const double speed = s.norm();
+  return speed > 0 ? Tangential(-entry.smooth->ratio(speed) * (s / speed)) : Tangential(Tangential::Zero());
+}
+
+Eigen::Matrix2d AssembledSystem::Work::friction_damping(int i) {
+  const ContactEntry& entry = model->contacts[std::size_t(i)];
+  if (entry.coulomb) {
+    if (tangents() == 1 || modes.contacts[std::size_t(i)].friction != ContactMode::Friction::slide)
+      return Eigen::Matrix2d::Zero();
+    return entry.coulomb->kinetic_coefficient(slip(i).norm()) * slip_direction(i).slope();
+  }
+  if (!entry.smooth) return Eigen::Matrix2d::Zero();
+  const Tangential s = slip(i);
+  const double speed = s.norm(), slope = entry.smooth->slope(speed);
+  if (speed == 0) return slope * Eigen::Matrix2d::Identity();
+  const Tangential e = s / speed;
+  const double turning = entry.smooth->ratio(speed) / speed;
+  return turning * Eigen::Matrix2d::Identity() + (slope - turning) * e * e.transpose();
 }
 
 void AssembledSystem::Work::evaluate_rows() {
@@ -238,11 +274,11 @@ void AssembledSystem::Work::evaluate_rows() {
     if (const int row = contact_row[i]; row >= 0) {
       place(contact(int(i)), contact_slots[i], row, 0, 1);
       g(row) -= modes.contacts[i].offset;
-      coupled = coupled || friction_ratio(int(i)) != 0;
+      coupled = coupled || friction_ratio(int(i)) != Tangential::Zero();
     }
     if (const int row = stick_row[i]; row >= 0) {
-      place(contact(int(i)), contact_slots[i], row, 1, contact(int(i)).g.size() - 1);
-      g(row) -= modes.contacts[i].anchor;
+      place(contact(int(i)), contact_slots[i], row, 1, tangents());
+      g.segment(row, tangents()) = displacement(int(i)).head(tangents());
     }
   }
   if (coupled) couple_reactions();
@@ -297,11 +333,11 @@ void AssembledSystem::Work::couple_reactions() {
     W = G;
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
     if (contact_row[i] < 0) continue;
-    const double ratio = friction_ratio(int(i));
-    if (ratio == 0) continue;
+    const Tangential ratio = friction_ratio(int(i));
+    if (ratio == Tangential::Zero()) continue;
     const Rows& r = contact(int(i));
-    add_friction(contact_slots[i].A, contact_row[i], ratio * r.H_A.row(1));
-    add_friction(contact_slots[i].B, contact_row[i], ratio * r.H_B.row(1));
+    add_friction(contact_slots[i].A, contact_row[i], pressed_by(r.H_A, 0, ratio).transpose());
+    add_friction(contact_slots[i].B, contact_row[i], pressed_by(r.H_B, 0, ratio).transpose());
   }
 }
 
@@ -418,13 +454,10 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
     }
     const Slots& at = contact_slots[i];
     const Rows& r = contact(int(i));
-    const double ratio = friction_ratio(int(i));
+    const Tangential ratio = friction_ratio(int(i));
     // Force of the contact per unit of pressure, along the normal and beside it.
     std::array<Wrench, Rows::most_markers> push;
-    for (int k = 0; k < at.count; ++k) {
-      push[std::size_t(k)] = r.H(k).row(0);
-      if (ratio != 0) push[std::size_t(k)] += ratio * r.H(k).row(1).transpose();
-    }
+    for (int k = 0; k < at.count; ++k) push[std::size_t(k)] = pressed_by(r.H(k), 1, ratio);
     const auto add = [&](int row, double weight, auto&& along) {
       for (int k = 0; k < at.count; ++k)
         for (int l = 0; l < at.count; ++l) chain.add_pair(at[k], at[l], along(k) * r.H(l).row(row), weight, S);
@@ -439,8 +472,10 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
       const auto [by_gap, by_rate] = law->slope(r.g(0), rate, approach);
       add(0, -(c.c_k * by_gap + c.c_d * by_rate), [&](int k) -> const Wrench& { return push[std::size_t(k)]; });
     }
-    if (const double damping = c.c_d * -pull * friction_damping(int(i)); damping != 0)
-      add(1, damping, [&](int k) -> Wrench { return r.H(k).row(1); });
+    const Eigen::Matrix2d damping = c.c_d * -pull * friction_damping(int(i));
+    for (int m = 0; m < tangents(); ++m)
+      for (int n = 0; n < tangents(); ++n)
+        if (damping(m, n) != 0) add(1 + n, damping(m, n), [&](int k) -> Wrench { return r.H(k).row(1 + m); });
     if (c.c_k == 0) continue;
     if (const auto& limit = model->contacts[i].limit) {
       add_reaction_of(*limit->joint, limit->tangent, at, Vec6::Constant(1, limit->side * pull), c.c_k, S);
@@ -449,7 +484,8 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
     for (int k = 0; k < at.count; ++k) {
       Wrench& w = push[std::size_t(k)];
       w *= pull;
-      if (const int row = stick_row[i]; row >= 0) w += lambda(row) * r.H(k).row(1).transpose();
+      if (const int row = stick_row[i]; row >= 0)
+        for (int m = 0; m < tangents(); ++m) w += lambda(row + m) * r.H(k).row(1 + m).transpose();
       chain.add_reaction_derivative(at[k], t, q, w, c.c_k, S);
     }
   }

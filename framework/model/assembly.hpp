@@ -60,8 +60,14 @@ struct AssembledSystem::Work {
   double contact_rate(int i, int row);
   double contact_acceleration(int i, int row, const Vec& a);
   void judge_friction(Vec& a, Vec& lambda);  // adds that of `judged`
-  double friction_ratio(int i);    // F_t / F_n along the tangent while sliding; 0 where rows or nothing hold it
-  double friction_damping(int i);  // -d(F_t / F_n)/d(slip velocity) [s/m]
+  int tangents() const { return dimension(model->world.space) - 1; }
+  Tangential slip(int i);
+  SlipDirection slip_direction(int i);
+  Tangential friction_ratio(int i);         // F_t / F_n while sliding; 0 where rows or nothing hold it
+  Eigen::Matrix2d friction_damping(int i);  // -d(F_t / F_n)/d(slip velocity) [s/m]
+  bool rolls(int i) const;                  // it is round, in space: the coordinates of its tangents follow from steps
+  Eigen::Matrix3d seen_from_B(int i);       // A's orientation
+  Tangential displacement(int i);           // g along the tangents, from the mode's anchor
   void add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S);
   bool factorise_mass(Store store, bool with_friction, double rank_tolerance);
   void factorise_identity(Store store);
@@ -87,11 +93,11 @@ struct AssembledSystem::Work {
   MarkerChain chain;
   std::vector<Slots> joint_slots, force_slots, contact_slots;
   Modes modes;
-  std::vector<int> contact_row;  // row in g, -1 while open or compliant
-  std::vector<int> stick_row;    // first tangential row in g, -1 while it does not stick
-  std::vector<int> judged;       // closed contacts at rest whose friction every evaluation finds anew
-  Vec judged_friction;           // [N] by contact, at the last accelerate
-  bool coupled = false;          // a row's force has a sliding friction beside it: W != G
+  std::vector<int> contact_row;      // row in g, -1 while open or compliant
+  std::vector<int> stick_row;        // first tangential row in g, -1 while it does not stick
+  std::vector<int> judged;           // closed contacts at rest whose friction every evaluation finds anew
+  Eigen::Matrix2Xd judged_friction;  // [N] by contact, at the last accelerate
+  bool coupled = false;              // a row's force has a sliding friction beside it: W != G
   Sizes sizes;
   int held_rows = 0;  // the first rows of g, that hold through impacts: of bodies, joints and contacts that have locked
   struct CarriedFrom {

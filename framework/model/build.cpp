@@ -252,8 +252,6 @@ class Builder {
 
   void add_friction(const Value& value, ContactEntry& entry) {
     if (entry.surface) return add_surface_friction(value, entry);
-    if (model_->world.space == Space::spatial)
-      return problems_.error(value.problem("friction is evaluated in planar scenes only; this one is spatial"));
     auto [law, origin] = plugin::make<Component>(registry_, Kind::friction, value, model_->world, problems_);
     if (!law) return;
     entry.coulomb = dynamic_cast<const SetValuedFriction*>(law.get());

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "model/assembly.hpp"
 #include "numerics/contact_forces.hpp"
 
@@ -52,12 +54,85 @@ double AssembledSystem::normal_force(int contact, const Vec& lambda) {
   return law->normal(gap(contact), gap_rate(contact), w.modes.contacts[i].approach_speed);
 }
 
-double AssembledSystem::friction_force(int contact, const Vec& lambda) {
+Tangential AssembledSystem::friction_force(int contact, const Vec& lambda) {
   Work& w = *work_;
-  if (const int row = w.stick_row[std::size_t(contact)]; row >= 0) return -lambda(row);
-  if (!w.model->contacts[std::size_t(contact)].friction) return 0;
-  if (std::find(w.judged.begin(), w.judged.end(), contact) != w.judged.end()) return w.judged_friction[contact];
+  Tangential T = Tangential::Zero();
+  if (const int row = w.stick_row[std::size_t(contact)]; row >= 0) {
+    T.head(w.tangents()) = -lambda.segment(row, w.tangents());
+    return T;
+  }
+  if (!w.model->contacts[std::size_t(contact)].friction) return T;
+  if (std::find(w.judged.begin(), w.judged.end(), contact) != w.judged.end()) return w.judged_friction.col(contact);
   return w.friction_ratio(contact) * normal_force(contact, lambda);
+}
+
+int AssembledSystem::tangents() const {
+  return work_->tangents();
+}
+
+Tangential AssembledSystem::slip(int contact) {
+  return work_->slip(contact);
+}
+
+Tangential AssembledSystem::slip_acceleration(int contact, const Vec& a) {
+  Tangential s = Tangential::Zero();
+  for (int k = 0; k < tangents(); ++k) s[k] = work_->contact_acceleration(contact, 1 + k, a);
+  return s;
+}
+
+Vec3 AssembledSystem::told(int contact, const Tangential& x) {
+  Work& w = *work_;
+  if (tangents() == 1) return x.head(1);
+  const auto i = std::size_t(contact);
+  return w.motion(w.contact_slots[i].B).R * (w.model->contacts[i].geometry.tangents * x.head(tangents()));
+}
+
+bool AssembledSystem::Work::rolls(int i) const {
+  return tangents() == 2 && model->contacts[std::size_t(i)].geometry.radius > 0;
+}
+
+Eigen::Matrix3d AssembledSystem::Work::seen_from_B(int i) {
+  const Slots& at = contact_slots[std::size_t(i)];
+  return motion(at.B).R.transpose() * motion(at.A).R;
+}
+
+// In space a round body's slip is s . u + (omega_A - omega_B) . (r x s): the part of the spin is counted by the rotation of A
+// against B from `rolled_from` on.
+Tangential AssembledSystem::Work::displacement(int i) {
+  const ContactMode& mode = modes.contacts[std::size_t(i)];
+  const Rows& r = contact(i);
+  Tangential x = -mode.anchor;
+  for (int k = 0; k < tangents(); ++k) x[k] += r.g(1 + k);
+  if (!rolls(i)) return x;
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(seen_from_B(i) * mode.rolled_from.transpose()));
+  const PointOnPlane& plane = model->contacts[std::size_t(i)].geometry;
+  const Eigen::Vector3d to_contact = -plane.radius * plane.normal;
+  for (int k = 0; k < 2; ++k)
+    x[k] += turn.angle() * turn.axis().dot(to_contact.cross(Eigen::Vector3d(plane.tangents.col(k))));
+  return x;
+}
+
+void AssembledSystem::anchor(int contact, ContactMode& mode) {
+  Work& w = *work_;
+  const Rows& r = w.contact(contact);
+  for (int k = 0; k < w.tangents(); ++k) mode.anchor[k] = r.g(1 + k);
+  if (w.rolls(contact)) mode.rolled_from = w.seen_from_B(contact);
+}
+
+void AssembledSystem::step_taken() {
+  Work& w = *work_;
+  if (w.tangents() == 1) return;
+  for (std::size_t i = 0; i < w.modes.contacts.size(); ++i) {
+    ContactMode& mode = w.modes.contacts[i];
+    if (!mode.closed || mode.friction == ContactMode::Friction::none) continue;
+    if (mode.friction == ContactMode::Friction::slide) {
+      const Tangential s = w.slip(int(i));
+      if (s.dot(mode.direction) > mode.slow) mode.direction = s.normalized();
+    } else if (w.rolls(int(i))) {
+      anchor(int(i), mode);
+      w.rows_fresh = false;
+    }
+  }
 }
 
 void AssembledSystem::impulse_response(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus) {
@@ -108,23 +183,25 @@ double AssembledSystem::highest_frequency(const std::vector<ContactDirection>& d
 // Method lcp_every_step: friction of the feet at rest from the problem of Zhang and Wang 2017, (32)-(39), with
 // A = W_T^T P W_T, P the inverse of the mass on the rows' null space.
 void AssembledSystem::Work::judge_friction(Vec& a, Vec& lambda) {
-  const auto n = Eigen::Index(judged.size());
+  const Eigen::Index m = tangents(), n = m * Eigen::Index(judged.size());
   Mat response(sizes.nv, n), reaction(sizes.nc, n), columns = Mat::Zero(sizes.nv, n);
   Vec b(n), column, x, y, T, a_t;
   std::vector<numerics::ContactPoint> points;
   for (Eigen::Index k = 0; k < n; ++k) {
-    const int i = judged[std::size_t(k)];
+    const int i = judged[std::size_t(k / m)], row = 1 + int(k % m);
     const Rows& r = contact(i);
     column.setZero(sizes.nv);
-    add_row_force(contact_slots[std::size_t(i)], r, 1, 1, column);
+    add_row_force(contact_slots[std::size_t(i)], r, row, 1, column);
     columns.col(k) = column;
     if (!solve(at_point, column, Vec::Zero(sizes.nc), x, y))
       throw NotSolvable("the friction of the feet at rest was not found");
     response.col(k) = x, reaction.col(k) = y;
-    b[k] = contact_acceleration(i, 1, a);
+    b[k] = contact_acceleration(i, row, a);
+    if (row > 1) continue;
     const ContactEntry& entry = model->contacts[std::size_t(i)];
     points.push_back(
         {.tangent = int(k),
+         .tangents = int(m),
          .kind = numerics::ContactPoint::Tangent::resting,
          .coefficient = entry.coulomb->static_coefficient(),
          .given = entry.force->normal(r.g(0), contact_rate(i, 0), modes.contacts[std::size_t(i)].approach_speed)});
@@ -133,7 +210,7 @@ void AssembledSystem::Work::judge_friction(Vec& a, Vec& lambda) {
     throw NotSolvable("the friction of the feet at rest was not found");
   a.noalias() += response * T;
   lambda.noalias() += reaction * T;
-  for (Eigen::Index k = 0; k < n; ++k) judged_friction[judged[std::size_t(k)]] = T[k];
+  for (Eigen::Index k = 0; k < n; ++k) judged_friction(k % m, judged[std::size_t(k / m)]) = T[k];
 }
 
 const Motion& AssembledSystem::contact_marker(int contact) {

@@ -92,10 +92,11 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
       continue;
     }
     const Rows& r = w.contact(int(i));
-    const double ratio = w.friction_ratio(int(i)), slip = w.model->contacts[i].friction ? w.contact_rate(int(i), 1) : 0;
+    const Tangential ratio = w.friction_ratio(int(i));
+    const Tangential slip = w.model->contacts[i].friction ? w.slip(int(i)) : Tangential(Tangential::Zero());
     if (w.contact_row[i] >= 0) {
       // Its rows' power, below, is all of it but for the friction that slides beside them.
-      sum.friction(Eigen::Index(i)) = lambda(w.contact_row[i]) * ratio * slip;
+      sum.friction(Eigen::Index(i)) = lambda(w.contact_row[i]) * ratio.dot(slip);
       continue;
     }
     const ContactForce* law = w.model->contacts[i].force;
@@ -104,12 +105,13 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     // What the law gives beyond its elastic part, which is its value at rest.
     const double normal = law->normal(gap, rate, approach);
     sum.contacts -= (normal - law->normal(gap, 0, approach)) * rate;
-    const double friction = ratio * normal + w.judged_friction(Eigen::Index(i));
-    sum.friction(Eigen::Index(i)) = -friction * slip;
+    const Tangential friction = ratio * normal + w.judged_friction.col(Eigen::Index(i));
+    sum.friction(Eigen::Index(i)) = -friction.dot(slip);
     const auto& at = w.contact_slots[i];
     for (int k = 0; k < at.count; ++k) {
       Wrench wrench = normal * r.H(k).row(0).transpose();
-      if (friction != 0) wrench += friction * r.H(k).row(1).transpose();
+      for (int m = 0; m < w.tangents(); ++m)
+        if (friction[m] != 0) wrench += friction[m] * r.H(k).row(1 + m).transpose();
       moved_by_law(at[k], wrench);
     }
   }

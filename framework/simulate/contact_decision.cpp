@@ -9,8 +9,10 @@ namespace {
 
 using Tangent = Participant::Tangent;
 
-double sign(double x) {
-  return std::copysign(1.0, x);
+// Of length 1; the first tangent's if x has none.
+Tangential direction_of(const Tangential& x) {
+  const double length = x.norm();
+  return length > 0 ? Tangential(x / length) : Tangential(1, 0);
 }
 
 }  // namespace
@@ -33,31 +35,48 @@ void ContactModes::find_candidates(const ContactChanges& changes) {
   }
 }
 
+double ContactModes::slow() const {
+  return system_.tangents() > 1 ? scale_.slow() : 0;
+}
+
+// Slip across its former direction that is none [m/s]: with fixed steps also what a tenth of a step takes away.
+double ContactModes::unresolved(int contact, const State& state) {
+  const model::ContactMode& mode = before_.contacts[contact];
+  if (!steps_.fixed || system_.tangents() == 1) return mode.slow;
+  return std::max(mode.slow, 0.1 * *steps_.fixed * system_.slip_acceleration(contact, state.a).norm());
+}
+
 double ContactModes::nothing() const {
   return std::max(scale_.no_acceleration(), 1e-12 * largest_);
 }
 
 // Rule 5: whether the contact is at rest in the tangent, and its coefficients.
-void ContactModes::add_friction(Participant& p, const ContactChanges& changes, bool jumped) {
+void ContactModes::add_friction(const State& state, Participant& p, const ContactChanges& changes, bool jumped) {
   const model::ContactEntry& entry = system_.model().contacts[p.contact];
   if (!entry.friction) return;
-  const double slip = system_.rate({p.contact, 1});
+  const Tangential slip = system_.slip(p.contact);
+  const double speed = slip.norm();
   if (entry.smooth) {
     p.tangent = Tangent::sliding;
-    p.ratio = std::copysign(entry.smooth->ratio(std::abs(slip)), -slip);
+    if (speed > 0) p.ratio = -entry.smooth->ratio(speed) * direction_of(slip);
     return;
   }
   p.mu_0 = entry.coulomb->static_coefficient();
-  p.mu = entry.coulomb->kinetic_coefficient(std::abs(slip));
+  p.mu = entry.coulomb->kinetic_coefficient(speed);
   if (p.mu_0 == 0) return;
   const model::ContactMode& before = before_.contacts[p.contact];
   const bool was_closed = before.closed && before.friction != Friction::none;
   double at_rest = std::max(scale_.at_rest(), entry.coulomb->stick_speed());
   if (jumped)
     for (const TouchingContact& c : touching_) at_rest = std::max(at_rest, 1e-9 * std::abs(c.before));
-  bool rests = std::abs(slip) <= at_rest;
-  if (was_closed && !jumped) rests = before.friction == Friction::stick || contains(changes.stopped, p.contact);
-  p.direction = was_closed && !jumped ? before.direction : sign(slip);
+  bool rests = speed <= at_rest;
+  p.direction = direction_of(slip);
+  if (was_closed && !jumped) {
+    const model::SlipDirection goes(slip, before.direction, before.slow);
+    const bool stopped = contains(changes.stopped, p.contact);
+    rests = before.friction == Friction::stick || (stopped && std::abs(goes.across()) <= unresolved(p.contact, state));
+    if (!stopped) p.direction = goes.unit();
+  }
   p.tangent = rests ? Tangent::resting : Tangent::sliding;
   if (!rests) p.ratio = -p.mu * p.direction;
   p.let_go = rests && !redundant_ && contains(changes.yielded, p.contact) &&
@@ -65,12 +84,12 @@ void ContactModes::add_friction(Participant& p, const ContactChanges& changes, b
 }
 
 // Who takes part: candidates of rule 3, and compliant contacts at rest in the tangent.
-void ContactModes::gather(const ContactChanges& changes, bool jumped) {
+void ContactModes::gather(const State& state, const ContactChanges& changes, bool jumped) {
   problem_.who.clear();
   for (const int i : candidates_) {
     Participant p;
     p.contact = i;
-    add_friction(p, changes, jumped);
+    add_friction(state, p, changes, jumped);
     problem_.who.push_back(p);
   }
   for (int i = 0; i < int(modes_.contacts.size()); ++i) {
@@ -79,30 +98,46 @@ void ContactModes::gather(const ContactChanges& changes, bool jumped) {
     Participant p;
     p.contact = i;
     p.unilateral = false;
-    add_friction(p, changes, jumped);
+    add_friction(state, p, changes, jumped);
     mode.friction = p.tangent == Tangent::sliding ? Friction::slide : Friction::none;
     mode.direction = p.direction;
+    mode.slow = slow();
     if (p.tangent == Tangent::resting) problem_.who.push_back(p);
   }
 }
 
-// Rules 3, 5 and 6.
-bool ContactModes::decide(State& state, const ContactChanges& changes, bool jumped) {
-  gather(changes, jumped);
-  open_all(modes_);
-  if (problem_.who.empty()) return true;
-  problem_.prepare(system_);
+// Rule 7; true if it has ended the slip of contacts that slid, which are added to `changes`.
+bool ContactModes::end_drift(State& state, ContactChanges& changes) {
   bool drifted = false;
   for (Participant& p : problem_.who) {
     if (p.tangent != Tangent::resting) continue;
-    p.a_t = system_.rate({p.contact, 1});
-    drifted = drifted || (std::abs(p.a_t) > scale_.at_rest() &&
-                          system_.model().contacts[p.contact].coulomb->stick_speed() < std::abs(p.a_t));
+    p.a_t = system_.slip(p.contact);
+    const double drift = p.a_t.norm();
+    drifted =
+        drifted || (drift > scale_.at_rest() && system_.model().contacts[p.contact].coulomb->stick_speed() < drift);
   }
-  if (drifted) {
-    problem_.end_slip(dv_);
-    state.v += dv_;
+  if (!drifted) return false;
+  problem_.end_slip(dv_);
+  state.v += dv_;
+  system_.move_to(state.t, state.q, state.v);
+  bool more = false;
+  for (int i = 0; i < int(before_.contacts.size()); ++i) {
+    if (!before_.contacts[i].closed || before_.contacts[i].friction != Friction::slide) continue;
+    if (contains(changes.stopped, i) || system_.slip(i).norm() > scale_.at_rest()) continue;
+    changes.stopped.push_back(i);
+    more = true;
   }
+  return more;
+}
+
+// Rules 3, 5, 6 and 7.
+bool ContactModes::decide(State& state, ContactChanges changes, bool jumped) {
+  do {
+    gather(state, changes, jumped);
+    open_all(modes_);
+    if (problem_.who.empty()) return true;
+    problem_.prepare(system_);
+  } while (end_drift(state, changes));
   system_.set_modes(modes_);
   system_.move_to(state.t, state.q, state.v);
   accelerate_participants();
@@ -118,8 +153,8 @@ void ContactModes::accelerate_participants() {
   for (Participant& p : problem_.who) {
     if (!p.unilateral) p.given = system_.normal_force(p.contact, lambda_);
     p.a_n = p.free_n = system_.acceleration({p.contact, 0}, a_);
-    if (p.tangent != Tangent::none) p.a_t = system_.acceleration({p.contact, 1}, a_);
-    largest_ = std::max({largest_, std::abs(p.a_n), std::abs(p.a_t)});
+    if (p.tangent != Tangent::none) p.a_t = system_.slip_acceleration(p.contact, a_);
+    largest_ = std::max({largest_, std::abs(p.a_n), p.a_t.norm()});
   }
 }
 
@@ -136,14 +171,15 @@ void ContactModes::take_verdict(const Participant& p, const ContactChanges& chan
   if (!mode.closed || p.tangent == Tangent::none || !system_.model().contacts[p.contact].coulomb) return;
   mode.friction = Friction::slide;
   mode.direction = p.direction;
+  mode.slow = slow();
   if (p.tangent == Tangent::sliding) return;
-  if (std::abs(p.a_t) > nothing()) {
-    mode.direction = sign(p.a_t);
-  } else if (contains(changes.yielded, p.contact) && held_by_[p.contact] != 0 && !redundant_) {
-    mode.direction = -sign(held_by_[p.contact]);
+  if (p.a_t.norm() > nothing()) {
+    mode.direction = direction_of(p.a_t);
+  } else if (contains(changes.yielded, p.contact) && held_by_[p.contact] != Tangential::Zero() && !redundant_) {
+    mode.direction = -direction_of(held_by_[p.contact]);
   } else {
     mode.friction = Friction::stick;
-    if (before_.contacts[p.contact].friction != Friction::stick) mode.anchor = system_.coordinate({p.contact, 1});
+    if (before_.contacts[p.contact].friction != Friction::stick) system_.anchor(p.contact, mode);
   }
 }
 
@@ -156,7 +192,7 @@ const std::vector<ContactModes::Verdict>& ContactModes::foresee(const State& sta
     if (now.contacts[i].closed && system_.model().contacts[i].restitution && !locks(i))
       touching_.push_back({.contact = i, .was_closed = true}), candidates_.push_back(i);
   verdicts_.assign(now.contacts.size(), {});
-  gather(none, false);
+  gather(state, none, false);
   problem_.prepare(system_);
   open_all(modes_);
   system_.set_modes(modes_);
@@ -165,7 +201,7 @@ const std::vector<ContactModes::Verdict>& ContactModes::foresee(const State& sta
   const bool solved = problem_.solve(nothing());
   for (const Participant& p : problem_.who)
     verdicts_[p.contact] = {!solved || !stays_closed(p),
-                            p.tangent == Tangent::resting && (!solved || std::abs(p.a_t) > nothing())};
+                            p.tangent == Tangent::resting && (!solved || p.a_t.norm() > nothing())};
   system_.set_modes(now);
   return verdicts_;
 }

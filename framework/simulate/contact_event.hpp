@@ -1,6 +1,8 @@
 // What happened to a contact, as events.csv tells it.
 #pragma once
 
+#include <trammel/types.hpp>
+
 namespace trammel::simulate {
 
 struct ContactEvent {
@@ -21,8 +23,9 @@ struct ContactEvent {
   double approach = 0;     // [m/s] = -gap_rate before
   double separation = 0;   // [m/s] = gap_rate after
   double energy_lost = 0;  // [J] kinetic, through this contact
-  double friction = 0;     // impact: impulse along the tangent [N s]; stick, slip, reversal: the force [N]
-  double direction = 0;    // slip, reversal: of the slip velocity along the tangent, +1 or -1
+  // In the plane along the tangent (1 entry), in space in world axes (3).
+  Vec3 friction = Vec3::Zero(1);   // impact: impulse [N s]; stick, slip, reversal: the force on A [N]
+  Vec3 direction = Vec3::Zero(1);  // slip, reversal: of the slip velocity, of length 1
 };
 
 inline const char* to_string(ContactEvent::Kind kind) {

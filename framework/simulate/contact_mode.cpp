@@ -14,8 +14,8 @@
 namespace trammel::simulate {
 namespace {
 
-// A contact that comes to rest at its onset has no approach speed for a damping law to scale with; this part of the scene's
-// speed is the least it gets.
+// A contact that begins at rest has no approach speed for a damping law to scale with, and no such damping: 1/speed would hold
+// it by a viscosity without bound, which steps of no fixed length follow. Below this part of the scene's speed it is at rest.
 constexpr double least_approach = 1e-6;
 
 }  // namespace
@@ -63,7 +63,7 @@ double ContactModes::settle(State& state, const ContactChanges& changes, std::ve
                         .approach = -c.before,
                         .separation = c.after,
                         .energy_lost = c.energy_lost(),
-                        .friction = c.friction});
+                        .friction = system_.told(c.contact, c.friction)});
     if (struck || (!c.was_closed && c.impulse > 0)) modes_.contacts[c.contact].approach_speed = -c.before;
   }
   finish(state, carry);
@@ -74,7 +74,7 @@ double ContactModes::settle(State& state, const ContactChanges& changes, std::ve
 
 // What held the contacts that now yield; whether rows were redundant.
 void ContactModes::forces_before(const ContactChanges& changes) {
-  held_by_.assign(system_.model().contacts.size(), 0.0);
+  held_by_.assign(system_.model().contacts.size(), Tangential::Zero());
   redundant_ = false;
   if (changes.yielded.empty() && changes.released.empty()) return;
   system_.accelerate({}, a_, lambda_);
@@ -88,7 +88,7 @@ void ContactModes::toggle(const State& state, const std::vector<int>& contacts, 
     const double rate = system_.gap_rate(i);
     mode.closed = !mode.closed;
     mode.friction = Friction::none;
-    if (mode.closed) mode.approach_speed = std::max(-rate, least_approach * scale_.speed());
+    if (mode.closed) mode.approach_speed = -rate > least_approach * scale_.speed() ? -rate : 0;
     events.push_back({.t = state.t,
                       .kind = mode.closed ? Kind::close : Kind::open,
                       .contact = i,
@@ -214,8 +214,8 @@ void ContactModes::end_rocking(State& state) {
   std::vector<model::ContactDirection> held;
   for (const TouchingContact& c : touching_) {
     held.push_back({c.contact, 0});
-    if (system_.model().contacts[c.contact].coulomb && std::abs(c.slip_after) <= at_rest)
-      held.push_back({c.contact, 1});
+    if (system_.model().contacts[c.contact].coulomb && c.slip_after.norm() <= at_rest)
+      for (int k = 1; k <= system_.tangents(); ++k) held.push_back({c.contact, k});
   }
   Vec rates(Eigen::Index(held.size()));
   for (std::size_t i = 0; i < held.size(); ++i) rates[Eigen::Index(i)] = system_.rate(held[i]);
@@ -230,16 +230,19 @@ double ContactModes::step_limit(const State& state) {
   const auto& contacts = system_.modes().contacts;
   for (int i = 0; i < int(contacts.size()); ++i)
     if (contacts[i].closed && contacts[i].friction != Friction::none)
-      directions.push_back({i, 0}), directions.push_back({i, 1});
+      for (int row = 0; row <= system_.tangents(); ++row) directions.push_back({i, row});
   if (directions.empty()) return std::numeric_limits<double>::infinity();
   system_.move_to(state.t, state.q, state.v);
   return 2 * std::numbers::pi / 3 / system_.highest_frequency(directions);
 }
 
 double ContactModes::friction_noise(int contact) {
+  std::vector<model::ContactDirection> along;
+  for (int k = 1; k <= system_.tangents(); ++k) along.push_back({contact, k});
   Mat jump, delassus;
-  system_.impulse_response({{contact, 1}}, jump, delassus);
-  return delassus(0, 0) > 0 ? scale_.no_acceleration() / delassus(0, 0) : 0;
+  system_.impulse_response(along, jump, delassus);
+  const double least = delassus.diagonal().minCoeff();
+  return least > 0 ? scale_.no_acceleration() / least : 0;
 }
 
 void ContactModes::finish(State& state, bool carry) {
@@ -250,9 +253,10 @@ void ContactModes::finish(State& state, bool carry) {
   state.lambda.setZero(system_.sizes().nc);
   if (lambda_before_.size() >= joint_rows) state.lambda.head(joint_rows) = lambda_before_.head(joint_rows);
   for (int i = 0; i < int(rows_before_.size()); ++i)
-    for (const auto& [row, before] :
-         {std::pair{system_.contact_row(i), rows_before_[i]}, std::pair{system_.stick_row(i), sticks_before_[i]}})
-      if (row >= 0 && before >= 0 && before < lambda_before_.size()) state.lambda[row] = lambda_before_[before];
+    for (const auto& [row, before, n] : {std::tuple{system_.contact_row(i), rows_before_[i], 1},
+                                         std::tuple{system_.stick_row(i), sticks_before_[i], system_.tangents()}})
+      if (row >= 0 && before >= 0 && before < lambda_before_.size())
+        for (int k = 0; k < n; ++k) state.lambda[row + k] = lambda_before_[before + k];
 }
 
 void ContactModes::tell_normal(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events) {
@@ -273,7 +277,8 @@ void ContactModes::tell_friction(const State& state, std::vector<ContactEvent>& 
     const model::ContactMode &now = modes_.contacts[i], &before = before_.contacts[i];
     if (!now.closed || now.friction == Friction::none) continue;
     const bool sticks = now.friction == Friction::stick;
-    const bool same = before.closed && now.friction == before.friction && (sticks || now.direction == before.direction);
+    const bool same =
+        before.closed && now.friction == before.friction && (sticks || now.direction.dot(before.direction) > 0);
     if (same) continue;
     const bool slid = before.closed && before.friction == Friction::slide;
     events.push_back({.t = state.t,
@@ -281,8 +286,8 @@ void ContactModes::tell_friction(const State& state, std::vector<ContactEvent>& 
                               : slid ? Kind::reversal
                                      : Kind::slip,
                       .contact = i,
-                      .friction = system_.friction_force(i, state.lambda),
-                      .direction = sticks ? 0 : now.direction});
+                      .friction = system_.told(i, system_.friction_force(i, state.lambda)),
+                      .direction = system_.told(i, now.direction)});
   }
 }
 

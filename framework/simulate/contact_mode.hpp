@@ -21,12 +21,16 @@
 //
 // Set-valued friction, of either kind, is part of the same problem (contact_problem.hpp), in which the compliant contacts'
 // normal forces are given:
-//  5. A contact slides, T = -mu N sgn(slip), or it rests: new contacts without slip, those that stick, and those whose slip
+//  5. A contact slides, T = -mu N slip/|slip|, or it rests: new contacts without slip, those that stick, and those whose slip
 //     has just reached 0. Those at rest stick where mu_0 (and, once they let go, mu) suffices; else they slide the way they
-//     accelerate.
+//     accelerate. In space a slip may turn instead of stopping. Its zero is looked for along the direction it had where the
+//     step began (model/slip.hpp): more than `slow` across it there has turned, and slides on in its own direction; less
+//     counts as rest, so a slip that dips below `slow`, 1e-7 of the scene's speed, is taken through rest. Fixed steps do not
+//     resolve the end of a slip that turns; there also what a tenth of a step takes away counts as rest.
 //  6. A contact whose friction has reached its bound lets go: mu decides at once; if it accelerates neither way (mu = mu_0)
 //     it slides against the force that held it. All others at rest are checked at the same instant.
-//  7. What was left of the slip of those at rest by the steps (a drift) is ended by the least change of v.
+//  7. What was left of the slip of those at rest by the steps (a drift) is ended by the least change of v. Others whose slip
+//     ends with it (the third foot of a table) are at rest as well: from rule 5 again.
 //  8. Where rigid contacts have no solution with finite forces (Painleve's rod), the slip stops in an impact without collision:
 //     rule 1 with nothing approaching. If that has none, the run ends with a message; so do modes that contradict each other
 //     at one instant (Simulator).
@@ -101,9 +105,10 @@ class ContactModes {
   void lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
   void find_candidates(const ContactChanges& changes);
   void open_all(model::Modes& modes) const;
-  void gather(const ContactChanges& changes, bool jumped);
-  void add_friction(Participant& p, const ContactChanges& changes, bool jumped);
-  [[nodiscard]] bool decide(State& state, const ContactChanges& changes, bool jumped);  // false: no solution
+  void gather(const State& state, const ContactChanges& changes, bool jumped);
+  void add_friction(const State& state, Participant& p, const ContactChanges& changes, bool jumped);
+  bool end_drift(State& state, ContactChanges& changes);
+  [[nodiscard]] bool decide(State& state, ContactChanges changes, bool jumped);  // false: no solution
   void accelerate_participants();
   bool stays_closed(const Participant& p) const;
   void take_verdict(const Participant& p, const ContactChanges& changes);
@@ -111,6 +116,8 @@ class ContactModes {
   void tell_normal(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
   void tell_friction(const State& state, std::vector<ContactEvent>& events);
   double nothing() const;
+  double slow() const;
+  double unresolved(int contact, const State& state);
   [[noreturn]] void fail_without_solution(const char* what) const;
   Restitution::Treatment treatment(int contact) const {
     return system_.model().contacts[contact].restitution->treatment();
@@ -126,7 +133,7 @@ class ContactModes {
   model::Modes before_, modes_;
   std::vector<TouchingContact> touching_;
   std::vector<int> candidates_, rows_before_, sticks_before_;
-  std::vector<double> held_by_;  // by contact: its friction before the event [N]
+  std::vector<Tangential> held_by_;  // by contact: its friction before the event [N]
   std::vector<Verdict> verdicts_;
   bool redundant_ = false;
   double largest_ = 0;  // of the accelerations without the forces sought

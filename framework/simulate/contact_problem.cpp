@@ -5,6 +5,14 @@
 #include <Eigen/QR>
 
 namespace trammel::simulate {
+namespace {
+
+// The part of x that belongs to the tangents of a contact.
+Eigen::VectorBlock<Vec> along(Vec& x, const numerics::ContactPoint& p) {
+  return x.segment(p.tangent, p.tangents);
+}
+
+}  // namespace
 
 void ContactProblem::prepare(model::AssembledSystem& system) {
   directions_.clear();
@@ -12,8 +20,10 @@ void ContactProblem::prepare(model::AssembledSystem& system) {
   for (const Participant& p : who) {
     numerics::ContactPoint point;
     if (p.unilateral) point.normal = int(directions_.size()), directions_.push_back({p.contact, 0});
-    if (p.tangent != Participant::Tangent::none)
-      point.tangent = int(directions_.size()), directions_.push_back({p.contact, 1});
+    if (p.tangent != Participant::Tangent::none) {
+      point.tangent = int(directions_.size()), point.tangents = system.tangents();
+      for (int k = 0; k < point.tangents; ++k) directions_.push_back({p.contact, 1 + k});
+    }
     points_.push_back(point);
   }
   system.impulse_response(directions_, jump_, delassus_);
@@ -27,7 +37,7 @@ bool ContactProblem::solve_once() {
     if (p.tangent == Participant::Tangent::resting)
       point.kind = numerics::ContactPoint::Tangent::resting, point.coefficient = p.let_go ? p.mu : p.mu_0;
     else if (p.tangent == Participant::Tangent::sliding)
-      point.kind = numerics::ContactPoint::Tangent::sliding, point.coefficient = p.ratio;
+      point.kind = numerics::ContactPoint::Tangent::sliding, point.ratio = p.ratio;
   }
   return numerics::solve_contacts(points_, delassus_, b_, F_, a_) == numerics::LcpOutcome::solved;
 }
@@ -36,15 +46,14 @@ bool ContactProblem::solve(double nothing) {
   b_.resize(Eigen::Index(directions_.size()));
   for (std::size_t i = 0; i < who.size(); ++i) {
     if (points_[i].normal >= 0) b_[points_[i].normal] = who[i].a_n;
-    if (points_[i].tangent >= 0) b_[points_[i].tangent] = who[i].a_t;
+    if (points_[i].tangent >= 0) along(b_, points_[i]) = who[i].a_t.head(points_[i].tangents);
   }
   for (bool settled = false; !settled;) {
     if (!solve_once()) return false;
     settled = true;
     for (std::size_t i = 0; i < who.size(); ++i) {
       Participant& p = who[i];
-      if (p.tangent != Participant::Tangent::resting || p.let_go || std::abs(a_[points_[i].tangent]) <= nothing)
-        continue;
+      if (p.tangent != Participant::Tangent::resting || p.let_go || along(a_, points_[i]).norm() <= nothing) continue;
       p.let_go = true;
       if (p.mu < p.mu_0) settled = false;
     }
@@ -53,7 +62,8 @@ bool ContactProblem::solve(double nothing) {
     Participant& p = who[i];
     p.N = p.given;
     if (points_[i].normal >= 0) p.N = F_[points_[i].normal], p.a_n = a_[points_[i].normal];
-    if (points_[i].tangent >= 0) p.T = F_[points_[i].tangent], p.a_t = a_[points_[i].tangent];
+    if (const int n = points_[i].tangents; points_[i].tangent >= 0)
+      p.T.head(n) = along(F_, points_[i]), p.a_t.head(n) = along(a_, points_[i]);
   }
   return true;
 }
@@ -68,8 +78,8 @@ void ContactProblem::end_slip(Vec& dv) const {
   for (std::size_t i = 0; i < who.size(); ++i) {
     if (points_[i].normal >= 0) held.push_back(points_[i].normal);
     if (who[i].tangent != Participant::Tangent::resting) continue;
-    held.push_back(points_[i].tangent);
-    slip[points_[i].tangent] = who[i].a_t;
+    for (int k = 0; k < points_[i].tangents; ++k) held.push_back(points_[i].tangent + k);
+    along(slip, points_[i]) = who[i].a_t.head(points_[i].tangents);
   }
   const Mat A = delassus_(held, held);
   const Vec impulses = A.completeOrthogonalDecomposition().solve(-slip(held));

@@ -12,20 +12,23 @@
 
 namespace trammel::simulate {
 
+using model::Tangential;
+
 struct Participant {
   enum class Tangent { none, resting, sliding };
   int contact = 0;
   bool unilateral = true;  // its normal force is unknown
   double given = 0;        // [N] else
   Tangent tangent = Tangent::none;
-  double mu_0 = 0, mu = 0;  // resting
-  double ratio = 0;         // sliding: T / N
-  double direction = 0;     // sliding: sign of the slip velocity
-  bool let_go = false;      // resting: mu from the start; in the end: mu_0 did not hold it
-  double free_n = 0;        // a_n without the forces to be found
+  double mu_0 = 0, mu = 0;                    // resting
+  Tangential ratio = Tangential::Zero();      // sliding: T / N
+  Tangential direction = Tangential::Zero();  // sliding: of the slip velocity, length 1
+  bool let_go = false;                        // resting: mu from the start; in the end: mu_0 did not hold it
+  double free_n = 0;                          // a_n without the forces to be found
 
-  // Found: force [N] or impulse [N s], and acceleration or velocity, along normal and tangent.
-  double N = 0, T = 0, a_n = 0, a_t = 0;
+  // Found: force [N] or impulse [N s], and acceleration or velocity, along normal and tangents.
+  double N = 0, a_n = 0;
+  Tangential T = Tangential::Zero(), a_t = Tangential::Zero();
 };
 
 class ContactProblem {

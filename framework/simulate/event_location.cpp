@@ -60,7 +60,17 @@ void EventLocation::restart(const State& now) {
       watches_[w].noise = modes_.friction_noise(watches_[w].contact);
 }
 
-void EventLocation::accept(double h) {
+EventLocation::Value EventLocation::slide(int contact, const Vec& a) {
+  const model::Tangential& direction = system_.modes().contacts[contact].direction;
+  return {direction.dot(system_.slip(contact)), direction.dot(system_.slip_acceleration(contact, a))};
+}
+
+void EventLocation::accept(double h, const State& next) {
+  system_.move_to(next.t, next.q, next.v);
+  system_.step_taken();
+  if (system_.tangents() > 1)  // along the directions they have now
+    for (std::size_t w = 0; w < watches_.size(); ++w)
+      if (watches_[w].kind == Kind::slide) next_[w] = slide(watches_[w].contact, next.a);
   for (std::size_t w = 0; w < watches_.size(); ++w) watches_[w].force_before = now_[w].f;
   h_before_ = h;
   now_.swap(next_);
@@ -70,7 +80,7 @@ double EventLocation::force(Watch& watch, const Vec& lambda) {
   const double N = system_.normal_force(watch.contact, lambda);
   if (watch.kind == Kind::press) return N;
   watch.bound = system_.model().contacts[watch.contact].coulomb->static_coefficient() * N;
-  return watch.bound - std::abs(system_.friction_force(watch.contact, lambda));
+  return watch.bound - system_.friction_force(watch.contact, lambda).norm();
 }
 
 void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
@@ -83,7 +93,7 @@ void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
     Value& value = values[w] = {};
     if (by_force(w)) {
       if (watch.kind == Kind::hold && watch.at_ends) {
-        value.f = scale_.no_acceleration() - std::abs(system_.acceleration({watch.contact, 1}, state.a));
+        value.f = scale_.no_acceleration() - system_.slip_acceleration(watch.contact, state.a).norm();
         continue;
       }
       if (!lambda) {
@@ -95,9 +105,7 @@ void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
       continue;
     }
     if (watch.kind == Kind::slide) {
-      const double direction = system_.modes().contacts[watch.contact].direction;
-      value.f = direction * system_.rate({watch.contact, 1});
-      value.slope = direction * system_.acceleration({watch.contact, 1}, state.a);
+      value = slide(watch.contact, state.a);
       continue;
     }
     const double sign = watch.kind == Kind::leave ? -1 : 1;

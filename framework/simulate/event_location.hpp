@@ -5,7 +5,7 @@
 //     leave      compliant contact in touch      -gap
 //     press      closed contact (Restitution)    its normal force N; one that has locked needs no watch
 //     hold       sticking contact                mu_0 N - |T|, T the friction that holds it
-//     slide      sliding contact                 slip velocity along its direction
+//     slide      sliding contact                 slip velocity along its direction at the step's begin
 // An event shows in three ways: the function is negative at the step's end; it was positive at both ends but dipped between
 // them (the cubic through values and slopes of both ends tells where to look); or, just after an event that left it at
 // round-off of 0, the parabola of its start says that it came back within the step. It is located by repeating the step
@@ -48,7 +48,7 @@ class EventLocation {
   Found examine(const State& now, double& h, State& next, bool may_shorten);
   const ContactChanges& changes() const { return changes_; }
   long long steps_tried() const { return steps_tried_; }
-  void accept(double h);  // next became the solution
+  void accept(double h, const State& next);  // next became the solution
 
   void archive(Archive& a);
 
@@ -74,6 +74,7 @@ class EventLocation {
   void watch(int contact);
   bool by_force(int w) const { return watches_[w].kind == Kind::press || watches_[w].kind == Kind::hold; }
   double force(Watch& watch, const Vec& lambda);
+  Value slide(int contact, const Vec& a);
   void evaluate(const State& state, std::vector<Value>& values);
   void ask_complementarity(const State& state, std::vector<Value>& values);
   bool just_handled(int w) const { return now_[w].f <= watches_[w].noise; }

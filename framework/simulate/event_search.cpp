@@ -11,6 +11,12 @@ namespace {
 // Where in a step `hides` looks: an irrational part of it, the golden section's, meets no law's period again and again.
 constexpr double inside = 0.3819660112501051;
 
+// In space a slip comes to its end by steps that leave a fifth of it: over its zero the stiffness mu N/|s| across it is more than
+// an explicit method bears, which makes of round-off there a turn.
+bool overshoots(double begin, double end, double slow) {
+  return begin > 10 * slow && end < 0.2 * begin;
+}
+
 }  // namespace
 
 // The cubic with values F and slopes S at both ends of [low, high] (Hermite).
@@ -45,6 +51,9 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
   if (h < 1e-6 * longest_) return false;
   bool gaps = false, forces = false;
   for (int w = 0; w < int(watches_.size()); ++w) {
+    if (watches_[w].kind == Kind::slide && system_.tangents() > 1 &&
+        overshoots(now_[w].f, next_[w].f, system_.modes().contacts[watches_[w].contact].slow))
+      return true;
     if (watches_[w].at_ends || watches_[w].kind == Kind::slide) continue;
     (by_force(w) ? forces : gaps) = true;
   }

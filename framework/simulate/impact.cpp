@@ -11,14 +11,15 @@ bool Impact::solve(model::AssembledSystem& system, double at_rest, std::vector<T
     Participant p;
     p.contact = c.contact;
     p.a_n = c.was_closed ? 0 : (1 + c.restitution) * c.before;
-    if (entry.friction) p.a_t = c.slip_before = system.rate({c.contact, 1});
+    if (entry.friction) p.a_t = c.slip_before = system.slip(c.contact);
     if (entry.coulomb) {
       p.tangent = Participant::Tangent::resting;
       p.mu_0 = entry.coulomb->static_coefficient();
-      p.mu = entry.coulomb->kinetic_coefficient(std::abs(p.a_t));
+      p.mu = entry.coulomb->kinetic_coefficient(p.a_t.norm());
     } else if (entry.smooth) {
       p.tangent = Participant::Tangent::sliding;
-      p.ratio = std::copysign(entry.smooth->ratio(std::abs(p.a_t)), -p.a_t);
+      const double speed = p.a_t.norm();
+      if (speed > 0) p.ratio = -entry.smooth->ratio(speed) * (p.a_t / speed);
     }
     problem_.who.push_back(p);
   }

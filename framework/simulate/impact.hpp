@@ -4,12 +4,12 @@
 //                                                         bilateral rows keep their rates
 //     0 <= L_i  complementary to  u_i+ + e_i u_i- >= 0     for contacts that were open
 //     0 <= L_i  complementary to  u_i+ - u_i-     >= 0     for contacts that were closed (they keep u-, 0 but for round-off)
-//     |T_i| <= mu_0 L_i where s_i+ = 0 (it sticks),  T_i = -mu L_i sgn(s_i+) elsewhere
+//     |T_i| <= mu_0 L_i where s_i+ = 0 (it sticks),  T_i = -mu L_i s_i+/|s_i+| elsewhere
 //
 // L_i, T_i [N s] are the impulses, e_i the restitution of the contact's law at approach speed -u_i-; slower than the law's
 // capture_speed e_i = 0. The friction impulse is one Coulomb decision over the whole impact, judged by the slip at its end
 // (Moreau): a slip that stops and turns within the impact is not followed, and with e > 0 an eccentric impact may gain
-// energy (Kane's paradox; the ledger would show it). With D the Delassus matrix it is a linear complementarity problem. Several
+// energy (Kane's paradox; the ledger would show it). With D the Delassus matrix it is the problem of contact_forces.hpp. Several
 // contacts at once are one problem; nature may answer otherwise (Pfeiffer, Glocker 1996), and a chain of equal balls does.
 // Energy lost through contact i is -L_i (u_i- + u_i+)/2 - T_i (s_i- + s_i+)/2; the sum is the loss of kinetic energy if no
 // row depends on time.
@@ -24,13 +24,13 @@ namespace trammel::simulate {
 struct TouchingContact {
   int contact = 0;
   bool was_closed = false;
-  double before = 0;       // u- [m/s]
-  double restitution = 0;  // e
-  double impulse = 0;      // L [N s]
-  double after = 0;        // u+ [m/s]
-  double friction = 0;     // T [N s]
-  double slip_before = 0, slip_after = 0;
-  double energy_lost() const { return -0.5 * (impulse * (before + after) + friction * (slip_before + slip_after)); }
+  double before = 0;                         // u- [m/s]
+  double restitution = 0;                    // e
+  double impulse = 0;                        // L [N s]
+  double after = 0;                          // u+ [m/s]
+  Tangential friction = Tangential::Zero();  // T [N s]
+  Tangential slip_before = Tangential::Zero(), slip_after = Tangential::Zero();
+  double energy_lost() const { return -0.5 * (impulse * (before + after) + friction.dot(slip_before + slip_after)); }
 };
 
 class Impact {

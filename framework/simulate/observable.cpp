@@ -26,7 +26,20 @@ void add_marker(const std::string& name, MarkerRef marker, Space space, Choices&
                          [marker, what = what](Moment& m) { return seen_from(m, marker, MarkerRef{}, what); });
 }
 
-void add_contact(const std::string& name, int i, bool friction, Choices& choices) {
+using Told = std::function<Vec3(Moment&)>;
+
+// In the plane its one number; in space its length, and the vector in world axes.
+void add_tangential(const std::string& name, Space space, const Told& told, Choices& choices) {
+  if (space == Space::planar) {
+    choices.emplace_back(name, [=](Moment& m) { return told(m)[0]; });
+    return;
+  }
+  choices.emplace_back(name, [=](Moment& m) { return told(m).norm(); });
+  for (int k = 0; k < 3; ++k)
+    choices.emplace_back(fmt::format("{}_{}", name, "xyz"[k]), [=](Moment& m) { return told(m)[k]; });
+}
+
+void add_contact(const std::string& name, int i, const Model& model, Choices& choices) {
   choices.emplace_back(name + ".gap", [=](Moment& m) { return m.system().gap(i); });
   choices.emplace_back(name + ".gap_rate", [=](Moment& m) { return m.system().gap_rate(i); });
   choices.emplace_back(name + ".force", [=](Moment& m) {
@@ -34,13 +47,18 @@ void add_contact(const std::string& name, int i, bool friction, Choices& choices
     const Vec& lambda = m.lambda();
     return m.system().normal_force(i, lambda);
   });
-  if (friction) {
-    choices.emplace_back(name + ".slip", [=](Moment& m) { return m.system().rate({i, 1}); });
-    choices.emplace_back(name + ".friction", [=](Moment& m) {
-      if (!m.system().modes().contacts[i].closed) return 0.0;
-      const Vec& lambda = m.lambda();
-      return m.system().friction_force(i, lambda);
-    });
+  if (model.contacts[i].friction) {
+    const Space space = model.world.space;
+    add_tangential(
+        name + ".slip", space, [=](Moment& m) { return m.system().told(i, m.system().slip(i)); }, choices);
+    add_tangential(
+        name + ".friction", space,
+        [=](Moment& m) -> Vec3 {
+          if (!m.system().modes().contacts[i].closed) return Vec3::Zero(space == Space::planar ? 1 : 3);
+          const Vec& lambda = m.lambda();
+          return m.system().told(i, m.system().friction_force(i, lambda));
+        },
+        choices);
     choices.emplace_back(name + ".sticks", [=](Moment& m) {
       return m.system().modes().contacts[i].friction == model::ContactMode::Friction::stick ? 1.0 : 0.0;
     });
@@ -65,7 +83,7 @@ Choices all_choices(const Model& model) {
       add_marker(entry.name + "." + markers[k], {b, k}, model.world.space, choices);
   }
   for (int i = 0; i < int(model.contacts.size()); ++i)
-    add_contact("contacts." + model.contacts[i].name, i, model.contacts[i].friction != nullptr, choices);
+    add_contact("contacts." + model.contacts[i].name, i, model, choices);
   for (const model::BodyEntry& entry : model.bodies)
     if (entry.rows > 0)
       choices.emplace_back(entry.name + ".reaction",

@@ -20,6 +20,18 @@ int error_order(Integrator& integrator) {
   return estimate ? estimate->error_order() : 1;
 }
 
+void archive_tangential(Archive& a, const std::string& name, model::ContactMode& mode) {
+  const auto numbers = [&](const char* what, auto& x) {
+    Vec flat = Eigen::Map<const Vec>(x.data(), x.size());
+    a(name + what, flat);
+    if (flat.size() == x.size()) std::copy(flat.begin(), flat.end(), x.data());
+  };
+  numbers("direction", mode.direction);
+  a(name + "slow", mode.slow);
+  numbers("anchor", mode.anchor);
+  numbers("rolled_from", mode.rolled_from);
+}
+
 }  // namespace
 
 Simulator::Simulator(std::shared_ptr<model::Model> model, Integrator& integrator, const Settings& settings,
@@ -240,7 +252,7 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
   }
   if (location_.watches()) scale_.take_contacts(system_);
   statistics_.locating_steps = location_.steps_tried();
-  location_.accept(h);
+  if (location_.watches()) location_.accept(h, next_);
   std::swap(now_, next_);
 }
 
@@ -303,8 +315,7 @@ void Simulator::archive_state(Archive& a) {
     int friction = int(modes.contacts[i].friction);
     a(name + "friction", friction);
     modes.contacts[i].friction = model::ContactMode::Friction(friction);
-    a(name + "direction", modes.contacts[i].direction);
-    a(name + "anchor", modes.contacts[i].anchor);
+    archive_tangential(a, name, modes.contacts[i]);
   }
   const auto& current = system_.modes().contacts;
   if (!std::equal(current.begin(), current.end(), modes.contacts.begin())) system_.set_modes(modes);

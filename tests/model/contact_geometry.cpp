@@ -111,6 +111,31 @@ TEST(PointOnPlane, TangentsAndNormalAreOrthonormalInSpace) {
   EXPECT_LT((axes * axes.transpose() - Mat3(Eigen::Matrix3d::Identity())).norm(), 1e-14);
 }
 
+// A ball around the point, which spins.
+TEST(PointOnPlane, GammaMakesTheAccelerationsOfABallsGapAndSlipInSpace) {
+  PointOnPlane plane(Eigen::Vector3d(0.2, -0.1, 0.3), normal_in_space);
+  plane.radius = 0.4;
+  const auto spinning = [](double t) {
+    Motion m = point_in_space(t);
+    m.V.tail(3) << std::sin(t), t * t, 2;
+    m.bias.tail(3) << std::cos(t), 2 * t, 0;
+    return m;
+  };
+  const auto rows_of = [&](double t) {
+    Rows rows;
+    rows.resize(3, Space::spatial);
+    contact_rows(plane, spinning(t), tumbling_frame(t), true, rows);
+    return rows;
+  };
+  const auto rates = [&](double t) -> Vec {
+    const Rows rows = rows_of(t);
+    return rows.H_A * spinning(t).V + rows.H_B * tumbling_frame(t).V;
+  };
+  const Rows rows = rows_of(0.7);
+  const Vec acceleration = rows.H_A * spinning(0.7).bias + rows.H_B * tumbling_frame(0.7).bias - rows.gamma;
+  EXPECT_LT((acceleration - (rates(0.7 + s) - rates(0.7 - s)) / (2 * s)).norm(), 1e-7);
+}
+
 TEST(PointOnPlane, GammaMakesTheAccelerationsOfGapAndSlipInSpace) {
   const Rows rows = rows_in_space(0.7);
   const Vec acceleration = rows.H_A * point_in_space(0.7).bias + rows.H_B * tumbling_frame(0.7).bias - rows.gamma;

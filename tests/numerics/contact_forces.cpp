@@ -115,9 +115,9 @@ TEST(ContactForces, OfPainlevesRodWithTooMuchFrictionHaveNoSolution) {
   const Mat A{{1 + 3 * c * c, -3 * s * c}, {-3 * s * c, 1 + 3 * s * s}};
   EXPECT_NEAR(A(0, 0) + mu * A(0, 1), -0.8, 1e-14);
   Vec F, a;
-  const std::vector<ContactPoint> tip{{.normal = 0, .tangent = 1, .kind = Tangent::sliding, .coefficient = mu}};
+  const std::vector<ContactPoint> tip{{.normal = 0, .tangent = 1, .kind = Tangent::sliding, .ratio = {mu, 0}}};
   EXPECT_EQ(solve_contacts(tip, A, Vec{{-9.81, 0}}, F, a), LcpOutcome::no_solution);
-  const std::vector<ContactPoint> less{{.normal = 0, .tangent = 1, .kind = Tangent::sliding, .coefficient = 1.3}};
+  const std::vector<ContactPoint> less{{.normal = 0, .tangent = 1, .kind = Tangent::sliding, .ratio = {1.3, 0}}};
   ASSERT_EQ(solve_contacts(less, A, Vec{{-9.81, 0}}, F, a), LcpOutcome::solved);
   EXPECT_NEAR(F[0], 245.25, 1e-10);
 }

@@ -131,5 +131,30 @@ TEST(DiskScene, RollsOnATableThatShakesUnderIt) {
   EXPECT_NEAR(run.end("x"), 0.1 * (1 - std::cos(3.0)) / 3, 1e-9);
 }
 
+TEST(BilliardBallScene, BendsItsPathAndRolls) {
+  const Finished run = run_file("friction/billiard_ball.json");
+  ASSERT_EQ(run.of_kind("stick").size(), 1u) << run.report.reason;
+  EXPECT_NEAR(run.of_kind("stick")[0].t, 2 * std::hypot(2, 2) / (7 * 0.2 * g), 1e-9);
+  EXPECT_NEAR(run.end("vx"), 1 + 4 / 7., 1e-9);
+  EXPECT_NEAR(run.end("vy"), -4 / 7., 1e-9);
+}
+
+TEST(AcrossInclineScene, StopsWhereItsFormulaSays) {
+  const Finished run = run_file("friction/across_incline.json");
+  ASSERT_EQ(run.of_kind("stick").size(), 1u) << run.report.reason;
+  EXPECT_NEAR(run.of_kind("stick")[0].t, 4 / (3 * g * std::sin(10 * pi / 180)), 1e-9);
+}
+
+TEST(CurlingTableScene, EndsOnOneFoot) {
+  const Finished run = run_file("friction/curling_table.json");
+  const auto stops = run.of_kind("stick");
+  ASSERT_EQ(stops.size(), 3u) << run.report.reason;
+  EXPECT_EQ(stops[0].contact, "contacts.foot1");
+  EXPECT_NEAR(stops[0].t, 0.495950, 1e-6);  // as its comment says
+  EXPECT_NEAR(stops[1].t, 0.506102, 1e-6);
+  EXPECT_NEAR(run.end("x"), 0.2947990, 1e-7);
+  EXPECT_NEAR(run.end("y"), 0.0752361, 1e-7);
+}
+
 }  // namespace
 }  // namespace trammel::test

@@ -94,5 +94,24 @@ TEST(CompliantContact, DissipatesWhatItsLedgerSays) {
   }
 }
 
+// Hysteresis damping is over the approach speed, so a contact that begins at rest has none: with next to no speed in its place
+// it would be a viscosity that makes a spring of 2 kHz a matter of nanoseconds, and fixed steps of 1e-4 s blow up.
+TEST(CompliantContact, BegunAtRestKeepsItsEnergy) {
+  for (const char* position : {"[0, 0]", "[0, -1e-4]", "[0, -4.5819e-4]"}) {
+    const Finished run = run_text(linear_buffer, {{"gravity", "[0, -9.81]"},
+                                                  {"bodies.ball.velocity", "[0, 0]"},
+                                                  {"bodies.ball.position", position},
+                                                  {"contacts.buffer.exponent", "1.5"},
+                                                  {"contacts.buffer.stiffness", "1e6"},
+                                                  {"contacts.buffer.damping", "lankarani_nikravesh"},
+                                                  {"contacts.buffer.restitution", "0.5"},
+                                                  {"integrator.step", "1e-4"}});
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    EXPECT_NEAR(run.result["energy_drift"].get<double>(), 0, 1e-9) << position;
+    EXPECT_EQ(run.result["energy_dissipated"]["contact_damping"].get<double>(), 0) << position;
+    for (const double v : run.series.at("vy")) EXPECT_LT(std::abs(v), 0.08) << position;  // of the swing about its rest
+  }
+}
+
 }  // namespace
 }  // namespace trammel::test

@@ -1,0 +1,49 @@
+// Slip in the tangents of a contact: one in the plane, two in space.
+//
+//     s [m/s]  slip velocity of A over B          F_t = -mu F_n e     sliding friction
+//     e = s/|s|  where s is not 0                  d     the direction of s at the beginning of the step
+//
+// With x = s . d and y = s . p, p perpendicular to d (in the plane y = 0 and d = +1 or -1),
+//
+//     e = (X d + y p) / |X d + y p|,   X = max(|x|, slow)
+//
+// is s/|s| as long as the slip turns by less than a right angle in the step, x > slow. Where the step goes too far it pushes on
+// against d, as in the plane, so that x falls through 0 and its zero can be located. There s is either at rest, |y| <= slow,
+// or has turned, and d is taken anew (contact_mode.hpp). `slow` also bounds the stiffness mu F_n / |s| across the slip.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+
+namespace trammel::model {
+
+// What a contact does along its tangents, which are fixed in B; in the plane the second is 0.
+using Tangential = Eigen::Vector2d;
+
+class SlipDirection {
+ public:
+  SlipDirection(const Tangential& s, const Tangential& d, double slow)
+      : d_(d), p_(-d[1], d[0]), x_(s.dot(d)), y_(s.dot(p_)), slow_(slow), X_(std::max(std::abs(x_), slow)) {}
+
+  double along() const { return x_; }
+  double across() const { return y_; }
+  Tangential unit() const {
+    if (y_ == 0) return d_;
+    return (X_ * d_ + y_ * p_) / std::hypot(X_, y_);
+  }
+  // de/ds [s/m]
+  Eigen::Matrix2d slope() const {
+    const double R = std::hypot(X_, y_);
+    if (R == 0) return Eigen::Matrix2d::Zero();
+    const double X_x = std::abs(x_) > slow_ ? std::copysign(1.0, x_) : 0;
+    return (y_ * d_ - X_ * p_) * (y_ * X_x * d_ - X_ * p_).transpose() / (R * R * R);
+  }
+
+ private:
+  Tangential d_, p_;
+  double x_, y_, slow_, X_;
+};
+
+}  // namespace trammel::model
