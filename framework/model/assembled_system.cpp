@@ -200,7 +200,7 @@ void AssembledSystem::add_rows_force(double c, const Vec& mu, Vec& r) {
 void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
   Work& w = *work_;
   w.evaluate_rows();
-  if (!w.factorise_mass(Work::at_point, true, w.for_motion()))
+  if (!w.factorise_mass(Work::at_point, true, w.rank_tolerance()))
     throw NotSolvable("the mass matrix is not positive definite");
   w.right_rows = w.gamma - 2 * s.alpha * w.g_dot - s.beta * s.beta * w.g;
   // Who asked looks for the component whose answer is not finite.
@@ -218,7 +218,7 @@ void AssembledSystem::factorise(Blend blend, const Vec& a, const Vec& lambda, Fa
   w.evaluate_rows();
   if (identity_only) return w.factorise_identity(store);
   if (!mass_only) return w.factorise_tangent(store, blend, a, lambda, with_friction);
-  if (!w.factorise_mass(store, with_friction, w.for_projection()))
+  if (!w.factorise_mass(store, with_friction, w.rank_tolerance()))
     throw NotSolvable("the mass matrix is not positive definite");
 }
 

@@ -82,8 +82,7 @@ struct AssembledSystem::Work {
                        double c, Mat& S);
   // Of rows, by what solves with them; after evaluate_rows.
   double violation() const { return g.size() ? g.lpNorm<Eigen::Infinity>() : 0; }
-  double for_motion() const { return numerics::rank_tolerance_of_motion(violation()); }
-  double for_projection() const { return numerics::rank_tolerance_of_projection(violation()); }
+  double rank_tolerance() const { return numerics::rank_tolerance_at(violation()); }
 
   void called(const std::string& component, const char* call) { site = {&component, call}; }
   void returned() { site.component = nullptr; }

@@ -56,9 +56,9 @@ void AssembledSystem::Work::factorise_identity(Store store) {
   kept[store].symmetric = true;
   kept[store].mass_factorised = false;
   if (blocks)
-    blocks->factorise_identity(blocks->kept[store], sizes.nc, for_projection());
+    blocks->factorise_identity(blocks->kept[store], sizes.nc, rank_tolerance());
   else
-    kept[store].mass.factorise(Mat::Identity(sizes.nv, sizes.nv), G, G, for_projection());
+    kept[store].mass.factorise(Mat::Identity(sizes.nv, sizes.nv), G, G, rank_tolerance());
 }
 
 void AssembledSystem::Work::factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda,
@@ -73,7 +73,7 @@ void AssembledSystem::Work::factorise_tangent(Store store, Blend c, const Vec& a
   if (blocks)
     blocks->factorise_tangent(blocks->kept[store], sizes.nc, S, sliding);
   else
-    kept[store].iteration.factorise(sliding ? W : G, G, for_projection());
+    kept[store].iteration.factorise(sliding ? W : G, G, rank_tolerance());
 }
 
 bool AssembledSystem::Work::solve(Store store, const Vec& b, const Vec& c, Vec& x, Vec& y) {

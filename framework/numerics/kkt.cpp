@@ -21,11 +21,8 @@ bool pivots_are_safe(const Cholesky& factors, const Mat& matrix, double toleranc
 
 }  // namespace
 
-double rank_tolerance_of_projection(double violation) {
+double rank_tolerance_at(double violation) {
   return std::clamp(10 * violation, 1e-7, 1e-2);
-}
-double rank_tolerance_of_motion(double violation) {
-  return rank_tolerance_of_projection(std::sqrt(violation));
 }
 
 bool MassKkt::factorise(const Mat& M, const Mat& G, const Mat& W, double rank_tolerance) {

@@ -26,18 +26,18 @@ namespace trammel::numerics {
 
 // Below which sine of the angle to the others a row counts as dependent on them, for rows that are off by `violation` (max norm
 // of g, of lengths of order one). Redundant rows are dependent only where they hold: otherwise they part by the violation, and
-// must not pass for new ones. For accelerations there is more: where branches of motion cross, rows part by the distance from the
-// crossing, and the violation shifts the state by itself over that distance; nearer than its root they tell nothing of the branch.
-double rank_tolerance_of_projection(double violation);
-double rank_tolerance_of_motion(double violation);
+// must not pass for new ones. Not more than ten times that: a long chain's own rows are dependent but for n^-2. (Where branches of
+// motion cross, rows part by the distance from the crossing, over which a violation shifts the state by itself; slopes on the rows
+// pass there, RungeKutta::Rows.)
+double rank_tolerance_at(double violation);
 
 class MassKkt {
  public:
   // False: M is not positive definite. `G` may have no rows.
-  bool factorise(const Mat& M, const Mat& G, const Mat& W, double rank_tolerance = rank_tolerance_of_projection(0));
+  bool factorise(const Mat& M, const Mat& G, const Mat& W, double rank_tolerance = rank_tolerance_at(0));
   bool factorise(const Mat& M, const Mat& G) { return factorise(M, G, G); }
   // Keeps the factors of M, takes new rows. W may be the same object as G.
-  void change_rows(const Mat& G, const Mat& W, double rank_tolerance = rank_tolerance_of_projection(0));
+  void change_rows(const Mat& G, const Mat& W, double rank_tolerance = rank_tolerance_at(0));
   void change_rows(const Mat& G) { change_rows(G, G); }
   void solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
   bool redundant() const { return redundant_; }
@@ -62,7 +62,7 @@ class IterationKkt {
  public:
   // The caller fills S() (nv x nv, zero on entry) after `begin` and then calls `factorise`.
   Mat& begin(Eigen::Index nv, Eigen::Index nc);
-  void factorise(const Mat& W, const Mat& G, double rank_tolerance = rank_tolerance_of_projection(0));
+  void factorise(const Mat& W, const Mat& G, double rank_tolerance = rank_tolerance_at(0));
   // False: not solvable (singular beyond redundant rows), or not finite.
   [[nodiscard]] bool solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
 

@@ -53,7 +53,7 @@ class AtState {
     const Mat Gt = transposed_rows(n_, [&](const Vec& e, Vec& r) { system_.add_rows_force(1, e, r); });
     const Mat Wt = transposed_rows(n_, [&](const Vec& e, Vec& r) { system_.add_reaction(1, e, r); });
     const double violation = n_.nc > 0 ? system_.g().lpNorm<Eigen::Infinity>() : 0;
-    const double tolerance = numerics::rank_tolerance_of_projection(violation);
+    const double tolerance = numerics::rank_tolerance_at(violation);
     l.Z = complement(Gt, tolerance);
     l.redundant = n_.nc - int(n_.nv - l.Z.cols());
     const bool sliding = Gt != Wt;

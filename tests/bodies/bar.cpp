@@ -39,9 +39,9 @@ TEST(Bar, SwingsAlikeWithAnImplicitMethodAndOwnRowsInItsIteration) {
                                   {{"integrator", R"({"type": "hht_alpha", "alpha": 0, "step": 1e-3})"}});
   ASSERT_TRUE(alpha.done()) << alpha.report.reason;
   EXPECT_NEAR(alpha.end("angle"), exact.end("angle"), 2e-5);  // second order: the phase of 6 rad/s over 2 s
-  // Newton's method with the exact tangent: 2 iterations and a check.
+  // Newton's method with the exact tangent: as many iterations as a rigid body takes, 6 with those of the velocity rows, or one more.
   const auto& counts = alpha.result["counts"];
-  EXPECT_LT(counts["newton_iterations"].get<double>(), 4.5 * counts["steps"].get<double>());
+  EXPECT_LT(counts["newton_iterations"].get<double>(), 7 * counts["steps"].get<double>());
 }
 
 TEST(Bar, MovesItsEndsOntoALengthThatDiffersWhenAsked) {

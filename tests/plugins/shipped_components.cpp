@@ -128,7 +128,7 @@ const std::vector<Shipped>& forces() {
       {"spring_damper", "damper", R"({"type": "spring_damper", "damping": 3})"},
       {"spring_damper", "spatial", R"({"type": "spring_damper", "stiffness": 40, "damping": 3, "length": 0.7})",
        Space::spatial},
-      {"hinge_spring", "", R"({"type": "hinge_spring", "stiffness": 2, "arms": [1.4, 1.7]})"},
+      {"hinge_spring", "", R"({"type": "hinge_spring", "stiffness": 2, "arms": [1.65, 1.7]})"},
       {"hinge_spring", "spatial", R"({"type": "hinge_spring", "stiffness": 2, "arms": 1.9})", Space::spatial},
       {"torsional_spring", "", R"({"type": "torsional_spring", "stiffness": 12, "damping": 0.8, "angle": 0.4})"},
       {"torsional_spring", "spatial",

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "run_in_pieces.hpp"
 #include "run_scene.hpp"
 
 namespace trammel::test {
@@ -397,6 +398,20 @@ TEST(InThePlaneAndInSpace, AShakenBlockDoesTheSame) {
     }
     EXPECT_NEAR(run.end("x") * std::cos(angle) + run.end("y") * std::sin(angle), planar.end("x"), 1e-9) << angle;
     EXPECT_NEAR(-run.end("x") * std::sin(angle) + run.end("y") * std::cos(angle), 0, 1e-9) << angle;
+  }
+}
+
+// Cut after every third step, while it slides, turns, and rolls on a floor that turns.
+TEST(InSpace, AResumedRunEndsWithTheSameBytes) {
+  for (const char* integrator :
+       {R"({"type": "dop853", "step": {"tolerance": 1e-9}})", R"({"type": "hht_alpha", "step": 5e-3})"}) {
+    const scene::Scene ball = scene::Scene::load(TRAMMEL_SOURCE_DIR "/scenes/friction/billiard_ball.json",
+                                                 {{"parameters.Omega", "2"}, {"integrator", integrator}});
+    const Logs whole = run_in_pieces(ball, 1LL << 60), pieces = run_in_pieces(ball, 3);
+    EXPECT_NE(whole.events.find("stick"), std::string::npos);
+    EXPECT_TRUE(pieces.series == whole.series) << integrator;
+    EXPECT_TRUE(pieces.events == whole.events) << integrator;
+    EXPECT_EQ(nlohmann::json::diff(whole.data, pieces.data).dump(), "[]") << integrator;
   }
 }
 

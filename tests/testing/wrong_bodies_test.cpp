@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(BodyChecks, RefuseWrongRowsOfItsOwn) {
   EXPECT_TRUE(refusals_of(CircleDefect::rows_resized).contains("OwnRowsHaveTheirSizes"));
   EXPECT_EQ(refusals_of(CircleDefect::gradient_of_twice_the_row),
-            (Names{"OwnJacobianIsTheGradient", "OwnRatesAreThoseOfThePath"}));
+            (Names{"OwnJacobianIsTheGradient", "OwnRatesAreThoseOfThePath", "OwnReactionDerivativeIsExact"}));
   EXPECT_EQ(refusals_of(CircleDefect::no_time_derivative), Names{"OwnRatesAreThoseOfThePath"});
   EXPECT_EQ(refusals_of(CircleDefect::gamma_of_wrong_sign), Names{"OwnRatesAreThoseOfThePath"});
   EXPECT_EQ(refusals_of(CircleDefect::no_reaction_derivative), Names{"OwnReactionDerivativeIsExact"});
