@@ -44,8 +44,9 @@ METHODS = {
     "coordinates, velocities, energy": mast(levels(position=NORM, velocity=NORM, energy=True)),
     "the same, weighted by mass, energy": mast(levels(position=MASS, velocity=MASS, energy=True)),
 }
-LOCKS = {(c, h): run("truss/S1c", corrections=levels(position=NORM, velocity=NORM, energy=c), integrator__step=h)
-         for c in (False, True) for h in (8e-3, 4e-3, 2e-3)}
+LOCKS = {(c, h): run("truss/S1c", corrections=levels(position=NORM, velocity=NORM, energy=c), integrator__step=h,
+                     record__every=2)  # records would shorten the steps
+         for c in (False, True) for h in (16e-3, 8e-3, 4e-3)}
 
 
 # What is read off a run -----------------------------------------------------------------------------------------------------
@@ -111,7 +112,7 @@ def methods_table(results):
 
 def lock_table(results):
     rows = [["step [ms]", "coordinates, velocities", "and energy"]]
-    for h in (8e-3, 4e-3, 2e-3):
+    for h in (16e-3, 8e-3, 4e-3):
         rows.append([f"{h * 1e3:g}", *(s(lock_error(results[LOCKS[c, h]])) + " s" for c in (False, True))])
     return rows
 
@@ -157,6 +158,6 @@ CLAIMS = [
     Claim("The lock is found with the method's fourth order", "not in the paper", "events are located by repeating the step",
           list(LOCKS.values()), lambda results: yes_if(
               all(abs(np.log2(lock_error(results[LOCKS[False, a]]) / lock_error(results[LOCKS[False, b]])) - 4) < 0.2
-                  for a, b in ((8e-3, 4e-3), (4e-3, 2e-3))),
-              ", ".join(s(lock_error(results[LOCKS[False, h]])) + " s" for h in (8e-3, 4e-3, 2e-3)))),
+                  for a, b in ((16e-3, 8e-3), (8e-3, 4e-3))),
+              ", ".join(s(lock_error(results[LOCKS[False, h]])) + " s" for h in (16e-3, 8e-3, 4e-3)))),
 ]
