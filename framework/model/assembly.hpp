@@ -147,4 +147,7 @@ class MarkerWrenches {
 void add_wrench_tangent(MarkerChain& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
                         const MarkerWrenches& wrenches, double c_k, double c_d, Mat& S);
 
+// The wrench of a contact on one of its markers, whose rows are H: `normal` along its normal, `friction` along its tangents.
+Wrench pressed_by(const Mat6& H, double normal, const Tangential& friction);
+
 }  // namespace trammel::model
