@@ -19,6 +19,23 @@ bool pivots_are_safe(const Cholesky& factors, const Mat& matrix, double toleranc
   return true;
 }
 
+// A basis of what G reaches, nc x rank. The rank is that of the rows at length one, whose pivots are sines of angles to the rows
+// before: masses and units, and the lengths of rows near a singular position, must not make independent rows look alike.
+Mat range_of(const Mat& G, double tolerance) {
+  const Vec lengths = G.rowwise().norm();
+  Mat unit = G;
+  for (Eigen::Index i = 0; i < G.rows(); ++i)
+    if (lengths[i] > 0) unit.row(i) /= lengths[i];
+  Eigen::ColPivHouseholderQR<Mat> qr(G.rows(), G.cols());
+  qr.setThreshold(tolerance);
+  qr.compute(unit);
+  return lengths.asDiagonal() * (qr.householderQ() * Mat::Identity(G.rows(), qr.rank())).eval();
+}
+
+Mat orthonormal(const Mat& basis) {
+  return Eigen::HouseholderQR<Mat>(basis).householderQ() * Mat::Identity(basis.rows(), basis.cols());
+}
+
 }  // namespace
 
 double rank_tolerance_at(double violation) {
@@ -42,19 +59,14 @@ void MassKkt::change_rows(const Mat& G, const Mat& W, double rank_tolerance) {
   if (coupled_) return complement(W, rank_tolerance);
   schur_.noalias() = B_.transpose() * B_;
   redundant_ = !schur_cholesky_.compute(schur_) || !pivots_are_safe(schur_cholesky_, schur_, rank_tolerance);
-  if (redundant_) merge_rows(rank_tolerance);
+  if (redundant_) merge_rows(G, rank_tolerance);
 }
 
 // A decomposition with pivoting alone would leave U uncertain by what the rows part by, differently from call to call: then
 // the accelerations were no smooth function of the state, and a Runge-Kutta method of second order. A step of the power
 // method, with the square of that, takes it to round-off.
-void MassKkt::merge_rows(double rank_tolerance) {
-  const auto nc = B_.cols();
-  Eigen::ColPivHouseholderQR<Mat> rank(nc, B_.rows());
-  rank.setThreshold(rank_tolerance);
-  rank.compute(B_.transpose());
-  const Mat range = schur_ * (rank.householderQ() * Mat::Identity(nc, rank.rank())).eval();
-  merged_ = Eigen::HouseholderQR<Mat>(range).householderQ() * Mat::Identity(nc, rank.rank());
+void MassKkt::merge_rows(const Mat& G, double rank_tolerance) {
+  merged_ = orthonormal(schur_ * range_of(G, rank_tolerance));
   cod_.setThreshold(Eigen::Default);
   cod_.compute(B_ * merged_);
 }
@@ -148,20 +160,12 @@ void IterationKkt::factorise(const Mat& W, const Mat& G, double rank_tolerance) 
   }
 }
 
-// The rank of the rows at length one: then pivots are sines of the angle to other rows. False: they are independent.
+// False: they are independent.
 bool IterationKkt::merge_rows(const Mat& W, const Mat& G, double rank_tolerance) {
-  const auto nc = G.rows();
-  const Vec lengths = G.rowwise().norm();
-  Mat unit = G;
-  for (Eigen::Index i = 0; i < nc; ++i)
-    if (lengths[i] > 0) unit.row(i) /= lengths[i];
-  Eigen::ColPivHouseholderQR<Mat> qr(nc, nv_);
-  qr.setThreshold(rank_tolerance);
-  qr.compute(unit);
-  const auto rank = qr.rank();
-  if (rank == nc) return false;
-  const Mat range = lengths.asDiagonal() * (qr.householderQ() * Mat::Identity(nc, rank)).eval();
-  merged_ = Eigen::HouseholderQR<Mat>(range).householderQ() * Mat::Identity(nc, rank);
+  const Mat range = range_of(G, rank_tolerance);
+  const auto rank = range.cols();
+  if (rank == G.rows()) return false;
+  merged_ = orthonormal(range);
   Mat small = Mat::Zero(nv_ + rank, nv_ + rank);
   small.topLeftCorner(nv_, nv_) = full_.topLeftCorner(nv_, nv_);
   small.topRightCorner(nv_, rank) = W.transpose() * merged_;

@@ -44,7 +44,7 @@ class MassKkt {
 
  private:
   void complement(const Mat& W, double rank_tolerance);
-  void merge_rows(double rank_tolerance);
+  void merge_rows(const Mat& G, double rank_tolerance);
 
   Cholesky mass_;
   Mat B_;       // L^-1 G^T (nv x nc)

@@ -84,6 +84,14 @@ TEST(MassKkt, SaysWhetherRowsAreRedundant) {
   EXPECT_TRUE(kkt.redundant());
 }
 
+// Dropped, the second row would miss its 0.7 whole; kept, it is met to round-off over the sine.
+TEST(MassKkt, KeepsARowThatIsNearlyDependentBesideALongOne) {
+  const double sine = 5 * rank_tolerance_at(0);
+  const Mat rows{{1, 0, 0}, {1, sine, 0}, {0, 0, 100}};
+  const Solution s = by_mass(M, rows, b, Vec(rows * Eigen::Vector3d(0.2, 0.7, -1)));
+  EXPECT_NEAR(s.x(1), 0.7, 1e-14 / sine);
+}
+
 TEST(MassKkt, TakesNewRowsWithTheSameMass) {
   MassKkt kkt;
   ASSERT_TRUE(kkt.factorise(M, G));
