@@ -5,8 +5,6 @@
 // "evaluation": M, f, the joints' rows and the solution at a point that is new each time. "run": from the scene's start to its end with
 // events, ledger and records, without reading the scene; columns: 10 over the exponent of the tolerance, counters: evaluations, steps.
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "records_folder.hpp"
 #include "simulate/setup.hpp"
 #include "simulate/simulator.hpp"
 
@@ -39,19 +38,6 @@ void evaluations(benchmark::State& report, const std::string& name) {
   }
 }
 
-// A folder of its own for the records, removed at the end.
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "trammel_mechanism_XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder: " + name);
-    path = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-};
-
 void whole_run(benchmark::State& report, const std::string& name, const std::string& integrator) {
   plugin::Registry registry;
   const double tolerance = std::pow(10.0, -double(report.range(0)) / 10);
@@ -61,7 +47,7 @@ void whole_run(benchmark::State& report, const std::string& name, const std::str
   for (auto _ : report) {
     report.PauseTiming();
     const simulate::Setup setup = simulate::set_up(scene, registry);
-    const Folder folder;
+    const RecordsFolder folder;
     simulate::Recorder recorder(folder.path, *setup.model, setup.columns, {});
     simulate::Simulator simulator(setup.model, *setup.integrator, setup.settings, {});
     report.ResumeTiming();

@@ -4,8 +4,6 @@
 //
 // The beam swings from 45 degrees by HHT-alpha in steps of 1e-6 s. "no contact": a scene without contacts. "plane far
 // below": with one that never closes, so that the difference is what looking for contact costs. Columns: modes.
-#include <cstdlib>
-#include <filesystem>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -14,6 +12,7 @@
 
 #include "allocations.hpp"
 #include "beam_scene.hpp"
+#include "records_folder.hpp"
 #include "simulate/setup.hpp"
 #include "simulate/simulator.hpp"
 
@@ -25,26 +24,13 @@ struct Case {
   bool plane;
 };
 
-// A folder of its own for the records, removed at the end.
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "trammel_run_step_XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder: " + name);
-    path = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-};
-
 void steps(benchmark::State& report, const Case& c) {
   BeamScene scene{.modes = int(report.range(0)), .coupling = c.coupling};
   scene.angle = EIGEN_PI / 4;
   if (c.plane) scene.plane = -10;
   plugin::Registry registry;
   const simulate::Setup setup = simulate::set_up(scene.parse(), registry);
-  const Folder folder;
+  const RecordsFolder folder;
   simulate::Recorder recorder(folder.path, *setup.model, setup.columns, {});
   simulate::Simulator simulator(setup.model, *setup.integrator, setup.settings, {});
   simulator.start(setup.initial);
