@@ -1,8 +1,9 @@
 // The two inner loops of the beam: linear combinations of rows, and products of rows with a vector.
 //
-// Row j is rows[j]: at even distances (Rows) or anywhere (ScatteredRows). Lengths n are multiples of 4 (rows are padded with zeros), so each loop works on packs of
-// four numbers with several sums in flight, which a compiler may not arrange by itself without reordering everything else.
-// Lengths and numbers of rows are int, or Fixed where they are known when compiling: then the loops leave no trace.
+// Row j is rows[j]: at even distances (Rows) or anywhere (ScatteredRows). Lengths n are multiples of 4 (rows are padded with
+// zeros), so each loop works on packs of four numbers with several sums in flight, which a compiler may not arrange by itself
+// without reordering everything else. Lengths and numbers of rows are int, or Fixed where they are known when compiling: then
+// the loops leave no trace.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +12,16 @@
 
 namespace trammel::beam {
 
+template <int n>
+using Fixed = std::integral_constant<int, n>;
+
 inline constexpr int pack = 4;
 constexpr int padded(int n) {
   return (n + pack - 1) / pack * pack;
+}
+template <int n>
+constexpr Fixed<padded(n)> padded(Fixed<n>) {
+  return {};
 }
 
 struct Rows {
@@ -26,9 +34,6 @@ struct ScatteredRows {
   const std::ptrdiff_t* offsets;
   const double* operator[](int j) const { return first + offsets[j]; }
 };
-
-template <int n>
-using Fixed = std::integral_constant<int, n>;
 
 namespace detail {
 
