@@ -18,13 +18,17 @@ void AssumedModeBeam::foreshorten(const Sizes& s, const double* b, double* rows)
 
 template <class Sizes>
 void AssumedModeBeam::bending_square(const Sizes& s, const double* b, double* y) const {
-  double by[most_modes * (most_modes + 1) / 2];
+  if (s.size == 0) {
+    std::fill_n(y, int(s.row), 0.0);
+    return;
+  }
+  double by[triangle(most_modes)];
   int m = 0;
-  for (int i = 0; i < s.N && s.size > 0; ++i) {
+  for (int i = 0; i < s.N; ++i) {
     for (int j = 0; j < i; ++j) by[m++] = 2 * b[i] * b[j];
     by[m++] = b[i] * b[i];
   }
-  combine(s.row, m, Rows{basis_->H(0), s.row}, by, y);
+  combine(s.row, triangle(s.N), Rows{basis_->H(0), s.row}, by, y);
 }
 
 template <class Sizes>

@@ -23,6 +23,13 @@ template <int n>
 constexpr Fixed<padded(n)> padded(Fixed<n>) {
   return {};
 }
+constexpr int triangle(int n) {
+  return n * (n + 1) / 2;
+}
+template <int n>
+constexpr Fixed<triangle(n)> triangle(Fixed<n>) {
+  return {};
+}
 
 struct Rows {
   const double* first;
