@@ -233,7 +233,7 @@ double ContactModes::step_limit(const State& state) {
       for (int row = 0; row <= system_.tangents(); ++row) directions.push_back({i, row});
   if (directions.empty()) return std::numeric_limits<double>::infinity();
   system_.move_to(state.t, state.q, state.v);
-  return 2 * std::numbers::pi / 3 / system_.highest_frequency(directions);
+  return 0.45 * 2 * std::numbers::pi / system_.highest_frequency(directions);
 }
 
 double ContactModes::friction_noise(int contact) {
