@@ -107,24 +107,27 @@ struct RigidMotion {
             .potential = -mass * gravity.dot(q.head<D>())};
   }
 
+  static void lay_out(Motion& motion) {
+    motion.x.resize(D), motion.R.resize(D, D), motion.V.resize(nv), motion.bias.resize(nv);
+    motion.dofs.resize(nv);
+    for (int i = 0; i < nv; ++i) motion.dofs[std::size_t(i)] = i;
+    motion.J.setIdentity(nv, nv);
+  }
+
   void motion(const Vector& r, In q, In v, Motion& motion) const {
     const auto R = rotation(q);
     const auto a = Turn::axes(R);
     const Vector rho = R * r;
     const typename Turn::Rate w = a * omega(v);
+    if (motion.J.cols() != nv || motion.x.size() != D) lay_out(motion);
     const Vector swept = Turn::cross(w, rho);
-    motion.x = q.head<D>() + rho;
-    motion.R = R;
+    motion.x.template head<D>() = q.head<D>() + rho;
+    motion.R.template topLeftCorner<D, D>() = R;
     if constexpr (D == 2) motion.angle = q(2);
-    motion.V.resize(nv);
-    motion.V << v.head<D>() + swept, w;
-    motion.bias.resize(nv);
-    motion.bias << Turn::cross(w, swept), Turn::Rate::Zero();
-    if (motion.J.cols() != nv) {
-      motion.dofs.resize(nv);
-      for (int i = 0; i < nv; ++i) motion.dofs[std::size_t(i)] = i;
-      motion.J.setIdentity(nv, nv);
-    }
+    motion.V.template head<D>() = v.head<D>() + swept;
+    motion.V.template segment<Turn::nv>(D) = w;
+    motion.bias.template head<D>() = Turn::cross(w, swept);
+    motion.bias.template segment<Turn::nv>(D).setZero();
     for (int j = 0; j < Turn::nv; ++j) motion.J.template block<D, 1>(0, D + j) = Turn::cross(a.col(j), rho);
     if constexpr (D == 3) motion.J.template bottomRightCorner<3, 3>() = a;
   }

@@ -139,50 +139,45 @@ void AssembledSystem::Work::evaluate_rows() {
     blocks->clear_rows();
   else
     G.setZero(sizes.nc, sizes.nv);
-  // Rows first .. first + n - 1 of r become rows `row` and on.
-  const auto place = [&](const Rows& r, const Slots& at, int row, Eigen::Index first, Eigen::Index n) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      double rate = r.g_t(first + i), free = r.gamma(first + i);
-      for (int marker = 0; marker < at.count; ++marker) {
-        const Motion& m = motion(at[marker]);
-        const Mat6& H = r.H(marker);
-        for (Eigen::Index k = 0; k < m.V.size(); ++k) {
-          rate += H(first + i, k) * m.V(k);
-          free -= H(first + i, k) * m.bias(k);
-        }
-      }
-      g(row + i) = r.g(first + i);
-      g_dot(row + i) = rate;
-      gamma(row + i) = free;
-    }
-    for (int marker = 0; marker < at.count; ++marker) {
-      const Mat6 H = r.H(marker).middleRows(first, n);
-      add_rows(at[marker], row, H);
-    }
-  };
   for (const BodyEntry& entry : model->bodies)
     if (entry.rows > 0) evaluate_own_rows(entry);
   for (std::size_t i = 0; i < joint_slots.size(); ++i) {
     const JointEntry& entry = model->joints[i];
     called(entry.name, "rows");
     evaluate_constraint(*entry.joint, joint_slots[i], rows);
-    place(rows, joint_slots[i], entry.row, 0, entry.rows);
+    place_rows(rows, joint_slots[i], 0, entry.rows, entry.row);
   }
   coupled = false;
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
     if (const int row = contact_row[i]; row >= 0) {
-      place(contact(int(i)), contact_slots[i], row, 0, 1);
+      place_rows(contact(int(i)), contact_slots[i], 0, 1, row);
       g(row) -= modes.contacts[i].offset;
       coupled = coupled || friction_ratio(int(i)) != Tangential::Zero();
     }
     if (const int row = stick_row[i]; row >= 0) {
-      place(contact(int(i)), contact_slots[i], row, 1, tangents());
+      place_rows(contact(int(i)), contact_slots[i], 1, tangents(), row);
       g.segment(row, tangents()) = displacement(int(i)).head(tangents());
     }
   }
   if (coupled) couple_reactions();
   returned();
   rows_fresh = true;
+}
+
+void AssembledSystem::Work::place_rows(const Rows& r, const Slots& at, Eigen::Index first, Eigen::Index n, int row) {
+  for (Eigen::Index i = 0; i < n; ++i) {
+    g(row + i) = r.g(first + i);
+    g_dot(row + i) = r.g_t(first + i);
+    gamma(row + i) = r.gamma(first + i);
+  }
+  for (int k = 0; k < at.count; ++k) {
+    const Motion& m = motion(at[k]);
+    add_motion({r.H(k), first, n}, m, g_dot.data() + row, gamma.data() + row);
+    if (blocks)
+      blocks->add_rows(chain.body(at[k]), row, m, {r.H(k), first, n});
+    else
+      chain.add_rows(at[k], row, {r.H(k), first, n}, G);
+  }
 }
 
 void AssembledSystem::Work::evaluate_own_rows(const BodyEntry& entry) {
@@ -211,20 +206,13 @@ void AssembledSystem::Work::add_row_force(const Slots& at, const Rows& r, int ro
   for (int k = 0; k < at.count; ++k) chain.add_wrench(at[k], r.H(k).row(row).transpose(), c, sum);
 }
 
-void AssembledSystem::Work::add_rows(int slot, int row, const Mat6& H) {
-  if (blocks)
-    blocks->add_rows(chain.body(slot), row, motion(slot), H);
-  else
-    chain.add_rows(slot, row, H, G);
-}
-
 // W: where a contact slides, the friction beside the force of its row.
 void AssembledSystem::Work::couple_reactions() {
   const auto add_friction = [this](int slot, int row, const Mat6& H) {
     if (blocks)
-      blocks->add_reaction(chain.body(slot), row, motion(slot), H);
+      blocks->add_reaction(chain.body(slot), row, motion(slot), {H, 0, H.rows()});
     else
-      chain.add_rows(slot, row, H, W);
+      chain.add_rows(slot, row, {H, 0, H.rows()}, W);
   };
   if (blocks)
     blocks->couple();

@@ -26,6 +26,7 @@ struct AssembledSystem::Work {
   struct ContactRows {
     long long point = -1;
     Rows rows;
+    Vec6 rate, free;  // of each: g_dot, and gamma less the markers' bias
   };
   // The kept factorisations: those of System::Factors, and that of the point's accelerations.
   enum Store : std::size_t { iteration, projection, at_point };
@@ -52,10 +53,12 @@ struct AssembledSystem::Work {
   void evaluate_rows();  // g, g_dot, gamma, G, W
   void evaluate_own_rows(const BodyEntry& entry);
   void evaluate_constraint(const Constraint& constraint, const Slots& at, Rows& into);  // sized and filled
-  void add_rows(int slot, int row, const Mat6& H);
+  // Rows first .. first + n - 1 of r become rows `row` and on of g, g_dot, gamma and G.
+  void place_rows(const Rows& r, const Slots& at, Eigen::Index first, Eigen::Index n, int row);
   void add_row_force(const Slots& at, const Rows& r, int row, double c, Vec& f) const;  // f += c J^T H^T
   void couple_reactions();
   const Rows& contact(int i);
+  void evaluate_contact(int i, ContactRows& into);
   SurfaceContact& surface(std::size_t i);  // at this point, of a contact that has one
   double contact_rate(int i, int row);
   double contact_acceleration(int i, int row, const Vec& a);

@@ -51,16 +51,16 @@ void BodyBlocks::clear_rows() {
 
 namespace {
 
-void add(const BodyBlock& block, int row, const Motion& marker, const Mat6& H, Mat& transposed) {
+void add(const BodyBlock& block, int row, const Motion& marker, const RowsOf& H, Mat& transposed) {
   const auto column = std::lower_bound(block.rows.begin(), block.rows.end(), row) - block.rows.begin();
-  for (Eigen::Index j = 0; j < marker.J.cols(); ++j)
-    for (Eigen::Index i = 0; i < H.rows(); ++i)
-      transposed(marker.dofs[std::size_t(j)], column + i) += H.row(i).dot(marker.J.col(j));
+  for_each_product(H, marker.J, [&](Eigen::Index i, Eigen::Index j, double sum) {
+    transposed(marker.dofs[std::size_t(j)], column + i) += sum;
+  });
 }
 
 }  // namespace
 
-void BodyBlocks::add_rows(int body, int row, const Motion& marker, const Mat6& H) {
+void BodyBlocks::add_rows(int body, int row, const Motion& marker, const RowsOf& H) {
   if (body < 0) return;
   BodyBlock& block = bodies_[std::size_t(body)];
   add(block, row, marker, H, block.Gt);
@@ -76,7 +76,7 @@ void BodyBlocks::couple() {
   for (BodyBlock& block : bodies_) block.Wt = block.Gt;
 }
 
-void BodyBlocks::add_reaction(int body, int row, const Motion& marker, const Mat6& H) {
+void BodyBlocks::add_reaction(int body, int row, const Motion& marker, const RowsOf& H) {
   if (body < 0) return;
   BodyBlock& block = bodies_[std::size_t(body)];
   add(block, row, marker, H, block.Wt);

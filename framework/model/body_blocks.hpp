@@ -9,6 +9,7 @@
 #include <trammel/system.hpp>
 
 #include "model/model.hpp"
+#include "model/twist_rows.hpp"
 #include "numerics/kkt.hpp"
 #include "numerics/sparse_kkt.hpp"
 
@@ -31,10 +32,10 @@ class BodyBlocks {
   std::vector<numerics::BodyBlock>& bodies() { return bodies_; }
   Mat& mass(std::size_t body) { return bodies_[body].M; }
   void clear_rows();
-  void add_rows(int body, int row, const Motion& marker, const Mat6& H);  // G += H J; row: the first of H's
-  void add_own_rows(std::size_t body, int row, const Mat& G);             // of a body alone
-  void couple();                                                          // W = G, for more to be added to W:
-  void add_reaction(int body, int row, const Motion& marker, const Mat6& H);
+  void add_rows(int body, int row, const Motion& marker, const RowsOf& H);  // G(row + i, :) += (H J)_i
+  void add_own_rows(std::size_t body, int row, const Mat& G);               // of a body alone
+  void couple();                                                            // W = G, for more to be added to W:
+  void add_reaction(int body, int row, const Motion& marker, const RowsOf& H);
 
   // One kept factorisation, as AssembledSystem's: of M or the identity with W = G, or of any S and W. Redundant rows with sliding
   // friction beside them are left to the dense one, which finds the least squares that the sparse LU cannot.

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <Eigen/Geometry>
 
 #include <trammel/body.hpp>
@@ -6,12 +8,15 @@
 
 namespace trammel {
 
+// All the room there is, whose size is known when compiling.
 void Rows::resize(int n, Space space, int markers) {
-  const int twist = twist_size(space);
-  g.setZero(n);
-  g_t.setZero(n);
-  gamma.setZero(n);
-  for (int k = 0; k < most_markers; ++k) H(k).setZero(k < markers ? n : 0, twist);
+  const auto clear = [](auto& x, auto... size) {
+    x.resize(size...);
+    std::fill_n(x.data(), std::decay_t<decltype(x)>::MaxSizeAtCompileTime, 0.0);
+  };
+  clear(g, n), clear(g_t, n), clear(gamma, n);
+  for (int k = 0; k < markers; ++k) clear(H(k), n, twist_size(space));
+  for (int k = markers; k < most_markers; ++k) H(k).resize(0, twist_size(space));
 }
 
 void BodyRows::resize(int n, int nv) {

@@ -6,38 +6,50 @@
 namespace trammel::model {
 
 Wrench pressed_by(const Mat6& H, double normal, const Tangential& friction) {
-  Wrench wrench = normal * H.row(0).transpose();
-  for (Eigen::Index k = 0; k + 1 < H.rows(); ++k)
-    if (friction[k] != 0) wrench += friction[k] * H.row(k + 1).transpose();
+  Wrench wrench(H.cols());
+  with_twist(H.cols(), [&](auto twist) {
+    for (int j = 0; j < twist; ++j) {
+      wrench(j) = normal * H(0, j);
+      for (Eigen::Index k = 0; k + 1 < H.rows(); ++k) wrench(j) += friction[k] * H(k + 1, j);
+    }
+  });
   return wrench;
 }
 
 const Rows& AssembledSystem::Work::contact(int i) {
   ContactRows& cache = contact_rows[std::size_t(i)];
   if (cache.point != point) {
-    const Slots& at = contact_slots[std::size_t(i)];
-    const int A = at.A, B = at.B;
-    called(model->contacts[std::size_t(i)].name, "motion");
-    const ContactEntry& entry = model->contacts[std::size_t(i)];
-    const bool tangents = entry.friction != nullptr;
-    cache.rows.resize(tangents ? dimension(model->world.space) : 1, model->world.space);
-    if (entry.limit) {
-      evaluate_constraint(*entry.limit->joint, at, cache.rows);
-      if (const double side = entry.limit->side; side != 1) {
-        for (Vec6* each : {&cache.rows.g, &cache.rows.g_t, &cache.rows.gamma}) *each *= side;
-        for (int k = 0; k < at.count; ++k) cache.rows.H(k) *= side;
-      }
-    } else if (entry.surface) {
-      const double thick = model->bodies[std::size_t(entry.surface->body)].surface->half_thickness();
-      const Motion& sphere = motion(A);
-      surface_row(entry.geometry.radius + thick, sphere, chain.nearest(B, sphere.x, t, q, v), cache.rows);
-    } else {
-      model::contact_rows(entry.geometry, motion(A), motion(B), tangents, cache.rows);
-    }
-    returned();
+    evaluate_contact(i, cache);
     cache.point = point;
   }
   return cache.rows;
+}
+
+void AssembledSystem::Work::evaluate_contact(int i, ContactRows& cache) {
+  const Slots& at = contact_slots[std::size_t(i)];
+  const int A = at.A, B = at.B;
+  called(model->contacts[std::size_t(i)].name, "motion");
+  const ContactEntry& entry = model->contacts[std::size_t(i)];
+  const bool tangents = entry.friction != nullptr;
+  cache.rows.resize(tangents ? dimension(model->world.space) : 1, model->world.space);
+  if (entry.limit) {
+    evaluate_constraint(*entry.limit->joint, at, cache.rows);
+    if (const double side = entry.limit->side; side != 1) {
+      for (Vec6* each : {&cache.rows.g, &cache.rows.g_t, &cache.rows.gamma}) *each *= side;
+      for (int k = 0; k < at.count; ++k) cache.rows.H(k) *= side;
+    }
+  } else if (entry.surface) {
+    const double thick = model->bodies[std::size_t(entry.surface->body)].surface->half_thickness();
+    const Motion& sphere = motion(A);
+    surface_row(entry.geometry.radius + thick, sphere, chain.nearest(B, sphere.x, t, q, v), cache.rows);
+  } else {
+    model::contact_rows(entry.geometry, motion(A), motion(B), tangents, cache.rows);
+  }
+  returned();
+  cache.rate = cache.rows.g_t;
+  cache.free = cache.rows.gamma;
+  for (int k = 0; k < at.count; ++k)
+    add_motion({cache.rows.H(k), 0, cache.rate.size()}, motion(at[k]), cache.rate.data(), cache.free.data());
 }
 
 SurfaceContact& AssembledSystem::Work::surface(std::size_t i) {
@@ -52,11 +64,8 @@ SurfaceContact& AssembledSystem::Work::surface(std::size_t i) {
 }
 
 double AssembledSystem::Work::contact_rate(int i, int row) {
-  const Rows& r = contact(i);
-  const Slots& at = contact_slots[std::size_t(i)];
-  double rate = r.g_t(row);
-  for (int k = 0; k < at.count; ++k) rate += r.H(k).row(row).dot(motion(at[k]).V);
-  return rate;
+  contact(i);
+  return contact_rows[std::size_t(i)].rate(row);
 }
 
 Tangential AssembledSystem::Work::slip(int i) {

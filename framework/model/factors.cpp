@@ -1,5 +1,6 @@
 // The system's matrices at the point, times vectors and factorised: dense, or by BodyBlocks where bodies are many.
 #include "model/assembly.hpp"
+#include "numerics/few_rows.hpp"
 #include "numerics/packs.hpp"
 
 namespace trammel::model {
@@ -15,14 +16,14 @@ void AssembledSystem::Work::add_rows_times(double c, const Vec& x, Vec& rc) {
   if (blocks)
     numerics::add_rows_times(blocks->bodies(), c, x, rc);
   else
-    rc.noalias() += c * (G * x);
+    numerics::add_rows_product(c, G, x, rc);
 }
 
 void AssembledSystem::Work::add_rows_force(double c, const Vec& y, Vec& r) {
   if (blocks)
     numerics::add_rows_force(blocks->bodies(), c, y, r);
   else
-    r.noalias() += c * (G.transpose() * y);
+    numerics::add_transposed_product(c, G, y, r);
 }
 
 void AssembledSystem::Work::add_reaction(double c, const Vec& y, Vec& r) {
@@ -31,7 +32,7 @@ void AssembledSystem::Work::add_reaction(double c, const Vec& y, Vec& r) {
   else if (blocks)
     numerics::add_reaction(blocks->bodies(), c, y, r);
   else
-    r.noalias() += c * (W.transpose() * y);
+    numerics::add_transposed_product(c, W, y, r);
 }
 
 bool AssembledSystem::Work::factorise_mass(Store store, bool with_friction, double rank_tolerance) {

@@ -10,9 +10,9 @@ MarkerChain::MarkerChain(const Model& model) : model_(model) {}
 
 int MarkerChain::slot(MarkerRef marker) {
   for (std::size_t i = 0; i < slots_.size(); ++i)
-    if (!slots_[i].surface && slots_[i].marker.body == marker.body && slots_[i].marker.marker == marker.marker)
+    if (!slots_[i]->surface && slots_[i]->marker.body == marker.body && slots_[i]->marker.marker == marker.marker)
       return int(i);
-  Slot slot;
+  Slot& slot = *slots_.emplace_back(std::make_unique<Slot>());
   slot.marker = marker;
   if (marker.body < 0) {
     const int n = twist_size(model_.world.space), dim = dimension(model_.world.space);
@@ -24,20 +24,18 @@ int MarkerChain::slot(MarkerRef marker) {
     slot.motion.bias.setZero(n);
     slot.motion.J.resize(n, 0);
   }
-  slots_.push_back(std::move(slot));
   return int(slots_.size()) - 1;
 }
 
 int MarkerChain::surface_slot(int body) {
-  Slot slot;
+  Slot& slot = *slots_.emplace_back(std::make_unique<Slot>());
   slot.marker.body = body;
   slot.surface = true;
-  slots_.push_back(std::move(slot));
   return int(slots_.size()) - 1;
 }
 
 const Motion& MarkerChain::nearest(int index, const Vec3& to, double t, const Vec& q, const Vec& v) {
-  Slot& slot = slots_[std::size_t(index)];
+  Slot& slot = *slots_[std::size_t(index)];
   if (slot.point == point_) return slot.motion;
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
   const auto q_body = q.segment(entry.q0, entry.nq);
@@ -56,7 +54,7 @@ void MarkerChain::evaluate(Slot& slot, double t, const Vec& q, const Vec& v) con
 }
 
 const Motion& MarkerChain::motion(int index, double t, const Vec& q, const Vec& v) {
-  Slot& slot = slots_[std::size_t(index)];
+  Slot& slot = *slots_[std::size_t(index)];
   if (slot.point != point_) {
     if (slot.marker.body >= 0) evaluate(slot, t, q, v);
     if (still_) slot.motion.V.setZero(), slot.motion.bias.setZero();
@@ -66,37 +64,34 @@ const Motion& MarkerChain::motion(int index, double t, const Vec& q, const Vec& 
 }
 
 void MarkerChain::add_wrench(int index, const Wrench& wrench, double c, Vec& f) const {
-  const Slot& slot = slots_[std::size_t(index)];
+  const Slot& slot = *slots_[std::size_t(index)];
   if (slot.marker.body < 0) return;
   const int v0 = model_.bodies[std::size_t(slot.marker.body)].v0;
-  const auto& dofs = slot.motion.dofs;
   const Jac& J = slot.motion.J;
-  const int twist = int(J.rows());
-  for (std::size_t j = 0; j < dofs.size(); ++j) {
-    double sum = 0;
-    for (int k = 0; k < twist; ++k) sum += J(k, Eigen::Index(j)) * wrench(k);
-    f(v0 + dofs[j]) += c * sum;
-  }
+  const Eigen::Index columns = J.cols();
+  with_twist(J.rows(), [&](auto twist) {
+    double w[twist];
+    for (int k = 0; k < twist; ++k) w[k] = c * wrench.data()[k];
+    for (Eigen::Index j = 0; j < columns; ++j) {
+      double sum = 0;
+      for (int k = 0; k < twist; ++k) sum += J.data()[k * columns + j] * w[k];
+      f(v0 + slot.motion.dofs[std::size_t(j)]) += sum;
+    }
+  });
 }
 
-void MarkerChain::add_rows(int index, int row, const Mat6& H, Mat& G) const {
-  const Slot& slot = slots_[std::size_t(index)];
+void MarkerChain::add_rows(int index, int row, const RowsOf& H, Mat& G) const {
+  const Slot& slot = *slots_[std::size_t(index)];
   if (slot.marker.body < 0) return;
   const int v0 = model_.bodies[std::size_t(slot.marker.body)].v0;
-  const auto& dofs = slot.motion.dofs;
-  const auto rows = H.rows(), twist = slot.motion.J.rows(), columns = slot.motion.J.cols();
-  const double *const h = H.data(), *const J = slot.motion.J.data();  // by columns; by rows
-  for (Eigen::Index j = 0; j < columns; ++j)
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      double sum = 0;
-      for (Eigen::Index k = 0; k < twist; ++k) sum += h[k * rows + i] * J[k * columns + j];
-      G(row + i, v0 + dofs[std::size_t(j)]) += sum;
-    }
+  for_each_product(H, slot.motion.J, [&](Eigen::Index i, Eigen::Index j, double sum) {
+    G(row + i, v0 + slot.motion.dofs[std::size_t(j)]) += sum;
+  });
 }
 
 void MarkerChain::add_pair(int index, int other, const Mat6& D, double c, Mat& S) const {
-  const Slot& a = slots_[std::size_t(index)];
-  const Slot& b = slots_[std::size_t(other)];
+  const Slot& a = *slots_[std::size_t(index)];
+  const Slot& b = *slots_[std::size_t(other)];
   if (a.marker.body < 0 || b.marker.body < 0) return;
   const int row0 = model_.bodies[std::size_t(a.marker.body)].v0;
   const int column0 = model_.bodies[std::size_t(b.marker.body)].v0;
@@ -108,7 +103,7 @@ void MarkerChain::add_pair(int index, int other, const Mat6& D, double c, Mat& S
 }
 
 void MarkerChain::add_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c, Mat& S) {
-  Slot& slot = slots_[std::size_t(index)];
+  Slot& slot = *slots_[std::size_t(index)];
   if (slot.marker.body < 0) return;
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
   if (!entry.reaction_derivative) return add_numeric_reaction_derivative(slot, t, q, F, c, S);

@@ -2,9 +2,11 @@
 // and rows at markers become entries of the system's vectors and matrices through its Jacobian.
 #pragma once
 
-#include <deque>
+#include <memory>
+#include <vector>
 
 #include "model/model.hpp"
+#include "model/twist_rows.hpp"
 
 namespace trammel::model {
 
@@ -17,21 +19,21 @@ class MarkerChain {
   // The point of a body's surface that is nearest to some other point; `nearest` finds it, once per point of the system.
   int surface_slot(int body);
   const Motion& nearest(int slot, const Vec3& to, double t, const Vec& q, const Vec& v);
-  bool on_surface(int slot) const { return slots_[std::size_t(slot)].surface; }
+  bool on_surface(int slot) const { return slots_[std::size_t(slot)]->surface; }
   int slots() const { return int(slots_.size()); }
   void new_point() { ++point_; }
   // Markers keep their places, and what a law of time gives them of velocity and acceleration counts as 0; for v = 0 only.
   void hold_still(bool still) { still_ = still, ++point_; }
   bool held_still() const { return still_; }
   const Motion& motion(int slot, double t, const Vec& q, const Vec& v);
-  const Motion& last_motion(int slot) const { return slots_[std::size_t(slot)].motion; }
+  const Motion& last_motion(int slot) const { return slots_[std::size_t(slot)]->motion; }
   int first_velocity(int slot) const { return model_.bodies[std::size_t(body(slot))].v0; }
-  int body(int slot) const { return slots_[std::size_t(slot)].marker.body; }  // -1: ground
+  int body(int slot) const { return slots_[std::size_t(slot)]->marker.body; }  // -1: ground
 
   // f += c J^T wrench
   void add_wrench(int slot, const Wrench& wrench, double c, Vec& f) const;
-  // G(row + i, :) += H(i, :) J
-  void add_rows(int slot, int row, const Mat6& H, Mat& G) const;
+  // G(row + i, :) += (H J)_i
+  void add_rows(int slot, int row, const RowsOf& H, Mat& G) const;
   // S(dofs, dofs') += c J^T D J' for a twist x twist matrix D between two slots
   void add_pair(int slot, int other, const Mat6& D, double c, Mat& S) const;
   // S += c d(J^T F)/dq of the marker's body
@@ -48,7 +50,7 @@ class MarkerChain {
   void add_numeric_reaction_derivative(Slot& slot, double t, const Vec& q, const Wrench& F, double c, Mat& S);
 
   const Model& model_;
-  std::deque<Slot> slots_;  // references to motions stay valid
+  std::vector<std::unique_ptr<Slot>> slots_;  // references to motions stay valid
   long long point_ = 0;
   bool still_ = false;
   Motion probe_;  // for the differences

@@ -31,16 +31,16 @@ double AssembledSystem::acceleration(ContactDirection d, const Vec& a) {
 
 double AssembledSystem::Work::contact_acceleration(int i, int row, const Vec& a) {
   const Rows& r = contact(i);
-  double sum = -r.gamma(row);
-  const auto add = [&](int slot, const auto& H) {
-    const Motion& m = motion(slot);
-    sum += H.dot(m.bias);
-    if (chain.body(slot) < 0) return;
-    const int v0 = model->bodies[std::size_t(chain.body(slot))].v0;
-    for (std::size_t j = 0; j < m.dofs.size(); ++j) sum += H.dot(m.J.col(Eigen::Index(j))) * a(v0 + m.dofs[j]);
-  };
+  double sum = -contact_rows[std::size_t(i)].free(row);
   const Slots& at = contact_slots[std::size_t(i)];
-  for (int k = 0; k < at.count; ++k) add(at[k], r.H(k).row(row));
+  for (int k = 0; k < at.count; ++k) {
+    if (chain.body(at[k]) < 0) continue;
+    const Motion& m = motion(at[k]);
+    const int v0 = chain.first_velocity(at[k]);
+    for_each_product({r.H(k), row, 1}, m.J, [&](Eigen::Index, Eigen::Index j, double along) {
+      sum += along * a(v0 + m.dofs[std::size_t(j)]);
+    });
+  }
   return sum;
 }
 

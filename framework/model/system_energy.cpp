@@ -35,14 +35,17 @@ namespace {
 // coordinates. What is left of V by round-off alone is no such motion.
 double power_of_law(const Motion& marker, const Vec& v, int v0, const Wrench& wrench) {
   double power = 0;
-  for (Eigen::Index i = 0; i < marker.V.size(); ++i) {
-    double V_t = marker.V(i), size = std::abs(V_t);
-    for (std::size_t j = 0; j < marker.dofs.size(); ++j) {
-      const double part = marker.J(i, Eigen::Index(j)) * v(v0 + marker.dofs[j]);
-      V_t -= part, size += std::abs(part);
+  const Eigen::Index columns = marker.J.cols();
+  with_twist(marker.V.size(), [&](auto twist) {
+    for (int i = 0; i < twist; ++i) {
+      double V_t = marker.V.data()[i], size = std::abs(V_t);
+      for (Eigen::Index j = 0; j < columns; ++j) {
+        const double part = marker.J.data()[i * columns + j] * v(v0 + marker.dofs[std::size_t(j)]);
+        V_t -= part, size += std::abs(part);
+      }
+      if (std::abs(V_t) > 1e-14 * size) power += wrench.data()[i] * V_t;
     }
-    if (std::abs(V_t) > 1e-14 * size) power += wrench(i) * V_t;
-  }
+  });
   return power;
 }
 
@@ -109,10 +112,7 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     sum.friction(Eigen::Index(i)) = -friction.dot(slip);
     const auto& at = w.contact_slots[i];
     for (int k = 0; k < at.count; ++k) {
-      Wrench wrench = normal * r.H(k).row(0).transpose();
-      for (int m = 0; m < w.tangents(); ++m)
-        if (friction[m] != 0) wrench += friction[m] * r.H(k).row(1 + m).transpose();
-      moved_by_law(at[k], wrench);
+      moved_by_law(at[k], pressed_by(r.H(k), normal, friction));
     }
   }
   if (w.sizes.nc > 0) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numerics/few_rows.hpp"
 #include "numerics/packs.hpp"
 
 namespace trammel::numerics {
@@ -98,8 +99,26 @@ void Cholesky::solve_lower(Eigen::Ref<Vec> x) {
   }
 }
 
-void Cholesky::solve_lower(Mat& X) {
-  for (Eigen::Index j = 0; j < X.cols(); ++j) solve_lower(X.col(j));
+// A column of X at a time, taken out of those after it. Bodies of few coordinates leave most of L zero.
+void Cholesky::solve_lower_of_rows(Mat& X) {
+  if (X.rows() == 0) return;
+  if (in_blocks()) return blocks_.matrixU().solveInPlace<Eigen::OnTheRight>(X);
+  const auto of_few = [&](auto m) {
+    for (Eigen::Index j = 0; j < n_; ++j) {
+      double known[m];
+      for (Eigen::Index i = 0; i < m; ++i) known[i] = X.data()[j * m + i];
+      for (Eigen::Index k = j + 1; k < n_; ++k)
+        if (const double l = L_(k, j); l != 0)
+          for (Eigen::Index i = 0; i < m; ++i) X.data()[k * m + i] -= l * known[i];
+      for (Eigen::Index i = 0; i < m; ++i) X.data()[j * m + i] = inverse_root_[j] * known[i];
+    }
+  };
+  if (with_few(X.rows(), of_few)) return;
+  for (Eigen::Index j = 0; j < n_; ++j) {
+    for (Eigen::Index k = j + 1; k < n_; ++k)
+      if (const double l = L_(k, j); l != 0) X.col(k) -= l * X.col(j);
+    X.col(j) *= inverse_root_[j];
+  }
 }
 
 void Cholesky::solve_transposed(Eigen::Ref<Vec> x) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "numerics/few_rows.hpp"
+
 namespace trammel::numerics {
 
 namespace {
@@ -51,13 +53,11 @@ bool MassKkt::factorise(const Mat& M, const Mat& G, const Mat& W, double rank_to
 void MassKkt::change_rows(const Mat& G, const Mat& W, double rank_tolerance) {
   redundant_ = false;
   coupled_ = &W != &G;
-  B_.resize(G.cols(), G.rows());
+  B_ = G;
   if (G.rows() == 0) return;
-  B_ = G.transpose();
-  mass_.solve_lower(B_);
-  schur_.resize(G.rows(), G.rows());
+  mass_.solve_lower_of_rows(B_);
   if (coupled_) return complement(W, rank_tolerance);
-  schur_.noalias() = B_.transpose() * B_;
+  multiply_rows(B_, B_, schur_);
   redundant_ = !schur_cholesky_.compute(schur_) || !pivots_are_safe(schur_cholesky_, schur_, rank_tolerance);
   if (redundant_) merge_rows(G, rank_tolerance);
 }
@@ -68,16 +68,16 @@ void MassKkt::change_rows(const Mat& G, const Mat& W, double rank_tolerance) {
 void MassKkt::merge_rows(const Mat& G, double rank_tolerance) {
   merged_ = orthonormal(schur_ * range_of(G, rank_tolerance));
   cod_.setThreshold(Eigen::Default);
-  cod_.compute(B_ * merged_);
+  cod_.compute(B_.transpose() * merged_);
 }
 
 // Its pivots are of the order of the squares of those sines too, and of its own round-off.
 void MassKkt::complement(const Mat& W, double rank_tolerance) {
   constexpr double round_off = 1e-10;
   const double dependent = rank_tolerance * rank_tolerance;
-  C_ = W.transpose();
-  mass_.solve_lower(C_);
-  schur_.noalias() = B_.transpose() * C_;
+  C_ = W;
+  mass_.solve_lower_of_rows(C_);
+  multiply_rows(B_, C_, schur_);
   schur_lu_.compute(schur_);
   for (Eigen::Index j = 0; j < schur_.cols(); ++j) {
     const double scale = schur_.col(j).cwiseAbs().maxCoeff();
@@ -88,29 +88,29 @@ void MassKkt::complement(const Mat& W, double rank_tolerance) {
   cod_.compute(schur_);
 }
 
-// x is z = L^T x before the last line:  z = L^-1 b - B y,  B^T z = c;  or with C for the first B.
+// x is z = L^T x before the last line:  z = L^-1 b - B^T y,  B z = c;  or with C for the first B.
 void MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   x = b;
-  y.resize(B_.cols());
-  if (B_.cols() == 0) return mass_.solve(x);
+  y.resize(B_.rows());
+  if (B_.rows() == 0) return mass_.solve(x);
   mass_.solve_lower(x);
   if (coupled_) {
     w_ = -c;
-    w_.noalias() += B_.transpose() * x;
+    add_rows_product(1, B_, x, w_);
     if (redundant_)
       y = cod_.solve(w_);
     else
       schur_lu_.solve(w_, y);
-    x.noalias() -= C_ * y;
+    add_transposed_product(-1, C_, y, x);
   } else if (redundant_) {
     const Vec particular = cod_.transpose().solve(merged_.transpose() * c);
     y = merged_ * cod_.solve(x - particular);
-    x.noalias() -= B_ * y;
+    add_transposed_product(-1, B_, y, x);
   } else {
     y = -c;
-    y.noalias() += B_.transpose() * x;
+    add_rows_product(1, B_, x, y);
     schur_cholesky_.solve(y);
-    x.noalias() -= B_ * y;
+    add_transposed_product(-1, B_, y, x);
   }
   mass_.solve_transposed(x);
 }

@@ -5,7 +5,7 @@
 //
 // Two factorisations, by what S is:
 //  - Mass: S = M symmetric positive definite. Cholesky of M and of the Schur complement G M^-1 G^T, whose pivots warn of
-//    redundant rows; those are solved by orthogonal decompositions of L^-1 G^T: x stays unique, and the condition number is
+//    redundant rows; those are solved by orthogonal decompositions of G L^-T: x stays unique, and the condition number is
 //    not squared. With W other than G (sliding friction) the complement G M^-1 W^T is factorised as it is, by LU, redundant
 //    or singular ones orthogonally.
 //  - Iteration: S any matrix. LU of the whole with row pivoting. If it is singular beyond redundant rows, the minimum-norm
@@ -47,9 +47,9 @@ class MassKkt {
   void merge_rows(const Mat& G, double rank_tolerance);
 
   Cholesky mass_;
-  Mat B_;       // L^-1 G^T (nv x nc)
-  Mat C_;       // L^-1 W^T, where W is not G
-  Mat schur_;   // B^T B or B^T C
+  Mat B_;       // G L^-T (nc x nv)
+  Mat C_;       // W L^-T, where W is not G
+  Mat schur_;   // B B^T or B C^T
   Mat merged_;  // U, nc x rank, while redundant
   Lu schur_lu_;
   Cholesky schur_cholesky_;

@@ -245,7 +245,6 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
     if (statistics_.smallest_step == 0 || h < statistics_.smallest_step) statistics_.smallest_step = h;
     statistics_.largest_step = std::max(statistics_.largest_step, h);
   }
-  if (corrections_.empty()) ledger_.step(now_, next_);
   if (system_.sizes().nc > 0) {
     system_.move_to(next_.t, next_.q, next_.v);
     statistics_.largest.raise_to(constraint_norms(system_, next_, scratch_));
@@ -253,6 +252,7 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
   if (location_.watches()) scale_.take_contacts(system_);
   statistics_.locating_steps = location_.steps_tried();
   if (location_.watches()) location_.accept(h, next_);
+  if (corrections_.empty()) ledger_.step(now_, next_);  // last: it leaves the system in the middle of the step
   std::swap(now_, next_);
 }
 

@@ -23,9 +23,9 @@ TEST_P(CholeskyOf, SplitsTheMatrixIntoEqualHalves) {
   numerics::Cholesky cholesky;
   ASSERT_TRUE(cholesky.compute(M));
   Mat half = M;
-  cholesky.solve_lower(half);
+  cholesky.solve_lower_of_rows(half);
   Mat whole = half.transpose();
-  cholesky.solve_lower(whole);
+  cholesky.solve_lower_of_rows(whole);
   EXPECT_LE((whole - Mat::Identity(GetParam(), GetParam())).lpNorm<Eigen::Infinity>(), 1e-14);
 }
 

@@ -34,8 +34,8 @@ class AxisAngle {
   }
 
   double rate(const Motion& A, const Motion& B) const {
-    const auto turns = A.V.size() - A.x.size();
-    return gradient(A, B).dot(B.V.tail(turns) - A.V.tail(turns));
+    if (planar(A)) return B.V(2) - A.V(2);
+    return gradient(A, B).dot(B.V.tail(3) - A.V.tail(3));
   }
 
   // d h/d(turn of B) in space, A at rest.
