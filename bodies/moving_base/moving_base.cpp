@@ -63,16 +63,11 @@ struct MovingBase : Body, Drawn {
     const Vector3d velocity = Vector3d(x.rate, y.rate, z.rate) + omega.cross(rho);
     const Vector3d acceleration =
         Vector3d(x.second, y.second, z.second) + alpha.cross(rho) + omega.cross(omega.cross(rho));
-    const int dim = dimension(space_), turns = rotations(space_);
-    motion.x = place.head(dim);
-    motion.R = R.topLeftCorner(dim, dim);
     motion.angle = phi.value;
-    motion.V.resize(dim + turns);
-    motion.V << velocity.head(dim), omega.tail(turns);
-    motion.bias.resize(dim + turns);
-    motion.bias << acceleration.head(dim), alpha.tail(turns);
-    motion.dofs.clear();
-    motion.J.resize(dim + turns, 0);
+    if (space_ == Space::planar)
+      tell<2>(place, R, velocity, omega, acceleration, alpha, motion);
+    else
+      tell<3>(place, R, velocity, omega, acceleration, alpha, motion);
   }
 
   // Spokes from the origin to each marker.
@@ -86,6 +81,21 @@ struct MovingBase : Body, Drawn {
   }
 
  private:
+  // What of it a scene in D dimensions sees; the plane turns about z.
+  template <int D>
+  static void tell(const Vector3d& place, const Matrix3d& R, const Vector3d& velocity, const Vector3d& omega,
+                   const Vector3d& acceleration, const Vector3d& alpha, Motion& motion) {
+    constexpr int turns = D == 2 ? 1 : 3, twist = D + turns;
+    motion.x.resize(D), motion.R.resize(D, D), motion.V.resize(twist), motion.bias.resize(twist);
+    motion.x.head<D>() = place.head<D>();
+    motion.R.topLeftCorner<D, D>() = R.topLeftCorner<D, D>();
+    motion.V.head<D>() = velocity.head<D>();
+    motion.V.tail<turns>() = omega.tail<turns>();
+    motion.bias.head<D>() = acceleration.head<D>();
+    motion.bias.tail<turns>() = alpha.tail<turns>();
+    motion.dofs.clear();
+    motion.J.resize(twist, 0);
+  }
   static Vector3d in_space(const Vec3& r) { return {r(0), r(1), r.size() == 3 ? r(2) : 0}; }
 
   Space space_ = Space::planar;

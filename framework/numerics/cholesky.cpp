@@ -8,8 +8,20 @@
 
 namespace trammel::numerics {
 
+namespace {
+
+bool is_diagonal(const Mat& M) {
+  for (Eigen::Index j = 0; j < M.cols(); ++j)
+    for (Eigen::Index i = j + 1; i < M.rows(); ++i)
+      if (M(i, j) != 0) return false;
+  return true;
+}
+
+}  // namespace
+
 bool Cholesky::compute(const Mat& M) {
   const Eigen::Index n = M.rows();
+  diagonal_ = is_diagonal(M);
   if (n > most_in_packs) {
     resize(0);
     return blocks_.compute(M).info() == Eigen::Success && blocks_.matrixLLT().diagonal().allFinite();  // NaN: "success"
@@ -83,6 +95,7 @@ bool Cholesky::factorise_by_columns() {
 // By columns. A known number is taken out before the loop runs over its place, too.
 void Cholesky::solve_lower(Eigen::Ref<Vec> x) {
   if (in_blocks()) return blocks_.matrixL().solveInPlace(x);
+  if (diagonal_) return void(x.array() *= inverse_root_.head(n_).array());
   if (of_few()) {
     FewNumbers y(n_, x.data());
     y.solve_lower(L_.data());
@@ -99,7 +112,7 @@ void Cholesky::solve_lower(Eigen::Ref<Vec> x) {
   }
 }
 
-// A column of X at a time, taken out of those after it. Bodies of few coordinates leave most of L zero.
+// A column of X at a time, taken out of those after it.
 void Cholesky::solve_lower_of_rows(Mat& X) {
   if (X.rows() == 0) return;
   if (in_blocks()) return blocks_.matrixU().solveInPlace<Eigen::OnTheRight>(X);
@@ -107,22 +120,21 @@ void Cholesky::solve_lower_of_rows(Mat& X) {
     for (Eigen::Index j = 0; j < n_; ++j) {
       double known[m];
       for (Eigen::Index i = 0; i < m; ++i) known[i] = X.data()[j * m + i];
-      for (Eigen::Index k = j + 1; k < n_; ++k)
-        if (const double l = L_(k, j); l != 0)
-          for (Eigen::Index i = 0; i < m; ++i) X.data()[k * m + i] -= l * known[i];
+      for (Eigen::Index k = diagonal_ ? n_ : j + 1; k < n_; ++k)
+        for (Eigen::Index i = 0; i < m; ++i) X.data()[k * m + i] -= L_(k, j) * known[i];
       for (Eigen::Index i = 0; i < m; ++i) X.data()[j * m + i] = inverse_root_[j] * known[i];
     }
   };
   if (with_few(X.rows(), of_few)) return;
   for (Eigen::Index j = 0; j < n_; ++j) {
-    for (Eigen::Index k = j + 1; k < n_; ++k)
-      if (const double l = L_(k, j); l != 0) X.col(k) -= l * X.col(j);
+    for (Eigen::Index k = diagonal_ ? n_ : j + 1; k < n_; ++k) X.col(k) -= L_(k, j) * X.col(j);
     X.col(j) *= inverse_root_[j];
   }
 }
 
 void Cholesky::solve_transposed(Eigen::Ref<Vec> x) {
   if (in_blocks()) return blocks_.matrixU().solveInPlace(x);
+  if (diagonal_) return void(x.array() *= inverse_root_.head(n_).array());
   if (of_few()) {
     FewNumbers y(n_, x.data());
     y.scale(inverse_root_.data());
@@ -139,7 +151,7 @@ void Cholesky::solve_transposed(Eigen::Ref<Vec> x) {
 }
 
 void Cholesky::solve(Eigen::Ref<Vec> x) {
-  if (of_few()) {
+  if (of_few() && !diagonal_) {
     FewNumbers y(n_, x.data());
     y.solve_lower(L_.data());
     y.scale(inverse_.data());

@@ -76,9 +76,9 @@ bool RungeKutta::onto_rows(System& s, double t, double settled) {
 }
 
 void RungeKutta::combine(const double* weights, int n, Vec& dq, Vec& dv) const {
-  dq.setZero(k_[0].q.size());
-  dv.setZero(k_[0].v.size());
-  for (int i = 0; i < n; ++i) {
+  dq = h_ * weights[0] * k_[0].q;
+  dv = h_ * weights[0] * k_[0].v;
+  for (int i = 1; i < n; ++i) {
     if (weights[i] == 0) continue;
     dq += h_ * weights[i] * k_[std::size_t(i)].q;
     dv += h_ * weights[i] * k_[std::size_t(i)].v;

@@ -157,8 +157,19 @@ void JetCode::branches(double t, std::vector<double>& way) const {
   run(t, &way);
 }
 
+namespace {
+
+// As it comes: to set all of it to 0 would cost more than most laws do.
+union Stack {
+  Stack() {}
+  std::array<Jet, JetCode::stack_size> jets;
+};
+
+}  // namespace
+
 Jet JetCode::run(double t, std::vector<double>* way) const {
-  std::array<Jet, stack_size> stack;
+  Stack room;
+  auto& stack = room.jets;
   std::size_t top = 0;  // one past the last
   for (const Instruction& i : instructions) {
     const bool noted = way && switches(i.op);

@@ -45,10 +45,16 @@ void Ledger::step(const State& now, const State& next) {
   // A closed contact's row does work at the level of round-off; that is not worth an evaluation.
   if (power * h > 1e-16 * std::abs(energy_start_)) {
     state_between(system_, now, next, 0.5, q_, v_, dq_);
+    system_.move_to(now.t + h / 2, q_, v_);
     lambda_ = 0.5 * (now.lambda + next.lambda);
-    middle_ = balance(now.t + h / 2, q_, v_, lambda_);
     // Reactions do not follow their mean where they swing within a step.
-    if (std::abs(now_.constraints) + std::abs(end_.constraints) + std::abs(middle_.constraints) > 1e-9 * power) {
+    double work_of_rows = std::abs(now_.constraints) + std::abs(end_.constraints);
+    const auto matters = [&] { return work_of_rows > 1e-9 * power; };
+    if (!matters()) {
+      middle_ = system_.balance(lambda_);
+      work_of_rows += std::abs(middle_.constraints);
+    }
+    if (matters()) {
       system_.accelerate({}, a_, lambda_);
       middle_ = system_.balance(lambda_);
     }
