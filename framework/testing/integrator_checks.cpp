@@ -9,6 +9,8 @@ std::vector<Check> integrator_checks(const Maker& make, const IntegratorClaims& 
   std::vector<Check> checks = {
       {"HasItsOrderOnTheDampedOscillator", [=] { return check_order(make, oscillator(2, 0.1), c.order, c.steps); }},
       {"HasItsOrderOnThePendulum", [=] { return check_order(make, pendulum(), c.order, c.steps); }},
+      {"HasItsOrderWhereTheMassVaries",
+       [=] { return check_order(make, pendulum_of_varying_mass(), c.order, c.steps); }},
       {"HasItsOrderOnThePendulumWithRod", [=] { return check_order(make, pendulum_with_rod(), c.order, fine); }},
       {"HoldsTheEnergyOfThePendulum", [=] { return check_energy(make, pendulum(), c.steps, c.energy); }},
       {"HoldsTheRowOfThePendulum", [=] { return check_constraints(make, pendulum_with_rod(), fine, c.constraints); }},

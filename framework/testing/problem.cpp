@@ -39,28 +39,29 @@ class ProblemSystem final : public System {
 
   void move_to(double t, const Vec& q, const Vec& v) override {
     t_ = t, q_ = q, v_ = v;
+    M_ = mass(q);
     rows_ = rows(t, q, v);
     g_dot_ = rows_.G * v + rows_.g_t;
   }
   const Vec& f() override { return f_ = p_.force(t_, q_, v_); }
   const Vec& g() override { return rows_.g; }
   const Vec& g_dot() override { return g_dot_; }
-  void add_mass_times(double c, const Vec& a, Vec& r) override { r += c * (p_.M * a); }
+  void add_mass_times(double c, const Vec& a, Vec& r) override { r += c * (M_ * a); }
   void add_reaction(double c, const Vec& lambda, Vec& r) override { r += c * (W().transpose() * lambda); }
   void add_rows_times(double c, const Vec& x, Vec& rc) override { rc += c * (rows_.G * x); }
   void add_rows_force(double c, const Vec& mu, Vec& r) override { r += c * (rows_.G.transpose() * mu); }
   // A problem that does not conserve its energy names no potential.
   Energy energy() override {
-    const double kinetic = 0.5 * v_.dot(p_.M * v_);
+    const double kinetic = 0.5 * v_.dot(M_ * v_);
     if (!p_.energy.value) return {.kinetic = kinetic, .potential = std::nan("")};
     return {.kinetic = kinetic, .potential = p_.energy.value({t_, q_, v_, {}, {}}) - kinetic};
   }
 
   void accelerate(Stabilisation s, Vec& a, Vec& lambda) override {
-    solve(factored(p_.M, W()), f(), rows_.gamma - 2 * s.alpha * g_dot_ - s.beta * s.beta * rows_.g, a, lambda);
+    solve(factored(M_, W()), f(), rows_.gamma - 2 * s.alpha * g_dot_ - s.beta * s.beta * rows_.g, a, lambda);
   }
-  void factorise(Blend c, const Vec&, const Vec& lambda, Factors which) override {
-    const Mat S = c.c_m * p_.M + tangent(c, lambda) + c.c_1 * Mat::Identity(n_, n_);
+  void factorise(Blend c, const Vec& a, const Vec& lambda, Factors which) override {
+    const Mat S = c.c_m * M_ + tangent(c, a, lambda) + c.c_1 * Mat::Identity(n_, n_);
     finite_[int(which)] = S.allFinite();
     kept_[int(which)] = factored(S, which == Factors::iteration ? W() : rows_.G);
   }
@@ -79,14 +80,16 @@ class ProblemSystem final : public System {
     return p_.rows ? p_.rows(t, q, v) : Rows{Vec(0), Vec(0), Vec(0), Mat(0, n_)};
   }
   Vec moved(const Vec& q, const Vec& dq) const { return on_.retract ? on_.retract(q, dq) : Vec(q + dq); }
-  Mat tangent(const Blend& c, const Vec& lambda) const {
+  Mat mass(const Vec& q) const { return p_.mass ? p_.mass(q) : p_.M; }
+  Mat tangent(const Blend& c, const Vec& a, const Vec& lambda) const {
     Mat T = Mat::Zero(n_, n_);
     if (c.c_d == 0 && c.c_k == 0) return T;
     if (p_.tangent) T = p_.tangent(c, q_, v_);
     const double d = 1e-6;
-    for (Eigen::Index j = 0; j < n_ && (m_ > 0 || !p_.tangent); ++j) {
+    for (Eigen::Index j = 0; j < n_ && (m_ > 0 || p_.mass || !p_.tangent); ++j) {
       const Vec e = d * Vec::Unit(n_, j), plus = moved(q_, e), minus = moved(q_, -e);
       Vec K = (W(rows(t_, plus, v_)) - W(rows(t_, minus, v_))).transpose() * lambda, D = Vec::Zero(n_);
+      if (p_.mass) K += (mass(plus) - mass(minus)) * a;
       if (!p_.tangent) {
         K += p_.force(t_, minus, v_) - p_.force(t_, plus, v_);
         D = p_.force(t_, q_, v_ - e) - p_.force(t_, q_, v_ + e);
@@ -117,6 +120,7 @@ class ProblemSystem final : public System {
   int nq_ = 0;
   Eigen::Index n_ = 0, m_ = 0;
   Vec scale_;
+  Mat M_;
   double t_ = 0;
   Vec q_, v_, f_, g_dot_;
   Rows rows_;

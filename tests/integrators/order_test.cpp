@@ -43,6 +43,13 @@ TEST_P(SecondOrder, AlsoWhereTheRowsDependOnTime) {
   EXPECT_NEAR(o.v.value, 2, 0.1) << o.v.table;
 }
 
+// HHT-alpha weighing M a, as first printed, is of first order here.
+TEST_P(SecondOrder, WhereTheMassVaries) {
+  const Orders o = orders(problems::pendulum_of_varying_mass(), GetParam().name, GetParam().settings);
+  EXPECT_NEAR(o.q.value, 2, 0.1) << o.q.table;
+  EXPECT_NEAR(o.v.value, 2, 0.1) << o.v.table;
+}
+
 TEST_P(SecondOrder, OnTheQuaternionTop) {
   Posed s(problems::heavy_top());
   const State start = s.start(), end = reference(s, start, 0.5);

@@ -1,7 +1,7 @@
 // Problems with known answers, for measuring integrators. Each lives in a file of its own under
 // framework/testing/problems, where its formulas are.
 //
-//     M v' = f(t, q, v) - W^T lambda,   g(t, q) = 0,   q' = N(q) v,   M constant; W = G but with friction
+//     M(q) v' = f(t, q, v) - W^T lambda,   g(t, q) = 0,   q' = N(q) v;   W = G but with friction
 #pragma once
 
 #include <functional>
@@ -37,12 +37,13 @@ struct Problem {
 
   std::string name, equations, source;
   double until = 1;  // [s] where solutions are compared; from t = 0
-  Mat M = {};
+  Mat M = {};        // constant, or at the start
   std::function<Vec(double t, const Vec& q, const Vec& v)> force = {};
   std::function<Rows(double t, const Vec& q, const Vec& v)> rows = {};  // empty: none
   std::function<void(double t, Vec& q, Vec& v)> exact = {};  // without a closed form: fills the start only, whatever t
   bool closed_form = true;
-  Invariant energy = {};  // without a value: not conserved
+  Invariant energy = {};                       // without a value: not conserved
+  std::function<Mat(const Vec& q)> mass = {};  // empty: M everywhere
   // c_d D + c_k K of the force, D = -df/dv, K = -df/dq; empty: by differences.
   std::function<Mat(const Blend& c, const Vec& q, const Vec& v)> tangent = {};
   Manifold manifold = {};
@@ -64,6 +65,8 @@ Problem forced_oscillator(double omega = 2, double zeta = 0.1, double F = 1, dou
 Problem pendulum(double theta_0 = 1, double omega_0 = 0.4);
 // The same in x and y with a row; with further rows that repeat it, each with its weight.
 Problem pendulum_with_rod(double theta_0 = 1, double omega_0 = 0.4, std::vector<double> row_weights = {1});
+// The same by sinh(q) = theta: a mass that varies.
+Problem pendulum_of_varying_mass(double theta_0 = 1, double omega_0 = 0.4);
 // The rod as a spring of stiffness k [N/m]. No closed form: energy only.
 Problem stiff_pendulum(double k = 1e4);
 // A bead on a straight wire turning at the given rate [rad/s], in gravity.

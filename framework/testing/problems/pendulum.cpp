@@ -1,4 +1,4 @@
-// A point of 1 kg on a rod of 1 m: theta'' = -g sin(theta), in one coordinate and in two with a row.
+// A point of 1 kg on a rod of 1 m: theta'' = -g sin(theta), in one coordinate, in one of varying mass, and in two with a row.
 //
 //     sin(theta/2) = k sn(w t + u_0; k),  theta' = 2 k w cn,  w^2 = g,  k^2 = sin^2(theta_0/2) + omega_0^2/(4 g)
 //
@@ -63,6 +63,24 @@ Problem pendulum_with_rod(double theta_0, double omega_0, std::vector<double> ro
     v = rate * Eigen::Vector2d(std::cos(theta), std::sin(theta));
   };
   p.energy = {g, [](const State& s) { return s.v.squaredNorm() / 2 + g * s.q[1]; }};
+  return p;
+}
+
+Problem pendulum_of_varying_mass(double theta_0, double omega_0) {
+  Problem p{"pendulum_of_varying_mass", "cosh(q)^2 q'' + cosh(q) sinh(q) q'^2 = -g sin(sinh(q)) cosh(q)",
+            "Whittaker, Analytical Dynamics, section 44"};
+  p.mass = [](const Vec& q) -> Mat { return Mat::Constant(1, 1, std::pow(std::cosh(q[0]), 2)); };
+  p.force = [](double, const Vec& q, const Vec& v) -> Vec {
+    const double c = std::cosh(q[0]), s = std::sinh(q[0]);
+    return Vec::Constant(1, -c * (g * std::sin(s) + s * v[0] * v[0]));
+  };
+  p.exact = [=](double t, Vec& q, Vec& v) {
+    const auto [theta, rate] = swing(theta_0, omega_0, t);
+    q = Vec::Constant(1, std::asinh(theta)), v = Vec::Constant(1, rate / std::hypot(1, theta));
+  };
+  p.M = p.mass(Vec::Constant(1, std::asinh(theta_0)));
+  p.energy = {
+      g, [](const State& s) { return std::pow(std::cosh(s.q[0]) * s.v[0], 2) / 2 - g * std::cos(std::sinh(s.q[0])); }};
   return p;
 }
 

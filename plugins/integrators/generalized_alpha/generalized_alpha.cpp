@@ -1,17 +1,11 @@
-// The generalised-alpha method for constrained mechanical systems, with Arnold's and Bruls' recursion for the method's
-// own accelerations a beside the true ones A = q'':
+// The generalised-alpha method for constrained mechanical systems: the alpha method (trammel/alpha_method.hpp) with
 //
-//     (M A + W^T lambda - f)_{n+1} = 0
-//     (1 - alpha_m) a_{n+1} + alpha_m a_n = (1 - alpha_f) A_{n+1} + alpha_f A_n
-//     q_{n+1} = q_n (+) (h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1}))
-//     v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1})
 //     alpha_m = (2 rho - 1)/(rho + 1),   alpha_f = rho/(rho + 1)
 //     gamma = 1/2 + alpha_f - alpha_m,   beta = (gamma + 1/2)^2 / 4
 //
-// rho in [0, 1] is the spectral radius for infinitely fast modes. Rows as in NewmarkStep (stabilised or index 3).
+// rho in [0, 1] is the spectral radius for infinitely fast modes.
 // Chung, Hulbert, J. Appl. Mech. 60(2), 371-375 (1993); Arnold, Bruls, Multibody Syst. Dyn. 18, 185-202 (2007).
-#include <trammel/newmark_error.hpp>
-#include <trammel/newmark_step.hpp>
+#include <trammel/alpha_method.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
@@ -26,14 +20,12 @@ class GeneralizedAlpha final : public Integrator, public ErrorEstimate {
   int max_iterations = Newton().max_iterations;
 
   void prepare(const World&) override {
-    alpha_m_ = (2 * rho_inf - 1) / (rho_inf + 1);
-    alpha_f_ = rho_inf / (rho_inf + 1);
-    gamma_ = 0.5 + alpha_f_ - alpha_m_;
-    beta_ = (gamma_ + 0.5) * (gamma_ + 0.5) / 4;
-    step_.formulation = formulation;
-    step_.newton.tolerance = tolerance;
-    step_.newton.max_iterations = max_iterations;
-    error_.set(alpha_m_, alpha_f_, beta_, gamma_);
+    const double alpha_m = (2 * rho_inf - 1) / (rho_inf + 1), alpha_f = rho_inf / (rho_inf + 1);
+    const double gamma = 0.5 + alpha_f - alpha_m;
+    method_.set({.alpha_m = alpha_m, .alpha_f = alpha_f, .beta = (gamma + 0.5) * (gamma + 0.5) / 4, .gamma = gamma});
+    method_.newmark.formulation = formulation;
+    method_.newmark.newton.tolerance = tolerance;
+    method_.newmark.newton.max_iterations = max_iterations;
   }
 
   Traits traits() const override {
@@ -41,53 +33,17 @@ class GeneralizedAlpha final : public Integrator, public ErrorEstimate {
         .order = 2, .implicit = true, .holds_position = true, .holds_velocity = formulation == Formulation::stabilised};
   }
 
-  void restart(System&, const State& now) override {
-    A_ = now.a;
-    a_ = now.a;
-    error_.restart(now);
-  }
-
-  Outcome step(System& s, const State& now, double h, State& next) override {
-    // a_{n+1} = known + share A_{n+1}
-    const double share = (1 - alpha_f_) / (1 - alpha_m_);
-    known_ = (alpha_f_ * A_ - alpha_m_ * a_) / (1 - alpha_m_);
-    step_.dq = h * now.v + h * h * ((0.5 - beta_) * a_ + beta_ * known_);
-    step_.v = now.v + h * ((1 - gamma_) * a_ + gamma_ * known_);
-    const double c_q = beta_ * h * h * share, c_v = gamma_ * h * share;
-    step_.begin(s, now, h, c_q, c_v, next);
-    while (step_.iterating()) {
-      step_.move(s, now, next);
-      r_ = -s.f();
-      s.add_reaction(1, next.lambda, r_);
-      s.add_mass_times(1, next.a, r_);
-      step_.correct(s, {1, c_v, c_q}, r_, next);
-    }
-    return step_.finish(s, now, next);
-  }
-
-  void accept(System&, const State& /*now*/, const State& next) override {
-    a_ = ((1 - alpha_f_) * next.a + alpha_f_ * A_ - alpha_m_ * a_) / (1 - alpha_m_);
-    A_ = next.a;
-    error_.accept(next);
-  }
-
+  void restart(System&, const State& now) override { method_.restart(now); }
+  Outcome step(System& s, const State& now, double h, State& next) override { return method_.step(s, now, h, next); }
+  void accept(System&, const State& /*now*/, const State& next) override { method_.accept(next); }
   double error(System& s, const State& now, const State& next, const Tolerance& t) override {
-    return error_(s, now, next, t);
+    return method_.error(s, now, next, t);
   }
-  int error_order() const override { return error_.order(); }
-
-  void archive(Archive& archive) override {
-    archive("a", a_);
-    archive("A", A_);
-    error_.archive(archive);
-  }
+  int error_order() const override { return method_.error_order(); }
+  void archive(Archive& a) override { method_.archive(a); }
 
  private:
-  double alpha_m_ = 0, alpha_f_ = 0, gamma_ = 0.5, beta_ = 0.25;
-  NewmarkStep step_;
-  NewmarkError error_;
-  Vec a_, A_;  // at the last accepted point
-  Vec known_, r_;
+  AlphaMethod method_;
 };
 
 }  // namespace
