@@ -2,9 +2,10 @@
 
 namespace trammel {
 
-void AlphaMethod::set(const Weights& weights) {
+void AlphaMethod::set(const Weights& weights, Formulation formulation) {
   w_ = weights;
-  error_.set(w_.alpha_m, w_.alpha_f, w_.beta, w_.gamma);
+  newmark.formulation = formulation;
+  error_.set(w_.alpha_m, w_.alpha_f, w_.beta, w_.gamma, formulation == Formulation::stabilised);
 }
 
 void AlphaMethod::restart(const State& now) {

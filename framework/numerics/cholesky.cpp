@@ -134,7 +134,7 @@ void Cholesky::solve_lower_of_rows(Mat& X) {
 
 void Cholesky::solve_transposed(Eigen::Ref<Vec> x) {
   if (in_blocks()) return blocks_.matrixU().solveInPlace(x);
-  if (diagonal_) return void(x.array() *= inverse_root_.head(n_).array());
+  if (diagonal_) return void(x.array() = x.array() * root_.head(n_).array() * inverse_.head(n_).array());
   if (of_few()) {
     FewNumbers y(n_, x.data());
     y.scale(inverse_root_.data());

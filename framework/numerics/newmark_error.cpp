@@ -5,7 +5,8 @@
 
 namespace trammel {
 
-void NewmarkError::set(double alpha_m, double alpha_f, double beta, double gamma) {
+void NewmarkError::set(double alpha_m, double alpha_f, double beta, double gamma, bool of_velocities) {
+  of_velocities_ = of_velocities;
   const double delta = alpha_m - alpha_f;
   first_ = gamma - 0.5 + delta;
   if (std::abs(first_) < 1e-14) first_ = 0;  // round-off of a method of second order
@@ -28,6 +29,11 @@ void NewmarkError::accept(const State& next) {
 
 double NewmarkError::operator()(System& s, const State& now, const State& next, const Tolerance& tolerance) {
   const double h = next.t - now.t;
+  e_q_ = of_q_ * h * h * (next.a - now.a);
+  if (!of_velocities_) {
+    e_v_.setZero(e_q_.size());
+    return error_norm(e_q_, e_v_, now, next, tolerance);
+  }
   // rate_: a' at the step's start (from the step before, or measured).
   if (a_before_.size() == now.a.size() && h_before_ > 0) {
     rate_ = (now.a - a_before_) / h_before_;

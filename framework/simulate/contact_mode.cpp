@@ -186,7 +186,10 @@ void ContactModes::accelerate_open(const State& state, const Vec& v) {
 
 // Takes e = 0 where the rebound is too short to follow; true if there is such a contact.
 bool ContactModes::capture_chatter(const State& state, const Vec& v) {
-  const auto rebounds = [](const TouchingContact& c) { return c.restitution > 0 && c.impulse > 0; };
+  // With e = 1 flights do not shrink: there is no chatter.
+  const auto rebounds = [](const TouchingContact& c) {
+    return c.restitution > 0 && c.restitution < 1 && c.impulse > 0;
+  };
   if (chatter_steps_ <= 0 || std::none_of(touching_.begin(), touching_.end(), rebounds)) return false;
   accelerate_open(state, v);
   bool captured = false;

@@ -2,11 +2,12 @@
 //
 // Rules for set-valued contacts (Restitution), at an event at time t:
 //  1. Impact of every contact that touches and closes, with all that touch or are closed (impact.hpp).
-//  2. Capture: slower than capture_speed, e = 0. Also a rebound that the steps in contact cannot follow: with fixed ones whose
-//     flight 2 u+/|gap acceleration| would last fewer than chatter_steps of them; with controlled ones that would rise less
-//     than chatter_steps times the error they may make in a position. The impact is solved again with e = 0 for it. Each
-//     repetition lowers the number of contacts with e > 0, so this ends. Contacts that open because others struck, and too
-//     little to follow (a block that rocks to rest: impacts without end in a finite time), keep no rate: all that touch rest.
+//  2. Capture: slower than capture_speed, e = 0. Also a rebound with e < 1 that the steps in contact cannot follow: with fixed
+//     ones whose flight 2 u+/|gap acceleration| would last fewer than chatter_steps of them; with controlled ones that would
+//     rise less than chatter_steps times the error they may make in a position. The impact is solved again with e = 0 for it.
+//     Each repetition lowers the number of contacts with e > 0, so this ends. Contacts that open because others struck, and
+//     too little to follow (a block that rocks to rest: impacts without end in a finite time), keep no rate: all that touch
+//     rest.
 //  3. Contacts that then touch without rate are candidates. They close where the forces of the complementarity problem
 //         A = A_free + D N,   0 <= N complementary to A >= 0      (A gap accelerations, N normal forces)
 //     push; where the gap accelerates apart they stay open ("lift").

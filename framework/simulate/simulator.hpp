@@ -96,7 +96,8 @@ class Simulator {
 
   State now_, next_, inside_, uncorrected_;
   bool in_contact_ = false;
-  double step_limit_ = std::numeric_limits<double>::infinity();   // [s] ContactModes::step_limit
+  double step_limit_ = std::numeric_limits<double>::infinity();  // [s] ContactModes::step_limit
+  double drift_before_ = 1e3;  // relative_drift at the last record, or 1e3 if it was less
   double hold_until_ = -std::numeric_limits<double>::infinity();  // [s] contact steps until then
   long long records_ = 0;                                         // written
   bool last_row_ = false;                                         // the row at the end is written

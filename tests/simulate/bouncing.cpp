@@ -96,6 +96,12 @@ TEST(ElasticImpact, KeepsTheEnergy) {
   EXPECT_EQ(run.result["energy_dissipated"]["impact_total"], 0);
 }
 
+TEST(ElasticImpact, IsNoChatterHoweverShortTheFlightIsForTheSteps) {
+  const Finished run = run_text(ball, {{"contacts.floor.restitution", "1"}, {"simulate.chatter_steps", "1e4"}});
+  EXPECT_GT(run.result["counts"]["impacts"], 1);
+  EXPECT_NEAR(run.end("energy_total"), 1.0125, 1e-11);
+}
+
 TEST(OscillatorAgainstAWall, FliesHalfAPeriodWhateverItsSpeed) {
   const Finished run = run_text(oscillator);
   const std::vector<Event> impacts = run.of_kind("impact");

@@ -24,7 +24,7 @@ class AlphaMethod {
   };
   NewmarkStep newmark;
 
-  void set(const Weights& weights);
+  void set(const Weights& weights, Formulation formulation);
   void restart(const State& now);
   Outcome step(System& s, const State& now, double h, State& next);  // next.a is A_{n+1}
   void accept(const State& next);

@@ -18,17 +18,20 @@ namespace trammel {
 
 class NewmarkError {
  public:
-  void set(double alpha_m, double alpha_f, double beta, double gamma);
+  // `of_velocities` false: e_q alone counts, for formulation index3, whose velocities ripple about what the rows allow
+  // (Negrut et al. 2007).
+  void set(double alpha_m, double alpha_f, double beta, double gamma, bool of_velocities = true);
   void restart(const State& now);
   void accept(const State& next);
   double operator()(System& s, const State& now, const State& next, const Tolerance& tolerance);
-  int order() const { return first_ == 0 ? 3 : 2; }
+  int order() const { return first_ == 0 || !of_velocities_ ? 3 : 2; }
   void archive(Archive& a);
 
  private:
   double first_ = 0, of_q_ = 0, of_v_ = 0;  // C_1, C_q, C_v
-  double t_ = 0, h_before_ = 0;             // of the last accepted point; of the step that led to it
-  Vec a_, a_before_;                        // at the last accepted point and the one before; empty: none
+  bool of_velocities_ = true;
+  double t_ = 0, h_before_ = 0;  // of the last accepted point; of the step that led to it
+  Vec a_, a_before_;             // at the last accepted point and the one before; empty: none
   Vec q_, v_, rate_, e_q_, e_v_, lambda_;
 };
 

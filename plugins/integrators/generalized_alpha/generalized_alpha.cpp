@@ -22,8 +22,8 @@ class GeneralizedAlpha final : public Integrator, public ErrorEstimate {
   void prepare(const World&) override {
     const double alpha_m = (2 * rho_inf - 1) / (rho_inf + 1), alpha_f = rho_inf / (rho_inf + 1);
     const double gamma = 0.5 + alpha_f - alpha_m;
-    method_.set({.alpha_m = alpha_m, .alpha_f = alpha_f, .beta = (gamma + 0.5) * (gamma + 0.5) / 4, .gamma = gamma});
-    method_.newmark.formulation = formulation;
+    method_.set({.alpha_m = alpha_m, .alpha_f = alpha_f, .beta = (gamma + 0.5) * (gamma + 0.5) / 4, .gamma = gamma},
+                formulation);
     method_.newmark.newton.tolerance = tolerance;
     method_.newmark.newton.max_iterations = max_iterations;
   }

@@ -21,8 +21,8 @@ class HhtAlpha final : public Integrator, public ErrorEstimate {
   int max_iterations = Newton().max_iterations;
 
   void prepare(const World&) override {
-    method_.set({.alpha_m = 0, .alpha_f = -alpha, .beta = (1 - alpha) * (1 - alpha) / 4, .gamma = 0.5 - alpha});
-    method_.newmark.formulation = formulation;
+    method_.set({.alpha_m = 0, .alpha_f = -alpha, .beta = (1 - alpha) * (1 - alpha) / 4, .gamma = 0.5 - alpha},
+                formulation);
     method_.newmark.newton.tolerance = tolerance;
     method_.newmark.newton.max_iterations = max_iterations;
   }

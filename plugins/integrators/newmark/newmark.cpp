@@ -28,7 +28,7 @@ class Newmark final : public Integrator, public ErrorEstimate {
     step_.formulation = formulation;
     step_.newton.tolerance = tolerance;
     step_.newton.max_iterations = max_iterations;
-    error_.set(0, 0, beta, gamma);
+    error_.set(0, 0, beta, gamma, formulation == Formulation::stabilised);
   }
 
   Traits traits() const override {
