@@ -53,8 +53,8 @@ namespace {
 
 void add(const BodyBlock& block, int row, const Motion& marker, const RowsOf& H, Mat& transposed) {
   const auto column = std::lower_bound(block.rows.begin(), block.rows.end(), row) - block.rows.begin();
-  for_each_product(H, marker.J, [&](Eigen::Index i, Eigen::Index j, double sum) {
-    transposed(marker.dofs[std::size_t(j)], column + i) += sum;
+  for_each_column(H, marker.J, [&](Eigen::Index j, const double* entries, auto n) {
+    for (int i = 0; i < n; ++i) transposed(marker.dofs[std::size_t(j)], column + i) += entries[i];
   });
 }
 

@@ -84,8 +84,9 @@ void MarkerChain::add_rows(int index, int row, const RowsOf& H, Mat& G) const {
   const Slot& slot = *slots_[std::size_t(index)];
   if (slot.marker.body < 0) return;
   const int v0 = model_.bodies[std::size_t(slot.marker.body)].v0;
-  for_each_product(H, slot.motion.J, [&](Eigen::Index i, Eigen::Index j, double sum) {
-    G(row + i, v0 + slot.motion.dofs[std::size_t(j)]) += sum;
+  for_each_column(H, slot.motion.J, [&](Eigen::Index j, const double* entries, auto n) {
+    double* const column = G.data() + (v0 + slot.motion.dofs[std::size_t(j)]) * G.rows() + row;
+    for (int i = 0; i < n; ++i) column[i] += entries[i];
   });
 }
 

@@ -37,9 +37,8 @@ double AssembledSystem::Work::contact_acceleration(int i, int row, const Vec& a)
     if (chain.body(at[k]) < 0) continue;
     const Motion& m = motion(at[k]);
     const int v0 = chain.first_velocity(at[k]);
-    for_each_product({r.H(k), row, 1}, m.J, [&](Eigen::Index, Eigen::Index j, double along) {
-      sum += along * a(v0 + m.dofs[std::size_t(j)]);
-    });
+    for_each_column({r.H(k), row, 1}, m.J,
+                    [&](Eigen::Index j, const double* along, auto) { sum += *along * a(v0 + m.dofs[std::size_t(j)]); });
   }
   return sum;
 }

@@ -44,9 +44,9 @@ inline void add_motion(const RowsOf& rows, const Motion& marker, double* rate, d
   });
 }
 
-// add(i, j, (H J)_ij) for all columns j of J
+// add(j, (H J)_0j ... (H J)_n-1,j, n) for all columns j of J
 template <class Add>
-void for_each_product(const RowsOf& rows, const Jac& J, Add&& add) {
+void for_each_column(const RowsOf& rows, const Jac& J, Add&& add) {
   const double* const H = rows.H.data() + rows.first;
   const Eigen::Index stride = rows.H.rows(), columns = J.cols();
   with_twist(J.rows(), [&](auto twist) {
@@ -58,7 +58,7 @@ void for_each_product(const RowsOf& rows, const Jac& J, Add&& add) {
         double sum[n] = {};
         for (int k = 0; k < twist; ++k)
           for (int i = 0; i < n; ++i) sum[i] += h[k * n + i] * J.data()[k * columns + j];
-        for (int i = 0; i < n; ++i) add(i, j, sum[i]);
+        add(j, sum, n);
       }
     });
   });

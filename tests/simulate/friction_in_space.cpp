@@ -402,6 +402,45 @@ TEST(InThePlaneAndInSpace, AShakenBlockDoesTheSame) {
 }
 
 // Cut after every third step, while it slides, turns, and rolls on a floor that turns.
+// A point thrown obliquely: it strikes, rebounds where e > 0, slides and stops; in the plane, or in space 30 degrees off x.
+std::string thrown(bool in_space, const std::string& contact) {
+  const double c = std::cos(pi / 6), s = std::sin(pi / 6);
+  return fmt::format(
+      R"({{"trammel": 1, "space": "{}", "gravity": {}, "integrator": {},
+           "bodies": {{"block": {{"type": "point_mass", "mass": 2, "position": {}, "velocity": {}}}}},
+           "contacts": {{"floor": {{{}, "between": ["block.point", {{"plane": {{"point": {}, "normal": {}}}}}]}}}},
+           "simulate": {{"until": 1}},
+           "record": {{"every": 0.05, "observe": {{"x": "block.point.x", "y": "block.point.y", "T": "contacts.floor.friction"}}}}}})",
+      in_space ? "spatial" : "planar", in_space ? "[0, 0, -9.81]" : "[0, -9.81]", accurate,
+      in_space ? "[0, 0, 0.3]" : "[0, 0.3]", in_space ? fmt::format("[{:.17g}, {:.17g}, -1]", 2 * c, 2 * s) : "[2, -1]",
+      contact, in_space ? "[0, 0, 0]" : "[0, 0]", in_space ? "[0, 0, 1]" : "[0, 1]");
+}
+
+class Thrown : public testing::TestWithParam<std::pair<std::string, std::string>> {};
+
+TEST_P(Thrown, APointDoesInAnyDirectionWhatItDoesInThePlane) {
+  const std::string contact = GetParam().first + ", " + GetParam().second;
+  const Finished planar = run_text(thrown(false, contact)), spatial = run_text(thrown(true, contact));
+  ASSERT_TRUE(planar.done()) << planar.report.reason;
+  ASSERT_TRUE(spatial.done()) << spatial.report.reason;
+  EXPECT_LT(planar.end("x"), 1);  // 2 m/s for 1 s less what friction takes
+  const double c = std::cos(pi / 6), s = std::sin(pi / 6);
+  for (std::size_t i = 0; i < planar.series.at("x").size(); ++i) {
+    const double x = spatial.series.at("x")[i], y = spatial.series.at("y")[i];
+    EXPECT_NEAR(c * x + s * y, planar.series.at("x")[i], 1e-9) << i;
+    EXPECT_NEAR(c * y - s * x, 0, 1e-12) << i;
+    EXPECT_NEAR(spatial.series.at("T")[i], std::abs(planar.series.at("T")[i]), 1e-6) << i;
+  }
+}
+
+const std::string coulomb = R"("friction": {"type": "coulomb", "static": 0.4, "kinetic": 0.3})";
+const std::string smooth =
+    R"("friction": {"type": "regularized_coulomb", "coefficient": 0.3, "critical_velocity": 0.01})";
+INSTANTIATE_TEST_SUITE_P(Contacts, Thrown,
+                         testing::Values(std::pair(rigid + R"(, "restitution": 0.5)", coulomb),
+                                         std::pair(rigid, coulomb), std::pair(compliant, coulomb),
+                                         std::pair(rigid, smooth), std::pair(compliant, smooth)));
+
 TEST(InSpace, AResumedRunEndsWithTheSameBytes) {
   for (const char* integrator :
        {R"({"type": "dop853", "step": {"tolerance": 1e-9}})", R"({"type": "hht_alpha", "step": 5e-3})"}) {
