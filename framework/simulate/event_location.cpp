@@ -54,10 +54,20 @@ void EventLocation::restart(const State& now) {
   for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
   next_.resize(watches_.size()), probe_.resize(watches_.size());
   evaluate(now, now_);
+  for (std::size_t w = 0; w < watches_.size(); ++w) watches_[w].steepest = std::abs(now_[w].slope);
   // Sticking begins on its bound where the normal force begins at 0, and where mu = mu_0.
   for (int w = 0; w < int(watches_.size()); ++w)
     if (watches_[w].kind == Kind::hold && !watches_[w].at_ends && now_[w].f <= 1e-9 * watches_[w].bound)
       watches_[w].noise = modes_.friction_noise(watches_[w].contact);
+}
+
+double EventLocation::longest_step(double swings) const {
+  double longest = std::numeric_limits<double>::infinity();
+  for (std::size_t w = 0; w < watches_.size(); ++w) {
+    if (watches_[w].kind == Kind::hold) return swings;
+    if (watches_[w].kind == Kind::slide) longest = std::min(longest, now_[w].f / (4 * watches_[w].steepest));
+  }
+  return std::max(swings, longest);
 }
 
 EventLocation::Value EventLocation::slide(int contact, const Vec& a) {
@@ -71,7 +81,10 @@ void EventLocation::accept(double h, const State& next) {
   if (system_.tangents() > 1)  // along the directions they have now
     for (std::size_t w = 0; w < watches_.size(); ++w)
       if (watches_[w].kind == Kind::slide) next_[w] = slide(watches_[w].contact, next.a);
-  for (std::size_t w = 0; w < watches_.size(); ++w) watches_[w].force_before = now_[w].f;
+  for (std::size_t w = 0; w < watches_.size(); ++w) {
+    watches_[w].force_before = now_[w].f;
+    watches_[w].steepest = std::max(watches_[w].steepest, std::abs(next_[w].slope));
+  }
   h_before_ = h;
   now_.swap(next_);
 }
@@ -255,9 +268,9 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
 
 void EventLocation::archive(Archive& a) {
   const auto n = Eigen::Index(watches_.size());
-  Mat values(n, 4);
+  Mat values(n, 5);
   for (Eigen::Index w = 0; w < n; ++w)
-    values.row(w) << now_[w].f, now_[w].slope, watches_[w].noise, watches_[w].force_before;
+    values.row(w) << now_[w].f, now_[w].slope, watches_[w].noise, watches_[w].force_before, watches_[w].steepest;
   Vec flat = Eigen::Map<const Vec>(values.data(), values.size());
   a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_);
   if (watches_.empty() && flat.size() > 0) {  // reading: the modes are back, their watches not yet
@@ -265,10 +278,11 @@ void EventLocation::archive(Archive& a) {
     next_.resize(watches_.size()), probe_.resize(watches_.size()), now_.resize(watches_.size());
   }
   const auto m = Eigen::Index(watches_.size());
-  if (flat.size() != 4 * m) return;  // of another scene: refused elsewhere
+  if (flat.size() != 5 * m) return;  // of another scene: refused elsewhere
   for (Eigen::Index w = 0; w < m; ++w) {
     now_[w] = {flat[w], flat[m + w]};
-    watches_[w].noise = flat[2 * m + w], watches_[w].force_before = flat[3 * m + w];
+    watches_[w].noise = flat[2 * m + w], watches_[w].force_before = flat[3 * m + w],
+    watches_[w].steepest = flat[4 * m + w];
   }
 }
 

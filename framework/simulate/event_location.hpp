@@ -47,6 +47,9 @@ class EventLocation {
   // number, though the state may be (a law of time that ended under a body).
   Found examine(const State& now, double& h, State& next, bool may_shorten);
   const ContactChanges& changes() const { return changes_; }
+  // [s] From here: `swings` (ContactModes::step_limit), unless all that is closed slides so fast that it loses no more than a
+  // quarter of its slip in a longer step: that has no zero to step over.
+  double longest_step(double swings) const;
   long long steps_tried() const { return steps_tried_; }
   void accept(double h, const State& next);  // next became the solution
 
@@ -61,6 +64,7 @@ class EventLocation {
     double noise = 0;         // no nearer to 0 than this at first, and it has just had its event
     double force_before = 0;  // one step before now
     double bound = 0;         // of friction, where it was asked for last [N]
+    double steepest = 0;      // slide: the most that the slip has changed in a unit of time since it began [m/s^2]
   };
   struct Value {
     double f = 0, slope = 0;  // slopes of forces are not known

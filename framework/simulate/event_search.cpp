@@ -54,6 +54,10 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
     if (watches_[w].kind == Kind::slide && system_.tangents() > 1 &&
         overshoots(now_[w].f, next_[w].f, system_.modes().contacts[watches_[w].contact].slow))
       return true;
+    // A longer step than swings allow, with a slip that has become steeper in it than any before.
+    if (watches_[w].kind == Kind::slide && std::abs(next_[w].slope) > 4 * watches_[w].steepest &&
+        std::abs(next_[w].slope) * h > now_[w].f && now_[w].f > watches_[w].noise)
+      return true;
     if (watches_[w].at_ends || watches_[w].kind == Kind::slide) continue;
     (by_force(w) ? forces : gaps) = true;
   }

@@ -127,7 +127,7 @@ bool Simulator::advance(Recorder& recorder) {
   if (now_.t >= settings_.until) return false;
   const double stop = dense_ && control().controlled() ? settings_.until : record_time(records_);
   for (;;) {
-    const StepControl::Proposal proposal = control().propose(now_.t, stop, step_limit_);
+    const StepControl::Proposal proposal = control().propose(now_.t, stop, location_.longest_step(step_limit_));
     double h = proposal.h, error = 0;
     EventLocation::Found found = EventLocation::Found::nothing;
     if (!try_step(proposal, h, found, error)) continue;
