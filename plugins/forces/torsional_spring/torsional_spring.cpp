@@ -28,9 +28,10 @@ struct TorsionalSpring : Force {
   }
 
   void wrench(double, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
-    const Vec3 moment = (stiffness * twist(A, B) + damping * phi_.rate(A, B)) * phi_.gradient(A, B);
-    on_A.tail(moment.size()) += moment;
-    on_B.tail(moment.size()) -= moment;
+    const double M = stiffness * twist(A, B) + damping * phi_.rate(A, B);
+    const Vec3 h = phi_.gradient(A, B);
+    const Eigen::Index first = on_A.size() - h.size();
+    for (Eigen::Index k = 0; k < h.size(); ++k) on_A(first + k) += M * h(k), on_B(first + k) -= M * h(k);
   }
 
   double potential(double, const Motion& A, const Motion& B) const override {
