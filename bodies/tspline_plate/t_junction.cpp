@@ -4,8 +4,7 @@
 
 namespace trammel::plate {
 
-std::vector<TJunction> t_junctions(const TMesh& mesh) {
-  const EdgeMap& e = mesh.edges();
+std::vector<TJunction> t_junctions(const EdgeMap& e) {
   std::vector<TJunction> result;
   for (int j = degree + 1; j < e.lines(1) - 1 - degree; ++j)
     for (int i = degree + 1; i < e.lines(0) - 1 - degree; ++i) {
@@ -51,7 +50,7 @@ std::vector<std::array<int, 2>> crossings(const TMesh& mesh, const std::vector<T
 
 EdgeMap extended(const TMesh& mesh) {
   EdgeMap result = mesh.edges();
-  for (const TJunction& t : t_junctions(mesh)) {
+  for (const TJunction& t : t_junctions(mesh.edges())) {
     const auto a = std::size_t(t.axis);
     const int end = face_end(mesh.edges(), t)[a];
     result.draw(1 - t.axis, t.at[1 - a], std::min(t.at[a], end), std::max(t.at[a], end));
@@ -67,12 +66,44 @@ void prolong(TMesh& mesh, const TJunction& t) {
   mesh.draw(1 - t.axis, t.at[1 - a], std::min(t.at[a], end), std::max(t.at[a], end));
 }
 
-// `covered` goes on from the T-junction beyond its face extension.
-bool too_short(const EdgeMap& edges, const TJunction& t, const EdgeMap& covered) {
+// Where the line of `t` ends by now: it may have been prolonged. A gap of one bay does not end it, the functions are those of
+// the line drawn through: no line in between at which their knots could differ.
+TJunction line_end(const EdgeMap& edges, TJunction t) {
   const auto a = std::size_t(t.axis);
-  const int end = face_end(edges, t)[a];
-  return covered.edge(1 - t.axis, t.at[1 - a], t.sign > 0 ? end : end - 1);
+  const auto goes_on = [&](const Index2& at) {
+    return edges.edge(1 - t.axis, at[1 - a], t.sign > 0 ? at[a] : at[a] - 1);
+  };
+  for (;;) {
+    if (goes_on(t.at)) {
+      t.at[a] += t.sign;
+      continue;
+    }
+    const Index2 next = edges.next(t.at, t.axis, t.sign);
+    if (!goes_on(next)) return t;
+    t.at = next;
+  }
 }
+
+}  // namespace
+
+std::vector<Reach> reaches(const EdgeMap& edges) {
+  std::vector<Reach> result;
+  for (const TJunction& t : t_junctions(edges)) result.push_back({t, face_end(edges, t)[std::size_t(t.axis)]});
+  return result;
+}
+
+std::vector<TJunction> too_short(const EdgeMap& edges, const std::vector<Reach>& before) {
+  std::vector<TJunction> result;
+  for (const Reach& reach : before) {
+    const TJunction t = line_end(edges, reach.of);
+    const auto a = std::size_t(t.axis);
+    const auto missing = [&](int end) { return t.sign * (reach.end - end) > 0; };
+    if (missing(t.at[a]) && missing(face_end(edges, t)[a])) result.push_back(t);
+  }
+  return result;
+}
+
+namespace {
 
 // T-junctions that must be prolonged, and how many reasons there are.
 struct Conflicts {
@@ -80,18 +111,17 @@ struct Conflicts {
   int reasons = 0;
 };
 
-Conflicts conflicts(const TMesh& mesh, const EdgeMap* covered) {
-  const auto all = t_junctions(mesh);
+Conflicts conflicts(const TMesh& mesh, const std::vector<Reach>& before) {
+  const auto all = t_junctions(mesh.edges());
   const auto pairs = crossings(mesh, all);
+  const auto lagging = too_short(mesh.edges(), before);
   std::vector<char> involved(all.size(), 0);
   for (const auto& pair : pairs)
     for (int t : pair) involved[std::size_t(t)] = 1;
-  Conflicts result{{}, int(pairs.size())};
-  for (std::size_t t = 0; t < all.size(); ++t) {
-    const bool lags = covered && too_short(mesh.edges(), all[t], *covered);
-    if (lags) ++result.reasons;
-    if (lags || involved[t]) result.junctions.push_back(all[t]);
-  }
+  Conflicts result{{}, int(pairs.size() + lagging.size())};
+  for (std::size_t t = 0; t < all.size(); ++t)
+    if (involved[t] || std::find(lagging.begin(), lagging.end(), all[t]) != lagging.end())
+      result.junctions.push_back(all[t]);
   return result;
 }
 
@@ -100,23 +130,23 @@ bool is_t_junction(const EdgeMap& e, const TJunction& t) {
   return !e.edge(1 - t.axis, t.at[1 - a], t.sign > 0 ? t.at[a] : t.at[a] - 1);
 }
 
-void prolong_cheapest(TMesh& mesh, const Conflicts& found, const EdgeMap* covered) {
+void prolong_cheapest(TMesh& mesh, const Conflicts& found, const std::vector<Reach>& before) {
   const TJunction* best = nullptr;
   std::array<std::size_t, 2> least{};
   for (const TJunction& t : found.junctions) {
     TMesh trial = mesh;
     prolong(trial, t);
-    const std::array<std::size_t, 2> cost = {std::size_t(conflicts(trial, covered).reasons), trial.elements().size()};
+    const std::array<std::size_t, 2> cost = {std::size_t(conflicts(trial, before).reasons), trial.elements().size()};
     if (!best || cost < least) best = &t, least = cost;
   }
   prolong(mesh, *best);
 }
 
-void close_over(TMesh& mesh, Closure closure, const EdgeMap* covered) {
+void close_over(TMesh& mesh, Closure closure, const std::vector<Reach>& before) {
   if (closure == Closure::none) return;
-  for (Conflicts found = conflicts(mesh, covered); found.reasons > 0; found = conflicts(mesh, covered)) {
+  for (Conflicts found = conflicts(mesh, before); found.reasons > 0; found = conflicts(mesh, before)) {
     if (closure == Closure::greedy) {
-      prolong_cheapest(mesh, found, covered);
+      prolong_cheapest(mesh, found, before);
       continue;
     }
     for (const TJunction& t : found.junctions)
@@ -127,13 +157,13 @@ void close_over(TMesh& mesh, Closure closure, const EdgeMap* covered) {
 }  // namespace
 
 void close(TMesh& mesh, Closure closure) {
-  close_over(mesh, closure, nullptr);
+  close_over(mesh, closure, {});
 }
 
 void refine(TMesh& mesh, std::span<const Box<double>> elements, Closure closure) {
-  EdgeMap covered = extended(mesh);
-  mesh.cross(elements, &covered);
-  close_over(mesh, closure, &covered);
+  EdgeMap before = mesh.edges();
+  mesh.cross(elements, &before);
+  close_over(mesh, closure, reaches(before));
 }
 
 }  // namespace trammel::plate

@@ -13,6 +13,7 @@ namespace trammel::plate {
 struct TJunction {
   Index2 at;
   int axis, sign;  // the missing piece lies along `axis`, forwards (+1) or backwards (-1)
+  bool operator==(const TJunction&) const = default;
 };
 
 // A straight piece along `axis`, on line `line` of direction 1 - axis.
@@ -20,13 +21,13 @@ struct Extension {
   int axis, line, from, to;
 };
 
-std::vector<TJunction> t_junctions(const TMesh& mesh);
+std::vector<TJunction> t_junctions(const EdgeMap& edges);
 Extension extension(const TMesh& mesh, const TJunction& t);
 
 // Pairs (by number) of T-junctions whose extensions meet.
 std::vector<std::array<int, 2>> crossings(const TMesh& mesh, const std::vector<TJunction>& junctions);
 inline bool analysis_suitable(const TMesh& mesh) {
-  return crossings(mesh, t_junctions(mesh)).empty();
+  return crossings(mesh, t_junctions(mesh.edges())).empty();
 }
 
 // The mesh with all face extensions drawn: its faces are the Bezier cells, where every function is one polynomial.
@@ -37,8 +38,20 @@ EdgeMap extended(const TMesh& mesh);
 enum class Closure { both, greedy, none };
 void close(TMesh& mesh, Closure closure);
 
-// Crosses elements and closes the mesh. The refined functions contain the old ones when the extended mesh covers the old
-// extended mesh; T-junctions whose extension became too short by new lines are prolonged as well.
+// How far the face extension of a T-junction reaches, as a line number along its axis.
+struct Reach {
+  TJunction of;
+  int end;
+};
+std::vector<Reach> reaches(const EdgeMap& edges);
+
+// The refined functions contain the old ones exactly if every line of the old mesh reaches, from where it ends by now, as far
+// as it did in its own direction: new lines across an extension make it shorter. What another extension, from the other side
+// or of another line, covers does not help: only functions of the line itself continue the old ones over its end. These
+// T-junctions reach too little. `edges` count the lines as `before` does.
+std::vector<TJunction> too_short(const EdgeMap& edges, const std::vector<Reach>& before);
+
+// Crosses elements and closes the mesh, also where an extension became too short.
 // Scott, Thomas, Evans, CMAME 269, 2014.
 void refine(TMesh& mesh, std::span<const Box<double>> elements, Closure closure);
 

@@ -75,6 +75,39 @@ Sequence random_refinements(unsigned seed, int n, int refinements, int levels, C
   return result;
 }
 
+bool nested(const TMesh& old, const TMesh& fresh) {
+  try {
+    return refinement_operator(TsplineBasis(old), TsplineBasis(fresh)).nesting_error < 1e-12;
+  } catch (const std::domain_error&) {
+    return false;
+  }
+}
+
+// The rule that closure goes by, against the functions themselves, on meshes that are analysis-suitable but need not contain
+// the old one.
+TEST(RefinementOperator, ContainsTheOldFunctionsExactlyWhereNoExtensionBecameTooShort) {
+  int contained = 0, not_contained = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    std::mt19937 random(seed);
+    const Closure closure = seed % 2 ? Closure::greedy : Closure::both;
+    TMesh mesh = TMesh::uniform(3 + int(seed % 3), 4);
+    for (int step = 0; step < 8; ++step) {
+      const auto elements = mesh.elements();
+      const std::vector<Box<double>> chosen = {mesh.parameters(elements[random() % elements.size()])};
+      TMesh fresh = mesh;
+      EdgeMap before = mesh.edges();
+      fresh.cross(chosen, &before);
+      close(fresh, closure);  // without regard to the old functions
+      const bool reaches_far_enough = too_short(fresh.edges(), reaches(before)).empty();
+      EXPECT_EQ(nested(mesh, fresh), reaches_far_enough) << "seed " << seed << ", step " << step;
+      ++(reaches_far_enough ? contained : not_contained);
+      refine(mesh, chosen, closure);
+    }
+  }
+  EXPECT_GT(contained, 50);
+  EXPECT_GT(not_contained, 10);
+}
+
 TEST(RefinementOperator, RandomSequencesStayNestedIndependentAndPositive) {
   for (Closure closure : {Closure::both, Closure::greedy})
     for (unsigned seed : {1u, 2u}) {

@@ -23,7 +23,7 @@ struct Counts {
 Counts counts(const TMesh& mesh) {
   const TsplineBasis basis(mesh);
   return {int(mesh.elements().size()), int(basis.cells().size()), basis.size(),
-          int(crossings(mesh, t_junctions(mesh)).size())};
+          int(crossings(mesh, t_junctions(mesh.edges())).size())};
 }
 
 // The counts of the reference, which holds those of Wang et al.'s Table 1 (ring) and its inferred Table 4.
