@@ -1,12 +1,12 @@
 // A patch of surface: a T-mesh with a weighted control point at every anchor, and the shapes it can start from.
 //
-// Circular arcs are one rational cubic each (degree-elevated from the quadratic whose middle weight is cos(angle / 2)), so
-// rings, cylinders and spheres are exact. They are made of one element and then refined, which keeps the surface.
-// Piegl, Tiller, The NURBS Book, chapter 7.
+// Rings, cylinders and spheres are exact up to the largest arc of one rational cubic, beyond a spline's (planar_curve.hpp).
+// They are made of as few elements as that takes and then refined, which keeps the surface.
 #pragma once
 
 #include <Eigen/Geometry>
 
+#include "planar_curve.hpp"
 #include "refinement_operator.hpp"
 
 namespace trammel::plate {
@@ -25,13 +25,14 @@ struct Frame {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
-inline constexpr double largest_arc = 2.6;  // [rad] of one rational cubic; beyond, its weights differ too much
-
-// All on the unit square of parameters. Angles in rad, about the frame's z axis from its x axis, at most `largest_arc`.
+// All on the unit square of parameters. Angles in rad, about the frame's z axis from its x axis. `knots` are those of the
+// arc from - to, where it is longer than one rational cubic; latitudes are at most `largest_arc`.
+using Knots = std::span<const double>;
 ControlNet rectangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& along_u, const Eigen::Vector3d& along_v);
-ControlNet ring(const Frame& frame, double inner, double outer, double from, double to);        // u radial, v angular
-ControlNet cylinder(const Frame& frame, double radius, double length, double from, double to);  // u angular, v axial
-ControlNet sphere(const Frame& frame, double radius, double from, double to, double south, double north);  // latitudes
+ControlNet ring(const Frame& frame, double inner, double outer, double from, double to, Knots knots = {});  // v round
+ControlNet cylinder(const Frame& frame, double radius, double length, double from, double to, Knots knots = {});  // u
+ControlNet sphere(const Frame& frame, double radius, double from, double to, double south, double north,
+                  Knots knots = {});  // u round
 
 // The same surface on a finer mesh of the same parameters.
 ControlNet refined(const ControlNet& net, const TMesh& fine);

@@ -39,18 +39,19 @@ std::vector<int> axes_in(const std::string& text) {
 namespace {
 
 struct Tangents {
-  Eigen::Vector3d u, v;
+  Eigen::Vector3d u, v, uv;  // r_u, r_v, r_uv
 };
 
 Tangents tangents(const TsplineBasis& basis, const Points& points, const Eigen::Vector2d& at) {
   ShapeValues shape;
   const int cell = basis.cell_at(at.x(), at.y());
   basis.evaluate(cell, at.x(), at.y(), shape);
-  Tangents t{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  Tangents t{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   const auto& functions = basis.cells()[std::size_t(cell)].functions;
   for (std::size_t f = 0; f < functions.size(); ++f) {
     t.u += shape.R_u(Eigen::Index(f)) * points.row(functions[f]).transpose();
     t.v += shape.R_v(Eigen::Index(f)) * points.row(functions[f]).transpose();
+    t.uv += shape.R_uv(Eigen::Index(f)) * points.row(functions[f]).transpose();
   }
   return t;
 }
@@ -74,18 +75,35 @@ Eigen::Vector3d snapped(Eigen::Vector3d direction) {
   return direction.normalized();
 }
 
+// Where an edge ends in a pole of the surface, its own tangent across vanishes there; a little before it does not.
+constexpr double before_pole = 1.0 / 64;  // of the way to the middle of the edge
+
 // In the surface, across the edge: the normal of the plane of symmetry.
 Eigen::Vector3d across_edge(const TsplineBasis& basis, const Points& points, const Edge& edge, int anchor) {
-  const Tangents t = tangents(basis, points, on_edge(basis, edge, abscissa(basis, edge, anchor)));
+  double at = abscissa(basis, edge, anchor);
+  Tangents t = tangents(basis, points, on_edge(basis, edge, at));
+  if ((edge.direction == 0 ? t.u : t.v).norm() < 1e-9 * (edge.direction == 0 ? t.v : t.u).norm()) {
+    const auto& knots = basis.mesh().knots(1 - edge.direction);
+    at += before_pole * ((knots.front() + knots.back()) / 2 - at);
+    t = tangents(basis, points, on_edge(basis, edge, at));
+  }
   const Eigen::Vector3d run = (edge.direction == 0 ? t.v : t.u).normalized();
   const Eigen::Vector3d across = edge.direction == 0 ? t.u : t.v;
   return snapped((across - across.dot(run) * run).normalized());
 }
 
+// At a pole, where the edge is one point, by the tangent that opens next to it.
+Eigen::Vector3d normal(const Tangents& t, const Edge& edge) {
+  const bool along_u = edge.direction == 1;
+  const Eigen::Vector3d &run = along_u ? t.u : t.v, &across = along_u ? t.v : t.u;
+  const bool pole = run.norm() < 1e-9 * across.norm();
+  return snapped((pole ? t.uv : run).cross(across).normalized());
+}
+
 void clamp_slope(const TsplineBasis& basis, const Points& points, const Edge& edge, const EdgeRows& r, Elimination& e) {
   for (int i : r.second) {
     const Tangents t = tangents(basis, points, on_edge(basis, edge, abscissa(basis, edge, i)));
-    e.hold(along(i, snapped(t.u.cross(t.v).normalized())));
+    e.hold(along(i, normal(t, edge)));
   }
 }
 

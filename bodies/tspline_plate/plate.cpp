@@ -31,6 +31,20 @@ void check_elements(const char* name, const std::vector<double>& numbers, const 
       throw ParameterError(name, fmt::format("no element {}; there are 0 to {}, by rows", e, count - 1));
 }
 
+constexpr double full_turn = 2 * 3.141592653589793 * (1 + 1e-12);
+
+// Knots of the lines of direction d that run all across, each once.
+std::vector<double> full_lines(const TMesh& mesh, int d) {
+  std::vector<double> knots;
+  for (int line = degree; line < mesh.edges().lines(d) - degree; ++line) {
+    bool full = knots.empty() || mesh.knot(d, line) > knots.back();
+    for (int piece = 0; full && piece < mesh.edges().lines(1 - d) - 1; ++piece)
+      full = mesh.edges().edge(d, line, piece);
+    if (full) knots.push_back(mesh.knot(d, line));
+  }
+  return knots;
+}
+
 std::vector<double> even_knots(int n) {
   std::vector<double> knots;
   for (int i = 0; i <= n; ++i) knots.push_back(double(i) / n);
@@ -71,8 +85,8 @@ void TsplinePlate::check_parameters(const World& world) const {
       break;
   }
   const bool turns = shape_kind == Shape::ring || shape_kind == Shape::cylinder || shape_kind == Shape::sphere;
-  if (turns && !(to > from && to - from <= largest_arc))
-    throw ParameterError("geometry.to", fmt::format("found {}, expected from < to <= from + {}", to, largest_arc));
+  if (turns && !(to > from && to - from <= full_turn))
+    throw ParameterError("geometry.to", fmt::format("found {}, expected from < to <= from + 2 pi", to));
   if (Vector3(axis).cross(Vector3(start)).norm() <= 1e-9 * axis.norm() * start.norm())
     throw ParameterError("geometry.start", "must not be parallel to axis");
   if (!held_axes.empty() && axes_in(held_axes).empty())
@@ -80,8 +94,19 @@ void TsplinePlate::check_parameters(const World& world) const {
   const bool u_held = edge_u0 != "free" || edge_u1 != "free", v_held = edge_v0 != "free" || edge_v1 != "free";
   if ((joined == Joined::u && u_held) || (joined == Joined::v && v_held))
     throw ParameterError("joined", "edges that are joined to each other must be free");
-  if (!refine_on.empty() && refine_at) throw ParameterError("refine.at", "give either on_contact or at");
-  if ((!refine_on.empty() || refine_at) && refine_elements.empty())
+  check_refinement();
+}
+
+void TsplinePlate::check_refinement() const {
+  const bool on_contact = !refine_on.empty(), by_indicator = indicator != Indicator::none;
+  if (on_contact + refine_at.has_value() + by_indicator > 1)
+    throw ParameterError(refine_at ? "refine.at" : "refine.indicator", "give one of on_contact, at, indicator");
+  if (by_indicator && !refine_threshold)
+    throw ParameterError("refine.threshold", "an indicator needs the value above which an element is split");
+  if (refine_near && !on_contact) throw ParameterError("refine.near", "it belongs to refine.on_contact");
+  if (!refine_elements.empty() && chooses_elements())
+    throw ParameterError("refine.elements", "the elements are chosen by near or by the indicator; leave them out");
+  if ((on_contact || refine_at) && refine_elements.empty() && !refine_near)
     throw ParameterError("refine.elements", "name the elements to split, counted by rows from 0");
 }
 
@@ -122,18 +147,18 @@ TMesh TsplinePlate::first_mesh() const {
   }
 }
 
-ControlNet TsplinePlate::net_of_shape() const {
+ControlNet TsplinePlate::net_of_shape(const TMesh& mesh) const {
   Frame frame{origin, Matrix3::Identity()};
   frame.axes.col(2) = Vector3(axis).normalized();
   frame.axes.col(1) = Vector3(frame.axes.col(2)).cross(Vector3(start)).normalized();
   frame.axes.col(0) = Vector3(frame.axes.col(1)).cross(Vector3(frame.axes.col(2)));
   switch (shape_kind) {
     case Shape::ring:
-      return ring(frame, *inner_radius, *radius, from, to);
+      return ring(frame, *inner_radius, *radius, from, to, full_lines(mesh, 1));
     case Shape::cylinder:
-      return cylinder(frame, *radius, *length, from, to);
+      return cylinder(frame, *radius, *length, from, to, full_lines(mesh, 0));
     case Shape::sphere:
-      return sphere(frame, *radius, from, to, south, north);
+      return sphere(frame, *radius, from, to, south, north, full_lines(mesh, 0));
     default:
       return rectangle(origin, *along_u, *along_v);
   }
@@ -142,7 +167,7 @@ ControlNet TsplinePlate::net_of_shape() const {
 ControlNet TsplinePlate::first_net() const {
   const TMesh mesh = first_mesh();
   try {
-    if (shape_kind != Shape::points) return refined(net_of_shape(), mesh);
+    if (shape_kind != Shape::points) return refined(net_of_shape(mesh), mesh);
     const auto n = Eigen::Index(anchors(mesh).size());
     if (Eigen::Index(control_points.size()) != 3 * n)
       throw ParameterError("geometry.control_points",
@@ -158,7 +183,7 @@ ControlNet TsplinePlate::first_net() const {
           "mesh", "the functions of this T-mesh are not linearly independent; choose the closure both or greedy");
     return net;
   } catch (const std::invalid_argument& e) {
-    throw ParameterError("geometry.weights", e.what());
+    throw ParameterError(shape_kind == Shape::points ? "geometry.weights" : "mesh", e.what());
   } catch (const std::domain_error& e) {
     throw ParameterError("mesh.closure", e.what());
   }
@@ -195,6 +220,7 @@ void TsplinePlate::take(ControlNet net) {
   }
   gather_dead_loads();
   place_markers();
+  if (chooses_elements()) splittable_ = Splittable(mesh_->basis, first_elements_, refine_levels);
 }
 
 bool TsplinePlate::has_edge_load(std::size_t k) const {
@@ -238,6 +264,7 @@ void TsplinePlate::prepare(const World& world) {
   check_parameters(world);
   gravity_ = world.gravity;
   ControlNet net = first_net();
+  first_elements_ = element_boxes(net.mesh);
   const auto &u = net.mesh.knots(0), &v = net.mesh.knots(1);
   marker_names_ = {"centre"};
   marker_points_ = {{(u.front() + u.back()) / 2, (v.front() + v.back()) / 2, 0, {}}};

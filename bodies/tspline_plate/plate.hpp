@@ -17,6 +17,7 @@
 #include "discretisation.hpp"
 #include "edge.hpp"
 #include "loads.hpp"
+#include "refinement_trigger.hpp"
 #include "stress.hpp"
 #include "surface_point.hpp"
 #include "t_junction.hpp"
@@ -68,6 +69,9 @@ class TsplinePlate final : public Body,
   std::string refine_on;
   std::optional<double> refine_at;
   std::vector<double> refine_elements;
+  std::optional<double> refine_near, refine_threshold;
+  Indicator indicator = Indicator::none;
+  int refine_levels = 1;
 
   void prepare(const World& world) override;
 
@@ -128,11 +132,16 @@ class TsplinePlate final : public Body,
   bool has_edge_load(std::size_t k) const;
 
   void check_parameters(const World& world) const;
+  void check_refinement() const;
   ControlNet first_net() const;
-  ControlNet net_of_shape() const;
+  ControlNet net_of_shape(const TMesh& mesh) const;
   TMesh first_mesh() const;
   void take(ControlNet net);  // builds everything that depends on the mesh
   void place_markers();
+  bool chooses_elements() const { return refine_near || indicator != Indicator::none; }
+  std::vector<Box<double>> elements_near(const Eigen::Vector2d& at) const;
+  std::vector<Box<double>> indicated(In q) const;
+  std::vector<Box<double>> chosen(double t, In q, const RefineCause& cause) const;  // none: nothing is due
   void gather_dead_loads();
   void add_loads(double t, In q, Out f) const;
   void add_load_tangent(double t, In q, double c, Matrix& S) const;
@@ -147,6 +156,8 @@ class TsplinePlate final : public Body,
   std::vector<std::string> marker_names_, observable_names_;
   std::vector<Marker> marker_points_;
   std::vector<std::vector<Box<double>>> refinements_;  // crossed so far, to be repeated when a run resumes
+  std::vector<Box<double>> first_elements_;            // of the first mesh
+  Splittable splittable_;                              // empty unless the plate chooses elements by itself
 };
 
 }  // namespace trammel::plate

@@ -1,7 +1,7 @@
 // The plate takes over a finer mesh: control points, displacements and velocities by one and the same operator, so that the
 // surface, its motion and with them momentum and energies stay what they were. Accelerations do not (they satisfy the
 // equations tested with the old functions only); whoever integrates solves for them anew.
-#include <fmt/format.h>
+#include <algorithm>
 
 #include "plate.hpp"
 
@@ -45,19 +45,55 @@ std::unique_ptr<Transfer> TsplinePlate::refine_elements_in(const std::vector<Box
   return std::make_unique<MeshTransfer>(std::move(old), mesh_->coordinates, std::move(op.points));
 }
 
-bool TsplinePlate::due(double t, In, In, const RefineCause& cause) const {
-  if (!refinements_.empty()) return false;
-  if (refine_at) return cause.contact.empty() && t >= *refine_at;
-  return !refine_on.empty() && cause.contact == refine_on;
+// In the reference, from the nearest parameters of each element.
+std::vector<Box<double>> TsplinePlate::elements_near(const Eigen::Vector2d& at) const {
+  const Vec rest = Vec::Zero(mesh_->coordinates.coordinates());
+  const auto reference = [&](double u, double v) { return place(*mesh_, surface_point(*mesh_, u, v), rest).r; };
+  const Vector3 struck = reference(at.x(), at.y());
+  std::vector<Box<double>> result;
+  for (const Box<double>& box : splittable_.elements()) {
+    const double u = std::clamp(at.x(), box.low[0], box.high[0]), v = std::clamp(at.y(), box.low[1], box.high[1]);
+    if ((reference(u, v) - struck).norm() <= *refine_near) result.push_back(box);
+  }
+  return result;
 }
 
-std::unique_ptr<Transfer> TsplinePlate::refine(double t, In q, In v, const RefineCause& cause) {
-  if (!due(t, q, v, cause)) return nullptr;
-  const TMesh& mesh = mesh_->basis.mesh();
-  const auto faces = mesh.elements();
-  std::vector<Box<double>> boxes;
-  for (double e : refine_elements) boxes.push_back(mesh.parameters(faces[std::size_t(e)]));
-  return refine_elements_in(boxes);
+std::vector<Box<double>> TsplinePlate::indicated(In q) const {
+  std::vector<char> marked(splittable_.elements().size(), 0);
+  CellVectors u;
+  for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {
+    const int element = splittable_.element_of(int(c));
+    if (element < 0 || marked[std::size_t(element)]) continue;
+    gather(mesh_->cells[c], q, u);
+    marked[std::size_t(element)] = indicate(indicator, mesh_->cells[c], u) > *refine_threshold;
+  }
+  std::vector<Box<double>> result;
+  for (std::size_t e = 0; e < marked.size(); ++e)
+    if (marked[e]) result.push_back(splittable_.elements()[e]);
+  return result;
+}
+
+// Named elements are split once; those that the plate finds by itself as often as the levels allow.
+std::vector<Box<double>> TsplinePlate::chosen(double t, In q, const RefineCause& cause) const {
+  const bool step = cause.contact.empty();
+  if (indicator != Indicator::none) return step ? indicated(q) : std::vector<Box<double>>{};
+  const bool struck = !step && cause.contact == refine_on;
+  if (refine_near) return struck ? elements_near(cause.at) : std::vector<Box<double>>{};
+  const bool now = refinements_.empty() && (refine_at ? step && t >= *refine_at : struck);
+  if (!now) return {};
+  const auto all = element_boxes(mesh_->basis.mesh());
+  std::vector<Box<double>> named;
+  for (double e : refine_elements) named.push_back(all[std::size_t(e)]);
+  return named;
+}
+
+bool TsplinePlate::due(double t, In q, In, const RefineCause& cause) const {
+  return !chosen(t, q, cause).empty();
+}
+
+std::unique_ptr<Transfer> TsplinePlate::refine(double t, In q, In, const RefineCause& cause) {
+  const auto boxes = chosen(t, q, cause);
+  return boxes.empty() ? nullptr : refine_elements_in(boxes);
 }
 
 void TsplinePlate::archive(Archive& archive) {

@@ -30,7 +30,10 @@ TRAMMEL_PLUGIN(
         .parameter("geometry.length", &P::length, {.unit = "m", .min = 0, .above_min = true, .doc = "cylinder"})
         .parameter("geometry.from", &P::from,
                    {.unit = "rad", .doc = "angle at the first edge; u runs round cylinders and spheres, v round rings"})
-        .parameter("geometry.to", &P::to, {.unit = "rad", .doc = "angle at the other edge, at most 2.6 further"})
+        .parameter(
+            "geometry.to", &P::to,
+            {.unit = "rad",
+             .doc = "angle at the other edge; an arc over 2.6 is a spline through the circle at its elements' ends"})
         .parameter("geometry.south", &P::south,
                    {.unit = "rad", .min = -1.57, .max = 1.57, .doc = "sphere: latitude of v0"})
         .parameter("geometry.north", &P::north,
@@ -69,6 +72,19 @@ TRAMMEL_PLUGIN(
         .parameter("refine.on_contact", &P::refine_on, {.doc = "contact whose first closing refines the mesh"})
         .parameter("refine.at", &P::refine_at, {.unit = "s", .doc = "time that refines the mesh"})
         .parameter("refine.elements", &P::refine_elements, {.doc = "elements to split in four then"})
+        .parameter(
+            "refine.near", &P::refine_near,
+            {.unit = "m", .min = 0, .doc = "instead: elements so near the place, at every closing of the contact"})
+        .choice("refine.indicator", &P::indicator,
+                {{"none", trammel::plate::Indicator::none},
+                 {"energy_density", trammel::plate::Indicator::energy_density},
+                 {"curvature_jump", trammel::plate::Indicator::curvature_jump}},
+                {.doc = "splits elements, at the end of any step, where it is above the threshold"})
+        .parameter("refine.threshold", &P::refine_threshold,
+                   {.min = 0, .doc = "energy_density: mean [J/m^2]; curvature_jump: change across the element [1/m]"})
+        .parameter(
+            "refine.levels", &P::refine_levels,
+            {.min = 1, .max = 12, .doc = "how often near or the indicator may split an element of the first mesh"})
         .parameter("edges.u0", &P::edge_u0, {.doc = "free, hinged, clamped, symmetric, or held axes such as \"xz\""})
         .parameter("edges.u1", &P::edge_u1, {.doc = "free, hinged, clamped, symmetric, or held axes such as \"xz\""})
         .parameter("edges.v0", &P::edge_v0, {.doc = "free, hinged, clamped, symmetric, or held axes such as \"xz\""})

@@ -28,6 +28,18 @@ void Refinement::find_due(const State& state, int contact, const RefineCause& ca
   }
 }
 
+Eigen::Vector2d Refinement::place(const State& state, int contact) {
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  const model::ContactEntry& touched = model_->contacts[std::size_t(contact)];
+  if (!touched.surface) return at;
+  system_.move_to(state.t, state.q, state.v);
+  const model::BodyEntry& entry = model_->bodies[std::size_t(touched.surface->body)];
+  Vec3 point, normal;
+  entry.surface->nearest(state.t, state.q.segment(entry.q0, entry.nq), system_.contact_marker(contact).x, at, point,
+                         normal);
+  return at;
+}
+
 RefineEvent::Side Refinement::side(const State& state, int body) const {
   const model::BodyEntry& entry = model_->bodies[std::size_t(body)];
   const auto q = state.q.segment(entry.q0, entry.nq);
@@ -44,7 +56,10 @@ void Refinement::lay_out() {
 
 const Transfer* Refinement::refine(State& state, int contact) {
   RefineCause cause;
-  if (contact >= 0) cause.contact = model_->contacts[std::size_t(contact)].name;
+  if (contact >= 0) {
+    cause.contact = model_->contacts[std::size_t(contact)].name;
+    cause.at = place(state, contact);
+  }
   find_due(state, contact, cause);
   if (due_.empty()) return nullptr;
   std::vector<RefineEvent::Side> before;

@@ -32,6 +32,8 @@ class Refinement {
 
  private:
   RefineEvent::Side side(const State& state, int body) const;
+  // Where on its surface the contact has closed; 0 without a surface.
+  Eigen::Vector2d place(const State& state, int contact);
   void find_due(const State& state, int contact, const RefineCause& cause);
 
   std::shared_ptr<model::Model> model_;

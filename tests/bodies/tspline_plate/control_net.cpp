@@ -25,6 +25,12 @@ void everywhere(Claim claim) {
     for (int j = 0; j <= 7; ++j) claim(i / 7.0, j / 7.0);
 }
 
+std::vector<double> fine_knots(int n) {
+  std::vector<double> knots;
+  for (int i = 0; i <= n; ++i) knots.push_back(double(i) / n);
+  return knots;
+}
+
 Frame tilted() {
   return {Eigen::Vector3d(1, 2, 3), Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 1, 0).normalized()).toRotationMatrix()};
 }
@@ -44,6 +50,25 @@ TEST(ControlNet, CurvedShapesAreExactBeforeAndAfterRefinement) {
       EXPECT_NEAR(local(at(c, u, v)).norm(), 2, 1e-14);
     });
   }
+}
+
+// Spline interpolation of order 4: r^(4) h^4 / 384 at the middle of a piece, h = 2 pi / n.
+TEST(ControlNet, FullCirclesAreSplinesOfFourthOrder) {
+  for (int n : {12, 24, 48}) {
+    const TMesh fine = TMesh::uniform(n, 2);
+    const ControlNet net = refined(cylinder({}, 3, 5, 0, 2 * M_PI, fine_knots(n)), fine);
+    double off = 0;
+    for (int i = 0; i <= 4 * n; ++i)
+      off = std::max(off, std::abs(at(net, i / (4.0 * n), 0.3).head<2>().norm() / 3 - 1));
+    const double expected = std::pow(2 * M_PI / n, 4) / 384;
+    EXPECT_LT(off, 1.2 * expected) << n;
+    EXPECT_GT(off, 0.3 * expected) << n;
+  }
+}
+
+TEST(ControlNet, FullCirclesOfTooFewPiecesAreRefused) {
+  EXPECT_THROW(cylinder({}, 3, 5, 0, 2 * M_PI, fine_knots(3)), std::invalid_argument);
+  EXPECT_NO_THROW(cylinder({}, 3, 5, 0, 2 * M_PI, fine_knots(4)));
 }
 
 TEST(ControlNet, RectanglesAreParametrisedEvenly) {
