@@ -245,5 +245,26 @@ TEST(TsplinePlate, RefusesWhatItCannotBuild) {
             "geometry.control_points: found 3 numbers, expected 75: x, y, z of 25 control points, by rows");
 }
 
+TEST(TsplinePlate, RefusesTriggersThatContradictEachOther) {
+  EXPECT_EQ(refusal([](TsplinePlate& p) { p.indicator = Indicator::energy_density; }),
+            "refine.threshold: an indicator needs the value above which an element is split");
+  EXPECT_EQ(refusal([](TsplinePlate& p) { p.refine_near = 0.1; }), "refine.near: it belongs to refine.on_contact");
+  EXPECT_EQ(refusal([](TsplinePlate& p) { p.refine_on = "ball", p.refine_at = 1, p.refine_elements = {0}; }),
+            "refine.at: give one of on_contact, at, indicator");
+  EXPECT_EQ(refusal([](TsplinePlate& p) { p.refine_on = "ball", p.refine_near = 0.1, p.refine_elements = {0}; }),
+            "refine.elements: the elements are chosen by near or by the indicator; leave them out");
+  EXPECT_EQ(refusal([](TsplinePlate& p) { p.refine_on = "ball"; }),
+            "refine.elements: name the elements to split, counted by rows from 0");
+}
+
+TEST(TsplinePlate, RefusesACircleOfTooFewElements) {
+  EXPECT_EQ(refusal([](TsplinePlate& p) {
+              p.shape_kind = TsplinePlate::Shape::cylinder;
+              p.radius = 1, p.length = 2, p.to = 2 * M_PI;
+            }),
+            "mesh: an arc of 6.283 rad is a spline whose pieces are 1.6 rad at most; found one of 3.142 rad, take more "
+            "elements round it");
+}
+
 }  // namespace
 }  // namespace trammel::plate

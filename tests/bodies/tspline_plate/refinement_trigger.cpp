@@ -108,7 +108,7 @@ TEST(RefinementNear, StopsAtItsLevels) {
   plate->refine_on = "ball", plate->refine_near = 0.1, plate->refine_levels = 3;
   plate->prepare(space());
   EXPECT_LT(refine_all(*plate, rest, {"ball", {0.5, 0.5}}), 6);  // by neighbours that come within the distance
-  EXPECT_DOUBLE_EQ(narrowest(*plate), 0.2 / 8);
+  EXPECT_NEAR(narrowest(*plate), 0.2 / 8, 1e-12);
 }
 
 }  // namespace
