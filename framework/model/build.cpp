@@ -95,6 +95,7 @@ class Builder {
     entry.observed = dynamic_cast<const Observed*>(body.get());
     entry.drawn = dynamic_cast<const Drawn*>(body.get());
     entry.body = std::move(body);
+    model_->body_named.emplace(name, int(model_->bodies.size()));
     model_->bodies.push_back(std::move(entry));
   }
 

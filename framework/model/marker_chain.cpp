@@ -6,12 +6,14 @@
 
 namespace trammel::model {
 
-MarkerChain::MarkerChain(const Model& model) : model_(model) {}
+MarkerChain::MarkerChain(const Model& model) : model_(model), known_(model.bodies.size() + 1) {}
 
 int MarkerChain::slot(MarkerRef marker) {
-  for (std::size_t i = 0; i < slots_.size(); ++i)
-    if (!slots_[i]->surface && slots_[i]->marker.body == marker.body && slots_[i]->marker.marker == marker.marker)
-      return int(i);
+  std::vector<int>& of_body = known_[std::size_t(marker.body + 1)];
+  if (of_body.size() <= std::size_t(marker.marker)) of_body.resize(std::size_t(marker.marker) + 1, -1);
+  int& known = of_body[std::size_t(marker.marker)];
+  if (known >= 0) return known;
+  known = int(slots_.size());
   Slot& slot = *slots_.emplace_back(std::make_unique<Slot>());
   slot.marker = marker;
   if (marker.body < 0) {
@@ -24,7 +26,7 @@ int MarkerChain::slot(MarkerRef marker) {
     slot.motion.bias.setZero(n);
     slot.motion.J.resize(n, 0);
   }
-  return int(slots_.size()) - 1;
+  return known;
 }
 
 int MarkerChain::surface_slot(int body) {

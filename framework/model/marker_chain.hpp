@@ -51,6 +51,7 @@ class MarkerChain {
 
   const Model& model_;
   std::vector<std::unique_ptr<Slot>> slots_;  // references to motions stay valid
+  std::vector<std::vector<int>> known_;       // slot or -1, by body (the ground first) and marker
   long long point_ = 0;
   bool still_ = false;
   Motion probe_;  // for the differences

@@ -2,6 +2,7 @@
 // is built (but for a refinement, which builds the layout anew); shared by every System that works on it.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -110,6 +111,7 @@ struct GroundFrame {
 struct Model {
   World world;
   std::vector<BodyEntry> bodies;
+  std::map<std::string, int, std::less<>> body_named;  // in a scene
   std::vector<JointEntry> joints;
   std::vector<ForceEntry> forces;
   std::vector<ContactEntry> contacts;

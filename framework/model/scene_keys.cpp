@@ -47,14 +47,14 @@ std::vector<std::string> marker_names(const Model& model) {
 
 std::optional<MarkerRef> find_marker(const Model& model, std::string_view name) {
   if (name == "ground") return MarkerRef{};
-  for (int b = 0; b < int(model.bodies.size()); ++b) {
-    const BodyEntry& entry = model.bodies[b];
-    if (name.size() <= entry.name.size() || !name.starts_with(entry.name) || name[entry.name.size()] != '.') continue;
-    const auto markers = entry.body->markers();
-    const auto found = std::find(markers.begin(), markers.end(), name.substr(entry.name.size() + 1));
-    if (found != markers.end()) return MarkerRef{b, int(found - markers.begin())};
-  }
-  return {};
+  const auto dot = name.find('.');  // bodies' names have none
+  if (dot == name.npos) return {};
+  const auto body = model.body_named.find(name.substr(0, dot));
+  if (body == model.body_named.end()) return {};
+  const auto markers = model.bodies[std::size_t(body->second)].body->markers();
+  const auto found = std::find(markers.begin(), markers.end(), name.substr(dot + 1));
+  if (found == markers.end()) return {};
+  return MarkerRef{body->second, int(found - markers.begin())};
 }
 
 std::optional<MarkerRef> read_marker(const Value& value, Model& model, Problems& problems) {

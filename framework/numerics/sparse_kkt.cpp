@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace trammel::numerics {
 
@@ -11,8 +10,8 @@ namespace {
 // Of S's and G's scales. Large beside its round-off, so that corrections converge; its square root is the
 // singular value, relative to the largest, below which rows count as redundant.
 constexpr double regularisation = 1e-12;
-// Pivots of redundant rows of a long chain: above their round-off.
-constexpr double dependent = 1e-11;
+// Of a long chain the complement serves as it is down to this sine of a row's angle to others: its square above round-off by 1e10.
+constexpr double safe_sine = 1e-3;
 // Redundant rows part by no more than this where they are violated, the largest rank tolerance of kkt.hpp.
 constexpr double parting = 1e-2;
 
@@ -30,71 +29,65 @@ double refine(Residual&& residual, Correct&& correct, double enough, int most, V
 
 }  // namespace
 
-void add_rows_times(const std::vector<BodyBlock>& bodies, double c, const Vec& x, Vec& rc) {
-  for (const BodyBlock& body : bodies)
-    for (std::size_t i = 0; i < body.rows.size() && body.rows[i] < rc.size(); ++i)
-      rc(body.rows[i]) += c * body.Gt.col(Eigen::Index(i)).dot(x.segment(body.v0, body.Gt.rows()));
-}
-
-namespace {
-
-void add_columns(const BodyBlock& body, const Mat& columns, double c, const Vec& y, Vec& r) {
-  for (std::size_t i = 0; i < body.rows.size() && body.rows[i] < y.size(); ++i)
-    r.segment(body.v0, columns.rows()) += c * y(body.rows[i]) * columns.col(Eigen::Index(i));
-}
-
-}  // namespace
-
-void add_rows_force(const std::vector<BodyBlock>& bodies, double c, const Vec& y, Vec& r) {
-  for (const BodyBlock& body : bodies) add_columns(body, body.Gt, c, y, r);
-}
-
-void add_reaction(const std::vector<BodyBlock>& bodies, double c, const Vec& y, Vec& r) {
-  for (const BodyBlock& body : bodies) add_columns(body, body.Wt, c, y, r);
-}
-
-void add_mass_times(const std::vector<BodyBlock>& bodies, double c, const Vec& a, Vec& r) {
-  for (const BodyBlock& body : bodies)
-    r.segment(body.v0, body.M.rows()).noalias() += c * (body.M * a.segment(body.v0, body.M.rows()));
-}
-
 bool SparseMassKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, Metric metric, double rank_tolerance) {
   nc_ = nc;
-  factors_.resize(bodies.size());
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    Factor& factor = factors_[k];
-    if (metric == Metric::mass) factor.mass.compute(bodies[k].M);
-    if (metric == Metric::identity) factor.mass.compute(Mat::Identity(bodies[k].M.rows(), bodies[k].M.rows()));
-    if (factor.mass.info() != Eigen::Success) return false;
-    factor.Y = bodies[k].Gt;
-    factor.mass.matrixL().solveInPlace(factor.Y);
-  }
   redundant_ = false;
+  rank_tolerance_ = rank_tolerance;
+  if (metric != Metric::mass_of_before) identity_ = metric == Metric::identity;
+  const bool known = nc >= long_chain && fronts_.know(bodies, nc);
+  by_fronts_ = known && !fronts_failed_;
+  if (by_fronts_) return factorise_fronts(bodies);
+  if (!factorise_masses(bodies, metric)) return false;
   if (nc == 0) return true;
   assemble(bodies, 0);
-  bool safe = ldlt_.info() == Eigen::Success;
-  if (safe) {
-    const Vec pivots = ldlt_.permutationP().transpose() * Vec(ldlt_.vectorD());
-    safe = (pivots.array() > 100 * rank_tolerance * rank_tolerance * diagonal_.array()).all();
-  }
-  if (safe) return true;
-  redundant_ = true;
-  rank_tolerance_ = rank_tolerance;
-  regular_ = false;
-  if (nc < long_chain) {
-    regularise(bodies);
-    return true;
-  }
-  if (!std::exchange(pattern_known_, true)) semidefinite_.analyse(schur_.matrix());
-  semidefinite_.factorise(schur_.matrix(), dependent);
+  by_fronts_ = nc >= long_chain && !known && !complement_is_safe(std::max(safe_sine, 10 * rank_tolerance));
+  fronts_failed_ = fronts_failed_ && known;
+  if (by_fronts_) return factorise_fronts(bodies);
+  redundant_ = !complement_is_safe(10 * rank_tolerance);
+  if (redundant_) regularise(bodies);
   return true;
+}
+
+void SparseMassKkt::leave_fronts(const std::vector<BodyBlock>& bodies) {
+  by_fronts_ = false;
+  fronts_failed_ = redundant_ = true;
+  factorise_masses(bodies, identity_ ? Metric::identity : Metric::mass);
+  assemble(bodies, 0);
+  regularise(bodies);
 }
 
 // Large beside the complement's round-off, so that corrections converge and the unreachable is told from the rest.
 void SparseMassKkt::regularise(const std::vector<BodyBlock>& bodies) {
   eps_ = std::max(1e-10, rank_tolerance_ * rank_tolerance_) * diagonal_.maxCoeff();
   assemble(bodies, eps_);
-  regular_ = true;
+}
+
+bool SparseMassKkt::factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric) {
+  const bool kept = metric == Metric::mass_of_before && factors_.size() == bodies.size();
+  factors_.resize(bodies.size());
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    Factor& factor = factors_[k];
+    if (identity_)
+      factor.mass.compute(Mat::Identity(bodies[k].M.rows(), bodies[k].M.rows()));
+    else if (!kept)
+      factor.mass.compute(bodies[k].M);
+    if (factor.mass.info() != Eigen::Success) return false;
+    factor.Y = bodies[k].Gt;
+    factor.mass.matrixL().solveInPlace(factor.Y);
+  }
+  return true;
+}
+
+bool SparseMassKkt::complement_is_safe(double least_sine) const {
+  if (ldlt_.info() != Eigen::Success) return false;
+  const Vec pivots = ldlt_.permutationP().transpose() * Vec(ldlt_.vectorD());
+  return (pivots.array() > least_sine * least_sine * diagonal_.array()).all();
+}
+
+bool SparseMassKkt::factorise_fronts(const std::vector<BodyBlock>& bodies) {
+  const bool done = fronts_.factorise(bodies, nc_, identity_, rank_tolerance_);
+  redundant_ = fronts_.dependent() > 0;
+  return done;
 }
 
 void SparseMassKkt::assemble(const std::vector<BodyBlock>& bodies, double eps) {
@@ -111,7 +104,7 @@ void SparseMassKkt::assemble(const std::vector<BodyBlock>& bodies, double eps) {
     }
     for (int i = 0; i < nc_; ++i) S.add(i, i, eps);
   });
-  if (fresh) ldlt_.analyzePattern(schur_.matrix()), pattern_known_ = false;
+  if (fresh) ldlt_.analyzePattern(schur_.matrix());
   ldlt_.factorize(schur_.matrix());
 }
 
@@ -133,48 +126,36 @@ void SparseMassKkt::remove_null_part(Vec& r) {
   }
 }
 
-// x += M^-1 G^T dy, until the rows G x = c hold as well as they can. False: they contradict each other.
-bool SparseMassKkt::conjugate_gradients(const std::vector<BodyBlock>& bodies, const Vec& c, Vec& x, Vec& y) {
-  constexpr int most = 60;
-  constexpr double enough = 1e-28;  // of the squared error, in the norm of the energy
-  const double scale = std::max(c.lpNorm<Eigen::Infinity>(), x.lpNorm<Eigen::Infinity>());
-  const Vec zero = Vec::Zero(x.size());
-  double first = 0, before = 0;
+// False: the equations do not come to hold. Then rows that depend on others were taken for independent ones: round-off has come
+// between them on a long way around.
+bool SparseMassKkt::solve_fronts(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
+  constexpr int most = 4;
+  constexpr double good = 1e-7, lost = 1e-6;  // corrections: leave their square; too large to count on
+  double change = 0, size = 0;
+  fronts_.solve(bodies, b, c, x, y);
   for (int i = 0; i < most; ++i) {
-    residual_ = -c;
-    add_rows_times(bodies, 1, x, residual_);
-    dy_ = residual_;
-    semidefinite_.solve(dy_);
-    const double error = residual_.dot(dy_);
-    if (i == 0) first = error;
-    // Near round-off errors grow again.
-    if (!(error > enough * first) || (error < 1e-20 * first && error > before)) break;
-    if (i == 0)
-      along_ = dy_;
+    left_ = b, residual_ = c;
+    if (identity_)
+      left_ -= x;
     else
-      along_ = dy_ + error / before * along_;
-    move(bodies, zero, along_, moved_);  // -M^-1 G^T along
-    right_.setZero(nc_);
-    add_rows_times(bodies, -1, moved_, right_);
-    const double step = error / along_.dot(right_);
-    if (!std::isfinite(step)) return false;
-    x += step * moved_;
-    y += step * along_;
-    before = error;
+      add_mass_times(bodies, -1, x, left_);
+    add_rows_force(bodies, -1, y, left_);
+    add_rows_times(bodies, -1, x, residual_);
+    fronts_.solve(bodies, left_, residual_, dx_, dy_);
+    change = dx_.lpNorm<Eigen::Infinity>(), size = x.lpNorm<Eigen::Infinity>();
+    if (!(change < 0.1 * size)) break;
+    x += dx_, y += dy_;
+    if (change <= good * size) break;
   }
-  return residual_.lpNorm<Eigen::Infinity>() <= 1e-10 * scale;
+  return change <= lost * size;
 }
 
 void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
+  if (by_fronts_ && solve_fronts(bodies, b, c, x, y)) return;
+  if (by_fronts_) leave_fronts(bodies);
   y.setZero(nc_);
   move(bodies, b, y, x);
   if (nc_ == 0) return;
-  if (redundant_ && !regular_) {
-    if (conjugate_gradients(bodies, c, x, y)) return;
-    regularise(bodies);
-    y.setZero(nc_);
-    move(bodies, b, y, x);
-  }
   const double scale = std::max(c.lpNorm<Eigen::Infinity>(), x.lpNorm<Eigen::Infinity>());
   const auto residual = [&](Vec& r) {
     r = -c;

@@ -11,10 +11,13 @@
 // unchanged equations are corrected with it. This is a proximal point iteration: its steps lie in the range of the rows, so
 // y comes out as the one of minimum norm, and directions of the rows with sigma^2 < eps count as redundant. x is unique.
 //
-// Long chains have such directions that are not redundant: their softest sigma falls with n^-2 (masts) or n^-3 (hoops). From
-// `long_chain` rows on redundant ones are left to conjugate gradients on the complement, which they see as a product of its factors,
-// so with sigma and not its square against round-off, preconditioned by semidefinite_ldlt.hpp. Then y is a solution of few entries
-// on redundant rows, not the one of minimum norm. Rows that contradict each other go the other way.
+// Long chains have such directions that are not redundant: their softest sigma falls with n^-2 (masts) or n^-3 (hoops), and its square
+// is lost. From `long_chain` rows on, where pivots of the complement tell of such or of redundant rows, the rows are eliminated front
+// by front (frontal_kkt.hpp), refined once or twice with the residuals of the equations. Then y is a solution of few entries on
+// redundant rows, not the one of minimum norm.
+// Where round-off comes between redundant rows on the way around a large ring (a hoop of 3000 bays), fronts contradict each other and
+// their solution does not come to satisfy the equations: that is measured, and the regularised complement takes their place. Of such a
+// hoop it leaves free what its rows tell by less than their round-off.
 #pragma once
 
 #include <vector>
@@ -23,25 +26,11 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 
+#include "numerics/body_block.hpp"
+#include "numerics/frontal_kkt.hpp"
 #include "numerics/recorded_matrix.hpp"
-#include "numerics/semidefinite_ldlt.hpp"
 
 namespace trammel::numerics {
-
-// What one body contributes: its mass and the rows of G that touch it.
-struct BodyBlock {
-  int v0 = 0;             // place of its velocities
-  Mat M;                  // n x n
-  std::vector<int> rows;  // ascending
-  Mat Gt;                 // n x rows.size(): those rows of G, transposed, its own columns
-  Mat Wt;                 // of W, where it is not G
-};
-
-// rc += c G x,  r += c G^T y,  r += c W^T y,  r += c M a. Rows beyond the length of rc or y are left out.
-void add_rows_times(const std::vector<BodyBlock>& bodies, double c, const Vec& x, Vec& rc);
-void add_rows_force(const std::vector<BodyBlock>& bodies, double c, const Vec& y, Vec& r);
-void add_reaction(const std::vector<BodyBlock>& bodies, double c, const Vec& y, Vec& r);
-void add_mass_times(const std::vector<BodyBlock>& bodies, double c, const Vec& a, Vec& r);
 
 class SparseMassKkt {
  public:
@@ -58,24 +47,26 @@ class SparseMassKkt {
     Eigen::LLT<Mat> mass;
     Mat Y;  // L^-1 G^T
   };
+  bool factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric);
+  bool complement_is_safe(double least_sine) const;
   void assemble(const std::vector<BodyBlock>& bodies, double eps);
   void move(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& y, Vec& x);  // x = M^-1 (b - G^T y)
-
-  void regularise(const std::vector<BodyBlock>& bodies);
   void remove_null_part(Vec& r);
-  bool conjugate_gradients(const std::vector<BodyBlock>& bodies, const Vec& c, Vec& x, Vec& y);
+  bool factorise_fronts(const std::vector<BodyBlock>& bodies);
+  bool solve_fronts(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
+  void leave_fronts(const std::vector<BodyBlock>& bodies);
+  void regularise(const std::vector<BodyBlock>& bodies);
 
   int nc_ = 0;
   double eps_ = 0;  // while redundant
   double rank_tolerance_ = 0;
   bool redundant_ = false;
-  bool regular_ = false;  // ldlt_ is that of the complement plus eps
+  bool by_fronts_ = false, fronts_failed_ = false, identity_ = false;
   std::vector<Factor> factors_;
   RecordedMatrix schur_;  // lower triangle
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt_;
-  SemidefiniteLdlt semidefinite_;
-  bool pattern_known_ = false;  // to semidefinite_
-  Vec diagonal_, z_, residual_, dy_, along_, moved_, right_;
+  FrontalKkt fronts_;
+  Vec diagonal_, residual_, dy_, dx_, left_;
 };
 
 class SparseIterationKkt {

@@ -1,0 +1,25 @@
+// The equations of many bodies, body by body: masses and rows of G as dense blocks, and their products with vectors.
+#pragma once
+
+#include <vector>
+
+#include <trammel/types.hpp>
+
+namespace trammel::numerics {
+
+// What one body contributes: its mass and the rows of G that touch it.
+struct BodyBlock {
+  int v0 = 0;             // place of its velocities
+  Mat M;                  // n x n
+  std::vector<int> rows;  // ascending
+  Mat Gt;                 // n x rows.size(): those rows of G, transposed, its own columns
+  Mat Wt;                 // of W, where it is not G
+};
+
+// rc += c G x,  r += c G^T y,  r += c W^T y,  r += c M a. Rows beyond the length of rc or y are left out.
+void add_rows_times(const std::vector<BodyBlock>& bodies, double c, const Vec& x, Vec& rc);
+void add_rows_force(const std::vector<BodyBlock>& bodies, double c, const Vec& y, Vec& r);
+void add_reaction(const std::vector<BodyBlock>& bodies, double c, const Vec& y, Vec& r);
+void add_mass_times(const std::vector<BodyBlock>& bodies, double c, const Vec& a, Vec& r);
+
+}  // namespace trammel::numerics

@@ -1,0 +1,167 @@
+#include "numerics/elimination_tree.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+
+namespace trammel::numerics {
+
+namespace {
+
+using Graph = std::vector<std::vector<int>>;  // neighbours of each node, ascending
+
+Graph graph_of(const std::vector<std::vector<int>>& cliques, std::size_t nodes) {
+  Graph graph(nodes);
+  for (const std::vector<int>& clique : cliques)
+    for (const int i : clique)
+      for (const int j : clique)
+        if (i != j) graph[std::size_t(i)].push_back(j);
+  for (std::vector<int>& neighbours : graph) {
+    std::sort(neighbours.begin(), neighbours.end());
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+  }
+  return graph;
+}
+
+// Breadth first from `first`, neighbours of low degree first; appended to `order`.
+void walk(const Graph& graph, int first, std::vector<char>& seen, std::vector<int>& order) {
+  std::size_t next = order.size();
+  order.push_back(first);
+  seen[std::size_t(first)] = 1;
+  for (; next < order.size(); ++next) {
+    const std::size_t begin = order.size();
+    for (const int j : graph[std::size_t(order[next])])
+      if (!seen[std::size_t(j)]) seen[std::size_t(j)] = 1, order.push_back(j);
+    std::stable_sort(order.begin() + std::ptrdiff_t(begin), order.end(),
+                     [&](int a, int b) { return graph[std::size_t(a)].size() < graph[std::size_t(b)].size(); });
+  }
+}
+
+// From an end of each connected part: where two walks, each from the last node of the one before, have led.
+std::vector<int> along(const Graph& graph) {
+  std::vector<int> order;
+  std::vector<char> seen(graph.size(), 0), tried(graph.size(), 0);
+  for (int i = 0; i < int(graph.size()); ++i) {
+    if (seen[std::size_t(i)]) continue;
+    int end = i;
+    for (int twice = 0; twice < 2; ++twice) {
+      std::vector<int> part;
+      walk(graph, end, tried, part);
+      for (const int node : part) tried[std::size_t(node)] = 0;
+      end = part.back();
+    }
+    walk(graph, end, seen, order);
+  }
+  std::reverse(order.begin(), order.end());
+  return order;
+}
+
+std::vector<int> of_minimum_degree(const Graph& graph) {
+  std::vector<Eigen::Triplet<double, int>> entries;
+  for (int i = 0; i < int(graph.size()); ++i) {
+    entries.emplace_back(i, i, 1.0);
+    for (const int j : graph[std::size_t(i)]) entries.emplace_back(j, i, 1.0);
+  }
+  Eigen::SparseMatrix<double> pattern(Eigen::Index(graph.size()), Eigen::Index(graph.size()));
+  pattern.setFromTriplets(entries.begin(), entries.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
+  Eigen::AMDOrdering<int>()(pattern, permutation);
+  return {permutation.indices().data(), permutation.indices().data() + graph.size()};
+}
+
+// What each node leaves as its boundary, by place in the order, ascending; the first of it is the parent.
+struct Elimination {
+  std::vector<int> order, place;
+  Graph boundary;
+  std::vector<double> size;  // unknowns of each boundary
+  double work = 0;
+};
+
+double work_of(double eliminated, double boundary) {
+  return eliminated * (eliminated + boundary) * (eliminated + boundary);
+}
+
+Elimination eliminate(const Graph& graph, const std::vector<int>& weight, std::vector<int> order) {
+  Elimination e{.order = std::move(order), .place = {}, .boundary = Graph(graph.size()), .size = {}};
+  const std::size_t n = graph.size();
+  e.place.resize(n), e.size.resize(n);
+  for (std::size_t k = 0; k < n; ++k) e.place[std::size_t(e.order[k])] = int(k);
+  std::vector<int> mark(n, -1);
+  Graph children(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    std::vector<int>& boundary = e.boundary[k];
+    const auto take = [&](int place) {
+      if (place <= int(k) || mark[std::size_t(place)] == int(k)) return;
+      mark[std::size_t(place)] = int(k);
+      boundary.push_back(place);
+    };
+    for (const int j : graph[std::size_t(e.order[k])]) take(e.place[std::size_t(j)]);
+    for (const int child : children[k])
+      for (const int place : e.boundary[std::size_t(child)]) take(place);
+    std::sort(boundary.begin(), boundary.end());
+    for (const int place : boundary) e.size[k] += weight[std::size_t(e.order[std::size_t(place)])];
+    e.work += work_of(weight[std::size_t(e.order[k])], e.size[k]);
+    if (!boundary.empty()) children[std::size_t(boundary[0])].push_back(int(k));
+  }
+  return e;
+}
+
+}  // namespace
+
+void EliminationTree::build(const std::vector<std::vector<int>>& cliques, const std::vector<int>& weight) {
+  constexpr double worth = 3;        // what the order along the graph may cost more than the other
+  constexpr double overhead = 2000;  // of a front, in the unit of work_of
+  const std::size_t n = weight.size();
+  const Graph graph = graph_of(cliques, n);
+  Elimination e = eliminate(graph, weight, along(graph));
+  if (Elimination other = eliminate(graph, weight, of_minimum_degree(graph)); e.work > worth * other.work)
+    e = std::move(other);
+
+  // A node at place k begins as a front of its own and unites with those of its children where that is cheaper.
+  struct Open {
+    std::vector<int> places, children;
+    double eliminated = 0;
+  };
+  std::vector<Open> open(n);
+  std::vector<char> gone(n, 0);
+  for (std::size_t k = 0; k < n; ++k) {
+    Open& front = open[k];
+    front.eliminated += weight[std::size_t(e.order[k])];
+    std::vector<int> kept;
+    for (const int child : front.children) {
+      Open& below = open[std::size_t(child)];
+      const double both = below.eliminated + front.eliminated;
+      if (work_of(both, e.size[k]) >
+          work_of(below.eliminated, e.size[std::size_t(child)]) + work_of(front.eliminated, e.size[k]) + overhead) {
+        kept.push_back(child);
+        continue;
+      }
+      front.eliminated = both;
+      front.places.insert(front.places.end(), below.places.begin(), below.places.end());
+      kept.insert(kept.end(), below.children.begin(), below.children.end());
+      gone[std::size_t(child)] = 1;
+    }
+    front.children = std::move(kept);
+    front.places.push_back(int(k));
+    if (!e.boundary[k].empty()) open[std::size_t(e.boundary[k][0])].children.push_back(int(k));
+  }
+  fronts_.clear();
+  front_of_.assign(n, -1);
+  place_ = e.place;
+  std::vector<int> index(n, -1);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (gone[k]) continue;
+    index[k] = int(fronts_.size());
+    Front& front = fronts_.emplace_back();
+    for (const int place : open[k].places) {
+      front.eliminated.push_back(e.order[std::size_t(place)]);
+      front_of_[std::size_t(front.eliminated.back())] = index[k];
+    }
+    for (const int place : e.boundary[k]) front.boundary.push_back(e.order[std::size_t(place)]);
+    for (const int child : open[k].children) front.children.push_back(index[std::size_t(child)]);
+  }
+}
+
+}  // namespace trammel::numerics

@@ -1,0 +1,32 @@
+// In which order the nodes of a graph are eliminated from a sparse system, and in which fronts.
+//
+// A front eliminates some nodes and leaves a dense matrix on their neighbours, its boundary, to its parent (multifrontal method: Duff
+// and Reid 1983). Two orders are tried: along the graph (reverse Cuthill-McKee: chains and rings from end to end, where each front has
+// the next unit's own equations to lean on and rounding grows with the distance alone) and approximate minimum degree, which leaves
+// less to do where the graph is wide. Fronts too small to be worth their overhead are united with their parents.
+#pragma once
+
+#include <vector>
+
+namespace trammel::numerics {
+
+class EliminationTree {
+ public:
+  struct Front {
+    std::vector<int> eliminated, boundary;  // nodes, in the order of elimination
+    std::vector<int> children;              // fronts, all of them earlier ones
+  };
+  // `cliques`: sets of nodes that are all neighbours. `weight`: unknowns of each node.
+  void build(const std::vector<std::vector<int>>& cliques, const std::vector<int>& weight);
+
+  const std::vector<Front>& fronts() const { return fronts_; }  // children first
+  std::size_t nodes() const { return place_.size(); }
+  int place(int node) const { return place_[std::size_t(node)]; }        // in the order of elimination
+  int front_of(int node) const { return front_of_[std::size_t(node)]; }  // that eliminates it
+
+ private:
+  std::vector<Front> fronts_;
+  std::vector<int> place_, front_of_;
+};
+
+}  // namespace trammel::numerics

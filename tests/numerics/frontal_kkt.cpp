@@ -1,0 +1,155 @@
+// Elimination front by front: unique accelerations of long trusses, whatever their softness and redundancy.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "numerics/frontal_kkt.hpp"
+#include "numerics/kkt.hpp"
+#include "numerics/sparse_kkt.hpp"
+#include "trusses.hpp"
+
+namespace trammel::numerics {
+namespace {
+
+using test::Truss;
+
+struct Pose {
+  double theta, theta_dot;
+};
+constexpr Pose poses[] = {{30 * test::pi / 180, 0}, {55 * test::pi / 180, 0.7}, {80 * test::pi / 180, -0.4}};
+
+// In the largest norm, of the largest acceleration.
+double error_of(const Truss& truss) {
+  SparseMassKkt kkt;
+  EXPECT_TRUE(kkt.factorise(truss.bodies, truss.rows, SparseMassKkt::Metric::mass));
+  Vec x, y;
+  kkt.solve(truss.bodies, truss.b, truss.c, x, y);
+  return (x - truss.exact).lpNorm<Eigen::Infinity>() / truss.exact.lpNorm<Eigen::Infinity>();
+}
+
+int dependent_rows(const Truss& truss) {
+  FrontalKkt kkt;
+  EXPECT_TRUE(kkt.factorise(truss.bodies, truss.rows, false, rank_tolerance_at(0)));
+  return kkt.dependent();
+}
+
+// The softest singular value falls with n^-2, its square, which a complement of masses would see, with n^-4: 1e-13 here.
+TEST(LongMast, HasTheAccelerationsOfItsExactModel) {
+  for (const Pose& pose : poses) EXPECT_LT(error_of(Truss::mast(1000, pose.theta, pose.theta_dot)), 1e-10);
+}
+
+TEST(LongPrismaticMast, HasTheAccelerationsOfItsExactModel) {
+  for (const Pose& pose : poses) EXPECT_LT(error_of(Truss::prismatic_mast(300, pose.theta, pose.theta_dot)), 1e-10);
+}
+
+// Rounding of the coordinates moves the rows of a hoop by eps n, and its softest singular value falls with n^-3.
+TEST(LargeHoop, HasTheAccelerationsOfItsExactModel) {
+  for (const Pose& pose : poses) EXPECT_LT(error_of(Truss::hoop(150, pose.theta, pose.theta_dot)), 1e-9);
+}
+
+TEST(FrontalKkt, CountsTheDependentRowsOfEachTruss) {
+  for (const Pose& pose : poses) {
+    EXPECT_EQ(dependent_rows(Truss::mast(100, pose.theta, pose.theta_dot)), 0);
+    EXPECT_EQ(dependent_rows(Truss::prismatic_mast(100, pose.theta, pose.theta_dot)), 6 * 100 - 2);
+    EXPECT_EQ(dependent_rows(Truss::hoop(100, pose.theta, pose.theta_dot)), 100 + 7);
+  }
+}
+
+// Also the multipliers, those of merged unknowns among them, and right sides that are not zero between merged ones.
+TEST(FrontalKkt, SatisfiesTheEquationsForAnyRightSide) {
+  const Truss truss = Truss::mast(20, 1, 0);
+  const Vec b = Vec::NullaryExpr(truss.b.size(), [](Eigen::Index i) { return std::sin(1.0 + 3.0 * double(i)); });
+  const Vec c = Vec::NullaryExpr(truss.rows, [](Eigen::Index i) { return std::cos(0.7 * double(i)); });
+  for (const bool identity : {false, true}) {
+    FrontalKkt kkt;
+    ASSERT_TRUE(kkt.factorise(truss.bodies, truss.rows, identity, rank_tolerance_at(0)));
+    Vec x, y, force = b, missed = c;
+    kkt.solve(truss.bodies, b, c, x, y);
+    add_rows_times(truss.bodies, -1, x, missed);
+    if (identity)
+      force -= x;
+    else
+      add_mass_times(truss.bodies, -1, x, force);
+    add_rows_force(truss.bodies, -1, y, force);
+    EXPECT_LT(missed.norm(), 1e-10 * x.norm());
+    EXPECT_LT(force.norm(), 1e-10 * y.norm());
+  }
+}
+
+TEST(FrontalKkt, FollowsRowsThatBeginToTell) {
+  Truss truss = Truss::mast(6, 1, 0.3);
+  FrontalKkt kkt;
+  ASSERT_TRUE(kkt.factorise(truss.bodies, truss.rows, false, rank_tolerance_at(0)));
+  // A pin becomes a row between more unknowns than two.
+  BodyBlock& body = truss.bodies[3];
+  body.Gt(1, body.Gt.cols() - 1) += 0.25;
+  ASSERT_TRUE(kkt.factorise(truss.bodies, truss.rows, false, rank_tolerance_at(0)));
+  Vec x, y, missed = truss.c;
+  kkt.solve(truss.bodies, truss.b, truss.c, x, y);
+  add_rows_times(truss.bodies, -1, x, missed);
+  EXPECT_LT(missed.norm(), 1e-11 * x.norm());
+}
+
+// Points on a line whose second differences vanish, each row said twice: the softest of their singular values is (pi/n)^2, 1e-5, its
+// square as small as the regularisation of shorter systems. Translation and rotation are left.
+struct Line {
+  static constexpr int n = 1000;
+  std::vector<BodyBlock> bodies;
+  Vec f;
+
+  Line() {
+    for (int k = 0; k < n; ++k) {
+      BodyBlock body;
+      body.v0 = k;
+      body.M = Mat::Constant(1, 1, 1 + 0.5 * std::sin(double(k)));
+      for (int twice = 0; twice < 2; ++twice)
+        for (int row = std::max(0, k - 2); row <= std::min(k, n - 3); ++row) {
+          body.rows.push_back(twice * (n - 2) + row);
+          body.Gt.conservativeResize(1, Eigen::Index(body.rows.size()));
+          body.Gt(0, body.Gt.cols() - 1) = row == k - 1 ? -2 : 1;
+        }
+      bodies.push_back(body);
+    }
+    f = Vec::NullaryExpr(n, [](Eigen::Index k) { return std::cos(0.37 * double(k)); });
+  }
+  Vec exact() const {  // a + b (k - n/2)
+    Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d r = Eigen::Vector2d::Zero();
+    for (int k = 0; k < n; ++k) {
+      const Eigen::Vector2d mode(1, k - n / 2);
+      A += bodies[std::size_t(k)].M(0, 0) * mode * mode.transpose();
+      r += f(k) * mode;
+    }
+    const Eigen::Vector2d ab = A.ldlt().solve(r);
+    return Vec::NullaryExpr(n, [&](Eigen::Index k) { return ab(0) + ab(1) * double(k - n / 2); });
+  }
+};
+
+TEST(LongChain, KeepsItsSoftDirectionsBesideRedundantRows) {
+  const Line line;
+  SparseMassKkt kkt;
+  const int rows = 2 * (Line::n - 2);
+  ASSERT_TRUE(kkt.factorise(line.bodies, rows, SparseMassKkt::Metric::mass));
+  EXPECT_TRUE(kkt.redundant());
+  Vec x, y;
+  kkt.solve(line.bodies, line.f, Vec::Zero(rows), x, y);
+  // Round-off of second differences, summed up twice along the line.
+  EXPECT_LT((x - line.exact()).norm(), 1e-9 * line.exact().norm());
+}
+
+// What contradicts itself has no solution; the one of least squares is found as for shorter systems.
+TEST(LongChain, BalancesRowsThatContradictEachOther) {
+  Line line;
+  SparseMassKkt kkt;
+  const int rows = 2 * (Line::n - 2);
+  ASSERT_TRUE(kkt.factorise(line.bodies, rows, SparseMassKkt::Metric::mass, 1e-3));
+  Vec c = Vec::Zero(rows), x, y;
+  c(10) = 1e-3;  // and 0 for its twin
+  kkt.solve(line.bodies, Vec::Zero(Line::n), c, x, y);
+  Vec kept = Vec::Zero(rows);
+  add_rows_times(line.bodies, 1, x, kept);
+  EXPECT_NEAR(kept(10), kept(10 + Line::n - 2), 1e-12);
+}
+
+}  // namespace
+}  // namespace trammel::numerics
