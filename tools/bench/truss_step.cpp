@@ -61,9 +61,11 @@ void step(benchmark::State& report, const std::string& name) {
   for (auto _ : report) simulator.advance(recorder);
 }
 
+using Measure = void (*)(benchmark::State&, const std::string&);
+
 void register_all() {
   for (const char* name : {"S1c", "S2c", "S3c"})
-    for (const auto& [what, measure] : {std::pair{"evaluation", evaluation}, {"step", step}})
+    for (const auto& [what, measure] : {std::pair<const char*, Measure>{"evaluation", evaluation}, {"step", step}})
       benchmark::RegisterBenchmark(fmt::format("{}, {}", what, name).c_str(),
                                    [name, measure](benchmark::State& report) { measure(report, name); })
           ->Arg(100)
