@@ -28,7 +28,9 @@ void AssumedModeBeam::check_parameters(const World& world) const {
   if (world.space != Space::planar)
     throw ParameterError("type", "assumed_mode_beam is planar; expected \"space\": \"planar\"");
   if (int(hinge.has_value()) + int(clamped.has_value()) + int(free.has_value()) != 1)
-    throw ParameterError("mount", "give exactly one of hinge, clamped, free, e.g. \"mount\": {\"hinge\": [0, 0]}");
+    throw ParameterError("mount",
+                         "give exactly one of hinge, clamped, free, e.g. \"mount\": {\"hinge\": [0, 0]}; one that is "
+                         "included goes by null: {\"hinge\": null, \"free\": [0, 0]}");
   if (coupling == Coupling::none && free)
     throw ParameterError("coupling", "none needs a root that is held; use linear or full with mount free");
   if (clamped && !(torque.is_constant() && torque(0) == 0))

@@ -125,7 +125,7 @@ struct RigidBody : Body, ExactTangent, ReactionDerivative, Observed, Drawn, Iner
       if (orientation_->size() != 4)
         throw ParameterError("orientation",
                              fmt::format("found {} numbers, expected a quaternion [w, x, y, z]", orientation_->size()));
-      const Vec p = Eigen::Map<const Vec>(orientation_->data(), 4);
+      const Eigen::Vector4d p(orientation_->data());  // stableNorm of a Vec reads its copy at an alignment it has not
       if (!(p.stableNorm() > 0)) throw ParameterError("orientation", "the quaternion is zero; expected [w, x, y, z]");
       return p.stableNormalized();
     }

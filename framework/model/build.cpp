@@ -69,14 +69,30 @@ class Builder {
       return problems_.error(
           objects->problem(fmt::format("found {}, expected an object keyed by name", objects->type_name())));
     for (const auto& [name, value] : objects->members()) {
-      if (name.empty() || name.find_first_of(".,\"\n\r") != std::string::npos)
-        problems_.error(value.problem(
-            fmt::format("\"{}\" cannot be a name: names are not empty and have no dot, comma or quote", name)));
+      if (!can_be_a_name(name))
+        problems_.error(value.problem(cannot_be_a_name(name)));
       else if (value.type() != Value::Type::object)
         problems_.error(value.problem(fmt::format("found {}, expected an object with \"type\"", value.type_name())));
       else
         add(name, value);
     }
+  }
+
+  // Part of paths, "beam.tip.y", like the names of bodies.
+  void check_marker_names(const Body& body, const Value& value) {
+    const Value* given = value.find("markers");
+    for (const std::string& marker : body.markers())
+      if (!can_be_a_name(marker)) {
+        const Value* at = given ? given->find(marker) : nullptr;
+        problems_.error((at ? *at : value).problem(cannot_be_a_name(marker)));
+      }
+  }
+
+  static bool can_be_a_name(const std::string& name) {
+    return !name.empty() && name.find_first_of(".,\"\n\r") == std::string::npos;
+  }
+  static std::string cannot_be_a_name(const std::string& name) {
+    return fmt::format("\"{}\" cannot be a name: names are not empty and have no dot, comma or quote", name);
   }
 
   void add_body(const std::string& name, const Value& value) {
@@ -88,6 +104,7 @@ class Builder {
       missing_bodies_ = true;
       return;
     }
+    check_marker_names(*body, value);
     BodyEntry entry;
     entry.name = name;
     entry.tangent = dynamic_cast<const ExactTangent*>(body.get());

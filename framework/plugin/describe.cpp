@@ -93,10 +93,10 @@ std::string wrapped(std::string_view text, const std::string& indent) {
   return line.empty() ? lines : lines + indent + line + "\n";
 }
 
-std::string describe(const Entry& entry, const Parameter& parameter, std::size_t name_width) {
+std::string describe(const Parameter& parameter, const ParameterValue& fallback, std::size_t name_width) {
   const ParameterTraits& traits = parameter.traits;
   std::string line = fmt::format("  {:<{}}  {}", parameter.name, name_width, expected(parameter));
-  if (const std::string value = text(default_of(entry, parameter)); traits.required)
+  if (const std::string value = text(fallback); traits.required)
     line += "; required";
   else
     line += value.empty() ? "; may be left out" : "; default " + value;
@@ -144,7 +144,8 @@ std::string text(const ParameterValue& value) {
 }
 
 ParameterValue default_of(const Entry& entry, const Parameter& parameter) {
-  return guard(entry.origin(""), "its constructor", {}, [&] { return parameter.get(*entry.declaration.make()); });
+  const std::unique_ptr<Component> component = new_component(entry);
+  return guard(entry.origin(""), "its parameters", {}, [&] { return parameter.get(*component); });
 }
 
 std::string describe(const Entry& entry) {
@@ -158,7 +159,29 @@ std::string describe(const Entry& entry) {
   page += "Parameters\n";
   std::size_t width = 0;
   for (const Parameter& parameter : declaration.parameters) width = std::max(width, parameter.name.size());
-  for (const Parameter& parameter : declaration.parameters) page += describe(entry, parameter, width);
+  for (const Parameter& parameter : declaration.parameters)
+    page += describe(parameter, default_of(entry, parameter), width);
+  return page;
+}
+
+const Parameter& Part::declared(std::string_view key) const {
+  return std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.declared.name == key; })->declared;
+}
+
+std::vector<std::string> Part::names() const {
+  std::vector<std::string> all;
+  for (const Key& key : keys) all.push_back(key.declared.name);
+  return all;
+}
+
+std::string describe(const Part& part) {
+  std::string page = fmt::format("{} (part of a scene)\n", part.name);
+  page += wrapped(part.summary, "  ");
+  page += fmt::format("  In a scene: {}\n\nKeys\n", part.example);
+  std::size_t width = 0;
+  for (const Part::Key& key : part.keys) width = std::max(width, key.declared.name.size());
+  for (const Part::Key& key : part.keys) page += describe(key.declared, key.fallback, width);
+  for (const std::string& remark : part.remarks) page += "\n" + wrapped(remark, "  ");
   return page;
 }
 

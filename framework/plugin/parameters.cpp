@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "plugin/breadcrumb.hpp"
 #include "plugin/describe.hpp"
 #include "plugin/guard.hpp"
 #include "scene/suggestion.hpp"
@@ -225,12 +226,20 @@ std::span<const std::string> framework_keys(Kind kind) {
   }
 }
 
+std::unique_ptr<Component> new_component(const Entry& entry, const std::string& path) {
+  const Origin origin = entry.origin(path);
+  return guard(origin, "its constructor", {}, [&] {
+    const Breadcrumb goes_on(origin, "its constructor");
+    return entry.declaration.make();
+  });
+}
+
 std::unique_ptr<Component> make(const Entry& entry, const Value& object, std::span<const std::string> framework_keys,
                                 const World& world, Problems& problems) {
   const Declaration& declaration = entry.declaration;
   const Origin origin = entry.origin(object.path());
   const std::size_t problems_before = problems.errors().size();
-  auto component = guard(origin, "its constructor", {}, [&] { return declaration.make(); });
+  auto component = new_component(entry, object.path());
 
   if (object.type() == Value::Type::object) check_keys(declaration, object, "", framework_keys, problems);
   for (const Parameter& parameter : declaration.parameters) {
@@ -245,6 +254,7 @@ std::unique_ptr<Component> make(const Entry& entry, const Value& object, std::sp
   if (problems.errors().size() != problems_before) return nullptr;
 
   guard(origin, "prepare", {}, [&] {
+    const Breadcrumb goes_on(origin, "prepare");
     try {
       component->prepare(world);
     } catch (const ParameterError& e) {

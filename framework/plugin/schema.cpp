@@ -79,13 +79,14 @@ Json type_of(const Parameter& parameter) {
   return Json::object();
 }
 
-Json default_value(const Entry& entry, const Parameter& parameter) {
-  const std::string value = text(default_of(entry, parameter));
-  const Json json = Json::parse(value, nullptr, false);  // infinity and the like have no JSON
+Json default_value(const ParameterValue& value) {
+  const Json json = Json::parse(text(value), nullptr, false);  // infinity and the like have no JSON
   return json.is_discarded() ? Json() : json;
 }
 
-Json schema_of(const Entry& entry, const Parameter& parameter) {
+// The fallback is asked for only where there is one.
+template <class Fallback>
+Json schema_of(const Parameter& parameter, Fallback fallback) {
   Json schema = type_of(parameter);
   const ParameterTraits& traits = parameter.traits;
   std::vector<std::string> notes;
@@ -95,8 +96,20 @@ Json schema_of(const Entry& entry, const Parameter& parameter) {
   const std::string description = fmt::format("{}", fmt::join(notes, " "));
   schema = with(std::move(schema), description);
   if (!traits.required)
-    if (Json value = default_value(entry, parameter); !value.is_null()) schema["default"] = std::move(value);
+    if (Json value = default_value(fallback()); !value.is_null()) schema["default"] = std::move(value);
   return schema;
+}
+
+// Of a part that the program reads; of one that was not given any object.
+Json schema_of(const std::vector<Part>& parts, const char* name) {
+  for (const Part& part : parts) {
+    if (part.name != name) continue;
+    Json properties = Json::object();
+    for (const Part::Key& key : part.keys)
+      properties[key.declared.name] = schema_of(key.declared, [&] { return key.fallback; });
+    return with(object(std::move(properties)), part.summary);
+  }
+  return {{"type", "object"}};
 }
 
 // Puts a parameter's schema into the nested object that its dotted name says.
@@ -120,7 +133,8 @@ Json schema_of(const Entry& entry) {
   if (kind == Kind::body || kind == Kind::joint || kind == Kind::force || kind == Kind::contact)
     properties["for"] = reference("for");
   Json schema = with(object(std::move(properties)), declaration.summary);
-  for (const Parameter& parameter : declaration.parameters) place(schema, parameter.name, schema_of(entry, parameter));
+  for (const Parameter& parameter : declaration.parameters)
+    place(schema, parameter.name, schema_of(parameter, [&] { return default_of(entry, parameter); }));
   return schema;
 }
 
@@ -154,7 +168,7 @@ Json correction(const std::vector<const Entry*>& entries) {
 }
 
 // What several places of a scene share.
-void define_common(Json& definitions) {
+void define_common(Json& definitions, const std::vector<Part>& parts) {
   const Json number = reference("number");
   definitions["expression"] =
       with({{"type", "string"}, {"pattern", "^="}}, "\"=...\", evaluated in the scene's parameters");
@@ -184,27 +198,49 @@ void define_common(Json& definitions) {
       with(keyed(any_of(number, array_of(number))),
            "repeats this unit: {\"i\": n} counts 0 ... n - 1, {\"i\": [a, b]} a ... b; {i} in its texts");
   definitions["from"] = with({{"enum", {"above", "below"}}}, "the side that \"reaches\" is approached from");
-  Json controlled = object({{"tolerance", reference("positive")},
-                            {"relative", number},
-                            {"absolute", number},
-                            {"initial", reference("positive")},
-                            {"min", number},
-                            {"max", reference("positive")}});
   definitions["step"] =
-      with(any_of(reference("positive"), std::move(controlled)), "fixed [s], or controlled to a tolerance");
+      with(any_of(reference("positive"), schema_of(parts, "step")), "fixed [s], or controlled to a tolerance");
   definitions["contact_step"] = with(reference("step"), "the step while a contact is closed; \"step\" if left out");
+}
+
+// What a scene must say that is not a part of another one: an editor asks for it where nothing is included.
+Json complete(const std::vector<const Entry*>& entries) {
+  Json groups = Json::object();
+  for (const auto& [group, kind] : {std::pair{"bodies", Kind::body},
+                                    {"joints", Kind::joint},
+                                    {"forces", Kind::force},
+                                    {"contacts", Kind::contact}}) {
+    Json cases = Json::array();
+    for (const Entry* entry : entries) {
+      const Declaration& declaration = entry->declaration;
+      Json names = Json::array();
+      for (const Parameter& parameter : declaration.parameters)
+        if (parameter.traits.required && parameter.name.find('.') == std::string::npos) names.push_back(parameter.name);
+      if (declaration.kind == kind && !names.empty())
+        cases.push_back({{"if", {{"properties", {{"type", {{"const", declaration.name}}}}}}},
+                         {"then", {{"required", std::move(names)}}}});
+    }
+    Json member = {{"required", {"type"}}};
+    if (!cases.empty()) member["allOf"] = std::move(cases);
+    groups[group] = {{"additionalProperties", std::move(member)}};
+  }
+  groups["simulate"] = {{"required", {"until"}}};
+  Json whole = {{"required", {"trammel", "bodies"}},
+                {"anyOf", Json::array({{{"required", {"simulate"}}}, {{"required", {"static"}}}})},
+                {"properties", std::move(groups)}};
+  return {{"if", {{"required", {"include"}}}}, {"then", true}, {"else", std::move(whole)}};
 }
 
 }  // namespace
 
-std::string schema(const std::vector<const Entry*>& entries) {
+std::string schema(const std::vector<const Entry*>& entries, const std::vector<Part>& parts) {
   Json definitions = Json::object();
-  define_common(definitions);
+  define_common(definitions, parts);
   for (const Kind kind : {Kind::integrator, Kind::body, Kind::joint, Kind::force, Kind::contact, Kind::friction})
     definitions[to_string(kind)] = choice_of(kind, entries);
   for (const Entry* entry : entries) definitions[definition(entry->declaration)] = schema_of(*entry);
 
-  const Json number = reference("number"), positive = reference("positive"), text = {{"type", "string"}};
+  const Json text = {{"type", "string"}};
   const Json texts = array_of(text);
   Json properties;
   properties["trammel"] = with({{"const", 1}}, "version of the scene format");
@@ -222,26 +258,19 @@ std::string schema(const std::vector<const Entry*>& entries) {
   properties["integrator"] = reference("integrator");
   properties["initial"] = any_of({{"enum", {"check", "project", "equilibrium"}}},
                                  object({{"consistent", {{"enum", {"check", "project"}}}}}));
-  properties["simulate"] = object({{"start", number},
-                                   {"until", number},
-                                   {"contact_hold", number},
-                                   {"chatter_steps", number},
-                                   {"event_limit", positive}});
-  properties["static"] = with(object({{"steps", positive},
-                                      {"tolerance", positive},
-                                      {"iterations", positive},
-                                      {"arc_length", {{"type", "boolean"}}}}),
-                              "load steps of 'trammel static', from simulate.start to simulate.until (1 if left out)");
-  properties["record"] = object(
-      {{"every", positive},
-       {"observe",
-        keyed(any_of(text, object({{"of", text}, {"relative_to", text}, {"since_start", {{"type", "boolean"}}}})))}});
+  properties["simulate"] = schema_of(parts, "simulate");
+  properties["static"] = schema_of(parts, "static");
+  properties["record"] = schema_of(parts, "record");
+  properties["record"]["properties"]["observe"] =
+      with(keyed(any_of(text, object({{"of", text}, {"relative_to", text}, {"since_start", {{"type", "boolean"}}}}))),
+           "columns of series.csv by name");
   properties["corrections"] = object({{"position", correction(entries)},
                                       {"velocity", correction(entries)},
                                       {"energy", any_of({{"type", "boolean"}}, correction(entries))}});
 
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Trammel scene"}};
   schema.update(object(std::move(properties)));
+  schema.update(complete(entries));
   schema["$defs"] = std::move(definitions);
   return schema.dump(2);
 }

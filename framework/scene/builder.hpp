@@ -24,7 +24,7 @@ class Builder {
 std::string read_file(const std::string& file);
 Value parse_text(const std::string& text, const std::string& file);
 
-// `over` onto `base`: objects merge member by member, anything else replaces. An object with another "type" replaces the
+// `over` onto `base`: objects merge member by member, null removes one, all else replaces. An object with another "type" replaces the
 // whole one: parameters of one component mean nothing to another.
 void merge(Value& base, Value&& over);
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "scene/jet_code.hpp"
+#include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
 
 namespace trammel::scene {
@@ -187,7 +188,7 @@ class Compiler {
         fail(fmt::format("{} takes {} argument{}; expected ')'", f.name, f.arguments, f.arguments > 1 ? "s" : ""));
       return emit(f.op);
     }
-    throw ExpressionError(column, fmt::format("no function \"{}\"{}", word, did_you_mean(word, names)));
+    throw ExpressionError(column, fmt::format("no function \"{}\"{}", shortened(word), did_you_mean(word, names)));
   }
 
   std::string_view text_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scene/builder.hpp"
+#include "scene/suggestion.hpp"
 
 namespace trammel::scene {
 
@@ -41,6 +42,14 @@ Value included(const Value& entry, const std::string& file, Chain& chain) {
   return resolved;
 }
 
+Problem nothing_to_remove(const Value& base, const std::string& name, const Value& null) {
+  std::vector<std::string> names;
+  for (const auto& [other, value] : base.members()) names.push_back(other);
+  return {null.position(), name,
+          fmt::format("null removes a member of what is included, which has no \"{}\" here{}", name,
+                      did_you_mean(name, names))};
+}
+
 Value resolve(Value&& root, const std::string& file, Chain& chain) {
   Value* include = Builder::find(root, "include");
   if (!include) return std::move(root);
@@ -64,10 +73,15 @@ void merge(Value& base, Value&& over) {
     return;
   }
   for (auto& [name, member] : Builder::members(over)) {
-    if (Value* present = Builder::find(base, name))
+    Value* present = Builder::find(base, name);
+    if (member.type() == Value::Type::null) {
+      if (!present) throw SceneError({nothing_to_remove(base, name, member)});
+      std::erase_if(Builder::members(base), [&](const auto& other) { return other.first == name; });
+    } else if (present) {
       merge(*present, std::move(member));
-    else
+    } else {
       Builder::members(base).emplace_back(name, std::move(member));
+    }
   }
 }
 

@@ -1,8 +1,12 @@
+#include <cmath>
+#include <cstdlib>
+
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "scene/builder.hpp"
+#include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
 
 namespace trammel::scene {
@@ -18,6 +22,25 @@ void place_everywhere(Value& value, const Position& at) {
   Builder::place(value, at);
 }
 
+// nan, 1e999: numbers of C, none of a scene.
+bool not_finite(const std::string& text) {
+  char* end = nullptr;
+  const double x = std::strtod(text.c_str(), &end);
+  return !text.empty() && end == text.c_str() + text.size() && !std::isfinite(x);
+}
+
+// Objects of these are keyed by names of the scene's own: one that is not there is misspelt.
+bool keyed_by_name(std::string_view path) {
+  return path == "bodies" || path == "joints" || path == "forces" || path == "contacts" || path == "parameters";
+}
+
+// May become an object where the path goes on into it: "step": 1e-3 and integrator.step.tolerance. Whether something may have
+// such a member its reader says.
+bool scalar(const Value& value) {
+  using Type = Value::Type;
+  return value.type() == Type::number || value.type() == Type::text || value.type() == Type::boolean;
+}
+
 // JSON where it reads as JSON, else the bare text.
 Value parse_value(const std::string& text, const Position& at) {
   const std::string wrapped = "{\"value\":" + text + "\n}";
@@ -31,11 +54,16 @@ Value parse_value(const std::string& text, const Position& at) {
 }  // namespace
 
 void apply(const Override& override, Value& root) {
-  const Position at = {fmt::format("--set {}={}", override.path, override.value), 0, 0};
+  const Position at = {fmt::format("--set {}={}", override.path, shortened(override.value)), 0, 0};
   const auto fail = [&](std::string path, std::string message) {
     throw SceneError({{at, std::move(path), std::move(message)}});
   };
-  Value* value = &root;
+  if (not_finite(override.value))
+    fail(override.path, fmt::format("found {}, expected a finite number (a text of these letters: '\"{}\"')",
+                                    override.value, override.value));
+  Value *value = &root, *owner = nullptr;
+  bool present = true;
+  std::string last_key;
   std::string walked, rest = override.path;
   for (;;) {
     const auto dot = rest.find('.');
@@ -49,16 +77,18 @@ void apply(const Override& override, Value& root) {
       key.resize(bracket);
     }
     if (key.empty()) fail(override.path, "found an empty name in the path; write --set path.to.value=VALUE");
+    if (scalar(*value) && owner != &root && !index) *value = Builder::make(Members(), at);
     if (value->type() != Value::Type::object)
       fail(walked, fmt::format("is {}, it has no member \"{}\"", value->type_name(), key));
     const bool last = dot == std::string::npos;
     Value* next = Builder::find(*value, key);
-    const bool parameter = walked == "parameters";  // one that the scene does not declare would act on nothing
-    if (!next && (index || parameter || (!last && value != &root))) {
+    // A parameter that the scene does not declare would act on nothing.
+    if (!next && (index || walked == "parameters" || (!last && keyed_by_name(walked)))) {
       std::vector<std::string> names;
       for (const auto& [name, member] : value->members()) names.push_back(name);
       fail(walked, fmt::format("has no member \"{}\"{}", key, did_you_mean(key, names)));
     }
+    present = next != nullptr;
     if (!next) {
       Builder::members(*value).emplace_back(key, Builder::make(Members(), at));
       next = &Builder::members(*value).back().second;
@@ -70,11 +100,24 @@ void apply(const Override& override, Value& root) {
       next = &Builder::items(*next)[*index];
       walked += fmt::format("[{}]", *index);
     }
+    owner = index ? nullptr : value, last_key = key;
     value = next;
     if (last) break;
     rest = rest.substr(dot + 1);
   }
-  *value = parse_value(override.value, at);
+  Value given = parse_value(override.value, at);
+  const bool was_number = walked.starts_with("parameters.") && value->type() == Value::Type::number;
+  if (was_number && given.type() == Value::Type::text && !given.text().starts_with("="))
+    fail(
+        walked,
+        fmt::format("found the text \"{}\", expected a number or an expression (\"=...\"): it is a number in the scene",
+                    shortened(given.text())));
+  const bool removes = owner && given.type() == Value::Type::null;
+  if (removes && !present) fail(walked, "null removes a member, and there is none");
+  if (removes)
+    std::erase_if(Builder::members(*owner), [&](const auto& member) { return member.first == last_key; });
+  else
+    *value = std::move(given);
 }
 
 }  // namespace trammel::scene

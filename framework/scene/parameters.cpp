@@ -5,6 +5,7 @@
 
 #include "scene/builder.hpp"
 #include "scene/expression.hpp"
+#include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
 
 namespace trammel::scene {
@@ -75,8 +76,8 @@ class Evaluation {
         }
       return evaluate(text, [this](std::string_view name, int column) { return number(name, column); });
     } catch (const ExpressionError& error) {
-      problems_.error(value.problem(
-          fmt::format("in the expression \"{}\", column {}: {}", value.text(), error.column() + 1, error.what())));
+      problems_.error(value.problem(fmt::format("in the expression \"{}\", column {}: {}", shortened(value.text()),
+                                                error.column() + 1, error.what())));
       return std::nullopt;
     }
   }
@@ -86,7 +87,7 @@ class Evaluation {
     if (!other) {
       std::vector<std::string> names = {"pi"};
       for (const auto& [key, value] : members_) names.push_back(key);
-      throw ExpressionError(column, fmt::format("no parameter \"{}\"{}", name, did_you_mean(name, names)));
+      throw ExpressionError(column, fmt::format("no parameter \"{}\"{}", shortened(name), did_you_mean(name, names)));
     }
     const Result* result = need(std::string(name), *other, column);
     if (!result) throw ExpressionError(column, fmt::format("the parameter \"{}\" has no value", name));

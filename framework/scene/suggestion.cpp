@@ -9,6 +9,14 @@ namespace trammel::scene {
 
 namespace {
 
+char lower(char c) {
+  return char(std::tolower(static_cast<unsigned char>(c)));
+}
+
+bool same_letters(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
+}
+
 // Optimal string alignment distance; case differences count half, so "HHT_alpha" is nearest to "hht_alpha".
 double distance(std::string_view a, std::string_view b) {
   const std::size_t n = b.size();
@@ -17,7 +25,6 @@ double distance(std::string_view a, std::string_view b) {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = double(i);
     for (std::size_t j = 1; j <= n; ++j) {
-      const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
       const double replace = a[i - 1] == b[j - 1] ? 0 : lower(a[i - 1]) == lower(b[j - 1]) ? 0.5 : 1;
       row[j] = std::min({previous[j] + 1, row[j - 1] + 1, previous[j - 1] + replace});
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
@@ -41,6 +48,18 @@ std::vector<std::string> worth_showing(std::string_view word, const std::vector<
   return shown;
 }
 
+// The shortest of those that the word begins: "hht" for "hht_alpha".
+std::string begun_with(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t least = 2;
+  if (word.size() < least) return {};
+  std::string found;
+  for (const std::string& candidate : candidates)
+    if (same_letters(word, std::string_view(candidate).substr(0, word.size())) &&
+        (found.empty() || candidate.size() < found.size()))
+      found = candidate;
+  return found;
+}
+
 }  // namespace
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
@@ -52,8 +71,11 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
     const double d = distance(word, candidate);
     if (d < best) best = d, found = candidate;
   }
-  const double near = std::max(2.0, double(std::max(word.size(), found.size())) / 3);
-  return best <= near && best < double(word.size()) ? found : std::string();
+  // Less than half of a short word, a third of a long one: "foo" is no "cos".
+  const double size = double(std::max(word.size(), found.size()));
+  const double near = std::min(std::max(2.0, size / 3), size / 2);
+  if (best <= near && best < double(word.size())) return found;
+  return begun_with(word, candidates);
 }
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {

@@ -9,6 +9,7 @@
 #include "scene/builder.hpp"
 #include "scene/expression.hpp"
 #include "scene/motion_table.hpp"
+#include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
 
 namespace trammel::scene {
@@ -77,7 +78,7 @@ bool is_expression(const Value& value) {
 std::string found(const Value& value) {
   switch (value.type()) {
     case Value::Type::text:
-      return fmt::format("found the text \"{}\"", value.text());
+      return fmt::format("found the text \"{}\"", shortened(value.text()));
     case Value::Type::boolean:
       return value.boolean() ? "found true" : "found false";
     default:
@@ -96,7 +97,7 @@ Lookup lookup_in(const Value::Parameters* parameters) {
         if (const double* number = std::get_if<double>(&value)) return *number;
         throw ExpressionError(column, fmt::format("the parameter \"{}\" is a text, expected a number", name));
       }
-    throw ExpressionError(column, fmt::format("no parameter \"{}\"{}", name, did_you_mean(name, names)));
+    throw ExpressionError(column, fmt::format("no parameter \"{}\"{}", shortened(name), did_you_mean(name, names)));
   };
 }
 
@@ -107,8 +108,8 @@ auto compiled(const Value& value, Problems& problems, Compile compile)
   try {
     return compile(std::string_view(value.text()).substr(1));
   } catch (const ExpressionError& error) {
-    problems.error(value.problem(
-        fmt::format("in the expression \"{}\", column {}: {}", value.text(), error.column() + 1, error.what())));
+    problems.error(value.problem(fmt::format("in the expression \"{}\", column {}: {}", shortened(value.text()),
+                                             error.column() + 1, error.what())));
     return std::nullopt;
   }
 }
@@ -158,7 +159,7 @@ std::optional<std::string> Value::read_text(Problems& problems) const {
       if (std::holds_alternative<std::string>(value)) names.push_back(key);
     }
   problems.error(problem(fmt::format("found the expression \"{}\", expected a text or the name of a text parameter{}",
-                                     text(), did_you_mean(name, names))));
+                                     shortened(text()), did_you_mean(name, names))));
   return std::nullopt;
 }
 
@@ -192,7 +193,7 @@ std::optional<Formula> Value::read_formula(const std::vector<std::string>& names
   return compiled(*this, problems, [&](std::string_view text) {
     return Formula(text, names, [&](std::string_view name, int column) -> double {
       if (name.find('.') == name.npos) return lookup_in(parameters_.get())(name, column);
-      throw ExpressionError(column, fmt::format("no quantity \"{}\"{}", name, did_you_mean(name, names)));
+      throw ExpressionError(column, fmt::format("no quantity \"{}\"{}", shortened(name), did_you_mean(name, names)));
     });
   });
 }

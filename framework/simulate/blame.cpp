@@ -1,8 +1,13 @@
 #include "simulate/blame.hpp"
 
+#include <exception>
+#include <new>
 #include <string_view>
 
 #include <fmt/format.h>
+
+#include "simulate/log_file.hpp"
+#include "simulate/run_failed.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -20,6 +25,16 @@ Place place_of(std::string_view call) {
   return {"bodies", Kind::body};
 }
 
+std::string what_was_thrown() {
+  try {
+    throw;
+  } catch (const std::exception& e) {
+    return fmt::format("it threw: {}", e.what());
+  } catch (...) {
+    return "it threw something that is no std::exception";
+  }
+}
+
 }  // namespace
 
 plugin::Origin origin_of(const model::CallSite& site, const scene::Value& root, plugin::Registry& registry) {
@@ -33,11 +48,37 @@ plugin::Origin origin_of(const model::CallSite& site, const scene::Value& root, 
   return {"", to_string(place.kind), path};
 }
 
-plugin::PluginError blame(const std::exception& e, const Setup& setup, const model::CallSite& site,
-                          const scene::Value& root, plugin::Registry& registry, double t, long long step) {
-  const std::string cause = fmt::format("it threw: {}", e.what());
-  if (site.component) return plugin::PluginError(origin_of(site, root, registry), site.call, cause, t).in_step(step);
-  return plugin::PluginError(setup.integrator_origin, "step", cause, t).in_step(step);
+plugin::PluginError blame(const Setup& setup, const model::CallSite& site, const scene::Value& root,
+                          plugin::Registry& registry, double t, std::optional<long long> step) {
+  const std::string cause = what_was_thrown();
+  const plugin::PluginError error = site.component
+                                        ? plugin::PluginError(origin_of(site, root, registry), site.call, cause, t)
+                                        : plugin::PluginError(setup.integrator_origin, "step", cause, t);
+  return step ? error.in_step(*step) : error;
+}
+
+void rethrow_blamed(const Setup& setup, const model::CallSite& site, const scene::Value& root,
+                    plugin::Registry& registry, double t) {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const BadStep& e) {
+    throw plugin::PluginError(setup.integrator_origin, "step", e.what(), t);
+  } catch (const RunFailed&) {
+    throw;
+  } catch (const OutputError&) {
+    throw;
+  } catch (const scene::SceneError&) {
+    throw;
+  } catch (const plugin::PluginError&) {
+    throw;
+  } catch (const plugin::PassesThroughPlugins&) {
+    throw;
+  } catch (...) {
+    if (!site.component && setup.integrator_origin.file.empty()) throw;  // statics: nobody else can be meant
+    throw blame(setup, site, root, registry, t, std::nullopt);
+  }
 }
 
 }  // namespace trammel::simulate

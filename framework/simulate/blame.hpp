@@ -1,7 +1,6 @@
 // Which plugin an exception came from.
 #pragma once
 
-#include <exception>
 #include <optional>
 
 #include "model/assembled_system.hpp"
@@ -10,9 +9,26 @@
 
 namespace trammel::simulate {
 
-// The component that was being called, or the integrator if none was.
-plugin::PluginError blame(const std::exception& e, const Setup& setup, const model::CallSite& site,
-                          const scene::Value& root, plugin::Registry& registry, double t, long long step);
+// Inside a catch block; see `blaming`.
+[[noreturn]] void rethrow_blamed(const Setup& setup, const model::CallSite& site, const scene::Value& root,
+                                 plugin::Registry& registry, double t);
+
+// Inside a catch block: what was thrown, as the fault of the component that was being called, or of the integrator if none was.
+// Without a step outside a run.
+plugin::PluginError blame(const Setup& setup, const model::CallSite& site, const scene::Value& root,
+                          plugin::Registry& registry, double t, std::optional<long long> step);
+
+// Lets what the framework itself throws pass, errors of the scene and of plugins with a name among it; blames all else. For calls
+// into a model that is no run yet.
+template <class Call>
+void blaming(const Setup& setup, const model::AssembledSystem& system, const scene::Value& root,
+             plugin::Registry& registry, double t, Call call) {
+  try {
+    call();
+  } catch (...) {
+    rethrow_blamed(setup, system.last_call(), root, registry, t);
+  }
+}
 
 // Where the component comes from, that was called there.
 plugin::Origin origin_of(const model::CallSite& site, const scene::Value& root, plugin::Registry& registry);

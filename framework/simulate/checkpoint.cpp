@@ -149,7 +149,9 @@ json read_checkpoint(const std::filesystem::path& file, std::uint64_t scene_hash
     refuse_checkpoint(file, "the file is damaged: its checksum does not match; start the run anew");
   if (whole["scene_hash"] != scene_hash)
     refuse_checkpoint(
-        file, "it belongs to another scene, or the scene was changed since; only simulate.until may be changed");
+        file,
+        "it belongs to another scene, or the scene was changed since, or is called with other --set values; only "
+        "simulate.until may be changed");
   return data;
 }
 

@@ -1,11 +1,12 @@
 #include "simulate/crash_witness.hpp"
 
+#include "plugin/breadcrumb.hpp"
 #include "simulate/blame.hpp"
 
 namespace trammel::simulate {
 
 void CrashWitness::follow(const Setup& setup, const scene::Value& root, plugin::Registry& registry,
-                          Simulator& simulator) {
+                          const model::AssembledSystem& system, Clock clock) {
   leave();
   const auto all = [&](const auto& entries, const char* some_call) {
     for (const auto& entry : entries)
@@ -16,24 +17,39 @@ void CrashWitness::follow(const Setup& setup, const scene::Value& root, plugin::
   all(setup.model->forces, "wrench");
   all(setup.model->contacts, "normal");
   integrator_ = setup.integrator_origin;
-  simulator_ = &simulator;
+  system_ = &system;
+  clock_ = clock;
   watching_ = true;
 }
 
 void CrashWitness::leave() {
   watching_ = false;
   origins_.clear();
-  simulator_ = nullptr;
+  system_ = nullptr;
+  clock_ = {};
   recorder_ = nullptr;
 }
 
 CrashWitness::Culprit CrashWitness::culprit() const noexcept {
-  const model::CallSite& site = simulator_->system().last_call();
-  const double t = simulator_->state().t;
-  const long long step = simulator_->statistics().steps + 1;
-  for (const auto& [name, origin] : origins_)
-    if (name == site.component) return {&origin, site.call, t, step, true};
-  return {&integrator_, "step", t, step, false};
+  Culprit who;
+  if (watching_) {
+    const model::CallSite& site = system_->last_call();
+    if (clock_.t) who.t = *clock_.t;
+    if (clock_.steps) who.step = *clock_.steps + 1;
+    for (const auto& [name, origin] : origins_)
+      if (name == site.component) {
+        who.origin = &origin, who.call = site.call;
+        return who;
+      }
+    who.certain = false;
+    if (clock_.steps) {
+      who.origin = &integrator_, who.call = "step";
+      return who;
+    }
+  }
+  const plugin::PresentCall guarded = plugin::present_call();
+  who.origin = guarded.origin, who.call = guarded.call;
+  return who;
 }
 
 void CrashWitness::rescue() const noexcept {

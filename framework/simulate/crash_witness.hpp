@@ -1,8 +1,9 @@
 // Who to name when the process crashes inside a plugin: a signal handler can build nothing and ask nobody, so all it may need
-// stands ready here while a run goes on. The component being called is the breadcrumb that the assembled system leaves.
+// stands ready here while plugins are called. The component being called is the breadcrumb that the assembled system leaves.
 #pragma once
 
 #include <atomic>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,26 +12,30 @@
 #include "plugin/registry.hpp"
 #include "simulate/recorder.hpp"
 #include "simulate/setup.hpp"
-#include "simulate/simulator.hpp"
 
 namespace trammel::simulate {
 
 class CrashWitness {
  public:
-  // From here to `leave` the arguments live, the recorder perhaps not yet.
-  void follow(const Setup& setup, const scene::Value& root, plugin::Registry& registry, Simulator& simulator);
+  struct Clock {
+    const double* t = nullptr;         // [s]
+    const long long* steps = nullptr;  // accepted so far; null: outside a run
+  };
+  // From here to `leave` the arguments live, the recorder perhaps not yet. The call around the component's is the
+  // integrator's step in a run, and what plugin::Breadcrumb says elsewhere.
+  void follow(const Setup& setup, const scene::Value& root, plugin::Registry& registry,
+              const model::AssembledSystem& system, Clock clock);
   void record_with(const Recorder& recorder) { recorder_ = &recorder; }
   void leave();
 
   // --- for the signal handler: no allocation, nothing thrown ---
   struct Culprit {
-    const plugin::Origin* origin;
-    const char* call;
-    double t;
-    long long step;
-    bool certain;  // false: the integrator's step, or the framework on its behalf
+    const plugin::Origin* origin = nullptr;  // null: nobody is known to be called
+    const char* call = "";
+    std::optional<double> t;
+    std::optional<long long> step;
+    bool certain = true;  // false: the integrator's step, or the framework on its behalf
   };
-  bool watching() const noexcept { return watching_; }
   Culprit culprit() const noexcept;
   void rescue() const noexcept;  // records still in memory go out
 
@@ -38,8 +43,27 @@ class CrashWitness {
   std::atomic<bool> watching_ = false;
   std::vector<std::pair<const std::string*, plugin::Origin>> origins_;  // by the entry's name in the model
   plugin::Origin integrator_;
-  Simulator* simulator_ = nullptr;
+  const model::AssembledSystem* system_ = nullptr;
+  Clock clock_;
   const Recorder* recorder_ = nullptr;
+};
+
+// A witness, if there is one, follows while this lives.
+class Watch {
+ public:
+  Watch(CrashWitness* witness, const Setup& setup, const scene::Value& root, plugin::Registry& registry,
+        const model::AssembledSystem& system, CrashWitness::Clock clock)
+      : witness_(witness) {
+    if (witness_) witness_->follow(setup, root, registry, system, clock);
+  }
+  ~Watch() {
+    if (witness_) witness_->leave();
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+ private:
+  CrashWitness* witness_;
 };
 
 }  // namespace trammel::simulate

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "numerics/root_bracket.hpp"
+#include "simulate/trial_step.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -150,7 +151,7 @@ bool EventLocation::happened(int w, const Value& end) const {
 
 const EventLocation::Value& EventLocation::step_to(const State& now, double h, int w) {
   ++steps_tried_;
-  if (!integrator_.step(system_, now, h, trial_)) throw StepRefused{};
+  if (!trial_step(integrator_, system_, now, h, trial_)) throw StepRefused{};
   evaluate(trial_, probe_);
   return probe_[w];
 }
@@ -196,7 +197,7 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
     h_event = std::min(h, std::max(h_event, 4 * eps * std::max(std::abs(now.t), std::abs(now.t + h))));
     if (h_event < h) {
       ++steps_tried_;
-      if (!integrator_.step(system_, now, h_event, next)) return Found::step_refused;
+      if (!trial_step(integrator_, system_, now, h_event, next)) return Found::step_refused;
       evaluate(next, next_);
       h = h_event;
     }

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include "model/body_blocks.hpp"
+#include "plugin/breadcrumb.hpp"
+#include "simulate/blame.hpp"
+#include "simulate/crash_witness.hpp"
 #include "simulate/redundancy.hpp"
 #include "simulate/setup.hpp"
-#include "simulate/simulator.hpp"
+#include "simulate/trial_step.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -82,9 +85,8 @@ void built(Text& text, const scene::Scene& scene, const plugin::Registry& regist
   for (const std::string& file : registry.files()) text.line("{}", file);
 }
 
-void redundant(Text& text, Setup& setup) {
+void redundant(Text& text, const Setup& setup, model::AssembledSystem& system) {
   if (setup.model->sizes.nc == 0) return;
-  model::AssembledSystem system(setup.model);
   const std::vector<RedundantRows> found = redundant_rows(system, setup.initial);
   if (found.empty()) return;
   text.section("Redundant rows at the initial state (accelerations are unique, multipliers those of minimum norm)");
@@ -92,9 +94,8 @@ void redundant(Text& text, Setup& setup) {
     text.line("{}: {} of {} rows follow from the rows before", rows.path, rows.redundant, rows.of);
 }
 
-void costs(Text& text, Setup& setup) {
+void costs(Text& text, Setup& setup, model::AssembledSystem& system) {
   text.section("Cost (microseconds, this machine, at the initial state)");
-  model::AssembledSystem system(setup.model);
   model::Modes open;
   open.contacts.resize(setup.model->contacts.size());
   system.set_modes(open);
@@ -117,8 +118,12 @@ void costs(Text& text, Setup& setup) {
               1e6 * least_time([&] { move(), system.gap(i), system.gap_rate(i); }));
   const StepChoice& choice = setup.settings.step;
   const double h = choice.fixed ? *choice.fixed : choice.initial > 0 ? choice.initial : 1e-4;
-  setup.integrator->restart(system, now);
-  if (!setup.integrator->step(system, now, h, next)) {
+  {
+    const plugin::Breadcrumb restarts(setup.integrator_origin, "restart");
+    setup.integrator->restart(system, now);
+  }
+  const plugin::Breadcrumb steps(setup.integrator_origin, "step");
+  if (!trial_step(*setup.integrator, system, now, h, next)) {
     text.line("one step of {:.3g} s: refused at the initial state", h);
     return;
   }
@@ -148,12 +153,16 @@ void left_out(Text& text, const Setup& setup) {
 
 }  // namespace
 
-std::string explain(const scene::Scene& scene, plugin::Registry& registry) {
-  Setup setup = set_up(scene, registry);
+std::string explain(const scene::Scene& scene, plugin::Registry& registry, CrashWitness* witness) {
+  Setup setup = set_up(scene, registry, Purpose::motion, witness);
   Text text;
   built(text, scene, registry, setup);
-  redundant(text, setup);
-  costs(text, setup);
+  model::AssembledSystem system(setup.model);
+  const Watch watch(witness, setup, scene.root(), registry, system, {&setup.initial.t, nullptr});
+  blaming(setup, system, scene.root(), registry, setup.initial.t, [&] {
+    redundant(text, setup, system);
+    costs(text, setup, system);
+  });
   left_out(text, setup);
   if (!setup.warnings.empty()) text.section("Warnings");
   for (const std::string& warning : setup.warnings) text.line("{}", warning);

@@ -17,7 +17,11 @@ namespace {
 
 constexpr double tolerance = 1e-8;  // [m], [rad], [m/s], [rad/s]
 
-bool project_position(model::AssembledSystem& system, State& s) {
+// What "nearest" weighs: masses, and with contacts what the bodies store at 1 rad/s too, so that a beam that reaches into a plane
+// is turned out of it and not bent.
+constexpr Blend by_mass = {1, 0, 0}, by_mass_and_stiffness = {1, 0, 1};
+
+bool project_position(model::AssembledSystem& system, State& s, Blend nearest = by_mass) {
   Vec zero = Vec::Zero(system.sizes().nv), dq, mu, q;
   const Vec no_force = Vec::Zero(system.sizes().nc);
   double before = std::numeric_limits<double>::infinity();
@@ -28,7 +32,7 @@ bool project_position(model::AssembledSystem& system, State& s) {
     if (!std::isfinite(now)) return false;
     if (now < 1e-15 || (now < 1e-11 && now > 0.5 * before)) return true;
     before = now;
-    system.factorise({1, 0, 0}, zero, no_force);
+    system.factorise(nearest, zero, no_force);
     if (!system.correct(zero, g, dq, mu)) return false;
     system.retract(s.q, dq, q);
     s.q = q;
@@ -48,6 +52,36 @@ bool project_velocity(model::AssembledSystem& system, State& s) {
   }
   system.move_to(s.t, s.q, s.v);
   return system.g_dot().norm() < tolerance * std::max(1.0, s.v.norm());
+}
+
+// Contacts with rows whose gap is below 0 by more than a scene's digits.
+std::vector<int> penetrated(model::AssembledSystem& system, const State& s) {
+  system.move_to(s.t, s.q, s.v);
+  ContactScale scale;
+  scale.take_all(system);
+  std::vector<int> all;
+  for (int i = 0; i < int(system.model().contacts.size()); ++i) {
+    if (system.model().contacts[i].force) continue;  // compliant: it starts under load
+    if (system.gap(i) < -scale.written_length()) all.push_back(i);
+  }
+  return all;
+}
+
+// Moves the state to the nearest one in which those touch that penetrated; joints hold. Others that penetrate then join them, so
+// it ends. False: none was found.
+bool project_out_of_contacts(model::AssembledSystem& system, State& s) {
+  const model::Modes before = system.modes();
+  model::Modes touching = before;
+  bool found = true;
+  for (std::vector<int> wrong = penetrated(system, s); found && !wrong.empty(); wrong = penetrated(system, s)) {
+    bool more = false;
+    for (const int i : wrong) more = more || !touching.contacts[std::size_t(i)].closed;
+    for (const int i : wrong) touching.contacts[std::size_t(i)].closed = true;
+    system.set_modes(touching);
+    found = more && project_position(system, s, by_mass_and_stiffness);
+    system.set_modes(before);
+  }
+  return found && (system.sizes().nc == 0 || project_velocity(system, s));
 }
 
 // "bodies.rod moves by up to 0.012" for each body that the projection moves.
@@ -125,6 +159,31 @@ void check_rows(model::AssembledSystem& system, const State& s, const scene::Val
           : contradiction(system, s)));
 }
 
+void check_contacts(model::AssembledSystem& system, const State& s, const scene::Value& root,
+                    scene::Problems& problems) {
+  const std::vector<int> wrong = penetrated(system, s);
+  for (const int i : wrong) {
+    const model::ContactEntry& contact = system.model().contacts[std::size_t(i)];
+    const scene::Value* at = root.at_path("contacts." + contact.name);
+    const auto& limit = contact.limit;
+    problems.error(
+        (at ? *at : root)
+            .problem(limit ? fmt::format("the initial state has passed the value that this contact waits for by {:.6g} "
+                                         "(m, rad); expected a start {} it, or \"from\": \"{}\"",
+                                         -system.gap(i), limit->side > 0 ? "above" : "below",
+                                         limit->side > 0 ? "below" : "above")
+                           : fmt::format("the initial state penetrates the plane by {:.6g} m; expected a gap >= 0",
+                                         -system.gap(i))));
+  }
+  const bool latch = std::any_of(wrong.begin(), wrong.end(),
+                                 [&](int i) { return system.model().contacts[std::size_t(i)].limit.has_value(); });
+  State nearest = s;
+  if (wrong.empty() || latch || !project_out_of_contacts(system, nearest)) return;
+  problems.error(
+      root.problem(fmt::format("the nearest initial state that touches moves {}; \"initial\": \"project\" takes it",
+                               moves(system, s, nearest))));
+}
+
 }  // namespace
 
 State initial_state(model::AssembledSystem& system, double t, Settings::Initial wanted, const scene::Value& root,
@@ -145,23 +204,10 @@ State initial_state(model::AssembledSystem& system, double t, Settings::Initial 
   if (wanted == Settings::Initial::equilibrium && problems.empty())
     if (const auto why = find_equilibrium(system, s))
       problems.error((root.find("initial") ? *root.find("initial") : root).problem(*why));
-  system.move_to(t, s.q, s.v);
-  ContactScale scale;
-  scale.take_all(system);
-  for (int i = 0; i < int(system.model().contacts.size()); ++i) {
-    if (system.model().contacts[i].force) continue;  // compliant: it starts under load
-    const double gap = system.gap(i);
-    const scene::Value* at = root.at_path("contacts." + system.model().contacts[i].name);
-    if (gap >= -scale.written_length()) continue;
-    const auto& limit = system.model().contacts[i].limit;
-    problems.error(
-        (at ? *at : root)
-            .problem(
-                limit ? fmt::format("the initial state has passed the value that this contact waits for by {:.6g} "
-                                    "(m, rad); expected a start {} it, or \"from\": \"{}\"",
-                                    -gap, limit->side > 0 ? "above" : "below", limit->side > 0 ? "below" : "above")
-                      : fmt::format("the initial state penetrates the plane by {:.6g} m; expected a gap >= 0", -gap)));
-  }
+  if (wanted == Settings::Initial::project && problems.empty() && !penetrated(system, s).empty() &&
+      !project_out_of_contacts(system, s))
+    problems.error(root.problem("no state was found nearby in which no contact penetrates"));
+  if (problems.empty()) check_contacts(system, s, root, problems);
   return s;
 }
 

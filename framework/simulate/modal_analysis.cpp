@@ -10,6 +10,7 @@
 
 #include "simulate/blame.hpp"
 #include "simulate/checkpoint.hpp"
+#include "simulate/crash_witness.hpp"
 #include "simulate/krylov_modes.hpp"
 #include "simulate/load_path.hpp"
 #include "simulate/log_file.hpp"
@@ -30,15 +31,13 @@ using json = nlohmann::ordered_json;
 class Posed {
  public:
   Posed(const scene::Scene& scene, plugin::Registry& registry, const ModesOptions& options)
-      : setup_(set_up(scene, registry, purpose_of(scene.root()))) {
-    if (!setup_.integrator)
-      of_statics(options);
-    else
-      in_motion(scene, options);
-    if (!options.steady) return;
-    if (const auto why = find_steady_motion(system(), state_))
-      throw RunFailed(fmt::format("no steady motion was found from the state at t = {:.9g}: {}", state_.t, *why));
-    what_ = "in steady motion from " + what_;
+      : setup_(set_up(scene, registry, purpose_of(scene.root()), options.witness)) {
+    try {
+      pose(scene, registry, options);
+    } catch (...) {
+      const bool built = simulator_ || statics_;
+      rethrow_blamed(setup_, built ? system().last_call() : model::CallSite{}, scene.root(), registry, state_.t);
+    }
   }
 
   model::AssembledSystem& system() { return simulator_ ? simulator_->system() : *statics_; }
@@ -47,9 +46,26 @@ class Posed {
   Setup& setup() { return setup_; }
 
  private:
-  void of_statics(const ModesOptions& options) {
+  void pose(const scene::Scene& scene, plugin::Registry& registry, const ModesOptions& options) {
+    const auto watch = [&] {
+      watch_.emplace(options.witness, setup_, scene.root(), registry, system(),
+                     CrashWitness::Clock{&state_.t, nullptr});
+    };
+    if (!setup_.integrator)
+      of_statics(options, watch);
+    else
+      in_motion(scene, options, watch);
+    if (!options.steady) return;
+    if (const auto why = find_steady_motion(system(), state_))
+      throw RunFailed(fmt::format("no steady motion was found from the state at t = {:.9g}: {}", state_.t, *why));
+    what_ = "in steady motion from " + what_;
+  }
+
+  template <class Watching>
+  void of_statics(const ModesOptions& options, Watching watch) {
     if (options.from) throw RunFailed("--from needs a scene with an integrator: statics write no checkpoints");
     statics_.emplace(setup_.model);
+    watch();
     model::Modes open;
     open.contacts.resize(setup_.model->contacts.size());
     statics_->set_modes(open);
@@ -67,10 +83,12 @@ class Posed {
     }
   }
 
-  void in_motion(const scene::Scene& scene, const ModesOptions& options) {
+  template <class Watching>
+  void in_motion(const scene::Scene& scene, const ModesOptions& options, Watching watch) {
     std::vector<Simulator::LevelCorrection> corrections;
     for (const auto& [level, correction] : setup_.corrections) corrections.push_back({level, correction.get()});
     simulator_.emplace(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
+    watch();
     const std::optional<fs::path> folder = options.from ? options.from
                                            : options.at ? std::optional(options.out)
                                                         : std::nullopt;
@@ -103,6 +121,7 @@ class Posed {
   std::optional<LoadPath> path_;  // holds the contacts' modes
   State state_;
   std::string what_;
+  std::optional<Watch> watch_;  // last: it looks at what stands above
 };
 
 double hertz(double angular) {
@@ -215,7 +234,7 @@ Spectrum spectrum_of(Posed& posed, int count) {
 RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, const ModesOptions& options) {
   if (options.at && purpose_of(scene.root()) == Purpose::motion) {
     RunOptions run_options;
-    run_options.out = options.out, run_options.interrupt = options.interrupt;
+    run_options.out = options.out, run_options.interrupt = options.interrupt, run_options.witness = options.witness;
     RunReport to_there = run(scene, registry, run_options);
     if (to_there.status != Status::done) return to_there;
   }
@@ -235,18 +254,8 @@ RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, c
     write_whole(options.out / "shapes.csv", shapes_csv(posed.system(), posed.state(), spectrum.modes));
     done.summary = report.summary(options.out);
     return done;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const RunFailed&) {
-    throw;
-  } catch (const model::NotSolvable&) {
-    throw;
-  } catch (const OutputError&) {
-    throw;
-  } catch (const plugin::PluginError&) {
-    throw;
-  } catch (const std::exception& e) {
-    throw blame(e, posed.setup(), posed.system().last_call(), scene.root(), registry, posed.state().t, 0);
+  } catch (...) {
+    rethrow_blamed(posed.setup(), posed.system().last_call(), scene.root(), registry, posed.state().t);
   }
 }
 

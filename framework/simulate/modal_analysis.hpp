@@ -16,6 +16,7 @@ struct ModesOptions {
   std::optional<std::filesystem::path> from;  // a results folder with a checkpoint
   bool steady = false;
   std::atomic<bool>* interrupt = nullptr;
+  CrashWitness* witness = nullptr;
 };
 
 // The scene must be loaded with simulate.until at `at`. Throws like run, and RunFailed or NotSolvable where no state or no

@@ -99,15 +99,15 @@ void Recorder::event(const ContactEvent& event) {
   fmt::format_to(out, "{:.17g},{},contacts.{},", event.t, to_string(event.kind), name);
   if (event.kind == ContactEvent::Kind::impact || event.kind == ContactEvent::Kind::latch)
     fmt::format_to(out, "impulse={:.17g} approach={:.17g} separation={:.17g} energy_lost={:.17g} {}", event.impulse,
-                   event.approach, event.separation, event.energy_lost, friction);
+                   event.approach + 0.0, event.separation + 0.0, event.energy_lost + 0.0, friction);  // no -0
   else if (event.kind == ContactEvent::Kind::stick)
     fmt::format_to(out, "{}", friction);
   else if (event.kind == ContactEvent::Kind::slip || event.kind == ContactEvent::Kind::reversal)
     fmt::format_to(out, "{} {}", friction, told("direction", event.direction));
   else if (event.kind == ContactEvent::Kind::close)
-    fmt::format_to(out, "approach={:.17g}", event.approach);
+    fmt::format_to(out, "approach={:.17g}", event.approach + 0.0);
   else
-    fmt::format_to(out, "separation={:.17g}", event.separation);
+    fmt::format_to(out, "separation={:.17g}", event.separation + 0.0);
   events_->buffer() += '\n';
   events_->appended();
 }

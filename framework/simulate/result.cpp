@@ -29,7 +29,8 @@ json counts(Simulator& simulator) {
           {"factorizations", c.factorizations},
           {"newton_iterations", c.newton_iterations},
           {"events", s.events},
-          {"impacts", s.impacts}};
+          {"impacts", s.impacts},
+          {"touches", s.touches}};
 }
 
 json sizes(const Statistics& statistics) {

@@ -23,4 +23,10 @@ class NotFinite : public RunFailed {
   model::CallSite site_;
 };
 
+// Because the integrator's step came back with something that cannot be the next state. what() says with what.
+class BadStep : public RunFailed {
+ public:
+  using RunFailed::RunFailed;
+};
+
 }  // namespace trammel::simulate

@@ -8,6 +8,7 @@
 
 #include "model/scene_keys.hpp"
 #include "scene/suggestion.hpp"
+#include "simulate/setting_parts.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -16,39 +17,69 @@ using model::check_keys;
 using scene::Problems;
 using scene::Value;
 
-// The number at `key`, which must lie above (or at, if `or_equal`) `least`; `fallback` if it is absent.
-double number(const Value& object, const char* key, double fallback, double least, bool or_equal, const char* unit,
-              Problems& problems) {
+// Every key of an object is declared.
+bool check_part(const Value& object, const plugin::Part& part, std::vector<std::string> more, Problems& problems) {
+  std::vector<std::string> keys = part.names();
+  keys.insert(keys.end(), more.begin(), more.end());
+  return check_keys(object, keys, problems);
+}
+
+// The number at `key` within its declared range; `fallback` if it is absent.
+double number(const Value& object, const plugin::Part& part, const char* key, double fallback, Problems& problems) {
   const Value* value = object.find(key);
   if (!value) return fallback;
   const std::optional<double> x = value->read_number(problems);
   if (!x) return fallback;
-  if (or_equal ? *x >= least : *x > least) return *x;
-  problems.error(
-      value->problem(fmt::format("found {}, expected a number {} {} [{}]", *x, or_equal ? ">=" : ">", least, unit)));
+  const Parameter& declared = part.declared(key);
+  const ParameterTraits& range = declared.traits;
+  const bool whole = declared.type != Parameter::Type::integer || *x == std::floor(*x);
+  if (whole && (range.above_min ? *x > range.min : *x >= range.min) && *x <= range.max) return *x;
+  problems.error(value->problem(fmt::format("found {}, expected {}", *x, plugin::expected(declared))));
   return fallback;
 }
 
-StepChoice read_step(const Value& value, Problems& problems) {
+// The least step that a run can take [s]: t + h has to tell it from 0, and from its neighbours to a few per cent.
+struct Resolution {
+  double least, at;  // [s] at this t
+  bool admits(const Value& value, double h, Problems& problems) const {
+    if (h >= least) return true;
+    problems.error(value.problem(
+        fmt::format("found {}, expected a step of at least {:.2g} s: at t = {:.6g} s a smaller one is lost in t + h", h,
+                    least, at)));
+    return false;
+  }
+};
+
+Resolution resolution_of(const Settings& settings) {
+  const double largest = std::max(std::abs(settings.start), std::abs(settings.until));
+  return {16 * std::numeric_limits<double>::epsilon() * largest, largest};
+}
+
+StepChoice read_step(const Value& value, const Resolution& resolution, Problems& problems) {
   StepChoice choice;
   if (value.type() != Value::Type::object) {
     if (const auto h = value.read_number(problems)) {
-      if (*h > 0)
-        choice.fixed = *h;
-      else
+      if (!(*h > 0))
         problems.error(value.problem(fmt::format("found {}, expected a step > 0 [s] or {{\"tolerance\": 1e-9}}", *h)));
+      else if (resolution.admits(value, *h, problems))
+        choice.fixed = *h;
     }
     return choice;
   }
-  check_keys(value, {"tolerance", "relative", "absolute", "initial", "min", "max"}, problems);
-  const double both = number(value, "tolerance", 1e-6, 0, false, "1", problems);
+  const plugin::Part& part = setting_part("step");
+  check_part(value, part, {}, problems);
+  const double both = number(value, part, "tolerance", 1e-6, problems);
   if (!value.find("tolerance") && !(value.find("relative") && value.find("absolute")))
     problems.error(value.problem("give \"tolerance\", or both \"relative\" and \"absolute\""));
-  choice.tolerance.relative = number(value, "relative", both, 0, true, "1", problems);
-  choice.tolerance.absolute = number(value, "absolute", both, 0, false, "m, rad, m/s, rad/s", problems);
-  choice.initial = number(value, "initial", 0, 0, false, "s", problems);
-  choice.least = number(value, "min", 0, 0, false, "s", problems);
-  choice.most = number(value, "max", choice.most, 0, false, "s", problems);
+  choice.tolerance.relative = number(value, part, "relative", both, problems);
+  choice.tolerance.absolute = number(value, part, "absolute", both, problems);
+  const auto length = [&](const char* key, double fallback) {
+    const double h = number(value, part, key, fallback, problems);
+    return h == fallback || resolution.admits(*value.find(key), h, problems) ? h : fallback;
+  };
+  choice.initial = length("initial", choice.initial);
+  choice.least = number(value, part, "min", choice.least, problems);
+  choice.most = length("max", choice.most);
   if (choice.most < choice.least) problems.error(value.problem("\"max\" is less than \"min\""));
   return choice;
 }
@@ -64,27 +95,29 @@ void read_simulate(const Value& root, Purpose purpose, Settings& settings, Probl
     problems.error(at.problem("the end of the run is missing: give \"simulate\": {\"until\": 2.0} [s]"));
     if (!simulate) return;
   }
-  check_keys(*simulate, {"start", "until", "contact_hold", "chatter_steps", "event_limit"}, problems);
-  settings.start = number(*simulate, "start", 0, -std::numeric_limits<double>::infinity(), true, "s", problems);
-  settings.until = number(*simulate, "until", settings.start, settings.start, true, "s", problems);
-  settings.contact_hold = number(*simulate, "contact_hold", 0, 0, true, "s", problems);
-  settings.chatter_steps = number(*simulate, "chatter_steps", settings.chatter_steps, 0, true, "steps", problems);
-  settings.event_limit = static_cast<long long>(
-      number(*simulate, "event_limit", double(settings.event_limit), 1, true, "events", problems));
+  const plugin::Part& part = setting_part("simulate");
+  check_part(*simulate, part, {}, problems);
+  const auto read = [&](const char* key, double fallback) { return number(*simulate, part, key, fallback, problems); };
+  settings.start = read("start", settings.start);
+  settings.until = read("until", settings.start);
+  if (settings.until < settings.start) {
+    problems.error(simulate->find("until")->problem(
+        fmt::format("found {}, expected a number >= {} [s], the start", settings.until, settings.start)));
+    settings.until = settings.start;
+  }
+  settings.contact_hold = read("contact_hold", settings.contact_hold);
+  settings.chatter_steps = read("chatter_steps", settings.chatter_steps);
+  settings.event_limit = static_cast<long long>(std::min(read("event_limit", double(settings.event_limit)), 1e18));
 }
 
 void read_static(const Value& root, Settings& settings, Problems& problems) {
   const Value* statics = root.find("static");
-  if (!statics || !check_keys(*statics, {"steps", "tolerance", "iterations", "arc_length"}, problems)) return;
-  const auto whole = [&](const char* key, int fallback) {
-    const double x = number(*statics, key, fallback, 1, true, "1", problems);
-    if (x == std::floor(x) && x <= 1e6) return int(x);
-    problems.error(statics->find(key)->problem(fmt::format("found {}, expected a whole number up to 1000000", x)));
-    return fallback;
-  };
-  settings.load_steps = whole("steps", settings.load_steps);
-  settings.load_iterations = whole("iterations", settings.load_iterations);
-  settings.load_tolerance = number(*statics, "tolerance", settings.load_tolerance, 0, false, "1", problems);
+  const plugin::Part& part = setting_part("static");
+  if (!statics || !check_part(*statics, part, {}, problems)) return;
+  const auto read = [&](const char* key, double fallback) { return number(*statics, part, key, fallback, problems); };
+  settings.load_steps = int(read("steps", settings.load_steps));
+  settings.load_iterations = int(read("iterations", settings.load_iterations));
+  settings.load_tolerance = read("tolerance", settings.load_tolerance);
   if (const Value* arc = statics->find("arc_length")) {
     if (arc->type() == Value::Type::boolean)
       settings.arc_length = arc->boolean();
@@ -98,8 +131,9 @@ void read_record(const Value& root, Settings& settings, Problems& problems) {
   settings.every = length > 0 ? length / 1000 : 1;
   const Value* record = root.find("record");
   if (!record) return;
-  check_keys(*record, {"every", "observe"}, problems);
-  settings.every = number(*record, "every", settings.every, 0, false, "s", problems);
+  const plugin::Part& part = setting_part("record");
+  check_part(*record, part, {"observe"}, problems);
+  settings.every = number(*record, part, "every", settings.every, problems);
   if (length / settings.every > 1e9)
     problems.error(
         record->problem(fmt::format("{} s recorded every {} s are more than 1e9 rows", length, settings.every)));
@@ -145,12 +179,13 @@ Settings read_settings(const Value& root, Purpose purpose, Problems& problems) {
   read_record(root, settings, problems);
   if (purpose == Purpose::motion) {
     const Value& integrator = integrator_entry(root);
+    const Resolution resolution = resolution_of(settings);
     if (const Value* step = integrator.find("step"))
-      settings.step = read_step(*step, problems);
+      settings.step = read_step(*step, resolution, problems);
     else
       problems.error(integrator.problem("\"step\" is missing: a length in s, or {\"tolerance\": 1e-9}"));
     if (const Value* contact = integrator.find("contact_step")) {
-      settings.contact_step = read_step(*contact, problems);
+      settings.contact_step = read_step(*contact, resolution, problems);
       settings.own_contact_step = true;
     } else {
       settings.contact_step = settings.step;

@@ -5,8 +5,11 @@
 #include "model/assembled_system.hpp"
 #include "model/build.hpp"
 #include "model/scene_keys.hpp"
+#include "plugin/describe.hpp"
 #include "plugin/parameters.hpp"
+#include "simulate/blame.hpp"
 #include "simulate/contact_reach.hpp"
+#include "simulate/crash_witness.hpp"
 #include "simulate/initial_state.hpp"
 #include "simulate/smooth_laws.hpp"
 
@@ -21,7 +24,7 @@ std::string with_error_estimate(plugin::Registry& registry) {
   std::string names;
   for (const plugin::Entry* entry : registry.all()) {
     if (entry->declaration.kind != Kind::integrator) continue;
-    const std::unique_ptr<Component> candidate = entry->declaration.make();
+    const std::unique_ptr<Component> candidate = plugin::new_component(*entry);
     if (dynamic_cast<const ErrorEstimate*>(candidate.get()))
       names += (names.empty() ? "" : ", ") + entry->declaration.name;
   }
@@ -58,7 +61,7 @@ std::string that_correct(Correction::Level level, plugin::Registry& registry) {
   std::string names;
   for (const plugin::Entry* entry : registry.all()) {
     if (entry->declaration.kind != Kind::correction) continue;
-    const std::unique_ptr<Component> candidate = entry->declaration.make();
+    const std::unique_ptr<Component> candidate = plugin::new_component(*entry);
     const auto* correction = dynamic_cast<const Correction*>(candidate.get());
     if (correction && correction->corrects(level)) names += (names.empty() ? "" : ", ") + entry->declaration.name;
   }
@@ -97,9 +100,21 @@ void read_corrections(const Value& root, plugin::Registry& registry, Setup& setu
   }
 }
 
+// Reaches out for a state to start from: the first calls of bodies, joints, forces and contacts.
+void find_start(Setup& setup, model::AssembledSystem& system, const Value& root, Problems& problems) {
+  State start;
+  start.t = setup.settings.start;
+  system.initial(start.q, start.v);
+  check_reach(system, start, root, problems);
+  problems.throw_if_any();
+  setup.initial = initial_state(system, setup.settings.start, setup.settings.initial, root, problems);
+  problems.throw_if_any();
+  begin_columns(setup.columns, system, setup.initial);
+}
+
 }  // namespace
 
-Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purpose) {
+Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purpose, CrashWitness* witness) {
   const Value& root = scene.root();
   Setup setup;
   for (const scene::Problem& warning : scene.warnings()) setup.warnings.push_back(warning.text());
@@ -119,14 +134,8 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purp
   if (problems.empty()) check_laws(root, registry, setup.settings.start, setup.settings.until, problems);
   problems.throw_if_any();
   model::AssembledSystem system(setup.model);
-  State start;
-  start.t = setup.settings.start;
-  system.initial(start.q, start.v);
-  check_reach(system, start, root, problems);
-  problems.throw_if_any();
-  setup.initial = initial_state(system, setup.settings.start, setup.settings.initial, root, problems);
-  problems.throw_if_any();
-  begin_columns(setup.columns, system, setup.initial);
+  const Watch watch(witness, setup, root, registry, system, {&setup.settings.start, nullptr});
+  blaming(setup, system, root, registry, setup.settings.start, [&] { find_start(setup, system, root, problems); });
   for (const scene::Problem& warning : problems.warnings()) setup.warnings.push_back(warning.text());
   return setup;
 }

@@ -33,6 +33,8 @@ struct Setup {
 };
 
 // Throws SceneError, PluginError. Statics needs no integrator, makes none and no corrections.
-Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purpose = Purpose::motion);
+// The witness, if any, is told of the model while it is asked for its first state.
+Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purpose = Purpose::motion,
+             CrashWitness* witness = nullptr);
 
 }  // namespace trammel::simulate

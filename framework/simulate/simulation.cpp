@@ -40,7 +40,7 @@ class Run {
       : scene_(scene),
         registry_(registry),
         options_(options),
-        setup_(set_up(scene, registry)),
+        setup_(set_up(scene, registry, Purpose::motion, options.witness)),
         hash_(resume_hash(scene.root())) {}
 
   ~Run() {
@@ -53,13 +53,17 @@ class Run {
     std::vector<Simulator::LevelCorrection> corrections;
     for (const auto& [level, correction] : setup_.corrections) corrections.push_back({level, correction.get()});
     simulator_.emplace(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
-    if (options_.witness) options_.witness->follow(setup_, scene_.root(), registry_, *simulator_);
+    if (options_.witness)
+      options_.witness->follow(setup_, scene_.root(), registry_, simulator_->system(),
+                               {&simulator_->state().t, &simulator_->statistics().steps});
     try {
       open();
       loop();
       finish();
     } catch (const NotFinite& e) {
       not_finite(e);
+    } catch (const BadStep& e) {
+      fail(plugin::PluginError(setup_.integrator_origin, "step", e.what(), simulator_->state().t).in_step(step()));
     } catch (const RunFailed& e) {
       end(Status::failed, e.what());
     } catch (const model::NotSolvable& e) {
@@ -73,18 +77,21 @@ class Run {
       throw;
     } catch (const std::bad_alloc&) {
       end(Status::failed, where("out of memory"));
-    } catch (const std::exception& e) {
-      const plugin::PluginError error = blame(e, setup_, simulator_->system().last_call(), scene_.root(), registry_,
-                                              simulator_->state().t, simulator_->statistics().steps + 1);
-      end(Status::failed, error.what());
-      throw error;
+    } catch (...) {
+      fail(blame(setup_, simulator_->system().last_call(), scene_.root(), registry_, simulator_->state().t, step()));
     }
     return std::move(report_);
   }
 
  private:
   std::string where(const char* what) const {
-    return fmt::format("at t = {:.9g} s, step {}: {}", simulator_->state().t, simulator_->statistics().steps + 1, what);
+    return fmt::format("at t = {:.9g} s, step {}: {}", simulator_->state().t, step(), what);
+  }
+  long long step() const { return simulator_->statistics().steps + 1; }
+
+  [[noreturn]] void fail(const plugin::PluginError& error) {
+    end(Status::failed, error.what());
+    throw error;
   }
 
   // The scene's fault if the component follows a law of time written there, such as sqrt(1-t); else the plugin's.
@@ -94,11 +101,8 @@ class Run {
     if (entry && has_expression(*entry))
       return end(Status::failed, fmt::format("{}: {} ({} of {}) gave numbers that are not finite in its \"{}\"",
                                              e.what(), origin.path, origin.component, origin.file, e.site().call));
-    const plugin::PluginError error =
-        plugin::PluginError(origin, e.site().call, "it gave numbers that are not finite", simulator_->state().t)
-            .in_step(simulator_->statistics().steps + 1);
-    end(Status::failed, error.what());
-    throw error;
+    fail(plugin::PluginError(origin, e.site().call, "it gave numbers that are not finite", simulator_->state().t)
+             .in_step(step()));
   }
 
   static bool has_expression(const scene::Value& value) {
@@ -269,9 +273,10 @@ RunReport run(const scene::Scene& scene, plugin::Registry& registry, const RunOp
   return Run(scene, registry, options)();
 }
 
-std::string validate(const scene::Scene& scene, plugin::Registry& registry) {
+std::string validate(const scene::Scene& scene, plugin::Registry& registry, CrashWitness* witness) {
   std::string text;
-  for (const std::string& warning : set_up(scene, registry, purpose_of(scene.root())).warnings) text += warning + "\n";
+  for (const std::string& warning : set_up(scene, registry, purpose_of(scene.root()), witness).warnings)
+    text += warning + "\n";
   return text;
 }
 

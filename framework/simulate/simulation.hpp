@@ -44,9 +44,9 @@ RunReport run(const scene::Scene& scene, plugin::Registry& registry, const RunOp
 RunReport run_static(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options);
 
 // Reads everything and builds the model without running; throws like run. Returns warnings, a line each.
-std::string validate(const scene::Scene& scene, plugin::Registry& registry);
+std::string validate(const scene::Scene& scene, plugin::Registry& registry, CrashWitness* witness = nullptr);
 
 // What was built, what each part costs, what was left out: a text for a person.
-std::string explain(const scene::Scene& scene, plugin::Registry& registry);
+std::string explain(const scene::Scene& scene, plugin::Registry& registry, CrashWitness* witness = nullptr);
 
 }  // namespace trammel::simulate

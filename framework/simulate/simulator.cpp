@@ -8,12 +8,17 @@
 
 #include "plugin/guard.hpp"
 #include "simulate/run_failed.hpp"
+#include "simulate/trial_step.hpp"
 
 namespace trammel::simulate {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr std::size_t most_warnings = 20;
+
+bool near_the_end_of_numbers(const State& s) {
+  return !(std::max(s.q.lpNorm<Eigen::Infinity>(), s.v.lpNorm<Eigen::Infinity>()) < 1e30);
+}
 
 int error_order(Integrator& integrator) {
   const auto* estimate = dynamic_cast<const ErrorEstimate*>(&integrator);
@@ -146,11 +151,13 @@ bool Simulator::advance(Recorder& recorder) {
 }
 
 bool Simulator::try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error) {
-  const Outcome outcome = integrator_.step(system_, now_, h, next_);
+  const Outcome outcome = trial_step(integrator_, system_, now_, h, next_);
   if (!outcome) return refuse(proposal, outcome.reason()), false;
   const auto refuse_not_finite = [&] {
     if (!control().controlled()) fail_not_finite(h);
-    refuse(proposal, "numbers that are not finite");
+    ++statistics_.rejected;
+    control().rejected(proposal.h);
+    if (control().too_small(now_.t)) fail_not_finite(proposal.h);
     return false;
   };
   if (!next_.q.allFinite() || !next_.v.allFinite() || !next_.a.allFinite()) return refuse_not_finite();
@@ -201,8 +208,7 @@ void Simulator::fail(double h, const std::string& why) const {
 // Throws if a component answers with numbers that are not finite where the step began, or at the times it went to. Not when
 // the state itself is near the end of the numbers: then any component's answer may overflow.
 void Simulator::find_culprit(double h) {
-  const double size = std::max(now_.q.lpNorm<Eigen::Infinity>(), now_.v.lpNorm<Eigen::Infinity>());
-  if (!(size < 1e30)) return;
+  if (near_the_end_of_numbers(now_)) return;
   for (const double part : {0.0, 0.5, 1.0, 2.0}) {
     system_.move_to(now_.t + part * h, now_.q, now_.v);
     const model::CallSite site = system_.find_not_finite();
@@ -210,8 +216,13 @@ void Simulator::find_culprit(double h) {
   }
 }
 
+// Components that answer with numbers, and a step that does not: the method's, if no shorter one helps.
 void Simulator::fail_not_finite(double h) {
   find_culprit(h);
+  const std::string what = not_finite_in(next_);
+  if (!what.empty() && !near_the_end_of_numbers(now_) &&
+      !finite_with_shorter_steps(integrator_, system_, now_, h, inside_))
+    throw BadStep(fmt::format("it returned {}; expected finite numbers", what));
   fail(h, "the solution diverged: numbers that are not finite. The step may be too long for the method");
 }
 

@@ -19,6 +19,7 @@ void Simulator::settle(const ContactChanges& changes) {
   ledger_.moving_rows(-modes_.settle(now_, changes, events_));
   for (std::size_t i = before; i < events_.size(); ++i) {
     ++statistics_.events;
+    if (events_[i].kind == ContactEvent::Kind::close) ++statistics_.touches;
     if (events_[i].kind != ContactEvent::Kind::impact && events_[i].kind != ContactEvent::Kind::latch) continue;
     ++statistics_.impacts;
     ledger_.impact(events_[i].contact, events_[i].energy_lost);

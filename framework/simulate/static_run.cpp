@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulate/blame.hpp"
+#include "simulate/crash_witness.hpp"
 #include "simulate/load_path.hpp"
 #include "simulate/recorder.hpp"
 #include "simulate/result.hpp"
@@ -25,11 +26,14 @@ class StaticRun {
       : scene_(scene),
         registry_(registry),
         options_(options),
-        setup_(set_up(scene, registry, Purpose::statics)),
+        setup_(set_up(scene, registry, Purpose::statics, options.witness)),
         system_(setup_.model),
+        watch_(options.witness, setup_, scene.root(), registry, system_, {&setup_.settings.start, nullptr}),
         path_(system_, setup_.settings, setup_.initial) {}
 
   RunReport operator()() {
+    if (options_.witness)
+      options_.witness->follow(setup_, scene_.root(), registry_, system_, {&path_.state().t, nullptr});
     try {
       std::error_code error;
       fs::create_directories(options_.out, error);
@@ -49,9 +53,9 @@ class StaticRun {
       throw;
     } catch (const std::bad_alloc&) {
       end(Status::failed, "out of memory");
-    } catch (const std::exception& e) {
+    } catch (...) {
       const plugin::PluginError error =
-          blame(e, setup_, system_.last_call(), scene_.root(), registry_, path_.state().t, step());
+          blame(setup_, system_.last_call(), scene_.root(), registry_, path_.state().t, step());
       end(Status::failed, error.what());
       throw error;
     }
@@ -144,6 +148,7 @@ class StaticRun {
   const RunOptions& options_;
   Setup setup_;
   model::AssembledSystem system_;
+  Watch watch_;
   LoadPath path_;
   std::optional<Recorder> recorder_;
   Energy energy_start_, energy_;

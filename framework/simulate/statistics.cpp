@@ -12,7 +12,8 @@ void Statistics::note_sizes(double t, Sizes now) {
 
 void Statistics::archive(Archive& a) {
   a("steps", steps), a("contact_steps", contact_steps), a("rejected", rejected), a("locating_steps", locating_steps);
-  a("events", events), a("impacts", impacts), a("smallest_step", smallest_step), a("largest_step", largest_step);
+  a("events", events), a("impacts", impacts), a("touches", touches);
+  a("smallest_step", smallest_step), a("largest_step", largest_step);
   a("largest_g", largest.position), a("largest_g_dot", largest.velocity), a("largest_g_ddot", largest.acceleration);
   a("sizes_left_out", sizes_left_out);
   Vec flat(Eigen::Index(4 * sizes.size()));

@@ -13,6 +13,7 @@ struct Statistics {
   long long rejected = 0;        // by the method or its error estimate
   long long locating_steps = 0;  // repeated to locate events
   long long events = 0, impacts = 0;
+  long long touches = 0;                       // a contact closed: the row or the force of its law became active
   double smallest_step = 0, largest_step = 0;  // [s] chosen by the step control
   ConstraintNorms largest;
 

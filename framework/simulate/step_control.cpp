@@ -70,7 +70,8 @@ void StepControl::rejected(double h) {
 }
 
 bool StepControl::too_small(double t) const {
-  return controlled() ? wish_ < smallest(t) : halvings_ > most_halvings;
+  if (controlled()) return wish_ < smallest(t);
+  return halvings_ > most_halvings || t + std::ldexp(h_, -halvings_) == t;
 }
 
 void StepControl::archive(Archive& a, const std::string& prefix) {

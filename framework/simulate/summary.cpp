@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +10,13 @@ namespace {
 
 std::string counted(std::size_t n, const char* one, const char* many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+// Compliant contacts know none: they touch.
+std::string impacts_of(const model::Model& model, const Statistics& s) {
+  const bool rigid = std::any_of(model.contacts.begin(), model.contacts.end(),
+                                 [](const model::ContactEntry& contact) { return contact.restitution != nullptr; });
+  return rigid ? counted(std::size_t(s.impacts), "impact", "impacts") + ", " : "";
 }
 
 std::string causes(const model::Model& model, const Ledger& ledger, double drift) {
@@ -43,9 +52,9 @@ std::string summary(const scene::Scene& scene, const Setup& setup, Simulator& si
                    counted(model.bodies.size(), "body", "bodies"), counted(model.joints.size(), "joint", "joints"),
                    counted(model.contacts.size(), "contact", "contacts")));
   if (!model.contacts.empty())
-    line("contact",
-         fmt::format("{}, {}, {} of {} steps in contact", counted(std::size_t(s.impacts), "impact", "impacts"),
-                     counted(std::size_t(s.events), "event", "events"), s.contact_steps, s.steps));
+    line("contact", fmt::format("{}{}, {} in all, {} of {} steps in contact", impacts_of(model, s),
+                                counted(std::size_t(s.touches), "touch", "touches"),
+                                counted(std::size_t(s.events), "event", "events"), s.contact_steps, s.steps));
   const double end = simulator.energy_at_state().total();
   line("energy", fmt::format("{:.9g} J -> {:.9g} J; supplied {:.6g} J; lost to {}", ledger.energy_start(), end,
                              ledger.supplied(), causes(model, ledger, simulator.energy_drift())));

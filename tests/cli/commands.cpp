@@ -110,6 +110,7 @@ TEST(CommandLine, MistakesExitWith2AndNameTheNearest) {
       {{"run", cli::bounce, "--out", "a", "--resume", "b"}, "--out and --resume exclude each other"},
       {{"run", cli::bounce, "--resume", "nowhere"}, "there is no nowhere/checkpoint.cbor to continue from"},
       {{"describe", "hht_alfa"}, "Did you mean \"hht_alpha\"?"},
+      {{"describe", "hht"}, "Did you mean \"hht_alpha\"?"},
   };
   for (const Mistake& mistake : mistakes) {
     const auto result = trammel(mistake.words);
@@ -148,6 +149,47 @@ TEST(Describe, ShowsParametersWithRangeAndDefault) {
   EXPECT_THAT(result.out, HasSubstr("0 to 1"));
   EXPECT_THAT(result.out, HasSubstr("capture_speed"));
   EXPECT_THAT(result.out, HasSubstr("m/s"));
+}
+
+TEST(Describe, KnowsThePartsOfASceneThatTheProgramReads) {
+  for (const auto& [part, keys] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {"step", {"tolerance", "relative", "absolute", "initial", "min", "max"}},
+           {"simulate",
+            {"start", "until", "contact_hold", "chatter_steps", "event_limit", "default 1000000", "Chatter:"}},
+           {"integrator", {"step", "contact_step", "'trammel describe step'"}},
+           {"initial", {"check", "project", "equilibrium"}},
+           {"record", {"every", "observe"}},
+           {"static", {"steps", "tolerance", "iterations", "arc_length"}}}) {
+    const auto result = trammel({"describe", part});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    for (const std::string& key : keys) EXPECT_THAT(result.out, HasSubstr(key)) << part;
+  }
+}
+
+TEST(Describe, SaysThatErrorControlledAdamsIsMostlyItsStart) {
+  EXPECT_THAT(trammel({"describe", "adams_baumgarte"}).out, HasSubstr("runge_kutta_4"));
+}
+
+TEST(Schema, DescribesWhatTheProgramReads) {
+  const json schema = json::parse(trammel({"schema"}).out);
+  const json simulate = schema["properties"]["simulate"]["properties"];
+  for (const char* key : {"until", "contact_hold", "chatter_steps", "event_limit"})
+    EXPECT_NE(simulate[key].value("description", ""), "") << key;
+  EXPECT_EQ(simulate["chatter_steps"]["default"], 3);
+}
+
+TEST(Schema, RequiresWhatASceneOfItsOwnMustHave) {
+  const json schema = json::parse(trammel({"schema"}).out);
+  EXPECT_EQ(schema["if"]["required"], json({"include"}));  // what is included may hold it
+  EXPECT_EQ(schema["else"]["anyOf"][0]["required"], json({"simulate"}));
+  EXPECT_EQ(schema["else"]["properties"]["simulate"]["required"], json({"until"}));
+  bool beam = false;
+  for (const json& one : schema["else"]["properties"]["bodies"]["additionalProperties"]["allOf"])
+    if (one["if"]["properties"]["type"]["const"] == "assumed_mode_beam") {
+      beam = true;
+      EXPECT_THAT(one["then"]["required"].dump(), HasSubstr("length"));
+    }
+  EXPECT_TRUE(beam);
 }
 
 TEST(Schema, IsAJsonSchemaThatKnowsTheComponents) {
@@ -201,6 +243,17 @@ TEST(Run, SumsUpWhatFrictionTook) {
   const auto result = trammel({"run", scene.string()}, {.folder = folder.path()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("lost to friction of sole 0.5 J"));
+}
+
+TEST(Run, CountsTouchesOfACompliantContact) {
+  const cli::TemporaryFolder folder;
+  const auto result = trammel(
+      {"run", cli::bounce, "--set",
+       R"(contacts.floor={"type": "continuous_force", "between": ["ball.point", {"plane": {"point": [0, 0], "normal": [0, 1]}}], "stiffness": 1e5, "exponent": 1.5, "restitution": 1})"},
+      {.folder = folder.path()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("1 touch, 2 events in all"));  // it falls for 0.45 s, rises for as long
+  EXPECT_THAT(result.out, Not(HasSubstr("impacts")));
 }
 
 TEST(Run, WritesIntoOutAndTheScenesNameByDefault) {

@@ -88,6 +88,20 @@ TEST_F(Interrupt, SaysHowToContinue) {
   EXPECT_THAT(result.err, HasSubstr("--resume broken"));
 }
 
+// Through a shell, as a person would paste it; with an end that is reached.
+TEST_F(Interrupt, SaysACommandThatContinues) {
+  const auto result = stop_early({"--set", "bodies.ball.mass=2.5", "--set", "title=it's \"here\" & $now"});
+  ASSERT_EQ(result.exit_code, 130) << result.err;
+  const std::string mark = "continue with: ";
+  std::string command = result.err.substr(result.err.find(mark) + mark.size());
+  command.resize(command.find('\n'));
+  EXPECT_THAT(command, HasSubstr("bodies.ball.mass=2.5"));
+  const double end = std::floor(last_time(cli::read_file(folder.path() / "broken/series.csv"))) + 5;
+  const auto resumed = cli::run_program("/bin/sh", {"-c", command + " --set simulate.until=" + std::to_string(end)},
+                                        {.folder = folder.path()});
+  EXPECT_EQ(resumed.exit_code, 0) << command << "\n" << resumed.err;
+}
+
 TEST_F(Interrupt, LeavesAResultThatSaysSo) {
   const auto result = stop_early({"--json"});
   EXPECT_EQ(result.exit_code, 130);

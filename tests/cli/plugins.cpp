@@ -38,6 +38,23 @@ class Plugin : public testing::Test {
     EXPECT_THAT(result.err, HasSubstr(cause));
   }
 
+  // The bouncing point, long in the air, with an integrator that goes wrong in step 1000.
+  void expect_blamed_in_step_1000(const std::string& how, const std::string& cause) {
+    expect_refused(kPlugins / "spoilt_step.so", cause, spoilt(how));
+    const auto result = run(kPlugins / "spoilt_step.so", spoilt(how));
+    EXPECT_THAT(result.err, HasSubstr("spoilt_step.so: integrator spoilt_step (integrator): step"));
+    EXPECT_THAT(result.err, HasSubstr("at t = 0.999"));
+    EXPECT_THAT(result.err, HasSubstr("step 1000: "));
+    const std::string series = cli::read_file(folder.path() / "out/bounce/series.csv");
+    EXPECT_EQ(std::count(series.begin(), series.end(), '\n'), 1 + 100);  // header; rows at 0, 0.01, ..., 0.99
+  }
+  std::string recorded_status() {
+    return json::parse(cli::read_file(folder.path() / "out/bounce/result.json"))["status"];
+  }
+  static std::vector<std::string> spoilt(const std::string& how) {
+    return {"integrator.type=spoilt_step", "integrator.how=" + how, "bodies.ball.position=[0,100]", "simulate.until=3"};
+  }
+
   cli::TemporaryFolder folder;
 };
 
@@ -108,6 +125,54 @@ TEST_F(Plugin, ThatThrowsInStep1000KeepsTheResultsSoFar) {
   EXPECT_EQ(json::parse(cli::read_file(folder.path() / "out/bounce/result.json"))["status"], "failed");
 }
 
+TEST_F(Plugin, ThatThrowsNoStdExceptionInStep1000IsNamedLikeOneThatThrowsOne) {
+  expect_blamed_in_step_1000("number", "it threw something that is no std::exception");
+  EXPECT_EQ(recorded_status(), "failed");
+  expect_blamed_in_step_1000("text", "it threw: boom");
+  EXPECT_EQ(recorded_status(), "failed");
+}
+
+TEST_F(Plugin, ThatReturnsAStateOfAnotherSizeIsToldTheSizes) {
+  expect_blamed_in_step_1000("size", "it returned q with 3 entries; expected 2");
+  EXPECT_EQ(recorded_status(), "failed");
+}
+
+TEST_F(Plugin, WhoseStepIsNotFiniteHoweverShortIsNamed) {
+  expect_blamed_in_step_1000("not_finite", "it returned q[0] = nan; expected finite numbers");
+  EXPECT_EQ(recorded_status(), "failed");
+}
+
+TEST_F(Plugin, ThatEndsTheProgramInStep1000IsNoSuccessAndRecordsAreKept) {
+  for (const char* how : {"exit", "quick_exit"}) expect_blamed_in_step_1000(how, "it ended the program (exit)");
+}
+
+// Commands that run no scene call plugins too: to see what an integrator costs, or where the bodies are.
+TEST_F(Plugin, ThatFailsInAnotherCommandThanRunIsNamedThereToo) {
+  const auto explain = [&](const std::string& how) {
+    std::vector<std::string> words = {
+        "explain", cli::bounce, "--plugin", (kPlugins / "spoilt_step.so").string(), "--set", "integrator.after=0"};
+    for (const std::string& setting : spoilt(how)) words.insert(words.end(), {"--set", setting});
+    return trammel(words, {.folder = folder.path()});
+  };
+  for (const auto& [how, cause] : {std::pair{"text", "it threw: boom"},
+                                   {"number", "it threw something that is no std::exception"},
+                                   {"size", "it returned q with 3 entries; expected 2"},
+                                   {"exit", "it ended the program (exit)"}}) {
+    const auto result = explain(how);
+    EXPECT_EQ(result.exit_code, 3) << how << ": " << result.err;
+    EXPECT_THAT(result.err, HasSubstr("spoilt_step.so: integrator spoilt_step (integrator): step"));
+    EXPECT_THAT(result.err, HasSubstr(cause));
+  }
+}
+
+TEST_F(Plugin, ThatEndsTheProgramInItsConstructorIsNamed) {
+  const auto result =
+      trammel({"describe", "ends_in_constructor", "--plugin", (kPlugins / "ends_in_constructor.so").string()});
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  EXPECT_THAT(result.err,
+              HasSubstr("ends_in_constructor.so: correction ends_in_constructor: its constructor: it ended"));
+}
+
 TEST_F(Plugin, ThatReturnsNanIsNamedWithTheTime) {
   const std::string scene = R"({"trammel": 1, "space": "planar", "gravity": [0, -9.81],
     "bodies": {"p": {"type": "spoilt_force"}}, "integrator": {"type": "runge_kutta_4", "step": 1e-3},
@@ -123,6 +188,23 @@ TEST_F(Plugin, ThatReturnsNanIsNamedWithTheTime) {
 
 // A sanitizer reports crashes by itself, so the program leaves them to it.
 #if !defined(__SANITIZE_ADDRESS__)
+TEST_F(Plugin, ThatCrashesInAnotherCommandThanRunIsNamedThereToo) {
+  const std::string step = (kPlugins / "spoilt_step.so").string(), force = (kPlugins / "spoilt_force.so").string();
+  const auto steps = trammel({"explain", cli::bounce, "--plugin", step, "--set", "integrator.type=spoilt_step", "--set",
+                              "integrator.how=memory", "--set", "integrator.after=0"});
+  EXPECT_EQ(steps.exit_code, 3) << steps.err;
+  EXPECT_THAT(steps.err, HasSubstr("spoilt_step.so: integrator spoilt_step (integrator): step"));
+  EXPECT_THAT(steps.err, HasSubstr("SIGSEGV"));
+  cli::write_file(folder.path() / "crash.json", R"({"trammel": 1, "space": "planar",
+      "bodies": {"p": {"type": "spoilt_force", "how": "memory", "from": 0}},
+      "integrator": {"type": "runge_kutta_4", "step": 1e-3}, "simulate": {"until": 1}})");
+  for (const char* command : {"explain", "static", "modes"}) {
+    const auto forces = trammel({command, "crash.json", "--plugin", force}, {.folder = folder.path()});
+    EXPECT_EQ(forces.exit_code, 3) << command << ": " << forces.err;
+    EXPECT_THAT(forces.err, HasSubstr("spoilt_force.so: body spoilt_force (bodies.p): force at t = 0 s")) << command;
+  }
+}
+
 TEST_F(Plugin, ThatCrashesIsNamedWithTheCallAndTheTimeAndRecordsAreKept) {
   for (const auto& [how, signal] :
        {std::pair{"memory", "SIGSEGV"}, std::pair{"stack", "SIGSEGV"}, std::pair{"abort", "SIGABRT"}}) {

@@ -65,6 +65,31 @@ TEST(Override, TakesBareTextAndJson) {
   EXPECT_EQ(number(scene, "b"), 2);
 }
 
+TEST(Override, MakesTheObjectsOnItsWayWithinAComponent) {
+  const Scene scene = Scene::parse(R"({"bodies": {"beam": {"length": 1}}, "integrator": {"step": 1e-3}})", "s",
+                                   {{"bodies.beam.initial.axial", "[0, 0]"},
+                                    {"integrator.step.tolerance", "1e-9"},
+                                    {"integrator.step.max", "1e-2"}});
+  EXPECT_EQ(scene.root().at_path("bodies.beam.initial.axial")->items().size(), 2u);
+  EXPECT_EQ(number(scene, "integrator.step.tolerance"), 1e-9);
+  EXPECT_EQ(number(scene, "integrator.step.max"), 1e-2);
+}
+
+TEST(Override, RemovesAMemberByNull) {
+  const Scene scene = Scene::parse(R"({"mount": {"hinge": 1, "free": 2}})", "s", {{"mount.hinge", "null"}});
+  EXPECT_EQ(scene.root().at_path("mount.hinge"), nullptr);
+  EXPECT_EQ(number(scene, "mount.free"), 2);
+  const auto error = error_of([] { Scene::parse(R"({"mount": {"hinge": 1}})", "s", {{"mount.hing", "null"}}); });
+  EXPECT_EQ(error, "--set mount.hing=null: mount.hing: null removes a member, and there is none");
+}
+
+TEST(Override, RefusesNumbersThatAreNotFinite) {
+  for (const char* value : {"nan", "-inf", "1e999", "infinity"}) {
+    const auto error = error_of([&] { Scene::parse(R"({"parameters": {"N": 5}})", "s", {{"parameters.N", value}}); });
+    EXPECT_EQ(error.find("--set parameters.N=" + std::string(value) + ": parameters.N: found " + value), 0u) << error;
+  }
+}
+
 TEST(Override, WarnsOfParametersThatNothingUses) {
   const std::string scene = R"({"parameters": {"e": 0.3, "a": 1, "twice": "=2*a", "b": 2, "four": "=2*b", "who": "me"},
                                 "x": "=1e5 + four", "name": "=who"})";
@@ -96,6 +121,17 @@ TEST(Include, LetsTheIncludingFileWinMemberByMember) {
   EXPECT_EQ(number(scene, "c.p"), 1);
 }
 
+TEST(Include, LetsNullRemoveWhatIsIncluded) {
+  const Folder folder("trammel_composition");
+  folder.file("base.json", R"({"beam": {"mount": {"hinge": [0, 0]}, "length": 1}, "contacts": {"tip": {}}})");
+  const Scene scene = Scene::load(folder.file(
+      "top.json", R"({"include": "base.json", "beam": {"mount": {"hinge": null, "free": 1}}, "contacts": null})"));
+  EXPECT_EQ(scene.root().at_path("beam.mount.hinge"), nullptr);
+  EXPECT_EQ(number(scene, "beam.mount.free"), 1);
+  EXPECT_EQ(number(scene, "beam.length"), 1);
+  EXPECT_EQ(scene.root().find("contacts"), nullptr);
+}
+
 TEST(Include, IsRelativeToTheIncludingFile) {
   const Folder folder("trammel_composition");
   folder.file("base.json", R"({"a": 1})");
@@ -123,6 +159,24 @@ TEST(Suggestion, FindsTheNearestName) {
   EXPECT_EQ(nearest("restituton", {"restitution", "friction"}), "restitution");
   EXPECT_EQ(nearest("HHT_alpha", {"hht_alpha", "newmark"}), "hht_alpha");
   EXPECT_EQ(nearest("xyz", {"hht_alpha", "newmark"}), "");
+  EXPECT_EQ(nearest("foo", {"cos", "sin"}), "");  // one letter of three in common
+  EXPECT_EQ(nearest("sni", {"cos", "sin"}), "sin");
+}
+
+TEST(Suggestion, CompletesABeginning) {
+  EXPECT_EQ(nearest("hht", {"newmark", "hht_alpha_modified", "hht_alpha"}), "hht_alpha");
+  EXPECT_EQ(nearest("HHT", {"newmark", "hht_alpha"}), "hht_alpha");
+}
+
+TEST(Expression, ThatIsVeryLongIsQuotedInPart) {
+  const std::string deep = "=" + std::string(100000, '(') + "1" + std::string(100000, ')');
+  const auto error = error_of([&] {
+    Problems problems;
+    Scene::parse(R"({"x": 1})", "s", {{"x", deep}}).root().find("x")->read_number(problems);
+    problems.throw_if_any();
+  });
+  EXPECT_NE(error.find("too deeply nested"), std::string::npos) << error.substr(0, 500);
+  EXPECT_LT(error.size(), 500u);
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ std::string Command::help() const {
   return text + "\n";
 }
 
-Arguments::Arguments(const Command& command, std::span<const std::string> words) {
+Arguments::Arguments(const Command& command, std::span<const std::string> words, std::string program)
+    : program_(std::move(program)) {
   std::vector<std::string> operands;
   bool options_ended = false;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -67,6 +68,14 @@ Arguments::Arguments(const Command& command, std::span<const std::string> words)
     throw UsageError(
         fmt::format("'trammel {}' takes one {}, found also '{}'", command.name, command.operand, operands[1]));
   if (!operands.empty()) operand_ = operands.front();
+}
+
+std::string shell_quoted(const std::string& word) {
+  constexpr std::string_view harmless = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  if (!word.empty() && word.find_first_not_of(harmless) == word.npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
 }
 
 const std::string& Arguments::last(std::string_view option) const {

@@ -41,17 +41,21 @@ struct Command {
 class Arguments {
  public:
   // Throws UsageError naming what was found and the nearest option.
-  Arguments(const Command& command, std::span<const std::string> words);
+  Arguments(const Command& command, std::span<const std::string> words, std::string program);
 
+  const std::string& program() const { return program_; }  // as it was called
   const std::string& operand() const { return operand_; }
   bool has(std::string_view option) const { return values_.contains(option); }
   const std::string& last(std::string_view option) const;       // of an option that was given
   std::vector<std::string> all(std::string_view option) const;  // in the order given
 
  private:
-  std::string operand_;
+  std::string program_, operand_;
   std::map<std::string, std::vector<std::string>, std::less<>> values_;
 };
+
+// A word as a POSIX shell takes it back: quoted if it holds more than letters, digits and harmless signs.
+std::string shell_quoted(const std::string& word);
 
 // Options that several commands share.
 inline constexpr Option kSet{"--set", "PATH=VALUE",

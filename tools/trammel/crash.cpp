@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -14,9 +16,11 @@ namespace trammel::tool {
 
 namespace {
 
-// A signal handler has no other way to reach the run.
-simulate::CrashWitness witness;
+// Handlers of signals and of the program's end have no other way to reach the run.
+simulate::CrashWitness the_witness;
 bool as_json = false;
+std::atomic<bool> in_the_midst = false;
+pid_t this_process = 0;                   // not a child that tries out a library
 std::array<char, 1 << 16> handler_stack;  // a run that overflowed its own stack leaves none
 
 const char* what_happened(int signal) {
@@ -67,33 +71,56 @@ void put_json(std::string_view message) {
   put(STDOUT_FILENO, "\"}]}\n");
 }
 
-void tell(int signal) {
+// Says who ended the process and how; ends it.
+[[noreturn]] void tell_and_end(const char* how) {
+  the_witness.rescue();
+  const simulate::CrashWitness::Culprit who = the_witness.culprit();
   Line line;
-  if (witness.watching()) {
-    witness.rescue();
-    const simulate::CrashWitness::Culprit who = witness.culprit();
-    line.add("plugin {}: {} ({}): {}{} at t = {:.9g} s, step {}: {}", who.origin->file, who.origin->component,
-             who.origin->path, who.call, who.certain ? "" : ", or the program on its behalf,", who.t, who.step,
-             what_happened(signal));
+  if (who.origin) {
+    line.add("plugin {}: {}", who.origin->file, who.origin->component);
+    if (!who.origin->path.empty()) line.add(" ({})", who.origin->path);
+    line.add(": {}{}", who.call, who.certain ? "" : ", or the program on its behalf,");
   } else {
-    line.add("the program crashed outside a run: {}", what_happened(signal));
+    line.add("the program ended where no plugin is known to be called");
   }
-  if (as_json) return put_json(line.text());
-  put(STDERR_FILENO, "trammel: ");
-  put(STDERR_FILENO, line.text());
-  put(STDERR_FILENO, "\n");
+  if (who.t) line.add(" at t = {:.9g} s", *who.t);
+  if (who.step) line.add(", step {}", *who.step);
+  line.add(": {}", how);
+  if (as_json) {
+    put_json(line.text());
+  } else {
+    put(STDERR_FILENO, "trammel: ");
+    put(STDERR_FILENO, line.text());
+    put(STDERR_FILENO, "\n");
+  }
+  ::_exit(static_cast<int>(who.origin ? Exit::bad_plugin : Exit::failed));
 }
 
 void on_crash(int signal) {
   std::signal(signal, SIG_DFL);  // a second crash, in here, ends the process
-  tell(signal);
-  ::_exit(static_cast<int>(witness.watching() ? Exit::bad_plugin : Exit::failed));
+  tell_and_end(what_happened(signal));
+}
+
+void on_exit() {
+  if (in_the_midst && ::getpid() == this_process) tell_and_end("it ended the program (exit), which no plugin may");
 }
 
 }  // namespace
 
-simulate::CrashWitness& watch_for_crashes(bool json) {
+simulate::CrashWitness& witness() {
+  return the_witness;
+}
+
+void ends_by_itself() {
+  in_the_midst = false;
+}
+
+void watch_for_crashes(bool json) {
   as_json = json;
+  this_process = ::getpid();
+  in_the_midst = true;
+  std::atexit(on_exit);
+  std::at_quick_exit(on_exit);
   stack_t stack = {};
   stack.ss_sp = handler_stack.data();
   stack.ss_size = handler_stack.size();
@@ -106,7 +133,6 @@ simulate::CrashWitness& watch_for_crashes(bool json) {
     action.sa_flags = SA_ONSTACK;
     sigaction(signal, &action, nullptr);
   }
-  return witness;
 }
 
 }  // namespace trammel::tool

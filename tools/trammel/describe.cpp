@@ -1,15 +1,24 @@
-// trammel describe COMPONENT: its manual page, from its declaration.
+// trammel describe NAME: the manual page of a component or of a part of a scene, from its declaration.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "arguments.hpp"
 #include "input.hpp"
 #include "plugin/describe.hpp"
+#include "simulate/setting_parts.hpp"
 
 namespace trammel::tool {
 
 namespace {
 
 Exit describe(const Arguments& arguments) {
+  std::vector<std::string> names;
+  for (const plugin::Part& part : simulate::setting_parts()) {
+    names.push_back(part.name);
+    if (part.name != arguments.operand()) continue;
+    fmt::print("{}", plugin::describe(part));
+    return Exit::done;
+  }
   plugin::Registry registry;
   load_plugins(arguments, registry);
   try {
@@ -19,7 +28,7 @@ Exit describe(const Arguments& arguments) {
       separator = "\n";
     }
   } catch (const plugin::UnknownComponent& unknown) {
-    throw UsageError(unknown.what());
+    throw UsageError(fmt::format("{}. Parts of a scene: {}", unknown.what(), fmt::join(names, ", ")));
   }
   return Exit::done;
 }
@@ -29,7 +38,7 @@ Exit describe(const Arguments& arguments) {
 Command describe_command() {
   return {"describe",
           "COMPONENT",
-          "Show a component's manual page: equations' source, parameters, units, ranges.",
+          "Show the manual page of a component, or of a part of a scene such as simulate.",
           {kPlugin},
           describe};
 }

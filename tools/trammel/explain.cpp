@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "arguments.hpp"
+#include "crash.hpp"
 #include "input.hpp"
 #include "simulate/simulation.hpp"
 
@@ -13,7 +14,7 @@ Exit explain(const Arguments& arguments) {
   const scene::Scene scene = load_scene(arguments);
   plugin::Registry registry;
   load_plugins(arguments, registry);
-  fmt::print("{}", simulate::explain(scene, registry));
+  fmt::print("{}", simulate::explain(scene, registry, &witness()));
   return Exit::done;
 }
 

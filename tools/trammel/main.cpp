@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "arguments.hpp"
+#include "crash.hpp"
 #include "input.hpp"
 #include "scene/suggestion.hpp"
 
@@ -40,7 +41,7 @@ const Command& find_command(const std::string& name) {
   throw UsageError(fmt::format("there is no command '{}'{}", name, scene::did_you_mean(name, names)));
 }
 
-Exit dispatch(std::span<const std::string> words) {
+Exit dispatch(const std::string& program, std::span<const std::string> words) {
   if (words.empty() || words[0] == "help" || words[0] == "--help" || words[0] == "-h") {
     if (words.size() > 1)
       fmt::print("{}", find_command(words[1]).help());
@@ -61,7 +62,7 @@ Exit dispatch(std::span<const std::string> words) {
       return Exit::done;
     }
   }
-  return command.run(Arguments(command, rest));
+  return command.run(Arguments(command, rest, program));
 }
 
 // One problem without a place in a file.
@@ -81,14 +82,15 @@ void report(const std::vector<scene::Problem>& problems, const char* text, bool 
   print_json({{"status", "error"}, {"problems", all}});
 }
 
-int run_program(std::span<const std::string> words) {
+int run_program(const std::string& program, std::span<const std::string> words) {
   const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
+  watch_for_crashes(json);
   const auto fail = [&](Exit code, const std::vector<scene::Problem>& problems, const std::string& text) {
     report(problems, text.c_str(), json);
     return code;
   };
   try {
-    return dispatch(words);
+    return dispatch(program, words);
   } catch (const scene::SceneError& error) {
     return fail(Exit::bad_input, error.problems(), error.what());
   } catch (const UsageError& error) {
@@ -114,7 +116,8 @@ int main(int argc, char** argv) {
   // A file that meets its size limit is then an error of the write, with results kept, and not the end of the process.
   std::signal(SIGXFSZ, SIG_IGN);
   const std::vector<std::string> words(argv + 1, argv + argc);
-  const int code = trammel::tool::run_program(words);
+  const int code = trammel::tool::run_program(argc > 0 ? argv[0] : "trammel", words);
+  trammel::tool::ends_by_itself();
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
     fmt::print(stderr, "trammel: could not write to standard output\n");
     return code == 0 ? 1 : code;

@@ -67,6 +67,7 @@ Exit run(const Arguments& arguments) {
   load_plugins(arguments, registry);
   require_writable(options.out);
   options.interrupt = &watch_for_interrupts();
+  options.witness = &witness();
   const simulate::RunReport report = simulate::analyse_modes(scene, registry, options);
   if (report.status != simulate::Status::done) {
     if (json) fmt::print("{}\n", report.result_json);

@@ -31,6 +31,18 @@ fs::path folder_of_run(const Arguments& arguments) {
   return folder;
 }
 
+// The command that goes on with this run: with all that says what the scene is.
+std::string continuation(const Arguments& arguments, const fs::path& folder) {
+  std::string command = shell_quoted(arguments.program()) + " run";
+  const auto add = [&command](const std::string& word) { command += " " + shell_quoted(word); };
+  for (const char* option : {"--plugin", "--set"})
+    for (const std::string& value : arguments.all(option)) add(option), add(value);
+  add("--resume"), add(folder.string());
+  if (arguments.operand().starts_with("-")) add("--");
+  add(arguments.operand());
+  return command;
+}
+
 Exit run(const Arguments& arguments) {
   const bool json = arguments.has("--json");
   const bool quiet = arguments.has("--quiet");
@@ -43,7 +55,7 @@ Exit run(const Arguments& arguments) {
 
   require_writable(options.out);
   options.interrupt = &watch_for_interrupts();
-  options.witness = &watch_for_crashes(json);
+  options.witness = &witness();
   simulate::RunReport report;
   {
     ProgressBar bar(!json && !quiet);
@@ -60,8 +72,8 @@ Exit run(const Arguments& arguments) {
       fmt::print(stderr, "trammel: {}\nResults up to there are in {}\n", report.reason, options.out.string());
       return Exit::failed;
     case simulate::Status::interrupted:
-      fmt::print(stderr, "trammel: interrupted; results are in {0}, continue with: trammel run {1} --resume {0}\n",
-                 options.out.string(), arguments.operand());
+      fmt::print(stderr, "trammel: interrupted; results are in {}, continue with: {}\n", options.out.string(),
+                 continuation(arguments, options.out));
       return Exit::interrupted;
   }
   return Exit::failed;

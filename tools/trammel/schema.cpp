@@ -4,6 +4,7 @@
 #include "arguments.hpp"
 #include "input.hpp"
 #include "plugin/describe.hpp"
+#include "simulate/setting_parts.hpp"
 
 namespace trammel::tool {
 
@@ -12,7 +13,7 @@ namespace {
 Exit schema(const Arguments& arguments) {
   plugin::Registry registry;
   load_plugins(arguments, registry);
-  fmt::print("{}\n", plugin::schema(registry.all()));
+  fmt::print("{}\n", plugin::schema(registry.all(), simulate::setting_parts()));
   return Exit::done;
 }
 

@@ -22,6 +22,7 @@ Exit run(const Arguments& arguments) {
   load_plugins(arguments, registry);
   require_writable(options.out);
   options.interrupt = &watch_for_interrupts();
+  options.witness = &witness();
   simulate::RunReport report;
   {
     ProgressBar bar(!json && !quiet);

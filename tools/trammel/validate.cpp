@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "arguments.hpp"
+#include "crash.hpp"
 #include "input.hpp"
 #include "simulate/simulation.hpp"
 
@@ -14,7 +15,7 @@ Exit validate(const Arguments& arguments) {
   const scene::Scene scene = load_scene(arguments);
   plugin::Registry registry;
   load_plugins(arguments, registry);
-  const std::string warnings = simulate::validate(scene, registry);
+  const std::string warnings = simulate::validate(scene, registry, &witness());
   if (arguments.has("--json")) {
     print_json({{"status", "done"}, {"scene", arguments.operand()}, {"warnings", lines(warnings)}});
   } else {

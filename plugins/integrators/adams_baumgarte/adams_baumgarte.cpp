@@ -145,8 +145,11 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
 }  // namespace
 
 TRAMMEL_PLUGIN(
-    trammel::integrator<AdamsBaumgarte>("adams_baumgarte",
-                                        "Adams-Bashforth-Moulton PECE of fourth order with Baumgarte's stabilisation")
+    trammel::integrator<AdamsBaumgarte>(
+        "adams_baumgarte",
+        "Adams-Bashforth-Moulton PECE of fourth order with Baumgarte's stabilisation, for "
+        "constant steps: each change of the step restarts it by runge_kutta_4, so "
+        "error-controlled steps are mostly those of that method")
         .source(
             "Baumgarte 1972, Comput. Methods Appl. Mech. Eng. 1, 1-16; Hairer, Norsett, Wanner, Solving ODEs I, III.1")
         .parameter("delta", &AdamsBaumgarte::delta,
