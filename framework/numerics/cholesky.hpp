@@ -33,7 +33,7 @@ class Cholesky {
 
   Eigen::Index n_ = 0;
   bool diagonal_ = false;  // M is, as of rigid bodies in the coordinates of their centres
-  Mat L_, U_;  // L and D L^T, of few unknowns L D; columns padded; on their other sides anything
+  Mat L_, U_;              // L and D L^T, of few unknowns L D; columns padded; on their other sides anything
   Vec inverse_, root_, inverse_root_;  // of D
   Vec rest_;                           // scratch
   Eigen::LLT<Mat> blocks_;

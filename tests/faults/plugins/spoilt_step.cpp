@@ -54,4 +54,5 @@ struct SpoiltStep : Integrator {
 TRAMMEL_PLUGIN(integrator<SpoiltStep>("spoilt_step", "semi-implicit Euler whose step goes wrong")
                    .source("none")
                    .parameter("after", &SpoiltStep::after, {.min = 0, .doc = "so many good steps"})
-                   .parameter("how", &SpoiltStep::how, {.doc = "number, text, size, not_finite, exit, quick_exit, memory"}))
+                   .parameter("how", &SpoiltStep::how,
+                              {.doc = "number, text, size, not_finite, exit, quick_exit, memory"}))
