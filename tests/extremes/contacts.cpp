@@ -12,7 +12,7 @@ TEST(Restitution, OfZeroAndOneAreExact) {
   const Finished plastic = run_text(ball, {{"contacts.floor.restitution", "0"}});
   EXPECT_EQ(plastic.of_kind("impact").at(0).detail.at("separation"), 0);
   const Finished elastic = run_text(ball, {{"contacts.floor.restitution", "1"}});
-  const auto& impact = elastic.of_kind("impact").at(0).detail;
+  const auto impact = elastic.of_kind("impact").at(0).detail;
   EXPECT_EQ(impact.at("separation"), impact.at("approach"));
   EXPECT_EQ(impact.at("energy_lost"), 0);
 }

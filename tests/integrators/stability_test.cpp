@@ -11,9 +11,12 @@
 namespace trammel::test {
 namespace {
 
-nlohmann::json reference() {
-  std::ifstream file(TRAMMEL_SOURCE_DIR "/tests/data/integrators.json");
-  return nlohmann::json::parse(file);
+const nlohmann::json& reference() {
+  static const nlohmann::json all = [] {
+    std::ifstream file(TRAMMEL_SOURCE_DIR "/tests/data/integrators.json");
+    return nlohmann::json::parse(file);
+  }();
+  return all;
 }
 
 double spectral_radius(const Mat& A) {

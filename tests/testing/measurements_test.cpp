@@ -12,9 +12,12 @@ namespace {
 
 const std::string plugins = TRAMMEL_BUILD_DIR "/lib/trammel";
 
-nlohmann::json reference() {
-  std::ifstream file(TRAMMEL_SOURCE_DIR "/tests/data/integrators.json");
-  return nlohmann::json::parse(file);
+const nlohmann::json& reference() {
+  static const nlohmann::json all = [] {
+    std::ifstream file(TRAMMEL_SOURCE_DIR "/tests/data/integrators.json");
+    return nlohmann::json::parse(file);
+  }();
+  return all;
 }
 
 TEST(Order, OfHhtIsTwoForMultipliersToo) {
