@@ -22,6 +22,7 @@ bool is_diagonal(const Mat& M) {
 bool Cholesky::compute(const Mat& M) {
   const Eigen::Index n = M.rows();
   diagonal_ = is_diagonal(M);
+  if (diagonal_) return invert_diagonal(M);
   if (n > most_in_packs) {
     resize(0);
     return blocks_.compute(M).info() == Eigen::Success && blocks_.matrixLLT().diagonal().allFinite();  // NaN: "success"
@@ -35,8 +36,17 @@ bool Cholesky::compute(const Mat& M) {
   return factorise_by_columns();
 }
 
+// Of any size: hundreds of bodies that nothing ties cost no more each than one.
+bool Cholesky::invert_diagonal(const Mat& M) {
+  n_ = M.rows();
+  root_ = M.diagonal().cwiseSqrt();
+  inverse_ = M.diagonal().cwiseInverse();
+  inverse_root_ = inverse_.cwiseProduct(root_);
+  return (M.diagonal().array() > 0).all() && M.diagonal().allFinite();
+}
+
 void Cholesky::resize(Eigen::Index n) {
-  if (n_ == n) return;
+  if (n_ == n && L_.rows() == padded(n) && inverse_.size() == L_.cols()) return;
   n_ = n;
   const Eigen::Index stride = padded(n), columns = stride == few ? few : n;
   L_.setIdentity(stride, columns), U_.setIdentity(stride, columns);

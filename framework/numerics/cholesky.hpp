@@ -27,6 +27,7 @@ class Cholesky {
  private:
   bool in_blocks() const { return n_ == 0; }
   bool of_few() const { return L_.rows() == few; }
+  bool invert_diagonal(const Mat& M);
   void resize(Eigen::Index n);
   bool factorise_by_columns();
   bool factorise_few();

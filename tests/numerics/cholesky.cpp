@@ -49,6 +49,22 @@ TEST_P(CholeskyOf, Solves) {
   EXPECT_LE((x - known).lpNorm<Eigen::Infinity>(), 1e-13);
 }
 
+TEST_P(CholeskyOf, SolvesADiagonalMatrixAndAFullOneAfterIt) {
+  const Vec known = Vec::LinSpaced(GetParam(), -1, 2), d = Vec::LinSpaced(GetParam(), 1, 1e9);
+  numerics::Cholesky cholesky;
+  ASSERT_TRUE(cholesky.compute(d.asDiagonal()));
+  Vec x = d.asDiagonal() * known;
+  cholesky.solve(x);
+  EXPECT_LE((x - known).lpNorm<Eigen::Infinity>(), 1e-15);
+  EXPECT_NEAR(cholesky.pivot(0), std::sqrt(d(0)), 1e-15 * std::sqrt(d(0)));
+  const Mat M = positive(GetParam());
+  ASSERT_TRUE(cholesky.compute(M));
+  x = M * known;
+  cholesky.solve(x);
+  EXPECT_LE((x - known).lpNorm<Eigen::Infinity>(), 1e-13);
+  EXPECT_FALSE(cholesky.compute((-d).asDiagonal()));
+}
+
 TEST_P(CholeskyOf, RefusesWhatIsNotPositiveDefinite) {
   Mat M = positive(GetParam());
   numerics::Cholesky cholesky;
