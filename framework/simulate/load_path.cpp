@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "simulate/equilibrium.hpp"
+#include "simulate/mechanism.hpp"
 #include "simulate/run_failed.hpp"
 
 namespace trammel::simulate {
@@ -262,62 +263,11 @@ void LoadPath::fail(double t, Failure why) {
     default:
       text += ": the stiffness matrix is singular";
   }
-  if (const auto loose = mechanism())
+  if (const auto loose = find_mechanism(system_, state_.t, passed_.empty() ? start_ : passed_.back().q))
     text += "; " + *loose;
   else if (!settings_.arc_length)
     text += "; if the load has a maximum there, \"static\": {\"arc_length\": true} goes past it";
   throw RunFailed(text);
-}
-
-// By inverse iteration: what moves with (almost) no stiffness, against that of a random motion.
-std::optional<std::string> LoadPath::mechanism() {
-  const Vec& q = passed_.empty() ? start_ : passed_.back().q;
-  const Vec lambda = Vec::Zero(system_.sizes().nc);
-  system_.carry_no_stress();
-  system_.move_to(state_.t, q, zero_);
-  Vec x(zero_.size()), ahead, behind, mu, Mx;
-  for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = std::sin(1 + 7.3 * double(i) * double(i));
-  const auto mass_times = [&](const Vec& y) {
-    Vec r = zero_;
-    system_.add_mass_times(1, y, r);
-    return r;
-  };
-  const auto norm = [&](const Vec& y) { return std::sqrt(std::max(0.0, y.dot(mass_times(y)))); };
-  x /= norm(x);
-  const double step = 1e-6 / std::max(1e-300, x.lpNorm<Eigen::Infinity>());
-  for (const double side : {1.0, -1.0}) {
-    Vec moved;
-    system_.retract(q, side * step * x, moved);
-    system_.move_to(state_.t, moved, zero_);
-    (side > 0 ? ahead : behind) = system_.f();
-  }
-  const double stiff = std::abs(x.dot(behind - ahead)) / (2 * step);  // omega^2 of the random motion
-  if (!std::isfinite(stiff)) return {};
-  const double shift = std::max(1e-12 * stiff, 1e-12);
-  system_.move_to(state_.t, q, zero_);
-  const Vec no_rows = Vec::Zero(system_.sizes().nc);
-  double growth = 0;
-  for (int i = 0; i < 4; ++i) {
-    Mx = -mass_times(x);
-    system_.factorise({shift, 0, 1}, zero_, lambda);
-    Vec y;
-    if (!system_.correct(Mx, no_rows, y, mu)) return {};
-    growth = norm(y);
-    if (!(growth > 0) || !std::isfinite(growth)) return {};
-    x = y / growth;
-  }
-  if (std::abs(1 / growth - shift) > 10 * shift) return {};
-  const model::BodyEntry* loose = nullptr;
-  double most = 0;
-  for (const model::BodyEntry& body : system_.model().bodies) {
-    if (body.nv == 0) continue;
-    Vec alone = zero_;
-    alone.segment(body.v0, body.nv) = x.segment(body.v0, body.nv);
-    if (const double share = norm(alone); share > most) most = share, loose = &body;
-  }
-  if (!loose) return {};
-  return fmt::format(
-      "bodies.{} is a mechanism: it can move without resistance, hold it by a joint, an edge or a spring", loose->name);
 }
 
 }  // namespace trammel::simulate

@@ -17,7 +17,6 @@
 #pragma once
 
 #include <deque>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,7 +67,6 @@ class LoadPath {
   Point predict(double t) const;
   void keep(Point point);
   [[noreturn]] void fail(double t, Failure why);
-  std::optional<std::string> mechanism();
 
   model::AssembledSystem& system_;
   const Settings& settings_;

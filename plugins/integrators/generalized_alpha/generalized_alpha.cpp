@@ -6,6 +6,7 @@
 // rho in [0, 1] is the spectral radius for infinitely fast modes.
 // Chung, Hulbert, J. Appl. Mech. 60(2), 371-375 (1993); Arnold, Bruls, Multibody Syst. Dyn. 18, 185-202 (2007).
 #include <trammel/alpha_method.hpp>
+#include <trammel/newmark_parameters.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
@@ -48,7 +49,7 @@ class GeneralizedAlpha final : public Integrator, public ErrorEstimate {
 
 }  // namespace
 
-TRAMMEL_PLUGIN(
+TRAMMEL_PLUGIN(trammel::newmark_parameters(
     trammel::integrator<GeneralizedAlpha>("generalized_alpha",
                                           "generalised alpha: second order, damping chosen by rho_inf")
         .source(
@@ -58,15 +59,4 @@ TRAMMEL_PLUGIN(
             {.min = 0,
              .max = 1,
              .doc =
-                 "spectral radius for infinitely fast modes: 1 no damping (weakly unstable with index3), 0 one step"})
-        .choice("formulation", &GeneralizedAlpha::formulation,
-                {{"stabilised", Formulation::stabilised}, {"index3", Formulation::index3}},
-                {.doc = "stabilised holds positions and velocities of the rows; index3 positions only"})
-        .parameter("tolerance", &GeneralizedAlpha::tolerance,
-                   {.min = 0,
-                    .max = 1e-2,
-                    .usual_max = 1e-8,
-                    .above_min = true,
-                    .doc = "of Newton's iteration, relative to the size of q and v"})
-        .parameter("max_iterations", &GeneralizedAlpha::max_iterations,
-                   {.min = 1, .max = 100, .usual_max = 30, .doc = "of Newton, before a step is rejected"}))
+                 "spectral radius for infinitely fast modes: 1 no damping (weakly unstable with index3), 0 one step"})))

@@ -7,6 +7,7 @@
 // Negrut, Rampalli, Ottarsson, Sajdak, J. Comput. Nonlinear Dynam. 2(1), 73-85 (2007); Jay, Negrut, ETNA 26, 190-208
 // (2007).
 #include <trammel/alpha_method.hpp>
+#include <trammel/newmark_parameters.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
@@ -47,19 +48,8 @@ class HhtAlpha final : public Integrator, public ErrorEstimate {
 
 }  // namespace
 
-TRAMMEL_PLUGIN(
+TRAMMEL_PLUGIN(trammel::newmark_parameters(
     trammel::integrator<HhtAlpha>("hht_alpha", "HHT-alpha: second order, damps the modes too fast for the step")
         .source("Negrut et al. 2007, J. Comput. Nonlinear Dynam. 2(1), 73-85; Jay, Negrut 2007, ETNA 26, 190-208")
         .parameter("alpha", &HhtAlpha::alpha,
-                   {.min = -1.0 / 3, .max = 0, .doc = "numerical damping; 0 is the trapezoidal rule without any"})
-        .choice("formulation", &HhtAlpha::formulation,
-                {{"stabilised", Formulation::stabilised}, {"index3", Formulation::index3}},
-                {.doc = "stabilised holds positions and velocities of the rows; index3 positions only"})
-        .parameter("tolerance", &HhtAlpha::tolerance,
-                   {.min = 0,
-                    .max = 1e-2,
-                    .usual_max = 1e-8,
-                    .above_min = true,
-                    .doc = "of Newton's iteration, relative to the size of q and v"})
-        .parameter("max_iterations", &HhtAlpha::max_iterations,
-                   {.min = 1, .max = 100, .usual_max = 30, .doc = "of Newton, before a step is rejected"}))
+                   {.min = -1.0 / 3, .max = 0, .doc = "numerical damping; 0 is the trapezoidal rule without any"})))

@@ -7,6 +7,7 @@
 // with the rows of NewmarkStep (stabilised or index 3). Second order for gamma = 1/2, else first order with damping;
 // stable for every step if 2 beta >= gamma >= 1/2. Newmark, J. Eng. Mech. Div. ASCE 85(3), 67-94 (1959).
 #include <trammel/newmark_error.hpp>
+#include <trammel/newmark_parameters.hpp>
 #include <trammel/newmark_step.hpp>
 #include <trammel/plugin.hpp>
 
@@ -69,7 +70,7 @@ class Newmark final : public Integrator, public ErrorEstimate {
 
 }  // namespace
 
-TRAMMEL_PLUGIN(
+TRAMMEL_PLUGIN(trammel::newmark_parameters(
     trammel::integrator<Newmark>("newmark", "Newmark's method; beta = 1/4, gamma = 1/2 is the trapezoidal rule")
         .source("Newmark 1959, J. Eng. Mech. Div. ASCE 85(3), 67-94")
         .parameter("beta", &Newmark::beta,
@@ -79,15 +80,4 @@ TRAMMEL_PLUGIN(
                     .max = 1,
                     .usual_min = 0.5,
                     .above_min = true,
-                    .doc = "share of the new acceleration in the velocities; above 1/2 damps and is of first order"})
-        .choice("formulation", &Newmark::formulation,
-                {{"stabilised", Formulation::stabilised}, {"index3", Formulation::index3}},
-                {.doc = "stabilised holds positions and velocities of the rows; index3 positions only"})
-        .parameter("tolerance", &Newmark::tolerance,
-                   {.min = 0,
-                    .max = 1e-2,
-                    .usual_max = 1e-8,
-                    .above_min = true,
-                    .doc = "of Newton's iteration, relative to the size of q and v"})
-        .parameter("max_iterations", &Newmark::max_iterations,
-                   {.min = 1, .max = 100, .usual_max = 30, .doc = "of Newton, before a step is rejected"}))
+                    .doc = "share of the new acceleration in the velocities; above 1/2 damps and is of first order"})))

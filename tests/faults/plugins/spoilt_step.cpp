@@ -1,5 +1,5 @@
-// An integrator (semi-implicit Euler) whose step goes wrong after a number of steps: it throws what is no std::exception, gives
-// vectors of a wrong size or numbers that are not finite, ends the program, or reads from address 0.
+// An integrator (semi-implicit Euler) whose step goes wrong after a number of steps: it throws, or throws what is no
+// std::exception, gives vectors of a wrong size or numbers that are not finite, ends the program, or reads from address 0.
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
@@ -34,7 +34,7 @@ struct SpoiltStep : Integrator {
  private:
   void spoil(State& next) const {
     if (how == "number") throw 42;
-    if (how == "text") throw std::runtime_error("boom");
+    if (how == "text") throw std::runtime_error("one step too many");
     if (how == "size") next.q.resize(3);
     if (how == "not_finite") next.q[0] = std::numeric_limits<double>::quiet_NaN();
     if (how == "exit") std::exit(0);

@@ -1,0 +1,78 @@
+// What a checkpoint holds of a run, so that it goes on bit by bit as if it had never stopped.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "simulate/simulator.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+void archive_tangential(Archive& a, const std::string& name, model::ContactMode& mode) {
+  const auto numbers = [&](const char* what, auto& x) {
+    Vec flat = Eigen::Map<const Vec>(x.data(), x.size());
+    a(name + what, flat);
+    if (flat.size() == x.size()) std::copy(flat.begin(), flat.end(), x.data());
+  };
+  numbers("direction", mode.direction);
+  a(name + "slow", mode.slow);
+  numbers("anchor", mode.anchor);
+  numbers("rolled_from", mode.rolled_from);
+}
+
+}  // namespace
+
+// Bodies first: those that are refined decide the sizes of all that follows.
+void Simulator::archive(JsonArchive& a) {
+  archive_bodies(a);
+  archive_state(a);
+  JsonArchive integrator = a.nested("integrator");
+  integrator_.archive(integrator);
+  for (std::size_t i = 0; i < corrections_.size(); ++i) {
+    JsonArchive correction = a.nested(fmt::format("correction_{}", i));
+    corrections_[i].correction->archive(correction);
+  }
+}
+
+void Simulator::archive_bodies(JsonArchive& a) {
+  if (!refinement_.possible()) return;
+  for (const model::BodyEntry& entry : system_.model().bodies) {
+    if (!entry.refinable) continue;
+    JsonArchive body = a.nested("body_" + entry.name);
+    entry.refinable->archive(body);
+  }
+  if (a.reading()) refinement_.lay_out();
+}
+
+void Simulator::archive_state(Archive& a) {
+  a("start_kinetic", energy_start_.kinetic), a("start_potential", energy_start_.potential);
+  a("start_elastic", energy_start_.elastic);
+  a("t", now_.t), a("q", now_.q), a("v", now_.v), a("a", now_.a), a("lambda", now_.lambda);
+  model::Modes modes = system_.modes();
+  for (std::size_t i = 0; i < modes.contacts.size(); ++i) {
+    const std::string name = fmt::format("contact_{}_", i);
+    a(name + "closed", modes.contacts[i].closed);
+    a(name + "approach_speed", modes.contacts[i].approach_speed);
+    a(name + "offset", modes.contacts[i].offset);
+    int friction = int(modes.contacts[i].friction);
+    a(name + "friction", friction);
+    modes.contacts[i].friction = model::ContactMode::Friction(friction);
+    archive_tangential(a, name, modes.contacts[i]);
+  }
+  const auto& current = system_.modes().contacts;
+  if (!std::equal(current.begin(), current.end(), modes.contacts.begin())) system_.set_modes(modes);
+  scale_.archive(a);
+  a("hold_until", hold_until_), a("step_limit", step_limit_), a("drift_before", drift_before_);
+  a("records", records_), a("last_row", last_row_), a("window_start", window_start_),
+      a("window_events", window_events_), a("standing", standing_);
+  model::Counts& counts = system_.counts();
+  a("residual_evaluations", counts.residual_evaluations), a("jacobian_evaluations", counts.jacobian_evaluations);
+  a("factorizations", counts.factorizations), a("newton_iterations", counts.newton_iterations);
+  free_control_.archive(a, "step_");
+  contact_control_.archive(a, "contact_step_");
+  ledger_.archive(a);
+  statistics_.archive(a);
+  location_.archive(a);
+}
+
+}  // namespace trammel::simulate
