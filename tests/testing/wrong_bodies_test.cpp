@@ -53,7 +53,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Refused{BodyDefect::bias_without_coriolis, {"BiasIsTheRestOfTheAcceleration"}},
                     Refused{BodyDefect::tangent_without_damping, {"TangentIsExact"}},
                     Refused{BodyDefect::reaction_derivative_without_radius, {"ReactionDerivativeIsExact"}},
-                    Refused{BodyDefect::shape_comes_and_goes, {"ShowsItself"}}));
+                    Refused{BodyDefect::shape_comes_and_goes, {"ShowsItself"}}),
+    [](const testing::TestParamInfo<Refused>& test) {
+      return std::to_string(test.index) + "_" + *test.param.by.begin();
+    });
 
 TEST(BodyChecks, RefuseWrongRowsOfItsOwn) {
   EXPECT_TRUE(refusals_of(CircleDefect::rows_resized).contains("OwnRowsHaveTheirSizes"));
