@@ -197,8 +197,8 @@ bool IterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
     solution_ = cod_.solve(right_);
     // A least-squares answer that leaves a residual is no solution; unless it is round-off of positions of the order of 1.
     const Vec residual = full_ * solution_ - right_;
-    const double noise = 1e-13, S = full_.topLeftCorner(nv_, nv_).cwiseAbs().maxCoeff();
-    const double G = std::max(1.0, full_.bottomLeftCorner(rows, nv_).cwiseAbs().maxCoeff());
+    const double noise = 1e-13, S = full_.topLeftCorner(nv_, nv_).lpNorm<Eigen::Infinity>();
+    const double G = std::max(1.0, full_.bottomLeftCorner(rows, nv_).lpNorm<Eigen::Infinity>());
     const bool round_off = residual.head(nv_).norm() <= noise * S && residual.tail(rows).norm() <= noise * G;
     if (!(residual.norm() <= 1e-6 * right_.norm() || round_off)) return false;
   }

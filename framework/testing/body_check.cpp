@@ -154,20 +154,25 @@ BodyRows own_rows(const TriedBody& b, const BodyAt& at) {
   return rows;
 }
 
+bool keep_their_sizes(const TriedBody& b, const BodyRows& rows) {
+  const int n = constrained(b)->row_count();
+  return rows.g.size() == n && rows.g_t.size() == n && rows.gamma.size() == n && rows.G.rows() == n &&
+         rows.G.cols() == b.nv;
+}
+// Of rows of wrong sizes nothing more can be said than that.
+bool has_own_rows(const TriedBody& b) {
+  return constrained(b) && keep_their_sizes(b, own_rows(b, b.start()));
+}
+
 Report own_rows_have_their_sizes(const TriedBody& b) {
   return compare("rows of its own keep the sizes they come in with", [&](Comparison& c) {
-    if (!constrained(b)) return;
-    const int n = constrained(b)->row_count();
-    const BodyRows rows = own_rows(b, b.start());
-    c.holds(rows.g.size() == n && rows.g_t.size() == n && rows.gamma.size() == n && rows.G.rows() == n &&
-                rows.G.cols() == b.nv,
-            "an array of the rows was resized");
+    if (constrained(b)) c.holds(has_own_rows(b), "an array of the rows was resized");
   });
 }
 
 Report own_jacobian_is_the_gradient(const TriedBody& b) {
   return compare("G is the gradient of g", [&](Comparison& c) {
-    if (!constrained(b)) return;
+    if (!has_own_rows(b)) return;
     for (const BodyAt& at : b.at()) {
       const Mat G = own_rows(b, at).G;
       b.for_each_direction(
@@ -179,7 +184,7 @@ Report own_jacobian_is_the_gradient(const TriedBody& b) {
 
 Report own_rates_are_those_of_the_path(const TriedBody& b) {
   return compare("dg/dt = G v + g_t and d(g_dot)/dt = G a - gamma", [&](Comparison& c) {
-    if (!constrained(b)) return;
+    if (!has_own_rows(b)) return;
     const auto g_dot = [&](const BodyAt& x) {
       const BodyRows rows = own_rows(b, x);
       return Vec(rows.G * x.v + rows.g_t);
@@ -200,7 +205,7 @@ Report own_rates_are_those_of_the_path(const TriedBody& b) {
 
 Report own_reaction_derivative_is_exact(const TriedBody& b) {
   return compare("the derivative of the reaction of its own rows is that of G^T lambda", [&](Comparison& c) {
-    if (!constrained(b)) return;
+    if (!has_own_rows(b)) return;
     const Vec lambda = Vec::LinSpaced(constrained(b)->row_count(), 1.5, -0.7);
     for (const BodyAt& at : b.at()) {
       Mat K = Mat::Zero(b.nv, b.nv);

@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 TEST(BodyChecks, RefuseWrongRowsOfItsOwn) {
-  EXPECT_TRUE(refusals_of(CircleDefect::rows_resized).contains("OwnRowsHaveTheirSizes"));
+  EXPECT_EQ(refusals_of(CircleDefect::rows_resized), Names{"OwnRowsHaveTheirSizes"});
   EXPECT_EQ(refusals_of(CircleDefect::gradient_of_twice_the_row),
             (Names{"OwnJacobianIsTheGradient", "OwnRatesAreThoseOfThePath", "OwnReactionDerivativeIsExact"}));
   EXPECT_EQ(refusals_of(CircleDefect::no_time_derivative), Names{"OwnRatesAreThoseOfThePath"});
