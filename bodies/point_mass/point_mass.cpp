@@ -13,7 +13,7 @@ namespace {
 
 using namespace trammel;
 
-struct PointMass : Body, ExactTangent, ReactionDerivative, Drawn {
+struct PointMass : Body, ExactTangent, ReactionDerivative, Drawn, HasMomentum {
   double mass_ = 0;
   Vec3 position_ = Vec3::Zero(2), velocity_ = Vec3::Zero(2);
 
@@ -56,6 +56,16 @@ struct PointMass : Body, ExactTangent, ReactionDerivative, Drawn {
   void add_reaction_derivative(int, double, In, const Wrench&, double, Matrix&) const override {}
 
   void shape(double, In q, Mat& points) const override { points = q; }
+
+  Momentum momentum(double, In q, In v) const override {
+    Momentum all{.mass = mass_, .linear = mass_ * v, .angular = {}};
+    const Vec3& p = all.linear;
+    if (space_ == Space::planar)
+      all.angular = Vec3::Constant(1, q(0) * p(1) - q(1) * p(0));
+    else
+      all.angular = Eigen::Vector3d(q).cross(Eigen::Vector3d(p));
+    return all;
+  }
 
  private:
   int dim() const { return dimension(space_); }

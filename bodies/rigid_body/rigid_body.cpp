@@ -21,7 +21,7 @@ struct Placed {
   std::vector<Eigen::Matrix<double, D, 1>> points;  // of the markers, body axes, in the order of the names
 };
 
-struct RigidBody : Body, ExactTangent, ReactionDerivative, Observed, Drawn, InertiaInput {
+struct RigidBody : Body, ExactTangent, ReactionDerivative, Observed, Drawn, HasMomentum, InertiaInput {
   Vec3 position_ = Vec3::Zero(2), velocity_ = Vec3::Zero(2);
   double angle_ = 0;
   std::optional<Vec3> axis_;
@@ -105,6 +105,17 @@ struct RigidBody : Body, ExactTangent, ReactionDerivative, Observed, Drawn, Iner
         },
         body_);
     return all(observable);
+  }
+
+  Momentum momentum(double, In q, In v) const override {
+    return std::visit(
+        [&](const auto& b) {
+          Momentum all{.mass = b.equations.mass, .linear = b.equations.momentum(v), .angular = {}};
+          all.angular.resize(rotations(space_));
+          all.angular << b.equations.angular_momentum(q, v);
+          return all;
+        },
+        body_);
   }
 
   void shape(double, In q, Mat& points) const override {

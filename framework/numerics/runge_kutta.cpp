@@ -8,8 +8,9 @@ namespace trammel {
 
 namespace {
 
-// How far off the rows a projected slope may be taken [m, rad; relative to the speed]: at the end of a step, and inside.
-constexpr double round_off = 1e-15, inside = 1e-12;
+// How far off the rows a slope may be taken [m, rad; relative to the speed]: to round-off inside a step as at its end. Near a change of
+// rank accelerations are wrong by it over the square of the angle between rows, which are told apart down to 1e-7.
+constexpr double round_off = 1e-15;
 
 // Far beyond any model's range, and small enough for a model to square and square again.
 bool within_range(const Vec& x) {
@@ -21,25 +22,35 @@ bool within_range(const Vec& x) {
 RungeKutta::RungeKutta(const Tableau& tableau) : tableau_(tableau), k_(std::size_t(tableau.stages) + 1) {}
 
 bool RungeKutta::evaluate(System& s, double t, const Vec& q, const Vec& v, Slope& slope) {
-  return slope_at(s, t, q, v, round_off, slope);
-}
-
-bool RungeKutta::slope_at(System& s, double t, const Vec& q, const Vec& v, double settled, Slope& slope) {
   if (!within_range(q) || !within_range(v)) return false;
   on_manifold_ = q;
   s.normalise(on_manifold_);
   held_v_ = v;
-  if (projects() && s.sizes().nc > 0 && !onto_rows(s, t, settled)) return false;
+  if (projects() && s.sizes().nc > 0 && !onto_rows(s, t)) return false;
   s.rate(on_manifold_, held_v_, slope.q);
   s.move_to(t, on_manifold_, held_v_);
   s.accelerate(baumgarte, slope.v, slope.lambda);
   return within_range(slope.q) && within_range(slope.v) && within_range(slope.lambda);
 }
 
-// The first factors are off by the violation itself; the second, nearly in place, serve to the end.
-bool RungeKutta::onto_rows(System& s, double t, double settled) {
+// False: nothing to keep.
+bool RungeKutta::keep_null_space(System& s, const State& now) {
+  kept_ = rows == Rows::null_space && s.sizes().nc > 0;
+  if (!kept_) return false;
+  zero_.setZero(s.sizes().nv);
+  no_force_.setZero(s.sizes().nc);
+  s.move_to(now.t, now.q, now.v);
+  s.factorise({1, 0, 0}, zero_, no_force_, Factors::projection);
+  return true;
+}
+
+// Projected: the first factors are off by the violation itself; the second, nearly in place, serve to the end. With kept factors
+// violations shrink by h with each solution; beyond their reach it fails.
+bool RungeKutta::onto_rows(System& s, double t) {
   constexpr int most_iterations = 20;
-  constexpr double in_place = 1e-3, well = 0.1, lost = 1e-6;
+  constexpr double in_place = 1e-3, well = 0.1, lost = 1e-6, reach = 0.25;
+  // Slow from here on is round-off; with kept factors it may be their reach.
+  const double near_round_off = kept_ ? 1e-14 * std::max(1.0, on_manifold_.lpNorm<Eigen::Infinity>()) : 1e-9;
   zero_.setZero(s.sizes().nv);
   no_force_.setZero(s.sizes().nc);
   double factorised_at = std::numeric_limits<double>::infinity(), before = 0, violation = 0;
@@ -48,10 +59,15 @@ bool RungeKutta::onto_rows(System& s, double t, double settled) {
     right_ = off;
     before = violation;
     violation = right_.lpNorm<Eigen::Infinity>();
-    return violation > settled * size && !(i > 0 && violation > 0.5 * before && violation < 1e-9 * size);
+    return violation > round_off * size && !(i > 0 && violation > 0.5 * before && violation < near_round_off * size);
   };
-  const auto solve = [&](int i, double off) {
-    if (off < factorised_at && (factorised_at > in_place || (i > 0 && violation > well * before))) {
+  const auto solve = [&](int i, double off, double size) {
+    const auto shrinks_less_than = [&](double factor) {
+      return i > 0 && violation > factor * before && violation > near_round_off * size;
+    };
+    if (kept_) {
+      if (shrinks_less_than(reach)) return false;
+    } else if (off < factorised_at && (factorised_at > in_place || shrinks_less_than(well))) {
       s.factorise({1, 0, 0}, zero_, no_force_, Factors::projection);
       factorised_at = off;
     }
@@ -60,7 +76,7 @@ bool RungeKutta::onto_rows(System& s, double t, double settled) {
   for (int i = 0; i < most_iterations; ++i) {
     s.move_to(t, on_manifold_, held_v_);
     if (!remains(i, s.g(), 1)) break;
-    if (!solve(i, violation)) return false;
+    if (!solve(i, violation, 1)) return false;
     s.retract(on_manifold_, change_, q_);
     on_manifold_.swap(q_);
   }
@@ -69,7 +85,7 @@ bool RungeKutta::onto_rows(System& s, double t, double settled) {
   for (int i = 0; i < most_iterations; ++i) {
     s.move_to(t, on_manifold_, held_v_);
     if (!remains(i, s.g_dot(), speed)) break;
-    if (!solve(i, off)) return false;
+    if (!solve(i, off, speed)) return false;
     held_v_ += change_;
   }
   return within_range(on_manifold_) && within_range(held_v_);
@@ -86,8 +102,12 @@ void RungeKutta::combine(const double* weights, int n, Vec& dq, Vec& dv) const {
 }
 
 Outcome RungeKutta::step(System& s, const State& now, const Slope& first, double h, State& next) {
-  const int stages = tableau_.stages;
   k_[0] = first;
+  return within_step(s, now, [&] { return all_stages(s, now, h, next); });
+}
+
+Outcome RungeKutta::all_stages(System& s, const State& now, double h, State& next) {
+  const int stages = tableau_.stages;
   filled_ = 1;
   h_ = h;
   for (const double* row = tableau_.a; filled_ < stages; row += filled_ - 1)
@@ -105,7 +125,7 @@ Outcome RungeKutta::end(System& s, State& next) {
   s.normalise(next.q);
   Slope& slope = k_[std::size_t(filled_++)];
   if (!evaluate(s, next.t, next.q, next.v, slope)) return Outcome::reject(diverged);
-  if (projects()) next.q = on_manifold_, next.v = held_v_;
+  if (projects()) taken_at(next.q, next.v);
   next.a = slope.v;
   next.lambda = slope.lambda;
   return Outcome::accept();
@@ -116,7 +136,13 @@ bool RungeKutta::add_stage(System& s, const State& now, double c, const double* 
   q_ = now.q + dq_;
   v_ = now.v + dv_;
   if (k_.size() == std::size_t(filled_)) k_.emplace_back();
-  return slope_at(s, now.t + c * h_, q_, v_, inside, k_[std::size_t(filled_++)]);
+  // Others may have used the factors since the step.
+  const bool later = by_null_space_ && filled_ > tableau_.stages;
+  if (later) keep_null_space(s, now);
+  const bool finite = evaluate(s, now.t + c * h_, q_, v_, k_[std::size_t(filled_)]);
+  if (later) kept_ = false;
+  ++filled_;
+  return finite;
 }
 
 bool RungeKutta::recall(System& s, const State& now, const State& next) {

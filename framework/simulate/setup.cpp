@@ -11,6 +11,7 @@
 #include "simulate/contact_reach.hpp"
 #include "simulate/crash_witness.hpp"
 #include "simulate/initial_state.hpp"
+#include "simulate/latch_reach.hpp"
 #include "simulate/smooth_laws.hpp"
 
 namespace trammel::simulate {
@@ -108,6 +109,8 @@ void find_start(Setup& setup, model::AssembledSystem& system, const Value& root,
   check_reach(system, start, root, problems);
   problems.throw_if_any();
   setup.initial = initial_state(system, setup.settings.start, setup.settings.initial, root, problems);
+  problems.throw_if_any();
+  check_latches(system, setup.initial, setup.settings.until, root, problems);
   problems.throw_if_any();
   begin_columns(setup.columns, system, setup.initial);
 }

@@ -5,8 +5,10 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "plugin/guard.hpp"
+#include "simulate/redundancy.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/trial_step.hpp"
 
@@ -25,6 +27,31 @@ int error_order(Integrator& integrator) {
   return estimate ? estimate->error_order() : 1;
 }
 
+<<<<<<< HEAD
+=======
+// Rows that begin to contradict each other have accelerations of least squares, which an explicit method would follow. The error of
+// Baumgarte's terms is less; and what looks like it is examined.
+std::vector<std::string> contradiction(model::AssembledSystem& system, const State& s, const ConstraintNorms& norms) {
+  constexpr double suspicious = 0.1;
+  if (!(norms.acceleration > suspicious * std::max(1.0, s.a.norm())) || !system.redundant()) return {};
+  std::vector<std::string> paths = smallest_conflict(system, s);
+  system.move_to(s.t, s.q, s.v);
+  return paths;
+}
+
+void archive_tangential(Archive& a, const std::string& name, model::ContactMode& mode) {
+  const auto numbers = [&](const char* what, auto& x) {
+    Vec flat = Eigen::Map<const Vec>(x.data(), x.size());
+    a(name + what, flat);
+    if (flat.size() == x.size()) std::copy(flat.begin(), flat.end(), x.data());
+  };
+  numbers("direction", mode.direction);
+  a(name + "slow", mode.slow);
+  numbers("anchor", mode.anchor);
+  numbers("rolled_from", mode.rolled_from);
+}
+
+>>>>>>> 93ae7a9 (Quasi-velocities for every explicit method; an energy correction that keeps momentum; latches that can never lock; rows that come to contradict each other are named)
 }  // namespace
 
 Simulator::Simulator(std::shared_ptr<model::Model> model, Integrator& integrator, const Settings& settings,
@@ -249,7 +276,11 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
   }
   if (system_.sizes().nc > 0) {
     system_.move_to(next_.t, next_.q, next_.v);
-    statistics_.largest.raise_to(constraint_norms(system_, next_, scratch_));
+    const ConstraintNorms norms = constraint_norms(system_, next_, scratch_);
+    statistics_.largest.raise_to(norms);
+    if (const auto paths = contradiction(system_, next_, norms); !paths.empty())
+      fail(h, fmt::format("{} prescribe motions that contradict each other; without any one of them the rest can hold",
+                          fmt::join(paths, ", ")));
   }
   if (location_.watches()) scale_.take_contacts(system_);
   statistics_.locating_steps = location_.steps_tried();

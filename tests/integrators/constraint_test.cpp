@@ -54,7 +54,11 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Stabilised,
                                          Form{"generalized_alpha", {{"rho_inf", 0.9}}},
                                          Form{"generalized_alpha", {{"rho_inf", 0.0}}},
                                          Form{"runge_kutta_4", {{"rows", std::string("projected")}}},
-                                         Form{"dop853", {{"rows", std::string("projected")}}}),
+                                         Form{"dop853", {{"rows", std::string("projected")}}},
+                                         Form{"adams_baumgarte", {{"rows", std::string("null_space")}}},
+                                         Form{"runge_kutta_4", {{"rows", std::string("null_space")}}},
+                                         Form{"dormand_prince", {{"rows", std::string("null_space")}}},
+                                         Form{"dop853", {{"rows", std::string("null_space")}}}),
                          [](const testing::TestParamInfo<Form>& tested) {
                            return tested.param.name + "_" + std::to_string(tested.index);
                          });

@@ -135,10 +135,40 @@ INSTANTIATE_TEST_SUITE_P(
                     Explicit{{"adams_baumgarte", {{"epsilon", 10.0}}}, 4, 160, 320, 160},
                     Explicit{{"adams_baumgarte", {{"predictor", std::string("ab3")}}}, 4, 80, 160, 160},
                     Explicit{{"dormand_prince", {}}, 5, 96, 160, 20}, Explicit{{"dop853", {}}, 8, 6, 10, 8},
-                    Explicit{{"runge_kutta_4", {{"rows", std::string("projected")}}}, 4, 20, 40, 40}),
+                    Explicit{{"runge_kutta_4", {{"rows", std::string("projected")}}}, 4, 20, 40, 40},
+                    Explicit{{"dop853", {{"rows", std::string("projected")}}}, 8, 6, 10, 8},
+                    Explicit{{"runge_kutta_4", {{"rows", std::string("null_space")}}}, 4, 20, 40, 40},
+                    Explicit{{"adams_baumgarte", {{"rows", std::string("null_space")}}}, 4, 160, 320, 160},
+                    Explicit{{"dormand_prince", {{"rows", std::string("null_space")}}}, 5, 96, 160, 20},
+                    Explicit{{"dop853", {{"rows", std::string("null_space")}}}, 8, 6, 10, 8}),
     [](const testing::TestParamInfo<Explicit>& tested) {
       return tested.param.form.name + "_" + std::to_string(tested.index);
     });
+
+// Multipliers are those of minimum norm, a smooth function of the state as well.
+TEST(Dop853, IsOfEighthOrderThoughRowsRepeat) {
+  Posed s(problems::pendulum_with_rod(1, 0.4, {1, 2, -0.5}));
+  const State start = s.start(), end = reference(s, start, 2);
+  for (const char* rows : {"projected", "null_space"}) {
+    const Order f = fit_order(10, 4, [&](int n) {
+      auto method = make("dop853", {{"rows", std::string(rows)}});
+      const State x = integrate(*method, s, start, 2, n);
+      return (x.q - end.q).norm() + (x.v - end.v).norm() + (x.lambda - end.lambda).norm();
+    });
+    EXPECT_NEAR(f.value, 8, 0.2) << rows << "\n" << f.table;
+  }
+}
+
+TEST(QuasiVelocities, AreOfTheMethodsOrderWhereRowsDependOnTime) {
+  Posed s(pendulum_in_wind());
+  const State start = s.start(), end = reference(s, start, 1);
+  const Order f = fit_order(20, 4, [&](int n) {
+    auto method = make("runge_kutta_4", {{"rows", std::string("null_space")}});
+    const State x = integrate(*method, s, start, 1, n);
+    return (x.q - end.q).norm() + (x.v - end.v).norm();
+  });
+  EXPECT_NEAR(f.value, 4, 0.2) << f.table;
+}
 
 }  // namespace
 }  // namespace trammel::test

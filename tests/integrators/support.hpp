@@ -55,7 +55,11 @@ inline std::vector<Form> all_forms() {
           {"dormand_prince", {}},
           {"dormand_prince", {{"rows", string("projected")}}},
           {"dop853", {}},
-          {"dop853", {{"rows", string("projected")}}}};
+          {"dop853", {{"rows", string("projected")}}},
+          {"adams_baumgarte", {{"rows", string("null_space")}}},
+          {"runge_kutta_4", {{"rows", string("null_space")}}},
+          {"dormand_prince", {{"rows", string("null_space")}}},
+          {"dop853", {{"rows", string("null_space")}}}};
 }
 inline std::string describe(const Form& form) {
   std::string text = form.name;

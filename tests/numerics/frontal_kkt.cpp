@@ -148,7 +148,10 @@ TEST(LongChain, BalancesRowsThatContradictEachOther) {
   kkt.solve(line.bodies, Vec::Zero(Line::n), c, x, y);
   Vec kept = Vec::Zero(rows);
   add_rows_times(line.bodies, 1, x, kept);
-  EXPECT_NEAR(kept(10), kept(10 + Line::n - 2), 1e-12);
+  // All rows but the two can hold, and these miss by half each.
+  Vec balanced = Vec::Zero(rows);
+  balanced(10) = balanced(10 + Line::n - 2) = 5e-4;
+  EXPECT_LT((kept - balanced).lpNorm<Eigen::Infinity>(), 1e-9);
 }
 
 }  // namespace

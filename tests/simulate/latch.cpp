@@ -1,4 +1,6 @@
 // Contacts that wait for a joint's row, and latches, which then hold it for good.
+#include "simulate/setup.hpp"
+
 #include "run_scene.hpp"
 
 namespace trammel::test {
@@ -59,6 +61,65 @@ TEST(Latch, HoldsThroughALaterImpact) {
   EXPECT_NEAR(run.end("v_left"), -0.25, 1e-12);
   EXPECT_NEAR(run.end("v_right"), -0.25, 1e-12);
   EXPECT_NEAR(run.end("gap"), 0, 1e-12);
+}
+
+// A crank of 1 m and a rod of 2 m from its end to a slider on the x axis, which so comes as far as x = 3.
+std::string slider(double wanted, const char* from, const std::string& crank_row = "") {
+  return fmt::format(R"({{"trammel": 1, "space": "planar",
+    "bodies": {{"pin": {{"type": "point_mass", "mass": 1, "position": [0, 1], "velocity": [1, 0]}},
+               "slider": {{"type": "point_mass", "mass": 1, "position": ["=sqrt(3)", 0], "velocity": [1, 0]
+}
+}
+}
+}
+, "joints" : {{
+  "crank" : {{"type" : "distance", "between" : [ "ground", "pin.point" ], "length" : {}}},
+  "rod" : {{"type" : "distance", "between" : [ "pin.point", "slider.point" ], "length" : 2}},
+  "guide" : {{"type" : "point_on_line", "between" : [ "ground", "slider.point" ], "direction" : [ 1, 0 ]}}
+}},
+             "contacts" : {{
+               "stop" : {{
+                 "type" : "latch",
+                 "between" : [ "ground", "slider.point" ],
+                 "from" : "{}",
+                 "reaches" : {{"type" : "distance", "length" : {}}}
+               }}
+             }},
+                          "integrator" : {{"type" : "dop853", "step" : {{"tolerance" : 1e-9}}}},
+                                         "simulate" : {{"until" : 2}},
+                                                      "initial" : "project",
+                                                                  "record" : {
+  { "every" : 0.1 }
+}
+}
+})",
+                     crank_row.empty() ? "1" : crank_row, from, wanted);
+}
+std::string refused(const std::string& scene) {
+  try {
+    simulate::set_up(scene::Scene::parse(scene, "test.json"), registry());
+  } catch (const scene::SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Latch, ThatTheJointsKeepFromClosingIsRefusedWithHowNearItComes) {
+  const std::string far = refused(slider(3.25, "below")), near = refused(slider(0.75, "above"));
+  EXPECT_NE(far.find("contacts.stop"), std::string::npos) << far;
+  EXPECT_NE(far.find("can never lock"), std::string::npos) << far;
+  // L (|d|^2 / L^2 - 1) / 2 of the distance's row, at |d| = 3 and 1
+  EXPECT_NE(far.find("no nearer to 0 than 0.240385 "), std::string::npos) << far;
+  EXPECT_NE(near.find("no nearer to 0 than 0.291667 "), std::string::npos) << near;
+}
+
+TEST(Latch, ThatCanJustCloseIsAccepted) {
+  EXPECT_EQ(refused(slider(2.999, "below")), "");
+  EXPECT_EQ(refused(slider(1.001, "above")), "");
+}
+
+TEST(Latch, IsNotJudgedWhereRowsDependOnTime) {
+  EXPECT_EQ(refused(slider(3.25, "below", "\"=1+0.5*t\"")), "");
 }
 
 TEST(RowLimit, IsARopeFromBelow) {

@@ -41,15 +41,37 @@ class RungeKutta {
   //    end there, and errors of the stages do not reach the accelerations: they lie off the rows by d = O(h^2), and where redundant
   //    rows meet at an angle theta, near a change of their rank, d makes accelerations wrong by d / theta^2, which no shorter
   //    step cures. It takes two factorisations a stage.
-  enum class Rows { baumgarte, projected };
+  //  - null_space: as the equations of the quasi-velocities u, with an M-orthonormal basis N of null(G) where the step began,
+  //        u = N^T M v,   v = N u + M^-1 G^T y with y from G(t, q) v + g_t = 0,   u' = N^T M a,   q on the rows likewise.
+  //    Slopes are added up, so the u of a sum is the sum of the u: N is never formed, a sum is put back onto the rows along
+  //    M^-1 G^T, whose factors serve the whole step. It takes one factorisation more a step. Where no such v is near, as beyond
+  //    a change of rank, the step's slopes are the projected ones.
+  enum class Rows { baumgarte, projected, null_space };
   Rows rows = Rows::baumgarte;
-  bool projects() const { return rows == Rows::projected; }
+  bool projects() const { return rows != Rows::baumgarte; }
   static std::vector<std::pair<std::string, Rows>> rows_choices() {
-    return {{"baumgarte", Rows::baumgarte}, {"projected", Rows::projected}};
+    return {{"baumgarte", Rows::baumgarte}, {"projected", Rows::projected}, {"null_space", Rows::null_space}};
   }
+  static constexpr const char* rows_doc =
+      "baumgarte: stabilised off the rows; projected: every stage on them; null_space: by quasi-velocities";
 
   // The slope at a point. False: beyond the range of any model.
   bool evaluate(System& s, double t, const Vec& q, const Vec& v, Slope& slope);
+  // Where that slope was taken, which is on the rows if it `projects`.
+  void taken_at(Vec& q, Vec& v) const { q = on_manifold_, v = held_v_; }
+  // Calls `trial`, an Outcome(), that evaluates what a step from `now` needs: all of it in the step's own null space, or if that
+  // does not reach, all of it projected.
+  template <class Trial>
+  Outcome within_step(System& s, const State& now, Trial&& trial) {
+    by_null_space_ = keep_null_space(s, now);
+    if (by_null_space_) {
+      const Outcome outcome = trial();
+      kept_ = false;
+      if (outcome) return outcome;
+    }
+    by_null_space_ = false;
+    return trial();
+  }
 
   // One step; `first` is the slope at `now`. next.a and next.lambda are those at the step's end.
   Outcome step(System& s, const State& now, const Slope& first, double h, State& next);
@@ -69,14 +91,17 @@ class RungeKutta {
                    std::initializer_list<const double*> terms, State& at);
 
  private:
+  Outcome all_stages(System& s, const State& now, double h, State& next);
   Outcome end(System& s, State& next);
-  bool slope_at(System& s, double t, const Vec& q, const Vec& v, double settled, Slope& slope);
-  bool onto_rows(System& s, double t, double settled);  // on_manifold_ and held_v_
+  bool keep_null_space(System& s, const State& now);
+  bool onto_rows(System& s, double t);  // on_manifold_ and held_v_
 
   Tableau tableau_;
   std::vector<Slope> k_;
   int filled_ = 0;
   double h_ = 0;
+  bool kept_ = false;           // the rows' factors are those of the step's start
+  bool by_null_space_ = false;  // the last step was
   Vec dq_, dv_, q_, v_, on_manifold_, held_v_, right_, zero_, no_force_, change_, mu_;
   State repeated_;
 };

@@ -1,19 +1,24 @@
 // The kinetic energy made what the balance asks for, T* = E_start + supplied - dissipated - U(q), by the change of least kinetic
-// energy that keeps the velocity rows:
+// energy that keeps the velocity rows, and if asked to the momenta too:
 //
-//     v = v_t + n,   v_t of least T with G v_t = -g_t,   n in null(G):   T(v) = T(v_t) + T(n)
-//     v' = v_t + s n,   s^2 = (T* - T(v_t))/T(n)
+//     v = v_t + v_r + n     v_t: of least T with G v_t = -g_t, what moving rows ask for;   v_r + n in null(G)
+//     v' = v_t + v_r + s n,   s^2 = (T* - T(v_t) - T(v_r))/T(n)
 //
-// The two parts are orthogonal in M, so the sum of energies is exact. Where no row moves, v_t = 0 and v' = s v. This is the
-// special non-holonomic constraint of Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), eq. 8, in its M-weighted form.
+// v_r is 0 ("keeps": "direction"), or the part of v in the motions as one rigid body that the rows leave free ("momentum"). The
+// parts are orthogonal in M, so the sum of energies is exact, and n has no momentum. Without rows that move nor kept momenta
+// v' = s v. This is the special non-holonomic constraint of Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), eq. 8, in its
+// M-weighted form.
 //
 // Near a turning point n has little to scale: relative noise of T becomes a kick. Below `least` of the largest kinetic energy
-// of the run, and where T* < T(v_t), the correction waits.
+// of the run, and where T* < T(v_t) + T(v_r), the correction waits.
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/SVD>
+
 #include <trammel/correction.hpp>
 #include <trammel/plugin.hpp>
+#include <trammel/rigid_motions.hpp>
 
 namespace {
 
@@ -21,7 +26,9 @@ using namespace trammel;
 
 class EnergyCorrection final : public Correction {
  public:
+  enum class Keeps { direction, momentum };
   double least = 1e-4;
+  Keeps keeps = Keeps::direction;
 
   bool corrects(Level level) const override { return level == Level::energy; }
 
@@ -31,14 +38,24 @@ class EnergyCorrection final : public Correction {
     largest_ = std::max(largest_, energy.kinetic);
     const double due = step.energy - energy.potential - energy.elastic;
     n_ = state.v;
-    double carried = 0;  // T(v_t)
+    double carried = 0;  // T(v_t) + T(v_r)
     if (rows_move(s, state)) {
       if (!find_carried(s)) return Outcome::reject("the energy's correction cannot solve for what moving rows ask for");
       n_ -= v_t_;
-      carried = kinetic(s, v_t_);
+      carried += kinetic(s, v_t_);
     }
-    const double free = kinetic(s, n_);
-    if (!(free > least * largest_) || !(due - carried > least * largest_)) return Outcome::accept();
+    if (keeps == Keeps::momentum) {
+      if (!find_free_motions(s, state))
+        return Outcome::reject(
+            "the energy's correction keeps momentum, and a body does not tell its own; those that do: point_mass, bar, "
+            "rigid_body, tspline_plate. Expected \"keeps\": \"direction\"");
+      v_r_ = free_ * (free_.transpose() * mass_times(s, n_));
+      n_ -= v_r_;
+      carried += kinetic(s, v_r_);
+    }
+    constexpr double round_off = 1e-20;  // of T, in what is left of v beside v_r
+    const double free = kinetic(s, n_), enough = std::max(least * largest_, round_off * energy.kinetic);
+    if (!(free > enough) || !(due - carried > enough)) return Outcome::accept();
     state.v += (std::sqrt((due - carried) / free) - 1) * n_;
     return Outcome::accept();
   }
@@ -58,14 +75,49 @@ class EnergyCorrection final : public Correction {
     s.factorise({}, zero_, zero_rows_.setZero(g_t_.size()), Factors::projection);
     return s.correct(zero_, g_t_, v_t_, multipliers_, Factors::projection);
   }
-  double kinetic(System& s, const Vec& v) {
-    Mv_.setZero(v.size());
-    s.add_mass_times(1, v, Mv_);
-    return 0.5 * v.dot(Mv_);
+
+  // Columns of free_: the motions as one rigid body with G r = 0, orthonormal in M. False: the system does not tell them.
+  bool find_free_motions(System& s, const State& state) {
+    if (!rigid_motions(s, state.t, state.q, free_)) return false;
+    orthonormalise(s);
+    if (s.sizes().nc == 0) return true;
+    Mat moved(s.sizes().nc, free_.cols());
+    for (Eigen::Index j = 0; j < free_.cols(); ++j) {
+      Gr_.setZero(moved.rows());
+      s.add_rows_times(1, free_.col(j), Gr_);
+      moved.col(j) = Gr_;
+    }
+    // Where rows are off, they are between points as far apart.
+    const double held = std::max(1e-9, 10 * s.g().lpNorm<Eigen::Infinity>()) * free_.cwiseAbs().maxCoeff();
+    const Eigen::JacobiSVD<Mat> svd(moved, Eigen::ComputeFullV);
+    const auto rank = (svd.singularValues().array() > held).count();
+    free_ = (free_ * svd.matrixV().rightCols(free_.cols() - rank)).eval();
+    return true;
+  }
+  // Gram and Schmidt, twice; rotations that move nothing (of a single point) fall out.
+  void orthonormalise(System& s) {
+    Eigen::Index found = 0;
+    for (Eigen::Index j = 0; j < free_.cols(); ++j) {
+      Vec r = free_.col(j);
+      const double before = r.dot(mass_times(s, r));
+      for (int twice = 0; twice < 2; ++twice)
+        r -= free_.leftCols(found) * (free_.leftCols(found).transpose() * mass_times(s, r));
+      const double left = r.dot(mass_times(s, r));
+      if (left > 1e-20 * before) free_.col(found++) = r / std::sqrt(left);
+    }
+    free_.conservativeResize(Eigen::NoChange, found);
   }
 
+  const Vec& mass_times(System& s, const Vec& v) {
+    Mv_.setZero(v.size());
+    s.add_mass_times(1, v, Mv_);
+    return Mv_;
+  }
+  double kinetic(System& s, const Vec& v) { return 0.5 * v.dot(mass_times(s, v)); }
+
   double largest_ = 0;  // [J]
-  Vec n_, v_t_, g_t_, zero_, zero_rows_, multipliers_, Mv_;
+  Mat free_;
+  Vec n_, v_t_, v_r_, g_t_, Gr_, zero_, zero_rows_, multipliers_, Mv_;
 };
 
 }  // namespace
@@ -74,4 +126,9 @@ TRAMMEL_PLUGIN(
     trammel::correction<EnergyCorrection>("energy", "energy: velocities scaled to what the balance asks for")
         .source("Chen Xiangyang 2002, Chinese J. Comput. Mech. 19, 74-77")
         .parameter("least", &EnergyCorrection::least,
-                   {.min = 0, .max = 1, .doc = "no correction below this part of the largest kinetic energy"}))
+                   {.min = 0, .max = 1, .doc = "no correction below this part of the largest kinetic energy"})
+        .choice("keeps", &EnergyCorrection::keeps,
+                {{"direction", EnergyCorrection::Keeps::direction}, {"momentum", EnergyCorrection::Keeps::momentum}},
+                {.doc = "direction: all of the velocity is scaled; momentum: what moves the system as one rigid body, "
+                        "and no row "
+                        "forbids, is not"}))

@@ -37,9 +37,15 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   enum class Predictor { ab4, ab3 };
   double delta = 10, epsilon = 50;
   Predictor predictor = Predictor::ab4;
+  RungeKutta::Rows rows = RungeKutta::Rows::baumgarte;
 
-  void prepare(const World&) override { starter_.baumgarte = {delta, epsilon}; }
-  Traits traits() const override { return {.order = 4, .steps = past_wanted()}; }
+  void prepare(const World&) override { starter_.baumgarte = {delta, epsilon}, starter_.rows = rows; }
+  Traits traits() const override {
+    return {.order = 4,
+            .steps = past_wanted(),
+            .holds_position = starter_.projects(),
+            .holds_velocity = starter_.projects()};
+  }
 
   void restart(System& s, const State& now) override {
     starter_.evaluate(s, now.t, now.q, now.v, past_[0]);
@@ -51,20 +57,7 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
     trial_h_ = h;
     multistep_ = filled_ >= past_wanted() && same_step(h);
     if (!multistep_) return starter_.step(s, now, past_[0], h, next);
-
-    go_on(now, h, predictor == Predictor::ab4 ? bashforth_4 : bashforth_3, predicted_q_, predicted_v_);
-    if (!starter_.evaluate(s, now.t + h, predicted_q_, predicted_v_, predicted_))
-      return Outcome::reject(RungeKutta::diverged);
-
-    next.t = now.t + h;
-    go_on(now, h, moulton_4, next.q, next.v);
-    next.q += h * 9.0 / 24 * predicted_.q;
-    next.v += h * 9.0 / 24 * predicted_.v;
-    if (!starter_.evaluate(s, next.t, next.q, next.v, corrected_)) return Outcome::reject(RungeKutta::diverged);
-    s.normalise(next.q);
-    next.a = corrected_.v;
-    next.lambda = corrected_.lambda;
-    return Outcome::accept();
+    return starter_.within_step(s, now, [&] { return predict_and_correct(s, now, h, next); });
   }
 
   void accept(System& s, const State& now, const State& next) override {
@@ -106,6 +99,23 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   }
 
  private:
+  Outcome predict_and_correct(System& s, const State& now, double h, State& next) {
+    go_on(now, h, predictor == Predictor::ab4 ? bashforth_4 : bashforth_3, predicted_q_, predicted_v_);
+    if (!starter_.evaluate(s, now.t + h, predicted_q_, predicted_v_, predicted_))
+      return Outcome::reject(RungeKutta::diverged);
+
+    next.t = now.t + h;
+    go_on(now, h, moulton_4, next.q, next.v);
+    next.q += h * 9.0 / 24 * predicted_.q;
+    next.v += h * 9.0 / 24 * predicted_.v;
+    if (!starter_.evaluate(s, next.t, next.q, next.v, corrected_)) return Outcome::reject(RungeKutta::diverged);
+    s.normalise(next.q);
+    if (starter_.projects()) starter_.taken_at(next.q, next.v);
+    next.a = corrected_.v;
+    next.lambda = corrected_.lambda;
+    return Outcome::accept();
+  }
+
   int past_wanted() const { return predictor == Predictor::ab4 ? 4 : 3; }
   bool same_step(double h) const { return std::abs(h - h_) <= 1e-9 * h; }
 
@@ -157,4 +167,5 @@ TRAMMEL_PLUGIN(
         .parameter("epsilon", &AdamsBaumgarte::epsilon, {.unit = "1/s", .min = 0, .doc = "weight of the position rows"})
         .choice("predictor", &AdamsBaumgarte::predictor,
                 {{"ab4", AdamsBaumgarte::Predictor::ab4}, {"ab3", AdamsBaumgarte::Predictor::ab3}},
-                {.doc = "ab4 as published; ab3 keeps undamped modes stable up to omega h = 1.178"}))
+                {.doc = "ab4 as published; ab3 keeps undamped modes stable up to omega h = 1.178"})
+        .choice("rows", &AdamsBaumgarte::rows, RungeKutta::rows_choices(), {.doc = RungeKutta::rows_doc}))

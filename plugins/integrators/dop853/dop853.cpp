@@ -168,5 +168,4 @@ TRAMMEL_PLUGIN(
                     .doc = "Baumgarte's weight of the velocity rows: g'' + 2 delta g' + epsilon^2 g = 0"})
         .parameter("epsilon", &Dop853::epsilon,
                    {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"})
-        .choice("rows", &Dop853::rows, RungeKutta::rows_choices(),
-                {.doc = "baumgarte: stabilised off the rows; projected: every stage on them"}))
+        .choice("rows", &Dop853::rows, RungeKutta::rows_choices(), {.doc = RungeKutta::rows_doc}))

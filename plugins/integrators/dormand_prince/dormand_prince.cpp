@@ -84,5 +84,4 @@ TRAMMEL_PLUGIN(trammel::integrator<DormandPrince>("dormand_prince",
                                .doc = "Baumgarte's weight of the velocity rows: g'' + 2 delta g' + epsilon^2 g = 0"})
                    .parameter("epsilon", &DormandPrince::epsilon,
                               {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"})
-                   .choice("rows", &DormandPrince::rows, RungeKutta::rows_choices(),
-                           {.doc = "baumgarte: stabilised off the rows; projected: every stage on them"}))
+                   .choice("rows", &DormandPrince::rows, RungeKutta::rows_choices(), {.doc = RungeKutta::rows_doc}))

@@ -72,5 +72,4 @@ TRAMMEL_PLUGIN(
                     .doc = "Baumgarte's weight of the velocity rows: g'' + 2 delta g' + epsilon^2 g = 0"})
         .parameter("epsilon", &RungeKutta4::epsilon,
                    {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"})
-        .choice("rows", &RungeKutta4::rows, RungeKutta::rows_choices(),
-                {.doc = "baumgarte: stabilised off the rows; projected: every stage on them"}))
+        .choice("rows", &RungeKutta4::rows, RungeKutta::rows_choices(), {.doc = RungeKutta::rows_doc}))

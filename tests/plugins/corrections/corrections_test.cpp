@@ -1,5 +1,6 @@
 // What each correction restores, what it keeps, and what a run gains by it.
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <trammel/correction.hpp>
@@ -7,6 +8,7 @@
 #include "../../simulate/run_scene.hpp"
 #include "model/assembled_system.hpp"
 #include "simulate/setup.hpp"
+#include "simulate/simulator.hpp"
 
 namespace trammel::test {
 namespace {
@@ -158,6 +160,62 @@ TEST(EnergyCorrection, WaitsWhereThereIsNoEnergyToScale) {
   const Vec v = triangle.state.v;
   triangle.apply(*correction(R"({"type": "energy"})"), Level::energy, -1);  // no velocity has this energy
   EXPECT_EQ(triangle.state.v, v);
+}
+
+TEST(EnergyCorrection, KeepsMomentumIfAsked) {
+  Perturbed triangle;
+  triangle.apply(*correction(R"({"type": "mass_weighted"})"), Level::position);
+  // Free: the triangle is rigid, so no part of its motion is left to scale.
+  triangle.apply(*correction(R"({"type": "mass_weighted"})"), Level::velocity);
+  const Vec rigid = triangle.state.v;
+  const auto method = correction(R"({"type": "energy", "keeps": "momentum"})");
+  triangle.apply(*method, Level::energy, 2.5);
+  EXPECT_LT((triangle.state.v - rigid).norm(), 1e-12);
+}
+
+// Bars that unfold freely and spin, 1e4 steps of RK4; all corrections.
+struct FreeMast {
+  explicit FreeMast(const char* keeps)
+      : setup(simulate::set_up(
+            scene::Scene::load(TRAMMEL_SOURCE_DIR "/scenes/truss/S1f.json",
+                               {{"parameters.n", "2"},
+                                {"integrator.step", "1e-4"},
+                                {"simulate.until", "1"},
+                                {"contacts", "{}"},
+                                {"corrections.energy", fmt::format(R"({{"type": "energy", "keeps": "{}"}})", keeps)}}),
+            registry())) {
+    std::vector<simulate::Simulator::LevelCorrection> corrections;
+    for (const auto& [level, correction] : setup.corrections) corrections.push_back({level, correction.get()});
+    simulator.emplace(setup.model, *setup.integrator, setup.settings, corrections);
+    std::filesystem::create_directories(folder.path());
+    recorder.emplace(folder.path(), *setup.model, setup.columns, std::nullopt);
+    simulator->start(setup.initial);
+  }
+  // Linear and angular momentum at a state [kg m/s, kg m^2/s].
+  Eigen::Vector3d momentum(const State& state) {
+    Eigen::Vector3d all = Eigen::Vector3d::Zero();
+    for (const model::BodyEntry& body : setup.model->bodies) {
+      const Momentum one =
+          body.momentum->momentum(state.t, state.q.segment(body.q0, body.nq), state.v.segment(body.v0, body.nv));
+      all += Eigen::Vector3d(one.linear(0), one.linear(1), one.angular(0));
+    }
+    return all;
+  }
+
+  Folder folder;
+  simulate::Setup setup;
+  std::optional<simulate::Simulator> simulator;
+  std::optional<simulate::Recorder> recorder;
+};
+
+TEST(EnergyCorrection, LeavesLinearAndAngularMomentumOfAFreeMastAloneFor10000Steps) {
+  FreeMast mast("momentum");
+  const Eigen::Vector3d start = mast.momentum(mast.simulator->state());
+  ASSERT_GT(start(2), 0.1);
+  for (int i = 0; i < 10000; ++i) mast.simulator->advance(*mast.recorder);
+  // Round-off of 1e4 steps, adding up like a random walk: 1e2 eps of speeds and masses of order 1, ten times that for luck.
+  EXPECT_LT((mast.momentum(mast.simulator->state()) - start).norm(), 2e-13);
+  EXPECT_LT(std::abs(mast.simulator->energy_drift()), 1e-13);
 }
 
 // A pendulum in natural coordinates, 1000 steps of RK4, a fortieth of a period each.

@@ -45,6 +45,26 @@ TEST(BenchmarkA02, PassesItsSingularPositionsAtAnyTolerance) {
   }
 }
 
+TEST(BenchmarkA02, PassesItsSingularPositionsInQuasiVelocities) {
+  const auto data = reference("iftomm_a02_n_four_bar");
+  const double x = std::stod(data["reference"]["by_N"]["2"]["t=10_B0_x_y_vx_vy"][0].get<std::string>());
+  for (const char* tolerance : {"1e-3", "1e-5", "1e-7", "1e-9"}) {
+    const Finished run =
+        run_benchmark("a02_n2", {{"integrator.rows", "null_space"}, {"integrator.step.tolerance", tolerance}});
+    EXPECT_NEAR(run.end("B0_x"), x, 1e-6 + 100 * std::stod(tolerance)) << tolerance;
+    EXPECT_LT(run.result["constraint_maxima"]["velocity"].get<double>(), 1e-13) << tolerance;  // speeds of 7 m/s
+  }
+}
+
+// 40 windows have as many rows that fail together, at angles down to n^-2 of the mechanism's own.
+TEST(BenchmarkA02, WithFortyWindowsPassesItsSingularPositionsAtTightTolerances) {
+  const double exact = 0.180512226686728587;  // sin psi(10), psi'' = kappa sin psi, in 30 digits
+  for (const char* tolerance : {"1e-8", "1e-9"}) {
+    const Finished run = run_benchmark("a02_n40", {{"integrator.step.tolerance", tolerance}});
+    EXPECT_NEAR(run.end("B0_x"), exact, 100 * std::stod(tolerance)) << tolerance;
+  }
+}
+
 TEST(BenchmarkA02, WithTenWindowsMeetsItsReference) {
   const auto by_n = reference("iftomm_a02_n_four_bar")["reference"]["by_N"]["10"]["t=10_B0_x_y_vx_vy"];
   const Finished run = run_benchmark("a02_n10");
@@ -94,6 +114,23 @@ INSTANTIATE_TEST_SUITE_P(Methods, RedundantRows,
                                          Expected{"generalized_alpha", 1e-6}),
                          [](const auto& method) { return std::string(method.param.method); });
 
+// As above, and held to round-off: of speeds up to 3.5 m/s in 15 rows, some of them redundant.
+TEST(QuasiVelocities, FollowTheBricardMechanismWithEveryExplicitMethod) {
+  const auto data = reference("iftomm_a04_bricard");
+  const auto& at_1s = data.at("reference").at("t_P2xyz_P3xyz_every_0.1s").at(9);
+  for (const char* method : {"runge_kutta_4", "dormand_prince", "dop853", "adams_baumgarte"}) {
+    const Finished run = run_benchmark("a04", {{"integrator.type", method},
+                                               {"integrator.rows", "null_space"},
+                                               {"integrator.step", "1e-3"},
+                                               {"simulate.until", "1"}});
+    EXPECT_NEAR(run.end("P2_x"), at_1s.at(1).get<double>(), 1.5e-10) << method;
+    EXPECT_NEAR(run.end("P2_y"), at_1s.at(2).get<double>(), 1.5e-10) << method;
+    EXPECT_NEAR(run.end("P2_z"), at_1s.at(3).get<double>(), 1.5e-10) << method;
+    EXPECT_LT(run.result["constraint_maxima"]["position"].get<double>(), 1e-14) << method;
+    EXPECT_LT(run.result["constraint_maxima"]["velocity"].get<double>(), 1e-13) << method;
+  }
+}
+
 // Stages lie off the rows, where redundant ones part: what is solved there must still be smooth in the state.
 TEST(BenchmarkA04, LeavesRungeKuttaItsFourthOrder) {
   const double x = reference("iftomm_a04_bricard").at("reference").at("t_P2xyz_P3xyz_every_0.1s").at(9).at(1);
@@ -116,6 +153,19 @@ TEST(RedundantRowsThatPart, StopANewmarkStepWithAReason) {
   EXPECT_FALSE(run.done());
   EXPECT_NE(run.report.reason.find("contradict each other"), std::string::npos) << run.report.reason;
   EXPECT_GE(run.series.at("t").back(), 0.5);
+}
+
+TEST(RedundantRowsThatPart, StopAnExplicitMethodAndAreNamed) {
+  // Both drives hold at the start, with their first and second derivatives.
+  const Finished run = run_text(R"({
+    "trammel": 1, "bodies": {"bar": {"type": "rigid_body", "mass": 1, "inertia": 1}},
+    "joints": {"slow": {"type": "revolute", "between": ["ground", "bar.com"], "angle": "=t^3"},
+               "fast": {"type": "revolute", "between": ["ground", "bar.com"], "angle": "=2*t^3"}},
+    "integrator": {"type": "runge_kutta_4", "step": 1e-3}, "simulate": {"until": 1}, "record": {"every": 0.1}})");
+  EXPECT_FALSE(run.done());
+  EXPECT_NE(run.report.reason.find("joints.slow, joints.fast prescribe motions that contradict each other"),
+            std::string::npos)
+      << run.report.reason;
 }
 
 TEST(BenchmarkA05, MeetsItsReference) {
