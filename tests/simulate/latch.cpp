@@ -67,7 +67,7 @@ TEST(Latch, HoldsThroughALaterImpact) {
 std::string slider(double wanted, const char* from, const std::string& crank_row = "") {
   return fmt::format(R"({{"trammel": 1, "space": "planar",
     "bodies": {{"pin": {{"type": "point_mass", "mass": 1, "position": [0, 1], "velocity": [1, 0]}},
-               "slider": {{"type": "point_mass", "mass": 1, "position": ["=sqrt(3)", 0], "velocity": [1, 0]
+               "slider": {{"type": "point_mass", "mass": 1, "position": [1.7320508075688772, 0], "velocity": [1, 0]
 }
 }
 }
