@@ -55,7 +55,7 @@ class SparseMassKkt {
   bool factorise_fronts(const std::vector<BodyBlock>& bodies);
   bool solve_fronts(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
   void leave_fronts(const std::vector<BodyBlock>& bodies);
-  void regularise(const std::vector<BodyBlock>& bodies);
+  void regularise(const std::vector<BodyBlock>& bodies, double least);
 
   int nc_ = 0;
   double eps_ = 0;  // while redundant
