@@ -58,6 +58,7 @@ void AssembledSystem::set_modes(const Modes& modes) {
   w.sizes.nc = row;
   w.lay_out_blocks();
   w.rows_fresh = w.bodies_fresh = w.force_fresh = false;
+  ++w.configuration;
   for (auto& surface : w.surfaces)
     if (surface) surface->point = -1;
 }
@@ -95,6 +96,7 @@ void AssembledSystem::hold_still(bool still) {
   w.chain.hold_still(still);
   if (w.point > 0) ++w.point;  // else there is no point yet
   w.bodies_fresh = w.force_fresh = w.rows_fresh = false;
+  ++w.configuration;
 }
 
 void AssembledSystem::carry_stress(const Vec& q, const Vec& dq) {

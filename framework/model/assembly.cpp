@@ -56,7 +56,9 @@ void AssembledSystem::Work::lay_out_blocks() {
 }
 
 void AssembledSystem::Work::move_to(double t_new, const Vec& q_new, const Vec& v_new) {
-  if (point > 0 && t == t_new && q == q_new && v == v_new) return;
+  const bool same_place = point > 0 && t == t_new && q == q_new;
+  if (same_place && v == v_new) return;
+  if (!same_place) ++configuration;
   t = t_new;
   q = q_new;
   v = v_new;

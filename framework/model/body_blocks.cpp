@@ -82,13 +82,40 @@ void BodyBlocks::add_reaction(int body, int row, const Motion& marker, const Row
   add(block, row, marker, H, block.Wt);
 }
 
-// With sliding friction the whole is not symmetric; the symmetric factors still tell which rows are redundant.
-bool BodyBlocks::factorise_mass(Kept& store, int nc, bool reuse, bool sliding, double rank_tolerance) {
+// A corrected step asks for the same factors twice: to put velocities onto the rows, and for the accelerations there.
+std::size_t BodyBlocks::factors_for(const Kept& store, const MassSystem& of) const {
+  for (std::size_t k = 0; k < mass_factors_.size(); ++k)
+    if (mass_factors_[k].made && mass_factors_[k].of == of) return k;
+  const auto needed = [&](std::size_t k) {
+    return std::any_of(kept.begin(), kept.end(),
+                       [&](const Kept& other) { return &other != &store && other.mass == k; });
+  };
+  std::size_t k = store.mass;
+  while (needed(k)) k = (k + 1) % mass_factors_.size();
+  return k;
+}
+
+bool BodyBlocks::factorise(Kept& store, const MassSystem& of, bool constant) {
   using Metric = numerics::SparseMassKkt::Metric;
   store.by = Kept::By::mass;
-  if (!store.mass.factorise(bodies_, nc, reuse ? Metric::mass_of_before : Metric::mass, rank_tolerance)) return false;
+  store.mass = factors_for(store, of);
+  MassFactors& factors = mass_factors_[store.mass];
+  if (factors.made && factors.of == of) return true;
+  const Metric metric = of.identity                       ? Metric::identity
+                        : constant && factors.masses_made ? Metric::mass_of_before
+                                                          : Metric::mass;
+  factors.made = factors.kkt.factorise(bodies_, of.nc, metric, of.rank_tolerance);
+  factors.masses_made = factors.made && !of.identity;
+  factors.of = of;
+  return factors.made;
+}
+
+// With sliding friction the whole is not symmetric; the symmetric factors still tell which rows are redundant.
+bool BodyBlocks::factorise_mass(Kept& store, const MassSystem& of, bool constant, bool sliding) {
+  if (!factorise(store, of, constant)) return false;
   if (!sliding) return true;
-  if (store.mass.redundant()) return factorise_dense(store, nc, rank_tolerance);
+  const int nc = of.nc;
+  if (redundant(store)) return factorise_dense(store, nc, of.rank_tolerance);
   store.by = Kept::By::iteration;
   store.iteration.factorise(bodies_, model_.sizes.nv, nc, true, [this](auto&& add) {
     for (const BodyBlock& block : bodies_)
@@ -113,11 +140,6 @@ bool BodyBlocks::factorise_dense(Kept& store, int nc, double rank_tolerance) con
   return store.dense.factorise(M, G, W, rank_tolerance);
 }
 
-void BodyBlocks::factorise_identity(Kept& store, int nc, double rank_tolerance) {
-  store.by = Kept::By::mass;
-  store.mass.factorise(bodies_, nc, numerics::SparseMassKkt::Metric::identity, rank_tolerance);
-}
-
 void BodyBlocks::factorise_tangent(Kept& store, int nc, const Mat& S, bool sliding) {
   store.by = Kept::By::iteration;
   store.iteration.factorise(bodies_, model_.sizes.nv, nc, sliding, [&](auto&& add) {
@@ -133,7 +155,7 @@ void BodyBlocks::factorise_tangent(Kept& store, int nc, const Mat& S, bool slidi
 bool BodyBlocks::solve(Kept& store, const Vec& b, const Vec& c, Vec& x, Vec& y) {
   if (store.by == Kept::By::iteration) return store.iteration.solve(b, c, x, y);
   if (store.by == Kept::By::mass)
-    store.mass.solve(bodies_, b, c, x, y);
+    mass_factors_[store.mass].kkt.solve(bodies_, b, c, x, y);
   else
     store.dense.solve(b, c, x, y);
   return x.allFinite() && y.allFinite();

@@ -41,23 +41,41 @@ class BodyBlocks {
   // friction beside them are left to the dense one, which finds the least squares that the sparse LU cannot.
   struct Kept {
     enum class By { mass, iteration, dense } by = By::mass;
-    numerics::SparseMassKkt mass;
+    std::size_t mass = 0;  // in mass_factors_
     numerics::SparseIterationKkt iteration;
     numerics::MassKkt dense;
   };
   std::array<Kept, 3> kept;
-  // False: a body's mass is not positive definite. `reuse`: the masses are as before. `sliding`: with W, else G alone.
-  bool factorise_mass(Kept& store, int nc, bool reuse, bool sliding, double rank_tolerance);
-  void factorise_identity(Kept& store, int nc, double rank_tolerance);
+  // Of M or the identity and G: `at` counts the changes of configuration, on which they depend alone.
+  struct MassSystem {
+    long long at = -1;
+    int nc = 0;
+    bool identity = false;
+    double rank_tolerance = 0;
+    bool operator==(const MassSystem&) const = default;
+  };
+  // False: a body's mass is not positive definite. `constant`: the masses are always the same. `sliding`: with W, else G alone.
+  bool factorise_mass(Kept& store, const MassSystem& of, bool constant, bool sliding);
+  void factorise_identity(Kept& store, const MassSystem& of) { factorise(store, of, false); }
+  bool redundant(const Kept& store) const { return mass_factors_[store.mass].kkt.redundant(); }
   // Of S the blocks of bodies, and of pairs that something ties, are taken.
   void factorise_tangent(Kept& store, int nc, const Mat& S, bool sliding);
   [[nodiscard]] bool solve(Kept& store, const Vec& b, const Vec& c, Vec& x, Vec& y);  // false: not solvable
 
  private:
+  struct MassFactors {
+    MassSystem of;
+    bool made = false, masses_made = false;  // masses_made: those of the bodies are kept in it
+    numerics::SparseMassKkt kkt;
+  };
+  bool factorise(Kept& store, const MassSystem& of, bool constant);
+  std::size_t factors_for(const Kept& store, const MassSystem& of) const;
   bool factorise_dense(Kept& store, int nc, double rank_tolerance) const;
 
   const Model& model_;
   std::vector<numerics::BodyBlock> bodies_;
+  std::array<MassFactors, std::tuple_size_v<decltype(kept)>>
+      mass_factors_;                      // one serves all stores that ask for the same
   std::vector<std::array<int, 2>> tied_;  // pairs of bodies, both orders, each once
 };
 

@@ -43,7 +43,8 @@ bool AssembledSystem::Work::factorise_mass(Store store, bool with_friction, doub
   if (!reuse) evaluate_mass(), ++counts.factorizations;
   const bool sliding = with_friction && coupled;
   if (blocks) {
-    dense.mass_factorised = blocks->factorise_mass(blocks->kept[store], sizes.nc, reuse, sliding, rank_tolerance);
+    dense.mass_factorised = blocks->factorise_mass(
+        blocks->kept[store], {configuration, sizes.nc, false, rank_tolerance}, model->constant_mass, sliding);
   } else if (reuse) {
     dense.mass.change_rows(G, sliding ? W : G, rank_tolerance);
   } else {
@@ -57,7 +58,7 @@ void AssembledSystem::Work::factorise_identity(Store store) {
   kept[store].symmetric = true;
   kept[store].mass_factorised = false;
   if (blocks)
-    blocks->factorise_identity(blocks->kept[store], sizes.nc, rank_tolerance());
+    blocks->factorise_identity(blocks->kept[store], {configuration, sizes.nc, true, rank_tolerance()});
   else
     kept[store].mass.factorise(Mat::Identity(sizes.nv, sizes.nv), G, G, rank_tolerance());
 }
@@ -85,7 +86,7 @@ bool AssembledSystem::Work::solve(Store store, const Vec& b, const Vec& c, Vec& 
 }
 
 bool AssembledSystem::Work::redundant(Store store) const {
-  return blocks ? blocks->kept[store].mass.redundant() : kept[store].mass.redundant();
+  return blocks ? blocks->redundant(blocks->kept[store]) : kept[store].mass.redundant();
 }
 
 std::function<void(const Vec& impulse, Vec& dv)> AssembledSystem::Work::with_joints_held() {

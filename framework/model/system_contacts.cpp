@@ -130,6 +130,7 @@ void AssembledSystem::step_taken() {
     } else if (w.rolls(int(i))) {
       anchor(int(i), mode);
       w.rows_fresh = false;
+      ++w.configuration;
     }
   }
 }
