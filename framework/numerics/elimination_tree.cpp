@@ -110,15 +110,18 @@ Elimination eliminate(const Graph& graph, const std::vector<int>& weight, std::v
 
 }  // namespace
 
-void EliminationTree::build(const std::vector<std::vector<int>>& cliques, const std::vector<int>& weight) {
-  constexpr double worth = 3;        // what the order along the graph may cost more than the other
-  constexpr double overhead = 2000;  // of a front, in the unit of work_of
+void EliminationTree::build(const std::vector<std::vector<int>>& cliques, const std::vector<int>& weight,
+                            const Costs& costs) {
   const std::size_t n = weight.size();
   const Graph graph = graph_of(cliques, n);
   Elimination e = eliminate(graph, weight, along(graph));
-  if (Elimination other = eliminate(graph, weight, of_minimum_degree(graph)); e.work > worth * other.work)
+  if (Elimination other = eliminate(graph, weight, of_minimum_degree(graph)); e.work > costs.along * other.work)
     e = std::move(other);
 
+  const auto cost_of = [&costs](double eliminated, double boundary) {
+    const double size = eliminated + boundary;
+    return work_of(eliminated, boundary) + costs.entry * size * size + costs.front;
+  };
   // A node at place k begins as a front of its own and unites with those of its children where that is cheaper.
   struct Open {
     std::vector<int> places, children;
@@ -133,8 +136,8 @@ void EliminationTree::build(const std::vector<std::vector<int>>& cliques, const 
     for (const int child : front.children) {
       Open& below = open[std::size_t(child)];
       const double both = below.eliminated + front.eliminated;
-      if (work_of(both, e.size[k]) >
-          work_of(below.eliminated, e.size[std::size_t(child)]) + work_of(front.eliminated, e.size[k]) + overhead) {
+      if (cost_of(both, e.size[k]) >
+          cost_of(below.eliminated, e.size[std::size_t(child)]) + cost_of(front.eliminated, e.size[k])) {
         kept.push_back(child);
         continue;
       }

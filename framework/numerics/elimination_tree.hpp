@@ -16,8 +16,17 @@ class EliminationTree {
     std::vector<int> eliminated, boundary;  // nodes, in the order of elimination
     std::vector<int> children;              // fronts, all of them earlier ones
   };
+  // What decides between orders and sizes of fronts, in the unit of k (k + b)^2, k unknowns eliminated and b of the boundary.
+  struct Costs {
+    double along = 3;     // how many times the other's work the order along the graph may take
+    double front = 2000;  // of a front as such
+    double entry = 0;     // of each of its (k + b)^2 entries: to be cleared, summed and passed on
+  };
   // `cliques`: sets of nodes that are all neighbours. `weight`: unknowns of each node.
-  void build(const std::vector<std::vector<int>>& cliques, const std::vector<int>& weight);
+  void build(const std::vector<std::vector<int>>& cliques, const std::vector<int>& weight, const Costs& costs);
+  void build(const std::vector<std::vector<int>>& cliques, const std::vector<int>& weight) {
+    build(cliques, weight, Costs());
+  }
 
   const std::vector<Front>& fronts() const { return fronts_; }  // children first
   std::size_t nodes() const { return place_.size(); }

@@ -13,7 +13,8 @@ void Lu::compute(const Mat& A) {
   const Eigen::Index n = A.rows();
   if (n > most_in_packs) {
     n_ = 0;
-    blocks_.compute(A);
+    frontal_ = fronts_.compute(A);
+    if (!frontal_) blocks_.compute(A);
     return;
   }
   if (n_ != n) {
@@ -64,7 +65,7 @@ void Lu::eliminate() {
 // Forward and back, by columns. A known number is taken out before the loop runs over its place, too.
 void Lu::solve(const Vec& b, Vec& x) {
   if (in_blocks()) {
-    x = blocks_.solve(b);
+    frontal_ ? fronts_.solve(b, x) : void(x = blocks_.solve(b));
     return;
   }
   const Eigen::Index n = n_, stride = LU_.rows();

@@ -1,0 +1,78 @@
+// P A = L U of a large matrix most of whose entries are 0, front by front, and the solves with it.
+//
+// The unknowns of one front (elimination_tree.hpp; F), with its boundary (B), make a dense matrix: their entries of A and what the
+// fronts below leave,
+//
+//     [A_FF A_FB]  =  [L_F      ] [U_F  U_FB]       rows are exchanged within F;  S goes to the front above
+//     [A_BF A_BB]     [L_BF   1 ] [      S  ]
+//
+// Order and places follow from the pattern alone and are kept while later matrices have no entry outside of it: once per mesh of a
+// plate. Unknowns with the same neighbours make one node of the tree. One without a diagonal entry, a multiplier of a row, shares the
+// node of an unknown in its row, so that their front has a pivot for both.
+// Exchanges within F alone may meet a small pivot where A is regular: then this says no. A solution is corrected once or twice with
+// the residual where that is not yet round-off.
+// Duff, Reid, ACM Trans. Math. Softw. 9 (1983), 302; 10 (1984), 633 (unsymmetric).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include <trammel/types.hpp>
+
+#include "numerics/elimination_tree.hpp"
+
+namespace trammel::numerics {
+
+class FrontalLu {
+ public:
+  // False: not worth it (small, or nearly full), or a pivot of a front is small beside its column of A.
+  bool compute(const Mat& A);
+  double pivot(Eigen::Index j) const { return pivots_(j); }  // of A's column j
+  void solve(const Vec& b, Vec& x);                          // not in place
+  int analyses() const { return analyses_; }                 // of patterns, so far
+
+ private:
+  struct Entry {
+    std::size_t from, to;  // of A's values, in the front's matrix
+  };
+  struct Range {
+    std::size_t begin, end;
+  };
+  struct Front {
+    int eliminated, size;           // unknowns: of F; of F and B
+    std::size_t unknowns;           // in unknowns_
+    std::size_t factors;            // in store_: L_F and U_F over L_BF, then U_FB
+    Range entries;                  // in entries_
+    std::vector<std::size_t> maps;  // of each child, in maps_: this front's place of each unknown of its boundary
+    std::vector<int> boundaries;    // of each child: how many these are
+    int boundary() const { return size - eliminated; }
+  };
+
+  bool take(const Mat& A);
+  void find_pattern(const Mat& A);
+  std::vector<int> find_nodes(const Mat& A) const;
+  void analyse(const Mat& A);
+  void lay_out(const EliminationTree& tree, const std::vector<std::vector<int>>& members);
+  void place_entries();
+  void assemble(const Front& front, Eigen::Map<Mat>& F);
+  bool eliminate(const Front& front, Eigen::Map<Mat>& F);
+  bool factorise();
+  void substitute(Vec& x);
+
+  Eigen::SparseMatrix<double> A_;
+  Vec largest_;  // |entry| of each column
+  bool worthwhile_ = false;
+  int analyses_ = 0;
+  std::vector<Front> fronts_;  // children first, each right after its last child
+  std::vector<int> unknowns_;
+  std::vector<Entry> entries_;
+  std::vector<int> maps_;
+  std::vector<double> store_, work_, stack_;  // stack_: what fronts leave to those above, still to be taken
+  std::size_t top_ = 0;
+  std::vector<int> exchanged_;  // by place in unknowns_: which row of F comes there
+  Vec pivots_, y_, residual_;
+};
+
+}  // namespace trammel::numerics

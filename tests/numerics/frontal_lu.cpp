@@ -1,0 +1,154 @@
+#include "numerics/frontal_lu.hpp"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+namespace trammel::test {
+namespace {
+
+// Nodes of three unknowns in a grid, each tied to those up to `reach` away; unsymmetric numbers.
+Mat grid(int side, int reach, int seed) {
+  std::mt19937 random{unsigned(seed)};
+  std::uniform_real_distribution<double> number(-1, 1);
+  Mat A = Mat::Zero(3 * side * side, 3 * side * side);
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j)
+      for (int k = std::max(0, i - reach); k <= std::min(side - 1, i + reach); ++k)
+        for (int l = std::max(0, j - reach); l <= std::min(side - 1, j + reach); ++l)
+          for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b) A(3 * (i * side + j) + a, 3 * (k * side + l) + b) = number(random);
+  A.diagonal().array() += 8;
+  return A;
+}
+
+// Rows and columns at the end: `full` of bodies tied to all, then `rows` without a diagonal, each on some unknowns.
+Mat bordered(const Mat& inner, int full, int rows, int seed) {
+  std::mt19937 random{unsigned(seed)};
+  std::uniform_real_distribution<double> number(-1, 1);
+  const Eigen::Index n = inner.rows(), all = n + full + rows;
+  Mat A = Mat::Zero(all, all);
+  A.topLeftCorner(n, n) = inner;
+  for (int i = 0; i < full; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) A(n + i, j) = 0.1 * number(random), A(j, n + i) = 0.1 * number(random);
+    A(n + i, n + i) = 20;
+  }
+  for (int i = 0; i < rows; ++i)
+    for (int k = 0; k < 6; ++k) {
+      const Eigen::Index j = (7 * i + k) % n, row = n + full + i;
+      A(row, j) = A(j, row) = number(random) + (k == 0 ? 3 : 0);
+    }
+  return A;
+}
+
+double error_of(numerics::FrontalLu& lu, const Mat& A) {
+  const Vec known = Vec::LinSpaced(A.rows(), -1, 2);
+  Vec x;
+  lu.solve(A * known, x);
+  return (x - known).norm() / known.norm();
+}
+
+class FrontalLuOf : public testing::TestWithParam<std::tuple<int, int, int, int>> {};
+
+TEST_P(FrontalLuOf, SolvesAsWellAsADenseElimination) {
+  const auto [side, reach, full, rows] = GetParam();
+  for (int seed = 0; seed < 5; ++seed) {
+    const Mat A = bordered(grid(side, reach, seed), full, rows, seed);
+    const Vec known = Vec::LinSpaced(A.rows(), -1, 2);
+    const double dense = (A.partialPivLu().solve(A * known) - known).norm() / known.norm();
+    numerics::FrontalLu lu;
+    ASSERT_TRUE(lu.compute(A));
+    EXPECT_LE(error_of(lu, A), 100 * (dense + std::numeric_limits<double>::epsilon())) << "seed " << seed;
+  }
+}
+
+// Side, reach, unknowns tied to all, rows without a diagonal.
+INSTANTIATE_TEST_SUITE_P(Grids, FrontalLuOf,
+                         testing::Values(std::tuple(8, 1, 0, 0), std::tuple(12, 2, 3, 0), std::tuple(12, 1, 0, 20),
+                                         std::tuple(14, 3, 3, 5)));
+
+TEST(FrontalLu, TakesPartsThatNothingTies) {
+  const Mat part = grid(6, 1, 1);
+  Mat A = Mat::Zero(3 * part.rows(), 3 * part.rows());
+  for (int k = 0; k < 3; ++k) A.block(k * part.rows(), k * part.rows(), part.rows(), part.rows()) = part;
+  numerics::FrontalLu lu;
+  ASSERT_TRUE(lu.compute(A));
+  EXPECT_LE(error_of(lu, A), 1e-14);
+}
+
+// Its largest entries are beside the diagonal, between unknowns of one node.
+TEST(FrontalLu, ExchangesRowsWithinAFront) {
+  Mat A = grid(10, 1, 1);
+  for (Eigen::Index i = 0; i < A.rows(); i += 3) A.middleCols<2>(i).rowwise().reverseInPlace();
+  for (Eigen::Index i = 0; i < A.rows(); i += 3) A(i, i) = A(i + 1, i + 1) = 0;
+  numerics::FrontalLu lu;
+  ASSERT_TRUE(lu.compute(A));
+  EXPECT_LE(error_of(lu, A), 1e-13);
+}
+
+TEST(FrontalLu, AnalysesAPatternOnce) {
+  numerics::FrontalLu lu;
+  const Mat A = grid(10, 2, 1);
+  ASSERT_TRUE(lu.compute(A));
+  Mat B = grid(10, 2, 2);
+  B(0, 1) = 0;
+  ASSERT_TRUE(lu.compute(B));
+  EXPECT_LE(error_of(lu, B), 1e-14);
+  EXPECT_EQ(lu.analyses(), 1);
+}
+
+TEST(FrontalLu, TakesEntriesOutsideOfThePatternIntoAWiderOne) {
+  numerics::FrontalLu lu;
+  Mat A = grid(10, 1, 1);
+  ASSERT_TRUE(lu.compute(A));
+  A(5, 250) = 0.5;
+  ASSERT_TRUE(lu.compute(A));
+  EXPECT_LE(error_of(lu, A), 1e-14);
+  EXPECT_EQ(lu.analyses(), 2);
+  ASSERT_TRUE(lu.compute(grid(10, 1, 2)));
+  EXPECT_EQ(lu.analyses(), 2);
+}
+
+TEST(FrontalLu, TakesAnotherSizeAfresh) {
+  numerics::FrontalLu lu;
+  ASSERT_TRUE(lu.compute(grid(12, 1, 1)));
+  ASSERT_TRUE(lu.compute(grid(9, 1, 1)));
+  EXPECT_LE(error_of(lu, grid(9, 1, 1)), 1e-14);
+}
+
+TEST(FrontalLu, LeavesFullMatricesToOthers) {
+  EXPECT_FALSE(numerics::FrontalLu().compute(grid(9, 8, 1)));
+}
+
+TEST(FrontalLu, LeavesSmallMatricesToOthers) {
+  for (int n : {0, 1, 2, 60}) EXPECT_FALSE(numerics::FrontalLu().compute(Mat::Identity(n, n))) << n;
+}
+
+TEST(FrontalLu, RefusesASingularMatrix) {
+  Mat A = grid(10, 1, 1);
+  A.row(100) = 2 * A.row(101);
+  EXPECT_FALSE(numerics::FrontalLu().compute(A));
+  A.row(100).setZero();
+  EXPECT_FALSE(numerics::FrontalLu().compute(A));
+}
+
+TEST(FrontalLu, RefusesRowsThatSayTheSame) {
+  Mat A = bordered(grid(10, 1, 1), 0, 2, 1);
+  const Eigen::Index last = A.rows() - 1;
+  A.row(last) = A.row(last - 1), A.col(last) = A.col(last - 1);
+  EXPECT_FALSE(numerics::FrontalLu().compute(A));
+}
+
+TEST(FrontalLu, RefusesNumbersThatAreNone) {
+  for (const double none : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Mat A = grid(10, 1, 1);
+    A(150, 150) = none;
+    EXPECT_FALSE(numerics::FrontalLu().compute(A));
+  }
+}
+
+}  // namespace
+}  // namespace trammel::test
