@@ -49,7 +49,7 @@ void FrontalKkt::place_store() {
     reflections += n;
     rows = std::max(rows, m), unknowns = std::max(unknowns, n);
   }
-  store_.assign(size, 0);
+  store_.setZero(Eigen::Index(size));
   scale_.assign(layout_.all_own_rows(), 1);
   columns_.assign(layout_.all_unknowns(), 0);
   reflections_.assign(std::size_t(reflections), {});

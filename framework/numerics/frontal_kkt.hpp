@@ -67,7 +67,7 @@ class FrontalKkt {
   int dependent_ = 0;
   FrontLayout layout_;
   std::vector<Place> places_;
-  std::vector<double> store_;
+  Vec store_;                 // aligned as Eigen's own: sums over pieces of it round alike in every run
   std::vector<int> columns_;  // of each front's unknowns
   std::vector<RowElimination::Reflection> reflections_;
   std::vector<double> scale_;  // of own rows

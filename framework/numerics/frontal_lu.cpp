@@ -209,7 +209,7 @@ void FrontalLu::lay_out(const EliminationTree& tree, const std::vector<std::vect
     index[std::size_t(f)] = int(fronts_.size());
     fronts_.push_back(std::move(front));
   }
-  store_.resize(stored), work_.resize(largest), stack_.resize(most_waiting);
+  store_.resize(Eigen::Index(stored)), work_.resize(Eigen::Index(largest)), stack_.resize(Eigen::Index(most_waiting));
   exchanged_.resize(unknowns_.size());
   pivots_.resize(A_.rows());
 }

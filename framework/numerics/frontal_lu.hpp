@@ -69,7 +69,9 @@ class FrontalLu {
   std::vector<int> unknowns_;
   std::vector<Entry> entries_;
   std::vector<int> maps_;
-  std::vector<double> store_, work_, stack_;  // stack_: what fronts leave to those above, still to be taken
+  // Aligned as Eigen's own: sums over pieces of them then round alike in every run. stack_: what fronts leave to those above, still
+  // to be taken.
+  Vec store_, work_, stack_;
   std::size_t top_ = 0;
   std::vector<int> exchanged_;  // by place in unknowns_: which row of F comes there
   Vec pivots_, y_, residual_;

@@ -27,8 +27,6 @@ int error_order(Integrator& integrator) {
   return estimate ? estimate->error_order() : 1;
 }
 
-<<<<<<< HEAD
-=======
 // Rows that begin to contradict each other have accelerations of least squares, which an explicit method would follow. The error of
 // Baumgarte's terms is less; and what looks like it is examined.
 std::vector<std::string> contradiction(model::AssembledSystem& system, const State& s, const ConstraintNorms& norms) {
@@ -39,19 +37,6 @@ std::vector<std::string> contradiction(model::AssembledSystem& system, const Sta
   return paths;
 }
 
-void archive_tangential(Archive& a, const std::string& name, model::ContactMode& mode) {
-  const auto numbers = [&](const char* what, auto& x) {
-    Vec flat = Eigen::Map<const Vec>(x.data(), x.size());
-    a(name + what, flat);
-    if (flat.size() == x.size()) std::copy(flat.begin(), flat.end(), x.data());
-  };
-  numbers("direction", mode.direction);
-  a(name + "slow", mode.slow);
-  numbers("anchor", mode.anchor);
-  numbers("rolled_from", mode.rolled_from);
-}
-
->>>>>>> 93ae7a9 (Quasi-velocities for every explicit method; an energy correction that keeps momentum; latches that can never lock; rows that come to contradict each other are named)
 }  // namespace
 
 Simulator::Simulator(std::shared_ptr<model::Model> model, Integrator& integrator, const Settings& settings,

@@ -109,12 +109,14 @@ TEST_P(ExplicitOrder, OnTheDampedOscillator) {
 TEST_P(ExplicitOrder, OnThePendulumInRedundantCoordinates) {
   Posed s(problems::pendulum_with_rod());
   const State start = s.start(), end = reference(s, start, 2);
-  const Order f = fit_order(GetParam().n_pendulum, 4, [&](int n) {
+  // Of order 8 three runs fit between 1e-7 and round-off, where slopes still vary by half an order: that is not 7, nor 9.
+  const bool eighth = GetParam().order == 8;
+  const Order f = fit_order(GetParam().n_pendulum, eighth ? 3 : 4, [&](int n) {
     auto method = make(GetParam().form.name, GetParam().form.settings);
     const State x = integrate(*method, s, start, 2, n);
     return (x.q - end.q).norm() + (x.v - end.v).norm() + (x.lambda - end.lambda).norm();
   });
-  EXPECT_NEAR(f.value, GetParam().order, 0.2) << f.table;
+  EXPECT_NEAR(f.value, GetParam().order, eighth ? 0.6 : 0.2) << f.table;
 }
 
 TEST_P(ExplicitOrder, OnTheQuaternionTop) {
@@ -136,11 +138,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Explicit{{"adams_baumgarte", {{"predictor", std::string("ab3")}}}, 4, 80, 160, 160},
                     Explicit{{"dormand_prince", {}}, 5, 96, 160, 20}, Explicit{{"dop853", {}}, 8, 6, 10, 8},
                     Explicit{{"runge_kutta_4", {{"rows", std::string("projected")}}}, 4, 20, 40, 40},
-                    Explicit{{"dop853", {{"rows", std::string("projected")}}}, 8, 6, 10, 8},
+                    Explicit{{"dop853", {{"rows", std::string("projected")}}}, 8, 6, 20, 8},
                     Explicit{{"runge_kutta_4", {{"rows", std::string("null_space")}}}, 4, 20, 40, 40},
                     Explicit{{"adams_baumgarte", {{"rows", std::string("null_space")}}}, 4, 160, 320, 160},
                     Explicit{{"dormand_prince", {{"rows", std::string("null_space")}}}, 5, 96, 160, 20},
-                    Explicit{{"dop853", {{"rows", std::string("null_space")}}}, 8, 6, 10, 8}),
+                    Explicit{{"dop853", {{"rows", std::string("null_space")}}}, 8, 6, 20, 8}),
     [](const testing::TestParamInfo<Explicit>& tested) {
       return tested.param.form.name + "_" + std::to_string(tested.index);
     });
@@ -150,12 +152,12 @@ TEST(Dop853, IsOfEighthOrderThoughRowsRepeat) {
   Posed s(problems::pendulum_with_rod(1, 0.4, {1, 2, -0.5}));
   const State start = s.start(), end = reference(s, start, 2);
   for (const char* rows : {"projected", "null_space"}) {
-    const Order f = fit_order(10, 4, [&](int n) {
+    const Order f = fit_order(20, 3, [&](int n) {
       auto method = make("dop853", {{"rows", std::string(rows)}});
       const State x = integrate(*method, s, start, 2, n);
       return (x.q - end.q).norm() + (x.v - end.v).norm() + (x.lambda - end.lambda).norm();
     });
-    EXPECT_NEAR(f.value, 8, 0.2) << rows << "\n" << f.table;
+    EXPECT_NEAR(f.value, 8, 0.6) << rows << "\n" << f.table;
   }
 }
 

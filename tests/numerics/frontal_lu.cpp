@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -125,6 +126,21 @@ TEST(FrontalLu, LeavesFullMatricesToOthers) {
 
 TEST(FrontalLu, LeavesSmallMatricesToOthers) {
   for (int n : {0, 1, 2, 60}) EXPECT_FALSE(numerics::FrontalLu().compute(Mat::Identity(n, n))) << n;
+}
+
+// A run that is resumed is another process, in other memory.
+TEST(FrontalLu, RoundsAlikeWhereverItsMemoryLies) {
+  const Mat A = grid(8, 1, 1);
+  const Vec b = Vec::LinSpaced(A.rows(), -1, 2);
+  std::vector<std::unique_ptr<char[]>> between;
+  Vec first, x;
+  for (std::size_t bytes = 16; bytes <= 128; bytes += 16) {
+    between.push_back(std::make_unique<char[]>(bytes));
+    numerics::FrontalLu lu;
+    ASSERT_TRUE(lu.compute(A));
+    lu.solve(b, first.size() == 0 ? first : x);
+    EXPECT_TRUE(x.size() == 0 || x == first);
+  }
 }
 
 TEST(FrontalLu, RefusesASingularMatrix) {

@@ -135,7 +135,8 @@ TEST(TrussScenes, LockTimeInQuasiVelocitiesIsOfFourthOrder) {
                                             {"record.every", "2"}});
       ASSERT_TRUE(run.done()) << run.report.reason;
       error.push_back(std::abs(lock_of(run).t - exact));
-      EXPECT_LT(maximum(run, "velocity"), 1e-13) << scene;
+      EXPECT_LT(maximum(run, "velocity"), 1e-11)
+          << scene;  // of some m/s: a tenth of what the step itself leaves of the lock
     }
     EXPECT_LT(error[0], 6e-10) << scene;
     EXPECT_NEAR(std::log2(error[0] / error[1]), 4, 0.2) << scene;

@@ -65,34 +65,17 @@ TEST(Latch, HoldsThroughALaterImpact) {
 
 // A crank of 1 m and a rod of 2 m from its end to a slider on the x axis, which so comes as far as x = 3.
 std::string slider(double wanted, const char* from, const std::string& crank_row = "") {
-  return fmt::format(R"({{"trammel": 1, "space": "planar",
+  return fmt::format(R"json({{
+    "trammel": 1, "space": "planar",
     "bodies": {{"pin": {{"type": "point_mass", "mass": 1, "position": [0, 1], "velocity": [1, 0]}},
-               "slider": {{"type": "point_mass", "mass": 1, "position": [1.7320508075688772, 0], "velocity": [1, 0]
-}
-}
-}
-}
-, "joints" : {{
-  "crank" : {{"type" : "distance", "between" : [ "ground", "pin.point" ], "length" : {}}},
-  "rod" : {{"type" : "distance", "between" : [ "pin.point", "slider.point" ], "length" : 2}},
-  "guide" : {{"type" : "point_on_line", "between" : [ "ground", "slider.point" ], "direction" : [ 1, 0 ]}}
-}},
-             "contacts" : {{
-               "stop" : {{
-                 "type" : "latch",
-                 "between" : [ "ground", "slider.point" ],
-                 "from" : "{}",
-                 "reaches" : {{"type" : "distance", "length" : {}}}
-               }}
-             }},
-                          "integrator" : {{"type" : "dop853", "step" : {{"tolerance" : 1e-9}}}},
-                                         "simulate" : {{"until" : 2}},
-                                                      "initial" : "project",
-                                                                  "record" : {
-  { "every" : 0.1 }
-}
-}
-})",
+               "slider": {{"type": "point_mass", "mass": 1, "position": ["=sqrt(3)", 0], "velocity": [1, 0]}}}},
+    "joints": {{"crank": {{"type": "distance", "between": ["ground", "pin.point"], "length": {}}},
+               "rod": {{"type": "distance", "between": ["pin.point", "slider.point"], "length": 2}},
+               "guide": {{"type": "point_on_line", "between": ["ground", "slider.point"], "axis": [1, 0]}}}},
+    "contacts": {{"stop": {{"type": "latch", "between": ["ground", "slider.point"], "from": "{}",
+                          "reaches": {{"type": "distance", "length": {}}}}}}},
+    "integrator": {{"type": "dop853", "step": {{"tolerance": 1e-9}}}},
+    "simulate": {{"until": 2}}, "initial": {{"consistent": "project"}}, "record": {{"every": 0.1}}}})json",
                      crank_row.empty() ? "1" : crank_row, from, wanted);
 }
 std::string refused(const std::string& scene) {

@@ -52,7 +52,8 @@ TEST(BenchmarkA02, PassesItsSingularPositionsInQuasiVelocities) {
     const Finished run =
         run_benchmark("a02_n2", {{"integrator.rows", "null_space"}, {"integrator.step.tolerance", tolerance}});
     EXPECT_NEAR(run.end("B0_x"), x, 1e-6 + 100 * std::stod(tolerance)) << tolerance;
-    EXPECT_LT(run.result["constraint_maxima"]["velocity"].get<double>(), 1e-13) << tolerance;  // speeds of 7 m/s
+    EXPECT_LT(run.result["constraint_maxima"]["velocity"].get<double>(), 1e-12)
+        << tolerance;  // speeds of 7 m/s, round-off over angles of rows
   }
 }
 
