@@ -32,6 +32,7 @@ class TsplinePlate final : public Body,
                            public Drawn,
                            public Surface,
                            public SampledSurface,
+                           public SlidingSurface,
                            public Refinable,
                            public HasMomentum {
  public:
@@ -100,6 +101,7 @@ class TsplinePlate final : public Body,
   int patches() const override { return int(mesh_->cells.size()); }
   void bounds(int patch, In q, Vec3& low, Vec3& high) const override;
   void sample(int patch, double spacing, SurfacePatch& out) const override;
+  void jet(const Eigen::Vector2d& parameters, In q, SurfaceJet& out) const override;
 
   bool due(double t, In q, In v, const RefineCause& cause) const override;
   std::unique_ptr<Transfer> refine(double t, In q, In v, const RefineCause& cause) override;
@@ -140,7 +142,7 @@ class TsplinePlate final : public Body,
   void place_markers();
   bool chooses_elements() const { return refine_near || indicator != Indicator::none; }
   std::vector<Box<double>> elements_near(const Eigen::Vector2d& at) const;
-  std::vector<Box<double>> indicated(In q) const;
+  std::vector<Box<double>> indicated(In q, std::span<const double> contact_pressure) const;
   std::vector<Box<double>> chosen(double t, In q, const RefineCause& cause) const;  // none: nothing is due
   void gather_dead_loads();
   void add_loads(double t, In q, Out f) const;

@@ -58,14 +58,17 @@ std::vector<Box<double>> TsplinePlate::elements_near(const Eigen::Vector2d& at) 
   return result;
 }
 
-std::vector<Box<double>> TsplinePlate::indicated(In q) const {
+std::vector<Box<double>> TsplinePlate::indicated(In q, std::span<const double> contact_pressure) const {
+  const bool pressed = indicator == Indicator::contact_pressure;
+  if (pressed && contact_pressure.empty()) return {};
   std::vector<char> marked(splittable_.elements().size(), 0);
   CellVectors u;
   for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {
     const int element = splittable_.element_of(int(c));
     if (element < 0 || marked[std::size_t(element)]) continue;
-    gather(mesh_->cells[c], q, u);
-    marked[std::size_t(element)] = indicate(indicator, mesh_->cells[c], u) > *refine_threshold;
+    if (!pressed) gather(mesh_->cells[c], q, u);
+    marked[std::size_t(element)] =
+        (pressed ? contact_pressure[c] : indicate(indicator, mesh_->cells[c], u)) > *refine_threshold;
   }
   std::vector<Box<double>> result;
   for (std::size_t e = 0; e < marked.size(); ++e)
@@ -76,7 +79,7 @@ std::vector<Box<double>> TsplinePlate::indicated(In q) const {
 // Named elements are split once; those that the plate finds by itself as often as the levels allow.
 std::vector<Box<double>> TsplinePlate::chosen(double t, In q, const RefineCause& cause) const {
   const bool step = cause.contact.empty();
-  if (indicator != Indicator::none) return step ? indicated(q) : std::vector<Box<double>>{};
+  if (indicator != Indicator::none) return step ? indicated(q, cause.pressure) : std::vector<Box<double>>{};
   const bool struck = !step && cause.contact == refine_on;
   if (refine_near) return struck ? elements_near(cause.at) : std::vector<Box<double>>{};
   const bool now = refinements_.empty() && (refine_at ? step && t >= *refine_at : struck);

@@ -78,10 +78,14 @@ TRAMMEL_PLUGIN(
         .choice("refine.indicator", &P::indicator,
                 {{"none", trammel::plate::Indicator::none},
                  {"energy_density", trammel::plate::Indicator::energy_density},
-                 {"curvature_jump", trammel::plate::Indicator::curvature_jump}},
+                 {"curvature_jump", trammel::plate::Indicator::curvature_jump},
+                 {"contact_pressure", trammel::plate::Indicator::contact_pressure}},
                 {.doc = "splits elements, at the end of any step, where it is above the threshold"})
-        .parameter("refine.threshold", &P::refine_threshold,
-                   {.min = 0, .doc = "energy_density: mean [J/m^2]; curvature_jump: change across the element [1/m]"})
+        .parameter(
+            "refine.threshold", &P::refine_threshold,
+            {.min = 0,
+             .doc = "energy_density: mean [J/m^2]; curvature_jump: change across the element [1/m]; contact_pressure: "
+                    "largest on the element [Pa]"})
         .parameter(
             "refine.levels", &P::refine_levels,
             {.min = 1, .max = 12, .doc = "how often near or the indicator may split an element of the first mesh"})

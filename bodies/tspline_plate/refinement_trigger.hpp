@@ -2,6 +2,7 @@
 //
 //     energy_density   (1/A) int (h/2 eps^T C^ eps + h^3/24 kappa^T C^ kappa) dA over a Bezier cell [J/m^2]
 //     curvature_jump   the largest |T kappa(a) - T kappa(b)| between quadrature points of a cell [1/m]
+//     contact_pressure the largest pressure of contacts on a point of the cell [Pa], which the framework tells
 //
 // T kappa are the changes of curvature in the local Cartesian frame, with twice the twist. An element's indicator is the
 // largest of its cells'. How often an element was split is told by its size: the level is the number of halvings from the
@@ -12,7 +13,8 @@
 
 namespace trammel::plate {
 
-enum class Indicator { none, energy_density, curvature_jump };
+enum class Indicator { none, energy_density, curvature_jump, contact_pressure };
+// Of those that follow from the plate's own shape.
 double indicate(Indicator indicator, const Cell& cell, const CellVectors& u);
 
 // The elements of a mesh that may still be split, and the cells they consist of.

@@ -59,8 +59,7 @@ void AssembledSystem::set_modes(const Modes& modes) {
   w.lay_out_blocks();
   w.rows_fresh = w.bodies_fresh = w.force_fresh = false;
   ++w.configuration;
-  for (auto& surface : w.surfaces)
-    if (surface) surface->point = -1;
+  for (auto& surface : w.surfaces) surface.point = -1;
 }
 
 void AssembledSystem::lay_out() {

@@ -148,7 +148,12 @@ class AssembledSystem final : public System {
   void add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S);
 
   const Motion& motion(MarkerRef marker);     // at the current point
-  const Motion& contact_marker(int contact);  // of its A
+  const Motion& contact_marker(int contact);  // of its A; of a surface the deepest point
+  // Largest pressure of the closed contacts of a body on each patch of its surface [Pa]; empty: none has closed.
+  std::vector<double> surface_pressure(int body);
+  bool has_surface_contact(int body) const;  // which has closed
+  // How far a surface in contact with a plane lies behind it, all of it [m]; negative: it does not, or there is none.
+  double all_behind_plane(int contact);
   const CallSite& last_call() const;
   // Finds the first component whose answer at the current point is not finite; component is null if all are.
   CallSite find_not_finite();

@@ -19,12 +19,13 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
   for (const ContactEntry& entry : model->contacts) {
     if (entry.limit)
       contact_slots.push_back(slots_of(entry.limit->markers));
-    else if (entry.surface)
-      contact_slots.push_back({.A = chain.slot(entry.A), .B = chain.surface_slot(entry.surface->body)});
-    else
+    else if (!entry.surface)
       contact_slots.push_back(slots_of({entry.A, entry.B}));
     surfaces.emplace_back();
-    if (entry.surface) surfaces.back().emplace(Pressed{SurfaceContact(*model, entry)});
+    if (!entry.surface) continue;
+    surfaces.back().contact = make_surface_contact(*model, entry, chain);
+    const auto [A, B] = surfaces.back().contact->slots();
+    contact_slots.push_back({.A = A, .B = B});
   }
   contact_rows.resize(model->contacts.size());
   modes.contacts.resize(model->contacts.size());
@@ -113,10 +114,8 @@ const Vec& AssembledSystem::Work::force() {
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
     const ContactForce* law = model->contacts[i].force;
     if (!law || !modes.contacts[i].closed) continue;
-    if (surfaces[i]) {
-      const SurfaceContact& pressed = surface(i);
-      chain.add_wrench(contact_slots[i].A, pressed.on_sphere(), 1, f);
-      pressed.add_force(f);
+    if (on_surface(i)) {
+      surface(i).add_force(f);
       continue;
     }
     const Rows& r = contact(int(i));

@@ -59,7 +59,10 @@ struct AssembledSystem::Work {
   void couple_reactions();
   const Rows& contact(int i);
   void evaluate_contact(int i, ContactRows& into);
+  bool on_surface(std::size_t i) const { return surfaces[i].contact != nullptr; }
   SurfaceContact& surface(std::size_t i);  // at this point, of a contact that has one
+  bool presses_surface(std::size_t i, int body) const;
+  SurfaceContact::Point here() const { return {t, q, v, point}; }
   double contact_rate(int i, int row);
   double contact_acceleration(int i, int row, const Vec& a);
   void judge_friction(Vec& a, Vec& lambda);  // adds that of `judged`
@@ -129,10 +132,10 @@ struct AssembledSystem::Work {
   PairTangent wrench_by;
   std::vector<ContactRows> contact_rows;
   struct Pressed {
-    SurfaceContact contact;
+    std::unique_ptr<SurfaceContact> contact;  // null: no surface takes part
     long long point = -1;
   };
-  std::vector<std::optional<Pressed>> surfaces;  // by contact
+  std::vector<Pressed> surfaces;  // by contact
   Wrench on_A, on_B;
   Vec right, right_rows;
 };

@@ -224,37 +224,88 @@ class Builder {
     return true;
   }
 
-  // {"surface": "plate"}: of a body that has one.
-  bool read_surface(const Value& value, ContactEntry& entry) {
+  // {"surface": "plate"}: of a body that has one; -1: reported.
+  int surface_body(const Value& value) {
     check_keys(value, {"surface"}, problems_);
     const auto name = value.find("surface")->read_text(problems_);
-    if (!name) return false;
+    if (!name) return -1;
     std::vector<std::string> with_surface;
-    int body = -1;
     for (int b = 0; b < int(model_->bodies.size()); ++b) {
       const BodyEntry& candidate = model_->bodies[std::size_t(b)];
       if (!dynamic_cast<const SampledSurface*>(candidate.body.get()) ||
           !dynamic_cast<const Surface*>(candidate.body.get()))
         continue;
       with_surface.push_back(candidate.name);
-      if (candidate.name == *name) body = b;
+      if (candidate.name == *name) return b;
     }
-    if (body < 0) {
-      problems_.error(value.problem(
-          with_surface.empty()
-              ? std::string("no body of this scene has a surface; tspline_plate is one")
-              : fmt::format("no body \"{}\" with a surface{}", *name, scene::did_you_mean(*name, with_surface))));
-      return false;
-    }
-    if (!(entry.geometry.radius > 0)) {
-      problems_.error(value.problem("a surface is touched by a sphere: give the contact its \"radius\" [m]"));
-      return false;
-    }
+    problems_.error(value.problem(
+        with_surface.empty()
+            ? std::string("no body of this scene has a surface; tspline_plate is one")
+            : fmt::format("no body \"{}\" with a surface{}", *name, scene::did_you_mean(*name, with_surface))));
+    return -1;
+  }
+
+  static bool is_surface(const Value& value) { return value.type() == Value::Type::object && value.find("surface"); }
+  static bool is_plane(const Value& value) { return value.type() == Value::Type::object && value.find("plane"); }
+
+  // ["ball.com", {"surface": "plate"}]
+  bool read_sphere_on_surface(const Value& ball, const Value& surface, ContactEntry& entry) {
+    const auto A = marker(ball);
+    const int body = surface_body(surface);
+    if (!A || body < 0) return false;
     const double radius = entry.geometry.radius;
+    if (!(radius > 0)) {
+      problems_.error(surface.problem("a surface is touched by a sphere: give the contact its \"radius\" [m]"));
+      return false;
+    }
     entry.geometry = PointOnPlane(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ());
     entry.geometry.radius = radius;
-    entry.B.body = body;
+    entry.A = *A, entry.B.body = body;
     entry.surface.emplace().body = body;
+    return true;
+  }
+
+  // [{"surface": "plate"}, {"plane": ...}] or [{"surface": "upper"}, {"surface": "lower"}]
+  bool read_surface_first(const Value& first, const Value& second, const Value& contact, ContactEntry& entry) {
+    const int body = surface_body(first);
+    if (const Value* radius = contact.find("radius")) {
+      problems_.error(radius->problem("a radius belongs to a sphere: [marker, {\"surface\": body}]"));
+      return false;
+    }
+    if (!is_surface(second) && !is_plane(second)) {
+      problems_.error(second.problem(
+          "expected {\"plane\": {\"point\": ..., \"normal\": ...}} or {\"surface\": body} against the first surface; a "
+          "sphere's marker stands before the surface"));
+      return false;
+    }
+    if (body < 0) return false;
+    SurfaceSide side;
+    side.body = body;
+    entry.A.body = body;
+    if (is_plane(second)) {
+      side.against = SurfaceSide::Against::plane;
+      if (!read_plane(second, entry)) return false;
+    } else {
+      side.against = SurfaceSide::Against::surface;
+      entry.B.body = side.other = surface_body(second);
+      if (side.other < 0) return false;
+      entry.geometry = PointOnPlane(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ());
+    }
+    const std::string& name = model_->bodies[std::size_t(body)].name;
+    if (entry.B.body == body) {
+      problems_.error(contact.problem(
+          is_plane(second)
+              ? fmt::format("this plane is carried by bodies.{}, whose surface is to touch it", name)
+              : fmt::format("the surface of bodies.{} against itself is not possible: its points are nearest to "
+                            "themselves; name two bodies, or a marker of the sheet and a plane",
+                            name)));
+      return false;
+    }
+    if (side.other >= 0 && !dynamic_cast<const SlidingSurface*>(model_->bodies[std::size_t(side.other)].body.get())) {
+      problems_.error(second.problem("points of another surface cannot slide on this one; name it first"));
+      return false;
+    }
+    entry.surface = std::move(side);
     return true;
   }
 
@@ -329,17 +380,26 @@ class Builder {
       problems_.error(from->problem("it says from where \"reaches\" is approached, which is missing"));
     const scene::Items* pair = between(value);
     if (!pair) return;
-    const auto A = marker((*pair)[0]);
     if (const Value* radius = value.find("radius")) {
       entry.geometry.radius = radius->read_number(problems_).value_or(0);
       if (entry.geometry.radius < 0)
         problems_.error(radius->problem(fmt::format("found {}, expected a radius >= 0 [m]", entry.geometry.radius)));
     }
-    const Value& second = (*pair)[1];
-    const bool on_surface = second.type() == Value::Type::object && second.find("surface");
-    if (!(on_surface ? read_surface(second, entry) : read_plane(second, entry)) || !A || !law) return;
-    entry.A = *A;
+    if (!read_sides((*pair)[0], (*pair)[1], value, entry) || !law) return;
     add_contact(std::move(entry), value, std::move(law), origin);
+  }
+
+  bool read_sides(const Value& first, const Value& second, const Value& contact, ContactEntry& entry) {
+    if (is_surface(first)) return read_surface_first(first, second, contact, entry);
+    if (is_surface(second)) return read_sphere_on_surface(first, second, entry);
+    if (is_plane(first)) {
+      problems_.error(first.problem("a plane stands second, behind what touches it"));
+      return false;
+    }
+    const auto A = marker(first);
+    if (!read_plane(second, entry) || !A) return false;
+    entry.A = *A;
+    return true;
   }
 
   void add_contact(ContactEntry entry, const Value& value, std::unique_ptr<Component> law,
@@ -353,8 +413,12 @@ class Builder {
     if (by_points != on_surface)
       return problems_.error(value.problem(
           by_points
-              ? "this law acts at the points of a surface: expected {\"surface\": body} as the second of \"between\""
-              : "a surface takes a law that acts at its points, such as \"penalty\""));
+              ? "this law acts at the points of a surface: expected {\"surface\": body} in \"between\""
+              : "this law acts at one point; a surface takes one that acts at all of its points, such as \"penalty\". "
+                "Of a body with a surface single markers take this law: [\"BODY.MARKER\", {\"plane\": ...}], or "
+                "against "
+                "a sphere [\"BODY.MARKER\", \"SPHERE.CENTRE\"] with \"reaches\": {\"type\": \"distance\", \"length\": "
+                "radius}"));
     if (const Value* friction = value.find("friction")) add_friction(*friction, entry);
     entry.law = std::move(law);
     model_->contacts.push_back(std::move(entry));

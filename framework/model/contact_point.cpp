@@ -39,9 +39,7 @@ void AssembledSystem::Work::evaluate_contact(int i, ContactRows& cache) {
       for (int k = 0; k < at.count; ++k) cache.rows.H(k) *= side;
     }
   } else if (entry.surface) {
-    const double thick = model->bodies[std::size_t(entry.surface->body)].surface->half_thickness();
-    const Motion& sphere = motion(A);
-    surface_row(entry.geometry.radius + thick, sphere, chain.nearest(B, sphere.x, t, q, v), cache.rows);
+    surfaces[std::size_t(i)].contact->gap_row(here(), cache.rows);
   } else {
     model::contact_rows(entry.geometry, motion(A), motion(B), tangents, cache.rows);
   }
@@ -53,14 +51,14 @@ void AssembledSystem::Work::evaluate_contact(int i, ContactRows& cache) {
 }
 
 SurfaceContact& AssembledSystem::Work::surface(std::size_t i) {
-  Pressed& pressed = *surfaces[i];
+  Pressed& pressed = surfaces[i];
   if (pressed.point != point) {
     called(model->contacts[i].name, "normal");
-    pressed.contact.evaluate(motion(contact_slots[i].A), q, v, modes.contacts[i].approach_speed);
+    pressed.contact->press(here(), modes.contacts[i].approach_speed);
     returned();
     pressed.point = point;
   }
-  return pressed.contact;
+  return *pressed.contact;
 }
 
 double AssembledSystem::Work::contact_rate(int i, int row) {

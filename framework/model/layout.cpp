@@ -30,6 +30,7 @@ void Model::lay_out() {
     entry.refinable = dynamic_cast<Refinable*>(body);
     entry.surface = dynamic_cast<const Surface*>(body);
     entry.samples = dynamic_cast<const SampledSurface*>(body);
+    entry.sliding = dynamic_cast<const SlidingSurface*>(body);
   }
   for (JointEntry& entry : joints) {
     entry.row = sizes.nc;

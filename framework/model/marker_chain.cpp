@@ -36,6 +36,12 @@ int MarkerChain::surface_slot(int body) {
   return int(slots_.size()) - 1;
 }
 
+Motion& MarkerChain::surface_motion(int index) {
+  Slot& slot = *slots_[std::size_t(index)];
+  slot.point = point_;
+  return slot.motion;
+}
+
 const Motion& MarkerChain::nearest(int index, const Vec3& to, double t, const Vec& q, const Vec& v) {
   Slot& slot = *slots_[std::size_t(index)];
   if (slot.point == point_) return slot.motion;

@@ -16,8 +16,10 @@ class MarkerChain {
 
   // Slots stand for markers that are in use.
   int slot(MarkerRef marker);
-  // The point of a body's surface that is nearest to some other point; `nearest` finds it, once per point of the system.
+  // A point of a body's surface: the one nearest to some other point, which `nearest` finds once per point of the system, or one
+  // whose motion is filled in from outside.
   int surface_slot(int body);
+  Motion& surface_motion(int slot);
   const Motion& nearest(int slot, const Vec3& to, double t, const Vec& q, const Vec& v);
   bool on_surface(int slot) const { return slots_[std::size_t(slot)]->surface; }
   int slots() const { return int(slots_.size()); }

@@ -42,6 +42,7 @@ struct BodyEntry {
   Refinable* refinable = nullptr;
   const Surface* surface = nullptr;
   const SampledSurface* samples = nullptr;
+  const SlidingSurface* sliding = nullptr;
 };
 
 struct JointEntry {
@@ -76,10 +77,13 @@ struct RowLimit {
   double side = 1;  // -1: the row comes from below
 };
 
-// A sphere around A against the surface of a body: gap = |x_A - x| - radius - half thickness, x the surface's nearest point. The
-// forces act at all points that the sphere has reached (surface_contact.hpp).
-struct SphereOnSurface {
-  int body = -1;
+// The points of a body's surface against a sphere around A, the plane of B, or the nearest points of another body's surface; the
+// forces act at all points that are reached (surface_contact.hpp).
+struct SurfaceSide {
+  enum class Against { sphere, plane, surface };
+  Against against = Against::sphere;
+  int body = -1;                                    // whose points: of B against a sphere, else of A
+  int other = -1;                                   // against a surface: that of B
   const ForceBySurfacePoints* by_points = nullptr;  // of the contact's law
   std::unique_ptr<Component> friction_law;          // null: frictionless
   const SmoothFriction* friction = nullptr;
@@ -88,9 +92,9 @@ struct SphereOnSurface {
 struct ContactEntry {
   std::string name;
   MarkerRef A, B;
-  PointOnPlane geometry;          // with a surface the radius alone
+  PointOnPlane geometry;          // of a surface against a sphere the radius alone, against a surface nothing
   std::optional<RowLimit> limit;  // in its place
-  std::optional<SphereOnSurface> surface;
+  std::optional<SurfaceSide> surface;
   std::unique_ptr<Component> law;
   // The law's kind, looked up once; exactly one is set.
   const Restitution* restitution = nullptr;

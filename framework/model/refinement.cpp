@@ -26,14 +26,15 @@ void JoinedTransfer::v(In old, Out fresh) const {
 }
 
 std::unique_ptr<JoinedTransfer> refine(Model& model, double t, const Vec& q, const Vec& v,
-                                       const std::vector<int>& asked, const RefineCause& cause,
+                                       const std::vector<int>& asked, const std::vector<RefineCause>& causes,
                                        std::vector<int>& refined) {
   refined.clear();
   std::vector<JoinedTransfer::Part> parts;
-  for (const int i : asked) {
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    const int i = asked[k];
     const BodyEntry& entry = model.bodies[std::size_t(i)];
     if (!entry.refinable) continue;
-    auto transfer = entry.refinable->refine(t, q.segment(entry.q0, entry.nq), v.segment(entry.v0, entry.nv), cause);
+    auto transfer = entry.refinable->refine(t, q.segment(entry.q0, entry.nq), v.segment(entry.v0, entry.nv), causes[k]);
     if (!transfer) continue;
     parts.resize(model.bodies.size());
     parts[std::size_t(i)].transfer = std::move(transfer);

@@ -27,11 +27,11 @@ class JoinedTransfer final : public Transfer {
   std::vector<Part> parts_;
 };
 
-// Asks the bodies of `asked` (indices) to refine, with q and v of the whole system. Null: none did and nothing changed.
-// Else the model has its new layout, `refined` names the bodies that did, and every AssembledSystem of the model must be
-// told (lay_out).
+// Asks the bodies of `asked` (indices) to refine, each for its cause, with q and v of the whole system. Null: none did and
+// nothing changed. Else the model has its new layout, `refined` names the bodies that did, and every AssembledSystem of the model
+// must be told (lay_out).
 std::unique_ptr<JoinedTransfer> refine(Model& model, double t, const Vec& q, const Vec& v,
-                                       const std::vector<int>& asked, const RefineCause& cause,
+                                       const std::vector<int>& asked, const std::vector<RefineCause>& causes,
                                        std::vector<int>& refined);
 
 }  // namespace trammel::model

@@ -1,68 +1,52 @@
-// A sphere pressed against the points of a body's surface: the law is asked at every point that the sphere has reached.
+// Contact of a body's surface: the law is asked at every point of the surface that is reached, by a sphere around a marker or a
+// plane of one (surface_on_marker.cpp) or by another surface (surface_on_surface.cpp).
 //
-//     d = x_A - x_p,  l = |d|,  n = d/l,  gap = l - R - h/2,  gap_rate = n . u,  u = v_A - v_p
-//     s = u - (n . u) n - R omega_A x n                                       slip of the sphere's skin over the point
-//     F = w (N n - ratio(|s|) N s/|s|),  M = -R n x F                         on the sphere, at its centre; -F on the point
-//
-// R radius, h/2 half the thickness of the plate, w the law's weight of the point, N its answer there. The tangent is exact:
-//     dn = P dd/l,  dN = N_gap n . dd + N_rate (n . du + u . dn),  P = 1 - n n^T
-//     ds = P du - (n . u) dn - n (u . dn) - R (domega x n + omega x dn)
-// The moment of friction about the mid-surface, h/2 times F_t, is left out, as the points have no rotation.
+// The contact closes and opens with its gap: that of the nearest point of the surface right under a sphere, else that of the
+// deepest of the points. Points have no rotation, so the moment of friction about a sheet's mid-surface, half the thickness
+// times F_t, is left out.
 #pragma once
 
-#include <optional>
+#include <array>
+#include <memory>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "model/marker_chain.hpp"
+#include "model/point_pressure.hpp"
 
 namespace trammel::model {
 
 class SurfaceContact {
  public:
-  SurfaceContact(const Model& model, const ContactEntry& entry);
-
-  // At one state of both bodies; everything below is there.
-  void evaluate(const Motion& sphere, const Vec& q, const Vec& v, double approach_speed);
-
-  const Wrench& on_sphere() const { return on_sphere_; }
-  void add_force(Vec& f) const;                        // on the surface's body
-  double normal_force() const { return normal_; }      // [N] sum over the points
-  double potential() const;                            // [J]
-  double damping_power() const { return damping_; }    // [W] lost along the normals
-  double friction_power() const { return friction_; }  // [W] lost in sliding
-  // S += c_k K + c_d D of minus these forces, but for what a fixed wrench on the sphere does with its marker.
-  void add_tangent(MarkerChain& chain, int sphere_slot, double c_k, double c_d, Mat& S) const;
-
- private:
-  using V3 = Eigen::Vector3d;
-  using M3 = Eigen::Matrix3d;
-  struct Touch {
-    std::size_t patch;
-    Eigen::Index point;
-    double length, gap, rate, weight, N;
-    V3 n, u, slip, F;
+  // Where the system is; `number` differs from point to point.
+  struct Point {
+    double t;
+    const Vec &q, &v;
+    long long number;
   };
-  using M63 = Eigen::Matrix<double, 6, 3>;
-  struct Derivatives {
-    M63 by_d, by_u, by_omega;  // of (F, M)
-  };
+  virtual ~SurfaceContact() = default;
 
-  const SurfacePatch& patch(std::size_t i);
-  void touch(std::size_t patch, Eigen::Index point, const V3& d, const V3& u);
-  Derivatives derivatives(const Touch& at) const;
-  // Positions or velocities of the nodes, one a row.
-  Mat of_nodes(const SurfacePatch& patch, const Vec& of_body) const;
+  virtual std::array<int, 2> slots() const = 0;  // of A and B in the chain
+  virtual void gap_row(const Point& point,
+                       Rows& rows) = 0;  // the one row, all zero before, and the motions in the slots
+  virtual void press(const Point& point, double approach_speed) = 0;  // everything below is there
 
-  const ContactEntry& entry_;
-  const BodyEntry& body_;
-  double reach_;
-  std::vector<std::optional<SurfacePatch>> patches_;
-  std::vector<Touch> touches_;
-  V3 omega_ = V3::Zero();
-  double approach_ = 0, normal_ = 0, damping_ = 0, friction_ = 0;
-  Wrench on_sphere_ = Wrench::Zero(6);
+  virtual const PressureSums& sums() const = 0;
+  virtual void add_force(Vec& f) const = 0;  // on both
+  // S += c_k K + c_d D of minus these forces.
+  virtual void add_tangent(const Point& point, double c_k, double c_d, Mat& S) = 0;
+  // What it does to the marker of the sphere or plane, and that marker's slot; -1: it acts between surfaces.
+  virtual int marker_slot() const { return -1; }
+  virtual const Wrench& on_marker() const;
+  // Raises each patch's pressure to the largest of this contact [Pa]; with as many entries as the body has patches.
+  virtual void raise_pressure(int body, std::vector<double>& by_patch) const = 0;
+  // How far all of the surface lies behind the plane [m]; negative: some of it does not, or there is no plane.
+  virtual double all_behind(const Point& /*point*/) { return -1; }
 };
+
+std::unique_ptr<SurfaceContact> make_surface_contact(const Model& model, const ContactEntry& entry, MarkerChain& chain);
+
+// The two kinds.
+std::unique_ptr<SurfaceContact> surface_on_marker(const Model& model, const ContactEntry& entry, MarkerChain& chain);
+std::unique_ptr<SurfaceContact> surface_on_surface(const Model& model, const ContactEntry& entry, MarkerChain& chain);
 
 }  // namespace trammel::model

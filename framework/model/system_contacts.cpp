@@ -49,7 +49,7 @@ double AssembledSystem::normal_force(int contact, const Vec& lambda) {
   if (w.contact_row[i] >= 0) return -lambda(w.contact_row[i]);
   const ContactForce* law = w.model->contacts[i].force;
   if (!law || !w.modes.contacts[i].closed) return 0;
-  if (w.surfaces[i]) return w.surface(i).normal_force();
+  if (w.on_surface(i)) return w.surface(i).sums().normal;
   return law->normal(gap(contact), gap_rate(contact), w.modes.contacts[i].approach_speed);
 }
 
@@ -215,7 +215,37 @@ void AssembledSystem::Work::judge_friction(Vec& a, Vec& lambda) {
 
 const Motion& AssembledSystem::contact_marker(int contact) {
   Work& w = *work_;
-  return w.motion(w.contact_slots[std::size_t(contact)].A);
+  const int slot = w.contact_slots[std::size_t(contact)].A;
+  if (w.chain.on_surface(slot)) w.contact(contact);  // finds it
+  return w.motion(slot);
+}
+
+bool AssembledSystem::Work::presses_surface(std::size_t i, int body) const {
+  const ContactEntry& entry = model->contacts[i];
+  return entry.surface && modes.contacts[i].closed && (entry.surface->body == body || entry.surface->other == body);
+}
+
+bool AssembledSystem::has_surface_contact(int body) const {
+  for (std::size_t i = 0; i < work_->surfaces.size(); ++i)
+    if (work_->presses_surface(i, body)) return true;
+  return false;
+}
+
+std::vector<double> AssembledSystem::surface_pressure(int body) {
+  Work& w = *work_;
+  std::vector<double> by_patch;
+  for (std::size_t i = 0; i < w.surfaces.size(); ++i) {
+    if (!w.presses_surface(i, body)) continue;
+    by_patch.resize(std::size_t(w.model->bodies[std::size_t(body)].samples->patches()), 0.0);
+    w.surface(i).raise_pressure(body, by_patch);
+  }
+  return by_patch;
+}
+
+double AssembledSystem::all_behind_plane(int contact) {
+  Work& w = *work_;
+  SurfaceContact* surface = w.surfaces[std::size_t(contact)].contact.get();
+  return surface ? surface->all_behind(w.here()) : -1;
 }
 
 }  // namespace trammel::model

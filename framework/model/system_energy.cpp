@@ -22,8 +22,8 @@ Energy AssembledSystem::energy() {
   for (std::size_t i = 0; i < w.contact_slots.size(); ++i)
     if (w.model->contacts[i].force && w.modes.contacts[i].closed) {
       w.called(w.model->contacts[i].name, "potential");
-      sum.elastic +=
-          w.surfaces[i] ? w.surface(i).potential() : w.model->contacts[i].force->potential(w.contact(int(i)).g(0));
+      sum.elastic += w.on_surface(i) ? w.surface(i).sums().potential
+                                     : w.model->contacts[i].force->potential(w.contact(int(i)).g(0));
     }
   w.returned();
   return sum;
@@ -87,11 +87,11 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
   }
   for (std::size_t i = 0; i < w.contact_slots.size(); ++i) {
     if (!w.modes.contacts[i].closed) continue;
-    if (w.surfaces[i]) {
+    if (w.on_surface(i)) {
       const SurfaceContact& pressed = w.surface(i);
-      sum.contacts += pressed.damping_power();
-      sum.friction(Eigen::Index(i)) = pressed.friction_power();
-      moved_by_law(w.contact_slots[i].A, pressed.on_sphere());
+      sum.contacts += pressed.sums().damping;
+      sum.friction(Eigen::Index(i)) = pressed.sums().friction;
+      if (pressed.marker_slot() >= 0) moved_by_law(pressed.marker_slot(), pressed.on_marker());
       continue;
     }
     const Rows& r = w.contact(int(i));

@@ -108,10 +108,8 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
   }
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
     if (!modes.contacts[i].closed) continue;
-    if (surfaces[i]) {
-      const SurfaceContact& pressed = surface(i);
-      pressed.add_tangent(chain, contact_slots[i].A, c.c_k, c.c_d, S);
-      if (c.c_k != 0) chain.add_reaction_derivative(contact_slots[i].A, t, q, -pressed.on_sphere(), c.c_k, S);
+    if (on_surface(i)) {
+      surface(i).add_tangent(here(), c.c_k, c.c_d, S);
       continue;
     }
     const Slots& at = contact_slots[i];

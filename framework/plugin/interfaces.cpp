@@ -36,6 +36,7 @@ Refinable::~Refinable() = default;
 HasMomentum::~HasMomentum() = default;
 CarriedStress::~CarriedStress() = default;
 SampledSurface::~SampledSurface() = default;
+SlidingSurface::~SlidingSurface() = default;
 ForceBySurfacePoints::~ForceBySurfacePoints() = default;
 Surface::~Surface() = default;
 

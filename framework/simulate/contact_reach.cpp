@@ -37,9 +37,15 @@ void check_reach(model::AssembledSystem& system, const State& start, const scene
       system.move_to(start.t, elsewhere, still);
       reaches = moves(system, i);
     }
-    if (reaches) continue;
     const model::ContactEntry& contact = system.model().contacts[std::size_t(i)];
     const scene::Value* at = root.at_path("contacts." + contact.name);
+    system.move_to(start.t, start.q, still);
+    if (const double depth = system.all_behind_plane(i); depth > 0)
+      problems.error((at ? *at : root)
+                         .problem(fmt::format("all of bodies.{} starts {:.6g} m or more behind this plane: its normal "
+                                              "points to the free side, does it face away?",
+                                              system.model().bodies[std::size_t(contact.A.body)].name, depth)));
+    if (reaches) continue;
     const bool one_body = contact.A.body >= 0 && contact.A.body == contact.B.body;
     problems.error((at ? *at : root)
                        .problem(fmt::format(

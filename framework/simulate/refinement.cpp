@@ -14,9 +14,25 @@ Refinement::Refinement(std::shared_ptr<model::Model> model, model::AssembledSyst
     if (model_->bodies[i].refinable) refinable_.push_back(int(i));
 }
 
-void Refinement::find_due(const State& state, int contact, const RefineCause& cause) {
-  due_.clear();
-  for (const int i : refinable_) {
+RefineCause Refinement::cause(const State& state, int contact, int body, std::vector<double>& pressure) {
+  RefineCause cause;
+  pressure.clear();
+  if (contact >= 0) {
+    cause.contact = model_->contacts[std::size_t(contact)].name;
+    cause.at = place(state, contact, body);
+  } else if (system_.has_surface_contact(body)) {
+    system_.move_to(state.t, state.q, state.v);
+    pressure = system_.surface_pressure(body);
+    cause.pressure = pressure;
+  }
+  return cause;
+}
+
+void Refinement::find_due(const State& state, int contact) {
+  due_.clear(), causes_.clear();
+  pressures_.resize(refinable_.size());
+  for (std::size_t k = 0; k < refinable_.size(); ++k) {
+    const int i = refinable_[k];
     if (contact >= 0) {
       const model::ContactEntry& touched = model_->contacts[std::size_t(contact)];
       if (i != touched.A.body && i != touched.B.body) continue;
@@ -24,16 +40,17 @@ void Refinement::find_due(const State& state, int contact, const RefineCause& ca
     const model::BodyEntry& entry = model_->bodies[std::size_t(i)];
     const auto q = state.q.segment(entry.q0, entry.nq);
     const auto v = state.v.segment(entry.v0, entry.nv);
-    if (entry.refinable->due(state.t, q, v, cause)) due_.push_back(i);
+    const RefineCause why = cause(state, contact, i, pressures_[k]);
+    if (entry.refinable->due(state.t, q, v, why)) due_.push_back(i), causes_.push_back(why);
   }
 }
 
-Eigen::Vector2d Refinement::place(const State& state, int contact) {
+// Nearest to the sphere's centre, or to the deepest point of the surface that touches.
+Eigen::Vector2d Refinement::place(const State& state, int contact, int body) {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
-  const model::ContactEntry& touched = model_->contacts[std::size_t(contact)];
-  if (!touched.surface) return at;
+  const model::BodyEntry& entry = model_->bodies[std::size_t(body)];
+  if (!model_->contacts[std::size_t(contact)].surface || !entry.surface) return at;
   system_.move_to(state.t, state.q, state.v);
-  const model::BodyEntry& entry = model_->bodies[std::size_t(touched.surface->body)];
   Vec3 point, normal;
   entry.surface->nearest(state.t, state.q.segment(entry.q0, entry.nq), system_.contact_marker(contact).x, at, point,
                          normal);
@@ -55,16 +72,11 @@ void Refinement::lay_out() {
 }
 
 const Transfer* Refinement::refine(State& state, int contact) {
-  RefineCause cause;
-  if (contact >= 0) {
-    cause.contact = model_->contacts[std::size_t(contact)].name;
-    cause.at = place(state, contact);
-  }
-  find_due(state, contact, cause);
+  find_due(state, contact);
   if (due_.empty()) return nullptr;
   std::vector<RefineEvent::Side> before;
   for (const int body : due_) before.push_back(side(state, body));
-  auto transfer = model::refine(*model_, state.t, state.q, state.v, due_, cause, refined_);
+  auto transfer = model::refine(*model_, state.t, state.q, state.v, due_, causes_, refined_);
   if (!transfer) return nullptr;
   transfer_ = std::move(transfer);
   system_.lay_out();

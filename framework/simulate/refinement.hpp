@@ -1,5 +1,5 @@
-// Refinement in the time loop: bodies are asked after every step and when one of their contacts has closed; the state is
-// carried over and what the new coordinates changed is reported.
+// Refinement in the time loop: bodies are asked after every step, when they are told the pressures of contacts on their surface,
+// and when one of their contacts has closed; the state is carried over and what the new coordinates changed is reported.
 //
 //     q, v by the bodies' transfers;   a, lambda from the equations of motion in the new coordinates
 //
@@ -32,13 +32,16 @@ class Refinement {
 
  private:
   RefineEvent::Side side(const State& state, int body) const;
-  // Where on its surface the contact has closed; 0 without a surface.
-  Eigen::Vector2d place(const State& state, int contact);
-  void find_due(const State& state, int contact, const RefineCause& cause);
+  // Where on the body's surface the contact has closed; 0 without a surface.
+  Eigen::Vector2d place(const State& state, int contact, int body);
+  RefineCause cause(const State& state, int contact, int body, std::vector<double>& pressure);
+  void find_due(const State& state, int contact);
 
   std::shared_ptr<model::Model> model_;
   model::AssembledSystem& system_;
   std::vector<int> refinable_, due_, refined_;  // bodies
+  std::vector<std::vector<double>> pressures_;  // by refinable body, which its cause refers to
+  std::vector<RefineCause> causes_;             // by due body
   std::unique_ptr<model::JoinedTransfer> transfer_;
   std::vector<RefineEvent> events_;
   double gained_ = 0;

@@ -46,7 +46,8 @@ json dissipated(const model::Model& model, const Ledger& ledger, double drift) {
     if (model.contacts[i].restitution) impact[model.contacts[i].name] = ledger.impacts()[i];
   json friction = json::object();
   for (std::size_t i = 0; i < model.contacts.size(); ++i)
-    if (model.contacts[i].friction) friction[model.contacts[i].name] = ledger.friction()[Eigen::Index(i)];
+    if (const model::ContactEntry& c = model.contacts[i]; c.friction || (c.surface && c.surface->friction))
+      friction[model.contacts[i].name] = ledger.friction()[Eigen::Index(i)];
   return {{"impact", impact},
           {"impact_total", ledger.impact_total()},
           {"contact_damping", ledger.contact_damping()},

@@ -3,6 +3,7 @@
 //     M(q) a = f(t, q, v)       for the body alone, gravity included
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -131,6 +132,8 @@ struct RefineCause {
   // body's own (a moment, an indicator).
   std::string_view contact;
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  // surface parameters (u, v) of the place; 0 for a body without Surface
+  // When a step has ended: the largest pressure of contacts on each patch of the body's SampledSurface [Pa]; empty: none presses.
+  std::span<const double> pressure = {};
 };
 
 // A body that may replace its coordinates during the run (mesh refinement).
@@ -186,8 +189,24 @@ class SampledSurface {
   virtual int patches() const = 0;
   // A box in world axes that contains the patch.
   virtual void bounds(int patch, In q, Vec3& low, Vec3& high) const = 0;
-  // Points no further apart than `spacing` [m].
+  // Points no further apart than `spacing` [m]; infinite: as few as integrate products of two of the patch's functions.
   virtual void sample(int patch, double spacing, SurfacePatch& out) const = 0;
+};
+
+// A surface around one of its points: how that point moves with the coordinates, and along the parameters (u, v).
+struct SurfaceJet {
+  int patch = 0;                                  // that holds the point
+  std::array<int, 2> end = {0, 0};                // -1, 1: u or v is the least or largest there is
+  std::vector<int> dofs;                          // coordinates of the body that move it
+  Eigen::Vector3d r, r_u, r_v, r_uu, r_uv, r_vv;  // world axes [m]; by parameters
+  Mat J, J_u, J_v;                                // 3 x dofs: of r, r_u, r_v by the coordinates
+};
+// Ability beside Surface and SampledSurface: points of other surfaces may slide on this one. That they do is how its nearest
+// point moves, which the tangent of such a contact needs.
+class SlidingSurface {
+ public:
+  virtual ~SlidingSurface();
+  virtual void jet(const Eigen::Vector2d& parameters, In q, SurfaceJet& out) const = 0;
 };
 
 }  // namespace trammel

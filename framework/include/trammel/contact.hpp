@@ -40,14 +40,15 @@ class ContactForce : public Component {
   virtual Slope slope(double gap, double gap_rate, double approach_speed) const = 0;
 };
 
-// Ability of a ContactForce between a sphere and the points of a surface (SampledSurface): the law is asked at each of them, and
-// what it answers, times weight, is that point's force. With `normal` a pressure [N/m^2] and the area as weight the contact
-// does not depend on how fine the points are.
+// Ability of a ContactForce between the points of a surface (SampledSurface) and a sphere, a plane or another surface: the law is
+// asked at each of them, and what it answers, times weight, is that point's force. With `normal` a pressure [N/m^2] and the area
+// as weight the contact does not depend on how fine the points are.
 class ForceBySurfacePoints {
  public:
   virtual ~ForceBySurfacePoints();
-  virtual double weight(double area) const = 0;            // [m^2], or [1] where `normal` is the force of a point
-  virtual double spacing(double sphere_radius) const = 0;  // [m] of the points
+  virtual double weight(double area) const = 0;  // [m^2], or [1] where `normal` is the force of a point
+  // [m] of the points at most; infinite: the surface chooses (SampledSurface::sample). Without a sphere its radius is infinite.
+  virtual double spacing(double sphere_radius) const = 0;
 };
 
 }  // namespace trammel

@@ -1,4 +1,4 @@
-// Penalty contact of a sphere with a surface, asked at each of its points.
+// Penalty contact of a surface with a sphere, a plane or another surface, asked at each of its points.
 //
 //     p = k delta + c delta'  >= 0,     delta = -gap [m],  delta' = -gap_rate [m/s]
 //
@@ -28,13 +28,13 @@ struct Penalty : ContactForce, ForceBySurfacePoints {
     return {.by_gap = -stiffness, .by_rate = -damping};
   }
   double weight(double area) const override { return by == By::area ? area : 1; }
-  double spacing(double radius) const override { return apart > 0 ? apart : radius / 30; }
+  double spacing(double sphere_radius) const override { return apart > 0 ? apart : sphere_radius / 30; }
 };
 
 }  // namespace
 
 TRAMMEL_PLUGIN(
-    trammel::contact<Penalty>("penalty", "pressure by penetration, of a sphere on a surface")
+    trammel::contact<Penalty>("penalty", "pressure by penetration, of a surface and a sphere, plane or other surface")
         .source("Wang, Cui, Yu, Lan, Lu 2021, Chin. J. Theor. Appl. Mech. 53(8); weights by area instead of points")
         .parameter("stiffness", &Penalty::stiffness,
                    {.unit = "N/m^3", .min = 0, .above_min = true, .required = true, .doc = "k; N/m by points"})
@@ -42,4 +42,7 @@ TRAMMEL_PLUGIN(
         .choice("by", &Penalty::by, {{"area", Penalty::By::area}, {"points", Penalty::By::points}},
                 {.doc = "what a point of the surface weighs: its area, or 1"})
         .parameter("spacing", &Penalty::apart,
-                   {.unit = "m", .min = 0, .doc = "between points at most; 0: a thirtieth of the sphere's radius"}))
+                   {.unit = "m",
+                    .min = 0,
+                    .doc = "between points at most; 0: a thirtieth of the sphere's radius, against a plane or surface "
+                           "four Gauss points along each side of an element"}))
