@@ -102,6 +102,8 @@ class TsplinePlate final : public Body,
   void bounds(int patch, In q, Vec3& low, Vec3& high) const override;
   void sample(int patch, double spacing, SurfacePatch& out) const override;
   void jet(const Eigen::Vector2d& parameters, In q, SurfaceJet& out) const override;
+  void nearest_on(std::span<const int> patches, In q, const Vec3& x, Eigen::Vector2d& parameters,
+                  Vec3& point) const override;
 
   bool due(double t, In q, In v, const RefineCause& cause) const override;
   std::unique_ptr<Transfer> refine(double t, In q, In v, const RefineCause& cause) override;

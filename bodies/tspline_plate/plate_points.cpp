@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -120,24 +121,21 @@ Candidate descend(const Discretisation& mesh, In q, const Vector3& x, const Eige
   return here.found;
 }
 
-}  // namespace
-
-// From the middles of the three nearest cells: a folded sheet has several nearby points.
-void TsplinePlate::nearest(double, In q, const Vec3& x, Eigen::Vector2d& parameters, Vec3& point, Vec3& normal) const {
-  const Vector3 target = x;
+// From the middles of the three nearest of these cells: a folded sheet has several nearby points.
+Candidate nearest_among(const Discretisation& mesh, const std::ranges::range auto& cells, In q, const Vector3& x) {
   Candidate starts[3];
   int found = 0;
   CellVectors u;
-  for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {
-    const Cell& cell = mesh_->cells[c];
-    const auto& [low, high] = mesh_->basis.cells()[c].parameters;
+  for (const int c : cells) {
+    const Cell& cell = mesh.cells[std::size_t(c)];
+    const auto& [low, high] = mesh.basis.cells()[std::size_t(c)].parameters;
     gather(cell, q, u);
     const double* R = &cell.value[cell.points.size() / 2 * std::size_t(cell.padded)];  // a point in the middle
     Vector3 r = Vector3::Zero();
     for (int f = 0; f < cell.functions; ++f)
-      r += R[f] * (mesh_->points.row(cell.nodes[std::size_t(f)]).transpose() +
+      r += R[f] * (mesh.points.row(cell.nodes[std::size_t(f)]).transpose() +
                    Vector3(u[f], u[cell.padded + f], u[2 * cell.padded + f]));
-    const Candidate middle{(r - target).norm(), {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2}};
+    const Candidate middle{(r - x).norm(), {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2}};
     if (found < 3)
       starts[found++] = middle;
     else if (middle < starts[2])
@@ -147,13 +145,25 @@ void TsplinePlate::nearest(double, In q, const Vec3& x, Eigen::Vector2d& paramet
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Candidate best{infinity, {-infinity, -infinity}};
   for (int k = 0; k < found; ++k) {
-    const Candidate other = descend(*mesh_, q, target, starts[k].at, best);
+    const Candidate other = descend(mesh, q, x, starts[k].at, best);
     if (other.distance < best.distance * (1 - 1e-9)) best = other;
   }
-  const Place at = place(*mesh_, surface_point(*mesh_, best.at.x(), best.at.y()), q);
-  parameters = best.at;
+  return best;
+}
+
+}  // namespace
+
+void TsplinePlate::nearest(double, In q, const Vec3& x, Eigen::Vector2d& parameters, Vec3& point, Vec3& normal) const {
+  parameters = nearest_among(*mesh_, std::views::iota(0, patches()), q, x).at;
+  const Place at = place(*mesh_, surface_point(*mesh_, parameters.x(), parameters.y()), q);
   point = at.r;
   normal = at.a1.cross(at.a2).normalized();
+}
+
+void TsplinePlate::nearest_on(std::span<const int> patches, In q, const Vec3& x, Eigen::Vector2d& parameters,
+                              Vec3& point) const {
+  parameters = nearest_among(*mesh_, patches, q, x).at;
+  point = place(*mesh_, surface_point(*mesh_, parameters.x(), parameters.y()), q).r;
 }
 
 // A cell lies in the convex hull of its control points, as its functions are not negative and sum to 1.

@@ -32,8 +32,12 @@ using Along = Eigen::Matrix<double, 2, Eigen::Dynamic>;  // dxi by some variable
 struct Box {
   V3 low, high;
 };
+// Of a point of one from the nearest of the other, at least and at most.
 double apart(const Box& a, const Box& b) {
   return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm();
+}
+double farthest(const Box& a, const Box& b) {
+  return (a.high - b.low).cwiseMax(b.high - a.low).norm();
 }
 
 // How the nearest point of B slides along B: by x in the first three columns, by B's coordinates in the others.
@@ -182,14 +186,15 @@ class SurfaceOnSurface final : public SurfaceContact {
     for (std::size_t i = 0; i < points_.patches(); ++i) {
       Box patch;
       points_.bounds(i, point.q, patch.low, patch.high);
-      if (to_other_at_least(patch) >= std::max(least, reach_)) continue;
+      choose_candidates(patch, std::max(least, reach_));
+      if (candidates_.empty()) continue;
       const auto x = points_.positions(points_.patch(i), point.q);
       for (Eigen::Index k = 0; k < x.rows(); ++k) {
         Touch touch;
         touch.patch = i, touch.point = k, touch.x = x.row(k);
-        if (to_other_at_least({touch.x, touch.x}) >= std::max(least, reach_)) continue;
-        Vec3 y, normal;
-        other_.surface->nearest(point.t, q_B, touch.x, touch.at_B, y, normal);
+        if (beyond_candidates(touch.x, std::max(least, reach_))) continue;
+        Vec3 y;
+        other_.sliding->nearest_on(candidates_, q_B, touch.x, touch.at_B, y);
         const double distance = (touch.x - V3(y)).norm();
         if (distance < least) least = distance, deepest_ = touch;
         if (distance < reach_) touches_.push_back(touch);
@@ -205,10 +210,17 @@ class SurfaceOnSurface final : public SurfaceContact {
       boxes_[i] = {low, high};
     }
   }
-  double to_other_at_least(const Box& box) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Box& patch : boxes_) least = std::min(least, apart(box, patch));
-    return least;
+  // B's patches that may hold the point nearest to one of this box, if it is less than `within` away.
+  void choose_candidates(const Box& of_A, double within) {
+    for (const Box& box : boxes_) within = std::min(within, farthest(of_A, box));
+    candidates_.clear();
+    for (std::size_t i = 0; i < boxes_.size(); ++i)
+      if (apart(of_A, boxes_[i]) <= within) candidates_.push_back(int(i));
+  }
+  bool beyond_candidates(const V3& x, double within) const {
+    return std::none_of(candidates_.begin(), candidates_.end(), [&](int i) {
+      return apart({x, x}, boxes_[std::size_t(i)]) < within;
+    });
   }
 
   void motion_of_other(const Point& point, Motion& m) const {
@@ -261,7 +273,8 @@ class SurfaceOnSurface final : public SurfaceContact {
   double reach_;
   int slot_A_, slot_B_;
   long long number_ = -1;
-  std::vector<Box> boxes_;  // around B's patches
+  std::vector<Box> boxes_;       // around B's patches
+  std::vector<int> candidates_;  // among them
   Touch deepest_;
   std::vector<Touch> touches_;
   PressureSums sums_;

@@ -207,6 +207,9 @@ class SlidingSurface {
  public:
   virtual ~SlidingSurface();
   virtual void jet(const Eigen::Vector2d& parameters, In q, SurfaceJet& out) const = 0;
+  // As Surface::nearest, of points known to lie nearest to one of these patches: most of a large surface is then left out.
+  virtual void nearest_on(std::span<const int> patches, In q, const Vec3& x, Eigen::Vector2d& parameters,
+                          Vec3& point) const = 0;
 };
 
 }  // namespace trammel
