@@ -4,15 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "simulate/unrelated.hpp"
+
 namespace trammel::simulate {
 namespace {
-
-// Numbers without a relation between them: no row but 0 is orthogonal to them all.
-Vec unrelated(Eigen::Index n, double size, double seed) {
-  Vec x(n);
-  for (Eigen::Index i = 0; i < n; ++i) x[i] = size * std::sin(seed + 1.618033988749895 * double(i * i + 1));
-  return x;
-}
 
 // Whether some acceleration changes the gap's, where the system is.
 bool moves(model::AssembledSystem& system, int contact) {

@@ -7,17 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "simulate/unrelated.hpp"
+
 namespace trammel::simulate {
 namespace {
 
 constexpr int most_rows = 1000;
 constexpr Blend minimum_norm = {.c_m = 0, .c_1 = 1};
-
-// Numbers without a relation between them.
-Vec unrelated(Eigen::Index n, double size, double seed) {
-  return Vec::NullaryExpr(
-      n, [=](Eigen::Index i) { return size * std::sin(seed + 1.618033988749895 * double(i * i + 1)); });
-}
 
 class Approach {
  public:

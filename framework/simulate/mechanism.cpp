@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "simulate/unrelated.hpp"
+
 namespace trammel::simulate {
 
 std::optional<std::string> find_mechanism(model::AssembledSystem& system, double t, const Vec& q) {
@@ -12,8 +14,7 @@ std::optional<std::string> find_mechanism(model::AssembledSystem& system, double
   const Vec lambda = Vec::Zero(system.sizes().nc);
   system.carry_no_stress();
   system.move_to(t, q, zero);
-  Vec x(zero.size()), ahead, behind, mu, Mx;
-  for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = std::sin(1 + 7.3 * double(i) * double(i));
+  Vec x = unrelated(zero.size(), 1, 1), ahead, behind, mu, Mx;
   const auto mass_times = [&](const Vec& y) {
     Vec r = zero;
     system.add_mass_times(1, y, r);
