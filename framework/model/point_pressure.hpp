@@ -31,6 +31,11 @@ struct PointChange {
   Eigen::Matrix<double, 3, variables> n, slip;
 };
 
+// By the point, the marker that presses on it and that marker's turn, three columns each.
+using MarkerPointChange = PointChange<9>;
+using M39 = Eigen::Matrix<double, 3, 9>;
+using M69 = Eigen::Matrix<double, 6, 9>;
+
 class PointPressure {
  public:
   explicit PointPressure(const ContactEntry& entry)

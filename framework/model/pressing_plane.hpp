@@ -18,9 +18,6 @@ namespace trammel::model {
 struct PressingPlane {
   using V3 = Eigen::Vector3d;
   using M3 = Eigen::Matrix3d;
-  using M39 = Eigen::Matrix<double, 3, 9>;
-  using M69 = Eigen::Matrix<double, 6, 9>;
-  using Change = PointChange<9>;
 
   static constexpr bool marker_is_A = false;
   V3 origin, velocity, omega, n, point;
@@ -50,7 +47,7 @@ struct PressingPlane {
     w << -at.F, -(x - origin).cross(at.F);
     return w;
   }
-  void by_position(const PressedPoint& at, const V3& x, const V3& v, Change& by) const {
+  void by_position(const PressedPoint& at, const V3& x, const V3& v, MarkerPointChange& by) const {
     const V3 r = x - origin, u = v - velocity - omega.cross(r);
     const M3 turned = cross_matrix(omega);
     by.n << M3::Zero(), M3::Zero(), -cross_matrix(n);
@@ -60,7 +57,7 @@ struct PressingPlane {
     by.rate = u.transpose() * by.n + n.transpose() * du;
     by.slip = du - n * by.rate - at.rate * by.n;
   }
-  void by_velocity(const PressedPoint&, const V3& x, Change& by) const {
+  void by_velocity(const PressedPoint&, const V3& x, MarkerPointChange& by) const {
     const M3 P = M3::Identity() - n * n.transpose();
     M39 du;
     du << M3::Identity(), -M3::Identity(), cross_matrix(x - origin);
@@ -68,7 +65,7 @@ struct PressingPlane {
     by.rate = n.transpose() * du;
     by.slip = P * du;
   }
-  M69 change_on_marker(const PressedPoint& at, const V3& x, const M39& F, const Change&, bool moves) const {
+  M69 change_on_marker(const PressedPoint& at, const V3& x, const M39& F, const MarkerPointChange&, bool moves) const {
     M69 w;
     w << -F, -cross_matrix(x - origin) * F;
     if (moves) w.block<3, 3>(3, 0) += cross_matrix(at.F), w.block<3, 3>(3, 3) -= cross_matrix(at.F);

@@ -18,9 +18,6 @@ namespace trammel::model {
 struct PressingSphere {
   using V3 = Eigen::Vector3d;
   using M3 = Eigen::Matrix3d;
-  using M39 = Eigen::Matrix<double, 3, 9>;
-  using M69 = Eigen::Matrix<double, 6, 9>;
-  using Change = PointChange<9>;
 
   static constexpr bool marker_is_A = true;
   V3 centre, velocity, omega;
@@ -50,7 +47,7 @@ struct PressingSphere {
     w << at.F, -radius * at.n.cross(at.F);
     return w;
   }
-  void by_position(const PressedPoint& at, const V3& x, const V3& v, Change& by) const {
+  void by_position(const PressedPoint& at, const V3& x, const V3& v, MarkerPointChange& by) const {
     const V3 u = velocity - v;
     const M3 P = (M3::Identity() - at.n * at.n.transpose()) / (centre - x).norm();
     by.n << -P, P, M3::Zero();
@@ -58,13 +55,14 @@ struct PressingSphere {
     by.rate = u.transpose() * by.n;
     by.slip = -at.n * by.rate - at.rate * by.n - radius * cross_matrix(omega) * by.n;
   }
-  void by_velocity(const PressedPoint& at, const V3&, Change& by) const {
+  void by_velocity(const PressedPoint& at, const V3&, MarkerPointChange& by) const {
     const M3 P = M3::Identity() - at.n * at.n.transpose();
     by.n.setZero(), by.gap.setZero();
     by.rate << -at.n.transpose(), at.n.transpose(), Eigen::RowVector3d::Zero();
     by.slip << -P, P, radius * cross_matrix(at.n);
   }
-  M69 change_on_marker(const PressedPoint& at, const V3&, const M39& F, const Change& by, bool /*moves*/) const {
+  M69 change_on_marker(const PressedPoint& at, const V3&, const M39& F, const MarkerPointChange& by,
+                       bool /*moves*/) const {
     M69 w;
     w << F, radius * (cross_matrix(at.F) * by.n - cross_matrix(at.n) * F);
     return w;

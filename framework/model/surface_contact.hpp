@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "model/marker_chain.hpp"
@@ -26,17 +27,21 @@ class SurfaceContact {
   virtual ~SurfaceContact() = default;
 
   virtual std::array<int, 2> slots() const = 0;  // of A and B in the chain
-  virtual void gap_row(const Point& point,
-                       Rows& rows) = 0;  // the one row, all zero before, and the motions in the slots
-  virtual void press(const Point& point, double approach_speed) = 0;  // everything below is there
+  // The one row, all zero before, and the motions in the slots.
+  virtual void gap_row(const Point& point, Rows& rows) = 0;
+  // Everything below is there.
+  virtual void press(const Point& point, double approach_speed) = 0;
 
   virtual const PressureSums& sums() const = 0;
   virtual void add_force(Vec& f) const = 0;  // on both
   // S += c_k K + c_d D of minus these forces.
   virtual void add_tangent(const Point& point, double c_k, double c_d, Mat& S) = 0;
-  // What it does to the marker of the sphere or plane, and that marker's slot; -1: it acts between surfaces.
-  virtual int marker_slot() const { return -1; }
-  virtual const Wrench& on_marker() const;
+  // On the marker of the sphere or plane; nothing where it acts between surfaces.
+  struct OnMarker {
+    int slot;
+    Wrench wrench;
+  };
+  virtual std::optional<OnMarker> on_marker() const { return {}; }
   // Raises each patch's pressure to the largest of this contact [Pa]; with as many entries as the body has patches.
   virtual void raise_pressure(int body, std::vector<double>& by_patch) const = 0;
   // How far all of the surface lies behind the plane [m]; negative: some of it does not, or there is no plane.

@@ -18,9 +18,7 @@ namespace trammel::model {
 namespace {
 
 using V3 = Eigen::Vector3d;
-using Change = PointChange<9>;
-using M39 = Eigen::Matrix<double, 3, 9>;
-using M69 = Eigen::Matrix<double, 6, 9>;
+using Change = MarkerPointChange;
 
 template <class Partner>
 class SurfaceOnMarker final : public SurfaceContact {
@@ -77,8 +75,7 @@ class SurfaceOnMarker final : public SurfaceContact {
   }
 
   const PressureSums& sums() const override { return sums_; }
-  int marker_slot() const override { return marker_; }
-  const Wrench& on_marker() const override { return on_marker_; }
+  std::optional<OnMarker> on_marker() const override { return OnMarker{marker_, on_marker_}; }
 
   void add_force(Vec& f) const override {
     chain_.add_wrench(marker_, on_marker_, 1, f);

@@ -19,7 +19,6 @@ class SurfacePoints {
   // `sphere_radius`: infinite without a sphere.
   SurfacePoints(const BodyEntry& body, const ForceBySurfacePoints& law, double sphere_radius);
 
-  const BodyEntry& body() const { return body_; }
   double half_thickness() const { return body_.surface->half_thickness(); }
   std::size_t patches() const { return patches_.size(); }
   const SurfacePatch& patch(std::size_t i);

@@ -91,7 +91,7 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
       const SurfaceContact& pressed = w.surface(i);
       sum.contacts += pressed.sums().damping;
       sum.friction(Eigen::Index(i)) = pressed.sums().friction;
-      if (pressed.marker_slot() >= 0) moved_by_law(pressed.marker_slot(), pressed.on_marker());
+      if (const auto marker = pressed.on_marker()) moved_by_law(marker->slot, marker->wrench);
       continue;
     }
     const Rows& r = w.contact(int(i));

@@ -27,7 +27,6 @@ class RowElimination {
   };
   // The first F columns; `columns`: where each came from. `scratch`: 2 n numbers.
   Rank run(int F, double tolerance, int* columns, double* scratch);
-  int reflections() const { return count_; }
 
   // The first `count` reflections, in their order or backwards, to w (m).
   void apply(int count, double* w) const;

@@ -77,16 +77,21 @@ TEST(ContactPressure, LeavesTheMeshBelowTheThreshold) {
   EXPECT_EQ(run.end("elements"), 16);
 }
 
-// The lower sheet learns of the pressure though the upper one's points are asked; it lies under a third of the lower.
+// Two sheets of 9 elements each that strike each other.
+Finished strike(const std::string& lower, const std::string& upper, double until) {
+  return run_text(
+      sheets(
+          R"("lower": )" + lower + R"(, "upper": )" + upper,
+          R"("pair": {"type": "penalty", "stiffness": 1e7, "spacing": 0.1, "between": [{"surface": "upper"}, {"surface": "lower"}]})",
+          R"("lower": "lower.elements", "upper": "upper.elements")", until, "[0, 0, 0]"),
+      {{"integrator.step", "5e-4"}, {"record.every", "1e-3"}});
+}
+
+// The lower sheet learns of the pressure though the upper one's points are asked; a third of it lies under the upper one.
 TEST(ContactPressure, IsToldToBothOfTwoSurfaces) {
   const std::string refine = R"(, "refine": {"indicator": "contact_pressure", "threshold": 1e3})";
-  const Finished run = run_text(
-      sheets(
-          R"("lower": )" + sheet("[0, 0, 0]", refine) + R"(, "upper": )" +
-              sheet("[0.65, 0.05, 0.0201]", R"(, "velocity": [0, 0, -0.2])"),
-          R"("pair": {"type": "penalty", "stiffness": 1e7, "spacing": 0.1, "between": [{"surface": "upper"}, {"surface": "lower"}]})",
-          R"("lower": "lower.elements", "upper": "upper.elements")", 0.003, "[0, 0, 0]"),
-      {{"integrator.step", "5e-4"}, {"record.every", "1e-3"}});
+  const Finished run =
+      strike(sheet("[0, 0, 0]", refine), sheet("[0.65, 0.05, 0.0201]", R"(, "velocity": [0, 0, -0.2])"), 0.003);
   ASSERT_TRUE(run.done()) << run.report.reason;
   EXPECT_GT(run.end("lower"), 9);
   EXPECT_LT(run.end("lower"), 36);  // the part that is struck
@@ -95,15 +100,11 @@ TEST(ContactPressure, IsToldToBothOfTwoSurfaces) {
 
 TEST(RefineNear, FindsThePlaceOnEachOfTwoSurfaces) {
   const std::string refine = R"(, "refine": {"on_contact": "pair", "near": 0.01})";
-  const Finished run = run_text(
-      sheets(
-          R"("lower": )" + sheet("[0, 0, 0]", refine) + R"(, "upper": )" +
-              sheet("[0.6, 0.5, 0.021]", refine + R"(, "velocity": [0, 0, -0.5], "angular_velocity": [2, -2, 0])"),
-          R"("pair": {"type": "penalty", "stiffness": 1e7, "spacing": 0.1, "between": [{"surface": "upper"}, {"surface": "lower"}]})",
-          R"("lower": "lower.elements", "upper": "upper.elements")", 0.01, "[0, 0, 0]"),
-      {{"integrator.step", "5e-4"}, {"record.every", "1e-3"}});
-  ASSERT_TRUE(run.done()) << run.report.reason;
   // The upper sheet comes down with a corner, on the lower one's far quarter.
+  const Finished run = strike(
+      sheet("[0, 0, 0]", refine),
+      sheet("[0.6, 0.5, 0.021]", refine + R"(, "velocity": [0, 0, -0.5], "angular_velocity": [2, -2, 0])"), 0.01);
+  ASSERT_TRUE(run.done()) << run.report.reason;
   for (const char* plate : {"lower", "upper"}) {
     EXPECT_GT(run.end(plate), 9) << plate;
     EXPECT_LT(run.end(plate), 36) << plate;
