@@ -1,0 +1,32 @@
+// The markers that a joint, force or contact of a scene acts between.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "model/model.hpp"
+#include "scene/value.hpp"
+
+namespace trammel::model {
+
+class MarkerInput {
+ public:
+  MarkerInput(Model& model, scene::Problems& problems) : model_(model), problems_(problems) {}
+
+  // While a body is missing because of other problems, unknown names would be false alarms.
+  void a_body_is_missing() { missing_bodies_ = true; }
+
+  std::optional<MarkerRef> marker(const scene::Value& value);
+  // The entries of "between", as many as are wanted; nullptr: reported.
+  const scene::Items* between(const scene::Value& object, std::size_t count = 2);
+  // A joint's markers, not all of one body; empty: reported. `joint` may be null, where it could not be made.
+  std::vector<MarkerRef> markers_of(const scene::Value& object, const Constraint* joint);
+
+ private:
+  Model& model_;
+  scene::Problems& problems_;
+  bool missing_bodies_ = false;
+};
+
+}  // namespace trammel::model
