@@ -11,8 +11,9 @@
 //     x_1 = t - S (x_2, x_B)          the r unknowns, by R;  K' = K restricted to that
 //     K'' = K'_BB - K'_B2 K'_22^-1 K'_2B      the free unknowns x_2, by Cholesky;  to the parent
 //
-// front_layout.hpp has which fronts there are, row_elimination.hpp a front's rows. The rank is decided in each front, among rows of nearby units, where independent rows of a long chain differ clearly: singular
-// values of the whole, which fall with n^-2 or n^-3, decide nothing. Only what goes on from front to front is rounded.
+// front_layout.hpp has which fronts there are, row_elimination.hpp a front's rows, frontal_solve.cpp the solutions. The rank is
+// decided in each front, among rows of nearby units, where independent rows of a long chain differ clearly: singular values of the
+// whole, which fall with n^-2 or n^-3, decide nothing. Only what goes on from front to front is rounded.
 // y: of dependent rows the combinations found get 0; it is a solution, not the one of minimum norm.
 #pragma once
 
