@@ -9,6 +9,7 @@
 #include <benchmark/benchmark.h>
 
 #include "../../bodies/assumed_mode_beam/beam.hpp"
+#include "main.hpp"
 
 namespace trammel::beam {
 namespace {
@@ -56,7 +57,7 @@ void tip_motion(benchmark::State& state, Bench b) {
   }
 }
 
-void register_all() {
+void register_benchmarks() {
   const std::pair<const char*, void (*)(benchmark::State&, Bench)> functions[] = {
       {"mass_and_force", mass_and_force}, {"tangent", tangent}, {"tip_motion", tip_motion}};
   const std::pair<const char*, Coupling> couplings[] = {
@@ -71,8 +72,6 @@ void register_all() {
 }  // namespace
 }  // namespace trammel::beam
 
-int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  trammel::beam::register_all();
-  benchmark::RunSpecifiedBenchmarks();
+void trammel::bench::register_all() {
+  beam::register_benchmarks();
 }

@@ -13,6 +13,7 @@
 
 #include "allocations.hpp"
 #include "beam_scene.hpp"
+#include "main.hpp"
 #include "model/assembled_system.hpp"
 #include "simulate/setup.hpp"
 
@@ -113,6 +114,8 @@ std::string name(const Case& c) {
   return fmt::format("{}, {}, {}, {:.0e}", c.method, phase, c.coupling, c.step);
 }
 
+}  // namespace
+
 void register_all() {
   for (const Case& c : cases) {
     auto* b = benchmark::RegisterBenchmark(name(c).c_str(), [&c](benchmark::State& report) { steps(report, c); });
@@ -120,11 +123,4 @@ void register_all() {
   }
 }
 
-}  // namespace
 }  // namespace trammel::bench
-
-int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  trammel::bench::register_all();
-  benchmark::RunSpecifiedBenchmarks();
-}

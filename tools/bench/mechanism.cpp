@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "main.hpp"
 #include "records_folder.hpp"
 #include "simulate/setup.hpp"
 #include "simulate/simulator.hpp"
@@ -61,6 +62,8 @@ void whole_run(benchmark::State& report, const std::string& name, const std::str
   report.counters["steps"] = steps;
 }
 
+}  // namespace
+
 void register_all() {
   for (const char* name :
        {"andrews", "slider_crank", "a02_n2", "a02_n40", "a04", "chain_10", "chain_100", "chain_1000"})
@@ -80,11 +83,4 @@ void register_all() {
       {30, 60, 90});
 }
 
-}  // namespace
 }  // namespace trammel::bench
-
-int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  trammel::bench::register_all();
-  benchmark::RunSpecifiedBenchmarks();
-}

@@ -8,6 +8,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "main.hpp"
 #include "tspline_plate/cell_forces.hpp"
 #include "tspline_plate/plate.hpp"
 
@@ -71,11 +72,16 @@ void refinement(benchmark::State& state) {
   }
 }
 
-BENCHMARK(force)->Arg(10)->Arg(14)->Arg(40)->Unit(benchmark::kMicrosecond);
-BENCHMARK(tangent_of_cells)->Arg(10)->Arg(14)->Arg(40)->Unit(benchmark::kMicrosecond);
-BENCHMARK(refinement)->Arg(10)->Unit(benchmark::kMillisecond);
+void register_benchmarks() {
+  using benchmark::RegisterBenchmark;
+  RegisterBenchmark("force", force)->Arg(10)->Arg(14)->Arg(40)->Unit(benchmark::kMicrosecond);
+  RegisterBenchmark("tangent_of_cells", tangent_of_cells)->Arg(10)->Arg(14)->Arg(40)->Unit(benchmark::kMicrosecond);
+  RegisterBenchmark("refinement", refinement)->Arg(10)->Unit(benchmark::kMillisecond);
+}
 
 }  // namespace
 }  // namespace trammel::plate
 
-BENCHMARK_MAIN();
+void trammel::bench::register_all() {
+  plate::register_benchmarks();
+}

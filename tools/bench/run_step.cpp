@@ -12,6 +12,7 @@
 
 #include "allocations.hpp"
 #include "beam_scene.hpp"
+#include "main.hpp"
 #include "records_folder.hpp"
 #include "simulate/setup.hpp"
 #include "simulate/simulator.hpp"
@@ -42,6 +43,8 @@ void steps(benchmark::State& report, const Case& c) {
 
 const std::vector<Case> cases = {{"full", false}, {"full", true}, {"linear", false}, {"none", false}, {"none", true}};
 
+}  // namespace
+
 void register_all() {
   for (const Case& c : cases) {
     const std::string name = fmt::format("{}, {}", c.coupling, c.plane ? "plane far below" : "no contact");
@@ -50,11 +53,4 @@ void register_all() {
   }
 }
 
-}  // namespace
 }  // namespace trammel::bench
-
-int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  trammel::bench::register_all();
-  benchmark::RunSpecifiedBenchmarks();
-}

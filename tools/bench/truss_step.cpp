@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "main.hpp"
 #include "records_folder.hpp"
 #include "simulate/setup.hpp"
 #include "simulate/simulator.hpp"
@@ -63,6 +64,8 @@ void step(benchmark::State& report, const std::string& name) {
 
 using Measure = void (*)(benchmark::State&, const std::string&);
 
+}  // namespace
+
 void register_all() {
   for (const char* name : {"S1c", "S2c", "S3c"})
     for (const auto& [what, measure] : {std::pair<const char*, Measure>{"evaluation", evaluation}, {"step", step}})
@@ -75,11 +78,4 @@ void register_all() {
           ->Unit(benchmark::kMillisecond);
 }
 
-}  // namespace
 }  // namespace trammel::bench
-
-int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  trammel::bench::register_all();
-  benchmark::RunSpecifiedBenchmarks();
-}
