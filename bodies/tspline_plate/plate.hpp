@@ -12,6 +12,7 @@
 #include <optional>
 
 #include <trammel/body.hpp>
+#include <trammel/fields.hpp>
 #include <trammel/parameters.hpp>
 
 #include "discretisation.hpp"
@@ -30,6 +31,7 @@ class TsplinePlate final : public Body,
                            public ReactionDerivative,
                            public Observed,
                            public Drawn,
+                           public HasFields,
                            public Surface,
                            public SampledSurface,
                            public SlidingSurface,
@@ -93,6 +95,8 @@ class TsplinePlate final : public Body,
   std::span<const std::string> observables() const override { return observable_names_; }
   double observe(int observable, double t, In q, In v) const override;
   void shape(double t, In q, Mat& points) const override;
+  std::span<const std::string> fields() const override { return std::span(observable_names_).first(3); }
+  void fields_at(double t, In q, In v, std::vector<FieldPatch>& patches) const override;
 
   void nearest(double t, In q, const Vec3& x, Eigen::Vector2d& parameters, Vec3& point, Vec3& normal) const override;
   void motion_at(const Eigen::Vector2d& parameters, double t, In q, In v, Motion& motion) const override;

@@ -1,4 +1,4 @@
-// Single points of the plate: markers, nearest point for contact, observables, outline.
+// Single points of the plate: markers, nearest point for contact.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,38 +24,6 @@ void TsplinePlate::add_reaction_derivative(int marker, double, In q, const Wrenc
 
 void TsplinePlate::motion_at(const Eigen::Vector2d& parameters, double, In q, In v, Motion& motion) const {
   plate::motion(*mesh_, surface_point(*mesh_, parameters.x(), parameters.y()), q, v, motion);
-}
-
-StressState TsplinePlate::stress_at(double u, double v, In q) const {
-  return stress(*mesh_, {thickness, youngs_modulus, poissons_ratio}, surface_point(*mesh_, u, v), q);
-}
-
-double TsplinePlate::observe(int observable, double, In q, In) const {
-  const Section section{thickness, youngs_modulus, poissons_ratio};
-  const auto face = [](const auto& of, int which) { return which == 0 ? of.top : which == 1 ? of.middle : of.bottom; };
-  if (observable < 3) return face(largest_stress(*mesh_, section, q), observable);
-  if (observable == 3) return strain_energy(q).membrane;
-  if (observable == 4) return strain_energy(q).bending;
-  if (observable == 5) return double(mesh_->basis.mesh().elements().size());
-  const auto marker = std::size_t(observable - 6) / 3;
-  return von_mises(face(stress(*mesh_, section, marker_points_[marker].point, q), (observable - 6) % 3));
-}
-
-// A grid drawn in one go: lines v = const to and fro, then lines u = const.
-void TsplinePlate::shape(double, In q, Mat& points) const {
-  constexpr int lines = 9, steps = 16;
-  const auto &u = mesh_->basis.mesh().knots(0), &v = mesh_->basis.mesh().knots(1);
-  points.resize(3, 2 * lines * (steps + 1));
-  Eigen::Index column = 0;
-  for (int direction = 0; direction < 2; ++direction)
-    for (int line = 0; line < lines; ++line)
-      for (int k = 0; k <= steps; ++k) {
-        const double across = double(line) / (lines - 1), along = double(line % 2 == 0 ? k : steps - k) / steps;
-        const double s = direction == 0 ? along : across, t = direction == 0 ? across : along;
-        const SurfacePoint at =
-            surface_point(*mesh_, u.front() + s * (u.back() - u.front()), v.front() + t * (v.back() - v.front()));
-        points.col(column++) = place(*mesh_, at, q).r;
-      }
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <trammel/body.hpp>
 #include <trammel/component.hpp>
 #include <trammel/contact.hpp>
+#include <trammel/fields.hpp>
 #include <trammel/integrator.hpp>
 #include <trammel/parameters.hpp>
 #include <trammel/system.hpp>
@@ -34,6 +35,7 @@ Observed::~Observed() = default;
 Drawn::~Drawn() = default;
 Refinable::~Refinable() = default;
 HasMomentum::~HasMomentum() = default;
+HasFields::~HasFields() = default;
 CarriedStress::~CarriedStress() = default;
 SampledSurface::~SampledSurface() = default;
 SlidingSurface::~SlidingSurface() = default;

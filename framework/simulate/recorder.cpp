@@ -36,19 +36,21 @@ ConstraintNorms constraint_norms(model::AssembledSystem& system, const State& st
 }
 
 Recorder::Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns,
-                   std::optional<Lengths> keep)
-    : model_(model), columns_(std::move(columns)) {
+                   std::optional<Lengths> keep, std::vector<double> field_times)
+    : model_(model), columns_(std::move(columns)), field_line_(model), field_times_(std::move(field_times)) {
   const bool drawn =
       std::any_of(model.bodies.begin(), model.bodies.end(), [](const auto& entry) { return entry.drawn != nullptr; });
+  const auto open = [&](std::optional<LogFile>& log, const char* name, long long Lengths::*length) {
+    keep ? log.emplace(folder / name, (*keep).*length) : log.emplace(folder / name);
+  };
+  open(series_, "series.csv", &Lengths::series);
+  open(events_, "events.csv", &Lengths::events);
+  if (drawn) open(animation_, "animation.ndjson", &Lengths::animation);
+  if (!field_times_.empty()) open(fields_, "fields.ndjson", &Lengths::fields);
   if (keep) {
-    series_.emplace(folder / "series.csv", keep->series);
-    events_.emplace(folder / "events.csv", keep->events);
-    if (drawn) animation_.emplace(folder / "animation.ndjson", keep->animation);
+    next_field_time_ = std::size_t(keep->field_times);
     return;
   }
-  series_.emplace(folder / "series.csv");
-  events_.emplace(folder / "events.csv");
-  if (drawn) animation_.emplace(folder / "animation.ndjson");
   std::string header = "t";
   for (const Column& column : columns_) header += "," + column.name;
   series_->append(header +
@@ -69,6 +71,15 @@ void Recorder::row(model::AssembledSystem& system, const State& state) {
   series_->buffer() += '\n';
   series_->appended();
   if (animation_) animate(state);
+  if (fields_) show_fields(state);
+}
+
+void Recorder::show_fields(const State& state) {
+  const std::size_t before = next_field_time_;
+  while (next_field_time_ < field_times_.size() && field_times_[next_field_time_] <= state.t) ++next_field_time_;
+  if (next_field_time_ == before) return;
+  field_line_.append(state, fields_->buffer());
+  fields_->appended();
 }
 
 void Recorder::animate(const State& state) {
@@ -139,9 +150,15 @@ void Recorder::event(const RefineEvent& event) {
   events_->appended();
 }
 
+Recorder::Lengths Recorder::lengths() const {
+  const auto length = [](const std::optional<LogFile>& file) { return file ? file->length() : 0; };
+  return {length(series_), length(events_), length(animation_), length(fields_), (long long)(next_field_time_)};
+}
+
 std::vector<LogFile*> Recorder::files() {
   std::vector<LogFile*> all = {&*series_, &*events_};
-  if (animation_) all.push_back(&*animation_);
+  for (std::optional<LogFile>* file : {&animation_, &fields_})
+    if (*file) all.push_back(&**file);
   return all;
 }
 
@@ -151,7 +168,7 @@ void Recorder::flush() {
 }
 
 void Recorder::check() const {
-  for (const std::optional<LogFile>* file : {&series_, &events_, &animation_})
+  for (const std::optional<LogFile>* file : {&series_, &events_, &animation_, &fields_})
     if (*file && !(*file)->problem().empty()) throw OutputError((*file)->problem());
 }
 
@@ -165,7 +182,7 @@ std::string Recorder::missing() {
 }
 
 void Recorder::rescue() const noexcept {
-  for (const std::optional<LogFile>* file : {&series_, &events_, &animation_})
+  for (const std::optional<LogFile>* file : {&series_, &events_, &animation_, &fields_})
     if (*file) (*file)->rescue();
 }
 

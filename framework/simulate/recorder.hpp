@@ -1,9 +1,10 @@
-// The logs of a run: series.csv, events.csv and animation.ndjson in the results folder.
+// The logs of a run: series.csv, events.csv, animation.ndjson and fields.ndjson in the results folder.
 #pragma once
 
 #include <optional>
 
 #include "simulate/contact_event.hpp"
+#include "simulate/field_line.hpp"
 #include "simulate/log_file.hpp"
 #include "simulate/observable.hpp"
 #include "simulate/refine_event.hpp"
@@ -23,11 +24,13 @@ ConstraintNorms constraint_norms(model::AssembledSystem& system, const State& st
 class Recorder {
  public:
   struct Lengths {
-    long long series = 0, events = 0, animation = 0;  // [bytes]
+    long long series = 0, events = 0, animation = 0, fields = 0;  // [bytes]
+    long long field_times = 0;                                    // done with
   };
-  // A new folder's logs, or those of an interrupted run shortened to `keep`.
+  // A new folder's logs, or those of an interrupted run shortened to `keep`. The first row at or after each of `field_times`, which
+  // ascend, goes to fields.ndjson, too.
   Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns,
-           std::optional<Lengths> keep);
+           std::optional<Lengths> keep, std::vector<double> field_times = {});
 
   void row(model::AssembledSystem& system, const State& state);
   void event(const ContactEvent& event);
@@ -36,14 +39,18 @@ class Recorder {
   void check() const;            // throws OutputError if a file could not take what it was given; nothing is lost yet
   std::string missing();         // which files lack how many lines that could not be written; empty: none
   void rescue() const noexcept;  // for a signal handler: whole lines still in memory go out
-  Lengths lengths() const { return {series_->length(), events_->length(), animation_ ? animation_->length() : 0}; }
+  Lengths lengths() const;
 
  private:
   void animate(const State& state);
+  void show_fields(const State& state);
   std::vector<LogFile*> files();
   const model::Model& model_;
   std::vector<Column> columns_;
-  std::optional<LogFile> series_, events_, animation_;
+  std::optional<LogFile> series_, events_, animation_, fields_;
+  FieldLine field_line_;
+  std::vector<double> field_times_;
+  std::size_t next_field_time_ = 0;
   Mat shape_;
   Vec scratch_;
 };

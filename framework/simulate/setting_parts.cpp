@@ -104,14 +104,19 @@ Part initial() {
 }
 
 Part record() {
-  return {"record",
-          "What series.csv holds.",
-          R"("record": {"every": 1e-3, "observe": {"tip_y": "beam.tip.y", "angle": "beam.angle"}})",
-          {key("every", Type::number,
-               {.unit = "s", .min = 0, .above_min = true, .doc = "between rows; a thousandth of the run if left out"})},
-          {"\"observe\" names columns: a quantity of a body (beam.angle), of a marker (beam.tip.y), of a contact or "
-           "joint, or "
-           "\"=...\" computed from such. A name that does not exist is answered with those that do."}};
+  return {
+      "record",
+      "What series.csv holds, and when pictures are taken.",
+      R"("record": {"every": 1e-3, "observe": {"tip_y": "beam.tip.y", "angle": "beam.angle"}})",
+      {key("every", Type::number,
+           {.unit = "s", .min = 0, .above_min = true, .doc = "between rows; a thousandth of the run if left out"}),
+       key("fields", Type::numbers,
+           {.unit = "s",
+            .doc = "times whose fields, such as stresses over a plate, go to fields.ndjson with the first row at or "
+                   "after each; none if left out"})},
+      {"\"observe\" names columns: a quantity of a body (beam.angle), of a marker (beam.tip.y), of a contact or "
+       "joint, or "
+       "\"=...\" computed from such. A name that does not exist is answered with those that do."}};
 }
 
 Part statics() {

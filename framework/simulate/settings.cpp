@@ -126,6 +126,21 @@ void read_static(const Value& root, Settings& settings, Problems& problems) {
   }
 }
 
+// Times of the run, one or many; ascending.
+std::vector<double> read_times(const Value& value, const Settings& settings, Problems& problems) {
+  std::vector<double> times;
+  if (value.type() == Value::Type::array)
+    times = value.read_numbers(problems).value_or(times);
+  else if (const std::optional<double> t = value.read_number(problems))
+    times = {*t};
+  std::sort(times.begin(), times.end());
+  for (const double t : times)
+    if (!(t >= settings.start && t <= settings.until))
+      problems.error(
+          value.problem(fmt::format("found {}, expected times from {} to {} [s]", t, settings.start, settings.until)));
+  return times;
+}
+
 void read_record(const Value& root, Settings& settings, Problems& problems) {
   const double length = settings.until - settings.start;
   settings.every = length > 0 ? length / 1000 : 1;
@@ -137,6 +152,7 @@ void read_record(const Value& root, Settings& settings, Problems& problems) {
   if (length / settings.every > 1e9)
     problems.error(
         record->problem(fmt::format("{} s recorded every {} s are more than 1e9 rows", length, settings.every)));
+  if (const Value* fields = record->find("fields")) settings.field_times = read_times(*fields, settings, problems);
 }
 
 Settings::Initial read_initial(const Value& value, Problems& problems) {

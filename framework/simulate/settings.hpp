@@ -4,11 +4,12 @@
 //     "simulate":   {"start": 0, "until": 2, "contact_hold": 0, "chatter_steps": 3, "event_limit": 1000000}
 //     "initial":    "check" | "project" | "equilibrium", or {"consistent": "check" | "project"}
 //     "static":     {"steps": 10, "tolerance": 1e-9, "iterations": 20, "arc_length": false}     for `trammel static`
-//     "record":     {"every": 1e-3, "observe": {"tip_y": "beam.tip.y"}}
+//     "record":     {"every": 1e-3, "fields": [0.5, 1], "observe": {"tip_y": "beam.tip.y"}}
 #pragma once
 
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include <trammel/integrator.hpp>
 
@@ -30,6 +31,7 @@ struct Settings {
   bool own_contact_step = false;    // the scene gives contact_step
   double start = 0, until = 0;      // [s]
   double every = 0;                 // [s] between records
+  std::vector<double> field_times;  // [s] of pictures, ascending
   double contact_hold = 0;          // [s] contact_step goes on so long after an event: the flights within a bounce
   double chatter_steps = 3;         // a rebound that lasts fewer fixed steps sticks; 0: never
   long long event_limit = 1000000;  // in a thousandth of the run

@@ -10,6 +10,7 @@
 #include "simulate/blame.hpp"
 #include "simulate/contact_reach.hpp"
 #include "simulate/crash_witness.hpp"
+#include "simulate/field_line.hpp"
 #include "simulate/initial_state.hpp"
 #include "simulate/latch_reach.hpp"
 #include "simulate/smooth_laws.hpp"
@@ -56,6 +57,20 @@ void read_integrator(const Value& root, plugin::Registry& registry, Setup& setup
       problems.error(step->problem(
           fmt::format("\"{}\" cannot estimate its error, so it takes fixed steps only; those that can: {}",
                       setup.integrator_type, with_error_estimate(registry))));
+}
+
+// Pictures are asked for: some body must have fields.
+void check_fields(const Value& root, const model::Model& model, plugin::Registry& registry, Problems& problems) {
+  const Value* asked = root.at_path("record.fields");
+  if (!asked || FieldLine(model).possible()) return;
+  std::string names;
+  for (const plugin::Entry* entry : registry.all()) {
+    if (entry->declaration.kind != Kind::body) continue;
+    const std::unique_ptr<Component> candidate = plugin::new_component(*entry);
+    if (dynamic_cast<const HasFields*>(candidate.get())) names += (names.empty() ? "" : ", ") + entry->declaration.name;
+  }
+  problems.error(asked->problem(
+      fmt::format("no body of this scene has fields; those that do: {}", names.empty() ? "none found" : names)));
 }
 
 std::string that_correct(Correction::Level level, plugin::Registry& registry) {
@@ -134,6 +149,7 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purp
     read_corrections(root, registry, setup, problems);
   }
   if (problems.empty()) setup.columns = read_observables(root, *setup.model, problems);
+  if (problems.empty()) check_fields(root, *setup.model, registry, problems);
   if (problems.empty()) check_laws(root, registry, setup.settings.start, setup.settings.until, problems);
   problems.throw_if_any();
   model::AssembledSystem system(setup.model);

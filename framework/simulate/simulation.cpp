@@ -130,7 +130,7 @@ class Run {
     }
     const Sizes& sizes = setup_.model->sizes;
     reserve_.emplace(options_.out, room_for_logs + room_per_number * (sizes.nq + sizes.nv + sizes.nc));
-    recorder_.emplace(options_.out, *setup_.model, setup_.columns, keep);
+    recorder_.emplace(options_.out, *setup_.model, setup_.columns, keep, setup_.settings.field_times);
     if (options_.witness) options_.witness->record_with(*recorder_);
     if (!options_.resume) simulator_->start(setup_.initial);
   }
@@ -177,6 +177,12 @@ class Run {
     return {before_.wall + seconds(Clock::now() - wall_start_), before_.cpu + (cpu_now() - cpu_start_)};
   }
 
+  static void archive_lengths(Archive& archive, Recorder::Lengths& lengths) {
+    archive("bytes_series", lengths.series), archive("bytes_events", lengths.events);
+    archive("bytes_animation", lengths.animation), archive("bytes_fields", lengths.fields);
+    archive("field_times", lengths.field_times);
+  }
+
   // Logs first: a checkpoint never tells of bytes that are not there.
   void write() {
     recorder_->flush();
@@ -184,8 +190,7 @@ class Run {
     JsonArchive archive(data, JsonArchive::Direction::write);
     simulator_->archive(archive);
     Recorder::Lengths lengths = recorder_->lengths();
-    archive("bytes_series", lengths.series), archive("bytes_events", lengths.events),
-        archive("bytes_animation", lengths.animation);
+    archive_lengths(archive, lengths);
     Cost so_far = cost();
     archive("wall", so_far.wall), archive("cpu", so_far.cpu);
     write_checkpoint(options_.out / "checkpoint.cbor", hash_, data);
@@ -198,8 +203,7 @@ class Run {
     try {
       JsonArchive archive(data, JsonArchive::Direction::read);
       simulator_->archive(archive);
-      archive("bytes_series", lengths.series), archive("bytes_events", lengths.events),
-          archive("bytes_animation", lengths.animation);
+      archive_lengths(archive, lengths);
       archive("wall", before_.wall), archive("cpu", before_.cpu);
     } catch (const json::exception& e) {
       refuse_checkpoint(file, fmt::format("its content does not fit this program ({}); start the run anew", e.what()));

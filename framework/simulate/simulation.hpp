@@ -40,7 +40,7 @@ struct RunReport {
 RunReport run(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options);
 
 // Equilibria under loads that follow t, from simulate.start to simulate.until, a record each (load_path.hpp); writes series.csv,
-// animation.ndjson and result.json. Throws like run.
+// animation.ndjson, fields.ndjson and result.json. Throws like run.
 RunReport run_static(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options);
 
 // Reads everything and builds the model without running; throws like run. Returns warnings, a line each.

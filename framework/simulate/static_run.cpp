@@ -40,7 +40,7 @@ class StaticRun {
       if (error)
         throw OutputError(fmt::format("cannot make the results folder {}: {}", options_.out.string(), error.message()));
       for (const char* stale : {"checkpoint.cbor", "result.json"}) fs::remove(options_.out / stale, error);
-      recorder_.emplace(options_.out, *setup_.model, setup_.columns, std::nullopt);
+      recorder_.emplace(options_.out, *setup_.model, setup_.columns, std::nullopt, setup_.settings.field_times);
       load();
     } catch (const RunFailed& e) {
       end(Status::failed, e.what());

@@ -9,6 +9,8 @@
 #include <Eigen/QR>
 #include <set>
 
+#include <trammel/fields.hpp>
+
 #include "testing/tried_body.hpp"
 
 namespace trammel {
@@ -266,6 +268,29 @@ Report shows_itself(const TriedBody& b) {
   });
 }
 
+Report shows_fields(const TriedBody& b) {
+  return compare("fields are finite, at as many points as there are values, and named once", [&](Comparison& c) {
+    const auto* fields = dynamic_cast<const HasFields*>(b.body.get());
+    if (!fields) return;
+    const auto names = fields->fields();
+    c.holds(std::set<std::string>(names.begin(), names.end()).size() == names.size(), "two fields of one name");
+    std::vector<FieldPatch> patches;
+    for (const BodyAt& at : b.at()) {
+      fields->fields_at(at.t, at.q, at.v, patches);
+      for (const FieldPatch& patch : patches) {
+        const Eigen::Index n = patch.points.cols();
+        c.holds(patch.along > 0 && n > 0 && n % patch.along == 0,
+                fmt::format("{} points by rows of {}", n, patch.along));
+        c.holds(
+            patch.points.rows() == 3 && patch.values.rows() == Eigen::Index(names.size()) && patch.values.cols() == n,
+            fmt::format("{} x {} values of {} fields at {} x {} points", patch.values.rows(), patch.values.cols(),
+                        names.size(), patch.points.rows(), n));
+        c.holds(patch.points.allFinite() && patch.values.allFinite(), "a point or value that is not finite");
+      }
+    }
+  });
+}
+
 }  // namespace
 
 std::vector<Check> body_checks(const MakerOf<Body>& make, const BodyStates& states) {
@@ -286,6 +311,7 @@ std::vector<Check> body_checks(const MakerOf<Body>& make, const BodyStates& stat
       {"OwnReactionDerivativeIsExact", own_reaction_derivative_is_exact},
       {"SeesRotationsNotQuaternions", sees_rotations_not_quaternions},
       {"ShowsItself", shows_itself},
+      {"ShowsFields", shows_fields},
   };
   for (const auto& look : marker_looks()) all.push_back(look);
   std::vector<Check> checks;

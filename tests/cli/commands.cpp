@@ -158,7 +158,7 @@ TEST(Describe, KnowsThePartsOfASceneThatTheProgramReads) {
             {"start", "until", "contact_hold", "chatter_steps", "event_limit", "default 1000000", "Chatter:"}},
            {"integrator", {"step", "contact_step", "'trammel describe step'"}},
            {"initial", {"check", "project", "equilibrium"}},
-           {"record", {"every", "observe"}},
+           {"record", {"every", "fields", "observe"}},
            {"static", {"steps", "tolerance", "iterations", "arc_length"}}}) {
     const auto result = trammel({"describe", part});
     EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -23,10 +23,10 @@ inline Piece run_piece(const scene::Scene& scene, const std::filesystem::path& f
   simulate::Simulator simulator(setup.model, *setup.integrator, setup.settings, {});
   std::optional<simulate::Recorder> recorder;
   if (data.is_null()) {
-    recorder.emplace(folder, *setup.model, setup.columns, std::nullopt);
+    recorder.emplace(folder, *setup.model, setup.columns, std::nullopt, setup.settings.field_times);
     simulator.start(setup.initial);
   } else {
-    recorder.emplace(folder, *setup.model, setup.columns, lengths);
+    recorder.emplace(folder, *setup.model, setup.columns, lengths, setup.settings.field_times);
     simulate::JsonArchive archive(data, simulate::JsonArchive::Direction::read);
     simulator.archive(archive);
     simulator.resume();
@@ -45,7 +45,7 @@ inline Piece run_piece(const scene::Scene& scene, const std::filesystem::path& f
 }
 
 struct Logs {
-  std::string series, events;
+  std::string series, events, fields;  // as the files; no fields were asked for: empty
   nlohmann::json data;
   long long steps = 0;
   int cuts_in_contact = 0;
@@ -66,6 +66,7 @@ inline Logs run_in_pieces(const scene::Scene& scene, long long stride) {
     logs.data.erase(work);  // each piece begins with some
   logs.series = read_text(folder.path() / "series.csv");
   logs.events = read_text(folder.path() / "events.csv");
+  logs.fields = read_text(folder.path() / "fields.ndjson");
   return logs;
 }
 

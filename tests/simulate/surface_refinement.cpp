@@ -20,7 +20,8 @@ std::string struck(const std::string& refine) {
   "contacts": {"ball": {"type": "penalty", "between": ["ball.com", {"surface": "plate"}], "radius": 0.1, "stiffness": 1e7}},
   "integrator": {"type": "generalized_alpha", "rho_inf": 0.8, "step": 1e-3},
   "simulate": {"until": 0.03},
-  "record": {"every": 0.002, "observe": {"z": "ball.com.z", "centre": "plate.centre.z", "elements": "plate.elements"}}
+  "record": {"every": 0.002, "fields": [0.004, 0.0125, 0.03],
+             "observe": {"z": "ball.com.z", "centre": "plate.centre.z", "elements": "plate.elements"}}
 })";
 }
 
@@ -44,6 +45,8 @@ TEST_P(Resumed, RunEndsWithTheSameBytes) {
   EXPECT_GE(refinements, GetParam().refinements);
   EXPECT_EQ(whole.series, pieces.series);
   EXPECT_EQ(whole.events, pieces.events);
+  EXPECT_EQ(whole.fields, pieces.fields);
+  EXPECT_FALSE(whole.fields.empty());
   EXPECT_EQ(nlohmann::json::diff(whole.data, pieces.data).dump(), "[]");
 }
 

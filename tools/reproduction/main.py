@@ -17,7 +17,7 @@ import figures
 from runs import Results
 
 HERE = pathlib.Path(__file__).resolve().parent
-PARTS = {"main", "runs", "figures", "claims", "beam_table_1"}
+PARTS = {"main", "runs", "figures", "pictures", "claims", "beam_table_1"}
 
 
 def main():

@@ -17,17 +17,20 @@ import time
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+TIMED = 3  # times that a run is repeated whose time is compared
 TIME_LIMIT = 900  # [s] of one run; the longest takes half a minute on an idle core
 COMMENT_OR_STRING = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.S)
 
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """A scene (path below scenes/, without .json) with `--set` values. may_fail: a claim says that this run breaks down."""
+    """A scene (path below scenes/, without .json) with `--set` values. may_fail: a claim says that this run breaks down.
+    alone: its time is compared, so that it runs after the others, by itself, and thrice: the least time counts."""
 
     scene: str
     values: tuple = ()
     may_fail: bool = False
+    alone: bool = False
 
     def command_line(self):
         return [str(ROOT / "scenes" / f"{self.scene}.json"), *(x for path, v in self.values for x in ("--set", f"{path}={v}"))]
@@ -51,9 +54,23 @@ class Run:
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:12]
 
 
-def run(scene, may_fail=False, **values):
+def run(scene, may_fail=False, alone=False, **values):
     """run("beam_impact/hht", parameters__N=5): dots of a path are written as two underscores."""
-    return Run(scene, tuple(sorted((k.replace("__", "."), v) for k, v in values.items())), may_fail)
+    given = {k.replace("__", "."): str(v) if isinstance(v, list) else v for k, v in values.items()}
+    return Run(scene, tuple(sorted(given.items())), may_fail, alone)
+
+
+class Fields:
+    """What a scene's one plate shows at a time t: points[element, row, column, axis] and values[name][element, row, column]."""
+
+    def __init__(self, line):
+        content = json.loads(line)
+        (body,) = content["bodies"].values()
+        grid = (len(body["patches"]), -1, body["patches"][0]["along"])
+        self.t = content["t"]
+        self.points = np.array([patch["points"] for patch in body["patches"]]).reshape(*grid, 3)
+        values = np.array([patch["values"] for patch in body["patches"]])
+        self.values = {name: values[:, k].reshape(grid) for k, name in enumerate(body["fields"])}
 
 
 class Result:
@@ -62,6 +79,7 @@ class Result:
     def __init__(self, folder):
         self.folder = folder
         self.info = json.loads((folder / "result.json").read_text())
+        self.cpu = self.info["cpu_time_s"]
         with open(folder / "series.csv") as file:
             names = file.readline().strip().split(",")
         table = np.loadtxt(folder / "series.csv", delimiter=",", skiprows=1, ndmin=2)
@@ -75,6 +93,14 @@ class Result:
     def __getitem__(self, name):
         return self.columns[name]
 
+    @functools.cached_property
+    def moments(self):
+        return [Fields(line) for line in (self.folder / "fields.ndjson").read_text().splitlines()]
+
+    def fields(self, t):
+        """At the time of fields.ndjson nearest to t."""
+        return min(self.moments, key=lambda fields: abs(fields.t - t))
+
     @property
     def t(self):
         return self.columns["t"]
@@ -87,9 +113,6 @@ class Result:
     def done(self):
         return self.info["status"] == "done"
 
-    @property
-    def cpu(self):
-        return self.info["cpu_time_s"]
 
 
 class Results:
@@ -108,12 +131,18 @@ class Results:
         for wanted in runs:
             todo.setdefault(wanted.key(), wanted)
         start = time.monotonic()
-        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-            waiting = {pool.submit(self._one, key, wanted): wanted for key, wanted in todo.items()}
-            for n, future in enumerate(concurrent.futures.as_completed(waiting), 1):
-                future.result()
-                print(f"  {n}/{len(todo)} runs, {time.monotonic() - start:.0f} s", end="\r" if sys.stderr.isatty() else "\n",
-                      file=sys.stderr, flush=True)
+        n = 0
+        alone = [item for item in todo.items() if item[1].alone]
+        rounds = [(jobs, [item for item in todo.items() if not item[1].alone]), *[(1, alone)] * TIMED]
+        count = sum(len(items) for _, items in rounds)
+        for workers, items in rounds:
+            with concurrent.futures.ThreadPoolExecutor(workers) as pool:
+                waiting = [pool.submit(self._one, key, wanted) for key, wanted in items]
+                for future in concurrent.futures.as_completed(waiting):
+                    future.result()
+                    n += 1
+                    print(f"  {n}/{count} runs, {time.monotonic() - start:.0f} s", end="\r" if sys.stderr.isatty() else "\n",
+                          file=sys.stderr, flush=True)
 
     def _one(self, key, wanted):
         folder = self.folder / f"{wanted.scene.replace('/', '_')}_{key}"
@@ -132,7 +161,9 @@ class Results:
             raise SystemExit(f"tools/reproduce: {' '.join(command)}\n{message}")
         if late or (child.returncode and not wanted.may_fail):
             self.unexpected.append(f"{' '.join(command)}\n        {message.splitlines()[0]}")
-        self.of_key[key] = Result(folder)
+        result, before = Result(folder), self.of_key.get(key)
+        result.cpu = min(result.cpu, before.cpu if before else math.inf)
+        self.of_key[key] = result
 
 
 def _load(path):
