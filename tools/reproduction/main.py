@@ -53,7 +53,7 @@ def main():
     (out / "claims.md").write_text("\n".join(text))
 
     print("\n".join(text))
-    print(f"{len(results.of_key)} runs, {len(system.FIGURES)} figures, {time.monotonic() - start:.0f} s. Curves (SVG, CSV) and "
+    print(f"{len(results.of_key)} runs, {len(system.FIGURES)} figures, {time.monotonic() - start:.0f} s. Figures (SVG, CSV) and "
           f"claims.md are in {out}")
     return 1 if results.unexpected else 0
 
