@@ -7,6 +7,7 @@
 #include <trammel/contact.hpp>
 #include <trammel/fields.hpp>
 #include <trammel/integrator.hpp>
+#include <trammel/oscillating_steps.hpp>
 #include <trammel/parameters.hpp>
 #include <trammel/system.hpp>
 
@@ -23,6 +24,7 @@ ParameterError::~ParameterError() = default;
 // Abilities of integrators.
 ErrorEstimate::~ErrorEstimate() = default;
 DenseOutput::~DenseOutput() = default;
+OscillatingSteps::~OscillatingSteps() = default;
 Resizable::~Resizable() = default;
 Transfer::~Transfer() = default;
 

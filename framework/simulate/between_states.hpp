@@ -1,21 +1,42 @@
 // The state at a part theta of a step, between two states of a solution: the cubic through v and a of both ends (Hermite), and
-// the one through q and v, on the manifold of configurations. dq: scratch.
+// the one through q and v, on the manifold of configurations; or, of an integrator whose steps are not like that
+// (oscillating_steps.hpp), its own.
 #pragma once
 
-#include <trammel/integrator.hpp>
+#include <trammel/oscillating_steps.hpp>
 
 #include "model/assembled_system.hpp"
 
 namespace trammel::simulate {
 
-inline void state_between(model::AssembledSystem& system, const State& now, const State& next, double theta, Vec& q,
-                          Vec& v, Vec& dq) {
-  const double h = next.t - now.t, x = theta, y = 1 - theta;
-  const double end = x * x * (3 - 2 * x), begin_slope = h * x * y * y, end_slope = -h * x * x * y;
-  system.difference(next.q, now.q, dq);
-  dq = end * dq + begin_slope * now.v + end_slope * next.v;
-  system.retract(now.q, dq, q);
-  v = (1 - end) * now.v + end * next.v + begin_slope * now.a + end_slope * next.a;
-}
+class BetweenStates {
+ public:
+  BetweenStates(model::AssembledSystem& system, Integrator& integrator)
+      : system_(system), own_(dynamic_cast<OscillatingSteps*>(&integrator)) {}
+
+  bool smooth() const { return own_ == nullptr; }
+  // Fills t, q, v.
+  void at(const State& now, const State& next, double theta, State& between) {
+    if (own_)
+      own_->interpolate(system_, now, next, theta, between);
+    else
+      cubic(now, next, theta, between);
+    between.t = now.t + theta * (next.t - now.t);
+  }
+
+ private:
+  void cubic(const State& now, const State& next, double theta, State& between) {
+    const double h = next.t - now.t, x = theta, y = 1 - theta;
+    const double end = x * x * (3 - 2 * x), begin_slope = h * x * y * y, end_slope = -h * x * x * y;
+    system_.difference(next.q, now.q, dq_);
+    dq_ = end * dq_ + begin_slope * now.v + end_slope * next.v;
+    system_.retract(now.q, dq_, between.q);
+    between.v = (1 - end) * now.v + end * next.v + begin_slope * now.a + end_slope * next.a;
+  }
+
+  model::AssembledSystem& system_;
+  OscillatingSteps* own_;
+  Vec dq_;
+};
 
 }  // namespace trammel::simulate

@@ -25,6 +25,7 @@ EventLocation::EventLocation(model::AssembledSystem& system, Integrator& integra
       integrator_(integrator),
       modes_(modes),
       scale_(scale),
+      between_states_(system, integrator),
       own_force_(!integrator.traits().holds_position && !integrator.traits().holds_velocity) {}
 
 void EventLocation::watch(int contact) {

@@ -29,6 +29,7 @@
 
 #include <trammel/integrator.hpp>
 
+#include "simulate/between_states.hpp"
 #include "simulate/contact_mode.hpp"
 #include "simulate/contact_scale.hpp"
 
@@ -100,6 +101,7 @@ class EventLocation {
   Integrator& integrator_;
   ContactModes& modes_;
   const ContactScale& scale_;
+  BetweenStates between_states_;
   bool own_force_;  // the integrator's lambda is the force
   std::vector<Watch> watches_;
   std::vector<Value> now_, next_, probe_;

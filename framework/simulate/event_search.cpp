@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulate/between_states.hpp"
 #include "simulate/event_location.hpp"
 
 namespace trammel::simulate {
@@ -62,8 +61,7 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
     (by_force(w) ? forces : gaps) = true;
   }
   if (gaps || (forces && h_before_ == 0)) {
-    state_between(system_, now, next, inside, between_.q, between_.v, dq_);
-    between_.t = now.t + inside * h;
+    between_states_.at(now, next, inside, between_);
   }
   return (gaps && hides_gap(h)) || (forces && hides_force(h));
 }

@@ -4,7 +4,7 @@
 //     dissipated = impacts + contact damping + friction + dampers + numerical
 //
 // Impacts are exact (impact.hpp). Powers of drives, moving rows, dampers and compliant contacts are integrated along accepted
-// steps by Simpson's rule, the state in the middle from the cubic Hermite interpolation of v and the matching one of q;
+// steps by Simpson's rule with the state in the middle (between_states.hpp), over parts of a step that is not smooth;
 // nothing is evaluated there while all powers are 0 but for round-off. `numerical` is what remains: the error of the integrator, of that rule,
 // and of corrections. A row that is switched on while its contact moves (`rebound: constrained`) does work too; it counts as
 // supplied by constraints.
@@ -15,12 +15,13 @@
 #include <trammel/integrator.hpp>
 
 #include "model/assembled_system.hpp"
+#include "simulate/between_states.hpp"
 
 namespace trammel::simulate {
 
 class Ledger {
  public:
-  explicit Ledger(model::AssembledSystem& system);
+  Ledger(model::AssembledSystem& system, Integrator& integrator);
 
   void start(const State& state);    // the energy to begin with; restart follows once a and lambda are known
   void restart(const State& state);  // powers at `state`, after a jump
@@ -47,14 +48,20 @@ class Ledger {
 
  private:
   const model::AssembledSystem::Balance& balance(double t, const Vec& q, const Vec& v, const Vec& lambda);
+  void take_end(const State& end);
+  void integrate(const State& now, const State& next, const State& middle);  // powers at the ends: now_, end_
+  void move_on();
+
   model::AssembledSystem& system_;
+  BetweenStates between_;
   model::AssembledSystem::Balance now_, middle_, end_;
   double energy_start_ = 0, drives_ = 0, constraints_ = 0, markers_ = 0, dampers_ = 0, contacts_ = 0;  // [J]
   double refinements_ = 0;                                                                             // [J]
   Vec friction_;
   std::vector<double> impacts_;
   Vec g_dot_, g_dot_end_;  // at `now` and at the step's end
-  Vec q_, v_, a_, dq_, lambda_;
+  State middle_state_, begin_, part_end_;
+  Vec a_, lambda_;
 };
 
 }  // namespace trammel::simulate

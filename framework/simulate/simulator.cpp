@@ -27,6 +27,10 @@ int error_order(Integrator& integrator) {
   return estimate ? estimate->error_order() : 1;
 }
 
+bool even_steps(Integrator& integrator) {
+  return dynamic_cast<const OscillatingSteps*>(&integrator) != nullptr;
+}
+
 // Rows that begin to contradict each other have accelerations of least squares, which an explicit method would follow. The error of
 // Baumgarte's terms is less; and what looks like it is examined.
 std::vector<std::string> contradiction(model::AssembledSystem& system, const State& s, const ConstraintNorms& norms) {
@@ -47,11 +51,11 @@ Simulator::Simulator(std::shared_ptr<model::Model> model, Integrator& integrator
       estimate_(dynamic_cast<ErrorEstimate*>(&integrator)),
       dense_(dynamic_cast<DenseOutput*>(&integrator)),
       corrections_(std::move(corrections)),
-      free_control_(settings.step, settings.every, error_order(integrator)),
-      contact_control_(settings.contact_step, settings.every, error_order(integrator)),
+      free_control_(settings.step, settings.every, error_order(integrator), even_steps(integrator)),
+      contact_control_(settings.contact_step, settings.every, error_order(integrator), even_steps(integrator)),
       modes_(system_, scale_, settings_),
       location_(system_, integrator, modes_, scale_),
-      ledger_(system_),
+      ledger_(system_, integrator),
       refinement_(std::move(model), system_) {}
 
 void Simulator::start(State initial) {

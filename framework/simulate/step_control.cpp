@@ -9,8 +9,8 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr int most_halvings = 10;  // of a fixed step that the method refuses
 }  // namespace
 
-StepControl::StepControl(const StepChoice& choice, double every, int order)
-    : choice_(choice), every_(every), order_(order) {
+StepControl::StepControl(const StepChoice& choice, double every, int order, bool even)
+    : choice_(choice), every_(every), order_(order), even_(even) {
   choice_.most = std::min(choice_.most, 20 * every_);
   wish_ = choice_.initial > 0 ? choice_.initial : std::max(every_, choice_.least);
   wish_ = std::min(wish_, choice_.most);
@@ -49,8 +49,13 @@ void StepControl::accepted(const Proposal& taken, double error) {
     halvings_ = 0;
     return;
   }
+  constexpr double worth_a_change = 1.25;
   const double e = std::max(error, 1e-4), p = order_;
-  const double factor = std::clamp(0.9 * std::pow(e, -0.7 / p) * std::pow(error_before_, 0.4 / p), 0.2, 5.0);
+  double factor = std::clamp(0.9 * std::pow(e, -0.7 / p) * std::pow(error_before_, 0.4 / p), 0.2, 5.0);
+  if (even_) {
+    factor = std::min(0.9 * std::pow(std::max(e, error_before_), -1 / p), 5.0);
+    if (factor < worth_a_change) factor = 1;
+  }
   const double next = taken.h * factor;
   const bool shortened = taken.h < std::min(wish_, choice_.most) * (1 - 1e-9);
   wish_ = std::min(shortened ? std::max(next, wish_) : next, choice_.most);

@@ -8,7 +8,8 @@
 //
 //     h <- h min(5, max(0.2, 0.9 e^(-0.7/p) e_old^(0.4/p))),     after a rejected one h <- h min(1, max(0.1, 0.9 e^(-1/p)))
 //
-// with p the order of the estimate. A step shortened only to reach a stop does not shorten the ones after it.
+// with p the order of the estimate. Even steps (OscillatingSteps) change only when they are to be a quarter longer, by the larger of
+// the last two errors, or are rejected. A step shortened only to reach a stop does not shorten the ones after it.
 #pragma once
 
 #include <string>
@@ -23,7 +24,7 @@ class StepControl {
  public:
   // `every`: time between records [s], which gives the scale where the scene leaves it open (not the end of the run, so
   // that a run resumed with a later end takes the same steps); `order` of the error estimate.
-  StepControl(const StepChoice& choice, double every, int order);
+  StepControl(const StepChoice& choice, double every, int order, bool even = false);
 
   bool controlled() const { return !choice_.fixed; }
   double fixed_step() const { return choice_.fixed.value_or(0); }
@@ -49,6 +50,7 @@ class StepControl {
   StepChoice choice_;
   double every_;
   int order_;
+  bool even_;
   // fixed: the plan from t0 to the stop
   double t0_ = 0, stop_ = 0, h_ = 0;
   long long planned_ = 0, done_ = 0;

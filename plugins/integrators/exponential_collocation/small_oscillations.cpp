@@ -1,0 +1,107 @@
+#include "small_oscillations.hpp"
+
+#include <string>
+
+namespace trammel {
+
+namespace {
+
+// Relative to the fastest: below it a mode is as well left to the rest of the force.
+constexpr double slow = 1e-6;
+
+void archive_matrix(Archive& archive, const std::string& name, Mat& m) {
+  Vec entries = Eigen::Map<const Vec>(m.data(), m.size());
+  long long rows = m.rows();
+  archive(name + "_rows", rows);
+  archive(name, entries);
+  m = Eigen::Map<const Mat>(entries.data(), rows, rows > 0 ? entries.size() / rows : 0);
+}
+
+}  // namespace
+
+void SmallOscillations::residual(System& s, double t, const Vec& q, const State& at, Vec& r) const {
+  s.move_to(t, q, at.v);
+  r = -s.f();
+  s.add_mass_times(1, at.a, r);
+  s.add_reaction(1, at.lambda, r);
+}
+
+void SmallOscillations::differentiate(System& s, const State& state) {
+  // Of the size of q, so that units do not matter; round-off and curvature of the force then matter alike.
+  const double size = state.q.lpNorm<Eigen::Infinity>(), dq = 0x1p-24 * (size > 0 ? size : 1);
+  const Eigen::Index n = state.v.size();
+  K_.resize(n, n);
+  residual(s, state.t, state.q, state, r_);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    unit_.setZero(n);
+    unit_[j] = dq;
+    s.retract(state.q, unit_, q_);
+    residual(s, state.t, q_, state, moved_r_);
+    K_.col(j) = (moved_r_ - r_) / dq;
+  }
+}
+
+// M, and P^T K P in place of K.
+void SmallOscillations::put_on_rows(System& s, const State& state) {
+  const Eigen::Index n = state.v.size();
+  const bool rows = s.sizes().nc > 0;
+  M_.resize(n, n), P_.setIdentity(n, n);
+  no_rows_.setZero(s.sizes().nc);
+  s.move_to(state.t, state.q, state.v);
+  if (rows) s.factorise({1, 0, 0}, state.a, state.lambda, Factors::projection);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    unit_.setZero(n);
+    unit_[j] = 1;
+    r_.setZero(n);
+    s.add_mass_times(1, unit_, r_);
+    M_.col(j) = r_;
+    r_ = -r_;
+    if (rows && s.correct(r_, no_rows_, x_, mu_, Factors::projection)) P_.col(j) = x_;
+  }
+  if (rows) {
+    KP_.noalias() = K_ * P_;
+    K_.noalias() = P_.transpose() * KP_;
+  }
+  KP_ = K_.transpose();
+  K_ = 0.5 * (K_ + KP_);
+}
+
+void SmallOscillations::linearise(System& s, const State& state) {
+  const Eigen::Index n = state.v.size();
+  omega_.resize(0), omega_2_.resize(0), phi_.resize(n, 0), psi_.resize(0, n);
+  if (n == 0) return;
+  differentiate(s, state);
+  put_on_rows(s, state);
+  if (!K_.allFinite()) return;
+  cholesky_.compute(M_);  // M = L L^T: L^-1 K L^-T y = omega^2 y, phi = L^-T y
+  if (cholesky_.info() != Eigen::Success) return;
+  cholesky_.matrixL().solveInPlace(K_);
+  KP_ = K_.transpose();
+  cholesky_.matrixL().solveInPlace(KP_);
+  solver_.compute(KP_);
+  if (solver_.info() != Eigen::Success) return;
+  const Vec& squares = solver_.eigenvalues();  // ascending
+  const double least = slow * slow * squares[n - 1];
+  const Eigen::Index count = (squares.array() > std::max(least, 0.0)).count();
+  omega_2_ = squares.tail(count);
+  omega_ = omega_2_.cwiseSqrt();
+  phi_ = solver_.eigenvectors().rightCols(count);
+  cholesky_.matrixU().solveInPlace(phi_);
+  psi_.noalias() = phi_.transpose() * M_;
+}
+
+void SmallOscillations::add_acceleration(double c, const Vec& x, Vec& scratch, Eigen::Ref<Vec> sum) const {
+  if (count() == 0) return;
+  scratch.noalias() = psi_ * x;
+  scratch.array() *= c * omega_2_.array();
+  sum.noalias() += phi_ * scratch;
+}
+
+void SmallOscillations::archive(Archive& archive) {
+  archive("omega", omega_);
+  archive("omega_2", omega_2_);
+  archive_matrix(archive, "shapes", phi_);
+  archive_matrix(archive, "amplitudes", psi_);
+}
+
+}  // namespace trammel

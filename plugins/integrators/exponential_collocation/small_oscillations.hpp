@@ -1,0 +1,45 @@
+// Undamped small oscillations of a system about a state, on the null space of its rows:
+//
+//     P^T K P phi = omega^2 M phi,  phi^T M phi = 1,    K = d(M a - f + W^T lambda)/dq with a and lambda held,
+//     P = 1 - M^-1 G^T (G M^-1 G^T)^-1 G
+//
+// An increment x has the amplitudes Psi x, Psi = Phi^T M. K is taken by differences and by its symmetric part: an integrator
+// that leaves to the rest of its force what these oscillations are not needs it no better. Dense: nv^3.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <trammel/integrator.hpp>
+
+namespace trammel {
+
+class SmallOscillations {
+ public:
+  // About `state`, with the a and lambda of its equations of motion. Of a system whose mass matrix is singular: none.
+  void linearise(System& s, const State& state);
+
+  Eigen::Index count() const { return omega_.size(); }
+  const Vec& omega() const { return omega_; }  // (count) [1/s], all > 0
+  const Mat& shapes() const { return phi_; }   // Phi (nv x count)
+  const Mat& amplitudes() const { return psi_; }
+  // sum += c Phi omega^2 Psi x; `scratch`: any size.
+  void add_acceleration(double c, const Vec& x, Vec& scratch, Eigen::Ref<Vec> sum) const;
+
+  void archive(Archive& archive);
+
+ private:
+  void residual(System& s, double t, const Vec& q, const State& at, Vec& r) const;
+  void differentiate(System& s, const State& state);
+  void put_on_rows(System& s, const State& state);
+
+  Vec omega_, omega_2_;
+  Mat phi_, psi_;
+  // Of the linearisation.
+  Eigen::LLT<Mat> cholesky_;
+  Eigen::SelfAdjointEigenSolver<Mat> solver_;
+  Mat M_, K_, KP_, P_;
+  Vec r_, moved_r_, unit_, q_, x_, mu_, no_rows_;
+};
+
+}  // namespace trammel
