@@ -86,7 +86,7 @@ TEST(Index3, RefusesAStepWhoseRoundOffOutweighsTheVelocity) {
 }
 
 TEST(Baumgarte, DecaysViolationsThatStayWithoutIt) {
-  for (const char* name : {"adams_baumgarte", "runge_kutta_4", "dormand_prince", "dop853"}) {
+  for (const char* name : {"adams_baumgarte", "runge_kutta_4", "dormand_prince", "dop853", "exponential_collocation"}) {
     const auto violation = [&](double delta, double epsilon) {
       Posed s(problems::pendulum_with_rod());
       auto method = make(name, {{"delta", delta}, {"epsilon", epsilon}});

@@ -59,7 +59,10 @@ inline std::vector<Form> all_forms() {
           {"adams_baumgarte", {{"rows", string("null_space")}}},
           {"runge_kutta_4", {{"rows", string("null_space")}}},
           {"dormand_prince", {{"rows", string("null_space")}}},
-          {"dop853", {{"rows", string("null_space")}}}};
+          {"dop853", {{"rows", string("null_space")}}},
+          {"exponential_collocation", {}},
+          {"exponential_collocation", {{"rows", string("projected")}}},
+          {"exponential_collocation", {{"rows", string("null_space")}}}};
 }
 inline std::string describe(const Form& form) {
   std::string text = form.name;

@@ -107,6 +107,17 @@ TEST_P(FirstCluster, HasTheReferencesImpactsAndContactPhases) {
   EXPECT_NEAR(run.result["energy_drift"], 0, 1e-10);
 }
 
+// At a ninth of the evaluations; 1e-8 J is what the scene promises.
+TEST_P(FirstCluster, IsMetByExponentialCollocation) {
+  const Finished run = run_file("beam_impact/exponential.json",
+                                {{"parameters.N", "5"}, {"parameters.e", GetParam()}, {"simulate.until", "0.39"}});
+  const json& cluster = reference()["c_full_ccm"][key(5, GetParam())]["macro"][0];
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_NEAR(run.events.back().t, cluster["t_end"], 1e-8);
+  EXPECT_NEAR(run.end("energy_total"), cluster["E_after"], 1e-8);
+  EXPECT_LT(run.result["counts"]["residual_evaluations"], 40'000);
+}
+
 INSTANTIATE_TEST_SUITE_P(E, FirstCluster, testing::Values("0", "0.3"),
                          [](const auto& e) { return e.param[1] ? "03" : "0"; });
 

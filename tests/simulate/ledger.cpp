@@ -30,6 +30,18 @@ TEST(EnergyLedger, GivesADamperWhatItTook) {
   EXPECT_NEAR(drift(run), 0, 1e-11);
 }
 
+TEST(EnergyLedger, GivesADamperWhatManySwingsOfAStepLose) {
+  // x'' = -1e4 x - 0.2 x' from x = 1: a step of exponential collocation holds several of its swings.
+  const Finished run = run_text(
+      puck,
+      {{"bodies.mass.velocity", "[0, 0]"},
+       {"forces.spring",
+        R"({"type": "spring_damper", "between": ["ground", "mass.point"], "stiffness": 1e4, "damping": 0.2, "length": 0})"},
+       {"integrator", R"({"type": "exponential_collocation", "step": {"tolerance": 1e-8}})"}});
+  const double energy = run.result["energy_end"]["total"];
+  EXPECT_NEAR(run.result["energy_dissipated"]["dampers"], 5000 - energy, 1e-4 * 5000);
+}
+
 TEST(EnergyLedger, GivesALoadWhatItSupplied) {
   // v = 2 + sin(5 t): 1/2 v^2 - 2.
   const Finished run = run_text(

@@ -56,13 +56,14 @@ struct Method {
 inline std::vector<Method> fixed_methods(const std::string& h) {
   std::vector<Method> methods;
   for (const char* type :
-       {"hht_alpha", "newmark", "generalized_alpha", "adams_baumgarte", "runge_kutta_4", "dormand_prince", "dop853"})
+       {"hht_alpha", "newmark", "generalized_alpha", "adams_baumgarte", "runge_kutta_4", "dormand_prince", "dop853",
+        "exponential_collocation"})
     methods.push_back({type, "{\"type\": \"" + std::string(type) + "\", \"step\": " + h + "}"});
   return methods;
 }
 inline std::vector<Method> controlled_methods(const std::string& tolerance) {
   std::vector<Method> methods;
-  for (const char* type : {"hht_alpha", "dormand_prince", "dop853"})
+  for (const char* type : {"hht_alpha", "dormand_prince", "dop853", "exponential_collocation"})
     methods.push_back({std::string(type) + "_controlled",
                        "{\"type\": \"" + std::string(type) + "\", \"step\": {\"tolerance\": " + tolerance + "}}"});
   return methods;
