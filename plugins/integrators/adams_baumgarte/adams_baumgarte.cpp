@@ -17,6 +17,7 @@
 
 #include <trammel/error_norm.hpp>
 #include <trammel/plugin.hpp>
+#include <trammel/row_parameters.hpp>
 #include <trammel/runge_kutta.hpp>
 
 namespace {
@@ -154,7 +155,7 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
 
 }  // namespace
 
-TRAMMEL_PLUGIN(
+TRAMMEL_PLUGIN(trammel::row_parameters(
     trammel::integrator<AdamsBaumgarte>(
         "adams_baumgarte",
         "Adams-Bashforth-Moulton PECE of fourth order with Baumgarte's stabilisation, for "
@@ -162,10 +163,6 @@ TRAMMEL_PLUGIN(
         "error-controlled steps are mostly those of that method")
         .source(
             "Baumgarte 1972, Comput. Methods Appl. Mech. Eng. 1, 1-16; Hairer, Norsett, Wanner, Solving ODEs I, III.1")
-        .parameter("delta", &AdamsBaumgarte::delta,
-                   {.unit = "1/s", .min = 0, .doc = "weight of the velocity rows: g'' + 2 delta g' + epsilon^2 g = 0"})
-        .parameter("epsilon", &AdamsBaumgarte::epsilon, {.unit = "1/s", .min = 0, .doc = "weight of the position rows"})
         .choice("predictor", &AdamsBaumgarte::predictor,
                 {{"ab4", AdamsBaumgarte::Predictor::ab4}, {"ab3", AdamsBaumgarte::Predictor::ab3}},
-                {.doc = "ab4 as published; ab3 keeps undamped modes stable up to omega h = 1.178"})
-        .choice("rows", &AdamsBaumgarte::rows, RungeKutta::rows_choices(), {.doc = RungeKutta::rows_doc}))
+                {.doc = "ab4 as published; ab3 keeps undamped modes stable up to omega h = 1.178"})))

@@ -10,6 +10,7 @@
 
 #include <trammel/error_norm.hpp>
 #include <trammel/plugin.hpp>
+#include <trammel/row_parameters.hpp>
 #include <trammel/runge_kutta.hpp>
 
 namespace {
@@ -158,14 +159,7 @@ class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput
 
 }  // namespace
 
-TRAMMEL_PLUGIN(
+TRAMMEL_PLUGIN(trammel::row_parameters(
     trammel::integrator<Dop853>("dop853", "Dormand-Prince 8(5,3): for accurate runs; error estimate, dense output")
         .source(
-            "Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.5; Baumgarte 1972, CMAME 1, 1-16")
-        .parameter("delta", &Dop853::delta,
-                   {.unit = "1/s",
-                    .min = 0,
-                    .doc = "Baumgarte's weight of the velocity rows: g'' + 2 delta g' + epsilon^2 g = 0"})
-        .parameter("epsilon", &Dop853::epsilon,
-                   {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"})
-        .choice("rows", &Dop853::rows, RungeKutta::rows_choices(), {.doc = RungeKutta::rows_doc}))
+            "Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.5; Baumgarte 1972, CMAME 1, 1-16")))

@@ -4,6 +4,7 @@
 // Norsett, Wanner, Solving ODEs I, II.5 and II.6.
 #include <trammel/error_norm.hpp>
 #include <trammel/plugin.hpp>
+#include <trammel/row_parameters.hpp>
 #include <trammel/runge_kutta.hpp>
 
 namespace {
@@ -75,13 +76,6 @@ class DormandPrince final : public Integrator, public ErrorEstimate, public Dens
 
 }  // namespace
 
-TRAMMEL_PLUGIN(trammel::integrator<DormandPrince>("dormand_prince",
-                                                  "Dormand-Prince 5(4): error estimate and dense output")
-                   .source("Dormand, Prince 1980, J. Comput. Appl. Math. 6(1), 19-26; Baumgarte 1972, CMAME 1, 1-16")
-                   .parameter("delta", &DormandPrince::delta,
-                              {.unit = "1/s",
-                               .min = 0,
-                               .doc = "Baumgarte's weight of the velocity rows: g'' + 2 delta g' + epsilon^2 g = 0"})
-                   .parameter("epsilon", &DormandPrince::epsilon,
-                              {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"})
-                   .choice("rows", &DormandPrince::rows, RungeKutta::rows_choices(), {.doc = RungeKutta::rows_doc}))
+TRAMMEL_PLUGIN(trammel::row_parameters(
+    trammel::integrator<DormandPrince>("dormand_prince", "Dormand-Prince 5(4): error estimate and dense output")
+        .source("Dormand, Prince 1980, J. Comput. Appl. Math. 6(1), 19-26; Baumgarte 1972, CMAME 1, 1-16")))

@@ -21,6 +21,7 @@
 #include <trammel/error_norm.hpp>
 #include <trammel/oscillating_steps.hpp>
 #include <trammel/plugin.hpp>
+#include <trammel/row_parameters.hpp>
 #include <trammel/runge_kutta.hpp>
 
 #include "oscillator_moments.hpp"
@@ -321,7 +322,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
 
 }  // namespace
 
-TRAMMEL_PLUGIN(
+TRAMMEL_PLUGIN(trammel::row_parameters(
     trammel::integrator<ExponentialCollocation>("exponential_collocation",
                                                 "Exponential Lobatto collocation: small oscillations exactly, steps by "
                                                 "the rest; for flexible bodies whose fast modes only ring")
@@ -331,11 +332,4 @@ TRAMMEL_PLUGIN(
                    {.min = 1,
                     .max = 20,
                     .doc = "of a step over its four points beyond the start: order 8 with 3; 1 (order 6) for forces "
-                           "that hardly depend on velocities"})
-        .parameter("delta", &ExponentialCollocation::delta,
-                   {.unit = "1/s",
-                    .min = 0,
-                    .doc = "Baumgarte's weight of the velocity rows: g'' + 2 delta g' + epsilon^2 g = 0"})
-        .parameter("epsilon", &ExponentialCollocation::epsilon,
-                   {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"})
-        .choice("rows", &ExponentialCollocation::rows, RungeKutta::rows_choices(), {.doc = RungeKutta::rows_doc}))
+                           "that hardly depend on velocities"})))

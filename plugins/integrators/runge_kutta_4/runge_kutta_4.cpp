@@ -8,6 +8,7 @@
 // k_5) shrinks with h^4. Kutta, Z. Math. Phys. 46, 435-453 (1901).
 #include <trammel/error_norm.hpp>
 #include <trammel/plugin.hpp>
+#include <trammel/row_parameters.hpp>
 #include <trammel/runge_kutta.hpp>
 
 namespace {
@@ -63,13 +64,6 @@ class RungeKutta4 final : public Integrator, public ErrorEstimate {
 
 }  // namespace
 
-TRAMMEL_PLUGIN(
+TRAMMEL_PLUGIN(trammel::row_parameters(
     trammel::integrator<RungeKutta4>("runge_kutta_4", "the classical Runge-Kutta method of fourth order")
-        .source("Kutta 1901, Z. Math. Phys. 46, 435-453; Baumgarte 1972, Comput. Methods Appl. Mech. Eng. 1, 1-16")
-        .parameter("delta", &RungeKutta4::delta,
-                   {.unit = "1/s",
-                    .min = 0,
-                    .doc = "Baumgarte's weight of the velocity rows: g'' + 2 delta g' + epsilon^2 g = 0"})
-        .parameter("epsilon", &RungeKutta4::epsilon,
-                   {.unit = "1/s", .min = 0, .doc = "Baumgarte's weight of the position rows"})
-        .choice("rows", &RungeKutta4::rows, RungeKutta::rows_choices(), {.doc = RungeKutta::rows_doc}))
+        .source("Kutta 1901, Z. Math. Phys. 46, 435-453; Baumgarte 1972, Comput. Methods Appl. Mech. Eng. 1, 1-16")))
