@@ -135,12 +135,13 @@ void check_motion(model::AssembledSystem& system, const State& s, const scene::V
 void check_rows(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
   system.move_to(s.t, s.q, s.v);
   const Vec g = system.g(), g_dot = system.g_dot();
+  const double speed = std::max(1.0, s.v.norm());
   State nearest = s;
   bool wrong = false;
   for (const model::RowGroup& rows : row_groups(system.model())) {
     const double position = g.segment(rows.first, rows.count).norm(),
                  velocity = g_dot.segment(rows.first, rows.count).norm();
-    if (position <= tolerance && velocity <= tolerance * std::max(1.0, s.v.norm())) continue;
+    if (position <= tolerance && velocity <= tolerance * speed) continue;
     const scene::Value* at = root.at_path(rows.path);
     problems.error(
         (at ? *at : root)
