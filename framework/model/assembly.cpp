@@ -1,6 +1,7 @@
 #include "model/assembly.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace trammel::model {
 
@@ -15,6 +16,7 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
     return at;
   };
   for (const JointEntry& entry : model->joints) joint_slots.push_back(slots_of(entry.markers));
+  order_joints();
   for (const ForceEntry& entry : model->forces) force_slots.push_back(slots_of({entry.A, entry.B}));
   for (const ContactEntry& entry : model->contacts) {
     if (entry.limit)
@@ -34,6 +36,19 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
   sizes = model->sizes;
   held_rows = sizes.nc;
   lay_out_blocks();
+}
+
+void AssembledSystem::Work::order_joints() {
+  std::vector<int> first;
+  for (const JointEntry& joint : model->joints) {
+    first.push_back(int(model->bodies.size()));
+    for (const MarkerRef& marker : joint.markers)
+      if (marker.body >= 0) first.back() = std::min(first.back(), marker.body);
+  }
+  joint_order.resize(first.size());
+  std::iota(joint_order.begin(), joint_order.end(), std::size_t(0));
+  std::stable_sort(joint_order.begin(), joint_order.end(),
+                   [&](std::size_t i, std::size_t j) { return first[i] < first[j]; });
 }
 
 void AssembledSystem::Work::lay_out_blocks() {
@@ -142,7 +157,7 @@ void AssembledSystem::Work::evaluate_rows() {
     G.setZero(sizes.nc, sizes.nv);
   for (const BodyEntry& entry : model->bodies)
     if (entry.rows > 0) evaluate_own_rows(entry);
-  for (std::size_t i = 0; i < joint_slots.size(); ++i) {
+  for (const std::size_t i : joint_order) {
     const JointEntry& entry = model->joints[i];
     called(entry.name, "rows");
     evaluate_constraint(*entry.joint, joint_slots[i], rows);
@@ -186,9 +201,13 @@ void AssembledSystem::Work::evaluate_own_rows(const BodyEntry& entry) {
   const auto v_body = v.segment(entry.v0, entry.nv);
   own_rows.resize(entry.rows, entry.nv);
   entry.constrained->own_rows(t, q.segment(entry.q0, entry.nq), v_body, own_rows);
-  g.segment(entry.row, entry.rows) = own_rows.g;
-  g_dot.segment(entry.row, entry.rows).noalias() = own_rows.G * v_body + own_rows.g_t;
-  gamma.segment(entry.row, entry.rows) = own_rows.gamma;
+  for (int i = 0; i < entry.rows; ++i) {
+    double rate = own_rows.g_t(i);
+    for (int j = 0; j < entry.nv; ++j) rate += own_rows.G(i, j) * v_body(j);
+    g(entry.row + i) = own_rows.g(i);
+    g_dot(entry.row + i) = rate;
+    gamma(entry.row + i) = own_rows.gamma(i);
+  }
   if (blocks)
     blocks->add_own_rows(std::size_t(&entry - model->bodies.data()), entry.row, own_rows.G);
   else

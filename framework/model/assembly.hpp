@@ -41,6 +41,7 @@ struct AssembledSystem::Work {
   void move_to(double t_new, const Vec& q_new, const Vec& v_new);
   const Motion& motion(int slot) { return chain.motion(slot, t, q, v); }
 
+  void order_joints();
   void lay_out_blocks();   // their rows, for the contacts' modes
   void evaluate_bodies();  // mass and what bodies add to f
   void evaluate_mass();
@@ -97,6 +98,7 @@ struct AssembledSystem::Work {
   Storage storage;
   MarkerChain chain;
   std::vector<Slots> joint_slots, force_slots, contact_slots;
+  std::vector<std::size_t> joint_order;  // by their first bodies: of many bodies each is then fetched from memory once
   Modes modes;
   std::vector<int> contact_row;      // row in g, -1 while open or compliant
   std::vector<int> stick_row;        // first tangential row in g, -1 while it does not stick

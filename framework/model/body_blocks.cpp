@@ -69,7 +69,8 @@ void BodyBlocks::add_rows(int body, int row, const Motion& marker, const RowsOf&
 void BodyBlocks::add_own_rows(std::size_t body, int row, const Mat& G) {
   BodyBlock& block = bodies_[body];
   const auto column = std::lower_bound(block.rows.begin(), block.rows.end(), row) - block.rows.begin();
-  block.Gt.middleCols(column, G.rows()) += G.transpose();
+  for (Eigen::Index i = 0; i < G.rows(); ++i)
+    for (Eigen::Index j = 0; j < G.cols(); ++j) block.Gt(j, column + i) += G(i, j);
 }
 
 void BodyBlocks::couple() {

@@ -1,18 +1,46 @@
 #include "numerics/body_block.hpp"
 
+#include "numerics/few_rows.hpp"
+
 namespace trammel::numerics {
+
+namespace {
+
+// f(n), known to the compiler for bodies of few velocities.
+template <class F>
+void with_size(Eigen::Index n, F&& f) {
+  if (!with_few(n, f)) f(n);
+}
+
+}  // namespace
 
 void add_rows_times(const std::vector<BodyBlock>& bodies, double c, const Vec& x, Vec& rc) {
   for (const BodyBlock& body : bodies)
-    for (std::size_t i = 0; i < body.rows.size() && body.rows[i] < rc.size(); ++i)
-      rc(body.rows[i]) += c * body.Gt.col(Eigen::Index(i)).dot(x.segment(body.v0, body.Gt.rows()));
+    with_size(body.Gt.rows(), [&](auto n) {
+      const double *column = body.Gt.data(), *const of_body = x.data() + body.v0;
+      for (const int row : body.rows) {
+        if (row >= rc.size()) break;
+        double sum = 0;
+        for (int j = 0; j < n; ++j) sum += column[j] * of_body[j];
+        rc[row] += c * sum;
+        column += n;
+      }
+    });
 }
 
 namespace {
 
 void add_columns(const BodyBlock& body, const Mat& columns, double c, const Vec& y, Vec& r) {
-  for (std::size_t i = 0; i < body.rows.size() && body.rows[i] < y.size(); ++i)
-    r.segment(body.v0, columns.rows()) += c * y(body.rows[i]) * columns.col(Eigen::Index(i));
+  with_size(columns.rows(), [&](auto n) {
+    const double* column = columns.data();
+    double* const of_body = r.data() + body.v0;
+    for (const int row : body.rows) {
+      if (row >= y.size()) break;
+      const double by = c * y[row];
+      for (int j = 0; j < n; ++j) of_body[j] += by * column[j];
+      column += n;
+    }
+  });
 }
 
 }  // namespace
@@ -27,7 +55,14 @@ void add_reaction(const std::vector<BodyBlock>& bodies, double c, const Vec& y, 
 
 void add_mass_times(const std::vector<BodyBlock>& bodies, double c, const Vec& a, Vec& r) {
   for (const BodyBlock& body : bodies)
-    r.segment(body.v0, body.M.rows()).noalias() += c * (body.M * a.segment(body.v0, body.M.rows()));
+    with_size(body.M.rows(), [&](auto n) {
+      const double *column = body.M.data(), *const of_body = a.data() + body.v0;
+      double* const to = r.data() + body.v0;
+      for (int j = 0; j < n; ++j, column += n) {
+        const double by = c * of_body[j];
+        for (int i = 0; i < n; ++i) to[i] += by * column[i];
+      }
+    });
 }
 
 }  // namespace trammel::numerics

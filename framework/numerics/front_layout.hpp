@@ -47,7 +47,7 @@ class FrontLayout {
   std::size_t all_unknowns() const { return unknowns_.size(); }
   std::size_t all_own_rows() const { return own_rows_.size(); }
   const int* unknowns(const Front& front) const { return unknowns_.data() + front.first_unknown; }
-  const int* own_rows(const Front& front) const { return own_rows_.data() + front.first_row; }
+  int own_row(std::size_t i) const { return own_rows_[i]; }  // those of a front from first_row on
   std::span<const Source> rows(const Front& front) const { return part(sources_, front.rows); }
   std::span<const Source> masses(const Front& front) const { return part(sources_, front.masses); }
   std::span<const Child> children(const Front& front) const { return part(children_, front.children); }

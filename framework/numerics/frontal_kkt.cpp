@@ -10,14 +10,14 @@ namespace trammel::numerics {
 bool FrontalKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, bool identity, double rank_tolerance) {
   if (!know(bodies, nc) || !layout_.holds(bodies)) {
     layout_.build(bodies, nc);
-    place_store();
+    place_store(bodies);
   }
   identity_ = identity;
   dependent_ = layout_.merged().idle();
   for (std::size_t k = 0; k < places_.size(); ++k) {
     if (!sum_rows(k, bodies)) {
       layout_.extend(bodies);
-      place_store();
+      place_store(bodies);
       return factorise(bodies, nc, identity, rank_tolerance);
     }
     eliminate_rows(k, rank_tolerance);
@@ -27,8 +27,8 @@ bool FrontalKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, bool id
   return true;
 }
 
-void FrontalKkt::place_store() {
-  std::size_t size = 0;
+void FrontalKkt::place_store(const std::vector<BodyBlock>& bodies) {
+  std::size_t size = 0, pieces = 0;
   int reflections = 0, rows = 0, unknowns = 0;
   const auto place = [&size](int numbers) {
     const std::size_t at = size;
@@ -45,6 +45,9 @@ void FrontalKkt::place_store() {
     at.K = place(nb * nb);
     at.up = place(nb * nb);
     at.vectors = place(n + F + 2 * nb);
+    at.pieces = pieces;
+    for (const FrontLayout::Source& source : layout_.rows(front))
+      pieces += std::size_t(bodies[std::size_t(source.body)].Gt.rows());
     at.first_reflection = reflections;
     reflections += n;
     rows = std::max(rows, m), unknowns = std::max(unknowns, n);
@@ -52,6 +55,7 @@ void FrontalKkt::place_store() {
   store_.setZero(Eigen::Index(size));
   scale_.assign(layout_.all_own_rows(), 1);
   columns_.assign(layout_.all_unknowns(), 0);
+  pieces_.assign(pieces, 0);
   reflections_.assign(std::size_t(reflections), {});
   K_.resize(unknowns, unknowns);
   w_.resize(rows);
@@ -86,10 +90,12 @@ bool FrontalKkt::sum_rows(std::size_t k, const std::vector<BodyBlock>& bodies) {
   const int n = front.unknowns;
   double* const C = store_.data() + at.C;
   std::fill_n(C, front.own_rows * n, 0.0);
+  double* piece = pieces_.data() + at.pieces;
   for (const FrontLayout::Source& source : layout_.rows(front)) {
     const Mat& Gt = bodies[std::size_t(source.body)].Gt;
     const double* const from = Gt.data() + source.column * Gt.rows();
     const int* const map = layout_.map(source.map);
+    piece = std::copy_n(from, Gt.rows(), piece);
     for (Eigen::Index j = 0; j < Gt.rows(); ++j) {
       if (map[j] >= 0)
         C[source.row * n + map[j]] += from[j];

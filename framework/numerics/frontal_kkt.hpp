@@ -29,7 +29,9 @@ class FrontalKkt {
  public:
   // Of the first nc rows; `identity`: in place of M. False: a mass is not positive definite. `rank_tolerance` as in kkt.hpp.
   [[nodiscard]] bool factorise(const std::vector<BodyBlock>& bodies, int nc, bool identity, double rank_tolerance);
-  void solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
+  // Refined with the residuals of the equations until x does not change any more. False: it does not come to that. Then rows that
+  // depend on others were taken for independent ones: round-off has come between them on a long way around.
+  [[nodiscard]] bool solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
   int dependent() const { return dependent_; }  // rows
   // Was factorised before, in these rows' places.
   bool know(const std::vector<BodyBlock>& bodies, int nc) const { return layout_.know(bodies, nc); }
@@ -38,6 +40,7 @@ class FrontalKkt {
   // Where a front's numbers are in store_, and what its rows came to.
   struct Place {
     std::size_t C = 0, reflections = 0, masses = 0, K = 0, up = 0, vectors = 0;
+    std::size_t pieces = 0;  // in pieces_
     int first_reflection = 0;
     int all_rows = 0, told = 0, passed = 0;
   };
@@ -56,13 +59,19 @@ class FrontalKkt {
   Parts parts(std::size_t front);
   RowElimination rows_of(const Place& at, int n);
 
-  void place_store();
+  void place_store(const std::vector<BodyBlock>& bodies);
   bool sum_rows(std::size_t front, const std::vector<BodyBlock>& bodies);
   void eliminate_rows(std::size_t front, double rank_tolerance);
   void sum_masses(std::size_t front, const std::vector<BodyBlock>& bodies);
   bool reduce_masses(std::size_t front);
-  void forward(std::size_t front, const Vec& c);
-  void backward(std::size_t front, Vec& y);
+  void merge(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c);
+  void expand(const std::vector<BodyBlock>& bodies, const Vec& b, Vec& x, Vec& y);
+  void subtract_mass(const std::vector<BodyBlock>& bodies, const Vec& a, Vec& from);
+  bool refine(const std::vector<BodyBlock>& bodies);
+  void find_residuals(const std::vector<BodyBlock>& bodies);
+  void solve_once(Vec& X, Vec& Y);
+  void forward(std::size_t front);
+  void backward(std::size_t front, Vec& X, Vec& Y);
 
   bool identity_ = false;
   int dependent_ = 0;
@@ -71,10 +80,13 @@ class FrontalKkt {
   Vec store_;                 // aligned as Eigen's own: sums over pieces of it round alike in every run
   std::vector<int> columns_;  // of each front's unknowns
   std::vector<RowElimination::Reflection> reflections_;
-  std::vector<double> scale_;  // of own rows
-  std::vector<int> place_of_;  // of each of a front's unknowns in its columns
+  std::vector<double> scale_;   // of own rows
+  std::vector<double> pieces_;  // what bodies give to own rows, in the order of their sources
+  std::vector<int> place_of_;   // of each of a front's unknowns in its columns
   Mat K_;
-  Vec w_, scratch_, b_, c_, X_, offset_, left_;
+  // Of merged unknowns and own rows at length one: right sides, what is left of them, solution, its corrections.
+  Vec B_, C_, b_, c_, X_, Y_, dX_, dY_;
+  Vec w_, scratch_, offset_, left_, left_rows_;
 };
 
 }  // namespace trammel::numerics

@@ -129,32 +129,8 @@ void SparseMassKkt::remove_null_part(Vec& r) {
   }
 }
 
-// False: the equations do not come to hold. Then rows that depend on others were taken for independent ones: round-off has come
-// between them on a long way around.
-bool SparseMassKkt::solve_fronts(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
-  constexpr int most = 4;
-  constexpr double good = 1e-7, lost = 1e-6;  // corrections: leave their square; too large to count on
-  double change = 0, size = 0;
-  fronts_.solve(bodies, b, c, x, y);
-  for (int i = 0; i < most; ++i) {
-    left_ = b, residual_ = c;
-    if (identity_)
-      left_ -= x;
-    else
-      add_mass_times(bodies, -1, x, left_);
-    add_rows_force(bodies, -1, y, left_);
-    add_rows_times(bodies, -1, x, residual_);
-    fronts_.solve(bodies, left_, residual_, dx_, dy_);
-    change = dx_.lpNorm<Eigen::Infinity>(), size = x.lpNorm<Eigen::Infinity>();
-    if (!(change < 0.1 * size)) break;
-    x += dx_, y += dy_;
-    if (change <= good * size) break;
-  }
-  return change <= lost * size;
-}
-
 void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
-  if (by_fronts_ && solve_fronts(bodies, b, c, x, y)) return;
+  if (by_fronts_ && fronts_.solve(bodies, b, c, x, y)) return;
   if (by_fronts_) leave_fronts(bodies);
   y.setZero(nc_);
   move(bodies, b, y, x);

@@ -53,7 +53,6 @@ class SparseMassKkt {
   void move(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& y, Vec& x);  // x = M^-1 (b - G^T y)
   void remove_null_part(Vec& r);
   bool factorise_fronts(const std::vector<BodyBlock>& bodies);
-  bool solve_fronts(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
   void leave_fronts(const std::vector<BodyBlock>& bodies);
   void regularise(const std::vector<BodyBlock>& bodies, double least);
 
@@ -66,7 +65,7 @@ class SparseMassKkt {
   RecordedMatrix schur_;  // lower triangle
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt_;
   FrontalKkt fronts_;
-  Vec diagonal_, residual_, dy_, dx_, left_;
+  Vec diagonal_, residual_, dy_;
 };
 
 class SparseIterationKkt {

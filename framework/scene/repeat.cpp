@@ -110,6 +110,12 @@ class Repetition {
       } else {
         range.last = bounds.read_integer(problems_).value_or(0) - 1;
       }
+      if (range.last < range.first - 1)
+        problems_.error(bounds.problem(
+            bounds.type() == Value::Type::array
+                ? fmt::format(R"("{}" counts from {} to {}, expected a last number of at least {} (no copy then))",
+                              name, range.first, range.last, range.first - 1)
+                : fmt::format(R"("{}" counts {} copies, expected 0 or more)", name, range.last + 1)));
       ranges.push_back(std::move(range));
     }
     return problems_.empty();

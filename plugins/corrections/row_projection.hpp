@@ -3,6 +3,8 @@
 //     q <- q (+) dq,   [S G^T; G 0] (dq, mu) = -(0, g)            repeated (Newton) until g is at round-off
 //     v <- v + dv,     [S G^T; G 0] (dv, mu) = -(0, G v + g_t)    at the new q; once, and once more for its round-off
 //
+// The factors of the first q serve the positions as long as they take off nine tenths of g each time: a step's violation is small.
+//
 // With S = 1 this is dq = -G^+ g (Moore-Penrose), with S = M dq = -M^-1 G^T (G M^-1 G^T)^+ g. Both are the step-wise
 // corrections of Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), after Taylor's series of g about q.
 #pragma once
@@ -24,16 +26,20 @@ class RowProjection final : public Correction {
  private:
   Outcome position(System& s, State& state) {
     double before = 0;
+    bool fresh = true;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       s.move_to(state.t, state.q, state.v);
       const double violation = s.sizes().nc > 0 ? s.g().lpNorm<Eigen::Infinity>() : 0;
       // A coordinate that is to be 0 would go on falling by all its digits a step.
-      const double round_off = std::numeric_limits<double>::epsilon() * state.q.lpNorm<Eigen::Infinity>();
-      if (!(violation > round_off)) return Outcome::accept();
-      // Converged quadratically, so where a step no longer halves it the rest is round-off, if it is small at all.
-      if (iteration > 0 && violation > 0.5 * before)
-        return violation <= settled ? Outcome::accept() : Outcome::reject("the correction of the positions diverges");
+      if (!(violation > round_off * state.q.lpNorm<Eigen::Infinity>())) return Outcome::accept();
+      // Where a step no longer halves it the rest is round-off, if it is small at all.
+      if (iteration > 0 && violation > 0.5 * before) {
+        if (violation <= settled) return Outcome::accept();
+        if (fresh) return Outcome::reject("the correction of the positions diverges");
+      }
+      fresh = iteration == 0 || violation > 0.1 * before;
       before = violation;
+      if (fresh) factorise(s);
       if (!solve(s, s.g())) return Outcome::reject("the correction of the positions has no solution");
       s.retract(state.q, change_, moved_);
       state.q = moved_;
@@ -44,7 +50,10 @@ class RowProjection final : public Correction {
   Outcome velocity(System& s, State& state) {
     for (int pass = 0; pass < 2; ++pass) {
       s.move_to(state.t, state.q, state.v);
-      if (s.sizes().nc == 0 || s.g_dot().isZero(0)) break;
+      if (s.sizes().nc == 0) break;
+      const double violation = s.g_dot().lpNorm<Eigen::Infinity>();
+      if (!(violation > round_off * state.v.lpNorm<Eigen::Infinity>())) break;
+      if (pass == 0) factorise(s);
       if (!solve(s, s.g_dot())) return Outcome::reject("the correction of the velocities has no solution");
       state.v += change_;
     }
@@ -52,12 +61,16 @@ class RowProjection final : public Correction {
   }
 
   static constexpr int most_iterations = 20;
+  static constexpr double round_off = std::numeric_limits<double>::epsilon();
   static constexpr double settled = 1e-9;  // [unit of the rows] far above round-off, far below a useful violation
+
+  void factorise(System& s) {
+    zero_.setZero(s.sizes().nv);
+    s.factorise(S, zero_, zero_rows_.setZero(s.sizes().nc), Factors::projection);
+  }
 
   bool solve(System& s, const Vec& violation) {
     right_ = violation;
-    zero_.setZero(s.sizes().nv);
-    s.factorise(S, zero_, zero_rows_.setZero(right_.size()), Factors::projection);
     return s.correct(zero_, right_, change_, multipliers_, Factors::projection);
   }
 

@@ -48,6 +48,15 @@ TEST(Repetition, FillsInWholeNumbersEverywhere) {
 }
 TEST(Repetition, CountsNothing) {
   EXPECT_TRUE(names(Scene::parse(R"({"bodies": {"a_{i}": {"for": {"i": 0}}}})", "s"), "bodies").empty());
+  EXPECT_TRUE(names(Scene::parse(R"({"bodies": {"a_{i}": {"for": {"i": [1, 0]}}}})", "s"), "bodies").empty());
+}
+TEST(Repetition, RefusesFewerCopiesThanNone) {
+  EXPECT_NE(error_of(R"({"bodies": {"a_{i}": {"for": {"i": -1}}}})")
+                .find("bodies.a_{i}.for.i: \"i\" counts -1 copies, expected 0 or more"),
+            std::string::npos);
+  EXPECT_NE(error_of(R"({"bodies": {"a_{i}": {"for": {"i": [1, -1]}}}})")
+                .find("\"i\" counts from 1 to -1, expected a last number of at least 0 (no copy then)"),
+            std::string::npos);
 }
 TEST(Repetition, MeansWhatTheWrittenCopiesMean) {
   const Scene written = Scene::parse(R"({"bodies": {"a_0": {"x": 1}, "a_1": {"x": 1}}})", "s");

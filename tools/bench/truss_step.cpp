@@ -56,7 +56,9 @@ void step(benchmark::State& report, const std::string& name) {
   const simulate::Setup setup = set_up(name, report, registry);
   const RecordsFolder folder;
   simulate::Recorder recorder(folder.path, *setup.model, setup.columns, {});
-  simulate::Simulator simulator(setup.model, *setup.integrator, setup.settings, {});
+  std::vector<simulate::Simulator::LevelCorrection> corrections;
+  for (const auto& [level, correction] : setup.corrections) corrections.push_back({level, correction.get()});
+  simulate::Simulator simulator(setup.model, *setup.integrator, setup.settings, corrections);
   simulator.start(setup.initial);
   simulator.advance(recorder);
   for (auto _ : report) simulator.advance(recorder);
