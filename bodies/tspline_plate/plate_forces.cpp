@@ -29,15 +29,25 @@ void add_block(const Cell& cell, const double* block, Matrix& S) {
 
 }  // namespace
 
+// Axes do not mix but where an edge holds a direction of its own.
 void TsplinePlate::mass(double, In, Matrix& M) const {
-  double block[most_components * most_components];
+  int dofs[most_functions];
+  using View = Eigen::Map<const Mat, 0, Eigen::OuterStride<>>;
   for (const Cell& cell : mesh_->cells) {
-    const int size = 3 * cell.functions;
-    std::fill_n(block, size * size, 0.0);
-    for (int J = 0; J < cell.functions; ++J)
-      for (int I = 0; I < cell.functions; ++I)
-        for (int i = 0; i < 3; ++i) block[(3 * J + i) * size + 3 * I + i] = cell.mass[std::size_t(J * cell.padded + I)];
-    add_block(cell, block, M);
+    const int n = cell.functions;
+    if (cell.plain) {
+      for (int axis_ = 0; axis_ < 3; ++axis_) {
+        for (int I = 0; I < n; ++I) dofs[I] = cell.dofs[std::size_t(3 * I + axis_)];
+        M.add(std::span(dofs, std::size_t(n)), View(cell.mass.data(), n, n, Eigen::OuterStride<>(cell.padded)));
+      }
+      continue;
+    }
+    for (const Cell::Local& column : cell.terms)
+      for (const Cell::Local& row : cell.terms) {
+        if (row.component % 3 != column.component % 3) continue;
+        const double m = cell.mass[std::size_t(column.component / 3 * cell.padded + row.component / 3)];
+        M.add(cell.dofs[std::size_t(row.dof)], cell.dofs[std::size_t(column.dof)], row.factor * column.factor * m);
+      }
   }
 }
 

@@ -239,7 +239,16 @@ void AssembledSystem::constraint_acceleration(const Vec& a, Vec& r) {
 
 void AssembledSystem::add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S) {
   work_->evaluate_rows();
-  work_->add_tangent(c, a, lambda, S);
+  Matrix target = Matrix::onto(S);
+  work_->add_tangent(c, a, lambda, target);
+}
+
+Eigen::SparseMatrix<double> AssembledSystem::sparse_tangent(Blend c, const Vec& a, const Vec& lambda) {
+  work_->evaluate_rows();
+  numerics::SparseSum sum;
+  Matrix target = Matrix::onto(sum);
+  sum.fill(work_->sizes.nv, [&] { work_->add_tangent(c, a, lambda, target); });
+  return sum.matrix();
 }
 
 const Motion& AssembledSystem::motion(MarkerRef marker) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/SparseCore>
+
 #include <trammel/system.hpp>
 
 #include "model/model.hpp"
@@ -62,8 +64,10 @@ struct CallSite {
   const char* call = "";
 };
 
-// Dense matrices, or blocks by bodies with sparse factorisations; automatic: by BodyBlocks::worthwhile.
-enum class Storage { automatic, dense, blocks };
+// Dense matrices; sparse M and S with dense rows, for bodies of many coordinates; or blocks by bodies with sparse factorisations, for
+// many bodies tied by rows. automatic: by what is measured to be quicker (storage_for).
+enum class Storage { automatic, dense, sparse, blocks };
+Storage storage_for(const Model& model);
 
 class AssembledSystem final : public System {
  public:
@@ -146,6 +150,7 @@ class AssembledSystem final : public System {
   void constraint_acceleration(const Vec& a, Vec& r);  // G a - gamma
   // S += c_m M + c_d D + c_k K + c_1 1, the matrix that `factorise` takes (nv x nv).
   void add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S);
+  Eigen::SparseMatrix<double> sparse_tangent(Blend c, const Vec& a, const Vec& lambda);
 
   const Motion& motion(MarkerRef marker);     // at the current point
   const Motion& contact_marker(int contact);  // of its A; of a surface the deepest point

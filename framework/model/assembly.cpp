@@ -7,8 +7,9 @@ namespace trammel::model {
 
 AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
     : model(std::move(m)), storage(how), chain(*model) {
-  if (storage == Storage::blocks || (storage == Storage::automatic && BodyBlocks::worthwhile(*model)))
-    blocks.emplace(*model);
+  const Storage chosen = storage == Storage::automatic ? storage_for(*model) : storage;
+  sparse = chosen == Storage::sparse;
+  if (chosen == Storage::blocks) blocks.emplace(*model);
   const auto slots_of = [this](const std::vector<MarkerRef>& markers) {
     Slots at{.count = int(markers.size())};
     int* const each[] = {&at.A, &at.B, &at.C, &at.D};
@@ -35,6 +36,7 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
   stick_row.assign(model->contacts.size(), -1);
   sizes = model->sizes;
   held_rows = sizes.nc;
+  if (sparse) reserve_contacts();
   lay_out_blocks();
 }
 
@@ -87,26 +89,39 @@ void AssembledSystem::Work::move_to(double t_new, const Vec& q_new, const Vec& v
 // M, unless it is constant and there already, and what the bodies add to f. Whoever asks for one needs the other soon.
 void AssembledSystem::Work::evaluate_bodies() {
   ++counts.residual_evaluations;
+  if (!mass_fresh && sparse) sum_mass(), mass_fresh = true;
   if (!mass_fresh && !blocks) M.setZero(sizes.nv, sizes.nv);
   f.setZero(sizes.nv);
   for (std::size_t k = 0; k < model->bodies.size(); ++k) {
     const BodyEntry& entry = model->bodies[k];
     const auto q_body = q.segment(entry.q0, entry.nq);
     const auto v_body = v.segment(entry.v0, entry.nv);
-    Matrix target = blocks ? Matrix::onto(blocks->mass(k)) : Matrix::onto(M).from(entry.v0, entry.v0);
-    if (!mass_fresh && blocks) blocks->mass(k).setZero();
-    if (!mass_fresh && entry.mass_and_force) {
-      called(entry.name, "mass_and_force");
-      entry.mass_and_force->mass_and_force(t, q_body, v_body, target, f.segment(entry.v0, entry.nv));
-      continue;
+    if (!mass_fresh) {
+      Matrix target = blocks ? Matrix::onto(blocks->mass(k)) : Matrix::onto(M).from(entry.v0, entry.v0);
+      if (blocks) blocks->mass(k).setZero();
+      if (entry.mass_and_force) {
+        called(entry.name, "mass_and_force");
+        entry.mass_and_force->mass_and_force(t, q_body, v_body, target, f.segment(entry.v0, entry.nv));
+        continue;
+      }
+      called(entry.name, "mass");
+      entry.body->mass(t, q_body, target);
     }
-    called(entry.name, "mass");
-    if (!mass_fresh) entry.body->mass(t, q_body, target);
     called(entry.name, "force");
     entry.body->force(t, q_body, v_body, f.segment(entry.v0, entry.nv));
   }
   returned();
   mass_fresh = bodies_fresh = true;
+}
+
+void AssembledSystem::Work::sum_mass() {
+  sparse_mass.fill(sizes.nv, [this] {
+    for (const BodyEntry& entry : model->bodies) {
+      called(entry.name, "mass");
+      Matrix target = Matrix::onto(sparse_mass).from(entry.v0, entry.v0);
+      entry.body->mass(t, q.segment(entry.q0, entry.nq), target);
+    }
+  });
 }
 
 void AssembledSystem::Work::evaluate_mass() {

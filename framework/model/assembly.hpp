@@ -11,6 +11,7 @@
 #include "model/body_blocks.hpp"
 #include "model/marker_chain.hpp"
 #include "model/surface_contact.hpp"
+#include "numerics/frontal_iteration_kkt.hpp"
 #include "numerics/kkt.hpp"
 
 namespace trammel::model {
@@ -30,21 +31,24 @@ struct AssembledSystem::Work {
   };
   // The kept factorisations: those of System::Factors, and that of the point's accelerations.
   enum Store : std::size_t { iteration, projection, at_point };
-  // Dense: M or the identity alone has the cheaper, symmetric one.
+  // M or the identity alone has the cheaper, symmetric one.
   struct Kept {
     bool symmetric = false;  // of M or the identity alone
     numerics::MassKkt mass;
     bool mass_factorised = false;  // for constant mass matrices: once
     numerics::IterationKkt iteration;
+    numerics::FrontalIterationKkt sparse;  // in its place, with sparse storage
   };
 
   void move_to(double t_new, const Vec& q_new, const Vec& v_new);
   const Motion& motion(int slot) { return chain.motion(slot, t, q, v); }
 
   void order_joints();
+  void reserve_contacts();
   void lay_out_blocks();   // their rows, for the contacts' modes
   void evaluate_bodies();  // mass and what bodies add to f
   void evaluate_mass();
+  void sum_mass();  // with sparse storage
   // r += c M a; and, after evaluate_rows, rc += c G x, r += c G^T y, r += c W^T y.
   void add_mass_times(double c, const Vec& a, Vec& r);
   void add_rows_times(double c, const Vec& x, Vec& rc);
@@ -75,18 +79,20 @@ struct AssembledSystem::Work {
   bool rolls(int i) const;                  // it is round, in space: the coordinates of its tangents follow from steps
   Eigen::Matrix3d seen_from_B(int i);       // A's orientation
   Tangential displacement(int i);           // g along the tangents, from the mode's anchor
-  void add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S);
+  void add_tangent(Blend c, const Vec& a, const Vec& lambda, Matrix& S);
   bool factorise_mass(Store store, bool with_friction, double rank_tolerance);
   void factorise_identity(Store store);
   void factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda, bool with_friction);
-  bool redundant(Store store) const;  // rows, at its last factorise_mass
+  void factorise_sparse(Kept& store, Blend c, const Vec& a, const Vec& lambda, bool sliding);
+  void add_rows_to(numerics::SparseSum& sum, bool sliding);  // W^T and G beside S
+  bool redundant(Store store) const;                         // rows, at its last factorise_mass
   [[nodiscard]] bool solve(Store store, const Vec& b, const Vec& c, Vec& x, Vec& y);
   // A solver for the change of v by impulses, the joints' rows held.
   std::function<void(const Vec& impulse, Vec& dv)> with_joints_held();
 
   // S += c d(G^T lambda)/dq, lambda of its rows alone.
   void add_reaction_of(const Constraint& constraint, const ReactionTangent* exact, const Slots& at, const Vec6& lambda,
-                       double c, Mat& S);
+                       double c, Matrix& S);
   // Of rows, by what solves with them; after evaluate_rows.
   double violation() const { return g.size() ? g.lpNorm<Eigen::Infinity>() : 0; }
   double rank_tolerance() const { return numerics::rank_tolerance_at(violation()); }
@@ -96,6 +102,7 @@ struct AssembledSystem::Work {
 
   std::shared_ptr<const Model> model;
   Storage storage;
+  bool sparse = false;  // M and S
   MarkerChain chain;
   std::vector<Slots> joint_slots, force_slots, contact_slots;
   std::vector<std::size_t> joint_order;  // by their first bodies: of many bodies each is then fetched from memory once
@@ -120,7 +127,8 @@ struct AssembledSystem::Work {
   bool bodies_fresh = false, force_fresh = false;  // f holds what the bodies add; all of it
 
   Mat M, G, W;
-  Mat tangent;  // of factorise_tangent with blocks
+  numerics::SparseSum sparse_mass;  // in place of M, with sparse storage
+  Mat tangent;                      // of factorise_tangent with blocks
   Vec f, g, g_dot, gamma;
   std::array<Kept, 3> kept;
   std::optional<BodyBlocks> blocks;  // in place of M, G, W and their factors where bodies are many
@@ -140,6 +148,8 @@ struct AssembledSystem::Work {
   std::vector<Pressed> surfaces;  // by contact
   Wrench on_A, on_B;
   Vec right, right_rows;
+  std::vector<int> row_places;  // columns of a few rows, and their numbers
+  std::vector<double> row_numbers;
 };
 
 // d of the generalised force of a few markers, whose wrenches are a function of their motions, by differences of the
@@ -154,7 +164,7 @@ class MarkerWrenches {
   virtual bool depends_on_velocity() const = 0;
 };
 void add_wrench_tangent(MarkerChain& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
-                        const MarkerWrenches& wrenches, double c_k, double c_d, Mat& S);
+                        const MarkerWrenches& wrenches, double c_k, double c_d, Matrix& S);
 
 // The wrench of a contact on one of its markers, whose rows are H: `normal` along its normal, `friction` along its tangents.
 Wrench pressed_by(const Mat6& H, double normal, const Tangential& friction);

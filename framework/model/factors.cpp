@@ -1,13 +1,26 @@
-// The system's matrices at the point, times vectors and factorised: dense, or by BodyBlocks where bodies are many.
+// The system's matrices at the point, times vectors and factorised: dense, sparse, or by BodyBlocks where bodies are many.
 #include "model/assembly.hpp"
 #include "numerics/few_rows.hpp"
 #include "numerics/packs.hpp"
 
 namespace trammel::model {
+
+namespace {
+
+Eigen::SparseMatrix<double> sparse_identity(int n) {
+  Eigen::SparseMatrix<double> identity(n, n);
+  identity.setIdentity();
+  return identity;
+}
+
+}  // namespace
+
 void AssembledSystem::Work::add_mass_times(double c, const Vec& a, Vec& r) {
   evaluate_mass();
   if (blocks)
     numerics::add_mass_times(blocks->bodies(), c, a, r);
+  else if (sparse)
+    r.noalias() += c * (sparse_mass.matrix() * a);
   else
     numerics::add_product(c, M, a, r);
 }
@@ -47,6 +60,8 @@ bool AssembledSystem::Work::factorise_mass(Store store, bool with_friction, doub
         blocks->kept[store], {configuration, sizes.nc, false, rank_tolerance}, model->constant_mass, sliding);
   } else if (reuse) {
     dense.mass.change_rows(G, sliding ? W : G, rank_tolerance);
+  } else if (sparse) {
+    dense.mass_factorised = dense.mass.factorise(sparse_mass.matrix(), G, sliding ? W : G, rank_tolerance);
   } else {
     dense.mass_factorised = dense.mass.factorise(M, G, sliding ? W : G, rank_tolerance);
   }
@@ -59,6 +74,8 @@ void AssembledSystem::Work::factorise_identity(Store store) {
   kept[store].mass_factorised = false;
   if (blocks)
     blocks->factorise_identity(blocks->kept[store], {configuration, sizes.nc, true, rank_tolerance()});
+  else if (sparse)
+    kept[store].mass.factorise(sparse_identity(sizes.nv), G, G, rank_tolerance());
   else
     kept[store].mass.factorise(Mat::Identity(sizes.nv, sizes.nv), G, G, rank_tolerance());
 }
@@ -69,17 +86,29 @@ void AssembledSystem::Work::factorise_tangent(Store store, Blend c, const Vec& a
   ++counts.factorizations;
   kept[store].symmetric = false;
   const bool sliding = with_friction && coupled;
+  if (sparse) return factorise_sparse(kept[store], c, a, lambda, sliding);
   Mat& S = blocks ? tangent : kept[store].iteration.begin(sizes.nv, sizes.nc);
   if (blocks) S.setZero(sizes.nv, sizes.nv);
-  add_tangent(c, a, lambda, S);
+  Matrix target = Matrix::onto(S);
+  add_tangent(c, a, lambda, target);
   if (blocks)
     blocks->factorise_tangent(blocks->kept[store], sizes.nc, S, sliding);
   else
     kept[store].iteration.factorise(sliding ? W : G, G, rank_tolerance());
 }
 
+void AssembledSystem::Work::factorise_sparse(Kept& store, Blend c, const Vec& a, const Vec& lambda, bool sliding) {
+  numerics::SparseSum& sum = store.sparse.sum();
+  Matrix target = Matrix::onto(sum);
+  store.sparse.factorise(sizes.nv, G, rank_tolerance(), [&] {
+    add_tangent(c, a, lambda, target);
+    add_rows_to(sum, sliding);
+  });
+}
+
 bool AssembledSystem::Work::solve(Store store, const Vec& b, const Vec& c, Vec& x, Vec& y) {
   if (blocks) return blocks->solve(blocks->kept[store], b, c, x, y);
+  if (!kept[store].symmetric && sparse) return kept[store].sparse.solve(b, c, x, y);
   if (!kept[store].symmetric) return kept[store].iteration.solve(b, c, x, y);
   kept[store].mass.solve(b, c, x, y);
   return x.allFinite() && y.allFinite();
@@ -107,7 +136,9 @@ std::function<void(const Vec& impulse, Vec& dv)> AssembledSystem::Work::with_joi
         [held, this](const Vec& b, const Vec& c, Vec& x, Vec& y) { held->solve(blocks->bodies(), b, c, x, y); });
   }
   const auto held = std::make_shared<numerics::MassKkt>();
-  if (!held->factorise(M, G.topRows(joint_rows))) throw NotSolvable("the mass matrix is not positive definite");
+  const Mat held_G = G.topRows(joint_rows);
+  if (!(sparse ? held->factorise(sparse_mass.matrix(), held_G, held_G) : held->factorise(M, held_G)))
+    throw NotSolvable("the mass matrix is not positive definite");
   return solver([held](const Vec& b, const Vec& c, Vec& x, Vec& y) { held->solve(b, c, x, y); });
 }
 

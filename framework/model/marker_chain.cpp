@@ -98,31 +98,32 @@ void MarkerChain::add_rows(int index, int row, const RowsOf& H, Mat& G) const {
   });
 }
 
-void MarkerChain::add_pair(int index, int other, const Mat6& D, double c, Mat& S) const {
+void MarkerChain::add_pair(int index, int other, const Mat6& D, double c, Matrix& S) const {
   const Slot& a = *slots_[std::size_t(index)];
   const Slot& b = *slots_[std::size_t(other)];
   if (a.marker.body < 0 || b.marker.body < 0) return;
   const int row0 = model_.bodies[std::size_t(a.marker.body)].v0;
   const int column0 = model_.bodies[std::size_t(b.marker.body)].v0;
+  Matrix block = S.from(row0, column0);
   for (std::size_t j = 0; j < b.motion.dofs.size(); ++j) {
     const Vec6 column = D * b.motion.J.col(Eigen::Index(j));
     for (std::size_t i = 0; i < a.motion.dofs.size(); ++i)
-      S(row0 + a.motion.dofs[i], column0 + b.motion.dofs[j]) += c * a.motion.J.col(Eigen::Index(i)).dot(column);
+      block.add(a.motion.dofs[i], b.motion.dofs[j], c * a.motion.J.col(Eigen::Index(i)).dot(column));
   }
 }
 
-void MarkerChain::add_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c, Mat& S) {
+void MarkerChain::add_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c, Matrix& S) {
   Slot& slot = *slots_[std::size_t(index)];
   if (slot.marker.body < 0) return;
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
   if (!entry.reaction_derivative) return add_numeric_reaction_derivative(slot, t, q, F, c, S);
-  Matrix target = Matrix::onto(S).from(entry.v0, entry.v0);
+  Matrix target = S.from(entry.v0, entry.v0);
   entry.reaction_derivative->add_reaction_derivative(slot.marker.marker, t, q.segment(entry.q0, entry.nq), F, c,
                                                      target);
 }
 
 void MarkerChain::add_numeric_reaction_derivative(Slot& slot, double t, const Vec& q, const Wrench& F, double c,
-                                                  Mat& S) {
+                                                  Matrix& S) {
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
   v_zero_.setZero(entry.nv);
   const auto generalised_force = [&](const Vec& q_body, Vec& out) {
@@ -132,7 +133,7 @@ void MarkerChain::add_numeric_reaction_derivative(Slot& slot, double t, const Ve
     for (std::size_t j = 0; j < probe_.dofs.size(); ++j) out(probe_.dofs[j]) = probe_.J.col(Eigen::Index(j)).dot(F);
   };
   tangent_differences(entry, q.segment(entry.q0, entry.nq), generalised_force, block_);
-  S.block(entry.v0, entry.v0, entry.nv, entry.nv) += c * block_;
+  S.add(entry.v0, entry.v0, block_, c);
 }
 
 }  // namespace trammel::model

@@ -37,9 +37,9 @@ class MarkerChain {
   // G(row + i, :) += (H J)_i
   void add_rows(int slot, int row, const RowsOf& H, Mat& G) const;
   // S(dofs, dofs') += c J^T D J' for a twist x twist matrix D between two slots
-  void add_pair(int slot, int other, const Mat6& D, double c, Mat& S) const;
+  void add_pair(int slot, int other, const Mat6& D, double c, Matrix& S) const;
   // S += c d(J^T F)/dq of the marker's body
-  void add_reaction_derivative(int slot, double t, const Vec& q, const Wrench& F, double c, Mat& S);
+  void add_reaction_derivative(int slot, double t, const Vec& q, const Wrench& F, double c, Matrix& S);
 
  private:
   struct Slot {
@@ -49,7 +49,7 @@ class MarkerChain {
     Motion motion;
   };
   void evaluate(Slot& slot, double t, const Vec& q, const Vec& v) const;
-  void add_numeric_reaction_derivative(Slot& slot, double t, const Vec& q, const Wrench& F, double c, Mat& S);
+  void add_numeric_reaction_derivative(Slot& slot, double t, const Vec& q, const Wrench& F, double c, Matrix& S);
 
   const Model& model_;
   std::vector<std::unique_ptr<Slot>> slots_;  // references to motions stay valid

@@ -1,5 +1,7 @@
 #include <trammel/matrix.hpp>
 
+#include "numerics/sparse_sum.hpp"
+
 namespace trammel {
 
 Matrix Matrix::onto(Mat& dense) {
@@ -9,7 +11,21 @@ Matrix Matrix::onto(Mat& dense) {
   return m;
 }
 
+Matrix Matrix::onto(numerics::SparseSum& sum) {
+  Matrix m;
+  m.sum_ = &sum;
+  return m;
+}
+
+void Matrix::add_to_sum(int i, int j, double value) {
+  sum_->add(row_ + i, column_ + j, value);
+}
+
 void Matrix::add(int i0, int j0, Block block, double c) {
+  if (sum_) {
+    const int rows = int(block.rows()), columns = int(block.cols());
+    return sum_->add({nullptr, row_ + i0, rows}, {nullptr, column_ + j0, columns}, block, c);
+  }
   // Plain loops: for blocks of a few columns an expression of Eigen's costs four times as much.
   Eigen::Index rows = block.rows(), columns = block.cols();
   if (rows == stride_ && rows == block.outerStride()) rows *= columns, columns = 1;  // a body alone: one long column
@@ -21,6 +37,8 @@ void Matrix::add(int i0, int j0, Block block, double c) {
 }
 
 void Matrix::add(std::span<const int> rows, std::span<const int> columns, Block block, double c) {
+  if (sum_)
+    return sum_->add({rows.data(), row_, int(rows.size())}, {columns.data(), column_, int(columns.size())}, block, c);
   for (std::size_t j = 0; j < columns.size(); ++j) {
     double* column = origin_ + columns[j] * stride_;
     for (std::size_t i = 0; i < rows.size(); ++i) column[rows[i]] += c * block(Eigen::Index(i), Eigen::Index(j));

@@ -35,7 +35,7 @@ class SurfaceContact {
   virtual const PressureSums& sums() const = 0;
   virtual void add_force(Vec& f) const = 0;  // on both
   // S += c_k K + c_d D of minus these forces.
-  virtual void add_tangent(const Point& point, double c_k, double c_d, Mat& S) = 0;
+  virtual void add_tangent(const Point& point, double c_k, double c_d, Matrix& S) = 0;
   // On the marker of the sphere or plane; nothing where it acts between surfaces.
   struct OnMarker {
     int slot;

@@ -87,7 +87,7 @@ class SurfaceOnMarker final : public SurfaceContact {
     });
   }
 
-  void add_tangent(const Point& point, double c_k, double c_d, Mat& S) override {
+  void add_tangent(const Point& point, double c_k, double c_d, Matrix& S) override {
     const Partner other = partner(point);
     const Motion& marker = chain_.last_motion(marker_);
     const bool marker_moves = chain_.body(marker_) >= 0;

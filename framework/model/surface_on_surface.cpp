@@ -116,7 +116,7 @@ class SurfaceOnSurface final : public SurfaceContact {
     }
   }
 
-  void add_tangent(const Point&, double c_k, double c_d, Mat& S) override {
+  void add_tangent(const Point&, double c_k, double c_d, Matrix& S) override {
     for (const Touch& touch : touches_) {
       const SurfacePatch& patch = points_.sampled(touch.patch);
       const SurfaceJet& y = touch.y;
@@ -147,7 +147,7 @@ class SurfaceOnSurface final : public SurfaceContact {
       points_.add_square(patch, square, S);
       points_.add_rows(patch, by_B, other_.v0, y.dofs, S);
       points_.add_columns(patch, B_by_nodes, other_.v0, y.dofs, S);
-      Matrix::onto(S).from(other_.v0, other_.v0).add(y.dofs, on_B.rightCols(m), -1);
+      S.from(other_.v0, other_.v0).add(y.dofs, on_B.rightCols(m), -1);
     }
   }
 

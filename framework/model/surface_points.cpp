@@ -54,18 +54,18 @@ void SurfacePoints::add_force(const SurfacePatch& p, const OnNodes& forces, Vec&
   for (std::size_t j = 0; j < p.dofs.size(); ++j) f(body_.v0 + p.dofs[j]) += local(Eigen::Index(j));
 }
 
-void SurfacePoints::add_square(const SurfacePatch& p, const Mat& nodes, Mat& S) const {
-  Matrix::onto(S).from(body_.v0, body_.v0).add(p.dofs, p.B.size() > 0 ? Mat(p.B.transpose() * nodes * p.B) : nodes);
+void SurfacePoints::add_square(const SurfacePatch& p, const Mat& nodes, Matrix& S) const {
+  S.from(body_.v0, body_.v0).add(p.dofs, p.B.size() > 0 ? Mat(p.B.transpose() * nodes * p.B) : nodes);
 }
 
 void SurfacePoints::add_rows(const SurfacePatch& p, const Mat& nodes, int first, const std::vector<int>& dofs,
-                             Mat& S) const {
-  Matrix::onto(S).from(body_.v0, first).add(p.dofs, dofs, p.B.size() > 0 ? Mat(p.B.transpose() * nodes) : nodes);
+                             Matrix& S) const {
+  S.from(body_.v0, first).add(p.dofs, dofs, p.B.size() > 0 ? Mat(p.B.transpose() * nodes) : nodes);
 }
 
 void SurfacePoints::add_columns(const SurfacePatch& p, const Mat& nodes, int first, const std::vector<int>& dofs,
-                                Mat& S) const {
-  Matrix::onto(S).from(first, body_.v0).add(dofs, p.dofs, p.B.size() > 0 ? Mat(nodes * p.B) : nodes);
+                                Matrix& S) const {
+  S.from(first, body_.v0).add(dofs, p.dofs, p.B.size() > 0 ? Mat(nodes * p.B) : nodes);
 }
 
 }  // namespace trammel::model

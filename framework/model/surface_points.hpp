@@ -32,9 +32,10 @@ class SurfacePoints {
 
   // f += of forces on a patch's nodes; S += of a matrix between nodes, and between nodes and anything else at `first` + `dofs`.
   void add_force(const SurfacePatch& patch, const OnNodes& forces, Vec& f) const;
-  void add_square(const SurfacePatch& patch, const Mat& nodes, Mat& S) const;
-  void add_rows(const SurfacePatch& patch, const Mat& nodes, int first, const std::vector<int>& dofs, Mat& S) const;
-  void add_columns(const SurfacePatch& patch, const Mat& nodes, int first, const std::vector<int>& dofs, Mat& S) const;
+  void add_square(const SurfacePatch& patch, const Mat& nodes, Matrix& S) const;
+  void add_rows(const SurfacePatch& patch, const Mat& nodes, int first, const std::vector<int>& dofs, Matrix& S) const;
+  void add_columns(const SurfacePatch& patch, const Mat& nodes, int first, const std::vector<int>& dofs,
+                   Matrix& S) const;
 
  private:
   Mat of_nodes(const SurfacePatch& patch, const Vec& of_body) const;

@@ -162,9 +162,12 @@ double AssembledSystem::highest_frequency(const std::vector<ContactDirection>& d
   Work& w = *work_;
   Mat jump, delassus;
   impulse_response(directions, jump, delassus);
-  Mat K = Mat::Zero(w.sizes.nv, w.sizes.nv);
-  w.add_tangent({0, 0, 1}, Vec::Zero(w.sizes.nv), Vec::Zero(w.sizes.nc), K);
-  const Mat KX = K * jump;
+  const Vec no_a = Vec::Zero(w.sizes.nv), no_lambda = Vec::Zero(w.sizes.nc);
+  Mat K = Mat::Zero(w.sparse ? 0 : w.sizes.nv, w.sparse ? 0 : w.sizes.nv), KX;
+  if (w.sparse)
+    KX = sparse_tangent({0, 0, 1}, no_a, no_lambda) * jump;
+  else
+    add_tangent({0, 0, 1}, no_a, no_lambda, K), KX = K * jump;
   Mat MX = Mat::Zero(jump.rows(), jump.cols());
   Vec column;
   for (Eigen::Index i = 0; i < jump.cols(); ++i) {

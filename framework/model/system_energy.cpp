@@ -138,10 +138,10 @@ CallSite AssembledSystem::find_not_finite() {
     Vec f = Vec::Zero(entry.nv);
     entry.body->force(w.t, q, v, f);
     if (!f.allFinite()) return {&entry.name, "force"};
-    Mat M = Mat::Zero(entry.nv, entry.nv);
+    numerics::SparseSum M;
     Matrix target = Matrix::onto(M);
-    entry.body->mass(w.t, q, target);
-    if (!M.allFinite()) return {&entry.name, "mass"};
+    M.fill(entry.nv, [&] { entry.body->mass(w.t, q, target); });
+    if (!M.matrix().coeffs().allFinite()) return {&entry.name, "mass"};
     if (entry.rows == 0) continue;
     w.own_rows.resize(entry.rows, entry.nv);
     entry.constrained->own_rows(w.t, q, v, w.own_rows);

@@ -41,12 +41,12 @@ class ForceWrench final : public MarkerWrenches {
 
 }  // namespace
 
-void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S) {
+void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda, Matrix& S) {
   ++counts.jacobian_evaluations;
-  if (c.c_1 != 0) S.diagonal().head(sizes.nv).array() += c.c_1;
-  const Matrix whole = Matrix::onto(S);
+  if (c.c_1 != 0)
+    for (int i = 0; i < sizes.nv; ++i) S.add(i, i, c.c_1);
   for (const BodyEntry& entry : model->bodies) {
-    Matrix target = whole.from(entry.v0, entry.v0);
+    Matrix target = S.from(entry.v0, entry.v0);
     called(entry.name, "tangent");
     const auto q_body = q.segment(entry.q0, entry.nq);
     const auto v_body = v.segment(entry.v0, entry.nv);
@@ -153,7 +153,7 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
 }
 
 void AssembledSystem::Work::add_reaction_of(const Constraint& constraint, const ReactionTangent* exact, const Slots& at,
-                                            const Vec6& lambda, double c, Mat& S) {
+                                            const Vec6& lambda, double c, Matrix& S) {
   if (!exact) {
     const std::array<int, Rows::most_markers> slots = {at.A, at.B, at.C, at.D};
     const Reaction reaction(constraint, t, lambda, model->world.space);

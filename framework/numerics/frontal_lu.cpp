@@ -12,8 +12,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr Index least_size = 150;     // below, a dense elimination is as quick
-constexpr double small_pivot = 1e-8;  // half of the digits would go
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double small_pivot = 64 * eps;
 
 Eigen::Map<Mat> matrix(double* at, int rows, int columns) {
   return Eigen::Map<Mat>(at, rows, columns);
@@ -21,26 +21,15 @@ Eigen::Map<Mat> matrix(double* at, int rows, int columns) {
 
 }  // namespace
 
-// False: A has an entry outside of the pattern.
-bool FrontalLu::take(const Mat& A) {
-  if (A_.rows() != A.rows()) return false;
-  Index taken = 0;
-  double* const values = A_.valuePtr();
+void FrontalLu::measure(const Sparse& A) {
   largest_.setZero(A.cols());
-  for (Index j = 0; j < A.cols(); ++j) {
-    const double* column = A.data() + j * A.rows();
-    for (auto k = A_.outerIndexPtr()[j]; k < A_.outerIndexPtr()[j + 1]; ++k) {
-      values[k] = column[A_.innerIndexPtr()[k]];
-      taken += values[k] != 0;
-      largest_(j) = std::max(largest_(j), std::abs(values[k]));
-    }
-  }
-  return taken == (A.array() != 0).count();
+  for (Index j = 0; j < A.cols(); ++j)
+    for (auto k = A.outerIndexPtr()[j]; k < A.outerIndexPtr()[j + 1]; ++k)
+      largest_(j) = std::max(largest_(j), std::abs(A.valuePtr()[k]));
 }
 
-void FrontalLu::assemble(const Front& front, Eigen::Map<Mat>& F) {
+void FrontalLu::assemble(const Front& front, const double* values, Eigen::Map<Mat>& F) {
   F.setZero();
-  const double* const values = A_.valuePtr();
   for (std::size_t e = front.entries.begin; e < front.entries.end; ++e)
     F.data()[entries_[e].to] = values[entries_[e].from];
   for (std::size_t c = 0; c < front.maps.size(); ++c) {
@@ -81,23 +70,15 @@ bool FrontalLu::eliminate(const Front& front, Eigen::Map<Mat>& F) {
   return true;
 }
 
-bool FrontalLu::factorise() {
+bool FrontalLu::factorise(const Sparse& A) {
+  measure(A);
   top_ = 0;
   for (const Front& front : fronts_) {
     auto F = matrix(work_.data(), front.size, front.size);
-    assemble(front, F);
+    assemble(front, A.valuePtr(), F);
     if (!eliminate(front, F)) return false;
   }
   return true;
-}
-
-bool FrontalLu::compute(const Mat& A) {
-  if (A.rows() < least_size) return false;
-  if (!take(A)) {
-    analyse(A);
-    take(A);
-  }
-  return worthwhile_ && factorise();
 }
 
 // L U x = x
@@ -125,16 +106,20 @@ void FrontalLu::substitute(Vec& x) {
   }
 }
 
-void FrontalLu::solve(const Vec& b, Vec& x) {
-  constexpr int most_corrections = 2;
-  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
+bool FrontalLu::solve(const Sparse& A, const Vec& b, Vec& x) {
+  constexpr int most_corrections = 10;
+  constexpr double round_off = 64 * eps, good = 1e-10;  // of the equations
   x = b;
   substitute(x);
-  for (int i = 0; i < most_corrections; ++i) {
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0;; ++i) {
     residual_ = b;
-    residual_.noalias() -= A_ * x;
+    residual_.noalias() -= A * x;
     const double size = largest_.cwiseProduct(x).lpNorm<Eigen::Infinity>() + b.lpNorm<Eigen::Infinity>();
-    if (!(residual_.lpNorm<Eigen::Infinity>() > round_off * size)) return;
+    const double left = residual_.lpNorm<Eigen::Infinity>();
+    if (left <= round_off * size) return true;
+    if (i == most_corrections || !(left < before / 2)) return left <= good * size;
+    before = left;
     substitute(residual_);
     x += residual_;
   }

@@ -6,11 +6,10 @@
 //     [A_FF A_FB]  =  [L_F      ] [U_F  U_FB]       rows are exchanged within F;  S goes to the front above
 //     [A_BF A_BB]     [L_BF   1 ] [      S  ]
 //
-// Order and places follow from the pattern alone and are kept while later matrices have no entry outside of it: once per mesh of a
-// plate. Unknowns with the same neighbours make one node of the tree. One without a diagonal entry, a multiplier of a row, shares the
+// Order and places follow from the pattern alone and are kept while it lasts: once per mesh of a plate. Unknowns with the same neighbours make one node of the tree. One without a diagonal entry, a multiplier of a row, shares the
 // node of an unknown in its row, so that their front has a pivot for both.
-// Exchanges within F alone may meet a small pivot where A is regular: then this says no. A solution is corrected once or twice with
-// the residual where that is not yet round-off.
+// Exchanges within F alone may meet a small pivot where A is regular: a solution is corrected with the residual until that is
+// round-off, and where it does not become so this says no.
 // Duff, Reid, ACM Trans. Math. Softw. 9 (1983), 302; 10 (1984), 633 (unsymmetric).
 #pragma once
 
@@ -27,15 +26,21 @@ namespace trammel::numerics {
 
 class FrontalLu {
  public:
-  // False: not worth it (small, or nearly full), or a pivot of a front is small beside its column of A.
-  bool compute(const Mat& A);
+  using Sparse = Eigen::SparseMatrix<double>;
+  // The pattern is symmetric and has the diagonal; some entries may be 0. Numbers decide only which unknown's node takes one that
+  // has 0 there. To be called again when the pattern has changed.
+  void analyse(const Sparse& A);
+  // False: a pivot of a front is round-off beside its column of A, or not finite.
+  [[nodiscard]] bool factorise(const Sparse& A);
   double pivot(Eigen::Index j) const { return pivots_(j); }  // of A's column j
-  void solve(const Vec& b, Vec& x);                          // not in place
-  int analyses() const { return analyses_; }                 // of patterns, so far
+  double largest(Eigen::Index j) const { return largest_(j); }
+  // Not in place; A is the one that was factorised. False: exchanges within fronts were not enough, x does not satisfy the equations.
+  [[nodiscard]] bool solve(const Sparse& A, const Vec& b, Vec& x);
+  std::size_t stored() const { return std::size_t(store_.size()); }  // numbers in the factors
 
  private:
   struct Entry {
-    std::size_t from, to;  // of A's values, in the front's matrix
+    int from, to;  // of A's values, in the front's matrix
   };
   struct Range {
     std::size_t begin, end;
@@ -50,21 +55,15 @@ class FrontalLu {
     int boundary() const { return size - eliminated; }
   };
 
-  bool take(const Mat& A);
-  void find_pattern(const Mat& A);
-  std::vector<int> find_nodes(const Mat& A) const;
-  void analyse(const Mat& A);
-  void lay_out(const EliminationTree& tree, const std::vector<std::vector<int>>& members);
-  void place_entries();
-  void assemble(const Front& front, Eigen::Map<Mat>& F);
+  static std::vector<int> find_nodes(const Sparse& A);
+  void lay_out(const EliminationTree& tree, const std::vector<std::vector<int>>& members, Eigen::Index n);
+  void place_entries(const Sparse& A);
+  void measure(const Sparse& A);
+  void assemble(const Front& front, const double* values, Eigen::Map<Mat>& F);
   bool eliminate(const Front& front, Eigen::Map<Mat>& F);
-  bool factorise();
   void substitute(Vec& x);
 
-  Eigen::SparseMatrix<double> A_;
-  Vec largest_;  // |entry| of each column
-  bool worthwhile_ = false;
-  int analyses_ = 0;
+  Vec largest_;                // |entry| of each column
   std::vector<Front> fronts_;  // children first, each right after its last child
   std::vector<int> unknowns_;
   std::vector<Entry> entries_;

@@ -13,22 +13,6 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr EliminationTree::Costs costs{.along = 1, .front = 10000, .entry = 20};  // measured on plates
-constexpr double worth = 0.5;                                                     // of the dense elimination's work
-
-double work_of(const EliminationTree& tree, const std::vector<std::vector<int>>& members) {
-  double work = 0;
-  const auto unknowns = [&](const std::vector<int>& nodes) {
-    double sum = 0;
-    for (const int node : nodes) sum += double(members[std::size_t(node)].size());
-    return sum;
-  };
-  for (const EliminationTree::Front& front : tree.fronts()) {
-    const double k = unknowns(front.eliminated), b = unknowns(front.boundary);
-    work += k * k * k / 3 + k * k * b + k * b * b;
-  }
-  return work;
-}
-
 // Children right before their parent, depth first.
 std::vector<int> post_order(const EliminationTree& tree) {
   const std::vector<EliminationTree::Front>& fronts = tree.fronts();
@@ -52,31 +36,11 @@ std::vector<int> post_order(const EliminationTree& tree) {
 
 }  // namespace
 
-// Symmetric, with what was found before: contacts wander.
-void FrontalLu::find_pattern(const Mat& A) {
-  const Index n = A.rows();
-  std::vector<Eigen::Triplet<double>> entries;
-  if (A_.rows() == n)
-    for (Index j = 0; j < n; ++j)
-      for (auto k = A_.outerIndexPtr()[j]; k < A_.outerIndexPtr()[j + 1]; ++k)
-        entries.emplace_back(A_.innerIndexPtr()[k], int(j), 0.0);
-  for (Index j = 0; j < n; ++j) {
-    entries.emplace_back(int(j), int(j), 0.0);
-    for (Index i = 0; i < n; ++i) {
-      if (A(i, j) == 0) continue;
-      entries.emplace_back(int(i), int(j), 0.0);
-      entries.emplace_back(int(j), int(i), 0.0);
-    }
-  }
-  A_.resize(n, n);
-  A_.setFromTriplets(entries.begin(), entries.end());
-}
-
 // The node of each unknown, which is one of its unknowns.
-std::vector<int> FrontalLu::find_nodes(const Mat& A) const {
-  const auto n = std::size_t(A_.cols());
+std::vector<int> FrontalLu::find_nodes(const Sparse& A) {
+  const auto n = std::size_t(A.cols());
   const auto neighbours = [&](int j) {
-    return std::pair(A_.innerIndexPtr() + A_.outerIndexPtr()[j], A_.innerIndexPtr() + A_.outerIndexPtr()[j + 1]);
+    return std::pair(A.innerIndexPtr() + A.outerIndexPtr()[j], A.innerIndexPtr() + A.outerIndexPtr()[j + 1]);
   };
   std::vector<int> order(n), node(n);
   std::iota(order.begin(), order.end(), 0);
@@ -92,14 +56,14 @@ std::vector<int> FrontalLu::find_nodes(const Mat& A) const {
   }
   std::vector<char> taken(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
-    if (A(Index(i), Index(i)) != 0) continue;
+    if (A.coeff(Index(i), Index(i)) != 0) continue;
     int partner = -1;
     const auto [first, last] = neighbours(int(i));
     for (const int* j = first; j != last; ++j) {
-      if (A(*j, *j) == 0) continue;
+      if (A.coeff(*j, *j) == 0) continue;
       const auto is_better = [&](int one, int other) {
         if (taken[std::size_t(one)] != taken[std::size_t(other)]) return !taken[std::size_t(one)];
-        return std::abs(A(Index(i), one)) > std::abs(A(Index(i), other));
+        return std::abs(A.coeff(Index(i), one)) > std::abs(A.coeff(Index(i), other));
       };
       if (partner < 0 || is_better(*j, partner)) partner = *j;
     }
@@ -110,9 +74,7 @@ std::vector<int> FrontalLu::find_nodes(const Mat& A) const {
   return node;
 }
 
-void FrontalLu::analyse(const Mat& A) {
-  ++analyses_;
-  find_pattern(A);
+void FrontalLu::analyse(const Sparse& A) {
   const std::vector<int> name = find_nodes(A);
   std::vector<int> number(name.size(), -1), node(name.size());
   std::vector<std::vector<int>> members;
@@ -128,8 +90,8 @@ void FrontalLu::analyse(const Mat& A) {
     weight.push_back(int(members[a].size()));
     seen[a] = int(a);
     for (const int j : members[a])
-      for (auto k = A_.outerIndexPtr()[j]; k < A_.outerIndexPtr()[j + 1]; ++k) {
-        const int b = node[std::size_t(A_.innerIndexPtr()[k])];
+      for (auto k = A.outerIndexPtr()[j]; k < A.outerIndexPtr()[j + 1]; ++k) {
+        const int b = node[std::size_t(A.innerIndexPtr()[k])];
         if (seen[std::size_t(b)] == int(a)) continue;
         seen[std::size_t(b)] = int(a);
         if (b > int(a)) pairs.push_back({int(a), b});
@@ -137,15 +99,13 @@ void FrontalLu::analyse(const Mat& A) {
   }
   EliminationTree tree;
   tree.build(pairs, weight, costs);
-  worthwhile_ = work_of(tree, members) < worth * std::pow(double(A.rows()), 3) / 3;
-  if (!worthwhile_) return;
-  lay_out(tree, members);
-  place_entries();
+  lay_out(tree, members, A.rows());
+  place_entries(A);
 }
 
-void FrontalLu::lay_out(const EliminationTree& tree, const std::vector<std::vector<int>>& members) {
+void FrontalLu::lay_out(const EliminationTree& tree, const std::vector<std::vector<int>>& members, Index n_all) {
   fronts_.clear(), unknowns_.clear(), maps_.clear();
-  std::vector<int> place(std::size_t(A_.rows()), -1), index(tree.fronts().size());
+  std::vector<int> place(std::size_t(n_all), -1), index(tree.fronts().size());
   std::size_t stored = 0, largest = 0, waiting = 0, most_waiting = 0;
   for (const int f : post_order(tree)) {
     const EliminationTree::Front& of = tree.fronts()[std::size_t(f)];
@@ -185,23 +145,23 @@ void FrontalLu::lay_out(const EliminationTree& tree, const std::vector<std::vect
   }
   store_.resize(Eigen::Index(stored)), work_.resize(Eigen::Index(largest)), stack_.resize(Eigen::Index(most_waiting));
   exchanged_.resize(unknowns_.size());
-  pivots_.resize(A_.rows());
+  pivots_.resize(n_all);
 }
 
 // An entry belongs to the first front that eliminates its row or column.
-void FrontalLu::place_entries() {
+void FrontalLu::place_entries(const Sparse& A) {
   entries_.clear();
-  std::vector<int> place(std::size_t(A_.rows()), -1);
-  std::vector<char> done(std::size_t(A_.rows()), 0);
+  std::vector<int> place(std::size_t(A.rows()), -1);
+  std::vector<char> done(std::size_t(A.rows()), 0);
   for (Front& front : fronts_) {
     const int* const unknowns = unknowns_.data() + front.unknowns;
     for (int i = 0; i < front.size; ++i) place[std::size_t(unknowns[i])] = i;
     front.entries.begin = entries_.size();
     for (int j = 0; j < front.size; ++j)
-      for (auto k = A_.outerIndexPtr()[unknowns[j]]; k < A_.outerIndexPtr()[unknowns[j] + 1]; ++k) {
-        const auto i = std::size_t(A_.innerIndexPtr()[k]);
+      for (auto k = A.outerIndexPtr()[unknowns[j]]; k < A.outerIndexPtr()[unknowns[j] + 1]; ++k) {
+        const auto i = std::size_t(A.innerIndexPtr()[k]);
         if (done[i] || place[i] < 0 || (place[i] >= front.eliminated && j >= front.eliminated)) continue;
-        entries_.push_back({std::size_t(k), std::size_t(j) * std::size_t(front.size) + std::size_t(place[i])});
+        entries_.push_back({int(k), j * front.size + place[i]});
       }
     front.entries.end = entries_.size();
     for (int i = 0; i < front.size; ++i) {

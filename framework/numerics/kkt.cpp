@@ -21,16 +21,22 @@ bool pivots_are_safe(const Cholesky& factors, const Mat& matrix, double toleranc
   return true;
 }
 
-// A basis of what G reaches, nc x rank. The rank is that of the rows at length one, whose pivots are sines of angles to the rows
-// before: masses and units, and the lengths of rows near a singular position, must not make independent rows look alike.
-Mat range_of(const Mat& G, double tolerance) {
-  const Vec lengths = G.rowwise().norm();
+// Of the rows at length one, whose pivots are sines of angles to the rows before: masses and units, and the lengths of rows near a
+// singular position, must not make independent rows look alike.
+Eigen::ColPivHouseholderQR<Mat> decomposed(const Mat& G, const Vec& lengths, double tolerance) {
   Mat unit = G;
   for (Eigen::Index i = 0; i < G.rows(); ++i)
     if (lengths[i] > 0) unit.row(i) /= lengths[i];
   Eigen::ColPivHouseholderQR<Mat> qr(G.rows(), G.cols());
   qr.setThreshold(tolerance);
   qr.compute(unit);
+  return qr;
+}
+
+// A basis of what G reaches, nc x rank.
+Mat range_of(const Mat& G, double tolerance) {
+  const Vec lengths = G.rowwise().norm();
+  const Eigen::ColPivHouseholderQR<Mat> qr = decomposed(G, lengths, tolerance);
   return lengths.asDiagonal() * (qr.householderQ() * Mat::Identity(G.rows(), qr.rank())).eval();
 }
 
@@ -44,10 +50,24 @@ double rank_tolerance_at(double violation) {
   return std::clamp(10 * violation, 1e-7, 1e-2);
 }
 
-bool MassKkt::factorise(const Mat& M, const Mat& G, const Mat& W, double rank_tolerance) {
-  if (!mass_.compute(M)) return false;
+Eigen::Index rank_of_rows(const Mat& G, double tolerance) {
+  return decomposed(G, G.rowwise().norm(), tolerance).rank();
+}
+
+template <class Factors, class Masses>
+bool MassKkt::factorise_by(const Masses& M, const Mat& G, const Mat& W, double rank_tolerance) {
+  if (!std::holds_alternative<Factors>(mass_)) mass_.emplace<Factors>();
+  if (!std::get<Factors>(mass_).compute(M)) return false;
   change_rows(G, W, rank_tolerance);
   return true;
+}
+
+bool MassKkt::factorise(const Mat& M, const Mat& G, const Mat& W, double rank_tolerance) {
+  return factorise_by<Cholesky>(M, G, W, rank_tolerance);
+}
+
+bool MassKkt::factorise(const Eigen::SparseMatrix<double>& M, const Mat& G, const Mat& W, double rank_tolerance) {
+  return factorise_by<SparseCholesky>(M, G, W, rank_tolerance);
 }
 
 void MassKkt::change_rows(const Mat& G, const Mat& W, double rank_tolerance) {
@@ -55,7 +75,7 @@ void MassKkt::change_rows(const Mat& G, const Mat& W, double rank_tolerance) {
   coupled_ = &W != &G;
   B_ = G;
   if (G.rows() == 0) return;
-  mass_.solve_lower_of_rows(B_);
+  with_mass([&](auto& mass) { mass.solve_lower_of_rows(B_); });
   if (coupled_) return complement(W, rank_tolerance);
   multiply_rows(B_, B_, schur_);
   redundant_ = !schur_cholesky_.compute(schur_) || !pivots_are_safe(schur_cholesky_, schur_, rank_tolerance);
@@ -76,7 +96,7 @@ void MassKkt::complement(const Mat& W, double rank_tolerance) {
   constexpr double round_off = 1e-10;
   const double dependent = rank_tolerance * rank_tolerance;
   C_ = W;
-  mass_.solve_lower_of_rows(C_);
+  with_mass([&](auto& mass) { mass.solve_lower_of_rows(C_); });
   multiply_rows(B_, C_, schur_);
   schur_lu_.compute(schur_);
   for (Eigen::Index j = 0; j < schur_.cols(); ++j) {
@@ -92,8 +112,8 @@ void MassKkt::complement(const Mat& W, double rank_tolerance) {
 void MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   x = b;
   y.resize(B_.rows());
-  if (B_.rows() == 0) return mass_.solve(x);
-  mass_.solve_lower(x);
+  if (B_.rows() == 0) return with_mass([&](auto& mass) { mass.solve(x); });
+  with_mass([&](auto& mass) { mass.solve_lower(x); });
   if (coupled_) {
     w_ = -c;
     add_rows_product(1, B_, x, w_);
@@ -112,7 +132,7 @@ void MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
     schur_cholesky_.solve(y);
     add_transposed_product(-1, B_, y, x);
   }
-  mass_.solve_transposed(x);
+  with_mass([&](auto& mass) { mass.solve_transposed(x); });
 }
 
 Mat& IterationKkt::begin(Eigen::Index nv, Eigen::Index nc) {

@@ -1,4 +1,4 @@
-// The saddle-point systems of constrained dynamics, dense:
+// The saddle-point systems of constrained dynamics with dense rows:
 //
 //     [S W^T] [x]   [b]
 //     [G  0 ] [y] = [c]        S: nv x nv, G and W: nc x nv
@@ -8,12 +8,15 @@
 //    redundant rows; those are solved by orthogonal decompositions of G L^-T: x stays unique, and the condition number is
 //    not squared. With W other than G (sliding friction) the complement G M^-1 W^T is factorised as it is, by LU, redundant
 //    or singular ones orthogonally.
-//  - Iteration: S any matrix. LU of the whole with row pivoting. If it is singular beyond redundant rows, the minimum-norm
+//    M may be sparse.
+//  - Iteration: S any dense matrix (a sparse one: frontal_iteration_kkt.hpp). LU of the whole with row pivoting. If it is singular beyond redundant rows, the minimum-norm
 //    solution.
 // Of redundant rows combinations U^T G are taken in their place, U an orthonormal basis of their range: y = U z is of minimum
 // norm, and what of c is outside the range, which no x reaches, is left.
 // Storage is kept from one factorisation to the next: no allocation at constant sizes while rows are independent.
 #pragma once
+
+#include <variant>
 
 #include <Eigen/QR>
 
@@ -21,6 +24,7 @@
 
 #include "numerics/cholesky.hpp"
 #include "numerics/lu.hpp"
+#include "numerics/sparse_cholesky.hpp"
 
 namespace trammel::numerics {
 
@@ -30,12 +34,16 @@ namespace trammel::numerics {
 // motion cross, rows part by the distance from the crossing, over which a violation shifts the state by itself; slopes on the rows
 // pass there, RungeKutta::Rows.)
 double rank_tolerance_at(double violation);
+// Of the rows at length one: masses and units must not make independent rows look alike.
+Eigen::Index rank_of_rows(const Mat& G, double tolerance);
 
 class MassKkt {
  public:
   // False: M is not positive definite. `G` may have no rows.
   bool factorise(const Mat& M, const Mat& G, const Mat& W, double rank_tolerance = rank_tolerance_at(0));
   bool factorise(const Mat& M, const Mat& G) { return factorise(M, G, G); }
+  bool factorise(const Eigen::SparseMatrix<double>& M, const Mat& G, const Mat& W,
+                 double rank_tolerance = rank_tolerance_at(0));
   // Keeps the factors of M, takes new rows. W may be the same object as G.
   void change_rows(const Mat& G, const Mat& W, double rank_tolerance = rank_tolerance_at(0));
   void change_rows(const Mat& G) { change_rows(G, G); }
@@ -46,7 +54,14 @@ class MassKkt {
   void complement(const Mat& W, double rank_tolerance);
   void merge_rows(const Mat& G, double rank_tolerance);
 
-  Cholesky mass_;
+  template <class Factors, class Masses>
+  bool factorise_by(const Masses& M, const Mat& G, const Mat& W, double rank_tolerance);
+  template <class Solve>
+  void with_mass(Solve&& solve) {
+    std::visit(solve, mass_);
+  }
+
+  std::variant<Cholesky, SparseCholesky> mass_;
   Mat B_;       // G L^-T (nc x nv)
   Mat C_;       // W L^-T, where W is not G
   Mat schur_;   // B B^T or B C^T

@@ -13,8 +13,7 @@ void Lu::compute(const Mat& A) {
   const Eigen::Index n = A.rows();
   if (n > most_in_packs) {
     n_ = 0;
-    frontal_ = fronts_.compute(A);
-    if (!frontal_) blocks_.compute(A);
+    blocks_.compute(A);
     return;
   }
   if (n_ != n) {
@@ -65,7 +64,7 @@ void Lu::eliminate() {
 // Forward and back, by columns. A known number is taken out before the loop runs over its place, too.
 void Lu::solve(const Vec& b, Vec& x) {
   if (in_blocks()) {
-    frontal_ ? fronts_.solve(b, x) : void(x = blocks_.solve(b));
+    x = blocks_.solve(b);
     return;
   }
   const Eigen::Index n = n_, stride = LU_.rows();

@@ -1,8 +1,7 @@
 // P A = L U by Gaussian elimination with row pivoting, dense, and the solves with it.
 //
 // Plain loops by columns (packs.hpp): up to 20 unknowns Eigen's blocked algorithm takes over twice as long for the factors, and
-// one and a half times as long for a solve. Larger matrices are left to it, or to frontal_lu.hpp where most of
-// their entries are 0.
+// one and a half times as long for a solve. Larger matrices are left to it.
 #pragma once
 
 #include <vector>
@@ -11,7 +10,6 @@
 
 #include <trammel/types.hpp>
 
-#include "numerics/frontal_lu.hpp"
 #include "numerics/packs.hpp"
 
 namespace trammel::numerics {
@@ -19,9 +17,7 @@ namespace trammel::numerics {
 class Lu {
  public:
   void compute(const Mat& A);  // square; a singular one gives a pivot that is 0 or round-off
-  double pivot(Eigen::Index j) const {
-    return !in_blocks() ? LU_(j, j) : frontal_ ? fronts_.pivot(j) : blocks_.matrixLU()(j, j);
-  }
+  double pivot(Eigen::Index j) const { return in_blocks() ? blocks_.matrixLU()(j, j) : LU_(j, j); }
   void solve(const Vec& b, Vec& x);  // not in place
 
  private:
@@ -33,8 +29,6 @@ class Lu {
   Mat LU_;                          // columns padded
   std::vector<Eigen::Index> rows_;  // LU_'s row i is A's row rows_[i]
   Vec inverse_pivots_, rest_, y_;
-  bool frontal_ = false;
-  FrontalLu fronts_;
   Eigen::PartialPivLU<Mat> blocks_;
 };
 

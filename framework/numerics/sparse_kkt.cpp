@@ -164,6 +164,15 @@ void SparseIterationKkt::add_rows(const std::vector<BodyBlock>& bodies, int nv, 
   for (int i = 0; i < nc; ++i) m.add(nv + i, nv + i, 0);
 }
 
+void SparseIterationKkt::factorise(const Eigen::SparseMatrix<double>& full, int nv) {
+  const int n = int(full.rows());
+  const bool fresh = full_.fill(n, n, [&full, n](RecordedMatrix& m) {
+    for (int j = 0; j < n; ++j)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(full, j); it; ++it) m.add(int(it.row()), j, it.value());
+  });
+  factorise_full(nv, n - nv, fresh);
+}
+
 void SparseIterationKkt::factorise_full(int nv, int nc, bool fresh) {
   nv_ = nv;
   regular_ = full_.matrix();

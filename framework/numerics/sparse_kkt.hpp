@@ -79,6 +79,8 @@ class SparseIterationKkt {
     });
     factorise_full(nv, nc, fresh);
   }
+  // The same of [S W^T; G 0], given as a whole.
+  void factorise(const Eigen::SparseMatrix<double>& full, int nv);
   // False: not solvable, or not finite.
   [[nodiscard]] bool solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "model/body_blocks.hpp"
 #include "plugin/breadcrumb.hpp"
 #include "simulate/blame.hpp"
 #include "simulate/crash_witness.hpp"
@@ -61,10 +60,13 @@ void built(Text& text, const scene::Scene& scene, const plugin::Registry& regist
   text.section("Built");
   text.line("{} scene: nq = {}, nv = {}, rows of joints and bodies = {}",
             model.world.space == Space::planar ? "planar" : "spatial", model.sizes.nq, model.sizes.nv, model.sizes.nc);
-  if (model.sizes.nc > 0)
-    text.line("matrices: {}", model::BodyBlocks::worthwhile(model)
-                                  ? "blocks by body; sparse factorisations, ordered once for a pattern"
-                                  : "dense");
+  const model::Storage storage = model::storage_for(model);
+  if (storage == model::Storage::blocks)
+    text.line("matrices: blocks by body; sparse factorisations, ordered once for a pattern");
+  else if (storage == model::Storage::sparse)
+    text.line("matrices: sparse; factorised front by front, analysed once for a mesh");
+  else if (model.sizes.nc > 0)
+    text.line("matrices: dense");
   for (const model::BodyEntry& body : model.bodies)
     text.line("bodies.{} ({}): nq = {}, nv = {}{}, {} markers; derivatives {}", body.name, type("bodies", body.name),
               body.nq, body.nv, body.rows > 0 ? fmt::format(", {} rows of its own", body.rows) : "",

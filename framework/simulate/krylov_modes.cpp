@@ -26,8 +26,8 @@ class Pencil {
  public:
   Pencil(model::AssembledSystem& system, const State& s) : system_(system), s_(s) {
     system_.move_to(s.t, s.q, s.v);
-    K = tangent(system_, {0, 0, 1}, s).sparseView();
-    D = tangent(system_, {0, 1, 0}, s).sparseView();
+    K = system_.sparse_tangent({0, 0, 1}, s.a, s.lambda);
+    D = system_.sparse_tangent({0, 1, 0}, s.a, s.lambda);
     no_rows_ = Vec::Zero(system_.sizes().nc);
   }
 

@@ -1,7 +1,8 @@
 // Where components add their blocks, without knowing where the entries live.
 //
-// A component adds in its own indices; the framework has set the origin and owns the storage. An addition is a plain
-// loop: no virtual call per entry.
+// A component adds in its own indices; the framework has set the origin and owns the storage, dense or sparse. An addition is a
+// plain loop: no virtual call per entry. A body with many coordinates adds its blocks in the same order every time, and only entries
+// that may differ from 0: where entries are stored is then found once, and what is never added costs nothing.
 #pragma once
 
 #include <span>
@@ -9,6 +10,10 @@
 #include <trammel/types.hpp>
 
 namespace trammel {
+
+namespace numerics {
+class SparseSum;
+}
 
 class Matrix {
  public:
@@ -19,21 +24,30 @@ class Matrix {
   // entry(dofs[i], dofs[j]) += c * block(i, j)
   void add(std::span<const int> dofs, Block block, double c = 1) { add(dofs, dofs, block, c); }
   void add(std::span<const int> rows, std::span<const int> columns, Block block, double c = 1);
-  void add(int i, int j, double value) { origin_[j * stride_ + i] += value; }
+  void add(int i, int j, double value) {
+    if (sum_) return add_to_sum(i, j, value);
+    origin_[j * stride_ + i] += value;
+  }
 
   // The same matrix, counted from entry (i, j): indices known when compiling then leave little to compute.
   Matrix from(int i, int j) const {
     Matrix shifted = *this;
-    shifted.origin_ += j * stride_ + i;
+    if (!sum_) shifted.origin_ += j * stride_ + i;
+    shifted.row_ += i, shifted.column_ += j;
     return shifted;
   }
 
   // --- for the framework ---
   static Matrix onto(Mat& dense);  // adds into an existing matrix
+  static Matrix onto(numerics::SparseSum& sum);
 
  private:
+  void add_to_sum(int i, int j, double value);
+
   double* origin_ = nullptr;  // what a component calls (0, 0); column-major
   Eigen::Index stride_ = 0;
+  numerics::SparseSum* sum_ = nullptr;  // in place of these, from (row_, column_) on
+  int row_ = 0, column_ = 0;
 };
 
 }  // namespace trammel

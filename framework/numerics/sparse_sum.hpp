@@ -1,0 +1,84 @@
+// A sparse matrix that is summed from blocks again and again in much the same order: a mesh, cell by cell.
+//
+//     A = sum_e P_e^T B_e Q_e       B_e: dense, on some rows and columns of A
+//
+// Each block's places are noted the first time, with where its entries are stored: neighbouring rows together, so that a cell of
+// 16 nodes needs 192 places for 2304 entries. Later sums only compare the rows and columns. From the first block on that is another
+// than last time, all are looked up; an entry that has no place yet widens the pattern by those of all blocks (contacts wander).
+// The pattern is symmetric and has the diagonal; it is forgotten with the size alone.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include <trammel/matrix.hpp>
+
+namespace trammel::numerics {
+
+class SparseSum {
+ public:
+  // `additions()` calls the functions below, of this object; it may be run twice. n x n.
+  template <class Additions>
+  void fill(int n, Additions&& additions) {
+    begin(n);
+    additions();
+    if (finished()) return;
+    widen();
+    begin(n);
+    additions();
+  }
+
+  // Rows or columns of a block: first + (dofs ? dofs[i] : i).
+  struct Places {
+    const int* dofs;
+    int first, count;
+    int operator[](int i) const { return first + (dofs ? dofs[i] : i); }
+  };
+  void add(const Places& rows, const Places& columns, Matrix::Block block, double c);
+  void add(int i, int j, double value) {
+    if (next_single_ == singles_.size() || singles_[next_single_].i != i || singles_[next_single_].j != j)
+      return add_new(i, j, value);
+    const Eigen::Index at = singles_[next_single_++].at;
+    if (at != nowhere) values_[at] += value;
+  }
+  // These have places from now on, whether a block comes to them or not.
+  void reserve(const Places& rows, const Places& columns);
+
+  const Eigen::SparseMatrix<double>& matrix() const { return matrix_; }
+  int patterns() const { return patterns_; }  // so far
+
+ private:
+  static constexpr Eigen::Index nowhere = -1;
+  struct Single {
+    int i, j;
+    Eigen::Index at;  // in values_
+  };
+  // In places_: rows, columns, and the first of each run of neighbouring rows, with the end. In at_: where each run is stored, column
+  // by column.
+  struct Piece {
+    int rows, columns, runs;
+    std::size_t places, at;
+  };
+
+  void begin(int n);
+  bool finished();
+  void widen();
+  void add_new(int i, int j, double value);
+  void note(const Places& rows, const Places& columns);
+  bool look_up(const Piece& piece);
+  bool is(const Piece& piece, const Places& rows, const Places& columns) const;
+  Eigen::Index find(int i, int j) const;
+
+  Eigen::SparseMatrix<double> matrix_;
+  double* values_ = nullptr;
+  std::vector<Single> singles_;
+  std::vector<Piece> pieces_, reserved_;
+  std::vector<int> places_, reserved_places_, at_;
+  std::size_t next_single_ = 0, next_piece_ = 0;
+  bool missing_ = false;  // an entry has no place
+  int patterns_ = 0;
+};
+
+}  // namespace trammel::numerics
