@@ -1,4 +1,7 @@
-// Blocks by bodies give what dense matrices give.
+// Sparse matrices, and blocks by bodies, give what dense matrices give.
+#include <array>
+#include <tuple>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -37,12 +40,13 @@ std::shared_ptr<const model::Model> build_model(const std::string& name) {
   return model;
 }
 
-class Storages : public testing::TestWithParam<const char*> {
+class Storages : public testing::TestWithParam<std::tuple<const char*, model::Storage>> {
  protected:
   void SetUp() override {
-    const auto model = build_model(GetParam());
+    const auto [scene, storage] = GetParam();
+    const auto model = build_model(scene);
     dense = std::make_unique<model::AssembledSystem>(model, model::Storage::dense);
-    blocks = std::make_unique<model::AssembledSystem>(model, model::Storage::blocks);
+    other = std::make_unique<model::AssembledSystem>(model, storage);
     model::Modes modes;
     modes.contacts.resize(model->contacts.size());
     if (!modes.contacts.empty()) {
@@ -52,32 +56,32 @@ class Storages : public testing::TestWithParam<const char*> {
     }
     dense->initial(q, v);
     v += 0.1 * Vec::LinSpaced(v.size(), -1, 1);
-    for (auto* system : {dense.get(), blocks.get()}) {
+    for (auto* system : {dense.get(), other.get()}) {
       system->set_modes(modes);
       system->move_to(0.1, q, v);
     }
   }
-  std::unique_ptr<model::AssembledSystem> dense, blocks;
-  Vec q, v, a, lambda, a_blocks, lambda_blocks;
+  std::unique_ptr<model::AssembledSystem> dense, other;
+  Vec q, v, a, lambda, a_other, lambda_other;
 };
 
 TEST_P(Storages, GiveTheSameAccelerations) {
   dense->accelerate({.alpha = 2, .beta = 3}, a, lambda);
-  blocks->accelerate({.alpha = 2, .beta = 3}, a_blocks, lambda_blocks);
+  other->accelerate({.alpha = 2, .beta = 3}, a_other, lambda_other);
   // Round-off times the condition of the rows.
-  EXPECT_LT((a_blocks - a).norm(), 1e-10 * a.norm());
-  EXPECT_LT((lambda_blocks - lambda).norm(), 1e-9 * lambda.norm());
+  EXPECT_LT((a_other - a).norm(), 1e-10 * a.norm());
+  EXPECT_LT((lambda_other - lambda).norm(), 1e-9 * lambda.norm());
 }
 
 TEST_P(Storages, GiveTheSameProducts) {
   const Vec x = Vec::LinSpaced(v.size(), 2, -1), y = Vec::LinSpaced(dense->sizes().nc, 1, -2);
-  Vec r = x, r_blocks = x, rc = y, rc_blocks = y;
-  dense->add_mass_times(2, x, r), blocks->add_mass_times(2, x, r_blocks);
-  dense->add_reaction(-3, y, r), blocks->add_reaction(-3, y, r_blocks);
-  dense->add_rows_force(0.5, y, r), blocks->add_rows_force(0.5, y, r_blocks);
-  dense->add_rows_times(4, x, rc), blocks->add_rows_times(4, x, rc_blocks);
-  EXPECT_LT((r - r_blocks).norm(), 1e-14 * r.norm());  // round-off
-  EXPECT_LT((rc - rc_blocks).norm(), 1e-14 * rc.norm());
+  Vec r = x, r_other = x, rc = y, rc_other = y;
+  dense->add_mass_times(2, x, r), other->add_mass_times(2, x, r_other);
+  dense->add_reaction(-3, y, r), other->add_reaction(-3, y, r_other);
+  dense->add_rows_force(0.5, y, r), other->add_rows_force(0.5, y, r_other);
+  dense->add_rows_times(4, x, rc), other->add_rows_times(4, x, rc_other);
+  EXPECT_LT((r - r_other).norm(), 1e-14 * r.norm());  // round-off
+  EXPECT_LT((rc - rc_other).norm(), 1e-14 * rc.norm());
 }
 
 TEST_P(Storages, GiveTheSameCorrections) {
@@ -86,33 +90,53 @@ TEST_P(Storages, GiveTheSameCorrections) {
   Vec rc = Vec::Zero(dense->sizes().nc);
   dense->add_rows_times(1, r, rc);  // consistent also where rows are redundant
   for (const Blend blend : {Blend{1, 0, 0}, Blend{1, 0.02, 1e-4}, Blend{0, 0, 0, 1}}) {
-    Vec da, dlambda, da_blocks, dlambda_blocks;
+    Vec da, dlambda, da_other, dlambda_other;
     dense->factorise(blend, a, lambda);
-    blocks->factorise(blend, a, lambda);
+    other->factorise(blend, a, lambda);
     ASSERT_TRUE(dense->correct(r, rc, da, dlambda));
-    ASSERT_TRUE(blocks->correct(r, rc, da_blocks, dlambda_blocks));
-    EXPECT_LT((da_blocks - da).norm(), 1e-9 * da.norm()) << blend.c_m << " " << blend.c_k;
+    ASSERT_TRUE(other->correct(r, rc, da_other, dlambda_other));
+    EXPECT_LT((da_other - da).norm(), 1e-9 * da.norm()) << blend.c_m << " " << blend.c_k;
   }
 }
 
 class StoragesWithContacts : public Storages {};
 
 TEST_P(StoragesWithContacts, GiveTheSameAnswerToImpulses) {
-  Mat jump, delassus, jump_blocks, delassus_blocks;
+  Mat jump, delassus, jump_other, delassus_other;
   const std::vector<model::ContactDirection> directions = {{0, 0}, {0, 1}};
   dense->impulse_response(directions, jump, delassus);
-  blocks->impulse_response(directions, jump_blocks, delassus_blocks);
-  EXPECT_LT((jump_blocks - jump).norm(), 1e-10 * jump.norm());
-  EXPECT_LT((delassus_blocks - delassus).norm(), 1e-10 * delassus.norm());
+  other->impulse_response(directions, jump_other, delassus_other);
+  EXPECT_LT((jump_other - jump).norm(), 1e-10 * jump.norm());
+  EXPECT_LT((delassus_other - delassus).norm(), 1e-10 * delassus.norm());
   const Vec some = Vec::LinSpaced(dense->sizes().nc, 1, -2);
-  EXPECT_NEAR(blocks->balance(some).constraints, dense->balance(some).constraints, 1e-12);
+  EXPECT_NEAR(other->balance(some).constraints, dense->balance(some).constraints, 1e-12);
+}
+
+constexpr std::array others = {model::Storage::sparse, model::Storage::blocks};
+std::string name_of(const testing::TestParamInfo<std::tuple<const char*, model::Storage>>& info) {
+  const auto [scene, storage] = info.param;
+  return std::string(scene) + (storage == model::Storage::sparse ? "_sparse" : "_blocks");
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Storages,
-                         testing::Values("chain_10", "a04", "a02_n10", "andrews", "sliding", "redundant"),
-                         [](const auto& scene) { return std::string(scene.param); });
-INSTANTIATE_TEST_SUITE_P(Scenes, StoragesWithContacts, testing::Values("sliding", "redundant"),
-                         [](const auto& scene) { return std::string(scene.param); });
+                         testing::Combine(testing::Values("chain_10", "a04", "a02_n10", "andrews", "sliding",
+                                                          "redundant"),
+                                          testing::ValuesIn(others)),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Scenes, StoragesWithContacts,
+                         testing::Combine(testing::Values("sliding", "redundant"), testing::ValuesIn(others)), name_of);
+
+// A plate of 12 x 12 elements with a ball on it.
+TEST(Storage, IsSparseForPlatesAndDenseForSmallOnes) {
+  const auto storage_of = [](const char* mesh) {
+    scene::Problems problems;
+    const scene::Scene scene = scene::Scene::load(TRAMMEL_SOURCE_DIR "/scenes/plate/ball.json",
+                                                  {{"parameters.mesh", fmt::format("\"{}\"", mesh)}});
+    return model::storage_for(*model::build(scene.root(), registry(), problems));
+  };
+  EXPECT_EQ(storage_of("12x12"), model::Storage::sparse);
+  EXPECT_EQ(storage_of("4x4"), model::Storage::dense);
+}
 
 }  // namespace
 }  // namespace trammel::test
