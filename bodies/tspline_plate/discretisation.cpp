@@ -44,6 +44,24 @@ Vectors5 tangents_of(const ShapeValues& s, const Points& points, const std::vect
 
 }  // namespace
 
+std::vector<TsplineBasis> Discretisation::functions_of(const std::vector<ControlNet>& patches) {
+  std::vector<TsplineBasis> result;
+  for (const ControlNet& net : patches) result.emplace_back(net.mesh, net.weights);
+  return result;
+}
+
+Points Discretisation::points_of(const std::vector<ControlNet>& patches) {
+  Eigen::Index count = 0;
+  for (const ControlNet& net : patches) count += net.points.rows();
+  Points result(count, 3);
+  count = 0;
+  for (const ControlNet& net : patches) {
+    result.middleRows(count, net.points.rows()) = net.points;
+    count += net.points.rows();
+  }
+  return result;
+}
+
 void Discretisation::number_coordinates(Cell& cell) const {
   for (int f = 0; f < cell.functions; ++f)
     for (int axis = 0; axis < 3; ++axis)

@@ -1,4 +1,4 @@
-// Everything of a plate that one mesh fixes: shape functions at the quadrature points, mass, the coordinates that are free.
+// Everything of a plate that its mesh fixes: shape functions at the quadrature points, mass, the coordinates that are free.
 //
 // Total Lagrangian: shape data are evaluated once per mesh and kept. u are the displacements of all control points, q the
 // coordinates that the edge conditions leave (elimination.hpp). Integration is over Bezier cells, with `quadrature` points
@@ -8,6 +8,7 @@
 #include "control_net.hpp"
 #include "elimination.hpp"
 #include "material_point.hpp"
+#include "multipatch.hpp"
 
 namespace trammel::plate {
 
@@ -39,16 +40,17 @@ struct PlateData {
 
 class Discretisation {
  public:
-  // `hold` adds the edge conditions. Throws std::invalid_argument: a surface that is degenerate at a quadrature point.
+  // `hold` adds the conditions of edges and seams. Throws std::invalid_argument: a surface that is degenerate at a quadrature
+  // point.
   template <class Hold>
-  Discretisation(ControlNet net, const PlateData& data, Hold hold)
-      : basis(net.mesh, net.weights), points(std::move(net.points)), coordinates(3 * basis.size()) {
+  Discretisation(const std::vector<ControlNet>& patches, const PlateData& data, Hold hold)
+      : basis(functions_of(patches)), points(points_of(patches)), coordinates(3 * basis.size()) {
     hold(*this, coordinates);
     coordinates.finish();
     integrate(data);
   }
 
-  TsplineBasis basis;
+  Multipatch basis;
   Points points;            // of the reference
   Elimination coordinates;  // u = B q
   std::vector<Cell> cells;
@@ -56,6 +58,8 @@ class Discretisation {
   Vec area;    // int R_i dA [m^2]
 
  private:
+  static std::vector<TsplineBasis> functions_of(const std::vector<ControlNet>& patches);
+  static Points points_of(const std::vector<ControlNet>& patches);
   void integrate(const PlateData& data);
   void number_coordinates(Cell& cell) const;
 };

@@ -26,6 +26,13 @@ Eigen::Vector2d on_edge(const TsplineBasis& basis, const Edge& edge, double alon
   return edge.direction == 0 ? Eigen::Vector2d(across, along) : Eigen::Vector2d(along, across);
 }
 
+int corner_anchor(const TsplineBasis& basis, const Corner& corner) {
+  const auto u = rows(basis, edges[corner.u_edge]).edge, v = rows(basis, edges[corner.v_edge]).edge;
+  for (int i : u)
+    if (std::find(v.begin(), v.end(), i) != v.end()) return i;
+  throw std::logic_error("a patch without corners");
+}
+
 std::vector<int> axes_in(const std::string& text) {
   std::vector<int> result;
   for (char c : text) {
@@ -36,25 +43,21 @@ std::vector<int> axes_in(const std::string& text) {
   return result;
 }
 
-namespace {
-
-struct Tangents {
-  Eigen::Vector3d u, v, uv;  // r_u, r_v, r_uv
-};
-
-Tangents tangents(const TsplineBasis& basis, const Points& points, const Eigen::Vector2d& at) {
+Tangents tangents(const PatchNet& net, const Eigen::Vector2d& at) {
   ShapeValues shape;
-  const int cell = basis.cell_at(at.x(), at.y());
-  basis.evaluate(cell, at.x(), at.y(), shape);
+  const int cell = net.basis.cell_at(at.x(), at.y());
+  net.basis.evaluate(cell, at.x(), at.y(), shape);
   Tangents t{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  const auto& functions = basis.cells()[std::size_t(cell)].functions;
+  const auto& functions = net.basis.cells()[std::size_t(cell)].functions;
   for (std::size_t f = 0; f < functions.size(); ++f) {
-    t.u += shape.R_u(Eigen::Index(f)) * points.row(functions[f]).transpose();
-    t.v += shape.R_v(Eigen::Index(f)) * points.row(functions[f]).transpose();
-    t.uv += shape.R_uv(Eigen::Index(f)) * points.row(functions[f]).transpose();
+    t.u += shape.R_u(Eigen::Index(f)) * net.point(functions[f]);
+    t.v += shape.R_v(Eigen::Index(f)) * net.point(functions[f]);
+    t.uv += shape.R_uv(Eigen::Index(f)) * net.point(functions[f]);
   }
   return t;
 }
+
+namespace {
 
 // Greville abscissa along the edge: the middle of the control point's influence.
 double abscissa(const TsplineBasis& basis, const Edge& edge, int anchor) {
@@ -62,9 +65,9 @@ double abscissa(const TsplineBasis& basis, const Edge& edge, int anchor) {
   return (k[1] + k[2] + k[3]) / 3;
 }
 
-std::vector<Term> along(int anchor, const Eigen::Vector3d& direction) {
+std::vector<Term> along(const PatchNet& net, int anchor, const Eigen::Vector3d& direction) {
   std::vector<Term> condition;
-  for (int c = 0; c < 3; ++c) condition.push_back({3 * anchor + c, direction(c)});
+  for (int c = 0; c < 3; ++c) condition.push_back({net.component(anchor, c), direction(c)});
   return condition;
 }
 
@@ -79,13 +82,13 @@ Eigen::Vector3d snapped(Eigen::Vector3d direction) {
 constexpr double before_pole = 1.0 / 64;  // of the way to the middle of the edge
 
 // In the surface, across the edge: the normal of the plane of symmetry.
-Eigen::Vector3d across_edge(const TsplineBasis& basis, const Points& points, const Edge& edge, int anchor) {
-  double at = abscissa(basis, edge, anchor);
-  Tangents t = tangents(basis, points, on_edge(basis, edge, at));
+Eigen::Vector3d across_edge(const PatchNet& net, const Edge& edge, int anchor) {
+  double at = abscissa(net.basis, edge, anchor);
+  Tangents t = tangents(net, on_edge(net.basis, edge, at));
   if ((edge.direction == 0 ? t.u : t.v).norm() < 1e-9 * (edge.direction == 0 ? t.v : t.u).norm()) {
-    const auto& knots = basis.mesh().knots(1 - edge.direction);
+    const auto& knots = net.basis.mesh().knots(1 - edge.direction);
     at += before_pole * ((knots.front() + knots.back()) / 2 - at);
-    t = tangents(basis, points, on_edge(basis, edge, at));
+    t = tangents(net, on_edge(net.basis, edge, at));
   }
   const Eigen::Vector3d run = (edge.direction == 0 ? t.v : t.u).normalized();
   const Eigen::Vector3d across = edge.direction == 0 ? t.u : t.v;
@@ -100,38 +103,37 @@ Eigen::Vector3d normal(const Tangents& t, const Edge& edge) {
   return snapped((pole ? t.uv : run).cross(across).normalized());
 }
 
-void clamp_slope(const TsplineBasis& basis, const Points& points, const Edge& edge, const EdgeRows& r, Elimination& e) {
+void clamp_slope(const PatchNet& net, const Edge& edge, const EdgeRows& r, Elimination& e) {
   for (int i : r.second) {
-    const Tangents t = tangents(basis, points, on_edge(basis, edge, abscissa(basis, edge, i)));
-    e.hold(along(i, normal(t, edge)));
+    const Tangents t = tangents(net, on_edge(net.basis, edge, abscissa(net.basis, edge, i)));
+    e.hold(along(net, i, normal(t, edge)));
   }
 }
 
-void mirror(const TsplineBasis& basis, const Points& points, const Edge& edge, const EdgeRows& r, Elimination& e) {
-  const Eigen::Vector3d normal = across_edge(basis, points, edge, r.edge.front());
+void mirror(const PatchNet& net, const Edge& edge, const EdgeRows& r, Elimination& e) {
+  const Eigen::Vector3d normal = across_edge(net, edge, r.edge.front());
   for (int i : r.edge) {
-    if (across_edge(basis, points, edge, i).cross(normal).norm() > 1e-9)
+    if (across_edge(net, edge, i).cross(normal).norm() > 1e-9)
       throw std::invalid_argument(
           "symmetric: the edge does not lie in one plane that the surface meets at right angles");
-    e.hold(along(i, normal));
+    e.hold(along(net, i, normal));
   }
   const Eigen::Vector3d first = snapped(normal.unitOrthogonal()), second = snapped(normal.cross(first));
   for (std::size_t k = 0; k < r.edge.size(); ++k)
     for (const Eigen::Vector3d& direction : {first, second}) {
-      auto tie = along(r.second[k], direction);
-      for (const Term& t : along(r.edge[k], -direction)) tie.push_back(t);
+      auto tie = along(net, r.second[k], direction);
+      for (const Term& t : along(net, r.edge[k], -direction)) tie.push_back(t);
       e.hold(std::move(tie));
     }
 }
 
 }  // namespace
 
-void hold_edge(const TsplineBasis& basis, const Points& points, const Edge& edge, const std::string& condition,
-               Elimination& e) {
+void hold_edge(const PatchNet& net, const Edge& edge, const std::string& condition, Elimination& e) {
   if (condition == "free") return;
-  const EdgeRows r = rows(basis, edge);
+  const EdgeRows r = rows(net.basis, edge);
   if (condition == "symmetric") {
-    mirror(basis, points, edge, r, e);
+    mirror(net, edge, r, e);
     return;
   }
   const bool all = condition == "hinged" || condition == "clamped";
@@ -142,45 +144,17 @@ void hold_edge(const TsplineBasis& basis, const Points& points, const Edge& edge
                     "\"z\" or \"xz\"",
                     condition));
   for (int i : r.edge)
-    for (int axis : axes) e.hold(3 * i + axis);
-  if (condition == "clamped") clamp_slope(basis, points, edge, r, e);
+    for (int axis : axes) e.hold(net.component(i, axis));
+  if (condition == "clamped") clamp_slope(net, edge, r, e);
 }
 
-namespace {
-
-// w_s / (tau w_e): how the slope at the edge grows with the distance of the second row.
-double slope_factor(const TsplineBasis& basis, const Edge& edge, int edge_anchor, int second_anchor) {
-  const LocalKnots& k = basis.anchors()[std::size_t(edge_anchor)].knots[std::size_t(edge.direction)];
-  return basis.weights()(second_anchor) / (k[4] - k[0]) / basis.weights()(edge_anchor);
-}
-
-}  // namespace
-
-void join_ends(const TsplineBasis& basis, const Points& points, int direction, Elimination& e) {
-  const Edge low{direction, false}, high{direction, true};
-  const EdgeRows a = rows(basis, low), b = rows(basis, high);
-  const auto across = std::size_t(1 - direction);
-  const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
-  bool match = a.edge.size() == b.edge.size();
-  for (std::size_t k = 0; match && k < a.edge.size(); ++k)
-    match =
-        basis.anchors()[std::size_t(a.edge[k])].knots[across] == basis.anchors()[std::size_t(b.edge[k])].knots[across];
-  if (!match) throw std::invalid_argument("the two edges are divided differently; refine both sides alike");
-  for (std::size_t k = 0; k < a.edge.size(); ++k) {
-    const double fa = slope_factor(basis, low, a.edge[k], a.second[k]),
-                 fb = slope_factor(basis, high, b.edge[k], b.second[k]);
-    const Eigen::RowVector3d edge_point = points.row(a.edge[k]);
-    if ((edge_point - points.row(b.edge[k])).norm() > 1e-9 * size)
-      throw std::invalid_argument("the two edges do not lie on each other");
-    const Eigen::RowVector3d kink =
-        fa * (points.row(a.second[k]) - edge_point) - fb * (edge_point - points.row(b.second[k]));
-    if (kink.norm() > 1e-9 * size * (fa + fb))
-      throw std::invalid_argument("the surface has a kink there; C1 is needed");
-    for (int axis = 0; axis < 3; ++axis) {
-      e.hold({{3 * b.edge[k] + axis, 1}, {3 * a.edge[k] + axis, -1}});
-      e.hold({{3 * a.edge[k] + axis, fa + fb}, {3 * a.second[k] + axis, -fa}, {3 * b.second[k] + axis, -fb}});
-    }
-  }
+void hold_corner(const PatchNet& net, const Corner& corner, const std::string& condition, Elimination& e) {
+  if (condition == "free") return;
+  const auto axes = condition == "hinged" ? std::vector<int>{0, 1, 2} : axes_in(condition);
+  if (axes.empty())
+    throw std::invalid_argument(
+        fmt::format("found \"{}\", expected free, hinged or held axes such as \"z\"", condition));
+  for (int axis : axes) e.hold(net.component(corner_anchor(net.basis, corner), axis));
 }
 
 }  // namespace trammel::plate

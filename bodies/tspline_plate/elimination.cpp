@@ -27,12 +27,13 @@ void Elimination::substitute(std::vector<Term>& sum) const {
   for (const auto& [component, factor] : free) sum.push_back({component, factor});
 }
 
-void Elimination::hold(std::vector<Term> condition) {
+void Elimination::hold(std::vector<Term> condition, double known_to) {
   double scale = 0;
   for (const Term& t : condition) scale = std::max(scale, std::abs(t.factor));
   substitute(condition);
   std::erase_if(condition, [&](const Term& t) { return std::abs(t.factor) <= round_off * scale; });
-  if (condition.empty()) return;
+  const auto unknown = [&](const Term& t) { return std::abs(t.factor) <= known_to * scale; };
+  if (std::all_of(condition.begin(), condition.end(), unknown)) return;
 
   const Term* pivot = &condition.front();
   for (const Term& t : condition)

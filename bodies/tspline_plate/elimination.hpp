@@ -2,7 +2,8 @@
 //
 // u are the three displacements of every control point (3 n). Each condition  sum c_k u_k = 0  removes the component with
 // the largest coefficient (of equals the last) by the others, so conditions along the axes just delete columns, and q are
-// always components of u themselves. A condition that follows from those before it is ignored.
+// always components of u themselves. A condition that follows from those before it, as far as its coefficients are known, is
+// ignored.
 #pragma once
 
 #include <vector>
@@ -20,7 +21,7 @@ class Elimination {
  public:
   explicit Elimination(int components) : relation_(std::size_t(components)), held_(std::size_t(components), false) {}
 
-  void hold(std::vector<Term> condition);
+  void hold(std::vector<Term> condition, double known_to = 1e-12);  // relative to the largest coefficient
   void hold(int component) { hold({{component, 1}}); }
   void finish();  // no conditions afterwards
 

@@ -33,8 +33,8 @@ struct EdgeFrame {
 
 }  // namespace
 
-std::vector<EdgePoint> edge_points(const Discretisation& mesh, const Edge& edge) {
-  const TsplineBasis& basis = mesh.basis;
+std::vector<EdgePoint> edge_points(const Discretisation& mesh, int patch, const Edge& edge) {
+  const TsplineBasis& basis = mesh.basis.patch(patch);
   const auto along = std::size_t(1 - edge.direction), across = std::size_t(edge.direction);
   const auto& knots = basis.mesh().knots(edge.direction);
   const double border = edge.high ? knots.back() : knots.front();

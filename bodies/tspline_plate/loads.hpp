@@ -20,7 +20,7 @@ struct EdgePoint {
   double length;    // of the reference that it stands for [m]
   Vector3 outward;  // nu of the reference
 };
-std::vector<EdgePoint> edge_points(const Discretisation& mesh, const Edge& edge);
+std::vector<EdgePoint> edge_points(const Discretisation& mesh, int patch, const Edge& edge);
 
 void add_edge_moment(const Discretisation& mesh, const Edge& edge, const std::vector<EdgePoint>& points, double moment,
                      In q, Out f);

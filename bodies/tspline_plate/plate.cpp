@@ -1,100 +1,102 @@
 #include "plate.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 
 #include <fmt/format.h>
 
 namespace trammel::plate {
 
+Declaration joined_declaration() {
+  return part<Joined>("joined", "two edges at which the surface goes on")
+      .parameter("from", &Joined::from, {.required = true, .doc = "an edge, \"u1\", or \"roof.u1\" of a patch by name"})
+      .parameter("to", &Joined::to, {.required = true, .doc = "the edge it meets"})
+      .choice("continuity", &Joined::continuity, {{"C1", Continuity::C1}, {"C0", Continuity::C0}},
+              {.doc = "C1: smooth, it carries bending moments; C0: a hinge along the edge"});
+}
+
+std::string TsplinePlate::in_patch(int k) const {
+  return named_patches.empty() ? "" : named_patches[std::size_t(k)].first + ".";
+}
+
 namespace {
 
-struct Corner {
-  const char* name;
-  int u_edge, v_edge;  // of `edges`
-};
-constexpr Corner corners[4] = {{"u0v0", 0, 2}, {"u1v0", 1, 2}, {"u0v1", 0, 3}, {"u1v1", 1, 3}};
-
-// The control point of a corner, which the surface passes through.
-int corner_anchor(const TsplineBasis& basis, const Corner& corner) {
-  const auto u = rows(basis, edges[corner.u_edge]).edge, v = rows(basis, edges[corner.v_edge]).edge;
-  for (int i : u)
-    if (std::find(v.begin(), v.end(), i) != v.end()) return i;
-  throw std::logic_error("a patch without corners");
-}
-
-void check_elements(const char* name, const std::vector<double>& numbers, const TMesh& mesh) {
-  const std::size_t count = mesh.elements().size();
-  for (double e : numbers)
-    if (!(e >= 0 && e < double(count) && e == std::floor(e)))
-      throw ParameterError(name, fmt::format("no element {}; there are 0 to {}, by rows", e, count - 1));
-}
-
-constexpr double full_turn = 2 * 3.141592653589793 * (1 + 1e-12);
-
-// Knots of the lines of direction d that run all across, each once.
-std::vector<double> full_lines(const TMesh& mesh, int d) {
-  std::vector<double> knots;
-  for (int line = degree; line < mesh.edges().lines(d) - degree; ++line) {
-    bool full = knots.empty() || mesh.knot(d, line) > knots.back();
-    for (int piece = 0; full && piece < mesh.edges().lines(1 - d) - 1; ++piece)
-      full = mesh.edges().edge(d, line, piece);
-    if (full) knots.push_back(mesh.knot(d, line));
+// What a patch refuses, by the name of the parameter in the plate.
+template <class Call>
+auto of_patch(const std::string& prefix, Call call) {
+  try {
+    return call();
+  } catch (const ParameterError& e) {
+    throw ParameterError(prefix + e.parameter(), e.what());
   }
-  return knots;
 }
 
-std::vector<double> even_knots(int n) {
-  std::vector<double> knots;
-  for (int i = 0; i <= n; ++i) knots.push_back(double(i) / n);
-  return knots;
+std::string parameters_of(const std::string& in_patch) {
+  return in_patch.empty() ? "" : "patches." + in_patch;
 }
 
 }  // namespace
 
+PatchEdge TsplinePlate::edge_named(const std::string& name) const {
+  for (int k = 0; k < patch_count(); ++k)
+    for (std::size_t e = 0; e < 4; ++e)
+      if (name == in_patch(k) + edge_names[e]) return {k, edges[e], name};
+  std::string patches;
+  for (const auto& [patch, unused] : named_patches) patches += (patches.empty() ? "" : ", ") + patch;
+  throw std::invalid_argument(
+      fmt::format("no edge \"{}\"; expected {}u0, u1, v0 or v1{}", name,
+                  named_patches.empty() ? "" : "a patch and an edge, as in \"" + in_patch(0) + "u1\": ",
+                  patches.empty() ? "" : ", of " + patches));
+}
+
 void TsplinePlate::check_parameters(const World& world) const {
   if (world.space != Space::spatial)
     throw ParameterError("type", "tspline_plate moves in space; set \"space\": \"spatial\"");
-  const auto need = [](const char* name, bool given, const char* shape) {
-    if (!given) throw ParameterError(name, fmt::format("geometry {} needs it", shape));
-  };
-  switch (shape_kind) {
-    case Shape::rectangle:
-      need("geometry.along_u", along_u.has_value(), "rectangle"),
-          need("geometry.along_v", along_v.has_value(), "rectangle");
-      break;
-    case Shape::ring:
-      need("geometry.inner_radius", inner_radius.has_value(), "ring"),
-          need("geometry.radius", radius.has_value(), "ring");
-      if (!(*inner_radius < *radius))
-        throw ParameterError("geometry.inner_radius",
-                             fmt::format("found {}, expected less than radius, {}", *inner_radius, *radius));
-      break;
-    case Shape::cylinder:
-      need("geometry.radius", radius.has_value(), "cylinder"), need("geometry.length", length.has_value(), "cylinder");
-      break;
-    case Shape::sphere:
-      need("geometry.radius", radius.has_value(), "sphere");
-      if (!(north > south && north - south <= largest_arc))
-        throw ParameterError("geometry.north",
-                             fmt::format("found {}, expected south < north <= south + {}", north, largest_arc));
-      break;
-    case Shape::points:
-      need("geometry.control_points", !control_points.empty(), "points");
-      break;
-  }
-  const bool turns = shape_kind == Shape::ring || shape_kind == Shape::cylinder || shape_kind == Shape::sphere;
-  if (turns && !(to > from && to - from <= full_turn))
-    throw ParameterError("geometry.to", fmt::format("found {}, expected from < to <= from + 2 pi", to));
-  if (Vector3(axis).cross(Vector3(start)).norm() <= 1e-9 * axis.norm() * start.norm())
-    throw ParameterError("geometry.start", "must not be parallel to axis");
+  if (!named_patches.empty())
+    if (const std::string own = first_given(sole_patch); !own.empty())
+      throw ParameterError(own, "the plate has \"patches\"; say it in one of them");
+  for (const auto& [name, unused] : named_patches)
+    if (name.empty() || name.find('.') != name.npos)
+      throw ParameterError("patches", fmt::format("found the name \"{}\", expected one without a dot", name));
+  for (int k = 0; k < patch_count(); ++k) of_patch(parameters_of(in_patch(k)), [&] { given(k).check(); });
   if (!held_axes.empty() && axes_in(held_axes).empty())
     throw ParameterError("held_axes", fmt::format("found \"{}\", expected axes such as \"z\" or \"xy\"", held_axes));
-  const bool u_held = edge_u0 != "free" || edge_u1 != "free", v_held = edge_v0 != "free" || edge_v1 != "free";
-  if ((joined == Joined::u && u_held) || (joined == Joined::v && v_held))
-    throw ParameterError("joined", "edges that are joined to each other must be free");
+  check_joined();
   check_refinement();
+}
+
+// Every patch hangs together with the first, and an edge goes on smoothly in one other at most.
+void TsplinePlate::check_joined() const {
+  std::vector<int> group;
+  for (int k = 0; k < patch_count(); ++k) group.push_back(k);
+  std::vector<std::string> smooth;
+  for (const auto& [name, ends] : joined) {
+    const std::string parameter = "joined." + name;
+    std::array<PatchEdge, 2> sides;
+    try {
+      sides = {edge_named(ends.from), edge_named(ends.to)};
+    } catch (const std::invalid_argument& e) {
+      throw ParameterError(parameter, e.what());
+    }
+    if (ends.from == ends.to) throw ParameterError(parameter, fmt::format("{} is joined to itself", ends.from));
+    for (const PatchEdge& side : sides) {
+      const auto edge = std::size_t(2 * side.edge.direction + side.edge.high);
+      if (const std::string& condition = given(side.patch).edge_condition(edge); condition != "free")
+        throw ParameterError(parameter,
+                             fmt::format("{} is joined and \"{}\" as well; leave it free", side.name, condition));
+      if (ends.continuity == Continuity::C0) continue;
+      if (std::find(smooth.begin(), smooth.end(), side.name) != smooth.end())
+        throw ParameterError(parameter,
+                             fmt::format("{} is joined C1 twice; it can go on smoothly in one edge", side.name));
+      smooth.push_back(side.name);
+    }
+    const int from = group[std::size_t(sides[0].patch)], to = group[std::size_t(sides[1].patch)];
+    std::replace(group.begin(), group.end(), to, from);
+  }
+  for (int k = 1; k < patch_count(); ++k)
+    if (group[std::size_t(k)] != group[0])
+      throw ParameterError("patches." + named_patches[std::size_t(k)].first,
+                           fmt::format("nothing in \"joined\" ties it to {}; a separate plate is a body of its own",
+                                       named_patches[0].first));
 }
 
 void TsplinePlate::check_refinement() const {
@@ -110,129 +112,56 @@ void TsplinePlate::check_refinement() const {
     throw ParameterError("refine.elements", "name the elements to split, counted by rows from 0");
 }
 
-TMesh TsplinePlate::first_mesh() const {
-  std::vector<double> u = knots_u, v = knots_v;
-  if (u.empty() != v.empty()) throw ParameterError(u.empty() ? "mesh.u" : "mesh.v", "give both u and v, or elements");
-  if (u.empty()) {
-    int n = 0, m = 0, used = 0;
-    if (std::sscanf(elements.c_str(), "%dx%d%n", &n, &m, &used) != 2 || used != int(elements.size()) || n < 1 ||
-        m < 1 || n > 1000 || m > 1000)
-      throw ParameterError("mesh.elements",
-                           fmt::format("found \"{}\", expected two whole numbers such as \"10x10\"", elements));
-    u = even_knots(elements_u > 0 ? elements_u : n), v = even_knots(elements_v > 0 ? elements_v : m);
+// Side by side in the plane of parameters, 1 apart.
+std::vector<ControlNet> TsplinePlate::first_nets() const {
+  std::vector<ControlNet> nets;
+  for (int k = 0; k < patch_count(); ++k) {
+    ControlNet net = of_patch(parameters_of(in_patch(k)), [&] { return given(k).net(); });
+    if (k > 0) net.mesh.shift(nets.back().mesh.knots(0).back() + 1 - net.mesh.knots(0).front());
+    nets.push_back(std::move(net));
   }
-  if (shape_kind != Shape::points && (u.front() != 0 || u.back() != 1 || v.front() != 0 || v.back() != 1))
-    throw ParameterError("mesh.u", "knots of this geometry go from 0 to 1, in u and v");
-  if (partial_lines.size() % 4 != 0)
-    throw ParameterError("mesh.partial",
-                         fmt::format("found {} numbers, expected four a line: 0 (u = const) or 1 (v = const), "
-                                     "line, from, to",
-                                     partial_lines.size()));
-  std::vector<PartialLine> partial;
-  for (std::size_t i = 0; i < partial_lines.size(); i += 4)
-    partial.push_back({partial_lines[i] != 0 ? 1 : 0, int(partial_lines[i + 1]), int(partial_lines[i + 2]),
-                       int(partial_lines[i + 3])});
-  try {
-    TMesh mesh = TMesh::tensor(u, v, partial);
-    check_elements("mesh.cross", crossed, mesh);
-    const auto faces = mesh.elements();
-    std::vector<Box<double>> boxes;
-    for (double e : crossed) boxes.push_back(mesh.parameters(faces[std::size_t(e)]));
-    plate::refine(mesh, boxes, closure);
-    close(mesh, closure);  // of partial lines, where nothing was crossed
-    check_elements("refine.elements", refine_elements, mesh);
-    return mesh;
-  } catch (const std::invalid_argument& e) {
-    throw ParameterError("mesh", e.what());
-  }
+  return nets;
 }
 
-ControlNet TsplinePlate::net_of_shape(const TMesh& mesh) const {
-  Frame frame{origin, Matrix3::Identity()};
-  frame.axes.col(2) = Vector3(axis).normalized();
-  frame.axes.col(1) = Vector3(frame.axes.col(2)).cross(Vector3(start)).normalized();
-  frame.axes.col(0) = Vector3(frame.axes.col(1)).cross(Vector3(frame.axes.col(2)));
-  switch (shape_kind) {
-    case Shape::ring:
-      return ring(frame, *inner_radius, *radius, from, to, full_lines(mesh, 1));
-    case Shape::cylinder:
-      return cylinder(frame, *radius, *length, from, to, full_lines(mesh, 0));
-    case Shape::sphere:
-      return sphere(frame, *radius, from, to, south, north, full_lines(mesh, 0));
-    default:
-      return rectangle(origin, *along_u, *along_v);
-  }
-}
-
-ControlNet TsplinePlate::first_net() const {
-  const TMesh mesh = first_mesh();
-  try {
-    if (shape_kind != Shape::points) return refined(net_of_shape(mesh), mesh);
-    const auto n = Eigen::Index(anchors(mesh).size());
-    if (Eigen::Index(control_points.size()) != 3 * n)
-      throw ParameterError("geometry.control_points",
-                           fmt::format("found {} numbers, expected {}: x, y, z of {} control points, by rows",
-                                       control_points.size(), 3 * n, n));
-    ControlNet net{mesh, Vec::Ones(n), Points(n, 3)};
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index c = 0; c < 3; ++c) net.points(i, c) = control_points[std::size_t(3 * i + c)];
-    if (!weights.empty()) net.weights = Eigen::Map<const Vec>(weights.data(), Eigen::Index(weights.size()));
-    const TsplineBasis basis(net.mesh, net.weights);
-    if (!analysis_suitable(mesh) && independence(basis) < 1e-10)
-      throw ParameterError(
-          "mesh", "the functions of this T-mesh are not linearly independent; choose the closure both or greedy");
-    return net;
-  } catch (const std::invalid_argument& e) {
-    throw ParameterError(shape_kind == Shape::points ? "geometry.weights" : "mesh", e.what());
-  } catch (const std::domain_error& e) {
-    throw ParameterError("mesh.closure", e.what());
-  }
-}
-
-void TsplinePlate::take(ControlNet net) {
-  const PlateData data{{thickness, youngs_modulus, poissons_ratio}, density, quadrature};
-  mesh_ = std::make_unique<Discretisation>(std::move(net), data, [this](const Discretisation& d, Elimination& e) {
-    for (int axis_held : axes_in(held_axes))
-      for (int i = 0; i < d.basis.size(); ++i) e.hold(3 * i + axis_held);
-    try {
-      if (joined != Joined::none) join_ends(d.basis, d.points, joined == Joined::u ? 0 : 1, e);
+void TsplinePlate::hold(const Discretisation& mesh, Elimination& e) {
+  for (int axis : axes_in(held_axes))
+    for (int i = 0; i < mesh.basis.size(); ++i) e.hold(3 * i + axis);
+  std::vector<Seam> seams;
+  for (const auto& [name, ends] : joined) try {
+      seams.push_back(find_seam(mesh.basis, mesh.points, edge_named(ends.from), edge_named(ends.to), ends.continuity));
+      join(mesh.basis, mesh.points, seams.back(), e);
     } catch (const std::invalid_argument& error) {
-      throw ParameterError("joined", error.what());
+      throw ParameterError("joined." + name, error.what());
     }
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::string& condition = corner_condition(k);
-      if (condition == "free") continue;
-      const auto axes = condition == "hinged" ? std::vector<int>{0, 1, 2} : axes_in(condition);
-      if (axes.empty())
-        throw ParameterError(fmt::format("corners.{}", corners[k].name),
-                             fmt::format("found \"{}\", expected free, hinged or held axes such as \"z\"", condition));
-      for (int a : axes) e.hold(3 * corner_anchor(d.basis, corners[k]) + a);
-    }
-    for (std::size_t k = 0; k < 4; ++k) try {
-        hold_edge(d.basis, d.points, edges[k], edge_condition(k), e);
+  seams_ = std::move(seams);
+  for (int k = 0; k < patch_count(); ++k) {
+    const PatchNet net{mesh.basis.patch(k), mesh.points, mesh.basis.first_function(k)};
+    const auto held = [&](const std::string& parameter, auto call) {
+      try {
+        call();
       } catch (const std::invalid_argument& error) {
-        throw ParameterError(fmt::format("edges.{}", edge_names[k]), error.what());
+        throw ParameterError(parameters_of(in_patch(k)) + parameter, error.what());
       }
-  });
-  for (std::size_t k = 0; k < 4; ++k) {
-    const bool no_moment = edge_moment(k).is_constant() && edge_moment(k)(0) == 0;
-    edge_points_[k] = no_moment ? std::vector<EdgePoint>{} : edge_points(*mesh_, edges[k]);
+    };
+    for (std::size_t c = 0; c < 4; ++c)
+      held(fmt::format("corners.{}", corners[c].name),
+           [&] { hold_corner(net, corners[c], given(k).corner_condition(c), e); });
+    for (std::size_t c = 0; c < 4; ++c)
+      held(fmt::format("edges.{}", edge_names[c]), [&] { hold_edge(net, edges[c], given(k).edge_condition(c), e); });
   }
+}
+
+void TsplinePlate::take(const std::vector<ControlNet>& nets) {
+  const PlateData data{{thickness, youngs_modulus, poissons_ratio}, density, quadrature};
+  mesh_ = std::make_unique<Discretisation>(nets, data,
+                                           [this](const Discretisation& mesh, Elimination& e) { hold(mesh, e); });
+  moment_edges_.clear();
+  for (int k = 0; k < patch_count(); ++k)
+    for (std::size_t edge = 0; edge < 4; ++edge)
+      if (given(k).has_edge_moment(edge)) moment_edges_.push_back({k, edge, edge_points(*mesh_, k, edges[edge])});
   gather_dead_loads();
   place_markers();
   if (chooses_elements()) splittable_ = Splittable(mesh_->basis, first_elements_, refine_levels);
-}
-
-bool TsplinePlate::has_edge_load(std::size_t k) const {
-  return edge_load(k, Vector3::UnitX()) != Vector3::Zero() || edge_load(k, Vector3::UnitY()) != Vector3::Zero();
-}
-
-Vector3 TsplinePlate::edge_load(std::size_t k, const Vector3& outward) const {
-  const auto& force_of_edge = *std::array{&force_u0, &force_u1, &force_v0, &force_v1}[k];
-  const double pressure_of_edge = std::array{pressure_u0, pressure_u1, pressure_v0, pressure_v1}[k];
-  Vector3 result = -pressure_of_edge * outward;
-  if (force_of_edge) result += *force_of_edge;
-  return result;
 }
 
 void TsplinePlate::gather_dead_loads() {
@@ -242,15 +171,16 @@ void TsplinePlate::gather_dead_loads() {
     on_weight.segment<3>(3 * i) = mesh_->lumped(i) * gravity_;
     on_dead.segment<3>(3 * i) = mesh_->area(i) * Vector3(load);
   }
-  for (std::size_t k = 0; k < 4; ++k) {
-    if (!has_edge_load(k)) continue;
-    for (const EdgePoint& p : edge_points(*mesh_, edges[k])) {
-      const Vector3 line_load = edge_load(k, p.outward);
-      const auto& nodes = mesh_->cells[std::size_t(p.point.cell)].nodes;
-      for (std::size_t f = 0; f < nodes.size(); ++f)
-        on_dead.segment<3>(3 * nodes[f]) += p.length * p.point.shape.R(Eigen::Index(f)) * line_load;
+  for (int k = 0; k < patch_count(); ++k)
+    for (std::size_t edge = 0; edge < 4; ++edge) {
+      if (!given(k).has_edge_load(edge)) continue;
+      for (const EdgePoint& p : edge_points(*mesh_, k, edges[edge])) {
+        const Vector3 line_load = given(k).edge_load(edge, p.outward);
+        const auto& nodes = mesh_->cells[std::size_t(p.point.cell)].nodes;
+        for (std::size_t f = 0; f < nodes.size(); ++f)
+          on_dead.segment<3>(3 * nodes[f]) += p.length * p.point.shape.R(Eigen::Index(f)) * line_load;
+      }
     }
-  }
   weight_force_ = dead_force_ = Vec::Zero(mesh_->coordinates.coordinates());
   mesh_->coordinates.restrict(on_weight, weight_force_);
   mesh_->coordinates.restrict(on_dead, dead_force_);
@@ -260,36 +190,50 @@ void TsplinePlate::place_markers() {
   for (Marker& m : marker_points_) m.point = surface_point(*mesh_, m.u, m.v, m.height);
 }
 
+// A marker counts u as its patch does, from `own_u`.
+void TsplinePlate::add_markers(int k, const Box<double>& range, double own_u) {
+  const auto& [low, high] = range;
+  const std::string prefix = named_patches.empty() ? "" : named_patches[std::size_t(k)].first + "_";
+  const auto add = [&](const std::string& name, double u, double v, double height) {
+    marker_names_.push_back(prefix + name);
+    marker_points_.push_back({u, v, height, {}});
+  };
+  add("centre", (low[0] + high[0]) / 2, (low[1] + high[1]) / 2, 0);
+  for (const Corner& c : corners)
+    add(c.name, edges[c.u_edge].high ? high[0] : low[0], edges[c.v_edge].high ? high[1] : low[1], 0);
+  const std::string parameter = parameters_of(in_patch(k)) + "markers";
+  const double last_u = own_u + high[0] - low[0];
+  for (const auto& [name, at] : given(k).markers) {
+    if (!(at(0) >= own_u && at(0) <= last_u && at(1) >= low[1] && at(1) <= high[1]))
+      throw ParameterError(
+          parameter, fmt::format("\"{}\" is at (u, v) = ({}, {}), expected u from {} to {}, v from {} to {}", name,
+                                 at(0), at(1), own_u, last_u, low[1], high[1]));
+    if (std::find(marker_names_.begin(), marker_names_.end(), prefix + name) != marker_names_.end())
+      throw ParameterError(parameter, fmt::format("\"{}\" exists already", name));
+    add(name, std::min(low[0] + (at(0) - own_u), high[0]), at(1), at(2));
+  }
+}
+
 void TsplinePlate::prepare(const World& world) {
   check_parameters(world);
   gravity_ = world.gravity;
-  ControlNet net = first_net();
-  first_elements_ = element_boxes(net.mesh);
-  const auto &u = net.mesh.knots(0), &v = net.mesh.knots(1);
-  marker_names_ = {"centre"};
-  marker_points_ = {{(u.front() + u.back()) / 2, (v.front() + v.back()) / 2, 0, {}}};
-  for (const Corner& c : corners) {
-    marker_names_.push_back(c.name);
-    marker_points_.push_back(
-        {edges[c.u_edge].high ? u.back() : u.front(), edges[c.v_edge].high ? v.back() : v.front(), 0, {}});
+  const std::vector<ControlNet> nets = first_nets();
+  first_elements_.clear(), marker_names_.clear(), marker_points_.clear();
+  for (int k = 0; k < patch_count(); ++k) {
+    const TMesh& mesh = nets[std::size_t(k)].mesh;
+    for (const Box<int>& element : mesh.elements()) first_elements_.push_back(mesh.parameters(element));
+    const auto &u = mesh.knots(0), &v = mesh.knots(1);
+    add_markers(k, {{u.front(), v.front()}, {u.back(), v.back()}},
+                given(k).knots_u.empty() ? 0 : given(k).knots_u.front());
   }
-  for (const auto& [name, at] : extra_markers) {
-    if (!(at(0) >= u.front() && at(0) <= u.back() && at(1) >= v.front() && at(1) <= v.back()))
-      throw ParameterError(
-          "markers", fmt::format("\"{}\" is at (u, v) = ({}, {}), expected u from {} to {}, v from {} to {}", name,
-                                 at(0), at(1), u.front(), u.back(), v.front(), v.back()));
-    if (std::find(marker_names_.begin(), marker_names_.end(), name) != marker_names_.end())
-      throw ParameterError("markers", fmt::format("\"{}\" exists already", name));
-    marker_names_.push_back(name);
-    marker_points_.push_back({at(0), at(1), at(2), {}});
-  }
+  check_elements("refine.elements", refine_elements, first_elements_.size());
   observable_names_ = {"von_mises_top",   "von_mises_middle", "von_mises_bottom",
                        "energy_membrane", "energy_bending",   "elements"};
   for (const std::string& name : marker_names_)
     for (const char* face : {"top", "middle", "bottom"})
       observable_names_.push_back(fmt::format("von_mises_{}_{}", face, name));
   try {
-    take(std::move(net));
+    take(nets);
   } catch (const std::invalid_argument& e) {
     throw ParameterError("geometry", e.what());
   }
@@ -297,9 +241,10 @@ void TsplinePlate::prepare(const World& world) {
 
 void TsplinePlate::initial(Out q, Out v) const {
   q.setZero();
+  const Vector3 about = given(0).origin;
   const auto& kept = mesh_->coordinates.kept();
   for (std::size_t k = 0; k < kept.size(); ++k) {
-    const Vector3 arm = Vector3(mesh_->points.row(kept[k] / 3)) - Vector3(origin);
+    const Vector3 arm = Vector3(mesh_->points.row(kept[k] / 3)) - about;
     v(Eigen::Index(k)) = (Vector3(velocity) + Vector3(angular_velocity).cross(arm))(kept[k] % 3);
   }
 }

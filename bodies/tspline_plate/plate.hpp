@@ -18,12 +18,20 @@
 #include "discretisation.hpp"
 #include "edge.hpp"
 #include "loads.hpp"
+#include "patch.hpp"
 #include "refinement_trigger.hpp"
+#include "seam.hpp"
 #include "stress.hpp"
 #include "surface_point.hpp"
-#include "t_junction.hpp"
 
 namespace trammel::plate {
+
+// Two edges that the scene joins, by name.
+struct Joined final : Component {
+  std::string from, to;
+  Continuity continuity = Continuity::C1;
+};
+Declaration joined_declaration();
 
 class TsplinePlate final : public Body,
                            public ExactTangent,
@@ -39,35 +47,18 @@ class TsplinePlate final : public Body,
                            public HasMomentum {
  public:
   // Parameters; see the declaration in plugin.cpp.
-  enum class Shape { rectangle, ring, cylinder, sphere, points };
-  Shape shape_kind = Shape::rectangle;
-  Vec3 origin = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ(), start = Eigen::Vector3d::UnitX();
-  std::optional<Vec3> along_u, along_v;
-  std::optional<double> inner_radius, radius, length;
-  double from = 0, to = 1.5707963267948966, south = 0, north = 1.5707963267948966;
-  std::vector<double> control_points, weights;
-
-  std::string elements = "10x10";
-  int elements_u = 0, elements_v = 0;
-  std::vector<double> knots_u, knots_v, partial_lines, crossed;
-  Closure closure = Closure::both;
+  Patch sole_patch;          // of a plate of one patch
+  Named<Patch> named_patches;  // of others
+  Named<Joined> joined;
 
   double thickness = 0, density = 0, youngs_modulus = 0, poissons_ratio = 0.3;
   int quadrature = 3;
-  std::string edge_u0 = "free", edge_u1 = "free", edge_v0 = "free", edge_v1 = "free";
-  std::string corner_u0v0 = "free", corner_u1v0 = "free", corner_u0v1 = "free", corner_u1v1 = "free";
   std::string held_axes;
-  enum class Joined { none, u, v };
-  Joined joined = Joined::none;
 
   double mass_damping = 0, stiffness_damping = 0;
   TimeFunction pressure, load_factor{1.0};
-  TimeFunction moment_u0, moment_u1, moment_v0, moment_v1;
   Vec3 load = Eigen::Vector3d::Zero();
-  std::optional<Vec3> force_u0, force_u1, force_v0, force_v1;
-  double pressure_u0 = 0, pressure_u1 = 0, pressure_v0 = 0, pressure_v1 = 0;
   Vec3 velocity = Eigen::Vector3d::Zero(), angular_velocity = Eigen::Vector3d::Zero();
-  Named<Vec3> extra_markers;
 
   std::string refine_on;
   std::optional<double> refine_at;
@@ -114,7 +105,8 @@ class TsplinePlate final : public Body,
   void archive(Archive& archive) override;
   Momentum momentum(double t, In q, In v) const override;
 
-  // Crosses these elements, closes the mesh and takes it over; the transfer of q and v comes back.
+  // Crosses these elements, and at seams those behind them as far as both sides must be divided alike, closes the mesh and takes
+  // it over; the transfer of q and v comes back.
   std::unique_ptr<Transfer> refine_elements_in(const std::vector<Box<double>>& boxes);
   const Discretisation& mesh() const { return *mesh_; }
   CellEnergy strain_energy(In q) const;
@@ -126,28 +118,27 @@ class TsplinePlate final : public Body,
     SurfacePoint point;
   };
 
-  // The parameters of edge k in the order of `edges`, and of corner k: u0v0, u1v0, u0v1, u1v1.
-  const std::string& edge_condition(std::size_t k) const {
-    return *std::array{&edge_u0, &edge_u1, &edge_v0, &edge_v1}[k];
-  }
-  const std::string& corner_condition(std::size_t k) const {
-    return *std::array{&corner_u0v0, &corner_u1v0, &corner_u0v1, &corner_u1v1}[k];
-  }
-  const TimeFunction& edge_moment(std::size_t k) const {
-    return *std::array{&moment_u0, &moment_u1, &moment_v0, &moment_v1}[k];
-  }
-  Vector3 edge_load(std::size_t k, const Vector3& outward) const;  // dead, of edge k [N/m]
-  bool has_edge_load(std::size_t k) const;
+  struct MomentEdge {
+    int patch;
+    std::size_t edge;  // of `edges`
+    std::vector<EdgePoint> points;
+  };
 
+  int patch_count() const { return named_patches.empty() ? 1 : int(named_patches.size()); }
+  const Patch& given(int k) const { return named_patches.empty() ? sole_patch : named_patches[std::size_t(k)].second; }
+  std::string in_patch(int k) const;  // "roof." before the names of what is in that patch; "" if there is but one
+  PatchEdge edge_named(const std::string& name) const;  // "roof.u1", "u1"
   void check_parameters(const World& world) const;
   void check_refinement() const;
-  ControlNet first_net() const;
-  ControlNet net_of_shape(const TMesh& mesh) const;
-  TMesh first_mesh() const;
-  void take(ControlNet net);  // builds everything that depends on the mesh
+  void check_joined() const;
+  std::vector<ControlNet> first_nets() const;
+  void take(const std::vector<ControlNet>& nets);  // builds everything that depends on the mesh
+  void hold(const Discretisation& mesh, Elimination& coordinates);
+  void add_markers(int patch, const Box<double>& range, double own_u);
   void place_markers();
   bool chooses_elements() const { return refine_near || indicator != Indicator::none; }
   std::vector<Box<double>> elements_near(const Eigen::Vector2d& at) const;
+  double distance(const Eigen::Vector2d& from, const Box<double>& element) const;
   std::vector<Box<double>> indicated(In q, std::span<const double> contact_pressure) const;
   std::vector<Box<double>> chosen(double t, In q, const RefineCause& cause) const;  // none: nothing is due
   void gather_dead_loads();
@@ -158,9 +149,10 @@ class TsplinePlate final : public Body,
 
   Eigen::Vector3d gravity_ = Eigen::Vector3d::Zero();
   std::unique_ptr<Discretisation> mesh_;
-  Vec weight_force_;                                   // of gravity, on q [N]
-  Vec dead_force_;                                     // of `load`, edge_force, edge_pressure at load_factor 1
-  std::array<std::vector<EdgePoint>, 4> edge_points_;  // of edges with a moment
+  Vec weight_force_;  // of gravity, on q [N]
+  Vec dead_force_;    // of `load`, edge_force, edge_pressure at load_factor 1
+  std::vector<MomentEdge> moment_edges_;
+  std::vector<Seam> seams_;
   std::vector<std::string> marker_names_, observable_names_;
   std::vector<Marker> marker_points_;
   std::vector<std::vector<Box<double>>> refinements_;  // crossed so far, to be repeated when a run resumes

@@ -53,8 +53,8 @@ void TsplinePlate::mass(double, In, Matrix& M) const {
 
 void TsplinePlate::add_loads(double t, In q, Out f) const {
   f += dead_factor(t) * dead_force_;
-  for (std::size_t k = 0; k < 4; ++k)
-    if (!edge_points_[k].empty()) add_edge_moment(*mesh_, edges[k], edge_points_[k], edge_moment(k)(t), q, f);
+  for (const MomentEdge& e : moment_edges_)
+    add_edge_moment(*mesh_, edges[e.edge], e.points, given(e.patch).edge_moment(e.edge)(t), q, f);
   const double p = pressure(t);
   if (p == 0) return;
   CellVectors u, of_cell;
@@ -191,9 +191,8 @@ void TsplinePlate::add_tangent_with_stress_from(double t, In q, In q_from, In dq
 }
 
 void TsplinePlate::add_load_tangent(double t, In q, double c, Matrix& S) const {
-  for (std::size_t k = 0; k < 4; ++k)
-    if (!edge_points_[k].empty())
-      add_edge_moment_tangent(*mesh_, edges[k], edge_points_[k], edge_moment(k)(t), q, c, S);
+  for (const MomentEdge& e : moment_edges_)
+    add_edge_moment_tangent(*mesh_, edges[e.edge], e.points, given(e.patch).edge_moment(e.edge)(t), q, c, S);
   const double p = pressure(t);
   if (p == 0) return;
   double block[most_components * most_components];

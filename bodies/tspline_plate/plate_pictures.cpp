@@ -15,26 +15,76 @@ double TsplinePlate::observe(int observable, double, In q, In) const {
   if (observable < 3) return face(largest_stress(*mesh_, section, q), observable);
   if (observable == 3) return strain_energy(q).membrane;
   if (observable == 4) return strain_energy(q).bending;
-  if (observable == 5) return double(mesh_->basis.mesh().elements().size());
+  if (observable == 5) return double(mesh_->basis.elements().size());
   const auto marker = std::size_t(observable - 6) / 3;
   return von_mises(face(stress(*mesh_, section, marker_points_[marker].point, q), (observable - 6) % 3));
 }
 
-// A grid drawn in one go: lines v = const to and fro, then lines u = const.
+namespace {
+
+// Corners are numbered through, four a patch, as in `corners`. The way over edges and seams from one to another, both included.
+std::vector<int> way(const Multipatch& basis, const std::vector<Seam>& seams, int from, int to) {
+  const auto place_of = [&](int corner) {
+    const Box<double> range = basis.range(corner / 4);
+    const Corner& c = corners[corner % 4];
+    return Eigen::Vector2d(edges[c.u_edge].high ? range.high[0] : range.low[0],
+                           edges[c.v_edge].high ? range.high[1] : range.low[1]);
+  };
+  std::vector<int> before(std::size_t(4 * basis.patches()), -1), reached = {to};
+  before[std::size_t(to)] = to;
+  const auto reach = [&](int corner, int via) {
+    if (before[std::size_t(corner)] >= 0) return;
+    before[std::size_t(corner)] = via;
+    reached.push_back(corner);
+  };
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const int at = reached[k];
+    for (const int beside : {at ^ 1, at ^ 2}) reach(beside, at);
+    for (const Seam& seam : seams)
+      for (const Eigen::Vector2d& there : other_sides(basis, seam, place_of(at))) {
+        const int patch = basis.patch_at(there.x());
+        for (int c = 4 * patch; c < 4 * patch + 4; ++c)
+          if ((place_of(c) - there).norm() < 1e-6) reach(c, at);
+      }
+  }
+  std::vector<int> result = {from};
+  while (result.back() != to) result.push_back(before[std::size_t(result.back())]);
+  return result;
+}
+
+}  // namespace
+
+// A grid drawn in one go: of each patch lines v = const to and fro, then lines u = const back to where it began; along edges to
+// the next patch.
 void TsplinePlate::shape(double, In q, Mat& points) const {
   constexpr int lines = 9, steps = 16;
-  const auto &u = mesh_->basis.mesh().knots(0), &v = mesh_->basis.mesh().knots(1);
-  points.resize(3, 2 * lines * (steps + 1));
-  Eigen::Index column = 0;
-  for (int direction = 0; direction < 2; ++direction)
+  std::vector<Vector3> drawn;
+  const auto draw = [&](int patch, double s, double t) {
+    const auto [low, high] = mesh_->basis.range(patch);
+    drawn.push_back(
+        place(*mesh_, surface_point(*mesh_, low[0] + s * (high[0] - low[0]), low[1] + t * (high[1] - low[1])), q).r);
+  };
+  for (int patch = 0; patch < mesh_->basis.patches(); ++patch) {
+    if (patch > 0) {
+      const std::vector<int> corner = way(mesh_->basis, seams_, 4 * (patch - 1), 4 * patch);
+      for (std::size_t k = 1; k < corner.size(); ++k)
+        for (int step = 1; corner[k] / 4 == corner[k - 1] / 4 && step <= steps; ++step) {
+          const auto between = [&](int bit) {
+            const double a = corner[k - 1] & bit ? 1 : 0, b = corner[k] & bit ? 1 : 0;
+            return a + (b - a) * step / steps;
+          };
+          draw(corner[k] / 4, between(1), between(2));
+        }
+    }
     for (int line = 0; line < lines; ++line)
-      for (int k = 0; k <= steps; ++k) {
-        const double across = double(line) / (lines - 1), along = double(line % 2 == 0 ? k : steps - k) / steps;
-        const double s = direction == 0 ? along : across, t = direction == 0 ? across : along;
-        const SurfacePoint at =
-            surface_point(*mesh_, u.front() + s * (u.back() - u.front()), v.front() + t * (v.back() - v.front()));
-        points.col(column++) = place(*mesh_, at, q).r;
-      }
+      for (int k = 0; k <= steps; ++k)
+        draw(patch, double(line % 2 == 0 ? k : steps - k) / steps, double(line) / (lines - 1));
+    for (int line = lines - 1; line >= 0; --line)
+      for (int k = 0; k <= steps; ++k)
+        draw(patch, double(line) / (lines - 1), double(line % 2 == 0 ? steps - k : k) / steps);
+  }
+  points.resize(3, Eigen::Index(drawn.size()));
+  for (std::size_t k = 0; k < drawn.size(); ++k) points.col(Eigen::Index(k)) = drawn[k];
 }
 
 // Each element from inside: at a double knot the stress jumps from one to the next.
@@ -42,7 +92,7 @@ void TsplinePlate::fields_at(double, In q, In, std::vector<FieldPatch>& patches)
   constexpr int along = 5;
   constexpr double inside = 1e-9;  // of the element
   const Section section{thickness, youngs_modulus, poissons_ratio};
-  const std::vector<Box<double>> boxes = element_boxes(mesh_->basis.mesh());
+  const std::vector<Box<double>> boxes = mesh_->basis.elements();
   patches.resize(boxes.size());
   for (std::size_t e = 0; e < boxes.size(); ++e) {
     const auto& [low, high] = boxes[e];

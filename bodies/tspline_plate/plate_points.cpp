@@ -45,8 +45,8 @@ struct Looked {  // at a point of the surface
 // where it runs into what is `known`.
 Candidate descend(const Discretisation& mesh, In q, const Vector3& x, const Eigen::Vector2d& start,
                   const Candidate& known) {
-  const auto &ku = mesh.basis.mesh().knots(0), &kv = mesh.basis.mesh().knots(1);
-  const Eigen::Vector2d low(ku.front(), kv.front()), high(ku.back(), kv.back());
+  const Box<double> range = mesh.basis.range(mesh.basis.patch_at(start.x()));
+  const Eigen::Vector2d low(range.low[0], range.low[1]), high(range.high[0], range.high[1]);
   const auto look = [&](const Eigen::Vector2d& at) {
     SurfacePoint point = surface_point(mesh, at.x(), at.y());
     const Place p = place(mesh, point, q);
@@ -89,8 +89,28 @@ Candidate descend(const Discretisation& mesh, In q, const Vector3& x, const Eige
   return here.found;
 }
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+const Candidate nowhere{infinity, {-infinity, -infinity}};
+
+// Where the way to the nearest point ends at a seam, on behind it as long as that leads nearer.
+Candidate across_seams(const Discretisation& mesh, const std::vector<Seam>& seams, In q, const Vector3& x,
+                       Candidate best) {
+  for (bool nearer = true; nearer;) {
+    nearer = false;
+    for (const Seam& seam : seams)
+      for (const Eigen::Vector2d& behind : other_sides(mesh.basis, seam, best.at)) {
+        const Candidate other = descend(mesh, q, x, behind, nowhere);
+        if (!(other.distance < best.distance * (1 - 1e-9))) continue;
+        best = other, nearer = true;
+        break;
+      }
+  }
+  return best;
+}
+
 // From the middles of the three nearest of these cells: a folded sheet has several nearby points.
-Candidate nearest_among(const Discretisation& mesh, const std::ranges::range auto& cells, In q, const Vector3& x) {
+Candidate nearest_among(const Discretisation& mesh, const std::vector<Seam>& seams,
+                        const std::ranges::range auto& cells, In q, const Vector3& x) {
   Candidate starts[3];
   int found = 0;
   CellVectors u;
@@ -110,19 +130,18 @@ Candidate nearest_among(const Discretisation& mesh, const std::ranges::range aut
       starts[2] = middle;
     std::sort(starts, starts + found);
   }
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Candidate best{infinity, {-infinity, -infinity}};
+  Candidate best = nowhere;
   for (int k = 0; k < found; ++k) {
     const Candidate other = descend(mesh, q, x, starts[k].at, best);
     if (other.distance < best.distance * (1 - 1e-9)) best = other;
   }
-  return best;
+  return across_seams(mesh, seams, q, x, best);
 }
 
 }  // namespace
 
 void TsplinePlate::nearest(double, In q, const Vec3& x, Eigen::Vector2d& parameters, Vec3& point, Vec3& normal) const {
-  parameters = nearest_among(*mesh_, std::views::iota(0, patches()), q, x).at;
+  parameters = nearest_among(*mesh_, seams_, std::views::iota(0, patches()), q, x).at;
   const Place at = place(*mesh_, surface_point(*mesh_, parameters.x(), parameters.y()), q);
   point = at.r;
   normal = at.a1.cross(at.a2).normalized();
@@ -130,7 +149,7 @@ void TsplinePlate::nearest(double, In q, const Vec3& x, Eigen::Vector2d& paramet
 
 void TsplinePlate::nearest_on(std::span<const int> patches, In q, const Vec3& x, Eigen::Vector2d& parameters,
                               Vec3& point) const {
-  parameters = nearest_among(*mesh_, patches, q, x).at;
+  parameters = nearest_among(*mesh_, seams_, patches, q, x).at;
   point = place(*mesh_, surface_point(*mesh_, parameters.x(), parameters.y()), q).r;
 }
 
@@ -203,9 +222,9 @@ void TsplinePlate::jet(const Eigen::Vector2d& parameters, In q, SurfaceJet& out)
   const Place first_order = place(*mesh_, at, q), second_order = place(*mesh_, second, q);
   out.r = first_order.r, out.r_u = first_order.a1, out.r_v = first_order.a2;
   out.r_uv = second_order.r, out.r_uu = second_order.a1, out.r_vv = second_order.a2;
-  const auto &ku = mesh_->basis.mesh().knots(0), &kv = mesh_->basis.mesh().knots(1);
-  const auto end = [](double x, const auto& knots) { return int(x >= knots.back()) - int(x <= knots.front()); };
-  out.end = {end(u, ku), end(v, kv)};
+  const Box<double> range = mesh_->basis.range(mesh_->basis.patch_at(u));
+  const auto end = [](double x, double low, double high) { return int(x >= high) - int(x <= low); };
+  out.end = {end(u, range.low[0], range.high[0]), end(v, range.low[1], range.high[1])};
   out.patch = at.cell;
   const Cell& cell = mesh_->cells[std::size_t(at.cell)];
   out.dofs = cell.dofs;

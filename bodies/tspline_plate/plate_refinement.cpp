@@ -2,6 +2,7 @@
 // surface, its motion and with them momentum and energies stay what they were. Accelerations do not (they satisfy the
 // equations tested with the old functions only); whoever integrates solves for them anew.
 #include <algorithm>
+#include <limits>
 
 #include "plate.hpp"
 
@@ -34,27 +35,103 @@ class MeshTransfer final : public Transfer {
 
 }  // namespace
 
-std::unique_ptr<Transfer> TsplinePlate::refine_elements_in(const std::vector<Box<double>>& boxes) {
-  TMesh fine = mesh_->basis.mesh();
-  plate::refine(fine, boxes, closure);
-  auto op = refinement_operator(mesh_->basis, TsplineBasis(fine));
-  ControlNet net{std::move(fine), std::move(op.weights), op.points * mesh_->points};
-  Elimination old = mesh_->coordinates;
-  take(std::move(net));
-  refinements_.push_back(boxes);
-  return std::make_unique<MeshTransfer>(std::move(old), mesh_->coordinates, std::move(op.points));
+namespace {
+
+void cross(std::vector<TMesh>& meshes, const std::vector<Box<double>>& boxes, const std::vector<Closure>& closures) {
+  for (std::size_t k = 0; k < meshes.size(); ++k) {
+    const auto& u = meshes[k].knots(0);
+    std::vector<Box<double>> inside;
+    std::copy_if(boxes.begin(), boxes.end(), std::back_inserter(inside),
+                 [&](const Box<double>& box) { return box.low[0] >= u.front() && box.high[0] <= u.back(); });
+    if (!inside.empty()) refine(meshes[k], inside, closures[k]);
+  }
 }
 
-// In the reference, from the nearest parameters of each element.
-std::vector<Box<double>> TsplinePlate::elements_near(const Eigen::Vector2d& at) const {
+// An element that is split at a seam gives the edge a knot that the other side must get too, and may hand on. Lines that were not
+// in the middle of an element may keep the sides apart; the seam then refuses the mesh.
+void divide_alike(std::vector<TMesh>& meshes, const std::vector<Seam>& seams, const std::vector<Closure>& closures) {
+  for (std::size_t round = 0; round < 2 * meshes.size() + 8; ++round) {
+    std::vector<Box<double>> more;
+    for (const Seam& seam : seams)
+      for (const Box<double>& box : behind(seam, meshes[std::size_t(seam.a.patch)], meshes[std::size_t(seam.b.patch)]))
+        if (std::find(more.begin(), more.end(), box) == more.end()) more.push_back(box);
+    if (more.empty()) return;
+    cross(meshes, more, closures);
+  }
+}
+
+// Operators of the patches one below the other.
+Sparse in_blocks(const std::vector<Sparse>& blocks) {
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::Index row = 0, column = 0;
+  for (const Sparse& block : blocks) {
+    for (Eigen::Index i = 0; i < block.rows(); ++i)
+      for (Sparse::InnerIterator entry(block, i); entry; ++entry)
+        entries.emplace_back(int(row + i), int(column + entry.col()), entry.value());
+    row += block.rows(), column += block.cols();
+  }
+  Sparse result(row, column);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+}  // namespace
+
+std::unique_ptr<Transfer> TsplinePlate::refine_elements_in(const std::vector<Box<double>>& boxes) {
+  const Multipatch& coarse = mesh_->basis;
+  std::vector<TMesh> meshes;
+  std::vector<Closure> closures;
+  for (int k = 0; k < coarse.patches(); ++k) {
+    meshes.push_back(coarse.patch(k).mesh());
+    closures.push_back(given(k).closure);
+  }
+  cross(meshes, boxes, closures);
+  divide_alike(meshes, seams_, closures);
+  std::vector<ControlNet> nets;
+  std::vector<Sparse> operators;
+  for (int k = 0; k < coarse.patches(); ++k) {
+    const TsplineBasis& old = coarse.patch(k);
+    const Points points = mesh_->points.middleRows(coarse.first_function(k), old.size());
+    TMesh& fine = meshes[std::size_t(k)];
+    if (fine.elements().size() == old.mesh().elements().size()) {
+      operators.emplace_back(old.size(), old.size());
+      operators.back().setIdentity();
+      nets.push_back({std::move(fine), old.weights(), points});
+      continue;
+    }
+    auto op = refinement_operator(old, TsplineBasis(fine));
+    nets.push_back({std::move(fine), std::move(op.weights), op.points * points});
+    operators.push_back(std::move(op.points));
+  }
+  Elimination before = mesh_->coordinates;
+  take(nets);
+  refinements_.push_back(boxes);
+  return std::make_unique<MeshTransfer>(std::move(before), mesh_->coordinates, in_blocks(operators));
+}
+
+// In the reference: to the nearest parameters of an element of the same patch; of another to the nearest of a grid of points.
+double TsplinePlate::distance(const Eigen::Vector2d& from, const Box<double>& element) const {
   const Vec rest = Vec::Zero(mesh_->coordinates.coordinates());
   const auto reference = [&](double u, double v) { return place(*mesh_, surface_point(*mesh_, u, v), rest).r; };
-  const Vector3 struck = reference(at.x(), at.y());
+  const Vector3 struck = reference(from.x(), from.y());
+  const auto& [low, high] = element;
+  if (mesh_->basis.patch_at(from.x()) == mesh_->basis.patch_at(low[0]))
+    return (reference(std::clamp(from.x(), low[0], high[0]), std::clamp(from.y(), low[1], high[1])) - struck).norm();
+  constexpr int pieces = 8;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= pieces; ++i)
+    for (int j = 0; j <= pieces; ++j)
+      least = std::min(
+          least,
+          (reference(low[0] + (high[0] - low[0]) * i / pieces, low[1] + (high[1] - low[1]) * j / pieces) - struck)
+              .norm());
+  return least;
+}
+
+std::vector<Box<double>> TsplinePlate::elements_near(const Eigen::Vector2d& at) const {
   std::vector<Box<double>> result;
-  for (const Box<double>& box : splittable_.elements()) {
-    const double u = std::clamp(at.x(), box.low[0], box.high[0]), v = std::clamp(at.y(), box.low[1], box.high[1]);
-    if ((reference(u, v) - struck).norm() <= *refine_near) result.push_back(box);
-  }
+  for (const Box<double>& box : splittable_.elements())
+    if (distance(at, box) <= *refine_near) result.push_back(box);
   return result;
 }
 
@@ -84,7 +161,7 @@ std::vector<Box<double>> TsplinePlate::chosen(double t, In q, const RefineCause&
   if (refine_near) return struck ? elements_near(cause.at) : std::vector<Box<double>>{};
   const bool now = refinements_.empty() && (refine_at ? step && t >= *refine_at : struck);
   if (!now) return {};
-  const auto all = element_boxes(mesh_->basis.mesh());
+  const auto all = mesh_->basis.elements();
   std::vector<Box<double>> named;
   for (double e : refine_elements) named.push_back(all[std::size_t(e)]);
   return named;
@@ -109,7 +186,7 @@ void TsplinePlate::archive(Archive& archive) {
   const std::size_t before = steps.size();
   archive("refinements", steps);
   if (steps.size() == before) return;
-  take(first_net());
+  take(first_nets());
   refinements_.clear();
   for (const Vec& step : steps) {
     std::vector<Box<double>> boxes;

@@ -66,14 +66,8 @@ double indicate(Indicator indicator, const Cell& cell, const CellVectors& u) {
   }
 }
 
-std::vector<Box<double>> element_boxes(const TMesh& mesh) {
-  std::vector<Box<double>> result;
-  for (const Box<int>& element : mesh.elements()) result.push_back(mesh.parameters(element));
-  return result;
-}
-
-Splittable::Splittable(const TsplineBasis& basis, const std::vector<Box<double>>& first, int levels) {
-  for (const Box<double>& element : element_boxes(basis.mesh())) {
+Splittable::Splittable(const Multipatch& basis, const std::vector<Box<double>>& first, int levels) {
+  for (const Box<double>& element : basis.elements()) {
     const Box<double>* from = find(first, middle(element));
     if (from && level(element, *from) < levels) elements_.push_back(element);
   }

@@ -22,7 +22,7 @@ class Splittable {
  public:
   Splittable() = default;
   // `first`: elements of the first mesh; none finer than `levels` halvings of theirs.
-  Splittable(const TsplineBasis& basis, const std::vector<Box<double>>& first, int levels);
+  Splittable(const Multipatch& basis, const std::vector<Box<double>>& first, int levels);
 
   const std::vector<Box<double>>& elements() const { return elements_; }
   int element_of(int cell) const { return element_of_[std::size_t(cell)]; }  // -1: it may not be split
@@ -31,7 +31,5 @@ class Splittable {
   std::vector<Box<double>> elements_;
   std::vector<int> element_of_;
 };
-
-std::vector<Box<double>> element_boxes(const TMesh& mesh);
 
 }  // namespace trammel::plate

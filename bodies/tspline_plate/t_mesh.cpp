@@ -71,6 +71,10 @@ TMesh TMesh::uniform(int elements_u, int elements_v) {
   return tensor(even(elements_u), even(elements_v));
 }
 
+void TMesh::shift(double by) {
+  for (double& u : knots_[0]) u += by;
+}
+
 // Every inner point is crossed by nothing, by one straight line, or is a vertex with three or four pieces.
 void TMesh::check() const {
   for (int j = degree + 1; j < edges_.lines(1) - 1 - degree; ++j)

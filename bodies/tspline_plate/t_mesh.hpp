@@ -27,6 +27,8 @@ class TMesh {
   static TMesh tensor(std::span<const double> u, std::span<const double> v, std::span<const PartialLine> partial = {});
   static TMesh uniform(int elements_u, int elements_v);  // on the unit square
 
+  void shift(double by);  // all knots u
+
   const EdgeMap& edges() const { return edges_; }
   const std::vector<double>& knots(int d) const { return knots_[std::size_t(d)]; }
   double knot(int d, int line) const { return knots_[std::size_t(d)][std::size_t(line)]; }

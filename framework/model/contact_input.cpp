@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+
 #include "model/scene_keys.hpp"
 #include "plugin/parameters.hpp"
 #include "scene/suggestion.hpp"
@@ -236,7 +239,8 @@ class ContactInput {
     entry.force = dynamic_cast<const ContactForce*>(law.get());
     if (!entry.restitution == !entry.force)
       throw plugin::PluginError(origin, "load", "a contact law is either a Restitution or a ContactForce, exactly one");
-    const bool by_points = dynamic_cast<const ForceBySurfacePoints*>(law.get()) != nullptr;
+    const auto* points_law = dynamic_cast<const ForceBySurfacePoints*>(law.get());
+    const bool by_points = points_law != nullptr;
     if (by_points != on_surface)
       return problems_.error(value.problem(
           by_points
@@ -246,6 +250,13 @@ class ContactInput {
                 "against "
                 "a sphere [\"BODY.MARKER\", \"SPHERE.CENTRE\"] with \"reaches\": {\"type\": \"distance\", \"length\": "
                 "radius}"));
+    // Points that the surface chooses stand for unequal areas; a law that does not weigh them by area cannot use them.
+    constexpr double no_sphere = std::numeric_limits<double>::infinity();
+    if (on_surface && entry.surface->against != SurfaceSide::Against::sphere &&
+        std::isinf(points_law->spacing(no_sphere)) && points_law->weight(1) == points_law->weight(2))
+      return problems_.error(value.problem(
+          "each point bears a force of its own here, not one by its area: say how far the points are apart, "
+          "\"spacing\": ... [m]"));
     if (const Value* friction = value.find("friction")) add_friction(*friction, entry);
     entry.law = std::move(law);
     model_.contacts.push_back(std::move(entry));

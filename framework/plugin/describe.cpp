@@ -31,6 +31,8 @@ const char* noun(Parameter::Type type) {
       return "an object of named numbers";
     case Parameter::Type::named_vectors:
       return "an object of named vectors";
+    case Parameter::Type::named_parts:
+      return "an object of named objects";
   }
   return "a value";
 }
@@ -69,6 +71,10 @@ std::string text_of(const TimeFunction& f) {
   return f.is_constant() ? text_of(f(0)) : quoted(f.text());
 }
 
+std::string text_of(const std::shared_ptr<Component>&) {
+  return "{...}";
+}
+
 template <class T>
 std::string text_of(const Named<T>& named) {
   std::string text;
@@ -93,6 +99,12 @@ std::string wrapped(std::string_view text, const std::string& indent) {
   return line.empty() ? lines : lines + indent + line + "\n";
 }
 
+std::string names_of(const Declaration& declaration) {
+  std::vector<std::string> names;
+  for (const Parameter& p : declaration.parameters) names.push_back(p.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 std::string describe(const Parameter& parameter, const ParameterValue& fallback, std::size_t name_width) {
   const ParameterTraits& traits = parameter.traits;
   std::string line = fmt::format("  {:<{}}  {}", parameter.name, name_width, expected(parameter));
@@ -105,6 +117,7 @@ std::string describe(const Parameter& parameter, const ParameterValue& fallback,
   line += wrapped(traits.doc, indent);
   if (const std::string usual = range(traits.usual_min, false, traits.usual_max); !usual.empty())
     line += indent + "usually " + usual + "\n";
+  if (parameter.part) line += wrapped("each with: " + names_of(*parameter.part), indent);
   return line;
 }
 

@@ -68,6 +68,8 @@ const char* to_string(Kind kind) {
       return "friction";
     case Kind::correction:
       return "correction";
+    case Kind::part:
+      return "part";
   }
   return "component";
 }

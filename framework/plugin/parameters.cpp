@@ -64,6 +64,9 @@ void check_keys(const Declaration& declaration, const Value& object, const std::
   }
 }
 
+void set_parameters(Component& component, const Declaration& declaration, const Value& object,
+                    std::span<const std::string> framework_keys, Space space, Problems& problems);
+
 // One parameter's value from the scene: type, range, choices. Nothing if a problem was reported.
 class ValueReader {
  public:
@@ -91,6 +94,8 @@ class ValueReader {
         return named<double>(value, [this](const Value& v) { return ranged(v, v.read_number(problems_)); });
       case Type::named_vectors:
         return named<Vec3>(value, [this](const Value& v) { return vector(v); });
+      case Type::named_parts:
+        return named<std::shared_ptr<Component>>(value, [this](const Value& v) { return part(v); });
     }
     return {};
   }
@@ -159,6 +164,17 @@ class ValueReader {
     return Vec3(Eigen::Map<const Vec>(numbers->data(), static_cast<Eigen::Index>(n)));
   }
 
+  std::optional<std::shared_ptr<Component>> part(const Value& value) const {
+    if (value.type() != Value::Type::object) {
+      problems_.error(value.problem(fmt::format("expected an object, found {}", value.type_name())));
+      return {};
+    }
+    const std::size_t before = problems_.errors().size();
+    std::shared_ptr<Component> one = parameter_.part->make();
+    set_parameters(*one, *parameter_.part, value, {}, space_, problems_);
+    return problems_.errors().size() == before ? std::optional(std::move(one)) : std::nullopt;
+  }
+
   std::optional<ParameterValue> law(const Value& value) const {
     std::optional<TimeFunction> f = value.read_time_function(problems_);
     if (f && f->is_constant() && !in_range(value, (*f)(0))) return {};
@@ -196,6 +212,20 @@ void fit_default(Component& component, const Parameter& parameter, const Value& 
   else
     problems.error(object.problem(fmt::format("\"{}\" is missing: {}; its default {} has another dimension",
                                               parameter.name, expected(parameter), text(value))));
+}
+
+void set_parameters(Component& component, const Declaration& declaration, const Value& object,
+                    std::span<const std::string> framework_keys, Space space, Problems& problems) {
+  if (object.type() == Value::Type::object) check_keys(declaration, object, "", framework_keys, problems);
+  for (const Parameter& parameter : declaration.parameters) {
+    if (const Value* value = find(object, parameter.name)) {
+      if (auto read = ValueReader(parameter, space, problems).read(*value)) parameter.set(component, *read);
+    } else if (parameter.traits.required) {
+      problems.error(object.problem(fmt::format("\"{}\" is missing: {}", parameter.name, expected(parameter))));
+    } else {
+      fit_default(component, parameter, object, space, problems);
+    }
+  }
 }
 
 // The value that `prepare` refuses, or the object where it would stand.
@@ -241,16 +271,7 @@ std::unique_ptr<Component> make(const Entry& entry, const Value& object, std::sp
   const std::size_t problems_before = problems.errors().size();
   auto component = new_component(entry, object.path());
 
-  if (object.type() == Value::Type::object) check_keys(declaration, object, "", framework_keys, problems);
-  for (const Parameter& parameter : declaration.parameters) {
-    if (const Value* value = find(object, parameter.name)) {
-      if (auto read = ValueReader(parameter, world.space, problems).read(*value)) parameter.set(*component, *read);
-    } else if (parameter.traits.required) {
-      problems.error(object.problem(fmt::format("\"{}\" is missing: {}", parameter.name, expected(parameter))));
-    } else {
-      fit_default(*component, parameter, object, world.space, problems);
-    }
-  }
+  set_parameters(*component, declaration, object, framework_keys, world.space, problems);
   if (problems.errors().size() != problems_before) return nullptr;
 
   guard(origin, "prepare", {}, [&] {

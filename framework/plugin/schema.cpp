@@ -53,6 +53,8 @@ Json vector(const ParameterTraits& traits) {
   return schema;
 }
 
+Json part_schema(const Declaration& part);
+
 Json type_of(const Parameter& parameter) {
   const ParameterTraits& traits = parameter.traits;
   switch (parameter.type) {
@@ -75,6 +77,8 @@ Json type_of(const Parameter& parameter) {
       return keyed(number("number", traits));
     case Parameter::Type::named_vectors:
       return keyed(vector(traits));
+    case Parameter::Type::named_parts:
+      return keyed(part_schema(*parameter.part));
   }
   return Json::object();
 }
@@ -122,6 +126,14 @@ void place(Json& object_schema, const std::string& dotted, Json schema) {
   }
   if (member.is_null()) member = object(Json::object());
   place(member, dotted.substr(dot + 1), std::move(schema));
+}
+
+Json part_schema(const Declaration& part) {
+  const std::unique_ptr<Component> defaults = part.make();
+  Json schema = with(object(Json::object()), part.summary);
+  for (const Parameter& parameter : part.parameters)
+    place(schema, parameter.name, schema_of(parameter, [&] { return parameter.get(*defaults); }));
+  return schema;
 }
 
 Json schema_of(const Entry& entry) {

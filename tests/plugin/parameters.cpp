@@ -10,6 +10,18 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
+// An object of its own inside a component's.
+struct Panel : Component {
+  double width = 1;
+  Vec3 at;
+  std::optional<double> tilt;
+};
+
+const Declaration panel = part<Panel>("panel", "a panel")
+                              .parameter("size.width", &Panel::width, {.unit = "m", .max = 3, .required = true})
+                              .parameter("at", &Panel::at)
+                              .parameter("tilt", &Panel::tilt);
+
 // One parameter of every type.
 struct Everything : Component {
   enum class Colour { red, green };
@@ -26,6 +38,7 @@ struct Everything : Component {
   TimeFunction torque;
   Named<double> stations;
   Named<Vec3> points;
+  Named<Panel> panels;
   Colour colour = Colour::green;
   int axial = 1, transverse = 1;
   double needed = 0;
@@ -56,6 +69,7 @@ const Declaration declaration =
         .parameter("torque", &Everything::torque, {.unit = "N m", .max = 50})
         .parameter("stations", &Everything::stations, {.unit = "m", .min = 0, .max = 1})
         .parameter("points", &Everything::points)
+        .parts("panels", &Everything::panels, panel)
         .choice("colour", &Everything::colour, {{"red", Everything::Colour::red}, {"green", Everything::Colour::green}})
         .parameter("modes.axial", &Everything::axial, {.min = 0, .max = 30})
         .parameter("modes.transverse", &Everything::transverse)
@@ -118,6 +132,49 @@ TEST(Parameters, OfEveryTypeAreSet) {
   EXPECT_EQ(made->colour, Everything::Colour::red);
   EXPECT_EQ(made->axial, 0);
   EXPECT_EQ(made->transverse, 9);
+}
+
+TEST(Parameters, OfNamedPartsAreSetInEachOfThem) {
+  const Result made = make_with(R"("panels": {"left": {"size": {"width": 2}}, "right": {"size": {"width": "=1+2"},
+      "at": [3, 4], "tilt": 5}})");
+  ASSERT_EQ(made.problems.errors().size(), 0u);
+  ASSERT_EQ(made->panels.size(), 2u);
+  EXPECT_EQ(made->panels[0].first, "left");
+  EXPECT_EQ(made->panels[0].second.width, 2);
+  EXPECT_EQ(made->panels[0].second.at, Vec(Vec::Zero(2)));
+  EXPECT_FALSE(made->panels[0].second.tilt.has_value());
+  EXPECT_EQ(made->panels[1].second.width, 3);
+  EXPECT_EQ(made->panels[1].second.at, (Vec(2) << 3, 4).finished());
+  EXPECT_EQ(made->panels[1].second.tilt, 5);
+}
+
+TEST(Parameters, OfNamedPartsAreRefusedWhereTheyStand) {
+  EXPECT_EQ(make_with(R"("panels": {"left": {"size": {"width": 4}}})").problem(),
+            "panels.left.size.width: found 4, expected a number <= 3 [m]");
+  EXPECT_EQ(make_with(R"("panels": {"left": {}})").problem(),
+            "panels.left: \"size.width\" is missing: a number <= 3 [m]");
+  EXPECT_EQ(make_with(R"("panels": {"left": 3})").problem(), "panels.left: expected an object, found a number");
+  EXPECT_THAT(
+      make_with(R"("panels": {"left": {"size": {"width": 1}, "tillt": 2}})").problem(),
+      AllOf(StartsWith("panels.left.tillt: part \"panel\" has no parameter \"tillt\""), HasSubstr("\"tilt\"?")));
+}
+
+struct Door : Component {
+  Panel leaf;
+  double hinge = 0;
+};
+
+TEST(Parameters, OfAnOwnPartStandAmongTheComponents) {
+  const Declaration door = body<Door>("door", "").own_part(&Door::leaf, panel).parameter("hinge", &Door::hinge);
+  const Entry of_door{door, "/x/door.so"};
+  const scene::Scene scene =
+      scene::Scene::parse(R"({"type": "door", "size": {"width": 2.5}, "hinge": 1})", "scene.json");
+  Result made;
+  made.component =
+      make(of_door, scene.root(), framework_keys(Kind::body), {Space::planar, Vec3::Zero(2)}, made.problems);
+  ASSERT_TRUE(made.component);
+  EXPECT_EQ(dynamic_cast<Door&>(*made.component).leaf.width, 2.5);
+  EXPECT_EQ(dynamic_cast<Door&>(*made.component).hinge, 1);
 }
 
 TEST(Parameters, TakeExpressions) {

@@ -65,6 +65,12 @@ const std::vector<Shipped>& bodies() {
       {"tspline_plate", "", R"({"type": "tspline_plate", "thickness": 3, "density": 0.01, "youngs_modulus": 10,
         "geometry": {"along_u": [30, 0, 0], "along_v": [0, 30, 0]}, "mesh": {"elements": "1x1"}})",
        Space::spatial},
+      {"tspline_plate", "joined", R"({"type": "tspline_plate", "thickness": 3, "density": 0.01, "youngs_modulus": 10,
+        "patches": {"a": {"geometry": {"along_u": [30, 0, 0], "along_v": [0, 30, 0]}, "mesh": {"elements": "1x1"}},
+                    "b": {"geometry": {"origin": [30, 0, 0], "along_u": [20, 0, 0], "along_v": [0, 30, 0]},
+                          "mesh": {"elements": "1x1"}}},
+        "joined": {"middle": {"from": "a.u1", "to": "b.u0"}}})",
+       Space::spatial},
   };
   return all;
 }

@@ -66,6 +66,21 @@ TEST(PlateScenes, RingHasTheStressesOfTheReference) {
   }
 }
 
+// w D / (P L^2), exactly 0.0056120.
+TEST(PlateScenes, PlateUnderACentralForceGivesWayAsTheIssueSays) {
+  struct Case {
+    const char *mesh, *split;
+    double deflection;
+  };
+  for (const Case& c :
+       {Case{"10x10", "[]", 0.0055851}, Case{"14x14", "[]", 0.0055984}, Case{"10x10", "[44, 45, 54, 55]", 0.0056046}}) {
+    const Finished run =
+        load_file("classical/clamped_point.json", {{"parameters.mesh", c.mesh}, {"bodies.plate.mesh.cross", c.split}});
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    EXPECT_NEAR(run.end("w") / 1e-6, c.deflection, 1e-7) << c.mesh << c.split;
+  }
+}
+
 TEST(PlateScenes, ScordelisLoRoofSagsAsTheReferenceOfItsMesh) {
   for (const char* n : {"4", "8"}) {
     const Finished run = load_file("classical/scordelis_lo.json", {{"parameters.mesh", std::string(n) + "x" + n}});
@@ -160,6 +175,20 @@ TEST(PlateScenes, PendulumFallsAsTheReferenceOfItsMesh) {
 }
 
 // On 8x8 in the limit of short steps, by steps of 5e-4 and 2.5e-4 s. The reference gives no figures but will compare to 5e-4.
+// Two panels of 2x4 elements joined smoothly: the functions of 4x4 and a few more, whose z differs by 3e-4 m from the limit.
+TEST(PlateScenes, PanelsJoinedSmoothlyFallAsOneSheet) {
+  const Finished run = run_file("plate/panels.json", {{"parameters.joint", "C1"}, {"simulate.until", "0.1"}});
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_NEAR(run.end("corner_z"), -0.04847, 3e-4);
+}
+
+// A hinge between them bears no moment: the outer panel hangs back, and energy stays as with one sheet.
+TEST(PlateScenes, PanelsOnAHingeKeepTheirEnergy) {
+  const Finished run = run_file("plate/panels.json", {{"simulate.until", "0.2"}});
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_LT(std::abs(run.end("energy_total")), 1e-4 * std::abs(run.end("energy_potential")));
+}
+
 TEST(PlateScenes, PendulumOnACornerFallsAsWithShorterSteps) {
   const Finished run = run_file("plate/pendulum.json", {{"parameters.hinge", "corner"},
                                                         {"parameters.mesh", "8x8"},

@@ -157,6 +157,8 @@ TEST(SurfaceOnPlane, MustNotLieBehindThePlane) {
 
 TEST(SurfaceOnPlane, RefusesWhatHasNoMeaningAndSaysWhatHas) {
   EXPECT_THAT(refusal(resting, {{"contacts.floor.radius", "0.1"}}), HasSubstr("belongs to a sphere"));
+  EXPECT_THAT(refusal(resting, {{"contacts.floor.by", "points"}}), HasSubstr("say how far the points are apart"));
+  EXPECT_EQ(refusal(resting, {{"contacts.floor.by", "points"}, {"contacts.floor.spacing", "0.01"}}), "");
   EXPECT_THAT(refusal(resting, {{"contacts.floor.between", R"([{"surface": "sheet"}, "ground"])"}}),
               HasSubstr("stands before"));
   EXPECT_THAT(refusal(resting, {{"contacts.floor.between",

@@ -17,10 +17,11 @@ namespace {
 
 std::unique_ptr<TsplinePlate> clamped(int n) {
   auto plate = std::make_unique<TsplinePlate>();
-  plate->along_u = Eigen::Vector3d(2, 0, 0), plate->along_v = Eigen::Vector3d(0, 2, 0);
-  plate->elements = std::to_string(n) + "x" + std::to_string(n);
+  plate->sole_patch.along_u = Eigen::Vector3d(2, 0, 0), plate->sole_patch.along_v = Eigen::Vector3d(0, 2, 0);
+  plate->sole_patch.elements = std::to_string(n) + "x" + std::to_string(n);
   plate->thickness = 0.1, plate->youngs_modulus = 2e7, plate->density = 7810;
-  plate->edge_u0 = plate->edge_u1 = plate->edge_v0 = plate->edge_v1 = "clamped";
+  plate->sole_patch.edge_u0 = plate->sole_patch.edge_u1 = plate->sole_patch.edge_v0 = plate->sole_patch.edge_v1 =
+      "clamped";
   plate->prepare({Space::spatial, Eigen::Vector3d(0, 0, -9.81)});
   return plate;
 }
@@ -63,7 +64,7 @@ void refinement(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     const auto plate = clamped(int(state.range(0)));
-    const TMesh& mesh = plate->mesh().basis.mesh();
+    const TMesh& mesh = plate->mesh().basis.patch(0).mesh();
     const auto faces = mesh.elements();
     std::vector<Box<double>> boxes;
     for (std::size_t e : {44, 45, 54, 55}) boxes.push_back(mesh.parameters(faces[e]));

@@ -23,7 +23,7 @@
 
 namespace trammel {
 
-enum class Kind { integrator, body, joint, force, contact, friction, correction };
+enum class Kind { integrator, body, joint, force, contact, friction, correction, part };
 const char* to_string(Kind);
 
 // Objects keyed by name, in scene order: {"tip": 1.0, "middle": 0.5}.
@@ -36,9 +36,10 @@ using Named = std::vector<std::pair<std::string, T>>;
 //   std::vector<double>               any number of numbers; a single one may stand without brackets
 //   TimeFunction                      a number, an expression of t or a table
 //   Named<double>, Named<Vec3>        objects keyed by name
+//   Named<Part>                       the same of parts, objects with parameters of their own: declared by .parts(...)
 //   an enum                           one of the names given to .choice(...)
 using ParameterValue = std::variant<std::monostate, double, int, bool, std::string, Vec3, std::vector<double>, TimeFunction,
-                                    Named<double>, Named<Vec3>>;
+                                    Named<double>, Named<Vec3>, Named<std::shared_ptr<Component>>>;
 
 // What a declaration says about one parameter. Outside min..max is an error, outside usual_min..usual_max a warning.
 struct ParameterTraits {
@@ -53,16 +54,19 @@ struct ParameterTraits {
   int derivatives = 0;  // of a law of time that the component asks for: the law and all but the last must not jump
 };
 
+struct Declaration;
+
 struct Parameter {
   std::string name;  // dotted
   // As in ParameterValue; a choice is text with `choices`.
-  enum class Type { number, integer, boolean, text, vector, numbers, time_function, named_numbers, named_vectors };
+  enum class Type { number, integer, boolean, text, vector, numbers, time_function, named_numbers, named_vectors, named_parts };
   Type type;
   bool optional = false;
   ParameterTraits traits;
   std::vector<std::string> choices;
   std::function<void(Component&, const ParameterValue&)> set;
   std::function<ParameterValue(const Component&)> get;  // monostate: an empty optional
+  std::shared_ptr<const Declaration> part = {};         // of named_parts: what each of them declares
 };
 
 namespace detail {
@@ -154,13 +158,45 @@ class Declare {
     return *this;
   }
 
+  // Named parts, each with the parameters that `part` declares: {"roof": {"length": 3}, "wall": {"length": 2}}. A Part derives
+  // from Component and can be copied; nobody calls its `prepare` but the component it belongs to.
+  template <class Owner, class Part>
+  Declare& parts(std::string name, Named<Part> Owner::*member, const Declaration& part, ParameterTraits traits = {}) {
+    add(std::move(name), Parameter::Type::named_parts, traits,
+        [member](Component& c, const ParameterValue& v) {
+          auto& all = static_cast<T&>(c).*member;
+          all.clear();
+          for (const auto& [key, one] : std::get<Named<std::shared_ptr<Component>>>(v))
+            all.emplace_back(key, static_cast<const Part&>(*one));
+        },
+        [member](const Component& c) -> ParameterValue {
+          Named<std::shared_ptr<Component>> all;
+          for (const auto& [key, one] : static_cast<const T&>(c).*member)
+            all.emplace_back(key, std::make_shared<Part>(one));
+          return all;
+        });
+    declaration_.parameters.back().part = std::make_shared<const Declaration>(part);
+    return *this;
+  }
+
+  // One part whose parameters are the component's own: they stand in its object as if it had declared them itself.
+  template <class Owner, class Part>
+  Declare& own_part(Part Owner::*member, const Declaration& part) {
+    for (Parameter p : part.parameters) {
+      p.set = [member, set = p.set](Component& c, const ParameterValue& v) { set(static_cast<T&>(c).*member, v); };
+      p.get = [member, get = p.get](const Component& c) { return get(static_cast<const T&>(c).*member); };
+      declaration_.parameters.push_back(std::move(p));
+    }
+    return *this;
+  }
+
   operator Declaration() const { return declaration_; }
 
  private:
   void add(std::string name, Parameter::Type type, ParameterTraits traits,
            std::function<void(Component&, const ParameterValue&)> set, std::function<ParameterValue(const Component&)> get) {
     declaration_.parameters.push_back(
-        {std::move(name), type, false, traits, {}, std::move(set), std::move(get)});
+        {std::move(name), type, false, traits, {}, std::move(set), std::move(get), {}});
   }
   Declaration declaration_;
 };
@@ -179,5 +215,7 @@ template <class T>
 Declare<T> friction(std::string name, std::string summary) { return {Kind::friction, std::move(name), std::move(summary)}; }
 template <class T>
 Declare<T> correction(std::string name, std::string summary) { return {Kind::correction, std::move(name), std::move(summary)}; }
+template <class T>
+Declare<T> part(std::string name, std::string summary) { return {Kind::part, std::move(name), std::move(summary)}; }
 
 }  // namespace trammel

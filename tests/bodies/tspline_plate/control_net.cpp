@@ -120,7 +120,7 @@ TEST(Edge, SymmetryKeepsTheSlopeAndThePlane) {
   const ControlNet net = refined(rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), TMesh::uniform(2, 2));
   const TsplineBasis basis(net.mesh, net.weights);
   Elimination e(3 * basis.size());
-  hold_edge(basis, net.points, edges[0], "symmetric", e);
+  hold_edge({basis, net.points}, edges[0], "symmetric", e);
   e.finish();
   EXPECT_EQ(e.coordinates(), 3 * 25 - 5 - 2 * 5);
   const EdgeRows r = rows(basis, edges[0]);

@@ -14,7 +14,7 @@ using namespace test;
 // omega L^2 sqrt(rho h / D) of a square plate that moves across its plane only.
 Vec frequencies(const std::string& n, const std::string& edge) {
   auto plate = rectangle_plate(1, 1, n + "x" + n, 0.01, 1e6, 0.3, 100);
-  plate->edge_u0 = plate->edge_u1 = plate->edge_v0 = plate->edge_v1 = edge;
+  plate->sole_patch.edge_u0 = plate->sole_patch.edge_u1 = plate->sole_patch.edge_v0 = plate->sole_patch.edge_v1 = edge;
   plate->held_axes = "xy";
   plate->quadrature = 4;
   plate->prepare(space());
@@ -51,7 +51,7 @@ void advance(const TsplinePlate& plate, const Eigen::LLT<Mat>& mass, Vec& q, Vec
 // A sheet of 0.3 x 0.3 x 0.01 m falls about one edge that is held.
 void expect_pendulum(const std::string& mesh, double h) {
   auto plate = rectangle_plate(0.3, 0.3, mesh, 0.01, 1e7, 0.3, 7810);
-  plate->edge_u0 = "hinged";
+  plate->sole_patch.edge_u0 = "hinged";
   plate->quadrature = 4;
   plate->prepare(space(9.81));
   const Eigen::LLT<Mat> mass(trammel::test::mass(*plate, rest(*plate)));
@@ -87,8 +87,8 @@ struct Moving {
 Moving swinging(Closure closure, int quadrature) {
   Moving m{rectangle_plate(2, 2, "10x10", 0.1, 2e7, 0.3, 7810), {}, {}};
   TsplinePlate& p = *m.plate;
-  p.edge_u0 = p.edge_u1 = p.edge_v0 = p.edge_v1 = "clamped";
-  p.quadrature = quadrature, p.closure = closure;
+  p.sole_patch.edge_u0 = p.sole_patch.edge_u1 = p.sole_patch.edge_v0 = p.sole_patch.edge_v1 = "clamped";
+  p.quadrature = quadrature, p.sole_patch.closure = closure;
   p.prepare(space(9.81));
   const auto bump = [](const Eigen::Vector3d& P, double c, double s) {
     const double x = P.x() / 2, y = P.y() / 2, w = x * x * (1 - x) * (1 - x) * y * y * (1 - y) * (1 - y) * 256;
@@ -101,8 +101,8 @@ Moving swinging(Closure closure, int quadrature) {
 
 std::vector<Box<double>> central(const TsplinePlate& plate) {
   std::vector<Box<double>> boxes;
-  const auto faces = plate.mesh().basis.mesh().elements();
-  for (std::size_t e : {44, 45, 54, 55}) boxes.push_back(plate.mesh().basis.mesh().parameters(faces[e]));
+  const auto faces = plate.mesh().basis.patch(0).mesh().elements();
+  for (std::size_t e : {44, 45, 54, 55}) boxes.push_back(plate.mesh().basis.patch(0).mesh().parameters(faces[e]));
   return boxes;
 }
 
@@ -138,7 +138,7 @@ TEST(Refinement, KeepsSurfaceMomentumAndEnergies) {
 TEST(Refinement, KeepsTheEdgesHeld) {
   Moving m = swinging(Closure::both, 3);
   const auto transfer = m.plate->refine_elements_in(
-      {m.plate->mesh().basis.mesh().parameters(m.plate->mesh().basis.mesh().elements()[0])});
+      {m.plate->mesh().basis.patch(0).mesh().parameters(m.plate->mesh().basis.patch(0).mesh().elements()[0])});
   Vec q = rest(*m.plate);
   transfer->q(m.q, q);
   for (double s : {0.0, 0.03, 0.07, 0.5}) {

@@ -13,12 +13,14 @@ using namespace test;
 // Soft and thick, of few elements: values and derivatives of order one.
 std::unique_ptr<TsplinePlate> small_plate(bool loaded = false) {
   auto plate = rectangle_plate(1, 1.2, "2x2", 0.3, 20, 0.3, 10);
-  plate->crossed = {0};
-  plate->extra_markers = {{"top", Eigen::Vector3d(0.3, 0.6, 0.15)}};
+  plate->sole_patch.crossed = {0};
+  plate->sole_patch.markers = {{"top", Eigen::Vector3d(0.3, 0.6, 0.15)}};
   if (loaded) {
-    plate->edge_u0 = "clamped", plate->corner_u1v1 = "hinged", plate->edge_v0 = "symmetric";
-    plate->pressure = 0.4, plate->moment_u1 = 0.3, plate->moment_v1 = -0.2;
-    plate->load = Eigen::Vector3d(0.1, -0.2, 0.3), plate->force_v1 = Eigen::Vector3d(1, 0, 0), plate->pressure_u1 = 0.5;
+    plate->sole_patch.edge_u0 = "clamped", plate->sole_patch.corner_u1v1 = "hinged",
+    plate->sole_patch.edge_v0 = "symmetric";
+    plate->pressure = 0.4, plate->sole_patch.moment_u1 = 0.3, plate->sole_patch.moment_v1 = -0.2;
+    plate->load = Eigen::Vector3d(0.1, -0.2, 0.3), plate->sole_patch.force_v1 = Eigen::Vector3d(1, 0, 0),
+    plate->sole_patch.pressure_u1 = 0.5;
     plate->mass_damping = 0.3, plate->stiffness_damping = 0.05;
   }
   plate->prepare(space(9.81));
@@ -168,8 +170,8 @@ TEST(TsplinePlate, NearestPointOfSomethingBesideThePlateIsOnItsEdge) {
 std::unique_ptr<TsplinePlate> tube() {
   auto plate = std::make_unique<TsplinePlate>();
   const int n = 8;
-  plate->shape_kind = TsplinePlate::Shape::points;
-  plate->elements = "8x2", plate->joined = TsplinePlate::Joined::u;
+  plate->sole_patch.shape = Patch::Shape::points;
+  plate->sole_patch.elements = "8x2", plate->joined = {{"seam", joining("u1", "u0")}};
   plate->thickness = 0.05, plate->youngs_modulus = 100, plate->poissons_ratio = 0.3, plate->density = 10;
   // An open knot vector from a periodic one by the blossom: the coefficients of the piece at its ends.
   const TsplineBasis basis(TMesh::uniform(n, 2));
@@ -188,7 +190,7 @@ std::unique_ptr<TsplinePlate> tube() {
     const LocalKnots &u = a.knots[0], &v = a.knots[1];
     const int first = std::min(n - 1, int(std::floor(n * (u[0] + u[4]) / 2 + 1e-9)));
     const Eigen::Vector2d p = periodic(u[1], u[2], u[3], first);
-    for (double x : {p.x(), p.y(), (v[1] + v[2] + v[3]) / 3}) plate->control_points.push_back(x);
+    for (double x : {p.x(), p.y(), (v[1] + v[2] + v[3]) / 3}) plate->sole_patch.control_points.push_back(x);
   }
   plate->prepare(space());
   return plate;
@@ -218,29 +220,30 @@ std::string refusal(const std::function<void(TsplinePlate&)>& spoil) {
 }
 
 TEST(TsplinePlate, RefusesWhatItCannotBuild) {
-  EXPECT_EQ(refusal([](TsplinePlate& p) { p.elements = "2by2"; }),
+  EXPECT_EQ(refusal([](TsplinePlate& p) { p.sole_patch.elements = "2by2"; }),
             "mesh.elements: found \"2by2\", expected two whole numbers such as \"10x10\"");
-  EXPECT_EQ(refusal([](TsplinePlate& p) { p.crossed = {4}; }), "mesh.cross: no element 4; there are 0 to 3, by rows");
+  EXPECT_EQ(refusal([](TsplinePlate& p) { p.sole_patch.crossed = {4}; }),
+            "mesh.cross: no element 4; there are 0 to 3, by rows");
   EXPECT_EQ(
-      refusal([](TsplinePlate& p) { p.edge_v1 = "clamp"; }),
+      refusal([](TsplinePlate& p) { p.sole_patch.edge_v1 = "clamp"; }),
       "edges.v1: found \"clamp\", expected free, hinged, clamped, symmetric or held axes such as \"z\" or \"xz\"");
   EXPECT_EQ(
-      refusal([](TsplinePlate& p) { p.along_v = Eigen::Vector3d(2, 0, 0); }),
+      refusal([](TsplinePlate& p) { p.sole_patch.along_v = Eigen::Vector3d(2, 0, 0); }),
       "geometry: the surface is degenerate at (u, v) = (0.05635083268962915, 0.05635083268962915): its tangents are "
       "parallel");
-  EXPECT_EQ(refusal([](TsplinePlate& p) { p.shape_kind = TsplinePlate::Shape::ring; }),
+  EXPECT_EQ(refusal([](TsplinePlate& p) { p.sole_patch.shape = Patch::Shape::ring; }),
             "geometry.inner_radius: geometry ring needs it");
   EXPECT_EQ(refusal([](TsplinePlate& p) {
-              p.knots_u = {0, 0.5, 0.4, 1}, p.knots_v = {0, 1};
+              p.sole_patch.knots_u = {0, 0.5, 0.4, 1}, p.sole_patch.knots_v = {0, 1};
             }),
             "mesh: u: knots must ascend; 0.4 follows 0.5");
   EXPECT_EQ(refusal([](TsplinePlate& p) {
-              p.extra_markers = {{"a", Eigen::Vector3d(1.2, 0, 0)}};
+              p.sole_patch.markers = {{"a", Eigen::Vector3d(1.2, 0, 0)}};
             }),
             "markers: \"a\" is at (u, v) = (1.2, 0), expected u from 0 to 1, v from 0 to 1");
   EXPECT_EQ(refusal([](TsplinePlate& p) {
-              p.shape_kind = TsplinePlate::Shape::points;
-              p.control_points = {0, 0, 0};
+              p.sole_patch.shape = Patch::Shape::points;
+              p.sole_patch.control_points = {0, 0, 0};
             }),
             "geometry.control_points: found 3 numbers, expected 75: x, y, z of 25 control points, by rows");
 }
@@ -259,8 +262,8 @@ TEST(TsplinePlate, RefusesTriggersThatContradictEachOther) {
 
 TEST(TsplinePlate, RefusesACircleOfTooFewElements) {
   EXPECT_EQ(refusal([](TsplinePlate& p) {
-              p.shape_kind = TsplinePlate::Shape::cylinder;
-              p.radius = 1, p.length = 2, p.to = 2 * M_PI;
+              p.sole_patch.shape = Patch::Shape::cylinder;
+              p.sole_patch.radius = 1, p.sole_patch.length = 2, p.sole_patch.to = 2 * M_PI;
             }),
             "mesh: an arc of 6.283 rad is a spline whose pieces are 1.6 rad at most; found one of 3.142 rad, take more "
             "elements round it");

@@ -26,10 +26,16 @@ inline World space(double gravity = 0) {
 inline std::unique_ptr<TsplinePlate> rectangle_plate(double a, double b, const std::string& elements, double h,
                                                      double E, double nu, double density = 1) {
   auto plate = std::make_unique<TsplinePlate>();
-  plate->along_u = Eigen::Vector3d(a, 0, 0), plate->along_v = Eigen::Vector3d(0, b, 0);
-  plate->elements = elements;
+  plate->sole_patch.along_u = Eigen::Vector3d(a, 0, 0), plate->sole_patch.along_v = Eigen::Vector3d(0, b, 0);
+  plate->sole_patch.elements = elements;
   plate->thickness = h, plate->youngs_modulus = E, plate->poissons_ratio = nu, plate->density = density;
   return plate;
+}
+
+inline Joined joining(const std::string& from, const std::string& to, Continuity continuity = Continuity::C1) {
+  Joined joined;
+  joined.from = from, joined.to = to, joined.continuity = continuity;
+  return joined;
 }
 
 inline Vec rest(const TsplinePlate& plate) {

@@ -15,7 +15,7 @@ using namespace test;
 Vec bent(const TsplinePlate& plate, int power, double size) {
   Vec q = rest(plate);
   for (int i = 0; i < plate.mesh().basis.size(); ++i) {
-    const auto& k = plate.mesh().basis.anchors()[std::size_t(i)].knots[0];
+    const auto& k = plate.mesh().basis.patch(0).anchors()[std::size_t(i)].knots[0];
     q(3 * i + 2) =
         power == 2 ? size / 2 * (k[1] * k[2] + k[1] * k[3] + k[2] * k[3]) / 3 : size / 6 * k[1] * k[2] * k[3];
   }
@@ -57,7 +57,7 @@ int refine_all(TsplinePlate& plate, const std::function<Vec(const TsplinePlate&)
 
 double narrowest(const TsplinePlate& plate) {
   double least = 1;
-  for (const auto& box : element_boxes(plate.mesh().basis.mesh()))
+  for (const auto& box : plate.mesh().basis.elements())
     least = std::min({least, box.high[0] - box.low[0], box.high[1] - box.low[1]});
   return least;
 }
@@ -68,7 +68,7 @@ TEST(Indicator, SplitsUntilItIsBelowTheThreshold) {
   plate->prepare(space());
   // 0.194, 0.097 of it on elements of a quarter, an eighth.
   EXPECT_EQ(refine_all(*plate, [](const TsplinePlate& p) { return bent(p, 3, small); }, {}), 1);
-  EXPECT_EQ(plate->mesh().basis.mesh().elements().size(), 64u);
+  EXPECT_EQ(plate->mesh().basis.patch(0).mesh().elements().size(), 64u);
 }
 
 TEST(Indicator, SplitsNoElementMoreOftenThanTheLevels) {
@@ -91,14 +91,14 @@ TEST(Indicator, IsAskedAfterStepsNotAtContacts) {
 
 TEST(RefinementNear, SplitsWhatLiesWithinTheDistanceAtEveryClosing) {
   auto plate = rectangle_plate(2, 2, "10x10", 0.1, 1e3, 0.3);
-  plate->closure = Closure::none;
+  plate->sole_patch.closure = Closure::none;
   plate->refine_on = "ball", plate->refine_near = 0.1, plate->refine_levels = 2;
   plate->prepare(space());
   const Vec q = rest(*plate);
   EXPECT_FALSE(plate->due(0, q, q, {"other", {0.5, 0.5}}));
   EXPECT_FALSE(plate->due(0, q, q, {}));
   ASSERT_TRUE(plate->refine(0, q, q, {"ball", {0.5, 0.5}}));
-  EXPECT_EQ(plate->mesh().basis.mesh().elements().size(), 112u);  // the four at the corner that was struck
+  EXPECT_EQ(plate->mesh().basis.patch(0).mesh().elements().size(), 112u);  // the four at the corner that was struck
   EXPECT_TRUE(plate->due(0, rest(*plate), rest(*plate), {"ball", {0.5, 0.5}}));
   EXPECT_TRUE(plate->due(0, rest(*plate), rest(*plate), {"ball", {0.12, 0.5}}));
 }
