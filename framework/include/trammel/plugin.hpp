@@ -19,7 +19,7 @@
 #include <trammel/parameters.hpp>
 
 // The SDK that these headers are. Major: a virtual was added or changed; minor: abilities were added (CHANGES.md).
-#define TRAMMEL_SDK_MAJOR 1
+#define TRAMMEL_SDK_MAJOR 2
 #define TRAMMEL_SDK_MINOR 0
 
 namespace trammel {
