@@ -42,7 +42,6 @@ class ForceWrench final : public MarkerWrenches {
 }  // namespace
 
 void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda, Matrix& S) {
-  ++counts.jacobian_evaluations;
   if (c.c_1 != 0)
     for (int i = 0; i < sizes.nv; ++i) S.add(i, i, c.c_1);
   for (const BodyEntry& entry : model->bodies) {
