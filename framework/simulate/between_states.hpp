@@ -3,6 +3,8 @@
 // (oscillating_steps.hpp), its own.
 #pragma once
 
+#include <limits>
+
 #include <trammel/oscillating_steps.hpp>
 
 #include "model/assembled_system.hpp"
@@ -15,6 +17,12 @@ class BetweenStates {
       : system_(system), own_(dynamic_cast<OscillatingSteps*>(&integrator)) {}
 
   bool smooth() const { return own_ == nullptr; }
+  // [s] of steps that are as smooth as the cubic through their ends supposes.
+  double longest_resolved() const {
+    constexpr double radians = 2;
+    const double swing = own_ ? own_->swing() : 0;
+    return swing > 0 ? radians / swing : std::numeric_limits<double>::infinity();
+  }
   // Fills t, q, v.
   void at(const State& now, const State& next, double theta, State& between) {
     if (own_)

@@ -64,12 +64,16 @@ void EventLocation::restart(const State& now) {
 }
 
 double EventLocation::longest_step(double swings) const {
+  const bool matter =
+      h_before_ == 0 || swings_matter(now_, 5 * h_before_);  // a step is five times the last one at most
+  const double resolved =
+      matter && watches() ? between_states_.longest_resolved() : std::numeric_limits<double>::infinity();
   double longest = std::numeric_limits<double>::infinity();
   for (std::size_t w = 0; w < watches_.size(); ++w) {
-    if (watches_[w].kind == Kind::hold) return swings;
+    if (watches_[w].kind == Kind::hold) return std::min(swings, resolved);
     if (watches_[w].kind == Kind::slide) longest = std::min(longest, now_[w].f / (4 * watches_[w].steepest));
   }
-  return std::max(swings, longest);
+  return std::min(std::max(swings, longest), resolved);
 }
 
 EventLocation::Value EventLocation::slide(int contact, const Vec& a) {

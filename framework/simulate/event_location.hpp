@@ -86,6 +86,7 @@ class EventLocation {
   bool happened(int w, const Value& end) const;
   const Value& step_to(const State& now, double h, int w);
   bool hides(const State& now, double h, const State& next);
+  bool swings_matter(const std::vector<Value>& values, double h) const;
   bool hides_gap(double h);
   bool hides_force(double h);
   bool dips(const State& now, double h, const State& next, int w, Suspect& suspect);

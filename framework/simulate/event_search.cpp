@@ -63,7 +63,18 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
   if (gaps || (forces && h_before_ == 0)) {
     between_states_.at(now, next, inside, between_);
   }
+  if (h > between_states_.longest_resolved() && (swings_matter(now_, h) || swings_matter(next_, h))) return true;
   return (gaps && hides_gap(h)) || (forces && hides_force(h));
+}
+
+// Whether swings of steps of length h could lead to an event unseen: of a force, or of a gap that is small for its rate.
+bool EventLocation::swings_matter(const std::vector<Value>& values, double h) const {
+  constexpr double far = 20;
+  for (int w = 0; w < int(watches_.size()); ++w) {
+    if (watches_[w].at_ends || watches_[w].kind == Kind::slide) continue;
+    if (by_force(w) || values[w].f < far * h * std::abs(values[w].slope)) return true;
+  }
+  return false;
 }
 
 bool EventLocation::hides_gap(double h) {

@@ -42,7 +42,7 @@ void Ledger::step(const State& now, const State& next) {
   // A closed contact's row does work at the level of round-off; that is not worth an evaluation.
   const double work = (size(now_) + size(end_)) * (next.t - now.t);
   if (!(work > 1e-16 * std::abs(energy_start_))) return move_on();
-  if (between_.smooth() || work < 1e-9 * std::abs(energy_start_)) {
+  if (between_.smooth() || work < 1e-12 * std::abs(energy_start_)) {
     between_.at(now, next, 0.5, middle_state_);
     integrate(now, next, middle_state_);
     return move_on();

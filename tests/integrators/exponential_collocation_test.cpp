@@ -90,13 +90,33 @@ TEST(ExponentialCollocation, LinearisesAgainWhereModesTurn) {
   EXPECT_NEAR(problems::stiff_pendulum(1e4).energy.value(end), before, 1e-9 * std::abs(before) + 1e-9);
 }
 
-TEST(ExponentialCollocation, GoesOnWithoutOscillationsWhereMassIsSingularOrNothingSwings) {
+TEST(ExponentialCollocation, GoesOnWhereNothingSwings) {
   Posed s(oscillators({0}));
   auto method = make(name);
   State start = s.start();
   start.v.setOnes();
   const State end = integrate(*method, s, start, 3, 2);
   EXPECT_NEAR(end.q[0], start.q[0] + 3, 1e-14);
+}
+
+TEST(ExponentialCollocation, RefusesSystemsWhoseEigenproblemWouldTakeTooLongAndNamesOthers) {
+  Posed s(oscillators(std::vector<double>(1001, 1.0)));
+  auto method = make(name);
+  try {
+    method->restart(s, State());
+    FAIL() << "accepted";
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("dop853"), std::string::npos);
+  }
+}
+
+TEST(ExponentialCollocation, RefusesStepsWhoseSweepsDoNotConverge) {
+  Posed s(oscillators({1, 2}, 200));
+  auto method = make(name, {{"sweeps", 1}});
+  const State start = s.start();
+  method->restart(s, start);
+  State next;
+  EXPECT_FALSE(method->step(s, start, 0.1, next));  // decay rates times h: 40
 }
 
 }  // namespace

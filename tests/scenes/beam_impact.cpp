@@ -107,7 +107,7 @@ TEST_P(FirstCluster, HasTheReferencesImpactsAndContactPhases) {
   EXPECT_NEAR(run.result["energy_drift"], 0, 1e-10);
 }
 
-// At a ninth of the evaluations; 1e-8 J is what the scene promises.
+// 1e-8 J is what the scene promises, at a fifth of the evaluations that dop853 needs for it (tools/bench/README.md) or less.
 TEST_P(FirstCluster, IsMetByExponentialCollocation) {
   const Finished run = run_file("beam_impact/exponential.json",
                                 {{"parameters.N", "5"}, {"parameters.e", GetParam()}, {"simulate.until", "0.39"}});
@@ -115,7 +115,7 @@ TEST_P(FirstCluster, IsMetByExponentialCollocation) {
   ASSERT_TRUE(run.done()) << run.report.reason;
   EXPECT_NEAR(run.events.back().t, cluster["t_end"], 1e-8);
   EXPECT_NEAR(run.end("energy_total"), cluster["E_after"], 1e-8);
-  EXPECT_LT(run.result["counts"]["residual_evaluations"], 40'000);
+  EXPECT_LT(run.result["counts"]["residual_evaluations"], 265'000 / 5);
 }
 
 INSTANTIATE_TEST_SUITE_P(E, FirstCluster, testing::Values("0", "0.3"),

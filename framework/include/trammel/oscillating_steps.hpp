@@ -1,6 +1,7 @@
 // An ability of integrators whose steps are longer than the swings in them: between its ends a step is not near the cubic
 // through v and a there. Whoever looks into such a step (events of contacts, the ledger of energies) asks the integrator, so
-// its dense output should cost no evaluation.
+// its dense output should cost no evaluation; near an event a controlled step is shortened until it resolves the swings. Controlled
+// steps are kept even: what they do not resolve then does not add up.
 #pragma once
 
 #include <trammel/integrator.hpp>
@@ -10,6 +11,7 @@ namespace trammel {
 class OscillatingSteps : public DenseOutput {
  public:
   ~OscillatingSteps() override;
+  virtual double swing() const = 0;  // [rad/s] the fastest that it does not resolve; 0: none
 };
 
 }  // namespace trammel

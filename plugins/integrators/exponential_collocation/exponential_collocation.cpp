@@ -8,14 +8,15 @@
 // r = (N(q) - N(q_0)) v, a polynomial too. n_j and r_j are guessed from the last step's polynomials and put right by sweeps
 // over the points; a sweep's error shrinks by h times what n depends on v.
 //
-// Steps are as long as n allows, not as the fastest mode does: a step of hundreds of radians where that mode only rings. With
-// all omega = 0 this is Lobatto's method IIIA of order 8, iterated.
+// Steps are as long as n allows, not as the fastest mode does. With all omega = 0 this is collocation at Lobatto's points for
+// x'' = a, of order 8, iterated.
 //
 // Hochbruck, Ostermann, Exponential integrators, Acta Numerica 19, 209-286 (2010); Wang, Iserles, Wu, Arbitrary-order
 // trigonometric Fourier collocation methods, Found. Comput. Math. 16, 151-181 (2016).
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #include <trammel/error_norm.hpp>
@@ -24,54 +25,13 @@
 #include <trammel/row_parameters.hpp>
 #include <trammel/runge_kutta.hpp>
 
-#include "oscillator_moments.hpp"
+#include "collocation_weights.hpp"
 #include "small_oscillations.hpp"
 
 namespace {
 
 using namespace trammel;
-
-constexpr int points = 5, last = points - 1, middle = points / 2;
-using Points = Eigen::Matrix<double, points, 1>;
-const Points c{{0, 0.17267316464601142810, 0.5, 0.82732683535398857190, 1}};  // (1 -+ sqrt(3/7))/2
-
-// Lagrange's polynomials of the points: column j has the coefficients of l_j, constant first.
-Eigen::Matrix<double, points, points> lagrange() {
-  Eigen::Matrix<double, points, points> powers;
-  for (int i = 0; i < points; ++i)
-    for (int k = 0; k < points; ++k) powers(i, k) = std::pow(c[i], k);
-  return powers.inverse();
-}
-const Eigen::Matrix<double, points, points> l = lagrange();
-
-// The solution at theta of a step is a sum of v_0 and n_j with these weights.
-struct Weights {
-  double theta = 0, t = 0;  // t = theta h
-  Points x, v;              // of n_j where no mode is
-  Vec x_0, v_0;             // of a mode's eta_0 (count), beyond t and 1
-  Mat x_n, v_n;             // of its Psi n_j (count x points), beyond x and v
-};
-
-void weigh(const Vec& omega, double theta, double h, Weights& w) {
-  w.theta = theta, w.t = theta * h;
-  Points powers, free_c, free_s, extra_c, extra_s;
-  powers[0] = 1;
-  for (int k = 0; k < points; ++k) {
-    if (k > 0) powers[k] = theta * powers[k - 1];
-    free_c[k] = 1.0 / (k + 1), free_s[k] = free_c[k] / (k + 2);
-  }
-  const Eigen::Matrix<double, points, points> of_points = l.transpose() * powers.asDiagonal();
-  w.v = w.t * (of_points * free_c), w.x = w.t * w.t * (of_points * free_s);
-  w.x_0.resize(omega.size()), w.v_0.resize(omega.size());
-  w.x_n.resize(omega.size(), points), w.v_n.resize(omega.size(), points);
-  for (Eigen::Index i = 0; i < omega.size(); ++i) {
-    const auto m = oscillator_moments<points>(omega[i] * w.t);
-    w.v_0[i] = m.cosine - 1, w.x_0[i] = w.t * (m.sine - 1);
-    for (int k = 0; k < points; ++k)
-      extra_c[k] = m.c[std::size_t(k)] - free_c[k], extra_s[k] = m.s[std::size_t(k)] - free_s[k];
-    w.v_n.row(i) = w.t * (of_points * extra_c), w.x_n.row(i) = w.t * w.t * (of_points * extra_s);
-  }
-}
+using namespace trammel::collocation;
 
 class ExponentialCollocation final : public Integrator, public ErrorEstimate, public OscillatingSteps {
  public:
@@ -88,13 +48,18 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   }
 
   void restart(System& s, const State& now) override {
+    if (s.sizes().nv > most_coordinates)
+      throw std::runtime_error(
+          "exponential_collocation solves a dense eigenproblem of all coordinates at every event: take dop853 "
+          "or generalized_alpha for more than 1000");
     modes_.linearise(s, now);
-    since_linearised_ = 0;
-    past_h_ = 0;
-    trial_h_ = 0;
+    linearise_ = false;
+    steps_ = 0;
+    past_h_ = trial_h_ = weights_h_ = 0;
   }
 
   Outcome step(System& s, const State& now, double h, State& next) override {
+    if (linearise_) restart(s, now);
     return field_.within_step(s, now, [&] { return collocate(s, now, h, next); });
   }
 
@@ -106,34 +71,37 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     past_h_ = trial_h_;
     past_n_ = n_, past_v_ = v_, past_q_dot_ = q_dot_;
     past_n_.col(last) = end_n_, past_v_.col(last) = end_v_, past_q_dot_.col(last) = slope_end_;
-    // What n depends on x is no longer small.
+    // Perhaps as modes have turned; a linearisation costs about ten steps. At the next step: others may still look into this one.
     constexpr double slow = 0.1;
     constexpr int pays_after = 10;
-    if (++since_linearised_ >= pays_after && shrinks_ > slow) restart(s, next);
+    linearise_ = ++steps_ >= pays_after && shrinks_ > slow;
   }
 
   double error(System& s, const State& now, const State& next, const Tolerance& tolerance) override {
     if (!recall(s, now, next)) return std::numeric_limits<double>::infinity();
-    // To the polynomial without the middle point, O(h^5), and to the straight line, O(h^3); in Hairer's combination.
-    const double quartic = difference_norm(s, without_middle(), now, next, tolerance);
-    const double line = difference_norm(s, without_inner(), now, next, tolerance);
-    const double polynomial = quartic == 0 ? 0 : quartic * quartic / std::sqrt(quartic * quartic + 0.01 * line * line);
-    const double sweep = std::min(shrinks_, 1.0) * error_norm(swept_x_, swept_v_, now, next, tolerance);
-    return std::max(polynomial, sweep);
+    if (shrinks_ > diverges) return std::numeric_limits<double>::infinity();
+    const double sweep = shrinks_ * error_norm(swept_x_, swept_v_, now, next, tolerance);
+    return std::max(without_middle_norm(s, now, next, tolerance), sweep);
   }
-  int error_order() const override { return points + 2; }
+  int error_order() const override { return points; }
 
   void interpolate(System& s, const State& now, const State& next, double theta, State& at) override {
-    recall(s, now, next);
+    if (!recall(s, now, next)) {
+      at = next;
+      return;
+    }
     weigh(modes_.omega(), theta, trial_h_, inside_);
-    go(now, inside_, x_, at.v);
-    place(s, now, inside_, x_, at.q);
+    solution_at(now, inside_, x_, at.v);
+    configuration_at(s, now, inside_, x_, at.q);
     at.t = now.t + inside_.t;
   }
 
+  double swing() const override { return modes_.count() > 0 ? modes_.omega().maxCoeff() : 0; }
+
   void archive(Archive& archive) override {
     modes_.archive(archive);
-    archive("since_linearised", since_linearised_);
+    archive("steps", steps_);
+    archive("linearise", linearise_);
     archive("past_h", past_h_);
     const auto points_of = [&](const char* name, Mat& m) {
       for (int j = 0; j < points && past_h_ > 0; ++j) {
@@ -149,21 +117,20 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
  private:
   Outcome collocate(System& s, const State& now, double h, State& next) {
     resize(s);
-    if (h != weights_h_ || weights_of_ != modes_.omega()) {
+    if (h != weights_h_)
       for (int i = 1; i < points; ++i) weigh(modes_.omega(), c[i], h, weights_[i]);
-      weights_h_ = h, weights_of_ = modes_.omega();
-    }
+    weights_h_ = h;
     trial_h_ = h;
     const bool guessed = guess(s, now, h);
     shrinks_ = 0, last_change_ = std::numeric_limits<double>::infinity();
     // From constants each sweep wins one order, until nothing changes.
-    const int most = guessed ? sweeps : 2 * last - 1;
+    const int most = guessed ? sweeps : std::max(sweeps, 2 * last - 1);
     for (int i = 0; i < most && !settled(); ++i)
       if (!sweep(s, now)) return Outcome::reject(RungeKutta::diverged);
 
     swept_v_ = v_.col(last), swept_x_ = x_;
-    go(now, weights_[last], x_, next.v);
-    place(s, now, weights_[last], x_, next.q);
+    solution_at(now, weights_[last], x_, next.v);
+    configuration_at(s, now, weights_[last], x_, next.q);
     next.t = now.t + h;
     swept_v_ -= next.v, swept_x_ -= x_;
     if (!field_.evaluate(s, next.t, next.q, next.v, slope_)) return Outcome::reject(RungeKutta::diverged);
@@ -171,27 +138,30 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     modes_.add_acceleration(1, x_, amplitude_, end_n_);
     const double change = (n_.col(last) - end_n_).lpNorm<Eigen::Infinity>();
     shrinks_ = change == 0 ? 0 : change / last_change_;
+    if (shrinks_ > 1 && !settled())
+      return Outcome::reject("the sweeps of the step do not converge: take a shorter step");
     if (field_.projects()) field_.taken_at(next.q, next.v);
     next.a = slope_.v, next.lambda = slope_.lambda;
     return Outcome::accept();
   }
 
+  // To round-off of what n is the difference of.
   bool settled() const { return last_change_ <= 1e-12 * n_.col(last).lpNorm<Eigen::Infinity>(); }
 
   bool sweep(System& s, const State& now) {
     for (int i = 1; i < points; ++i) {
-      go(now, weights_[i], x_, v_i_);
-      place(s, now, weights_[i], x_, q_i_);
+      solution_at(now, weights_[i], x_, v_i_);
+      configuration_at(s, now, weights_[i], x_, q_i_);
       if (i == last) end_n_ = n_.col(last);
       if (!field_.evaluate(s, now.t + weights_[i].t, q_i_, v_i_, slope_)) return false;
-      set(s, now, i, v_i_);
+      take_slope(s, now, i, v_i_);
     }
     last_change_ = (n_.col(last) - end_n_).lpNorm<Eigen::Infinity>();
     return true;
   }
 
   // n, v, q' and r at point i from the slope there; x_ is the increment.
-  void set(System& s, const State& now, int i, const Vec& v) {
+  void take_slope(System& s, const State& now, int i, const Vec& v) {
     n_.col(i) = slope_.v;
     if (i > 0) modes_.add_acceleration(1, x_, amplitude_, n_.col(i));
     psi_n_.col(i).noalias() = modes_.amplitudes() * n_.col(i);
@@ -205,12 +175,12 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     constexpr double reach = 2.5;
     slope_.v = now.a;
     s.rate(now.q, now.v, slope_.q);
-    set(s, now, 0, now.v);
+    take_slope(s, now, 0, now.v);
     const bool past = past_h_ > 0 && h <= reach * past_h_;
     psi_v_.noalias() = modes_.amplitudes() * now.v;
     for (int i = 1; i < points; ++i) {
       if (past) {
-        extrapolate(1 + c[i] * h / past_h_);
+        ahead_ = lagrange(1 + c[i] * h / past_h_);
         n_.col(i).noalias() = past_n_ * ahead_;
         n_.col(i) += now.a - past_n_.col(last);
         v_i_.noalias() = past_v_ * ahead_;
@@ -225,13 +195,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     }
     return past;
   }
-  void extrapolate(double theta) {
-    Points powers;
-    for (int k = 0; k < points; ++k) powers[k] = std::pow(theta, k);
-    ahead_.noalias() = l.transpose() * powers;
-  }
-
-  void go(const State& now, const Weights& w, Vec& x, Vec& v) {
+  void solution_at(const State& now, const Weights& w, Vec& x, Vec& v) {
     v = now.v;
     v.noalias() += n_ * w.v;
     amplitude_ = w.v_0.cwiseProduct(psi_v_) + w.v_n.cwiseProduct(psi_n_).rowwise().sum();
@@ -242,43 +206,34 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     x.noalias() += modes_.shapes() * amplitude_;
   }
 
-  void place(const System& s, const State& now, const Weights& w, const Vec& x, Vec& q) {
+  void configuration_at(const System& s, const State& now, const Weights& w, const Vec& x, Vec& q) {
     s.rate(now.q, x, rate_);
     q = now.q + rate_;
     q.noalias() += r_ * w.v;
     s.normalise(q);
   }
 
-  // What the result owes to n and r beyond a polynomial of lower degree, which differs from them by difference(., i) at point i.
-  using Difference = Eigen::Matrix<double, points, points>;
-  static Difference without_middle() {
-    Difference d = Difference::Zero();
+  // The result less that of the polynomials through the other four points, O(h^5): the error of steps that hold many swings, and
+  // more than that of others.
+  double without_middle_norm(System& s, const State& now, const State& next, const Tolerance& tolerance) {
+    Points difference;
     for (int j = 0; j < points; ++j) {
-      d(j, middle) = j == middle ? 1 : -1;
+      difference[j] = j == middle ? 1 : -1;
       for (int m = 0; m < points; ++m)
-        if (j != middle && m != j && m != middle) d(j, middle) *= (c[middle] - c[m]) / (c[j] - c[m]);
+        if (j != middle && m != j && m != middle) difference[j] *= (c[middle] - c[m]) / (c[j] - c[m]);
     }
-    return d;
-  }
-  static Difference without_inner() {
-    Difference d = Difference::Identity();
-    d.row(0) -= (Points::Ones() - c).transpose();
-    d.row(last) -= c.transpose();
-    return d;
-  }
-  double difference_norm(System& s, const Difference& difference, const State& now, const State& next,
-                         const Tolerance& tolerance) {
     const Weights& w = weights_[last];
-    const Points of_v = difference * w.v, of_x = difference * w.x;
-    modal_.noalias() = psi_n_ * difference;
-    e_v_.noalias() = n_ * of_v;
-    amplitude_ = w.v_n.cwiseProduct(modal_).rowwise().sum();
+    beyond_.noalias() = n_ * difference;
+    modal_.noalias() = modes_.amplitudes() * beyond_;
+    e_v_ = w.v[middle] * beyond_;
+    amplitude_ = w.v_n.col(middle).cwiseProduct(modal_);
     e_v_.noalias() += modes_.shapes() * amplitude_;
-    e_x_.noalias() = n_ * of_x;
-    amplitude_ = w.x_n.cwiseProduct(modal_).rowwise().sum();
+    e_x_ = w.x[middle] * beyond_;
+    amplitude_ = w.x_n.col(middle).cwiseProduct(modal_);
     e_x_.noalias() += modes_.shapes() * amplitude_;
     s.rate(now.q, e_x_, e_);
-    e_.noalias() += r_ * of_v;
+    beyond_.noalias() = r_ * difference;
+    e_ += w.v[middle] * beyond_;
     error_increment(s, next.q, e_, embedded_, e_q_);
     return error_norm(e_q_, e_v_, now, next, tolerance);
   }
@@ -297,10 +252,13 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     psi_n_.resize(modes_.count(), points);
   }
 
+  static constexpr int most_coordinates = 1000;
+  static constexpr double diverges = 0.5;  // sweeps whose changes shrink by less
   static constexpr double none = 0;
   RungeKutta field_{{1, &none, &none, &none}};  // of whose steps none is made
   SmallOscillations modes_;
-  int since_linearised_ = 0;
+  int steps_ = 0;           // since the last linearisation
+  bool linearise_ = false;  // at the next step
   // At the points of the step accepted last, whose length is past_h_; 0: forgotten.
   double past_h_ = 0;
   Mat past_n_, past_v_, past_q_dot_;
@@ -311,12 +269,10 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   Vec end_n_, end_v_, slope_end_;         // at the step's end, of its result
   double last_change_ = 0, shrinks_ = 0;  // of n at the end: by the last sweep, and how much less after it
   double weights_h_ = 0;
-  Vec weights_of_;
   Weights weights_[points], inside_;
   Slope slope_;
   Points ahead_;
-  Mat modal_;
-  Vec x_, v_i_, q_i_, rate_, amplitude_, e_, e_x_, e_v_, e_q_, embedded_;
+  Vec beyond_, modal_, x_, v_i_, q_i_, rate_, amplitude_, e_, e_x_, e_v_, e_q_, embedded_;
   State repeated_;
 };
 

@@ -7,7 +7,7 @@ namespace trammel {
 namespace {
 
 // Relative to the fastest: below it a mode is as well left to the rest of the force.
-constexpr double slow = 1e-6;
+constexpr double slow = 1e-4;
 
 void archive_matrix(Archive& archive, const std::string& name, Mat& m) {
   Vec entries = Eigen::Map<const Vec>(m.data(), m.size());
@@ -27,7 +27,7 @@ void SmallOscillations::residual(System& s, double t, const Vec& q, const State&
 }
 
 void SmallOscillations::differentiate(System& s, const State& state) {
-  // Of the size of q, so that units do not matter; round-off and curvature of the force then matter alike.
+  // Of the size of q: round-off and curvature of the force then matter alike.
   const double size = state.q.lpNorm<Eigen::Infinity>(), dq = 0x1p-24 * (size > 0 ? size : 1);
   const Eigen::Index n = state.v.size();
   K_.resize(n, n);
@@ -41,8 +41,8 @@ void SmallOscillations::differentiate(System& s, const State& state) {
   }
 }
 
-// M, and P^T K P in place of K.
-void SmallOscillations::put_on_rows(System& s, const State& state) {
+// M, and P^T K P in place of K. False: the rows are singular.
+bool SmallOscillations::put_on_rows(System& s, const State& state) {
   const Eigen::Index n = state.v.size();
   const bool rows = s.sizes().nc > 0;
   M_.resize(n, n), P_.setIdentity(n, n);
@@ -56,7 +56,9 @@ void SmallOscillations::put_on_rows(System& s, const State& state) {
     s.add_mass_times(1, unit_, r_);
     M_.col(j) = r_;
     r_ = -r_;
-    if (rows && s.correct(r_, no_rows_, x_, mu_, Factors::projection)) P_.col(j) = x_;
+    if (!rows) continue;
+    if (!s.correct(r_, no_rows_, x_, mu_, Factors::projection)) return false;
+    P_.col(j) = x_;
   }
   if (rows) {
     KP_.noalias() = K_ * P_;
@@ -64,6 +66,7 @@ void SmallOscillations::put_on_rows(System& s, const State& state) {
   }
   KP_ = K_.transpose();
   K_ = 0.5 * (K_ + KP_);
+  return true;
 }
 
 void SmallOscillations::linearise(System& s, const State& state) {
@@ -71,10 +74,9 @@ void SmallOscillations::linearise(System& s, const State& state) {
   omega_.resize(0), omega_2_.resize(0), phi_.resize(n, 0), psi_.resize(0, n);
   if (n == 0) return;
   differentiate(s, state);
-  put_on_rows(s, state);
-  if (!K_.allFinite()) return;
+  if (!put_on_rows(s, state) || !K_.allFinite()) return;
   cholesky_.compute(M_);  // M = L L^T: L^-1 K L^-T y = omega^2 y, phi = L^-T y
-  if (cholesky_.info() != Eigen::Success) return;
+  if (cholesky_.info() != Eigen::Success || cholesky_.rcond() < 1e-14) return;
   cholesky_.matrixL().solveInPlace(K_);
   KP_ = K_.transpose();
   cholesky_.matrixL().solveInPlace(KP_);

@@ -31,7 +31,7 @@ class SmallOscillations {
  private:
   void residual(System& s, double t, const Vec& q, const State& at, Vec& r) const;
   void differentiate(System& s, const State& state);
-  void put_on_rows(System& s, const State& state);
+  bool put_on_rows(System& s, const State& state);
 
   Vec omega_, omega_2_;
   Mat phi_, psi_;
