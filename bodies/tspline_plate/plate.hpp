@@ -47,7 +47,7 @@ class TsplinePlate final : public Body,
                            public HasMomentum {
  public:
   // Parameters; see the declaration in plugin.cpp.
-  Patch sole_patch;          // of a plate of one patch
+  Patch sole_patch;            // of a plate of one patch
   Named<Patch> named_patches;  // of others
   Named<Joined> joined;
 

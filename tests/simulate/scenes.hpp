@@ -55,9 +55,8 @@ struct Method {
 };
 inline std::vector<Method> fixed_methods(const std::string& h) {
   std::vector<Method> methods;
-  for (const char* type :
-       {"hht_alpha", "newmark", "generalized_alpha", "adams_baumgarte", "runge_kutta_4", "dormand_prince", "dop853",
-        "exponential_collocation"})
+  for (const char* type : {"hht_alpha", "newmark", "generalized_alpha", "adams_baumgarte", "runge_kutta_4",
+                           "dormand_prince", "dop853", "exponential_collocation"})
     methods.push_back({type, "{\"type\": \"" + std::string(type) + "\", \"step\": " + h + "}"});
   return methods;
 }
