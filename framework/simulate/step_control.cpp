@@ -21,34 +21,34 @@ double StepControl::smallest(double t) const {
 }
 
 StepControl::Proposal StepControl::propose(double t, double stop, double most) {
-  if (controlled()) {
+  const double h = controlled() ? std::min({wish_, choice_.most, most}) : *choice_.fixed;
+  if (controlled() && !even_) {
     const double left = stop - t;
-    const double h = std::min({wish_, choice_.most, most});
     if (h >= left * (1 - 1e-10)) return {left, stop};
     if (2 * h > left) return {left / 2, t + left / 2};
     return {h, t + h};
   }
-  if (planned_ == 0 || stop_ != stop) {
-    const double length = stop - t, h = *choice_.fixed;
-    t0_ = t, stop_ = stop, done_ = 0;
-    planned_ = std::max(1LL, static_cast<long long>(std::ceil(length / h - 1e-9)));
-    h_ = length / double(planned_);
-    const double rounding = 4 * eps * std::max(std::abs(stop), std::abs(t));
-    if (std::abs(h_ - h) * double(planned_) <= rounding) h_ = h;
-  }
+  if (planned_ == 0 || stop_ != stop || planned_for_ != h) plan(t, stop, h);
   const double t_next = done_ + 1 == planned_ ? stop_ : t0_ + double(done_ + 1) * h_;
   if (halvings_ == 0) return {h_, t_next};
-  const double h = std::ldexp(t_next - t, -halvings_);
-  return {h, t + h};
+  const double halved = std::ldexp(t_next - t, -halvings_);
+  return {halved, t + halved};
+}
+
+void StepControl::plan(double t, double stop, double h) {
+  const double length = stop - t;
+  t0_ = t, stop_ = stop, planned_for_ = h, done_ = 0;
+  planned_ = std::max(1LL, static_cast<long long>(std::ceil(length / h - 1e-9)));
+  h_ = length / double(planned_);
+  const double rounding = 4 * eps * std::max(std::abs(stop), std::abs(t));
+  if (std::abs(h_ - h) * double(planned_) <= rounding) h_ = h;
 }
 
 void StepControl::accepted(const Proposal& taken, double error) {
-  if (!controlled()) {
-    ++done_;
-    if (done_ == planned_ || halvings_ > 0) planned_ = 0;
-    halvings_ = 0;
-    return;
-  }
+  ++done_;
+  if (done_ == planned_ || halvings_ > 0) planned_ = 0;
+  halvings_ = 0;
+  if (!controlled()) return;
   constexpr double worth_a_change = 1.25;
   const double e = std::max(error, 1e-4), p = order_;
   double factor = std::clamp(0.9 * std::pow(e, -0.7 / p) * std::pow(error_before_, 0.4 / p), 0.2, 5.0);
@@ -65,11 +65,12 @@ void StepControl::accepted(const Proposal& taken, double error) {
 void StepControl::rejected_for_error(double h, double error) {
   const double factor = std::isfinite(error) ? std::clamp(0.9 * std::pow(error, -1.0 / order_), 0.1, 0.9) : 0.1;
   wish_ = h * factor;
+  planned_ = 0;
 }
 
 void StepControl::rejected(double h) {
   if (controlled())
-    wish_ = h / 4;
+    wish_ = h / 4, planned_ = 0;
   else
     ++halvings_;
 }
@@ -81,6 +82,7 @@ bool StepControl::too_small(double t) const {
 
 void StepControl::archive(Archive& a, const std::string& prefix) {
   a(prefix + "t0", t0_), a(prefix + "stop", stop_), a(prefix + "h", h_), a(prefix + "planned", planned_);
+  a(prefix + "planned_for", planned_for_);
   a(prefix + "done", done_), a(prefix + "halvings", halvings_);
   a(prefix + "wish", wish_), a(prefix + "error_before", error_before_);
 }

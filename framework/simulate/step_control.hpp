@@ -8,8 +8,8 @@
 //
 //     h <- h min(5, max(0.2, 0.9 e^(-0.7/p) e_old^(0.4/p))),     after a rejected one h <- h min(1, max(0.1, 0.9 e^(-1/p)))
 //
-// with p the order of the estimate. Even steps (OscillatingSteps) change only when they are to be a quarter longer, by the larger of
-// the last two errors, or are rejected. A step shortened only to reach a stop does not shorten the ones after it.
+// with p the order of the estimate. Even steps (OscillatingSteps) land like fixed ones, and change only when they are to be a quarter
+// longer, by the larger of the last two errors, or are rejected. A step shortened only to reach a stop does not shorten the ones after it.
 #pragma once
 
 #include <string>
@@ -47,12 +47,14 @@ class StepControl {
   void archive(Archive& a, const std::string& prefix);
 
  private:
+  void plan(double t, double stop, double h);
+
   StepChoice choice_;
   double every_;
   int order_;
   bool even_;
-  // fixed: the plan from t0 to the stop
-  double t0_ = 0, stop_ = 0, h_ = 0;
+  // fixed and even: the plan from t0 to the stop, with steps of at most planned_for
+  double t0_ = 0, stop_ = 0, h_ = 0, planned_for_ = 0;
   long long planned_ = 0, done_ = 0;
   int halvings_ = 0;
   // controlled

@@ -25,8 +25,8 @@ Problem soft_and_stiff(double omega) {
 
 TEST(OscillatorMoments, AreTheIntegralsTheyNameAtAnyFrequency) {
   for (const double z : {0.0, 1e-6, 0.3, 1.999, 2.001, 7.0, 300.0}) {
-    const auto moments = oscillator_moments<5>(z);
-    for (int k = 0; k < 5; ++k) {
+    const auto moments = oscillator_moments<7>(z);
+    for (int k = 0; k < 7; ++k) {
       double c = 0, s = 0;
       constexpr int panels = 4000;  // of Simpson's rule: (z/n)^4 = 3e-5 of a swing at 300, and that over 180
       for (int i = 0; i <= 2 * panels; ++i) {
@@ -49,19 +49,19 @@ TEST(ExponentialCollocation, FollowsOscillatorsAtAnyStep) {
   EXPECT_LE((end.q - s.exact(20).q).norm(), 0.5 * 0x1p-29 * 2e4);
 }
 
-// Of the contract's tests its order is at least: five points, three sweeps.
-TEST(ExponentialCollocation, IsOfEighthOrderWithThreeSweeps) {
+// Of the contract's tests its order is at least: seven points, three sweeps.
+TEST(ExponentialCollocation, IsOfTenthOrderWithThreeSweeps) {
   for (const char* rows : {"baumgarte", "projected"}) {
     Posed s(problems::pendulum_with_rod());
     const State start = s.start();
     auto fine = make("dop853", {{"delta", 0.0}, {"epsilon", 0.0}});
     const State end = integrate(*fine, s, start, 2, 400);
-    const Order f = fit_order(20, 3, [&](int n) {
+    const Order f = fit_order(5, 3, [&](int n) {
       auto method = make(name, {{"delta", 1.0}, {"epsilon", 1.0}, {"rows", std::string(rows)}});
       const State x = integrate(*method, s, start, 2, n);
       return (x.q - end.q).norm() + (x.v - end.v).norm() + (x.lambda - end.lambda).norm();
     });
-    EXPECT_GE(f.value, 7.4) << rows << "\n" << f.table;  // slopes vary by half an order between 1e-7 and round-off
+    EXPECT_GE(f.value, 9.4) << rows << "\n" << f.table;  // slopes vary by half an order between 1e-7 and round-off
   }
 }
 
@@ -111,12 +111,12 @@ TEST(ExponentialCollocation, RefusesSystemsWhoseEigenproblemWouldTakeTooLongAndN
 }
 
 TEST(ExponentialCollocation, RefusesStepsWhoseSweepsDoNotConverge) {
-  Posed s(oscillators({1, 2}, 200));
+  Posed s(oscillators({1, 2}, 1000));
   auto method = make(name, {{"sweeps", 1}});
   const State start = s.start();
   method->restart(s, start);
   State next;
-  EXPECT_FALSE(method->step(s, start, 0.1, next));  // decay rates times h: 40
+  EXPECT_FALSE(method->step(s, start, 0.1, next));  // decay rates times h: 200
 }
 
 }  // namespace

@@ -31,21 +31,32 @@ Points lagrange(double theta) {
   return lagrange_coefficients().transpose() * powers_of(theta);
 }
 
+const Points& beyond_others() {
+  static const Points weights = [] {
+    Points w;
+    for (int j = 0; j < points; ++j) {
+      w[j] = j == middle ? 1 : -1;
+      for (int m = 0; m < points; ++m)
+        if (j != middle && m != j && m != middle) w[j] *= (c[middle] - c[m]) / (c[j] - c[m]);
+    }
+    return w;
+  }();
+  return weights;
+}
+
 void weigh(const Vec& omega, double theta, double h, Weights& w) {
-  w.theta = theta, w.t = theta * h;
-  Points free_c, free_s, extra_c, extra_s;
-  for (int k = 0; k < points; ++k) free_c[k] = 1.0 / (k + 1), free_s[k] = free_c[k] / (k + 2);
+  w.t = theta * h;
   const Eigen::Matrix<double, points, points> of_points =
       lagrange_coefficients().transpose() * powers_of(theta).asDiagonal();
-  w.v = w.t * (of_points * free_c), w.x = w.t * w.t * (of_points * free_s);
+  w.integral.setZero();
+  for (int k = 0; k < points; ++k) w.integral += w.t / (k + 1) * of_points.col(k);
   w.x_0.resize(omega.size()), w.v_0.resize(omega.size());
-  w.x_n.resize(omega.size(), points), w.v_n.resize(omega.size(), points);
+  w.x.resize(omega.size(), points), w.v.resize(omega.size(), points);
   for (Eigen::Index i = 0; i < omega.size(); ++i) {
     const auto m = oscillator_moments<points>(omega[i] * w.t);
-    w.v_0[i] = m.cosine - 1, w.x_0[i] = w.t * (m.sine - 1);
-    for (int k = 0; k < points; ++k)
-      extra_c[k] = m.c[std::size_t(k)] - free_c[k], extra_s[k] = m.s[std::size_t(k)] - free_s[k];
-    w.v_n.row(i) = w.t * (of_points * extra_c), w.x_n.row(i) = w.t * w.t * (of_points * extra_s);
+    w.x_0[i] = w.t * m.sine, w.v_0[i] = m.cosine - 1;
+    w.x.row(i) = w.t * w.t * (of_points * Eigen::Map<const Points>(m.s.data()));
+    w.v.row(i) = w.t * (of_points * Eigen::Map<const Points>(m.c.data()));
   }
 }
 

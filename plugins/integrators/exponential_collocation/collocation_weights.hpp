@@ -1,31 +1,37 @@
-// Collocation at Lobatto's five points where small oscillations are followed exactly: what v_0 and the rest n of the acceleration,
-// a polynomial through its values n_j, do to the solution at a part theta of a step h.
+// Collocation at Lobatto's seven points where small oscillations are followed exactly: what each oscillator's velocity at the start,
+// eta_0, and the rest of its force, a polynomial through its values nu_j, make of it at a part theta of a step h.
 //
-//     x(theta) = t v_0 + sum_j x_j n_j + Phi (x_0 Psi v_0 + sum_j x_n,j Psi n_j),    t = theta h
-//     v(theta) =   v_0 + sum_j v_j n_j + Phi (v_0 Psi v_0 + sum_j v_n,j Psi n_j)
+//     xi(theta)  = x_0 eta_0 + sum_j x_j nu_j          x_0 = sin(omega t)/omega,  x_j = int_0^t sin(omega (t - tau))/omega l_j(tau) dtau
+//     eta(theta) = eta_0 + v_0 eta_0 + sum_j v_j nu_j  v_0 = cos(omega t) - 1,    v_j = int_0^t cos(omega (t - tau)) l_j(tau) dtau
+//
+// with t = theta h and Lagrange's polynomials l_j.
 #pragma once
 
 #include <trammel/types.hpp>
 
 namespace trammel::collocation {
 
-constexpr int points = 5, last = points - 1, middle = points / 2;
+constexpr int points = 7, last = points - 1, middle = points / 2;
 using Points = Eigen::Matrix<double, points, 1>;
 
-// The points, (1 -+ sqrt(3/7))/2 beside the ends and the middle.
-inline constexpr double c[points] = {0, 0.17267316464601142810, 0.5, 0.82732683535398857190, 1};
+// The points: beside the ends and the middle (1 -+ sqrt((5 +- 2 sqrt(5/3))/11))/2.
+inline constexpr double c[points] = {
+    0, 0.08488805186071653506, 0.26557560326464289310, 0.5, 0.73442439673535710690, 0.91511194813928346494, 1};
 
 // l_j(theta), Lagrange's polynomials of the points; theta may lie outside of the step.
 Points lagrange(double theta);
 
+// A value in the middle less that of the polynomial through the others: weights of the values.
+const Points& beyond_others();
+
 struct Weights {
-  double theta = 0, t = 0;
-  Points x, v;   // of n_j where no mode is
-  Vec x_0, v_0;  // of a mode's Psi v_0 (count), beyond t and 1
-  Mat x_n, v_n;  // of its Psi n_j (count x points), beyond x and v
+  double t = 0;
+  Points integral;  // of l_j from 0 to t
+  Vec x_0, v_0;     // (omega's)
+  Mat x, v;         // (omega's x points)
 };
 
-// omega (count) [1/s], all > 0.
+// omega (any number) [1/s]; 0: no oscillator, a free coordinate.
 void weigh(const Vec& omega, double theta, double h, Weights& w);
 
 }  // namespace trammel::collocation

@@ -1,15 +1,15 @@
-// Collocation at Lobatto's five points by variation of constants: the system's small oscillations (small_oscillations.hpp),
+// Collocation at Lobatto's seven points by variation of constants: the system's small oscillations (small_oscillations.hpp),
 // linearised now and then, are followed exactly, and what is left of the acceleration is a polynomial in time.
 //
-//     x' = v,  v' = -Phi omega^2 Psi x + n,   n = a + Phi omega^2 Psi x       x: increment since the step's start
-//     eta_i = cos(omega t_i) eta_0 + sum_j (int_0^{t_i} cos(omega (t_i - tau)) l_j(tau) dtau) Psi n_j     eta = Psi v, l_j Lagrange's
+//     x = Phi xi, xi' = eta, eta' = -omega^2 xi + nu,   nu = Psi a + omega^2 xi        x: increment since the step's start, v = Phi eta
+//     eta_i = cos(omega t_i) eta_0 + sum_j (int_0^{t_i} cos(omega (t_i - tau)) l_j(tau) dtau) nu_j      l_j: Lagrange's
 //
-// and x likewise by sin/omega; where no mode is, omega = 0. On manifolds q' = N(q) v: q_i = q_0 + N(q_0) x_i + the integral of
-// r = (N(q) - N(q_0)) v, a polynomial too. n_j and r_j are guessed from the last step's polynomials and put right by sweeps
-// over the points; a sweep's error shrinks by h times what n depends on v.
+// and xi likewise by sin/omega; what hardly swings has omega = 0. On manifolds q' = N(q) v: q_i = q_0 + N(q_0) x_i + the integral of
+// r = (N(q) - N(q_0)) v, a polynomial too. nu_j and r_j are guessed from the last step's polynomials and put right by sweeps
+// over the points; a sweep's error shrinks by h times what nu depends on eta.
 //
-// Steps are as long as n allows, not as the fastest mode does. With all omega = 0 this is collocation at Lobatto's points for
-// x'' = a, of order 8, iterated.
+// Steps are as long as nu allows, not as the fastest mode does. With all omega = 0 this is collocation at Lobatto's points for
+// x'' = a, of order 12, iterated.
 //
 // Hochbruck, Ostermann, Exponential integrators, Acta Numerica 19, 209-286 (2010); Wang, Iserles, Wu, Arbitrary-order
 // trigonometric Fourier collocation methods, Found. Comput. Math. 16, 151-181 (2016).
@@ -48,18 +48,14 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   }
 
   void restart(System& s, const State& now) override {
-    if (s.sizes().nv > most_coordinates)
-      throw std::runtime_error(
-          "exponential_collocation solves a dense eigenproblem of all coordinates at every event: take dop853 "
-          "or generalized_alpha for more than 1000");
-    modes_.linearise(s, now);
-    linearise_ = false;
-    steps_ = 0;
-    past_h_ = trial_h_ = weights_h_ = 0;
+    past_h_ = trial_h_ = 0;
+    trusted_ = 0;
+    const auto [nq, nv, nc] = s.sizes();
+    if (nv != modes_.omega().size() || nc != rows_) linearise(s, now);
   }
 
   Outcome step(System& s, const State& now, double h, State& next) override {
-    if (linearise_) restart(s, now);
+    if (linearise_) linearise(s, now);
     return field_.within_step(s, now, [&] { return collocate(s, now, h, next); });
   }
 
@@ -69,12 +65,14 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
       return;
     }
     past_h_ = trial_h_;
-    past_n_ = n_, past_v_ = v_, past_q_dot_ = q_dot_;
-    past_n_.col(last) = end_n_, past_v_.col(last) = end_v_, past_q_dot_.col(last) = slope_end_;
-    // Perhaps as modes have turned; a linearisation costs about ten steps. At the next step: others may still look into this one.
-    constexpr double slow = 0.1;
-    constexpr int pays_after = 10;
-    linearise_ = ++steps_ >= pays_after && shrinks_ > slow;
+    past_nu_ = nu_, past_v_ = v_, past_q_dot_ = q_dot_;
+    past_nu_.col(last) = end_nu_, past_v_.col(last) = end_v_, past_q_dot_.col(last) = slope_end_;
+    ++steps_;
+    constexpr int serves = 10;
+    if (!measures())
+      --trusted_;
+    else if (guessed_)
+      trusted_ = serves - 1, contraction_ = shrinks_ / trial_h_;
   }
 
   double error(System& s, const State& now, const State& next, const Tolerance& tolerance) override {
@@ -90,18 +88,21 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
       at = next;
       return;
     }
-    weigh(modes_.omega(), theta, trial_h_, inside_);
-    solution_at(now, inside_, x_, at.v);
-    configuration_at(s, now, inside_, x_, at.q);
+    if (theta != inside_at_ || trial_h_ != inside_h_) weigh(modes_.omega(), theta, trial_h_, inside_);
+    inside_at_ = theta, inside_h_ = trial_h_;
+    solution_at(s, now, inside_, at.q, at.v);
     at.t = now.t + inside_.t;
   }
 
-  double swing() const override { return modes_.count() > 0 ? modes_.omega().maxCoeff() : 0; }
+  double swing() const override { return modes_.omega().size() > 0 ? modes_.omega().maxCoeff() : 0; }
 
   void archive(Archive& archive) override {
     modes_.archive(archive);
+    archive("rows", rows_);
     archive("steps", steps_);
     archive("linearise", linearise_);
+    archive("trusted", trusted_);
+    archive("contraction", contraction_);
     archive("past_h", past_h_);
     const auto points_of = [&](const char* name, Mat& m) {
       for (int j = 0; j < points && past_h_ > 0; ++j) {
@@ -111,129 +112,170 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
         m.col(j) = column;
       }
     };
-    points_of("past_n_", past_n_), points_of("past_v_", past_v_), points_of("past_q_dot_", past_q_dot_);
+    points_of("past_nu_", past_nu_), points_of("past_v_", past_v_), points_of("past_q_dot_", past_q_dot_);
   }
 
  private:
+  void linearise(System& s, const State& now) {
+    const auto [nq, nv, nc] = s.sizes();
+    if (nv > most_coordinates)
+      throw std::runtime_error(
+          "exponential_collocation solves a dense eigenproblem of all coordinates: take dop853 or generalized_alpha "
+          "for more than 1000");
+    modes_.linearise(s, now);
+    rows_ = nc;
+    linearise_ = false;
+    steps_ = trusted_ = 0;
+    past_h_ = trial_h_ = weights_h_ = inside_h_ = 0;
+  }
+
   Outcome collocate(System& s, const State& now, double h, State& next) {
     resize(s);
     if (h != weights_h_)
       for (int i = 1; i < points; ++i) weigh(modes_.omega(), c[i], h, weights_[i]);
     weights_h_ = h;
     trial_h_ = h;
-    const bool guessed = guess(s, now, h);
-    shrinks_ = 0, last_change_ = std::numeric_limits<double>::infinity();
+    guessed_ = guess(s, now, h);
+    last_change_ = std::numeric_limits<double>::infinity();
     // From constants each sweep wins one order, until nothing changes.
-    const int most = guessed ? sweeps : std::max(sweeps, 2 * last - 1);
+    const int most = guessed_ ? sweeps : std::max(sweeps, 2 * last - 1);
     for (int i = 0; i < most && !settled(); ++i)
       if (!sweep(s, now)) return Outcome::reject(RungeKutta::diverged);
 
     swept_v_ = v_.col(last), swept_x_ = x_;
-    solution_at(now, weights_[last], x_, next.v);
-    configuration_at(s, now, weights_[last], x_, next.q);
+    solution_at(s, now, weights_[last], next.q, next.v);
     next.t = now.t + h;
     swept_v_ -= next.v, swept_x_ -= x_;
-    if (!field_.evaluate(s, next.t, next.q, next.v, slope_)) return Outcome::reject(RungeKutta::diverged);
-    end_n_ = slope_.v, end_v_ = next.v, slope_end_ = slope_.q;
-    modes_.add_acceleration(1, x_, amplitude_, end_n_);
-    const double change = (n_.col(last) - end_n_).lpNorm<Eigen::Infinity>();
-    shrinks_ = change == 0 ? 0 : change / last_change_;
-    if (shrinks_ > 1 && !settled())
-      return Outcome::reject("the sweeps of the step do not converge: take a shorter step");
-    if (field_.projects()) field_.taken_at(next.q, next.v);
-    next.a = slope_.v, next.lambda = slope_.lambda;
+    if (measures()) {
+      if (!evaluate_end(s, next)) return Outcome::reject(RungeKutta::diverged);
+    } else {
+      take_end(s, next);
+    }
+    // Perhaps as modes have turned; a linearisation costs about ten steps.
+    constexpr double slow = 0.1;
+    constexpr int pays_after = 10;
+    linearise_ = (steps_ >= pays_after && shrinks_ > slow) || (steps_ > 0 && shrinks_ > diverges);
+    if (shrinks_ > 1) return Outcome::reject("the sweeps of the step do not converge: take a shorter step");
     return Outcome::accept();
   }
 
-  // To round-off of what n is the difference of.
-  bool settled() const { return last_change_ <= 1e-12 * n_.col(last).lpNorm<Eigen::Infinity>(); }
+  // Whether to see at the step's end what one more sweep would change. Without rows what was seen serves some steps: one evaluation of
+  // seven saved. Multipliers are wanted as they are at the end.
+  bool measures() const { return rows_ > 0 || trusted_ == 0; }
 
-  bool sweep(System& s, const State& now) {
-    for (int i = 1; i < points; ++i) {
-      solution_at(now, weights_[i], x_, v_i_);
-      configuration_at(s, now, weights_[i], x_, q_i_);
-      if (i == last) end_n_ = n_.col(last);
-      if (!field_.evaluate(s, now.t + weights_[i].t, q_i_, v_i_, slope_)) return false;
-      take_slope(s, now, i, v_i_);
-    }
-    last_change_ = (n_.col(last) - end_n_).lpNorm<Eigen::Infinity>();
+  bool evaluate_end(System& s, State& next) {
+    if (!field_.evaluate(s, next.t, next.q, next.v, slope_)) return false;
+    end_nu_ = rest(), end_v_ = next.v, slope_end_ = slope_.q;
+    const double change = (nu_.col(last) - end_nu_).lpNorm<Eigen::Infinity>();
+    shrinks_ = settled() ? 0 : change / last_change_;
+    if (field_.projects()) field_.taken_at(next.q, next.v);
+    next.a = slope_.v, next.lambda = slope_.lambda;
     return true;
   }
 
-  // n, v, q' and r at point i from the slope there; x_ is the increment.
+  // By the last sweep's nu at the end, where the increment is Phi xi_.
+  void take_end(System& s, State& next) {
+    end_nu_ = nu_.col(last), end_v_ = next.v;
+    s.rate(next.q, next.v, slope_end_);
+    shrinks_ = contraction_ * trial_h_;
+    rest_ = end_nu_ - modes_.omega_2().cwiseProduct(xi_);
+    next.a.noalias() = modes_.shapes() * rest_;
+    next.lambda.resize(0);
+  }
+
+  // To round-off of what nu is the difference of.
+  bool settled() const { return last_change_ <= 1e-12 * nu_.col(last).lpNorm<Eigen::Infinity>(); }
+
+  bool sweep(System& s, const State& now) {
+    for (int i = 1; i < points; ++i) {
+      solution_at(s, now, weights_[i], q_i_, v_i_);
+      if (i == last) end_nu_ = nu_.col(last);
+      if (!field_.evaluate(s, now.t + weights_[i].t, q_i_, v_i_, slope_)) return false;
+      take_slope(s, now, i, v_i_);
+    }
+    last_change_ = (nu_.col(last) - end_nu_).lpNorm<Eigen::Infinity>();
+    return true;
+  }
+
+  // nu from the slope where the increment is Phi xi.
+  const Vec& rest() {
+    rest_.noalias() = modes_.amplitudes() * slope_.v;
+    rest_ += modes_.omega_2().cwiseProduct(xi_);
+    return rest_;
+  }
+
+  // nu, v, q' and r at point i from the slope there; xi_ is the increment.
   void take_slope(System& s, const State& now, int i, const Vec& v) {
-    n_.col(i) = slope_.v;
-    if (i > 0) modes_.add_acceleration(1, x_, amplitude_, n_.col(i));
-    psi_n_.col(i).noalias() = modes_.amplitudes() * n_.col(i);
+    nu_.col(i) = rest();
     v_.col(i) = v, q_dot_.col(i) = slope_.q;
     s.rate(now.q, v, rate_);
     r_.col(i) = slope_.q - rate_;
   }
 
-  // n and r at the step's points; false: constant, there is no last step or it was much shorter.
+  // nu and r at the step's points; false: constant, there is no last step or it was much shorter.
   bool guess(System& s, const State& now, double h) {
     constexpr double reach = 2.5;
-    slope_.v = now.a;
+    slope_.v = a_0_ = now.a;
     s.rate(now.q, now.v, slope_.q);
+    xi_.setZero(now.v.size());
     take_slope(s, now, 0, now.v);
+    eta_0_.noalias() = modes_.amplitudes() * now.v;
     const bool past = past_h_ > 0 && h <= reach * past_h_;
-    psi_v_.noalias() = modes_.amplitudes() * now.v;
+    if (past && ahead_by_ != h / past_h_) look_ahead(h / past_h_);
     for (int i = 1; i < points; ++i) {
       if (past) {
-        ahead_ = lagrange(1 + c[i] * h / past_h_);
-        n_.col(i).noalias() = past_n_ * ahead_;
-        n_.col(i) += now.a - past_n_.col(last);
-        v_i_.noalias() = past_v_ * ahead_;
+        rest_.noalias() = past_nu_ * ahead_.col(i);
+        nu_.col(i) = rest_ + nu_.col(0) - past_nu_.col(last);
+        v_i_.noalias() = past_v_ * ahead_.col(i);
         s.rate(now.q, v_i_, rate_);
-        r_.col(i).noalias() = past_q_dot_ * ahead_;
+        r_.col(i).noalias() = past_q_dot_ * ahead_.col(i);
         r_.col(i) -= rate_;
       } else {
-        n_.col(i) = now.a;
+        nu_.col(i) = nu_.col(0);
         r_.col(i).setZero();
       }
-      psi_n_.col(i).noalias() = modes_.amplitudes() * n_.col(i);
     }
     return past;
   }
-  void solution_at(const State& now, const Weights& w, Vec& x, Vec& v) {
-    v = now.v;
-    v.noalias() += n_ * w.v;
-    amplitude_ = w.v_0.cwiseProduct(psi_v_) + w.v_n.cwiseProduct(psi_n_).rowwise().sum();
-    v.noalias() += modes_.shapes() * amplitude_;
-    x = w.t * now.v;
-    x.noalias() += n_ * w.x;
-    amplitude_ = w.x_0.cwiseProduct(psi_v_) + w.x_n.cwiseProduct(psi_n_).rowwise().sum();
-    x.noalias() += modes_.shapes() * amplitude_;
+
+  // What the last step's polynomials are at the points of one `ratio` times as long.
+  void look_ahead(double ratio) {
+    for (int i = 1; i < points; ++i) ahead_.col(i) = lagrange(1 + c[i] * ratio);
+    ahead_by_ = ratio;
   }
 
-  void configuration_at(const System& s, const State& now, const Weights& w, const Vec& x, Vec& q) {
-    s.rate(now.q, x, rate_);
+  // eta or xi by their weights; one expression of all points, as each loop over a few modes costs more than its products.
+  void oscillate(const Vec& w_0, const Mat& w, Vec& sum) const {
+    static_assert(points == 7);
+    const auto part = [&](int j) { return w.col(j).cwiseProduct(nu_.col(j)); };
+    sum = w_0.cwiseProduct(eta_0_) + part(0) + part(1) + part(2) + part(3) + part(4) + part(5) + part(6);
+  }
+
+  // And the increment x_ = Phi xi_.
+  void solution_at(const System& s, const State& now, const Weights& w, Vec& q, Vec& v) {
+    oscillate(w.v_0, w.v, eta_);
+    oscillate(w.x_0, w.x, xi_);
+    v = now.v;
+    v.noalias() += modes_.shapes() * eta_;
+    x_.noalias() = modes_.shapes() * xi_;
+    s.rate(now.q, x_, rate_);
     q = now.q + rate_;
-    q.noalias() += r_ * w.v;
+    q.noalias() += r_ * w.integral;
     s.normalise(q);
   }
 
-  // The result less that of the polynomials through the other four points, O(h^5): the error of steps that hold many swings, and
+  // The result less that of the polynomials through the other six points, O(h^7): the error of steps that hold many swings, and
   // more than that of others.
   double without_middle_norm(System& s, const State& now, const State& next, const Tolerance& tolerance) {
-    Points difference;
-    for (int j = 0; j < points; ++j) {
-      difference[j] = j == middle ? 1 : -1;
-      for (int m = 0; m < points; ++m)
-        if (j != middle && m != j && m != middle) difference[j] *= (c[middle] - c[m]) / (c[j] - c[m]);
-    }
     const Weights& w = weights_[last];
-    beyond_.noalias() = n_ * difference;
-    modal_.noalias() = modes_.amplitudes() * beyond_;
-    e_v_ = w.v[middle] * beyond_;
-    amplitude_ = w.v_n.col(middle).cwiseProduct(modal_);
-    e_v_.noalias() += modes_.shapes() * amplitude_;
-    e_x_ = w.x[middle] * beyond_;
-    amplitude_ = w.x_n.col(middle).cwiseProduct(modal_);
-    e_x_.noalias() += modes_.shapes() * amplitude_;
+    rest_.noalias() = nu_ * beyond_others();
+    eta_ = w.v.col(middle).cwiseProduct(rest_);
+    e_v_.noalias() = modes_.shapes() * eta_;
+    eta_ = w.x.col(middle).cwiseProduct(rest_);
+    e_x_.noalias() = modes_.shapes() * eta_;
     s.rate(now.q, e_x_, e_);
-    beyond_.noalias() = r_ * difference;
-    e_ += w.v[middle] * beyond_;
+    beyond_.noalias() = r_ * beyond_others();
+    e_ += w.integral[middle] * beyond_;
     error_increment(s, next.q, e_, embedded_, e_q_);
     return error_norm(e_q_, e_v_, now, next, tolerance);
   }
@@ -242,14 +284,13 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   bool recall(System& s, const State& now, const State& next) {
     const double h = next.t - now.t;
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(now.t), std::abs(next.t));
-    if (trial_h_ > 0 && std::abs(h - trial_h_) <= rounding && now.a == n_.col(0)) return true;
+    if (trial_h_ > 0 && std::abs(h - trial_h_) <= rounding && now.a == a_0_) return true;
     return step(s, now, h, repeated_).accepted();
   }
 
   void resize(const System& s) {
     const auto [nq, nv, nc] = s.sizes();
-    n_.resize(nv, points), v_.resize(nv, points), q_dot_.resize(nq, points), r_.resize(nq, points);
-    psi_n_.resize(modes_.count(), points);
+    nu_.resize(nv, points), v_.resize(nv, points), q_dot_.resize(nq, points), r_.resize(nq, points);
   }
 
   static constexpr int most_coordinates = 1000;
@@ -257,22 +298,28 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   static constexpr double none = 0;
   RungeKutta field_{{1, &none, &none, &none}};  // of whose steps none is made
   SmallOscillations modes_;
-  int steps_ = 0;           // since the last linearisation
+  int rows_ = 0;            // when last linearised
+  int steps_ = 0;           // since then
   bool linearise_ = false;  // at the next step
+  int trusted_ = 0;         // steps for which the contraction seen last serves
+  double contraction_ = 0;  // [1/s] by a sweep, for each second of a step
   // At the points of the step accepted last, whose length is past_h_; 0: forgotten.
   double past_h_ = 0;
-  Mat past_n_, past_v_, past_q_dot_;
+  Mat past_nu_, past_v_, past_q_dot_;
   // Of the last trial.
   double trial_h_ = 0;
-  Mat n_, v_, q_dot_, r_, psi_n_;
-  Vec psi_v_, swept_x_, swept_v_;
-  Vec end_n_, end_v_, slope_end_;         // at the step's end, of its result
-  double last_change_ = 0, shrinks_ = 0;  // of n at the end: by the last sweep, and how much less after it
+  Mat nu_, v_, q_dot_, r_;
+  Vec a_0_, eta_0_, swept_x_, swept_v_;
+  Vec end_nu_, end_v_, slope_end_;  // at the step's end, of its result
+  bool guessed_ = false;
+  double last_change_ = 0, shrinks_ = 0;  // of nu at the end: by the last sweep, and how much less after it
   double weights_h_ = 0;
   Weights weights_[points], inside_;
+  double inside_at_ = -1, inside_h_ = 0;  // of inside_
   Slope slope_;
-  Points ahead_;
-  Vec beyond_, modal_, x_, v_i_, q_i_, rate_, amplitude_, e_, e_x_, e_v_, e_q_, embedded_;
+  Eigen::Matrix<double, points, points> ahead_;  // column i: weights of the past points
+  double ahead_by_ = 0;
+  Vec beyond_, rest_, xi_, eta_, x_, v_i_, q_i_, rate_, e_, e_x_, e_v_, e_q_, embedded_;
   State repeated_;
 };
 
@@ -287,5 +334,5 @@ TRAMMEL_PLUGIN(trammel::row_parameters(
         .parameter("sweeps", &ExponentialCollocation::sweeps,
                    {.min = 1,
                     .max = 20,
-                    .doc = "of a step over its four points beyond the start: order 8 with 3; 1 (order 6) for forces "
+                    .doc = "of a step over its six points beyond the start: order 10 with 3; 1 (order 8) for forces "
                            "that hardly depend on velocities"})))

@@ -1,5 +1,6 @@
 #include "small_oscillations.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace trammel {
@@ -71,7 +72,7 @@ bool SmallOscillations::put_on_rows(System& s, const State& state) {
 
 void SmallOscillations::linearise(System& s, const State& state) {
   const Eigen::Index n = state.v.size();
-  omega_.resize(0), omega_2_.resize(0), phi_.resize(n, 0), psi_.resize(0, n);
+  omega_.setZero(n), omega_2_.setZero(n), phi_.setIdentity(n, n), psi_.setIdentity(n, n);
   if (n == 0) return;
   differentiate(s, state);
   if (!put_on_rows(s, state) || !K_.allFinite()) return;
@@ -83,20 +84,12 @@ void SmallOscillations::linearise(System& s, const State& state) {
   solver_.compute(KP_);
   if (solver_.info() != Eigen::Success) return;
   const Vec& squares = solver_.eigenvalues();  // ascending
-  const double least = slow * slow * squares[n - 1];
-  const Eigen::Index count = (squares.array() > std::max(least, 0.0)).count();
-  omega_2_ = squares.tail(count);
+  const double least = slow * slow * std::max(squares[n - 1], 0.0);
+  omega_2_ = (squares.array() > least).select(squares, 0);
   omega_ = omega_2_.cwiseSqrt();
-  phi_ = solver_.eigenvectors().rightCols(count);
+  phi_ = solver_.eigenvectors();
   cholesky_.matrixU().solveInPlace(phi_);
   psi_.noalias() = phi_.transpose() * M_;
-}
-
-void SmallOscillations::add_acceleration(double c, const Vec& x, Vec& scratch, Eigen::Ref<Vec> sum) const {
-  if (count() == 0) return;
-  scratch.noalias() = psi_ * x;
-  scratch.array() *= c * omega_2_.array();
-  sum.noalias() += phi_ * scratch;
 }
 
 void SmallOscillations::archive(Archive& archive) {

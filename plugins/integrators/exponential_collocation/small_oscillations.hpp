@@ -3,8 +3,9 @@
 //     P^T K P phi = omega^2 M phi,  phi^T M phi = 1,    K = d(M a - f + W^T lambda)/dq with a and lambda held,
 //     P = 1 - M^-1 G^T (G M^-1 G^T)^-1 G
 //
-// An increment x has the amplitudes Psi x, Psi = Phi^T M. K is taken by differences and by its symmetric part: an integrator
-// that leaves to the rest of its force what these oscillations are not needs it no better. Dense: nv^3.
+// All of them, a basis: an increment x has the amplitudes Psi x, Psi = Phi^-1 = Phi^T M; what hardly swings has omega = 0. K is taken by
+// differences and by its symmetric part: an integrator that leaves to the rest of its force what these oscillations are not
+// needs it no better. Dense: nv^3.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -16,15 +17,13 @@ namespace trammel {
 
 class SmallOscillations {
  public:
-  // About `state`, with the a and lambda of its equations of motion. Of a system whose mass matrix is singular: none.
+  // About `state`, with the a and lambda of its equations of motion. Of a system whose mass matrix is singular: all omega = 0.
   void linearise(System& s, const State& state);
 
-  Eigen::Index count() const { return omega_.size(); }
-  const Vec& omega() const { return omega_; }  // (count) [1/s], all > 0
-  const Mat& shapes() const { return phi_; }   // Phi (nv x count)
-  const Mat& amplitudes() const { return psi_; }
-  // sum += c Phi omega^2 Psi x; `scratch`: any size.
-  void add_acceleration(double c, const Vec& x, Vec& scratch, Eigen::Ref<Vec> sum) const;
+  const Vec& omega() const { return omega_; }      // (nv) [1/s]
+  const Vec& omega_2() const { return omega_2_; }  // (nv) [1/s^2] omega^2
+  const Mat& shapes() const { return phi_; }       // Phi (nv x nv)
+  const Mat& amplitudes() const { return psi_; }   // Psi (nv x nv)
 
   void archive(Archive& archive);
 
