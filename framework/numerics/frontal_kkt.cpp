@@ -8,21 +8,31 @@
 namespace trammel::numerics {
 
 bool FrontalKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, bool identity, double rank_tolerance) {
-  if (!know(bodies, nc) || !layout_.holds(bodies)) {
-    layout_.build(bodies, nc);
-    place_store(bodies);
-  }
+  lay_out(bodies, nc);
   identity_ = identity;
+  return eliminate_fronts(bodies, [&](std::size_t front) {
+    eliminate_rows(front, rank_tolerance);
+    sum_masses(front, bodies);
+    return reduce_masses(front);
+  });
+}
+
+void FrontalKkt::lay_out(const std::vector<BodyBlock>& bodies, int nc) {
+  if (know(bodies, nc) && layout_.holds(bodies)) return;
+  layout_.build(bodies, nc);
+  place_store(bodies);
+}
+
+bool FrontalKkt::eliminate_fronts(const std::vector<BodyBlock>& bodies,
+                                  const std::function<bool(std::size_t)>& eliminate) {
   dependent_ = layout_.merged().idle();
   for (std::size_t k = 0; k < places_.size(); ++k) {
     if (!sum_rows(k, bodies)) {
       layout_.extend(bodies);
       place_store(bodies);
-      return factorise(bodies, nc, identity, rank_tolerance);
+      return eliminate_fronts(bodies, eliminate);
     }
-    eliminate_rows(k, rank_tolerance);
-    sum_masses(k, bodies);
-    if (!reduce_masses(k)) return false;
+    if (!eliminate(k)) return false;
   }
   return true;
 }

@@ -15,8 +15,16 @@
 // decided in each front, among rows of nearby units, where independent rows of a long chain differ clearly: singular values of the
 // whole, which fall with n^-2 or n^-3, decide nothing. Only what goes on from front to front is rounded.
 // y: of dependent rows the combinations found get 0; it is a solution, not the one of minimum norm.
+//
+// Where round-off has come between rows that depend on each other, on a long way around, rows are springs (frontal_springs.cpp):
+//
+//     (M + k G^T G) dx = r_b + k G^T r_c,   dy = k (G dx - r_c)        r: what is left of b and c
+//
+// repeated, which is the method of multipliers. Its steps lie in the range of the rows, contradictions are balanced in least squares,
+// and what rows tell by less than 1/sqrt(k) of M comes slowly or not at all. y is the one of minimum norm.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "numerics/body_block.hpp"
@@ -32,6 +40,10 @@ class FrontalKkt {
   // Refined with the residuals of the equations until x does not change any more. False: it does not come to that. Then rows that
   // depend on others were taken for independent ones: round-off has come between them on a long way around.
   [[nodiscard]] bool solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
+  // The same with rows as springs: eps = 1/k, or 0 if a mass is not positive definite; and the solution with it. `softness` is eps in
+  // the unit of the least mass's inverse.
+  [[nodiscard]] double factorise_springs(const std::vector<BodyBlock>& bodies, int nc, bool identity, double softness);
+  void solve_springs(const std::vector<BodyBlock>& bodies, double eps, const Vec& b, const Vec& c, Vec& x, Vec& y);
   int dependent() const { return dependent_; }  // rows
   // Was factorised before, in these rows' places.
   bool know(const std::vector<BodyBlock>& bodies, int nc) const { return layout_.know(bodies, nc); }
@@ -59,16 +71,27 @@ class FrontalKkt {
   Parts parts(std::size_t front);
   RowElimination rows_of(const Place& at, int n);
 
+  void lay_out(const std::vector<BodyBlock>& bodies, int nc);
+  // eliminate(front) after its rows are summed; false ends it.
+  bool eliminate_fronts(const std::vector<BodyBlock>& bodies, const std::function<bool(std::size_t)>& eliminate);
   void place_store(const std::vector<BodyBlock>& bodies);
   bool sum_rows(std::size_t front, const std::vector<BodyBlock>& bodies);
   void eliminate_rows(std::size_t front, double rank_tolerance);
   void sum_masses(std::size_t front, const std::vector<BodyBlock>& bodies);
   bool reduce_masses(std::size_t front);
+  double least_mass(const std::vector<BodyBlock>& bodies);
+  void keep_rows(std::size_t front);
+  void add_springs(std::size_t front, double k);
   void merge(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c);
   void expand(const std::vector<BodyBlock>& bodies, const Vec& b, Vec& x, Vec& y);
   void subtract_mass(const std::vector<BodyBlock>& bodies, const Vec& a, Vec& from);
   bool refine(const std::vector<BodyBlock>& bodies);
   void find_residuals(const std::vector<BodyBlock>& bodies);
+  void approach(const std::vector<BodyBlock>& bodies, double k);
+  void remove_null_part(double k, Vec& Y);
+  void subtract_masses_times(const std::vector<BodyBlock>& bodies, const Vec& X, Vec& from);
+  void subtract_rows_times(const Vec& X, Vec& from);
+  void subtract_rows_force(const Vec& Y, Vec& from);
   void solve_once(Vec& X, Vec& Y);
   void forward(std::size_t front);
   void backward(std::size_t front, Vec& X, Vec& Y);

@@ -84,8 +84,6 @@ void FrontalKkt::solve_once(Vec& X, Vec& Y) {
 
 bool FrontalKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
   merge(bodies, b, c);
-  b_ = B_, c_ = C_;
-  solve_once(X_, Y_);
   const bool holds = refine(bodies);
   y.setZero(c.size());
   expand(bodies, b, x, y);
@@ -97,6 +95,8 @@ bool FrontalKkt::refine(const std::vector<BodyBlock>& bodies) {
   constexpr double good = 1e-7, lost = 1e-6;  // corrections: leave their square; too large to count on
   const double apart = offset_.lpNorm<Eigen::Infinity>();
   double change = 0, size = 0;
+  b_ = B_, c_ = C_;
+  solve_once(X_, Y_);
   for (int i = 0; i < most; ++i) {
     find_residuals(bodies);
     solve_once(dX_, dY_);

@@ -12,9 +12,11 @@ namespace {
 constexpr double regularisation = 1e-12;
 // Of a long chain the complement serves as it is down to this sine of a row's angle to others: its square above round-off by 1e10.
 constexpr double safe_sine = 1e-3;
-// Of redundant rows. Where fronts contradict each other safe_sine^2: what rows tell by less is the coordinates' rounding made large, and
-// the accelerations of hoops of 3000 to 10,000 bays are 3 to 80 times as wrong with the smaller one.
-constexpr double of_redundant = 1e-10, of_contradicting_fronts = safe_sine * safe_sine;
+// Of redundant rows.
+constexpr double of_redundant = 1e-10;
+// Of rows as springs, where fronts contradict each other. Less leaves more rounding of the elimination, more leaves more directions
+// free, which follow the forces' rounding: of 1e-6 ... 1e-9 accelerations of a hoop of 10,000 bays are most exact so, to 2e-10.
+constexpr double of_springs = 1e-7;
 // Redundant rows part by no more than this where they are violated, the largest rank tolerance of kkt.hpp.
 constexpr double parting = 1e-2;
 
@@ -38,30 +40,22 @@ bool SparseMassKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, Metr
   rank_tolerance_ = rank_tolerance;
   if (metric != Metric::mass_of_before) identity_ = metric == Metric::identity;
   const bool known = nc >= long_chain && fronts_.know(bodies, nc);
-  by_fronts_ = known && !fronts_failed_;
+  by_fronts_ = known;
+  fronts_failed_ = fronts_failed_ && known;
   if (by_fronts_) return factorise_fronts(bodies);
   if (!factorise_masses(bodies, metric)) return false;
   if (nc == 0) return true;
   assemble(bodies, 0);
-  by_fronts_ = nc >= long_chain && !known && !complement_is_safe(std::max(safe_sine, 10 * rank_tolerance));
-  fronts_failed_ = fronts_failed_ && known;
+  by_fronts_ = nc >= long_chain && !complement_is_safe(std::max(safe_sine, 10 * rank_tolerance));
   if (by_fronts_) return factorise_fronts(bodies);
   redundant_ = !complement_is_safe(10 * rank_tolerance);
-  if (redundant_) regularise(bodies, fronts_failed_ ? of_contradicting_fronts : of_redundant);
+  if (redundant_) regularise(bodies);
   return true;
 }
 
-void SparseMassKkt::leave_fronts(const std::vector<BodyBlock>& bodies) {
-  by_fronts_ = false;
-  fronts_failed_ = redundant_ = true;
-  factorise_masses(bodies, identity_ ? Metric::identity : Metric::mass);
-  assemble(bodies, 0);
-  regularise(bodies, of_contradicting_fronts);
-}
-
 // Large beside the complement's round-off, so that corrections converge and the unreachable is told from the rest.
-void SparseMassKkt::regularise(const std::vector<BodyBlock>& bodies, double least) {
-  eps_ = std::max(least, rank_tolerance_ * rank_tolerance_) * diagonal_.maxCoeff();
+void SparseMassKkt::regularise(const std::vector<BodyBlock>& bodies) {
+  eps_ = std::max(of_redundant, rank_tolerance_ * rank_tolerance_) * diagonal_.maxCoeff();
   assemble(bodies, eps_);
 }
 
@@ -88,9 +82,16 @@ bool SparseMassKkt::complement_is_safe(double least_sine) const {
 }
 
 bool SparseMassKkt::factorise_fronts(const std::vector<BodyBlock>& bodies) {
+  if (fronts_failed_) return factorise_springs(bodies);
   const bool done = fronts_.factorise(bodies, nc_, identity_, rank_tolerance_);
   redundant_ = fronts_.dependent() > 0;
   return done;
+}
+
+bool SparseMassKkt::factorise_springs(const std::vector<BodyBlock>& bodies) {
+  redundant_ = true;
+  eps_ = fronts_.factorise_springs(bodies, nc_, identity_, std::max(of_springs, rank_tolerance_ * rank_tolerance_));
+  return eps_ > 0;
 }
 
 void SparseMassKkt::assemble(const std::vector<BodyBlock>& bodies, double eps) {
@@ -129,9 +130,17 @@ void SparseMassKkt::remove_null_part(Vec& r) {
   }
 }
 
+void SparseMassKkt::solve_by_fronts(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
+  if (!fronts_failed_) {
+    if (fronts_.solve(bodies, b, c, x, y)) return;
+    fronts_failed_ = true;
+    factorise_springs(bodies);  // the masses were positive definite before
+  }
+  fronts_.solve_springs(bodies, eps_, b, c, x, y);
+}
+
 void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
-  if (by_fronts_ && fronts_.solve(bodies, b, c, x, y)) return;
-  if (by_fronts_) leave_fronts(bodies);
+  if (by_fronts_) return solve_by_fronts(bodies, b, c, x, y);
   y.setZero(nc_);
   move(bodies, b, y, x);
   if (nc_ == 0) return;

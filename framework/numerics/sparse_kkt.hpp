@@ -16,8 +16,8 @@
 // by front (frontal_kkt.hpp), refined once or twice with the residuals of the equations. Then y is a solution of few entries on
 // redundant rows, not the one of minimum norm.
 // Where round-off comes between redundant rows on the way around a large ring (a hoop of 3000 bays), fronts contradict each other and
-// their solution does not come to satisfy the equations: that is measured, and the regularised complement takes their place. Of such a
-// hoop it leaves free what its rows tell by less than their round-off.
+// their solution does not come to satisfy the equations: that is measured, and springs take the rows' place in them. Of such a hoop
+// they leave free what its rows tell by less than their round-off.
 #pragma once
 
 #include <vector>
@@ -53,11 +53,12 @@ class SparseMassKkt {
   void move(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& y, Vec& x);  // x = M^-1 (b - G^T y)
   void remove_null_part(Vec& r);
   bool factorise_fronts(const std::vector<BodyBlock>& bodies);
-  void leave_fronts(const std::vector<BodyBlock>& bodies);
-  void regularise(const std::vector<BodyBlock>& bodies, double least);
+  bool factorise_springs(const std::vector<BodyBlock>& bodies);
+  void solve_by_fronts(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
+  void regularise(const std::vector<BodyBlock>& bodies);
 
   int nc_ = 0;
-  double eps_ = 0;  // while redundant
+  double eps_ = 0;  // while redundant: in the corner of the matrix, or that of springs
   double rank_tolerance_ = 0;
   bool redundant_ = false;
   bool by_fronts_ = false, fronts_failed_ = false, identity_ = false;

@@ -1,0 +1,134 @@
+// Rows as springs in the fronts of frontal_kkt.hpp. No row is told from others: a front eliminates all its unknowns by the masses,
+// K + k C^T C of them, C its own rows.
+#include <algorithm>
+#include <numeric>
+
+#include "numerics/frontal_kkt.hpp"
+#include "numerics/small_loops.hpp"
+
+namespace trammel::numerics {
+
+double FrontalKkt::factorise_springs(const std::vector<BodyBlock>& bodies, int nc, bool identity, double softness) {
+  lay_out(bodies, nc);
+  identity_ = identity;
+  const double k = least_mass(bodies) / softness;
+  const bool done = eliminate_fronts(bodies, [&](std::size_t front) {
+    keep_rows(front);
+    sum_masses(front, bodies);
+    add_springs(front, k);
+    return reduce_masses(front);
+  });
+  return done ? 1 / k : 0;
+}
+
+void FrontalKkt::solve_springs(const std::vector<BodyBlock>& bodies, double eps, const Vec& b, const Vec& c, Vec& x,
+                               Vec& y) {
+  merge(bodies, b, c);
+  approach(bodies, 1 / eps);
+  y.setZero(c.size());
+  expand(bodies, b, x, y);
+}
+
+double FrontalKkt::least_mass(const std::vector<BodyBlock>& bodies) {
+  Vec diagonal = Vec::Zero(layout_.merged().count());
+  for (const BodyBlock& body : bodies)
+    for (Eigen::Index j = 0; j < body.M.rows(); ++j)
+      diagonal(layout_.merged().of(body.v0 + int(j))) += identity_ ? 1 : body.M(j, j);
+  return diagonal.size() > 0 ? diagonal.minCoeff() : 1;
+}
+
+void FrontalKkt::keep_rows(std::size_t f) {
+  const FrontLayout::Front& front = layout_.fronts()[f];
+  places_[f].told = places_[f].passed = 0;
+  int* const columns = columns_.data() + front.first_unknown;
+  std::iota(columns, columns + front.unknowns, 0);
+}
+
+void FrontalKkt::add_springs(std::size_t f, double k) {
+  const FrontLayout::Front& front = layout_.fronts()[f];
+  const int n = front.unknowns;
+  const double* row = store_.data() + places_[f].C;
+  for (int i = 0; i < front.own_rows; ++i, row += n)
+    for (int j = 0; j < n; ++j)
+      if (row[j] != 0) add(n - j, k * row[j], row + j, &K_(j, j));
+}
+
+// With each solution x comes to satisfy the rows better and y to push as hard as that takes. It ends where what is left, if it goes on
+// shrinking as it did, is nothing: what would still change, ever more slowly, is rounding of the rows in directions they hardly tell.
+void FrontalKkt::approach(const std::vector<BodyBlock>& bodies, double k) {
+  constexpr int most = 40;
+  constexpr double settled = 1e-12, slow = 0.9, visible = 1e-6;
+  const double apart = offset_.lpNorm<Eigen::Infinity>();
+  X_.setZero(B_.size()), Y_.setZero(C_.size()), c_ = C_;
+  double before = 0;
+  for (int i = 0; i < most; ++i) {
+    b_ = B_;
+    subtract_masses_times(bodies, X_, b_);
+    subtract_rows_force(Y_ - k * c_, b_);
+    solve_once(dX_, dY_);
+    X_ += dX_;
+    c_ = C_;
+    subtract_rows_times(X_, c_);
+    Y_ -= k * c_;
+    const double change = dX_.lpNorm<Eigen::Infinity>(), size = std::max(apart, X_.lpNorm<Eigen::Infinity>());
+    const double shrinks = change / before;
+    if (i > 0 && (!(shrinks < slow) || change * shrinks / (1 - shrinks) <= settled * size)) break;
+    before = change;
+  }
+  // What rows contradict each other by pushes without effect.
+  if (k * c_.lpNorm<Eigen::Infinity>() > visible * Y_.lpNorm<Eigen::Infinity>()) remove_null_part(k, Y_);
+}
+
+// 1 - k G (M + k G^T G)^-1 G^T keeps the null part of Y and shrinks the rest; applied twice it leaves nothing else. Round-off asks
+// for more passes.
+void FrontalKkt::remove_null_part(double k, Vec& Y) {
+  for (int pass = 0; pass < 3; ++pass) {
+    left_rows_ = Y;
+    for (int twice = 0; twice < 2; ++twice) {
+      b_.setZero(B_.size());
+      subtract_rows_force(-k * left_rows_, b_);
+      solve_once(dX_, dY_);
+      subtract_rows_times(dX_, left_rows_);
+    }
+    Y -= left_rows_;
+  }
+}
+
+void FrontalKkt::subtract_masses_times(const std::vector<BodyBlock>& bodies, const Vec& X, Vec& from) {
+  const MergedUnknowns& merged = layout_.merged();
+  for (const BodyBlock& body : bodies) {
+    const int n = int(body.M.rows());
+    for (int j = 0; j < n; ++j) {
+      const double x = X(merged.of(body.v0 + j));
+      if (identity_)
+        from(merged.of(body.v0 + j)) -= x;
+      else
+        for (int i = 0; i < n; ++i) from(merged.of(body.v0 + i)) -= x * body.M.data()[j * n + i];
+    }
+  }
+}
+
+void FrontalKkt::subtract_rows_times(const Vec& X, Vec& from) {
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const FrontLayout::Front& front = layout_.fronts()[k];
+    const int n = front.unknowns, *const unknowns = layout_.unknowns(front);
+    const double* row = store_.data() + places_[k].C;
+    for (int j = 0; j < n; ++j) scratch_(j) = X(unknowns[j]);
+    for (int i = front.first_row; i < front.first_row + front.own_rows; ++i, row += n)
+      from(i) -= dot(n, row, scratch_.data());
+  }
+}
+
+void FrontalKkt::subtract_rows_force(const Vec& Y, Vec& from) {
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const FrontLayout::Front& front = layout_.fronts()[k];
+    const int n = front.unknowns, *const unknowns = layout_.unknowns(front);
+    const double* row = store_.data() + places_[k].C;
+    std::fill_n(scratch_.data(), n, 0.0);
+    for (int i = front.first_row; i < front.first_row + front.own_rows; ++i, row += n)
+      add(n, Y(i), row, scratch_.data());
+    for (int j = 0; j < n; ++j) from(unknowns[j]) -= scratch_(j);
+  }
+}
+
+}  // namespace trammel::numerics
