@@ -62,6 +62,46 @@ TEST(Fields, OfABentStripAreItsStressAllOver) {
   }
 }
 
+// The strip in two patches, the second turned, so that its elements are counted from the other end.
+const std::string two_patches = R"({"type": "tspline_plate",
+    "patches": {
+      "held": {"geometry": {"along_u": [0.5, 0, 0], "along_v": [0, 0.2, 0]}, "mesh": {"elements": "2x1"},
+               "edges": {"u0": "clamped"}},
+      "turned": {"geometry": {"origin": [1, 0.2, 0], "along_u": [-0.5, 0, 0], "along_v": [0, -0.2, 0]},
+                 "mesh": {"elements": "2x1"}, "edge_moment": {"u0": "=t"}}},
+    "joined": {"joint": {"from": "held.u1", "to": "turned.u1", "continuity": "C1"}},
+    "thickness": 0.01, "density": 1000, "youngs_modulus": 1e9, "poissons_ratio": 0, "quadrature": 4})";
+
+TEST(Fields, OfTwoPatchesAreTheirStressAllOver) {
+  const auto lines =
+      fields_of(scene::Scene::parse(strip, "test.json", {{"bodies.strip", two_patches}, {"record.fields", "[0.5, 1]"}}),
+                simulate::run_static);
+  ASSERT_THAT(times_of(lines), ElementsAre(0.5, 1));
+  for (const auto& line : lines) {
+    const auto& patches = line["bodies"]["strip"]["patches"];
+    ASSERT_EQ(patches.size(), 4u);
+    const double stress = 6 * double(line["t"]) / (0.01 * 0.01);
+    for (const auto& patch : patches)
+      for (const double value : patch["values"][0]) EXPECT_NEAR(value / stress, 1, 2e-4);
+    // Both sides meet at the joint: the last points of the second element, the first ones of the fourth.
+    const auto &here = patches[1]["points"], &there = patches[3]["points"];
+    for (std::size_t k = 0; k < 5; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(double(here[5 * k + 4][axis]), double(there[5 * (4 - k) + 4][axis]), 1e-8);
+  }
+}
+
+TEST(Fields, OfTwoPatchesShowTheElementsThatThereAreInEach) {
+  const auto lines = fields_of(in_motion({{"bodies.strip", two_patches},
+                                          {"record.fields", "[0.03, 0.04]"},
+                                          {"bodies.strip.patches.turned.mesh.closure", "\"none\""},
+                                          {"bodies.strip.refine", R"({"at": 0.035, "elements": [2]})"}}),
+                               simulate::run);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0]["bodies"]["strip"]["patches"].size(), 4u);
+  EXPECT_EQ(lines[1]["bodies"]["strip"]["patches"].size(), 7u);
+}
+
 TEST(Fields, AreWrittenWithTheFirstRowAtOrAfterEachTime) {
   const auto lines = fields_of(in_motion({{"record.fields", "[0.05, 0, 0.013, 0.015]"}}), simulate::run);
   EXPECT_THAT(times_of(lines), ElementsAre(0, 0.02, 0.05));  // 0.013 and 0.015 share one
