@@ -38,6 +38,15 @@ struct EventLocation::Cubic {
     minimum = value(x);
     return true;
   }
+  // A distance of bodies that pass each other bends upwards alone, so it goes as low as its tangents at the ends meet, where it may
+  // have a kink that the cubic rounds off. Whether that is below 0.
+  bool tangents_cross() {
+    if (!(S_low < 0 && S_high > 0)) return false;
+    const double x = (F_low - F_high + S_high * (high - low)) / (S_high - S_low);
+    if (!(x > 0 && x < high - low && F_low + S_low * x < 0)) return false;
+    at = low + x;
+    return true;
+  }
   double value(double x) const {
     const double h = high - low, d = (F_high - F_low) / h;
     return F_low + h * x * (S_low + x * (3 * d - 2 * S_low - S_high + x * (S_low + S_high - 2 * d)));
@@ -120,7 +129,9 @@ bool EventLocation::dips(const State& now, double h, const State& next, int w, S
     cubic.S_high = force_slope(next, -1e-3 * h, w);
   }
   for (int probes = 0; probes < 6; ++probes) {
-    if (!cubic.dips() || cubic.minimum > 0.25 * std::min(cubic.F_low, cubic.F_high)) return false;
+    if (!cubic.dips()) return false;
+    const bool near = cubic.minimum <= 0.25 * std::min(cubic.F_low, cubic.F_high);
+    if (!near && (force || !cubic.tangents_cross())) return false;
     const double at = cubic.at;
     const Value there = step_to(now, at, w);
     if (there.f < 0 && happened(w, there)) {
