@@ -1,16 +1,12 @@
 #include "numerics/elimination_tree.hpp"
 
 #include <algorithm>
-#include <numeric>
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
+#include "numerics/elimination_order.hpp"
 
 namespace trammel::numerics {
 
 namespace {
-
-using Graph = std::vector<std::vector<int>>;  // neighbours of each node, ascending
 
 Graph graph_of(const std::vector<std::vector<int>>& cliques, std::size_t nodes) {
   Graph graph(nodes);
@@ -23,52 +19,6 @@ Graph graph_of(const std::vector<std::vector<int>>& cliques, std::size_t nodes) 
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
   }
   return graph;
-}
-
-// Breadth first from `first`, neighbours of low degree first; appended to `order`.
-void walk(const Graph& graph, int first, std::vector<char>& seen, std::vector<int>& order) {
-  std::size_t next = order.size();
-  order.push_back(first);
-  seen[std::size_t(first)] = 1;
-  for (; next < order.size(); ++next) {
-    const std::size_t begin = order.size();
-    for (const int j : graph[std::size_t(order[next])])
-      if (!seen[std::size_t(j)]) seen[std::size_t(j)] = 1, order.push_back(j);
-    std::stable_sort(order.begin() + std::ptrdiff_t(begin), order.end(),
-                     [&](int a, int b) { return graph[std::size_t(a)].size() < graph[std::size_t(b)].size(); });
-  }
-}
-
-// From an end of each connected part: where two walks, each from the last node of the one before, have led.
-std::vector<int> along(const Graph& graph) {
-  std::vector<int> order;
-  std::vector<char> seen(graph.size(), 0), tried(graph.size(), 0);
-  for (int i = 0; i < int(graph.size()); ++i) {
-    if (seen[std::size_t(i)]) continue;
-    int end = i;
-    for (int twice = 0; twice < 2; ++twice) {
-      std::vector<int> part;
-      walk(graph, end, tried, part);
-      for (const int node : part) tried[std::size_t(node)] = 0;
-      end = part.back();
-    }
-    walk(graph, end, seen, order);
-  }
-  std::reverse(order.begin(), order.end());
-  return order;
-}
-
-std::vector<int> of_minimum_degree(const Graph& graph) {
-  std::vector<Eigen::Triplet<double, int>> entries;
-  for (int i = 0; i < int(graph.size()); ++i) {
-    entries.emplace_back(i, i, 1.0);
-    for (const int j : graph[std::size_t(i)]) entries.emplace_back(j, i, 1.0);
-  }
-  Eigen::SparseMatrix<double> pattern(Eigen::Index(graph.size()), Eigen::Index(graph.size()));
-  pattern.setFromTriplets(entries.begin(), entries.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-  Eigen::AMDOrdering<int>()(pattern, permutation);
-  return {permutation.indices().data(), permutation.indices().data() + graph.size()};
 }
 
 // What each node leaves as its boundary, by place in the order, ascending; the first of it is the parent.
@@ -115,8 +65,10 @@ void EliminationTree::build(const std::vector<std::vector<int>>& cliques, const 
   const std::size_t n = weight.size();
   const Graph graph = graph_of(cliques, n);
   Elimination e = eliminate(graph, weight, along(graph));
-  if (Elimination other = eliminate(graph, weight, of_minimum_degree(graph)); e.work > costs.along * other.work)
+  if (Elimination other = eliminate(graph, weight, of_minimum_degree(graph)); e.work > costs.along * other.work) {
     e = std::move(other);
+    if (other = eliminate(graph, weight, by_dissection(graph, weight)); other.work < e.work) e = std::move(other);
+  }
 
   const auto cost_of = [&costs](double eliminated, double boundary) {
     const double size = eliminated + boundary;
