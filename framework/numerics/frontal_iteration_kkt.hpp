@@ -3,14 +3,14 @@
 //     [S W^T] [x]   [b]
 //     [G  0 ] [y] = [c]        S sparse, nv x nv; G and W: nc x nv
 //
-// front by front (frontal_lu.hpp): a plate of thousands of coordinates. Where rows depend on each other, or exchanges within fronts
+// front by front (frontal_factors.hpp): a plate of thousands of coordinates. Where rows depend on each other, or exchanges within fronts
 // do not serve, by the slower sparse LU of sparse_kkt.hpp: y is then of minimum norm, and what is singular beyond the rows is told.
 // The pattern is analysed when it widens: once per mesh, and as contacts reach what they have not touched.
 #pragma once
 
 #include <trammel/types.hpp>
 
-#include "numerics/frontal_lu.hpp"
+#include "numerics/frontal_factors.hpp"
 #include "numerics/kkt.hpp"
 #include "numerics/sparse_kkt.hpp"
 #include "numerics/sparse_sum.hpp"
@@ -35,7 +35,7 @@ class FrontalIterationKkt {
   bool rows_are_independent(const Mat& G, double rank_tolerance) const;
 
   SparseSum full_;
-  FrontalLu fronts_;
+  FrontalFactors fronts_;
   SparseIterationKkt fallback_;
   bool by_fronts_ = false, finite_ = true;
   int nv_ = 0, analysed_ = 0;  // analysed_: patterns

@@ -1,6 +1,5 @@
 #include "numerics/frontal_lu.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,49 +11,45 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double small_pivot = 64 * eps;
+constexpr double small_pivot = 64 * std::numeric_limits<double>::epsilon();
 
 Eigen::Map<Mat> matrix(double* at, int rows, int columns) {
   return Eigen::Map<Mat>(at, rows, columns);
 }
 
-}  // namespace
-
-void FrontalLu::measure(const Sparse& A) {
-  largest_.setZero(A.cols());
-  for (Index j = 0; j < A.cols(); ++j)
-    for (auto k = A.outerIndexPtr()[j]; k < A.outerIndexPtr()[j + 1]; ++k)
-      largest_(j) = std::max(largest_(j), std::abs(A.valuePtr()[k]));
+std::size_t factors_of(const FrontalPattern::Front& front) {
+  return std::size_t(front.eliminated) * std::size_t(2 * front.size - front.eliminated);
 }
 
-void FrontalLu::assemble(const Front& front, const double* values, Eigen::Map<Mat>& F) {
+}  // namespace
+
+void FrontalLu::assemble(const FrontalPattern& pattern, const Front& front, const double* values, Eigen::Map<Mat>& F) {
   F.setZero();
-  for (std::size_t e = front.entries.begin; e < front.entries.end; ++e)
-    F.data()[entries_[e].to] = values[entries_[e].from];
-  for (std::size_t c = 0; c < front.maps.size(); ++c) {
-    const int* const map = maps_.data() + front.maps[c];
-    const int n = front.boundaries[c];
+  pattern.each_entry(front,
+                     [&](const FrontalPattern::Entry& entry) { F(entry.row, entry.column) = values[entry.from]; });
+  for (const FrontalPattern::Child& child : front.children) {
+    const int n = child.boundary, *const map = pattern.map(child);
     top_ -= std::size_t(n) * std::size_t(n);
     const double* from = stack_.data() + top_;
     for (int j = 0; j < n; ++j, from += n) {
-      double* const column = F.data() + std::size_t(map[j]) * std::size_t(front.size);
+      double* const column = F.data() + Index(map[j]) * front.size;
       for (int i = 0; i < n; ++i) column[map[i]] += from[i];
     }
   }
 }
 
-bool FrontalLu::eliminate(const Front& front, Eigen::Map<Mat>& F) {
+bool FrontalLu::eliminate(const FrontalPattern& pattern, const Front& front, const Vec& largest, Eigen::Map<Mat>& F) {
   const int n = front.size, k = front.eliminated, b = n - k;
   Eigen::Ref<Mat> corner = F.topLeftCorner(k, k);
   const Eigen::PartialPivLU<Eigen::Ref<Mat>> lu(corner);
-  const int* const unknowns = unknowns_.data() + front.unknowns;
+  const int* const unknowns = pattern.unknowns(front);
   for (int j = 0; j < k; ++j) {
     const double pivot = pivots_(unknowns[j]) = F(j, j);
-    if (!(std::abs(pivot) > small_pivot * largest_(unknowns[j]))) return false;
+    if (!(std::abs(pivot) > small_pivot * largest(unknowns[j]))) return false;
     exchanged_[front.unknowns + std::size_t(lu.permutationP().indices()(j))] = unknowns[j];
   }
-  double* const at = store_.data() + front.factors;
+  double* const at = store_.data() + stored_;
+  stored_ += factors_of(front);
   auto left = matrix(at, n, k), right = matrix(at + n * k, k, b);
   if (b > 0) {
     right.noalias() = lu.permutationP() * F.topRightCorner(k, b);
@@ -70,23 +65,31 @@ bool FrontalLu::eliminate(const Front& front, Eigen::Map<Mat>& F) {
   return true;
 }
 
-bool FrontalLu::factorise(const Sparse& A) {
-  measure(A);
-  top_ = 0;
-  for (const Front& front : fronts_) {
+bool FrontalLu::factorise(const FrontalPattern& pattern, const Sparse& A, const Vec& largest) {
+  std::size_t all = 0;
+  for (const Front& front : pattern.fronts()) all += factors_of(front);
+  store_.resize(Index(all));
+  work_.resize(Index(pattern.largest()) * pattern.largest());
+  stack_.resize(Index(pattern.most_waiting()));
+  exchanged_.resize(pattern.all_unknowns());
+  pivots_.resize(A.cols());
+  stored_ = top_ = 0;
+  for (const Front& front : pattern.fronts()) {
     auto F = matrix(work_.data(), front.size, front.size);
-    assemble(front, A.valuePtr(), F);
-    if (!eliminate(front, F)) return false;
+    assemble(pattern, front, A.valuePtr(), F);
+    if (!eliminate(pattern, front, largest, F)) return false;
   }
   return true;
 }
 
 // L U x = x
-void FrontalLu::substitute(Vec& x) {
-  for (const Front& front : fronts_) {
+void FrontalLu::substitute(const FrontalPattern& pattern, Vec& x) {
+  double* at = store_.data();
+  for (const Front& front : pattern.fronts()) {
     const int n = front.size, k = front.eliminated;
-    const int *const unknowns = unknowns_.data() + front.unknowns, *const rows = exchanged_.data() + front.unknowns;
-    const auto left = matrix(store_.data() + front.factors, n, k);
+    const int *const unknowns = pattern.unknowns(front), *const rows = exchanged_.data() + front.unknowns;
+    const auto left = matrix(at, n, k);
+    at += factors_of(front);
     y_.resize(n);
     for (int i = 0; i < k; ++i) y_(i) = x(rows[i]);
     left.topRows(k).triangularView<Eigen::UnitLower>().solveInPlace(y_.head(k));
@@ -94,34 +97,15 @@ void FrontalLu::substitute(Vec& x) {
     for (int i = 0; i < k; ++i) x(unknowns[i]) = y_(i);
     for (int i = k; i < n; ++i) x(unknowns[i]) -= y_(i);
   }
-  for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
+  for (auto front = pattern.fronts().rbegin(); front != pattern.fronts().rend(); ++front) {
     const int n = front->size, k = front->eliminated;
-    const int* const unknowns = unknowns_.data() + front->unknowns;
-    double* const at = store_.data() + front->factors;
+    const int* const unknowns = pattern.unknowns(*front);
+    at -= factors_of(*front);
     y_.resize(n);
     for (int i = 0; i < n; ++i) y_(i) = x(unknowns[i]);
     y_.head(k).noalias() -= matrix(at + n * k, k, n - k) * y_.tail(n - k);
     matrix(at, n, k).topRows(k).triangularView<Eigen::Upper>().solveInPlace(y_.head(k));
     for (int i = 0; i < k; ++i) x(unknowns[i]) = y_(i);
-  }
-}
-
-bool FrontalLu::solve(const Sparse& A, const Vec& b, Vec& x) {
-  constexpr int most_corrections = 10;
-  constexpr double round_off = 64 * eps, good = 1e-10;  // of the equations
-  x = b;
-  substitute(x);
-  double before = std::numeric_limits<double>::infinity();
-  for (int i = 0;; ++i) {
-    residual_ = b;
-    residual_.noalias() -= A * x;
-    const double size = largest_.cwiseProduct(x).lpNorm<Eigen::Infinity>() + b.lpNorm<Eigen::Infinity>();
-    const double left = residual_.lpNorm<Eigen::Infinity>();
-    if (left <= round_off * size) return true;
-    if (i == most_corrections || !(left < before / 2)) return left <= good * size;
-    before = left;
-    substitute(residual_);
-    x += residual_;
   }
 }
 

@@ -1,10 +1,8 @@
-// The pattern of frontal_lu.hpp, its nodes, the fronts and where each of their numbers goes.
+#include "numerics/frontal_pattern.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-
-#include "numerics/elimination_tree.hpp"
-#include "numerics/frontal_lu.hpp"
 
 namespace trammel::numerics {
 
@@ -13,6 +11,7 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr EliminationTree::Costs costs{.along = 1, .front = 10000, .entry = 20};  // measured on plates
+
 // Children right before their parent, depth first.
 std::vector<int> post_order(const EliminationTree& tree) {
   const std::vector<EliminationTree::Front>& fronts = tree.fronts();
@@ -34,10 +33,8 @@ std::vector<int> post_order(const EliminationTree& tree) {
   return order;
 }
 
-}  // namespace
-
 // The node of each unknown, which is one of its unknowns.
-std::vector<int> FrontalLu::find_nodes(const Sparse& A) {
+std::vector<int> find_nodes(const FrontalPattern::Sparse& A) {
   const auto n = std::size_t(A.cols());
   const auto neighbours = [&](int j) {
     return std::pair(A.innerIndexPtr() + A.outerIndexPtr()[j], A.innerIndexPtr() + A.outerIndexPtr()[j + 1]);
@@ -74,7 +71,9 @@ std::vector<int> FrontalLu::find_nodes(const Sparse& A) {
   return node;
 }
 
-void FrontalLu::analyse(const Sparse& A) {
+}  // namespace
+
+void FrontalPattern::analyse(const Sparse& A) {
   const std::vector<int> name = find_nodes(A);
   std::vector<int> number(name.size(), -1), node(name.size());
   std::vector<std::vector<int>> members;
@@ -103,67 +102,58 @@ void FrontalLu::analyse(const Sparse& A) {
   place_entries(A);
 }
 
-void FrontalLu::lay_out(const EliminationTree& tree, const std::vector<std::vector<int>>& members, Index n_all) {
+void FrontalPattern::lay_out(const EliminationTree& tree, const std::vector<std::vector<int>>& members, Index n) {
   fronts_.clear(), unknowns_.clear(), maps_.clear();
-  std::vector<int> place(std::size_t(n_all), -1), index(tree.fronts().size());
-  std::size_t stored = 0, largest = 0, waiting = 0, most_waiting = 0;
+  largest_ = 0, most_waiting_ = 0;
+  std::size_t waiting = 0;
+  const auto square = [](int m) { return std::size_t(m) * std::size_t(m); };
+  std::vector<int> place(std::size_t(n), -1), index(tree.fronts().size());
   for (const int f : post_order(tree)) {
     const EliminationTree::Front& of = tree.fronts()[std::size_t(f)];
-    Front front{.eliminated = 0,
-                .size = 0,
-                .unknowns = unknowns_.size(),
-                .factors = stored,
-                .entries = {0, 0},
-                .maps = {},
-                .boundaries = {}};
-    const auto add = [&](const std::vector<int>& nodes) {
+    Front front{.unknowns = unknowns_.size()};
+    // In the order of elimination, which all fronts share: what goes up from one then stays in order.
+    const auto add = [&](std::vector<int> nodes) {
+      std::sort(nodes.begin(), nodes.end(), [&](int a, int b) { return tree.place(a) < tree.place(b); });
       for (const int node : nodes)
         for (const int i : members[std::size_t(node)]) place[std::size_t(i)] = front.size++, unknowns_.push_back(i);
     };
     add(of.eliminated);
     front.eliminated = front.size;
     add(of.boundary);
-    // The last child's is on top of the stack.
     std::vector<int> children;
     for (const int child : of.children) children.push_back(index[std::size_t(child)]);
     std::sort(children.rbegin(), children.rend());
     for (const int c : children) {
       const Front& child = fronts_[std::size_t(c)];
-      front.maps.push_back(maps_.size());
-      front.boundaries.push_back(child.boundary());
+      front.children.push_back({maps_.size(), child.boundary()});
       for (int i = child.eliminated; i < child.size; ++i)
         maps_.push_back(place[std::size_t(unknowns_[child.unknowns + std::size_t(i)])]);
-      waiting -= std::size_t(child.boundary()) * std::size_t(child.boundary());
+      waiting -= square(child.boundary());
     }
-    const auto n = std::size_t(front.size), k = std::size_t(front.eliminated);
-    stored += k * (2 * n - k);
-    largest = std::max(largest, n * n);
-    waiting += (n - k) * (n - k);
-    most_waiting = std::max(most_waiting, waiting);
+    waiting += square(front.boundary());
+    most_waiting_ = std::max(most_waiting_, waiting);
+    largest_ = std::max(largest_, front.size);
     index[std::size_t(f)] = int(fronts_.size());
     fronts_.push_back(std::move(front));
   }
-  store_.resize(Eigen::Index(stored)), work_.resize(Eigen::Index(largest)), stack_.resize(Eigen::Index(most_waiting));
-  exchanged_.resize(unknowns_.size());
-  pivots_.resize(n_all);
 }
 
 // An entry belongs to the first front that eliminates its row or column.
-void FrontalLu::place_entries(const Sparse& A) {
+void FrontalPattern::place_entries(const Sparse& A) {
   entries_.clear();
   std::vector<int> place(std::size_t(A.rows()), -1);
   std::vector<char> done(std::size_t(A.rows()), 0);
   for (Front& front : fronts_) {
     const int* const unknowns = unknowns_.data() + front.unknowns;
     for (int i = 0; i < front.size; ++i) place[std::size_t(unknowns[i])] = i;
-    front.entries.begin = entries_.size();
+    front.entries = entries_.size();
     for (int j = 0; j < front.size; ++j)
       for (auto k = A.outerIndexPtr()[unknowns[j]]; k < A.outerIndexPtr()[unknowns[j] + 1]; ++k) {
         const auto i = std::size_t(A.innerIndexPtr()[k]);
         if (done[i] || place[i] < 0 || (place[i] >= front.eliminated && j >= front.eliminated)) continue;
-        entries_.push_back({int(k), j * front.size + place[i]});
+        entries_.push_back({int(k), place[i], j});
       }
-    front.entries.end = entries_.size();
+    front.entries_end = entries_.size();
     for (int i = 0; i < front.size; ++i) {
       place[std::size_t(unknowns[i])] = -1;
       if (i < front.eliminated) done[std::size_t(unknowns[i])] = 1;
