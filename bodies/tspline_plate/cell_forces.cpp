@@ -9,6 +9,11 @@ namespace trammel::plate {
 
 void gather(const Cell& cell, In of_q, CellVectors& u) {
   std::fill_n(u, 3 * cell.padded, 0.0);
+  if (cell.plain) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (int I = 0; I < cell.functions; ++I) u[axis * cell.padded + I] = of_q(cell.dofs[std::size_t(3 * I + axis)]);
+    return;
+  }
   for (const Cell::Local& t : cell.terms)
     u[t.component % 3 * cell.padded + t.component / 3] += t.factor * of_q(cell.dofs[std::size_t(t.dof)]);
 }
@@ -63,7 +68,7 @@ void cell_tangent(const Cell& cell, const CellVectors& u, const CellVectors* v, 
   const int n = cell.padded, size = 3 * cell.functions;
   const bool viscous = v && tau > 0;
   const int planes = viscous ? 9 : 6;
-  alignas(64) double K[most_planes][most_functions * most_functions];
+  alignas(64) double K[most_planes][most_functions * most_functions];  // K_ij(I, J) by J
   if (c.c_k != 0 || (viscous && c.c_d != 0)) {
     alignas(64) double G[most_planes][5 * most_points * most_functions];
     DeformedPoint at, from;
@@ -96,25 +101,28 @@ void cell_tangent(const Cell& cell, const CellVectors& u, const CellVectors* v, 
       }
       for (int plane = 0; plane < planes; ++plane) apply_hessian(n, H[plane], shape, &G[plane][5 * p * std::size_t(n)]);
     }
+    const int rows = 5 * int(cell.points.size());
+    const double* shape = cell.shape.data();
     for (int plane = 0; plane < planes; ++plane)
-      product(5 * int(cell.points.size()), n, cell.shape.data(), G[plane], K[plane]);
+      if (!viscous && plane < 3)
+        symmetric_product(rows, n, G[plane], shape, K[plane]);
+      else
+        product(rows, n, G[plane], shape, K[plane]);
+    for (int plane = planes; plane < most_planes; ++plane) transpose(n, K[mirrored[plane - 6]], K[plane]);
   } else {
     for (auto& plane : K) std::fill_n(plane, n * n, 0.0);
   }
 
   const double c_mass = c.c_m + c.c_d * mass_damping;
-  for (int J = 0; J < cell.functions; ++J)
+  for (int J = 0; J < cell.functions; ++J) {
+    const double* mass = &cell.mass[std::size_t(J * n)];
     for (int j = 0; j < 3; ++j) {
+      const double *x = K[plane_of[0][j]] + J * n, *y = K[plane_of[1][j]] + J * n, *z = K[plane_of[2][j]] + J * n;
       double* column = block + (3 * J + j) * size;
-      for (int i = 0; i < 3; ++i) {
-        const bool transposed = !viscous && i > j;
-        const double* plane = K[transposed ? plane_of[j][i] : plane_of[i][j]];
-        const int of_I = transposed ? 1 : n, of_J = transposed ? n : 1;
-        for (int I = 0; I < cell.functions; ++I) column[3 * I + i] = plane[I * of_I + J * of_J];
-      }
-      const double* mass = &cell.mass[std::size_t(J * n)];
+      for (int I = 0; I < cell.functions; ++I) column[3 * I] = x[I], column[3 * I + 1] = y[I], column[3 * I + 2] = z[I];
       for (int I = 0; I < cell.functions; ++I) column[3 * I + j] += c_mass * mass[I];
     }
+  }
 }
 
 }  // namespace trammel::plate

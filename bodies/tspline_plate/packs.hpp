@@ -45,39 +45,53 @@ inline void distribute(int n, const double* shape, const double* g, double* f) {
 
 // G_p(J) = sum_q H(p, q) shape_q(J) for the five rows of one point.
 inline void apply_hessian(int n, const double* H, const double* shape, double* G) {
-  for (int p = 0; p < 5; ++p)
-    for (int j = 0; j < n; j += 4) {
-      Pack sum{};
-      for (int q = 0; q < 5; ++q) sum += H[5 * p + q] * pack(shape + q * n + j);
-      pack(G + p * n + j) = sum;
+  for (int j = 0; j < n; j += 4) {
+    Pack s[5];
+    for (int q = 0; q < 5; ++q) s[q] = pack(shape + q * n + j);
+    for (int p = 0; p < 5; ++p) {
+      const double* h = H + 5 * p;
+      pack(G + p * n + j) = (h[0] * s[0] + h[1] * s[1]) + (h[2] * s[2] + h[3] * s[3]) + h[4] * s[4];
     }
+  }
 }
 
 namespace detail {
 
-// Four rows I and 4 * packs columns J of  K(I, J) = sum_r shape_r(I) G_r(J), kept in registers over all r.
+// Four rows I and 4 * packs columns J of  K(I, J) = sum_r A_r(I) B_r(J), kept in registers over all r.
 template <int packs>
-inline void product_block(int rows, int n, const double* shape, const double* G, double* K) {
+inline void product_block(int rows, int n, const double* A, const double* B, double* K) {
   Pack sum[4][packs] = {};
   for (int r = 0; r < rows; ++r) {
-    Pack g[packs];
-    for (int b = 0; b < packs; ++b) g[b] = pack(G + r * n + 4 * b);
+    Pack b_r[packs];
+    for (int b = 0; b < packs; ++b) b_r[b] = pack(B + r * n + 4 * b);
     for (int a = 0; a < 4; ++a)
-      for (int b = 0; b < packs; ++b) sum[a][b] += shape[r * n + a] * g[b];
+      for (int b = 0; b < packs; ++b) sum[a][b] += A[r * n + a] * b_r[b];
   }
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < packs; ++b) pack(K + a * n + 4 * b) = sum[a][b];
 }
 
+// Four rows from i on, columns from j on.
+inline void product_row(int rows, int n, int i, int j, const double* A, const double* B, double* K) {
+  for (; j + 8 <= n; j += 8) product_block<2>(rows, n, A + i, B + j, K + i * n + j);
+  if (j < n) product_block<1>(rows, n, A + i, B + j, K + i * n + j);
+}
+
 }  // namespace detail
 
-// K(I, J) = sum_r shape_r(I) G_r(J) over `rows` rows, all points of a cell at once.
-inline void product(int rows, int n, const double* shape, const double* G, double* K) {
-  for (int i = 0; i < n; i += 4) {
-    int j = 0;
-    for (; j + 8 <= n; j += 8) detail::product_block<2>(rows, n, shape + i, G + j, K + i * n + j);
-    if (j < n) detail::product_block<1>(rows, n, shape + i, G + j, K + i * n + j);
-  }
+// K(I, J) = sum_r A_r(I) B_r(J) over `rows` rows, all points of a cell at once; by I.
+inline void product(int rows, int n, const double* A, const double* B, double* K) {
+  for (int i = 0; i < n; i += 4) detail::product_row(rows, n, i, 0, A, B, K);
+}
+inline void transpose(int n, const double* K, double* transposed) {
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) transposed[i * n + j] = K[j * n + i];
+}
+// The same where K is symmetric.
+inline void symmetric_product(int rows, int n, const double* A, const double* B, double* K) {
+  for (int i = 0; i < n; i += 4) detail::product_row(rows, n, i, i, A, B, K);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < i; ++j) K[i * n + j] = K[j * n + i];
 }
 
 }  // namespace trammel::plate
