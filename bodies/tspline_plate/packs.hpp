@@ -71,8 +71,12 @@ inline void product_block(int rows, int n, const double* A, const double* B, dou
     for (int b = 0; b < packs; ++b) pack(K + a * n + 4 * b) = sum[a][b];
 }
 
-// Four rows from i on, columns from j on.
+// Four rows from i on, columns from j on; few packs alone would wait for each other.
 inline void product_row(int rows, int n, int i, int j, const double* A, const double* B, double* K) {
+  if ((n - j) % 8 == 4 && n - j > 4) {
+    product_block<3>(rows, n, A + i, B + j, K + i * n + j);
+    j += 12;
+  }
   for (; j + 8 <= n; j += 8) product_block<2>(rows, n, A + i, B + j, K + i * n + j);
   if (j < n) product_block<1>(rows, n, A + i, B + j, K + i * n + j);
 }
