@@ -23,12 +23,15 @@ Mat SurfacePoints::of_nodes(const SurfacePatch& p, const Vec& of_body) const {
   return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(local.data(), p.R.cols(), 3);
 }
 
+// Three columns: too few for a product that arranges its factors in blocks first.
 SurfacePoints::Points SurfacePoints::positions(const SurfacePatch& p, const Vec& q) const {
-  return p.X + p.R * of_nodes(p, q.segment(body_.q0, body_.nq));
+  const Mat u = of_nodes(p, q.segment(body_.q0, body_.nq));
+  return p.X + p.R.lazyProduct(u);
 }
 
 SurfacePoints::Points SurfacePoints::velocities(const SurfacePatch& p, const Vec& v) const {
-  return p.R * of_nodes(p, v.segment(body_.v0, body_.nv));
+  const Mat rate = of_nodes(p, v.segment(body_.v0, body_.nv));
+  return p.R.lazyProduct(rate);
 }
 
 void SurfacePoints::motion(const SurfacePatch& p, Eigen::Index point, const Vec& q, const Vec& v, Motion& m) const {
