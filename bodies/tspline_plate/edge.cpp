@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "pole.hpp"
+
 namespace trammel::plate {
 
 EdgeRows rows(const TsplineBasis& basis, const Edge& edge) {
@@ -131,16 +133,14 @@ void mirror(const PatchNet& net, const Edge& edge, const EdgeRows& r, Eliminatio
 
 void hold_edge(const PatchNet& net, const Edge& edge, const std::string& condition, Elimination& e) {
   if (condition == "free") return;
+  if (condition == "pole") return hold_pole(net, edge, e);
   const EdgeRows r = rows(net.basis, edge);
-  if (condition == "symmetric") {
-    mirror(net, edge, r, e);
-    return;
-  }
+  if (condition == "symmetric") return mirror(net, edge, r, e);
   const bool all = condition == "hinged" || condition == "clamped";
   const std::vector<int> axes = all ? std::vector<int>{0, 1, 2} : axes_in(condition);
   if (axes.empty())
     throw std::invalid_argument(
-        fmt::format("found \"{}\", expected free, hinged, clamped, symmetric or held axes such as "
+        fmt::format("found \"{}\", expected free, hinged, clamped, symmetric, pole or held axes such as "
                     "\"z\" or \"xz\"",
                     condition));
   for (int i : r.edge)

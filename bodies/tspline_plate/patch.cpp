@@ -11,7 +11,7 @@ namespace {
 
 using Vector3 = Eigen::Vector3d;
 
-constexpr double full_turn = 2 * 3.141592653589793 * (1 + 1e-12);
+constexpr double full_turn = 2 * 3.141592653589793 * (1 + 1e-12), to_pole = full_turn / 4;
 
 // Knots of the lines of direction d that run all across, each once.
 std::vector<double> full_lines(const TMesh& mesh, int d) {
@@ -60,9 +60,12 @@ void Patch::check() const {
       break;
     case Shape::sphere:
       need("geometry.radius", radius.has_value(), "sphere");
-      if (!(north > south && north - south <= largest_arc))
-        throw ParameterError("geometry.north",
-                             fmt::format("found {}, expected south < north <= south + {}", north, largest_arc));
+      if (!(south >= -to_pole && north <= to_pole && north > south && north - south <= largest_arc))
+        throw ParameterError(
+            "geometry.north",
+            fmt::format("found latitudes from {} to {}, expected -pi/2 <= south < north <= pi/2, at most {} "
+                        "apart: join two patches for more",
+                        south, north, largest_arc));
       break;
     case Shape::points:
       need("geometry.control_points", !control_points.empty(), "points");

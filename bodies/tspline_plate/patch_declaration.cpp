@@ -4,7 +4,7 @@
 namespace trammel::plate {
 
 Declaration patch_declaration() {
-  constexpr const char* edge_doc = "free, hinged, clamped, symmetric, or held axes such as \"xz\"";
+  constexpr const char* edge_doc = "free, hinged, clamped, symmetric, pole, or held axes such as \"xz\"";
   constexpr const char* corner_doc = "free, hinged, or held axes such as \"z\"";
   const ParameterTraits moment{.unit = "N m/m", .doc = "turns the edge towards the normal and follows it"};
   const ParameterTraits force{.unit = "N/m", .doc = "dead, by reference length"};
@@ -34,9 +34,9 @@ Declaration patch_declaration() {
           {.unit = "rad",
            .doc = "angle at the other edge; an arc over 2.6 is a spline through the circle at its elements' ends"})
       .parameter("geometry.south", &Patch::south,
-                 {.unit = "rad", .min = -1.57, .max = 1.57, .doc = "sphere: latitude of v0"})
+                 {.unit = "rad", .min = -1.5708, .max = 1.5708, .doc = "sphere: latitude of v0; -pi/2: the pole"})
       .parameter("geometry.north", &Patch::north,
-                 {.unit = "rad", .min = -1.57, .max = 1.5708, .doc = "sphere: latitude of v1, short of the pole"})
+                 {.unit = "rad", .min = -1.5708, .max = 1.5708, .doc = "sphere: latitude of v1; pi/2: the pole"})
       .parameter("geometry.control_points", &Patch::control_points,
                  {.unit = "m", .doc = "points: x, y, z of each, by rows from v0"})
       .parameter("geometry.weights", &Patch::weights, {.doc = "points: one a control point; none: all 1"})

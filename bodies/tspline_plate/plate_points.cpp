@@ -1,6 +1,7 @@
 // Single points of the plate: markers, nearest point for contact.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <ranges>
 #include <utility>
@@ -11,6 +12,7 @@
 #include <trammel/quadrature.hpp>
 
 #include "plate.hpp"
+#include "pole_point.hpp"
 
 namespace trammel::plate {
 
@@ -92,18 +94,58 @@ Candidate descend(const Discretisation& mesh, In q, const Vector3& x, const Eige
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const Candidate nowhere{infinity, {-infinity, -infinity}};
 
-// Where the way to the nearest point ends at a seam, on behind it as long as that leads nearer.
-Candidate across_seams(const Discretisation& mesh, const std::vector<Seam>& seams, In q, const Vector3& x,
-                       Candidate best) {
+// The parameters of a pole in each of the patches that meet there.
+std::vector<Eigen::Vector2d> same_pole(const Discretisation& mesh, const std::vector<Seam>& seams,
+                                       const Eigen::Vector2d& at, int turning) {
+  std::vector<Eigen::Vector2d> result = {at};
+  std::vector<int> patches = {mesh.basis.patch_at(at.x())};
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    const auto [low, high] = mesh.basis.range(patches[k]);
+    for (const double end : {low[std::size_t(turning)], high[std::size_t(turning)]})
+      for (const Seam& seam : seams) {
+        Eigen::Vector2d corner = result[k];
+        corner(turning) = end;
+        for (const Eigen::Vector2d& there : other_sides(mesh.basis, seam, corner)) {
+          const int patch = mesh.basis.patch_at(there.x());
+          if (turning_at_pole(mesh, there) != turning || std::ranges::find(patches, patch) != patches.end()) continue;
+          result.push_back(there), patches.push_back(patch);
+        }
+      }
+  }
+  return result;
+}
+
+// Behind the seams that a point lies on; from a pole in several directions.
+std::vector<Eigen::Vector2d> ways_on(const Discretisation& mesh, const std::vector<Seam>& seams,
+                                     const Eigen::Vector2d& at) {
+  constexpr int directions = 8;    // in each patch
+  constexpr double beside = 1e-3;  // the pole, of the patch
+  std::vector<Eigen::Vector2d> result;
+  for (const Seam& seam : seams) std::ranges::copy(other_sides(mesh.basis, seam, at), std::back_inserter(result));
+  const auto turning = turning_at_pole(mesh, at);
+  if (!turning) return result;
+  for (const Eigen::Vector2d& pole : same_pole(mesh, seams, at, *turning)) {
+    const Box<double> range = mesh.basis.range(mesh.basis.patch_at(pole.x()));
+    const Eigen::Vector2d low(range.low[0], range.low[1]), high(range.high[0], range.high[1]);
+    for (int k = 0; k < directions; ++k) {
+      Eigen::Vector2d start = pole + beside * ((low + high) / 2 - pole);
+      start(*turning) = low(*turning) + (k + 0.5) / directions * (high - low)(*turning);
+      result.push_back(start);
+    }
+  }
+  return result;
+}
+
+// Where the way to the nearest point ends at a seam or a pole, on from there as long as that leads nearer.
+Candidate onwards(const Discretisation& mesh, const std::vector<Seam>& seams, In q, const Vector3& x, Candidate best) {
   for (bool nearer = true; nearer;) {
     nearer = false;
-    for (const Seam& seam : seams)
-      for (const Eigen::Vector2d& behind : other_sides(mesh.basis, seam, best.at)) {
-        const Candidate other = descend(mesh, q, x, behind, nowhere);
-        if (!(other.distance < best.distance * (1 - 1e-9))) continue;
-        best = other, nearer = true;
-        break;
-      }
+    for (const Eigen::Vector2d& start : ways_on(mesh, seams, best.at)) {
+      const Candidate other = descend(mesh, q, x, start, nowhere);
+      if (!(other.distance < best.distance * (1 - 1e-9))) continue;
+      best = other, nearer = true;
+      break;
+    }
   }
   return best;
 }
@@ -135,7 +177,7 @@ Candidate nearest_among(const Discretisation& mesh, const std::vector<Seam>& sea
     const Candidate other = descend(mesh, q, x, starts[k].at, best);
     if (other.distance < best.distance * (1 - 1e-9)) best = other;
   }
-  return across_seams(mesh, seams, q, x, best);
+  return onwards(mesh, seams, q, x, best);
 }
 
 }  // namespace

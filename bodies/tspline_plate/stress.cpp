@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pole_point.hpp"
+
 namespace trammel::plate {
 
 namespace {
@@ -44,7 +46,9 @@ LargestStress largest_stress(const Discretisation& mesh, const Section& section,
     for (int j = 0; j < points_a_cell; ++j)
       for (int i = 0; i < points_a_cell; ++i) {
         const double a = double(i) / (points_a_cell - 1), b = double(j) / (points_a_cell - 1);
-        mesh.basis.evaluate(c, low[0] + a * (high[0] - low[0]), low[1] + b * (high[1] - low[1]), point.shape);
+        const Eigen::Vector2d at =
+            beside_pole(mesh, {low[0] + a * (high[0] - low[0]), low[1] + b * (high[1] - low[1])});
+        mesh.basis.evaluate(c, at.x(), at.y(), point.shape);
         const StressState s = stress(mesh, section, point, q);
         result.bottom = std::max(result.bottom, von_mises(s.bottom));
         result.middle = std::max(result.middle, von_mises(s.middle));

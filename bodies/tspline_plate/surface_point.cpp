@@ -1,12 +1,21 @@
 #include "surface_point.hpp"
 
+#include "pole_point.hpp"
+
 namespace trammel::plate {
 
+// At a pole one tangent vanishes; those a little beside it tell the plane that they both lie in.
 SurfacePoint surface_point(const Discretisation& mesh, double u, double v, double height) {
   SurfacePoint point;
   point.cell = mesh.basis.cell_at(u, v);
   point.height = height;
   mesh.basis.evaluate(point.cell, u, v, point.shape);
+  if (turning_at_pole(mesh, {u, v})) {
+    const Eigen::VectorXd R = point.shape.R;
+    const Eigen::Vector2d beside = beside_pole(mesh, {u, v});
+    mesh.basis.evaluate(point.cell, beside.x(), beside.y(), point.shape);
+    point.shape.R = R;
+  }
   return point;
 }
 

@@ -226,7 +226,7 @@ TEST(TsplinePlate, RefusesWhatItCannotBuild) {
             "mesh.cross: no element 4; there are 0 to 3, by rows");
   EXPECT_EQ(
       refusal([](TsplinePlate& p) { p.sole_patch.edge_v1 = "clamp"; }),
-      "edges.v1: found \"clamp\", expected free, hinged, clamped, symmetric or held axes such as \"z\" or \"xz\"");
+      "edges.v1: found \"clamp\", expected free, hinged, clamped, symmetric, pole or held axes such as \"z\" or \"xz\"");
   EXPECT_EQ(
       refusal([](TsplinePlate& p) { p.sole_patch.along_v = Eigen::Vector3d(2, 0, 0); }),
       "geometry: the surface is degenerate at (u, v) = (0.05635083268962915, 0.05635083268962915): its tangents are "
