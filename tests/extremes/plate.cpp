@@ -1,5 +1,5 @@
-// Plates at the edge: thin and thick, incompressible, slender and repeated lines, one element, eight levels at one point, refined in
-// every phase, struck at a corner or too fast, by any stiffness, and past the load under which they buckle.
+// Plates at the edge: thin and thick, incompressible, slender and repeated lines, one element, eight levels at one point, refined
+// in every phase, struck at a corner or too fast, by any stiffness, and past the load under which they buckle.
 #include <algorithm>
 #include <cmath>
 

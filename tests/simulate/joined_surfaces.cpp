@@ -169,6 +169,32 @@ TEST(OnAHinge, ABallKeepsTheEnergy) {
   EXPECT_NEAR(double(run.result["energy_drift"]), 0, 1e-3);  // of 1.5 J
 }
 
+// Four quarters of a dome meet at its top, a point that is an edge of each; the ball strikes beside it and bounces off.
+TEST(OnThePoleOfADome, ABallKeepsTheEnergy) {
+  std::string quarters, seams;
+  for (int k = 0; k < 4; ++k) {
+    quarters +=
+        fmt::format(R"({}"n{}": {{"geometry": {{"shape": "sphere", "radius": 0.5, "from": "={}*pi/2", "to": "={}*pi/2",
+      "south": 0.3, "north": "=pi/2"}}, "mesh": {{"elements": "3x4"}}, "edges": {{"v0": "hinged", "v1": "pole"}}}})",
+                    k ? "," : "", k, k, k + 1);
+    seams += fmt::format(R"({}"j{}": {{"from": "n{}.u1", "to": "n{}.u0"}})", k ? "," : "", k, k, (k + 1) % 4);
+  }
+  const Finished run = run_text(
+      scene(
+          R"("plate": {"type": "tspline_plate", "patches": {)" + quarters + R"(}, "joined": {)" + seams +
+              R"(}, "thickness": 0.01, "density": 1000, "youngs_modulus": 1e8, "poissons_ratio": 0.3}, )" +
+              ball(0, "[0, 0, -1]", "[0, 0, 0]"),
+          R"("ball": {"type": "penalty", "between": ["ball.com", {"surface": "plate"}], "radius": 0.1, "stiffness": 1e8})",
+          of_ball, 0.03),
+      {{"bodies.ball.position", "[0.0005, 0.0003, 0.6052]"},
+       {"bodies.ball.mass", "1"},
+       {"integrator.step", "1e-4"},
+       {"integrator.rho_inf", "1"}});
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_FALSE(run.of_kind("contact_open").empty());
+  EXPECT_NEAR(double(run.result["energy_drift"]), 0, 1e-4);  // of 0.5 J
+}
+
 // The ball comes down on the joint, and both sides are split there.
 std::string refined(const std::string& surface) {
   return scene(plate(surface + R"(, "quadrature": 6, "refine": {"on_contact": "ball", "near": 0.02, "levels": 2})") +
