@@ -61,16 +61,10 @@ struct Bar : Body, ExactTangent, ReactionDerivative, Constrained, Observed, Draw
   void motion(int marker, double, In q, In v, Motion& motion) const override {
     const double s = at_[std::size_t(marker)];
     const int n = dim(), twist = twist_size(space_);
+    if (motion.J.cols() != 2 * n || motion.J.rows() != twist || motion.J(0, 0) != 1 - s || motion.J(0, n) != s)
+      prepare_motion(s, motion);
     motion.x = (1 - s) * q.head(n) + s * q.tail(n);
-    motion.R = Mat3::Identity(n, n);
-    motion.angle = 0;
-    motion.V = Vec6::Zero(twist);
     motion.V.head(n) = (1 - s) * v.head(n) + s * v.tail(n);
-    motion.bias = Vec6::Zero(twist);
-    motion.dofs.resize(std::size_t(2 * n));
-    motion.J.setZero(twist, 2 * n);
-    for (int i = 0; i < 2 * n; ++i) motion.dofs[std::size_t(i)] = i;
-    for (int i = 0; i < n; ++i) motion.J(i, i) = 1 - s, motion.J(i, n + i) = s;
   }
 
   int row_count() const override { return 1; }
@@ -119,6 +113,18 @@ struct Bar : Body, ExactTangent, ReactionDerivative, Constrained, Observed, Draw
   }
 
  private:
+  // What does not change at a marker.
+  void prepare_motion(double s, Motion& motion) const {
+    const int n = dim(), twist = twist_size(space_);
+    motion.R = Mat3::Identity(n, n);
+    motion.angle = 0;
+    motion.V = motion.bias = Vec6::Zero(twist);
+    motion.dofs.resize(std::size_t(2 * n));
+    motion.J.setZero(twist, 2 * n);
+    for (int i = 0; i < 2 * n; ++i) motion.dofs[std::size_t(i)] = i;
+    for (int i = 0; i < n; ++i) motion.J(i, i) = 1 - s, motion.J(i, n + i) = s;
+  }
+
   int dim() const { return dimension(space_); }
 
   void set_masses() {

@@ -20,8 +20,8 @@
 //
 //     (M + k G^T G) dx = r_b + k G^T r_c,   dy = k (G dx - r_c)        r: what is left of b and c
 //
-// repeated, which is the method of multipliers. Its steps lie in the range of the rows, contradictions are balanced in least squares,
-// and what rows tell by less than 1/sqrt(k) of M comes slowly or not at all. y is the one of minimum norm.
+// repeated, which is the method of multipliers. Its steps lie in the range of the rows, contradictions are balanced in least
+// squares, and what rows tell by less than 1/sqrt(k) of M comes slowly or not at all. y is of minimum norm, but for b = 0.
 #pragma once
 
 #include <functional>
@@ -40,8 +40,8 @@ class FrontalKkt {
   // Refined with the residuals of the equations until x does not change any more. False: it does not come to that. Then rows that
   // depend on others were taken for independent ones: round-off has come between them on a long way around.
   [[nodiscard]] bool solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
-  // The same with rows as springs: eps = 1/k, or 0 if a mass is not positive definite; and the solution with it. `softness` is eps in
-  // the unit of the least mass's inverse.
+  // The same with rows as springs: eps = 1/k, or 0 if a mass is not positive definite; and the solution with it. `softness` is
+  // eps in the unit of the least mass's inverse.
   [[nodiscard]] double factorise_springs(const std::vector<BodyBlock>& bodies, int nc, bool identity, double softness);
   void solve_springs(const std::vector<BodyBlock>& bodies, double eps, const Vec& b, const Vec& c, Vec& x, Vec& y);
   int dependent() const { return dependent_; }  // rows
@@ -88,6 +88,7 @@ class FrontalKkt {
   bool refine(const std::vector<BodyBlock>& bodies);
   void find_residuals(const std::vector<BodyBlock>& bodies);
   void approach(const std::vector<BodyBlock>& bodies, double k);
+  void push_by_rows(double k);
   void remove_null_part(double k, Vec& Y);
   void subtract_masses_times(const std::vector<BodyBlock>& bodies, const Vec& X, Vec& from);
   void subtract_rows_times(const Vec& X, Vec& from);

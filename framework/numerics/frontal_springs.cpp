@@ -53,30 +53,47 @@ void FrontalKkt::add_springs(std::size_t f, double k) {
       if (row[j] != 0) add(n - j, k * row[j], row + j, &K_(j, j));
 }
 
-// With each solution x comes to satisfy the rows better and y to push as hard as that takes. It ends where what is left, if it goes on
-// shrinking as it did, is nothing: what would still change, ever more slowly, is rounding of the rows in directions they hardly tell.
+// With each solution x comes to satisfy the rows better and y to push as hard as that takes. It ends where what is left, if it
+// shrinks on as the rows' violation does, is nothing: what would still change, ever more slowly, is rounding of the rows in
+// directions they hardly tell.
 void FrontalKkt::approach(const std::vector<BodyBlock>& bodies, double k) {
   constexpr int most = 40;
-  constexpr double settled = 1e-12, slow = 0.9, visible = 1e-6;
+  constexpr double settled = 1e-10, slow = 0.9, visible = 1e-6;
   const double apart = offset_.lpNorm<Eigen::Infinity>();
-  X_.setZero(B_.size()), Y_.setZero(C_.size()), c_ = C_;
-  double before = 0;
+  X_.setZero(B_.size()), Y_ = k * C_, c_.resize(C_.size());  // Y: 0 after the first push
+  double violated = 0, change = 0;
   for (int i = 0; i < most; ++i) {
     b_ = B_;
+    push_by_rows(k);
+    const double shrinks = c_.lpNorm<Eigen::Infinity>() / violated;
+    const double size = std::max(apart, X_.lpNorm<Eigen::Infinity>());
+    if (i > 1 && (!(shrinks < slow) || change * shrinks / (1 - shrinks) <= settled * size)) break;
+    violated = c_.lpNorm<Eigen::Infinity>();
     subtract_masses_times(bodies, X_, b_);
-    subtract_rows_force(Y_ - k * c_, b_);
     solve_once(dX_, dY_);
     X_ += dX_;
-    c_ = C_;
-    subtract_rows_times(X_, c_);
-    Y_ -= k * c_;
-    const double change = dX_.lpNorm<Eigen::Infinity>(), size = std::max(apart, X_.lpNorm<Eigen::Infinity>());
-    const double shrinks = change / before;
-    if (i > 0 && (!(shrinks < slow) || change * shrinks / (1 - shrinks) <= settled * size)) break;
-    before = change;
+    change = dX_.lpNorm<Eigen::Infinity>();
   }
-  // What rows contradict each other by pushes without effect.
-  if (k * c_.lpNorm<Eigen::Infinity>() > visible * Y_.lpNorm<Eigen::Infinity>()) remove_null_part(k, Y_);
+  // What rows contradict each other by pushes without effect. Nobody asks for y where rows alone are corrected.
+  if (!B_.isZero(0) && k * c_.lpNorm<Eigen::Infinity>() > visible * Y_.lpNorm<Eigen::Infinity>())
+    remove_null_part(k, Y_);
+}
+
+// c_ = C - G X,  Y -= k c_,  b_ -= G^T (Y - k c_)
+void FrontalKkt::push_by_rows(double k) {
+  for (std::size_t f = 0; f < places_.size(); ++f) {
+    const FrontLayout::Front& front = layout_.fronts()[f];
+    const int n = front.unknowns, *const unknowns = layout_.unknowns(front);
+    double *const x = scratch_.data(), *const sum = x + n;
+    for (int j = 0; j < n; ++j) x[j] = X_(unknowns[j]), sum[j] = 0;
+    const double* row = store_.data() + places_[f].C;
+    for (int i = front.first_row; i < front.first_row + front.own_rows; ++i, row += n) {
+      c_(i) = C_(i) - dot(n, row, x);
+      Y_(i) -= k * c_(i);
+      add(n, Y_(i) - k * c_(i), row, sum);
+    }
+    for (int j = 0; j < n; ++j) b_(unknowns[j]) -= sum[j];
+  }
 }
 
 // 1 - k G (M + k G^T G)^-1 G^T keeps the null part of Y and shrinks the rest; applied twice it leaves nothing else. Round-off asks
