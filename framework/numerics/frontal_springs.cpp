@@ -69,7 +69,7 @@ void FrontalKkt::approach(const std::vector<BodyBlock>& bodies, double k) {
     const double size = std::max(apart, X_.lpNorm<Eigen::Infinity>());
     if (i > 1 && (!(shrinks < slow) || change * shrinks / (1 - shrinks) <= settled * size)) break;
     violated = c_.lpNorm<Eigen::Infinity>();
-    subtract_masses_times(bodies, X_, b_);
+    if (i > 0) subtract_masses_times(bodies, X_, b_);
     solve_once(dX_, dY_);
     X_ += dX_;
     change = dX_.lpNorm<Eigen::Infinity>();

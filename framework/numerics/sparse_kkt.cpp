@@ -15,7 +15,7 @@ constexpr double safe_sine = 1e-3;
 // Of redundant rows.
 constexpr double of_redundant = 1e-10;
 // Of rows as springs, where fronts contradict each other. Less leaves more rounding of the elimination, more leaves more directions
-// free, which follow the forces' rounding: of 1e-6 ... 1e-9 accelerations of a hoop of 10,000 bays are most exact so, to 2e-10.
+// free, which follow the forces' rounding: of 1e-6 ... 1e-9 accelerations of a hoop of 10,000 bays are most exact so, to 5e-10.
 constexpr double of_springs = 1e-7;
 // Redundant rows part by no more than this where they are violated, the largest rank tolerance of kkt.hpp.
 constexpr double parting = 1e-2;
