@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Estimated{{"adams_baumgarte", {{"epsilon", 10.0}}}, 0.01},
                     Estimated{{"adams_baumgarte", {{"predictor", std::string("ab3")}, {"epsilon", 10.0}}}, 0.01},
                     Estimated{{"runge_kutta_4", {}}, 0.04}, Estimated{{"dormand_prince", {}}, 0.04},
-                    Estimated{{"dop853", {}}, 0.16}, Estimated{{"exponential_collocation", {}}, 0.04}),
+                    Estimated{{"dop853", {}}, 0.16}, Estimated{{"exponential_collocation", {}}, 0.08}),
     [](const testing::TestParamInfo<Estimated>& tested) {
       return tested.param.form.name + "_" + std::to_string(tested.index);
     });

@@ -11,6 +11,16 @@ State reference(Posed& s, const State& start, double until) {
   return integrate(*method, s, start, until, 400);
 }
 
+// At each tenth of `until`; n is a multiple of 10.
+std::vector<State> tenths(Integrator& method, Posed& s, const State& start, double until, int n) {
+  std::vector<State> states;
+  int steps = 0;
+  integrate(method, s, start, until, n, [&](const State& x) {
+    if (++steps % (n / 10) == 0) states.push_back(x);
+  });
+  return states;
+}
+
 struct Orders {
   Order q, v, lambda;
 };
@@ -108,13 +118,18 @@ TEST_P(ExplicitOrder, OnTheDampedOscillator) {
 
 TEST_P(ExplicitOrder, OnThePendulumInRedundantCoordinates) {
   Posed s(problems::pendulum_with_rod());
-  const State start = s.start(), end = reference(s, start, 2);
+  const State start = s.start();
+  auto fine = make("dop853", {{"delta", 0.0}, {"epsilon", 0.0}});
+  const std::vector<State> exact = tenths(*fine, s, start, 2, 400);
   // Of order 8 three runs fit between 1e-7 and round-off, where slopes still vary by half an order: that is not 7, nor 9.
   const bool eighth = GetParam().order == 8;
   const Order f = fit_order(GetParam().n_pendulum, eighth ? 3 : 4, [&](int n) {
     auto method = make(GetParam().form.name, GetParam().form.settings);
-    const State x = integrate(*method, s, start, 2, n);
-    return (x.q - end.q).norm() + (x.v - end.v).norm() + (x.lambda - end.lambda).norm();
+    const std::vector<State> x = tenths(*method, s, start, 2, n);
+    double sum = 0;  // at a single time leading terms may nearly cancel
+    for (std::size_t i = 0; i < x.size(); ++i)
+      sum += (x[i].q - exact[i].q).norm() + (x[i].v - exact[i].v).norm() + (x[i].lambda - exact[i].lambda).norm();
+    return sum;
   });
   EXPECT_NEAR(f.value, GetParam().order, eighth ? 0.6 : 0.2) << f.table;
 }
@@ -141,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Explicit{{"dop853", {{"rows", std::string("projected")}}}, 8, 6, 20, 8},
                     Explicit{{"runge_kutta_4", {{"rows", std::string("null_space")}}}, 4, 20, 40, 40},
                     Explicit{{"adams_baumgarte", {{"rows", std::string("null_space")}}}, 4, 160, 320, 160},
-                    Explicit{{"dormand_prince", {{"rows", std::string("null_space")}}}, 5, 96, 160, 20},
+                    Explicit{{"dormand_prince", {{"rows", std::string("null_space")}}}, 5, 96, 80, 20},
                     Explicit{{"dop853", {{"rows", std::string("null_space")}}}, 8, 6, 20, 8}),
     [](const testing::TestParamInfo<Explicit>& tested) {
       return tested.param.form.name + "_" + std::to_string(tested.index);
