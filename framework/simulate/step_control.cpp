@@ -22,8 +22,10 @@ double StepControl::smallest(double t) const {
 
 StepControl::Proposal StepControl::propose(double t, double stop, double most) {
   const double h = controlled() ? std::min({wish_, choice_.most, most}) : *choice_.fixed;
-  if (controlled() && !even_) {
-    const double left = stop - t;
+  const double left = stop - t;
+  constexpr int last_steps = 8;
+  if (controlled() && !(even_ && left < last_steps * h)) {
+    planned_ = 0;
     if (h >= left * (1 - 1e-10)) return {left, stop};
     if (2 * h > left) return {left / 2, t + left / 2};
     return {h, t + h};
@@ -45,7 +47,7 @@ void StepControl::plan(double t, double stop, double h) {
 }
 
 void StepControl::accepted(const Proposal& taken, double error) {
-  ++done_;
+  if (planned_ > 0) ++done_;
   if (done_ == planned_ || halvings_ > 0) planned_ = 0;
   halvings_ = 0;
   if (!controlled()) return;

@@ -43,7 +43,7 @@ TEST_P(ErrorEstimated, IsTheTrueLocalErrorWithinAFactorOfTen) {
   auto fine = make("dop853");
   const State exact = integrate(*fine, s, now, now.t + h, 50);
   const double error = std::sqrt(((next.q - exact.q).squaredNorm() + (next.v - exact.v).squaredNorm()) / 4);
-  EXPECT_GE(estimated, error / 10);
+  EXPECT_GE(estimated, error / 10 - 1e-15);  // some roundings of numbers near 1
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -54,7 +54,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Estimated{{"adams_baumgarte", {{"epsilon", 10.0}}}, 0.01},
                     Estimated{{"adams_baumgarte", {{"predictor", std::string("ab3")}, {"epsilon", 10.0}}}, 0.01},
                     Estimated{{"runge_kutta_4", {}}, 0.04}, Estimated{{"dormand_prince", {}}, 0.04},
-                    Estimated{{"dop853", {}}, 0.16}, Estimated{{"exponential_collocation", {}}, 0.08}),
+                    Estimated{{"dop853", {}}, 0.16},
+                    Estimated{{"exponential_collocation", {{"delta", 1.0}, {"epsilon", 1.0}}}, 0.08}),
     [](const testing::TestParamInfo<Estimated>& tested) {
       return tested.param.form.name + "_" + std::to_string(tested.index);
     });

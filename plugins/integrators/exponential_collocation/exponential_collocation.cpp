@@ -18,6 +18,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <trammel/error_norm.hpp>
 #include <trammel/oscillating_steps.hpp>
@@ -27,6 +28,7 @@
 
 #include "collocation_weights.hpp"
 #include "small_oscillations.hpp"
+#include "sweep_convergence.hpp"
 
 namespace {
 
@@ -49,7 +51,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
 
   void restart(System& s, const State& now) override {
     past_h_ = trial_h_ = 0;
-    trusted_ = 0;
+    convergence_.distrust();
     const auto [nq, nv, nc] = s.sizes();
     if (nv != modes_.omega().size() || nc != rows_) linearise(s, now);
   }
@@ -67,19 +69,19 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     past_h_ = trial_h_;
     past_nu_ = nu_, past_v_ = v_, past_q_dot_ = q_dot_;
     past_nu_.col(last) = end_nu_, past_v_.col(last) = end_v_, past_q_dot_.col(last) = slope_end_;
-    ++steps_;
-    constexpr int serves = 10;
-    if (!measures())
-      --trusted_;
-    else if (guessed_)
-      trusted_ = serves - 1, contraction_ = shrinks_ / trial_h_;
+    convergence_.accept();
+    // Perhaps as modes have turned; a linearisation costs about ten steps. At the next step: others may still look into this one.
+    constexpr int pays_after = 10;
+    linearise_ = ++steps_ >= pays_after && convergence_.slow(sweeps);
   }
 
   double error(System& s, const State& now, const State& next, const Tolerance& tolerance) override {
     if (!recall(s, now, next)) return std::numeric_limits<double>::infinity();
-    if (shrinks_ > diverges) return std::numeric_limits<double>::infinity();
-    const double sweep = shrinks_ * error_norm(swept_x_, swept_v_, now, next, tolerance);
-    return std::max(without_middle_norm(s, now, next, tolerance), sweep);
+    // Near its limit, as if of the order of the others, so that the step is shortened by what it must.
+    const double growth = convergence_.growth(sweeps);
+    const double growing = growth > 0.25 ? std::pow(growth, double(points) / sweeps) : 0;
+    const double sweep = convergence_.contraction() * last_sweep_norm(s, now, next, tolerance);
+    return std::max({without_middle_norm(s, now, next, tolerance), sweep, growing});
   }
   int error_order() const override { return points; }
 
@@ -101,8 +103,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     archive("rows", rows_);
     archive("steps", steps_);
     archive("linearise", linearise_);
-    archive("trusted", trusted_);
-    archive("contraction", contraction_);
+    convergence_.archive(archive);
     archive("past_h", past_h_);
     const auto points_of = [&](const char* name, Mat& m) {
       for (int j = 0; j < points && past_h_ > 0; ++j) {
@@ -125,7 +126,8 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     modes_.linearise(s, now);
     rows_ = nc;
     linearise_ = false;
-    steps_ = trusted_ = 0;
+    steps_ = 0;
+    convergence_.distrust();
     past_h_ = trial_h_ = weights_h_ = inside_h_ = 0;
   }
 
@@ -135,65 +137,64 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
       for (int i = 1; i < points; ++i) weigh(modes_.omega(), c[i], h, weights_[i]);
     weights_h_ = h;
     trial_h_ = h;
-    guessed_ = guess(s, now, h);
-    last_change_ = std::numeric_limits<double>::infinity();
+    const bool guessed = guess(s, now, h);
+    const auto [rounding, unseen] = round_off(now, h);
+    convergence_.begin(h, guessed ? h / past_h_ : 0, rounding, unseen);
     // From constants each sweep wins one order, until nothing changes.
-    const int most = guessed_ ? sweeps : std::max(sweeps, 2 * last - 1);
-    for (int i = 0; i < most && !settled(); ++i)
+    const int most = guessed ? std::max(sweeps, convergence_.known() ? 1 : 2) : std::max(sweeps, 2 * last - 1);
+    for (int i = 0; i < most && !convergence_.settled(); ++i)
       if (!sweep(s, now)) return Outcome::reject(RungeKutta::diverged);
+    if (convergence_.diverges(sweeps))
+      return Outcome::reject("the sweeps of the step do not converge: take a shorter step, or more sweeps");
 
-    swept_v_ = v_.col(last), swept_x_ = x_;
     solution_at(s, now, weights_[last], next.q, next.v);
     next.t = now.t + h;
-    swept_v_ -= next.v, swept_x_ -= x_;
-    if (measures()) {
-      if (!evaluate_end(s, next)) return Outcome::reject(RungeKutta::diverged);
-    } else {
+    if (rows_ == 0)
       take_end(s, next);
-    }
-    // Perhaps as modes have turned; a linearisation costs about ten steps.
-    constexpr double slow = 0.1;
-    constexpr int pays_after = 10;
-    linearise_ = (steps_ >= pays_after && shrinks_ > slow) || (steps_ > 0 && shrinks_ > diverges);
-    if (shrinks_ > 1) return Outcome::reject("the sweeps of the step do not converge: take a shorter step");
+    else if (!evaluate_end(s, next))
+      return Outcome::reject(RungeKutta::diverged);
     return Outcome::accept();
   }
 
-  // Whether to see at the step's end what one more sweep would change. Without rows what was seen serves some steps: one evaluation of
-  // seven saved. Multipliers are wanted as they are at the end.
-  bool measures() const { return rows_ > 0 || trusted_ == 0; }
-
+  // Multipliers are wanted as they are at the end.
   bool evaluate_end(System& s, State& next) {
     if (!field_.evaluate(s, next.t, next.q, next.v, slope_)) return false;
     end_nu_ = rest(), end_v_ = next.v, slope_end_ = slope_.q;
-    const double change = (nu_.col(last) - end_nu_).lpNorm<Eigen::Infinity>();
-    shrinks_ = settled() ? 0 : change / last_change_;
     if (field_.projects()) field_.taken_at(next.q, next.v);
     next.a = slope_.v, next.lambda = slope_.lambda;
     return true;
   }
 
-  // By the last sweep's nu at the end, where the increment is Phi xi_.
+  // Without rows: by the last sweep's nu, where the increment is Phi xi_. One evaluation of seven saved.
   void take_end(System& s, State& next) {
     end_nu_ = nu_.col(last), end_v_ = next.v;
     s.rate(next.q, next.v, slope_end_);
-    shrinks_ = contraction_ * trial_h_;
     rest_ = end_nu_ - modes_.omega_2().cwiseProduct(xi_);
     next.a.noalias() = modes_.shapes() * rest_;
     next.lambda.resize(0);
   }
 
-  // To round-off of what nu is the difference of.
-  bool settled() const { return last_change_ <= 1e-12 * nu_.col(last).lpNorm<Eigen::Infinity>(); }
+  // Of nu, as elastic forces are differences of terms as large as omega^2 q; and what of it q does not show after a step.
+  std::pair<double, double> round_off(const State& now, double h) {
+    constexpr double eps = std::numeric_limits<double>::epsilon();
+    if (now.q.size() != now.v.size())
+      return {0, eps * modes_.amplitudes().lpNorm<Eigen::Infinity>() * now.q.lpNorm<Eigen::Infinity>() / (h * h)};
+    rest_.noalias() = modes_.amplitudes() * now.q;
+    return {eps * rest_.cwiseProduct(modes_.omega_2()).lpNorm<Eigen::Infinity>(),
+            eps * rest_.lpNorm<Eigen::Infinity>() / (h * h)};
+  }
 
   bool sweep(System& s, const State& now) {
+    swept_nu_ = nu_, swept_r_ = r_;
     for (int i = 1; i < points; ++i) {
       solution_at(s, now, weights_[i], q_i_, v_i_);
-      if (i == last) end_nu_ = nu_.col(last);
       if (!field_.evaluate(s, now.t + weights_[i].t, q_i_, v_i_, slope_)) return false;
       take_slope(s, now, i, v_i_);
     }
-    last_change_ = (nu_.col(last) - end_nu_).lpNorm<Eigen::Infinity>();
+    swept_nu_ = nu_ - swept_nu_, swept_r_ = r_ - swept_r_;
+    const double size =
+        (nu_.col(last).cwiseAbs() + modes_.omega_2().cwiseProduct(xi_.cwiseAbs())).lpNorm<Eigen::Infinity>();
+    convergence_.swept(swept_nu_.lpNorm<Eigen::Infinity>(), size);
     return true;
   }
 
@@ -270,12 +271,27 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     const Weights& w = weights_[last];
     rest_.noalias() = nu_ * beyond_others();
     eta_ = w.v.col(middle).cwiseProduct(rest_);
-    e_v_.noalias() = modes_.shapes() * eta_;
-    eta_ = w.x.col(middle).cwiseProduct(rest_);
-    e_x_.noalias() = modes_.shapes() * eta_;
-    s.rate(now.q, e_x_, e_);
+    xi_ = w.x.col(middle).cwiseProduct(rest_);
     beyond_.noalias() = r_ * beyond_others();
-    e_ += w.integral[middle] * beyond_;
+    beyond_ *= w.integral[middle];
+    return norm(s, now, next, tolerance);
+  }
+
+  // What the last sweep changed of the result.
+  double last_sweep_norm(System& s, const State& now, const State& next, const Tolerance& tolerance) {
+    const Weights& w = weights_[last];
+    eta_ = w.v.cwiseProduct(swept_nu_).rowwise().sum();
+    xi_ = w.x.cwiseProduct(swept_nu_).rowwise().sum();
+    beyond_.noalias() = swept_r_ * w.integral;
+    return norm(s, now, next, tolerance);
+  }
+
+  // Of an error Phi eta_ of the velocity, Phi xi_ of the increment and beyond_ of the rest of q.
+  double norm(System& s, const State& now, const State& next, const Tolerance& tolerance) {
+    e_v_.noalias() = modes_.shapes() * eta_;
+    x_.noalias() = modes_.shapes() * xi_;
+    s.rate(now.q, x_, e_);
+    e_ += beyond_;
     error_increment(s, next.q, e_, embedded_, e_q_);
     return error_norm(e_q_, e_v_, now, next, tolerance);
   }
@@ -294,32 +310,28 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   }
 
   static constexpr int most_coordinates = 1000;
-  static constexpr double diverges = 0.5;  // sweeps whose changes shrink by less
   static constexpr double none = 0;
   RungeKutta field_{{1, &none, &none, &none}};  // of whose steps none is made
   SmallOscillations modes_;
   int rows_ = 0;            // when last linearised
   int steps_ = 0;           // since then
   bool linearise_ = false;  // at the next step
-  int trusted_ = 0;         // steps for which the contraction seen last serves
-  double contraction_ = 0;  // [1/s] by a sweep, for each second of a step
+  SweepConvergence convergence_;
   // At the points of the step accepted last, whose length is past_h_; 0: forgotten.
   double past_h_ = 0;
   Mat past_nu_, past_v_, past_q_dot_;
   // Of the last trial.
   double trial_h_ = 0;
-  Mat nu_, v_, q_dot_, r_;
-  Vec a_0_, eta_0_, swept_x_, swept_v_;
+  Mat nu_, v_, q_dot_, r_, swept_nu_, swept_r_;  // swept: changed by the last sweep
+  Vec a_0_, eta_0_;
   Vec end_nu_, end_v_, slope_end_;  // at the step's end, of its result
-  bool guessed_ = false;
-  double last_change_ = 0, shrinks_ = 0;  // of nu at the end: by the last sweep, and how much less after it
   double weights_h_ = 0;
   Weights weights_[points], inside_;
   double inside_at_ = -1, inside_h_ = 0;  // of inside_
   Slope slope_;
   Eigen::Matrix<double, points, points> ahead_;  // column i: weights of the past points
   double ahead_by_ = 0;
-  Vec beyond_, rest_, xi_, eta_, x_, v_i_, q_i_, rate_, e_, e_x_, e_v_, e_q_, embedded_;
+  Vec beyond_, rest_, xi_, eta_, x_, v_i_, q_i_, rate_, e_, e_v_, e_q_, embedded_;
   State repeated_;
 };
 
