@@ -139,13 +139,14 @@ class Run {
     Clock::time_point checked = Clock::now(), checkpointed = checked, shown = checked;
     long long stride = 1, since = 0;  // steps between looks at the clock, about 1 ms
     for (;;) {
+      const bool more = simulator_->advance(*recorder_);
+      recorder_->check();  // between steps, where a checkpoint is possible
+      if (!more) return;
+      // After a step at least: it writes what happened at the start.
       if (options_.interrupt && options_.interrupt->load(std::memory_order_relaxed)) {
         status_ = Status::interrupted;
         return;
       }
-      const bool more = simulator_->advance(*recorder_);
-      recorder_->check();  // between steps, where a checkpoint is possible
-      if (!more) return;
       if (++since < stride) continue;
       since = 0;
       const Clock::time_point now = Clock::now();

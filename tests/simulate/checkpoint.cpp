@@ -1,6 +1,8 @@
 // A run that is cut and resumed gives the bytes of one that was not.
 //
 // The program's side of it, signals and files, is in tests/cli/interruption.cpp; here runs are cut after exact numbers of steps.
+#include <atomic>
+
 #include "run_in_pieces.hpp"
 #include "scenes.hpp"
 
@@ -73,6 +75,26 @@ TEST(ResumedRun, MayEndLaterThanItWasToEndAtFirst) {
   ASSERT_EQ(go(twice, "1.5", true), simulate::Status::done);
   for (const char* log : {"series.csv", "events.csv"})
     EXPECT_TRUE(read_text(once.path() / log) == read_text(twice.path() / log)) << log;
+}
+
+// Interrupted as soon as it begins: what happened at its start, a bar that lies on the plane, is written all the same.
+TEST(ResumedRun, KeepsTheEventsOfItsStart) {
+  const Folder once, twice;
+  const scene::Scene scene =
+      scene::Scene::parse(struck_bar, "test.json",
+                          {{"simulate.until", "0.5"}, {"bodies.bar.position", "[0.5, 0]"}, {"bodies.bar.angle", "0"}});
+  std::atomic<bool> at_once = true;
+  const auto go = [&](const Folder& folder, std::atomic<bool>* interrupt, bool resume) {
+    simulate::RunOptions options;
+    options.out = folder.path(), options.interrupt = interrupt, options.resume = resume;
+    return simulate::run(scene, registry(), options).status;
+  };
+  ASSERT_EQ(go(once, nullptr, false), simulate::Status::done);
+  ASSERT_EQ(go(twice, &at_once, false), simulate::Status::interrupted);
+  ASSERT_EQ(go(twice, nullptr, true), simulate::Status::done);
+  const std::string events = read_text(once.path() / "events.csv");
+  EXPECT_NE(events.find("\n0,"), std::string::npos) << events;
+  EXPECT_EQ(read_text(twice.path() / "events.csv"), events);
 }
 
 TEST(ResumedRun, GoesOnWithItsRowsAfterAnEndBetweenThem) {
