@@ -11,6 +11,7 @@
 
 #include <optional>
 
+#include <trammel/awaits_contact.hpp>
 #include <trammel/body.hpp>
 #include <trammel/fields.hpp>
 #include <trammel/parameters.hpp>
@@ -44,6 +45,7 @@ class TsplinePlate final : public Body,
                            public SampledSurface,
                            public SlidingSurface,
                            public Refinable,
+                           public AwaitsContact,
                            public HasMomentum {
  public:
   // Parameters; see the declaration in plugin.cpp.
@@ -102,6 +104,8 @@ class TsplinePlate final : public Body,
 
   bool due(double t, In q, In v, const RefineCause& cause) const override;
   std::unique_ptr<Transfer> refine(double t, In q, In v, const RefineCause& cause) override;
+  std::string awaited_contact() const override { return refine_on; }
+  std::string where_awaited() const override { return "refine.on_contact"; }
   void archive(Archive& archive) override;
   Momentum momentum(double t, In q, In v) const override;
 

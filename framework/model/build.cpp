@@ -1,11 +1,16 @@
 #include "model/build.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+
+#include <trammel/awaits_contact.hpp>
 
 #include "model/contact_input.hpp"
 #include "model/marker_input.hpp"
 #include "model/scene_keys.hpp"
 #include "plugin/parameters.hpp"
+#include "scene/suggestion.hpp"
 
 namespace trammel::model {
 namespace {
@@ -38,6 +43,7 @@ class Builder {
     each("contacts", [this](const std::string& name, const Value& value) {
       add_contact(name, value, markers_, *model_, registry_, problems_);
     });
+    check_awaited_contacts();
     model_->lay_out();
     return model_;
   }
@@ -148,6 +154,27 @@ class Builder {
     entry.force = std::move(force);
     entry.A = *A, entry.B = *B;
     model_->forces.push_back(std::move(entry));
+  }
+
+  void check_awaited_contacts() {
+    std::vector<std::string> names;
+    if (const Value* contacts = root_.find("contacts"); contacts && contacts->type() == Value::Type::object)
+      for (const auto& [name, value] : contacts->members()) names.push_back(name);
+    for (const BodyEntry& entry : model_->bodies) {
+      const auto* body = dynamic_cast<const AwaitsContact*>(entry.body.get());
+      const std::string awaited = body ? body->awaited_contact() : "";
+      if (awaited.empty() || std::find(names.begin(), names.end(), awaited) != names.end()) continue;
+      const Value& at = member_at(*root_.find("bodies")->find(entry.name), body->where_awaited());
+      problems_.error(at.problem(fmt::format("no contact \"{}\"{}", awaited, scene::did_you_mean(awaited, names))));
+    }
+  }
+
+  // By names with dots between them, as far as they lead.
+  static const Value& member_at(const Value& value, const std::string& path) {
+    const std::size_t dot = path.find('.');
+    const Value* member = value.find(path.substr(0, dot));
+    if (!member) return value;
+    return dot == std::string::npos ? *member : member_at(*member, path.substr(dot + 1));
   }
 
   const Value& root_;

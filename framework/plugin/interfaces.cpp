@@ -2,6 +2,7 @@
 // once. So dynamic_cast and exceptions work between program and plugins, also when a plugin hides its own symbols.
 
 #include <trammel/archive.hpp>
+#include <trammel/awaits_contact.hpp>
 #include <trammel/body.hpp>
 #include <trammel/component.hpp>
 #include <trammel/contact.hpp>
@@ -38,6 +39,7 @@ Drawn::~Drawn() = default;
 Refinable::~Refinable() = default;
 HasMomentum::~HasMomentum() = default;
 HasFields::~HasFields() = default;
+AwaitsContact::~AwaitsContact() = default;
 CarriedStress::~CarriedStress() = default;
 SampledSurface::~SampledSurface() = default;
 SlidingSurface::~SlidingSurface() = default;
