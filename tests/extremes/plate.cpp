@@ -284,9 +284,17 @@ const std::string roof = R"({
                          "membrane": "roof.energy_membrane", "bending": "roof.energy_bending"}}})";
 
 TEST(Buckling, StopsThereWithAHintUnlessArcLengthIsAllowed) {
-  const Finished run = run_static(roof, {{"static.arc_length", "false"}, {"static.steps", "8"}});
-  if (run.done()) return;  // Newton's method may jump to the far branch
-  EXPECT_THAT(run.report.reason, HasSubstr("arc_length"));
+  for (const char* steps : {"8", "20"}) {
+    const Finished run = run_static(roof, {{"static.arc_length", "false"}, {"static.steps", steps}});
+    EXPECT_FALSE(run.done()) << steps;
+    EXPECT_THAT(run.report.reason, HasSubstr("arc_length")) << steps;
+  }
+}
+
+TEST(Buckling, IsJumpedOverByAllOfTheLoadAtOnceToThePlaceAlongThePath) {
+  const Finished at_once = run_static(roof, {{"static.arc_length", "false"}, {"static.steps", "1"}});
+  ASSERT_TRUE(at_once.done()) << at_once.report.reason;
+  EXPECT_NEAR(at_once.end("w"), run_static(roof).end("w"), 1e-6);
 }
 
 TEST(Buckling, IsFollowedPastTheLimitPointWithTheWorkOfTheLoadAsEnergy) {
