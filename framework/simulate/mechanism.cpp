@@ -55,7 +55,10 @@ std::optional<std::string> find_mechanism(model::AssembledSystem& system, double
   }
   if (!loose) return {};
   return fmt::format(
-      "bodies.{} is a mechanism: it can move without resistance, hold it by a joint, an edge or a spring", loose->name);
+      "bodies.{} is a mechanism: it can move without resistance, or with less than the round-off of what it is "
+      "stiffest in; "
+      "hold it by a joint, an edge or a spring",
+      loose->name);
 }
 
 }  // namespace trammel::simulate
