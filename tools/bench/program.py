@@ -12,16 +12,20 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("TRAMMEL_BUILD_DIR", ROOT / "build"))
 
 
-def build():
-    subprocess.run([ROOT / "tools/build", "trammel_program", "plugins/all", "bodies/all"], check=True, stdout=sys.stderr)
+def build(*options):
+    subprocess.run([ROOT / "tools/build", *options, "trammel_program", "plugins/all", "bodies/all"], check=True, stdout=sys.stderr)
+
+
+def pin():
+    """What goes before a command that shall stay on one core, the last one."""
+    return ["taskset", "-c", str(max(os.sched_getaffinity(0)))] if shutil.which("taskset") else []
 
 
 def run(scene, values, events=False, series=False):
     """result.json of a run, None if it was refused; `events`: with the time of the last event as "last_event"; `series`: with its rows."""
-    pin = ["taskset", "-c", str(max(os.sched_getaffinity(0)))] if shutil.which("taskset") else []
     overrides = [x for path, value in values.items() for x in ("--set", f"{path}={value}")]
     with tempfile.TemporaryDirectory() as out:
-        command = [*pin, BUILD / "bin/trammel", "run", scene if isinstance(scene, pathlib.Path) else ROOT / f"scenes/{scene}.json", *overrides, "--quiet", "--out", out]
+        command = [*pin(), BUILD / "bin/trammel", "run", scene if isinstance(scene, pathlib.Path) else ROOT / f"scenes/{scene}.json", *overrides, "--quiet", "--out", out]
         message = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True).stderr
         path = pathlib.Path(out)
         if not (path / "result.json").exists():
