@@ -14,13 +14,14 @@
 #include <cmath>
 
 #include <trammel/body.hpp>
+#include <trammel/linear_rows.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
 
 using namespace trammel;
 
-struct Bar : Body, ExactTangent, ReactionDerivative, Constrained, Observed, Drawn, HasMomentum {
+struct Bar : Body, ExactTangent, ReactionDerivative, Constrained, LinearMarkers, Observed, Drawn, HasMomentum {
   double mass_ = 0;
   std::optional<double> length_;
   Vec3 from_ = Vec3::Zero(2), to_ = Vec3::Zero(2), from_velocity_ = Vec3::Zero(2), to_velocity_ = Vec3::Zero(2);

@@ -7,13 +7,14 @@
 #include <array>
 
 #include <trammel/body.hpp>
+#include <trammel/linear_rows.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
 
 using namespace trammel;
 
-struct PointMass : Body, ExactTangent, ReactionDerivative, Drawn, HasMomentum {
+struct PointMass : Body, ExactTangent, ReactionDerivative, LinearMarkers, Drawn, HasMomentum {
   double mass_ = 0;
   Vec3 position_ = Vec3::Zero(2), velocity_ = Vec3::Zero(2);
 

@@ -1,7 +1,8 @@
 #include "model/assembly.hpp"
 
 #include <algorithm>
-#include <numeric>
+
+#include <trammel/linear_rows.hpp>
 
 namespace trammel::model {
 
@@ -40,15 +41,23 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
   lay_out_blocks();
 }
 
+// Those whose rows never change are kept where bodies are many.
 void AssembledSystem::Work::order_joints() {
+  const auto stands = [this](const JointEntry& joint) {
+    const auto* linear = dynamic_cast<const LinearRows*>(joint.joint.get());
+    return linear && linear->linear() &&
+           std::all_of(joint.markers.begin(), joint.markers.end(), [this](const MarkerRef& m) {
+             return m.body < 0 || dynamic_cast<const LinearMarkers*>(model->bodies[std::size_t(m.body)].body.get());
+           });
+  };
   std::vector<int> first;
   for (const JointEntry& joint : model->joints) {
     first.push_back(int(model->bodies.size()));
     for (const MarkerRef& marker : joint.markers)
       if (marker.body >= 0) first.back() = std::min(first.back(), marker.body);
   }
-  joint_order.resize(first.size());
-  std::iota(joint_order.begin(), joint_order.end(), std::size_t(0));
+  for (std::size_t i = 0; i < first.size(); ++i)
+    (blocks && stands(model->joints[i]) ? constant_joints : joint_order).push_back(i);
   std::stable_sort(joint_order.begin(), joint_order.end(),
                    [&](std::size_t i, std::size_t j) { return first[i] < first[j]; });
 }
@@ -71,6 +80,7 @@ void AssembledSystem::Work::lay_out_blocks() {
   }
   std::sort(ties.begin(), ties.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   blocks->lay_out(ties);
+  constant_rows_placed = false;
 }
 
 void AssembledSystem::Work::move_to(double t_new, const Vec& q_new, const Vec& v_new) {
@@ -159,108 +169,6 @@ const Vec& AssembledSystem::Work::force() {
   returned();
   force_fresh = true;
   return f;
-}
-
-void AssembledSystem::Work::evaluate_rows() {
-  if (rows_fresh) return;
-  g.resize(sizes.nc);
-  g_dot.resize(sizes.nc);
-  gamma.resize(sizes.nc);
-  if (blocks)
-    blocks->clear_rows();
-  else
-    G.setZero(sizes.nc, sizes.nv);
-  for (const BodyEntry& entry : model->bodies)
-    if (entry.rows > 0) evaluate_own_rows(entry);
-  for (const std::size_t i : joint_order) {
-    const JointEntry& entry = model->joints[i];
-    called(entry.name, "rows");
-    evaluate_constraint(*entry.joint, joint_slots[i], rows);
-    place_rows(rows, joint_slots[i], 0, entry.rows, entry.row);
-  }
-  coupled = false;
-  for (std::size_t i = 0; i < contact_slots.size(); ++i) {
-    if (const int row = contact_row[i]; row >= 0) {
-      place_rows(contact(int(i)), contact_slots[i], 0, 1, row);
-      g(row) -= modes.contacts[i].offset;
-      coupled = coupled || friction_ratio(int(i)) != Tangential::Zero();
-    }
-    if (const int row = stick_row[i]; row >= 0) {
-      place_rows(contact(int(i)), contact_slots[i], 1, tangents(), row);
-      g.segment(row, tangents()) = displacement(int(i)).head(tangents());
-    }
-  }
-  if (coupled) couple_reactions();
-  returned();
-  rows_fresh = true;
-}
-
-void AssembledSystem::Work::place_rows(const Rows& r, const Slots& at, Eigen::Index first, Eigen::Index n, int row) {
-  for (Eigen::Index i = 0; i < n; ++i) {
-    g(row + i) = r.g(first + i);
-    g_dot(row + i) = r.g_t(first + i);
-    gamma(row + i) = r.gamma(first + i);
-  }
-  for (int k = 0; k < at.count; ++k) {
-    const Motion& m = motion(at[k]);
-    add_motion({r.H(k), first, n}, m, g_dot.data() + row, gamma.data() + row);
-    if (blocks)
-      blocks->add_rows(chain.body(at[k]), row, m, {r.H(k), first, n});
-    else
-      chain.add_rows(at[k], row, {r.H(k), first, n}, G);
-  }
-}
-
-void AssembledSystem::Work::evaluate_own_rows(const BodyEntry& entry) {
-  called(entry.name, "own_rows");
-  const auto v_body = v.segment(entry.v0, entry.nv);
-  own_rows.resize(entry.rows, entry.nv);
-  entry.constrained->own_rows(t, q.segment(entry.q0, entry.nq), v_body, own_rows);
-  for (int i = 0; i < entry.rows; ++i) {
-    double rate = own_rows.g_t(i);
-    for (int j = 0; j < entry.nv; ++j) rate += own_rows.G(i, j) * v_body(j);
-    g(entry.row + i) = own_rows.g(i);
-    g_dot(entry.row + i) = rate;
-    gamma(entry.row + i) = own_rows.gamma(i);
-  }
-  if (blocks)
-    blocks->add_own_rows(std::size_t(&entry - model->bodies.data()), entry.row, own_rows.G);
-  else
-    G.block(entry.row, entry.v0, entry.rows, entry.nv) += own_rows.G;
-}
-
-void AssembledSystem::Work::evaluate_constraint(const Constraint& constraint, const Slots& at, Rows& into) {
-  const Space space = model->world.space;
-  into.resize(constraint.row_count(space), space, at.count);
-  const std::array<const Motion*, Rows::most_markers> markers = {
-      &motion(at.A), &motion(at.B), at.count > 2 ? &motion(at.C) : nullptr, at.count > 3 ? &motion(at.D) : nullptr};
-  constraint.rows_between(t, Motions(markers.data(), std::size_t(at.count)), into);
-}
-
-void AssembledSystem::Work::add_row_force(const Slots& at, const Rows& r, int row, double c, Vec& sum) const {
-  for (int k = 0; k < at.count; ++k) chain.add_wrench(at[k], r.H(k).row(row).transpose(), c, sum);
-}
-
-// W: where a contact slides, the friction beside the force of its row.
-void AssembledSystem::Work::couple_reactions() {
-  const auto add_friction = [this](int slot, int row, const Mat6& H) {
-    if (blocks)
-      blocks->add_reaction(chain.body(slot), row, motion(slot), {H, 0, H.rows()});
-    else
-      chain.add_rows(slot, row, {H, 0, H.rows()}, W);
-  };
-  if (blocks)
-    blocks->couple();
-  else
-    W = G;
-  for (std::size_t i = 0; i < contact_slots.size(); ++i) {
-    if (contact_row[i] < 0) continue;
-    const Tangential ratio = friction_ratio(int(i));
-    if (ratio == Tangential::Zero()) continue;
-    const Rows& r = contact(int(i));
-    add_friction(contact_slots[i].A, contact_row[i], pressed_by(r.H_A, 0, ratio).transpose());
-    add_friction(contact_slots[i].B, contact_row[i], pressed_by(r.H_B, 0, ratio).transpose());
-  }
 }
 
 }  // namespace trammel::model

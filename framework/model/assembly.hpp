@@ -9,6 +9,7 @@
 
 #include "model/assembled_system.hpp"
 #include "model/body_blocks.hpp"
+#include "model/constant_rows.hpp"
 #include "model/marker_chain.hpp"
 #include "model/surface_contact.hpp"
 #include "numerics/frontal_iteration_kkt.hpp"
@@ -56,6 +57,9 @@ struct AssembledSystem::Work {
   void add_reaction(double c, const Vec& y, Vec& r);
   const Vec& force();
   void evaluate_rows();  // g, g_dot, gamma, G, W
+  void evaluate_constant_rows();
+  void place_constant_rows();
+  void place_entries(std::size_t joint, int row, std::span<const Motion> motions);  // of a constant joint
   void evaluate_own_rows(const BodyEntry& entry);
   void evaluate_constraint(const Constraint& constraint, const Slots& at, Rows& into);  // sized and filled
   // Rows first .. first + n - 1 of r become rows `row` and on of g, g_dot, gamma and G.
@@ -106,6 +110,7 @@ struct AssembledSystem::Work {
   MarkerChain chain;
   std::vector<Slots> joint_slots, force_slots, contact_slots;
   std::vector<std::size_t> joint_order;  // by their first bodies: of many bodies each is then fetched from memory once
+  std::vector<std::size_t> constant_joints;  // not in joint_order: their rows are linear in the coordinates
   Modes modes;
   std::vector<int> contact_row;      // row in g, -1 while open or compliant
   std::vector<int> stick_row;        // first tangential row in g, -1 while it does not stick
@@ -132,6 +137,8 @@ struct AssembledSystem::Work {
   Vec f, g, g_dot, gamma;
   std::array<Kept, 3> kept;
   std::optional<BodyBlocks> blocks;  // in place of M, G, W and their factors where bodies are many
+  ConstantRows constant_rows;
+  bool constant_rows_placed = false;  // in it and in `blocks`
   Counts counts;
   CallSite site;
 

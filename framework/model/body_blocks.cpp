@@ -45,14 +45,14 @@ void BodyBlocks::lay_out(std::span<const Tie> ties) {
   for (BodyBlock& block : bodies_) block.Gt.setZero(block.M.rows(), Eigen::Index(block.rows.size()));
 }
 
-void BodyBlocks::clear_rows() {
-  for (BodyBlock& block : bodies_) block.Gt.setZero();
-}
-
 namespace {
 
+Eigen::Index column_of(const BodyBlock& block, int row) {
+  return std::lower_bound(block.rows.begin(), block.rows.end(), row) - block.rows.begin();
+}
+
 void add(const BodyBlock& block, int row, const Motion& marker, const RowsOf& H, Mat& transposed) {
-  const auto column = std::lower_bound(block.rows.begin(), block.rows.end(), row) - block.rows.begin();
+  const Eigen::Index column = column_of(block, row);
   for_each_column(H, marker.J, [&](Eigen::Index j, const double* entries, auto n) {
     for (int i = 0; i < n; ++i) transposed(marker.dofs[std::size_t(j)], column + i) += entries[i];
   });
@@ -60,17 +60,23 @@ void add(const BodyBlock& block, int row, const Motion& marker, const RowsOf& H,
 
 }  // namespace
 
+void BodyBlocks::clear_rows(int body, int row, Eigen::Index n) {
+  if (body < 0) return;
+  BodyBlock& block = bodies_[std::size_t(body)];
+  block.Gt.middleCols(column_of(block, row), n).setZero();
+}
+
 void BodyBlocks::add_rows(int body, int row, const Motion& marker, const RowsOf& H) {
   if (body < 0) return;
   BodyBlock& block = bodies_[std::size_t(body)];
   add(block, row, marker, H, block.Gt);
 }
 
-void BodyBlocks::add_own_rows(std::size_t body, int row, const Mat& G) {
-  BodyBlock& block = bodies_[body];
-  const auto column = std::lower_bound(block.rows.begin(), block.rows.end(), row) - block.rows.begin();
+// They come before those of joints and contacts.
+void BodyBlocks::set_own_rows(std::size_t body, const Mat& G) {
+  Mat& Gt = bodies_[body].Gt;
   for (Eigen::Index i = 0; i < G.rows(); ++i)
-    for (Eigen::Index j = 0; j < G.cols(); ++j) block.Gt(j, column + i) += G(i, j);
+    for (Eigen::Index j = 0; j < G.cols(); ++j) Gt(j, i) = G(i, j);
 }
 
 void BodyBlocks::couple() {

@@ -31,9 +31,10 @@ class BodyBlocks {
 
   std::vector<numerics::BodyBlock>& bodies() { return bodies_; }
   Mat& mass(std::size_t body) { return bodies_[body].M; }
-  void clear_rows();
+  // Rows of G are set, or cleared and then added to; they stay.
+  void clear_rows(int body, int row, Eigen::Index n);
   void add_rows(int body, int row, const Motion& marker, const RowsOf& H);  // G(row + i, :) += (H J)_i
-  void add_own_rows(std::size_t body, int row, const Mat& G);               // of a body alone
+  void set_own_rows(std::size_t body, const Mat& G);                        // of a body alone
   void couple();                                                            // W = G, for more to be added to W:
   void add_reaction(int body, int row, const Motion& marker, const RowsOf& H);
 

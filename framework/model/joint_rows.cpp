@@ -1,5 +1,8 @@
 #include <trammel/joint_rows.hpp>
 
+#include <algorithm>
+#include <type_traits>
+
 #include <trammel/component.hpp>
 
 namespace trammel {
@@ -121,6 +124,20 @@ int JointRows::count() const {
   int n = 0;
   for (const Row& row : rows_) n += std::holds_alternative<SamePoint>(row) ? dimension(space_) : 1;
   return n;
+}
+
+// Between axes that do not turn, but for laws of time.
+bool JointRows::linear() const {
+  const auto stands = [](const auto& row) {
+    using Of = std::decay_t<decltype(row)>;
+    if constexpr (std::is_same_v<Of, Offset>)
+      return row.p.is_constant();
+    else if constexpr (std::is_same_v<Of, SamePoint>)
+      return true;
+    else
+      return row.phi.is_constant();
+  };
+  return std::all_of(rows_.begin(), rows_.end(), [&](const Row& row) { return std::visit(stands, row); });
 }
 
 // One joint at one instant.

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include <trammel/linear_rows.hpp>
+
 #include "model/numeric_derivative.hpp"
 
 namespace trammel::model {
@@ -14,8 +16,7 @@ int MarkerChain::slot(MarkerRef marker) {
   int& known = of_body[std::size_t(marker.marker)];
   if (known >= 0) return known;
   known = int(slots_.size());
-  Slot& slot = *slots_.emplace_back(std::make_unique<Slot>());
-  slot.marker = marker;
+  Slot& slot = add_slot(marker);
   if (marker.body < 0) {
     const int n = twist_size(model_.world.space), dim = dimension(model_.world.space);
     const GroundFrame& frame = model_.ground_frames[std::size_t(marker.marker)];
@@ -29,21 +30,29 @@ int MarkerChain::slot(MarkerRef marker) {
   return known;
 }
 
+MarkerChain::Slot& MarkerChain::add_slot(MarkerRef marker) {
+  Slot& slot = slots_.emplace_back();
+  slot.marker = marker;
+  if (marker.body < 0) return slot;
+  const BodyEntry& entry = model_.bodies[std::size_t(marker.body)];
+  slot.q0 = entry.q0, slot.v0 = entry.v0;
+  slot.linear = dynamic_cast<const LinearMarkers*>(entry.body.get()) != nullptr;
+  return slot;
+}
+
 int MarkerChain::surface_slot(int body) {
-  Slot& slot = *slots_.emplace_back(std::make_unique<Slot>());
-  slot.marker.body = body;
-  slot.surface = true;
+  add_slot({.body = body}).surface = true;
   return int(slots_.size()) - 1;
 }
 
 Motion& MarkerChain::surface_motion(int index) {
-  Slot& slot = *slots_[std::size_t(index)];
+  Slot& slot = slots_[std::size_t(index)];
   slot.point = point_;
   return slot.motion;
 }
 
 const Motion& MarkerChain::nearest(int index, const Vec3& to, double t, const Vec& q, const Vec& v) {
-  Slot& slot = *slots_[std::size_t(index)];
+  Slot& slot = slots_[std::size_t(index)];
   if (slot.point == point_) return slot.motion;
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
   const auto q_body = q.segment(entry.q0, entry.nq);
@@ -57,12 +66,31 @@ const Motion& MarkerChain::nearest(int index, const Vec3& to, double t, const Ve
 }
 
 void MarkerChain::evaluate(Slot& slot, double t, const Vec& q, const Vec& v) const {
+  if (slot.linear) return evaluate_linear(slot, q, v);
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
   entry.body->motion(slot.marker.marker, t, q.segment(entry.q0, entry.nq), v.segment(entry.v0, entry.nv), slot.motion);
 }
 
+// x = x_0 + J q,  V = J v
+void MarkerChain::evaluate_linear(Slot& slot, const Vec& q, const Vec& v) const {
+  Motion& m = slot.motion;
+  if (slot.x_0.size() == 0) m = motion_at_zero(slot), slot.x_0 = m.x;
+  const Eigen::Index dim = m.x.size(), columns = m.J.cols();
+  const double *const q_body = q.data() + slot.q0, *const v_body = v.data() + slot.v0;
+  for (Eigen::Index i = 0; i < dim; ++i) {
+    const double* const J = m.J.data() + i * columns;
+    double x = slot.x_0[i], V = 0;
+    for (Eigen::Index j = 0; j < columns; ++j) {
+      const int dof = m.dofs[std::size_t(j)];
+      x += J[j] * q_body[dof];
+      V += J[j] * v_body[dof];
+    }
+    m.x[i] = x, m.V[i] = V;
+  }
+}
+
 const Motion& MarkerChain::motion(int index, double t, const Vec& q, const Vec& v) {
-  Slot& slot = *slots_[std::size_t(index)];
+  Slot& slot = slots_[std::size_t(index)];
   if (slot.point != point_) {
     if (slot.marker.body >= 0) evaluate(slot, t, q, v);
     if (still_) slot.motion.V.setZero(), slot.motion.bias.setZero();
@@ -71,10 +99,18 @@ const Motion& MarkerChain::motion(int index, double t, const Vec& q, const Vec& 
   return slot.motion;
 }
 
+Motion MarkerChain::motion_at_zero(const Slot& slot) const {
+  if (slot.marker.body < 0) return slot.motion;
+  const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
+  Motion motion;
+  entry.body->motion(slot.marker.marker, 0, Vec::Zero(entry.nq), Vec::Zero(entry.nv), motion);
+  return motion;
+}
+
 void MarkerChain::add_wrench(int index, const Wrench& wrench, double c, Vec& f) const {
-  const Slot& slot = *slots_[std::size_t(index)];
+  const Slot& slot = slots_[std::size_t(index)];
   if (slot.marker.body < 0) return;
-  const int v0 = model_.bodies[std::size_t(slot.marker.body)].v0;
+  const int v0 = slot.v0;
   const Jac& J = slot.motion.J;
   const Eigen::Index columns = J.cols();
   with_twist(J.rows(), [&](auto twist) {
@@ -89,9 +125,9 @@ void MarkerChain::add_wrench(int index, const Wrench& wrench, double c, Vec& f) 
 }
 
 void MarkerChain::add_rows(int index, int row, const RowsOf& H, Mat& G) const {
-  const Slot& slot = *slots_[std::size_t(index)];
+  const Slot& slot = slots_[std::size_t(index)];
   if (slot.marker.body < 0) return;
-  const int v0 = model_.bodies[std::size_t(slot.marker.body)].v0;
+  const int v0 = slot.v0;
   for_each_column(H, slot.motion.J, [&](Eigen::Index j, const double* entries, auto n) {
     double* const column = G.data() + (v0 + slot.motion.dofs[std::size_t(j)]) * G.rows() + row;
     for (int i = 0; i < n; ++i) column[i] += entries[i];
@@ -99,12 +135,10 @@ void MarkerChain::add_rows(int index, int row, const RowsOf& H, Mat& G) const {
 }
 
 void MarkerChain::add_pair(int index, int other, const Mat6& D, double c, Matrix& S) const {
-  const Slot& a = *slots_[std::size_t(index)];
-  const Slot& b = *slots_[std::size_t(other)];
+  const Slot& a = slots_[std::size_t(index)];
+  const Slot& b = slots_[std::size_t(other)];
   if (a.marker.body < 0 || b.marker.body < 0) return;
-  const int row0 = model_.bodies[std::size_t(a.marker.body)].v0;
-  const int column0 = model_.bodies[std::size_t(b.marker.body)].v0;
-  Matrix block = S.from(row0, column0);
+  Matrix block = S.from(a.v0, b.v0);
   for (std::size_t j = 0; j < b.motion.dofs.size(); ++j) {
     const Vec6 column = D * b.motion.J.col(Eigen::Index(j));
     for (std::size_t i = 0; i < a.motion.dofs.size(); ++i)
@@ -113,7 +147,7 @@ void MarkerChain::add_pair(int index, int other, const Mat6& D, double c, Matrix
 }
 
 void MarkerChain::add_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c, Matrix& S) {
-  Slot& slot = *slots_[std::size_t(index)];
+  Slot& slot = slots_[std::size_t(index)];
   if (slot.marker.body < 0) return;
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
   if (!entry.reaction_derivative) return add_numeric_reaction_derivative(slot, t, q, F, c, S);

@@ -2,7 +2,7 @@
 // and rows at markers become entries of the system's vectors and matrices through its Jacobian.
 #pragma once
 
-#include <memory>
+#include <deque>
 #include <vector>
 
 #include "model/model.hpp"
@@ -21,16 +21,18 @@ class MarkerChain {
   int surface_slot(int body);
   Motion& surface_motion(int slot);
   const Motion& nearest(int slot, const Vec3& to, double t, const Vec& q, const Vec& v);
-  bool on_surface(int slot) const { return slots_[std::size_t(slot)]->surface; }
+  bool on_surface(int slot) const { return slots_[std::size_t(slot)].surface; }
   int slots() const { return int(slots_.size()); }
   void new_point() { ++point_; }
   // Markers keep their places, and what a law of time gives them of velocity and acceleration counts as 0; for v = 0 only.
   void hold_still(bool still) { still_ = still, ++point_; }
   bool held_still() const { return still_; }
   const Motion& motion(int slot, double t, const Vec& q, const Vec& v);
-  const Motion& last_motion(int slot) const { return slots_[std::size_t(slot)]->motion; }
-  int first_velocity(int slot) const { return model_.bodies[std::size_t(body(slot))].v0; }
-  int body(int slot) const { return slots_[std::size_t(slot)]->marker.body; }  // -1: ground
+  Motion motion_at_zero(int slot) const { return motion_at_zero(slots_[std::size_t(slot)]); }  // q = 0, v = 0, t = 0
+  const Motion& last_motion(int slot) const { return slots_[std::size_t(slot)].motion; }
+  int first_velocity(int slot) const { return slots_[std::size_t(slot)].v0; }
+  int body(int slot) const { return slots_[std::size_t(slot)].marker.body; }  // -1: ground
+  bool linear(int slot) const { return slots_[std::size_t(slot)].linear; }    // of a body with LinearMarkers
 
   // f += c J^T wrench
   void add_wrench(int slot, const Wrench& wrench, double c, Vec& f) const;
@@ -42,18 +44,24 @@ class MarkerChain {
   void add_reaction_derivative(int slot, double t, const Vec& q, const Wrench& F, double c, Matrix& S);
 
  private:
+  // What many of them are asked for at each point is kept here: their bodies lie far apart in memory.
   struct Slot {
     MarkerRef marker;
-    bool surface = false;
+    bool surface = false, linear = false;
+    int q0 = 0, v0 = 0;  // of the body
     long long point = -1;
+    Vec3 x_0;  // linear: x at q = 0; no numbers yet: J is not known either
     Motion motion;
   };
+  Slot& add_slot(MarkerRef marker);
+  Motion motion_at_zero(const Slot& slot) const;
   void evaluate(Slot& slot, double t, const Vec& q, const Vec& v) const;
+  void evaluate_linear(Slot& slot, const Vec& q, const Vec& v) const;
   void add_numeric_reaction_derivative(Slot& slot, double t, const Vec& q, const Wrench& F, double c, Matrix& S);
 
   const Model& model_;
-  std::vector<std::unique_ptr<Slot>> slots_;  // references to motions stay valid
-  std::vector<std::vector<int>> known_;       // slot or -1, by body (the ground first) and marker
+  std::deque<Slot> slots_;               // references to motions stay valid
+  std::vector<std::vector<int>> known_;  // slot or -1, by body (the ground first) and marker
   long long point_ = 0;
   bool still_ = false;
   Motion probe_;  // for the differences

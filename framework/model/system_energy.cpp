@@ -59,8 +59,8 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
   sum.drives = sum.dampers = sum.contacts = sum.constraints = sum.markers = 0;
   sum.friction.setZero(Eigen::Index(w.contact_slots.size()));
   const auto moved_by_law = [&](int slot, const Wrench& wrench) {
-    if (const int body = w.chain.body(slot); body >= 0)
-      sum.markers -= power_of_law(w.motion(slot), w.v, w.model->bodies[std::size_t(body)].v0, wrench);
+    if (w.chain.body(slot) >= 0 && !w.chain.linear(slot))
+      sum.markers -= power_of_law(w.motion(slot), w.v, w.chain.first_velocity(slot), wrench);
   };
   for (const BodyEntry& entry : w.model->bodies) {
     w.called(entry.name, "power");

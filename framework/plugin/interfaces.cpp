@@ -8,6 +8,7 @@
 #include <trammel/contact.hpp>
 #include <trammel/fields.hpp>
 #include <trammel/integrator.hpp>
+#include <trammel/linear_rows.hpp>
 #include <trammel/oscillating_steps.hpp>
 #include <trammel/parameters.hpp>
 #include <trammel/system.hpp>
@@ -40,6 +41,10 @@ Refinable::~Refinable() = default;
 HasMomentum::~HasMomentum() = default;
 HasFields::~HasFields() = default;
 AwaitsContact::~AwaitsContact() = default;
+LinearMarkers::~LinearMarkers() = default;
+
+// Of joints.
+LinearRows::~LinearRows() = default;
 CarriedStress::~CarriedStress() = default;
 SampledSurface::~SampledSurface() = default;
 SlidingSurface::~SlidingSurface() = default;

@@ -11,6 +11,7 @@
 
 #include <stdexcept>
 
+#include <trammel/linear_rows.hpp>
 #include <trammel/testing_components.hpp>
 #include <trammel/testing_markers.hpp>
 
@@ -169,6 +170,42 @@ Report reaction_tangent_is_that_of_the_wrenches(const Tried& j) {
   });
 }
 
+// Of markers whose axes stand still.
+Report rows_are_linear_if_claimed(const Tried& j) {
+  return compare("between points the rows are g_0 + H x with constant H, where LinearRows says so", [&](Comparison& c) {
+    const auto* claims = dynamic_cast<const LinearRows*>(j.joint.get());
+    if (!claims || !claims->linear()) return;
+    const int dim = dimension(j.space);
+    const Markers start = j.at(times[0]);
+    const auto places = [&](double t, bool at_zero) {
+      Markers points = start;
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        const Motion moved = j.moving[k].at(t);
+        points[k].x = at_zero ? Vec3(Vec3::Zero(dim)) : moved.x;
+        points[k].V.setZero(), points[k].bias.setZero();
+        if (!at_zero) points[k].V.head(dim) = moved.V.head(dim);
+      }
+      return points;
+    };
+    const Rows zero = j.rows(0, places(0, true));
+    for (const double t : times) {
+      const Markers points = places(t, false);
+      const Rows r = j.rows(t, points);
+      Vec g = zero.g;
+      double size = zero.g.norm();
+      for (int k = 0; k < j.count(); ++k) {
+        const Mat H = r.H(k).leftCols(dim);
+        c.within(H, Mat(zero.H(k).leftCols(dim)), 1e-15, fmt::format("H of marker {} at t = {}", k, t));
+        g += H * points[std::size_t(k)].x;
+        size += points[std::size_t(k)].x.norm();
+      }
+      c.within(r.g, g, 1e-14 * size, fmt::format("g at t = {}", t));
+      c.within(r.gamma, Vec::Zero(r.gamma.size()), 0, fmt::format("gamma at t = {}", t));
+      c.within(r.g_t, Vec::Zero(r.g_t.size()), 0, fmt::format("g_t at t = {}", t));
+    }
+  });
+}
+
 }  // namespace
 
 std::vector<Check> joint_checks(const MakerOf<Constraint>& make, Space space, Reaction reaction) {
@@ -180,6 +217,7 @@ std::vector<Check> joint_checks(const MakerOf<Constraint>& make, Space space, Re
       {"GammaIsTheRestOfTheAcceleration", gamma_is_the_rest_of_the_acceleration},
       {"ReactionTangentIsThatOfTheWrenches", reaction_tangent_is_that_of_the_wrenches},
       {"ReactionsBalance", reactions_balance},
+      {"RowsAreLinearIfClaimed", rows_are_linear_if_claimed},
   };
   std::vector<Check> checks;
   for (const auto& [name, look] : all)

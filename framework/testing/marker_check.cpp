@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <set>
 
+#include <trammel/linear_rows.hpp>
+
 #include "testing/tried_body.hpp"
 
 namespace trammel {
@@ -121,6 +123,25 @@ Report reaction_derivative_is_exact(const TriedBody& b) {
   });
 }
 
+Report motion_is_linear_if_claimed(const TriedBody& b) {
+  return compare("x = x_0 + J q with constant J and axes, where LinearMarkers says so", [&](Comparison& c) {
+    if (!dynamic_cast<const LinearMarkers*>(b.body.get())) return;
+    const BodyAt zero{0, Vec::Zero(b.start().q.size()), Vec::Zero(b.nv)};
+    b.for_each_marker([&](std::size_t i, const BodyAt& at, const std::string& where) {
+      const Motion m = b.motion(i, at), m_0 = b.motion(i, zero);
+      c.within(m.J, m_0.J, 0, where + ": J");
+      c.within(m.R, m_0.R, 0, where + ": R");
+      c.within(m.bias, Vec::Zero(m.bias.size()), 0, where + ": bias");
+      if (m.dofs != m_0.dofs || m.J.cols() != m_0.J.cols()) return c.holds(false, where + ": other dofs");
+      const Vec own = b.of_dofs(m, at.q), own_v = b.of_dofs(m, at.v);
+      const auto n = m.x.size();
+      const double size = m.x.norm() + m_0.x.norm() + (m.J.cwiseAbs() * own.cwiseAbs()).norm();
+      c.within(m.x, m_0.x + (m.J * own).head(n), 1e-14 * size, where + ": x");
+      c.within(m.V, m.J * own_v, 1e-14 * (m.J.cwiseAbs() * own_v.cwiseAbs()).norm(), where + ": V");
+    });
+  });
+}
+
 }  // namespace
 
 std::vector<std::pair<const char*, Report (*)(const TriedBody&)>> marker_looks() {
@@ -129,7 +150,8 @@ std::vector<std::pair<const char*, Report (*)(const TriedBody&)>> marker_looks()
           {"VelocityIsTheRateOfThePose", velocity_is_the_rate_of_the_pose},
           {"JacobianIsThatOfTheVelocity", jacobian_is_that_of_the_velocity},
           {"BiasIsTheRestOfTheAcceleration", bias_is_the_rest_of_the_acceleration},
-          {"ReactionDerivativeIsExact", reaction_derivative_is_exact}};
+          {"ReactionDerivativeIsExact", reaction_derivative_is_exact},
+          {"MotionIsLinearIfClaimed", motion_is_linear_if_claimed}};
 }
 
 }  // namespace trammel

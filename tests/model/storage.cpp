@@ -13,7 +13,7 @@
 namespace trammel::test {
 namespace {
 
-// A scene of scenes/benchmarks; "sliding": a pendulum that rubs along a plane; "redundant": A02 with a point that rubs along
+// A scene of scenes/benchmarks; "mast": one of trusses, whose pins' rows never change; "sliding": a pendulum that rubs along a plane; "redundant": A02 with a point that rubs along
 // a plane, and one that sticks to it.
 scene::Scene read_scene(const std::string& name) {
   const std::string folder = TRAMMEL_SOURCE_DIR "/scenes/benchmarks/";
@@ -29,6 +29,7 @@ scene::Scene read_scene(const std::string& name) {
   };
   if (name == "sliding") return with("double_pendulum.json", contact("bob2.point"));
   if (name == "redundant") return with("a02_n10.json", contact("top3.B") + ", " + contact("top6.A"));
+  if (name == "mast") return scene::Scene::load(TRAMMEL_SOURCE_DIR "/scenes/truss/prismatic_mast.json");
   return scene::Scene::load(folder + name + ".json");
 }
 
@@ -71,6 +72,17 @@ TEST_P(Storages, GiveTheSameAccelerations) {
   // Round-off times the condition of the rows.
   EXPECT_LT((a_other - a).norm(), 1e-10 * a.norm());
   EXPECT_LT((lambda_other - lambda).norm(), 1e-9 * lambda.norm());
+}
+
+TEST_P(Storages, GiveTheSameRowsAtEachPoint) {
+  for (const double t : {0.1, 0.2}) {
+    const Vec q_t = q + Vec::LinSpaced(q.size(), 0, t), v_t = v + Vec::LinSpaced(v.size(), t, 0);
+    dense->move_to(t, q_t, v_t), other->move_to(t, q_t, v_t);
+    EXPECT_LT((other->g() - dense->g()).norm(), 1e-14 * (1 + q_t.norm()));  // round-off
+    EXPECT_LT((other->g_dot() - dense->g_dot()).norm(), 1e-14 * (1 + v_t.norm()));
+    dense->constraint_acceleration(v_t, a), other->constraint_acceleration(v_t, a_other);
+    EXPECT_LT((a_other - a).norm(), 1e-14 * (1 + a.norm()));
+  }
 }
 
 TEST_P(Storages, GiveTheSameProducts) {
@@ -119,7 +131,7 @@ std::string name_of(const testing::TestParamInfo<std::tuple<const char*, model::
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Storages,
-                         testing::Combine(testing::Values("chain_10", "a04", "a02_n10", "andrews", "sliding",
+                         testing::Combine(testing::Values("chain_10", "a04", "a02_n10", "andrews", "mast", "sliding",
                                                           "redundant"),
                                           testing::ValuesIn(others)),
                          name_of);

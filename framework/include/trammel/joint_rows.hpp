@@ -20,6 +20,7 @@
 #include <Eigen/Geometry>
 
 #include <trammel/joint.hpp>
+#include <trammel/linear_rows.hpp>
 #include <trammel/time_function.hpp>
 
 namespace trammel {
@@ -38,6 +39,7 @@ class JointRows {
   JointRows& orientation(const Vec3& n, const Eigen::Quaterniond& Q, TimeFunction phi);
 
   int count() const;
+  bool linear() const;  // see LinearRows
   void rows(double t, const Motion& A, const Motion& B, Rows& rows) const;
   // K += d(H^T lambda)/d(twists of the markers), see ReactionTangent.
   void add_reaction_tangent(double t, const Motion& A, const Motion& B, const Vec6& lambda, PairTangent& K) const;
@@ -65,12 +67,13 @@ class JointRows {
 };
 
 // A joint that is such rows and nothing else: saying which makes it whole.
-class RowJoint : public Joint, public ReactionTangent {
+class RowJoint : public Joint, public ReactionTangent, public LinearRows {
  public:
   virtual JointRows made_of(const World&) const = 0;  // from the parameters, which it may refuse
 
   void prepare(const World& world) override { list_ = made_of(world); }
   int row_count(Space) const override { return list_.count(); }
+  bool linear() const override { return list_.linear(); }
   void rows(double t, const Motion& A, const Motion& B, Rows& rows) const override { list_.rows(t, A, B, rows); }
   void add_reaction_tangent(double t, const Motion& A, const Motion& B, const Vec6& lambda,
                             PairTangent& K) const override {

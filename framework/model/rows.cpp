@@ -1,0 +1,154 @@
+// Rows of bodies, joints and contacts at the point: g, g_dot, gamma, G and W.
+#include "model/assembly.hpp"
+
+namespace trammel::model {
+
+void AssembledSystem::Work::evaluate_rows() {
+  if (rows_fresh) return;
+  g.resize(sizes.nc);
+  g_dot.resize(sizes.nc);
+  gamma.resize(sizes.nc);
+  if (blocks)
+    evaluate_constant_rows();
+  else
+    G.setZero(sizes.nc, sizes.nv);
+  for (const BodyEntry& entry : model->bodies)
+    if (entry.rows > 0) evaluate_own_rows(entry);
+  for (const std::size_t i : joint_order) {
+    const JointEntry& entry = model->joints[i];
+    called(entry.name, "rows");
+    evaluate_constraint(*entry.joint, joint_slots[i], rows);
+    place_rows(rows, joint_slots[i], 0, entry.rows, entry.row);
+  }
+  coupled = false;
+  for (std::size_t i = 0; i < contact_slots.size(); ++i) {
+    if (const int row = contact_row[i]; row >= 0) {
+      place_rows(contact(int(i)), contact_slots[i], 0, 1, row);
+      g(row) -= modes.contacts[i].offset;
+      coupled = coupled || friction_ratio(int(i)) != Tangential::Zero();
+    }
+    if (const int row = stick_row[i]; row >= 0) {
+      place_rows(contact(int(i)), contact_slots[i], 1, tangents(), row);
+      g.segment(row, tangents()) = displacement(int(i)).head(tangents());
+    }
+  }
+  if (coupled) couple_reactions();
+  returned();
+  rows_fresh = true;
+}
+
+void AssembledSystem::Work::evaluate_constant_rows() {
+  if (!constant_rows_placed) place_constant_rows();
+  constant_rows.evaluate(q, v, g, g_dot, gamma);
+}
+
+// Linear markers are at x_0 there, and linear rows are g_0.
+void AssembledSystem::Work::place_constant_rows() {
+  constant_rows.clear();
+  for (const std::size_t i : constant_joints) {
+    const JointEntry& entry = model->joints[i];
+    const Slots& at = joint_slots[i];
+    std::array<Motion, Rows::most_markers> motions;
+    std::array<const Motion*, Rows::most_markers> seen{};
+    for (std::size_t k = 0; k < std::size_t(at.count); ++k) {
+      motions[k] = chain.motion_at_zero(at[int(k)]);
+      seen[k] = &motions[k];
+    }
+    called(entry.name, "rows");
+    rows.resize(entry.rows, model->world.space, at.count);
+    entry.joint->rows_between(0, Motions(seen.data(), std::size_t(at.count)), rows);
+    for (int k = 0; k < at.count; ++k)  // from 0, as it was laid out
+      blocks->add_rows(chain.body(at[k]), entry.row, motions[std::size_t(k)], {rows.H(k), 0, entry.rows});
+    for (int row = 0; row < entry.rows; ++row) {
+      constant_rows.add_row(entry.row + row, rows.g(row));
+      place_entries(i, row, motions);
+    }
+  }
+  constant_rows_placed = true;
+}
+
+// Column by column of the markers' Jacobians: what nearly cancels between them is summed first.
+void AssembledSystem::Work::place_entries(std::size_t joint, int row, std::span<const Motion> motions) {
+  const Slots& at = joint_slots[joint];
+  std::size_t columns = 0;
+  for (const Motion& m : motions) columns = std::max(columns, m.dofs.size());
+  for (std::size_t j = 0; j < columns; ++j)
+    for (int k = 0; k < at.count; ++k) {
+      const Motion& m = motions[std::size_t(k)];
+      if (chain.body(at[k]) < 0 || j >= m.dofs.size()) continue;
+      const BodyEntry& body = model->bodies[std::size_t(chain.body(at[k]))];
+      constant_rows.add_entry(body.q0 + m.dofs[j], body.v0 + m.dofs[j],
+                              rows.H(k).row(row).dot(m.J.col(Eigen::Index(j))));
+    }
+}
+
+void AssembledSystem::Work::place_rows(const Rows& r, const Slots& at, Eigen::Index first, Eigen::Index n, int row) {
+  for (Eigen::Index i = 0; i < n; ++i) {
+    g(row + i) = r.g(first + i);
+    g_dot(row + i) = r.g_t(first + i);
+    gamma(row + i) = r.gamma(first + i);
+  }
+  for (int k = 0; k < at.count && blocks; ++k) blocks->clear_rows(chain.body(at[k]), row, n);
+  for (int k = 0; k < at.count; ++k) {
+    const Motion& m = motion(at[k]);
+    add_motion({r.H(k), first, n}, m, g_dot.data() + row, gamma.data() + row);
+    if (blocks)
+      blocks->add_rows(chain.body(at[k]), row, m, {r.H(k), first, n});
+    else
+      chain.add_rows(at[k], row, {r.H(k), first, n}, G);
+  }
+}
+
+void AssembledSystem::Work::evaluate_own_rows(const BodyEntry& entry) {
+  called(entry.name, "own_rows");
+  const auto v_body = v.segment(entry.v0, entry.nv);
+  own_rows.resize(entry.rows, entry.nv);
+  entry.constrained->own_rows(t, q.segment(entry.q0, entry.nq), v_body, own_rows);
+  for (int i = 0; i < entry.rows; ++i) {
+    double rate = own_rows.g_t(i);
+    for (int j = 0; j < entry.nv; ++j) rate += own_rows.G(i, j) * v_body(j);
+    g(entry.row + i) = own_rows.g(i);
+    g_dot(entry.row + i) = rate;
+    gamma(entry.row + i) = own_rows.gamma(i);
+  }
+  if (blocks)
+    blocks->set_own_rows(std::size_t(&entry - model->bodies.data()), own_rows.G);
+  else
+    G.block(entry.row, entry.v0, entry.rows, entry.nv) += own_rows.G;
+}
+
+void AssembledSystem::Work::evaluate_constraint(const Constraint& constraint, const Slots& at, Rows& into) {
+  const Space space = model->world.space;
+  into.resize(constraint.row_count(space), space, at.count);
+  const std::array<const Motion*, Rows::most_markers> markers = {
+      &motion(at.A), &motion(at.B), at.count > 2 ? &motion(at.C) : nullptr, at.count > 3 ? &motion(at.D) : nullptr};
+  constraint.rows_between(t, Motions(markers.data(), std::size_t(at.count)), into);
+}
+
+void AssembledSystem::Work::add_row_force(const Slots& at, const Rows& r, int row, double c, Vec& sum) const {
+  for (int k = 0; k < at.count; ++k) chain.add_wrench(at[k], r.H(k).row(row).transpose(), c, sum);
+}
+
+// W: where a contact slides, the friction beside the force of its row.
+void AssembledSystem::Work::couple_reactions() {
+  const auto add_friction = [this](int slot, int row, const Mat6& H) {
+    if (blocks)
+      blocks->add_reaction(chain.body(slot), row, motion(slot), {H, 0, H.rows()});
+    else
+      chain.add_rows(slot, row, {H, 0, H.rows()}, W);
+  };
+  if (blocks)
+    blocks->couple();
+  else
+    W = G;
+  for (std::size_t i = 0; i < contact_slots.size(); ++i) {
+    if (contact_row[i] < 0) continue;
+    const Tangential ratio = friction_ratio(int(i));
+    if (ratio == Tangential::Zero()) continue;
+    const Rows& r = contact(int(i));
+    add_friction(contact_slots[i].A, contact_row[i], pressed_by(r.H_A, 0, ratio).transpose());
+    add_friction(contact_slots[i].B, contact_row[i], pressed_by(r.H_B, 0, ratio).transpose());
+  }
+}
+
+}  // namespace trammel::model
