@@ -52,22 +52,27 @@ void LoadPath::advance() {
 void LoadPath::begin() {
   system_.move_to(settings_.start, start_, zero_);
   contacts_.close_what_may_push();
-  Point first{settings_.start, start_, Vec::Zero(system_.sizes().nc)};
-  Failure failure = solve(first, nullptr);
-  if (failure != Failure::none) {
-    State rest = state_;
-    rest.t = settings_.start, rest.q = start_;
-    if (find_equilibrium(system_, rest)) fail(settings_.start, failure);
-    system_.hold_still(true);
-    system_.move_to(rest.t, rest.q, zero_);
-    contacts_.close_what_may_push();
-    first = {settings_.start, rest.q, {}};
-    Vec a;
-    system_.accelerate({}, a, first.lambda);  // nothing accelerates: what holds a pendulum is its stiffness
-    failure = solve(first, nullptr);
-    if (failure != Failure::none) fail(settings_.start, failure);
-  }
+  const Point start{settings_.start, start_, Vec::Zero(system_.sizes().nc)};
+  Point first = start;
+  const Failure failure = solve(first, nullptr);
+  if (failure != Failure::none && !solve_from_rest(first) && !solve_by_forces(first = start))
+    fail(settings_.start, failure);
   keep(std::move(first));
+}
+
+// From where motion with friction in time would end.
+bool LoadPath::solve_from_rest(Point& first) {
+  State rest = state_;
+  rest.t = settings_.start, rest.q = start_;
+  const bool found = !find_equilibrium(system_, rest);
+  system_.hold_still(true);
+  if (!found) return false;
+  system_.move_to(rest.t, rest.q, zero_);
+  contacts_.close_what_may_push();
+  first = {settings_.start, rest.q, {}};
+  Vec a;
+  system_.accelerate({}, a, first.lambda);  // nothing accelerates: what holds a pendulum is its stiffness
+  return solve(first, nullptr) == Failure::none;
 }
 
 void LoadPath::by_load(double t) {
@@ -80,8 +85,9 @@ void LoadPath::by_load(double t) {
     const Failure failure = solve(trial, nullptr);
     if (failure != Failure::none) {
       part_ = length / 2;
-      if (part_ < shortest_part * step) fail(trial.t, failure);
-      continue;
+      if (part_ >= shortest_part * step) continue;
+      if (!solve_by_forces(trial = predict(t))) fail(trial.t, failure);
+      part_ = step;
     }
     if (now_.iterations - before <= easy) part_ = std::min(step, 2 * part_);
     keep(std::move(trial));
@@ -148,6 +154,7 @@ LoadPath::Failure LoadPath::solve(Point& trial, const Arc* arc) {
 }
 
 LoadPath::Failure LoadPath::balance(Point& trial, const Arc* arc) {
+  if (by_forces_ && !arc) return balance_by_forces(trial);
   system_.move_to(trial.t, start_, zero_);
   load_ = std::max(load_, system_.f().norm());
   Vec from = passed_.empty() ? trial.q : passed_.back().q, dq = zero_;

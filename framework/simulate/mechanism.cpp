@@ -9,38 +9,56 @@
 
 namespace trammel::simulate {
 
-std::optional<std::string> find_mechanism(model::AssembledSystem& system, double t, const Vec& q) {
+namespace {
+
+Vec mass_times(model::AssembledSystem& system, const Vec& x) {
+  Vec r = Vec::Zero(x.size());
+  system.add_mass_times(1, x, r);
+  return r;
+}
+
+double mass_norm(model::AssembledSystem& system, const Vec& x) {
+  return std::sqrt(std::max(0.0, x.dot(mass_times(system, x))));
+}
+
+// Of length 1 in the mass's norm, with the system at rest at q.
+Vec unrelated_motion(model::AssembledSystem& system, double t, const Vec& q) {
   const Vec zero = Vec::Zero(system.sizes().nv);
-  const Vec lambda = Vec::Zero(system.sizes().nc);
-  system.carry_no_stress();
   system.move_to(t, q, zero);
-  Vec x = unrelated(zero.size(), 1, 1), ahead, behind, mu, Mx;
-  const auto mass_times = [&](const Vec& y) {
-    Vec r = zero;
-    system.add_mass_times(1, y, r);
-    return r;
-  };
-  const auto norm = [&](const Vec& y) { return std::sqrt(std::max(0.0, y.dot(mass_times(y)))); };
-  x /= norm(x);
+  const Vec x = unrelated(zero.size(), 1, 1);
+  return x / mass_norm(system, x);
+}
+
+}  // namespace
+
+double stiffness_of_unrelated_motion(model::AssembledSystem& system, double t, const Vec& q) {
+  const Vec x = unrelated_motion(system, t, q), zero = Vec::Zero(x.size());
   const double step = 1e-6 / std::max(1e-300, x.lpNorm<Eigen::Infinity>());
+  Vec ahead, behind, moved;
   for (const double side : {1.0, -1.0}) {
-    Vec moved;
     system.retract(q, side * step * x, moved);
     system.move_to(t, moved, zero);
     (side > 0 ? ahead : behind) = system.f();
   }
-  const double stiff = std::abs(x.dot(behind - ahead)) / (2 * step);  // omega^2 of the random motion
+  return std::abs(x.dot(behind - ahead)) / (2 * step);
+}
+
+std::optional<std::string> find_mechanism(model::AssembledSystem& system, double t, const Vec& q) {
+  const Vec zero = Vec::Zero(system.sizes().nv);
+  const Vec lambda = Vec::Zero(system.sizes().nc);
+  system.carry_no_stress();
+  const double stiff = stiffness_of_unrelated_motion(system, t, q);
   if (!std::isfinite(stiff)) return {};
   const double shift = std::max(1e-12 * stiff, 1e-12);
-  system.move_to(t, q, zero);
+  Vec x = unrelated_motion(system, t, q), mu;
   const Vec no_rows = Vec::Zero(system.sizes().nc);
   double growth = 0;
   for (int i = 0; i < 4; ++i) {
-    Mx = -mass_times(x);
+    const Vec Mx = -mass_times(system, x);
     system.factorise({shift, 0, 1}, zero, lambda);
     Vec y;
     if (!system.correct(Mx, no_rows, y, mu)) return {};
-    growth = norm(y);
+    growth = mass_norm(system, y);
     if (!(growth > 0) || !std::isfinite(growth)) return {};
     x = y / growth;
   }
@@ -51,7 +69,7 @@ std::optional<std::string> find_mechanism(model::AssembledSystem& system, double
     if (body.nv == 0) continue;
     Vec alone = zero;
     alone.segment(body.v0, body.nv) = x.segment(body.v0, body.nv);
-    if (const double share = norm(alone); share > most) most = share, loose = &body;
+    if (const double share = mass_norm(system, alone); share > most) most = share, loose = &body;
   }
   if (!loose) return {};
   return fmt::format(

@@ -9,6 +9,9 @@
 
 namespace trammel::simulate {
 
+// omega^2 of a random motion, which is that of what is stiffest, but for a small factor. At q [nq] and rest.
+double stiffness_of_unrelated_motion(model::AssembledSystem& system, double t, const Vec& q);
+
 // At q [nq] and rest; what to say to the user.
 std::optional<std::string> find_mechanism(model::AssembledSystem& system, double t, const Vec& q);
 
