@@ -3,7 +3,6 @@
 
 #include <Simbody.h>
 
-#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -17,10 +16,13 @@ inline std::string simbody_version() {
   return "Simbody " + std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(build);
 }
 
-/// Messages of exceptions run over several lines and quote files.
-inline std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '"' || c == '\\' || c == '\n'; }, ' ');
+/// What an exception says, without its first line, the place it was thrown at, and without what JSON would escape.
+inline std::string reason(const std::exception& e) {
+  std::string text = e.what();
+  text.erase(0, text.find('\n') + 1);
+  for (char& c : text) {
+    if (c == '"' || c == '\\' || c == '\n') c = ' ';
+  }
   return text;
 }
 
@@ -32,9 +34,10 @@ inline Measured run(const SimTK::MultibodySystem& system, const SimTK::State& st
   SimTK::RungeKuttaMersonIntegrator method(system);
   method.setAccuracy(accuracy);
   SimTK::TimeStepper stepper(system, method);
+  long set_up = 0;
   try {
     stepper.initialize(start);
-    const long set_up = method.getNumRealizations();
+    set_up = method.getNumRealizations();
     const double begin = cpu_seconds();
     for (int i = 1; i <= int(until / every + 0.5); ++i) {
       stepper.stepTo(i * every);
@@ -43,10 +46,10 @@ inline Measured run(const SimTK::MultibodySystem& system, const SimTK::State& st
       m.series.emplace_back(now.getTime(), observe(now));
       m.cpu = cpu_seconds() - begin;
     }
-    m.evaluations = method.getNumRealizations() - set_up;
   } catch (const std::exception& e) {
-    m.failure = one_line(e.what());
+    m.failure = reason(e);
   }
+  m.evaluations = method.getNumRealizations() - set_up;
   m.steps = method.getNumStepsTaken();
   return m;
 }
