@@ -17,9 +17,9 @@ namespace trammel::numerics {
 class FrontLayout {
  public:
   // A column of a body's Gt, which is part of a row of the front; or, of row -1, a body's mass. `map`: the front's column for each of
-  // the body's velocities, -1: none.
+  // the body's velocities, `size` of them from v0 on; -1: none.
   struct Source {
-    int body, column, row, map;
+    int body, column, row, map = 0, size = 0, v0 = 0;
   };
   struct Child {
     int front, map;  // the parent's column for each of its boundary

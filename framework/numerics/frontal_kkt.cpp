@@ -2,44 +2,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "numerics/small_loops.hpp"
 
 namespace trammel::numerics {
 
 bool FrontalKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, bool identity, double rank_tolerance) {
-  lay_out(bodies, nc);
+  lay_out(bodies, nc, false);
   identity_ = identity;
-  return eliminate_fronts(bodies, [&](std::size_t front) {
-    eliminate_rows(front, rank_tolerance);
-    sum_masses(front, bodies);
-    return reduce_masses(front);
-  });
+  rank_tolerance_ = rank_tolerance;
+  return eliminate_fronts(bodies);
 }
 
-void FrontalKkt::lay_out(const std::vector<BodyBlock>& bodies, int nc) {
-  if (know(bodies, nc) && layout_.holds(bodies)) return;
-  layout_.build(bodies, nc);
+void FrontalKkt::lay_out(const std::vector<BodyBlock>& bodies, int nc, bool springs) {
+  const bool known = know(bodies, nc) && layout_.holds(bodies);
+  if (known && springs == springs_) return;
+  springs_ = springs;
+  if (!known) layout_.build(bodies, nc);
   place_store(bodies);
 }
 
-bool FrontalKkt::eliminate_fronts(const std::vector<BodyBlock>& bodies,
-                                  const std::function<bool(std::size_t)>& eliminate) {
+bool FrontalKkt::eliminate_fronts(const std::vector<BodyBlock>& bodies) {
   dependent_ = layout_.merged().idle();
   for (std::size_t k = 0; k < places_.size(); ++k) {
     if (!sum_rows(k, bodies)) {
       layout_.extend(bodies);
       place_store(bodies);
-      return eliminate_fronts(bodies, eliminate);
+      return eliminate_fronts(bodies);
     }
-    if (!eliminate(k)) return false;
+    springs_ ? keep_rows(k) : eliminate_rows(k);
+    sum_masses(k, bodies);
+    if (springs_) add_springs(k);
+    if (!reduce_masses(k)) return false;
   }
   return true;
 }
 
 void FrontalKkt::place_store(const std::vector<BodyBlock>& bodies) {
   std::size_t size = 0, pieces = 0;
-  int reflections = 0, rows = 0, unknowns = 0;
+  int rows = 0, unknowns = 0;
   const auto place = [&size](int numbers) {
     const std::size_t at = size;
     size += std::size_t(numbers);
@@ -47,30 +49,45 @@ void FrontalKkt::place_store(const std::vector<BodyBlock>& bodies) {
   };
   places_.clear();
   for (const FrontLayout::Front& front : layout_.fronts()) {
-    const int m = front.most_rows, n = front.unknowns, F = front.eliminated, nb = front.boundary();
+    const int m = springs_ ? front.own_rows : front.most_rows, n = front.unknowns, F = front.eliminated;
     Place& at = places_.emplace_back();
-    at.C = place(m * n);
-    at.reflections = place(m * n);
+    at.C = place(m * (springs_ ? n : n + m));
     at.masses = place(F * n);
-    at.K = place(nb * nb);
-    at.up = place(nb * nb);
-    at.vectors = place(n + F + 2 * nb);
+    at.vectors = place(2 * F + front.boundary());
     at.pieces = pieces;
     for (const FrontLayout::Source& source : layout_.rows(front))
       pieces += std::size_t(bodies[std::size_t(source.body)].Gt.rows());
-    at.first_reflection = reflections;
-    reflections += n;
+    at.pieces_of_masses = pieces;
+    for (const FrontLayout::Source& source : layout_.masses(front))
+      pieces += std::size_t(bodies[std::size_t(source.body)].M.size());
     rows = std::max(rows, m), unknowns = std::max(unknowns, n);
   }
+  place_passed_on();
   store_.setZero(Eigen::Index(size));
   scale_.assign(layout_.all_own_rows(), 1);
   columns_.assign(layout_.all_unknowns(), 0);
   pieces_.assign(pieces, 0);
-  reflections_.assign(std::size_t(reflections), {});
   K_.resize(unknowns, unknowns);
   w_.resize(rows);
-  scratch_.resize(2 * unknowns);
+  scratch_.resize(2 * (unknowns + rows));
   place_of_.resize(std::size_t(unknowns));
+}
+
+// Places of one size each, the last one left first.
+void FrontalKkt::place_passed_on() {
+  std::size_t size = 0;
+  std::map<int, std::vector<std::size_t>> left;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const FrontLayout::Front& front = layout_.fronts()[k];
+    const int nb = front.boundary();
+    std::vector<std::size_t>& open = left[nb];
+    if (open.empty()) open.push_back(size), size += std::size_t(2 * nb * nb);
+    places_[k].K = open.back(), places_[k].up = open.back() + std::size_t(nb * nb);
+    open.pop_back();
+    for (const FrontLayout::Child& child : layout_.children(front))
+      left[layout_.fronts()[std::size_t(child.front)].boundary()].push_back(places_[std::size_t(child.front)].K);
+  }
+  passed_on_.setZero(Eigen::Index(size));
 }
 
 FrontalKkt::Parts FrontalKkt::parts(std::size_t k) {
@@ -81,16 +98,12 @@ FrontalKkt::Parts FrontalKkt::parts(std::size_t k) {
   p.m = at.all_rows, p.n = front.unknowns, p.r = at.told, p.passed = at.passed;
   p.rest = p.n - p.r, p.free = front.eliminated - p.r, p.nb = front.boundary();
   p.unknowns = layout_.unknowns(front), p.columns = columns_.data() + front.first_unknown;
-  p.C = s + at.C, p.K = s + at.K, p.up = s + at.up;
+  p.width = at.width;
+  p.C = s + at.C, p.K = passed_on_.data() + at.K, p.up = passed_on_.data() + at.up;
   p.K11 = s + at.masses, p.W = p.K11 + p.r * p.r, p.LV = p.W + p.r * p.rest;
   p.t = s + at.vectors, p.z = p.t + p.r, p.u = p.z + p.free;
-  p.passed_scale = p.t + p.n + front.eliminated, p.passed_right = p.passed_scale + p.nb;
+  p.passed_right = p.t + 2 * front.eliminated;
   return p;
-}
-
-RowElimination FrontalKkt::rows_of(const Place& at, int n) {
-  return {store_.data() + at.C, at.all_rows, n, reflections_.data() + at.first_reflection,
-          store_.data() + at.reflections};
 }
 
 // C: the front's own rows at length one, then those of its children. False: a row is not of the pattern any more.
@@ -98,58 +111,65 @@ bool FrontalKkt::sum_rows(std::size_t k, const std::vector<BodyBlock>& bodies) {
   const FrontLayout::Front& front = layout_.fronts()[k];
   Place& at = places_[k];
   const int n = front.unknowns;
+  at.all_rows = front.own_rows;
+  for (const FrontLayout::Child& child : layout_.children(front))
+    at.all_rows += places_[std::size_t(child.front)].passed;
+  const int width = at.width = springs_ ? n : n + at.all_rows;
   double* const C = store_.data() + at.C;
-  std::fill_n(C, front.own_rows * n, 0.0);
+  std::fill_n(C, at.all_rows * width, 0.0);
   double* piece = pieces_.data() + at.pieces;
   for (const FrontLayout::Source& source : layout_.rows(front)) {
     const Mat& Gt = bodies[std::size_t(source.body)].Gt;
-    const double* const from = Gt.data() + source.column * Gt.rows();
-    const int* const map = layout_.map(source.map);
-    piece = std::copy_n(from, Gt.rows(), piece);
-    for (Eigen::Index j = 0; j < Gt.rows(); ++j) {
+    const int size = int(Gt.rows()), *const map = layout_.map(source.map);
+    const double* const from = Gt.data() + source.column * size;
+    double* const row = C + source.row * width;
+    for (int j = 0; j < size; ++j) {
+      piece[j] = from[j];
       if (map[j] >= 0)
-        C[source.row * n + map[j]] += from[j];
+        row[map[j]] += from[j];
       else if (from[j] != 0)
         return false;
     }
+    piece += size;
   }
   for (int i = 0; i < front.own_rows; ++i) {
-    double* const row = C + i * n;
+    double* const row = C + i * width;
     const double length = std::sqrt(dot(n, row, row)), scale = length > 0 ? 1 / length : 0;
     for (int j = 0; j < n; ++j) row[j] *= scale;
     scale_[std::size_t(front.first_row + i)] = scale;
   }
-  at.all_rows = front.own_rows;
+  double* row = C + front.own_rows * width;
   for (const FrontLayout::Child& child : layout_.children(front)) {
     const Parts below = parts(std::size_t(child.front));
     const int* const map = layout_.map(child.map);
-    for (int i = 0; i < below.passed; ++i) {
-      double* const row = C + at.all_rows++ * n;
-      std::fill_n(row, n, 0.0);
+    for (int i = 0; i < below.passed; ++i, row += width)
       for (int j = 0; j < below.nb; ++j) row[map[j]] = below.up[i * below.nb + j];
-    }
   }
   return true;
 }
 
-// Rows that tell nothing of the front's unknowns go up, as far as they are independent. Then S = R^-1 (R_12 R_1B) in their place.
-void FrontalKkt::eliminate_rows(std::size_t k, double rank_tolerance) {
+// Rows that tell nothing of the front's unknowns go up, as far as they are independent. Then S = R^-1 (R_12 R_1B) in their place, and
+// P beside it.
+void FrontalKkt::eliminate_rows(std::size_t k) {
   const FrontLayout::Front& front = layout_.fronts()[k];
   Place& at = places_[k];
-  const auto rank = rows_of(at, front.unknowns)
-                        .run(front.eliminated, rank_tolerance, columns_.data() + front.first_unknown, scratch_.data());
+  RowElimination rows(store_.data() + at.C, at.all_rows, front.unknowns);
+  const auto rank = rows.run(front.eliminated, rank_tolerance_, columns_.data() + front.first_unknown, scratch_.data());
   at.told = rank.told, at.passed = rank.passed;
   dependent_ += at.all_rows - at.told - at.passed;
   const Parts p = parts(k);
   for (int i = 0; i < p.passed; ++i) {
-    const double* const row = p.C + (p.r + i) * p.n + front.eliminated;
-    p.passed_scale[i] = 1 / std::sqrt(dot(p.nb, row, row));
-    for (int j = 0; j < p.nb; ++j) p.up[i * p.nb + j] = p.passed_scale[i] * row[j];
+    double* const row = p.C + (p.r + i) * p.width + front.eliminated;
+    const double scale = 1 / std::sqrt(dot(p.nb, row, row));
+    for (int j = 0; j < p.nb + p.m; ++j) row[j] *= scale;
+    for (int j = 0; j < p.nb; ++j) p.up[i * p.nb + j] = row[j];
   }
+  const int wide = p.rest + p.m;
   for (int i = p.r - 1; i >= 0; --i) {
     double* const S_i = p.S(i);
-    for (int j = 0; j < p.rest; ++j) S_i[j] /= p.R(i, i);
-    for (int l = 0; l < i; ++l) add(p.rest, -p.R(l, i), S_i, p.S(l));
+    const double inverse = 1 / p.R(i, i);
+    for (int j = 0; j < wide; ++j) S_i[j] *= inverse;
+    for (int l = 0; l < i; ++l) add(wide, -p.R(l, i), S_i, p.S(l));
   }
 }
 
@@ -165,9 +185,11 @@ void FrontalKkt::sum_masses(std::size_t k, const std::vector<BodyBlock>& bodies)
       for (int i = 0; i < size; ++i) column[place_of_[std::size_t(map[i])]] += entry(i, j);
     }
   };
+  double* piece = pieces_.data() + places_[k].pieces_of_masses;
   for (const FrontLayout::Source& source : layout_.masses(front)) {
     const Mat& M = bodies[std::size_t(source.body)].M;
-    const int size = int(M.rows());
+    const int size = source.size;
+    for (int j = 0; j < size * size; ++j) *piece++ = M.data()[j];
     if (identity_)
       sum(layout_.map(source.map), size, [](int i, int j) { return i == j ? 1.0 : 0.0; });
     else

@@ -8,7 +8,7 @@
 //
 //     Q^T [C_F C_B] = [R  *   *]      Householder with column pivoting, rows at length one: r rows tell r unknowns of F,
 //                     [0  0  C'']     the rest tell something of B alone and go to the parent, or nothing: they depend on others
-//     x_1 = t - S (x_2, x_B)          the r unknowns, by R;  K' = K restricted to that
+//     x_1 = P c - S (x_2, x_B)        the r unknowns, by R: P = R^-1 Q_1^T;  K' = K restricted to that
 //     K'' = K'_BB - K'_B2 K'_22^-1 K'_2B      the free unknowns x_2, by Cholesky;  to the parent
 //
 // front_layout.hpp has which fronts there are, row_elimination.hpp a front's rows, frontal_solve.cpp the solutions. The rank is
@@ -24,7 +24,6 @@
 // squares, and what rows tell by less than 1/sqrt(k) of M comes slowly or not at all. y is of minimum norm, but for b = 0.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "numerics/body_block.hpp"
@@ -51,61 +50,60 @@ class FrontalKkt {
  private:
   // Where a front's numbers are in store_, and what its rows came to.
   struct Place {
-    std::size_t C = 0, reflections = 0, masses = 0, K = 0, up = 0, vectors = 0;
-    std::size_t pieces = 0;  // in pieces_
-    int first_reflection = 0;
+    std::size_t C = 0, masses = 0, vectors = 0;
+    std::size_t K = 0, up = 0;  // in passed_on_: the parent takes them, and their place is free again
+    std::size_t pieces = 0, pieces_of_masses = 0;  // in pieces_
     int all_rows = 0, told = 0, passed = 0;
+    int width = 0;  // of C's rows
   };
   // A front by the names above: m rows, n unknowns, r told by rows and `rest` not, of those `free` and the nb of the boundary.
   struct Parts {
-    int m, n, r, rest, free, nb, passed;
-    const int *unknowns, *columns;  // columns: of the unknowns, those that rows tell first
-    double* C;                      // by rows: R, S, and the reflections' rests
-    double *K11, *W, *LV;           // W by rows; LV: L above V^T, by columns
-    double *K, *up;                 // for the parent: K''; rows, each scaled by
-    double* passed_scale;
+    int m, n, r, rest, free, nb, passed, width;
+    const int *unknowns, *columns;     // columns: of the unknowns, those that rows tell first
+    double* C;                         // by rows: R, S and P; below, of the rows passed on, Q_2^T in P's place
+    double *K11, *W, *LV;              // W by rows; LV: L above V^T, by columns
+    double *K, *up;                    // for the parent: K''; rows of length one
     double *t, *z, *u, *passed_right;  // of a right side
-    double& R(int i, int j) const { return C[i * n + j]; }
-    double* S(int i) const { return C + i * n + r; }
+    double& R(int i, int j) const { return C[i * width + j]; }
+    double* S(int i) const { return C + i * width + r; }
+    double* P(int i) const { return C + i * width + n; }
   };
   Parts parts(std::size_t front);
-  RowElimination rows_of(const Place& at, int n);
 
-  void lay_out(const std::vector<BodyBlock>& bodies, int nc);
-  // eliminate(front) after its rows are summed; false ends it.
-  bool eliminate_fronts(const std::vector<BodyBlock>& bodies, const std::function<bool(std::size_t)>& eliminate);
+  void lay_out(const std::vector<BodyBlock>& bodies, int nc, bool springs);
+  bool eliminate_fronts(const std::vector<BodyBlock>& bodies);
   void place_store(const std::vector<BodyBlock>& bodies);
+  void place_passed_on();
   bool sum_rows(std::size_t front, const std::vector<BodyBlock>& bodies);
-  void eliminate_rows(std::size_t front, double rank_tolerance);
+  void eliminate_rows(std::size_t front);
   void sum_masses(std::size_t front, const std::vector<BodyBlock>& bodies);
   bool reduce_masses(std::size_t front);
   double least_mass(const std::vector<BodyBlock>& bodies);
   void keep_rows(std::size_t front);
-  void add_springs(std::size_t front, double k);
+  void add_springs(std::size_t front);
   void merge(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c);
-  void expand(const std::vector<BodyBlock>& bodies, const Vec& b, Vec& x, Vec& y);
-  void subtract_mass(const std::vector<BodyBlock>& bodies, const Vec& a, Vec& from);
-  bool refine(const std::vector<BodyBlock>& bodies);
-  void find_residuals(const std::vector<BodyBlock>& bodies);
-  void approach(const std::vector<BodyBlock>& bodies, double k);
+  void expand(const Vec& b, Vec& x, Vec& y);
+  bool refine();
+  void find_residuals();
+  void add_masses(std::size_t front, const double* x, double* sum) const;
+  void approach(double k);
   void push_by_rows(double k);
   void remove_null_part(double k, Vec& Y);
-  void subtract_masses_times(const std::vector<BodyBlock>& bodies, const Vec& X, Vec& from);
   void subtract_rows_times(const Vec& X, Vec& from);
   void subtract_rows_force(const Vec& Y, Vec& from);
   void solve_once(Vec& X, Vec& Y);
   void forward(std::size_t front);
   void backward(std::size_t front, Vec& X, Vec& Y);
 
-  bool identity_ = false;
+  bool identity_ = false, springs_ = false;
+  double rank_tolerance_ = 0, stiffness_ = 0;  // of springs, k
   int dependent_ = 0;
   FrontLayout layout_;
   std::vector<Place> places_;
-  Vec store_;                 // aligned as Eigen's own: sums over pieces of it round alike in every run
-  std::vector<int> columns_;  // of each front's unknowns
-  std::vector<RowElimination::Reflection> reflections_;
+  Vec store_, passed_on_;       // aligned as Eigen's own: sums over pieces of it round alike in every run
+  std::vector<int> columns_;    // of each front's unknowns
   std::vector<double> scale_;   // of own rows
-  std::vector<double> pieces_;  // what bodies give to own rows, in the order of their sources
+  std::vector<double> pieces_;  // what bodies give to own rows and masses, front by front in the order of their sources
   std::vector<int> place_of_;   // of each of a front's unknowns in its columns
   Mat K_;
   // Of merged unknowns and own rows at length one: right sides, what is left of them, solution, its corrections.

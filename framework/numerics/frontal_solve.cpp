@@ -8,28 +8,24 @@
 
 namespace trammel::numerics {
 
-// t = R^-1 c_1,  b_r -= S^T b_1 + W^T t,  u = b_1 - K_11 t;  z = L^-1 b_2, b_B -= V^T z.
+// t = P c,  b_r -= S^T b_1 + W^T t,  u = b_1 - K_11 t;  z = L^-1 b_2, b_B -= V^T z.
 void FrontalKkt::forward(std::size_t k) {
   const FrontLayout::Front& front = layout_.fronts()[k];
   const Parts p = parts(k);
   const int r = p.r, rest = p.rest;
-  double* w = std::copy_n(c_.data() + front.first_row, front.own_rows, w_.data());
+  double* const w = w_.data();
+  int m = 0;
+  for (const double* own = c_.data() + front.first_row; m < front.own_rows; ++m) w[m] = own[m];
   for (const FrontLayout::Child& child : layout_.children(front)) {
     const Parts below = parts(std::size_t(child.front));
-    w = std::copy_n(below.passed_right, below.passed, w);
+    for (int i = 0; i < below.passed; ++i) w[m++] = below.passed_right[i];
   }
-  w = w_.data();
-  rows_of(places_[k], p.n).apply(r + p.passed, w);
-  for (int i = 0; i < p.passed; ++i) p.passed_right[i] = w[r + i] * p.passed_scale[i];
-
-  std::copy_n(w, r, p.t);
-  for (int i = r - 1; i >= 0; --i) {
-    p.t[i] = (p.t[i] - dot(r - 1 - i, p.C + i * p.n + i + 1, p.t + i + 1)) / p.R(i, i);
-    p.u[i] = b_(p.unknowns[p.columns[i]]);
-  }
+  for (int i = 0; i < p.passed; ++i) p.passed_right[i] = dot(m, p.P(r + i), w);
   double* const b = scratch_.data();
   for (int j = 0; j < rest; ++j) b[j] = b_(p.unknowns[p.columns[r + j]]);
   for (int i = 0; i < r; ++i) {
+    p.t[i] = dot(m, p.P(i), w);
+    p.u[i] = b_(p.unknowns[p.columns[i]]);
     add(rest, -p.u[i], p.S(i), b);
     add(rest, -p.t[i], p.W + i * rest, b);
   }
@@ -42,7 +38,7 @@ void FrontalKkt::forward(std::size_t k) {
   for (int j = p.free; j < rest; ++j) b_(p.unknowns[p.columns[r + j]]) = b[j];
 }
 
-// x_2 = L^-T (z - V x_B),  x_1 = t - S x_r,  R^T y_1 = u - W x_r.
+// x_2 = L^-T (z - V x_B),  x_1 = t - S x_r,  y = P^T (u - W x_r) and what the parent gives to rows passed on.
 void FrontalKkt::backward(std::size_t k, Vec& X, Vec& Y) {
   const FrontLayout::Front& front = layout_.fronts()[k];
   const Parts p = parts(k);
@@ -55,23 +51,17 @@ void FrontalKkt::backward(std::size_t k, Vec& X, Vec& Y) {
     X(p.unknowns[p.columns[r + j]]) = x[j];
   }
   double* const w = w_.data();
-  std::fill_n(w, p.m, 0.0);
+  for (int i = 0; i < p.m; ++i) w[i] = 0;
   for (int i = 0; i < r; ++i) {
     X(p.unknowns[p.columns[i]]) = p.t[i] - dot(rest, p.S(i), x);
-    w[i] = p.u[i] - dot(rest, p.W + i * rest, x);
+    add(p.m, p.u[i] - dot(rest, p.W + i * rest, x), p.P(i), w);
   }
-  for (int i = 0; i < r; ++i) {
-    w[i] /= p.R(i, i);
-    add(r - 1 - i, -w[i], p.C + i * p.n + i + 1, w + i + 1);
-  }
-  for (int i = 0; i < p.passed; ++i) w[r + i] = p.passed_right[i] * p.passed_scale[i];
-  rows_of(places_[k], p.n).apply_back(r + p.passed, w);
-  std::copy_n(w, front.own_rows, Y.data() + front.first_row);
-  const double* at = w + front.own_rows;
+  for (int i = 0; i < p.passed; ++i) add(p.m, p.passed_right[i], p.P(r + i), w);
+  int m = 0;
+  for (double* own = Y.data() + front.first_row; m < front.own_rows; ++m) own[m] = w[m];
   for (const FrontLayout::Child& child : layout_.children(front)) {
     const Parts below = parts(std::size_t(child.front));
-    std::copy_n(at, below.passed, below.passed_right);
-    at += below.passed;
+    for (int i = 0; i < below.passed; ++i) below.passed_right[i] = w[m++];
   }
 }
 
@@ -84,13 +74,13 @@ void FrontalKkt::solve_once(Vec& X, Vec& Y) {
 
 bool FrontalKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
   merge(bodies, b, c);
-  const bool holds = refine(bodies);
+  const bool holds = refine();
   y.setZero(c.size());
-  expand(bodies, b, x, y);
+  expand(b, x, y);
   return holds;
 }
 
-bool FrontalKkt::refine(const std::vector<BodyBlock>& bodies) {
+bool FrontalKkt::refine() {
   constexpr int most = 4;
   constexpr double good = 1e-7, lost = 1e-6;  // corrections: leave their square; too large to count on
   const double apart = offset_.lpNorm<Eigen::Infinity>();
@@ -98,7 +88,7 @@ bool FrontalKkt::refine(const std::vector<BodyBlock>& bodies) {
   b_ = B_, c_ = C_;
   solve_once(X_, Y_);
   for (int i = 0; i < most; ++i) {
-    find_residuals(bodies);
+    find_residuals();
     solve_once(dX_, dY_);
     change = dX_.lpNorm<Eigen::Infinity>(), size = std::max(apart, X_.lpNorm<Eigen::Infinity>());
     if (!(change < 0.1 * size)) break;
@@ -111,21 +101,20 @@ bool FrontalKkt::refine(const std::vector<BodyBlock>& bodies) {
 namespace {
 
 // sum += M x, both at the places of `map`
-void add_mass(const Mat& M, const int* map, const double* x, double* sum) {
-  const double* column = M.data();
+void add_mass(const double* M, int size, const int* map, const double* x, double* sum) {
   const auto of_size = [&](auto n) {
-    for (int j = 0; j < n; ++j, column += n) {
+    for (int j = 0; j < n; ++j, M += n) {
       const double by = x[map[j]];
-      for (int i = 0; i < n; ++i) sum[map[i]] += by * column[i];
+      for (int i = 0; i < n; ++i) sum[map[i]] += by * M[i];
     }
   };
-  if (!with_few(M.rows(), of_size)) of_size(int(M.rows()));
+  if (!with_few(size, of_size)) of_size(size);
 }
 
 }  // namespace
 
 // b_ = B - M X - G^T Y,  c_ = C - G X
-void FrontalKkt::find_residuals(const std::vector<BodyBlock>& bodies) {
+void FrontalKkt::find_residuals() {
   b_ = B_, c_ = C_;
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const FrontLayout::Front& front = layout_.fronts()[k];
@@ -136,34 +125,33 @@ void FrontalKkt::find_residuals(const std::vector<BodyBlock>& bodies) {
     const double* piece = pieces_.data() + places_[k].pieces;
     for (const FrontLayout::Source& source : layout_.rows(front)) {
       const int row = front.first_row + source.row, *const map = layout_.map(source.map);
-      const int size = int(bodies[std::size_t(source.body)].Gt.rows());
       const double scale = scale_[std::size_t(row)], force = scale * Y_(row);
       double along = 0;
-      for (int j = 0; j < size; ++j) {
+      for (int j = 0; j < source.size; ++j) {
         if (map[j] < 0) continue;
         along += piece[j] * x[map[j]];
         sum[map[j]] += force * piece[j];
       }
       c_(row) -= scale * along;
-      piece += size;
+      piece += source.size;
     }
-    for (const FrontLayout::Source& source : layout_.masses(front)) {
-      const Mat& M = bodies[std::size_t(source.body)].M;
-      const int* const map = layout_.map(source.map);
-      if (identity_)
-        for (Eigen::Index j = 0; j < M.rows(); ++j) sum[map[j]] += x[map[j]];
-      else
-        add_mass(M, map, x, sum);
-    }
+    add_masses(k, x, sum);
     for (int j = 0; j < n; ++j) b_(unknowns[j]) -= sum[j];
   }
 }
 
-void FrontalKkt::subtract_mass(const std::vector<BodyBlock>& bodies, const Vec& a, Vec& from) {
-  if (identity_)
-    from -= a;
-  else
-    add_mass_times(bodies, -1, a, from);
+// sum += M x in a front's unknowns, its own masses alone
+void FrontalKkt::add_masses(std::size_t k, const double* x, double* sum) const {
+  const FrontLayout::Front& front = layout_.fronts()[k];
+  const double* piece = pieces_.data() + places_[k].pieces_of_masses;
+  for (const FrontLayout::Source& source : layout_.masses(front)) {
+    const int* const map = layout_.map(source.map);
+    if (identity_)
+      for (int j = 0; j < source.size; ++j) sum[map[j]] += x[map[j]];
+    else
+      add_mass(piece, source.size, map, x, sum);
+    piece += source.size * source.size;
+  }
 }
 
 // B_ and C_; offset_: of x from the merged unknowns.
@@ -172,7 +160,10 @@ void FrontalKkt::merge(const std::vector<BodyBlock>& bodies, const Vec& b, const
   left_ = b, left_rows_ = c;
   merged.offsets(c, offset_);
   if (!offset_.isZero(0)) {
-    subtract_mass(bodies, offset_, left_);
+    if (identity_)
+      left_ -= offset_;
+    else
+      add_mass_times(bodies, -1, offset_, left_);
     add_rows_times(bodies, -1, offset_, left_rows_);
   }
   B_.setZero(merged.count());
@@ -182,15 +173,31 @@ void FrontalKkt::merge(const std::vector<BodyBlock>& bodies, const Vec& b, const
     C_(i) = left_rows_(layout_.own_row(std::size_t(i))) * scale_[std::size_t(i)];
 }
 
-// x and y from X_ and Y_, and the multipliers of the rows that merge.
-void FrontalKkt::expand(const std::vector<BodyBlock>& bodies, const Vec& b, Vec& x, Vec& y) {
+// x and y from X_ and Y_, and the multipliers of the rows that merge: what is left of b - M x - G^T y.
+void FrontalKkt::expand(const Vec& b, Vec& x, Vec& y) {
   const MergedUnknowns& merged = layout_.merged();
   x = offset_;
   for (Eigen::Index j = 0; j < x.size(); ++j) x(j) += X_(merged.of(int(j)));
-  for (Eigen::Index i = 0; i < Y_.size(); ++i) y(layout_.own_row(std::size_t(i))) = Y_(i) * scale_[std::size_t(i)];
   left_ = b;
-  subtract_mass(bodies, x, left_);
-  add_rows_force(bodies, -1, y, left_);
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const FrontLayout::Front& front = layout_.fronts()[k];
+    for (int i = front.first_row; i < front.first_row + front.own_rows; ++i)
+      y(layout_.own_row(std::size_t(i))) = Y_(i) * scale_[std::size_t(i)];
+    const double* piece = pieces_.data() + places_[k].pieces;
+    for (const FrontLayout::Source& source : layout_.rows(front)) {
+      const int i = front.first_row + source.row;
+      add(source.size, -Y_(i) * scale_[std::size_t(i)], piece, left_.data() + source.v0);
+      piece += source.size;
+    }
+    piece = pieces_.data() + places_[k].pieces_of_masses;
+    for (const FrontLayout::Source& source : layout_.masses(front))
+      for (int j = source.v0; j < source.v0 + source.size; ++j, piece += source.size) {
+        if (identity_)
+          left_(j) -= x(j);
+        else
+          add(source.size, -x(j), piece, left_.data() + source.v0);
+      }
+  }
   merged.multipliers(left_, y);
 }
 

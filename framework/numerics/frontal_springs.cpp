@@ -9,24 +9,18 @@
 namespace trammel::numerics {
 
 double FrontalKkt::factorise_springs(const std::vector<BodyBlock>& bodies, int nc, bool identity, double softness) {
-  lay_out(bodies, nc);
+  lay_out(bodies, nc, true);
   identity_ = identity;
-  const double k = least_mass(bodies) / softness;
-  const bool done = eliminate_fronts(bodies, [&](std::size_t front) {
-    keep_rows(front);
-    sum_masses(front, bodies);
-    add_springs(front, k);
-    return reduce_masses(front);
-  });
-  return done ? 1 / k : 0;
+  stiffness_ = least_mass(bodies) / softness;
+  return eliminate_fronts(bodies) ? 1 / stiffness_ : 0;
 }
 
 void FrontalKkt::solve_springs(const std::vector<BodyBlock>& bodies, double eps, const Vec& b, const Vec& c, Vec& x,
                                Vec& y) {
   merge(bodies, b, c);
-  approach(bodies, 1 / eps);
+  approach(1 / eps);
   y.setZero(c.size());
-  expand(bodies, b, x, y);
+  expand(b, x, y);
 }
 
 double FrontalKkt::least_mass(const std::vector<BodyBlock>& bodies) {
@@ -44,19 +38,19 @@ void FrontalKkt::keep_rows(std::size_t f) {
   std::iota(columns, columns + front.unknowns, 0);
 }
 
-void FrontalKkt::add_springs(std::size_t f, double k) {
+void FrontalKkt::add_springs(std::size_t f) {
   const FrontLayout::Front& front = layout_.fronts()[f];
   const int n = front.unknowns;
   const double* row = store_.data() + places_[f].C;
   for (int i = 0; i < front.own_rows; ++i, row += n)
     for (int j = 0; j < n; ++j)
-      if (row[j] != 0) add(n - j, k * row[j], row + j, &K_(j, j));
+      if (row[j] != 0) add(n - j, stiffness_ * row[j], row + j, &K_(j, j));
 }
 
 // With each solution x comes to satisfy the rows better and y to push as hard as that takes. It ends where what is left, if it
 // shrinks on as the rows' violation does, is nothing: what would still change, ever more slowly, is rounding of the rows in
 // directions they hardly tell.
-void FrontalKkt::approach(const std::vector<BodyBlock>& bodies, double k) {
+void FrontalKkt::approach(double k) {
   constexpr int most = 40;
   constexpr double settled = 1e-10, slow = 0.9, visible = 1e-6;
   const double apart = offset_.lpNorm<Eigen::Infinity>();
@@ -69,7 +63,6 @@ void FrontalKkt::approach(const std::vector<BodyBlock>& bodies, double k) {
     const double size = std::max(apart, X_.lpNorm<Eigen::Infinity>());
     if (i > 1 && (!(shrinks < slow) || change * shrinks / (1 - shrinks) <= settled * size)) break;
     violated = c_.lpNorm<Eigen::Infinity>();
-    if (i > 0) subtract_masses_times(bodies, X_, b_);
     solve_once(dX_, dY_);
     X_ += dX_;
     change = dX_.lpNorm<Eigen::Infinity>();
@@ -79,7 +72,7 @@ void FrontalKkt::approach(const std::vector<BodyBlock>& bodies, double k) {
     remove_null_part(k, Y_);
 }
 
-// c_ = C - G X,  Y -= k c_,  b_ -= G^T (Y - k c_)
+// c_ = C - G X,  Y -= k c_,  b_ -= M X + G^T (Y - k c_)
 void FrontalKkt::push_by_rows(double k) {
   for (std::size_t f = 0; f < places_.size(); ++f) {
     const FrontLayout::Front& front = layout_.fronts()[f];
@@ -92,6 +85,7 @@ void FrontalKkt::push_by_rows(double k) {
       Y_(i) -= k * c_(i);
       add(n, Y_(i) - k * c_(i), row, sum);
     }
+    add_masses(f, x, sum);
     for (int j = 0; j < n; ++j) b_(unknowns[j]) -= sum[j];
   }
 }
@@ -108,20 +102,6 @@ void FrontalKkt::remove_null_part(double k, Vec& Y) {
       subtract_rows_times(dX_, left_rows_);
     }
     Y -= left_rows_;
-  }
-}
-
-void FrontalKkt::subtract_masses_times(const std::vector<BodyBlock>& bodies, const Vec& X, Vec& from) {
-  const MergedUnknowns& merged = layout_.merged();
-  for (const BodyBlock& body : bodies) {
-    const int n = int(body.M.rows());
-    for (int j = 0; j < n; ++j) {
-      const double x = X(merged.of(body.v0 + j));
-      if (identity_)
-        from(merged.of(body.v0 + j)) -= x;
-      else
-        for (int i = 0; i < n; ++i) from(merged.of(body.v0 + i)) -= x * body.M.data()[j * n + i];
-    }
   }
 }
 

@@ -9,8 +9,12 @@
 namespace trammel::numerics {
 
 RowElimination::Rank RowElimination::run(int F, double tolerance, int* columns, double* scratch) {
-  F_ = F, count_ = 0;
+  F_ = F;
   std::iota(columns, columns + n_, 0);
+  for (int i = 0; i < m_; ++i) {
+    std::fill_n(row(i) + n_, m_, 0.0);
+    row(i)[n_ + i] = 1;
+  }
   const int told = eliminate(0, F, 0, tolerance, columns, scratch);
   return {told, eliminate(F, n_, told, tolerance, nullptr, scratch)};
 }
@@ -42,45 +46,27 @@ void RowElimination::bring_forward(int j, int first, int* columns) {
   std::swap(columns[j], columns[first]);
 }
 
-// Column j on rows begin ... m - 1 becomes (beta, 0 ... 0); the squares of what is left below of each.
+// Column j on rows begin ... m - 1 becomes (beta, 0 ... 0); the squares of what is left below of each. v stays in column j until all
+// others have been reflected.
 void RowElimination::reflect(int j, int begin, double* scratch) {
-  double *const squares = scratch, *const along = scratch + n_, *const v = vectors_ + count_ * m_;
-  for (int i = begin; i < m_; ++i) v[i - begin] = row(i)[j];
-  const double norm = std::sqrt(squares[j]), beta = v[0] > 0 ? -norm : norm;
-  v[0] -= beta;
-  const double tau = -1 / (beta * v[0]);
-  reflections_[count_++] = {begin, tau};
+  double *const squares = scratch, *const along = scratch + n_;
+  const int first = std::min(begin, F_), n = width_ - first;  // columns before are zero there
+  const double head = row(begin)[j], norm = std::sqrt(squares[j]), beta = head > 0 ? -norm : norm;
+  const double tau = -1 / (beta * (head - beta));
+  row(begin)[j] = head - beta;
 
-  const int first = std::min(begin, F_), n = n_ - first;  // columns before are zero there
   std::fill_n(along, n, 0.0);
-  for (int i = begin; i < m_; ++i) add(n, tau * v[i - begin], row(i) + first, along);
-  std::fill_n(squares + first, n, 0.0);
+  for (int i = begin; i < m_; ++i) add(n, tau * row(i)[j], row(i) + first, along);
+  std::fill_n(squares + first, n_ - first, 0.0);
   for (int i = begin; i < m_; ++i) {
     double* const x = row(i) + first;
-    add(n, -v[i - begin], along, x);
+    add(n, -row(i)[j], along, x);
     if (i > begin)
-      for (int k = 0; k < n; ++k) squares[first + k] += x[k] * x[k];
+      for (int k = 0; k < n_ - first; ++k) squares[first + k] += x[k] * x[k];
   }
   row(begin)[j] = beta;
   for (int i = begin + 1; i < m_; ++i) row(i)[j] = 0;
   squares[j] = 0;
-}
-
-namespace {
-
-void reflected(const RowElimination::Reflection& by, const double* v, int m, double* w) {
-  const int n = m - by.begin;
-  add(n, -by.tau * dot(n, v, w + by.begin), v, w + by.begin);
-}
-
-}  // namespace
-
-void RowElimination::apply(int count, double* w) const {
-  for (int s = 0; s < count; ++s) reflected(reflections_[s], vectors_ + s * m_, m_, w);
-}
-
-void RowElimination::apply_back(int count, double* w) const {
-  for (int s = count - 1; s >= 0; --s) reflected(reflections_[s], vectors_ + s * m_, m_, w);
 }
 
 }  // namespace trammel::numerics
