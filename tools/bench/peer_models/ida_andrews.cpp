@@ -7,13 +7,13 @@
 //
 //   ida_andrews TOLERANCE        observes beta, theta, gamma, phi, delta, Omega, epsilon
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 
 #include "ida_run.hpp"
-#include "linear_solution.hpp"
 
 namespace {
 
@@ -198,25 +198,26 @@ class Andrews : public peers::Dae {
     s.differential.resize(size, 0);
     std::fill_n(s.differential.begin(), at_lambda, 1);
 
-    // With v = 0 the derivatives by v' are M alone, those by lambda G^T, and the rows of G v = 0 hold for v' too.
+    // With v = 0 the rows G v = 0 hold for v' too.
     const Place at(s.y.data());
-    std::vector<std::vector<double>> A(bodies + rows, std::vector<double>(bodies + rows, 0));
-    std::vector<double> b(bodies + rows, 0);
+    constexpr int n = bodies + rows;
+    Eigen::Matrix<double, n, n> A = Eigen::Matrix<double, n, n>::Zero();
+    Eigen::Matrix<double, n, 1> b = Eigen::Matrix<double, n, 1>::Zero();
     for (int k = 0; k < bodies; ++k) {
-      A[k][k] = diagonal[k];
+      A(k, k) = diagonal[k];
       for (int l = 0; l < loops; ++l) {
         const Vec G = arms[k].sign[l] * at.across[k];
         const int x = bodies + 2 * l, y = x + 1;
-        A[k][x] = A[x][k] = G.x;
-        A[k][y] = A[y][k] = G.y;
+        A(k, x) = A(x, k) = G.x;
+        A(k, y) = A(y, k) = G.y;
       }
     }
-    for (const Pair& p : pairs) A[p.i][p.j] = A[p.j][p.i] = at.coupling(p).first;
-    b[0] = mom;
-    b[2] = at.spring().value;
-    const std::vector<double> x = peers::linear_solution(A, b);
-    std::copy_n(x.begin(), bodies, s.y_dot.begin() + at_v);
-    std::copy_n(x.begin() + bodies, rows, s.y.begin() + at_lambda);
+    for (const Pair& p : pairs) A(p.i, p.j) = A(p.j, p.i) = at.coupling(p).first;
+    b(0) = mom;
+    b(2) = at.spring().value;
+    const Eigen::Matrix<double, n, 1> x = A.partialPivLu().solve(b);
+    std::copy_n(x.data(), bodies, s.y_dot.begin() + at_v);
+    std::copy_n(x.data() + bodies, rows, s.y.begin() + at_lambda);
     return s;
   }
 };
@@ -226,7 +227,8 @@ class Andrews : public peers::Dae {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const Andrews andrews;
-  peers::Measured m = peers::run(andrews, andrews.start(), std::atof(arguments[1]), 0.03);
+  const double tolerance = std::atof(arguments[1]);
+  peers::Measured m = peers::run(andrews, andrews.start(), {tolerance, tolerance, tolerance}, 0.03);
   for (auto& [t, y] : m.series) y = {y[0], y[1] - y[0], y[2], y[3] - y[4], y[4], y[5] - y[6], y[6]};
   peers::print(m);
 }
