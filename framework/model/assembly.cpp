@@ -65,13 +65,16 @@ void AssembledSystem::Work::order_joints() {
 void AssembledSystem::Work::lay_out_blocks() {
   if (!blocks) return;
   std::vector<BodyBlocks::Tie> ties;
-  const auto tie = [&ties](int first, int count, const auto& markers) {
-    BodyBlocks::Tie& one = ties.emplace_back(BodyBlocks::Tie{first, count, {}});
+  const auto tie = [&ties](int first, int count, const auto& markers, bool constant = false) {
+    BodyBlocks::Tie& one = ties.emplace_back(BodyBlocks::Tie{first, count, constant, {}});
     for (const MarkerRef& marker : markers) one.bodies.push_back(marker.body);
   };
   for (std::size_t b = 0; b < model->bodies.size(); ++b)
-    if (const BodyEntry& body = model->bodies[b]; body.rows > 0) ties.push_back({body.row, body.rows, {int(b)}});
-  for (const JointEntry& joint : model->joints) tie(joint.row, joint.rows, joint.markers);
+    if (const BodyEntry& body = model->bodies[b]; body.rows > 0) ties.push_back({body.row, body.rows, false, {int(b)}});
+  for (std::size_t i = 0; i < model->joints.size(); ++i) {
+    const JointEntry& joint = model->joints[i];
+    tie(joint.row, joint.rows, joint.markers, std::binary_search(constant_joints.begin(), constant_joints.end(), i));
+  }
   for (std::size_t i = 0; i < contact_row.size(); ++i) {
     const ContactEntry& contact = model->contacts[i];
     const std::vector<MarkerRef> pair = {contact.A, contact.B};

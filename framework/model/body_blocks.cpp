@@ -35,12 +35,13 @@ BodyBlocks::BodyBlocks(const Model& model) : model_(model) {
 }
 
 void BodyBlocks::lay_out(std::span<const Tie> ties) {
-  for (BodyBlock& block : bodies_) block.rows.clear();
+  for (BodyBlock& block : bodies_) block.rows.clear(), block.constant.clear();
   for (const Tie& tie : ties)
     for (auto body = tie.bodies.begin(); body != tie.bodies.end(); ++body) {
       if (*body < 0 || std::find(tie.bodies.begin(), body, *body) != body) continue;
-      std::vector<int>& rows = bodies_[std::size_t(*body)].rows;
-      for (int i = tie.first; i < tie.first + tie.count; ++i) rows.push_back(i);
+      BodyBlock& block = bodies_[std::size_t(*body)];
+      for (int i = tie.first; i < tie.first + tie.count; ++i)
+        block.rows.push_back(i), block.constant.push_back(tie.constant);
     }
   for (BodyBlock& block : bodies_) block.Gt.setZero(block.M.rows(), Eigen::Index(block.rows.size()));
 }

@@ -25,6 +25,7 @@ class BodyBlocks {
   // Rows first .. first + count - 1 of g are between these bodies (-1: the ground). Given in ascending order; the masses stay.
   struct Tie {
     int first, count;
+    bool constant;
     std::vector<int> bodies;
   };
   void lay_out(std::span<const Tie> ties);

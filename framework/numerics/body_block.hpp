@@ -9,11 +9,12 @@ namespace trammel::numerics {
 
 // What one body contributes: its mass and the rows of G that touch it.
 struct BodyBlock {
-  int v0 = 0;             // place of its velocities
-  Mat M;                  // n x n
-  std::vector<int> rows;  // ascending
-  Mat Gt;                 // n x rows.size(): those rows of G, transposed, its own columns
-  Mat Wt;                 // of W, where it is not G
+  int v0 = 0;                  // place of its velocities
+  Mat M;                       // n x n
+  std::vector<int> rows;       // ascending
+  std::vector<char> constant;  // of each of them, whether it never changes; empty: of none is that known
+  Mat Gt;                      // n x rows.size(): those rows of G, transposed, its own columns
+  Mat Wt;                      // of W, where it is not G
 };
 
 // rc += c G x,  r += c G^T y,  r += c W^T y,  r += c M a. Rows beyond the length of rc or y are left out.

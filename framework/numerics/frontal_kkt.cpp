@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "numerics/row_elimination.hpp"
 #include "numerics/small_loops.hpp"
 
 namespace trammel::numerics {
@@ -67,7 +68,7 @@ void FrontalKkt::place_store(const std::vector<BodyBlock>& bodies) {
   scale_.assign(layout_.all_own_rows(), 1);
   columns_.assign(layout_.all_unknowns(), 0);
   pieces_.assign(pieces, 0);
-  K_.resize(unknowns, unknowns);
+  K_.resize(unknowns * unknowns);
   w_.resize(rows);
   scratch_.resize(2 * (unknowns + rows));
   place_of_.resize(std::size_t(unknowns));
@@ -106,6 +107,13 @@ FrontalKkt::Parts FrontalKkt::parts(std::size_t k) {
   return p;
 }
 
+FrontalKkt::Below FrontalKkt::passed_by(const FrontLayout::Child& child) {
+  const FrontLayout::Front& front = layout_.fronts()[std::size_t(child.front)];
+  const Place& at = places_[std::size_t(child.front)];
+  return {front.boundary(), at.passed, passed_on_.data() + at.K, passed_on_.data() + at.up,
+          store_.data() + at.vectors + 2 * front.eliminated};
+}
+
 // C: the front's own rows at length one, then those of its children. False: a row is not of the pattern any more.
 bool FrontalKkt::sum_rows(std::size_t k, const std::vector<BodyBlock>& bodies) {
   const FrontLayout::Front& front = layout_.fronts()[k];
@@ -140,7 +148,7 @@ bool FrontalKkt::sum_rows(std::size_t k, const std::vector<BodyBlock>& bodies) {
   }
   double* row = C + front.own_rows * width;
   for (const FrontLayout::Child& child : layout_.children(front)) {
-    const Parts below = parts(std::size_t(child.front));
+    const Below below = passed_by(child);
     const int* const map = layout_.map(child.map);
     for (int i = 0; i < below.passed; ++i, row += width)
       for (int j = 0; j < below.nb; ++j) row[map[j]] = below.up[i * below.nb + j];
@@ -178,10 +186,10 @@ void FrontalKkt::sum_masses(std::size_t k, const std::vector<BodyBlock>& bodies)
   const FrontLayout::Front& front = layout_.fronts()[k];
   const Parts p = parts(k);
   for (int i = 0; i < p.n; ++i) place_of_[std::size_t(p.columns[i])] = i;
-  for (int j = 0; j < p.n; ++j) std::fill_n(&K_(0, j), p.n, 0.0);
+  std::fill_n(K_.data(), p.n * p.n, 0.0);
   const auto sum = [&](const int* map, int size, const auto& entry) {
     for (int j = 0; j < size; ++j) {
-      double* const column = &K_(0, place_of_[std::size_t(map[j])]);
+      double* const column = K_.data() + place_of_[std::size_t(map[j])] * p.n;
       for (int i = 0; i < size; ++i) column[place_of_[std::size_t(map[i])]] += entry(i, j);
     }
   };
@@ -196,7 +204,7 @@ void FrontalKkt::sum_masses(std::size_t k, const std::vector<BodyBlock>& bodies)
       sum(layout_.map(source.map), size, [&](int i, int j) { return M.data()[j * size + i]; });
   }
   for (const FrontLayout::Child& child : layout_.children(front)) {
-    const Parts below = parts(std::size_t(child.front));
+    const Below below = passed_by(child);
     sum(layout_.map(child.map), below.nb, [&](int i, int j) { return below.K[j * below.nb + i]; });
   }
 }
@@ -205,11 +213,13 @@ void FrontalKkt::sum_masses(std::size_t k, const std::vector<BodyBlock>& bodies)
 bool FrontalKkt::reduce_masses(std::size_t k) {
   const Parts p = parts(k);
   const int r = p.r, rest = p.rest;
-  const auto T = [&](int i, int j) -> double& { return K_(r + i, r + j); };
-  for (int j = 0; j < r; ++j) std::copy_n(&K_(0, j), r, p.K11 + j * r);
+  double* const K = K_.data();
+  const auto T = [&](int i, int j) -> double& { return K[(r + j) * p.n + r + i]; };
+  for (int j = 0; j < r; ++j)
+    for (int i = 0; i < r; ++i) p.K11[j * r + i] = K[j * p.n + i];
   for (int j = 0; j < rest; ++j) {
-    double* const column = &K_(0, r + j);
-    for (int l = 0; l < r; ++l) add(p.n, -p.S(l)[j], &K_(0, l), column);
+    double* const column = K + (r + j) * p.n;
+    for (int l = 0; l < r; ++l) add(p.n, -p.S(l)[j], K + l * p.n, column);
     for (int l = 0; l < r; ++l) {
       p.W[l * rest + j] = column[l];
       add(rest - j, -column[l], p.S(l) + j, &T(j, j));

@@ -28,7 +28,6 @@
 
 #include "numerics/body_block.hpp"
 #include "numerics/front_layout.hpp"
-#include "numerics/row_elimination.hpp"
 
 namespace trammel::numerics {
 
@@ -69,6 +68,13 @@ class FrontalKkt {
     double* P(int i) const { return C + i * width + n; }
   };
   Parts parts(std::size_t front);
+  // What a child has for its parent, by the same names.
+  struct Below {
+    int nb, passed;
+    const double *K, *up;
+    double* passed_right;
+  };
+  Below passed_by(const FrontLayout::Child& child);
 
   void lay_out(const std::vector<BodyBlock>& bodies, int nc, bool springs);
   bool eliminate_fronts(const std::vector<BodyBlock>& bodies);
@@ -105,7 +111,7 @@ class FrontalKkt {
   std::vector<double> scale_;   // of own rows
   std::vector<double> pieces_;  // what bodies give to own rows and masses, front by front in the order of their sources
   std::vector<int> place_of_;   // of each of a front's unknowns in its columns
-  Mat K_;
+  Vec K_;
   // Of merged unknowns and own rows at length one: right sides, what is left of them, solution, its corrections.
   Vec B_, C_, b_, c_, X_, Y_, dX_, dY_;
   Vec w_, scratch_, offset_, left_, left_rows_;

@@ -17,7 +17,7 @@ void FrontalKkt::forward(std::size_t k) {
   int m = 0;
   for (const double* own = c_.data() + front.first_row; m < front.own_rows; ++m) w[m] = own[m];
   for (const FrontLayout::Child& child : layout_.children(front)) {
-    const Parts below = parts(std::size_t(child.front));
+    const Below below = passed_by(child);
     for (int i = 0; i < below.passed; ++i) w[m++] = below.passed_right[i];
   }
   for (int i = 0; i < p.passed; ++i) p.passed_right[i] = dot(m, p.P(r + i), w);
@@ -60,7 +60,7 @@ void FrontalKkt::backward(std::size_t k, Vec& X, Vec& Y) {
   int m = 0;
   for (double* own = Y.data() + front.first_row; m < front.own_rows; ++m) own[m] = w[m];
   for (const FrontLayout::Child& child : layout_.children(front)) {
-    const Parts below = parts(std::size_t(child.front));
+    const Below below = passed_by(child);
     for (int i = 0; i < below.passed; ++i) below.passed_right[i] = w[m++];
   }
 }

@@ -44,7 +44,7 @@ void FrontalKkt::add_springs(std::size_t f) {
   const double* row = store_.data() + places_[f].C;
   for (int i = 0; i < front.own_rows; ++i, row += n)
     for (int j = 0; j < n; ++j)
-      if (row[j] != 0) add(n - j, stiffness_ * row[j], row + j, &K_(j, j));
+      if (row[j] != 0) add(n - j, stiffness_ * row[j], row + j, K_.data() + j * n + j);
 }
 
 // With each solution x comes to satisfy the rows better and y to push as hard as that takes. It ends where what is left, if it

@@ -23,9 +23,12 @@ void MergedUnknowns::Difference::add(const Place& place, double value) {
 void MergedUnknowns::find(const std::vector<BodyBlock>& bodies, int nv, int nc) {
   std::vector<Difference> rows(static_cast<std::size_t>(nc));
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    for (std::size_t i = 0; i < bodies[b].rows.size() && bodies[b].rows[i] < nc; ++i)
+    for (std::size_t i = 0; i < bodies[b].rows.size() && bodies[b].rows[i] < nc; ++i) {
+      Difference& row = rows[std::size_t(bodies[b].rows[i])];
+      row.constant = row.constant && i < bodies[b].constant.size() && bodies[b].constant[i];
       for (Eigen::Index k = 0; k < bodies[b].Gt.rows(); ++k)
-        rows[std::size_t(bodies[b].rows[i])].add({b, Eigen::Index(i), k}, bodies[b].Gt(k, Eigen::Index(i)));
+        row.add({b, Eigen::Index(i), k}, bodies[b].Gt(k, Eigen::Index(i)));
+    }
   merged_.assign(std::size_t(nv), -1);
   join(bodies, rows);
 }
@@ -41,7 +44,7 @@ void MergedUnknowns::join(const std::vector<BodyBlock>& bodies, const std::vecto
   for (std::size_t row = 0; row < rows.size(); ++row) {
     if (!rows[row].merges()) continue;
     takes_[row] = 1;
-    places_.push_back(rows[row].places);
+    if (!rows[row].constant) places_.push_back(rows[row].places);
     const auto unknown = [&](const Place& place) { return bodies[place.body].v0 + int(place.at); };
     const int i = unknown(rows[row].places[0]), j = unknown(rows[row].places[1]);
     if (root_of(parent, i) == root_of(parent, j)) {

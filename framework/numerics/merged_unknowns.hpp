@@ -41,6 +41,7 @@ class MergedUnknowns {
     std::array<Place, 2> places;
     double a[2] = {0, 0};
     int entries = 0;
+    bool constant = true;
     void add(const Place& place, double value);
     bool merges() const { return entries == 2 && a[0] == -a[1] && places[0].body != places[1].body; }
   };
@@ -50,7 +51,7 @@ class MergedUnknowns {
   std::vector<int> merged_;
   std::vector<char> takes_;
   std::vector<Link> links_;
-  std::vector<std::array<Place, 2>> places_;  // of the rows taken
+  std::vector<std::array<Place, 2>> places_;  // of the rows taken that may change
   int count_ = 0, idle_ = 0;
 };
 

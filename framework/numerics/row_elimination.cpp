@@ -11,10 +11,7 @@ namespace trammel::numerics {
 RowElimination::Rank RowElimination::run(int F, double tolerance, int* columns, double* scratch) {
   F_ = F;
   std::iota(columns, columns + n_, 0);
-  for (int i = 0; i < m_; ++i) {
-    std::fill_n(row(i) + n_, m_, 0.0);
-    row(i)[n_ + i] = 1;
-  }
+  for (int i = 0; i < m_; ++i) row(i)[n_ + i] = 1;
   const int told = eliminate(0, F, 0, tolerance, columns, scratch);
   return {told, eliminate(F, n_, told, tolerance, nullptr, scratch)};
 }
@@ -22,6 +19,7 @@ RowElimination::Rank RowElimination::run(int F, double tolerance, int* columns, 
 // Of columns first ... last - 1 on the rows from `begin` on, while one is longer than the tolerance; how many. `columns`: they come
 // first.
 int RowElimination::eliminate(int first, int last, int begin, double tolerance, int* columns, double* scratch) {
+  if (begin == m_) return 0;
   double* const squares = scratch;
   std::fill_n(squares, n_, 0.0);
   for (int i = begin; i < m_; ++i)
@@ -55,14 +53,15 @@ void RowElimination::reflect(int j, int begin, double* scratch) {
   const double tau = -1 / (beta * (head - beta));
   row(begin)[j] = head - beta;
 
-  std::fill_n(along, n, 0.0);
-  for (int i = begin; i < m_; ++i) add(n, tau * row(i)[j], row(i) + first, along);
+  double* const top = row(begin) + first;
+  for (int k = 0; k < n; ++k) along[k] = tau * top[j - first] * top[k];
+  for (int i = begin + 1; i < m_; ++i) add(n, tau * row(i)[j], row(i) + first, along);
+  add(n, -top[j - first], along, top);
   std::fill_n(squares + first, n_ - first, 0.0);
-  for (int i = begin; i < m_; ++i) {
+  for (int i = begin + 1; i < m_; ++i) {
     double* const x = row(i) + first;
-    add(n, -row(i)[j], along, x);
-    if (i > begin)
-      for (int k = 0; k < n_ - first; ++k) squares[first + k] += x[k] * x[k];
+    add(n, -x[j - first], along, x);
+    for (int k = 0; k < n_ - first; ++k) squares[first + k] += x[k] * x[k];
   }
   row(begin)[j] = beta;
   for (int i = begin + 1; i < m_; ++i) row(i)[j] = 0;

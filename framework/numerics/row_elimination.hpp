@@ -14,7 +14,7 @@ namespace trammel::numerics {
 
 class RowElimination {
  public:
-  // C of m rows, n + m numbers each: those of the front, and of the identity, which `run` puts there.
+  // C of m rows, n + m numbers each: those of the front, and of the identity, for which there are zeros yet.
   RowElimination(double* C, int m, int n) : C_(C), m_(m), n_(n), width_(n + m) {}
 
   struct Rank {
