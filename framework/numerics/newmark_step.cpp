@@ -29,7 +29,10 @@ void NewmarkStep::begin(const System& s, const State& now, double h, double c_q,
   pi_.setZero(formulation == Formulation::stabilised ? zero_.size() : 0);
   dpi_.resize(pi_.size());
   next.t = now.t + h;
+  increment_ = dq - h * now.v;
   next.a = now.a;
+  increment_ += c_q * now.a;
+  if (c_q > 0 && largest(increment_) > h * largest(now.v)) next.a -= increment_ / c_q;
   next.lambda = now.lambda;
   newton.start();
   if (sizes.nv == 0) newton.judge(0, true);  // nothing to solve for

@@ -35,7 +35,9 @@ class NewmarkStep {
   Newton newton;
   Vec dq, v;  // (nv) what the formulas know of the increment and the new velocity; filled before `begin`
 
-  // Predicts a_{n+1} = a_n, lambda_{n+1} = lambda_n. c_q [s^2], c_v [s] > 0: shares of a_{n+1} in dq and v.
+  // Predicts lambda_{n+1} = lambda_n and a_{n+1} = a_n. Where q would go further by a_n than by v_n, modes swing that are too fast
+  // for the step (a refinement has made them, or an impact woken): there a_{n+1} is such that q goes along v_n.
+  // c_q [s^2], c_v [s] > 0: shares of a_{n+1} in dq and v.
   void begin(const System& s, const State& now, double h, double c_q, double c_v, State& next);
   bool iterating() const { return newton.iterating(); }
   // next.q and next.v from next.a; the system to that point.
