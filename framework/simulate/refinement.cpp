@@ -45,11 +45,11 @@ void Refinement::find_due(const State& state, int contact) {
   }
 }
 
-// Nearest to the sphere's centre, or to the deepest point of the surface that touches.
+// Nearest to the marker that touches, a sphere's centre as well, or to the deepest point of the surface that does.
 Eigen::Vector2d Refinement::place(const State& state, int contact, int body) {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   const model::BodyEntry& entry = model_->bodies[std::size_t(body)];
-  if (!model_->contacts[std::size_t(contact)].surface || !entry.surface) return at;
+  if (!entry.surface) return at;
   system_.move_to(state.t, state.q, state.v);
   Vec3 point, normal;
   entry.surface->nearest(state.t, state.q.segment(entry.q0, entry.nq), system_.contact_marker(contact).x, at, point,

@@ -1,6 +1,8 @@
 // Events of a run: what follows from a contact's change or a refinement, and what may not go on for ever.
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -71,12 +73,16 @@ void Simulator::guard_against_storm(int contact) {
       contact < 0 ? "" : fmt::format(", the last of contact \"{}\"", system_.model().contacts[contact].name)));
 }
 
+// An impact after which the contact stays closed is two events, and strikes once.
 void Simulator::write_events(Recorder& recorder) {
   for (const ContactEvent& event : events_) recorder.event(event);
-  if (refinement_.possible())
+  if (refinement_.possible()) {
+    std::vector<int> struck;
     for (const ContactEvent& event : events_)
       if (event.kind == ContactEvent::Kind::close || event.kind == ContactEvent::Kind::impact)
-        refine(recorder, event.contact);
+        if (std::find(struck.begin(), struck.end(), event.contact) == struck.end()) struck.push_back(event.contact);
+    for (const int contact : struck) refine(recorder, contact);
+  }
   events_.clear();
 }
 
