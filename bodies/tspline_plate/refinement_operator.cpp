@@ -43,7 +43,17 @@ Eigen::SparseMatrix<double> gram(const TsplineBasis& fine, const TsplineBasis& o
   const Quadrature rule = gauss_legendre(degree + 1, 0, 1);
   Triplets entries;
   Eigen::VectorXd f, g;
+  Eigen::MatrixXd sum;  // of the points that share both cells
   for (int c = 0; c < int(fine.cells().size()); ++c) {
+    const auto& rows = fine.cells()[std::size_t(c)].functions;
+    int shared = -1;
+    const auto hand_over = [&] {
+      if (shared < 0) return;
+      const auto& columns = other.cells()[std::size_t(shared)].functions;
+      for (std::size_t j = 0; j < columns.size(); ++j)
+        for (std::size_t i = 0; i < rows.size(); ++i)
+          entries.emplace_back(rows[i], columns[j], sum(Eigen::Index(i), Eigen::Index(j)));
+    };
     const auto& [low, high] = fine.cells()[std::size_t(c)].parameters;
     for (Eigen::Index a = 0; a < rule.x.size(); ++a)
       for (Eigen::Index b = 0; b < rule.x.size(); ++b) {
@@ -52,12 +62,14 @@ Eigen::SparseMatrix<double> gram(const TsplineBasis& fine, const TsplineBasis& o
         const int there = other.cell_at(u, v);
         fine.blending(c, u, v, f);
         other.blending(there, u, v, g);
-        const auto &rows = fine.cells()[std::size_t(c)].functions,
-                   &columns = other.cells()[std::size_t(there)].functions;
-        for (std::size_t i = 0; i < rows.size(); ++i)
-          for (std::size_t j = 0; j < columns.size(); ++j)
-            entries.emplace_back(rows[i], columns[j], weight * f(Eigen::Index(i)) * g(Eigen::Index(j)));
+        if (there != shared) {
+          hand_over();
+          shared = there;
+          sum.setZero(f.size(), g.size());
+        }
+        sum.noalias() += (weight * f) * g.transpose();
       }
+    hand_over();
   }
   Eigen::SparseMatrix<double> G(fine.size(), other.size());
   G.setFromTriplets(entries.begin(), entries.end());
