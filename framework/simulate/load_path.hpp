@@ -10,9 +10,10 @@
 // when |r| <= tolerance * load and g is round-off, or when dq is; the load is the largest |f| at the start configuration, or
 // |G^T lambda|, so far. A step that fails is halved, again and again; the parts grow back while they are easy.
 //
-// What is softest may be lost in the round-off of what is stiffest: a strip 10^4 times as long as wide bends 10^16 times as easily
-// along it as across, and K has no digits for that. Forces have. So where all else fails and a motion without resistance is found,
-// factors of K + shift M are kept, whatever they are in that motion, and Anderson's acceleration of their steps goes by r alone.
+// What is softest may be lost in the round-off of what is stiffest: a strip 10^4 times as long as wide bends 10^16 times as
+// easily along it as across, and K has no digits for that. Forces have. So where all else fails and a motion without resistance
+// is found, each of Newton's increments is sought with differences of r along it, by Anderson's acceleration of steps with the
+// factors of K + shift M, which are good for all but the softest motions.
 //
 // Past a limit point the load must fall. With arc length t is an unknown, and a step goes the length ds along the path's
 // tangent n (Riks 1979, normal plane):   n_q . (q - q_last) / nv + s^2 n_t (t - t_last) = ds, s^2 = |dq/dt|^2 / nv at the start.
@@ -68,6 +69,7 @@ class LoadPath {
   Failure solve(Point& trial, const Arc* arc);
   Failure balance(Point& trial, const Arc* arc);  // with the contacts' rows as they are
   Failure balance_by_forces(Point& trial);
+  bool correct_by_forces(const Point& at, Vec& dq, Vec& dlambda);
   bool unbalance(const Point& at);  // r_ and g of the system; true: in equilibrium
   bool correct(Point& at, const Arc* arc, Vec& dq);
   bool along_t(const Point& at, Vec& q_by_t, Vec& lambda_by_t);

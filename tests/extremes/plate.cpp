@@ -96,6 +96,26 @@ TEST(SlenderStrip, OfAspectTenThousandBendsStepByStep) {
   for (std::size_t i = 0; i < w.size(); ++i) EXPECT_NEAR(w[i], 0.125e-6 * double(i) / 4, 1e-13) << i;
 }
 
+// A third of its length, far beyond its thickness. Without Poisson's ratio the width does not matter.
+TEST(SlenderStrip, OfAspectTenThousandBendsAsFarAsOneOfAHundred) {
+  const auto end = [](const char* width) {
+    const Finished run = run_static(square, {{"parameters.nu", "0"},
+                                             {"parameters.h", "1e-3"},
+                                             {"parameters.q", "4"},
+                                             {"bodies.plate.mesh.elements", "4x1"},
+                                             {"bodies.plate.geometry.along_v", fmt::format("[0, {}, 0]", width)},
+                                             {"bodies.plate.edges", R"({"u0": "clamped"})"},
+                                             {"bodies.plate.load_factor", "=t"},
+                                             {"static.steps", "10"},
+                                             {"record.observe.w", "plate.u1v0.z"}});
+    EXPECT_TRUE(run.done()) << run.report.reason;
+    return run.end("w");
+  };
+  const double w = end("1e-2");
+  EXPECT_GT(w, 0.3);
+  EXPECT_NEAR(end("1e-4"), w, 1e-8);
+}
+
 // A ball of 3 kg and 0.1 m over a plate of 1 m and 20 kg, its lowest point 0.2 mm above.
 std::string struck(const std::string& more, const std::string& elements = "4x4") {
   return R"({
