@@ -93,7 +93,7 @@ class FrontalKkt {
   void find_residuals();
   void add_masses(std::size_t front, const double* x, double* sum) const;
   void approach(double k);
-  void push_by_rows(double k);
+  void push_by_rows(double k, bool taken);
   void remove_null_part(double k, Vec& Y);
   void subtract_rows_times(const Vec& X, Vec& from);
   void subtract_rows_force(const Vec& Y, Vec& from);

@@ -50,6 +50,8 @@ void FrontalKkt::add_springs(std::size_t f) {
 // With each solution x comes to satisfy the rows better and y to push as hard as that takes. It ends where what is left, if it
 // shrinks on as the rows' violation does, is nothing: what would still change, ever more slowly, is rounding of the rows in
 // directions they hardly tell.
+// The second solution refines the first one, y as it was: rounded k times as large as the masses, that would push in directions that
+// rows hardly tell and forget it slowly. Later ones are small.
 void FrontalKkt::approach(double k) {
   constexpr int most = 40;
   constexpr double settled = 1e-10, slow = 0.9, visible = 1e-6;
@@ -58,10 +60,10 @@ void FrontalKkt::approach(double k) {
   double violated = 0, change = 0;
   for (int i = 0; i < most; ++i) {
     b_ = B_;
-    push_by_rows(k);
+    push_by_rows(k, i != 1);
     const double shrinks = c_.lpNorm<Eigen::Infinity>() / violated;
     const double size = std::max(apart, X_.lpNorm<Eigen::Infinity>());
-    if (i > 1 && (!(shrinks < slow) || change * shrinks / (1 - shrinks) <= settled * size)) break;
+    if (i > 2 && (!(shrinks < slow) || change * shrinks / (1 - shrinks) <= settled * size)) break;
     violated = c_.lpNorm<Eigen::Infinity>();
     solve_once(dX_, dY_);
     X_ += dX_;
@@ -72,8 +74,8 @@ void FrontalKkt::approach(double k) {
     remove_null_part(k, Y_);
 }
 
-// c_ = C - G X,  Y -= k c_,  b_ -= M X + G^T (Y - k c_)
-void FrontalKkt::push_by_rows(double k) {
+// c_ = C - G X,  Y -= k c_ if it is `taken`,  b_ -= M X + G^T (Y - k c_)
+void FrontalKkt::push_by_rows(double k, bool taken) {
   for (std::size_t f = 0; f < places_.size(); ++f) {
     const FrontLayout::Front& front = layout_.fronts()[f];
     const int n = front.unknowns, *const unknowns = layout_.unknowns(front);
@@ -82,7 +84,7 @@ void FrontalKkt::push_by_rows(double k) {
     const double* row = store_.data() + places_[f].C;
     for (int i = front.first_row; i < front.first_row + front.own_rows; ++i, row += n) {
       c_(i) = C_(i) - dot(n, row, x);
-      Y_(i) -= k * c_(i);
+      if (taken) Y_(i) -= k * c_(i);
       add(n, Y_(i) - k * c_(i), row, sum);
     }
     add_masses(f, x, sum);
