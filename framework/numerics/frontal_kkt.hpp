@@ -91,7 +91,7 @@ class FrontalKkt {
   void expand(const Vec& b, Vec& x, Vec& y);
   bool refine();
   void find_residuals();
-  void add_masses(std::size_t front, const double* x, double* sum) const;
+  void subtract_masses_times(const Vec& X, Vec& from) const;
   void approach(double k);
   void push_by_rows(double k, bool taken);
   void remove_null_part(double k, Vec& Y);
@@ -111,6 +111,13 @@ class FrontalKkt {
   std::vector<double> scale_;   // of own rows
   std::vector<double> pieces_;  // what bodies give to own rows and masses, front by front in the order of their sources
   std::vector<int> place_of_;   // of each of a front's unknowns in its columns
+  // Own rows at length one without their zeros, row after row; only with springs.
+  struct Entry {
+    int unknown;
+    double value;
+  };
+  std::vector<Entry> entries_;
+  std::vector<std::size_t> entries_end_;
   Vec K_;
   // Of merged unknowns and own rows at length one: right sides, what is left of them, solution, its corrections.
   Vec B_, C_, b_, c_, X_, Y_, dX_, dY_;

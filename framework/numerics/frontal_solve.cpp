@@ -100,28 +100,45 @@ bool FrontalKkt::refine() {
 
 namespace {
 
-// sum += M x, both at the places of `map`
-void add_mass(const double* M, int size, const int* map, const double* x, double* sum) {
-  const auto of_size = [&](auto n) {
-    for (int j = 0; j < n; ++j, M += n) {
-      const double by = x[map[j]];
-      for (int i = 0; i < n; ++i) sum[map[i]] += by * M[i];
-    }
+// from -= M x, both at unknowns[map[i]]
+void subtract_mass(const double* M, int size, const int* map, const int* unknowns, const double* x, double* from) {
+  const auto of_few = [&](auto n) {
+    int at[n];
+    double sum[n] = {};
+    for (int i = 0; i < n; ++i) at[i] = unknowns[map[i]];
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) sum[i] += M[j * n + i] * x[at[j]];
+    for (int i = 0; i < n; ++i) from[at[i]] -= sum[i];
   };
-  if (!with_few(size, of_size)) of_size(size);
+  if (with_few(size, of_few)) return;
+  for (int j = 0; j < size; ++j)
+    for (int i = 0; i < size; ++i) from[unknowns[map[i]]] -= M[j * size + i] * x[unknowns[map[j]]];
 }
 
 }  // namespace
+
+void FrontalKkt::subtract_masses_times(const Vec& X, Vec& from) const {
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const FrontLayout::Front& front = layout_.fronts()[k];
+    const int* const unknowns = layout_.unknowns(front);
+    const double* piece = pieces_.data() + places_[k].pieces_of_masses;
+    for (const FrontLayout::Source& source : layout_.masses(front)) {
+      const int* const map = layout_.map(source.map);
+      if (identity_)
+        for (int j = 0; j < source.size; ++j) from[unknowns[map[j]]] -= X[unknowns[map[j]]];
+      else
+        subtract_mass(piece, source.size, map, unknowns, X.data(), from.data());
+      piece += source.size * source.size;
+    }
+  }
+}
 
 // b_ = B - M X - G^T Y,  c_ = C - G X
 void FrontalKkt::find_residuals() {
   b_ = B_, c_ = C_;
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const FrontLayout::Front& front = layout_.fronts()[k];
-    const int n = front.unknowns, *const unknowns = layout_.unknowns(front);
-    double *const x = scratch_.data(), *const sum = x + n;
-    for (int j = 0; j < n; ++j) x[j] = X_(unknowns[j]), sum[j] = 0;
-
+    const int* const unknowns = layout_.unknowns(front);
     const double* piece = pieces_.data() + places_[k].pieces;
     for (const FrontLayout::Source& source : layout_.rows(front)) {
       const int row = front.first_row + source.row, *const map = layout_.map(source.map);
@@ -129,29 +146,14 @@ void FrontalKkt::find_residuals() {
       double along = 0;
       for (int j = 0; j < source.size; ++j) {
         if (map[j] < 0) continue;
-        along += piece[j] * x[map[j]];
-        sum[map[j]] += force * piece[j];
+        along += piece[j] * X_(unknowns[map[j]]);
+        b_(unknowns[map[j]]) -= force * piece[j];
       }
       c_(row) -= scale * along;
       piece += source.size;
     }
-    add_masses(k, x, sum);
-    for (int j = 0; j < n; ++j) b_(unknowns[j]) -= sum[j];
   }
-}
-
-// sum += M x in a front's unknowns, its own masses alone
-void FrontalKkt::add_masses(std::size_t k, const double* x, double* sum) const {
-  const FrontLayout::Front& front = layout_.fronts()[k];
-  const double* piece = pieces_.data() + places_[k].pieces_of_masses;
-  for (const FrontLayout::Source& source : layout_.masses(front)) {
-    const int* const map = layout_.map(source.map);
-    if (identity_)
-      for (int j = 0; j < source.size; ++j) sum[map[j]] += x[map[j]];
-    else
-      add_mass(piece, source.size, map, x, sum);
-    piece += source.size * source.size;
-  }
+  subtract_masses_times(X_, b_);
 }
 
 // B_ and C_; offset_: of x from the merged unknowns.

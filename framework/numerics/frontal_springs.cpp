@@ -34,8 +34,16 @@ double FrontalKkt::least_mass(const std::vector<BodyBlock>& bodies) {
 void FrontalKkt::keep_rows(std::size_t f) {
   const FrontLayout::Front& front = layout_.fronts()[f];
   places_[f].told = places_[f].passed = 0;
+  const int n = front.unknowns, *const unknowns = layout_.unknowns(front);
   int* const columns = columns_.data() + front.first_unknown;
-  std::iota(columns, columns + front.unknowns, 0);
+  std::iota(columns, columns + n, 0);
+  if (f == 0) entries_.clear(), entries_end_.clear();
+  const double* row = store_.data() + places_[f].C;
+  for (int i = 0; i < front.own_rows; ++i, row += n) {
+    for (int j = 0; j < n; ++j)
+      if (row[j] != 0) entries_.push_back({unknowns[j], row[j]});
+    entries_end_.push_back(entries_.size());
+  }
 }
 
 void FrontalKkt::add_springs(std::size_t f) {
@@ -76,20 +84,16 @@ void FrontalKkt::approach(double k) {
 
 // c_ = C - G X,  Y -= k c_ if it is `taken`,  b_ -= M X + G^T (Y - k c_)
 void FrontalKkt::push_by_rows(double k, bool taken) {
-  for (std::size_t f = 0; f < places_.size(); ++f) {
-    const FrontLayout::Front& front = layout_.fronts()[f];
-    const int n = front.unknowns, *const unknowns = layout_.unknowns(front);
-    double *const x = scratch_.data(), *const sum = x + n;
-    for (int j = 0; j < n; ++j) x[j] = X_(unknowns[j]), sum[j] = 0;
-    const double* row = store_.data() + places_[f].C;
-    for (int i = front.first_row; i < front.first_row + front.own_rows; ++i, row += n) {
-      c_(i) = C_(i) - dot(n, row, x);
-      if (taken) Y_(i) -= k * c_(i);
-      add(n, Y_(i) - k * c_(i), row, sum);
-    }
-    add_masses(f, x, sum);
-    for (int j = 0; j < n; ++j) b_(unknowns[j]) -= sum[j];
+  const Entry* entry = entries_.data();
+  for (std::size_t i = 0; i < entries_end_.size(); ++i) {
+    const Entry *const begin = entry, *const end = entries_.data() + entries_end_[i];
+    double missed = C_[Eigen::Index(i)], &push = Y_[Eigen::Index(i)];
+    for (; entry != end; ++entry) missed -= entry->value * X_[entry->unknown];
+    c_[Eigen::Index(i)] = missed;
+    if (taken) push -= k * missed;
+    for (const Entry* e = begin; e != end; ++e) b_[e->unknown] -= (push - k * missed) * e->value;
   }
+  subtract_masses_times(X_, b_);
 }
 
 // 1 - k G (M + k G^T G)^-1 G^T keeps the null part of Y and shrinks the rest; applied twice it leaves nothing else. Round-off asks
@@ -108,26 +112,17 @@ void FrontalKkt::remove_null_part(double k, Vec& Y) {
 }
 
 void FrontalKkt::subtract_rows_times(const Vec& X, Vec& from) {
-  for (std::size_t k = 0; k < places_.size(); ++k) {
-    const FrontLayout::Front& front = layout_.fronts()[k];
-    const int n = front.unknowns, *const unknowns = layout_.unknowns(front);
-    const double* row = store_.data() + places_[k].C;
-    for (int j = 0; j < n; ++j) scratch_(j) = X(unknowns[j]);
-    for (int i = front.first_row; i < front.first_row + front.own_rows; ++i, row += n)
-      from(i) -= dot(n, row, scratch_.data());
-  }
+  const Entry* entry = entries_.data();
+  for (std::size_t i = 0; i < entries_end_.size(); ++i)
+    for (; entry != entries_.data() + entries_end_[i]; ++entry)
+      from[Eigen::Index(i)] -= entry->value * X[entry->unknown];
 }
 
 void FrontalKkt::subtract_rows_force(const Vec& Y, Vec& from) {
-  for (std::size_t k = 0; k < places_.size(); ++k) {
-    const FrontLayout::Front& front = layout_.fronts()[k];
-    const int n = front.unknowns, *const unknowns = layout_.unknowns(front);
-    const double* row = store_.data() + places_[k].C;
-    std::fill_n(scratch_.data(), n, 0.0);
-    for (int i = front.first_row; i < front.first_row + front.own_rows; ++i, row += n)
-      add(n, Y(i), row, scratch_.data());
-    for (int j = 0; j < n; ++j) from(unknowns[j]) -= scratch_(j);
-  }
+  const Entry* entry = entries_.data();
+  for (std::size_t i = 0; i < entries_end_.size(); ++i)
+    for (; entry != entries_.data() + entries_end_[i]; ++entry)
+      from[entry->unknown] -= entry->value * Y[Eigen::Index(i)];
 }
 
 }  // namespace trammel::numerics
