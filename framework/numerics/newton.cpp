@@ -4,6 +4,13 @@
 
 namespace trammel {
 
+namespace {
+
+// An increment of this relative size, larger than the one before, which was larger too, will not come to an end soon.
+constexpr double hopeless = 0.1;
+
+}  // namespace
+
 void Newton::start() {
   state_ = State::iterating;
   wants_factors_ = true;
@@ -18,6 +25,7 @@ void Newton::judge(double change, bool at_round_off) {
   ++iterations_;
   // The first increment has no rate: it must be within the tolerance itself.
   const bool first = iterations_ == 1;
+  const double rate_before = rate_;
   rate_ = first ? 1 : change / last_change_;
   const double error = first ? change : rate_ / (1 - rate_) * change;
   const bool shrinking = first || rate_ < 1;
@@ -25,6 +33,8 @@ void Newton::judge(double change, bool at_round_off) {
     state_ = State::converged;
     return;
   }
+  if (iterations_ > 2 && rate_before > 1 && rate_ > 1 && change > hopeless)
+    return fail("Newton's iteration did not converge");
   if (iterations_ >= max_iterations) return fail("Newton's iteration did not converge");
   wants_factors_ = !first && rate_ > 0.3;
   last_change_ = change;
