@@ -59,7 +59,6 @@ struct AssembledSystem::Work {
   void evaluate_rows();  // g, g_dot, gamma, G, W
   void evaluate_constant_rows();
   void place_constant_rows();
-  void place_entries(std::size_t joint, int row, std::span<const Motion> motions);  // of a constant joint
   void evaluate_own_rows(const BodyEntry& entry);
   void evaluate_constraint(const Constraint& constraint, const Slots& at, Rows& into);  // sized and filled
   // Rows first .. first + n - 1 of r become rows `row` and on of g, g_dot, gamma and G.

@@ -12,13 +12,14 @@ class ConstantRows {
  public:
   void clear();
   void add_row(int row, double g_0);                                // those that follow are of it
+  void add_marker();                                                // and those of one of its markers
   void add_entry(int coordinate, int velocity, double derivative);  // 0 leaves no trace
-  // Into their places.
+  // Into their places. Summed marker by marker: points that coincide to the last digit leave no rounding.
   void evaluate(const Vec& q, const Vec& v, Vec& g, Vec& g_dot, Vec& gamma) const;
 
  private:
   struct Row {
-    int row, end;  // of its entries
+    int row, end;  // of its markers
     double g_0;
   };
   struct Entry {
@@ -26,6 +27,7 @@ class ConstantRows {
     double derivative;
   };
   std::vector<Row> rows_;
+  std::vector<int> markers_;  // ends of their entries
   std::vector<Entry> entries_;
 };
 

@@ -61,25 +61,18 @@ void AssembledSystem::Work::place_constant_rows() {
       blocks->add_rows(chain.body(at[k]), entry.row, motions[std::size_t(k)], {rows.H(k), 0, entry.rows});
     for (int row = 0; row < entry.rows; ++row) {
       constant_rows.add_row(entry.row + row, rows.g(row));
-      place_entries(i, row, motions);
+      for (int k = 0; k < at.count; ++k) {
+        if (chain.body(at[k]) < 0) continue;
+        const Motion& m = motions[std::size_t(k)];
+        const BodyEntry& body = model->bodies[std::size_t(chain.body(at[k]))];
+        constant_rows.add_marker();
+        for (std::size_t j = 0; j < m.dofs.size(); ++j)
+          constant_rows.add_entry(body.q0 + m.dofs[j], body.v0 + m.dofs[j],
+                                  rows.H(k).row(row).dot(m.J.col(Eigen::Index(j))));
+      }
     }
   }
   constant_rows_placed = true;
-}
-
-// Column by column of the markers' Jacobians: what nearly cancels between them is summed first.
-void AssembledSystem::Work::place_entries(std::size_t joint, int row, std::span<const Motion> motions) {
-  const Slots& at = joint_slots[joint];
-  std::size_t columns = 0;
-  for (const Motion& m : motions) columns = std::max(columns, m.dofs.size());
-  for (std::size_t j = 0; j < columns; ++j)
-    for (int k = 0; k < at.count; ++k) {
-      const Motion& m = motions[std::size_t(k)];
-      if (chain.body(at[k]) < 0 || j >= m.dofs.size()) continue;
-      const BodyEntry& body = model->bodies[std::size_t(chain.body(at[k]))];
-      constant_rows.add_entry(body.q0 + m.dofs[j], body.v0 + m.dofs[j],
-                              rows.H(k).row(row).dot(m.J.col(Eigen::Index(j))));
-    }
 }
 
 void AssembledSystem::Work::place_rows(const Rows& r, const Slots& at, Eigen::Index first, Eigen::Index n, int row) {

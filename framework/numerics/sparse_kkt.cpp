@@ -84,9 +84,13 @@ bool SparseMassKkt::complement_is_safe(double least_sine) const {
 
 bool SparseMassKkt::factorise_fronts(const std::vector<BodyBlock>& bodies) {
   if (fronts_failed_) return factorise_springs(bodies);
-  const bool done = fronts_.factorise(bodies, nc_, identity_, rank_tolerance_);
-  redundant_ = fronts_.dependent() > 0;
-  return done;
+  if (fronts_.factorise(bodies, nc_, identity_, rank_tolerance_)) {
+    redundant_ = fronts_.dependent() > 0;
+    return true;
+  }
+  // Either a mass is not positive definite, which springs find, too, or what contradicting rows leave of the masses is not.
+  fronts_failed_ = true;
+  return factorise_springs(bodies);
 }
 
 bool SparseMassKkt::factorise_springs(const std::vector<BodyBlock>& bodies) {
