@@ -31,7 +31,7 @@ class RowProjection final : public Correction {
       s.move_to(state.t, state.q, state.v);
       const double violation = s.sizes().nc > 0 ? s.g().lpNorm<Eigen::Infinity>() : 0;
       // A coordinate that is to be 0 would go on falling by all its digits a step.
-      if (!(violation > round_off * state.q.lpNorm<Eigen::Infinity>())) return Outcome::accept();
+      if (!(violation > of_places * round_off * state.q.lpNorm<Eigen::Infinity>())) return Outcome::accept();
       // Where a step no longer halves it the rest is round-off, if it is small at all.
       if (iteration > 0 && violation > 0.5 * before) {
         if (violation <= settled) return Outcome::accept();
@@ -62,6 +62,9 @@ class RowProjection final : public Correction {
 
   static constexpr int most_iterations = 20;
   static constexpr double round_off = std::numeric_limits<double>::epsilon();
+  // A row takes the difference of places that were each summed and rounded; so much of round-off is no violation. Where redundant rows
+  // contradict each other by it, a correction would only make it larger.
+  static constexpr double of_places = 4;
   static constexpr double settled = 1e-9;  // [unit of the rows] far above round-off, far below a useful violation
 
   void factorise(System& s) {
