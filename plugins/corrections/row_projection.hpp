@@ -52,7 +52,7 @@ class RowProjection final : public Correction {
       s.move_to(state.t, state.q, state.v);
       if (s.sizes().nc == 0) break;
       const double violation = s.g_dot().lpNorm<Eigen::Infinity>();
-      if (!(violation > round_off * state.v.lpNorm<Eigen::Infinity>())) break;
+      if (!(violation > of_speeds * round_off * state.v.lpNorm<Eigen::Infinity>())) break;
       if (pass == 0) factorise(s);
       if (!solve(s, s.g_dot())) return Outcome::reject("the correction of the velocities has no solution");
       state.v += change_;
@@ -64,7 +64,7 @@ class RowProjection final : public Correction {
   static constexpr double round_off = std::numeric_limits<double>::epsilon();
   // A row takes the difference of places that were each summed and rounded; so much of round-off is no violation. Where redundant rows
   // contradict each other by it, a correction would only make it larger.
-  static constexpr double of_places = 4;
+  static constexpr double of_places = 4, of_speeds = 2;
   static constexpr double settled = 1e-9;  // [unit of the rows] far above round-off, far below a useful violation
 
   void factorise(System& s) {
