@@ -35,14 +35,14 @@ class NewmarkStep {
   Newton newton;
   Vec dq, v;  // (nv) what the formulas know of the increment and the new velocity; filled before `begin`
 
-  // Predicts lambda_{n+1} = lambda_n and a_{n+1} = a_n. Where q would go further by a_n than by v_n, modes swing that are too fast
-  // for the step (a refinement has made them, or an impact woken): there a_{n+1} is such that q goes along v_n.
-  // c_q [s^2], c_v [s] > 0: shares of a_{n+1} in dq and v.
+  // Predicts lambda_{n+1} = lambda_n and a_{n+1} = a_n. c_q [s^2] >= 0, c_v [s] > 0: shares of a_{n+1} in dq and v.
   void begin(const System& s, const State& now, double h, double c_q, double c_v, State& next);
   bool iterating() const { return newton.iterating(); }
   // next.q and next.v from next.a; the system to that point.
   void move(System& s, const State& now, State& next);
   // One Newton increment of a, lambda and pi. `blend` makes S the derivative of r by a; r holds + W^T lambda.
+  // Before the first one, where q would go further by a_n than by v_n and that changes forces by more than a_n itself is worth, modes
+  // swing that are too fast for the step (a refinement has made them, or an impact woken): a_{n+1} is then such that q goes along v_n.
   void correct(System& s, Blend blend, const Vec& r, State& next);
   // Rows to round-off; next.q and next.v are those of the last a.
   Outcome finish(System& s, const State& now, State& next);
@@ -51,13 +51,15 @@ class NewmarkStep {
   void factorise(System& s, Blend blend, const State& next);
   void update(const System& s, const State& now, State& next);
   bool correct_rows(System& s, const Vec& r, State& next);
+  bool misled(System& s, const Vec& r);  // by a_n
 
   double c_q_ = 0, c_v_ = 0;
   double size_q_ = 0, size_v_ = 0;      // of q and v
   double change_q_ = 0, change_v_ = 0;  // by the last increment, relative to them
   Factors of_pi_ = Factors::iteration;  // projection where they differ
+  bool leads_ = false;                  // a_n further than v_n, by lead_
   Vec pi_, dpi_, zero_;                 // empty where there is no pi; zero_ where there are no rows
-  Vec increment_, da_, dlambda_, rc_, mu_;
+  Vec increment_, lead_, da_, dlambda_, rc_, mu_;
 };
 
 }  // namespace trammel
