@@ -85,6 +85,21 @@ class RungeKutta {
   bool add_stage(System& s, const State& now, double c, const double* row);
   // h sum_i weights[i] k_i over the first n slopes.
   void combine(const double* weights, int n, Vec& dq, Vec& dv) const;
+  // The norm of a local error at the step's end, of e, numbers of q, and e_v: of the whole, or without e_v's part across the rows.
+  enum class Part { whole, along_rows };
+  double norm(System& s, const State& now, const State& next, const Vec& e, Vec& e_v, Part part,
+              const Tolerance& tolerance);
+  // The error as `estimate`, a double(Part), tells of the whole while that falls as steps are shortened. If not, it is round-off:
+  // near a change of rank accelerations across rows that hold to d are uncertain by d / theta^3, and steps small enough for that
+  // would come to no end. It does no harm, as the step's end is put onto the rows. From there to where the whole is small again
+  // what is along the rows counts.
+  template <class Estimate>
+  double error(const State& now, const State& next, Estimate&& estimate) {
+    const double whole = estimate(Part::whole);
+    rounding_ = projects() && whole > 1 && (rounding_ || !falls(now, next, whole));
+    return rounding_ ? estimate(Part::along_rows) : whole;
+  }
+  void archive(Archive& archive) { archive("rounding", rounding_); }
   // The step's interior at theta in [0, 1], in Hairer's nested form: the cubic Hermite polynomial and, row by row, terms
   // of higher degree h sum_i row[i] k_i over all slopes.
   void interpolate(const System& s, const State& now, const State& next, double theta,
@@ -95,6 +110,9 @@ class RungeKutta {
   Outcome end(System& s, State& next);
   bool keep_null_space(System& s, const State& now);
   bool onto_rows(System& s, double t);  // on_manifold_ and held_v_
+  void along_rows(System& s, const State& at, Vec& v);
+  // At least as of second order since the last trial from `now`, which was longer, if there was one.
+  bool falls(const State& now, const State& next, double error);
 
   Tableau tableau_;
   std::vector<Slope> k_;
@@ -102,8 +120,12 @@ class RungeKutta {
   double h_ = 0;
   bool kept_ = false;           // the rows' factors are those of the step's start
   bool by_null_space_ = false;  // the last step was
-  Vec dq_, dv_, q_, v_, on_manifold_, held_v_, right_, zero_, no_force_, change_, mu_;
+  Vec dq_, dv_, q_, v_, on_manifold_, held_v_, right_, zero_, no_force_, change_, mu_, embedded_, e_q_;
   State repeated_;
+  struct Trial {
+    double t = 0, h = 0, error = 0;
+  } trial_;  // the last whose error was too large
+  bool rounding_ = false;
 };
 
 // The same local error (numbers of q) as increments: the end's q less that of the embedded method.

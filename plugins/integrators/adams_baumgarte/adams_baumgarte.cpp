@@ -15,7 +15,6 @@
 #include <limits>
 #include <string>
 
-#include <trammel/error_norm.hpp>
 #include <trammel/plugin.hpp>
 #include <trammel/row_parameters.hpp>
 #include <trammel/runge_kutta.hpp>
@@ -80,15 +79,17 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
       const double milne = predictor == Predictor::ab4 ? -19.0 / 270 : 1;
       e_ = milne * (next.q - predicted_q_);
       e_v_ = milne * (next.v - predicted_v_);
-    } else {
-      starter_.combine(starter_less_embedded, 5, e_, e_v_);
+      return starter_.norm(s, now, next, e_, e_v_, RungeKutta::Part::whole, tolerance);
     }
-    error_increment(s, next.q, e_, embedded_, e_q_);
-    return error_norm(e_q_, e_v_, now, next, tolerance);
+    return starter_.error(now, next, [&](RungeKutta::Part part) {
+      starter_.combine(starter_less_embedded, 5, e_, e_v_);
+      return starter_.norm(s, now, next, e_, e_v_, part, tolerance);
+    });
   }
   int error_order() const override { return multistep_ && predictor == Predictor::ab4 ? 5 : 4; }
 
   void archive(Archive& archive) override {
+    starter_.archive(archive);
     archive("filled", filled_);
     archive("h", h_);
     for (std::size_t i = 0; i < past_.size(); ++i) {

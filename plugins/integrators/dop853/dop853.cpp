@@ -8,7 +8,6 @@
 // the authors' code DOP853.
 #include <cmath>
 
-#include <trammel/error_norm.hpp>
 #include <trammel/plugin.hpp>
 #include <trammel/row_parameters.hpp>
 #include <trammel/runge_kutta.hpp>
@@ -122,9 +121,14 @@ class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput
   }
 
   double error(System& s, const State& now, const State& next, const Tolerance& tolerance) override {
-    const double fifth = difference_norm(s, less_fifth, now, next, tolerance);
-    const double third = difference_norm(s, less_third, now, next, tolerance);
-    return fifth == 0 ? 0 : fifth * fifth / std::sqrt(fifth * fifth + 0.01 * third * third);
+    const auto norm = [&](const double* weights, RungeKutta::Part part) {
+      method_.combine(weights, 12, e_, e_v_);
+      return method_.norm(s, now, next, e_, e_v_, part, tolerance);
+    };
+    return method_.error(now, next, [&](RungeKutta::Part part) {
+      const double fifth = norm(less_fifth, part), third = norm(less_third, part);
+      return fifth == 0 ? 0 : fifth * fifth / std::sqrt(fifth * fifth + 0.01 * third * third);
+    });
   }
   int error_order() const override { return 8; }
 
@@ -139,22 +143,16 @@ class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput
   }
 
   void archive(Archive& archive) override {
+    method_.archive(archive);
     archive("slope_q", slope_.q);
     archive("slope_v", slope_.v);
     archive("slope_lambda", slope_.lambda);
   }
 
  private:
-  double difference_norm(const System& s, const double* weights, const State& now, const State& next,
-                         const Tolerance& t) {
-    method_.combine(weights, 12, e_, e_v_);
-    error_increment(s, next.q, e_, embedded_, e_q_);
-    return error_norm(e_q_, e_v_, now, next, t);
-  }
-
   RungeKutta method_{{12, c, a, b}};
   Slope slope_;  // at the last accepted point
-  Vec e_, e_q_, e_v_, embedded_;
+  Vec e_, e_v_;
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 // stabilisation: six stages, a seventh at the step's end that is the first of the next step, the fifth-order result
 // kept. Dense output of fourth order after Hairer. Dormand, Prince, J. Comput. Appl. Math. 6(1), 19-26 (1980); Hairer,
 // Norsett, Wanner, Solving ODEs I, II.5 and II.6.
-#include <trammel/error_norm.hpp>
 #include <trammel/plugin.hpp>
 #include <trammel/row_parameters.hpp>
 #include <trammel/runge_kutta.hpp>
@@ -51,9 +50,10 @@ class DormandPrince final : public Integrator, public ErrorEstimate, public Dens
   }
 
   double error(System& s, const State& now, const State& next, const Tolerance& tolerance) override {
-    method_.combine(less_embedded, 7, e_, e_v_);
-    error_increment(s, next.q, e_, embedded_, e_q_);
-    return error_norm(e_q_, e_v_, now, next, tolerance);
+    return method_.error(now, next, [&](RungeKutta::Part part) {
+      method_.combine(less_embedded, 7, e_, e_v_);
+      return method_.norm(s, now, next, e_, e_v_, part, tolerance);
+    });
   }
   int error_order() const override { return 5; }
 
@@ -63,6 +63,7 @@ class DormandPrince final : public Integrator, public ErrorEstimate, public Dens
   }
 
   void archive(Archive& archive) override {
+    method_.archive(archive);
     archive("slope_q", slope_.q);
     archive("slope_v", slope_.v);
     archive("slope_lambda", slope_.lambda);
@@ -71,7 +72,7 @@ class DormandPrince final : public Integrator, public ErrorEstimate, public Dens
  private:
   RungeKutta method_{{6, c, a, b}};
   Slope slope_;  // at the last accepted point
-  Vec e_, e_q_, e_v_, embedded_;
+  Vec e_, e_v_;
 };
 
 }  // namespace

@@ -6,7 +6,6 @@
 //
 // Error estimate: with k_5 = F(t + h, y_{n+1}) in place of k_4 the formula is of third order; the difference h/6 (k_4 -
 // k_5) shrinks with h^4. Kutta, Z. Math. Phys. 46, 435-453 (1901).
-#include <trammel/error_norm.hpp>
 #include <trammel/plugin.hpp>
 #include <trammel/row_parameters.hpp>
 #include <trammel/runge_kutta.hpp>
@@ -44,13 +43,15 @@ class RungeKutta4 final : public Integrator, public ErrorEstimate {
   }
 
   double error(System& s, const State& now, const State& next, const Tolerance& tolerance) override {
-    method_.combine(less_embedded, 5, e_, e_v_);
-    error_increment(s, next.q, e_, embedded_, e_q_);
-    return error_norm(e_q_, e_v_, now, next, tolerance);
+    return method_.error(now, next, [&](RungeKutta::Part part) {
+      method_.combine(less_embedded, 5, e_, e_v_);
+      return method_.norm(s, now, next, e_, e_v_, part, tolerance);
+    });
   }
   int error_order() const override { return 4; }
 
   void archive(Archive& archive) override {
+    method_.archive(archive);
     archive("slope_q", slope_.q);
     archive("slope_v", slope_.v);
     archive("slope_lambda", slope_.lambda);
@@ -59,7 +60,7 @@ class RungeKutta4 final : public Integrator, public ErrorEstimate {
  private:
   RungeKutta method_{{4, c, a, b}};
   Slope slope_;  // at the last accepted point
-  Vec e_, e_q_, e_v_, embedded_;
+  Vec e_, e_v_;
 };
 
 }  // namespace
