@@ -65,13 +65,11 @@ bool SparseMassKkt::factorise_masses(const std::vector<BodyBlock>& bodies, Metri
   factors_.resize(bodies.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     Factor& factor = factors_[k];
-    if (identity_)
-      factor.mass.compute(Mat::Identity(bodies[k].M.rows(), bodies[k].M.rows()));
-    else if (!kept)
-      factor.mass.compute(bodies[k].M);
-    if (factor.mass.info() != Eigen::Success) return false;
-    factor.Y = bodies[k].Gt;
-    factor.mass.matrixL().solveInPlace(factor.Y);
+    const Eigen::Index n = bodies[k].M.rows();
+    if (identity_ ? !factor.mass.compute(Mat::Identity(n, n)) : !kept && !factor.mass.compute(bodies[k].M))
+      return false;
+    factor.Y = bodies[k].Gt.transpose();
+    factor.mass.solve_lower_of_rows(factor.Y);
   }
   return true;
 }
@@ -104,11 +102,11 @@ void SparseMassKkt::assemble(const std::vector<BodyBlock>& bodies, double eps) {
     diagonal_.setConstant(nc_, eps);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
       const std::vector<int>& rows = bodies[k].rows;
-      const Mat& Y = factors_[k].Y;
+      share_.noalias() = factors_[k].Y.lazyProduct(factors_[k].Y.transpose());
       for (std::size_t j = 0; j < rows.size() && rows[j] < nc_; ++j) {
-        diagonal_(rows[j]) += Y.col(Eigen::Index(j)).squaredNorm();
+        diagonal_(rows[j]) += share_(Eigen::Index(j), Eigen::Index(j));
         for (std::size_t i = j; i < rows.size() && rows[i] < nc_; ++i)
-          S.add(rows[i], rows[j], Y.col(Eigen::Index(i)).dot(Y.col(Eigen::Index(j))));
+          S.add(rows[i], rows[j], share_(Eigen::Index(i), Eigen::Index(j)));
       }
     }
     for (int i = 0; i < nc_; ++i) S.add(i, i, eps);
@@ -122,7 +120,7 @@ void SparseMassKkt::move(const std::vector<BodyBlock>& bodies, const Vec& b, con
   add_rows_force(bodies, -1, y, x);
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     auto segment = x.segment(bodies[k].v0, bodies[k].M.rows());
-    factors_[k].mass.solveInPlace(segment);
+    factors_[k].mass.solve(segment);
   }
 }
 

@@ -22,11 +22,11 @@
 
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 
 #include "numerics/body_block.hpp"
+#include "numerics/cholesky.hpp"
 #include "numerics/frontal_kkt.hpp"
 #include "numerics/recorded_matrix.hpp"
 
@@ -44,8 +44,8 @@ class SparseMassKkt {
 
  private:
   struct Factor {
-    Eigen::LLT<Mat> mass;
-    Mat Y;  // L^-1 G^T
+    Cholesky mass;  // M = C C^T
+    Mat Y;          // G C^-T, by rows of G
   };
   bool factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric);
   bool complement_is_safe(double least_sine) const;
@@ -67,6 +67,7 @@ class SparseMassKkt {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt_;
   FrontalKkt fronts_;
   Vec diagonal_, residual_, dy_;
+  Mat share_;  // of a body in the complement
 };
 
 class SparseIterationKkt {
