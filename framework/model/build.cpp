@@ -164,17 +164,11 @@ class Builder {
       const auto* body = dynamic_cast<const AwaitsContact*>(entry.body.get());
       const std::string awaited = body ? body->awaited_contact() : "";
       if (awaited.empty() || std::find(names.begin(), names.end(), awaited) != names.end()) continue;
-      const Value& at = member_at(*root_.find("bodies")->find(entry.name), body->where_awaited());
-      problems_.error(at.problem(fmt::format("no contact \"{}\"{}", awaited, scene::did_you_mean(awaited, names))));
+      problems_.error(plugin::refused(
+          *root_.find("bodies")->find(entry.name),
+          ParameterError(body->where_awaited(),
+                         fmt::format("no contact \"{}\"{}", awaited, scene::did_you_mean(awaited, names)))));
     }
-  }
-
-  // By names with dots between them, as far as they lead.
-  static const Value& member_at(const Value& value, const std::string& path) {
-    const std::size_t dot = path.find('.');
-    const Value* member = value.find(path.substr(0, dot));
-    if (!member) return value;
-    return dot == std::string::npos ? *member : member_at(*member, path.substr(dot + 1));
   }
 
   const Value& root_;

@@ -228,15 +228,14 @@ void set_parameters(Component& component, const Declaration& declaration, const 
   }
 }
 
-// The value that `prepare` refuses, or the object where it would stand.
+}  // namespace
+
 scene::Problem refused(const Value& object, const ParameterError& e) {
   if (const Value* value = find(object, e.parameter())) return value->problem(e.what());
   scene::Problem problem = object.problem(e.what());
   problem.path += (problem.path.empty() ? "" : ".") + e.parameter();
   return problem;
 }
-
-}  // namespace
 
 std::span<const std::string> framework_keys(Kind kind) {
   static const std::vector<std::string> joint{"type", "between"}, force{"type", "between", "on"},

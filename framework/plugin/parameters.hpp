@@ -24,6 +24,9 @@ std::unique_ptr<Component> make(const Entry& entry, const scene::Value& object,
                                 std::span<const std::string> framework_keys, const World& world,
                                 scene::Problems& problems);
 
+// What a component refuses, said at the value of the parameter or, where it is missing, at the object it would stand in.
+scene::Problem refused(const scene::Value& object, const ParameterError& e);
+
 // A component of interface T, and where it comes from.
 template <class T>
 struct Made {
