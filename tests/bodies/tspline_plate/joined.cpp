@@ -313,12 +313,7 @@ TEST(JoinedPatches, ResumeWithTheRefinedMesh) {
 std::string refusal(const std::function<void(TsplinePlate&)>& spoil) {
   auto plate = halves();
   spoil(*plate);
-  try {
-    plate->prepare(space());
-  } catch (const ParameterError& e) {
-    return e.parameter() + ": " + e.what();
-  }
-  return "accepted";
+  return test::refusal(*plate);
 }
 
 TEST(JoinedPatches, AreRefusedWhereTheyDoNotFit) {

@@ -32,6 +32,16 @@ inline std::unique_ptr<TsplinePlate> rectangle_plate(double a, double b, const s
   return plate;
 }
 
+// "parameter: message" of what `prepare` refuses, or "accepted".
+inline std::string refusal(TsplinePlate& plate) {
+  try {
+    plate.prepare(space());
+  } catch (const ParameterError& e) {
+    return e.parameter() + ": " + e.what();
+  }
+  return "accepted";
+}
+
 inline Joined joining(const std::string& from, const std::string& to, Continuity continuity = Continuity::C1) {
   Joined joined;
   joined.from = from, joined.to = to, joined.continuity = continuity;
