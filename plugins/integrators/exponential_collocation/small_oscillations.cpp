@@ -93,8 +93,8 @@ void SmallOscillations::linearise(System& s, const State& state) {
 }
 
 void SmallOscillations::archive(Archive& archive) {
-  archive("omega", omega_);
   archive("omega_2", omega_2_);
+  omega_ = omega_2_.cwiseSqrt();
   archive_matrix(archive, "shapes", phi_);
   archive_matrix(archive, "amplitudes", psi_);
 }
