@@ -1,6 +1,8 @@
 // The checks accept a right joint, force and contact law, and refuse wrong ones by the very checks that should find them.
 #include <cmath>
 
+#include <trammel/linear_rows.hpp>
+
 #include "refusals.hpp"
 
 namespace trammel::test {
@@ -219,7 +221,8 @@ TEST(RestitutionChecks, RefuseWhatGainsEnergyPullsOrBouncesForEver) {
 }
 
 TEST(Checks, ThatMeetAnExceptionFailWithItsText) {
-  struct Broken final : Joint {
+  struct Broken final : Joint, LinearRows {
+    bool linear() const override { return true; }
     int row_count(Space) const override { throw std::domain_error("out of rope"); }
     void rows(double, const Motion&, const Motion&, Rows&) const override {}
   };
