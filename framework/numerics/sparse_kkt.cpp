@@ -46,38 +46,32 @@ bool SparseMassKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, Metr
   if (by_fronts_) return factorise_fronts(bodies);
   if (!factorise_masses(bodies, metric)) return false;
   if (nc == 0) return true;
-  assemble(bodies, 0);
-  by_fronts_ = nc >= long_chain && !complement_is_safe(std::max(safe_sine, 10 * rank_tolerance));
+  complement_.factorise(bodies, Y_, nc, 0);
+  by_fronts_ = nc >= long_chain && !complement_.is_safe(std::max(safe_sine, 10 * rank_tolerance));
   if (by_fronts_) return factorise_fronts(bodies);
-  redundant_ = !complement_is_safe(10 * rank_tolerance);
+  redundant_ = !complement_.is_safe(10 * rank_tolerance);
   if (redundant_) regularise(bodies);
   return true;
 }
 
 // Large beside the complement's round-off, so that corrections converge and the unreachable is told from the rest.
 void SparseMassKkt::regularise(const std::vector<BodyBlock>& bodies) {
-  eps_ = std::max(of_redundant, rank_tolerance_ * rank_tolerance_) * diagonal_.maxCoeff();
-  assemble(bodies, eps_);
+  eps_ = std::max(of_redundant, rank_tolerance_ * rank_tolerance_) * complement_.largest();
+  complement_.factorise(bodies, Y_, nc_, eps_);
 }
 
 bool SparseMassKkt::factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric) {
-  const bool kept = metric == Metric::mass_of_before && factors_.size() == bodies.size();
-  factors_.resize(bodies.size());
+  const bool kept = metric == Metric::mass_of_before && masses_.size() == bodies.size();
+  masses_.resize(bodies.size());
+  Y_.resize(bodies.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    Factor& factor = factors_[k];
     const Eigen::Index n = bodies[k].M.rows();
-    if (identity_ ? !factor.mass.compute(Mat::Identity(n, n)) : !kept && !factor.mass.compute(bodies[k].M))
-      return false;
-    factor.Y = bodies[k].Gt.transpose();
-    factor.mass.solve_lower_of_rows(factor.Y);
+    if (identity_ ? !masses_[k].compute(Mat::Identity(n, n)) : !kept && !masses_[k].compute(bodies[k].M)) return false;
+    Y_[k].setZero(padded(bodies[k].Gt.cols()), n);
+    Y_[k].topRows(bodies[k].Gt.cols()) = bodies[k].Gt.transpose();
+    masses_[k].solve_lower_of_rows(Y_[k]);
   }
   return true;
-}
-
-bool SparseMassKkt::complement_is_safe(double least_sine) const {
-  if (ldlt_.info() != Eigen::Success) return false;
-  const Vec pivots = ldlt_.permutationP().transpose() * Vec(ldlt_.vectorD());
-  return (pivots.array() > least_sine * least_sine * diagonal_.array()).all();
 }
 
 bool SparseMassKkt::factorise_fronts(const std::vector<BodyBlock>& bodies) {
@@ -97,30 +91,12 @@ bool SparseMassKkt::factorise_springs(const std::vector<BodyBlock>& bodies) {
   return eps_ > 0;
 }
 
-void SparseMassKkt::assemble(const std::vector<BodyBlock>& bodies, double eps) {
-  const bool fresh = schur_.fill(nc_, nc_, [&](RecordedMatrix& S) {
-    diagonal_.setConstant(nc_, eps);
-    for (std::size_t k = 0; k < bodies.size(); ++k) {
-      const std::vector<int>& rows = bodies[k].rows;
-      share_.noalias() = factors_[k].Y.lazyProduct(factors_[k].Y.transpose());
-      for (std::size_t j = 0; j < rows.size() && rows[j] < nc_; ++j) {
-        diagonal_(rows[j]) += share_(Eigen::Index(j), Eigen::Index(j));
-        for (std::size_t i = j; i < rows.size() && rows[i] < nc_; ++i)
-          S.add(rows[i], rows[j], share_(Eigen::Index(i), Eigen::Index(j)));
-      }
-    }
-    for (int i = 0; i < nc_; ++i) S.add(i, i, eps);
-  });
-  if (fresh) ldlt_.analyzePattern(schur_.matrix());
-  ldlt_.factorize(schur_.matrix());
-}
-
 void SparseMassKkt::move(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& y, Vec& x) {
   x = b;
   add_rows_force(bodies, -1, y, x);
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     auto segment = x.segment(bodies[k].v0, bodies[k].M.rows());
-    factors_[k].mass.solve(segment);
+    masses_[k].solve(segment);
   }
 }
 
@@ -128,8 +104,9 @@ void SparseMassKkt::move(const std::vector<BodyBlock>& bodies, const Vec& b, con
 // nothing else. Round-off asks for more passes.
 void SparseMassKkt::remove_null_part(Vec& r) {
   for (int pass = 0; pass < 3; ++pass) {
-    dy_ = eps_ * ldlt_.solve(r);
-    r -= eps_ * ldlt_.solve(dy_);
+    complement_.solve(r, dy_);
+    complement_.solve(dy_, null_part_);
+    r -= eps_ * eps_ * null_part_;
   }
 }
 
@@ -155,11 +132,12 @@ void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, co
     return r.lpNorm<Eigen::Infinity>();
   };
   const auto correct = [&](const Vec& r) {
-    dy_ = ldlt_.solve(r);
+    complement_.solve(r, dy_);
     y += dy_;
     move(bodies, b, y, x);
   };
-  refine(residual, correct, 4 * std::numeric_limits<double>::epsilon() * scale, redundant_ ? 40 : 4, residual_);
+  const double round_off = 16 * std::numeric_limits<double>::epsilon() * scale;  // of a row's dozen products
+  refine(residual, correct, round_off, redundant_ ? 40 : 4, residual_);
   if (redundant_) remove_null_part(y);  // round-off over eps
 }
 

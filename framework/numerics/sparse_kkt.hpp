@@ -3,8 +3,7 @@
 //     [S W^T] [x]   [b]
 //     [G  0 ] [y] = [c]
 //
-//  - Mass: S = M, one dense block a body, and W = G. The Schur complement G M^-1 G^T is a sum over bodies, each giving a
-//    block on the rows that touch it; sparse LDL^T, ordered once for a pattern (approximate minimum degree).
+//  - Mass: S = M, one dense block a body, and W = G, by the Schur complement G M^-1 G^T (row_complement.hpp).
 //  - Iteration: S any sparse matrix, W any. Sparse LU with partial pivoting of the whole.
 //
 // Redundant rows: the factorised matrix is the complement plus eps I (Iteration: -eps I in the corner), and residuals of the
@@ -22,13 +21,13 @@
 
 #include <vector>
 
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 
 #include "numerics/body_block.hpp"
 #include "numerics/cholesky.hpp"
 #include "numerics/frontal_kkt.hpp"
 #include "numerics/recorded_matrix.hpp"
+#include "numerics/row_complement.hpp"
 
 namespace trammel::numerics {
 
@@ -43,13 +42,7 @@ class SparseMassKkt {
   bool redundant() const { return redundant_; }
 
  private:
-  struct Factor {
-    Cholesky mass;  // M = C C^T
-    Mat Y;          // G C^-T, by rows of G
-  };
   bool factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric);
-  bool complement_is_safe(double least_sine) const;
-  void assemble(const std::vector<BodyBlock>& bodies, double eps);
   void move(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& y, Vec& x);  // x = M^-1 (b - G^T y)
   void remove_null_part(Vec& r);
   bool factorise_fronts(const std::vector<BodyBlock>& bodies);
@@ -62,12 +55,11 @@ class SparseMassKkt {
   double rank_tolerance_ = 0;
   bool redundant_ = false;
   bool by_fronts_ = false, fronts_failed_ = false, identity_ = false;
-  std::vector<Factor> factors_;
-  RecordedMatrix schur_;  // lower triangle
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt_;
+  std::vector<Cholesky> masses_;  // M = C C^T
+  std::vector<Mat> Y_;            // G C^-T
+  RowComplement complement_;
   FrontalKkt fronts_;
-  Vec diagonal_, residual_, dy_;
-  Mat share_;  // of a body in the complement
+  Vec residual_, dy_, null_part_;
 };
 
 class SparseIterationKkt {
