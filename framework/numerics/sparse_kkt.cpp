@@ -91,9 +91,7 @@ bool SparseMassKkt::factorise_springs(const std::vector<BodyBlock>& bodies) {
   return eps_ > 0;
 }
 
-void SparseMassKkt::move(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& y, Vec& x) {
-  x = b;
-  add_rows_force(bodies, -1, y, x);
+void SparseMassKkt::solve_masses(const std::vector<BodyBlock>& bodies, Vec& x) {
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     auto segment = x.segment(bodies[k].v0, bodies[k].M.rows());
     masses_[k].solve(segment);
@@ -122,7 +120,8 @@ void SparseMassKkt::solve_by_fronts(const std::vector<BodyBlock>& bodies, const 
 void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
   if (by_fronts_) return solve_by_fronts(bodies, b, c, x, y);
   y.setZero(nc_);
-  move(bodies, b, y, x);
+  x = b;
+  solve_masses(bodies, x);
   if (nc_ == 0) return;
   const double scale = std::max(c.lpNorm<Eigen::Infinity>(), x.lpNorm<Eigen::Infinity>());
   const auto residual = [&](Vec& r) {
@@ -134,7 +133,9 @@ void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, co
   const auto correct = [&](const Vec& r) {
     complement_.solve(r, dy_);
     y += dy_;
-    move(bodies, b, y, x);
+    x = b;
+    add_rows_force(bodies, -1, y, x);
+    solve_masses(bodies, x);
   };
   const double round_off = 16 * std::numeric_limits<double>::epsilon() * scale;  // of a row's dozen products
   refine(residual, correct, round_off, redundant_ ? 40 : 4, residual_);

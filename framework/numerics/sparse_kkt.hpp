@@ -43,7 +43,7 @@ class SparseMassKkt {
 
  private:
   bool factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric);
-  void move(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& y, Vec& x);  // x = M^-1 (b - G^T y)
+  void solve_masses(const std::vector<BodyBlock>& bodies, Vec& x);  // x := M^-1 x
   void remove_null_part(Vec& r);
   bool factorise_fronts(const std::vector<BodyBlock>& bodies);
   bool factorise_springs(const std::vector<BodyBlock>& bodies);
