@@ -47,7 +47,7 @@ void RowComplement::assemble(const std::vector<BodyBlock>& bodies, const std::ve
   for (int i = 0; i < int(diagonal_.size()); ++i) S.add(i, i, eps);
 }
 
-// By the pattern just found.
+// From the rows' own order, so that what a resumed run finds is what it was before.
 void RowComplement::reorder() {
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order, places;
   Eigen::AMDOrdering<int>()(S_.matrix().selfadjointView<Eigen::Upper>(), order);
@@ -57,12 +57,11 @@ void RowComplement::reorder() {
 
 void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const std::vector<Mat>& Y, int nc, double eps) {
   diagonal_.resize(nc);
-  if (int(place_.size()) != nc) {
+  const auto fill = [&] { return S_.fill(nc, nc, [&](RecordedMatrix& S) { assemble(bodies, Y, eps, S); }); };
+  if (int(place_.size()) != nc || fill()) {
     place_.resize(std::size_t(nc));
     std::iota(place_.begin(), place_.end(), 0);
-  }
-  const auto fill = [&] { return S_.fill(nc, nc, [&](RecordedMatrix& S) { assemble(bodies, Y, eps, S); }); };
-  if (fill()) {
+    fill();
     reorder();
     fill();
     ldlt_.analyzePattern(S_.matrix());
