@@ -25,7 +25,7 @@ class Cholesky {
   void solve(Eigen::Ref<Vec> x);             // x := M^-1 x
 
  private:
-  bool in_blocks() const { return n_ == 0; }
+  bool in_blocks() const { return n_ == 0 && !diagonal_; }
   bool of_few() const { return L_.rows() == few; }
   bool invert_diagonal(const Mat& M);
   void resize(Eigen::Index n);

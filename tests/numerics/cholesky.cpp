@@ -75,6 +75,17 @@ TEST_P(CholeskyOf, RefusesWhatIsNotPositiveDefinite) {
 }
 
 // By columns, and above 48 by blocks.
+TEST(Cholesky, OfABodyWithoutCoordinatesHasNothingToSolve) {
+  numerics::Cholesky cholesky;
+  for (const int before : {0, 60}) {  // in blocks
+    ASSERT_TRUE(cholesky.compute(Mat::Identity(before, before) + Mat::Constant(before, before, 0.1)));
+    ASSERT_TRUE(cholesky.compute(Mat(0, 0)));
+    Vec x(0);
+    Mat X(3, 0);
+    cholesky.solve(x), cholesky.solve_lower(x), cholesky.solve_transposed(x), cholesky.solve_lower_of_rows(X);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Sizes, CholeskyOf, testing::Values(1, 2, 7, 48, 49, 150));
 
 }  // namespace
