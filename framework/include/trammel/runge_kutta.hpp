@@ -99,6 +99,7 @@ class RungeKutta {
     rounding_ = projects() && whole > 1 && (rounding_ || !falls(now, next, whole));
     return rounding_ ? estimate(Part::along_rows) : whole;
   }
+  void forget() { rounding_ = false, trial_ = {}; }  // where a motion begins
   void archive(Archive& archive) { archive("rounding", rounding_); }
   // The step's interior at theta in [0, 1], in Hairer's nested form: the cubic Hermite polynomial and, row by row, terms
   // of higher degree h sum_i row[i] k_i over all slopes.

@@ -48,6 +48,7 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   }
 
   void restart(System& s, const State& now) override {
+    starter_.forget();
     starter_.evaluate(s, now.t, now.q, now.v, past_[0]);
     filled_ = 1;
     h_ = 0;
@@ -79,6 +80,7 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
       const double milne = predictor == Predictor::ab4 ? -19.0 / 270 : 1;
       e_ = milne * (next.q - predicted_q_);
       e_v_ = milne * (next.v - predicted_v_);
+      starter_.forget();
       return starter_.norm(s, now, next, e_, e_v_, RungeKutta::Part::whole, tolerance);
     }
     return starter_.error(now, next, [&](RungeKutta::Part part) {
@@ -151,7 +153,7 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   bool multistep_ = false;
   double trial_h_ = 0;
   Slope predicted_, corrected_;
-  Vec predicted_q_, predicted_v_, e_, e_q_, e_v_, embedded_;
+  Vec predicted_q_, predicted_v_, e_, e_v_;
 };
 
 }  // namespace

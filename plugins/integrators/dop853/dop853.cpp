@@ -107,7 +107,10 @@ class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput
     return {.order = 8, .holds_position = method_.projects(), .holds_velocity = method_.projects()};
   }
 
-  void restart(System& s, const State& now) override { method_.evaluate(s, now.t, now.q, now.v, slope_); }
+  void restart(System& s, const State& now) override {
+    method_.forget();
+    method_.evaluate(s, now.t, now.q, now.v, slope_);
+  }
 
   Outcome step(System& s, const State& now, double h, State& next) override {
     return method_.step(s, now, slope_, h, next);
