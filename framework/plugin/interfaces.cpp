@@ -42,14 +42,14 @@ HasMomentum::~HasMomentum() = default;
 HasFields::~HasFields() = default;
 AwaitsContact::~AwaitsContact() = default;
 LinearMarkers::~LinearMarkers() = default;
-
-// Of joints.
-LinearRows::~LinearRows() = default;
 CarriedStress::~CarriedStress() = default;
 SampledSurface::~SampledSurface() = default;
 SlidingSurface::~SlidingSurface() = default;
 ForceBySurfacePoints::~ForceBySurfacePoints() = default;
 Surface::~Surface() = default;
+
+// Of joints.
+LinearRows::~LinearRows() = default;
 
 void Archive::operator()(std::string_view name, std::vector<Vec>& values) {
   const std::string stem(name);

@@ -30,11 +30,7 @@ enum class BodyDefect {
   shape_comes_and_goes,
 };
 
-class ElasticPendulum final : public Body,
-                              public ExactTangent,
-                              public ReactionDerivative,
-                              public Observed,
-                              public Drawn {
+class ElasticPendulum : public Body, public ExactTangent, public ReactionDerivative, public Observed, public Drawn {
  public:
   explicit ElasticPendulum(BodyDefect defect) : defect_(defect) {}
 

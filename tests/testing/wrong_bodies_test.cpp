@@ -1,4 +1,6 @@
 // The checks accept a right body and refuse wrong ones, each by the very checks that should find the defect.
+#include <trammel/linear_rows.hpp>
+
 #include "elastic_pendulum.hpp"
 #include "free_top.hpp"
 #include "point_on_a_circle.hpp"
@@ -16,6 +18,14 @@ std::set<std::string> refusals_of(TopDefect defect) {
 
 std::set<std::string> refusals_of(CircleDefect defect) {
   return refusals(body_checks([=] { return std::make_unique<PointOnACircle>(defect); }));
+}
+
+struct ClaimsLinearMarkers final : ElasticPendulum, LinearMarkers {
+  ClaimsLinearMarkers() : ElasticPendulum(BodyDefect::none) {}
+};
+TEST(BodyChecks, RefuseAPendulumThatClaimsLinearMarkers) {
+  EXPECT_EQ(refusals(body_checks([] { return std::make_unique<ClaimsLinearMarkers>(); })),
+            Names{"MotionIsLinearIfClaimed"});
 }
 
 TEST(BodyChecks, AcceptRightBodies) {

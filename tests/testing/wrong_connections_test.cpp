@@ -11,7 +11,7 @@ namespace {
 enum class JointDefect { none, wrong_sign_on_A, drive_forgotten, gamma_without_centripetal, acts_on_B_alone, resizes };
 
 // The squared distance of two points in the plane or in space: g = (|d|^2 - (1 + t/2)^2)/2.
-struct SquaredDistance final : Joint {
+struct SquaredDistance : Joint {
   explicit SquaredDistance(JointDefect d) : defect(d) {}
   int row_count(Space) const override { return 1; }
   void rows(double t, const Motion& A, const Motion& B, Rows& rows) const override {
@@ -57,6 +57,17 @@ TEST(JointChecks, RefuseAReactionOnOneMarkerOnly) {
 }
 TEST(JointChecks, RefuseRowsOfAnotherSize) {
   EXPECT_TRUE(refusals_of(JointDefect::resizes).contains("RowsHaveTheirSizes"));
+}
+
+struct ClaimsLinearRows final : SquaredDistance, LinearRows {
+  explicit ClaimsLinearRows(bool c) : SquaredDistance(JointDefect::none), claims(c) {}
+  bool linear() const override { return claims; }
+  bool claims;
+};
+TEST(JointChecks, RefuseADistanceThatClaimsLinearRows) {
+  EXPECT_EQ(refusals(joint_checks([] { return std::make_unique<ClaimsLinearRows>(true); })),
+            Names{"RowsAreLinearIfClaimed"});
+  EXPECT_EQ(refusals(joint_checks([] { return std::make_unique<ClaimsLinearRows>(false); })), Names());
 }
 
 // Two equal rows are what a redundant mechanism has.

@@ -73,8 +73,8 @@ class RowJoint : public Joint, public ReactionTangent, public LinearRows {
 
   void prepare(const World& world) override { list_ = made_of(world); }
   int row_count(Space) const override { return list_.count(); }
-  bool linear() const override { return list_.linear(); }
-  void rows(double t, const Motion& A, const Motion& B, Rows& rows) const override { list_.rows(t, A, B, rows); }
+  bool linear() const final { return list_.linear(); }
+  void rows(double t, const Motion& A, const Motion& B, Rows& rows) const final { list_.rows(t, A, B, rows); }
   void add_reaction_tangent(double t, const Motion& A, const Motion& B, const Vec6& lambda,
                             PairTangent& K) const override {
     list_.add_reaction_tangent(t, A, B, lambda, K);

@@ -3,7 +3,7 @@
 //     g = G q + g_0,   g_dot = G v,   gamma = 0        G constant
 //
 // A joint's rows are so if it has LinearRows and each of its markers is on a body with LinearMarkers or on the ground. The framework
-// takes G and g_0 at q = 0, t = 0, and asks neither body nor joint for these rows again.
+// takes G and g_0 at q = 0, t = 0, and asks neither body nor joint for these rows again until the set of rows changes.
 #pragma once
 
 namespace trammel {
