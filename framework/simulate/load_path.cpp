@@ -54,9 +54,10 @@ void LoadPath::begin() {
   contacts_.close_what_may_push();
   const Point start{settings_.start, start_, Vec::Zero(system_.sizes().nc)};
   Point first = start;
-  const Failure failure = solve(first, nullptr);
-  if (failure != Failure::none && !solve_from_rest(first) && !solve_by_forces(first = start))
-    fail(settings_.start, failure);
+  Failure failure = solve(first, nullptr);
+  if (failure != Failure::none && solve_from_rest(first)) failure = Failure::none;
+  if (failure != Failure::none && turn_to_forces(first = start)) failure = solve(first, nullptr);
+  if (failure != Failure::none) fail(settings_.start, failure);
   keep(std::move(first));
 }
 
@@ -86,8 +87,9 @@ void LoadPath::by_load(double t) {
     if (failure != Failure::none) {
       part_ = length / 2;
       if (part_ >= shortest_part * step) continue;
-      if (!solve_by_forces(trial = predict(t))) fail(trial.t, failure);
+      if (!turn_to_forces(passed_.back())) fail(trial.t, failure);
       part_ = step;
+      continue;
     }
     if (now_.iterations - before <= easy) part_ = std::min(step, 2 * part_);
     keep(std::move(trial));
@@ -138,8 +140,16 @@ void LoadPath::by_arc() {
   }
 }
 
-// With rows of contacts closed where they push.
+// A failed trial leaves no trace in what is large.
 LoadPath::Failure LoadPath::solve(Point& trial, const Arc* arc) {
+  const double load = load_, extent = extent_;
+  const Failure failure = balance_with_contacts(trial, arc);
+  if (failure != Failure::none) load_ = load, extent_ = extent;
+  return failure;
+}
+
+// With rows of contacts closed where they push.
+LoadPath::Failure LoadPath::balance_with_contacts(Point& trial, const Arc* arc) {
   for (;;) {
     if (trial.lambda.size() != system_.sizes().nc) {
       const auto joints = system_.model().sizes.nc;
@@ -154,9 +164,9 @@ LoadPath::Failure LoadPath::solve(Point& trial, const Arc* arc) {
 }
 
 LoadPath::Failure LoadPath::balance(Point& trial, const Arc* arc) {
-  if (by_forces_ && !arc) return balance_by_forces(trial);
   system_.move_to(trial.t, start_, zero_);
   load_ = std::max(load_, system_.f().norm());
+  if (by_forces_ && !arc) return balance_by_forces(trial);
   Vec from = passed_.empty() ? trial.q : passed_.back().q, dq = zero_;
   double least = std::numeric_limits<double>::infinity();  // of the increments
   for (int i = 0; i <= settings_.load_iterations; ++i) {
@@ -180,12 +190,17 @@ LoadPath::Failure LoadPath::balance(Point& trial, const Arc* arc) {
   return Failure::too_many_iterations;
 }
 
-bool LoadPath::unbalance(const Point& at) {
+Vec LoadPath::reaction(const Point& at) {
   system_.move_to(at.t, at.q, zero_);
-  Vec reaction = zero_;
-  system_.add_reaction(1, at.lambda, reaction);
-  load_ = std::max(load_, reaction.norm());
-  r_ = reaction - system_.f();
+  Vec held = zero_;
+  system_.add_reaction(1, at.lambda, held);
+  return held;
+}
+
+bool LoadPath::unbalance(const Point& at) {
+  const Vec held = reaction(at);
+  load_ = std::max(load_, held.norm());
+  r_ = held - system_.f();
   const double g = system_.g().size() > 0 ? system_.g().lpNorm<Eigen::Infinity>() : 0;
   now_.unbalanced = load_ > 0 ? r_.norm() / load_ : 0;
   return now_.unbalanced <= settings_.load_tolerance && g <= std::max(1e-14, settled * extent_);
@@ -271,7 +286,7 @@ void LoadPath::fail(double t, Failure why) {
       text += ": the stiffness matrix is singular";
   }
   if (const auto loose = find_mechanism(system_, state_.t, passed_.empty() ? start_ : passed_.back().q))
-    text += "; " + *loose;
+    text += "; " + *loose + (by_forces_ ? "; if it is held, smaller load steps may lead further" : "");
   else if (!settings_.arc_length)
     text += "; if the load has a maximum there, \"static\": {\"arc_length\": true} goes past it";
   throw RunFailed(text);

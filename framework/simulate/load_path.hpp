@@ -13,7 +13,8 @@
 // What is softest may be lost in the round-off of what is stiffest: a strip 10^4 times as long as wide bends 10^16 times as
 // easily along it as across, and K has no digits for that. Forces have. So where all else fails and a motion without resistance
 // is found, each of Newton's increments is sought with differences of r along it, by Anderson's acceleration of steps with the
-// factors of K + shift M, which are good for all but the softest motions.
+// factors of K + shift M, which are good for all but the softest motions. The parts of a load step are halved as before. It has
+// converged when dq is small, or round-off that shrinks no further; what is then left of r is recorded, and a warning.
 //
 // Past a limit point the load must fall. With arc length t is an unknown, and a step goes the length ds along the path's
 // tangent n (Riks 1979, normal plane):   n_q . (q - q_last) / nv + s^2 n_t (t - t_last) = ds, s^2 = |dq/dt|^2 / nv at the start.
@@ -38,6 +39,7 @@ struct LoadStep {
   int iterations = 0;     // of Newton's method, those of failed attempts included
   int parts = 0;          // equilibria that were passed on the way, itself included
   double unbalanced = 0;  // |r| over the load
+  double by_forces = 0;   // largest displacement of the last increment, where forces tell it; 0 where K does
 };
 
 class LoadPath {
@@ -65,11 +67,13 @@ class LoadPath {
   void by_load(double t);
   void by_arc();
   bool solve_from_rest(Point& first);
-  bool solve_by_forces(Point& trial);
+  bool turn_to_forces(const Point& from);
   Failure solve(Point& trial, const Arc* arc);
+  Failure balance_with_contacts(Point& trial, const Arc* arc);
   Failure balance(Point& trial, const Arc* arc);  // with the contacts' rows as they are
   Failure balance_by_forces(Point& trial);
-  bool correct_by_forces(const Point& at, Vec& dq, Vec& dlambda);
+  Failure correct_by_forces(const Point& at, Vec& dq, Vec& dlambda);
+  Vec reaction(const Point& at);    // G^T lambda; the system is there, with its f and g
   bool unbalance(const Point& at);  // r_ and g of the system; true: in equilibrium
   bool correct(Point& at, const Arc* arc, Vec& dq);
   bool along_t(const Point& at, Vec& q_by_t, Vec& lambda_by_t);

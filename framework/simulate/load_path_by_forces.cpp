@@ -1,5 +1,7 @@
 // Equilibria by what forces tell where the stiffness matrix has lost its softest motions; see load_path.hpp.
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 #include "numerics/anderson.hpp"
@@ -12,8 +14,8 @@ namespace {
 
 // Of the largest omega^2: above the round-off of K and what passes for singular, as little above as may be.
 constexpr double shift = 1e-14;
-// Of the largest displacement: when increments are small enough, and below which they may be the round-off of forces.
-constexpr double settled = 1e-10, nearly_settled = 1e-6;
+// Of the largest displacement: increments that are small enough, and those that may be the round-off of forces.
+constexpr double small = 1e-10, nearly_small = 1e-6;
 constexpr double inexact = 1e-5;  // of an increment; Newton's method mends the rest
 // As many as there are motions softer than the shift, and some.
 constexpr int most_steps = 60;
@@ -26,12 +28,10 @@ double largest(const Vec& x) {
 
 }  // namespace
 
-// From where `trial` is; true: from now on it is the way to all equilibria.
-bool LoadPath::solve_by_forces(Point& trial) {
-  if (by_forces_ || !find_mechanism(system_, trial.t, trial.q)) return false;
-  by_forces_ = true;
-  by_forces_ = solve(trial, nullptr) == Failure::none;
-  return by_forces_;
+// From now on they are the way to all equilibria, if that may lead further.
+bool LoadPath::turn_to_forces(const Point& from) {
+  if (by_forces_ || !find_mechanism(system_, from.t, from.q)) return false;
+  return by_forces_ = true;
 }
 
 LoadPath::Failure LoadPath::balance_by_forces(Point& trial) {
@@ -45,16 +45,20 @@ LoadPath::Failure LoadPath::balance_by_forces(Point& trial) {
     if (balanced) return Failure::none;
     if (i == settings_.load_iterations) break;
     system_.factorise({shift_of_M, 0, 1}, zero_, trial.lambda);
-    if (!correct_by_forces(trial, dq, dlambda)) return Failure::singular;
+    if (const Failure failure = correct_by_forces(trial, dq, dlambda); failure != Failure::none) return failure;
     const double change = largest(dq);
+    if (std::getenv("DBG"))
+      fprintf(stderr, "t %.3e newton %d change %.3e extent %.3e r %.3e load %.3e\n", trial.t, i, change, extent_,
+              r_.norm(), load_);
     if (!(change < far_away)) return Failure::diverged;
     extent_ = std::max(extent_, change);
-    const bool round_off = change > least / 2 && change <= nearly_settled * extent_;
+    const bool round_off = change >= least && change <= nearly_small * extent_;  // shrinks no further
     if (change > 2 * least && !round_off) return Failure::diverged;
     least = std::min(least, change);
     system_.retract(trial.q, dq, q);
     trial.q = q, trial.lambda += dlambda;
-    if (change > settled * extent_ && !round_off) continue;
+    now_.by_forces = change;
+    if (change > small * extent_ && !round_off) continue;
     unbalance(trial);
     return Failure::none;
   }
@@ -62,34 +66,39 @@ LoadPath::Failure LoadPath::balance_by_forces(Point& trial) {
 }
 
 // Newton's increment, r + (dr/dx) x = 0 and g + (dg/dx) x = 0 for x = (dq, dlambda), with differences of r and g along x.
-bool LoadPath::correct_by_forces(const Point& at, Vec& dq, Vec& dlambda) {
+LoadPath::Failure LoadPath::correct_by_forces(const Point& at, Vec& dq, Vec& dlambda) {
   const Eigen::Index nv = zero_.size(), nc = at.lambda.size();
   const Vec r = r_, g = system_.g();
   Vec r_left = r, g_left = g, x = Vec::Zero(nv + nc), step(nv + nc);
   numerics::Anderson accelerated;
   for (int i = 0; i < most_steps; ++i) {
-    if (!system_.correct(r_left, g_left, dq, dlambda)) return false;
+    if (!system_.correct(r_left, g_left, dq, dlambda)) return Failure::singular;
     ++now_.iterations;
     step << dq, dlambda;
     const Vec change = accelerated.next(step);
     x += change;
-    if (!x.allFinite()) return false;
+    if (!x.allFinite()) return Failure::diverged;
     const double size = largest(x.head(nv)), left = std::max(largest(dq), largest(change.head(nv)));
-    if (left <= std::max(inexact * size, settled * extent_ / 10)) break;
+    if (std::getenv("DBG"))
+      fprintf(stderr, "   %d size %.3e left %.3e dq %.3e extent %.3e\n", i, size, left, largest(dq), extent_);
+    if (left <= std::max(inexact * size, small * extent_ / 10)) {
+      dq = x.head(nv), dlambda = x.tail(nc);
+      return Failure::none;
+    }
     const double part = std::max(1e-3, 1e-6 * extent_ / size);
     Vec r_at[2], g_at[2];
     for (const int side : {0, 1}) {
       const double to = side ? part : -part;
       Point there{at.t, {}, at.lambda + to * x.tail(nc)};
       system_.retract(at.q, to * x.head(nv), there.q);
-      unbalance(there);
-      r_at[side] = r_, g_at[side] = system_.g();
+      r_at[side] = reaction(there);
+      r_at[side] -= system_.f();
+      g_at[side] = system_.g();
     }
     r_left = r + (r_at[1] - r_at[0]) / (2 * part);
     g_left = g + (g_at[1] - g_at[0]) / (2 * part);
   }
-  dq = x.head(nv), dlambda = x.tail(nc);
-  return true;
+  return Failure::too_many_iterations;
 }
 
 }  // namespace trammel::simulate

@@ -74,8 +74,7 @@ std::optional<std::string> find_mechanism(model::AssembledSystem& system, double
   if (!loose) return {};
   return fmt::format(
       "bodies.{} is a mechanism: it can move without resistance, or with less than the round-off of what it is "
-      "stiffest in; "
-      "hold it by a joint, an edge or a spring",
+      "stiffest in; hold it by a joint, an edge or a spring",
       loose->name);
 }
 

@@ -1,4 +1,5 @@
 // `trammel static`: equilibria under growing loads from the first line to the last: set-up, load path, records, results.
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 
@@ -119,7 +120,22 @@ class StaticRun {
                     {"energy_start", to_json(energy_start_)},
                     {"energy_end", to_json(energy_)},
                     {"sizes", {{"nq", system_.sizes().nq}, {"nv", system_.sizes().nv}, {"nc", system_.sizes().nc}}},
-                    {"warnings", setup_.warnings}});
+                    {"warnings", warnings()}});
+    return all;
+  }
+
+  // Of the worst step that forces told: what is left may be nothing but the round-off of what is stiffest, or more.
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> all = setup_.warnings;
+    const LoadStep* worst = nullptr;
+    for (const LoadStep& s : path_.steps())
+      if (s.by_forces > 0 && s.unbalanced > std::max(setup_.settings.load_tolerance, worst ? worst->unbalanced : 0))
+        worst = &s;
+    if (worst)
+      all.push_back(fmt::format(
+          "static.tolerance: {:.3g} of the load is left unbalanced at t = {:.6g}, not {:.3g}: what is softest is lost "
+          "in round-off of what is stiffest. Newton's last increment there displaced by {:.2g} (m, rad) at most",
+          worst->unbalanced, worst->t, setup_.settings.load_tolerance, worst->by_forces));
     return all;
   }
 
@@ -137,7 +153,7 @@ class StaticRun {
     line("energy", fmt::format("elastic {:.9g} J -> {:.9g} J, potential {:.9g} J -> {:.9g} J", energy_start_.elastic,
                                energy_.elastic, energy_start_.potential, energy_.potential));
     line("cost", fmt::format("{:.3g} s of CPU time", outcomes.cost.cpu));
-    for (const std::string& warning : setup_.warnings) line("warning", warning);
+    for (const std::string& warning : warnings()) line("warning", warning);
     line("results", options_.out.string());
     if (!outcomes.reason.empty()) line(to_string(outcomes.status), outcomes.reason);
     return all;

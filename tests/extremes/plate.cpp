@@ -96,24 +96,34 @@ TEST(SlenderStrip, OfAspectTenThousandBendsStepByStep) {
   for (std::size_t i = 0; i < w.size(); ++i) EXPECT_NEAR(w[i], 0.125e-6 * double(i) / 4, 1e-13) << i;
 }
 
+Finished bent_far(const char* width, const char* q, const char* steps) {
+  return run_static(square, {{"parameters.nu", "0"},
+                             {"parameters.h", "1e-3"},
+                             {"parameters.q", q},
+                             {"bodies.plate.mesh.elements", "4x1"},
+                             {"bodies.plate.geometry.along_v", fmt::format("[0, {}, 0]", width)},
+                             {"bodies.plate.edges", R"({"u0": "clamped"})"},
+                             {"bodies.plate.load_factor", "=t"},
+                             {"static.steps", steps},
+                             {"record.observe.w", "plate.u1v0.z"}});
+}
+
 // A third of its length, far beyond its thickness. Without Poisson's ratio the width does not matter.
 TEST(SlenderStrip, OfAspectTenThousandBendsAsFarAsOneOfAHundred) {
-  const auto end = [](const char* width) {
-    const Finished run = run_static(square, {{"parameters.nu", "0"},
-                                             {"parameters.h", "1e-3"},
-                                             {"parameters.q", "4"},
-                                             {"bodies.plate.mesh.elements", "4x1"},
-                                             {"bodies.plate.geometry.along_v", fmt::format("[0, {}, 0]", width)},
-                                             {"bodies.plate.edges", R"({"u0": "clamped"})"},
-                                             {"bodies.plate.load_factor", "=t"},
-                                             {"static.steps", "10"},
-                                             {"record.observe.w", "plate.u1v0.z"}});
-    EXPECT_TRUE(run.done()) << run.report.reason;
-    return run.end("w");
-  };
-  const double w = end("1e-2");
-  EXPECT_GT(w, 0.3);
-  EXPECT_NEAR(end("1e-4"), w, 1e-8);
+  const Finished wide = bent_far("1e-2", "4", "10"), slender = bent_far("1e-4", "4", "10");
+  ASSERT_TRUE(wide.done() && slender.done()) << slender.report.reason;
+  EXPECT_GT(wide.end("w"), 0.3);
+  EXPECT_NEAR(slender.end("w"), wide.end("w"), 1e-8);
+  EXPECT_TRUE(wide.result["warnings"].empty());
+  EXPECT_THAT(slender.result["warnings"].dump(), HasSubstr("static.tolerance"));
+}
+
+// Forces' parts of a load step are halved like any others.
+TEST(SlenderStrip, OfAspectTenThousandBendsAsFarInTenStepsAsInAHundred) {
+  const Finished ten = bent_far("1e-4", "40", "10"), hundred = bent_far("1e-4", "40", "100");
+  ASSERT_TRUE(ten.done() && hundred.done()) << ten.report.reason;
+  EXPECT_GT(ten.end("w"), 0.7);
+  EXPECT_NEAR(ten.end("w"), hundred.end("w"), 1e-10);
 }
 
 // A ball of 3 kg and 0.1 m over a plate of 1 m and 20 kg, its lowest point 0.2 mm above.
