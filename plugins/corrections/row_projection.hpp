@@ -31,9 +31,11 @@ class RowProjection final : public Correction {
       s.move_to(state.t, state.q, state.v);
       const double violation = s.sizes().nc > 0 ? s.g().lpNorm<Eigen::Infinity>() : 0;
       // A coordinate that is to be 0 would go on falling by all its digits a step.
-      if (!(violation > of_places * round_off * state.q.lpNorm<Eigen::Infinity>())) return Outcome::accept();
-      // Where a step no longer halves it the rest is round-off, if it is small at all.
+      if (!(violation > round_off * state.q.lpNorm<Eigen::Infinity>())) return Outcome::accept();
+      // Where a step no longer halves it the rest is round-off, if it is small at all. Where redundant rows contradict each other by
+      // that, a step may even make it larger, and is taken back.
       if (iteration > 0 && violation > 0.5 * before) {
+        if (violation > before && violation <= settled) state.q = start_of_step_;
         if (violation <= settled) return Outcome::accept();
         if (fresh) return Outcome::reject("the correction of the positions diverges");
       }
@@ -42,6 +44,7 @@ class RowProjection final : public Correction {
       if (fresh) factorise(s);
       if (!solve(s, s.g())) return Outcome::reject("the correction of the positions has no solution");
       s.retract(state.q, change_, moved_);
+      start_of_step_ = state.q;
       state.q = moved_;
     }
     return Outcome::reject("the correction of the positions does not converge");
@@ -52,7 +55,7 @@ class RowProjection final : public Correction {
       s.move_to(state.t, state.q, state.v);
       if (s.sizes().nc == 0) break;
       const double violation = s.g_dot().lpNorm<Eigen::Infinity>();
-      if (!(violation > of_speeds * round_off * state.v.lpNorm<Eigen::Infinity>())) break;
+      if (!(violation > round_off * state.v.lpNorm<Eigen::Infinity>())) break;
       if (pass == 0) factorise(s);
       if (!solve(s, s.g_dot())) return Outcome::reject("the correction of the velocities has no solution");
       state.v += change_;
@@ -62,9 +65,6 @@ class RowProjection final : public Correction {
 
   static constexpr int most_iterations = 20;
   static constexpr double round_off = std::numeric_limits<double>::epsilon();
-  // A row takes the difference of places that were each summed and rounded; so much of round-off is no violation. Where redundant rows
-  // contradict each other by it, a correction would only make it larger.
-  static constexpr double of_places = 4, of_speeds = 2;
   static constexpr double settled = 1e-9;  // [unit of the rows] far above round-off, far below a useful violation
 
   void factorise(System& s) {
@@ -77,7 +77,7 @@ class RowProjection final : public Correction {
     return s.correct(zero_, right_, change_, multipliers_, Factors::projection);
   }
 
-  Vec right_, zero_, zero_rows_, change_, multipliers_, moved_;
+  Vec right_, zero_, zero_rows_, change_, multipliers_, moved_, start_of_step_;
 };
 
 }  // namespace trammel
