@@ -1,7 +1,5 @@
 // Equilibria by what forces tell where the stiffness matrix has lost its softest motions; see load_path.hpp.
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "numerics/anderson.hpp"
@@ -47,9 +45,6 @@ LoadPath::Failure LoadPath::balance_by_forces(Point& trial) {
     system_.factorise({shift_of_M, 0, 1}, zero_, trial.lambda);
     if (const Failure failure = correct_by_forces(trial, dq, dlambda); failure != Failure::none) return failure;
     const double change = largest(dq);
-    if (std::getenv("DBG"))
-      fprintf(stderr, "t %.3e newton %d change %.3e extent %.3e r %.3e load %.3e\n", trial.t, i, change, extent_,
-              r_.norm(), load_);
     if (!(change < far_away)) return Failure::diverged;
     extent_ = std::max(extent_, change);
     const bool round_off = change >= least && change <= nearly_small * extent_;  // shrinks no further
@@ -79,8 +74,6 @@ LoadPath::Failure LoadPath::correct_by_forces(const Point& at, Vec& dq, Vec& dla
     x += change;
     if (!x.allFinite()) return Failure::diverged;
     const double size = largest(x.head(nv)), left = std::max(largest(dq), largest(change.head(nv)));
-    if (std::getenv("DBG"))
-      fprintf(stderr, "   %d size %.3e left %.3e dq %.3e extent %.3e\n", i, size, left, largest(dq), extent_);
     if (left <= std::max(inexact * size, small * extent_ / 10)) {
       dq = x.head(nv), dlambda = x.tail(nc);
       return Failure::none;
