@@ -10,16 +10,17 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
     : model(std::move(m)), storage(how), chain(*model) {
   const Storage chosen = storage == Storage::automatic ? storage_for(*model) : storage;
   sparse = chosen == Storage::sparse;
-  if (chosen == Storage::blocks) blocks.emplace(*model);
+  if (chosen == Storage::blocks) blocks.emplace(*model), blocks->kept[at_point].passing = true;
   const auto slots_of = [this](const std::vector<MarkerRef>& markers) {
     Slots at{.count = int(markers.size())};
     int* const each[] = {&at.A, &at.B, &at.C, &at.D};
     for (std::size_t k = 0; k < markers.size(); ++k) *each[k] = chain.slot(markers[k]);
     return at;
   };
+  // Those of forces lie next to each other in memory: of many bodies most joints' markers may not be asked for.
+  for (const ForceEntry& entry : model->forces) force_slots.push_back(slots_of({entry.A, entry.B}));
   for (const JointEntry& entry : model->joints) joint_slots.push_back(slots_of(entry.markers));
   order_joints();
-  for (const ForceEntry& entry : model->forces) force_slots.push_back(slots_of({entry.A, entry.B}));
   for (const ContactEntry& entry : model->contacts) {
     if (entry.limit)
       contact_slots.push_back(slots_of(entry.limit->markers));

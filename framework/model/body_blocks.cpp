@@ -17,6 +17,7 @@ BodyBlocks::BodyBlocks(const Model& model) : model_(model) {
     BodyBlock& block = bodies_.emplace_back();
     block.v0 = entry.v0;
     block.M.setZero(entry.nv, entry.nv);
+    block.constant_mass = model.constant_mass;
   }
   const auto tie = [this](const std::vector<MarkerRef>& markers) {
     for (const MarkerRef& one : markers)
@@ -95,8 +96,10 @@ std::size_t BodyBlocks::factors_for(const Kept& store, const MassSystem& of) con
   for (std::size_t k = 0; k < mass_factors_.size(); ++k)
     if (mass_factors_[k].made && mass_factors_[k].of == of) return k;
   const auto needed = [&](std::size_t k) {
-    return std::any_of(kept.begin(), kept.end(),
-                       [&](const Kept& other) { return &other != &store && other.mass == k; });
+    return std::any_of(kept.begin(), kept.end(), [&](const Kept& other) {
+      const bool passed = other.passing && mass_factors_[k].of.at != of.at;
+      return &other != &store && other.mass == k && !passed;
+    });
   };
   std::size_t k = store.mass;
   while (needed(k)) k = (k + 1) % mass_factors_.size();

@@ -44,6 +44,7 @@ class BodyBlocks {
   struct Kept {
     enum class By { mass, iteration, dense } by = By::mass;
     std::size_t mass = 0;  // in mass_factors_
+    bool passing = false;  // asked for only where they were made
     numerics::SparseIterationKkt iteration;
     numerics::MassKkt dense;
   };

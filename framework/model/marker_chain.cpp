@@ -65,28 +65,33 @@ const Motion& MarkerChain::nearest(int index, const Vec3& to, double t, const Ve
   return slot.motion;
 }
 
-void MarkerChain::evaluate(Slot& slot, double t, const Vec& q, const Vec& v) const {
+void MarkerChain::evaluate(Slot& slot, double t, const Vec& q, const Vec& v) {
   if (slot.linear) return evaluate_linear(slot, q, v);
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
   entry.body->motion(slot.marker.marker, t, q.segment(entry.q0, entry.nq), v.segment(entry.v0, entry.nv), slot.motion);
 }
 
 // x = x_0 + J q,  V = J v
-void MarkerChain::evaluate_linear(Slot& slot, const Vec& q, const Vec& v) const {
-  Motion& m = slot.motion;
-  if (slot.x_0.size() == 0) m = motion_at_zero(slot), slot.x_0 = m.x;
-  const Eigen::Index dim = m.x.size(), columns = m.J.cols();
-  const double *const q_body = q.data() + slot.q0, *const v_body = v.data() + slot.v0;
-  for (Eigen::Index i = 0; i < dim; ++i) {
-    const double* const J = m.J.data() + i * columns;
-    double x = slot.x_0[i], V = 0;
-    for (Eigen::Index j = 0; j < columns; ++j) {
-      const int dof = m.dofs[std::size_t(j)];
-      x += J[j] * q_body[dof];
-      V += J[j] * v_body[dof];
-    }
-    m.x[i] = x, m.V[i] = V;
+void MarkerChain::evaluate_linear(Slot& slot, const Vec& q, const Vec& v) {
+  if (slot.begin < 0) keep_linear(slot);
+  double *const x = slot.motion.x.data(), *const V = slot.motion.V.data();
+  for (Eigen::Index i = 0; i < slot.x_0.size(); ++i) x[i] = slot.x_0.data()[i], V[i] = 0;
+  for (int k = slot.begin; k < slot.end; ++k) {
+    const Entry& J = entries_[std::size_t(k)];
+    x[J.row] += J.value * q.data()[slot.q0 + J.dof];
+    V[J.row] += J.value * v.data()[slot.v0 + J.dof];
   }
+}
+
+void MarkerChain::keep_linear(Slot& slot) {
+  Motion& m = slot.motion;
+  m = motion_at_zero(slot);
+  slot.x_0 = m.x;
+  slot.begin = int(entries_.size());
+  for (Eigen::Index i = 0; i < m.x.size(); ++i)  // axes do not turn
+    for (Eigen::Index j = 0; j < m.J.cols(); ++j)
+      if (m.J(i, j) != 0) entries_.push_back({int(i), m.dofs[std::size_t(j)], m.J(i, j)});
+  slot.end = int(entries_.size());
 }
 
 const Motion& MarkerChain::motion(int index, double t, const Vec& q, const Vec& v) {
@@ -111,6 +116,11 @@ void MarkerChain::add_wrench(int index, const Wrench& wrench, double c, Vec& f) 
   const Slot& slot = slots_[std::size_t(index)];
   if (slot.marker.body < 0) return;
   const int v0 = slot.v0;
+  for (int k = slot.begin; k < slot.end; ++k) {
+    const Entry& J = entries_[std::size_t(k)];
+    f.data()[v0 + J.dof] += J.value * (c * wrench.data()[J.row]);
+  }
+  if (slot.begin >= 0) return;
   const Jac& J = slot.motion.J;
   const Eigen::Index columns = J.cols();
   with_twist(J.rows(), [&](auto twist) {

@@ -50,17 +50,25 @@ class MarkerChain {
     bool surface = false, linear = false;
     int q0 = 0, v0 = 0;  // of the body
     long long point = -1;
-    Vec3 x_0;  // linear: x at q = 0; no numbers yet: J is not known either
+    int begin = -1, end = -1;  // linear: of J in entries_; not known yet
+    Vec3 x_0;                  // linear: x at q = 0
     Motion motion;
+  };
+  // Of a constant J what is not 0: next to each other for all markers, in the order in which they were first asked for.
+  struct Entry {
+    int row, dof;
+    double value;
   };
   Slot& add_slot(MarkerRef marker);
   Motion motion_at_zero(const Slot& slot) const;
-  void evaluate(Slot& slot, double t, const Vec& q, const Vec& v) const;
-  void evaluate_linear(Slot& slot, const Vec& q, const Vec& v) const;
+  void evaluate(Slot& slot, double t, const Vec& q, const Vec& v);
+  void evaluate_linear(Slot& slot, const Vec& q, const Vec& v);
+  void keep_linear(Slot& slot);
   void add_numeric_reaction_derivative(Slot& slot, double t, const Vec& q, const Wrench& F, double c, Matrix& S);
 
   const Model& model_;
-  std::deque<Slot> slots_;               // references to motions stay valid
+  std::deque<Slot> slots_;  // references to motions stay valid
+  std::vector<Entry> entries_;
   std::vector<std::vector<int>> known_;  // slot or -1, by body (the ground first) and marker
   long long point_ = 0;
   bool still_ = false;

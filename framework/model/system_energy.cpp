@@ -58,9 +58,9 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
   Balance& sum = w.power;
   sum.drives = sum.dampers = sum.contacts = sum.constraints = sum.markers = 0;
   sum.friction.setZero(Eigen::Index(w.contact_slots.size()));
+  const auto may_follow_law = [&](int slot) { return w.chain.body(slot) >= 0 && !w.chain.linear(slot); };
   const auto moved_by_law = [&](int slot, const Wrench& wrench) {
-    if (w.chain.body(slot) >= 0 && !w.chain.linear(slot))
-      sum.markers -= power_of_law(w.motion(slot), w.v, w.chain.first_velocity(slot), wrench);
+    if (may_follow_law(slot)) sum.markers -= power_of_law(w.motion(slot), w.v, w.chain.first_velocity(slot), wrench);
   };
   for (const BodyEntry& entry : w.model->bodies) {
     w.called(entry.name, "power");
@@ -74,6 +74,7 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     const Power p = w.model->forces[i].force->power(w.t, w.motion(A), w.motion(B));
     sum.drives += p.supplied;
     sum.dampers += p.dissipated;
+    if (!may_follow_law(A) && !may_follow_law(B)) continue;
     w.called(w.model->forces[i].name, "wrench");
     w.on_A.setZero(twist_size(w.model->world.space));
     w.on_B.setZero(twist_size(w.model->world.space));

@@ -11,6 +11,7 @@ namespace trammel::numerics {
 struct BodyBlock {
   int v0 = 0;                  // place of its velocities
   Mat M;                       // n x n
+  bool constant_mass = false;  // known never to change
   std::vector<int> rows;       // ascending
   std::vector<char> constant;  // of each of them, whether it never changes; empty: of none is that known
   Mat Gt;                      // n x rows.size(): those rows of G, transposed, its own columns

@@ -167,6 +167,9 @@ FrontLayout::Range FrontLayout::take_sources(const std::vector<BodyBlock>& bodie
   for (Source& source : some) {
     const BodyBlock& body = bodies[std::size_t(source.body)];
     source.map = int(maps_.size()), source.size = int(body.M.rows()), source.v0 = body.v0;
+    source.constant =
+        source.row < 0 ? body.constant_mass
+                       : std::size_t(source.column) < body.constant.size() && body.constant[std::size_t(source.column)];
     for (int j = body.v0; j < end_of(body); ++j) {
       const int u = merged_.of(j);
       bool there = true;

@@ -20,6 +20,7 @@ class FrontLayout {
   // the body's velocities, `size` of them from v0 on; -1: none.
   struct Source {
     int body, column, row, map = 0, size = 0, v0 = 0;
+    bool constant = false;  // known never to change
   };
   struct Child {
     int front, map;  // the parent's column for each of its boundary

@@ -26,6 +26,7 @@ void FrontalKkt::lay_out(const std::vector<BodyBlock>& bodies, int nc, bool spri
 
 bool FrontalKkt::eliminate_fronts(const std::vector<BodyBlock>& bodies) {
   dependent_ = layout_.merged().idle();
+  stored_ = 0;
   for (std::size_t k = 0; k < places_.size(); ++k) {
     if (!sum_rows(k, bodies)) {
       layout_.extend(bodies);
@@ -37,24 +38,19 @@ bool FrontalKkt::eliminate_fronts(const std::vector<BodyBlock>& bodies) {
     if (springs_) add_springs(k);
     if (!reduce_masses(k)) return false;
   }
+  rows_placed_ = true, masses_placed_ = masses_placed_ || !identity_;
   return true;
 }
 
 void FrontalKkt::place_store(const std::vector<BodyBlock>& bodies) {
   std::size_t size = 0, pieces = 0;
   int rows = 0, unknowns = 0;
-  const auto place = [&size](int numbers) {
-    const std::size_t at = size;
-    size += std::size_t(numbers);
-    return at;
-  };
   places_.clear();
   for (const FrontLayout::Front& front : layout_.fronts()) {
     const int m = springs_ ? front.own_rows : front.most_rows, n = front.unknowns, F = front.eliminated;
+    const int most_told = springs_ ? 0 : std::min(m, F);
+    size += std::size_t(front.boundary() + 2 * F + F * n + m * m + most_told * n);
     Place& at = places_.emplace_back();
-    at.C = place(m * (springs_ ? n : n + m));
-    at.masses = place(F * n);
-    at.vectors = place(2 * F + front.boundary());
     at.pieces = pieces;
     for (const FrontLayout::Source& source : layout_.rows(front))
       pieces += std::size_t(bodies[std::size_t(source.body)].Gt.rows());
@@ -68,6 +64,8 @@ void FrontalKkt::place_store(const std::vector<BodyBlock>& bodies) {
   scale_.assign(layout_.all_own_rows(), 1);
   columns_.assign(layout_.all_unknowns(), 0);
   pieces_.assign(pieces, 0);
+  rows_placed_ = masses_placed_ = false;
+  rows_.resize(rows * (unknowns + rows));
   K_.resize(unknowns * unknowns);
   w_.resize(rows);
   scratch_.resize(2 * (unknowns + rows));
@@ -83,7 +81,7 @@ void FrontalKkt::place_passed_on() {
     const int nb = front.boundary();
     std::vector<std::size_t>& open = left[nb];
     if (open.empty()) open.push_back(size), size += std::size_t(2 * nb * nb);
-    places_[k].K = open.back(), places_[k].up = open.back() + std::size_t(nb * nb);
+    places_[k].K = open.back();
     open.pop_back();
     for (const FrontLayout::Child& child : layout_.children(front))
       left[layout_.fronts()[std::size_t(child.front)].boundary()].push_back(places_[std::size_t(child.front)].K);
@@ -94,24 +92,32 @@ void FrontalKkt::place_passed_on() {
 FrontalKkt::Parts FrontalKkt::parts(std::size_t k) {
   const FrontLayout::Front& front = layout_.fronts()[k];
   const Place& at = places_[k];
-  double* const s = store_.data();
   Parts p{};
   p.m = at.all_rows, p.n = front.unknowns, p.r = at.told, p.passed = at.passed;
   p.rest = p.n - p.r, p.free = front.eliminated - p.r, p.nb = front.boundary();
   p.unknowns = layout_.unknowns(front), p.columns = columns_.data() + front.first_unknown;
-  p.width = at.width;
-  p.C = s + at.C, p.K = passed_on_.data() + at.K, p.up = passed_on_.data() + at.up;
-  p.K11 = s + at.masses, p.W = p.K11 + p.r * p.r, p.LV = p.W + p.r * p.rest;
-  p.t = s + at.vectors, p.z = p.t + p.r, p.u = p.z + p.free;
-  p.passed_right = p.t + 2 * front.eliminated;
+  p.K = passed_on_.data() + at.K, p.up = p.K + p.nb * p.nb;
+  p.passed_right = store_.data() + at.factors;
+  p.t = p.passed_right + p.nb, p.z = p.t + p.r, p.u = p.z + p.free;
+  p.SP = p.u + p.r, p.Q = p.SP + p.r * (p.rest + p.m);
+  p.K11 = p.Q + p.passed * p.m, p.W = p.K11 + p.r * p.r, p.LV = p.W + p.r * p.rest;
   return p;
 }
 
 FrontalKkt::Below FrontalKkt::passed_by(const FrontLayout::Child& child) {
-  const FrontLayout::Front& front = layout_.fronts()[std::size_t(child.front)];
+  const int nb = layout_.fronts()[std::size_t(child.front)].boundary();
   const Place& at = places_[std::size_t(child.front)];
-  return {front.boundary(), at.passed, passed_on_.data() + at.K, passed_on_.data() + at.up,
-          store_.data() + at.vectors + 2 * front.eliminated};
+  double* const K = passed_on_.data() + at.K;
+  return {nb, at.passed, K, K + nb * nb, store_.data() + at.factors};
+}
+
+// Where the front's factors go, now that is known how many rows tell of what.
+FrontalKkt::Parts FrontalKkt::place_factors(std::size_t k, int told, int passed) {
+  Place& at = places_[k];
+  at.told = told, at.passed = passed, at.factors = stored_;
+  const Parts p = parts(k);
+  stored_ = std::size_t(p.LV + p.free * p.rest - store_.data());
+  return p;
 }
 
 // C: the front's own rows at length one, then those of its children. False: a row is not of the pattern any more.
@@ -122,22 +128,20 @@ bool FrontalKkt::sum_rows(std::size_t k, const std::vector<BodyBlock>& bodies) {
   at.all_rows = front.own_rows;
   for (const FrontLayout::Child& child : layout_.children(front))
     at.all_rows += places_[std::size_t(child.front)].passed;
-  const int width = at.width = springs_ ? n : n + at.all_rows;
-  double* const C = store_.data() + at.C;
+  const int width = springs_ ? n : n + at.all_rows;
+  double* const C = rows_.data();
   std::fill_n(C, at.all_rows * width, 0.0);
   double* piece = pieces_.data() + at.pieces;
   for (const FrontLayout::Source& source : layout_.rows(front)) {
-    const Mat& Gt = bodies[std::size_t(source.body)].Gt;
-    const int size = int(Gt.rows()), *const map = layout_.map(source.map);
-    const double* const from = Gt.data() + source.column * size;
+    const int size = source.size, *const map = layout_.map(source.map);
+    if (!rows_placed_ || !source.constant)
+      std::copy_n(bodies[std::size_t(source.body)].Gt.data() + source.column * size, size, piece);
     double* const row = C + source.row * width;
-    for (int j = 0; j < size; ++j) {
-      piece[j] = from[j];
+    for (int j = 0; j < size; ++j)
       if (map[j] >= 0)
-        row[map[j]] += from[j];
-      else if (from[j] != 0)
+        row[map[j]] += piece[j];
+      else if (piece[j] != 0)
         return false;
-    }
     piece += size;
   }
   for (int i = 0; i < front.own_rows; ++i) {
@@ -160,24 +164,24 @@ bool FrontalKkt::sum_rows(std::size_t k, const std::vector<BodyBlock>& bodies) {
 // P beside it.
 void FrontalKkt::eliminate_rows(std::size_t k) {
   const FrontLayout::Front& front = layout_.fronts()[k];
-  Place& at = places_[k];
-  RowElimination rows(store_.data() + at.C, at.all_rows, front.unknowns);
-  const auto rank = rows.run(front.eliminated, rank_tolerance_, columns_.data() + front.first_unknown, scratch_.data());
-  at.told = rank.told, at.passed = rank.passed;
-  dependent_ += at.all_rows - at.told - at.passed;
-  const Parts p = parts(k);
+  const int m = places_[k].all_rows, F = front.eliminated, width = front.unknowns + m;
+  const auto C = [&](int i) { return rows_.data() + i * width; };
+  RowElimination rows(rows_.data(), m, front.unknowns);
+  const auto rank = rows.run(F, rank_tolerance_, columns_.data() + front.first_unknown, scratch_.data());
+  dependent_ += m - rank.told - rank.passed;
+  const Parts p = place_factors(k, rank.told, rank.passed);
   for (int i = 0; i < p.passed; ++i) {
-    double* const row = p.C + (p.r + i) * p.width + front.eliminated;
+    const double* const row = C(p.r + i) + F;
     const double scale = 1 / std::sqrt(dot(p.nb, row, row));
-    for (int j = 0; j < p.nb + p.m; ++j) row[j] *= scale;
-    for (int j = 0; j < p.nb; ++j) p.up[i * p.nb + j] = row[j];
+    for (int j = 0; j < p.nb; ++j) p.up[i * p.nb + j] = scale * row[j];
+    for (int j = 0; j < m; ++j) p.Q[i * m + j] = scale * row[p.nb + j];
   }
-  const int wide = p.rest + p.m;
+  const int wide = p.rest + m;
   for (int i = p.r - 1; i >= 0; --i) {
+    const double *const row = C(i) + p.r, inverse = 1 / C(i)[i];
     double* const S_i = p.S(i);
-    const double inverse = 1 / p.R(i, i);
-    for (int j = 0; j < wide; ++j) S_i[j] *= inverse;
-    for (int l = 0; l < i; ++l) add(wide, -p.R(l, i), S_i, p.S(l));
+    for (int j = 0; j < wide; ++j) S_i[j] = inverse * row[j];
+    for (int l = 0; l < i; ++l) add(wide, -C(l)[i], S_i, C(l) + p.r);
   }
 }
 
@@ -195,13 +199,14 @@ void FrontalKkt::sum_masses(std::size_t k, const std::vector<BodyBlock>& bodies)
   };
   double* piece = pieces_.data() + places_[k].pieces_of_masses;
   for (const FrontLayout::Source& source : layout_.masses(front)) {
-    const Mat& M = bodies[std::size_t(source.body)].M;
     const int size = source.size;
-    for (int j = 0; j < size * size; ++j) *piece++ = M.data()[j];
+    if (!identity_ && !(masses_placed_ && source.constant))
+      std::copy_n(bodies[std::size_t(source.body)].M.data(), size * size, piece);
     if (identity_)
       sum(layout_.map(source.map), size, [](int i, int j) { return i == j ? 1.0 : 0.0; });
     else
-      sum(layout_.map(source.map), size, [&](int i, int j) { return M.data()[j * size + i]; });
+      sum(layout_.map(source.map), size, [&](int i, int j) { return piece[j * size + i]; });
+    piece += size * size;
   }
   for (const FrontLayout::Child& child : layout_.children(front)) {
     const Below below = passed_by(child);

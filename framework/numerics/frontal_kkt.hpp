@@ -47,27 +47,26 @@ class FrontalKkt {
   bool know(const std::vector<BodyBlock>& bodies, int nc) const { return layout_.know(bodies, nc); }
 
  private:
-  // Where a front's numbers are in store_, and what its rows came to.
+  // Where a front's numbers are, and what its rows came to.
   struct Place {
-    std::size_t C = 0, masses = 0, vectors = 0;
-    std::size_t K = 0, up = 0;  // in passed_on_: the parent takes them, and their place is free again
+    std::size_t factors = 0;                       // in store_, one front's behind the other's
+    std::size_t K = 0;                             // in passed_on_: the parent takes it, and its place is free again
     std::size_t pieces = 0, pieces_of_masses = 0;  // in pieces_
     int all_rows = 0, told = 0, passed = 0;
-    int width = 0;  // of C's rows
   };
   // A front by the names above: m rows, n unknowns, r told by rows and `rest` not, of those `free` and the nb of the boundary.
   struct Parts {
-    int m, n, r, rest, free, nb, passed, width;
+    int m, n, r, rest, free, nb, passed;
     const int *unknowns, *columns;     // columns: of the unknowns, those that rows tell first
-    double* C;                         // by rows: R, S and P; below, of the rows passed on, Q_2^T in P's place
+    double *SP, *Q;                    // by rows: S beside P; of the rows passed on Q_2^T
     double *K11, *W, *LV;              // W by rows; LV: L above V^T, by columns
     double *K, *up;                    // for the parent: K''; rows of length one
     double *t, *z, *u, *passed_right;  // of a right side
-    double& R(int i, int j) const { return C[i * width + j]; }
-    double* S(int i) const { return C + i * width + r; }
-    double* P(int i) const { return C + i * width + n; }
+    double* S(int i) const { return SP + i * (rest + m); }
+    double* P(int i) const { return SP + i * (rest + m) + rest; }
   };
   Parts parts(std::size_t front);
+  Parts place_factors(std::size_t front, int told, int passed);
   // What a child has for its parent, by the same names.
   struct Below {
     int nb, passed;
@@ -106,11 +105,13 @@ class FrontalKkt {
   int dependent_ = 0;
   FrontLayout layout_;
   std::vector<Place> places_;
-  Vec store_, passed_on_;       // aligned as Eigen's own: sums over pieces of it round alike in every run
+  Vec store_, passed_on_;
+  std::size_t stored_ = 0;
   std::vector<int> columns_;    // of each front's unknowns
   std::vector<double> scale_;   // of own rows
   std::vector<double> pieces_;  // what bodies give to own rows and masses, front by front in the order of their sources
-  std::vector<int> place_of_;   // of each of a front's unknowns in its columns
+  bool rows_placed_ = false, masses_placed_ = false;  // those of them that never change are there
+  std::vector<int> place_of_;                         // of each of a front's unknowns in its columns
   // Own rows at length one without their zeros, row after row; only with springs.
   struct Entry {
     int unknown;
@@ -118,7 +119,7 @@ class FrontalKkt {
   };
   std::vector<Entry> entries_;
   std::vector<std::size_t> entries_end_;
-  Vec K_;
+  Vec rows_, K_;  // C and K of one front
   // Of merged unknowns and own rows at length one: right sides, what is left of them, solution, its corrections.
   Vec B_, C_, b_, c_, X_, Y_, dX_, dY_;
   Vec w_, scratch_, offset_, left_, left_rows_;

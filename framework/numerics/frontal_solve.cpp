@@ -20,7 +20,7 @@ void FrontalKkt::forward(std::size_t k) {
     const Below below = passed_by(child);
     for (int i = 0; i < below.passed; ++i) w[m++] = below.passed_right[i];
   }
-  for (int i = 0; i < p.passed; ++i) p.passed_right[i] = dot(m, p.P(r + i), w);
+  for (int i = 0; i < p.passed; ++i) p.passed_right[i] = dot(m, p.Q + i * m, w);
   double* const b = scratch_.data();
   for (int j = 0; j < rest; ++j) b[j] = b_(p.unknowns[p.columns[r + j]]);
   for (int i = 0; i < r; ++i) {
@@ -56,7 +56,7 @@ void FrontalKkt::backward(std::size_t k, Vec& X, Vec& Y) {
     X(p.unknowns[p.columns[i]]) = p.t[i] - dot(rest, p.S(i), x);
     add(p.m, p.u[i] - dot(rest, p.W + i * rest, x), p.P(i), w);
   }
-  for (int i = 0; i < p.passed; ++i) add(p.m, p.passed_right[i], p.P(r + i), w);
+  for (int i = 0; i < p.passed; ++i) add(p.m, p.passed_right[i], p.Q + i * p.m, w);
   int m = 0;
   for (double* own = Y.data() + front.first_row; m < front.own_rows; ++m) own[m] = w[m];
   for (const FrontLayout::Child& child : layout_.children(front)) {

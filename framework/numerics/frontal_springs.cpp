@@ -33,12 +33,12 @@ double FrontalKkt::least_mass(const std::vector<BodyBlock>& bodies) {
 
 void FrontalKkt::keep_rows(std::size_t f) {
   const FrontLayout::Front& front = layout_.fronts()[f];
-  places_[f].told = places_[f].passed = 0;
+  place_factors(f, 0, 0);
   const int n = front.unknowns, *const unknowns = layout_.unknowns(front);
   int* const columns = columns_.data() + front.first_unknown;
   std::iota(columns, columns + n, 0);
   if (f == 0) entries_.clear(), entries_end_.clear();
-  const double* row = store_.data() + places_[f].C;
+  const double* row = rows_.data();
   for (int i = 0; i < front.own_rows; ++i, row += n) {
     for (int j = 0; j < n; ++j)
       if (row[j] != 0) entries_.push_back({unknowns[j], row[j]});
@@ -49,7 +49,7 @@ void FrontalKkt::keep_rows(std::size_t f) {
 void FrontalKkt::add_springs(std::size_t f) {
   const FrontLayout::Front& front = layout_.fronts()[f];
   const int n = front.unknowns;
-  const double* row = store_.data() + places_[f].C;
+  const double* row = rows_.data();
   for (int i = 0; i < front.own_rows; ++i, row += n)
     for (int j = 0; j < n; ++j)
       if (row[j] != 0) add(n - j, stiffness_ * row[j], row + j, K_.data() + j * n + j);
