@@ -32,6 +32,7 @@ bool Cholesky::compute(const Mat& M) {
     copy_few(M.data(), n, U_.data());
     return factorise_few();
   }
+  find_zeros(M);
   for (Eigen::Index j = 0; j < n; ++j) std::copy(M.data() + j * n + j, M.data() + (j + 1) * n, &L_(j, j));
   return factorise_by_columns();
 }
@@ -52,6 +53,25 @@ void Cholesky::resize(Eigen::Index n) {
   L_.setIdentity(stride, columns), U_.setIdentity(stride, columns);
   inverse_.setOnes(columns), root_.setOnes(columns), inverse_root_.setOnes(columns);
   rest_.setZero(stride);
+  first_.assign(std::size_t(n), 0), end_.assign(std::size_t(n), n);
+}
+
+void Cholesky::find_zeros(const Mat& M) {
+  first_before_.swap(first_);
+  first_.resize(std::size_t(n_));
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    Eigen::Index j = 0;
+    while (j < i && M(i, j) == 0) ++j;
+    first_[std::size_t(i)] = j;
+  }
+  if (first_ == first_before_) return;
+  U_.setIdentity();  // what is no longer written is 0
+  Eigen::Index end = 0;
+  for (Eigen::Index j = 0; j < n_; ++j) {
+    for (Eigen::Index i = std::max(end, j); i < n_; ++i)
+      if (first_[std::size_t(i)] <= j) end = i + 1;
+    end_[std::size_t(j)] = end;
+  }
 }
 
 // As by columns, which are in registers.
@@ -88,16 +108,17 @@ bool Cholesky::factorise_by_columns() {
   for (Eigen::Index j = 0; j < n; ++j) {
     double* const column = L + j * stride;
     const double* const shares = U + j * stride;
-    for (Eigen::Index i = pack_of(j); i < stride; i += pack) {
+    const Eigen::Index first = first_[std::size_t(j)], end = end_[std::size_t(j)];
+    for (Eigen::Index i = pack_of(j); i < end; i += pack) {
       Pack rest = pack_at(column + i);
-      for (Eigen::Index k = 0; k < j; ++k) rest -= shares[k] * pack_at(L + k * stride + i);
+      for (Eigen::Index k = first; k < j; ++k) rest -= shares[k] * pack_at(L + k * stride + i);
       pack_at(column + i) = rest;
     }
     if (!(column[j] > 0) || !std::isfinite(column[j])) return false;
     const double inverse = inverse_[j] = 1 / column[j];
     root_[j] = std::sqrt(column[j]), inverse_root_[j] = inverse * root_[j];
-    for (Eigen::Index i = j; i < n; ++i) U[i * stride + j] = column[i];
-    for (Eigen::Index i = pack_of(j); i < stride; i += pack) pack_at(column + i) *= inverse;
+    for (Eigen::Index i = j; i < end; ++i) U[i * stride + j] = column[i];
+    for (Eigen::Index i = pack_of(j); i < end; i += pack) pack_at(column + i) *= inverse;
   }
   return true;
 }
@@ -118,28 +139,25 @@ void Cholesky::solve_lower(Eigen::Ref<Vec> x) {
   for (Eigen::Index j = 0; j < n; ++j) {
     const double known = rest[j];
     x[j] = known * inverse_root_[j];
-    subtract(known, L_.data() + j * stride, rest, j + 1, stride);
+    subtract(known, L_.data() + j * stride, rest, j + 1, end_[std::size_t(j)]);
   }
 }
 
-// A column of X at a time, taken out of those after it.
+// A part of the rows at a time, each by its columns: less what those before it contribute.
 void Cholesky::solve_lower_of_rows(Mat& X) {
   if (X.rows() == 0) return;
   if (in_blocks()) return blocks_.matrixU().solveInPlace<Eigen::OnTheRight>(X);
-  const auto of_few = [&](auto m) {
-    for (Eigen::Index j = 0; j < n_; ++j) {
-      double known[m];
-      for (Eigen::Index i = 0; i < m; ++i) known[i] = X.data()[j * m + i];
-      for (Eigen::Index k = diagonal_ ? n_ : j + 1; k < n_; ++k)
-        for (Eigen::Index i = 0; i < m; ++i) X.data()[k * m + i] -= L_(k, j) * known[i];
-      for (Eigen::Index i = 0; i < m; ++i) X.data()[j * m + i] = inverse_root_[j] * known[i];
+  const Eigen::Index m = X.rows();
+  in_parts(m, [&](auto rows, Eigen::Index i) {
+    double* const x = X.data() + i;
+    for (Eigen::Index k = 0; k < n_; ++k) {
+      PartOfRows<rows> rest = part_at<rows>(x + k * m);
+      for (Eigen::Index j = diagonal_ ? k : first_[std::size_t(k)]; j < k; ++j)
+        rest -= L_(k, j) * part_at<rows>(x + j * m);
+      part_at<rows>(x + k * m) = rest;
     }
-  };
-  if (with_few(X.rows(), of_few)) return;
-  for (Eigen::Index j = 0; j < n_; ++j) {
-    for (Eigen::Index k = diagonal_ ? n_ : j + 1; k < n_; ++k) X.col(k) -= L_(k, j) * X.col(j);
-    X.col(j) *= inverse_root_[j];
-  }
+    for (Eigen::Index k = 0; k < n_; ++k) part_at<rows>(x + k * m) *= inverse_root_[k];
+  });
 }
 
 void Cholesky::solve_transposed(Eigen::Ref<Vec> x) {
@@ -156,7 +174,7 @@ void Cholesky::solve_transposed(Eigen::Ref<Vec> x) {
   for (Eigen::Index j = 0; j < n; ++j) rest[j] = x[j] * root_[j];
   for (Eigen::Index j = n - 1; j >= 0; --j) {
     const double known = x[j] = rest[j] * inverse_[j];
-    subtract(known, U_.data() + j * stride, rest, 0, j);
+    subtract(known, U_.data() + j * stride, rest, first_[std::size_t(j)], j);
   }
 }
 

@@ -3,7 +3,11 @@
 // C = L D^1/2 with M = L D L^T: so no root stands between one column and the next. Plain loops by columns (packs.hpp): for a few
 // dozen unknowns Eigen's decomposition costs three times as much (it works by rows and also keeps a norm). Larger matrices are
 // left to Eigen's blocked algorithm, which wins by its use of the cache.
+//
+// In each row the factors keep the zeros before M's first entry, which loops leave out: bodies one after the other are blocks.
 #pragma once
+
+#include <vector>
 
 #include <Eigen/Cholesky>
 
@@ -29,6 +33,7 @@ class Cholesky {
   bool of_few() const { return L_.rows() == few; }
   bool invert_diagonal(const Mat& M);
   void resize(Eigen::Index n);
+  void find_zeros(const Mat& M);
   bool factorise_by_columns();
   bool factorise_few();
 
@@ -36,7 +41,9 @@ class Cholesky {
   bool diagonal_ = false;  // M is, as of rigid bodies in the coordinates of their centres
   Mat L_, U_;              // L and D L^T, of few unknowns L D; columns padded; on their other sides anything
   Vec inverse_, root_, inverse_root_;  // of D
-  Vec rest_;                           // scratch
+  // Row i of L is 0 before column first_[i], and so column j from row end_[j] on.
+  std::vector<Eigen::Index> first_, end_, first_before_;
+  Vec rest_;  // scratch
   Eigen::LLT<Mat> blocks_;
 };
 

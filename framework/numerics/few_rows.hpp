@@ -45,17 +45,40 @@ inline void add_transposed_product(double c, const Mat& X, const Vec& y, Vec& x)
   if (!with_few(X.rows(), of_few)) x.noalias() += c * (X.transpose() * y);
 }
 
+// Calls f(number, first) for parts of m that follow one another: eights, then at most one of 4, 2 and 1, their numbers known to the
+// compiler. What a part needs stays in registers, where loops over all m rows at once would be kept in memory.
+template <Eigen::Index part = few, class F>
+void in_parts(Eigen::Index m, F&& f, Eigen::Index first = 0) {
+  for (; first + part <= m; first += part) f(std::integral_constant<Eigen::Index, part>(), first);
+  if constexpr (part > 1) in_parts<part / 2>(m, f, first);
+}
+
+template <Eigen::Index part>
+using PartOfRows = Eigen::Array<double, part, 1>;
+template <Eigen::Index part>
+Eigen::Map<PartOfRows<part>> part_at(double* x) {
+  return Eigen::Map<PartOfRows<part>>(x);
+}
+template <Eigen::Index part>
+Eigen::Map<const PartOfRows<part>> part_at(const double* x) {
+  return Eigen::Map<const PartOfRows<part>>(x);
+}
+
 // S = X Y^T
 inline void multiply_rows(const Mat& X, const Mat& Y, Mat& S) {
-  S.resize(X.rows(), Y.rows());
-  const auto of_few = [&](auto m) {
-    double sum[m * m] = {};
-    for (Eigen::Index j = 0; j < X.cols(); ++j)
-      for (Eigen::Index k = 0; k < m; ++k)
-        for (Eigen::Index i = 0; i < m; ++i) sum[k * m + i] += X.data()[j * m + i] * Y.data()[j * m + k];
-    for (Eigen::Index k = 0; k < m * m; ++k) S.data()[k] = sum[k];
-  };
-  if (!with_few(X.rows(), of_few)) S.noalias() = X * Y.transpose();
+  const Eigen::Index m = X.rows(), p = Y.rows(), n = X.cols();
+  S.resize(m, p);
+  if (m > few || p > few) return void(S.noalias() = X * Y.transpose());
+  in_parts(m, [&](auto rows, Eigen::Index i) {
+    in_parts<4>(p, [&](auto columns, Eigen::Index k) {
+      PartOfRows<rows> sum[columns];
+      for (PartOfRows<rows>& column : sum) column.setZero();
+      const double *x = X.data() + i, *y = Y.data() + k;
+      for (Eigen::Index j = 0; j < n; ++j, x += m, y += p)
+        for (Eigen::Index c = 0; c < columns; ++c) sum[c] += part_at<rows>(x) * y[c];
+      for (Eigen::Index c = 0; c < columns; ++c) part_at<rows>(S.data() + (k + c) * m + i) = sum[c];
+    });
+  });
 }
 
 }  // namespace trammel::numerics

@@ -65,6 +65,27 @@ TEST_P(CholeskyOf, SolvesADiagonalMatrixAndAFullOneAfterIt) {
   EXPECT_FALSE(cholesky.compute((-d).asDiagonal()));
 }
 
+// Blocks on the diagonal, which begin elsewhere from one matrix to the next.
+TEST_P(CholeskyOf, SolvesBlocksAndAFullMatrixAfterThem) {
+  const Eigen::Index n = GetParam();
+  const Vec known = Vec::LinSpaced(n, -1, 2);
+  numerics::Cholesky cholesky;
+  for (const Eigen::Index block : {n / 3, 2 * n / 3, n, n / 4}) {
+    Mat M = positive(n);
+    M.topRightCorner(block, n - block).setZero(), M.bottomLeftCorner(n - block, block).setZero();
+    ASSERT_TRUE(cholesky.compute(M));
+    Vec x = M * known;
+    cholesky.solve(x);
+    EXPECT_LE((x - known).lpNorm<Eigen::Infinity>(), 1e-13) << block;
+    Mat half = M;
+    cholesky.solve_lower_of_rows(half);
+    EXPECT_LE((half * half.transpose() - M).lpNorm<Eigen::Infinity>(), 1e-13) << block;
+    x = M.col(0);
+    cholesky.solve_lower(x), cholesky.solve_transposed(x);
+    EXPECT_LE((x - Vec::Unit(n, 0)).lpNorm<Eigen::Infinity>(), 1e-13) << block;
+  }
+}
+
 TEST_P(CholeskyOf, RefusesWhatIsNotPositiveDefinite) {
   Mat M = positive(GetParam());
   numerics::Cholesky cholesky;
@@ -86,7 +107,7 @@ TEST(Cholesky, OfABodyWithoutCoordinatesHasNothingToSolve) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, CholeskyOf, testing::Values(1, 2, 7, 48, 49, 150));
+INSTANTIATE_TEST_SUITE_P(Sizes, CholeskyOf, testing::Values(1, 2, 7, 11, 48, 49, 150));
 
 }  // namespace
 }  // namespace trammel::test
