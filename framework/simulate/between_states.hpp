@@ -16,7 +16,7 @@ class BetweenStates {
   BetweenStates(model::AssembledSystem& system, Integrator& integrator)
       : system_(system), own_(dynamic_cast<OscillatingSteps*>(&integrator)) {}
 
-  bool smooth() const { return own_ == nullptr; }
+  OscillatingSteps* oscillating() { return own_; }  // none: steps are smooth
   // [s] of steps that are as smooth as the cubic through their ends supposes.
   double longest_resolved() const {
     constexpr double radians = 2;

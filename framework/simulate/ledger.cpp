@@ -38,45 +38,36 @@ void Ledger::restart(const State& state) {
 }
 
 void Ledger::step(const State& now, const State& next) {
-  take_end(next);
-  // A closed contact's row does work at the level of round-off; that is not worth an evaluation.
-  const double work = (size(now_) + size(end_)) * (next.t - now.t);
-  if (!(work > 1e-16 * std::abs(energy_start_))) return move_on();
-  if (between_.smooth() || work < 1e-12 * std::abs(energy_start_)) {
-    between_.at(now, next, 0.5, middle_state_);
-    integrate(now, next, middle_state_);
-    return move_on();
-  }
-  constexpr int parts = 4;
-  begin_ = now;
-  for (int i = 1; i <= parts; ++i) {
-    part_end_ = next;
-    if (i < parts) {
-      between_.at(now, next, double(i) / parts, part_end_);
-      system_.move_to(part_end_.t, part_end_.q, part_end_.v);
-      system_.accelerate({}, part_end_.a, part_end_.lambda);
-    }
-    between_.at(now, next, (i - 0.5) / parts, middle_state_);
-    take_end(part_end_);
-    integrate(begin_, part_end_, middle_state_);
-    move_on();
-    std::swap(begin_, part_end_);
-  }
-}
-
-void Ledger::take_end(const State& end) {
-  end_ = balance(end.t, end.q, end.v, end.lambda);
+  end_ = balance(next.t, next.q, next.v, next.lambda);
   g_dot_end_ = system_.g_dot();
-}
-
-void Ledger::move_on() {
+  // A closed contact's row does work at the level of round-off; that is not worth an evaluation.
+  const double work = (size(now_) + size(end_)) * (next.t - now.t), energy = std::abs(energy_start_);
+  if (OscillatingSteps* steps = between_.oscillating(); steps && work > 1e-12 * energy)
+    integrate_by(*steps, now, next);
+  else if (work > 1e-16 * energy)
+    integrate_by_middle(now, next);
   std::swap(now_, end_);
   g_dot_.swap(g_dot_end_);
 }
 
-void Ledger::integrate(const State& now, const State& next, const State& middle) {
+void Ledger::integrate_by(OscillatingSteps& steps, const State& now, const State& next) {
+  const int last = steps.quadrature_points() - 1;
+  for (int i = 0; i <= last; ++i) {
+    const double weight = steps.evaluated(system_, now, next, i, inside_);
+    if (i == 0 || i == last) {
+      add(weight, i == 0 ? now_ : end_);
+      continue;
+    }
+    middle_ = balance(inside_.t, inside_.q, inside_.v, inside_.lambda);
+    middle_.constraints += off_rows(inside_.lambda, (inside_.t - now.t) / (next.t - now.t));
+    add(weight, middle_);
+  }
+}
+
+void Ledger::integrate_by_middle(const State& now, const State& next) {
   const double h = next.t - now.t, power = size(now_) + size(end_);
-  system_.move_to(middle.t, middle.q, middle.v);
+  between_.at(now, next, 0.5, inside_);
+  system_.move_to(inside_.t, inside_.q, inside_.v);
   lambda_ = 0.5 * (now.lambda + next.lambda);
   // Reactions do not follow their mean where they swing within a step.
   double work_of_rows = std::abs(now_.constraints) + std::abs(end_.constraints);
@@ -89,16 +80,24 @@ void Ledger::integrate(const State& now, const State& next, const State& middle)
     system_.accelerate({}, a_, lambda_);
     middle_ = system_.balance(lambda_);
   }
-  // The interpolation leaves contacts' rows between two states that are on them; the motion does not.
-  const auto n = lambda_.size() - system_.held_rows();
-  if (n > 0) middle_.constraints += lambda_.tail(n).dot((system_.g_dot() - 0.5 * (g_dot_ + g_dot_end_)).tail(n));
-  const auto simpson = [h](double begin, double mid, double finish) { return h / 6 * (begin + 4 * mid + finish); };
-  drives_ += simpson(now_.drives, middle_.drives, end_.drives);
-  dampers_ += simpson(now_.dampers, middle_.dampers, end_.dampers);
-  contacts_ += simpson(now_.contacts, middle_.contacts, end_.contacts);
-  constraints_ += simpson(now_.constraints, middle_.constraints, end_.constraints);
-  markers_ += simpson(now_.markers, middle_.markers, end_.markers);
-  friction_ += h / 6 * (now_.friction + 4 * middle_.friction + end_.friction);
+  middle_.constraints += off_rows(lambda_, 0.5);
+  add(h / 6, now_), add(4 * h / 6, middle_), add(h / 6, end_);
+}
+
+// The power of contacts' rows where the interpolation leaves them between two states that are on them; the motion does not.
+double Ledger::off_rows(const Vec& lambda, double theta) {
+  const auto n = lambda.size() - system_.held_rows();
+  if (n == 0) return 0;
+  return lambda.tail(n).dot((system_.g_dot() - (1 - theta) * g_dot_ - theta * g_dot_end_).tail(n));
+}
+
+void Ledger::add(double duration, const Balance& power) {
+  drives_ += duration * power.drives;
+  dampers_ += duration * power.dampers;
+  contacts_ += duration * power.contacts;
+  constraints_ += duration * power.constraints;
+  markers_ += duration * power.markers;
+  friction_ += duration * power.friction;
 }
 
 double Ledger::impact_total() const {

@@ -4,7 +4,7 @@
 //     dissipated = impacts + contact damping + friction + dampers + numerical
 //
 // Impacts are exact (impact.hpp). Powers of drives, moving rows, dampers and compliant contacts are integrated along accepted
-// steps by Simpson's rule with the state in the middle (between_states.hpp), over parts of a step that is not smooth;
+// steps by Simpson's rule with the state in the middle (between_states.hpp), or in steps that swing by the integrator's own quadrature;
 // nothing is evaluated there while all powers are 0 but for round-off. `numerical` is what remains: the error of the integrator, of that rule,
 // and of corrections. A row that is switched on while its contact moves (`rebound: constrained`) does work too; it counts as
 // supplied by constraints.
@@ -48,9 +48,11 @@ class Ledger {
 
  private:
   const model::AssembledSystem::Balance& balance(double t, const Vec& q, const Vec& v, const Vec& lambda);
-  void take_end(const State& end);
-  void integrate(const State& now, const State& next, const State& middle);  // powers at the ends: now_, end_
-  void move_on();
+  // Powers at the ends: now_, end_.
+  void integrate_by_middle(const State& now, const State& next);
+  void integrate_by(OscillatingSteps& steps, const State& now, const State& next);
+  double off_rows(const Vec& lambda, double theta);
+  void add(double duration, const model::AssembledSystem::Balance& power);
 
   model::AssembledSystem& system_;
   BetweenStates between_;
@@ -60,7 +62,7 @@ class Ledger {
   Vec friction_;
   std::vector<double> impacts_;
   Vec g_dot_, g_dot_end_;  // at `now` and at the step's end
-  State middle_state_, begin_, part_end_;
+  State inside_;
   Vec a_, lambda_;
 };
 

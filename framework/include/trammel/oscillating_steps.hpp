@@ -12,6 +12,11 @@ class OscillatingSteps : public DenseOutput {
  public:
   ~OscillatingSteps() override;
   virtual double swing() const = 0;  // [rad/s] the fastest that it does not resolve; 0: none
+
+  // A quadrature along the step from `now` to `next` whose points, both ends among them, are those of its own evaluations, so
+  // that powers are integrated without another: fills t, q, v and lambda at its i-th point, and gives the weight [s].
+  virtual int quadrature_points() const = 0;
+  virtual double evaluated(System& s, const State& now, const State& next, int i, State& at) = 0;
 };
 
 }  // namespace trammel

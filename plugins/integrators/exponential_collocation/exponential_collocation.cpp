@@ -96,6 +96,18 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     at.t = now.t + inside_.t;
   }
 
+  int quadrature_points() const override { return points; }
+  double evaluated(System& s, const State& now, const State& next, int i, State& at) override {
+    const bool known = recall(s, now, next);
+    if (i == 0 || i == last || !known) {
+      at = i == 0 ? now : next;
+    } else {
+      at.t = now.t + weights_[i].t;
+      at.q = q_.col(i), at.v = v_.col(i), at.lambda = lambda_.col(i);
+    }
+    return weights_[last].integral[i];
+  }
+
   double swing() const override { return modes_.omega().size() > 0 ? modes_.omega().maxCoeff() : 0; }
 
   void archive(Archive& archive) override {
@@ -190,6 +202,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
       solution_at(s, now, weights_[i], q_i_, v_i_);
       if (!field_.evaluate(s, now.t + weights_[i].t, q_i_, v_i_, slope_)) return false;
       take_slope(s, now, i, v_i_);
+      q_.col(i) = q_i_, lambda_.col(i) = slope_.lambda;
     }
     swept_nu_ = nu_ - swept_nu_, swept_r_ = r_ - swept_r_;
     const double size =
@@ -307,6 +320,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   void resize(const System& s) {
     const auto [nq, nv, nc] = s.sizes();
     nu_.resize(nv, points), v_.resize(nv, points), q_dot_.resize(nq, points), r_.resize(nq, points);
+    q_.resize(nq, points), lambda_.resize(nc, points);
   }
 
   static constexpr int most_coordinates = 1000;
@@ -323,6 +337,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   // Of the last trial.
   double trial_h_ = 0;
   Mat nu_, v_, q_dot_, r_, swept_nu_, swept_r_;  // swept: changed by the last sweep
+  Mat q_, lambda_;                               // where it evaluated, beyond the start
   Vec a_0_, eta_0_;
   Vec end_nu_, end_v_, slope_end_;  // at the step's end, of its result
   double weights_h_ = 0;
