@@ -28,6 +28,24 @@ TEST(BenchmarkSliderCrank, MeetsItsReference) {
   expect_accepted(data, "q4(0.1) m", run.end("q4"));
 }
 
+// By steps of some radians of its fastest mode; what the motor supplies is integrated by their own points.
+TEST(BenchmarkSliderCrank, HasSixDigitsAndItsEnergyByExponentialCollocation) {
+  const auto data = reference("flexible_slider_crank");
+  const auto exact = data["reference"]["position_projected_start_exact_pi_binary128"];
+  for (const std::string tolerance : {"1e-5", "7e-6", "5e-6", "3e-6", "1e-6", "1e-7"}) {
+    const Finished run = run_benchmark(
+        "slider_crank",
+        {{"integrator.type", "exponential_collocation"},
+         {"integrator.step", R"({"tolerance": )" + tolerance + R"(, "absolute": "=)" + tolerance + R"(/100"})"}});
+    int i = 0;
+    for (const char* name : {"phi1", "phi2", "x3", "q1", "q2", "q3", "q4"}) {
+      const double value = std::stod(exact[std::size_t(i++)].get<std::string>());
+      EXPECT_NEAR(run.end(name), value, 1e-6 * std::abs(value)) << name << " at " << tolerance;
+    }
+    EXPECT_LT(std::abs(run.result["energy_drift"].get<double>()), 1e-7) << tolerance;
+  }
+}
+
 TEST(BenchmarkA02, StaysOnItsBranchThroughTwentySingularPositions) {
   const auto data = reference("iftomm_a02_n_four_bar");
   const Finished run = run_benchmark("a02_n2");
