@@ -22,6 +22,12 @@ namespace {
 using namespace trammel;
 
 struct Bar : Body, ExactTangent, ReactionDerivative, Constrained, LinearMarkers, Observed, Drawn, HasMomentum {
+  // Of every evaluation, next to each other in memory.
+  Space space_ = Space::planar;
+  double L_ = 0;
+  Eigen::Vector2d weight_;  // [kg] that gravity finds at each end
+  Vec3 gravity_;
+
   double mass_ = 0;
   std::optional<double> length_;
   Vec3 from_ = Vec3::Zero(2), to_ = Vec3::Zero(2), from_velocity_ = Vec3::Zero(2), to_velocity_ = Vec3::Zero(2);
@@ -147,11 +153,7 @@ struct Bar : Body, ExactTangent, ReactionDerivative, Constrained, LinearMarkers,
         for (int k = 0; k < n; ++k) M.add(i * n + k, j * n + k, c * m_(i, j));
   }
 
-  Space space_ = Space::planar;
-  Vec3 gravity_;
-  double L_ = 0;
-  Eigen::Matrix2d m_;       // by end points
-  Eigen::Vector2d weight_;  // [kg] that gravity finds at each
+  Eigen::Matrix2d m_;  // by end points
   std::vector<std::string> names_, observables_ = {"length"};
   std::vector<double> at_;  // by marker
 };

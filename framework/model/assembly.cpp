@@ -4,6 +4,8 @@
 
 #include <trammel/linear_rows.hpp>
 
+#include "numerics/fetch.hpp"
+
 namespace trammel::model {
 
 AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
@@ -100,6 +102,15 @@ void AssembledSystem::Work::move_to(double t_new, const Vec& q_new, const Vec& v
   bodies_fresh = force_fresh = rows_fresh = false;
 }
 
+// Where a body's numbers begin, whose length only it knows, and its own rows go.
+void AssembledSystem::Work::fetch_body(std::size_t body) {
+  constexpr std::size_t as_a_rule = 192;
+  const BodyEntry& entry = model->bodies[body];
+  numerics::fetch(entry.body.get(), as_a_rule);
+  const std::size_t own = std::size_t(entry.rows) * std::size_t(entry.nv);
+  if (blocks) numerics::fetch(blocks->bodies()[body].Gt.data(), own * sizeof(double));
+}
+
 // M, unless it is constant and there already, and what the bodies add to f. Whoever asks for one needs the other soon.
 void AssembledSystem::Work::evaluate_bodies() {
   ++counts.residual_evaluations;
@@ -107,6 +118,7 @@ void AssembledSystem::Work::evaluate_bodies() {
   if (!mass_fresh && !blocks) M.setZero(sizes.nv, sizes.nv);
   f.setZero(sizes.nv);
   for (std::size_t k = 0; k < model->bodies.size(); ++k) {
+    numerics::look_ahead(k, model->bodies.size(), [&](std::size_t next) { fetch_body(next); });
     const BodyEntry& entry = model->bodies[k];
     const auto q_body = q.segment(entry.q0, entry.nq);
     const auto v_body = v.segment(entry.v0, entry.nv);
@@ -147,6 +159,8 @@ const Vec& AssembledSystem::Work::force() {
   if (!bodies_fresh) evaluate_bodies();
   const int twist = twist_size(model->world.space);
   for (std::size_t i = 0; i < force_slots.size(); ++i) {
+    numerics::look_ahead(i, force_slots.size(),
+                         [&](std::size_t next) { chain.fetch(force_slots[next].A), chain.fetch(force_slots[next].B); });
     const int A = force_slots[i].A, B = force_slots[i].B;
     called(model->forces[i].name, "wrench");
     on_A.setZero(twist);

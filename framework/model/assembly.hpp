@@ -48,6 +48,7 @@ struct AssembledSystem::Work {
   void reserve_contacts();
   void lay_out_blocks();   // their rows, for the contacts' modes
   void evaluate_bodies();  // mass and what bodies add to f
+  void fetch_body(std::size_t body);
   void evaluate_mass();
   void sum_mass();  // with sparse storage
   // r += c M a; and, after evaluate_rows, rc += c G x, r += c G^T y, r += c W^T y.

@@ -7,6 +7,7 @@
 
 #include "model/model.hpp"
 #include "model/twist_rows.hpp"
+#include "numerics/fetch.hpp"
 
 namespace trammel::model {
 
@@ -28,6 +29,7 @@ class MarkerChain {
   void hold_still(bool still) { still_ = still, ++point_; }
   bool held_still() const { return still_; }
   const Motion& motion(int slot, double t, const Vec& q, const Vec& v);
+  void fetch(int slot) const { numerics::fetch(&slots_[std::size_t(slot)], 256); }             // its place and velocity
   Motion motion_at_zero(int slot) const { return motion_at_zero(slots_[std::size_t(slot)]); }  // q = 0, v = 0, t = 0
   const Motion& last_motion(int slot) const { return slots_[std::size_t(slot)].motion; }
   int first_velocity(int slot) const { return slots_[std::size_t(slot)].v0; }

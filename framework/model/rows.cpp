@@ -1,5 +1,6 @@
 // Rows of bodies, joints and contacts at the point: g, g_dot, gamma, G and W.
 #include "model/assembly.hpp"
+#include "numerics/fetch.hpp"
 
 namespace trammel::model {
 
@@ -12,8 +13,12 @@ void AssembledSystem::Work::evaluate_rows() {
     evaluate_constant_rows();
   else
     G.setZero(sizes.nc, sizes.nv);
-  for (const BodyEntry& entry : model->bodies)
-    if (entry.rows > 0) evaluate_own_rows(entry);
+  for (std::size_t k = 0; k < model->bodies.size(); ++k) {
+    numerics::look_ahead(k, model->bodies.size(), [&](std::size_t next) {
+      if (model->bodies[next].rows > 0) fetch_body(next);
+    });
+    if (const BodyEntry& entry = model->bodies[k]; entry.rows > 0) evaluate_own_rows(entry);
+  }
   for (const std::size_t i : joint_order) {
     const JointEntry& entry = model->joints[i];
     called(entry.name, "rows");

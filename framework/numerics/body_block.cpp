@@ -1,5 +1,6 @@
 #include "numerics/body_block.hpp"
 
+#include "numerics/fetch.hpp"
 #include "numerics/few_rows.hpp"
 
 namespace trammel::numerics {
@@ -12,10 +13,24 @@ void with_size(Eigen::Index n, F&& f) {
   if (!with_few(n, f)) f(n);
 }
 
+// f of each, whose rows are fetched ahead.
+template <class F>
+void for_each(const std::vector<BodyBlock>& bodies, F&& f) {
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    look_ahead(k, bodies.size(), [&](std::size_t next) { fetch_rows(bodies[next]); });
+    f(bodies[k]);
+  }
+}
+
 }  // namespace
 
+void fetch_rows(const BodyBlock& body) {
+  fetch(body.rows.data(), body.rows.size() * sizeof(int));
+  fetch(body.Gt.data(), std::size_t(body.Gt.size()) * sizeof(double));
+}
+
 void add_rows_times(const std::vector<BodyBlock>& bodies, double c, const Vec& x, Vec& rc) {
-  for (const BodyBlock& body : bodies)
+  for_each(bodies, [&](const BodyBlock& body) {
     with_size(body.Gt.rows(), [&](auto n) {
       const double *column = body.Gt.data(), *const of_body = x.data() + body.v0;
       for (const int row : body.rows) {
@@ -26,6 +41,7 @@ void add_rows_times(const std::vector<BodyBlock>& bodies, double c, const Vec& x
         column += n;
       }
     });
+  });
 }
 
 namespace {
@@ -46,7 +62,7 @@ void add_columns(const BodyBlock& body, const Mat& columns, double c, const Vec&
 }  // namespace
 
 void add_rows_force(const std::vector<BodyBlock>& bodies, double c, const Vec& y, Vec& r) {
-  for (const BodyBlock& body : bodies) add_columns(body, body.Gt, c, y, r);
+  for_each(bodies, [&](const BodyBlock& body) { add_columns(body, body.Gt, c, y, r); });
 }
 
 void add_reaction(const std::vector<BodyBlock>& bodies, double c, const Vec& y, Vec& r) {

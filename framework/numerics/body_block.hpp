@@ -10,13 +10,16 @@ namespace trammel::numerics {
 // What one body contributes: its mass and the rows of G that touch it.
 struct BodyBlock {
   int v0 = 0;                  // place of its velocities
-  Mat M;                       // n x n
   bool constant_mass = false;  // known never to change
   std::vector<int> rows;       // ascending
-  std::vector<char> constant;  // of each of them, whether it never changes; empty: of none is that known
   Mat Gt;                      // n x rows.size(): those rows of G, transposed, its own columns
+  Mat M;                       // n x n
+  std::vector<char> constant;  // of each row, whether it never changes; empty: of none is that known
   Mat Wt;                      // of W, where it is not G
 };
+
+// G's part, for reading or writing soon (fetch.hpp).
+void fetch_rows(const BodyBlock& body);
 
 // rc += c G x,  r += c G^T y,  r += c W^T y,  r += c M a. Rows beyond the length of rc or y are left out.
 void add_rows_times(const std::vector<BodyBlock>& bodies, double c, const Vec& x, Vec& rc);

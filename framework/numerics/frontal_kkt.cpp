@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "numerics/fetch.hpp"
 #include "numerics/row_elimination.hpp"
 #include "numerics/small_loops.hpp"
 
@@ -28,6 +29,7 @@ bool FrontalKkt::eliminate_fronts(const std::vector<BodyBlock>& bodies) {
   dependent_ = layout_.merged().idle();
   stored_ = 0;
   for (std::size_t k = 0; k < places_.size(); ++k) {
+    if (k + 1 < places_.size()) fetch_rows(k + 1, bodies);
     if (!sum_rows(k, bodies)) {
       layout_.extend(bodies);
       place_store(bodies);
@@ -118,6 +120,13 @@ FrontalKkt::Parts FrontalKkt::place_factors(std::size_t k, int told, int passed)
   const Parts p = parts(k);
   stored_ = std::size_t(p.LV + p.free * p.rest - store_.data());
   return p;
+}
+
+// What sum_rows will read of bodies.
+void FrontalKkt::fetch_rows(std::size_t k, const std::vector<BodyBlock>& bodies) const {
+  for (const FrontLayout::Source& source : layout_.rows(layout_.fronts()[k]))
+    if (!source.constant)
+      fetch(bodies[std::size_t(source.body)].Gt.data() + source.column * source.size, source.size * sizeof(double));
 }
 
 // C: the front's own rows at length one, then those of its children. False: a row is not of the pattern any more.

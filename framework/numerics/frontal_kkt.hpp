@@ -79,6 +79,7 @@ class FrontalKkt {
   bool eliminate_fronts(const std::vector<BodyBlock>& bodies);
   void place_store(const std::vector<BodyBlock>& bodies);
   void place_passed_on();
+  void fetch_rows(std::size_t front, const std::vector<BodyBlock>& bodies) const;
   bool sum_rows(std::size_t front, const std::vector<BodyBlock>& bodies);
   void eliminate_rows(std::size_t front);
   void sum_masses(std::size_t front, const std::vector<BodyBlock>& bodies);
@@ -91,12 +92,15 @@ class FrontalKkt {
   bool refine();
   void find_residuals();
   void subtract_masses_times(const Vec& X, Vec& from) const;
+  void subtract_masses_times(std::size_t front, const Vec& X, Vec& from) const;
   void approach(double k);
   void push_by_rows(double k, bool taken);
   void remove_null_part(double k, Vec& Y);
   void subtract_rows_times(const Vec& X, Vec& from);
   void subtract_rows_force(const Vec& Y, Vec& from);
   void solve_once(Vec& X, Vec& Y);
+  void fetch_factors(std::size_t front) const;
+  void fetch_pieces(std::size_t front) const;
   void forward(std::size_t front);
   void backward(std::size_t front, Vec& X, Vec& Y);
 

@@ -2,6 +2,7 @@
 // the fronts are, in merged unknowns and rows at length one.
 #include <algorithm>
 
+#include "numerics/fetch.hpp"
 #include "numerics/few_rows.hpp"
 #include "numerics/frontal_kkt.hpp"
 #include "numerics/small_loops.hpp"
@@ -65,11 +66,27 @@ void FrontalKkt::backward(std::size_t k, Vec& X, Vec& Y) {
   }
 }
 
+void FrontalKkt::fetch_factors(std::size_t k) const {
+  const std::size_t begin = places_[k].factors, end = k + 1 < places_.size() ? places_[k + 1].factors : stored_;
+  fetch(store_.data() + begin, (end - begin) * sizeof(double));
+}
+
+void FrontalKkt::fetch_pieces(std::size_t k) const {
+  const std::size_t begin = places_[k].pieces, end = k + 1 < places_.size() ? places_[k + 1].pieces : pieces_.size();
+  fetch(pieces_.data() + begin, (end - begin) * sizeof(double));
+}
+
 // From b_ and c_; b_ is used up.
 void FrontalKkt::solve_once(Vec& X, Vec& Y) {
   X.resize(b_.size()), Y.resize(c_.size());
-  for (std::size_t k = 0; k < places_.size(); ++k) forward(k);
-  for (std::size_t k = places_.size(); k-- > 0;) backward(k, X, Y);
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    if (k + 1 < places_.size()) fetch_factors(k + 1);
+    forward(k);
+  }
+  for (std::size_t k = places_.size(); k-- > 0;) {
+    if (k > 0) fetch_factors(k - 1);
+    backward(k, X, Y);
+  }
 }
 
 bool FrontalKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
@@ -118,18 +135,20 @@ void subtract_mass(const double* M, int size, const int* map, const int* unknown
 }  // namespace
 
 void FrontalKkt::subtract_masses_times(const Vec& X, Vec& from) const {
-  for (std::size_t k = 0; k < places_.size(); ++k) {
-    const FrontLayout::Front& front = layout_.fronts()[k];
-    const int* const unknowns = layout_.unknowns(front);
-    const double* piece = pieces_.data() + places_[k].pieces_of_masses;
-    for (const FrontLayout::Source& source : layout_.masses(front)) {
-      const int* const map = layout_.map(source.map);
-      if (identity_)
-        for (int j = 0; j < source.size; ++j) from[unknowns[map[j]]] -= X[unknowns[map[j]]];
-      else
-        subtract_mass(piece, source.size, map, unknowns, X.data(), from.data());
-      piece += source.size * source.size;
-    }
+  for (std::size_t k = 0; k < places_.size(); ++k) subtract_masses_times(k, X, from);
+}
+
+void FrontalKkt::subtract_masses_times(std::size_t k, const Vec& X, Vec& from) const {
+  const FrontLayout::Front& front = layout_.fronts()[k];
+  const int* const unknowns = layout_.unknowns(front);
+  const double* piece = pieces_.data() + places_[k].pieces_of_masses;
+  for (const FrontLayout::Source& source : layout_.masses(front)) {
+    const int* const map = layout_.map(source.map);
+    if (identity_)
+      for (int j = 0; j < source.size; ++j) from[unknowns[map[j]]] -= X[unknowns[map[j]]];
+    else
+      subtract_mass(piece, source.size, map, unknowns, X.data(), from.data());
+    piece += source.size * source.size;
   }
 }
 
@@ -137,6 +156,7 @@ void FrontalKkt::subtract_masses_times(const Vec& X, Vec& from) const {
 void FrontalKkt::find_residuals() {
   b_ = B_, c_ = C_;
   for (std::size_t k = 0; k < places_.size(); ++k) {
+    if (k + 1 < places_.size()) fetch_pieces(k + 1);
     const FrontLayout::Front& front = layout_.fronts()[k];
     const int* const unknowns = layout_.unknowns(front);
     const double* piece = pieces_.data() + places_[k].pieces;
@@ -152,8 +172,8 @@ void FrontalKkt::find_residuals() {
       c_(row) -= scale * along;
       piece += source.size;
     }
+    subtract_masses_times(k, X_, b_);
   }
-  subtract_masses_times(X_, b_);
 }
 
 // B_ and C_; offset_: of x from the merged unknowns.
@@ -182,6 +202,7 @@ void FrontalKkt::expand(const Vec& b, Vec& x, Vec& y) {
   for (Eigen::Index j = 0; j < x.size(); ++j) x(j) += X_(merged.of(int(j)));
   left_ = b;
   for (std::size_t k = 0; k < places_.size(); ++k) {
+    if (k + 1 < places_.size()) fetch_pieces(k + 1);
     const FrontLayout::Front& front = layout_.fronts()[k];
     for (int i = front.first_row; i < front.first_row + front.own_rows; ++i)
       y(layout_.own_row(std::size_t(i))) = Y_(i) * scale_[std::size_t(i)];
