@@ -58,6 +58,21 @@ TEST(TrussScenes, RedundantRowsDoNotChangeTheMast) {
   EXPECT_NEAR(lock_of(run).t, number(reference()["exact"]["S1c"]["t_lock"]), 1e-11);
 }
 
+// From the lock on no velocity is free.
+TEST(TrussScenes, LockThoughTheirVelocitiesAreTurnedWithTheNullSpace) {
+  for (const auto& [scene, until, t_lock] :
+       {std::tuple{"S1c", "1.85", "S1c"}, {"S1d", "1.95", "S1d"}, {"S1R", "1.85", "S1c"}, {"S2c", "1.1", "S2c"}}) {
+    const Finished run =
+        run_file(fmt::format("truss/{}.json", scene), {{"corrections.velocity", "null_space_rotation"},
+                                                       {"parameters.n", std::string(scene) == "S2c" ? "6" : "8"},
+                                                       {"integrator.step", "8e-3"},
+                                                       {"simulate.until", until}});
+    ASSERT_TRUE(run.done()) << scene << ": " << run.report.reason;
+    EXPECT_NEAR(lock_of(run).t, number(reference()["exact"][t_lock]["t_lock"]), 1e-8) << scene;
+    EXPECT_LT(run.end("energy_kinetic"), 1e-20) << scene;
+  }
+}
+
 TEST(TrussScenes, PrismaticMastLocksAtTheExactTime) {
   const Finished run = run_file("truss/S2c.json", {{"integrator.step", "4e-3"}, {"simulate.until", "1.1"}});
   ASSERT_TRUE(run.done()) << run.report.reason;

@@ -3,6 +3,7 @@
 //     V = null(G(q)),   V' = null(G(q')),   v = V Z + v_rows      V'^T V = X S Y^T  (singular values)
 //     v' = V' X Y^T Z + v_t                 v_t: what moving rows ask for, G v_t = -g_t, of least norm
 //
+// Where the rows leave no motion free, as of a truss that has locked, v' = v_t.
 // X Y^T is the rotation that brings V nearest to V' (Procrustes), so the coefficients Z stay and with them the norm of v; with
 // bases orthonormal in M the kinetic energy stays. Momenta change by the second order of the correction.
 // Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), section 4. Dense: the cost grows with the cube of the sizes.
@@ -35,10 +36,9 @@ class NullSpaceRotation final : public Correction {
     const Mat V_new = null_space(B_);
     if (V.cols() != V_new.cols())
       return Outcome::reject("the rank of the rows changes with the correction of the positions");
-    const Eigen::JacobiSVD<Mat> svd(V_new.transpose() * V, Eigen::ComputeThinU | Eigen::ComputeThinV);
     Vec moving = s.g_dot();  // g_t
     s.add_rows_times(-1, state.v, moving);
-    Vec w_new = V_new * (svd.matrixU() * (svd.matrixV().transpose() * free));
+    Vec w_new = V_new * (nearest_rotation(V_new.transpose() * V) * free);
     if (!moving.isZero(1e-14 * (1 + w.norm()))) w_new -= cod_.solve(moving);
     state.v = L_.transpose().triangularView<Eigen::Upper>().solve(w_new);
     return Outcome::accept();
@@ -68,6 +68,13 @@ class NullSpaceRotation final : public Correction {
     const Mat Z = cod_.matrixZ();  // B = Q [T 0; 0 0] Z
     const auto rank = cod_.rank();
     return (cod_.colsPermutation() * Z.transpose()).rightCols(B.cols() - rank);
+  }
+
+  // X Y^T of A = X S Y^T; of a matrix without entries itself, which JacobiSVD does not take.
+  static Mat nearest_rotation(const Mat& A) {
+    if (A.size() == 0) return A;
+    const Eigen::JacobiSVD<Mat> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    return svd.matrixU() * svd.matrixV().transpose();
   }
 
   Mat L_, B_;
