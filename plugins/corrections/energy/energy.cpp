@@ -1,12 +1,15 @@
 // The kinetic energy made what the balance asks for, T* = E_start + supplied - dissipated - U(q), by the change of least kinetic
 // energy that keeps the velocity rows, and if asked to the momenta too:
 //
-//     v = v_t + v_r + n     v_t: of least T with G v_t = -g_t, what moving rows ask for;   v_r + n in null(G)
+//     v = v_t + v_r + n     v_t: of least T with G v_t = G v, that is -g_t where v satisfies the rows;   v_r + n in null(G)
 //     v' = v_t + v_r + s n,   s^2 = (T* - T(v_t) - T(v_r))/T(n)
 //
+// Where nothing corrects the velocities, v_t is what moving rows ask for and what v violates them by: scaled with the rest, a
+// violation would grow by a factor at every turning point, where s is not near 1, and hence exponentially.
+//
 // v_r is 0 ("keeps": "direction"), or the part of v in the motions as one rigid body that the rows leave free ("momentum"). The
-// parts are orthogonal in M, so the sum of energies is exact, and n has no momentum. Without rows that move nor kept momenta
-// v' = s v. This is the special non-holonomic constraint of Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), eq. 8, in its
+// parts are orthogonal in M, so the sum of energies is exact, and n has no momentum. Without rows that v moves nor kept
+// momenta v' = s v. This is the special non-holonomic constraint of Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), eq. 8, in its
 // M-weighted form.
 //
 // Near a turning point n has little to scale: relative noise of T becomes a kick. Below `least` of the largest kinetic energy
@@ -39,8 +42,8 @@ class EnergyCorrection final : public Correction {
     const double due = step.energy - energy.potential - energy.elastic;
     n_ = state.v;
     double carried = 0;  // T(v_t) + T(v_r)
-    if (rows_move(s, state)) {
-      if (!find_carried(s)) return Outcome::reject("the energy's correction cannot solve for what moving rows ask for");
+    if (moves_rows(s, state)) {
+      if (!find_carried(s)) return Outcome::reject("the energy's correction cannot solve for what moves the rows");
       n_ -= v_t_;
       carried += kinetic(s, v_t_);
     }
@@ -63,17 +66,17 @@ class EnergyCorrection final : public Correction {
   void archive(Archive& archive) override { archive("largest_kinetic", largest_); }
 
  private:
-  // g_t = (G v + g_t) - G v beyond round-off
-  bool rows_move(System& s, const State& state) {
+  // -G v, beyond round-off
+  bool moves_rows(System& s, const State& state) {
     if (s.sizes().nc == 0) return false;
-    g_t_ = s.g_dot();
-    s.add_rows_times(-1, state.v, g_t_);
-    return !g_t_.isZero(1e-14 * (1 + state.v.lpNorm<Eigen::Infinity>()));
+    rates_.setZero(s.sizes().nc);
+    s.add_rows_times(-1, state.v, rates_);
+    return !rates_.isZero(1e-14 * (1 + state.v.lpNorm<Eigen::Infinity>()));
   }
   bool find_carried(System& s) {
     zero_.setZero(s.sizes().nv);
-    s.factorise({}, zero_, zero_rows_.setZero(g_t_.size()), Factors::projection);
-    return s.correct(zero_, g_t_, v_t_, multipliers_, Factors::projection);
+    s.factorise({}, zero_, zero_rows_.setZero(rates_.size()), Factors::projection);
+    return s.correct(zero_, rates_, v_t_, multipliers_, Factors::projection);
   }
 
   // Columns of free_: the motions as one rigid body with G r = 0, orthonormal in M. False: the system does not tell them.
@@ -117,7 +120,7 @@ class EnergyCorrection final : public Correction {
 
   double largest_ = 0;  // [J]
   Mat free_;
-  Vec n_, v_t_, v_r_, g_t_, Gr_, zero_, zero_rows_, multipliers_, Mv_;
+  Vec n_, v_t_, v_r_, rates_, Gr_, zero_, zero_rows_, multipliers_, Mv_;
 };
 
 }  // namespace
