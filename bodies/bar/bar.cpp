@@ -7,8 +7,8 @@
 // m [kg] uniform along the rod, m_1, m_2 [kg] points at its ends, L [m]. A marker at the fraction s is x = (1 - s) x_1 + s x_2.
 // The row's multiplier [N] is the mean tension. No term depends on velocity: this is what natural coordinates are for.
 //
-// Two points know no rotation: markers have the world's axes, moments on them have no effect, and joints that hold an angle
-// cannot turn the bar. Forces at points off the ends turn it as they should.
+// Two points know no rotation: markers have the world's axes, which do not turn with the bar. Moments on them, and joints and forces
+// that hold or measure their axes, are refused (NeedsOrientation). Forces at points off the ends turn it as they should.
 // Source: J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, sections 2.1.3 and 4.2.
 #include <array>
 #include <cmath>

@@ -2,7 +2,7 @@
 //
 //     q = x,   m x'' = f        x [m] world axes, m [kg]
 //
-// It has no orientation: its marker's axes are the world's, moments on it have no effect. Bodies in natural coordinates
+// It has no orientation: moments on it, and what holds or measures axes of its marker, are refused (NeedsOrientation). Bodies in natural coordinates
 // are point masses held together by `distance` joints (Garcia de Jalon, Bayo 1994).
 #include <array>
 

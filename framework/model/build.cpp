@@ -149,6 +149,11 @@ class Builder {
       A = markers_.marker((*pair)[0]), B = markers_.marker((*pair)[1]);
     }
     if (!force || !A || !B) return;
+    if (const Value* on = value.find("on"))
+      markers_.check_orientation(force.get(), 1, *B, *on);
+    else
+      for (std::size_t k = 0; k < 2; ++k)
+        markers_.check_orientation(force.get(), k, k == 0 ? *A : *B, value.find("between")->items()[k]);
     ForceEntry entry;
     entry.name = name;
     entry.force = std::move(force);

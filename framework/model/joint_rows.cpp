@@ -140,6 +140,13 @@ bool JointRows::linear() const {
   return std::all_of(rows_.begin(), rows_.end(), [&](const Row& row) { return std::visit(stands, row); });
 }
 
+bool JointRows::needs_orientation(int marker) const {
+  return std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) {
+    if (std::holds_alternative<SamePoint>(row)) return false;
+    return marker == 0 || !std::holds_alternative<Offset>(row);  // an offset's direction is fixed in A
+  });
+}
+
 // One joint at one instant.
 template <int D>
 struct JointRows::Evaluation {

@@ -18,6 +18,8 @@ class MarkerInput {
   void a_body_is_missing() { missing_bodies_ = true; }
 
   std::optional<MarkerRef> marker(const scene::Value& value);
+  // Reports it where `component` needs an orientation of its k-th marker, which is read from `name` and has none.
+  void check_orientation(const Component* component, std::size_t k, MarkerRef marker, const scene::Value& name);
   // The entries of "between", as many as are wanted; nullptr: reported.
   const scene::Items* between(const scene::Value& object, std::size_t count = 2);
   // A joint's markers, not all of one body; empty: reported. `joint` may be null, where it could not be made.

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <trammel/linear_rows.hpp>
+
 #include "scene/suggestion.hpp"
 
 namespace trammel::model {
@@ -55,6 +57,10 @@ std::optional<MarkerRef> find_marker(const Model& model, std::string_view name) 
   const auto found = std::find(markers.begin(), markers.end(), name.substr(dot + 1));
   if (found == markers.end()) return {};
   return MarkerRef{body->second, int(found - markers.begin())};
+}
+
+bool has_orientation(const Model& model, MarkerRef marker) {
+  return marker.body < 0 || !dynamic_cast<const LinearMarkers*>(model.bodies[std::size_t(marker.body)].body.get());
 }
 
 std::optional<MarkerRef> read_marker(const Value& value, Model& model, Problems& problems) {

@@ -20,6 +20,8 @@ std::optional<Vec3> read_vector(const scene::Value& value, Space space, scene::P
 // Every marker of the model: "ground", "beam.root", "beam.tip".
 std::vector<std::string> marker_names(const Model& model);
 std::optional<MarkerRef> find_marker(const Model& model, std::string_view name);
+// Its axes turn with a body or stand on the ground: it is no point in natural coordinates.
+bool has_orientation(const Model& model, MarkerRef marker);
 
 // A marker's name, or a fixed frame {"point": [x, y], "angle": a}, which is added to the model.
 std::optional<MarkerRef> read_marker(const scene::Value& value, Model& model, scene::Problems& problems);

@@ -9,6 +9,7 @@
 #include <trammel/fields.hpp>
 #include <trammel/integrator.hpp>
 #include <trammel/linear_rows.hpp>
+#include <trammel/needs_orientation.hpp>
 #include <trammel/oscillating_steps.hpp>
 #include <trammel/parameters.hpp>
 #include <trammel/system.hpp>
@@ -48,8 +49,9 @@ SlidingSurface::~SlidingSurface() = default;
 ForceBySurfacePoints::~ForceBySurfacePoints() = default;
 Surface::~Surface() = default;
 
-// Of joints.
+// Of joints and forces.
 LinearRows::~LinearRows() = default;
+NeedsOrientation::~NeedsOrientation() = default;
 
 void Archive::operator()(std::string_view name, std::vector<Vec>& values) {
   const std::string stem(name);

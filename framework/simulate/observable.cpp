@@ -20,8 +20,8 @@ using model::Model;
 using Value = std::function<double(Moment&)>;
 using Choices = std::vector<std::pair<std::string, Value>>;  // full names
 
-void add_marker(const std::string& name, MarkerRef marker, Space space, Choices& choices) {
-  for (const auto& [component, what] : motion_components(space))
+void add_marker(const std::string& name, MarkerRef marker, const Model& model, Choices& choices) {
+  for (const auto& [component, what] : motion_components(model, marker))
     choices.emplace_back(fmt::format("{}.{}", name, component),
                          [marker, what = what](Moment& m) { return seen_from(m, marker, MarkerRef{}, what); });
 }
@@ -79,8 +79,7 @@ Choices all_choices(const Model& model) {
         });
     }
     const auto markers = entry.body->markers();
-    for (int k = 0; k < int(markers.size()); ++k)
-      add_marker(entry.name + "." + markers[k], {b, k}, model.world.space, choices);
+    for (int k = 0; k < int(markers.size()); ++k) add_marker(entry.name + "." + markers[k], {b, k}, model, choices);
   }
   for (int i = 0; i < int(model.contacts.size()); ++i)
     add_contact("contacts." + model.contacts[i].name, i, model, choices);
@@ -116,9 +115,9 @@ Value derived(const std::string& name, const std::string& text, const scene::For
 class MotionReader {
  public:
   MotionReader(const Model& model, scene::Problems& problems) : model_(model), problems_(problems) {
-    const std::vector<std::string> markers = model::marker_names(model);
-    for (const auto& [component, what] : motion_components(model.world.space))
-      for (const std::string& marker : markers) names_.push_back(marker + "." + component);
+    for (const std::string& marker : model::marker_names(model))
+      for (const auto& [component, what] : motion_components(model, *model::find_marker(model, marker)))
+        names_.push_back(marker + "." + component);
   }
 
   std::optional<Column> read(const std::string& name, const scene::Value& value) {
@@ -133,8 +132,9 @@ class MotionReader {
     const auto dot = text->rfind('.');
     const auto A = dot == text->npos ? std::nullopt : model::find_marker(model_, text->substr(0, dot));
     std::optional<MotionComponent> what;
-    for (const auto& [component, candidate] : motion_components(model_.world.space))
-      if (A && text->substr(dot + 1) == component) what = candidate;
+    if (A)
+      for (const auto& [component, candidate] : motion_components(model_, *A))
+        if (text->substr(dot + 1) == component) what = candidate;
     if (!what) {
       problems_.error(
           of->problem(fmt::format("no motion \"{}\" of a marker{}", *text, scene::did_you_mean(*text, names_))));

@@ -4,8 +4,10 @@
 //     F_A + F_B = 0, moments about the origin too (but for loads from outside)
 //     Q F(A, B) = F(Q A, Q B) for a turn Q of the scene (likewise)
 //     F has a derivative by pose and velocity, which the framework takes by differences
+//     axes of a marker count, and moments act on it, only where NeedsOrientation says so
 #include <fmt/format.h>
 
+#include <trammel/needs_orientation.hpp>
 #include <trammel/testing_components.hpp>
 #include <trammel/testing_markers.hpp>
 
@@ -129,6 +131,28 @@ Report has_a_derivative(const Tried& f) {
   });
 }
 
+// Of a marker that may be a point, which has no axes.
+Report axes_count_only_where_said(const Tried& f) {
+  return compare("a marker's orientation counts only where NeedsOrientation says so", [&](Comparison& c) {
+    const auto* needs = dynamic_cast<const NeedsOrientation*>(f.force.get());
+    const int turns = rotations(f.space), dim = dimension(f.space);
+    Vec6 turn = Vec6::Zero(twist_size(f.space));
+    turn.tail(turns).setConstant(0.6);
+    for (const double t : times) {
+      const Motion A = f.pair.a.at(t), B = f.pair.b.at(t);
+      const Wrenches w = f.wrenches(t, A, B);
+      for (int k = 0; k < 2; ++k) {
+        if (needs && needs->needs_orientation(k)) continue;
+        const Wrenches turned = k == 0 ? f.wrenches(t, displaced(A, turn), B) : f.wrenches(t, A, displaced(B, turn));
+        const Wrench& on_it = k == 0 ? w.on_A : w.on_B;
+        c.within(on_it.tail(turns), Vec::Zero(turns), 0, fmt::format("moment on {}", char('A' + k)));
+        c.within(turned.on_A.head(dim), w.on_A.head(dim), 0, fmt::format("force on A with {} turned", char('A' + k)));
+        c.within(turned.on_B.head(dim), w.on_B.head(dim), 0, fmt::format("force on B with {} turned", char('A' + k)));
+      }
+    }
+  });
+}
+
 }  // namespace
 
 std::vector<Check> force_checks(const MakerOf<Force>& make, Space space, Reaction reaction) {
@@ -136,7 +160,7 @@ std::vector<Check> force_checks(const MakerOf<Force>& make, Space space, Reactio
   const std::pair<const char*, Look> all[] = {
       {"EnergyBalances", energy_balances},      {"OnlyDissipates", only_dissipates},
       {"ActionIsReaction", action_is_reaction}, {"TurnsWithTheScene", turns_with_the_scene},
-      {"HasADerivative", has_a_derivative},
+      {"HasADerivative", has_a_derivative},     {"AxesCountOnlyWhereSaid", axes_count_only_where_said},
   };
   std::vector<Check> checks;
   for (const auto& [name, look] : all) checks.push_back({name, [=] { return look(Tried(make, space, reaction)); }});

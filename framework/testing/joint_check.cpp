@@ -4,7 +4,7 @@
 //     H_A, H_B, ...: gradients of g by the twists of the markers at fixed time, g_t: derivative by time at fixed markers
 //     reactions -H_A^T lambda and -H_B^T lambda balance: in force everywhere, in moment where g = 0
 //
-// Rows that repeat each other are no fault.
+// and axes of markers count only where NeedsOrientation says so. Rows that repeat each other are no fault.
 #include <fmt/format.h>
 
 #include <Eigen/QR>
@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include <trammel/linear_rows.hpp>
+#include <trammel/needs_orientation.hpp>
 #include <trammel/testing_components.hpp>
 #include <trammel/testing_markers.hpp>
 
@@ -206,6 +207,25 @@ Report rows_are_linear_if_claimed(const Tried& j) {
   });
 }
 
+// Of a marker that may be a point, which has no axes.
+Report axes_count_only_where_said(const Tried& j) {
+  return compare("a marker's orientation counts only where NeedsOrientation says so", [&](Comparison& c) {
+    const auto* needs = dynamic_cast<const NeedsOrientation*>(j.joint.get());
+    for (int k = 0; k < j.count(); ++k) {
+      if (needs && needs->needs_orientation(k)) continue;
+      Vec6 turn = Vec6::Zero(twist_size(j.space));
+      turn.tail(rotations(j.space)).setConstant(0.6);
+      for (const double t : times) {
+        const Markers markers = j.at(t);
+        const Rows r = j.rows(t, markers), turned = j.rows(t, with_moved(markers, k, turn));
+        const Mat by_turn = r.H(k).rightCols(rotations(j.space));
+        c.within(by_turn, Mat::Zero(by_turn.rows(), by_turn.cols()), 0, fmt::format("turns in H_{}", char('A' + k)));
+        c.within(turned.g, r.g, 0, fmt::format("g with marker {} turned", char('A' + k)));
+      }
+    }
+  });
+}
+
 }  // namespace
 
 std::vector<Check> joint_checks(const MakerOf<Constraint>& make, Space space, Reaction reaction) {
@@ -218,6 +238,7 @@ std::vector<Check> joint_checks(const MakerOf<Constraint>& make, Space space, Re
       {"ReactionTangentIsThatOfTheWrenches", reaction_tangent_is_that_of_the_wrenches},
       {"ReactionsBalance", reactions_balance},
       {"RowsAreLinearIfClaimed", rows_are_linear_if_claimed},
+      {"AxesCountOnlyWhereSaid", axes_count_only_where_said},
   };
   std::vector<Check> checks;
   for (const auto& [name, look] : all)

@@ -70,6 +70,18 @@ TEST(JointChecks, RefuseADistanceThatClaimsLinearRows) {
   EXPECT_EQ(refusals(joint_checks([] { return std::make_unique<ClaimsLinearRows>(false); })), Names());
 }
 
+// Without a word (NeedsOrientation) that the angles count.
+struct EqualAngles final : Joint {
+  int row_count(Space) const override { return 1; }
+  void rows(double, const Motion& A, const Motion& B, Rows& rows) const override {
+    rows.g(0) = B.angle - A.angle;
+    rows.H_A(0, 2) = -1, rows.H_B(0, 2) = 1;
+  }
+};
+TEST(JointChecks, RefuseAnglesThatAreHeldWithoutAWord) {
+  EXPECT_EQ(refusals(joint_checks([] { return std::make_unique<EqualAngles>(); })), Names{"AxesCountOnlyWhereSaid"});
+}
+
 // Two equal rows are what a redundant mechanism has.
 struct Twice final : Joint {
   int row_count(Space) const override { return 2; }
@@ -151,6 +163,20 @@ TEST(ForceChecks, RefuseAForceAlongTheWorldsAxis) {  // its moment does not bala
 }
 TEST(ForceChecks, RefuseAKink) {
   EXPECT_TRUE(refusals_of(ForceDefect::has_a_kink).contains("HasADerivative"));
+}
+
+// Without a word (NeedsOrientation) that it acts with moments.
+struct Torsion final : Force {
+  void wrench(double, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
+    on_A(2) = B.angle - A.angle, on_B(2) = A.angle - B.angle;
+  }
+  double potential(double, const Motion& A, const Motion& B) const override {
+    return std::pow(B.angle - A.angle, 2) / 2;
+  }
+  Power power(double, const Motion&, const Motion&) const override { return {}; }
+};
+TEST(ForceChecks, RefuseMomentsWithoutAWord) {
+  EXPECT_EQ(refusals(force_checks([] { return std::make_unique<Torsion>(); })), Names{"AxesCountOnlyWhereSaid"});
 }
 
 enum class LawDefect { none, pulls, acts_apart, jumps, stores_too_much, slope_without_damping, feeds };

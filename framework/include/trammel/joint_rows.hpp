@@ -21,6 +21,7 @@
 
 #include <trammel/joint.hpp>
 #include <trammel/linear_rows.hpp>
+#include <trammel/needs_orientation.hpp>
 #include <trammel/time_function.hpp>
 
 namespace trammel {
@@ -39,7 +40,8 @@ class JointRows {
   JointRows& orientation(const Vec3& n, const Eigen::Quaterniond& Q, TimeFunction phi);
 
   int count() const;
-  bool linear() const;  // see LinearRows
+  bool linear() const;                       // see LinearRows
+  bool needs_orientation(int marker) const;  // see NeedsOrientation
   void rows(double t, const Motion& A, const Motion& B, Rows& rows) const;
   // K += d(H^T lambda)/d(twists of the markers), see ReactionTangent.
   void add_reaction_tangent(double t, const Motion& A, const Motion& B, const Vec6& lambda, PairTangent& K) const;
@@ -67,13 +69,14 @@ class JointRows {
 };
 
 // A joint that is such rows and nothing else: saying which makes it whole.
-class RowJoint : public Joint, public ReactionTangent, public LinearRows {
+class RowJoint : public Joint, public ReactionTangent, public LinearRows, public NeedsOrientation {
  public:
   virtual JointRows made_of(const World&) const = 0;  // from the parameters, which it may refuse
 
   void prepare(const World& world) override { list_ = made_of(world); }
   int row_count(Space) const override { return list_.count(); }
   bool linear() const final { return list_.linear(); }
+  bool needs_orientation(int marker) const final { return list_.needs_orientation(marker); }
   void rows(double t, const Motion& A, const Motion& B, Rows& rows) const final { list_.rows(t, A, B, rows); }
   void add_reaction_tangent(double t, const Motion& A, const Motion& B, const Vec6& lambda,
                             PairTangent& K) const override {

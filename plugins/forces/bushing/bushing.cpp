@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include <trammel/force.hpp>
+#include <trammel/needs_orientation.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
@@ -27,7 +28,7 @@ Vector3d inverse_transposed_jacobian(const Vector3d& phi, const Vector3d& x) {
   return x + phi.cross(x) / 2 + k * phi.cross(phi.cross(x));
 }
 
-struct Bushing : Force {
+struct Bushing : Force, NeedsOrientation {
   Vec3 stiffness = Vec3::Zero(2), damping = Vec3::Zero(2);
   std::vector<double> torsional_stiffness, torsional_damping;
 
@@ -37,6 +38,8 @@ struct Bushing : Force {
     if (stiffness.isZero(0) && damping.isZero(0) && K_r_.isZero(0) && C_r_.isZero(0))
       throw ParameterError("stiffness", "give stiffness, damping, torsional_stiffness or torsional_damping");
   }
+
+  bool needs_orientation(int marker) const override { return marker == 0 || !K_r_.isZero(0) || !C_r_.isZero(0); }
 
   void wrench(double, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
     const Offset o(A, B);

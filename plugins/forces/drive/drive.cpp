@@ -8,18 +8,21 @@
 #include <trammel/axis_angle.hpp>
 #include <trammel/force.hpp>
 #include <trammel/joint_rows.hpp>
+#include <trammel/needs_orientation.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
 
 using namespace trammel;
 
-struct Drive : Force {
+struct Drive : Force, NeedsOrientation {
   double stall = 0, free_speed = 0;
   TimeFunction command{1};
   std::optional<Vec3> axis;
 
   void prepare(const World& world) override { phi_ = AxisAngle(spatial_axis(world, axis, "axis")); }
+
+  bool needs_orientation(int) const override { return true; }
 
   void wrench(double t, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
     const Vec3 on_shaft = moment(t, A, B) * phi_.gradient(A, B);

@@ -5,13 +5,14 @@
 //
 // The marker is B; what A, the ground, receives has no effect and is left at zero.
 #include <trammel/force.hpp>
+#include <trammel/needs_orientation.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
 
 using namespace trammel;
 
-struct Load : Force {
+struct Load : Force, NeedsOrientation {
   enum class Frame { world, body };
   Frame frame = Frame::world;
   TimeFunction force_x, force_y;
@@ -26,6 +27,10 @@ struct Load : Force {
         throw ParameterError(name, "this scene is planar: a load has force.x, force.y and moment");
     if (spatial && moment)
       throw ParameterError("moment", "this scene is spatial: a moment is given as torque.x, torque.y and torque.z");
+  }
+
+  bool needs_orientation(int marker) const override {
+    return marker == 1 && (frame == Frame::body || moment || torque_x || torque_y || torque_z);
   }
 
   void wrench(double t, const Motion&, const Motion& B, Wrench&, Wrench& on_B) const override { on_B += at(t, B); }

@@ -12,13 +12,14 @@
 #include <trammel/axis_angle.hpp>
 #include <trammel/force.hpp>
 #include <trammel/joint_rows.hpp>
+#include <trammel/needs_orientation.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
 
 using namespace trammel;
 
-struct TorsionalSpring : Force {
+struct TorsionalSpring : Force, NeedsOrientation {
   double stiffness = 0, damping = 0, angle = 0;
   std::optional<Vec3> axis;
 
@@ -26,6 +27,8 @@ struct TorsionalSpring : Force {
     if (stiffness == 0 && damping == 0) throw ParameterError("stiffness", "give stiffness, damping or both");
     phi_ = AxisAngle(spatial_axis(world, axis, "axis"));
   }
+
+  bool needs_orientation(int) const override { return true; }
 
   void wrench(double, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
     const double M = stiffness * twist(A, B) + damping * phi_.rate(A, B);

@@ -11,6 +11,7 @@
 
 #include <trammel/axis_angle.hpp>
 #include <trammel/joint.hpp>
+#include <trammel/needs_orientation.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
@@ -27,7 +28,7 @@ Motion world_frame(Space space) {
   return m;
 }
 
-struct Gear : Joint, ReactionTangent {
+struct Gear : Joint, ReactionTangent, NeedsOrientation {
   std::vector<double> teeth;
   bool internal = false;
   double phase = 0;
@@ -47,6 +48,7 @@ struct Gear : Joint, ReactionTangent {
   }
 
   int row_count(Space) const override { return 1; }
+  bool needs_orientation(int) const override { return true; }
 
   void rows(double, const Motion& A, const Motion& B, Rows& rows) const override {
     const double c_A = z_A_ / teeth[1], c_B = z_B_ / teeth[1];
