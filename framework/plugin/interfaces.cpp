@@ -6,6 +6,7 @@
 #include <trammel/body.hpp>
 #include <trammel/component.hpp>
 #include <trammel/contact.hpp>
+#include <trammel/counts_turns.hpp>
 #include <trammel/fields.hpp>
 #include <trammel/integrator.hpp>
 #include <trammel/linear_rows.hpp>
@@ -52,6 +53,7 @@ Surface::~Surface() = default;
 // Of joints and forces.
 LinearRows::~LinearRows() = default;
 NeedsOrientation::~NeedsOrientation() = default;
+CountsTurns::~CountsTurns() = default;
 
 void Archive::operator()(std::string_view name, std::vector<Vec>& values) {
   const std::string stem(name);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "simulate/resting_contacts.hpp"
+#include "simulate/turn_counts.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -19,7 +20,13 @@ constexpr double settled = 1e-14;  // [m, rad]
 class Rest {
  public:
   Rest(model::AssembledSystem& system, State& state)
-      : system_(system), state_(state), nv_(system.sizes().nv), zero_v_(Vec::Zero(nv_)), contacts_(system) {
+      : system_(system),
+        state_(state),
+        nv_(system.sizes().nv),
+        zero_v_(Vec::Zero(nv_)),
+        contacts_(system),
+        turns_(system) {
+    turns_.follow(state_.t, state_.q, zero_v_);
     system_.move_to(state_.t, state_.q, zero_v_);
     contacts_.close_what_may_push();
   }
@@ -56,6 +63,7 @@ class Rest {
       const double shrunk = next > 0 ? unbalanced / next : 10;
       tau = std::min(tau_last, tau * 2 * std::clamp(shrunk, 0.7, 5.0));
       state_.q = q_next;
+      turns_.follow(state_.t, state_.q, zero_v_);
       unbalanced = contacts_.close_penetrating() ? look(state_.q) : next;
     }
     return false;
@@ -161,6 +169,7 @@ class Rest {
   int nv_;
   Vec zero_v_;
   RestingContacts contacts_;
+  TurnCounts turns_;
   Vec a_, lambda_, dq_, residual_;
   double scale_ = 0;
 };

@@ -29,6 +29,7 @@ LoadPath::LoadPath(model::AssembledSystem& system, const Settings& settings, con
       start_(start.q),
       zero_(Vec::Zero(system.sizes().nv)),
       contacts_(system),
+      turns_(system),
       part_((settings.until - settings.start) / settings.load_steps) {
   state_.v = state_.a = zero_;
 }
@@ -270,6 +271,7 @@ void LoadPath::keep(Point point) {
   if (passed_.size() > remembered) passed_.pop_front();
   state_.t = passed_.back().t, state_.q = passed_.back().q, state_.lambda = passed_.back().lambda;
   ++now_.parts;
+  turns_.follow(state_.t, state_.q, zero_);
 }
 
 void LoadPath::fail(double t, Failure why) {

@@ -30,6 +30,7 @@
 
 #include "simulate/resting_contacts.hpp"
 #include "simulate/settings.hpp"
+#include "simulate/turn_counts.hpp"
 
 namespace trammel::simulate {
 
@@ -86,6 +87,7 @@ class LoadPath {
   State state_;
   Vec start_, zero_;
   RestingContacts contacts_;
+  TurnCounts turns_;
   std::deque<Point> passed_;  // the last equilibria, newest last
   std::vector<LoadStep> steps_;
   LoadStep now_;

@@ -56,11 +56,13 @@ Simulator::Simulator(std::shared_ptr<model::Model> model, Integrator& integrator
       modes_(system_, scale_, settings_),
       location_(system_, integrator, modes_, scale_),
       ledger_(system_, integrator),
-      refinement_(std::move(model), system_) {}
+      refinement_(std::move(model), system_),
+      turns_(system_) {}
 
 void Simulator::start(State initial) {
   now_ = std::move(initial);
   window_start_ = now_.t;
+  turns_.follow(now_.t, now_.q, now_.v);
   system_.move_to(now_.t, now_.q, now_.v);
   scale_.take_all(system_);
   ContactChanges pressing, striking;
@@ -276,6 +278,7 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
   if (location_.watches()) location_.accept(h, next_);
   if (corrections_.empty()) ledger_.step(now_, next_);  // last: it leaves the system in the middle of the step
   std::swap(now_, next_);
+  turns_.follow(now_.t, now_.q, now_.v);
 }
 
 // Rows due inside the last step (next_ -> now_), by the method's own interpolation.

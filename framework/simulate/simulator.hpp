@@ -26,6 +26,7 @@
 #include "simulate/settings.hpp"
 #include "simulate/statistics.hpp"
 #include "simulate/step_control.hpp"
+#include "simulate/turn_counts.hpp"
 
 namespace trammel::simulate {
 
@@ -92,6 +93,7 @@ class Simulator {
   EventLocation location_;
   Ledger ledger_;
   Refinement refinement_;
+  TurnCounts turns_;
   Statistics statistics_;
 
   State now_, next_, inside_, uncorrected_;

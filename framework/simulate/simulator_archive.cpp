@@ -26,6 +26,7 @@ void archive_tangential(Archive& a, const std::string& name, model::ContactMode&
 void Simulator::archive(JsonArchive& a) {
   archive_bodies(a);
   archive_state(a);
+  turns_.archive(a);
   JsonArchive integrator = a.nested("integrator");
   integrator_.archive(integrator);
   for (std::size_t i = 0; i < corrections_.size(); ++i) {

@@ -4,7 +4,7 @@
 //     psi = atan2(y . w, x . w)        x, y, n a right-handed triad of A, w the direction of B that is x where R_A = R_B
 //     psi' = h . (omega_B - omega_A),  h = (n - s w)/(1 - s^2),  s = n . w       s = 0 while B turns about the axis alone
 //
-// In space psi [rad] lies in (-pi, pi], and means nothing where B's w points along the axis.
+// In space psi [rad] lies in (-pi, pi] (counts_turns.hpp counts on), and means nothing where B's w points along the axis.
 #pragma once
 
 #include <cmath>

@@ -5,12 +5,16 @@
 //     U = (s . K s + phi . K_r phi)/2,    dissipated s' . C s' + omega_r . C_r omega_r
 //
 // K, C, K_r, C_r diagonal; omega_r = R_A^T (omega_B - omega_A) and phi' = J^-1 omega_r with J the left Jacobian of the
-// exponential, so that M is exactly minus the gradient of U. A takes -F at B's place. Half a turn is the limit of phi.
+// exponential, so that M is exactly minus the gradient of U. A takes -F at B's place. phi is counted on from half a turn to a full
+// one, where its direction means nothing and the run ends: what turns further is a hinge with a torsional spring.
 // Source of J^-1: Barfoot, State Estimation for Robotics, 2017, section 7.1.
 #include <cmath>
+#include <numbers>
+#include <stdexcept>
 
 #include <Eigen/Geometry>
 
+#include <trammel/counts_turns.hpp>
 #include <trammel/force.hpp>
 #include <trammel/needs_orientation.hpp>
 #include <trammel/plugin.hpp>
@@ -28,7 +32,7 @@ Vector3d inverse_transposed_jacobian(const Vector3d& phi, const Vector3d& x) {
   return x + phi.cross(x) / 2 + k * phi.cross(phi.cross(x));
 }
 
-struct Bushing : Force, NeedsOrientation {
+struct Bushing : Force, NeedsOrientation, CountsTurns {
   Vec3 stiffness = Vec3::Zero(2), damping = Vec3::Zero(2);
   std::vector<double> torsional_stiffness, torsional_damping;
 
@@ -41,8 +45,23 @@ struct Bushing : Force, NeedsOrientation {
 
   bool needs_orientation(int marker) const override { return marker == 0 || !K_r_.isZero(0) || !C_r_.isZero(0); }
 
+  // Any angle will do while no spring asks for it.
+  void follow(const Motion& A, const Motion& B) override {
+    if (A.x.size() == 2 || K_r_.isZero(0)) return;
+    last_phi_ = Offset(A, B, last_phi_).phi;
+    if (!(last_phi_.norm() < 2 * std::numbers::pi))
+      throw std::domain_error(
+          "B has turned by a full turn against A, which is the limit of a bushing; a hinge with a torsional_spring "
+          "counts turns");
+  }
+  void archive(Archive& a) override {
+    Vec phi = last_phi_;
+    a("phi", phi);
+    last_phi_ = phi;
+  }
+
   void wrench(double, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
-    const Offset o(A, B);
+    const Offset o(A, B, last_phi_);
     const Vec3 F = A.R * Vec3(-stiffness.cwiseProduct(o.s) - damping.cwiseProduct(o.s_dot));
     const Vec3 M_A = -elastic_moment(o) - C_r_.cwiseProduct(o.omega);
     const Vec3 M = M_A.size() == 1 ? M_A : Vec3(A.R * M_A);
@@ -54,12 +73,12 @@ struct Bushing : Force, NeedsOrientation {
   }
 
   double potential(double, const Motion& A, const Motion& B) const override {
-    const Offset o(A, B);
+    const Offset o(A, B, last_phi_);
     return 0.5 * (o.s.dot(stiffness.cwiseProduct(o.s)) + o.phi.dot(K_r_.cwiseProduct(o.phi)));
   }
 
   Power power(double, const Motion& A, const Motion& B) const override {
-    const Offset o(A, B);
+    const Offset o(A, B, last_phi_);
     return {.dissipated = o.s_dot.dot(damping.cwiseProduct(o.s_dot)) + o.omega.dot(C_r_.cwiseProduct(o.omega))};
   }
 
@@ -68,7 +87,7 @@ struct Bushing : Force, NeedsOrientation {
   struct Offset {
     Vec3 s, s_dot, phi, omega;
 
-    Offset(const Motion& A, const Motion& B) {
+    Offset(const Motion& A, const Motion& B, const Vector3d& last_phi) {
       const auto dim = A.x.size(), turns = A.V.size() - dim;
       const Vec3 d = B.x - A.x, d_dot = B.V.head(dim) - A.V.head(dim), relative = B.V.tail(turns) - A.V.tail(turns);
       s = A.R.transpose() * d;
@@ -79,7 +98,7 @@ struct Bushing : Force, NeedsOrientation {
       } else {
         s_dot = A.R.transpose() * Vec3(d_dot - Vec3(Vector3d(A.V.tail<3>()).cross(Vector3d(d))));
         const Eigen::AngleAxisd turn(Matrix3d(A.R.transpose() * B.R));
-        phi = Vector3d(turn.angle() * turn.axis());
+        phi = Vector3d(CountedAngle(last_phi.dot(turn.axis())).near_last(turn.angle()) * turn.axis());
         omega = A.R.transpose() * relative;
       }
     }
@@ -105,6 +124,7 @@ struct Bushing : Force, NeedsOrientation {
   }
 
   Vec3 K_r_, C_r_;
+  Vector3d last_phi_ = Vector3d::Zero();
 };
 
 }  // namespace

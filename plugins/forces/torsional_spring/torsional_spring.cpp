@@ -3,13 +3,14 @@
 //     M = k (phi - angle) + c phi'        phi: angle of B against A about the axis, see axis_angle.hpp
 //     U = k (phi - angle)^2 / 2           dissipated power c phi'^2
 //
-// A is turned with +M h and B with -M h [N m], h the gradient of phi: the axis itself while a hinge holds it. In the plane
-// phi = theta_B - theta_A counts full turns; in space phi - angle is taken into [-pi, pi], so that half a turn away from
-// rest the spring snaps over.
+// A is turned with +M h and B with -M h [N m], h the gradient of phi: the axis itself while a hinge holds it. Full turns count:
+// in the plane phi = theta_B - theta_A; in space they are counted from the start, where phi is within half a turn of rest, or
+// of 0 where the spring is preloaded by more (|angle| > pi).
 #include <cmath>
 #include <numbers>
 
 #include <trammel/axis_angle.hpp>
+#include <trammel/counts_turns.hpp>
 #include <trammel/force.hpp>
 #include <trammel/joint_rows.hpp>
 #include <trammel/needs_orientation.hpp>
@@ -19,16 +20,20 @@ namespace {
 
 using namespace trammel;
 
-struct TorsionalSpring : Force, NeedsOrientation {
+struct TorsionalSpring : Force, NeedsOrientation, CountsTurns {
   double stiffness = 0, damping = 0, angle = 0;
   std::optional<Vec3> axis;
 
   void prepare(const World& world) override {
     if (stiffness == 0 && damping == 0) throw ParameterError("stiffness", "give stiffness, damping or both");
     phi_ = AxisAngle(spatial_axis(world, axis, "axis"));
+    counted_ = CountedAngle(std::abs(angle) <= std::numbers::pi ? angle : 0);
   }
 
   bool needs_orientation(int) const override { return true; }
+
+  void follow(const Motion& A, const Motion& B) override { counted_.follow(phi_.angle(A, B)); }
+  void archive(Archive& a) override { counted_.archive(a); }
 
   void wrench(double, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
     const double M = stiffness * twist(A, B) + damping * phi_.rate(A, B);
@@ -48,11 +53,12 @@ struct TorsionalSpring : Force, NeedsOrientation {
 
  private:
   double twist(const Motion& A, const Motion& B) const {
-    const double from_rest = phi_.angle(A, B) - angle;
-    return A.x.size() == 2 ? from_rest : std::remainder(from_rest, 2 * std::numbers::pi);
+    const double phi = phi_.angle(A, B);
+    return (A.x.size() == 2 ? phi : counted_.near_last(phi)) - angle;
   }
 
   AxisAngle phi_;
+  CountedAngle counted_;
 };
 
 }  // namespace
@@ -61,6 +67,7 @@ TRAMMEL_PLUGIN(trammel::force<TorsionalSpring>("torsional_spring", "rotary sprin
                    .source("Hooke's law with viscous damping in the relative angle")
                    .parameter("stiffness", &TorsionalSpring::stiffness, {.unit = "N m/rad", .min = 0, .doc = "k"})
                    .parameter("damping", &TorsionalSpring::damping, {.unit = "N m s/rad", .min = 0, .doc = "c"})
-                   .parameter("angle", &TorsionalSpring::angle, {.unit = "rad", .doc = "of B against A at rest"})
+                   .parameter("angle", &TorsionalSpring::angle,
+                              {.unit = "rad", .doc = "of B against A at rest; full turns count"})
                    .parameter("axis", &TorsionalSpring::axis,
                               {.doc = "spatial: in marker A's axes; [0, 0, 1] if left out"}))
