@@ -21,15 +21,18 @@ constexpr double of_springs = 1e-10;
 // Redundant rows part by no more than this where they are violated, the largest rank tolerance of kkt.hpp.
 constexpr double parting = 1e-2;
 
-// Corrects until the residual stops to fall: `residual(r)` fills r and returns its norm, `correct(r)` uses it.
-template <class Residual, class Correct>
-double refine(Residual&& residual, Correct&& correct, double enough, int most, Vec& r) {
+// Corrects until the residual is `enough` or stops to fall: `residual(r)` fills r and returns its norm, `correct(r)` uses it.
+// Of a residual that is no more than round_off() one correction is left to be made.
+template <class Residual, class Correct, class RoundOff>
+double refine(Residual&& residual, Correct&& correct, double enough, RoundOff&& round_off, int most, Vec& r) {
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0;; ++i) {
     const double now = residual(r);
     if (!(now > enough) || i == most || !(now < 0.9 * before)) return now;
     before = now;
+    const bool last = now <= round_off();
     correct(r);
+    if (last) return now;
   }
 }
 
@@ -47,11 +50,16 @@ bool SparseMassKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, Metr
   if (!factorise_masses(bodies, metric)) return false;
   if (nc == 0) return true;
   complement_.factorise(bodies, Y_, nc, 0);
-  by_fronts_ = nc >= long_chain && !complement_.is_safe(std::max(safe_sine, 10 * rank_tolerance));
+  by_fronts_ = nc >= long_chain && is_soft(std::max(safe_sine, 10 * rank_tolerance));
   if (by_fronts_) return factorise_fronts(bodies);
   redundant_ = !complement_.is_safe(10 * rank_tolerance);
   if (redundant_) regularise(bodies);
   return true;
+}
+
+// A pivot tells of redundant rows, softness of a whole chain may leave no trace in any of them.
+bool SparseMassKkt::is_soft(double sine) {
+  return !complement_.is_safe(sine) || complement_.softest() < sine * sine;
 }
 
 // Large beside the complement's round-off, so that corrections converge and the unreachable is told from the rest.
@@ -67,8 +75,10 @@ bool SparseMassKkt::factorise_masses(const std::vector<BodyBlock>& bodies, Metri
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const Eigen::Index n = bodies[k].M.rows();
     if (identity_ ? !masses_[k].compute(Mat::Identity(n, n)) : !kept && !masses_[k].compute(bodies[k].M)) return false;
-    Y_[k].setZero(padded(bodies[k].Gt.cols()), n);
-    Y_[k].topRows(bodies[k].Gt.cols()) = bodies[k].Gt.transpose();
+    const Eigen::Index rows = bodies[k].Gt.cols();
+    Y_[k].resize(padded(rows), n);
+    Y_[k].topRows(rows) = bodies[k].Gt.transpose();
+    Y_[k].bottomRows(padded(rows) - rows).setZero();
     masses_[k].solve_lower_of_rows(Y_[k]);
   }
   return true;
@@ -137,8 +147,12 @@ void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, co
     add_rows_force(bodies, -1, y, x);
     solve_masses(bodies, x);
   };
-  const double round_off = 16 * std::numeric_limits<double>::epsilon() * scale;  // of a row's dozen products
-  refine(residual, correct, round_off, redundant_ ? 40 : 4, residual_);
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  const double enough = 16 * eps * scale;  // of a row's dozen products
+  // Multipliers along a chain add up to accelerations a million times those that are left. Their round-off does not fall by
+  // corrections, but the first one takes away what is smooth of it, to which a soft mechanism yields: 1e-9 of a mast's accelerations.
+  const auto round_off = [&] { return redundant_ ? 0 : 4 * eps * complement_.largest_share(y); };
+  refine(residual, correct, enough, round_off, redundant_ ? 40 : 4, residual_);
   if (redundant_) remove_null_part(y);  // round-off over eps
 }
 
@@ -189,7 +203,8 @@ bool SparseIterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
     return r.norm();
   };
   const auto correct = [&](const Vec& r) { solution_ += lu_.solve(r); };
-  const double left = refine(residual, correct, 1e-15 * right_.norm(), 40, residual_);
+  const double left = refine(
+      residual, correct, 1e-15 * right_.norm(), [] { return 0.0; }, 40, residual_);
   x = solution_.head(nv_);
   y = solution_.tail(c.size());
   if (!solution_.allFinite()) return false;

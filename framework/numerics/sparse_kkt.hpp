@@ -11,9 +11,9 @@
 // y comes out as the one of minimum norm, and directions of the rows with sigma^2 < eps count as redundant. x is unique.
 //
 // Long chains have such directions that are not redundant: their softest sigma falls with n^-2 (masts) or n^-3 (hoops), and its square
-// is lost. From `long_chain` rows on, where pivots of the complement tell of such or of redundant rows, the rows are eliminated front
-// by front (frontal_kkt.hpp), refined once or twice with the residuals of the equations. Then y is a solution of few entries on
-// redundant rows, not the one of minimum norm.
+// is lost. From `long_chain` rows on, where the complement tells of such or of redundant rows, the rows are eliminated front by front
+// (frontal_kkt.hpp), refined once or twice with the residuals of the equations. Then y is a solution of few entries on redundant rows,
+// not the one of minimum norm.
 // Where round-off comes between redundant rows on the way around a large ring (a hoop of 3000 bays), fronts contradict each other and
 // their solution does not come to satisfy the equations: that is measured, and springs take the rows' place in them. Of such a hoop
 // they leave free what its rows tell by less than their round-off.
@@ -44,6 +44,7 @@ class SparseMassKkt {
  private:
   bool factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric);
   void solve_masses(const std::vector<BodyBlock>& bodies, Vec& x);  // x := M^-1 x
+  bool is_soft(double sine);
   void remove_null_part(Vec& r);
   bool factorise_fronts(const std::vector<BodyBlock>& bodies);
   bool factorise_springs(const std::vector<BodyBlock>& bodies);
