@@ -141,7 +141,6 @@ TEST_P(RowComplementOf, TellsARowSaidTwice) {
   Mechanism m = mechanism();
   // The last joint's last row again as its first: one pivot is round-off.
   const int last = m.nc - 1, first = m.nc - GetParam().rows;
-  if (first == last) GTEST_SKIP() << "joints have one row";
   for (std::size_t k = 0; k < m.bodies.size(); ++k) {
     const std::vector<int>& rows = m.bodies[k].rows;
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -169,7 +168,7 @@ TEST_P(RowComplementOf, ItsSoftestDirectionIsAtMostAsSoftAsFound) {
 
 // A ring of balls has rows to spare: 3 n of 6 n; grids of four rows a joint in the mean 1.8 joints a body.
 INSTANTIATE_TEST_SUITE_P(Mechanisms, RowComplementOf,
-                         testing::Values(Case{"ChainOfHinges", chain, 30, 6, 5}, Case{"ChainOfRods", chain, 30, 3, 1},
+                         testing::Values(Case{"ChainOfHinges", chain, 30, 6, 5}, Case{"ChainOfPins", chain, 30, 3, 2},
                                          Case{"RingOfBalls", ring, 20, 6, 3}, Case{"StarOfHinges", star, 12, 6, 5},
                                          Case{"StarOfFixedBodies", star, 2, 6, 6}, Case{"GridOfBalls", grid, 64, 6, 3},
                                          Case{"ChainOfMembranes", chain, 4, 60, 20}, Case{"OneBody", chain, 1, 6, 5}),
