@@ -17,7 +17,10 @@ double size(const Balance& p) {
 }  // namespace
 
 Ledger::Ledger(model::AssembledSystem& system, Integrator& integrator)
-    : system_(system), between_(system, integrator), impacts_(system.model().contacts.size()) {
+    : system_(system),
+      between_(system, integrator),
+      dense_(integrator.traits().order > 4 ? dynamic_cast<DenseOutput*>(&integrator) : nullptr),
+      impacts_(system.model().contacts.size()) {
   friction_.setZero(Eigen::Index(impacts_.size()));
   now_.friction = friction_;
 }
@@ -42,8 +45,11 @@ void Ledger::step(const State& now, const State& next) {
   g_dot_end_ = system_.g_dot();
   // A closed contact's row does work at the level of round-off; that is not worth an evaluation.
   const double work = (size(now_) + size(end_)) * (next.t - now.t), energy = std::abs(energy_start_);
-  if (OscillatingSteps* steps = between_.oscillating(); steps && work > 1e-12 * energy)
+  const bool matters = work > 1e-12 * energy;
+  if (OscillatingSteps* steps = between_.oscillating(); steps && matters)
     integrate_by(*steps, now, next);
+  else if (dense_ && matters)
+    integrate_by_dense_output(now, next);
   else if (work > 1e-16 * energy)
     integrate_by_middle(now, next);
   std::swap(now_, end_);
@@ -65,23 +71,41 @@ void Ledger::integrate_by(OscillatingSteps& steps, const State& now, const State
 }
 
 void Ledger::integrate_by_middle(const State& now, const State& next) {
-  const double h = next.t - now.t, power = size(now_) + size(end_);
+  const double h = next.t - now.t;
   between_.at(now, next, 0.5, inside_);
+  evaluate_inside(now, next, 0.5, std::abs(now_.constraints) + std::abs(end_.constraints));
+  add(h / 6, now_), add(4 * h / 6, middle_), add(h / 6, end_);
+}
+
+// Exact for polynomials of degree 7.
+void Ledger::integrate_by_dense_output(const State& now, const State& next) {
+  const double h = next.t - now.t, apart = std::sqrt(21) / 14;
+  const auto work_of_forces = [](const Balance& p) { return std::abs(p.constraints) + p.friction.lpNorm<1>(); };
+  add(h / 20, now_), add(h / 20, end_);
+  for (const auto& [theta, weight] :
+       {std::pair(0.5 - apart, 49.0 / 180), {0.5, 16.0 / 45}, {0.5 + apart, 49.0 / 180}}) {
+    dense_->interpolate(system_, now, next, theta, inside_);
+    evaluate_inside(now, next, theta, work_of_forces(now_) + work_of_forces(end_));
+    add(weight * h, middle_);
+  }
+}
+
+// Fills middle_. `work_of_reactions`: what of the power at the ends follows from lambda, which its mean does not give where it swings
+// within a step.
+void Ledger::evaluate_inside(const State& now, const State& next, double theta, double work_of_reactions) {
+  const double power = size(now_) + size(end_);
   system_.move_to(inside_.t, inside_.q, inside_.v);
-  lambda_ = 0.5 * (now.lambda + next.lambda);
-  // Reactions do not follow their mean where they swing within a step.
-  double work_of_rows = std::abs(now_.constraints) + std::abs(end_.constraints);
-  const auto matters = [&] { return work_of_rows > 1e-9 * power; };
+  lambda_ = (1 - theta) * now.lambda + theta * next.lambda;
+  const auto matters = [&] { return work_of_reactions > 1e-9 * power; };
   if (!matters()) {
     middle_ = system_.balance(lambda_);
-    work_of_rows += std::abs(middle_.constraints);
+    work_of_reactions += std::abs(middle_.constraints);
   }
   if (matters()) {
     system_.accelerate({}, a_, lambda_);
     middle_ = system_.balance(lambda_);
   }
-  middle_.constraints += off_rows(lambda_, 0.5);
-  add(h / 6, now_), add(4 * h / 6, middle_), add(h / 6, end_);
+  middle_.constraints += off_rows(lambda_, theta);
 }
 
 // The power of contacts' rows where the interpolation leaves them between two states that are on them; the motion does not.

@@ -4,10 +4,11 @@
 //     dissipated = impacts + contact damping + friction + dampers + numerical
 //
 // Impacts are exact (impact.hpp). Powers of drives, moving rows, dampers and compliant contacts are integrated along accepted
-// steps by Simpson's rule with the state in the middle (between_states.hpp), or in steps that swing by the integrator's own quadrature;
-// nothing is evaluated there while all powers are 0 but for round-off. `numerical` is what remains: the error of the integrator, of that rule,
-// and of corrections. A row that is switched on while its contact moves (`rebound: constrained`) does work too; it counts as
-// supplied by constraints.
+// steps: by Simpson's rule with the state in the middle (between_states.hpp); where that would be less accurate than the integrator,
+// of an order above four with dense output of its own, by Lobatto's rule through five points of that; in steps that swing by the
+// integrator's own quadrature. Nothing is evaluated there while all powers are 0 but for round-off. `numerical` is what remains: the
+// error of the integrator, of that rule, and of corrections. A row that is switched on while its contact moves
+// (`rebound: constrained`) does work too; it counts as supplied by constraints.
 #pragma once
 
 #include <vector>
@@ -50,12 +51,15 @@ class Ledger {
   const model::AssembledSystem::Balance& balance(double t, const Vec& q, const Vec& v, const Vec& lambda);
   // Powers at the ends: now_, end_.
   void integrate_by_middle(const State& now, const State& next);
+  void integrate_by_dense_output(const State& now, const State& next);
   void integrate_by(OscillatingSteps& steps, const State& now, const State& next);
+  void evaluate_inside(const State& now, const State& next, double theta, double work_of_reactions);
   double off_rows(const Vec& lambda, double theta);
   void add(double duration, const model::AssembledSystem::Balance& power);
 
   model::AssembledSystem& system_;
   BetweenStates between_;
+  DenseOutput* dense_;  // of a smooth method of high order, or none
   model::AssembledSystem::Balance now_, middle_, end_;
   double energy_start_ = 0, drives_ = 0, constraints_ = 0, markers_ = 0, dampers_ = 0, contacts_ = 0;  // [J]
   double refinements_ = 0;                                                                             // [J]

@@ -52,6 +52,18 @@ TEST(TrussScenes, MastWithDampersAndAForceLocksAtTheExactTime) {
   EXPECT_NEAR(run.result["energy_supplied"]["drives"].get<double>(), number(exact["W_external_J"]), 1e-9);
 }
 
+// What the energy correction aims at has to be as accurate as the method: dampers' and the force's work by its dense output.
+TEST(TrussScenes, EnergyCorrectionLeavesAMethodOfHighOrderItsLockTime) {
+  for (const auto& [tolerance, within] : {std::pair("1e-8", 1e-9), {"1e-12", 3e-13}}) {
+    const Finished run = run_file("truss/S1d.json", {{"integrator.type", "dop853"},
+                                                     {"integrator.step", "null"},
+                                                     {"integrator.step.tolerance", tolerance},
+                                                     {"corrections.energy", "true"}});
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    EXPECT_NEAR(lock_of(run).t, number(reference()["exact"]["S1d"]["t_lock"]), within) << tolerance;
+  }
+}
+
 TEST(TrussScenes, RedundantRowsDoNotChangeTheMast) {
   const Finished run = run_file("truss/S1R.json", {{"integrator.step", "2e-3"}, {"simulate.until", "1.85"}});
   ASSERT_TRUE(run.done()) << run.report.reason;

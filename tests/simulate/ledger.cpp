@@ -30,6 +30,22 @@ TEST(EnergyLedger, GivesADamperWhatItTook) {
   EXPECT_NEAR(drift(run), 0, 1e-11);
 }
 
+TEST(EnergyLedger, GivesADamperWhatItTookWithTheOrderOfTheMethod) {
+  const auto error = [](const char* type, const char* step) {
+    const Finished run = run_text(
+        puck,
+        {{"forces.damper",
+          R"({"type": "spring_damper", "between": ["ground", "mass.point"], "stiffness": 0, "damping": 3, "length": 1})"},
+         {"integrator.type", type},
+         {"integrator.step", step}});
+    return std::abs(run.result["energy_dissipated"]["dampers"].get<double>() - 2 * (1 - std::exp(-6.0)));
+  };
+  const auto order = [&](const char* type) { return std::log2(error(type, "0.1") / error(type, "0.05")); };
+  EXPECT_GT(order("runge_kutta_4"), 3.8);
+  EXPECT_GT(order("dormand_prince"), 4.8);
+  EXPECT_GT(order("dop853"), 6.8);  // of its dense output
+}
+
 TEST(EnergyLedger, GivesADamperWhatManySwingsOfAStepLose) {
   // x'' = -1e4 x - 0.2 x' from x = 1: a step of exponential collocation holds several of its swings.
   const Finished run = run_text(
