@@ -15,6 +15,8 @@ import numpy as np  # noqa: E402
 from runs import Run  # noqa: E402
 
 plt.rcParams.update({"svg.hashsalt": "trammel", "font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 0.9})
+LEGEND_BELOW = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.17)}  # where it would hide what is drawn
+COLOURS = len(plt.rcParams["axes.prop_cycle"])
 
 
 @dataclasses.dataclass
@@ -45,13 +47,16 @@ class Panel:
         return [(curve.label, *values(curve, results)) for curve in self.curves]
 
     def draw(self, ax, results):
+        many = len(self.curves) > COLOURS
+        if many:
+            ax.set_prop_cycle(color=plt.colormaps["tab20"].colors)
         for label, t, y in self.drawn(results):
             if self.log:  # a norm is zero while no constraint is on
                 (ax.loglog if self.log_t else ax.semilogy)(t[y > 0], y[y > 0], ".", markersize=2, label=label)
             else:
                 ax.plot(t, y, self.style, label=label)
         ax.set(title=self.title, xlabel=self.xlabel, ylabel=self.ylabel)
-        ax.legend(fontsize=7)
+        ax.legend(fontsize=7, markerscale=3, **(LEGEND_BELOW | {"ncols": 2} if many else {}))
 
     def table(self, results):
         """One column per curve on the times of all; empty where a run was not recorded or had ended."""
@@ -85,7 +90,7 @@ class Lines:
         ax.set(title=self.title, xlabel=self.xlabel, ylabel=self.ylabel)
         if self.equal:
             ax.set_aspect("equal", "datalim")
-        ax.legend(fontsize=7, **({"loc": "upper center", "bbox_to_anchor": (0.5, -0.15), "ncols": 3} if self.equal else {}))
+        ax.legend(fontsize=7, **(LEGEND_BELOW | {"ncols": 3} if self.equal else {}))
 
     def table(self, results):
         yield ["curve", self.xlabel, self.ylabel]

@@ -94,7 +94,7 @@ FIGURES = [Figure("violations", f"Oscillating mast, Runge-Kutta 4, {STEPS} steps
     panel("positions", "rows", "norm of g [m]", violation("position")),
     panel("velocities", "rates of the rows", "norm of G v [m/s]", violation("velocity")),
     panel("energy", "energy", "error [J]", energy_error),
-])]
+], size=(5.2, 4.6))]
 
 
 # Tables ---------------------------------------------------------------------------------------------------------------------
