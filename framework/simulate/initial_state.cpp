@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "simulate/redundancy.hpp"
-
 #include "simulate/contact_scale.hpp"
 #include "simulate/equilibrium.hpp"
+#include "simulate/redundancy.hpp"
+#include "simulate/row_offsets.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -100,17 +100,22 @@ std::string moves(model::AssembledSystem& system, const State& from, const State
   return text;
 }
 
+// At the first joint or body of a conflict.
+scene::Problem problem_at(const std::vector<std::string>& paths, const scene::Value& root, std::string message) {
+  const scene::Value* at = paths.empty() ? nullptr : root.at_path(paths.front());
+  return (at ? *at : root).problem(std::move(message));
+}
+
 // Why no consistent state was found, and which joints and bodies are to blame.
-std::string contradiction(model::AssembledSystem& system, const State& start) {
+scene::Problem contradiction(model::AssembledSystem& system, const State& start, const scene::Value& root) {
   const std::vector<std::string> paths = smallest_conflict(system, start);
-  if (paths.empty())
-    return "no consistent initial state was found nearby: the joints contradict each other, or the bodies are far off";
+  const std::string none = "no consistent initial state was found nearby: ";
+  if (paths.empty()) return root.problem(none + "the joints contradict each other, or the bodies are far off");
   if (paths.size() == 1)
-    return fmt::format("no consistent initial state was found nearby: {} alone cannot hold from there", paths[0]);
-  return fmt::format(
-      "no consistent initial state was found nearby: {} contradict each other; without any one of them the rest can "
-      "hold",
-      fmt::join(paths, ", "));
+    return problem_at(paths, root, fmt::format("{}{} alone cannot hold from there", none, paths[0]));
+  return problem_at(paths, root,
+                    fmt::format("{}{} contradict each other; without any one of them the rest can hold", none,
+                                fmt::join(paths, ", ")));
 }
 
 // Rows that hold as they are, and still ask for accelerations that no motion has.
@@ -126,10 +131,10 @@ void check_motion(model::AssembledSystem& system, const State& s, const scene::V
   if (missed.norm() <= 1e-6 * std::max(1.0, a.norm())) return;
   const std::vector<std::string> paths = smallest_conflict(system, s);
   if (!paths.empty())
-    problems.error(
-        root.problem(fmt::format("{} hold at the start but prescribe motions that contradict each other; without any "
-                                 "one of them the rest can hold",
-                                 fmt::join(paths, ", "))));
+    problems.error(problem_at(paths, root,
+                              fmt::format("{} hold at the start but prescribe motions that contradict each other; "
+                                          "without any one of them the rest can hold",
+                                          fmt::join(paths, ", "))));
 }
 
 void check_rows(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
@@ -142,22 +147,20 @@ void check_rows(model::AssembledSystem& system, const State& s, const scene::Val
     const double position = g.segment(rows.first, rows.count).norm(),
                  velocity = g_dot.segment(rows.first, rows.count).norm();
     if (position <= tolerance && velocity <= tolerance * speed) continue;
-    const scene::Value* at = root.at_path(rows.path);
-    problems.error(
-        (at ? *at : root)
-            .problem(fmt::format("the initial state does not satisfy this {}: off by {:.6g} (m, rad) in "
-                                 "position and {:.6g} (m/s, rad/s) in velocity",
-                                 rows.path.starts_with("joints.") ? "joint" : "body's own rows", position, velocity)));
+    const Offset off = norm(row_offsets(system, rows, s));
+    problems.error(problem_at(
+        {rows.path}, root,
+        fmt::format("the initial state does not satisfy this {}: off by {:.6g} (m, rad) in "
+                    "position and {:.6g} (m/s, rad/s) in velocity",
+                    rows.path.starts_with("joints.") ? "joint" : "body's own rows", off.position, off.velocity)));
     wrong = true;
   }
   if (!wrong) return;
   const bool found = project_position(system, nearest) && project_velocity(system, nearest);
-  problems.error(root.problem(
-      found
-          ? fmt::format(
-                "the nearest consistent initial state moves {}; \"initial\": {{\"consistent\": \"project\"}} takes it",
-                moves(system, s, nearest))
-          : contradiction(system, s)));
+  if (!found) return problems.error(contradiction(system, s, root));
+  problems.error(root.problem(fmt::format(
+      "the nearest consistent initial state moves {}; \"initial\": {{\"consistent\": \"project\"}} takes it",
+      moves(system, s, nearest))));
 }
 
 void check_contacts(model::AssembledSystem& system, const State& s, const scene::Value& root,
@@ -171,8 +174,8 @@ void check_contacts(model::AssembledSystem& system, const State& s, const scene:
         (at ? *at : root)
             .problem(limit ? fmt::format("the initial state has passed the value that this contact waits for by {:.6g} "
                                          "(m, rad); expected a start {} it, or \"from\": \"{}\"",
-                                         -system.gap(i), limit->side > 0 ? "above" : "below",
-                                         limit->side > 0 ? "below" : "above")
+                                         std::abs(row_offset(system, *limit, s.t).position),
+                                         limit->side > 0 ? "above" : "below", limit->side > 0 ? "below" : "above")
                            : fmt::format("the initial state penetrates the plane by {:.6g} m; expected a gap >= 0",
                                          -system.gap(i))));
   }
@@ -199,7 +202,7 @@ State initial_state(model::AssembledSystem& system, double t, Settings::Initial 
     if (wanted == Settings::Initial::check)
       check_rows(system, s, root, problems);
     else if (!project_position(system, s) || !project_velocity(system, s))
-      problems.error(root.problem(contradiction(system, s)));
+      problems.error(contradiction(system, s, root));
     if (problems.empty()) check_motion(system, s, root, problems);
   }
   if (wanted == Settings::Initial::equilibrium && problems.empty())

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "simulate/row_offsets.hpp"
 #include "simulate/unrelated.hpp"
 
 namespace trammel::simulate {
@@ -123,7 +124,7 @@ bool rows_depend_on_time(model::AssembledSystem& system, const State& start, dou
   return false;
 }
 
-// Empty: it can, or nobody knows.
+// [m, rad] Empty: it can, or nobody knows.
 std::optional<double> nearest_if_never(model::AssembledSystem& system, const State& start, int contact) {
   double nearest = std::numeric_limits<double>::infinity();
   for (int attempt = 0; attempt < 4; ++attempt) {
@@ -131,7 +132,8 @@ std::optional<double> nearest_if_never(model::AssembledSystem& system, const Sta
     if (attempt > 0) system.retract(start.q, unrelated(start.v.size(), 0.1, attempt), q);
     Approach approach(system, start.t, contact);
     if (approach.from(q) != Approach::End::stationary) return {};
-    nearest = std::min(nearest, approach.gap());
+    const auto& limit = system.model().contacts[std::size_t(contact)].limit;
+    nearest = std::min(nearest, limit ? std::abs(row_offset(system, *limit, start.t).position) : approach.gap());
   }
   return nearest;
 }

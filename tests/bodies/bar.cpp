@@ -52,7 +52,7 @@ TEST(Bar, MovesItsEndsOntoALengthThatDiffersWhenAsked) {
   } catch (const scene::SceneError& error) {
     EXPECT_NE(std::string(error.what())
                   .find("bodies.rod: the initial state does not satisfy this body's own rows: off by "
-                        "0.0958333 (m, rad) in position"),
+                        "0.1 (m, rad) in position"),
               std::string::npos)
         << error.what();
   }

@@ -121,6 +121,22 @@ TEST(InconsistentStart, IsRefusedForItsVelocityToo) {
   EXPECT_THAT(refusal(struck_bar, {{"bodies.bar.velocity", "[0.25, 0]"}}), HasSubstr("0.25 (m/s, rad/s) in velocity"));
 }
 
+// A rod's row is (|d|^2/L - L)/2, an angle's in space sin(delta); what is told is |d| - L, delta and their rates.
+TEST(InconsistentStart, IsToldInMetresAndRadiansWhateverTheScaleOfTheRows) {
+  const std::string rod = R"({"trammel": 1, "gravity": [0, 0],
+    "bodies": {"bob": {"type": "point_mass", "mass": 1, "position": [2, 0], "velocity": [0.5, 0]}},
+    "joints": {"rod": {"type": "distance", "between": ["ground", "bob.point"], "length": 1}},
+    "integrator": {"type": "runge_kutta_4", "step": 0.01}, "simulate": {"until": 1}, "record": {"every": 1}})";
+  EXPECT_THAT(refusal(rod, {}),
+              HasSubstr("joints.rod: the initial state does not satisfy this joint: off by 1 (m, rad) in "
+                        "position and 0.5 (m/s, rad/s) in velocity"));
+  const std::string turned = R"({"trammel": 1, "space": "spatial", "gravity": [0, 0, 0],
+    "bodies": {"door": {"type": "rigid_body", "mass": 1, "inertia": [1, 1, 1], "angular_velocity": [0, 0, 0.5]}},
+    "joints": {"hinge": {"type": "revolute", "between": ["ground", "door.com"], "axis": [0, 0, 1], "angle": 0.75}},
+    "integrator": {"type": "runge_kutta_4", "step": 0.01}, "simulate": {"until": 1}, "record": {"every": 1}})";
+  EXPECT_THAT(refusal(turned, {}), HasSubstr("off by 0.75 (m, rad) in position and 0.5 (m/s, rad/s) in velocity"));
+}
+
 TEST(InconsistentStart, IsMovedOntoTheJointsWhenAskedFor) {
   const Finished run = run_text(struck_bar, {{"bodies.bar.position", "[0.403, 0.304]"},
                                              {"bodies.bar.velocity", "[0.25, 0]"},
