@@ -5,13 +5,14 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <Eigen/QR>
 
 namespace trammel::simulate {
 namespace {
 
-constexpr int most_rows = 1000;          // the search is dense: n^3 operations
-constexpr int most_groups = 60;          // each is left out once, and a state is looked for without it
+constexpr int most_rows = 1000;          // dense: n^3 operations
 constexpr double rank_tolerance = 1e-7;  // sine of a row's angle to those before it
 constexpr double tolerance = 1e-8;       // [m], [rad] and their rates: what counts as satisfied
 
@@ -34,28 +35,52 @@ class Chosen {
   Chosen(model::AssembledSystem& system, std::vector<model::RowGroup> groups)
       : system_(system), groups_(std::move(groups)) {}
 
-  // Positions by Newton's method with steps of minimum norm, then velocities and accelerations, which are linear.
+  // Positions, then velocities and accelerations, which are linear. What the velocities are beyond those that the rows ask for must
+  // not count: where their rank is about to change no motion may go on from them.
   bool can_hold(State s) const {
-    double before = std::numeric_limits<double>::infinity();
-    Vec dq, q;
-    for (int i = 0; i < 30; ++i) {
-      system_.move_to(s.t, s.q, s.v);
-      const Vec g = rows_of(system_.g());
-      if (!g.allFinite() || (g.norm() > 0.5 * before && g.norm() > tolerance)) return false;
-      before = g.norm();
-      if (before < 1e-3 * tolerance) break;
-      dq = -minimum_norm(g);
-      system_.retract(s.q, dq, q);
-      s.q = q;
+    if (!find_positions(s)) return false;
+    const Vec v = s.v;
+    for (const Vec& start : {v, Vec(Vec::Zero(v.size()))}) {
+      s.v = start;
+      if (find_velocities(s) && has_accelerations()) return true;
     }
-    if (!(before < tolerance)) return false;
+    return false;
+  }
 
-    system_.move_to(s.t, s.q, s.v);
-    const Vec dv = -minimum_norm(rows_of(system_.g_dot()));
-    s.v += dv;
-    system_.move_to(s.t, s.q, s.v);
-    if (!(rows_of(system_.g_dot()).norm() < tolerance * std::max(1.0, s.v.norm()))) return false;
+ private:
+  // Newton's method with steps of minimum norm, shorter ones where they do not help.
+  bool find_positions(State& s) const {
+    constexpr double least_step = 1e-2, least_gain = 0.1;
+    double now = move_to(s, s.q);
+    for (int i = 0; i < 50 && now > 1e-3 * tolerance; ++i) {
+      const Vec dq = -minimum_norm(rows_of(system_.g()));
+      double step = 1, then = 0;
+      Vec q;
+      for (; step > least_step; step /= 2) {
+        system_.retract(s.q, step * dq, q);
+        then = move_to(s, q);
+        if (then < (1 - least_gain * step) * now) break;
+      }
+      if (!(step > least_step)) break;
+      s.q = q;
+      now = then;
+    }
+    move_to(s, s.q);
+    return now < tolerance;
+  }
+  double move_to(const State& s, const Vec& q) const {
+    system_.move_to(s.t, q, s.v);
+    return rows_of(system_.g()).norm();
+  }
 
+  bool find_velocities(State& s) const {
+    system_.move_to(s.t, s.q, s.v);
+    s.v -= minimum_norm(rows_of(system_.g_dot()));
+    system_.move_to(s.t, s.q, s.v);
+    return rows_of(system_.g_dot()).norm() < tolerance * std::max(1.0, s.v.norm());
+  }
+
+  bool has_accelerations() const {
     Vec gamma;
     system_.constraint_acceleration(Vec::Zero(system_.sizes().nv), gamma);
     const Vec wanted = -rows_of(gamma);
@@ -64,7 +89,6 @@ class Chosen {
     return rows_of(gamma).norm() < 1e-6 * std::max(1.0, wanted.norm());
   }
 
- private:
   Vec rows_of(const Vec& all) const {
     std::vector<double> some;
     for (const model::RowGroup& rows : groups_)
@@ -74,6 +98,7 @@ class Chosen {
 
   // x of least norm with G x = r, in the least-squares sense.
   Vec minimum_norm(const Vec& r) const {
+    if (r.size() == 0) return Vec::Zero(system_.sizes().nv);
     const Mat Gt = transposed_rows(system_);
     Mat G(r.size(), Gt.rows());
     Eigen::Index i = 0;
@@ -119,17 +144,29 @@ std::vector<RedundantRows> redundant_rows(model::AssembledSystem& system, const 
 
 std::vector<std::string> smallest_conflict(model::AssembledSystem& system, const State& start) {
   std::vector<std::string> paths;
-  const std::vector<model::RowGroup> all = row_groups(system.model());
-  if (int(all.size()) > most_groups || system.model().sizes.nc > most_rows) return paths;
-  if (Chosen(system, all).can_hold(start)) return paths;
-  std::vector<model::RowGroup> conflict = all;
-  for (const model::RowGroup& one : all) {
-    std::vector<model::RowGroup> rest = conflict;
-    std::erase_if(rest, [&](const model::RowGroup& rows) { return rows.first == one.first; });
-    if (!Chosen(system, rest).can_hold(start)) conflict = std::move(rest);
+  std::vector<model::RowGroup> conflict = row_groups(system.model());
+  if (system.model().sizes.nc > most_rows || Chosen(system, conflict).can_hold(start)) return paths;
+  // Half of them at a time, then fewer: of many rows few conflict.
+  for (std::size_t part = std::max<std::size_t>(1, conflict.size() / 2);; part /= 2) {
+    for (std::size_t at = 0; at < conflict.size();) {
+      std::vector<model::RowGroup> rest = conflict;
+      const auto first = rest.begin() + std::ptrdiff_t(at);
+      rest.erase(first, first + std::ptrdiff_t(std::min(part, rest.size() - at)));
+      if (Chosen(system, rest).can_hold(start))
+        at += part;
+      else
+        conflict = std::move(rest);
+    }
+    if (part == 1) break;
   }
   for (const model::RowGroup& rows : conflict) paths.push_back(rows.path);
   return paths;
+}
+
+std::string told(const std::vector<std::string>& conflict) {
+  if (conflict.size() == 1) return fmt::format("{} alone cannot hold from there", conflict[0]);
+  return fmt::format("{} prescribe motions that contradict each other; without any one of them the rest can hold",
+                     fmt::join(conflict, ", "));
 }
 
 }  // namespace trammel::simulate

@@ -2,7 +2,8 @@
 //
 // Rows are independent as long as each has a part perpendicular to all rows before it; a row without one is redundant.
 // They conflict when no state near the given one satisfies them all: their positions, their velocities G v = -g_t, or their
-// accelerations G a = gamma. The conflicting set named is a smallest one: without any of its members the rest can hold.
+// accelerations G a = gamma; velocities that the rows do not ask for are given up where those then can be met. The conflicting set
+// named is a smallest one: without any of its members the rest can hold.
 #pragma once
 
 #include <string>
@@ -23,5 +24,7 @@ std::vector<RedundantRows> redundant_rows(model::AssembledSystem& system, const 
 
 // Paths of joints and bodies in the order of their rows; empty: all can hold, or there are too many to search.
 std::vector<std::string> smallest_conflict(model::AssembledSystem& system, const State& start);
+// What to say of them, if there are any.
+std::string told(const std::vector<std::string>& conflict);
 
 }  // namespace trammel::simulate

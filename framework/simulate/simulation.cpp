@@ -11,6 +11,7 @@
 #include "simulate/blame.hpp"
 #include "simulate/checkpoint.hpp"
 #include "simulate/crash_witness.hpp"
+#include "simulate/redundancy.hpp"
 #include "simulate/result.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/simulator.hpp"
@@ -65,9 +66,9 @@ class Run {
     } catch (const BadStep& e) {
       fail(plugin::PluginError(setup_.integrator_origin, "step", e.what(), simulator_->state().t).in_step(step()));
     } catch (const RunFailed& e) {
-      end(Status::failed, e.what());
+      end(Status::failed, e.what() + contradiction());
     } catch (const model::NotSolvable& e) {
-      end(Status::failed, where(e.what()));
+      end(Status::failed, where(e.what()) + contradiction());
     } catch (const OutputError& e) {
       out_of_room(e);
     } catch (const plugin::PluginError& e) {
@@ -86,6 +87,15 @@ class Run {
  private:
   std::string where(const char* what) const {
     return fmt::format("at t = {:.9g} s, step {}: {}", simulator_->state().t, step(), what);
+  }
+  // Whatever a method says of its steps: the reason may be rows that no motion satisfies.
+  std::string contradiction() {
+    try {
+      const std::vector<std::string> conflict = simulator_->conflict();
+      return conflict.empty() ? "" : "; " + told(conflict);
+    } catch (const std::exception&) {
+      return "";  // a component has no answer there; the failure itself is told
+    }
   }
   long long step() const { return simulator_->statistics().steps + 1; }
 

@@ -5,10 +5,8 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "plugin/guard.hpp"
-#include "simulate/redundancy.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/trial_step.hpp"
 
@@ -18,10 +16,6 @@ namespace {
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr std::size_t most_warnings = 20;
 
-bool near_the_end_of_numbers(const State& s) {
-  return !(std::max(s.q.lpNorm<Eigen::Infinity>(), s.v.lpNorm<Eigen::Infinity>()) < 1e30);
-}
-
 int error_order(Integrator& integrator) {
   const auto* estimate = dynamic_cast<const ErrorEstimate*>(&integrator);
   return estimate ? estimate->error_order() : 1;
@@ -29,16 +23,6 @@ int error_order(Integrator& integrator) {
 
 bool even_steps(Integrator& integrator) {
   return dynamic_cast<const OscillatingSteps*>(&integrator) != nullptr;
-}
-
-// Rows that begin to contradict each other have accelerations of least squares, which an explicit method would follow. The error of
-// Baumgarte's terms is less; and what looks like it is examined.
-std::vector<std::string> contradiction(model::AssembledSystem& system, const State& s, const ConstraintNorms& norms) {
-  constexpr double suspicious = 0.1;
-  if (!(norms.acceleration > suspicious * std::max(1.0, s.a.norm())) || !system.redundant()) return {};
-  std::vector<std::string> paths = smallest_conflict(system, s);
-  system.move_to(s.t, s.q, s.v);
-  return paths;
 }
 
 }  // namespace
@@ -65,6 +49,7 @@ void Simulator::start(State initial) {
   turns_.follow(now_.t, now_.q, now_.v);
   system_.move_to(now_.t, now_.q, now_.v);
   scale_.take_all(system_);
+  measure_joints();
   ContactChanges pressing, striking;
   for (int i = 0; i < int(system_.model().contacts.size()); ++i) {
     const bool compliant = system_.model().contacts[i].force, pressed = system_.gap(i) < -scale_.touching();
@@ -82,6 +67,7 @@ void Simulator::start(State initial) {
 }
 
 void Simulator::resume() {
+  measure_joints();
   in_contact_ = modes_.any_closed();
   if (!last_row_ || now_.t >= settings_.until) return;
   // The end has moved: go on with rows at their multiples. The row at the former end may not have been one of them.
@@ -101,6 +87,7 @@ void Simulator::record_due(Recorder& recorder) {
     last_row_ = record_time(records_) >= settings_.until;
     ++records_;
     judge_energy();
+    judge_joints(now_);
   }
 }
 
@@ -211,10 +198,14 @@ void Simulator::fail(double h, const std::string& why) const {
   throw RunFailed(fmt::format("{}: {}", when(h), why));
 }
 
+bool Simulator::near_the_end_of_numbers() const {
+  return !(std::max(now_.q.lpNorm<Eigen::Infinity>(), now_.v.lpNorm<Eigen::Infinity>()) < 1e30);
+}
+
 // Throws if a component answers with numbers that are not finite where the step began, or at the times it went to. Not when
 // the state itself is near the end of the numbers: then any component's answer may overflow.
 void Simulator::find_culprit(double h) {
-  if (near_the_end_of_numbers(now_)) return;
+  if (near_the_end_of_numbers()) return;
   for (const double part : {0.0, 0.5, 1.0, 2.0}) {
     system_.move_to(now_.t + part * h, now_.q, now_.v);
     const model::CallSite site = system_.find_not_finite();
@@ -226,8 +217,7 @@ void Simulator::find_culprit(double h) {
 void Simulator::fail_not_finite(double h) {
   find_culprit(h);
   const std::string what = not_finite_in(next_);
-  if (!what.empty() && !near_the_end_of_numbers(now_) &&
-      !finite_with_shorter_steps(integrator_, system_, now_, h, inside_))
+  if (!what.empty() && !near_the_end_of_numbers() && !finite_with_shorter_steps(integrator_, system_, now_, h, inside_))
     throw BadStep(fmt::format("it returned {}; expected finite numbers", what));
   fail(h, "the solution diverged: numbers that are not finite. The step may be too long for the method");
 }
@@ -269,9 +259,7 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
     system_.move_to(next_.t, next_.q, next_.v);
     const ConstraintNorms norms = constraint_norms(system_, next_, scratch_);
     statistics_.largest.raise_to(norms);
-    if (const auto paths = contradiction(system_, next_, norms); !paths.empty())
-      fail(h, fmt::format("{} prescribe motions that contradict each other; without any one of them the rest can hold",
-                          fmt::join(paths, ", ")));
+    if (contradictory(norms)) fail(h, "the rows ask for accelerations that no motion has");
   }
   if (location_.watches()) scale_.take_contacts(system_);
   statistics_.locating_steps = location_.steps_tried();
@@ -291,6 +279,7 @@ void Simulator::record_inside(Recorder& recorder) {
     system_.move_to(t, inside_.q, inside_.v);
     system_.accelerate({}, inside_.a, inside_.lambda);
     recorder.row(system_, inside_);
+    judge_joints(inside_);
     ++records_;
   }
 }

@@ -21,6 +21,7 @@
 #include "simulate/contact_scale.hpp"
 #include "simulate/event_location.hpp"
 #include "simulate/ledger.hpp"
+#include "simulate/open_joints.hpp"
 #include "simulate/recorder.hpp"
 #include "simulate/refinement.hpp"
 #include "simulate/settings.hpp"
@@ -55,6 +56,8 @@ class Simulator {
   const std::vector<std::string>& warnings() const { return warnings_; }
   Energy energy_at_state();
   double energy_drift();  // [J] what no cause in the ledger explains
+  // Joints and bodies whose rows no state near the last one satisfies, there or a step later; empty: none are known.
+  std::vector<std::string> conflict();
 
  private:
   StepControl& control() { return in_contact_ || now_.t < hold_until_ ? contact_control_ : free_control_; }
@@ -64,6 +67,10 @@ class Simulator {
   void record_due(Recorder& recorder);
   double relative_drift();
   void judge_energy();
+  void measure_joints();
+  void judge_joints(const State& state);
+  bool contradictory(const ConstraintNorms& norms);
+  bool near_the_end_of_numbers() const;
   bool try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
   void refuse(const StepControl::Proposal& proposal, const char* reason);
   std::string when(double h) const;
@@ -94,6 +101,7 @@ class Simulator {
   Ledger ledger_;
   Refinement refinement_;
   TurnCounts turns_;
+  OpenJoints open_joints_;
   Statistics statistics_;
 
   State now_, next_, inside_, uncorrected_;

@@ -97,6 +97,7 @@ void Simulator::refine(Recorder& recorder, int contact) {
   else
     integrator_.restart(system_, now_);
   restart_all_but_integrator();
+  measure_joints();
 }
 
 }  // namespace trammel::simulate

@@ -137,6 +137,23 @@ TEST(InconsistentStart, IsToldInMetresAndRadiansWhateverTheScaleOfTheRows) {
   EXPECT_THAT(refusal(turned, {}), HasSubstr("off by 0.75 (m, rad) in position and 0.5 (m/s, rad/s) in velocity"));
 }
 
+// A pendulum whose error per step is nobody's to correct: its rod grows.
+TEST(OpenJoints, EndTheRunWithTheirNamesAndHowFarTheyAreApart) {
+  const auto drifting = [](double until) {
+    return run_text(fmt::format(R"({{"trammel": 1, "gravity": [0, -9.81],
+      "bodies": {{"bob": {{"type": "point_mass", "mass": 1, "position": [1, 0]}}}},
+      "joints": {{"rod": {{"type": "distance", "between": ["ground", "bob.point"], "length": 1}}}},
+      "integrator": {{"type": "runge_kutta_4", "step": 0.1}},
+      "simulate": {{"until": {}}}, "record": {{"every": 1}}}})",
+                                until));
+  };
+  EXPECT_TRUE(drifting(2).done());
+  const Finished run = drifting(1000);
+  EXPECT_FALSE(run.done());
+  EXPECT_THAT(run.report.reason, HasSubstr("joints have come apart: joints.rod by 0.1"));
+  EXPECT_THAT(run.report.reason, testing::Not(HasSubstr("contradict")));  // there is a state nearby that holds it
+}
+
 TEST(InconsistentStart, IsMovedOntoTheJointsWhenAskedFor) {
   const Finished run = run_text(struck_bar, {{"bodies.bar.position", "[0.403, 0.304]"},
                                              {"bodies.bar.velocity", "[0.25, 0]"},

@@ -1,0 +1,47 @@
+// What a run makes of joints that contradict each other, and of those that have come apart.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "simulate/redundancy.hpp"
+#include "simulate/run_failed.hpp"
+#include "simulate/simulator.hpp"
+
+namespace trammel::simulate {
+
+void Simulator::measure_joints() {
+  system_.move_to(now_.t, now_.q, now_.v);
+  open_joints_.measure(system_, scale_.length());
+}
+
+void Simulator::judge_joints(const State& state) {
+  system_.move_to(state.t, state.q, state.v);
+  if (const std::string open = open_joints_.told(system_, state); !open.empty())
+    throw RunFailed(fmt::format(
+        "at t = {:.9g} s, step {}: joints have come apart: {}. Shorter steps, \"corrections\" or a method that ends "
+        "its steps on the rows keep them closed if they can be",
+        state.t, statistics_.steps, open));
+}
+
+// Rows that begin to contradict each other have accelerations of least squares, which an explicit method would follow. The error of
+// Baumgarte's terms is less; and what looks like it is examined. At the end of the step, where the system is.
+bool Simulator::contradictory(const ConstraintNorms& norms) {
+  constexpr double suspicious = 0.1;
+  if (!(norms.acceleration > suspicious * std::max(1.0, next_.a.norm())) || !system_.redundant()) return false;
+  const bool found = !smallest_conflict(system_, next_).empty();
+  system_.move_to(next_.t, next_.q, next_.v);
+  return found;
+}
+
+std::vector<std::string> Simulator::conflict() {
+  if (system_.sizes().nc == 0 || near_the_end_of_numbers()) return {};
+  const double step = statistics_.largest_step > 0 ? statistics_.largest_step : settings_.every;
+  for (const double ahead : {0.0, step}) {
+    State s = now_;
+    s.t += ahead;
+    if (std::vector<std::string> paths = smallest_conflict(system_, s); !paths.empty()) return paths;
+  }
+  return {};
+}
+
+}  // namespace trammel::simulate
