@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "plugin/guard.hpp"
+#include "plugin/parameters.hpp"
 
 namespace trammel::plugin {
 
@@ -121,9 +122,23 @@ std::string describe(const Parameter& parameter, const ParameterValue& fallback,
   return line;
 }
 
+// What the framework reads beside its parameters, but for "type".
+std::string describe_keys(Kind kind) {
+  const auto keys = framework_keys(kind).subspan(1);
+  if (keys.empty()) return "";
+  std::string page = fmt::format("\nKeys of every {}\n", to_string(kind));
+  std::size_t width = 0;
+  for (const FrameworkKey& key : keys) width = std::max(width, key.name.size());
+  const std::string indent(width + 4, ' ');
+  for (const FrameworkKey& key : keys)
+    page += fmt::format("  {:<{}}  {}", key.name, width, wrapped(key.doc, indent).substr(indent.size()));
+  return page;
+}
+
 // The JSON object a scene would hold: required parameters, to be filled in.
 std::string example(const Declaration& declaration) {
   std::string text = fmt::format("{{\"type\": \"{}\"", declaration.name);
+  if (declaration.kind == Kind::joint || declaration.kind == Kind::contact) text += ", \"between\": [...]";
   for (const Parameter& parameter : declaration.parameters)
     if (parameter.traits.required && parameter.name.find('.') == std::string::npos)
       text += fmt::format(", \"{}\": ...", parameter.name);
@@ -167,14 +182,12 @@ std::string describe(const Entry& entry) {
   page += wrapped(declaration.summary, "  ");
   if (!declaration.source.empty()) page += wrapped("Source: " + declaration.source, "  ");
   page += fmt::format("  Library: {}\n  In a scene: {}\n\n", entry.file, example(declaration));
-  if (declaration.parameters.empty()) return page + "No parameters.\n";
-
-  page += "Parameters\n";
+  page += declaration.parameters.empty() ? "No parameters.\n" : "Parameters\n";
   std::size_t width = 0;
   for (const Parameter& parameter : declaration.parameters) width = std::max(width, parameter.name.size());
   for (const Parameter& parameter : declaration.parameters)
     page += describe(parameter, default_of(entry, parameter), width);
-  return page;
+  return page + describe_keys(declaration.kind);
 }
 
 const Parameter& Part::declared(std::string_view key) const {

@@ -42,13 +42,13 @@ std::vector<std::string> keys_at(const std::vector<Parameter>& parameters, std::
 }
 
 void check_keys(const Declaration& declaration, const Value& object, const std::string& prefix,
-                std::span<const std::string> framework_keys, Problems& problems) {
+                std::span<const FrameworkKey> framework_keys, Problems& problems) {
   const std::vector<std::string> keys = keys_at(declaration.parameters, prefix);
   for (const auto& [key, member] : object.members()) {
-    if (std::find(framework_keys.begin(), framework_keys.end(), key) != framework_keys.end()) continue;
+    if (std::ranges::find(framework_keys, key, &FrameworkKey::name) != framework_keys.end()) continue;
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
       std::vector<std::string> candidates = keys;
-      candidates.insert(candidates.end(), framework_keys.begin(), framework_keys.end());
+      for (const FrameworkKey& known : framework_keys) candidates.push_back(known.name);
       problems.error(member.problem(fmt::format("{} \"{}\" has no parameter \"{}\"{}", to_string(declaration.kind),
                                                 declaration.name, prefix + key, scene::did_you_mean(key, candidates))));
       continue;
@@ -65,7 +65,7 @@ void check_keys(const Declaration& declaration, const Value& object, const std::
 }
 
 void set_parameters(Component& component, const Declaration& declaration, const Value& object,
-                    std::span<const std::string> framework_keys, Space space, Problems& problems);
+                    std::span<const FrameworkKey> framework_keys, Space space, Problems& problems);
 
 // One parameter's value from the scene: type, range, choices. Nothing if a problem was reported.
 class ValueReader {
@@ -215,7 +215,7 @@ void fit_default(Component& component, const Parameter& parameter, const Value& 
 }
 
 void set_parameters(Component& component, const Declaration& declaration, const Value& object,
-                    std::span<const std::string> framework_keys, Space space, Problems& problems) {
+                    std::span<const FrameworkKey> framework_keys, Space space, Problems& problems) {
   if (object.type() == Value::Type::object) check_keys(declaration, object, "", framework_keys, problems);
   for (const Parameter& parameter : declaration.parameters) {
     if (const Value* value = find(object, parameter.name)) {
@@ -237,10 +237,33 @@ scene::Problem refused(const Value& object, const ParameterError& e) {
   return problem;
 }
 
-std::span<const std::string> framework_keys(Kind kind) {
-  static const std::vector<std::string> joint{"type", "between"}, force{"type", "between", "on"},
-      contact{"type", "between", "radius", "friction", "reaches", "from"}, integrator{"type", "step", "contact_step"},
-      other{"type"};
+std::span<const FrameworkKey> framework_keys(Kind kind) {
+  static const FrameworkKey type = {"type", "the component's name"};
+  static const std::vector<FrameworkKey> other = {type};
+  static const std::vector<FrameworkKey> joint = {
+      type,
+      {"between",
+       "[A, B], markers: \"beam.tip\", \"ground\" or a frame {\"point\": ..., \"angle\": ...} fixed in the world; "
+       "three or four where a joint ties so many"}};
+  static const std::vector<FrameworkKey> force = {type,
+                                                  {"between", "[A, B], markers as those of joints"},
+                                                  {"on", "in its place, the one marker that the force acts on"}};
+  static const std::vector<FrameworkKey> contact = {
+      type,
+      {"between",
+       "[marker, {\"plane\": {\"point\": ..., \"normal\": ..., \"on\": marker}}], [marker, {\"surface\": body}], "
+       "[{\"surface\": body}, {\"plane\": ...}] or [{\"surface\": body}, {\"surface\": body}]; with \"reaches\" the "
+       "markers of its joint"},
+      {"radius", "[m] of a disk or sphere around the first marker; 0: a point"},
+      {"friction", "a law of friction, such as {\"type\": \"coulomb\", ...}; none if left out"},
+      {"reaches",
+       "a joint of one row between the markers, such as {\"type\": \"distance\", \"length\": 1}: the contact closes at "
+       "its 0"},
+      {"from", "\"above\" or \"below\", the side that \"reaches\" is approached from; above if left out"}};
+  static const std::vector<FrameworkKey> integrator = {
+      type,
+      {"step", "fixed [s], or controlled to a tolerance: see 'trammel describe step'"},
+      {"contact_step", "the step while a contact is closed; \"step\" if left out"}};
   switch (kind) {
     case Kind::joint:
       return joint;
@@ -263,7 +286,7 @@ std::unique_ptr<Component> new_component(const Entry& entry, const std::string& 
   });
 }
 
-std::unique_ptr<Component> make(const Entry& entry, const Value& object, std::span<const std::string> framework_keys,
+std::unique_ptr<Component> make(const Entry& entry, const Value& object, std::span<const FrameworkKey> framework_keys,
                                 const World& world, Problems& problems) {
   const Declaration& declaration = entry.declaration;
   const Origin origin = entry.origin(object.path());

@@ -14,14 +14,17 @@
 
 namespace trammel::plugin {
 
-// Keys of a component's object that the framework reads itself: "type", "between", ... The schema offers the same.
-std::span<const std::string> framework_keys(Kind kind);
+// Keys of a component's object that the framework reads itself, "type" first: what is read, and what manual and schema say.
+struct FrameworkKey {
+  std::string name, doc;
+};
+std::span<const FrameworkKey> framework_keys(Kind kind);
 
 // Makes the component and sets its parameters from `object`, then lets it look at the world. Problems (unknown keys
 // with the nearest name, types, ranges, missing values, what `prepare` refuses) go to `problems`, all of them at once;
 // then nullptr is returned. Throws PluginError when the component's constructor or `prepare` throws anything else.
 std::unique_ptr<Component> make(const Entry& entry, const scene::Value& object,
-                                std::span<const std::string> framework_keys, const World& world,
+                                std::span<const FrameworkKey> framework_keys, const World& world,
                                 scene::Problems& problems);
 
 // What a component refuses, said at the value of the parameter or, where it is missing, at the object it would stand in.

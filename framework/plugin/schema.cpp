@@ -139,8 +139,8 @@ Json part_schema(const Declaration& part) {
 Json schema_of(const Entry& entry) {
   const Declaration& declaration = entry.declaration;
   Json properties = Json::object();
-  for (const std::string& key : framework_keys(declaration.kind))
-    properties[key] = key == "type" ? Json{{"const", declaration.name}} : reference(key);
+  for (const FrameworkKey& key : framework_keys(declaration.kind))
+    properties[key.name] = key.name == "type" ? Json{{"const", declaration.name}} : with(reference(key.name), key.doc);
   const Kind kind = declaration.kind;
   if (kind == Kind::body || kind == Kind::joint || kind == Kind::force || kind == Kind::contact)
     properties["for"] = reference("for");
@@ -201,18 +201,16 @@ void define_common(Json& definitions, const std::vector<Part>& parts) {
   Json plane = object({{"point", reference("vector")}, {"normal", reference("vector")}, {"on", reference("marker")}});
   definitions["between"] = array_of(any_of(
       reference("marker"), any_of(object({{"plane", std::move(plane)}}), object({{"surface", {{"type", "string"}}}}))));
-  definitions["radius"] = with(number, "[m] of a disk or sphere around the first marker; 0: a point");
+  definitions["radius"] = number;
   definitions["between"]["minItems"] = 2;
   definitions["between"]["maxItems"] = 4;
-  definitions["reaches"] =
-      with(reference("joint"), "a joint of one row between the markers: the contact closes at its 0");
+  definitions["reaches"] = reference("joint");
   definitions["for"] =
       with(keyed(any_of(number, array_of(number))),
            "repeats this unit: {\"i\": n} counts 0 ... n - 1, {\"i\": [a, b]} a ... b; {i} in its texts");
-  definitions["from"] = with({{"enum", {"above", "below"}}}, "the side that \"reaches\" is approached from");
-  definitions["step"] =
-      with(any_of(reference("positive"), schema_of(parts, "step")), "fixed [s], or controlled to a tolerance");
-  definitions["contact_step"] = with(reference("step"), "the step while a contact is closed; \"step\" if left out");
+  definitions["from"] = {{"enum", {"above", "below"}}};
+  definitions["step"] = any_of(reference("positive"), schema_of(parts, "step"));
+  definitions["contact_step"] = reference("step");
 }
 
 // What a scene must say that is not a part of another one: an editor asks for it where nothing is included.

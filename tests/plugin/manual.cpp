@@ -62,11 +62,24 @@ Parameters
   length       a number > 0 [m]; may be left out
   mass         a number [kg]; required
   point        a vector; default [0, 0]
+
+Keys of every integrator
+  step          fixed [s], or controlled to a tolerance: see 'trammel describe step'
+  contact_step  the step while a contact is closed; "step" if left out
 )");
 }
 
 TEST(Describe, SaysThatThereAreNoParameters) {
   EXPECT_THAT(describe(law_entry), HasSubstr("\nNo parameters.\n"));
+}
+
+// A latch has no parameters, and is nothing without "reaches".
+TEST(Describe, SaysWhatTheFrameworkReadsBesideThem) {
+  const std::string page = describe(law_entry);
+  EXPECT_THAT(page, HasSubstr("In a scene: {\"type\": \"law\", \"between\": [...]}"));
+  EXPECT_THAT(page, HasSubstr("\nKeys of every contact\n  between "));
+  for (const char* key : {"radius ", "friction ", "reaches ", "from ", "\"on\": marker"})
+    EXPECT_THAT(page, HasSubstr(key));
 }
 
 TEST(List, HasALineForEachComponentUnderItsKind) {
