@@ -18,6 +18,7 @@ void NewmarkError::restart(const State& now) {
   t_ = now.t;
   a_ = now.a;
   a_before_.resize(0);
+  along_rows_.forget();
 }
 
 void NewmarkError::accept(const State& next) {
@@ -50,7 +51,11 @@ double NewmarkError::operator()(System& s, const State& now, const State& next, 
   }
   e_v_ = first_ * h * (next.a - now.a) + of_v_ * h * e_v_;
   e_q_ = of_q_ * h * h * (next.a - now.a);
-  return error_norm(e_q_, e_v_, now, next, tolerance);
+  return along_rows_.judge(now, next, [&](ErrorAlongRows::Part part) {
+    along_ = e_v_;
+    if (part == ErrorAlongRows::Part::along_rows) along_rows_.project(s, next, along_);
+    return error_norm(e_q_, along_, now, next, tolerance);
+  });
 }
 
 void NewmarkError::archive(Archive& a) {
@@ -58,6 +63,7 @@ void NewmarkError::archive(Archive& a) {
   a("error_h_before", h_before_);
   a("error_a", a_);
   a("error_a_before", a_before_);
+  along_rows_.archive(a);
 }
 
 }  // namespace trammel

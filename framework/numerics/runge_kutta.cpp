@@ -102,29 +102,11 @@ void RungeKutta::combine(const double* weights, int n, Vec& dq, Vec& dv) const {
   }
 }
 
-// The change of least kinetic energy to G v = 0.
-void RungeKutta::along_rows(System& s, const State& at, Vec& v) {
-  zero_.setZero(s.sizes().nv);
-  no_force_.setZero(s.sizes().nc);
-  right_.setZero(s.sizes().nc);
-  s.move_to(at.t, at.q, at.v);
-  s.factorise({1, 0, 0}, zero_, no_force_, Factors::projection);
-  s.add_rows_times(1, v, right_);
-  if (s.correct(zero_, right_, change_, mu_, Factors::projection)) v += change_;
-}
-
 double RungeKutta::norm(System& s, const State& now, const State& next, const Vec& e, Vec& e_v, Part part,
                         const Tolerance& tolerance) {
-  if (part == Part::along_rows && s.sizes().nc > 0) along_rows(s, next, e_v);
+  if (part == Part::along_rows) along_rows_.project(s, next, e_v);
   error_increment(s, next.q, e, embedded_, e_q_);
   return error_norm(e_q_, e_v, now, next, tolerance);
-}
-
-bool RungeKutta::falls(const State& now, const State& next, double error) {
-  constexpr double slowest = 2;  // order
-  const Trial before = std::exchange(trial_, {now.t, next.t - now.t, error});
-  const double shorter = trial_.h / before.h;
-  return before.t != now.t || !(shorter < 1) || error < std::pow(shorter, slowest) * before.error;
 }
 
 Outcome RungeKutta::step(System& s, const State& now, const Slope& first, double h, State& next) {

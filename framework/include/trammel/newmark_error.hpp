@@ -10,8 +10,11 @@
 //
 //     C_1 = gamma - 1/2 + delta,   C_q = beta + delta/2 - 1/6,   C_v = (delta (2 alpha_m - 1) + gamma (1 + 2 delta) -
 //     1/3)/2
+//
+// Near a change of rank round-off of rows of positions and velocities divides by h on its way to a: error_along_rows.hpp.
 #pragma once
 
+#include <trammel/error_along_rows.hpp>
 #include <trammel/integrator.hpp>
 
 namespace trammel {
@@ -32,7 +35,8 @@ class NewmarkError {
   bool of_velocities_ = true;
   double t_ = 0, h_before_ = 0;  // of the last accepted point; of the step that led to it
   Vec a_, a_before_;             // at the last accepted point and the one before; empty: none
-  Vec q_, v_, rate_, e_q_, e_v_, lambda_;
+  Vec q_, v_, rate_, e_q_, e_v_, along_, lambda_;
+  ErrorAlongRows along_rows_;  // where rows hold velocities, too
 };
 
 }  // namespace trammel

@@ -52,6 +52,7 @@ class NewmarkStep {
   void update(const System& s, const State& now, State& next);
   bool correct_rows(System& s, const Vec& r, State& next);
   bool misled(System& s, const Vec& r);  // by a_n
+  bool at_round_off(System& s, const Vec& r);
 
   double c_q_ = 0, c_v_ = 0;
   double size_q_ = 0, size_v_ = 0;      // of q and v

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <trammel/error_along_rows.hpp>
 #include <trammel/integrator.hpp>
 
 namespace trammel {
@@ -86,21 +87,16 @@ class RungeKutta {
   // h sum_i weights[i] k_i over the first n slopes.
   void combine(const double* weights, int n, Vec& dq, Vec& dv) const;
   // The norm of a local error at the step's end, of e, numbers of q, and e_v: of the whole, or without e_v's part across the rows.
-  enum class Part { whole, along_rows };
+  using Part = ErrorAlongRows::Part;
   double norm(System& s, const State& now, const State& next, const Vec& e, Vec& e_v, Part part,
               const Tolerance& tolerance);
-  // The error as `estimate`, a double(Part), tells of the whole while that falls as steps are shortened. If not, it is round-off:
-  // near a change of rank accelerations across rows that hold to d are uncertain by d / theta^3, and steps small enough for that
-  // would come to no end. It does no harm, as the step's end is put onto the rows. From there to where the whole is small again
-  // what is along the rows counts.
+  // The error as `estimate`, a double(Part), tells (error_along_rows.hpp).
   template <class Estimate>
   double error(const State& now, const State& next, Estimate&& estimate) {
-    const double whole = estimate(Part::whole);
-    rounding_ = projects() && whole > 1 && (rounding_ || !falls(now, next, whole));
-    return rounding_ ? estimate(Part::along_rows) : whole;
+    return projects() ? along_rows_.judge(now, next, estimate) : estimate(Part::whole);
   }
-  void forget() { rounding_ = false, trial_ = {}; }  // where a motion begins
-  void archive(Archive& archive) { archive("rounding", rounding_); }
+  void forget() { along_rows_.forget(); }  // where a motion begins
+  void archive(Archive& archive) { along_rows_.archive(archive); }
   // The step's interior at theta in [0, 1], in Hairer's nested form: the cubic Hermite polynomial and, row by row, terms
   // of higher degree h sum_i row[i] k_i over all slopes.
   void interpolate(const System& s, const State& now, const State& next, double theta,
@@ -111,9 +107,6 @@ class RungeKutta {
   Outcome end(System& s, State& next);
   bool keep_null_space(System& s, const State& now);
   bool onto_rows(System& s, double t);  // on_manifold_ and held_v_
-  void along_rows(System& s, const State& at, Vec& v);
-  // At least as of second order since the last trial from `now`, which was longer, if there was one.
-  bool falls(const State& now, const State& next, double error);
 
   Tableau tableau_;
   std::vector<Slope> k_;
@@ -123,10 +116,7 @@ class RungeKutta {
   bool by_null_space_ = false;  // the last step was
   Vec dq_, dv_, q_, v_, on_manifold_, held_v_, right_, zero_, no_force_, change_, mu_, embedded_, e_q_;
   State repeated_;
-  struct Trial {
-    double t = 0, h = 0, error = 0;
-  } trial_;  // the last whose error was too large
-  bool rounding_ = false;
+  ErrorAlongRows along_rows_;
 };
 
 // The same local error (numbers of q) as increments: the end's q less that of the embedded method.
