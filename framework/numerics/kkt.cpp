@@ -11,6 +11,9 @@ namespace trammel::numerics {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
+// Shares of multipliers in the rows' accelerations that are so many times what is left of them take their digits with them: of a
+// light body between heavy ones.
+constexpr double cancelling = 1e6;
 
 // The pivots of G M^-1 G^T over its diagonal are squares of those sines, row by row against the rows before. They are only
 // a warning, given early; the decomposition decides.
@@ -127,10 +130,19 @@ void MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
     y = merged_ * cod_.solve(x - particular);
     add_transposed_product(-1, B_, y, x);
   } else {
-    y = -c;
-    add_rows_product(1, B_, x, y);
-    schur_cholesky_.solve(y);
-    add_transposed_product(-1, B_, y, x);
+    const auto hold_rows = [&](Vec& dy) {
+      dy = -c;
+      add_rows_product(1, B_, x, dy);
+      const double missed = dy.lpNorm<Eigen::Infinity>();
+      schur_cholesky_.solve(dy);
+      add_transposed_product(-1, B_, dy, x);
+      return missed;
+    };
+    const double missed = hold_rows(y);
+    if (schur_.diagonal().cwiseProduct(y).lpNorm<Eigen::Infinity>() > cancelling * missed) {
+      hold_rows(w_);
+      y += w_;
+    }
   }
   with_mass([&](auto& mass) { mass.solve_transposed(x); });
 }
