@@ -7,9 +7,13 @@ namespace trammel::numerics {
 
 namespace {
 
-// Of S's and G's scales. Large beside its round-off, so that corrections converge; its square root is the
-// singular value, relative to the largest, below which rows count as redundant.
-constexpr double regularisation = 1e-12;
+// Of S's and G's scales. Large beside its round-off, so that corrections converge; its square root is the singular value, relative to
+// the largest, below which rows count as redundant. A chain's own rows must not, whose softest falls with the square of their number:
+// among few rows alone soft ones are those of a singular position.
+constexpr int few_rows = 200;
+constexpr double regularisation(int nc) {
+  return nc < few_rows ? 1e-10 : 1e-12;
+}
 // Of a long chain the complement serves as it is down to this sine of a row's angle to others: its square above round-off by 1e10.
 constexpr double safe_sine = 1e-3;
 // Of redundant rows.
@@ -185,31 +189,78 @@ void SparseIterationKkt::factorise_full(int nv, int nc, bool fresh) {
   for (int j = 0; j < nv; ++j)
     for (Eigen::SparseMatrix<double>::InnerIterator it(regular_, j); it; ++it)
       (it.row() < nv ? S : G) = std::max(it.row() < nv ? S : G, std::abs(it.value()));
-  const double eps = S > 0 ? regularisation * G * G / S : 0;
-  for (int i = 0; i < nc; ++i) regular_.coeffRef(nv + i, nv + i) -= eps;
+  eps_ = S > 0 ? regularisation(nc) * G * G / S : 0;
+  for (int i = 0; i < nc; ++i) regular_.coeffRef(nv + i, nv + i) -= eps_;
   if (fresh) lu_.analyzePattern(regular_);
   lu_.factorize(regular_);
   failed_ = lu_.info() != Eigen::Success;
+  soft_ = nc < few_rows && !failed_ && eps_ > 0 && find_soft_rows(nc);
+}
+
+// eps^2 (C + eps)^-2 y, C = G S^-1 W^T, keeps of y what lies in the rows' null space, and little else. The matrix takes
+// (0, -r) to (-S^-1 W^T y, y) with y = (C + eps)^-1 r: the head is what the tail does to x.
+void SparseIterationKkt::find_null_part(const Eigen::Ref<const Vec>& y) {
+  null_part_.setZero(nv_ + y.size());
+  null_part_.tail(y.size()) = y;
+  for (int twice = 0; twice < 2; ++twice) {
+    null_part_.head(nv_).setZero();
+    null_part_ = (-eps_ * lu_.solve(null_part_)).eval();
+  }
+}
+
+// Whether that part, of entries in no order, changes when it is taken again. It does not where rows are redundant or independent.
+bool SparseIterationKkt::find_soft_rows(int nc) {
+  constexpr double golden = 0.61803398874989485, noticed = 1e-5;
+  residual_.resize(nc);
+  for (int i = 0; i < nc; ++i) residual_[i] = 1 + std::fmod(i * golden, 1.0);
+  const double least = noticed * residual_.norm();
+  find_null_part(residual_);
+  if (!(null_part_.tail(nc).norm() > least)) return false;
+  residual_ = null_part_.tail(nc);
+  find_null_part(residual_);
+  return (null_part_.tail(nc) - residual_).norm() > least;
+}
+
+double SparseIterationKkt::solve_and_refine() {
+  solution_ = lu_.solve(right_);
+  solves_ = 1;
+  const auto residual = [&](Vec& r) {
+    r = right_;
+    r.noalias() -= full_.matrix() * solution_;
+    return r.norm();
+  };
+  const auto correct = [&](const Vec& r) { solution_ += lu_.solve(r), ++solves_; };
+  return refine(
+      residual, correct, 1e-15 * right_.norm(), [] { return 0.0; }, 40, residual_);
+}
+
+// Soft rows are taken for redundant, all the more the softer they are: c does not ask for them, and y does nothing along them.
+double SparseIterationKkt::solve_without_soft_rows(int nc) {
+  constexpr int passes = 3;  // each leaves of rows with sigma^2 < eps/10 a fifth at most
+  for (int i = 0; i < passes; ++i) {
+    find_null_part(right_.tail(nc));
+    right_.tail(nc) -= null_part_.tail(nc);
+  }
+  const double left = solve_and_refine();
+  for (int i = 0; i < passes; ++i) {
+    find_null_part(solution_.tail(nc));
+    solution_ -= null_part_;
+  }
+  return left;
 }
 
 bool SparseIterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   if (failed_ || !b.allFinite() || !c.allFinite()) return false;
   right_.resize(b.size() + c.size());
   right_ << b, c;
-  solution_ = lu_.solve(right_);
-  const auto residual = [&](Vec& r) {
-    r = right_;
-    r.noalias() -= full_.matrix() * solution_;
-    return r.norm();
-  };
-  const auto correct = [&](const Vec& r) { solution_ += lu_.solve(r); };
-  const double left = refine(
-      residual, correct, 1e-15 * right_.norm(), [] { return 0.0; }, 40, residual_);
+  const double left = soft_ ? solve_without_soft_rows(int(c.size())) : solve_and_refine();
   x = solution_.head(nv_);
   y = solution_.tail(c.size());
   if (!solution_.allFinite()) return false;
   if (left <= 1e-6 * right_.norm()) return true;
-  // What no x reaches is left: where redundant rows differ, by round-off or as far as Newton's iteration still has to go.
+  // What no x reaches is left: where redundant rows differ, by round-off or as far as Newton's iteration still has to go. Each solution
+  // has added it to y, along the rows' null space.
+  if (!soft_ && eps_ > 0) y += solves_ / eps_ * residual_.tail(c.size());
   const double of_rows = residual_.tail(c.size()).norm();
   residual_.head(nv_).setZero();
   right_.noalias() = full_.matrix().transpose() * residual_;

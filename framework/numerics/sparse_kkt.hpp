@@ -10,6 +10,10 @@
 // unchanged equations are corrected with it. This is a proximal point iteration: its steps lie in the range of the rows, so
 // y comes out as the one of minimum norm, and directions of the rows with sigma^2 < eps count as redundant. x is unique.
 //
+// Soft rows, few and independent of the others by no more than about the square root of eps: a truss on its way through a singular position.
+// Their round-off, over that little, would move x by more than it is worth, differently each time, so that Newton's iteration finds no
+// end. They are taken for redundant too: x does not satisfy them, and y does not act along them.
+//
 // Long chains have such directions that are not redundant: their softest sigma falls with n^-2 (masts) or n^-3 (hoops), and its square
 // is lost. From `long_chain` rows on, where the complement tells of such or of redundant rows, the rows are eliminated front by front
 // (frontal_kkt.hpp), refined once or twice with the residuals of the equations. Then y is a solution of few entries on redundant rows,
@@ -82,13 +86,22 @@ class SparseIterationKkt {
  private:
   void add_rows(const std::vector<BodyBlock>& bodies, int nv, int nc, bool coupled, RecordedMatrix& m);
   void factorise_full(int nv, int nc, bool fresh);
+  void find_null_part(const Eigen::Ref<const Vec>& y);
+  bool find_soft_rows(int nc);
+  // With right_, filling solution_ and residual_, whose norm is returned.
+  double solve_and_refine();
+  double solve_without_soft_rows(int nc);
 
   RecordedMatrix full_;
   Eigen::SparseMatrix<double> regular_;
   Eigen::SparseLU<Eigen::SparseMatrix<double>> lu_;
   int nv_ = 0;
+  double eps_ = 0;  // in the corner
   bool failed_ = false;
+  bool soft_ = false;  // some rows are dependent on others but for a little
+  int solves_ = 0;     // that solution_ is a sum of
   Vec right_, solution_, residual_;
+  Vec null_part_;  // of multipliers, and less what they do to x
 };
 
 }  // namespace trammel::numerics

@@ -233,9 +233,16 @@ void EventLocation::report(int w) {
   }
 }
 
+// How near to 0 a gap counts as there. Where a truss unfolds into its singular position, the rows that keep its cells alike are
+// double roots: their round-off tells how far cells have unfolded to half of the digits. Latches that such rows tie lock as one; else
+// those that are late would find that nothing can move.
+double EventLocation::same_instant(int contact) const {
+  const bool by_double_root = system_.model().contacts[contact].limit && system_.redundant();
+  return by_double_root ? std::sqrt(eps) * scale_.length() : 4 * scale_.touching();
+}
+
 // All others that happen at the same instant as the one that was located.
 void EventLocation::collect() {
-  const double noise = 4 * scale_.touching();
   for (int w = 0; w < int(watches_.size()); ++w) {
     const Value& end = next_[w];
     const bool falls = end.slope < -scale_.at_rest();
@@ -243,7 +250,7 @@ void EventLocation::collect() {
         : by_force(w)       ? end.f <= 1e-12 * watches_[w].bound && !just_handled(w)
         : watches_[w].kind == Kind::slide
             ? end.f <= watches_[w].noise && !just_handled(w) && end.slope < -scale_.no_acceleration()
-            : end.f <= noise && falls)
+            : end.f <= same_instant(watches_[w].contact) && falls)
       report(w);
   }
 }

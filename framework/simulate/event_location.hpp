@@ -95,6 +95,7 @@ class EventLocation {
   double force_slope(const State& state, double dt, int w);
   void find_suspects(const State& now, double h, const State& next);
   double locate(const State& now, const Suspect& suspect);
+  double same_instant(int contact) const;
   void collect();
   void report(int w);
 

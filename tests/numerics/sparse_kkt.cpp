@@ -78,6 +78,32 @@ TEST_P(SparseMass, TakesTheIdentityForAMetric) {
   EXPECT_LT((x - least).norm(), 1e-11 * least.norm());
 }
 
+// Rows (1, 0) and (1, sine), S = 1: c = (0, delta) asks for x = (0, delta/sine).
+TEST(SparseIteration, DoesNotFollowTheRoundOffOfRowsThatAreNearlyDependent) {
+  const double delta = 1e-15;
+  for (double sine = 1e-1; sine > 1e-10; sine /= 3) {
+    Mat G(2, 2), full = Mat::Identity(4, 4);
+    G << 1, 0, 1, sine;
+    full.bottomRows(2) << G, Mat::Zero(2, 2);
+    full.topRightCorner(2, 2) = G.transpose();
+    SparseIterationKkt kkt;
+    kkt.factorise(full.sparseView(), 2);
+    Vec x, y;
+    ASSERT_TRUE(kkt.solve(Eigen::Vector2d(0, 0), Eigen::Vector2d(0, delta), x, y)) << sine;
+    EXPECT_LT(x.norm(), 1e5 * delta)
+        << sine;  // the rows' round-off over the sine below which they count as dependent, 1e-5
+    if (sine > 1e-3) {
+      EXPECT_NEAR(x(1), delta / sine, 1e-4 * delta / sine) << sine;
+    }
+    // A force along what the second row tells: held, or free, or between; the equation of motion holds by what y then is.
+    const Eigen::Vector2d b(0, 1);
+    ASSERT_TRUE(kkt.solve(b, Eigen::Vector2d(0, 0), x, y)) << sine;
+    EXPECT_LT((x + G.transpose() * y - b).norm(), 1e-9) << sine;
+    EXPECT_GE(x(1), -1e-9) << sine;
+    EXPECT_LE(x(1), 1 + 1e-9) << sine;
+  }
+}
+
 TEST_P(SparseMass, IterationMatrixSolvesTheWholeSystem) {
   Chain chain(12, GetParam());
   const auto nv = int(chain.M.rows()), nc = int(chain.G.rows());
