@@ -144,7 +144,7 @@ void Cholesky::solve_lower(Eigen::Ref<Vec> x) {
 }
 
 // A part of the rows at a time, each by its columns: less what those before it contribute.
-void Cholesky::solve_lower_of_rows(Mat& X) {
+void Cholesky::solve_lower_of_rows(Mat& X) const {
   if (X.rows() == 0) return;
   if (in_blocks()) return blocks_.matrixU().solveInPlace<Eigen::OnTheRight>(X);
   const Eigen::Index m = X.rows();

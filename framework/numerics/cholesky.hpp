@@ -24,7 +24,7 @@ class Cholesky {
   double pivot(Eigen::Index j) const { return in_blocks() ? blocks_.matrixLLT()(j, j) : root_[j]; }  // C_jj
 
   void solve_lower(Eigen::Ref<Vec> x);       // x := C^-1 x
-  void solve_lower_of_rows(Mat& X);          // X := X C^-T
+  void solve_lower_of_rows(Mat& X) const;    // X := X C^-T
   void solve_transposed(Eigen::Ref<Vec> x);  // x := C^-T x
   void solve(Eigen::Ref<Vec> x);             // x := M^-1 x
 

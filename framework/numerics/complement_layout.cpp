@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "numerics/elimination_tree.hpp"
 
@@ -89,17 +90,24 @@ void ComplementLayout::place_shares(const std::vector<int>& front_of) {
     for (const int row : rows_[k]) first = std::min(first, front_of[std::size_t(row)]);
     fronts_[std::size_t(first)].bodies.push_back(int(k));
   }
-  slots_.assign(rows_.size(), {});
+  order_.assign(rows_.size(), {}), ordered_rows_ = slots_ = order_, leads_.assign(rows_.size(), 0);
   std::vector<int> place(front_of.size());
   for (const Front& front : fronts_) {
     for (int i = 0; i < front.size; ++i) place[std::size_t(front.rows[std::size_t(i)])] = i;
-    for (const int k : front.bodies)
-      for (const int row : rows(k))
-        for (const int other : rows(k)) {
-          if (other < row) continue;
-          const auto [column, below] = std::minmax(place[std::size_t(row)], place[std::size_t(other)]);
-          slots_[std::size_t(k)].push_back(column * int(front.stride()) + below);
-        }
+    for (const int body : front.bodies) {
+      const auto k = std::size_t(body);
+      const auto place_of = [&](int i) { return place[std::size_t(rows_[k][std::size_t(i)])]; };
+      std::vector<int>& order = order_[k];
+      order.resize(rows_[k].size());
+      std::iota(order.begin(), order.end(), 0);
+      std::sort(order.begin(), order.end(), [&](int i, int j) { return place_of(i) < place_of(j); });
+      leads_[k] = place_of(order.back()) + 1 == int(order.size());
+      for (std::size_t j = 0; j < order.size(); ++j) {
+        ordered_rows_[k].push_back(rows_[k][std::size_t(order[j])]);
+        for (std::size_t i = j; i < order.size(); ++i)
+          slots_[k].push_back(place_of(order[j]) * int(front.stride()) + place_of(order[i]));
+      }
+    }
   }
 }
 

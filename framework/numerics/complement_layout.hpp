@@ -29,13 +29,17 @@ class ComplementLayout {
   void find(const std::vector<BodyBlock>& bodies, int nc);
 
   const std::vector<Front>& fronts() const { return fronts_; }  // children first
-  const std::vector<int>& rows(int body) const { return rows_[std::size_t(body)]; }
+  // Of the body's rows, in the order of elimination: which of the body's, and of G.
+  const std::vector<int>& order(int body) const { return order_[std::size_t(body)]; }
+  const std::vector<int>& rows(int body) const { return ordered_rows_[std::size_t(body)]; }
+  // They are the front's first ones.
+  bool leads(int body) const { return leads_[std::size_t(body)]; }
   // In the matrix of the front that takes them: of the lower triangle of a body's share, column by column; of a boundary's rows.
   const std::vector<int>& slots(int body) const { return slots_[std::size_t(body)]; }
   const std::vector<int>& places(int child) const { return places_[std::size_t(child)]; }
   std::size_t numbers_L() const { return L_; }
   std::size_t numbers_U() const { return U_; }
-  int largest() const { return largest_; }
+  int largest() const { return largest_; }  // front
 
  private:
   void place_shares(const std::vector<int>& front_of);
@@ -43,7 +47,8 @@ class ComplementLayout {
 
   int nc_ = -1;
   std::vector<Front> fronts_;
-  std::vector<std::vector<int>> rows_, slots_, places_;
+  std::vector<std::vector<int>> rows_, order_, ordered_rows_, slots_, places_;
+  std::vector<char> leads_;
   std::size_t L_ = 0, U_ = 0;
   int largest_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "numerics/few_rows.hpp"
 #include "numerics/packs.hpp"
@@ -10,58 +11,105 @@ namespace trammel::numerics {
 
 namespace {
 
-// The lower triangle of Y Y^T, and what else is in its packs.
-void products_of_rows(const Mat& Y, Mat& S) {
+template <class Columns, class Rows>
+void multiply(const double* Y, Columns n, Rows m, double* S) {
+  for (Eigen::Index j = 0; j < m; ++j)
+    for (Eigen::Index i = pack_of(j); i < m; i += pack) {
+      Pack sum = Pack::Zero();
+      for (Eigen::Index k = 0; k < n; ++k) sum += Y[k * m + j] * pack_at(Y + k * m + i);
+      pack_at(S + j * m + i) = sum;
+    }
+}
+
+// The lower triangle of Y Y^T, and what else is in its packs. Of known sizes it takes a hinged link half of the time.
+void products_of_rows(const Mat& Y, double* S) {
   const Eigen::Index m = Y.rows();
-  S.resize(m, m);
   const bool done = with_few(Y.cols(), [&](auto n) {
-    for (Eigen::Index j = 0; j < m; ++j)
-      for (Eigen::Index i = pack_of(j); i < m; i += pack) {
-        Pack sum = Pack::Zero();
-        for (Eigen::Index k = 0; k < n; ++k) sum += Y.data()[k * m + j] * pack_at(Y.data() + k * m + i);
-        pack_at(S.data() + j * m + i) = sum;
-      }
+    const auto of_packs = [&](auto packs) {
+      multiply(Y.data(), n, std::integral_constant<Eigen::Index, packs * pack>(), S);
+    };
+    if (!with_few<4>(m / pack, of_packs)) multiply(Y.data(), n, m, S);
   });
-  if (!done) S.noalias() = Y * Y.transpose();
+  if (!done) Eigen::Map<Mat>(S, m, m).noalias() = Y * Y.transpose();
+}
+
+// f(rows eliminated, rows from column to column), known to the compiler for small fronts: so fronts of hinges take two thirds of the time.
+template <class F>
+void with_sizes(const ComplementLayout::Front& front, F&& f) {
+  const bool known = front.stride() <= 4 * pack && with_few(front.eliminated, [&](auto eliminated) {
+                       with_few<4>(front.stride() / pack, [&](auto packs) {
+                         f(eliminated, std::integral_constant<Eigen::Index, packs * pack>());
+                       });
+                     });
+  if (!known) f(Eigen::Index(front.eliminated), front.stride());
 }
 
 }  // namespace
 
-void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const std::vector<Mat>& Y, int nc, double eps) {
+void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const std::vector<Cholesky>& masses, int nc,
+                              double eps) {
   if (!layout_.holds(bodies, nc)) {
     layout_.find(bodies, nc);
     resize(nc);
   }
   diagonal_.setConstant(eps);
   for (const Front& front : layout_.fronts()) {
-    assemble(front, Y, eps);
+    assemble(bodies, masses, front, eps);
     eliminate(front);
   }
 }
 
 void RowComplement::resize(int nc) {
+  const Eigen::Index largest = padded(layout_.largest());
   L_.setZero(Eigen::Index(layout_.numbers_L()));
   U_.setZero(Eigen::Index(layout_.numbers_U()));
   diagonal_.resize(nc), pivots_.resize(nc), inverse_pivots_.resize(nc), start_.resize(nc);
-  work_.resize(padded(layout_.largest()));
+  work_.resize(largest), share_.resize(largest * largest);
 }
 
-void RowComplement::assemble(const Front& front, const std::vector<Mat>& Y, double eps) {
+void RowComplement::assemble(const std::vector<BodyBlock>& bodies, const std::vector<Cholesky>& masses,
+                             const Front& front, double eps) {
   double* const S = L_.data() + front.L;
   std::fill_n(S, front.stride() * front.size, 0.0);
   for (int j = 0; j < front.eliminated; ++j) S[j * front.stride() + j] = eps;
-  for (const int k : front.bodies) {
-    products_of_rows(Y[std::size_t(k)], share_);
-    const std::vector<int>& rows = layout_.rows(k);
-    const int* slot = layout_.slots(k).data();
-    const auto m = Eigen::Index(rows.size());
-    for (Eigen::Index j = 0; j < m; ++j) {
-      const double* const column = share_.data() + j * share_.rows();
-      diagonal_[rows[std::size_t(j)]] += column[j];
-      for (Eigen::Index i = j; i < m; ++i) S[*slot++] += column[i];
-    }
+  Y_.resize(bodies.size());
+  for (const int body : front.bodies) {
+    const auto k = std::size_t(body);
+    form_Y(bodies[k], masses[k], layout_.order(body), Y_[k]);
+    products_of_rows(Y_[k], share_.data());
+    add_share(body, front);
   }
   for (const int c : front.children) take(layout_.fronts()[std::size_t(c)], layout_.places(c), front);
+}
+
+void RowComplement::form_Y(const BodyBlock& body, const Cholesky& mass, const std::vector<int>& order, Mat& Y) {
+  const auto m = Eigen::Index(order.size()), stride = padded(m);
+  Y.resize(stride, body.Gt.rows());
+  const auto copy = [&](auto n) {
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const double* const row = body.Gt.data() + order[std::size_t(i)] * n;
+      for (Eigen::Index j = 0; j < n; ++j) Y.data()[j * stride + i] = row[j];
+    }
+  };
+  if (!with_few(body.Gt.rows(), copy)) copy(body.Gt.rows());
+  Y.bottomRows(stride - m).setZero();
+  mass.solve_lower_of_rows(Y);
+}
+
+void RowComplement::add_share(int body, const Front& front) {
+  double* const S = L_.data() + front.L;
+  const std::vector<int>& rows = layout_.rows(body);
+  const auto m = Eigen::Index(rows.size()), stride = padded(m);
+  for (Eigen::Index j = 0; j < m; ++j) diagonal_[rows[std::size_t(j)]] += share_[j * stride + j];
+  if (layout_.leads(body)) {
+    for (Eigen::Index j = 0; j < m; ++j)
+      for (Eigen::Index i = pack_of(j); i < stride; i += pack)
+        pack_at(S + j * front.stride() + i) += pack_at(share_.data() + j * stride + i);
+    return;
+  }
+  const int* slot = layout_.slots(body).data();
+  for (Eigen::Index j = 0; j < m; ++j)
+    for (Eigen::Index i = j; i < m; ++i) S[*slot++] += share_[j * stride + i];
 }
 
 // R of a child.
@@ -76,24 +124,26 @@ void RowComplement::take(const Front& child, const std::vector<int>& places, con
 
 // Each column less what those before it contribute, then divided by its pivot.
 void RowComplement::eliminate(const Front& front) {
-  const Eigen::Index stride = front.stride(), above = front.stride_above();
-  double *const L = L_.data() + front.L, *const U = U_.data() + front.U;
-  for (int j = 0; j < front.size; ++j) {
-    double* const column = L + j * stride;
-    const double* const shares = U + j * above;
-    const int before = std::min(j, front.eliminated);
-    for (Eigen::Index i = pack_of(j); i < stride; i += pack) {
-      Pack rest = pack_at(column + i);
-      for (int k = 0; k < before; ++k) rest -= shares[k] * pack_at(L + k * stride + i);
-      pack_at(column + i) = rest;
+  with_sizes(front, [&](auto eliminated, auto stride) {
+    const Eigen::Index above = padded(eliminated);
+    double *const L = L_.data() + front.L, *const U = U_.data() + front.U;
+    for (Eigen::Index j = 0; j < front.size; ++j) {
+      double* const column = L + j * stride;
+      const double* const shares = U + j * above;
+      const Eigen::Index before = std::min<Eigen::Index>(j, eliminated);
+      for (Eigen::Index i = pack_of(j); i < stride; i += pack) {
+        Pack rest = pack_at(column + i);
+        for (Eigen::Index k = 0; k < before; ++k) rest -= shares[k] * pack_at(L + k * stride + i);
+        pack_at(column + i) = rest;
+      }
+      if (j >= eliminated) continue;
+      const int row = front.rows[std::size_t(j)];
+      pivots_[row] = column[j];
+      const double inverse = inverse_pivots_[row] = 1 / column[j];
+      for (Eigen::Index i = j + 1; i < front.size; ++i) U[i * above + j] = column[i];
+      for (Eigen::Index i = pack_of(j); i < stride; i += pack) pack_at(column + i) *= inverse;
     }
-    if (j >= front.eliminated) continue;
-    const int row = front.rows[std::size_t(j)];
-    pivots_[row] = column[j];
-    const double inverse = inverse_pivots_[row] = 1 / column[j];
-    for (int i = j + 1; i < front.size; ++i) U[i * above + j] = column[i];
-    for (Eigen::Index i = pack_of(j); i < stride; i += pack) pack_at(column + i) *= inverse;
-  }
+  });
 }
 
 bool RowComplement::is_safe(double least_sine) const {
@@ -117,14 +167,14 @@ void RowComplement::solve(const Vec& r, Vec& y) {
 
 namespace {
 
-// Of the packs from row `first` on: the sum of c_j times column j, in registers.
-template <class Factor, class Sink>
-void combine_columns(const double* columns, Eigen::Index stride, int count, Eigen::Index first, Factor&& c,
-                     Sink&& sink) {
+// y -= c_0 x_0 + c_1 x_1 + ... of columns `stride` apart, in packs from that of row `first` on; sums in registers.
+template <class Stride, class Factor>
+void subtract_columns(const double* columns, Stride stride, Eigen::Index count, Eigen::Index first, Factor&& c,
+                      double* y) {
   for (Eigen::Index i = pack_of(first); i < stride; i += pack) {
     Pack sum = Pack::Zero();
-    for (int j = 0; j < count; ++j) sum += c(j) * pack_at(columns + j * stride + i);
-    sink(i, sum);
+    for (Eigen::Index j = 0; j < count; ++j) sum += c(j) * pack_at(columns + j * stride + i);
+    pack_at(y + i) -= sum;
   }
 }
 
@@ -132,34 +182,40 @@ void combine_columns(const double* columns, Eigen::Index stride, int count, Eige
 
 // y_F := L_FF^-1 y_F,  y_B -= L_BF y_F. A known number is taken out of its pack, too, where it no longer counts.
 void RowComplement::solve_lower(const Front& front, Vec& y) {
-  const double* const L = L_.data() + front.L;
-  const int *const rows = front.rows.data(), eliminated = front.eliminated;
-  double* const rest = work_.data();
-  for (int i = 0; i < eliminated; ++i) rest[i] = y[rows[i]];
-  for (int j = 0; j < eliminated; ++j) {
-    const double known = y[rows[j]] = rest[j];
-    subtract(known, L + j * front.stride(), rest, j + 1, eliminated);
-  }
-  combine_columns(
-      L, front.stride(), eliminated, eliminated, [&](int j) { return y[rows[j]]; },
-      [&](Eigen::Index i, const Pack& sum) { pack_at(rest + i) = sum; });
-  for (int i = eliminated; i < front.size; ++i) y[rows[i]] -= rest[i];
+  with_sizes(front, [&](auto eliminated, auto stride) {
+    const double* const L = L_.data() + front.L;
+    const int* const rows = front.rows.data();
+    double* const rest = work_.data();
+    for (Eigen::Index i = 0; i < eliminated; ++i) rest[i] = y[rows[i]];
+    for (Eigen::Index i = eliminated; i < stride; ++i) rest[i] = 0;
+    for (Eigen::Index j = 0; j < eliminated; ++j) {
+      const double known = y[rows[j]] = rest[j];
+      subtract(known, L + j * stride, rest, j + 1, eliminated);
+    }
+    for (Eigen::Index i = eliminated; i < padded(eliminated); ++i) rest[i] = 0;
+    subtract_columns(
+        L, stride, eliminated, eliminated, [&](Eigen::Index j) { return y[rows[j]]; }, rest);
+    for (Eigen::Index i = eliminated; i < front.size; ++i) y[rows[i]] += rest[i];
+  });
 }
 
 // y_F := U_F^-1 (y_F - U_B y_B)
 void RowComplement::solve_upper(const Front& front, Vec& y) {
-  const Eigen::Index above = front.stride_above();
-  const double* const U = U_.data() + front.U;
-  const int *const rows = front.rows.data(), eliminated = front.eliminated;
-  double* const rest = work_.data();
-  for (int i = 0; i < eliminated; ++i) rest[i] = y[rows[i]];
-  combine_columns(
-      U + eliminated * above, above, front.size - eliminated, 0, [&](int j) { return y[rows[eliminated + j]]; },
-      [&](Eigen::Index i, const Pack& sum) { pack_at(rest + i) -= sum; });
-  for (int j = eliminated - 1; j >= 0; --j) {
-    const double known = y[rows[j]] = rest[j] * inverse_pivots_[rows[j]];
-    subtract(known, U + j * above, rest, 0, j);
-  }
+  with_sizes(front, [&](auto eliminated, auto) {
+    const auto above = padded(eliminated);
+    const double* const U = U_.data() + front.U;
+    const int* const rows = front.rows.data();
+    double* const rest = work_.data();
+    for (Eigen::Index i = 0; i < eliminated; ++i) rest[i] = y[rows[i]];
+    const int* const boundary = rows + eliminated;
+    subtract_columns(
+        U + eliminated * above, above, front.size - eliminated, 0, [&](Eigen::Index j) { return y[boundary[j]]; },
+        rest);
+    for (Eigen::Index j = eliminated - 1; j >= 0; --j) {
+      const double known = y[rows[j]] = rest[j] * inverse_pivots_[rows[j]];
+      subtract(known, U + j * above, rest, 0, j);
+    }
+  });
 }
 
 }  // namespace trammel::numerics

@@ -14,14 +14,15 @@
 #include <trammel/types.hpp>
 
 #include "numerics/body_block.hpp"
+#include "numerics/cholesky.hpp"
 #include "numerics/complement_layout.hpp"
 
 namespace trammel::numerics {
 
 class RowComplement {
  public:
-  // Of the first nc rows. Y[k] = G C^-T, by rows of body k's G and padded ones (packs.hpp) of zeros, with M = C C^T its mass.
-  void factorise(const std::vector<BodyBlock>& bodies, const std::vector<Mat>& Y, int nc, double eps);
+  // Of the first nc rows. masses: of each body.
+  void factorise(const std::vector<BodyBlock>& bodies, const std::vector<Cholesky>& masses, int nc, double eps);
   // Each pivot is more than the square of `least_sine` beside its diagonal: its row's angle to those eliminated before.
   bool is_safe(double least_sine) const;
   // No less than the least eigenvalue of S with its diagonal scaled to 1, by a step of inverse iteration.
@@ -35,7 +36,10 @@ class RowComplement {
  private:
   using Front = ComplementLayout::Front;
   void resize(int nc);
-  void assemble(const Front& front, const std::vector<Mat>& Y, double eps);
+  void assemble(const std::vector<BodyBlock>& bodies, const std::vector<Cholesky>& masses, const Front& front,
+                double eps);
+  void form_Y(const BodyBlock& body, const Cholesky& mass, const std::vector<int>& order, Mat& Y);
+  void add_share(int body, const Front& front);
   void take(const Front& child, const std::vector<int>& places, const Front& front);
   void eliminate(const Front& front);
   void solve_lower(const Front& front, Vec& y);
@@ -45,7 +49,9 @@ class RowComplement {
   Vec L_, U_;                               // of all fronts; L's columns of the boundary hold R
   Vec diagonal_, pivots_, inverse_pivots_;  // by rows
   Vec work_, scale_, start_, end_;
-  Mat share_;  // of a body
+  std::vector<Mat>
+      Y_;      // G C^-T of each body, M = C C^T: the first rows of the order of elimination, and padded ones of zeros
+  Vec share_;  // Y Y^T of one
 };
 
 }  // namespace trammel::numerics

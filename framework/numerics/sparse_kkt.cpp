@@ -53,7 +53,7 @@ bool SparseMassKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, Metr
   if (by_fronts_) return factorise_fronts(bodies);
   if (!factorise_masses(bodies, metric)) return false;
   if (nc == 0) return true;
-  complement_.factorise(bodies, Y_, nc, 0);
+  complement_.factorise(bodies, masses_, nc, 0);
   by_fronts_ = nc >= long_chain && is_soft(std::max(safe_sine, 10 * rank_tolerance));
   if (by_fronts_) return factorise_fronts(bodies);
   redundant_ = !complement_.is_safe(10 * rank_tolerance);
@@ -69,21 +69,15 @@ bool SparseMassKkt::is_soft(double sine) {
 // Large beside the complement's round-off, so that corrections converge and the unreachable is told from the rest.
 void SparseMassKkt::regularise(const std::vector<BodyBlock>& bodies) {
   eps_ = std::max(of_redundant, rank_tolerance_ * rank_tolerance_) * complement_.largest();
-  complement_.factorise(bodies, Y_, nc_, eps_);
+  complement_.factorise(bodies, masses_, nc_, eps_);
 }
 
 bool SparseMassKkt::factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric) {
   const bool kept = metric == Metric::mass_of_before && masses_.size() == bodies.size();
   masses_.resize(bodies.size());
-  Y_.resize(bodies.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const Eigen::Index n = bodies[k].M.rows();
     if (identity_ ? !masses_[k].compute(Mat::Identity(n, n)) : !kept && !masses_[k].compute(bodies[k].M)) return false;
-    const Eigen::Index rows = bodies[k].Gt.cols();
-    Y_[k].resize(padded(rows), n);
-    Y_[k].topRows(rows) = bodies[k].Gt.transpose();
-    Y_[k].bottomRows(padded(rows) - rows).setZero();
-    masses_[k].solve_lower_of_rows(Y_[k]);
   }
   return true;
 }

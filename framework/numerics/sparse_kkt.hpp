@@ -61,7 +61,6 @@ class SparseMassKkt {
   bool redundant_ = false;
   bool by_fronts_ = false, fronts_failed_ = false, identity_ = false;
   std::vector<Cholesky> masses_;  // M = C C^T
-  std::vector<Mat> Y_;            // G C^-T
   RowComplement complement_;
   FrontalKkt fronts_;
   Vec residual_, dy_, null_part_;

@@ -19,7 +19,7 @@ using Joints = std::vector<std::pair<int, int>>;  // bodies; -1: the ground
 // Bodies of unit masses that joints of `rows` rows each hold together, no entry of which is 0.
 struct Mechanism {
   std::vector<BodyBlock> bodies;
-  std::vector<Mat> Y;
+  std::vector<Cholesky> masses;
   int nc;
 
   Mechanism(int n, int velocities, const Joints& joints, int rows)
@@ -35,10 +35,8 @@ struct Mechanism {
         body.Gt.rightCols(rows) = Mat::NullaryExpr(velocities, rows, [&] { return uniform(random); });
         for (int i = 0; i < rows; ++i) body.rows.push_back(int(joint) * rows + i);
       }
-    for (const BodyBlock& body : bodies) {
-      Y.push_back(Mat::Zero(padded(body.Gt.cols()), velocities));
-      Y.back().topRows(body.Gt.cols()) = body.Gt.transpose();
-    }
+    masses.resize(bodies.size());
+    for (Cholesky& mass : masses) EXPECT_TRUE(mass.compute(Mat::Identity(velocities, velocities)));
   }
 
   Mat dense(int first, double eps) const {
@@ -106,7 +104,7 @@ TEST_P(RowComplementOf, SolvesAsTheWholeMatrix) {
   const Mechanism m = mechanism();
   for (const double eps : {0.0, 1e-3}) {
     RowComplement complement;
-    complement.factorise(m.bodies, m.Y, m.nc, eps);
+    complement.factorise(m.bodies, m.masses, m.nc, eps);
     EXPECT_TRUE(complement.is_safe(1e-7));
     const Mat S = m.dense(m.nc, eps);
     EXPECT_NEAR(complement.largest(), S.diagonal().maxCoeff(), 1e-14 * S.norm());
@@ -118,7 +116,7 @@ TEST_P(RowComplementOf, LeavesOutRowsBeyondThoseAskedFor) {
   const Mechanism m = mechanism();
   RowComplement complement;
   for (const int nc : {m.nc, m.nc - 1, m.nc / 2, m.nc}) {
-    complement.factorise(m.bodies, m.Y, nc, 0);
+    complement.factorise(m.bodies, m.masses, nc, 0);
     expect_solved(m.dense(nc, 0), complement);
   }
 }
@@ -128,11 +126,11 @@ TEST_P(RowComplementOf, SolutionsDoNotDependOnWhatWasBefore) {
   const Vec r = Vec::LinSpaced(m.nc, 1, -2);
   RowComplement fresh, used;
   Vec y, y_again;
-  fresh.factorise(m.bodies, m.Y, m.nc, 0);
+  fresh.factorise(m.bodies, m.masses, m.nc, 0);
   fresh.solve(r, y);
-  used.factorise(other.bodies, other.Y, other.nc, 0);
-  used.factorise(m.bodies, m.Y, m.nc, 1);
-  used.factorise(m.bodies, m.Y, m.nc, 0);
+  used.factorise(other.bodies, other.masses, other.nc, 0);
+  used.factorise(m.bodies, m.masses, m.nc, 1);
+  used.factorise(m.bodies, m.masses, m.nc, 0);
   used.solve(r, y_again);
   EXPECT_EQ(y, y_again);
 }
@@ -145,19 +143,20 @@ TEST_P(RowComplementOf, TellsARowSaidTwice) {
     const std::vector<int>& rows = m.bodies[k].rows;
     for (std::size_t i = 0; i < rows.size(); ++i)
       for (std::size_t j = 0; j < rows.size(); ++j)
-        if (rows[i] == last && rows[j] == first) m.Y[k].row(Eigen::Index(i)) = m.Y[k].row(Eigen::Index(j));
+        if (rows[i] == last && rows[j] == first)
+          m.bodies[k].Gt.col(Eigen::Index(i)) = m.bodies[k].Gt.col(Eigen::Index(j));
   }
   RowComplement complement;
-  complement.factorise(m.bodies, m.Y, m.nc, 0);
+  complement.factorise(m.bodies, m.masses, m.nc, 0);
   EXPECT_FALSE(complement.is_safe(1e-6));
-  complement.factorise(m.bodies, m.Y, m.nc, 1e-3);
+  complement.factorise(m.bodies, m.masses, m.nc, 1e-3);
   EXPECT_TRUE(complement.is_safe(1e-6)) << "what it was before is forgotten";
 }
 
 TEST_P(RowComplementOf, ItsSoftestDirectionIsAtMostAsSoftAsFound) {
   const Mechanism m = mechanism();
   RowComplement complement;
-  complement.factorise(m.bodies, m.Y, m.nc, 0);
+  complement.factorise(m.bodies, m.masses, m.nc, 0);
   const Mat S = m.dense(m.nc, 0);
   const Vec scale = S.diagonal().cwiseSqrt().cwiseInverse();
   const double least = Eigen::SelfAdjointEigenSolver<Mat>(scale.asDiagonal() * S * scale.asDiagonal()).eigenvalues()[0];
@@ -177,7 +176,7 @@ INSTANTIATE_TEST_SUITE_P(Mechanisms, RowComplementOf,
 TEST(RowComplement, OfNoRowsIsEmpty) {
   const Mechanism m(2, 6, {}, 0);
   RowComplement complement;
-  complement.factorise(m.bodies, m.Y, 0, 0);
+  complement.factorise(m.bodies, m.masses, 0, 0);
   EXPECT_TRUE(complement.is_safe(1e-6));
   Vec y;
   complement.solve(Vec(), y);
