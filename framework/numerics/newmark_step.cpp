@@ -98,12 +98,15 @@ bool NewmarkStep::misled(System& s, const Vec& r) {
 }
 
 // Near a change of rank, an angle theta from it, rows that hold to their round-off d leave q uncertain by d / theta and v by
-// d / theta^2. Then what r alone asks for tells whether the iteration has come to its end.
+// d / theta^2; likewise a rod's angle beside a body a million million times as long. Then what r alone asks for tells whether the
+// iteration has come to its end.
 bool NewmarkStep::at_round_off(System& s, const Vec& r) {
   if (change_q_ <= 64 * eps || largest(r) <= 64 * eps * largest(s.f())) return true;
   if (s.sizes().nc == 0 || largest(s.g()) > 4 * eps * size_q_) return false;
   rc_.setZero(s.sizes().nc);
-  return s.correct(r, rc_, da_, dlambda_) && relative(c_v_ * largest(da_), size_v_) <= newton.tolerance;
+  constexpr double little = 0.01;  // beside what the rows' round-off asks for
+  return s.correct(r, rc_, da_, dlambda_) &&
+         relative(c_v_ * largest(da_), size_v_) <= std::max(newton.tolerance, little * change_v_);
 }
 
 void NewmarkStep::correct(System& s, Blend blend, const Vec& r, State& next) {

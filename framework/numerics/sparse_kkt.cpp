@@ -7,6 +7,7 @@ namespace trammel::numerics {
 
 namespace {
 
+constexpr double eps = std::numeric_limits<double>::epsilon();
 // Of S's and G's scales. Large beside its round-off, so that corrections converge; its square root is the singular value, relative to
 // the largest, below which rows count as redundant. A chain's own rows must not, whose softest falls with the square of their number:
 // among few rows alone soft ones are those of a singular position.
@@ -145,7 +146,6 @@ void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, co
     add_rows_force(bodies, -1, y, x);
     solve_masses(bodies, x);
   };
-  constexpr double eps = std::numeric_limits<double>::epsilon();
   const double enough = 16 * eps * scale;  // of a row's dozen products
   // Multipliers along a chain add up to accelerations a million times those that are left. Their round-off does not fall by
   // corrections, but the first one takes away what is smooth of it, to which a soft mechanism yields: 1e-9 of a mast's accelerations.
@@ -256,10 +256,12 @@ bool SparseIterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   // has added it to y, along the rows' null space.
   if (!soft_ && eps_ > 0) y += solves_ / eps_ * residual_.tail(c.size());
   const double of_rows = residual_.tail(c.size()).norm();
+  const double of_forces = residual_.head(nv_).norm();
   residual_.head(nv_).setZero();
   right_.noalias() = full_.matrix().transpose() * residual_;
-  return std::sqrt(std::max(0.0, left * left - of_rows * of_rows)) <= 1e-6 * b.norm() + 1e-13 * full_.matrix().norm() &&
-         right_.head(nv_).norm() <= parting * of_rows;
+  // Reactions larger than what they balance, as near a singular position, leave their round-off.
+  const double size = full_.matrix().norm(), round_off = 1e-13 * size + 16 * eps * size * y.norm();
+  return of_forces <= 1e-6 * b.norm() + round_off && right_.head(nv_).norm() <= parting * of_rows;
 }
 
 }  // namespace trammel::numerics

@@ -81,6 +81,17 @@ TEST(BenchmarkA02, PassesItsSingularPositionsByNewmarksMethodsAtTightTolerances)
     }
 }
 
+// In blocks of bodies, whose soft rows are told otherwise.
+TEST(BenchmarkA02, WithTenWindowsPassesItsSingularPositionsByGeneralizedAlpha) {
+  const auto by_n = reference("iftomm_a02_n_four_bar")["reference"]["by_N"]["10"]["t=10_B0_x_y_vx_vy"];
+  for (const std::string tolerance : {"1e-7", "1e-9"}) {
+    const Finished run = run_benchmark(
+        "a02_n10", {{"integrator", R"({"type": "generalized_alpha", "step": {"tolerance": )" + tolerance + "}}"}});
+    ASSERT_TRUE(run.done()) << tolerance << ": " << run.report.reason;
+    EXPECT_NEAR(run.end("B0_x"), std::stod(by_n[0].get<std::string>()), 5e-3) << tolerance;
+  }
+}
+
 TEST(BenchmarkA02, PassesItsSingularPositionsInQuasiVelocities) {
   const auto data = reference("iftomm_a02_n_four_bar");
   const double x = std::stod(data["reference"]["by_N"]["2"]["t=10_B0_x_y_vx_vy"][0].get<std::string>());
