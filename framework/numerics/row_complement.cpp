@@ -1,9 +1,10 @@
 #include "numerics/row_complement.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <type_traits>
 
+#include "numerics/fetch.hpp"
 #include "numerics/few_rows.hpp"
 #include "numerics/packs.hpp"
 
@@ -53,9 +54,18 @@ void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const std::v
     resize(nc);
   }
   diagonal_.setConstant(eps);
-  for (const Front& front : layout_.fronts()) {
-    assemble(bodies, masses, front, eps);
-    eliminate(front);
+  Y_.resize(bodies.size());
+  const std::vector<Front>& fronts = layout_.fronts();
+  for (std::size_t i = 0; i < fronts.size(); ++i) {
+    look_ahead(i, fronts.size(), [&](std::size_t next) {
+      for (const int k : fronts[next].bodies) {
+        const Mat &Gt = bodies[std::size_t(k)].Gt, &Y = Y_[std::size_t(k)];
+        fetch(Gt.data(), std::size_t(Gt.size()) * sizeof(double)),
+            fetch(Y.data(), std::size_t(Y.size()) * sizeof(double));
+      }
+    });
+    assemble(bodies, masses, fronts[i], eps);
+    eliminate(fronts[i]);
   }
 }
 
@@ -72,7 +82,6 @@ void RowComplement::assemble(const std::vector<BodyBlock>& bodies, const std::ve
   double* const S = L_.data() + front.L;
   std::fill_n(S, front.stride() * front.size, 0.0);
   for (int j = 0; j < front.eliminated; ++j) S[j * front.stride() + j] = eps;
-  Y_.resize(bodies.size());
   for (const int body : front.bodies) {
     const auto k = std::size_t(body);
     form_Y(bodies[k], masses[k], layout_.order(body), Y_[k]);
@@ -150,10 +159,11 @@ bool RowComplement::is_safe(double least_sine) const {
   return (pivots_.array() > least_sine * least_sine * diagonal_.array()).all();
 }
 
-// From a start without any order, which has a part of every direction.
+// From a start of signs without any order (a hash's), which has a part of every direction.
 double RowComplement::softest() {
   scale_ = diagonal_.cwiseSqrt();
-  for (Eigen::Index i = 0; i < scale_.size(); ++i) start_[i] = scale_[i] * std::cos(double(i) * double(i));
+  for (Eigen::Index i = 0; i < scale_.size(); ++i)
+    start_[i] = std::uint32_t(i) * 2654435769U >> 31 ? scale_[i] : -scale_[i];
   solve(start_, end_);
   return start_.cwiseQuotient(scale_).norm() / end_.cwiseProduct(scale_).norm();
 }
@@ -161,8 +171,20 @@ double RowComplement::softest() {
 void RowComplement::solve(const Vec& r, Vec& y) {
   y = r;
   const std::vector<Front>& fronts = layout_.fronts();
-  for (const Front& front : fronts) solve_lower(front, y);
-  for (auto front = fronts.rbegin(); front != fronts.rend(); ++front) solve_upper(*front, y);
+  const auto ask_for = [&](const Front& front) { fetch(front.rows.data(), front.rows.size() * sizeof(int)); };
+  for (std::size_t i = 0; i < fronts.size(); ++i) {
+    look_ahead(i, fronts.size(), [&](std::size_t next) { ask_for(fronts[next]); });
+    solve_lower(fronts[i], y);
+  }
+  for (std::size_t i = 0; i < fronts.size(); ++i) {
+    const auto from_end = [&](std::size_t k) -> const Front& { return fronts[fronts.size() - 1 - k]; };
+    look_ahead(i, fronts.size(), [&](std::size_t next) {
+      const Front& front = from_end(next);
+      ask_for(front);
+      fetch(U_.data() + front.U, std::size_t(front.stride_above() * front.size) * sizeof(double));
+    });
+    solve_upper(from_end(i), y);
+  }
 }
 
 namespace {
