@@ -91,39 +91,15 @@ TEST(BenchmarkCuspidalTop, MeetsItsReference) {
   expect_accepted(data, "cuspidal nutation period s", (turns[20] - turns[0]) / 10);
 }
 
-struct SoftBeam {
-  double L, E, A, I, rho;
-};
-
-// As `generate` writes it, of any number of segments.
-scene::Scene pendulum_of(const SoftBeam& beam, int segments, double until) {
-  const auto [L, E, A, I, rho] = beam;
-  const double l = L / segments, m = rho * A * l, GA = 5.0 / 6 * E * A / 2.6;
-  std::string bodies,
-      forces = fmt::format(R"("pin": {{"type": "bushing", "between": ["s0.a", "ground"], "stiffness": [{}, {}]}})",
-                           2 * E * A / l, 2 * GA / l);
-  for (int i = 0; i < segments; ++i) {
-    bodies += fmt::format(
-        R"({}"s{}": {{"type": "rigid_body", "mass": {}, "inertia": {}, "position": [{}, 0], "markers": {{"a": [{}, 0], "b": [{}, 0]}}}})",
-        i ? "," : "", i, m, rho * I * l + m * l * l / 12, (i + 0.5) * l, -l / 2, l / 2);
-    if (i > 0)
-      forces += fmt::format(
-          R"(,"b{}": {{"type": "bushing", "between": ["s{}.b", "s{}.a"], "stiffness": [{}, {}], "torsional_stiffness": {}}})",
-          i, i - 1, i, E * A / l, GA / l, E * I / l);
-  }
-  return scene::Scene::parse(
-      fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81], "bodies": {{{}}}, "forces": {{{}}},
-        "integrator": {{"type": "runge_kutta_4", "step": {}}}, "simulate": {{"until": {}}},
-        "record": {{"every": 0.1, "observe": {{"tip_x": "s{}.b.x", "tip_y": "s{}.b.y"}}}}}})",
-                  bodies, forces, 1.3 * l / std::sqrt(E / rho), until, segments - 1, segments - 1),
-      "test.json");
-}
-
 // The segments are of second order: what two sizes have in common of their errors goes.
-Finished extrapolated_pendulum(const SoftBeam& beam, int segments, double until) {
-  const Finished coarse = run_scene(pendulum_of(beam, segments, until));
-  Finished fine = run_scene(pendulum_of(beam, 2 * segments, until));
-  EXPECT_TRUE(coarse.done() && fine.done());
+Finished extrapolated_pendulum(const std::string& which, int segments, const std::string& until) {
+  const auto of = [&](int n) {
+    return run_benchmark(
+        "flexible_pendulum",
+        {{"parameters.case", which}, {"parameters.segments", std::to_string(n)}, {"simulate.until", until}});
+  };
+  const Finished coarse = of(segments);
+  Finished fine = of(2 * segments);
   for (const char* column : {"tip_x", "tip_y"})
     for (std::size_t i = 0; i < fine.series.at(column).size(); ++i)
       fine.series.at(column)[i] += (fine.series.at(column)[i] - coarse.series.at(column).at(i)) / 3;
@@ -132,7 +108,7 @@ Finished extrapolated_pendulum(const SoftBeam& beam, int segments, double until)
 
 TEST(BenchmarkFlexiblePendulum, MeetsItsReference) {
   const auto data = reference("flexible_pendulum");
-  const Finished run = extrapolated_pendulum({1, 1e8, 1e-4, 8.3333333333e-10, 1000}, 12, 2);
+  const Finished run = extrapolated_pendulum("moderate", 12, "2");
   expect_accepted(data, "moderate x(1)", at(run, 1, "tip_x"));
   expect_accepted(data, "moderate y(1)", at(run, 1, "tip_y"));
   expect_accepted(data, "moderate x(2)", at(run, 2, "tip_x"));
@@ -141,7 +117,7 @@ TEST(BenchmarkFlexiblePendulum, MeetsItsReference) {
 
 TEST(BenchmarkFlexiblePendulum, MeetsItsReferenceWhenVerySoft) {
   const auto data = reference("flexible_pendulum");
-  const Finished run = extrapolated_pendulum({1.2, 0.7e6, 0.0018, 1.215e-8, 5540}, 96, 0.6);
+  const Finished run = extrapolated_pendulum("soft", 96, "0.6");
   expect_accepted(data, "soft x(0.5)", at(run, 0.5, "tip_x"));
   expect_accepted(data, "soft y(0.5)", at(run, 0.5, "tip_y"));
   expect_accepted(data, "soft x(0.6)", at(run, 0.6, "tip_x"));
