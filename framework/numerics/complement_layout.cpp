@@ -58,69 +58,66 @@ void ComplementLayout::find(const std::vector<BodyBlock>& bodies, int nc) {
   EliminationTree tree;
   tree.build(nodes.of_bodies, weight, costs);
 
-  fronts_.clear();
   std::vector<int> front_of(static_cast<std::size_t>(nc));
+  for (std::size_t i = 0; i < tree.fronts().size(); ++i)
+    for (const int node : tree.fronts()[i].eliminated)
+      for (const int row : nodes.rows[std::size_t(node)]) front_of[std::size_t(row)] = int(i);
+  std::vector<std::vector<int>> bodies_of(tree.fronts().size());
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (rows_[k].empty()) continue;
+    int first = int(bodies_of.size());
+    for (const int row : rows_[k]) first = std::min(first, front_of[std::size_t(row)]);
+    bodies_of[std::size_t(first)].push_back(int(k));
+  }
+
+  fronts_.clear(), shares_.clear(), numbers_.clear();
+  place_.resize(static_cast<std::size_t>(nc));
   L_ = U_ = 0, largest_ = 0;
   for (const EliminationTree::Front& of : tree.fronts()) {
-    Front front{.children = of.children, .L = L_, .U = U_};
+    std::vector<int> rows;
     // In the order of elimination, which all fronts share.
     const auto add = [&](std::vector<int> members) {
       std::sort(members.begin(), members.end(), [&](int a, int b) { return tree.place(a) < tree.place(b); });
-      for (const int node : members) {
-        const std::vector<int>& rows = nodes.rows[std::size_t(node)];
-        front.rows.insert(front.rows.end(), rows.begin(), rows.end());
-      }
-      return int(front.rows.size());
+      for (const int node : members)
+        rows.insert(rows.end(), nodes.rows[std::size_t(node)].begin(), nodes.rows[std::size_t(node)].end());
+      return int(rows.size());
     };
-    front.eliminated = add(of.eliminated);
-    for (const int row : front.rows) front_of[std::size_t(row)] = int(fronts_.size());
-    front.size = add(of.boundary);
+    Front front;
+    front.L = L_, front.U = U_;
+    front.eliminated = add(of.eliminated), front.size = add(of.boundary);
+    front.rows = keep(rows);
+    place_shares(front, bodies_of[fronts_.size()], of.children);
     L_ += std::size_t(front.stride() * front.size), U_ += std::size_t(front.stride_above() * front.size);
     largest_ = std::max(largest_, front.size);
-    fronts_.push_back(std::move(front));
-  }
-  place_shares(front_of);
-  place_boundaries();
-}
-
-void ComplementLayout::place_shares(const std::vector<int>& front_of) {
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    if (rows_[k].empty()) continue;
-    int first = int(fronts_.size());
-    for (const int row : rows_[k]) first = std::min(first, front_of[std::size_t(row)]);
-    fronts_[std::size_t(first)].bodies.push_back(int(k));
-  }
-  order_.assign(rows_.size(), {}), ordered_rows_ = slots_ = order_, leads_.assign(rows_.size(), 0);
-  std::vector<int> place(front_of.size());
-  for (const Front& front : fronts_) {
-    for (int i = 0; i < front.size; ++i) place[std::size_t(front.rows[std::size_t(i)])] = i;
-    for (const int body : front.bodies) {
-      const auto k = std::size_t(body);
-      const auto place_of = [&](int i) { return place[std::size_t(rows_[k][std::size_t(i)])]; };
-      std::vector<int>& order = order_[k];
-      order.resize(rows_[k].size());
-      std::iota(order.begin(), order.end(), 0);
-      std::sort(order.begin(), order.end(), [&](int i, int j) { return place_of(i) < place_of(j); });
-      leads_[k] = place_of(order.back()) + 1 == int(order.size());
-      for (std::size_t j = 0; j < order.size(); ++j) {
-        ordered_rows_[k].push_back(rows_[k][std::size_t(order[j])]);
-        for (std::size_t i = j; i < order.size(); ++i)
-          slots_[k].push_back(place_of(order[j]) * int(front.stride()) + place_of(order[i]));
-      }
-    }
+    fronts_.push_back(front);
   }
 }
 
-void ComplementLayout::place_boundaries() {
-  places_.assign(fronts_.size(), {});
-  std::vector<int> place(static_cast<std::size_t>(nc_));
-  for (const Front& front : fronts_) {
-    for (int i = 0; i < front.size; ++i) place[std::size_t(front.rows[std::size_t(i)])] = i;
-    for (const int c : front.children) {
-      const Front& child = fronts_[std::size_t(c)];
-      for (int i = child.eliminated; i < child.size; ++i)
-        places_[std::size_t(c)].push_back(place[std::size_t(child.rows[std::size_t(i)])]);
-    }
+ComplementLayout::List ComplementLayout::keep(const std::vector<int>& numbers) {
+  const List list{numbers_.size(), numbers.size()};
+  numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
+  return list;
+}
+
+void ComplementLayout::place_shares(Front& front, const std::vector<int>& bodies, const std::vector<int>& children) {
+  for (int i = 0; i < front.size; ++i) place_[std::size_t(rows(front)[std::size_t(i)])] = i;
+  std::vector<int> order, places;
+  front.bodies = {shares_.size(), bodies.size()};
+  for (const int body : bodies) {
+    const std::vector<int>& of_body = rows_[std::size_t(body)];
+    const auto place_of = [&](int i) { return place_[std::size_t(of_body[std::size_t(i)])]; };
+    order.resize(of_body.size()), places.clear();
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int i, int j) { return place_of(i) < place_of(j); });
+    for (const int i : order) places.push_back(place_of(i));
+    shares_.push_back({body, keep(order), keep(places)});
+  }
+  front.children = {shares_.size(), children.size()};
+  for (const int c : children) {
+    const Front& child = fronts_[std::size_t(c)];
+    places.clear();
+    for (const int row : rows(child).subspan(std::size_t(child.eliminated))) places.push_back(place_[std::size_t(row)]);
+    shares_.push_back({c, {}, keep(places)});
   }
 }
 
