@@ -55,8 +55,12 @@ Eigen::Index column_of(const BodyBlock& block, int row) {
 
 void add(const BodyBlock& block, int row, const Motion& marker, const RowsOf& H, Mat& transposed) {
   const Eigen::Index column = column_of(block, row);
-  for_each_column(H, marker.J, [&](Eigen::Index j, const double* entries, auto n) {
-    for (int i = 0; i < n; ++i) transposed(marker.dofs[std::size_t(j)], column + i) += entries[i];
+  double* const to = transposed.data() + column * transposed.rows();
+  const Eigen::Index rows = transposed.rows();
+  const int* const dofs = marker.dofs.data();
+  for_each_column(H, marker.J, [=](Eigen::Index j, const double* entries, auto n) {
+    double* const first = to + dofs[j];
+    for (int i = 0; i < n; ++i) first[i * rows] += entries[i];
   });
 }
 

@@ -31,15 +31,13 @@ inline void add_motion(const RowsOf& rows, const Motion& marker, double* rate, d
   const Eigen::Index stride = rows.H.rows();
   with_twist(marker.V.size(), [=](auto twist) {
     numerics::with_few<6>(rows.n, [=](auto n) {
-      for (int i = 0; i < n; ++i) {
-        double along_V = 0, along_bias = 0;
-        for (int k = 0; k < twist; ++k) {
-          along_V += H[k * stride + i] * V[k];
-          along_bias += H[k * stride + i] * bias[k];
+      double along_V[n] = {}, along_bias[n] = {};
+      for (int k = 0; k < twist; ++k)
+        for (int i = 0; i < n; ++i) {
+          along_V[i] += H[k * stride + i] * V[k];
+          along_bias[i] += H[k * stride + i] * bias[k];
         }
-        rate[i] += along_V;
-        free[i] -= along_bias;
-      }
+      for (int i = 0; i < n; ++i) rate[i] += along_V[i], free[i] -= along_bias[i];
     });
   });
 }

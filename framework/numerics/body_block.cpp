@@ -1,5 +1,7 @@
 #include "numerics/body_block.hpp"
 
+#include <algorithm>
+
 #include "numerics/fetch.hpp"
 #include "numerics/few_rows.hpp"
 
@@ -46,17 +48,25 @@ void add_rows_times(const std::vector<BodyBlock>& bodies, double c, const Vec& x
 
 namespace {
 
+// Summed in registers where n is known.
 void add_columns(const BodyBlock& body, const Mat& columns, double c, const Vec& y, Vec& r) {
-  with_size(columns.rows(), [&](auto n) {
+  double* const of_body = r.data() + body.v0;
+  const auto add = [&](auto n, double* sum) {
     const double* column = columns.data();
-    double* const of_body = r.data() + body.v0;
     for (const int row : body.rows) {
       if (row >= y.size()) break;
       const double by = c * y[row];
-      for (int j = 0; j < n; ++j) of_body[j] += by * column[j];
+      for (int j = 0; j < n; ++j) sum[j] += by * column[j];
       column += n;
     }
+  };
+  const bool few = with_few(columns.rows(), [&](auto n) {
+    double sum[n];
+    std::copy_n(of_body, int(n), sum);
+    add(n, sum);
+    std::copy_n(sum, int(n), of_body);
   });
+  if (!few) add(columns.rows(), of_body);
 }
 
 }  // namespace

@@ -144,19 +144,19 @@ void Cholesky::solve_lower(Eigen::Ref<Vec> x) {
 }
 
 // A part of the rows at a time, each by its columns: less what those before it contribute.
-void Cholesky::solve_lower_of_rows(Mat& X) const {
+void Cholesky::solve_lower_of_rows(Eigen::Ref<Mat> X) const {
   if (X.rows() == 0) return;
   if (in_blocks()) return blocks_.matrixU().solveInPlace<Eigen::OnTheRight>(X);
-  const Eigen::Index m = X.rows();
+  const Eigen::Index m = X.rows(), stride = X.outerStride();
   in_parts(m, [&](auto rows, Eigen::Index i) {
     double* const x = X.data() + i;
     for (Eigen::Index k = 0; k < n_; ++k) {
-      PartOfRows<rows> rest = part_at<rows>(x + k * m);
+      PartOfRows<rows> rest = part_at<rows>(x + k * stride);
       for (Eigen::Index j = diagonal_ ? k : first_[std::size_t(k)]; j < k; ++j)
-        rest -= L_(k, j) * part_at<rows>(x + j * m);
-      part_at<rows>(x + k * m) = rest;
+        rest -= L_(k, j) * part_at<rows>(x + j * stride);
+      part_at<rows>(x + k * stride) = rest;
     }
-    for (Eigen::Index k = 0; k < n_; ++k) part_at<rows>(x + k * m) *= inverse_root_[k];
+    for (Eigen::Index k = 0; k < n_; ++k) part_at<rows>(x + k * stride) *= inverse_root_[k];
   });
 }
 
@@ -179,7 +179,8 @@ void Cholesky::solve_transposed(Eigen::Ref<Vec> x) {
 }
 
 void Cholesky::solve(Eigen::Ref<Vec> x) {
-  if (of_few() && !diagonal_) {
+  if (diagonal_) return void(x.array() *= inverse_.head(n_).array());
+  if (of_few()) {
     FewNumbers y(n_, x.data());
     y.solve_lower(L_.data());
     y.scale(inverse_.data());

@@ -23,10 +23,10 @@ class Cholesky {
   [[nodiscard]] bool compute(const Mat& M);
   double pivot(Eigen::Index j) const { return in_blocks() ? blocks_.matrixLLT()(j, j) : root_[j]; }  // C_jj
 
-  void solve_lower(Eigen::Ref<Vec> x);       // x := C^-1 x
-  void solve_lower_of_rows(Mat& X) const;    // X := X C^-T
-  void solve_transposed(Eigen::Ref<Vec> x);  // x := C^-T x
-  void solve(Eigen::Ref<Vec> x);             // x := M^-1 x
+  void solve_lower(Eigen::Ref<Vec> x);                // x := C^-1 x
+  void solve_lower_of_rows(Eigen::Ref<Mat> X) const;  // X := X C^-T
+  void solve_transposed(Eigen::Ref<Vec> x);           // x := C^-T x
+  void solve(Eigen::Ref<Vec> x);                      // x := M^-1 x
 
  private:
   bool in_blocks() const { return n_ == 0 && !diagonal_; }
