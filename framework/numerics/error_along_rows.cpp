@@ -9,9 +9,14 @@ void ErrorAlongRows::project(System& s, const State& at, Vec& e_v) {
   if (s.sizes().nc == 0) return;
   zero_.setZero(s.sizes().nv);
   no_force_.setZero(s.sizes().nc);
-  right_.setZero(s.sizes().nc);
   s.move_to(at.t, at.q, at.v);
   s.factorise({1, 0, 0}, zero_, no_force_, Factors::projection);
+  project(s, e_v);
+}
+
+void ErrorAlongRows::project(System& s, Vec& e_v) {
+  zero_.setZero(s.sizes().nv);
+  right_.setZero(s.sizes().nc);
   s.add_rows_times(1, e_v, right_);
   if (s.correct(zero_, right_, change_, mu_, Factors::projection)) e_v += change_;
 }

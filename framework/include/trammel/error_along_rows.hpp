@@ -24,6 +24,8 @@ class ErrorAlongRows {
   }
   // e_v without its part across the rows at `at`: the change of least kinetic energy to G e_v = 0.
   void project(System& s, const State& at, Vec& e_v);
+  // Where the system stands, by the factors of Factors::projection as they are.
+  void project(System& s, Vec& e_v);
 
   void forget() { rounding_ = false, trial_ = {}; }  // where a motion begins
   void archive(Archive& archive) { archive("rounding", rounding_); }

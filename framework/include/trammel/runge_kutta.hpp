@@ -60,6 +60,8 @@ class RungeKutta {
   bool evaluate(System& s, double t, const Vec& q, const Vec& v, Slope& slope);
   // Where that slope was taken, which is on the rows if it `projects`.
   void taken_at(Vec& q, Vec& v) const { q = on_manifold_, v = held_v_; }
+  // Leaves out what of dv is across the rows there (error_along_rows.hpp).
+  void put_along_rows(System& s, Vec& dv) { along_rows_.project(s, dv); }
   // Calls `trial`, an Outcome(), that evaluates what a step from `now` needs: all of it in the step's own null space, or if that
   // does not reach, all of it projected.
   template <class Trial>

@@ -52,6 +52,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   void restart(System& s, const State& now) override {
     past_h_ = trial_h_ = 0;
     convergence_.distrust();
+    field_.forget();
     const auto [nq, nv, nc] = s.sizes();
     if (nv != modes_.omega().size() || nc != rows_) linearise(s, now);
   }
@@ -81,7 +82,9 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     const double growth = convergence_.growth(sweeps);
     const double growing = growth > 0.25 ? std::pow(growth, double(points) / sweeps) : 0;
     const double sweep = convergence_.contraction() * last_sweep_norm(s, now, next, tolerance);
-    return std::max({without_middle_norm(s, now, next, tolerance), sweep, growing});
+    const double collocated =
+        field_.error(now, next, [&](Part part) { return without_middle_norm(s, now, next, tolerance, part); });
+    return std::max({collocated, sweep, growing});
   }
   int error_order() const override { return points; }
 
@@ -116,6 +119,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     archive("steps", steps_);
     archive("linearise", linearise_);
     convergence_.archive(archive);
+    field_.archive(archive);
     archive("past_h", past_h_);
     const auto points_of = [&](const char* name, Mat& m) {
       for (int j = 0; j < points && past_h_ > 0; ++j) {
@@ -129,6 +133,8 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   }
 
  private:
+  using Part = RungeKutta::Part;
+
   void linearise(System& s, const State& now) {
     const auto [nq, nv, nc] = s.sizes();
     if (nv > most_coordinates)
@@ -198,17 +204,28 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
 
   bool sweep(System& s, const State& now) {
     swept_nu_ = nu_, swept_r_ = r_;
+    swept_nu_.col(0).setZero();
     for (int i = 1; i < points; ++i) {
       solution_at(s, now, weights_[i], q_i_, v_i_);
       if (!field_.evaluate(s, now.t + weights_[i].t, q_i_, v_i_, slope_)) return false;
       take_slope(s, now, i, v_i_);
       q_.col(i) = q_i_, lambda_.col(i) = slope_.lambda;
+      take_change(s, i);
     }
-    swept_nu_ = nu_ - swept_nu_, swept_r_ = r_ - swept_r_;
+    swept_r_ = r_ - swept_r_;
     const double size =
         (nu_.col(last).cwiseAbs() + modes_.omega_2().cwiseProduct(xi_.cwiseAbs())).lpNorm<Eigen::Infinity>();
     convergence_.swept(swept_nu_.lpNorm<Eigen::Infinity>(), size);
     return true;
+  }
+
+  // Of nu by the sweep. Across rows that hold at the point round-off may be all there is of it, which no sweep makes smaller.
+  void take_change(System& s, int i) {
+    swept_nu_.col(i) = nu_.col(i) - swept_nu_.col(i);
+    if (!field_.projects() || rows_ == 0) return;
+    e_v_.noalias() = modes_.shapes() * swept_nu_.col(i);
+    field_.put_along_rows(s, e_v_);
+    swept_nu_.col(i).noalias() = modes_.amplitudes() * e_v_;
   }
 
   // nu from the slope where the increment is Phi xi.
@@ -280,14 +297,14 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
 
   // The result less that of the polynomials through the other six points, O(h^7): the error of steps that hold many swings, and
   // more than that of others.
-  double without_middle_norm(System& s, const State& now, const State& next, const Tolerance& tolerance) {
+  double without_middle_norm(System& s, const State& now, const State& next, const Tolerance& tolerance, Part part) {
     const Weights& w = weights_[last];
     rest_.noalias() = nu_ * beyond_others();
     eta_ = w.v.col(middle).cwiseProduct(rest_);
     xi_ = w.x.col(middle).cwiseProduct(rest_);
     beyond_.noalias() = r_ * beyond_others();
     beyond_ *= w.integral[middle];
-    return norm(s, now, next, tolerance);
+    return norm(s, now, next, tolerance, part);
   }
 
   // What the last sweep changed of the result.
@@ -296,17 +313,16 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     eta_ = w.v.cwiseProduct(swept_nu_).rowwise().sum();
     xi_ = w.x.cwiseProduct(swept_nu_).rowwise().sum();
     beyond_.noalias() = swept_r_ * w.integral;
-    return norm(s, now, next, tolerance);
+    return norm(s, now, next, tolerance, Part::whole);
   }
 
   // Of an error Phi eta_ of the velocity, Phi xi_ of the increment and beyond_ of the rest of q.
-  double norm(System& s, const State& now, const State& next, const Tolerance& tolerance) {
+  double norm(System& s, const State& now, const State& next, const Tolerance& tolerance, Part part) {
     e_v_.noalias() = modes_.shapes() * eta_;
     x_.noalias() = modes_.shapes() * xi_;
     s.rate(now.q, x_, e_);
     e_ += beyond_;
-    error_increment(s, next.q, e_, embedded_, e_q_);
-    return error_norm(e_q_, e_v_, now, next, tolerance);
+    return field_.norm(s, now, next, e_, e_v_, part, tolerance);
   }
 
   // Makes the step from `now` to `next` the last one: repeats it if another was tried since.
@@ -346,7 +362,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   Slope slope_;
   Eigen::Matrix<double, points, points> ahead_;  // column i: weights of the past points
   double ahead_by_ = 0;
-  Vec beyond_, rest_, xi_, eta_, x_, v_i_, q_i_, rate_, e_, e_v_, e_q_, embedded_;
+  Vec beyond_, rest_, xi_, eta_, x_, v_i_, q_i_, rate_, e_, e_v_;
   State repeated_;
 };
 

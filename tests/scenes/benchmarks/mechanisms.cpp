@@ -104,6 +104,21 @@ TEST(BenchmarkA02, PassesItsSingularPositionsInQuasiVelocities) {
   }
 }
 
+// Sweeps that change nothing but round-off across the rows have converged.
+TEST(BenchmarkA02, PassesItsSingularPositionsByExponentialCollocation) {
+  const auto by_n = reference("iftomm_a02_n_four_bar")["reference"]["by_N"];
+  const auto x = [&](const char* n) { return std::stod(by_n[n]["t=10_B0_x_y_vx_vy"][0].get<std::string>()); };
+  for (const std::string rows : {"projected", "null_space"})
+    for (const std::string tolerance : {"1e-3", "1e-5", "1e-7", "1e-8", "1e-9"}) {
+      const Overrides integrator = {{"integrator", R"({"type": "exponential_collocation", "rows": ")" + rows +
+                                                       R"(", "step": {"tolerance": )" + tolerance + "}}"}};
+      const Finished two = run_benchmark("a02_n2", integrator), ten = run_benchmark("a02_n10", integrator);
+      EXPECT_NEAR(two.end("B0_x"), x("2"), 10 * std::stod(tolerance)) << rows << " at " << tolerance;
+      EXPECT_NEAR(ten.end("B0_x"), x("10"), 10 * std::stod(tolerance)) << rows << " at " << tolerance;
+      EXPECT_LT(ten.result["counts"]["steps"].get<int>(), 500) << rows << " at " << tolerance;
+    }
+}
+
 // 40 windows have as many rows that fail together, at angles down to n^-2 of the mechanism's own. Steps follow
 // tolerance^(-1/8): if rounding of the accelerations shortened them near the passages, they would be tens of thousands.
 TEST(BenchmarkA02, WithFortyWindowsPassesItsSingularPositionsAtTightTolerances) {
