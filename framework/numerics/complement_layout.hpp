@@ -3,7 +3,7 @@
 // A body couples all rows that touch it: its share goes to the front (elimination_tree.hpp) that eliminates the first of them.
 // Rows between the same bodies, as those of a joint, make one node of the tree. Follows from which rows touch which bodies alone.
 //
-// All of it lies in memory in the order of use: long chains are read from end to end.
+// What fronts need lies in memory in the order of use: long chains are read from end to end.
 #pragma once
 
 #include <cstddef>

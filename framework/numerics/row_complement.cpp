@@ -34,8 +34,8 @@ void products_of_rows(const Eigen::Map<Mat>& Y, double* S) {
   if (!done) Eigen::Map<Mat>(S, m, m).noalias() = Y * Y.transpose();
 }
 
-// f(rows eliminated, rows from column to column), known to the compiler for small fronts: an evaluation of a chain of 100 hinges takes
-// 78.6 us so instead of 81.6.
+// f(rows eliminated, rows from column to column), known to the compiler for small fronts: an evaluation of a chain of 100 hinges
+// takes 78.6 us so instead of 81.6.
 template <class F>
 void with_sizes(const ComplementLayout::Front& front, F&& f) {
   const bool known = front.stride() <= 4 * pack && with_few(front.eliminated, [&](auto eliminated) {
@@ -49,12 +49,13 @@ void with_sizes(const ComplementLayout::Front& front, F&& f) {
 }  // namespace
 
 void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const std::vector<Cholesky>& masses, int nc,
-                              double eps, bool with_softness) {
+                              double eps, Find find) {
   if (!layout_.holds(bodies, nc)) {
     layout_.find(bodies, nc);
-    resize(bodies, nc);
+    resize(nc);
   }
   diagonal_.setConstant(eps);
+  const bool with_softness = find == Find::factors_and_softness;
   if (with_softness) start_.setZero();
   const std::vector<Front>& fronts = layout_.fronts();
   for (std::size_t i = 0; i < fronts.size(); ++i) {
@@ -68,17 +69,15 @@ void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const std::v
     eliminate(fronts[i]);
     if (with_softness) take_along(fronts[i]);
   }
+  if (with_softness) mean_softness_ = double(nc) / start_.cwiseAbs2().cwiseProduct(inverse_pivots_).sum();
 }
 
-void RowComplement::resize(const std::vector<BodyBlock>& bodies, int nc) {
+void RowComplement::resize(int nc) {
   const Eigen::Index largest = padded(layout_.largest());
   L_.setZero(Eigen::Index(layout_.numbers_L()));
   U_.setZero(Eigen::Index(layout_.numbers_U()));
   diagonal_.resize(nc), pivots_.resize(nc), inverse_pivots_.resize(nc), start_.resize(nc);
   work_.resize(largest), product_.resize(largest * largest);
-  Eigen::Index numbers = 0;
-  for (const BodyBlock& body : bodies) numbers = std::max(numbers, padded(body.Gt.cols()) * body.Gt.rows());
-  Y_.resize(numbers);
 }
 
 void RowComplement::assemble(const std::vector<BodyBlock>& bodies, const std::vector<Cholesky>& masses,
@@ -104,6 +103,7 @@ void RowComplement::assemble(const std::vector<BodyBlock>& bodies, const std::ve
 
 Eigen::Map<Mat> RowComplement::form_Y(const BodyBlock& body, const Cholesky& mass, std::span<const int> order) {
   const auto m = Eigen::Index(order.size()), stride = padded(m);
+  if (Y_.size() < stride * body.Gt.rows()) Y_.resize(stride * body.Gt.rows());
   Eigen::Map<Mat> Y(Y_.data(), stride, body.Gt.rows());
   const auto copy = [&](auto n) {
     for (Eigen::Index i = 0; i < m; ++i) {
@@ -157,9 +157,13 @@ bool RowComplement::is_safe(double least_sine) const {
 
 namespace {
 
-// Signs without any order (a hash's): they have a part of every direction.
+// Signs without any order (a hash's): they have a part of every direction. One round of it would be balanced, with hardly any
+// part of smooth ones.
 double sign(int row) {
-  return std::uint32_t(row) * 2654435769U >> 31 ? 1 : -1;
+  constexpr std::uint32_t golden = 2654435769U;
+  std::uint32_t mixed = std::uint32_t(row) * golden;
+  mixed = (mixed ^ mixed >> 15) * golden;
+  return mixed >> 31 ? 1 : -1;
 }
 
 }  // namespace
@@ -169,10 +173,6 @@ void RowComplement::take_along(const Front& front) {
   for (const int row : layout_.rows(front).first(std::size_t(front.eliminated)))
     start_[row] += sign(row) * std::sqrt(diagonal_[row]);
   solve_lower(front, start_);
-}
-
-double RowComplement::softness() const {
-  return double(start_.size()) / start_.cwiseAbs2().cwiseProduct(inverse_pivots_).sum();
 }
 
 double RowComplement::softest() {

@@ -6,8 +6,8 @@
 //     [S_FF S_BF^T]  =  [L_FF  ] [D  ] [L_FF^T L_BF^T]         U = D [L_FF^T L_BF^T]
 //     [S_BF S_BB  ]     [L_BF 1] [  R] [            1]
 //
-// Of a chain of 100 links with five rows each this takes half of the time of Eigen's simplicial factors (22 instead of 46 us; a solve
-// 6.1 instead of 7.8).
+// Of a chain of 100 links with five rows each this takes half of the time of Eigen's simplicial factors (22 instead of 46 us; a
+// solve 6.1 instead of 7.8).
 #pragma once
 
 #include <span>
@@ -23,15 +23,18 @@ namespace trammel::numerics {
 
 class RowComplement {
  public:
+  enum class Find { factors, factors_and_softness };
   // Of the first nc rows. masses: of each body.
   void factorise(const std::vector<BodyBlock>& bodies, const std::vector<Cholesky>& masses, int nc, double eps,
-                 bool with_softness = false);
+                 Find find = Find::factors);
   // Each pivot is more than the square of `least_sine` beside its diagonal: its row's angle to those eliminated before.
   bool is_safe(double least_sine) const;
-  // No less than the least eigenvalue of S with its diagonal scaled to 1, by a step of inverse iteration, which finds up to
-  // sqrt(nc) / p of it, p its direction's part of the start; and up to sqrt(nc) / p of that, found while factorising.
+  // Both are no less than the least eigenvalue of S with its diagonal scaled to 1. With p the part of its direction in a start of
+  // signs: softest(), a step of inverse iteration, is at most sqrt(nc) / p times that eigenvalue; mean_softness(), the harmonic
+  // mean of the eigenvalues by such parts, at most sqrt(nc) / p times softest(). The mean is that of the last `factorise` that
+  // was to find it.
   double softest();
-  double softness() const;
+  double mean_softness() const { return mean_softness_; }
   double largest() const { return diagonal_.maxCoeff(); }
   // |S_ii y_i|
   double largest_share(const Vec& y) const { return diagonal_.cwiseProduct(y).lpNorm<Eigen::Infinity>(); }
@@ -40,7 +43,7 @@ class RowComplement {
  private:
   using Front = ComplementLayout::Front;
   using Share = ComplementLayout::Share;
-  void resize(const std::vector<BodyBlock>& bodies, int nc);
+  void resize(int nc);
   void assemble(const std::vector<BodyBlock>& bodies, const std::vector<Cholesky>& masses, const Front& front,
                 double eps);
   Eigen::Map<Mat> form_Y(const BodyBlock& body, const Cholesky& mass, std::span<const int> order);
@@ -54,6 +57,7 @@ class RowComplement {
   Vec L_, U_;                               // of all fronts; L's columns of the boundary hold R
   Vec diagonal_, pivots_, inverse_pivots_;  // by rows
   Vec work_, scale_, start_, end_;
+  double mean_softness_ = 0;
   // Of one body, in the order of elimination: Y = G C^-T, M = C C^T, below them padded rows of zeros; Y Y^T.
   Vec Y_, product_;
 };

@@ -11,9 +11,9 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 // Of S's and G's scales. Large beside its round-off, so that corrections converge; its square root is the singular value, relative to
 // the largest, below which rows count as redundant. A chain's own rows must not, whose softest falls with the square of their number:
 // among few rows alone soft ones are those of a singular position.
-constexpr int most_with_soft_rows = 200;
+constexpr int long_from = 200;
 constexpr double regularisation(int nc) {
-  return nc < most_with_soft_rows ? 1e-10 : 1e-12;
+  return nc < long_from ? 1e-10 : 1e-12;
 }
 // Of a long chain the complement serves as it is down to this sine of a row's angle to others: its square above round-off by 1e10.
 constexpr double safe_sine = 1e-3;
@@ -54,7 +54,8 @@ bool SparseMassKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, Metr
   if (by_fronts_) return factorise_fronts(bodies);
   if (!factorise_masses(bodies, metric)) return false;
   if (nc == 0) return true;
-  complement_.factorise(bodies, masses_, nc, 0, nc >= long_chain);
+  using Find = RowComplement::Find;
+  complement_.factorise(bodies, masses_, nc, 0, nc >= long_chain ? Find::factors_and_softness : Find::factors);
   by_fronts_ = nc >= long_chain && is_soft(std::max(safe_sine, 10 * rank_tolerance));
   if (by_fronts_) return factorise_fronts(bodies);
   redundant_ = !complement_.is_safe(10 * rank_tolerance);
@@ -62,11 +63,11 @@ bool SparseMassKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, Metr
   return true;
 }
 
-// A pivot tells of redundant rows, softness of a whole chain may leave no trace in any of them.
+// A pivot tells of redundant rows, softness of a whole chain may leave no trace in any of them. The mean, which costs little, clears
+// most chains (it does if the start has 1/10 or more of the softest direction).
 bool SparseMassKkt::is_soft(double sine) {
-  const double soft = sine * sine,
-               at_most = 10 * std::sqrt(double(nc_)) * soft;  // of a part of 1/10 (row_complement.hpp)
-  return !complement_.is_safe(sine) || (complement_.softness() < at_most && complement_.softest() < soft);
+  const double soft = sine * sine, cleared = 10 * std::sqrt(double(nc_)) * soft;
+  return !complement_.is_safe(sine) || (complement_.mean_softness() < cleared && complement_.softest() < soft);
 }
 
 // Large beside the complement's round-off, so that corrections converge and the unreachable is told from the rest.
@@ -190,7 +191,7 @@ void SparseIterationKkt::factorise_full(int nv, int nc, bool fresh) {
   if (fresh) lu_.analyzePattern(regular_);
   lu_.factorize(regular_);
   failed_ = lu_.info() != Eigen::Success;
-  soft_ = nc < most_with_soft_rows && !failed_ && eps_ > 0 && find_soft_rows(nc);
+  soft_ = nc < long_from && !failed_ && eps_ > 0 && find_soft_rows(nc);
 }
 
 // eps^2 (C + eps)^-2 y, C = G S^-1 W^T, keeps of y what lies in the rows' null space, and little else. The matrix takes

@@ -165,6 +165,22 @@ TEST_P(RowComplementOf, ItsSoftestDirectionIsAtMostAsSoftAsFound) {
   EXPECT_LE(complement.softest(), 10 * std::sqrt(double(m.nc)) * least);
 }
 
+// The harmonic mean of the eigenvalues by their parts in a start: between the least and the greatest, and what softest() tells
+// soft has a small one (parts of 1/10 again).
+TEST_P(RowComplementOf, ItsMeanSoftnessClearsNoSoftestDirection) {
+  const Mechanism m = mechanism();
+  RowComplement complement;
+  complement.factorise(m.bodies, m.masses, m.nc, 0, RowComplement::Find::factors_and_softness);
+  const double mean = complement.mean_softness();
+  const Mat S = m.dense(m.nc, 0);
+  const Vec scale = S.diagonal().cwiseSqrt().cwiseInverse();
+  const Vec eigenvalues = Eigen::SelfAdjointEigenSolver<Mat>(scale.asDiagonal() * S * scale.asDiagonal()).eigenvalues();
+  EXPECT_GE(mean, (1 - 1e-6) * eigenvalues[0]);
+  EXPECT_LE(mean, (1 + 1e-6) * eigenvalues[m.nc - 1]);
+  EXPECT_LE(mean, 10 * std::sqrt(double(m.nc)) * complement.softest());
+  EXPECT_EQ(mean, complement.mean_softness()) << "it stays until the next factors";
+}
+
 // A ring of balls has rows to spare: 3 n of 6 n; grids of four rows a joint in the mean 1.8 joints a body.
 INSTANTIATE_TEST_SUITE_P(Mechanisms, RowComplementOf,
                          testing::Values(Case{"ChainOfHinges", chain, 30, 6, 5}, Case{"ChainOfPins", chain, 30, 3, 2},
@@ -172,6 +188,41 @@ INSTANTIATE_TEST_SUITE_P(Mechanisms, RowComplementOf,
                                          Case{"StarOfFixedBodies", star, 2, 6, 6}, Case{"GridOfBalls", grid, 64, 6, 3},
                                          Case{"ChainOfMembranes", chain, 4, 60, 20}, Case{"OneBody", chain, 1, 6, 5}),
                          [](const auto& of) { return of.param.name; });
+
+// Unit masses along a line, each row a second difference of three of them: the softest direction, half a wave, falls with n^-4.
+Mechanism beam_of_masses(int n) {
+  Mechanism m(n + 2, 1, {}, 0);
+  for (int row = 0; row < n; ++row)
+    for (int k = 0; k < 3; ++k) {
+      BodyBlock& body = m.bodies[std::size_t(row + k)];
+      body.Gt.conservativeResize(1, body.Gt.cols() + 1);
+      body.Gt(0, body.Gt.cols() - 1) = k == 1 ? -2 : 1;
+      body.rows.push_back(row);
+    }
+  m.nc = n;
+  return m;
+}
+
+TEST(RowComplement, FindsTheSoftestDirectionOfLongBeams) {
+  for (int n = 100; n < 1000; n += 7) {
+    const Mechanism m = beam_of_masses(n);
+    RowComplement complement;
+    complement.factorise(m.bodies, m.masses, n, 0, RowComplement::Find::factors_and_softness);
+    const double wave = std::pow(2 * std::sin(std::acos(-1) / (2 * (n + 1))), 4) / 6;  // of a diagonal of 6
+    EXPECT_GE(complement.softest(), 0.1 * wave) << n;
+    EXPECT_LE(complement.softest(), 20 * std::sqrt(double(n)) * wave) << n;
+    EXPECT_LE(complement.mean_softness(), 20 * std::sqrt(double(n)) * complement.softest()) << n;
+  }
+}
+
+TEST(RowComplement, OfBodiesThatGrowHasRoomForThem) {
+  const Mechanism small(4, 3, chain(4), 2), large(4, 6, chain(4), 2);
+  RowComplement complement;
+  for (const Mechanism* m : {&small, &large}) {
+    complement.factorise(m->bodies, m->masses, m->nc, 0);
+    expect_solved(m->dense(m->nc, 0), complement);
+  }
+}
 
 TEST(RowComplement, OfNoRowsIsEmpty) {
   const Mechanism m(2, 6, {}, 0);
