@@ -112,7 +112,17 @@ bool FrontalKkt::refine() {
     X_ += dX_, Y_ += dY_;
     if (change <= good * size) break;
   }
+  missed_ = find_missed(size);
   return change <= lost * size;
+}
+
+// What was left before the last correction is more, and often little enough.
+double FrontalKkt::find_missed(double size) {
+  constexpr double of_products = 1e-14;
+  const auto missed = [&] { return c_.size() > 0 ? c_.lpNorm<Eigen::Infinity>() / size : 0; };
+  if (dependent_ == 0 || !(missed() > of_products)) return 0;
+  find_residuals();
+  return missed() > of_products ? missed() : 0;
 }
 
 namespace {

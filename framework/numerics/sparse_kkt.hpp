@@ -18,9 +18,9 @@
 // is lost. From `long_chain` rows on, where the complement tells of such or of redundant rows, the rows are eliminated front by front
 // (frontal_kkt.hpp), refined once or twice with the residuals of the equations. Then y is a solution of few entries on redundant rows,
 // not the one of minimum norm.
-// Where round-off comes between redundant rows on the way around a large ring (a hoop of 3000 bays), fronts contradict each other and
-// their solution does not come to satisfy the equations: that is measured, and springs take the rows' place in them. Of such a hoop
-// they leave free what its rows tell by less than their round-off.
+// Where round-off comes between redundant rows on the way around a large ring (a hoop of 400 bays and more), fronts contradict each
+// other: their solution misses dependent rows by more than these rows' own round-off, or does not settle at all. That is measured, and
+// springs take the rows' place in them. Of such a hoop they leave free what its rows tell by less than their round-off.
 #pragma once
 
 #include <vector>
@@ -52,6 +52,7 @@ class SparseMassKkt {
   void remove_null_part(Vec& r);
   bool factorise_fronts(const std::vector<BodyBlock>& bodies);
   bool factorise_springs(const std::vector<BodyBlock>& bodies);
+  bool springs_are_better(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, const Vec& x);
   void solve_by_fronts(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
   void regularise(const std::vector<BodyBlock>& bodies);
 
@@ -59,7 +60,7 @@ class SparseMassKkt {
   double eps_ = 0;  // while redundant: in the corner of the matrix, or that of springs
   double rank_tolerance_ = 0;
   bool redundant_ = false;
-  bool by_fronts_ = false, fronts_failed_ = false, identity_ = false;
+  bool by_fronts_ = false, fronts_failed_ = false, springs_judged_ = false, identity_ = false;
   std::vector<Cholesky> masses_;  // M = C C^T
   RowComplement complement_;
   FrontalKkt fronts_;
