@@ -205,24 +205,26 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   bool sweep(System& s, const State& now) {
     swept_nu_ = nu_, swept_r_ = r_;
     swept_nu_.col(0).setZero();
+    SweepConvergence::Change change{.whole = 0, .along_rows = 0};
     for (int i = 1; i < points; ++i) {
       solution_at(s, now, weights_[i], q_i_, v_i_);
       if (!field_.evaluate(s, now.t + weights_[i].t, q_i_, v_i_, slope_)) return false;
       take_slope(s, now, i, v_i_);
       q_.col(i) = q_i_, lambda_.col(i) = slope_.lambda;
-      take_change(s, i);
+      swept_nu_.col(i) = nu_.col(i) - swept_nu_.col(i);
+      change.whole = std::max(change.whole, swept_nu_.col(i).lpNorm<Eigen::Infinity>());
+      if (field_.projects() && rows_ > 0) put_along_rows(s, i);
+      change.along_rows = std::max(change.along_rows, swept_nu_.col(i).lpNorm<Eigen::Infinity>());
     }
     swept_r_ = r_ - swept_r_;
     const double size =
         (nu_.col(last).cwiseAbs() + modes_.omega_2().cwiseProduct(xi_.cwiseAbs())).lpNorm<Eigen::Infinity>();
-    convergence_.swept(swept_nu_.lpNorm<Eigen::Infinity>(), size);
+    convergence_.swept(change, size);
     return true;
   }
 
-  // Of nu by the sweep. Across rows that hold at the point round-off may be all there is of it, which no sweep makes smaller.
-  void take_change(System& s, int i) {
-    swept_nu_.col(i) = nu_.col(i) - swept_nu_.col(i);
-    if (!field_.projects() || rows_ == 0) return;
+  // What the sweep changed of nu_i.
+  void put_along_rows(System& s, int i) {
     e_v_.noalias() = modes_.shapes() * swept_nu_.col(i);
     field_.put_along_rows(s, e_v_);
     swept_nu_.col(i).noalias() = modes_.amplitudes() * e_v_;

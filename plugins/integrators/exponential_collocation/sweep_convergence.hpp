@@ -20,16 +20,21 @@ class SweepConvergence {
   // has this `rounding`; no more than `unseen` of it does not matter.
   void begin(double h, double longer, double rounding, double unseen) {
     h_ = h, longer_ = longer, rounding_ = rounding, unseen_ = unseen;
-    change_ = change_before_ = std::numeric_limits<double>::infinity();
+    change_ = before_ = {};
   }
+  // By how much a sweep changed the whole, and what of it is along rows that points are put onto. Across them it may be nothing but
+  // round-off (error_along_rows.hpp), which no sweep makes smaller.
+  struct Change {
+    double whole = std::numeric_limits<double>::infinity(), along_rows = whole;
+  };
   // A sweep has changed what is of this size by so much.
-  void swept(double change, double size) { change_before_ = change_, change_ = change, size_ = size; }
+  void swept(const Change& change, double size) { before_ = change_, change_ = change, size_ = size; }
 
-  bool settled() const { return change_ <= 1e-12 * size_ + 4 * rounding_; }
+  bool settled() const { return change_.along_rows <= 1e-12 * size_ + 4 * rounding_; }
   bool known() const { return trusted_ > 0 && h_ <= 1.25 * seen_h_; }
 
   double contraction() const {
-    if (seen()) return change_ / change_before_;
+    if (seen()) return std::min(change_.whole / before_.whole, change_.along_rows / before_.along_rows);
     const double by = seen_h_ > 0 ? h_ / seen_h_ : 0;
     return seen_ * std::max(by, by * by);
   }
@@ -58,10 +63,12 @@ class SweepConvergence {
 
  private:
   bool seen() const {
-    return std::isfinite(change_before_) && change_before_ > 1e-10 * size_ + 100 * (rounding_ + unseen_);
+    const double before = before_.along_rows;
+    return std::isfinite(before) && before > 1e-10 * size_ + 100 * (rounding_ + unseen_);
   }
 
-  double h_ = 0, longer_ = 0, rounding_ = 0, unseen_ = 0, size_ = 0, change_ = 0, change_before_ = 0;
+  double h_ = 0, longer_ = 0, rounding_ = 0, unseen_ = 0, size_ = 0;
+  Change change_, before_;
   double seen_ = 0, seen_h_ = 0;  // r, and the length of the step that showed it
   int trusted_ = 0;               // for so many steps
 };
