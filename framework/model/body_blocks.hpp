@@ -68,10 +68,11 @@ class BodyBlocks {
  private:
   struct MassFactors {
     MassSystem of;
-    bool made = false, masses_made = false;  // masses_made: those of the bodies are kept in it
+    bool used = false, made = false, masses_made = false;  // masses_made: those of the bodies are kept in it
     numerics::SparseMassKkt kkt;
   };
   bool factorise(Kept& store, const MassSystem& of, bool constant);
+  void begin(MassFactors& factors) const;
   std::size_t factors_for(const Kept& store, const MassSystem& of) const;
   bool factorise_dense(Kept& store, int nc, double rank_tolerance) const;
 

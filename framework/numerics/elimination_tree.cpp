@@ -8,6 +8,9 @@ namespace trammel::numerics {
 
 namespace {
 
+// Along a graph at most that many times longer than broad dissection finds no less work than degrees do, and takes the longest.
+constexpr double wide = 3;
+
 Graph graph_of(const std::vector<std::vector<int>>& cliques, std::size_t nodes) {
   Graph graph(nodes);
   for (const std::vector<int>& clique : cliques)
@@ -58,18 +61,22 @@ Elimination eliminate(const Graph& graph, const std::vector<int>& weight, std::v
   return e;
 }
 
+Elimination eliminate(const Graph& graph, const std::vector<int>& weight, const EliminationTree::Costs& costs) {
+  Elimination on_the_way = eliminate(graph, weight, along(graph));
+  Elimination by_degree = eliminate(graph, weight, of_minimum_degree(graph));
+  if (on_the_way.work <= costs.along * by_degree.work) return on_the_way;
+  if (on_the_way.work <= wide * by_degree.work) return by_degree;
+  Elimination halves = eliminate(graph, weight, by_dissection(graph, weight));
+  return halves.work < by_degree.work ? halves : by_degree;
+}
+
 }  // namespace
 
 void EliminationTree::build(const std::vector<std::vector<int>>& cliques, const std::vector<int>& weight,
                             const Costs& costs) {
   const std::size_t n = weight.size();
   const Graph graph = graph_of(cliques, n);
-  Elimination e = eliminate(graph, weight, along(graph));
-  if (Elimination other = eliminate(graph, weight, of_minimum_degree(graph)); e.work > costs.along * other.work) {
-    e = std::move(other);
-    if (other = eliminate(graph, weight, by_dissection(graph, weight)); other.work < e.work) e = std::move(other);
-  }
-
+  const Elimination e = eliminate(graph, weight, costs);
   const auto cost_of = [&costs](double eliminated, double boundary) {
     const double size = eliminated + boundary;
     return work_of(eliminated, boundary) + costs.entry * size * size + costs.front;

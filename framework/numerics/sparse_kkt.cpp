@@ -57,7 +57,10 @@ bool SparseMassKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, Metr
   using Find = RowComplement::Find;
   complement_.factorise(bodies, masses_, nc, 0, nc >= long_chain ? Find::factors_and_softness : Find::factors);
   by_fronts_ = nc >= long_chain && is_soft(std::max(safe_sine, 10 * rank_tolerance));
-  if (by_fronts_) return factorise_fronts(bodies);
+  if (by_fronts_) {
+    complement_ = {};  // a mast's takes more memory than its fronts
+    return factorise_fronts(bodies);
+  }
   redundant_ = !complement_.is_safe(10 * rank_tolerance);
   if (redundant_) regularise(bodies);
   return true;
