@@ -12,12 +12,18 @@ class Builder {
   static Value make(Content content, Position at);
   static Value like(const Value& other, Content content);  // at its place, with its path and parameters
   static Items& items(Value& value) { return std::get<Items>(value.content_); }
-  static Members& members(Value& value) { return std::get<Members>(value.content_); }
+  static Members& members(Value& value) {
+    value.by_name_.clear();
+    return std::get<Members>(value.content_);
+  }
   static void place(Value& value, Position at) { value.position_ = std::move(at); }
   static Value* find(Value& object, std::string_view key);
-  // Dotted paths and the scene's parameters, for the whole tree.
+  // Dotted paths, the scene's parameters and ways to find members, for the whole tree.
   static void finish(Value& value, const std::string& path, const std::shared_ptr<const Value::Parameters>& parameters);
   static std::uint64_t hash(const Value& value);  // independent of the order of members
+
+ private:
+  static void order_by_name(Value& object);
 };
 
 // One file or text, as it stands. Throws SceneError.

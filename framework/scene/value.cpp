@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -54,9 +55,15 @@ const char* Value::type_name() const {
 
 const Value* Value::find(std::string_view key) const {
   if (type() != Type::object) return nullptr;
-  for (const auto& [name, value] : members())
-    if (name == key) return &value;
-  return nullptr;
+  const auto is_wanted = [key](const auto& member) { return member.first == key; };
+  if (by_name_.empty()) {
+    const auto member = std::find_if(members().begin(), members().end(), is_wanted);
+    return member == members().end() ? nullptr : &member->second;
+  }
+  const auto at = std::lower_bound(by_name_.begin(), by_name_.end(), key, [this](int i, std::string_view name) {
+    return members()[std::size_t(i)].first < name;
+  });
+  return at != by_name_.end() && is_wanted(members()[std::size_t(*at)]) ? &members()[std::size_t(*at)].second : nullptr;
 }
 
 const Value* Value::at_path(std::string_view dotted) const {
@@ -208,6 +215,7 @@ Value Builder::make(Content content, Position at) {
 Value Builder::like(const Value& other, Content content) {
   Value value = other;
   value.content_ = std::move(content);
+  value.by_name_.clear();
   return value;
 }
 
@@ -224,7 +232,18 @@ void Builder::finish(Value& value, const std::string& path,
     for (Value& item : items(value)) finish(item, fmt::format("{}[{}]", path, i++), parameters);
   } else if (value.type() == Value::Type::object) {
     for (auto& [name, member] : members(value)) finish(member, path.empty() ? name : path + "." + name, parameters);
+    order_by_name(value);
   }
+}
+
+void Builder::order_by_name(Value& object) {
+  constexpr std::size_t large = 64;  // smaller objects are searched as fast without
+  const Members& members = object.members();
+  if (members.size() < large) return;
+  object.by_name_.resize(members.size());
+  std::iota(object.by_name_.begin(), object.by_name_.end(), 0);
+  std::sort(object.by_name_.begin(), object.by_name_.end(),
+            [&](int a, int b) { return members[std::size_t(a)].first < members[std::size_t(b)].first; });
 }
 
 namespace {

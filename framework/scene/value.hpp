@@ -99,6 +99,7 @@ class Value {
   Position position_;
   std::string path_;
   std::shared_ptr<const Parameters> parameters_;  // of the whole scene
+  std::vector<int> by_name_;  // members in the order of their names: of a large object that is finished
 };
 
 struct Override {

@@ -50,6 +50,23 @@ TEST(SceneReader, KnowsWhereEachValueStands) {
   EXPECT_EQ(scene.root().find("c")->position().column, 8);
 }
 
+TEST(SceneReader, FindsEachOfManyMembersAlsoAfterSomeWereChanged) {
+  std::string text = "{\"bodies\": {\"kept\": 0";
+  for (int i = 0; i < 300; ++i) text += ", \"link" + std::to_string(i) + "\": " + std::to_string(i);
+  const Scene scene = Scene::parse(text + "}}", "scene.json", {{"bodies.link7", "null"}, {"bodies.link9", "99"}});
+  Problems problems;
+  const auto number = [&](const std::string& name) {
+    const Value* value = scene.root().at_path("bodies." + name);
+    return value ? value->read_number(problems) : std::nullopt;
+  };
+  for (int i = 0; i < 300; ++i)
+    if (i != 7 && i != 9) {
+      EXPECT_EQ(number("link" + std::to_string(i)), i);
+    }
+  EXPECT_EQ(number("link9"), 99);
+  for (const char* name : {"link7", "link300", "", "a", "z"}) EXPECT_EQ(number(name), std::nullopt) << name;
+}
+
 TEST(SceneReader, RefusesADuplicateKeyAtItsSecondPlace) {
   EXPECT_EQ(error_of("{\"a\": {\"k\": 1,\n \"k\": 2}}"),
             "scene.json:2:2: a.k: the key \"k\" stands here a second time; each key may stand once");
