@@ -2,8 +2,8 @@
 //
 //     q = x,   m x'' = f        x [m] world axes, m [kg]
 //
-// It has no orientation: moments on it, and what holds or measures axes of its marker, are refused (NeedsOrientation). Bodies in natural coordinates
-// are point masses held together by `distance` joints (Garcia de Jalon, Bayo 1994).
+// It has no orientation: moments on it, and what holds or measures axes of its marker, are refused (NeedsOrientation). Bodies in
+// natural coordinates are point masses held together by `distance` joints (Garcia de Jalon, Bayo 1994).
 #include <array>
 
 #include <trammel/body.hpp>

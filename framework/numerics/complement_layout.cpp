@@ -35,6 +35,23 @@ Nodes join_rows(const std::vector<std::vector<int>>& rows_of_bodies, int nc) {
   return nodes;
 }
 
+// A body's share goes to the first front that eliminates one of its rows.
+std::vector<std::vector<int>> bodies_of(const std::vector<EliminationTree::Front>& fronts, const Nodes& nodes,
+                                        const std::vector<std::vector<int>>& rows_of_bodies, int nc) {
+  std::vector<std::size_t> front_of(static_cast<std::size_t>(nc));
+  for (std::size_t i = 0; i < fronts.size(); ++i)
+    for (const int node : fronts[i].eliminated)
+      for (const int row : nodes.rows[std::size_t(node)]) front_of[std::size_t(row)] = i;
+  std::vector<std::vector<int>> bodies(fronts.size());
+  for (std::size_t k = 0; k < rows_of_bodies.size(); ++k) {
+    if (rows_of_bodies[k].empty()) continue;
+    std::size_t first = fronts.size();
+    for (const int row : rows_of_bodies[k]) first = std::min(first, front_of[std::size_t(row)]);
+    bodies[first].push_back(int(k));
+  }
+  return bodies;
+}
+
 }  // namespace
 
 bool ComplementLayout::holds(const std::vector<BodyBlock>& bodies, int nc) const {
@@ -57,19 +74,7 @@ void ComplementLayout::find(const std::vector<BodyBlock>& bodies, int nc) {
   for (const std::vector<int>& rows : nodes.rows) weight.push_back(int(rows.size()));
   EliminationTree tree;
   tree.build(nodes.of_bodies, weight, costs);
-
-  std::vector<int> front_of(static_cast<std::size_t>(nc));
-  for (std::size_t i = 0; i < tree.fronts().size(); ++i)
-    for (const int node : tree.fronts()[i].eliminated)
-      for (const int row : nodes.rows[std::size_t(node)]) front_of[std::size_t(row)] = int(i);
-  std::vector<std::vector<int>> bodies_of(tree.fronts().size());
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    if (rows_[k].empty()) continue;
-    int first = int(bodies_of.size());
-    for (const int row : rows_[k]) first = std::min(first, front_of[std::size_t(row)]);
-    bodies_of[std::size_t(first)].push_back(int(k));
-  }
-
+  const std::vector<std::vector<int>> shares = bodies_of(tree.fronts(), nodes, rows_, nc);
   fronts_.clear(), shares_.clear(), numbers_.clear();
   place_.resize(static_cast<std::size_t>(nc));
   L_ = U_ = 0, largest_ = 0;
@@ -86,7 +91,7 @@ void ComplementLayout::find(const std::vector<BodyBlock>& bodies, int nc) {
     front.L = L_, front.U = U_;
     front.eliminated = add(of.eliminated), front.size = add(of.boundary);
     front.rows = keep(rows);
-    place_shares(front, bodies_of[fronts_.size()], of.children);
+    place_shares(front, shares[fronts_.size()], of.children);
     L_ += std::size_t(front.stride() * front.size), U_ += std::size_t(front.stride_above() * front.size);
     largest_ = std::max(largest_, front.size);
     fronts_.push_back(front);

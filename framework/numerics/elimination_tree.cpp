@@ -8,7 +8,8 @@ namespace trammel::numerics {
 
 namespace {
 
-// Along a graph at most that many times longer than broad dissection finds no less work than degrees do, and takes the longest.
+// Where the order along the graph takes no more than so many times the work by degrees, halves would not save any, but take long
+// to find (4 s of a mast with 10,000 units).
 constexpr double wide = 3;
 
 Graph graph_of(const std::vector<std::vector<int>>& cliques, std::size_t nodes) {

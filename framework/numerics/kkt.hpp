@@ -7,10 +7,9 @@
 //  - Mass: S = M symmetric positive definite. Cholesky of M and of the Schur complement G M^-1 G^T, whose pivots warn of
 //    redundant rows; those are solved by orthogonal decompositions of G L^-T: x stays unique, and the condition number is
 //    not squared. With W other than G (sliding friction) the complement G M^-1 W^T is factorised as it is, by LU, redundant
-//    or singular ones orthogonally.
-//    M may be sparse.
-//  - Iteration: S any dense matrix (a sparse one: frontal_iteration_kkt.hpp). LU of the whole with row pivoting. If it is singular beyond redundant rows, the minimum-norm
-//    solution.
+//    or singular ones orthogonally. M may be sparse.
+//  - Iteration: S any dense matrix (a sparse one: frontal_iteration_kkt.hpp). LU of the whole with row
+//    pivoting. If it is singular beyond redundant rows, the minimum-norm solution.
 // Of redundant rows combinations U^T G are taken in their place, U an orthonormal basis of their range: y = U z is of minimum
 // norm, and what of c is outside the range, which no x reaches, is left.
 // Storage is kept from one factorisation to the next: no allocation at constant sizes while rows are independent.

@@ -133,10 +133,10 @@ void SparseMassKkt::solve_by_fronts(const std::vector<BodyBlock>& bodies, const 
   fronts_.solve_springs(bodies, eps_, b, c, x, y);
 }
 
-// Where accelerations miss dependent rows by more than round-off of those rows alone, round-off from far around a ring is between them
-// (hoops of 400 bays: 1e-13, of 1000 1e-11 to 1e-9; masts of any length 3e-16), and moves x some thousand times as much. If springs differ by
-// no more than that, it is what the fronts have lost; by more, as of long masts, it is what springs leave free. Rows that
-// miss more contradict each other by drift. Found out once for these rows.
+// Where accelerations miss dependent rows by more than round-off of those rows alone, round-off from far around a ring is between
+// them (hoops of 400 bays: 1e-13, of 1000 1e-11 to 1e-9; masts of any length 3e-16), and moves x some thousand times as much. If
+// springs differ by no more than that, it is what the fronts have lost; by more, as of long masts, it is what springs leave free.
+// Rows that miss more contradict each other by drift. Found out once for these rows.
 bool SparseMassKkt::springs_are_better(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, const Vec& x) {
   constexpr double round_off = 1e-13, drift = 5e-8, moves = 1e4;
   const double missed = fronts_.missed();
@@ -146,8 +146,7 @@ bool SparseMassKkt::springs_are_better(const std::vector<BodyBlock>& bodies, con
   Vec by_springs, y;
   fronts_.solve_springs(bodies, eps_, b, c, by_springs, y);
   if ((by_springs - x).lpNorm<Eigen::Infinity>() <= moves * missed * x.lpNorm<Eigen::Infinity>()) return true;
-  eps_ = 0;
-  return !fronts_.factorise(bodies, nc_, identity_, rank_tolerance_);
+  return !fronts_.factorise(bodies, nc_, identity_, rank_tolerance_) && factorise_springs(bodies);
 }
 
 void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {

@@ -170,8 +170,9 @@ TEST_P(StabilityLimit, OnBothAxesIsThatOfTheTable) {
     Posed s(oscillators({0}, z / 2));  // v' = -z v
     return remembered_radius(s, GetParam().name, GetParam().settings);
   });
-  // Eight digits are given; near Dormand-Prince's limit the radius leaves 1 with a slope of 1e-3 only. On the imaginary axis ABM-PECE grows everywhere: where that passes 1e-9 a step depends on the
-  // grid the table was scanned with (1 %); its growth itself is compared below.
+  // Eight digits are given; near Dormand-Prince's limit the radius leaves 1 with a slope of 1e-3 only. On the imaginary axis ABM-PECE
+  // grows everywhere: where that passes 1e-9 a step depends on the grid the table was scanned with (1 %); its growth itself is
+  // compared below.
   EXPECT_NEAR(imaginary / table.at("imag_axis").get<double>(), 1, GetParam().row == "ABM_PECE4" ? 1e-2 : 3e-6);
   EXPECT_NEAR(real / table.at("neg_real_axis").get<double>(), 1, 1e-6);
 }
