@@ -237,6 +237,11 @@ void AssembledSystem::constraint_acceleration(const Vec& a, Vec& r) {
   if (work_->sizes.nc > 0) work_->add_rows_times(1, a, r);
 }
 
+Eigen::SparseMatrix<double, Eigen::RowMajor> AssembledSystem::sparse_rows() {
+  work_->evaluate_rows();
+  return work_->sparse_rows();
+}
+
 void AssembledSystem::add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S) {
   work_->evaluate_rows();
   Matrix target = Matrix::onto(S);

@@ -146,8 +146,9 @@ class AssembledSystem final : public System {
     double markers = 0;      // supplied by forces and contacts at markers that move by a law of time
     Vec friction;            // dissipated in sliding, contact by contact
   };
-  const Balance& balance(const Vec& lambda);           // valid until the next call
-  void constraint_acceleration(const Vec& a, Vec& r);  // G a - gamma
+  const Balance& balance(const Vec& lambda);                   // valid until the next call
+  void constraint_acceleration(const Vec& a, Vec& r);          // G a - gamma
+  Eigen::SparseMatrix<double, Eigen::RowMajor> sparse_rows();  // G, without entries that are 0
   // S += c_m M + c_d D + c_k K + c_1 1, the matrix that `factorise` takes (nv x nv).
   void add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S);
   Eigen::SparseMatrix<double> sparse_tangent(Blend c, const Vec& a, const Vec& lambda);

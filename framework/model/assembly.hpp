@@ -56,6 +56,7 @@ struct AssembledSystem::Work {
   void add_rows_times(double c, const Vec& x, Vec& rc);
   void add_rows_force(double c, const Vec& y, Vec& r);
   void add_reaction(double c, const Vec& y, Vec& r);
+  Eigen::SparseMatrix<double, Eigen::RowMajor> sparse_rows();
   const Vec& force();
   void evaluate_rows();  // g, g_dot, gamma, G, W
   void evaluate_constant_rows();

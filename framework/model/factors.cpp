@@ -48,6 +48,24 @@ void AssembledSystem::Work::add_reaction(double c, const Vec& y, Vec& r) {
     numerics::add_transposed_product(c, W, y, r);
 }
 
+Eigen::SparseMatrix<double, Eigen::RowMajor> AssembledSystem::Work::sparse_rows() {
+  std::vector<Eigen::Triplet<double, int>> entries;
+  const auto add = [&entries](int row, int column, double value) {
+    if (value != 0) entries.emplace_back(row, column, value);
+  };
+  if (blocks) {
+    for (const numerics::BodyBlock& body : blocks->bodies())
+      for (std::size_t i = 0; i < body.rows.size(); ++i)
+        for (int k = 0; k < int(body.Gt.rows()); ++k) add(body.rows[i], body.v0 + k, body.Gt(k, Eigen::Index(i)));
+  } else {
+    for (int i = 0; i < sizes.nc; ++i)
+      for (int j = 0; j < sizes.nv; ++j) add(i, j, G(i, j));
+  }
+  Eigen::SparseMatrix<double, Eigen::RowMajor> all(sizes.nc, sizes.nv);
+  all.setFromTriplets(entries.begin(), entries.end());
+  return all;
+}
+
 bool AssembledSystem::Work::factorise_mass(Store store, bool with_friction, double rank_tolerance) {
   evaluate_rows();
   const bool reuse = kept[store].mass_factorised && model->constant_mass;

@@ -93,7 +93,7 @@ void redundant(Text& text, const Setup& setup, model::AssembledSystem& system) {
   if (found.empty()) return;
   text.section("Redundant rows at the initial state (accelerations are unique, multipliers those of minimum norm)");
   for (const RedundantRows& rows : found)
-    text.line("{}: {} of {} rows follow from the rows before", rows.path, rows.redundant, rows.of);
+    text.line("{}", told(rows));
 }
 
 void costs(Text& text, Setup& setup, model::AssembledSystem& system) {

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "simulate/conflict.hpp"
 #include "simulate/contact_scale.hpp"
 #include "simulate/equilibrium.hpp"
-#include "simulate/redundancy.hpp"
 #include "simulate/row_offsets.hpp"
 
 namespace trammel::simulate {

@@ -10,8 +10,8 @@
 
 #include "simulate/blame.hpp"
 #include "simulate/checkpoint.hpp"
+#include "simulate/conflict.hpp"
 #include "simulate/crash_witness.hpp"
-#include "simulate/redundancy.hpp"
 #include "simulate/result.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/simulator.hpp"

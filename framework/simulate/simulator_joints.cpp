@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "simulate/redundancy.hpp"
+#include "simulate/conflict.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/simulator.hpp"
 

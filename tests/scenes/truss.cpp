@@ -70,6 +70,22 @@ TEST(TrussScenes, RedundantRowsDoNotChangeTheMast) {
   EXPECT_NEAR(lock_of(run).t, number(reference()["exact"]["S1c"]["t_lock"]), 1e-11);
 }
 
+// Each unit's four halves follow from the lengths of the others; 12 rows a unit, one of them redundant in three.
+TEST(TrussScenes, ExplainNamesTheRedundantRowsOfAMastOfAnyLength) {
+  for (const int units : {8, 300}) {
+    const std::string told = simulate::explain(
+        scene::Scene::load(TRAMMEL_SOURCE_DIR "/scenes/truss/S1R.json", {{"parameters.n", std::to_string(units)}}),
+        registry());
+    for (int k = 0; k < units; ++k)
+      for (int half = 1; half <= 4; ++half)
+        EXPECT_NE(told.find(fmt::format("joints.half_{}_{}: row 1 of 1 follows from the rows before", half, k)),
+                  std::string::npos);
+    std::size_t count = 0;
+    for (auto at = told.find(" follow"); at != std::string::npos; at = told.find(" follow", at + 1)) ++count;
+    EXPECT_EQ(count, 4 * units);
+  }
+}
+
 // From the lock on no velocity is free.
 TEST(TrussScenes, LockThoughTheirVelocitiesAreTurnedWithTheNullSpace) {
   for (const auto& [scene, until, t_lock] :
