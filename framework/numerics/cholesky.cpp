@@ -8,16 +8,12 @@
 
 namespace trammel::numerics {
 
-namespace {
-
 bool is_diagonal(const Mat& M) {
   for (Eigen::Index j = 0; j < M.cols(); ++j)
     for (Eigen::Index i = j + 1; i < M.rows(); ++i)
       if (M(i, j) != 0) return false;
   return true;
 }
-
-}  // namespace
 
 bool Cholesky::compute(const Mat& M) {
   const Eigen::Index n = M.rows();

@@ -17,6 +17,8 @@
 
 namespace trammel::numerics {
 
+bool is_diagonal(const Mat& M);  // of a symmetric one, by its lower triangle
+
 class Cholesky {
  public:
   // Reads the lower triangle. False: not positive definite, or not finite.

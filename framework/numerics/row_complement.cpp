@@ -48,8 +48,8 @@ void with_sizes(const ComplementLayout::Front& front, F&& f) {
 
 }  // namespace
 
-void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const std::vector<Cholesky>& masses, int nc,
-                              double eps, Find find) {
+void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc, double eps,
+                              Find find) {
   if (!layout_.holds(bodies, nc)) {
     layout_.find(bodies, nc);
     resize(nc);
@@ -80,15 +80,14 @@ void RowComplement::resize(int nc) {
   work_.resize(largest), product_.resize(largest * largest);
 }
 
-void RowComplement::assemble(const std::vector<BodyBlock>& bodies, const std::vector<Cholesky>& masses,
-                             const Front& front, double eps) {
+void RowComplement::assemble(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, const Front& front,
+                             double eps) {
   double* const S = L_.data() + front.L;
   std::fill_n(S, front.stride() * front.size, 0.0);
   for (int j = 0; j < front.eliminated; ++j) S[j * front.stride() + j] = eps;
   for (const Share& share : layout_.bodies(front)) {
     const std::span<const int> places = layout_.places(share), rows = layout_.rows(front);
-    const Eigen::Map<Mat> Y =
-        form_Y(bodies[std::size_t(share.of)], masses[std::size_t(share.of)], layout_.order(share));
+    const Eigen::Map<Mat> Y = form_Y(bodies, masses, share);
     products_of_rows(Y, product_.data());
     for (std::size_t j = 0; j < places.size(); ++j)
       diagonal_[rows[std::size_t(places[j])]] += product_[Eigen::Index(j) * (Y.rows() + 1)];
@@ -101,19 +100,23 @@ void RowComplement::assemble(const std::vector<BodyBlock>& bodies, const std::ve
   }
 }
 
-Eigen::Map<Mat> RowComplement::form_Y(const BodyBlock& body, const Cholesky& mass, std::span<const int> order) {
+Eigen::Map<Mat> RowComplement::form_Y(const std::vector<BodyBlock>& bodies, const BodyMasses& masses,
+                                      const Share& share) {
+  const BodyBlock& body = bodies[std::size_t(share.of)];
+  const std::span<const int> order = layout_.order(share);
+  const double* const inverse_roots = masses.inverse_roots(body);
   const auto m = Eigen::Index(order.size()), stride = padded(m);
   if (Y_.size() < stride * body.Gt.rows()) Y_.resize(stride * body.Gt.rows());
   Eigen::Map<Mat> Y(Y_.data(), stride, body.Gt.rows());
   const auto copy = [&](auto n) {
     for (Eigen::Index i = 0; i < m; ++i) {
       const double* const row = body.Gt.data() + order[std::size_t(i)] * n;
-      for (Eigen::Index j = 0; j < n; ++j) Y.data()[j * stride + i] = row[j];
+      for (Eigen::Index j = 0; j < n; ++j) Y.data()[j * stride + i] = inverse_roots[j] * row[j];
     }
   };
   if (!with_few(body.Gt.rows(), copy)) copy(body.Gt.rows());
   Y.bottomRows(stride - m).setZero();
-  mass.solve_lower_of_rows(Y);
+  if (const Cholesky* factors = masses.dense(std::size_t(share.of))) factors->solve_lower_of_rows(Y);
   return Y;
 }
 

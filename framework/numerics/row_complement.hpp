@@ -16,7 +16,7 @@
 #include <trammel/types.hpp>
 
 #include "numerics/body_block.hpp"
-#include "numerics/cholesky.hpp"
+#include "numerics/body_masses.hpp"
 #include "numerics/complement_layout.hpp"
 
 namespace trammel::numerics {
@@ -24,8 +24,8 @@ namespace trammel::numerics {
 class RowComplement {
  public:
   enum class Find { factors, factors_and_softness };
-  // Of the first nc rows. masses: of each body.
-  void factorise(const std::vector<BodyBlock>& bodies, const std::vector<Cholesky>& masses, int nc, double eps,
+  // Of the first nc rows.
+  void factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc, double eps,
                  Find find = Find::factors);
   // Each pivot is more than the square of `least_sine` beside its diagonal: its row's angle to those eliminated before.
   bool is_safe(double least_sine) const;
@@ -44,9 +44,8 @@ class RowComplement {
   using Front = ComplementLayout::Front;
   using Share = ComplementLayout::Share;
   void resize(int nc);
-  void assemble(const std::vector<BodyBlock>& bodies, const std::vector<Cholesky>& masses, const Front& front,
-                double eps);
-  Eigen::Map<Mat> form_Y(const BodyBlock& body, const Cholesky& mass, std::span<const int> order);
+  void assemble(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, const Front& front, double eps);
+  Eigen::Map<Mat> form_Y(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, const Share& share);
   void add_at(std::span<const int> places, const double* A, Eigen::Index stride, const Front& front);
   void eliminate(const Front& front);
   void take_along(const Front& front);

@@ -80,12 +80,9 @@ void SparseMassKkt::regularise(const std::vector<BodyBlock>& bodies) {
 }
 
 bool SparseMassKkt::factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric) {
-  const bool kept = metric == Metric::mass_of_before && masses_.size() == bodies.size();
-  masses_.resize(bodies.size());
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const Eigen::Index n = bodies[k].M.rows();
-    if (identity_ ? !masses_[k].compute(Mat::Identity(n, n)) : !kept && !masses_[k].compute(bodies[k].M)) return false;
-  }
+  if (metric == Metric::mass_of_before && masses_.are_of(bodies)) return true;
+  if (!identity_) return masses_.factorise(bodies);
+  masses_.take_identity(bodies);
   return true;
 }
 
@@ -104,13 +101,6 @@ bool SparseMassKkt::factorise_springs(const std::vector<BodyBlock>& bodies) {
   redundant_ = true;
   eps_ = fronts_.factorise_springs(bodies, nc_, identity_, std::max(of_springs, rank_tolerance_ * rank_tolerance_));
   return eps_ > 0;
-}
-
-void SparseMassKkt::solve_masses(const std::vector<BodyBlock>& bodies, Vec& x) {
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    auto segment = x.segment(bodies[k].v0, bodies[k].M.rows());
-    masses_[k].solve(segment);
-  }
 }
 
 // eps (S + eps)^-1 keeps the part of r in the null space of S and shrinks the rest by eps/sigma^2; applied twice it leaves
@@ -153,7 +143,7 @@ void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, co
   if (by_fronts_) return solve_by_fronts(bodies, b, c, x, y);
   y.setZero(nc_);
   x = b;
-  solve_masses(bodies, x);
+  masses_.solve(x);
   if (nc_ == 0) return;
   const double scale = std::max(c.lpNorm<Eigen::Infinity>(), x.lpNorm<Eigen::Infinity>());
   const auto residual = [&](Vec& r) {
@@ -167,7 +157,7 @@ void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, co
     y += dy_;
     x = b;
     add_rows_force(bodies, -1, y, x);
-    solve_masses(bodies, x);
+    masses_.solve(x);
   };
   const double enough = 16 * eps * scale;  // of a row's dozen products
   // Multipliers along a chain add up to accelerations a million times those that are left. Their round-off does not fall by

@@ -28,7 +28,7 @@
 #include <Eigen/SparseLU>
 
 #include "numerics/body_block.hpp"
-#include "numerics/cholesky.hpp"
+#include "numerics/body_masses.hpp"
 #include "numerics/frontal_kkt.hpp"
 #include "numerics/recorded_matrix.hpp"
 #include "numerics/row_complement.hpp"
@@ -47,7 +47,6 @@ class SparseMassKkt {
 
  private:
   bool factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric);
-  void solve_masses(const std::vector<BodyBlock>& bodies, Vec& x);  // x := M^-1 x
   bool is_soft(double sine);
   void remove_null_part(Vec& r);
   bool factorise_fronts(const std::vector<BodyBlock>& bodies);
@@ -61,7 +60,7 @@ class SparseMassKkt {
   double rank_tolerance_ = 0;
   bool redundant_ = false;
   bool by_fronts_ = false, fronts_failed_ = false, springs_judged_ = false, identity_ = false;
-  std::vector<Cholesky> masses_;  // M = C C^T
+  BodyMasses masses_;
   RowComplement complement_;
   FrontalKkt fronts_;
   Vec residual_, dy_, null_part_;

@@ -19,14 +19,18 @@ using Joints = std::vector<std::pair<int, int>>;  // bodies; -1: the ground
 // Bodies of unit masses that joints of `rows` rows each hold together, no entry of which is 0.
 struct Mechanism {
   std::vector<BodyBlock> bodies;
-  std::vector<Cholesky> masses;
+  BodyMasses masses;
   int nc;
 
   Mechanism(int n, int velocities, const Joints& joints, int rows)
       : bodies(std::size_t(n)), nc(int(joints.size()) * rows) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> uniform(-1, 1);
-    for (BodyBlock& body : bodies) body.Gt.resize(velocities, 0);
+    for (BodyBlock& body : bodies) {
+      body.v0 = velocities * int(&body - bodies.data());
+      body.M.setIdentity(velocities, velocities);
+      body.Gt.resize(velocities, 0);
+    }
     for (std::size_t joint = 0; joint < joints.size(); ++joint)
       for (const int k : {joints[joint].first, joints[joint].second}) {
         if (k < 0) continue;
@@ -35,8 +39,7 @@ struct Mechanism {
         body.Gt.rightCols(rows) = Mat::NullaryExpr(velocities, rows, [&] { return uniform(random); });
         for (int i = 0; i < rows; ++i) body.rows.push_back(int(joint) * rows + i);
       }
-    masses.resize(bodies.size());
-    for (Cholesky& mass : masses) EXPECT_TRUE(mass.compute(Mat::Identity(velocities, velocities)));
+    masses.take_identity(bodies);
   }
 
   Mat dense(int first, double eps) const {
