@@ -62,7 +62,8 @@ struct AssembledSystem::Work {
   void evaluate_constant_rows();
   void place_constant_rows();
   void evaluate_own_rows(const BodyEntry& entry);
-  void evaluate_constraint(const Constraint& constraint, const Slots& at, Rows& into);  // sized and filled
+  void evaluate_constraint(const Constraint& constraint, int n, const Slots& at,
+                           Rows& into);  // n rows, sized and filled
   // Rows first .. first + n - 1 of r become rows `row` and on of g, g_dot, gamma and G.
   void place_rows(const Rows& r, const Slots& at, Eigen::Index first, Eigen::Index n, int row);
   void add_row_force(const Slots& at, const Rows& r, int row, double c, Vec& f) const;  // f += c J^T H^T

@@ -22,7 +22,7 @@ void AssembledSystem::Work::evaluate_rows() {
   for (const std::size_t i : joint_order) {
     const JointEntry& entry = model->joints[i];
     called(entry.name, "rows");
-    evaluate_constraint(*entry.joint, joint_slots[i], rows);
+    evaluate_constraint(*entry.joint, entry.rows, joint_slots[i], rows);
     place_rows(rows, joint_slots[i], 0, entry.rows, entry.row);
   }
   coupled = false;
@@ -115,9 +115,8 @@ void AssembledSystem::Work::evaluate_own_rows(const BodyEntry& entry) {
     G.block(entry.row, entry.v0, entry.rows, entry.nv) += own_rows.G;
 }
 
-void AssembledSystem::Work::evaluate_constraint(const Constraint& constraint, const Slots& at, Rows& into) {
-  const Space space = model->world.space;
-  into.resize(constraint.row_count(space), space, at.count);
+void AssembledSystem::Work::evaluate_constraint(const Constraint& constraint, int n, const Slots& at, Rows& into) {
+  into.resize(n, model->world.space, at.count);
   const std::array<const Motion*, Rows::most_markers> markers = {
       &motion(at.A), &motion(at.B), at.count > 2 ? &motion(at.C) : nullptr, at.count > 3 ? &motion(at.D) : nullptr};
   constraint.rows_between(t, Motions(markers.data(), std::size_t(at.count)), into);

@@ -52,6 +52,29 @@ std::vector<std::vector<int>> bodies_of(const std::vector<EliminationTree::Front
   return bodies;
 }
 
+// Parts of a row of numbers that are taken for a while.
+class Places {
+ public:
+  struct Part {
+    std::size_t begin, size;
+  };
+  Part take(std::size_t size) {
+    if (const auto fit = free_.lower_bound(size); fit != free_.end()) {
+      const Part part = {fit->second, fit->first};
+      free_.erase(fit);
+      return part;
+    }
+    numbers_ += size;
+    return {numbers_ - size, size};
+  }
+  void give_back(Part part) { free_.emplace(part.size, part.begin); }
+  std::size_t numbers() const { return numbers_; }
+
+ private:
+  std::multimap<std::size_t, std::size_t> free_;  // by size
+  std::size_t numbers_ = 0;
+};
+
 }  // namespace
 
 bool ComplementLayout::holds(const std::vector<BodyBlock>& bodies, int nc) const {
@@ -78,6 +101,8 @@ void ComplementLayout::find(const std::vector<BodyBlock>& bodies, int nc) {
   fronts_.clear(), shares_.clear(), numbers_.clear();
   place_.resize(static_cast<std::size_t>(nc));
   L_ = U_ = 0, largest_ = 0;
+  Places places;
+  std::vector<Places::Part> R;  // of each front
   for (const EliminationTree::Front& of : tree.fronts()) {
     std::vector<int> rows;
     // In the order of elimination, which all fronts share.
@@ -92,10 +117,13 @@ void ComplementLayout::find(const std::vector<BodyBlock>& bodies, int nc) {
     front.eliminated = add(of.eliminated), front.size = add(of.boundary);
     front.rows = keep(rows);
     place_shares(front, shares[fronts_.size()], of.children);
-    L_ += std::size_t(front.stride() * front.size), U_ += std::size_t(front.stride_above() * front.size);
+    front.R = R.emplace_back(places.take(std::size_t(front.stride() * (front.size - front.eliminated)))).begin;
+    for (const int child : of.children) places.give_back(R[std::size_t(child)]);
+    L_ += std::size_t(front.stride() * front.eliminated), U_ += std::size_t(front.stride_above() * front.size);
     largest_ = std::max(largest_, front.size);
     fronts_.push_back(front);
   }
+  R_ = places.numbers();
 }
 
 ComplementLayout::List ComplementLayout::keep(const std::vector<int>& numbers) {

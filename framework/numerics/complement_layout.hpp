@@ -26,11 +26,12 @@ class ComplementLayout {
     List order;   // which of the body's rows they are
     List places;  // which of the front's
   };
-  // A front's matrix has a column for each row of G it eliminates, and then for each of its boundary, in whole packs (packs.hpp).
+  // A front's matrix has a column for each row of G it eliminates, L, and then for each of its boundary, R; all in whole packs
+  // (packs.hpp). R's place serves other fronts once the parent has taken it: it stays in the cache.
   struct Front {
     int eliminated = 0, size = 0;
     List rows, bodies, children;
-    std::size_t L = 0, U = 0;  // where its numbers begin in those of all fronts
+    std::size_t L = 0, R = 0, U = 0;  // where its numbers begin in those of all fronts
     Eigen::Index stride() const { return padded(size); }
     Eigen::Index stride_above() const { return padded(eliminated); }  // of a column of U
   };
@@ -46,6 +47,7 @@ class ComplementLayout {
   std::span<const int> order(const Share& share) const { return part(numbers_, share.order); }
   std::span<const int> places(const Share& share) const { return part(numbers_, share.places); }
   std::size_t numbers_L() const { return L_; }
+  std::size_t numbers_R() const { return R_; }
   std::size_t numbers_U() const { return U_; }
   int largest() const { return largest_; }  // front
 
@@ -63,7 +65,7 @@ class ComplementLayout {
   std::vector<int> numbers_;
   std::vector<std::vector<int>> rows_;  // of bodies
   std::vector<int> place_;              // of a row in the front at hand
-  std::size_t L_ = 0, U_ = 0;
+  std::size_t L_ = 0, R_ = 0, U_ = 0;
   int largest_ = 0;
 };
 

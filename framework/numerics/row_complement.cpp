@@ -75,6 +75,7 @@ void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const BodyMa
 void RowComplement::resize(int nc) {
   const Eigen::Index largest = padded(layout_.largest());
   L_.setZero(Eigen::Index(layout_.numbers_L()));
+  R_.setZero(Eigen::Index(layout_.numbers_R()));
   U_.setZero(Eigen::Index(layout_.numbers_U()));
   diagonal_.resize(nc), pivots_.resize(nc), inverse_pivots_.resize(nc), start_.resize(nc);
   work_.resize(largest), product_.resize(largest * largest);
@@ -82,9 +83,9 @@ void RowComplement::resize(int nc) {
 
 void RowComplement::assemble(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, const Front& front,
                              double eps) {
-  double* const S = L_.data() + front.L;
-  std::fill_n(S, front.stride() * front.size, 0.0);
-  for (int j = 0; j < front.eliminated; ++j) S[j * front.stride() + j] = eps;
+  std::fill_n(L_.data() + front.L, front.stride() * front.eliminated, 0.0);
+  std::fill_n(R_.data() + front.R, front.stride() * (front.size - front.eliminated), 0.0);
+  for (int j = 0; j < front.eliminated; ++j) column(front, j)[j] = eps;
   for (const Share& share : layout_.bodies(front)) {
     const std::span<const int> places = layout_.places(share), rows = layout_.rows(front);
     const Eigen::Map<Mat> Y = form_Y(bodies, masses, share);
@@ -95,8 +96,7 @@ void RowComplement::assemble(const std::vector<BodyBlock>& bodies, const BodyMas
   }
   for (const Share& share : layout_.children(front)) {
     const Front& child = layout_.fronts()[std::size_t(share.of)];
-    const double* const R = L_.data() + child.L + child.eliminated * (child.stride() + 1);
-    add_at(layout_.places(share), R, child.stride(), front);
+    add_at(layout_.places(share), R_.data() + child.R + child.eliminated, child.stride(), front);
   }
 }
 
@@ -122,21 +122,25 @@ Eigen::Map<Mat> RowComplement::form_Y(const std::vector<BodyBlock>& bodies, cons
 
 // The lower triangle of A, whose columns are `stride` apart.
 void RowComplement::add_at(std::span<const int> places, const double* A, Eigen::Index stride, const Front& front) {
-  double* const S = L_.data() + front.L;
   for (std::size_t j = 0; j < places.size(); ++j, A += stride) {
-    double* const column = S + places[j] * front.stride();
-    for (std::size_t i = j; i < places.size(); ++i) column[places[i]] += A[i];
+    double* const sum = column(front, places[j]);
+    for (std::size_t i = j; i < places.size(); ++i) sum[places[i]] += A[i];
   }
+}
+
+double* RowComplement::column(const Front& front, Eigen::Index j) {
+  return j < front.eliminated ? L_.data() + front.L + j * front.stride()
+                              : R_.data() + front.R + (j - front.eliminated) * front.stride();
 }
 
 // Each column less what those before it contribute, then divided by its pivot.
 void RowComplement::eliminate(const Front& front) {
   with_sizes(front, [&](auto eliminated, auto stride) {
     const Eigen::Index above = padded(eliminated);
-    double *const L = L_.data() + front.L, *const U = U_.data() + front.U;
+    double *const L = L_.data() + front.L, *const R = R_.data() + front.R, *const U = U_.data() + front.U;
     const std::span<const int> rows = layout_.rows(front);
     for (Eigen::Index j = 0; j < front.size; ++j) {
-      double* const column = L + j * stride;
+      double* const column = j < eliminated ? L + j * stride : R + (j - eliminated) * stride;
       const double* const shares = U + j * above;
       const Eigen::Index before = std::min<Eigen::Index>(j, eliminated);
       for (Eigen::Index i = pack_of(j); i < stride; i += pack) {

@@ -48,12 +48,13 @@ class RowComplement {
   Eigen::Map<Mat> form_Y(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, const Share& share);
   void add_at(std::span<const int> places, const double* A, Eigen::Index stride, const Front& front);
   void eliminate(const Front& front);
+  double* column(const Front& front, Eigen::Index j);  // of L or R
   void take_along(const Front& front);
   void solve_lower(const Front& front, Vec& y);
   void solve_upper(const Front& front, Vec& y);
 
   ComplementLayout layout_;
-  Vec L_, U_;                               // of all fronts; L's columns of the boundary hold R
+  Vec L_, R_, U_;                           // of all fronts
   Vec diagonal_, pivots_, inverse_pivots_;  // by rows
   Vec work_, scale_, start_, end_;
   double mean_softness_ = 0;
