@@ -13,11 +13,15 @@ Eigen::Index velocities(const std::vector<BodyBlock>& bodies) {
 }  // namespace
 
 bool BodyMasses::are_of(const std::vector<BodyBlock>& bodies) const {
+  return !identity_ && fits(bodies);
+}
+
+bool BodyMasses::fits(const std::vector<BodyBlock>& bodies) const {
   return place_.size() == bodies.size() && inverse_.size() == velocities(bodies);
 }
 
 void BodyMasses::begin(const std::vector<BodyBlock>& bodies) {
-  if (!are_of(bodies)) place_.assign(bodies.size(), -1), dense_.clear();
+  if (!fits(bodies)) place_.assign(bodies.size(), -1), dense_.clear();
   inverse_.setOnes(velocities(bodies)), inverse_root_.setOnes(velocities(bodies));
 }
 

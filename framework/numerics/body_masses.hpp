@@ -1,7 +1,7 @@
 // M = C C^T of many bodies.
 //
-// Diagonal masses, as of rigid bodies in the coordinates of their centres, are one vector over all velocities, which is read from end to
-// end: factors of their own, each with its ways to memory, take 10,000 links 1.5 ms of 17 more.
+// Diagonal masses, as of rigid bodies in the coordinates of their centres, are one vector over all velocities, which is read from
+// end to end: factors of their own, each with its ways to memory, take 10,000 links 1.5 ms of 17 more.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ class BodyMasses {
   // False: the mass of one is not positive definite.
   [[nodiscard]] bool factorise(const std::vector<BodyBlock>& bodies);
   void take_identity(const std::vector<BodyBlock>& bodies);
-  bool are_of(const std::vector<BodyBlock>& bodies) const;  // as many, of as many velocities
+  bool are_of(const std::vector<BodyBlock>& bodies) const;  // not the identity; of as many, and as many velocities
 
   void solve(Vec& x);  // x := M^-1 x
   // C^-1 is diagonal with these entries, but for bodies with dense factors, where they are 1.
@@ -32,6 +32,7 @@ class BodyMasses {
     int v0 = 0, n = 0;
     Cholesky factors;
   };
+  bool fits(const std::vector<BodyBlock>& bodies) const;
   void begin(const std::vector<BodyBlock>& bodies);
   bool factorise(const BodyBlock& body, int& place);
   bool invert_diagonal(const BodyBlock& body);

@@ -171,36 +171,30 @@ std::vector<int> outwards(const SparseRows& G, const std::vector<RowGroup>& grou
   return order;
 }
 
-// All rows; or of many those around the one that is missed most, more and more of them until they cannot hold. None: they can.
-std::vector<RowGroup> some_conflict(model::AssembledSystem& system, const State& start) {
-  const std::vector<RowGroup> all = row_groups(system.model());
-  const auto conflicting = [&](std::vector<RowGroup> groups) {
-    return Chosen(system, groups).can_hold(start) ? std::vector<RowGroup>() : groups;
-  };
-  const int rows = all.empty() ? 0 : all.back().first + all.back().count;
-  if (rows <= most_rows) return conflicting(all);
-  const Vec missed = missed_rows(system, start);
-  if (missed.size() == 0 || !missed.allFinite()) return {};
-  Eigen::Index worst = 0;
-  missed.head(rows).cwiseAbs().maxCoeff(&worst);
-  const std::vector<int> order = outwards(system.sparse_rows(), all, int(worst));
+std::vector<RowGroup> conflicting(model::AssembledSystem& system, const State& start, std::vector<RowGroup> groups) {
+  return Chosen(system, groups).can_hold(start) ? std::vector<RowGroup>() : groups;
+}
+
+// More and more groups around that of row `worst`, until they cannot hold. None: those of `most_rows` rows can.
+std::vector<RowGroup> conflict_around(int worst, model::AssembledSystem& system, const State& start,
+                                      const std::vector<RowGroup>& all) {
+  system.move_to(start.t, start.q, start.v);
+  const std::vector<int> order = outwards(system.sparse_rows(), all, worst);
   std::vector<RowGroup> some;
-  for (int enough = 16, taken = 0; enough <= most_rows; enough *= 2) {
-    for (std::size_t k = some.size(); k < order.size() && taken < enough; ++k)
-      taken += some.emplace_back(all[std::size_t(order[k])]).count;
-    std::vector<RowGroup> found = conflicting(some);
+  for (int enough = 16, taken = 0; some.size() < order.size() && taken < most_rows; enough *= 2) {
+    while (some.size() < order.size() && taken < std::min(enough, most_rows))
+      taken += some.emplace_back(all[std::size_t(order[some.size()])]).count;
+    std::vector<RowGroup> found = conflicting(system, start, some);
     std::sort(found.begin(), found.end(), [](const RowGroup& a, const RowGroup& b) { return a.first < b.first; });
     if (!found.empty()) return found;
   }
   return {};
 }
 
-}  // namespace
-
-std::vector<std::string> smallest_conflict(model::AssembledSystem& system, const State& start) {
-  std::vector<std::string> paths;
-  std::vector<RowGroup> conflict = some_conflict(system, start);
-  // Half of them at a time, then fewer: of many rows few conflict.
+// Without any `apart` neighbours of them the rest can hold. Half of them are left out at a time, then fewer: of many rows few conflict.
+std::vector<RowGroup> smallest_of(std::vector<RowGroup> conflict, std::size_t& apart, model::AssembledSystem& system,
+                                  const State& start) {
+  constexpr std::size_t most_tries = 100;
   for (std::size_t part = std::max<std::size_t>(1, conflict.size() / 2);; part /= 2) {
     for (std::size_t at = 0; at < conflict.size();) {
       std::vector<RowGroup> rest = conflict;
@@ -211,16 +205,55 @@ std::vector<std::string> smallest_conflict(model::AssembledSystem& system, const
       else
         conflict = std::move(rest);
     }
-    if (part == 1) break;
+    apart = part;
+    if (part == 1 || 2 * conflict.size() / part > most_tries) return conflict;
   }
-  for (const RowGroup& rows : conflict) paths.push_back(rows.path);
-  return paths;
 }
 
-std::string told(const std::vector<std::string>& conflict) {
-  if (conflict.size() == 1) return fmt::format("{} alone cannot hold from there", conflict[0]);
-  return fmt::format("{} prescribe motions that contradict each other; without any one of them the rest can hold",
-                     fmt::join(conflict, ", "));
+}  // namespace
+
+Conflict smallest_conflict(model::AssembledSystem& system, const State& start) {
+  const std::vector<RowGroup> all = row_groups(system.model());
+  const int rows = all.empty() ? 0 : all.back().first + all.back().count;
+  std::vector<RowGroup> found;
+  if (rows <= most_rows) {
+    found = conflicting(system, start, all);
+  } else {
+    const Vec missed = missed_rows(system, start);
+    if (missed.size() == 0 || !missed.allFinite()) return {};
+    Eigen::Index worst = 0;
+    missed.head(rows).cwiseAbs().maxCoeff(&worst);
+    found = conflict_around(int(worst), system, start, all);
+    if (found.empty())
+      for (const RowGroup& group : all)
+        if (worst >= group.first && worst < group.first + group.count) return {{group.path}, false};
+  }
+  Conflict conflict;
+  std::size_t apart = 1;
+  for (const RowGroup& group : smallest_of(std::move(found), apart, system, start))
+    conflict.paths.push_back(group.path);
+  conflict.smallest = apart == 1;
+  return conflict;
+}
+
+std::string names(const Conflict& conflict) {
+  constexpr std::size_t most = 12, shown = 4;
+  const std::vector<std::string>& all = conflict.paths;
+  if (all.size() <= most) return fmt::format("{}", fmt::join(all, ", "));
+  return fmt::format("{}, ... ({} more) ..., {}", fmt::join(all.begin(), all.begin() + shown, ", "),
+                     all.size() - 2 * shown, fmt::join(all.end() - shown, all.end(), ", "));
+}
+
+std::string remark(const Conflict& conflict) {
+  return conflict.smallest ? "; without any one of them the rest can hold" : "; not all of them need be part of it";
+}
+
+std::string told(const Conflict& conflict) {
+  if (conflict.paths.size() == 1)
+    return conflict.smallest
+               ? fmt::format("{} alone cannot hold from there", conflict.paths[0])
+               : fmt::format("joints prescribe motions that contradict each other, most of all {}", conflict.paths[0]);
+  return fmt::format("{} prescribe motions that contradict each other{}", names(conflict), remark(conflict));
 }
 
 }  // namespace trammel::simulate

@@ -108,14 +108,12 @@ scene::Problem problem_at(const std::vector<std::string>& paths, const scene::Va
 
 // Why no consistent state was found, and which joints and bodies are to blame.
 scene::Problem contradiction(model::AssembledSystem& system, const State& start, const scene::Value& root) {
-  const std::vector<std::string> paths = smallest_conflict(system, start);
+  const Conflict conflict = smallest_conflict(system, start);
+  const std::vector<std::string>& paths = conflict.paths;
   const std::string none = "no consistent initial state was found nearby: ";
   if (paths.empty()) return root.problem(none + "the joints contradict each other, or the bodies are far off");
-  if (paths.size() == 1)
-    return problem_at(paths, root, fmt::format("{}{} alone cannot hold from there", none, paths[0]));
-  return problem_at(paths, root,
-                    fmt::format("{}{} contradict each other; without any one of them the rest can hold", none,
-                                fmt::join(paths, ", ")));
+  if (paths.size() == 1) return problem_at(paths, root, none + told(conflict));
+  return problem_at(paths, root, fmt::format("{}{} contradict each other{}", none, names(conflict), remark(conflict)));
 }
 
 // Rows that hold as they are, and still ask for accelerations that no motion has.
@@ -129,12 +127,13 @@ void check_motion(model::AssembledSystem& system, const State& s, const scene::V
   }
   system.constraint_acceleration(a, missed);
   if (missed.norm() <= 1e-6 * std::max(1.0, a.norm())) return;
-  const std::vector<std::string> paths = smallest_conflict(system, s);
-  if (!paths.empty())
-    problems.error(problem_at(paths, root,
-                              fmt::format("{} hold at the start but prescribe motions that contradict each other; "
-                                          "without any one of them the rest can hold",
-                                          fmt::join(paths, ", "))));
+  if (const Conflict conflict = smallest_conflict(system, s); !conflict.empty())
+    problems.error(
+        problem_at(conflict.paths, root,
+                   conflict.paths.size() == 1
+                       ? told(conflict)
+                       : fmt::format("{} hold at the start but prescribe motions that contradict each other{}",
+                                     names(conflict), remark(conflict))));
 }
 
 void check_rows(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {

@@ -91,7 +91,7 @@ class Run {
   // Whatever a method says of its steps: the reason may be rows that no motion satisfies.
   std::string contradiction() {
     try {
-      const std::vector<std::string> conflict = simulator_->conflict();
+      const Conflict conflict = simulator_->conflict();
       return conflict.empty() ? "" : "; " + told(conflict);
     } catch (const std::exception&) {
       return "";  // a component has no answer there; the failure itself is told

@@ -17,6 +17,7 @@
 #include <trammel/correction.hpp>
 
 #include "simulate/checkpoint.hpp"
+#include "simulate/conflict.hpp"
 #include "simulate/contact_mode.hpp"
 #include "simulate/contact_scale.hpp"
 #include "simulate/event_location.hpp"
@@ -57,7 +58,7 @@ class Simulator {
   Energy energy_at_state();
   double energy_drift();  // [J] what no cause in the ledger explains
   // Joints and bodies whose rows no state near the last one satisfies, there or a step later; empty: none are known.
-  std::vector<std::string> conflict();
+  Conflict conflict();
 
  private:
   StepControl& control() { return in_contact_ || now_.t < hold_until_ ? contact_control_ : free_control_; }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "simulate/conflict.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/simulator.hpp"
 
@@ -26,20 +25,23 @@ void Simulator::judge_joints(const State& state) {
 // Rows that begin to contradict each other have accelerations of least squares, which an explicit method would follow. The error of
 // Baumgarte's terms is less; and what looks like it is examined. At the end of the step, where the system is.
 bool Simulator::contradictory(const ConstraintNorms& norms) {
-  constexpr double suspicious = 0.1;
-  if (!(norms.acceleration > suspicious * std::max(1.0, next_.a.norm())) || !system_.redundant()) return false;
+  constexpr double suspicious = 0.01;
+  if (!(norms.acceleration > suspicious * std::max(1.0, next_.a.lpNorm<Eigen::Infinity>())) || !system_.redundant())
+    return false;
   const bool found = !smallest_conflict(system_, next_).empty();
   system_.move_to(next_.t, next_.q, next_.v);
   return found;
 }
 
-std::vector<std::string> Simulator::conflict() {
+Conflict Simulator::conflict() {
   if (system_.sizes().nc == 0 || near_the_end_of_numbers()) return {};
+  system_.move_to(now_.t, now_.q, now_.v);
+  if (!(system_.g().lpNorm<Eigen::Infinity>() < 1e3 * scale_.length())) return {};  // diverged
   const double step = statistics_.largest_step > 0 ? statistics_.largest_step : settings_.every;
   for (const double ahead : {0.0, step}) {
     State s = now_;
     s.t += ahead;
-    if (std::vector<std::string> paths = smallest_conflict(system_, s); !paths.empty()) return paths;
+    if (Conflict found = smallest_conflict(system_, s); !found.empty()) return found;
   }
   return {};
 }

@@ -61,6 +61,7 @@ TEST(BodyMasses, OfTheIdentityChangeNothingAlsoAfterMasses) {
   BodyMasses masses;
   ASSERT_TRUE(masses.factorise(bodies));
   masses.take_identity(bodies);
+  EXPECT_FALSE(masses.are_of(bodies)) << "the masses of before are gone";
   const Vec b = Vec::LinSpaced(8, 1, 2);
   Vec x = b;
   masses.solve(x);

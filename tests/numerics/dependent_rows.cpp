@@ -38,6 +38,17 @@ TEST(DependentRows, AreToldByWhatIsLeftOfTheirLength) {
   EXPECT_THAT(dependent_rows(sparse(G), 1e-5), ElementsAre(1));
 }
 
+// Whichever column comes first.
+TEST(DependentRows, AreThoseAlongTheOthersButForLessThanTheTolerance) {
+  for (const double off : {1e-15, 1e-12, 1e-9, 1e-6})
+    for (const int column : {0, 1}) {
+      Eigen::MatrixXd G(3, 2);
+      G.col(column) << off, 0, 1;
+      G.col(1 - column) << 1, 1, 0;
+      EXPECT_THAT(dependent_rows(sparse(G), 1e-7), ElementsAre(off > 1e-7 ? 2 : 1)) << off;
+    }
+}
+
 // Differences of neighbours, with the sum around a ring in the middle. Its rows together are as soft as 2 pi/n.
 TEST(DependentRows, OfALongRingAreTheLastRowAlone) {
   constexpr int n = 20000;

@@ -61,7 +61,12 @@ void step(benchmark::State& report, const std::string& name) {
   simulate::Simulator simulator(setup.model, *setup.integrator, setup.settings, corrections);
   simulator.start(setup.initial);
   simulator.advance(recorder);
-  for (auto _ : report) simulator.advance(recorder);
+  for (auto _ : report) {
+    if (simulator.advance(recorder)) continue;
+    report.PauseTiming();  // it is over, as runs of short masts soon are
+    simulator.start(setup.initial);
+    report.ResumeTiming();
+  }
 }
 
 using Measure = void (*)(benchmark::State&, const std::string&);
