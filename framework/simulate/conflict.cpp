@@ -250,9 +250,7 @@ std::string remark(const Conflict& conflict) {
 
 std::string told(const Conflict& conflict) {
   if (conflict.paths.size() == 1)
-    return conflict.smallest
-               ? fmt::format("{} alone cannot hold from there", conflict.paths[0])
-               : fmt::format("joints prescribe motions that contradict each other, most of all {}", conflict.paths[0]);
+    return conflict.paths[0] + (conflict.smallest ? " alone cannot hold from there" : " is missed most");
   return fmt::format("{} prescribe motions that contradict each other{}", names(conflict), remark(conflict));
 }
 

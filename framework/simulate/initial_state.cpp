@@ -111,8 +111,10 @@ scene::Problem contradiction(model::AssembledSystem& system, const State& start,
   const Conflict conflict = smallest_conflict(system, start);
   const std::vector<std::string>& paths = conflict.paths;
   const std::string none = "no consistent initial state was found nearby: ";
-  if (paths.empty()) return root.problem(none + "the joints contradict each other, or the bodies are far off");
-  if (paths.size() == 1) return problem_at(paths, root, none + told(conflict));
+  const std::string either = "the joints contradict each other, or the bodies are far off";
+  if (paths.empty()) return root.problem(none + either);
+  if (paths.size() == 1)
+    return problem_at(paths, root, none + (conflict.smallest ? "" : either + "; ") + told(conflict));
   return problem_at(paths, root, fmt::format("{}{} contradict each other{}", none, names(conflict), remark(conflict)));
 }
 
@@ -127,13 +129,13 @@ void check_motion(model::AssembledSystem& system, const State& s, const scene::V
   }
   system.constraint_acceleration(a, missed);
   if (missed.norm() <= 1e-6 * std::max(1.0, a.norm())) return;
-  if (const Conflict conflict = smallest_conflict(system, s); !conflict.empty())
-    problems.error(
-        problem_at(conflict.paths, root,
-                   conflict.paths.size() == 1
-                       ? told(conflict)
-                       : fmt::format("{} hold at the start but prescribe motions that contradict each other{}",
-                                     names(conflict), remark(conflict))));
+  const Conflict conflict = smallest_conflict(system, s);
+  if (conflict.empty()) return;
+  const std::string who = conflict.paths.size() > 1 ? names(conflict) : "joints",
+                    why = conflict.paths.size() > 1 ? remark(conflict) : "; " + told(conflict);
+  problems.error(
+      problem_at(conflict.paths, root,
+                 fmt::format("{} hold at the start but prescribe motions that contradict each other{}", who, why)));
 }
 
 void check_rows(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {

@@ -337,6 +337,16 @@ TEST(ContradictoryRowsAmongMany, AreNamedFirstAndLastWhereALongLoopOfThemContrad
       << run.report.reason;
 }
 
+TEST(ContradictoryRowsAmongMany, EndTheRunAlsoWhereALoopIsTooLongToSearch) {
+  const Finished run = run_long_chain(
+      R"json("span": {"type": "distance", "between": ["m20.point", "m1080.point"], "length": "=1060+max(0,t-0.3)^3"})json",
+      "runge_kutta_4");
+  EXPECT_FALSE(run.done());
+  EXPECT_NE(run.report.reason.find("the rows ask for accelerations that no motion has; joints.span is missed most"),
+            std::string::npos)
+      << run.report.reason;
+}
+
 TEST(BenchmarkA05, MeetsItsReference) {
   const auto data = reference("iftomm_a05_flyball");
   const Finished run = run_benchmark("a05");
