@@ -14,18 +14,11 @@ namespace {
 // of others times large numbers, as in long hoops, would seem new by eps times these.
 constexpr double round_off = 1e-15, eps = 1e-17;
 
-// Columns are tied that occur in one row.
-Graph ties_of_columns(const SparseRows& G) {
-  Graph ties(static_cast<std::size_t>(G.cols()));
+std::vector<std::vector<int>> columns_of_rows(const SparseRows& G) {
+  std::vector<std::vector<int>> columns(static_cast<std::size_t>(G.rows()));
   for (int i = 0; i < G.rows(); ++i)
-    for (SparseRows::InnerIterator one(G, i); one; ++one)
-      for (SparseRows::InnerIterator other(G, i); other; ++other)
-        if (one.col() != other.col()) ties[std::size_t(one.col())].push_back(int(other.col()));
-  for (std::vector<int>& tied : ties) {
-    std::sort(tied.begin(), tied.end());
-    tied.erase(std::unique(tied.begin(), tied.end()), tied.end());
-  }
-  return ties;
+    for (SparseRows::InnerIterator entry(G, i); entry; ++entry) columns[std::size_t(i)].push_back(int(entry.col()));
+  return columns;
 }
 
 std::vector<int> places(const std::vector<int>& order) {
@@ -120,7 +113,7 @@ double length_of(const SparseRows& G, int row) {
 
 std::vector<int> dependent_rows(const SparseRows& G, double tolerance) {
   const std::vector<int> weight(std::size_t(G.cols()), 1);
-  const std::vector<int> place = places(by_dissection(ties_of_columns(G), weight));
+  const std::vector<int> place = places(by_dissection(graph_of(columns_of_rows(G), weight.size()), weight));
   Triangle triangle(int(G.cols()));
   std::vector<int> dependent;
   for (int i = 0; i < G.rows(); ++i) {

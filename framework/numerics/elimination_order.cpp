@@ -7,6 +7,19 @@
 
 namespace trammel::numerics {
 
+Graph graph_of(const std::vector<std::vector<int>>& cliques, std::size_t nodes) {
+  Graph graph(nodes);
+  for (const std::vector<int>& clique : cliques)
+    for (const int i : clique)
+      for (const int j : clique)
+        if (i != j) graph[std::size_t(i)].push_back(j);
+  for (std::vector<int>& neighbours : graph) {
+    std::sort(neighbours.begin(), neighbours.end());
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+  }
+  return graph;
+}
+
 namespace {
 
 // Breadth first from `first`, neighbours of low degree first; appended to `order`.

@@ -1,11 +1,15 @@
 // Orders in which the nodes of a graph can be eliminated from a sparse system.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace trammel::numerics {
 
 using Graph = std::vector<std::vector<int>>;  // neighbours of each node, ascending
+
+// `cliques`: sets of nodes that are all neighbours.
+Graph graph_of(const std::vector<std::vector<int>>& cliques, std::size_t nodes);
 
 // Reverse Cuthill-McKee: from end to end of chains and rings.
 std::vector<int> along(const Graph& graph);

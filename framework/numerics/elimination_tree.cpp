@@ -12,19 +12,6 @@ namespace {
 // to find (4 s of a mast with 10,000 units).
 constexpr double wide = 3;
 
-Graph graph_of(const std::vector<std::vector<int>>& cliques, std::size_t nodes) {
-  Graph graph(nodes);
-  for (const std::vector<int>& clique : cliques)
-    for (const int i : clique)
-      for (const int j : clique)
-        if (i != j) graph[std::size_t(i)].push_back(j);
-  for (std::vector<int>& neighbours : graph) {
-    std::sort(neighbours.begin(), neighbours.end());
-    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
-  }
-  return graph;
-}
-
 // What each node leaves as its boundary, by place in the order, ascending; the first of it is the parent.
 struct Elimination {
   std::vector<int> order, place;

@@ -147,11 +147,18 @@ Vec missed_rows(model::AssembledSystem& system, State s) {
   return missed.norm() > 1e-6 * std::max(1.0, wanted) ? missed : Vec();
 }
 
-// The groups' numbers, outwards from that of row `worst`: those that share columns of G with the ones before.
+int group_of(int row, const std::vector<RowGroup>& groups) {
+  const auto after = std::find_if(groups.begin(), groups.end(),
+                                  [row](const RowGroup& group) { return row < group.first + group.count; });
+  return int(after - groups.begin());
+}
+
+// The groups' numbers, outwards from `worst`: those that share columns of G with the ones before.
 std::vector<int> outwards(const SparseRows& G, const std::vector<RowGroup>& groups, int worst) {
   std::vector<std::vector<int>> of_column(static_cast<std::size_t>(G.cols()));
-  std::vector<int> order;
+  std::vector<int> order = {worst};
   std::vector<char> seen(groups.size(), 0);
+  seen[std::size_t(worst)] = 1;
   const auto each_column = [&](const RowGroup& group, auto&& f) {
     for (int i = group.first; i < group.first + group.count; ++i)
       for (SparseRows::InnerIterator entry(G, i); entry; ++entry) f(std::size_t(entry.col()));
@@ -159,11 +166,8 @@ std::vector<int> outwards(const SparseRows& G, const std::vector<RowGroup>& grou
   const auto see = [&](int k) {
     if (!seen[std::size_t(k)]) seen[std::size_t(k)] = 1, order.push_back(k);
   };
-  for (int k = 0; k < int(groups.size()); ++k) {
-    const RowGroup& group = groups[std::size_t(k)];
-    if (worst >= group.first && worst < group.first + group.count) see(k);
-    each_column(group, [&](std::size_t column) { of_column[column].push_back(k); });
-  }
+  for (int k = 0; k < int(groups.size()); ++k)
+    each_column(groups[std::size_t(k)], [&](std::size_t column) { of_column[column].push_back(k); });
   for (std::size_t at = 0; at < order.size(); ++at)
     each_column(groups[std::size_t(order[at])], [&](std::size_t column) {
       for (const int other : of_column[column]) see(other);
@@ -175,7 +179,7 @@ std::vector<RowGroup> conflicting(model::AssembledSystem& system, const State& s
   return Chosen(system, groups).can_hold(start) ? std::vector<RowGroup>() : groups;
 }
 
-// More and more groups around that of row `worst`, until they cannot hold. None: those of `most_rows` rows can.
+// More and more groups around `worst`, until they cannot hold. None: those of `most_rows` rows can.
 std::vector<RowGroup> conflict_around(int worst, model::AssembledSystem& system, const State& start,
                                       const std::vector<RowGroup>& all) {
   system.move_to(start.t, start.q, start.v);
@@ -221,12 +225,11 @@ Conflict smallest_conflict(model::AssembledSystem& system, const State& start) {
   } else {
     const Vec missed = missed_rows(system, start);
     if (missed.size() == 0 || !missed.allFinite()) return {};
-    Eigen::Index worst = 0;
-    missed.head(rows).cwiseAbs().maxCoeff(&worst);
-    found = conflict_around(int(worst), system, start, all);
-    if (found.empty())
-      for (const RowGroup& group : all)
-        if (worst >= group.first && worst < group.first + group.count) return {{group.path}, false};
+    Eigen::Index row = 0;
+    missed.head(rows).cwiseAbs().maxCoeff(&row);
+    const int worst = group_of(int(row), all);
+    found = conflict_around(worst, system, start, all);
+    if (found.empty()) return {{all[std::size_t(worst)].path}, false};
   }
   Conflict conflict;
   std::size_t apart = 1;

@@ -23,7 +23,7 @@ Exit explain(const Arguments& arguments) {
 Command explain_command() {
   return {"explain",
           "SCENE",
-          "Show what is built from a scene, what each part costs, what is left out.",
+          "Show what is built from a scene, which rows are redundant, what each part costs, what is left out.",
           {kSet, kPlugin},
           explain};
 }
