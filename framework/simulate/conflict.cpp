@@ -24,8 +24,8 @@ class Chosen {
  public:
   Chosen(model::AssembledSystem& system, std::vector<RowGroup> groups) : system_(system), groups_(std::move(groups)) {}
 
-  // Positions, then velocities and accelerations, which are linear. What the velocities are beyond those that the rows ask for must
-  // not count: where their rank is about to change no motion may go on from them.
+  // Positions, then velocities and accelerations, which are linear. What the velocities are beyond those that the rows ask for
+  // must not count: where their rank is about to change no motion may go on from them.
   bool can_hold(State s) const {
     if (!find_positions(s)) return false;
     const Vec v = s.v;
@@ -195,7 +195,8 @@ std::vector<RowGroup> conflict_around(int worst, model::AssembledSystem& system,
   return {};
 }
 
-// Without any `apart` neighbours of them the rest can hold. Half of them are left out at a time, then fewer: of many rows few conflict.
+// Without any `apart` neighbours of them the rest can hold. Half of them are left out at a time, then fewer: of many rows few
+// conflict.
 std::vector<RowGroup> smallest_of(std::vector<RowGroup> conflict, std::size_t& apart, model::AssembledSystem& system,
                                   const State& start) {
   constexpr std::size_t most_tries = 100;
