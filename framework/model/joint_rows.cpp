@@ -74,13 +74,24 @@ Quaterniond unit_quaternion(const World& world, const std::vector<double>& wxyz,
   return {unit(0), unit(1), unit(2), unit(3)};
 }
 
+// -1: the constant 0
+int JointRows::follow(TimeFunction p, const Vector3d& axis) {
+  if (p.is_constant() && p(0) == 0) return -1;
+  laws_.push_back({std::move(p), axis});
+  return int(laws_.size()) - 1;
+}
+
+TimeFunction::Jet JointRows::law(int place, double t) const {
+  return place < 0 ? TimeFunction::Jet{} : laws_[std::size_t(place)].p.jet(t);
+}
+
 JointRows& JointRows::same_point() {
   rows_.push_back(SamePoint{});
   return *this;
 }
 
 JointRows& JointRows::offset(const Vec3& n, TimeFunction p) {
-  rows_.push_back(Offset{n, std::move(p)});
+  rows_.push_back(Offset{n, follow(std::move(p))});
   return *this;
 }
 
@@ -91,7 +102,7 @@ JointRows& JointRows::across(const Vec3& n) {
 }
 
 JointRows& JointRows::dot(const Vector3d& a, const Vector3d& b) {
-  rows_.push_back(Dot{a, b, Vector3d::UnitZ(), {}});
+  rows_.push_back(Dot{a, b, -1});
   return *this;
 }
 
@@ -103,12 +114,12 @@ JointRows& JointRows::parallel(const Vector3d& n_A, const Vector3d& n_B) {
 
 JointRows& JointRows::angle(const Vec3& n, const Quaterniond& Q, TimeFunction phi) {
   if (space_ == Space::planar) {
-    rows_.push_back(Angle{std::move(phi)});
+    rows_.push_back(Angle{follow(std::move(phi))});
     return *this;
   }
   const Matrix3d e = triad(n);
   // a . b = e_2 . turn(delta) (-e_3) = sin(delta)
-  rows_.push_back(Dot{e.col(1), Q.conjugate() * Vector3d(-e.col(2)), n, std::move(phi)});
+  rows_.push_back(Dot{e.col(1), Q.conjugate() * Vector3d(-e.col(2)), follow(std::move(phi), n)});
   return *this;
 }
 
@@ -128,16 +139,7 @@ int JointRows::count() const {
 
 // Between axes that do not turn, but for laws of time.
 bool JointRows::linear() const {
-  const auto stands = [](const auto& row) {
-    using Of = std::decay_t<decltype(row)>;
-    if constexpr (std::is_same_v<Of, Offset>)
-      return row.p.is_constant();
-    else if constexpr (std::is_same_v<Of, SamePoint>)
-      return true;
-    else
-      return row.phi.is_constant();
-  };
-  return std::all_of(rows_.begin(), rows_.end(), [&](const Row& row) { return std::visit(stands, row); });
+  return std::all_of(laws_.begin(), laws_.end(), [](const Law& law) { return law.p.is_constant(); });
 }
 
 bool JointRows::needs_orientation(int marker) const {
@@ -154,8 +156,9 @@ struct JointRows::Evaluation {
   using Vector = typename Of<D>::Vector;
   using Turn = typename Of<D>::Turn;
 
-  Evaluation(double time, const Motion& of_A, const Motion& of_B)
-      : t(time),
+  Evaluation(const JointRows& of, double time, const Motion& of_A, const Motion& of_B)
+      : joint(of),
+        t(time),
         A(of_A),
         B(of_B),
         d(of_B.x - of_A.x),
@@ -171,7 +174,7 @@ struct JointRows::Evaluation {
 
   void place(const Offset& row, int& i, Rows& r) const {
     const Vector n = A.R * row.n;
-    const auto p = row.p.jet(t);
+    const auto p = joint.law(row.law, t);
     const Vector n_dot = Of<D>::C(n) * omega;
     r.g(i) = n.dot(d) - p.value;
     r.g_t(i) = -p.rate;
@@ -184,22 +187,27 @@ struct JointRows::Evaluation {
 
   void place(const Dot& row, int& i, Rows& r) const {
     if constexpr (D == 3) {
-      const auto phi = row.phi.jet(t);
-      const Vector3d n = A.R * row.axis, a = turned(row, phi.value), b = B.R * row.b, c = a.cross(b);
-      const Vector3d omega_a = omega + phi.rate * n, omega_b = B.V.tail<3>();
-      const Vector3d c_dot = omega_a.cross(a).cross(b) + a.cross(omega_b.cross(b));
-      const Vector3d alpha = phi.second * n + phi.rate * omega.cross(n);  // of the turned A besides alpha_A
-      r.g(i) = a.dot(b);
-      r.g_t(i) = phi.rate * n.dot(c);
-      r.gamma(i) = -alpha.dot(c) - (omega_a - omega_b).dot(c_dot);
-      r.H_A.row(i).template tail<3>() = c.transpose();
-      r.H_B.row(i).template tail<3>() = -c.transpose();
-      ++i;
+      if (row.law < 0) return place_dot(A.R * row.a, omega, B.R * row.b, i, r);
+      const Turned a = turned(row);
+      place_dot(a.a, omega + a.omega, B.R * row.b, i, r);
+      const Vector3d c = r.H_A.row(i - 1).template tail<3>();
+      r.g_t(i - 1) = a.omega.dot(c);
+      r.gamma(i - 1) -= a.alpha.dot(c);
     }
   }
 
+  void place_dot(const Vector3d& a, const Vector3d& omega_a, const Vector3d& b, int& i, Rows& r) const {
+    const Vector3d c = a.cross(b), omega_b = B.V.tail<3>();
+    const Vector3d c_dot = omega_a.cross(a).cross(b) + a.cross(omega_b.cross(b));
+    r.g(i) = a.dot(b);
+    r.gamma(i) = -(omega_a - omega_b).dot(c_dot);
+    r.H_A.row(i).template tail<3>() = c.transpose();
+    r.H_B.row(i).template tail<3>() = -c.transpose();
+    ++i;
+  }
+
   void place(const Angle& row, int& i, Rows& r) const {
-    const auto phi = row.phi.jet(t);
+    const auto phi = joint.law(row.law, t);
     r.g(i) = B.angle - A.angle - phi.value;
     r.g_t(i) = -phi.rate;
     r.gamma(i) = phi.second;
@@ -227,7 +235,7 @@ struct JointRows::Evaluation {
   void vary(const Dot& row, const double*& lambda, PairTangent& K) const {
     const double l = *lambda++;
     if constexpr (D == 3) {
-      const Matrix3d a = tilde(turned(row, row.phi(t))), b = tilde(B.R * row.b);
+      const Matrix3d a = tilde(row.law < 0 ? Vector3d(A.R * row.a) : turned(row).a), b = tilde(B.R * row.b);
       const Matrix3d by_A = l * b * a, by_B = -l * a * b;
       K.AA.bottomRightCorner<3, 3>() += by_A;
       K.BA.bottomRightCorner<3, 3>() -= by_A;
@@ -236,10 +244,18 @@ struct JointRows::Evaluation {
     }
   }
 
-  Vector3d turned(const Dot& row, double phi) const {
-    return phi == 0 ? Vector3d(A.R * row.a) : Vector3d(A.R * (Eigen::AngleAxisd(phi, row.axis) * row.a));
+  // a of A turned by a law phi(t) about n: its angular velocity and acceleration are omega = phi' n and alpha besides A's.
+  struct Turned {
+    Vector3d a, omega, alpha;
+  };
+  Turned turned(const Dot& row) const {
+    const auto phi = joint.law(row.law, t);
+    const Vector3d& axis = joint.laws_[std::size_t(row.law)].axis;
+    const Vector3d n = A.R * axis, n_rate = phi.rate * n;
+    return {A.R * (Eigen::AngleAxisd(phi.value, axis) * row.a), n_rate, phi.second * n + omega.cross(n_rate)};
   }
 
+  const JointRows& joint;
   double t;
   const Motion &A, &B;
   Vector d, d_dot;
@@ -252,9 +268,9 @@ void JointRows::rows(double t, const Motion& A, const Motion& B, Rows& rows) con
     for (const Row& row : rows_) std::visit([&](const auto& one) { evaluation.place(one, i, rows); }, row);
   };
   if (space_ == Space::planar)
-    place_all(Evaluation<2>(t, A, B));
+    place_all(Evaluation<2>(*this, t, A, B));
   else
-    place_all(Evaluation<3>(t, A, B));
+    place_all(Evaluation<3>(*this, t, A, B));
 }
 
 void JointRows::add_reaction_tangent(double t, const Motion& A, const Motion& B, const Vec6& lambda,
@@ -264,9 +280,9 @@ void JointRows::add_reaction_tangent(double t, const Motion& A, const Motion& B,
     for (const Row& row : rows_) std::visit([&](const auto& one) { evaluation.vary(one, each, K); }, row);
   };
   if (space_ == Space::planar)
-    vary_all(Evaluation<2>(t, A, B));
+    vary_all(Evaluation<2>(*this, t, A, B));
   else
-    vary_all(Evaluation<3>(t, A, B));
+    vary_all(Evaluation<3>(*this, t, A, B));
 }
 
 }  // namespace trammel

@@ -10,7 +10,9 @@
 // in A turned by phi(t) about n, whose angular velocity is omega_A + n phi' and whose angular acceleration has
 // n phi'' + omega_A x n phi' besides alpha_A.
 //
-//     struct Spherical : RowJoint { JointRows made_of(const World& w) const override { return JointRows(w.space).same_point(); } };
+//     struct Spherical : RowJoint {
+//       JointRows made_of(const World& w) const override { return JointRows(w.space).same_point(); }
+//     };
 #pragma once
 
 #include <optional>
@@ -47,25 +49,34 @@ class JointRows {
   void add_reaction_tangent(double t, const Motion& A, const Motion& B, const Vec6& lambda, PairTangent& K) const;
 
  private:
+  // Most rows follow no law: theirs are kept apart (law: its place, or -1), so that those of many joints take less memory.
   struct SamePoint {};
   struct Offset {
     Vec3 n;
-    TimeFunction p;
+    int law;
   };
   struct Dot {
-    Eigen::Vector3d a, b, axis;  // axis: what phi turns A about
-    TimeFunction phi;
+    Eigen::Vector3d a, b;
+    int law;
   };
   struct Angle {
-    TimeFunction phi;
+    int law;
   };
   using Row = std::variant<SamePoint, Offset, Dot, Angle>;
+  struct Law {
+    TimeFunction p;
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // of a dot row: what p turns A about
+  };
 
   template <int D>
   struct Evaluation;
 
+  int follow(TimeFunction p, const Eigen::Vector3d& axis = Eigen::Vector3d::UnitZ());
+  TimeFunction::Jet law(int place, double t) const;
+
   Space space_;
   std::vector<Row> rows_;
+  std::vector<Law> laws_;
 };
 
 // A joint that is such rows and nothing else: saying which makes it whole.
