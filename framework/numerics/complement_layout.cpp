@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "numerics/elimination_tree.hpp"
+#include "numerics/fetch.hpp"
 
 namespace trammel::numerics {
 
@@ -18,7 +19,7 @@ struct Nodes {
   std::vector<std::vector<int>> of_bodies;  // those that touch each
 };
 
-Nodes join_rows(const std::vector<std::vector<int>>& rows_of_bodies, int nc) {
+Nodes join_rows(const std::vector<std::span<const int>>& rows_of_bodies, int nc) {
   std::vector<std::vector<int>> bodies(static_cast<std::size_t>(nc));
   for (std::size_t k = 0; k < rows_of_bodies.size(); ++k)
     for (const int row : rows_of_bodies[k]) bodies[std::size_t(row)].push_back(int(k));
@@ -37,7 +38,7 @@ Nodes join_rows(const std::vector<std::vector<int>>& rows_of_bodies, int nc) {
 
 // A body's share goes to the first front that eliminates one of its rows.
 std::vector<std::vector<int>> bodies_of(const std::vector<EliminationTree::Front>& fronts, const Nodes& nodes,
-                                        const std::vector<std::vector<int>>& rows_of_bodies, int nc) {
+                                        const std::vector<std::span<const int>>& rows_of_bodies, int nc) {
   std::vector<std::size_t> front_of(static_cast<std::size_t>(nc));
   for (std::size_t i = 0; i < fronts.size(); ++i)
     for (const int node : fronts[i].eliminated)
@@ -78,9 +79,12 @@ class Places {
 }  // namespace
 
 bool ComplementLayout::holds(const std::vector<BodyBlock>& bodies, int nc) const {
-  if (nc != nc_ || bodies.size() != rows_.size()) return false;
+  if (nc != nc_ || bodies.size() != of_bodies_.size()) return false;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const std::vector<int>&known = rows_[k], &rows = bodies[k].rows;
+    look_ahead(k, bodies.size(),
+               [&](std::size_t next) { fetch(bodies[next].rows.data(), bodies[next].rows.size() * sizeof(int)); });
+    const std::span<const int> known = part(rows_, of_bodies_[k]);
+    const std::vector<int>& rows = bodies[k].rows;
     if (rows.size() < known.size() || !std::equal(known.begin(), known.end(), rows.begin())) return false;
     if (rows.size() > known.size() && rows[known.size()] < nc) return false;
   }
@@ -89,18 +93,23 @@ bool ComplementLayout::holds(const std::vector<BodyBlock>& bodies, int nc) const
 
 void ComplementLayout::find(const std::vector<BodyBlock>& bodies, int nc) {
   nc_ = nc;
-  rows_.clear();
-  for (const BodyBlock& body : bodies)
-    rows_.emplace_back(body.rows.begin(), std::lower_bound(body.rows.begin(), body.rows.end(), nc));
-  const Nodes nodes = join_rows(rows_, nc);
+  of_bodies_.clear(), rows_.clear();
+  for (const BodyBlock& body : bodies) {
+    const auto end = std::lower_bound(body.rows.begin(), body.rows.end(), nc);
+    of_bodies_.push_back({rows_.size(), std::size_t(end - body.rows.begin())});
+    rows_.insert(rows_.end(), body.rows.begin(), end);
+  }
+  std::vector<std::span<const int>> rows_of_bodies;
+  for (const List& of_body : of_bodies_) rows_of_bodies.push_back(part(rows_, of_body));
+  const Nodes nodes = join_rows(rows_of_bodies, nc);
   std::vector<int> weight;
   for (const std::vector<int>& rows : nodes.rows) weight.push_back(int(rows.size()));
   EliminationTree tree;
   tree.build(nodes.of_bodies, weight, costs);
-  const std::vector<std::vector<int>> shares = bodies_of(tree.fronts(), nodes, rows_, nc);
+  const std::vector<std::vector<int>> shares = bodies_of(tree.fronts(), nodes, rows_of_bodies, nc);
   fronts_.clear(), shares_.clear(), numbers_.clear();
   place_.resize(static_cast<std::size_t>(nc));
-  L_ = U_ = 0, largest_ = 0;
+  L_ = 0, largest_ = 0;
   Places places;
   std::vector<Places::Part> R;  // of each front
   for (const EliminationTree::Front& of : tree.fronts()) {
@@ -113,13 +122,13 @@ void ComplementLayout::find(const std::vector<BodyBlock>& bodies, int nc) {
       return int(rows.size());
     };
     Front front;
-    front.L = L_, front.U = U_;
+    front.L = L_;
     front.eliminated = add(of.eliminated), front.size = add(of.boundary);
     front.rows = keep(rows);
     place_shares(front, shares[fronts_.size()], of.children);
     front.R = R.emplace_back(places.take(std::size_t(front.stride() * (front.size - front.eliminated)))).begin;
     for (const int child : of.children) places.give_back(R[std::size_t(child)]);
-    L_ += std::size_t(front.stride() * front.eliminated), U_ += std::size_t(front.stride_above() * front.size);
+    L_ += std::size_t(front.stride() * front.eliminated);
     largest_ = std::max(largest_, front.size);
     fronts_.push_back(front);
   }
@@ -137,7 +146,7 @@ void ComplementLayout::place_shares(Front& front, const std::vector<int>& bodies
   std::vector<int> order, places;
   front.bodies = {shares_.size(), bodies.size()};
   for (const int body : bodies) {
-    const std::vector<int>& of_body = rows_[std::size_t(body)];
+    const std::span<const int> of_body = part(rows_, of_bodies_[std::size_t(body)]);
     const auto place_of = [&](int i) { return place_[std::size_t(of_body[std::size_t(i)])]; };
     order.resize(of_body.size()), places.clear();
     std::iota(order.begin(), order.end(), 0);

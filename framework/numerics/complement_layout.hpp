@@ -31,9 +31,8 @@ class ComplementLayout {
   struct Front {
     int eliminated = 0, size = 0;
     List rows, bodies, children;
-    std::size_t L = 0, R = 0, U = 0;  // where its numbers begin in those of all fronts
+    std::size_t L = 0, R = 0;  // where its numbers begin in those of all fronts
     Eigen::Index stride() const { return padded(size); }
-    Eigen::Index stride_above() const { return padded(eliminated); }  // of a column of U
   };
 
   // Of the first nc rows.
@@ -48,7 +47,6 @@ class ComplementLayout {
   std::span<const int> places(const Share& share) const { return part(numbers_, share.places); }
   std::size_t numbers_L() const { return L_; }
   std::size_t numbers_R() const { return R_; }
-  std::size_t numbers_U() const { return U_; }
   int largest() const { return largest_; }  // front
 
  private:
@@ -63,9 +61,10 @@ class ComplementLayout {
   std::vector<Front> fronts_;
   std::vector<Share> shares_;
   std::vector<int> numbers_;
-  std::vector<std::vector<int>> rows_;  // of bodies
-  std::vector<int> place_;              // of a row in the front at hand
-  std::size_t L_ = 0, R_ = 0, U_ = 0;
+  std::vector<List> of_bodies_;  // in rows_
+  std::vector<int> rows_;
+  std::vector<int> place_;  // of a row in the front at hand
+  std::size_t L_ = 0, R_ = 0;
   int largest_ = 0;
 };
 

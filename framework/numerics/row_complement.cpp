@@ -76,7 +76,6 @@ void RowComplement::resize(int nc) {
   const Eigen::Index largest = padded(layout_.largest());
   L_.setZero(Eigen::Index(layout_.numbers_L()));
   R_.setZero(Eigen::Index(layout_.numbers_R()));
-  U_.setZero(Eigen::Index(layout_.numbers_U()));
   diagonal_.resize(nc), pivots_.resize(nc), inverse_pivots_.resize(nc), start_.resize(nc);
   work_.resize(largest), product_.resize(largest * largest);
 }
@@ -133,11 +132,11 @@ double* RowComplement::column(const Front& front, Eigen::Index j) {
                               : R_.data() + front.R + (j - front.eliminated) * front.stride();
 }
 
-// Each column less what those before it contribute, then divided by its pivot.
+// Each column less what those before it contribute, then divided by its pivot. U = D [L_FF^T L_BF^T] serves only here.
 void RowComplement::eliminate(const Front& front) {
   with_sizes(front, [&](auto eliminated, auto stride) {
     const Eigen::Index above = padded(eliminated);
-    double *const L = L_.data() + front.L, *const R = R_.data() + front.R, *const U = U_.data() + front.U;
+    double *const L = L_.data() + front.L, *const R = R_.data() + front.R, *const U = product_.data();
     const std::span<const int> rows = layout_.rows(front);
     for (Eigen::Index j = 0; j < front.size; ++j) {
       double* const column = j < eliminated ? L + j * stride : R + (j - eliminated) * stride;
@@ -175,7 +174,7 @@ double sign(int row) {
 
 }  // namespace
 
-// Of s, signs times the diagonal's roots: L^-1 s goes along with the elimination.
+// L^-1 s goes along with the elimination.
 void RowComplement::take_along(const Front& front) {
   for (const int row : layout_.rows(front).first(std::size_t(front.eliminated)))
     start_[row] += sign(row) * std::sqrt(diagonal_[row]);
@@ -183,21 +182,24 @@ void RowComplement::take_along(const Front& front) {
 }
 
 double RowComplement::softest() {
-  scale_ = diagonal_.cwiseSqrt();
-  for (Eigen::Index i = 0; i < scale_.size(); ++i) start_[i] = sign(int(i)) * scale_[i];
-  solve(start_, end_);
-  return start_.cwiseQuotient(scale_).norm() / end_.cwiseProduct(scale_).norm();
+  end_ = start_;
+  solve_all_upper(end_);
+  return std::sqrt(double(end_.size()) / end_.cwiseAbs2().cwiseProduct(diagonal_).sum());
 }
 
 void RowComplement::solve(const Vec& r, Vec& y) {
   y = r;
+  for (const Front& front : layout_.fronts()) solve_lower(front, y);
+  solve_all_upper(y);
+}
+
+void RowComplement::solve_all_upper(Vec& y) {
   const std::vector<Front>& fronts = layout_.fronts();
-  for (const Front& front : fronts) solve_lower(front, y);
   for (std::size_t i = 0; i < fronts.size(); ++i) {
     const auto from_end = [&](std::size_t k) -> const Front& { return fronts[fronts.size() - 1 - k]; };
     look_ahead(i, fronts.size(), [&](std::size_t next) {
       const Front& front = from_end(next);
-      fetch(U_.data() + front.U, std::size_t(front.stride_above() * front.size) * sizeof(double));
+      fetch(L_.data() + front.L, std::size_t(front.stride() * front.eliminated) * sizeof(double));
     });
     solve_upper(from_end(i), y);
   }
@@ -237,23 +239,35 @@ void RowComplement::solve_lower(const Front& front, Vec& y) {
   });
 }
 
-// y_F := U_F^-1 (y_F - U_B y_B)
+// y_F := L_FF^-T (D^-1 y_F - L_BF^T y_B)
 void RowComplement::solve_upper(const Front& front, Vec& y) {
-  with_sizes(front, [&](auto eliminated, auto) {
-    const auto above = padded(eliminated);
-    const double* const U = U_.data() + front.U;
+  if (front.eliminated > few) return solve_upper_of_many(front, y);
+  with_sizes(front, [&](auto eliminated, auto stride) {
+    const double* const L = L_.data() + front.L;
     const int* const rows = layout_.rows(front).data();
     double* const rest = work_.data();
-    for (Eigen::Index i = 0; i < eliminated; ++i) rest[i] = y[rows[i]];
-    const int* const boundary = rows + eliminated;
-    subtract_columns(
-        U + eliminated * above, above, front.size - eliminated, 0, [&](Eigen::Index j) { return y[boundary[j]]; },
-        rest);
-    for (Eigen::Index j = eliminated - 1; j >= 0; --j) {
-      const double known = y[rows[j]] = rest[j] * inverse_pivots_[rows[j]];
-      subtract(known, U + j * above, rest, 0, j);
-    }
+    for (Eigen::Index j = 0; j < eliminated; ++j) rest[j] = y[rows[j]] * inverse_pivots_[rows[j]];
+    const auto take_out = [&](double known, Eigen::Index i, Eigen::Index from) {
+      for (Eigen::Index j = 0; j < from; ++j) rest[j] -= L[j * stride + i] * known;
+    };
+    for (Eigen::Index i = eliminated; i < front.size; ++i) take_out(y[rows[i]], i, eliminated);
+    for (Eigen::Index i = eliminated - 1; i >= 0; --i) take_out(y[rows[i]] = rest[i], i, i);
   });
+}
+
+void RowComplement::solve_upper_of_many(const Front& front, Vec& y) {
+  const std::span<const int> rows = layout_.rows(front);
+  const Eigen::Index eliminated = front.eliminated, boundary = front.size - eliminated;
+  const Eigen::Map<const Mat, 0, Eigen::OuterStride<>> L(L_.data() + front.L, front.size, eliminated,
+                                                         Eigen::OuterStride<>(front.stride()));
+  for (Eigen::Index j = 0; j < front.size; ++j) {
+    const int row = rows[std::size_t(j)];
+    work_[j] = j < eliminated ? y[row] * inverse_pivots_[row] : y[row];
+  }
+  auto of_front = work_.head(eliminated);
+  of_front.noalias() -= L.bottomRows(boundary).transpose() * work_.segment(eliminated, boundary);
+  L.topRows(eliminated).triangularView<Eigen::UnitLower>().transpose().solveInPlace(of_front);
+  for (Eigen::Index j = 0; j < eliminated; ++j) y[rows[std::size_t(j)]] = of_front[j];
 }
 
 }  // namespace trammel::numerics

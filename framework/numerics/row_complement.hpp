@@ -3,7 +3,7 @@
 // A sum over bodies, each giving a block on the rows that touch it. It is never formed as a whole: bodies' shares go right to the
 // fronts (complement_layout.hpp) that eliminate their rows (F) and leave a matrix on their boundary (B) to the front above:
 //
-//     [S_FF S_BF^T]  =  [L_FF  ] [D  ] [L_FF^T L_BF^T]         U = D [L_FF^T L_BF^T]
+//     [S_FF S_BF^T]  =  [L_FF  ] [D  ] [L_FF^T L_BF^T]
 //     [S_BF S_BB  ]     [L_BF 1] [  R] [            1]
 //
 // Of a chain of 100 links with five rows each this takes half of the time of Eigen's simplicial factors (22 instead of 46 us; a
@@ -29,10 +29,9 @@ class RowComplement {
                  Find find = Find::factors);
   // Each pivot is more than the square of `least_sine` beside its diagonal: its row's angle to those eliminated before.
   bool is_safe(double least_sine) const;
-  // Both are no less than the least eigenvalue of S with its diagonal scaled to 1. With p the part of its direction in a start of
-  // signs: softest(), a step of inverse iteration, is at most sqrt(nc) / p times that eigenvalue; mean_softness(), the harmonic
-  // mean of the eigenvalues by such parts, at most sqrt(nc) / p times softest(). The mean is that of the last `factorise` that
-  // was to find it.
+  // After a `factorise` that was to find softness. Both are no less than the least eigenvalue of S with its diagonal scaled to 1.
+  // With p the part of its direction in a start of signs: softest(), a step of inverse iteration, is at most sqrt(nc) / p times
+  // that eigenvalue; mean_softness(), the harmonic mean of the eigenvalues by such parts, at most sqrt(nc) / p times softest().
   double softest();
   double mean_softness() const { return mean_softness_; }
   double largest() const { return diagonal_.maxCoeff(); }
@@ -52,11 +51,14 @@ class RowComplement {
   void take_along(const Front& front);
   void solve_lower(const Front& front, Vec& y);
   void solve_upper(const Front& front, Vec& y);
+  void solve_all_upper(Vec& y);
+  void solve_upper_of_many(const Front& front, Vec& y);
 
   ComplementLayout layout_;
-  Vec L_, R_, U_;                           // of all fronts
+  Vec L_, R_;                               // of all fronts
   Vec diagonal_, pivots_, inverse_pivots_;  // by rows
-  Vec work_, scale_, start_, end_;
+  Vec work_;
+  Vec start_, end_;  // L^-1 s and S^-1 s of s, the signs times the diagonal's roots
   double mean_softness_ = 0;
   // Of one body, in the order of elimination: Y = G C^-T, M = C C^T, below them padded rows of zeros; Y Y^T.
   Vec Y_, product_;

@@ -159,7 +159,7 @@ TEST_P(RowComplementOf, TellsARowSaidTwice) {
 TEST_P(RowComplementOf, ItsSoftestDirectionIsAtMostAsSoftAsFound) {
   const Mechanism m = mechanism();
   RowComplement complement;
-  complement.factorise(m.bodies, m.masses, m.nc, 0);
+  complement.factorise(m.bodies, m.masses, m.nc, 0, RowComplement::Find::factors_and_softness);
   const Mat S = m.dense(m.nc, 0);
   const Vec scale = S.diagonal().cwiseSqrt().cwiseInverse();
   const double least = Eigen::SelfAdjointEigenSolver<Mat>(scale.asDiagonal() * S * scale.asDiagonal()).eigenvalues()[0];
