@@ -98,15 +98,17 @@ bool NewmarkStep::misled(System& s, const Vec& r) {
 }
 
 // Near a change of rank, an angle theta from it, rows that hold to their round-off d leave q uncertain by d / theta and v by
-// d / theta^2; likewise a rod's angle beside a body a million million times as long. Then what r alone asks for tells whether the
-// iteration has come to its end.
+// d / theta^2; likewise a rod's angle beside a body a million million times as long, whose coordinates take no increment below their
+// own spacing. Then q moves at every increment, and r with it. What r alone asks for tells whether the iteration has come to its end:
+// it is within the tolerance, or moves q in a step by little beside what the rows' round-off does.
 bool NewmarkStep::at_round_off(System& s, const Vec& r) {
   if (change_q_ <= 64 * eps || largest(r) <= 64 * eps * largest(s.f())) return true;
   if (s.sizes().nc == 0 || largest(s.g()) > 4 * eps * size_q_) return false;
   rc_.setZero(s.sizes().nc);
-  constexpr double little = 0.01;  // beside what the rows' round-off asks for
-  return s.correct(r, rc_, da_, dlambda_) &&
-         relative(c_v_ * largest(da_), size_v_) <= std::max(newton.tolerance, little * change_v_);
+  if (!s.correct(r, rc_, da_, dlambda_)) return false;
+  constexpr double little = 0.01;
+  const double dv = c_v_ * largest(da_);
+  return relative(dv, size_v_) <= newton.tolerance || c_v_ * dv <= little * change_q_ * size_q_;
 }
 
 void NewmarkStep::correct(System& s, Blend blend, const Vec& r, State& next) {

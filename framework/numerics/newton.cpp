@@ -29,7 +29,7 @@ void Newton::judge(double change, bool at_round_off) {
   rate_ = first ? 1 : change / last_change_;
   const double error = first ? change : rate_ / (1 - rate_) * change;
   const bool shrinking = first || rate_ < 1;
-  if (change == 0 || (shrinking && error <= tolerance) || (!first && rate_ >= 0.5 && at_round_off)) {
+  if (change == 0 || (shrinking && error <= tolerance) || (!first && at_round_off)) {
     state_ = State::converged;
     return;
   }

@@ -27,8 +27,10 @@ class Newton {
   bool iterating() const { return state_ == State::iterating; }
   bool converged() const { return state_ == State::converged; }
   bool wants_factors() const { return wants_factors_; }
-  // Whether an increment of this size is one of a fast iteration, so that round-off need not be asked for.
-  bool fast(double change) const { return iterations_ == 0 || change < 0.5 * last_change_; }
+  // Whether an increment of this size is one of a fast iteration that may go on, so that round-off need not be asked for.
+  bool fast(double change) const {
+    return iterations_ == 0 || (change < 0.5 * last_change_ && iterations_ + 1 < max_iterations);
+  }
   // After an increment of relative size `change` was applied. `at_round_off`: a further one could not be more than
   // noise.
   void judge(double change, bool at_round_off);
