@@ -98,9 +98,9 @@ bool NewmarkStep::misled(System& s, const Vec& r) {
 }
 
 // Near a change of rank, an angle theta from it, rows that hold to their round-off d leave q uncertain by d / theta and v by
-// d / theta^2; likewise a rod's angle beside a body a million million times as long, whose coordinates take no increment below their
-// own spacing. Then q moves at every increment, and r with it. What r alone asks for tells whether the iteration has come to its end:
-// it is within the tolerance, or moves q in a step by little beside what the rows' round-off does.
+// d / theta^2; likewise a rod's angle beside a body a million million times as long, whose coordinates take no increment below
+// their own spacing. Then q moves at every increment, and r with it. What r alone asks for tells whether the iteration has come to
+// its end: it is within the tolerance, or moves q in a step by little beside what the rows' round-off does.
 bool NewmarkStep::at_round_off(System& s, const Vec& r) {
   if (change_q_ <= 64 * eps || largest(r) <= 64 * eps * largest(s.f())) return true;
   if (s.sizes().nc == 0 || largest(s.g()) > 4 * eps * size_q_) return false;

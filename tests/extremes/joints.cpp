@@ -91,7 +91,7 @@ TEST(MassRatio, OfATrillionTakesRodsNoMoreStepsThanEqualMasses) {
 
 // Coordinates of 5e5 m are known to 1e-10 m, which is 1e-4 of the short rod's length, at each of 2000 steps: no method that puts
 // its steps onto the rows knows its angle better than that, but none may stop or halve its steps for it. The exact one is -0.44836
-// (RK4, dop853). Whether an iteration ends must not hang on how the coordinates happen to round: so the step is varied a little.
+// (RK4, dop853). Whether an iteration ends must not hang on how coordinates happen to round: so the step is varied a little.
 TEST(LengthRatio, OfATrillionIsNoReasonToStop) {
   for (const char* method : {"hht_alpha", "generalized_alpha"})
     for (const double step : {1e-5, 1.01e-5, 1.03e-5, 1.04e-5, 1.06e-5, 1.09e-5}) {
