@@ -1,7 +1,6 @@
 #include "numerics/row_complement.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <type_traits>
 
 #include "numerics/fetch.hpp"
@@ -48,15 +47,12 @@ void with_sizes(const ComplementLayout::Front& front, F&& f) {
 
 }  // namespace
 
-void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc, double eps,
-                              Find find) {
+void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc, double eps) {
   if (!layout_.holds(bodies, nc)) {
     layout_.find(bodies, nc);
     resize(nc);
   }
   diagonal_.setConstant(eps);
-  const bool with_softness = find == Find::factors_and_softness;
-  if (with_softness) start_.setZero();
   const std::vector<Front>& fronts = layout_.fronts();
   for (std::size_t i = 0; i < fronts.size(); ++i) {
     look_ahead(i, fronts.size(), [&](std::size_t next) {
@@ -67,16 +63,14 @@ void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const BodyMa
     });
     assemble(bodies, masses, fronts[i], eps);
     eliminate(fronts[i]);
-    if (with_softness) take_along(fronts[i]);
   }
-  if (with_softness) mean_softness_ = double(nc) / start_.cwiseAbs2().cwiseProduct(inverse_pivots_).sum();
 }
 
 void RowComplement::resize(int nc) {
   const Eigen::Index largest = padded(layout_.largest());
   L_.setZero(Eigen::Index(layout_.numbers_L()));
   R_.setZero(Eigen::Index(layout_.numbers_R()));
-  diagonal_.resize(nc), pivots_.resize(nc), inverse_pivots_.resize(nc), start_.resize(nc);
+  diagonal_.resize(nc), pivots_.resize(nc), inverse_pivots_.resize(nc);
   work_.resize(largest), product_.resize(largest * largest);
 }
 
@@ -161,40 +155,10 @@ bool RowComplement::is_safe(double least_sine) const {
   return (pivots_.array() > least_sine * least_sine * diagonal_.array()).all();
 }
 
-namespace {
-
-// Signs without any order (a hash's): they have a part of every direction. One round of it would be balanced, with hardly any
-// part of smooth ones.
-double sign(int row) {
-  constexpr std::uint32_t golden = 2654435769U;
-  std::uint32_t mixed = std::uint32_t(row) * golden;
-  mixed = (mixed ^ mixed >> 15) * golden;
-  return mixed >> 31 ? 1 : -1;
-}
-
-}  // namespace
-
-// L^-1 s goes along with the elimination.
-void RowComplement::take_along(const Front& front) {
-  for (const int row : layout_.rows(front).first(std::size_t(front.eliminated)))
-    start_[row] += sign(row) * std::sqrt(diagonal_[row]);
-  solve_lower(front, start_);
-}
-
-double RowComplement::softest() {
-  end_ = start_;
-  solve_all_upper(end_);
-  return std::sqrt(double(end_.size()) / end_.cwiseAbs2().cwiseProduct(diagonal_).sum());
-}
-
 void RowComplement::solve(const Vec& r, Vec& y) {
   y = r;
-  for (const Front& front : layout_.fronts()) solve_lower(front, y);
-  solve_all_upper(y);
-}
-
-void RowComplement::solve_all_upper(Vec& y) {
   const std::vector<Front>& fronts = layout_.fronts();
+  for (const Front& front : fronts) solve_lower(front, y);
   for (std::size_t i = 0; i < fronts.size(); ++i) {
     const auto from_end = [&](std::size_t k) -> const Front& { return fronts[fronts.size() - 1 - k]; };
     look_ahead(i, fronts.size(), [&](std::size_t next) {

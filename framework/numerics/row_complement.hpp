@@ -23,17 +23,13 @@ namespace trammel::numerics {
 
 class RowComplement {
  public:
-  enum class Find { factors, factors_and_softness };
   // Of the first nc rows.
-  void factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc, double eps,
-                 Find find = Find::factors);
+  void factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc, double eps);
   // Each pivot is more than the square of `least_sine` beside its diagonal: its row's angle to those eliminated before.
   bool is_safe(double least_sine) const;
-  // After a `factorise` that was to find softness. Both are no less than the least eigenvalue of S with its diagonal scaled to 1.
-  // With p the part of its direction in a start of signs: softest(), a step of inverse iteration, is at most sqrt(nc) / p times
-  // that eigenvalue; mean_softness(), the harmonic mean of the eigenvalues by such parts, at most sqrt(nc) / p times softest().
-  double softest();
-  double mean_softness() const { return mean_softness_; }
+  // Of y = S^-1 r: a mean of the eigenvalues of S with its diagonal scaled to 1 (a Rayleigh quotient), so no less than the least of
+  // them. Close to it where r has some of its direction: inverse iteration brings that out.
+  double softness(const Vec& r, const Vec& y) const { return r.dot(y) / y.cwiseAbs2().dot(diagonal_); }
   double largest() const { return diagonal_.maxCoeff(); }
   // |S_ii y_i|
   double largest_share(const Vec& y) const { return diagonal_.cwiseProduct(y).lpNorm<Eigen::Infinity>(); }
@@ -48,18 +44,14 @@ class RowComplement {
   void add_at(std::span<const int> places, const double* A, Eigen::Index stride, const Front& front);
   void eliminate(const Front& front);
   double* column(const Front& front, Eigen::Index j);  // of L or R
-  void take_along(const Front& front);
   void solve_lower(const Front& front, Vec& y);
   void solve_upper(const Front& front, Vec& y);
-  void solve_all_upper(Vec& y);
   void solve_upper_of_many(const Front& front, Vec& y);
 
   ComplementLayout layout_;
   Vec L_, R_;                               // of all fronts
   Vec diagonal_, pivots_, inverse_pivots_;  // by rows
   Vec work_;
-  Vec start_, end_;  // L^-1 s and S^-1 s of s, the signs times the diagonal's roots
-  double mean_softness_ = 0;
   // Of one body, in the order of elimination: Y = G C^-T, M = C C^T, below them padded rows of zeros; Y Y^T.
   Vec Y_, product_;
 };

@@ -47,12 +47,13 @@ class SparseMassKkt {
 
  private:
   bool factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric);
-  bool is_soft(double sine);
+  bool leave_to_fronts(const std::vector<BodyBlock>& bodies);
   void remove_null_part(Vec& r);
   bool factorise_fronts(const std::vector<BodyBlock>& bodies);
   bool factorise_springs(const std::vector<BodyBlock>& bodies);
   bool springs_are_better(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, const Vec& x);
   void solve_by_fronts(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
+  bool solve_by_complement(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
   void regularise(const std::vector<BodyBlock>& bodies);
 
   int nc_ = 0;
