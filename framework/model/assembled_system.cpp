@@ -203,9 +203,10 @@ void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
   w.evaluate_rows();
   if (!w.factorise_mass(Work::at_point, true, w.rank_tolerance()))
     throw NotSolvable("the mass matrix is not positive definite");
-  w.right_rows = w.gamma - 2 * s.alpha * w.g_dot - s.beta * s.beta * w.g;
+  const bool stabilised = s.alpha != 0 || s.beta != 0;
+  if (stabilised) w.right_rows = w.gamma - 2 * s.alpha * w.g_dot - s.beta * s.beta * w.g;
   // Who asked looks for the component whose answer is not finite.
-  if (!w.solve(Work::at_point, w.force(), w.right_rows, a, lambda))
+  if (!w.solve(Work::at_point, w.force(), stabilised ? w.right_rows : w.gamma, a, lambda))
     a.setConstant(w.sizes.nv, std::numeric_limits<double>::quiet_NaN());
   if (!w.judged.empty()) w.judge_friction(a, lambda);
 }

@@ -1,6 +1,7 @@
 #include "numerics/row_complement.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <type_traits>
 
 #include "numerics/fetch.hpp"
@@ -53,6 +54,7 @@ void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const BodyMa
     resize(nc);
   }
   diagonal_.setConstant(eps);
+  least_square_sine_ = std::numeric_limits<double>::infinity();
   const std::vector<Front>& fronts = layout_.fronts();
   for (std::size_t i = 0; i < fronts.size(); ++i) {
     look_ahead(i, fronts.size(), [&](std::size_t next) {
@@ -70,7 +72,7 @@ void RowComplement::resize(int nc) {
   const Eigen::Index largest = padded(layout_.largest());
   L_.setZero(Eigen::Index(layout_.numbers_L()));
   R_.setZero(Eigen::Index(layout_.numbers_R()));
-  diagonal_.resize(nc), pivots_.resize(nc), inverse_pivots_.resize(nc);
+  diagonal_.resize(nc);
   work_.resize(largest), product_.resize(largest * largest);
 }
 
@@ -126,7 +128,8 @@ double* RowComplement::column(const Front& front, Eigen::Index j) {
                               : R_.data() + front.R + (j - front.eliminated) * front.stride();
 }
 
-// Each column less what those before it contribute, then divided by its pivot. U = D [L_FF^T L_BF^T] serves only here.
+// Each column less what those before it contribute, then divided by its pivot. U = D [L_FF^T L_BF^T] serves only here. A pivot that
+// is not a positive number counts as 0.
 void RowComplement::eliminate(const Front& front) {
   with_sizes(front, [&](auto eliminated, auto stride) {
     const Eigen::Index above = padded(eliminated);
@@ -142,17 +145,14 @@ void RowComplement::eliminate(const Front& front) {
         pack_at(column + i) = rest;
       }
       if (j >= eliminated) continue;
-      const int row = rows[std::size_t(j)];
-      pivots_[row] = column[j];
-      const double inverse = inverse_pivots_[row] = 1 / column[j];
+      const double square_sine = column[j] / diagonal_[rows[std::size_t(j)]], inverse = 1 / column[j];
+      least_square_sine_ = std::min(least_square_sine_, square_sine > 0 ? square_sine : 0);
       for (Eigen::Index i = j + 1; i < front.size; ++i) U[i * above + j] = column[i];
       for (Eigen::Index i = pack_of(j); i < stride; i += pack) pack_at(column + i) *= inverse;
+      work_[j] = inverse;
     }
+    for (Eigen::Index j = 0; j < eliminated; ++j) L[j * stride + j] = work_[j];
   });
-}
-
-bool RowComplement::is_safe(double least_sine) const {
-  return (pivots_.array() > least_sine * least_sine * diagonal_.array()).all();
 }
 
 void RowComplement::solve(const Vec& r, Vec& y) {
@@ -210,7 +210,7 @@ void RowComplement::solve_upper(const Front& front, Vec& y) {
     const double* const L = L_.data() + front.L;
     const int* const rows = layout_.rows(front).data();
     double* const rest = work_.data();
-    for (Eigen::Index j = 0; j < eliminated; ++j) rest[j] = y[rows[j]] * inverse_pivots_[rows[j]];
+    for (Eigen::Index j = 0; j < eliminated; ++j) rest[j] = y[rows[j]] * L[j * stride + j];
     const auto take_out = [&](double known, Eigen::Index i, Eigen::Index from) {
       for (Eigen::Index j = 0; j < from; ++j) rest[j] -= L[j * stride + i] * known;
     };
@@ -226,7 +226,7 @@ void RowComplement::solve_upper_of_many(const Front& front, Vec& y) {
                                                          Eigen::OuterStride<>(front.stride()));
   for (Eigen::Index j = 0; j < front.size; ++j) {
     const int row = rows[std::size_t(j)];
-    work_[j] = j < eliminated ? y[row] * inverse_pivots_[row] : y[row];
+    work_[j] = j < eliminated ? y[row] * L(j, j) : y[row];
   }
   auto of_front = work_.head(eliminated);
   of_front.noalias() -= L.bottomRows(boundary).transpose() * work_.segment(eliminated, boundary);

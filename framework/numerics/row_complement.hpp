@@ -26,7 +26,7 @@ class RowComplement {
   // Of the first nc rows.
   void factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc, double eps);
   // Each pivot is more than the square of `least_sine` beside its diagonal: its row's angle to those eliminated before.
-  bool is_safe(double least_sine) const;
+  bool is_safe(double least_sine) const { return least_square_sine_ > least_sine * least_sine; }
   // Of y = S^-1 r: a mean of the eigenvalues of S with its diagonal scaled to 1 (a Rayleigh quotient), so no less than the least of
   // them. Close to it where r has some of its direction: inverse iteration brings that out.
   double softness(const Vec& r, const Vec& y) const { return r.dot(y) / y.cwiseAbs2().dot(diagonal_); }
@@ -49,8 +49,9 @@ class RowComplement {
   void solve_upper_of_many(const Front& front, Vec& y);
 
   ComplementLayout layout_;
-  Vec L_, R_;                               // of all fronts
-  Vec diagonal_, pivots_, inverse_pivots_;  // by rows
+  Vec L_, R_;     // of all fronts; on L's diagonal, which is 1, D^-1
+  Vec diagonal_;  // of S
+  double least_square_sine_ = 0;
   Vec work_;
   // Of one body, in the order of elimination: Y = G C^-T, M = C C^T, below them padded rows of zeros; Y Y^T.
   Vec Y_, product_;

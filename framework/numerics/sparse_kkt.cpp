@@ -155,7 +155,7 @@ bool SparseMassKkt::solve_by_complement(const std::vector<BodyBlock>& bodies, co
   masses_.solve(x);
   if (nc_ == 0) return true;
   const bool is_long = nc_ >= long_chain;
-  const double scale = std::max(c.lpNorm<Eigen::Infinity>(), x.lpNorm<Eigen::Infinity>());
+  const double scale = is_long ? 0 : std::max(c.lpNorm<Eigen::Infinity>(), x.lpNorm<Eigen::Infinity>());
   const auto residual = [&](Vec& r) {
     r = -c;
     add_rows_times(bodies, 1, x, r);
@@ -172,7 +172,7 @@ bool SparseMassKkt::solve_by_complement(const std::vector<BodyBlock>& bodies, co
     add_rows_force(bodies, -1, y, x);
     masses_.solve(x);
   };
-  const double enough = is_long ? 0 : 16 * eps * scale;  // of a row's dozen products
+  const double enough = 16 * eps * scale;  // of a row's dozen products
   // Multipliers along a chain add up to accelerations a million times those that are left. Their round-off does not fall by
   // corrections, but the first one takes away what is smooth of it, to which a soft mechanism yields: 1e-9 of a mast's accelerations.
   const auto round_off = [&] { return redundant_ ? 0 : 4 * eps * complement_.largest_share(y); };
