@@ -128,8 +128,8 @@ double* RowComplement::column(const Front& front, Eigen::Index j) {
                               : R_.data() + front.R + (j - front.eliminated) * front.stride();
 }
 
-// Each column less what those before it contribute, then divided by its pivot. U = D [L_FF^T L_BF^T] serves only here. A pivot that
-// is not a positive number counts as 0.
+// Each column less what those before it contribute, then divided by its pivot; one that is not a positive number counts as 0.
+// U = D [L_FF^T L_BF^T] serves only here.
 void RowComplement::eliminate(const Front& front) {
   with_sizes(front, [&](auto eliminated, auto stride) {
     const Eigen::Index above = padded(eliminated);

@@ -27,8 +27,8 @@ class RowComplement {
   void factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc, double eps);
   // Each pivot is more than the square of `least_sine` beside its diagonal: its row's angle to those eliminated before.
   bool is_safe(double least_sine) const { return least_square_sine_ > least_sine * least_sine; }
-  // Of y = S^-1 r: a mean of the eigenvalues of S with its diagonal scaled to 1 (a Rayleigh quotient), so no less than the least of
-  // them. Close to it where r has some of its direction: inverse iteration brings that out.
+  // Of y = S^-1 r: a mean of the eigenvalues of S with its diagonal scaled to 1 (a Rayleigh quotient), so no less than the least.
+  // Close to it where r has some of its direction: inverse iteration brings that out.
   double softness(const Vec& r, const Vec& y) const { return r.dot(y) / y.cwiseAbs2().dot(diagonal_); }
   double largest() const { return diagonal_.maxCoeff(); }
   // |S_ii y_i|

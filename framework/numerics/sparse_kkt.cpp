@@ -17,8 +17,8 @@ constexpr double regularisation(int nc) {
 }
 // Of a long chain the complement serves as it is down to this sine of a row's angle to others: its square above round-off by 1e10.
 constexpr double safe_sine = 1e-3;
-// And to this eigenvalue, of S with its diagonal scaled to 1, of the whole chain: what 1e-13 of round-off in its rows moves it by, over the
-// root, is 2e-9 of its accelerations.
+// And down to this eigenvalue of the whole, S's diagonal scaled to 1: round-off of its rows, 1e-13, over the root is 2e-9 of
+// accelerations.
 constexpr double soft_chain = 2e-9;
 // Of redundant rows.
 constexpr double of_redundant = 1e-10;
@@ -145,9 +145,9 @@ void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, co
   solve_by_fronts(bodies, b, c, x, y);
 }
 
-// False: of a long chain, which is too soft for it. A pivot tells of redundant rows; softness of a whole chain may leave no trace in any
-// of them. The second correction tells of it: what the first has left is round-off as S^-1 enlarges it, most in the softest
-// direction. Of chains and masts of 1000 to 80,000 rows that is within 5 % of their least eigenvalue.
+// False: a long chain is too soft for it, which may leave no trace in any single pivot. The second correction tells: it answers to
+// what the first has left, round-off, which S^-1 enlarges most in the softest direction. Of chains and masts of 1000 to 80,000
+// rows that is within 5 % of their least eigenvalue. Where round-off has nothing of that direction, x has none of its error.
 bool SparseMassKkt::solve_by_complement(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x,
                                         Vec& y) {
   y.setZero(nc_);
@@ -155,7 +155,8 @@ bool SparseMassKkt::solve_by_complement(const std::vector<BodyBlock>& bodies, co
   masses_.solve(x);
   if (nc_ == 0) return true;
   const bool is_long = nc_ >= long_chain;
-  const double scale = is_long ? 0 : std::max(c.lpNorm<Eigen::Infinity>(), x.lpNorm<Eigen::Infinity>());
+  // Of a row's dozen products. Long chains take their second correction in any case.
+  const double enough = is_long ? 0 : 16 * eps * std::max(c.lpNorm<Eigen::Infinity>(), x.lpNorm<Eigen::Infinity>());
   const auto residual = [&](Vec& r) {
     r = -c;
     add_rows_times(bodies, 1, x, r);
@@ -172,7 +173,6 @@ bool SparseMassKkt::solve_by_complement(const std::vector<BodyBlock>& bodies, co
     add_rows_force(bodies, -1, y, x);
     masses_.solve(x);
   };
-  const double enough = 16 * eps * scale;  // of a row's dozen products
   // Multipliers along a chain add up to accelerations a million times those that are left. Their round-off does not fall by
   // corrections, but the first one takes away what is smooth of it, to which a soft mechanism yields: 1e-9 of a mast's accelerations.
   const auto round_off = [&] { return redundant_ ? 0 : 4 * eps * complement_.largest_share(y); };

@@ -15,9 +15,9 @@
 // end. They are taken for redundant too: x does not satisfy them, and y does not act along them.
 //
 // Long chains have such directions that are not redundant: their softest sigma falls with n^-2 (masts) or n^-3 (hoops), and its square
-// is lost. From `long_chain` rows on, where the complement tells of such or of redundant rows, the rows are eliminated front by front
-// (frontal_kkt.hpp), refined once or twice with the residuals of the equations. Then y is a solution of few entries on redundant rows,
-// not the one of minimum norm.
+// is lost. From `long_chain` rows on, where the complement's pivots tell of redundant rows or a solution's second correction of such
+// directions, the rows are eliminated front by front (frontal_kkt.hpp), refined once or twice with the residuals of the equations.
+// Then y is a solution of few entries on redundant rows, not the one of minimum norm.
 // Where round-off comes between redundant rows on the way around a large ring (a hoop of 400 bays and more), fronts contradict each
 // other: their solution misses dependent rows by more than these rows' own round-off, or does not settle at all. That is measured, and
 // springs take the rows' place in them. Of such a hoop they leave free what its rows tell by less than their round-off.
