@@ -48,6 +48,7 @@ class SparseMassKkt {
  private:
   bool factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric);
   bool leave_to_fronts(const std::vector<BodyBlock>& bodies);
+  bool is_soft(double softness, const Vec& x) const;
   void remove_null_part(Vec& r);
   bool factorise_fronts(const std::vector<BodyBlock>& bodies);
   bool factorise_springs(const std::vector<BodyBlock>& bodies);
@@ -64,7 +65,7 @@ class SparseMassKkt {
   BodyMasses masses_;
   RowComplement complement_;
   FrontalKkt fronts_;
-  Vec residual_, dy_, null_part_;
+  Vec residual_, dy_, null_part_, x_before_;
 };
 
 class SparseIterationKkt {
