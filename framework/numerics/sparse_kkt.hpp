@@ -41,7 +41,7 @@ class SparseMassKkt {
   enum class Metric { mass, mass_of_before, identity };  // what stands for M; of_before: its factors are kept
   // Of the first nc rows. False: a body's mass is not positive definite. `rank_tolerance` as in kkt.hpp.
   bool factorise(const std::vector<BodyBlock>& bodies, int nc, Metric metric, double rank_tolerance = 1e-7);
-  // The bodies are those of `factorise`.
+  // The bodies are those of `factorise`, or have moved on a little: of long chains, fronts of theirs take over where that is too far.
   void solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
   bool redundant() const { return redundant_; }
 

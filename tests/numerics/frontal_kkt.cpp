@@ -46,8 +46,8 @@ Vec accelerations_by_fronts(const Truss& truss, const Vec& b, const Vec& c) {
   return x;
 }
 
-// A force on one point, 1e4 to 1e6 times as much as its accelerations ask for: they are lost in the complement's round-off, of which one
-// mean of eigenvalues does not tell.
+// A force on one point, 1e4 to 1e6 times as much as its accelerations ask for: they are lost in the complement's round-off, of which
+// a mean of eigenvalues alone does not tell.
 TEST(LongMast, HasTheAccelerationsOfFrontsUnderASingleForce) {
   for (const int units : {126, 130, 200, 250})
     for (const double degrees : {60, 75, 80}) {
