@@ -86,7 +86,7 @@ TimeFunction::Jet JointRows::law(int place, double t) const {
 }
 
 JointRows& JointRows::same_point() {
-  rows_.push_back(SamePoint{});
+  same_point_ = true;
   return *this;
 }
 
@@ -132,9 +132,7 @@ JointRows& JointRows::orientation(const Vec3& n, const Quaterniond& Q, TimeFunct
 }
 
 int JointRows::count() const {
-  int n = 0;
-  for (const Row& row : rows_) n += std::holds_alternative<SamePoint>(row) ? dimension(space_) : 1;
-  return n;
+  return int(rows_.size()) + (same_point_ ? dimension(space_) : 0);
 }
 
 // Between axes that do not turn, but for laws of time.
@@ -144,7 +142,6 @@ bool JointRows::linear() const {
 
 bool JointRows::needs_orientation(int marker) const {
   return std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) {
-    if (std::holds_alternative<SamePoint>(row)) return false;
     return marker == 0 || !std::holds_alternative<Offset>(row);  // an offset's direction is fixed in A
   });
 }
@@ -165,11 +162,10 @@ struct JointRows::Evaluation {
         d_dot(of_B.V.head<D>() - of_A.V.head<D>()),
         omega(of_A.V.tail<turns>()) {}
 
-  void place(const SamePoint&, int& i, Rows& r) const {
-    r.g.segment<D>(i) = d;
-    r.H_A.block<D, D>(i, 0).diagonal().setConstant(-1);
-    r.H_B.block<D, D>(i, 0).diagonal().setConstant(1);
-    i += D;
+  void place_same_point(Rows& r) const {
+    r.g.template head<D>() = d;
+    r.H_A.template topLeftCorner<D, D>().diagonal().setConstant(-1);
+    r.H_B.template topLeftCorner<D, D>().diagonal().setConstant(1);
   }
 
   void place(const Offset& row, int& i, Rows& r) const {
@@ -216,7 +212,6 @@ struct JointRows::Evaluation {
     ++i;
   }
 
-  void vary(const SamePoint&, const double*& lambda, PairTangent&) const { lambda += D; }
   void vary(const Angle&, const double*& lambda, PairTangent&) const { ++lambda; }
 
   // W_A = lambda (-n, n x d), W_B = lambda (n, 0)
@@ -263,8 +258,9 @@ struct JointRows::Evaluation {
 };
 
 void JointRows::rows(double t, const Motion& A, const Motion& B, Rows& rows) const {
-  int i = 0;
+  int i = same_point_ ? dimension(space_) : 0;
   const auto place_all = [&](const auto& evaluation) {
+    if (same_point_) evaluation.place_same_point(rows);
     for (const Row& row : rows_) std::visit([&](const auto& one) { evaluation.place(one, i, rows); }, row);
   };
   if (space_ == Space::planar)
@@ -275,7 +271,7 @@ void JointRows::rows(double t, const Motion& A, const Motion& B, Rows& rows) con
 
 void JointRows::add_reaction_tangent(double t, const Motion& A, const Motion& B, const Vec6& lambda,
                                      PairTangent& K) const {
-  const double* each = lambda.data();
+  const double* each = lambda.data() + (same_point_ ? dimension(space_) : 0);
   const auto vary_all = [&](const auto& evaluation) {
     for (const Row& row : rows_) std::visit([&](const auto& one) { evaluation.vary(one, each, K); }, row);
   };

@@ -1,6 +1,6 @@
 // The rows that joints are made of, planar and spatial, exact in g, H, g_t, gamma and in the derivative of their reaction.
 //
-//     same_point         g = x_B - x_A                                      2 or 3 rows
+//     same_point         g = x_B - x_A                                      2 or 3 rows, the first
 //     offset(n, p)       g = n . (x_B - x_A) - p(t)                         n fixed in A; p may be a law of time
 //     dot(a, b)          g = a . b                                          a fixed in A, b in B; spatial
 //     angle(n, Q, phi)   g = sin(angle of B against A about n - phi(t))     spatial, |g| < 1;   planar theta_B - theta_A - phi
@@ -50,7 +50,6 @@ class JointRows {
 
  private:
   // Most rows follow no law: theirs are kept apart (law: its place, or -1), so that those of many joints take less memory.
-  struct SamePoint {};
   struct Offset {
     Vec3 n;
     int law;
@@ -62,7 +61,7 @@ class JointRows {
   struct Angle {
     int law;
   };
-  using Row = std::variant<SamePoint, Offset, Dot, Angle>;
+  using Row = std::variant<Offset, Dot, Angle>;
   struct Law {
     TimeFunction p;
     Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // of a dot row: what p turns A about
@@ -75,7 +74,8 @@ class JointRows {
   TimeFunction::Jet law(int place, double t) const;
 
   Space space_;
-  std::vector<Row> rows_;
+  bool same_point_ = false;
+  std::vector<Row> rows_;  // after those of same_point
   std::vector<Law> laws_;
 };
 
