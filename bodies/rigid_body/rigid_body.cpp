@@ -21,7 +21,20 @@ struct Placed {
   std::vector<Eigen::Matrix<double, D, 1>> points;  // of the markers, body axes, in the order of the names
 };
 
-struct RigidBody : Body, ExactTangent, ReactionDerivative, Observed, Drawn, HasMomentum, InertiaInput {
+// What every evaluation reads: right behind the interfaces' pointers in memory, before the parameters.
+struct InItsSpace {
+  std::variant<Placed<2>, Placed<3>> body_;
+};
+
+struct RigidBody : Body,
+                   SharedMotion,
+                   ExactTangent,
+                   ReactionDerivative,
+                   Observed,
+                   Drawn,
+                   HasMomentum,
+                   InItsSpace,
+                   InertiaInput {
   Vec3 position_ = Vec3::Zero(2), velocity_ = Vec3::Zero(2);
   double angle_ = 0;
   std::optional<Vec3> axis_;
@@ -149,7 +162,6 @@ struct RigidBody : Body, ExactTangent, ReactionDerivative, Observed, Drawn, HasM
   }
 
   Space space_ = Space::planar;
-  std::variant<Placed<2>, Placed<3>> body_;
   Vec turn_;  // of the start: the angle, or the quaternion
   std::vector<std::string> names_, observables_;
 };

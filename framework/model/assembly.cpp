@@ -23,6 +23,8 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
   for (const ForceEntry& entry : model->forces) force_slots.push_back(slots_of({entry.A, entry.B}));
   for (const JointEntry& entry : model->joints) joint_slots.push_back(slots_of(entry.markers));
   order_joints();
+  for (std::size_t k = 0; k < model->bodies.size(); ++k)
+    if (model->bodies[k].rows > 0) constrained.push_back(k);
   for (const ContactEntry& entry : model->contacts) {
     if (entry.limit)
       contact_slots.push_back(slots_of(entry.limit->markers));

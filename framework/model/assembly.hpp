@@ -43,6 +43,9 @@ struct AssembledSystem::Work {
 
   void move_to(double t_new, const Vec& q_new, const Vec& v_new);
   const Motion& motion(int slot) { return chain.motion(slot, t, q, v); }
+  using Seen = std::array<const Motion*, Rows::most_markers>;  // null: no such marker
+  Seen motions(const Slots& at);
+  Seen motions_in_passing(const Slots& at);  // until the next of these calls
 
   void order_joints();
   void reserve_contacts();
@@ -62,10 +65,10 @@ struct AssembledSystem::Work {
   void evaluate_constant_rows();
   void place_constant_rows();
   void evaluate_own_rows(const BodyEntry& entry);
-  void evaluate_constraint(const Constraint& constraint, int n, const Slots& at,
-                           Rows& into);  // n rows, sized and filled
-  // Rows first .. first + n - 1 of r become rows `row` and on of g, g_dot, gamma and G.
-  void place_rows(const Rows& r, const Slots& at, Eigen::Index first, Eigen::Index n, int row);
+  // n rows between the first `count` of these, sized and filled
+  void evaluate_constraint(const Constraint& constraint, int n, const Seen& motions, int count, Rows& into) const;
+  // Rows first .. first + n - 1 of r, between these, become rows `row` and on of g, g_dot, gamma and G.
+  void place_rows(const Rows& r, const Slots& at, const Seen& motions, Eigen::Index first, Eigen::Index n, int row);
   void add_row_force(const Slots& at, const Rows& r, int row, double c, Vec& f) const;  // f += c J^T H^T
   void couple_reactions();
   const Rows& contact(int i);
@@ -113,6 +116,7 @@ struct AssembledSystem::Work {
   std::vector<Slots> joint_slots, force_slots, contact_slots;
   std::vector<std::size_t> joint_order;  // by their first bodies: of many bodies each is then fetched from memory once
   std::vector<std::size_t> constant_joints;  // not in joint_order: their rows are linear in the coordinates
+  std::vector<std::size_t> constrained;      // bodies with rows of their own
   Modes modes;
   std::vector<int> contact_row;      // row in g, -1 while open or compliant
   std::vector<int> stick_row;        // first tangential row in g, -1 while it does not stick

@@ -33,7 +33,8 @@ void AssembledSystem::Work::evaluate_contact(int i, ContactRows& cache) {
   const bool tangents = entry.friction != nullptr;
   cache.rows.resize(tangents ? dimension(model->world.space) : 1, model->world.space);
   if (entry.limit) {
-    evaluate_constraint(*entry.limit->joint, entry.limit->joint->row_count(model->world.space), at, cache.rows);
+    evaluate_constraint(*entry.limit->joint, entry.limit->joint->row_count(model->world.space), motions(at), at.count,
+                        cache.rows);
     if (const double side = entry.limit->side; side != 1) {
       for (Vec6* each : {&cache.rows.g, &cache.rows.g_t, &cache.rows.gamma}) *each *= side;
       for (int k = 0; k < at.count; ++k) cache.rows.H(k) *= side;

@@ -13,27 +13,27 @@ void AssembledSystem::Work::evaluate_rows() {
     evaluate_constant_rows();
   else
     G.setZero(sizes.nc, sizes.nv);
-  for (std::size_t k = 0; k < model->bodies.size(); ++k) {
-    numerics::look_ahead(k, model->bodies.size(), [&](std::size_t next) {
-      if (model->bodies[next].rows > 0) fetch_body(next);
-    });
-    if (const BodyEntry& entry = model->bodies[k]; entry.rows > 0) evaluate_own_rows(entry);
+  for (std::size_t k = 0; k < constrained.size(); ++k) {
+    numerics::look_ahead(k, constrained.size(), [&](std::size_t next) { fetch_body(constrained[next]); });
+    evaluate_own_rows(model->bodies[constrained[k]]);
   }
   for (const std::size_t i : joint_order) {
     const JointEntry& entry = model->joints[i];
     called(entry.name, "rows");
-    evaluate_constraint(*entry.joint, entry.rows, joint_slots[i], rows);
-    place_rows(rows, joint_slots[i], 0, entry.rows, entry.row);
+    const Slots& at = joint_slots[i];
+    const Seen seen = motions_in_passing(at);
+    evaluate_constraint(*entry.joint, entry.rows, seen, at.count, rows);
+    place_rows(rows, at, seen, 0, entry.rows, entry.row);
   }
   coupled = false;
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
     if (const int row = contact_row[i]; row >= 0) {
-      place_rows(contact(int(i)), contact_slots[i], 0, 1, row);
+      place_rows(contact(int(i)), contact_slots[i], motions(contact_slots[i]), 0, 1, row);
       g(row) -= modes.contacts[i].offset;
       coupled = coupled || friction_ratio(int(i)) != Tangential::Zero();
     }
     if (const int row = stick_row[i]; row >= 0) {
-      place_rows(contact(int(i)), contact_slots[i], 1, tangents(), row);
+      place_rows(contact(int(i)), contact_slots[i], motions(contact_slots[i]), 1, tangents(), row);
       g.segment(row, tangents()) = displacement(int(i)).head(tangents());
     }
   }
@@ -80,7 +80,20 @@ void AssembledSystem::Work::place_constant_rows() {
   constant_rows_placed = true;
 }
 
-void AssembledSystem::Work::place_rows(const Rows& r, const Slots& at, Eigen::Index first, Eigen::Index n, int row) {
+AssembledSystem::Work::Seen AssembledSystem::Work::motions(const Slots& at) {
+  Seen seen{};
+  for (int k = 0; k < at.count; ++k) seen[std::size_t(k)] = &motion(at[k]);
+  return seen;
+}
+
+AssembledSystem::Work::Seen AssembledSystem::Work::motions_in_passing(const Slots& at) {
+  Seen seen{};
+  for (int k = 0; k < at.count; ++k) seen[std::size_t(k)] = &chain.motion_in_passing(at[k], std::size_t(k), t, q, v);
+  return seen;
+}
+
+void AssembledSystem::Work::place_rows(const Rows& r, const Slots& at, const Seen& motions, Eigen::Index first,
+                                       Eigen::Index n, int row) {
   for (Eigen::Index i = 0; i < n; ++i) {
     g(row + i) = r.g(first + i);
     g_dot(row + i) = r.g_t(first + i);
@@ -88,12 +101,12 @@ void AssembledSystem::Work::place_rows(const Rows& r, const Slots& at, Eigen::In
   }
   for (int k = 0; k < at.count && blocks; ++k) blocks->clear_rows(chain.body(at[k]), row, n);
   for (int k = 0; k < at.count; ++k) {
-    const Motion& m = motion(at[k]);
+    const Motion& m = *motions[std::size_t(k)];
     add_motion({r.H(k), first, n}, m, g_dot.data() + row, gamma.data() + row);
     if (blocks)
       blocks->add_rows(chain.body(at[k]), row, m, {r.H(k), first, n});
     else
-      chain.add_rows(at[k], row, {r.H(k), first, n}, G);
+      chain.add_rows(at[k], m, row, {r.H(k), first, n}, G);
   }
 }
 
@@ -115,11 +128,10 @@ void AssembledSystem::Work::evaluate_own_rows(const BodyEntry& entry) {
     G.block(entry.row, entry.v0, entry.rows, entry.nv) += own_rows.G;
 }
 
-void AssembledSystem::Work::evaluate_constraint(const Constraint& constraint, int n, const Slots& at, Rows& into) {
-  into.resize(n, model->world.space, at.count);
-  const std::array<const Motion*, Rows::most_markers> markers = {
-      &motion(at.A), &motion(at.B), at.count > 2 ? &motion(at.C) : nullptr, at.count > 3 ? &motion(at.D) : nullptr};
-  constraint.rows_between(t, Motions(markers.data(), std::size_t(at.count)), into);
+void AssembledSystem::Work::evaluate_constraint(const Constraint& constraint, int n, const Seen& motions, int count,
+                                                Rows& into) const {
+  into.resize(n, model->world.space, count);
+  constraint.rows_between(t, Motions(motions.data(), std::size_t(count)), into);
 }
 
 void AssembledSystem::Work::add_row_force(const Slots& at, const Rows& r, int row, double c, Vec& sum) const {
@@ -132,7 +144,7 @@ void AssembledSystem::Work::couple_reactions() {
     if (blocks)
       blocks->add_reaction(chain.body(slot), row, motion(slot), {H, 0, H.rows()});
     else
-      chain.add_rows(slot, row, {H, 0, H.rows()}, W);
+      chain.add_rows(slot, motion(slot), row, {H, 0, H.rows()}, W);
   };
   if (blocks)
     blocks->couple();

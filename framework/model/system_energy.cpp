@@ -165,7 +165,7 @@ CallSite AssembledSystem::find_not_finite() {
   }
   for (std::size_t i = 0; i < w.joint_slots.size(); ++i) {
     const JointEntry& entry = w.model->joints[i];
-    w.evaluate_constraint(*entry.joint, entry.rows, w.joint_slots[i], w.rows);
+    w.evaluate_constraint(*entry.joint, entry.rows, w.motions(w.joint_slots[i]), w.joint_slots[i].count, w.rows);
     if (!w.rows.g.allFinite() || !w.rows.gamma.allFinite()) return {&entry.name, "rows"};
     for (int k = 0; k < w.joint_slots[i].count; ++k)
       if (!w.rows.H(k).allFinite()) return {&entry.name, "rows"};

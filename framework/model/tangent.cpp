@@ -166,7 +166,7 @@ void AssembledSystem::Work::add_reaction_of(const Constraint& constraint, const 
   chain.add_pair(at.A, at.B, wrench_by.AB, c, S);
   chain.add_pair(at.B, at.A, wrench_by.BA, c, S);
   chain.add_pair(at.B, at.B, wrench_by.BB, c, S);
-  evaluate_constraint(constraint, constraint.row_count(model->world.space), at, rows);
+  evaluate_constraint(constraint, constraint.row_count(model->world.space), {&A, &B}, 2, rows);
   chain.add_reaction_derivative(at.A, t, q, rows.H_A.transpose() * lambda, c, S);
   chain.add_reaction_derivative(at.B, t, q, rows.H_B.transpose() * lambda, c, S);
 }

@@ -33,6 +33,7 @@ Resizable::~Resizable() = default;
 Transfer::~Transfer() = default;
 
 // Abilities of bodies.
+SharedMotion::~SharedMotion() = default;
 MassAndForce::~MassAndForce() = default;
 ExactTangent::~ExactTangent() = default;
 ReactionDerivative::~ReactionDerivative() = default;

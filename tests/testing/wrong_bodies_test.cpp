@@ -28,6 +28,26 @@ TEST(BodyChecks, RefuseAPendulumThatClaimsLinearMarkers) {
             Names{"MotionIsLinearIfClaimed"});
 }
 
+// The second marker stands still, and what was filled in for it stays.
+struct FillsTheSecondMarkerOnce : ElasticPendulum {
+  FillsTheSecondMarkerOnce() : ElasticPendulum(BodyDefect::none) {}
+  void motion(int marker, double t, In q, In v, Motion& motion) const override {
+    if (marker == 0) return ElasticPendulum::motion(marker, t, q, v, motion);
+    if (motion.J.size() > 0) return;
+    motion.x = Vec3::Zero(2), motion.R = Mat3::Identity(2, 2);
+    motion.V = motion.bias = Vec6::Zero(3);
+    motion.dofs = {0, 1}, motion.J = Jac::Zero(3, 2);
+  }
+};
+struct ClaimsSharedMotion final : FillsTheSecondMarkerOnce, SharedMotion {};
+TEST(BodyChecks, RefuseSharedMotionOfAMarkerThatIsFilledOnce) {
+  const auto refuses = [](const MakerOf<Body>& make) {
+    return refusals(body_checks(make)).contains("MotionIsFilledWhole");
+  };
+  EXPECT_FALSE(refuses([] { return std::make_unique<FillsTheSecondMarkerOnce>(); }));
+  EXPECT_TRUE(refuses([] { return std::make_unique<ClaimsSharedMotion>(); }));
+}
+
 TEST(BodyChecks, AcceptRightBodies) {
   EXPECT_EQ(refusals_of(BodyDefect::none), Names());
   EXPECT_EQ(refusals_of(CircleDefect::none), Names());

@@ -61,6 +61,12 @@ class Body : public Component {
 
 // Abilities. A missing one is replaced by differences within this one body, so the cost stays local.
 
+// One Motion may serve markers of all bodies of the class in turn: what motion() keeps in it is the same for each of them.
+class SharedMotion {
+ public:
+  virtual ~SharedMotion();
+};
+
 // mass and force of one point together, for a body where both begin with the same work.
 class MassAndForce {
  public:
