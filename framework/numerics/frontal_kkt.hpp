@@ -82,6 +82,7 @@ class FrontalKkt {
   void place_store(const std::vector<BodyBlock>& bodies);
   void place_passed_on();
   void fetch_rows(std::size_t front, const std::vector<BodyBlock>& bodies) const;
+  void fetch_place_for_factors(std::size_t front) const;
   bool sum_rows(std::size_t front, const std::vector<BodyBlock>& bodies);
   void eliminate_rows(std::size_t front);
   void sum_masses(std::size_t front, const std::vector<BodyBlock>& bodies);

@@ -10,24 +10,29 @@
 
 #include <trammel/types.hpp>
 
+#include "numerics/packs.hpp"
+
 namespace trammel::numerics {
 
 class RowElimination {
  public:
-  // C of m rows, n + m numbers each: those of the front, and of the identity, for which there are zeros yet.
-  RowElimination(double* C, int m, int n) : C_(C), m_(m), n_(n), width_(n + m) {}
+  // C of m rows, `width` numbers each: n of the front, m of the identity, for which there are zeros yet, and zeros.
+  RowElimination(double* C, int m, int n) : C_(C), m_(m), n_(n), width_(width(m, n)) {}
+  static int width(int m, int n) { return int(padded(n + m)); }  // whole packs
 
   struct Rank {
     int told = 0, passed = 0;  // rows that tell of F, and of the others those that tell of B; the rest tell nothing
   };
-  // The first F columns; `columns`: where each came from. `scratch`: 2 (n + m) numbers.
+  // The first F columns; `columns`: where each came from. `scratch`: 2 width numbers.
   Rank run(int F, double tolerance, int* columns, double* scratch);
 
  private:
   double* row(int i) const { return C_ + i * width_; }
   int eliminate(int first, int last, int begin, double tolerance, int* columns, double* scratch);
   void bring_forward(int j, int first, int* columns);
-  void reflect(int j, int begin, double* scratch);
+  void measure(int begin, int first, int last, double* squares) const;
+  double square_of(int column, int begin) const;
+  void reflect(int j, int begin, double norm, double* scratch);
 
   double* C_;
   int m_, n_, width_, F_ = 0;
