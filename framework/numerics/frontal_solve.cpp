@@ -189,20 +189,21 @@ void FrontalKkt::find_residuals() {
 // B_ and C_; offset_: of x from the merged unknowns.
 void FrontalKkt::merge(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c) {
   const MergedUnknowns& merged = layout_.merged();
-  left_ = b, left_rows_ = c;
   merged.offsets(c, offset_);
-  if (!offset_.isZero(0)) {
+  const bool apart = !offset_.isZero(0);
+  if (apart) {
+    left_ = b, left_rows_ = c;
     if (identity_)
       left_ -= offset_;
     else
       add_mass_times(bodies, -1, offset_, left_);
     add_rows_times(bodies, -1, offset_, left_rows_);
   }
+  const Vec &forces = apart ? left_ : b, &rows = apart ? left_rows_ : c;
   B_.setZero(merged.count());
-  for (Eigen::Index j = 0; j < b.size(); ++j) B_(merged.of(int(j))) += left_(j);
+  for (Eigen::Index j = 0; j < b.size(); ++j) B_(merged.of(int(j))) += forces(j);
   C_.resize(Eigen::Index(layout_.all_own_rows()));
-  for (Eigen::Index i = 0; i < C_.size(); ++i)
-    C_(i) = left_rows_(layout_.own_row(std::size_t(i))) * scale_[std::size_t(i)];
+  for (Eigen::Index i = 0; i < C_.size(); ++i) C_(i) = rows(layout_.own_row(std::size_t(i))) * scale_[std::size_t(i)];
 }
 
 // x and y from X_ and Y_, and the multipliers of the rows that merge: what is left of b - M x - G^T y.
