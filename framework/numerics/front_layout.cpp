@@ -1,7 +1,7 @@
 #include "numerics/front_layout.hpp"
 
 #include <algorithm>
-#include <map>
+#include <utility>
 
 namespace trammel::numerics {
 
@@ -125,6 +125,7 @@ void FrontLayout::place(const std::vector<BodyBlock>& bodies, const std::vector<
   std::vector<std::vector<int>> of_point(tree_.nodes());
   for (int u = 0; u < merged_.count(); ++u) of_point[std::size_t(point[std::size_t(u)])].push_back(u);
   std::vector<int> column(std::size_t(merged_.count()), -1);
+  KnownMaps known;
   fronts_.assign(fronts.size(), {});
   unknowns_.clear(), own_rows_.clear(), maps_.clear(), sources_.clear(), children_.clear();
   for (std::size_t k = 0; k < fronts.size(); ++k) {
@@ -136,18 +137,25 @@ void FrontLayout::place(const std::vector<BodyBlock>& bodies, const std::vector<
     front.first_row = int(own_rows_.size());
     front.own_rows = front.most_rows = int(parts.rows[k].size());
     own_rows_.insert(own_rows_.end(), parts.rows[k].begin(), parts.rows[k].end());
-    front.rows = take_sources(bodies, parts.sources[k], point, column);
-    front.masses = take_sources(bodies, parts.masses[k], point, column);
+    front.rows = take_sources(bodies, parts.sources[k], point, column, known);
+    front.masses = take_sources(bodies, parts.masses[k], point, column, known);
 
     front.children.begin = int(children_.size());
     for (const int c : fronts[k].children) {
       const Front& child = fronts_[std::size_t(c)];
-      children_.push_back({c, int(maps_.size())});
-      for (int j = child.eliminated; j < child.unknowns; ++j) maps_.push_back(column[std::size_t(unknowns(child)[j])]);
+      std::vector<int> map;
+      for (int j = child.eliminated; j < child.unknowns; ++j) map.push_back(column[std::size_t(unknowns(child)[j])]);
+      children_.push_back({c, place_map(std::move(map), known)});
       front.most_rows += child.boundary();
     }
     front.children.end = int(children_.size());
   }
+}
+
+int FrontLayout::place_map(std::vector<int> map, KnownMaps& known) {
+  const auto [found, is_new] = known.try_emplace(std::move(map), int(maps_.size()));
+  if (is_new) maps_.insert(maps_.end(), found->first.begin(), found->first.end());
+  return found->second;
 }
 
 // How many the front has then.
@@ -162,14 +170,16 @@ int FrontLayout::take_unknowns(const Front& front, const std::vector<int>& point
 }
 
 FrontLayout::Range FrontLayout::take_sources(const std::vector<BodyBlock>& bodies, std::vector<Source>& some,
-                                             const std::vector<int>& point, const std::vector<int>& column) {
+                                             const std::vector<int>& point, const std::vector<int>& column,
+                                             KnownMaps& known) {
   const int begin = int(sources_.size());
   for (Source& source : some) {
     const BodyBlock& body = bodies[std::size_t(source.body)];
-    source.map = int(maps_.size()), source.size = int(body.M.rows()), source.v0 = body.v0;
+    source.size = int(body.M.rows()), source.v0 = body.v0;
     source.constant =
         source.row < 0 ? body.constant_mass
                        : std::size_t(source.column) < body.constant.size() && body.constant[std::size_t(source.column)];
+    std::vector<int> map;
     for (int j = body.v0; j < end_of(body); ++j) {
       const int u = merged_.of(j);
       bool there = true;
@@ -177,8 +187,9 @@ FrontLayout::Range FrontLayout::take_sources(const std::vector<BodyBlock>& bodie
         const auto& points = points_of_row_[std::size_t(body.rows[std::size_t(source.column)])];
         there = std::find(points.begin(), points.end(), point[std::size_t(u)]) != points.end();
       }
-      maps_.push_back(there ? column[std::size_t(u)] : -1);
+      map.push_back(there ? column[std::size_t(u)] : -1);
     }
+    source.map = place_map(std::move(map), known);
     sources_.push_back(source);
   }
   return {begin, int(sources_.size())};

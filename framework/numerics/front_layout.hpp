@@ -5,6 +5,7 @@
 // first front that eliminates one of its points. Rows may begin to tell of points that they did not before: then all is laid out anew.
 #pragma once
 
+#include <map>
 #include <span>
 #include <vector>
 
@@ -48,7 +49,8 @@ class FrontLayout {
   std::size_t all_unknowns() const { return unknowns_.size(); }
   std::size_t all_own_rows() const { return own_rows_.size(); }
   const int* unknowns(const Front& front) const { return unknowns_.data() + front.first_unknown; }
-  int own_row(std::size_t i) const { return own_rows_[i]; }  // those of a front from first_row on
+  int own_row(std::size_t i) const { return own_rows_[i]; }     // those of a front from first_row on
+  std::span<const Source> sources() const { return sources_; }  // front by front, of each rows before masses
   std::span<const Source> rows(const Front& front) const { return part(sources_, front.rows); }
   std::span<const Source> masses(const Front& front) const { return part(sources_, front.masses); }
   std::span<const Child> children(const Front& front) const { return part(children_, front.children); }
@@ -60,6 +62,8 @@ class FrontLayout {
     std::vector<std::vector<int>> rows;
     std::vector<std::vector<Source>> sources, masses;
   };
+  using KnownMaps = std::map<std::vector<int>, int>;  // and where they are
+  int place_map(std::vector<int> map, KnownMaps& known);
   template <class T>
   static std::span<const T> part(const std::vector<T>& all, Range range) {
     return {all.data() + range.begin, all.data() + range.end};
@@ -71,7 +75,7 @@ class FrontLayout {
   int take_unknowns(const Front& front, const std::vector<int>& points, const std::vector<std::vector<int>>& of_point,
                     std::vector<int>& column);
   Range take_sources(const std::vector<BodyBlock>& bodies, std::vector<Source>& some, const std::vector<int>& point,
-                     const std::vector<int>& column);
+                     const std::vector<int>& column, KnownMaps& known);
 
   int nc_ = -1;
   std::vector<int> rows_of_bodies_;
@@ -79,7 +83,8 @@ class FrontLayout {
   std::vector<std::vector<int>> points_of_row_;  // where it was ever found not to vanish
   EliminationTree tree_;
   std::vector<Front> fronts_;
-  std::vector<int> unknowns_, own_rows_, maps_;
+  std::vector<int> unknowns_, own_rows_;
+  std::vector<int> maps_;  // of many fronts, where these are alike
   std::vector<Source> sources_;
   std::vector<Child> children_;
 };

@@ -28,6 +28,7 @@ void FrontalKkt::lay_out(const std::vector<BodyBlock>& bodies, int nc, bool spri
 bool FrontalKkt::eliminate_fronts(const std::vector<BodyBlock>& bodies) {
   dependent_ = layout_.merged().idle();
   stored_ = 0;
+  if (!identity_) pieces_.place_masses(layout_, bodies);
   for (std::size_t k = 0; k < places_.size(); ++k) {
     if (k + 1 < places_.size()) fetch_rows(k + 1, bodies);
     if (k > 0) fetch_place_for_factors(k - 1);
@@ -41,33 +42,24 @@ bool FrontalKkt::eliminate_fronts(const std::vector<BodyBlock>& bodies) {
     if (springs_) add_springs(k);
     if (!reduce_masses(k)) return false;
   }
-  rows_placed_ = true, masses_placed_ = masses_placed_ || !identity_;
   return true;
 }
 
 void FrontalKkt::place_store(const std::vector<BodyBlock>& bodies) {
-  std::size_t size = 0, pieces = 0;
+  std::size_t size = 0;
   int rows = 0, unknowns = 0;
-  places_.clear();
   for (const FrontLayout::Front& front : layout_.fronts()) {
     const int m = springs_ ? front.own_rows : front.most_rows, n = front.unknowns, F = front.eliminated;
     const int most_told = springs_ ? 0 : std::min(m, F);
     size += std::size_t(front.boundary() + 2 * F + F * n + m * m + most_told * n);
-    Place& at = places_.emplace_back();
-    at.pieces = pieces;
-    for (const FrontLayout::Source& source : layout_.rows(front))
-      pieces += std::size_t(bodies[std::size_t(source.body)].Gt.rows());
-    at.pieces_of_masses = pieces;
-    for (const FrontLayout::Source& source : layout_.masses(front))
-      pieces += std::size_t(bodies[std::size_t(source.body)].M.size());
     rows = std::max(rows, m), unknowns = std::max(unknowns, n);
   }
+  places_.assign(layout_.fronts().size(), {});
   place_passed_on();
   store_.setZero(Eigen::Index(size));
   scale_.assign(layout_.all_own_rows(), 1);
   columns_.assign(layout_.all_unknowns(), 0);
-  pieces_.assign(pieces, 0);
-  rows_placed_ = masses_placed_ = false;
+  pieces_.build(layout_, bodies);
   const int width = RowElimination::width(rows, unknowns);
   rows_.resize(rows * width);
   K_.resize(unknowns * unknowns);
@@ -104,7 +96,7 @@ FrontalKkt::Parts FrontalKkt::parts(std::size_t k) {
   p.passed_right = store_.data() + at.factors;
   p.t = p.passed_right + p.nb, p.z = p.t + p.r, p.u = p.z + p.free;
   p.SP = p.u + p.r, p.Q = p.SP + p.r * (p.rest + p.m);
-  p.K11 = p.Q + p.passed * p.m, p.W = p.K11 + p.r * p.r, p.LV = p.W + p.r * p.rest;
+  p.W = p.Q + p.passed * p.m, p.LV = p.W + p.r * p.rest, p.K11 = p.LV + p.free * p.rest;
   return p;
 }
 
@@ -120,7 +112,7 @@ FrontalKkt::Parts FrontalKkt::place_factors(std::size_t k, int told, int passed)
   Place& at = places_[k];
   at.told = told, at.passed = passed, at.factors = stored_;
   const Parts p = parts(k);
-  stored_ = std::size_t(p.LV + p.free * p.rest - store_.data());
+  stored_ = std::size_t(p.K11 + told * told - store_.data());
   return p;
 }
 
@@ -148,18 +140,16 @@ bool FrontalKkt::sum_rows(std::size_t k, const std::vector<BodyBlock>& bodies) {
   const int width = springs_ ? n : RowElimination::width(at.all_rows, n);
   double* const C = rows_.data();
   std::fill_n(C, at.all_rows * width, 0.0);
-  double* piece = pieces_.data() + at.pieces;
+  std::size_t piece_at = std::size_t(front.rows.begin);
   for (const FrontLayout::Source& source : layout_.rows(front)) {
     const int size = source.size, *const map = layout_.map(source.map);
-    if (!rows_placed_ || !source.constant)
-      std::copy_n(bodies[std::size_t(source.body)].Gt.data() + source.column * size, size, piece);
+    const double* const piece = pieces_.update(piece_at++, source, bodies);
     double* const row = C + source.row * width;
     for (int j = 0; j < size; ++j)
       if (map[j] >= 0)
         row[map[j]] += piece[j];
       else if (piece[j] != 0)
         return false;
-    piece += size;
   }
   for (int i = 0; i < front.own_rows; ++i) {
     double* const row = C + i * width;
@@ -214,16 +204,15 @@ void FrontalKkt::sum_masses(std::size_t k, const std::vector<BodyBlock>& bodies)
       for (int i = 0; i < size; ++i) column[place_of_[std::size_t(map[i])]] += entry(i, j);
     }
   };
-  double* piece = pieces_.data() + places_[k].pieces_of_masses;
+  std::size_t piece_at = std::size_t(front.masses.begin);
   for (const FrontLayout::Source& source : layout_.masses(front)) {
     const int size = source.size;
-    if (!identity_ && !(masses_placed_ && source.constant))
-      std::copy_n(bodies[std::size_t(source.body)].M.data(), size * size, piece);
-    if (identity_)
+    if (identity_) {
       sum(layout_.map(source.map), size, [](int i, int j) { return i == j ? 1.0 : 0.0; });
-    else
+    } else {
+      const double* const piece = pieces_.update(piece_at++, source, bodies);
       sum(layout_.map(source.map), size, [&](int i, int j) { return piece[j * size + i]; });
-    piece += size * size;
+    }
   }
   for (const FrontLayout::Child& child : layout_.children(front)) {
     const Below below = passed_by(child);

@@ -28,6 +28,7 @@
 
 #include "numerics/body_block.hpp"
 #include "numerics/front_layout.hpp"
+#include "numerics/source_pieces.hpp"
 
 namespace trammel::numerics {
 
@@ -51,9 +52,8 @@ class FrontalKkt {
  private:
   // Where a front's numbers are, and what its rows came to.
   struct Place {
-    std::size_t factors = 0;                       // in store_, one front's behind the other's
-    std::size_t K = 0;                             // in passed_on_: the parent takes it, and its place is free again
-    std::size_t pieces = 0, pieces_of_masses = 0;  // in pieces_
+    std::size_t factors = 0;  // in store_, one front's behind the other's
+    std::size_t K = 0;        // in passed_on_: the parent takes it, and its place is free again
     int all_rows = 0, told = 0, passed = 0;
   };
   // A front by the names above: m rows, n unknowns, r told by rows and `rest` not, of those `free` and the nb of the boundary.
@@ -61,7 +61,7 @@ class FrontalKkt {
     int m, n, r, rest, free, nb, passed;
     const int *unknowns, *columns;     // columns: of the unknowns, those that rows tell first
     double *SP, *Q;                    // by rows: S beside P; of the rows passed on Q_2^T
-    double *K11, *W, *LV;              // W by rows; LV: L above V^T, by columns
+    double *W, *LV, *K11;              // W by rows; LV: L above V^T, by columns; K11 last: only ways up need it
     double *K, *up;                    // for the parent: K''; rows of length one
     double *t, *z, *u, *passed_right;  // of a right side
     double* S(int i) const { return SP + i * (rest + m); }
@@ -103,8 +103,8 @@ class FrontalKkt {
   void subtract_rows_times(const Vec& X, Vec& from);
   void subtract_rows_force(const Vec& Y, Vec& from);
   void solve_once(Vec& X, Vec& Y);
-  void fetch_factors(std::size_t front) const;
-  void fetch_pieces(std::size_t front) const;
+  enum class Way { up, down };
+  void fetch_factors(std::size_t front, Way way);
   void forward(std::size_t front);
   void backward(std::size_t front, Vec& X, Vec& Y);
 
@@ -116,11 +116,10 @@ class FrontalKkt {
   std::vector<Place> places_;
   Vec store_, passed_on_;
   std::size_t stored_ = 0;
-  std::vector<int> columns_;    // of each front's unknowns
-  std::vector<double> scale_;   // of own rows
-  std::vector<double> pieces_;  // what bodies give to own rows and masses, front by front in the order of their sources
-  bool rows_placed_ = false, masses_placed_ = false;  // those of them that never change are there
-  std::vector<int> place_of_;                         // of each of a front's unknowns in its columns
+  std::vector<int> columns_;   // of each front's unknowns
+  std::vector<double> scale_;  // of own rows
+  SourcePieces pieces_;
+  std::vector<int> place_of_;  // of each of a front's unknowns in its columns
   // Own rows at length one without their zeros, row after row; only with springs.
   struct Entry {
     int unknown;

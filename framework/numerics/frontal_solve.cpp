@@ -66,25 +66,22 @@ void FrontalKkt::backward(std::size_t k, Vec& X, Vec& Y) {
   }
 }
 
-void FrontalKkt::fetch_factors(std::size_t k) const {
-  const std::size_t begin = places_[k].factors, end = k + 1 < places_.size() ? places_[k + 1].factors : stored_;
-  fetch(store_.data() + begin, (end - begin) * sizeof(double));
-}
-
-void FrontalKkt::fetch_pieces(std::size_t k) const {
-  const std::size_t begin = places_[k].pieces, end = k + 1 < places_.size() ? places_[k + 1].pieces : pieces_.size();
-  fetch(pieces_.data() + begin, (end - begin) * sizeof(double));
+void FrontalKkt::fetch_factors(std::size_t k, Way way) {
+  const double* const begin = store_.data() + places_[k].factors;
+  const Parts p = parts(k);
+  const double* const end = way == Way::up ? p.K11 + p.r * p.r : p.K11;
+  fetch(begin, std::size_t(end - begin) * sizeof(double));
 }
 
 // From b_ and c_; b_ is used up.
 void FrontalKkt::solve_once(Vec& X, Vec& Y) {
   X.resize(b_.size()), Y.resize(c_.size());
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    if (k + 1 < places_.size()) fetch_factors(k + 1);
+    if (k + 1 < places_.size()) fetch_factors(k + 1, Way::up);
     forward(k);
   }
   for (std::size_t k = places_.size(); k-- > 0;) {
-    if (k > 0) fetch_factors(k - 1);
+    if (k > 0) fetch_factors(k - 1, Way::down);
     backward(k, X, Y);
   }
 }
@@ -151,14 +148,13 @@ void FrontalKkt::subtract_masses_times(const Vec& X, Vec& from) const {
 void FrontalKkt::subtract_masses_times(std::size_t k, const Vec& X, Vec& from) const {
   const FrontLayout::Front& front = layout_.fronts()[k];
   const int* const unknowns = layout_.unknowns(front);
-  const double* piece = pieces_.data() + places_[k].pieces_of_masses;
+  std::size_t piece_at = std::size_t(front.masses.begin);
   for (const FrontLayout::Source& source : layout_.masses(front)) {
     const int* const map = layout_.map(source.map);
     if (identity_)
       for (int j = 0; j < source.size; ++j) from[unknowns[map[j]]] -= X[unknowns[map[j]]];
     else
-      subtract_mass(piece, source.size, map, unknowns, X.data(), from.data());
-    piece += source.size * source.size;
+      subtract_mass(pieces_.of(piece_at++), source.size, map, unknowns, X.data(), from.data());
   }
 }
 
@@ -166,11 +162,12 @@ void FrontalKkt::subtract_masses_times(std::size_t k, const Vec& X, Vec& from) c
 void FrontalKkt::find_residuals() {
   b_ = B_, c_ = C_;
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    if (k + 1 < places_.size()) fetch_pieces(k + 1);
+    if (k + 1 < places_.size()) pieces_.fetch(k + 1);
     const FrontLayout::Front& front = layout_.fronts()[k];
     const int* const unknowns = layout_.unknowns(front);
-    const double* piece = pieces_.data() + places_[k].pieces;
+    std::size_t piece_at = std::size_t(front.rows.begin);
     for (const FrontLayout::Source& source : layout_.rows(front)) {
+      const double* const piece = pieces_.of(piece_at++);
       const int row = front.first_row + source.row, *const map = layout_.map(source.map);
       const double scale = scale_[std::size_t(row)], force = scale * Y_(row);
       double along = 0;
@@ -180,7 +177,6 @@ void FrontalKkt::find_residuals() {
         b_(unknowns[map[j]]) -= force * piece[j];
       }
       c_(row) -= scale * along;
-      piece += source.size;
     }
     subtract_masses_times(k, X_, b_);
   }
@@ -213,24 +209,24 @@ void FrontalKkt::expand(const Vec& b, Vec& x, Vec& y) {
   for (Eigen::Index j = 0; j < x.size(); ++j) x(j) += X_(merged.of(int(j)));
   left_ = b;
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    if (k + 1 < places_.size()) fetch_pieces(k + 1);
+    if (k + 1 < places_.size()) pieces_.fetch(k + 1);
     const FrontLayout::Front& front = layout_.fronts()[k];
     for (int i = front.first_row; i < front.first_row + front.own_rows; ++i)
       y(layout_.own_row(std::size_t(i))) = Y_(i) * scale_[std::size_t(i)];
-    const double* piece = pieces_.data() + places_[k].pieces;
+    std::size_t piece_at = std::size_t(front.rows.begin);
     for (const FrontLayout::Source& source : layout_.rows(front)) {
       const int i = front.first_row + source.row;
-      add(source.size, -Y_(i) * scale_[std::size_t(i)], piece, left_.data() + source.v0);
-      piece += source.size;
+      add(source.size, -Y_(i) * scale_[std::size_t(i)], pieces_.of(piece_at++), left_.data() + source.v0);
     }
-    piece = pieces_.data() + places_[k].pieces_of_masses;
-    for (const FrontLayout::Source& source : layout_.masses(front))
+    for (const FrontLayout::Source& source : layout_.masses(front)) {
+      const double* piece = pieces_.of(piece_at++);
       for (int j = source.v0; j < source.v0 + source.size; ++j, piece += source.size) {
         if (identity_)
           left_(j) -= x(j);
         else
           add(source.size, -x(j), piece, left_.data() + source.v0);
       }
+    }
   }
   merged.multipliers(left_, y);
 }
