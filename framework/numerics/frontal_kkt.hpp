@@ -61,7 +61,7 @@ class FrontalKkt {
     int m, n, r, rest, free, nb, passed;
     const int *unknowns, *columns;     // columns: of the unknowns, those that rows tell first
     double *SP, *Q;                    // by rows: S beside P; of the rows passed on Q_2^T
-    double *W, *LV, *K11;              // W by rows; LV: L above V^T, by columns; K11 last: only ways up need it
+    double *W, *LV, *K11;              // W by rows; LV: L above V^T, by columns
     double *K, *up;                    // for the parent: K''; rows of length one
     double *t, *z, *u, *passed_right;  // of a right side
     double* S(int i) const { return SP + i * (rest + m); }

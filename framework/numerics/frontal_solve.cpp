@@ -69,8 +69,8 @@ void FrontalKkt::backward(std::size_t k, Vec& X, Vec& Y) {
 void FrontalKkt::fetch_factors(std::size_t k, Way way) {
   const double* const begin = store_.data() + places_[k].factors;
   const Parts p = parts(k);
-  const double* const end = way == Way::up ? p.K11 + p.r * p.r : p.K11;
-  fetch(begin, std::size_t(end - begin) * sizeof(double));
+  const std::size_t bytes = std::size_t(p.K11 + p.r * p.r - begin) * sizeof(double);
+  way == Way::up ? fetch(begin, bytes) : fetch_down(begin, bytes);
 }
 
 // From b_ and c_; b_ is used up.
