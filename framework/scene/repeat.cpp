@@ -70,7 +70,7 @@ class Repetition {
     if (!read(ranges_of, ranges)) return;
     std::erase_if(Builder::members(unit), [](const auto& member) { return member.first == "for"; });
     double copies = 1;
-    for (const Range& range : ranges) copies *= std::max(0, range.last - range.first + 1);
+    for (const Range& range : ranges) copies *= std::max(0.0, double(range.last) - range.first + 1);
     if (copies > most_copies)
       return problems_.error(
           ranges_of.problem(fmt::format("found {:.6g} copies, expected at most {:.6g}", copies, most_copies)));
@@ -103,20 +103,17 @@ class Repetition {
       if (!is_name(name) || name == "t" || name == "pi")
         problems_.error(
             bounds.problem(fmt::format("\"{}\" cannot be counted by: letters, digits and _, not t or pi", name)));
-      Range range{name};
-      if (bounds.type() == Value::Type::array && bounds.items().size() == 2) {
-        range.first = bounds.items()[0].read_integer(problems_).value_or(0);
-        range.last = bounds.items()[1].read_integer(problems_).value_or(-1);
-      } else {
-        range.last = bounds.read_integer(problems_).value_or(0) - 1;
-      }
+      const bool both = bounds.type() == Value::Type::array && bounds.items().size() == 2;
+      const auto first = both ? bounds.items()[0].read_integer(problems_) : 0;
+      const auto last_or_count = (both ? bounds.items()[1] : bounds).read_integer(problems_);
+      if (!first || !last_or_count) continue;
+      const Range range{name, *first, both ? *last_or_count : *last_or_count - 1};
       if (range.last < range.first - 1)
         problems_.error(bounds.problem(
-            bounds.type() == Value::Type::array
-                ? fmt::format(R"("{}" counts from {} to {}, expected a last number of at least {} (no copy then))",
-                              name, range.first, range.last, range.first - 1)
-                : fmt::format(R"("{}" counts {} copies, expected 0 or more)", name, range.last + 1)));
-      ranges.push_back(std::move(range));
+            both ? fmt::format(R"("{}" counts from {} to {}, expected a last number of at least {} (no copy then))",
+                               name, range.first, range.last, range.first - 1)
+                 : fmt::format(R"("{}" counts {} copies, expected 0 or more)", name, range.last + 1)));
+      ranges.push_back(range);
     }
     return problems_.empty();
   }

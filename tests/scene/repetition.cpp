@@ -58,6 +58,11 @@ TEST(Repetition, RefusesFewerCopiesThanNone) {
                 .find("\"i\" counts from 1 to -1, expected a last number of at least 0 (no copy then)"),
             std::string::npos);
 }
+TEST(Repetition, ToldOneBoundIsNoWholeNumberSaysNoMoreOfIt) {
+  const std::string error = error_of(R"({"bodies": {"a_{i}": {"for": {"i": [1, -1.5]}}}})");
+  EXPECT_NE(error.find("bodies.a_{i}.for.i[1]: found -1.5, expected a whole number"), std::string::npos) << error;
+  EXPECT_EQ(error.find("counts"), std::string::npos) << error;
+}
 TEST(Repetition, MeansWhatTheWrittenCopiesMean) {
   const Scene written = Scene::parse(R"({"bodies": {"a_0": {"x": 1}, "a_1": {"x": 1}}})", "s");
   EXPECT_EQ(Scene::parse(R"({"bodies": {"a_{i}": {"for": {"i": 2}, "x": 1}}})", "s").hash(), written.hash());
@@ -70,6 +75,7 @@ TEST(Repetition, RefusesWhatItCannotMean) {
   refused(R"("a": {"for": {"i": 2}})", "bodies.a: there are several of the name \"a\"");
   refused(R"("a_{i}": {"for": {"i": 1.5}})", "bodies.a_{i}.for.i: found 1.5, expected a whole number");
   refused(R"("a_{i}": {"for": {"i": 2000000}})", "found 2e+06 copies, expected at most 1e+06");
+  refused(R"("a_{i}": {"for": {"i": [-2000000000, 2000000000]}})", "found 4e+09 copies, expected at most 1e+06");
   refused(R"("a_{i}": {"for": {"n": 2}})", "\"n\" is a parameter already");
   refused(R"("a_{i}": {"for": 2})", "found a number, expected {\"i\": 8} or {\"i\": [1, 8]}");
   refused(R"("a_{i}": {"for": {"i": 2}, "x": "b_{j}"})", "in {j}, column 1: nothing here counts by \"j\"; known: i, n");
