@@ -1,5 +1,5 @@
-// Markers on their way into the system: each body marker that something uses is evaluated once per point, and wrenches
-// and rows at markers become entries of the system's vectors and matrices through its Jacobian.
+// Markers on their way into the system: each body marker that several things use is evaluated once per point, one that a single joint
+// uses whenever that asks, and wrenches and rows at markers become entries of the system's vectors and matrices through its Jacobian.
 #pragma once
 
 #include <array>
@@ -51,7 +51,7 @@ class MarkerChain {
   void add_reaction_derivative(int slot, double t, const Vec& q, const Wrench& F, double c, Matrix& S);
 
  private:
-  // A line of memory each, next to each other: what many of them are asked for at each point.
+  // 56 bytes each, next to each other: what many of them are asked for at each point.
   struct Slot {
     const Body* body = nullptr;  // null: the ground
     MarkerRef marker;

@@ -27,13 +27,16 @@ void AssembledSystem::Work::evaluate_rows() {
   }
   coupled = false;
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
+    if (contact_row[i] < 0 && stick_row[i] < 0) continue;
+    const Rows& of_contact = contact(int(i));  // before its motions: on a surface it finds where they are
+    const Seen seen = motions(contact_slots[i]);
     if (const int row = contact_row[i]; row >= 0) {
-      place_rows(contact(int(i)), contact_slots[i], motions(contact_slots[i]), 0, 1, row);
+      place_rows(of_contact, contact_slots[i], seen, 0, 1, row);
       g(row) -= modes.contacts[i].offset;
       coupled = coupled || friction_ratio(int(i)) != Tangential::Zero();
     }
     if (const int row = stick_row[i]; row >= 0) {
-      place_rows(contact(int(i)), contact_slots[i], motions(contact_slots[i]), 1, tangents(), row);
+      place_rows(of_contact, contact_slots[i], seen, 1, tangents(), row);
       g.segment(row, tangents()) = displacement(int(i)).head(tangents());
     }
   }

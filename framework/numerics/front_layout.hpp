@@ -78,7 +78,7 @@ class FrontLayout {
                      const std::vector<int>& column, KnownMaps& known);
 
   int nc_ = -1;
-  std::vector<int> rows_of_bodies_;
+  std::vector<int> rows_of_bodies_;  // body by body, with a border behind each
   MergedUnknowns merged_;
   std::vector<std::vector<int>> points_of_row_;  // where it was ever found not to vanish
   EliminationTree tree_;

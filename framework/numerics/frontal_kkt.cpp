@@ -126,7 +126,8 @@ void FrontalKkt::fetch_rows(std::size_t k, const std::vector<BodyBlock>& bodies)
 // Where factors will be written, about as many as those of front k before: a step of 10,000 units of a prismatic mast takes 335 ms so
 // instead of 365.
 void FrontalKkt::fetch_place_for_factors(std::size_t k) const {
-  fetch(store_.data() + stored_, (stored_ - places_[k].factors) * sizeof(double));
+  const std::size_t left = std::size_t(store_.size()) - stored_;
+  fetch(store_.data() + stored_, std::min(stored_ - places_[k].factors, left) * sizeof(double));
 }
 
 // C: the front's own rows at length one, then those of its children. False: a row is not of the pattern any more.

@@ -219,12 +219,13 @@ void FrontalKkt::expand(const Vec& b, Vec& x, Vec& y) {
       add(source.size, -Y_(i) * scale_[std::size_t(i)], pieces_.of(piece_at++), left_.data() + source.v0);
     }
     for (const FrontLayout::Source& source : layout_.masses(front)) {
-      const double* piece = pieces_.of(piece_at++);
-      for (int j = source.v0; j < source.v0 + source.size; ++j, piece += source.size) {
+      const std::size_t mass = piece_at++;
+      double* const forces = left_.data() + source.v0;
+      for (int j = 0; j < source.size; ++j) {
         if (identity_)
-          left_(j) -= x(j);
+          forces[j] -= x(source.v0 + j);
         else
-          add(source.size, -x(j), piece, left_.data() + source.v0);
+          add(source.size, -x(source.v0 + j), pieces_.of(mass) + j * source.size, forces);
       }
     }
   }

@@ -74,7 +74,7 @@ void RowElimination::bring_forward(int j, int first, int* columns) {
 // not meet stay as they are: of masts a quarter.
 void RowElimination::reflect(int j, int begin, double norm, double* scratch) {
   double* const along = scratch + padded(n_);
-  const int first = std::min(begin, F_);  // columns before are zero there
+  const int first = std::min(begin, F_);  // nothing in columns before counts there
   double* const top = row(begin);
   const double head = top[j], beta = head > 0 ? -norm : norm, tau = 1 / (beta * (head - beta));
   top[j] = head - beta;

@@ -20,8 +20,9 @@ class SourcePieces {
   void build(const FrontLayout& layout, const std::vector<BodyBlock>& bodies);
   // Constant masses as they are now, where build was called since the last time.
   void place_masses(const FrontLayout& layout, const std::vector<BodyBlock>& bodies);
-  // Numbers of the layout's i-th source; as the bodies have them now.
+  // Numbers of the layout's i-th source.
   const double* of(std::size_t i) const { return numbers_.data() + places_[i]; }
+  // The same; if it changes, as the bodies have it now.
   const double* update(std::size_t i, const Source& source, const std::vector<BodyBlock>& bodies);
   // Those of a front that change, for reading soon.
   void fetch(std::size_t front) const;

@@ -199,6 +199,25 @@ TEST(FrontalKkt, FollowsWhatChangesBesideWhatNeverDoes) {
   }
 }
 
+// Of neighbours: the lists of rows {0} {} and {} {0} are the same one behind the other.
+TEST(FrontalKkt, FollowsARowThatMovesToTheNextBody) {
+  FrontalKkt kkt;
+  for (const int held : {0, 1}) {
+    std::vector<BodyBlock> bodies(2);
+    for (int k = 0; k < 2; ++k) {
+      bodies[std::size_t(k)].v0 = k;
+      bodies[std::size_t(k)].M = Mat::Ones(1, 1);
+      bodies[std::size_t(k)].Gt = Mat::Ones(1, k == held);
+      bodies[std::size_t(k)].rows.assign(k == held, 0);
+    }
+    ASSERT_TRUE(kkt.factorise(bodies, 1, false, rank_tolerance_at(0)));
+    Vec x, y;
+    ASSERT_TRUE(kkt.solve(bodies, Vec::Ones(2), Vec::Zero(1), x, y));
+    EXPECT_EQ(x, Vec(Vec::Unit(2, 1 - held)));
+    EXPECT_EQ(y, Vec(Vec::Ones(1)));
+  }
+}
+
 // Points on a line whose second differences vanish, each row said twice: the softest of their singular values is (pi/n)^2, 1e-5, its
 // square as small as the regularisation of shorter systems. Translation and rotation are left.
 struct Line {

@@ -61,7 +61,8 @@ class Body : public Component {
 
 // Abilities. A missing one is replaced by differences within this one body, so the cost stays local.
 
-// One Motion may serve markers of all bodies of the class in turn: what motion() keeps in it is the same for each of them.
+// One Motion may serve markers of all bodies of the class in turn, whatever their parameters: what motion() keeps in it, sizes and
+// dofs included, is the same for each of them.
 class SharedMotion {
  public:
   virtual ~SharedMotion();
