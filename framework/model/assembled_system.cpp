@@ -38,22 +38,26 @@ void AssembledSystem::set_modes(const Modes& modes) {
     const Restitution* law = w.model->contacts[i].restitution;
     return modes.contacts[i].closed && law && law->treatment().release == Restitution::Release::never;
   };
+  w.loads.lay_out(w.modes);
   int row = w.model->sizes.nc;
   for (std::size_t i = 0; i < modes.contacts.size(); ++i)
-    if (locks(i)) w.contact_row[i] = row++;
+    if (locks(i)) w.loads.set_row({int(i), 0}, row++);
   w.held_rows = row;
   w.judged.clear();
   w.judged_friction.setZero(2, Eigen::Index(modes.contacts.size()));
   for (std::size_t i = 0; i < modes.contacts.size(); ++i) {
     const ContactMode& mode = modes.contacts[i];
     const ContactEntry& entry = w.model->contacts[i];
-    if (!locks(i)) w.contact_row[i] = mode.closed && entry.restitution ? row++ : -1;
+    const auto add_row = [&](int direction) {
+      const ContactDirection d{int(i), direction};
+      if (!w.loads.is_implied(d)) w.loads.set_row(d, row++);
+    };
+    if (!locks(i) && mode.closed && entry.restitution) add_row(0);
     const bool sticks = mode.closed && mode.friction == ContactMode::Friction::stick;
     const bool held =
         sticks && (w.chain.held_still() || entry.coulomb->decide() == SetValuedFriction::Decide::at_events);
     if (sticks && !held) w.judged.push_back(int(i));
-    w.stick_row[i] = held ? row : -1;
-    if (held) row += w.tangents();
+    for (int k = 1; k <= w.tangents() && held; ++k) add_row(k);
   }
   w.sizes.nc = row;
   w.lay_out_blocks();
@@ -70,16 +74,12 @@ void AssembledSystem::lay_out() {
   set_modes(modes);
 }
 
-int AssembledSystem::contact_row(int contact) const {
-  return work_->contact_row[std::size_t(contact)];
+int AssembledSystem::row(ContactDirection direction) const {
+  return work_->loads.place(direction).row;
 }
 
 int AssembledSystem::held_rows() const {
   return work_->held_rows;
-}
-
-int AssembledSystem::stick_row(int contact) const {
-  return work_->stick_row[std::size_t(contact)];
 }
 
 void AssembledSystem::initial(Vec& q, Vec& v) const {

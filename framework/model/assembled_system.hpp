@@ -10,39 +10,11 @@
 
 #include <trammel/system.hpp>
 
+#include "model/contact_modes.hpp"
 #include "model/model.hpp"
-#include "model/slip.hpp"
 #include "plugin/guard.hpp"
 
 namespace trammel::model {
-
-// The discrete state of one contact.
-struct ContactMode {
-  bool closed = false;        // Restitution: its row is active; ContactForce: its force is evaluated
-  double approach_speed = 0;  // [m/s] at the last onset
-  double offset = 0;          // [m] the row holds gap = offset; 0 but where an onset was not located
-
-  // Of set-valued friction, while closed. Stick: rows hold the slip at 0. Slide: F_t = -mu F_n e (slip.hpp).
-  enum class Friction { none, stick, slide };
-  Friction friction = Friction::none;
-  Tangential direction = Tangential::Zero();  // slide: of length 1, the slip's where the step began
-  double slow = 0;                            // [m/s] slide, in space: less slip across `direction` has no direction
-  Tangential anchor = Tangential::Zero();     // [m] stick: coordinates along the tangents that are held
-  // Stick of a round body in space: B's view of A where `anchor` was taken. What has rolled since then counts.
-  Eigen::Matrix3d rolled_from = Eigen::Matrix3d::Identity();
-
-  bool operator==(const ContactMode&) const = default;
-};
-
-// A direction of a contact: row 0 its normal, from 1 on its tangents.
-struct ContactDirection {
-  int contact = 0;
-  int row = 0;
-};
-
-struct Modes {
-  std::vector<ContactMode> contacts;
-};
 
 // How often the expensive things were done.
 struct Counts {
@@ -96,14 +68,14 @@ class AssembledSystem final : public System {
   // --- for the Simulator ---
   const Model& model() const;
   // Which contacts are closed and stick; changes sizes().nc. Rows: the bodies' and joints', those of contacts that have
-  // locked, then contact by contact that of the gap (closed Restitution contacts) and those of the tangents (sticking ones).
+  // locked, then contact by contact that of the gap (closed Restitution contacts) and those of the tangents (sticking ones),
+  // without those that are implied by others.
   void set_modes(const Modes& modes);
   void lay_out();  // the model was laid out anew: forgets all that was evaluated, keeps the modes and counts
   const Modes& modes() const;
-  int contact_row(int contact) const;  // its row in g while closed, else -1; the normal force is -lambda of that row
-  int held_rows() const;               // the first of g: of bodies, joints and contacts that have locked
-  int stick_row(int contact) const;    // its first tangential row while it sticks, else -1; friction is -lambda of it
-  void initial(Vec& q, Vec& v) const;  // from the bodies' parameters
+  int row(ContactDirection direction) const;  // in g; -1: open, sliding, implied by other rows, or compliant
+  int held_rows() const;                      // the first of g: of bodies, joints and contacts that have locked
+  void initial(Vec& q, Vec& v) const;         // from the bodies' parameters
   // For statics: points have v = 0, markers that a law of time moves stand still where they are, and contacts stick by rows,
   // however their friction decides. Modes are to be set anew afterwards.
   void hold_still(bool still);
@@ -117,13 +89,29 @@ class AssembledSystem final : public System {
   double rate(ContactDirection direction);                        // [m/s] of the gap, or slip velocity
   double acceleration(ContactDirection direction, const Vec& a);  // [m/s^2] for an acceleration of the system
   double coordinate(ContactDirection direction);                  // [m] gap, or place along the tangent
-  double normal_force(int contact, const Vec& lambda);            // [N] >= 0 pushes; of either kind of law
-  Tangential friction_force(int contact, const Vec& lambda);      // [N] on A
-  Tangential slip(int contact);                                   // [m/s]; of contacts with friction
-  Tangential slip_acceleration(int contact, const Vec& a);        // [m/s^2]
-  Vec3 told(int contact, const Tangential& x);                    // along the tangent; in space in world axes
-  int tangents() const;                                           // of a contact: 1 or 2
-  void anchor(int contact, ContactMode& mode);                    // what holds it at this place
+  // Where rows are shared: as equal springs would share, or if those would pull or leave a friction cone, the least forces that do
+  // not, if there are any.
+  double normal_force(int contact, const Vec& lambda);        // [N] >= 0 pushes; of either kind of law
+  Tangential friction_force(int contact, const Vec& lambda);  // [N] on A
+  // How contacts share rows at the current modes.
+  struct Sharing {
+    bool shared = false;        // its normal, or a tangent that sticks
+    bool with_sliding = false;  // with a contact that slides
+    bool idle = false;          // closed, but it carries nothing while those it shares with carry as they do
+    int group = -1;             // in modes().shared
+  };
+  Sharing sharing(int contact) const;
+  // [N] how much further each contact of a group could be unloaded before no forces that they can exert carry what they carry;
+  // negative where none do.
+  double spare_load(int group, const Vec& lambda);
+  double largest_load(int group, const Vec& lambda);  // of their forces [N]
+  // [N] of an idle contact: what it would carry as a spring among those that carry; it begins to where this rises through 0.
+  double spring_force(int contact, const Vec& lambda);
+  Tangential slip(int contact);                             // [m/s]; of contacts with friction
+  Tangential slip_acceleration(int contact, const Vec& a);  // [m/s^2]
+  Vec3 told(int contact, const Tangential& x);              // along the tangent; in space in world axes
+  int tangents() const;                                     // of a contact: 1 or 2
+  void anchor(int contact, ContactMode& mode);              // what holds it at this place
   // A step has become the solution, and the system is at its end: slip is measured from its direction there, in space, and
   // what a round body rolls from its place there. Rolling in space is no function of the configuration; within a step the
   // rotation stands for it to the second order, and joins the rates exactly.

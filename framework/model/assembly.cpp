@@ -38,8 +38,7 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
   }
   contact_rows.resize(model->contacts.size());
   modes.contacts.resize(model->contacts.size());
-  contact_row.assign(model->contacts.size(), -1);
-  stick_row.assign(model->contacts.size(), -1);
+  loads.lay_out(modes);
   sizes = model->sizes;
   held_rows = sizes.nc;
   if (sparse) reserve_contacts();
@@ -80,12 +79,17 @@ void AssembledSystem::Work::lay_out_blocks() {
     const JointEntry& joint = model->joints[i];
     tie(joint.row, joint.rows, joint.markers, std::binary_search(constant_joints.begin(), constant_joints.end(), i));
   }
-  for (std::size_t i = 0; i < contact_row.size(); ++i) {
-    const ContactEntry& contact = model->contacts[i];
-    const std::vector<MarkerRef> pair = {contact.A, contact.B};
-    if (contact_row[i] >= 0) tie(contact_row[i], 1, contact.limit ? contact.limit->markers : pair);
-    if (stick_row[i] >= 0) tie(stick_row[i], dimension(model->world.space) - 1, pair);
-  }
+  for_each_contact_row([&](ContactDirection d, int row) {
+    std::vector<MarkerRef> markers;
+    for (const int i : contacts_of_row(d)) {
+      const ContactEntry& contact = model->contacts[std::size_t(i)];
+      if (contact.limit)
+        markers.insert(markers.end(), contact.limit->markers.begin(), contact.limit->markers.end());
+      else
+        markers.insert(markers.end(), {contact.A, contact.B});
+    }
+    tie(row, 1, markers);
+  });
   std::sort(ties.begin(), ties.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   blocks->lay_out(ties);
   constant_rows_placed = false;

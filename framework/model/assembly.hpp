@@ -10,6 +10,7 @@
 #include "model/assembled_system.hpp"
 #include "model/body_blocks.hpp"
 #include "model/constant_rows.hpp"
+#include "model/contact_loads.hpp"
 #include "model/marker_chain.hpp"
 #include "model/surface_contact.hpp"
 #include "numerics/frontal_iteration_kkt.hpp"
@@ -56,6 +57,7 @@ struct AssembledSystem::Work {
   void sum_mass();  // with sparse storage
   // r += c M a; and, after evaluate_rows, rc += c G x, r += c G^T y, r += c W^T y.
   void add_mass_times(double c, const Vec& a, Vec& r);
+  Vec mass_diagonal();
   void add_rows_times(double c, const Vec& x, Vec& rc);
   void add_rows_force(double c, const Vec& y, Vec& r);
   void add_reaction(double c, const Vec& y, Vec& r);
@@ -118,8 +120,21 @@ struct AssembledSystem::Work {
   std::vector<std::size_t> constant_joints;  // not in joint_order: their rows are linear in the coordinates
   std::vector<std::size_t> constrained;      // bodies with rows of their own
   Modes modes;
-  std::vector<int> contact_row;      // row in g, -1 while open or compliant
-  std::vector<int> stick_row;        // first tangential row in g, -1 while it does not stick
+  ContactLoads loads;  // their rows in g, and their forces
+  // Those a multiplier of this row acts at: its own, and those that share with it and slide, by their friction.
+  std::vector<int> contacts_of_row(ContactDirection d) const;
+  // use(direction, row in g), in the order of rows but for contacts that have locked.
+  template <class Use>
+  void for_each_contact_row(Use&& use) {
+    for (int i = 0; i < int(modes.contacts.size()); ++i)
+      for (int k = 0; k < 3; ++k)
+        if (const int row = loads.place({i, k}).row; row >= 0) use(ContactDirection{i, k}, row);
+  }
+  double force_along(ContactDirection d,
+                     const Vec& lambda);  // [N] of a closed contact, where its friction does not slide
+  void clear_held(const Mat& N, Mat& jump, Mat& delassus);
+  ContactLoads::Bounds bounds(int contact, const Vec& lambda);  // of its forces where it shares rows
+  const ContactLoads& shared_loads(int group, const Vec& lambda);
   std::vector<int> judged;           // closed contacts at rest whose friction every evaluation finds anew
   Eigen::Matrix2Xd judged_friction;  // [N] by contact, at the last accelerate
   bool coupled = false;              // a row's force has a sliding friction beside it: W != G

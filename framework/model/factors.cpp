@@ -25,6 +25,15 @@ void AssembledSystem::Work::add_mass_times(double c, const Vec& a, Vec& r) {
     numerics::add_product(c, M, a, r);
 }
 
+Vec AssembledSystem::Work::mass_diagonal() {
+  evaluate_mass();
+  if (sparse) return sparse_mass.matrix().diagonal();
+  if (!blocks) return M.diagonal();
+  Vec diagonal(sizes.nv);
+  for (const numerics::BodyBlock& body : blocks->bodies()) diagonal.segment(body.v0, body.M.rows()) = body.M.diagonal();
+  return diagonal;
+}
+
 void AssembledSystem::Work::add_rows_times(double c, const Vec& x, Vec& rc) {
   if (blocks)
     numerics::add_rows_times(blocks->bodies(), c, x, rc);

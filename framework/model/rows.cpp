@@ -27,17 +27,20 @@ void AssembledSystem::Work::evaluate_rows() {
   }
   coupled = false;
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
-    if (contact_row[i] < 0 && stick_row[i] < 0) continue;
+    if (!modes.contacts[i].closed || on_surface(i)) continue;
+    const auto row_of = [&](int direction) { return loads.place({int(i), direction}).row; };
+    coupled = coupled || (model->contacts[i].restitution && friction_ratio(int(i)) != Tangential::Zero());
+    if (row_of(0) < 0 && row_of(1) < 0 && row_of(2) < 0) continue;
     const Rows& of_contact = contact(int(i));  // before its motions: on a surface it finds where they are
     const Seen seen = motions(contact_slots[i]);
-    if (const int row = contact_row[i]; row >= 0) {
+    if (const int row = row_of(0); row >= 0) {
       place_rows(of_contact, contact_slots[i], seen, 0, 1, row);
       g(row) -= modes.contacts[i].offset;
-      coupled = coupled || friction_ratio(int(i)) != Tangential::Zero();
     }
-    if (const int row = stick_row[i]; row >= 0) {
-      place_rows(of_contact, contact_slots[i], seen, 1, tangents(), row);
-      g.segment(row, tangents()) = displacement(int(i)).head(tangents());
+    for (int k = 1; k <= tangents(); ++k) {
+      if (row_of(k) < 0) continue;
+      place_rows(of_contact, contact_slots[i], seen, k, 1, row_of(k));
+      g(row_of(k)) = displacement(int(i))[k - 1];
     }
   }
   if (coupled) couple_reactions();
@@ -154,12 +157,22 @@ void AssembledSystem::Work::couple_reactions() {
   else
     W = G;
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
-    if (contact_row[i] < 0) continue;
+    if (!modes.contacts[i].closed || !model->contacts[i].restitution) continue;
     const Tangential ratio = friction_ratio(int(i));
     if (ratio == Tangential::Zero()) continue;
     const Rows& r = contact(int(i));
-    add_friction(contact_slots[i].A, contact_row[i], pressed_by(r.H_A, 0, ratio).transpose());
-    add_friction(contact_slots[i].B, contact_row[i], pressed_by(r.H_B, 0, ratio).transpose());
+    const auto add_share = [&](int row, double share) {
+      add_friction(contact_slots[i].A, row, share * pressed_by(r.H_A, 0, ratio).transpose());
+      add_friction(contact_slots[i].B, row, share * pressed_by(r.H_B, 0, ratio).transpose());
+    };
+    const ContactLoads::Place& place = loads.place({int(i), 0});
+    if (place.group < 0) {
+      add_share(place.row, 1);
+      continue;
+    }
+    const auto shares = loads.shares(place);
+    for (int k = 0; k < int(shares.size()); ++k)
+      if (shares[k] != 0) add_share(loads.row_of_basis(place.group, k), shares[k]);
   }
 }
 

@@ -69,14 +69,12 @@ void AssembledSystem::Work::add_rows_to(numerics::SparseSum& sum, bool sliding) 
       transposed.row(j) = reaction.col(row_places[std::size_t(j)]).segment(row, count).transpose();
     sum.add(columns, these, transposed, 1);
   };
-  const auto add_between = [&](const Slots& at, int row, int count) {
-    row_places.clear();
+  const auto add_places = [&](const Slots& at) {
     for (int k = 0; k < at.count; ++k) {
       if (chain.body(at[k]) < 0) continue;
       const int v0 = chain.first_velocity(at[k]);
       for (const int dof : motion(at[k]).dofs) row_places.push_back(v0 + dof);
     }
-    add(row, count);
   };
   for (const BodyEntry& entry : model->bodies) {
     if (entry.rows == 0) continue;
@@ -85,12 +83,16 @@ void AssembledSystem::Work::add_rows_to(numerics::SparseSum& sum, bool sliding) 
       if (entry.nv <= few_coordinates || !G.col(j).segment(entry.row, entry.rows).isZero(0)) row_places.push_back(j);
     add(entry.row, entry.rows);
   }
-  for (std::size_t i = 0; i < joint_slots.size(); ++i)
-    add_between(joint_slots[i], model->joints[i].row, model->joints[i].rows);
-  for (std::size_t i = 0; i < contact_slots.size(); ++i) {
-    if (contact_row[i] >= 0) add_between(contact_slots[i], contact_row[i], 1);
-    if (stick_row[i] >= 0) add_between(contact_slots[i], stick_row[i], tangents());
+  for (std::size_t i = 0; i < joint_slots.size(); ++i) {
+    row_places.clear();
+    add_places(joint_slots[i]);
+    add(model->joints[i].row, model->joints[i].rows);
   }
+  for_each_contact_row([&](ContactDirection d, int row) {
+    row_places.clear();
+    for (const int i : contacts_of_row(d)) add_places(contact_slots[std::size_t(i)]);
+    add(row, 1);
+  });
 }
 
 }  // namespace trammel::model

@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "complementarity/contact_forces.hpp"
 #include "model/assembly.hpp"
-#include "numerics/contact_forces.hpp"
 
 namespace trammel::model {
 
@@ -44,25 +44,86 @@ double AssembledSystem::Work::contact_acceleration(int i, int row, const Vec& a)
 }
 
 double AssembledSystem::normal_force(int contact, const Vec& lambda) {
-  Work& w = *work_;
-  const auto i = std::size_t(contact);
-  if (w.contact_row[i] >= 0) return -lambda(w.contact_row[i]);
-  const ContactForce* law = w.model->contacts[i].force;
-  if (!law || !w.modes.contacts[i].closed) return 0;
-  if (w.on_surface(i)) return w.surface(i).sums().normal;
-  return law->normal(gap(contact), gap_rate(contact), w.modes.contacts[i].approach_speed);
+  return work_->force_along({contact, 0}, lambda);
 }
 
 Tangential AssembledSystem::friction_force(int contact, const Vec& lambda) {
   Work& w = *work_;
   Tangential T = Tangential::Zero();
-  if (const int row = w.stick_row[std::size_t(contact)]; row >= 0) {
-    T.head(w.tangents()) = -lambda.segment(row, w.tangents());
+  if (w.modes.contacts[std::size_t(contact)].friction == ContactMode::Friction::stick) {
+    if (std::find(w.judged.begin(), w.judged.end(), contact) != w.judged.end()) return w.judged_friction.col(contact);
+    for (int k = 0; k < w.tangents(); ++k) T[k] = w.force_along({contact, 1 + k}, lambda);
     return T;
   }
   if (!w.model->contacts[std::size_t(contact)].friction) return T;
-  if (std::find(w.judged.begin(), w.judged.end(), contact) != w.judged.end()) return w.judged_friction.col(contact);
   return w.friction_ratio(contact) * normal_force(contact, lambda);
+}
+
+AssembledSystem::Sharing AssembledSystem::sharing(int contact) const {
+  const Work& w = *work_;
+  Sharing sharing;
+  for (int k = 0; k < 3; ++k) {
+    const ContactLoads::Place& place = w.loads.place({contact, k});
+    if (place.group < 0) continue;
+    sharing.shared = true;
+    sharing.group = place.group;
+    sharing.with_sliding = w.modes.shared[std::size_t(place.group)].sliding;
+    sharing.idle = sharing.idle || (k == 0 && w.loads.shares(place).isZero(0));
+  }
+  return sharing;
+}
+
+double AssembledSystem::spare_load(int group, const Vec& lambda) {
+  return work_->shared_loads(group, lambda).spare_load(group);
+}
+
+double AssembledSystem::largest_load(int group, const Vec& lambda) {
+  return work_->shared_loads(group, lambda).largest_load(group);
+}
+
+double AssembledSystem::spring_force(int contact, const Vec& lambda) {
+  const Work& w = *work_;
+  const ContactLoads::Place& place = w.loads.place({contact, 0});
+  const SharedRows& shared = w.modes.shared[std::size_t(place.group)];
+  const auto n = int(shared.basis.size());
+  double sum = 0;
+  for (int k = 0; k < n; ++k)
+    sum += shared.K(place.index - n, k) * w.loads.spring(shared.basis[std::size_t(k)], lambda);
+  return sum;
+}
+
+std::vector<int> AssembledSystem::Work::contacts_of_row(ContactDirection d) const {
+  std::vector<int> contacts = {d.contact};
+  const int group = loads.place(d).group;
+  if (group < 0 || !modes.shared[std::size_t(group)].sliding) return contacts;
+  for (const auto* directions : {&modes.shared[std::size_t(group)].basis, &modes.shared[std::size_t(group)].implied})
+    for (const ContactDirection& other : *directions)
+      if (other.contact != d.contact && other.row == 0) contacts.push_back(other.contact);
+  return contacts;
+}
+
+ContactLoads::Bounds AssembledSystem::Work::bounds(int contact, const Vec& lambda) {
+  const ContactEntry& entry = model->contacts[std::size_t(contact)];
+  ContactLoads::Bounds bounds;
+  if (entry.coulomb) bounds.coefficient = entry.coulomb->static_coefficient();
+  if (loads.place({contact, 0}).group < 0) bounds.given = std::max(0.0, force_along({contact, 0}, lambda));
+  return bounds;
+}
+
+const ContactLoads& AssembledSystem::Work::shared_loads(int group, const Vec& lambda) {
+  loads.solve(group, lambda, [&](int contact) { return bounds(contact, lambda); });
+  return loads;
+}
+
+double AssembledSystem::Work::force_along(ContactDirection d, const Vec& lambda) {
+  const ContactLoads::Place& place = loads.place(d);
+  if (place.group >= 0) return shared_loads(place.group, lambda).load(place);
+  if (place.row >= 0) return -lambda(place.row);
+  const auto i = std::size_t(d.contact);
+  const ContactForce* law = model->contacts[i].force;
+  if (d.row > 0 || !law || !modes.contacts[i].closed) return 0;
+  if (on_surface(i)) return surface(i).sums().normal;
+  return law->normal(contact(d.contact).g(0), contact_rate(d.contact, 0), modes.contacts[i].approach_speed);
 }
 
 int AssembledSystem::tangents() const {
@@ -155,6 +216,20 @@ void AssembledSystem::impulse_response(const std::vector<ContactDirection>& dire
     jump.col(i) = dv;
   }
   delassus.noalias() = N.transpose() * jump;
+  w.clear_held(N, jump, delassus);
+}
+
+// Directions that the joints hold: what is left of them is round-off.
+void AssembledSystem::Work::clear_held(const Mat& N, Mat& jump, Mat& delassus) {
+  constexpr double round_off = 1e-12;
+  const Vec masses = mass_diagonal();
+  for (Eigen::Index i = 0; i < N.cols(); ++i) {
+    const double alone = N.col(i).cwiseAbs2().cwiseQuotient(masses).sum();
+    if (delassus(i, i) > round_off * alone) continue;
+    jump.col(i).setZero();
+    delassus.row(i).setZero();
+    delassus.col(i).setZero();
+  }
 }
 
 double AssembledSystem::highest_frequency(const std::vector<ContactDirection>& directions) {
@@ -189,7 +264,7 @@ void AssembledSystem::Work::judge_friction(Vec& a, Vec& lambda) {
   const Eigen::Index m = tangents(), n = m * Eigen::Index(judged.size());
   Mat response(sizes.nv, n), reaction(sizes.nc, n), columns = Mat::Zero(sizes.nv, n);
   Vec b(n), column, x, y, T, a_t;
-  std::vector<numerics::ContactPoint> points;
+  std::vector<complementarity::ContactPoint> points;
   for (Eigen::Index k = 0; k < n; ++k) {
     const int i = judged[std::size_t(k / m)], row = 1 + int(k % m);
     const Rows& r = contact(i);
@@ -205,11 +280,12 @@ void AssembledSystem::Work::judge_friction(Vec& a, Vec& lambda) {
     points.push_back(
         {.tangent = int(k),
          .tangents = int(m),
-         .kind = numerics::ContactPoint::Tangent::resting,
+         .kind = complementarity::ContactPoint::Tangent::resting,
          .coefficient = entry.coulomb->static_coefficient(),
          .given = entry.force->normal(r.g(0), contact_rate(i, 0), modes.contacts[std::size_t(i)].approach_speed)});
   }
-  if (numerics::solve_contacts(points, columns.transpose() * response, b, T, a_t) != numerics::LcpOutcome::solved)
+  if (complementarity::solve_contacts(points, columns.transpose() * response, b, T, a_t).outcome !=
+      complementarity::LcpOutcome::solved)
     throw NotSolvable("the friction of the feet at rest was not found");
   a.noalias() += response * T;
   lambda.noalias() += reaction * T;

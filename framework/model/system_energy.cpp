@@ -98,9 +98,9 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     const Rows& r = w.contact(int(i));
     const Tangential ratio = w.friction_ratio(int(i));
     const Tangential slip = w.model->contacts[i].friction ? w.slip(int(i)) : Tangential(Tangential::Zero());
-    if (w.contact_row[i] >= 0) {
+    if (w.model->contacts[i].restitution) {
       // Its rows' power, below, is all of it but for the friction that slides beside them.
-      sum.friction(Eigen::Index(i)) = lambda(w.contact_row[i]) * ratio.dot(slip);
+      sum.friction(Eigen::Index(i)) = -w.loads.spring({int(i), 0}, lambda) * ratio.dot(slip);
       continue;
     }
     const ContactForce* law = w.model->contacts[i].force;
@@ -125,7 +125,7 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     // Rows of joints and bodies supply lambda . g_t; what they do on velocities that leave them is the method's error.
     sum.constraints += lambda.head(w.held_rows).dot(w.g_dot.head(w.held_rows));
     for (std::size_t i = 0; i < w.contact_slots.size(); ++i)
-      if (w.contact_row[i] >= 0) sum.constraints += sum.friction(Eigen::Index(i));
+      if (w.model->contacts[i].restitution) sum.constraints += sum.friction(Eigen::Index(i));
   }
   w.returned();
   return sum;

@@ -114,24 +114,24 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
     const Slots& at = contact_slots[i];
     const Rows& r = contact(int(i));
     const Tangential ratio = friction_ratio(int(i));
-    // Force of the contact per unit of pressure, along the normal and beside it.
-    std::array<Wrench, Rows::most_markers> push;
-    for (int k = 0; k < at.count; ++k) push[std::size_t(k)] = pressed_by(r.H(k), 1, ratio);
     const auto add = [&](int row, double weight, auto&& along) {
       for (int k = 0; k < at.count; ++k)
         for (int l = 0; l < at.count; ++l) chain.add_pair(at[k], at[l], along(k) * r.H(l).row(row), weight, S);
     };
-    double pull = 0;  // W^T lambda of the row, or -f of the law
-    if (contact_row[i] >= 0) {
-      pull = lambda(contact_row[i]);
+    // W^T lambda: of the row, or -f of the law; and beside it by what slides
+    double pull = 0, pull_beside = 0;
+    if (model->contacts[i].restitution) {
+      const int row = loads.place({int(i), 0}).row;
+      pull = row >= 0 ? lambda(row) : 0;
+      pull_beside = -loads.spring({int(i), 0}, lambda);
     } else {
       const double rate = contact_rate(int(i), 0), approach = modes.contacts[i].approach_speed;
       const ContactForce* law = model->contacts[i].force;
-      pull = -law->normal(r.g(0), rate, approach);
+      pull = pull_beside = -law->normal(r.g(0), rate, approach);
       const auto [by_gap, by_rate] = law->slope(r.g(0), rate, approach);
-      add(0, -(c.c_k * by_gap + c.c_d * by_rate), [&](int k) -> const Wrench& { return push[std::size_t(k)]; });
+      add(0, -(c.c_k * by_gap + c.c_d * by_rate), [&](int k) { return pressed_by(r.H(k), 1, ratio); });
     }
-    const Eigen::Matrix2d damping = c.c_d * -pull * friction_damping(int(i));
+    const Eigen::Matrix2d damping = c.c_d * -pull_beside * friction_damping(int(i));
     for (int m = 0; m < tangents(); ++m)
       for (int n = 0; n < tangents(); ++n)
         if (damping(m, n) != 0) add(1 + n, damping(m, n), [&](int k) -> Wrench { return r.H(k).row(1 + m); });
@@ -141,10 +141,9 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
       continue;
     }
     for (int k = 0; k < at.count; ++k) {
-      Wrench& w = push[std::size_t(k)];
-      w *= pull;
-      if (const int row = stick_row[i]; row >= 0)
-        for (int m = 0; m < tangents(); ++m) w += lambda(row + m) * r.H(k).row(1 + m).transpose();
+      Wrench w = pressed_by(r.H(k), pull, pull_beside * ratio);
+      for (int m = 1; m <= tangents(); ++m)
+        if (const int row = loads.place({int(i), m}).row; row >= 0) w += lambda(row) * r.H(k).row(m).transpose();
       chain.add_reaction_derivative(at[k], t, q, w, c.c_k, S);
     }
   }

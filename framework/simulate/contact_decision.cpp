@@ -20,6 +20,7 @@ Tangential direction_of(const Tangential& x) {
 void ContactModes::open_all(model::Modes& modes) const {
   for (const TouchingContact& c : touching_)
     modes.contacts[c.contact].closed = false, modes.contacts[c.contact].friction = Friction::none;
+  modes.shared.clear();
 }
 
 void ContactModes::find_candidates(const ContactChanges& changes) {
@@ -30,7 +31,7 @@ void ContactModes::find_candidates(const ContactChanges& changes) {
   for (const TouchingContact& c : touching_) {
     const bool constrained = c.impulse > 0 && treatment(c.contact).rebound == Restitution::Rebound::constrained;
     const bool rests = std::abs(c.was_closed ? c.after - c.before : c.after) <= at_rest;
-    const bool released = contains(changes.released, c.contact) && c.impulse == 0 && !redundant_;
+    const bool released = contains(changes.released, c.contact) && c.impulse == 0 && !shared_before_[c.contact];
     if ((rests || constrained) && !released) candidates_.push_back(c.contact);
   }
 }
@@ -79,7 +80,7 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
   }
   p.tangent = rests ? Tangent::resting : Tangent::sliding;
   if (!rests) p.ratio = -p.mu * p.direction;
-  p.let_go = rests && !redundant_ && contains(changes.yielded, p.contact) &&
+  p.let_go = rests && !shared_before_[p.contact] && contains(changes.yielded, p.contact) &&
              entry.coulomb->decide() == SetValuedFriction::Decide::at_events;
 }
 
@@ -131,19 +132,22 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes) {
 }
 
 // Rules 3, 5, 6 and 7.
-bool ContactModes::decide(State& state, ContactChanges changes, bool jumped) {
+complementarity::ContactSolution ContactModes::decide(State& state, ContactChanges changes, bool jumped) {
   do {
     gather(state, changes, jumped);
     open_all(modes_);
-    if (problem_.who.empty()) return true;
+    if (problem_.who.empty()) return {complementarity::LcpOutcome::solved, 0};
     problem_.prepare(system_);
   } while (end_drift(state, changes));
   system_.set_modes(modes_);
   system_.move_to(state.t, state.q, state.v);
   accelerate_participants();
-  if (!problem_.solve(nothing())) return false;
-  for (const Participant& p : problem_.who) take_verdict(p, changes);
-  return true;
+  const complementarity::ContactSolution solution = problem_.solve(nothing());
+  if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
+  const std::vector<bool> kept_closed = problem_.kept_closed(nothing());
+  for (std::size_t i = 0; i < problem_.who.size(); ++i) take_verdict(problem_.who[i], kept_closed[i], changes);
+  modes_.shared = problem_.shared_rows(modes_);
+  return solution;
 }
 
 // Accelerations without the forces sought, and the forces given.
@@ -152,21 +156,15 @@ void ContactModes::accelerate_participants() {
   largest_ = 0;
   for (Participant& p : problem_.who) {
     if (!p.unilateral) p.given = system_.normal_force(p.contact, lambda_);
-    p.a_n = p.free_n = system_.acceleration({p.contact, 0}, a_);
+    p.a_n = system_.acceleration({p.contact, 0}, a_);
     if (p.tangent != Tangent::none) p.a_t = system_.slip_acceleration(p.contact, a_);
     largest_ = std::max({largest_, std::abs(p.a_n), p.a_t.norm()});
   }
 }
 
-// Of redundant contacts the solution loads only some; the others carry nothing, but what holds them where they would move
-// without it is shared by them: they are held too.
-bool ContactModes::stays_closed(const Participant& p) const {
-  return !p.unilateral || p.N > 0 || (p.a_n <= nothing() && std::abs(p.free_n) > nothing());
-}
-
-void ContactModes::take_verdict(const Participant& p, const ContactChanges& changes) {
+void ContactModes::take_verdict(const Participant& p, bool kept_closed, const ContactChanges& changes) {
   model::ContactMode& mode = modes_.contacts[p.contact];
-  mode.closed = stays_closed(p);
+  mode.closed = !p.unilateral || p.N > 0 || kept_closed;
   mode.friction = Friction::none;
   if (!mode.closed || p.tangent == Tangent::none || !system_.model().contacts[p.contact].coulomb) return;
   mode.friction = Friction::slide;
@@ -175,35 +173,13 @@ void ContactModes::take_verdict(const Participant& p, const ContactChanges& chan
   if (p.tangent == Tangent::sliding) return;
   if (p.a_t.norm() > nothing()) {
     mode.direction = direction_of(p.a_t);
-  } else if (contains(changes.yielded, p.contact) && held_by_[p.contact] != Tangential::Zero() && !redundant_) {
+  } else if (contains(changes.yielded, p.contact) && held_by_[p.contact] != Tangential::Zero() &&
+             !shared_before_[p.contact]) {
     mode.direction = -direction_of(held_by_[p.contact]);
   } else {
     mode.friction = Friction::stick;
     if (before_.contacts[p.contact].friction != Friction::stick) system_.anchor(p.contact, mode);
   }
-}
-
-const std::vector<ContactModes::Verdict>& ContactModes::foresee(const State& state) {
-  const model::Modes now = system_.modes();
-  before_ = modes_ = now;
-  const ContactChanges none;
-  touching_.clear(), candidates_.clear();
-  for (int i = 0; i < int(now.contacts.size()); ++i)
-    if (now.contacts[i].closed && system_.model().contacts[i].restitution && !locks(i))
-      touching_.push_back({.contact = i, .was_closed = true}), candidates_.push_back(i);
-  verdicts_.assign(now.contacts.size(), {});
-  gather(state, none, false);
-  problem_.prepare(system_);
-  open_all(modes_);
-  system_.set_modes(modes_);
-  system_.move_to(state.t, state.q, state.v);
-  accelerate_participants();
-  const bool solved = problem_.solve(nothing());
-  for (const Participant& p : problem_.who)
-    verdicts_[p.contact] = {!solved || !stays_closed(p),
-                            p.tangent == Tangent::resting && (!solved || p.a_t.norm() > nothing())};
-  system_.set_modes(now);
-  return verdicts_;
 }
 
 }  // namespace trammel::simulate

@@ -4,14 +4,19 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 
 #include <Eigen/QR>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "simulate/run_failed.hpp"
 
 namespace trammel::simulate {
+
+using complementarity::LcpOutcome;
+
 namespace {
 
 // A contact that begins at rest has no approach speed for a damping law to scale with, and no such damping: 1/speed would hold
@@ -25,32 +30,36 @@ bool ContactModes::any_closed() const {
   return std::any_of(contacts.begin(), contacts.end(), [](const model::ContactMode& mode) { return mode.closed; });
 }
 
-double ContactModes::settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events) {
+void ContactModes::settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events) {
   const int n = int(system_.model().contacts.size());
   system_.move_to(state.t, state.q, state.v);
   before_ = modes_ = system_.modes();
-  rows_before_.resize(n), sticks_before_.resize(n);
-  for (int i = 0; i < n; ++i) rows_before_[i] = system_.contact_row(i), sticks_before_[i] = system_.stick_row(i);
-  lambda_before_ = state.lambda;
+  shared_before_.resize(std::size_t(n));
+  for (int i = 0; i < n; ++i) shared_before_[std::size_t(i)] = system_.sharing(i).shared;
+  keep_forces(state);
   forces_before(changes);
   toggle(state, changes.toggled, events);
   find_touching(changes);
   const auto approaches = [this](const TouchingContact& c) { return c.before < -scale_.at_rest(); };
   bool jumped = !changes.struck.empty() && std::any_of(touching_.begin(), touching_.end(), approaches);
-  double elsewhere = jumped ? strike(state) : 0;
+  losses_.clear();
+  lost_elsewhere_ = 0;
+  if (jumped) strike(state, changes);
   bool without_collision = false;
   lock(state, changes, events);
   find_candidates(changes);
-  if (!decide(state, changes, jumped)) {  // rule 8
-    if (jumped) fail_without_solution("balance of forces");
+  auto solution = decide(state, changes, jumped);
+  if (solution.outcome == LcpOutcome::no_solution && !jumped) {  // rule 8
     jumped = without_collision = true;
+    for (TouchingContact& c : touching_) c.without_collision = true;
     system_.set_modes(before_);
     system_.move_to(state.t, state.q, state.v);
-    elsewhere += strike(state);
+    strike(state, changes);
     lock(state, changes, events);
     find_candidates(changes);
-    if (!decide(state, changes, jumped)) fail_without_solution("balance of forces");
+    solution = decide(state, changes, jumped);
   }
+  if (solution.outcome != LcpOutcome::solved) fail_without_solution("balance of forces", state.t, solution);
   bool carry = false;
   for (const TouchingContact& c : touching_) {
     const bool struck = contains(changes.struck, c.contact);
@@ -69,16 +78,13 @@ double ContactModes::settle(State& state, const ContactChanges& changes, std::ve
   finish(state, carry);
   for (const TouchingContact& c : touching_) tell_normal(state, c, events);
   tell_friction(state, events);
-  return elsewhere;
 }
 
-// What held the contacts that now yield; whether rows were redundant.
+// What held the contacts that now yield.
 void ContactModes::forces_before(const ContactChanges& changes) {
   held_by_.assign(system_.model().contacts.size(), Tangential::Zero());
-  redundant_ = false;
-  if (changes.yielded.empty() && changes.released.empty()) return;
+  if (changes.yielded.empty()) return;
   system_.accelerate({}, a_, lambda_);
-  redundant_ = system_.redundant();
   for (const int i : changes.yielded) held_by_[i] = system_.friction_force(i, lambda_);
 }
 
@@ -114,20 +120,23 @@ void ContactModes::find_touching(const ContactChanges& changes) {
   }
 }
 
-double ContactModes::strike(State& state) {
+void ContactModes::strike(State& state, const ContactChanges& changes) {
   const double kinetic_before = system_.energy().kinetic;
   v_before_ = state.v;
   for (;;) {
-    if (!impact_.solve(system_, scale_.at_rest(), touching_, dv_)) fail_without_solution("impact");
+    const auto solution = impact_.solve(system_, scale_.at_rest(), touching_, dv_);
+    if (solution.outcome != LcpOutcome::solved) fail_without_solution("impact", state.t, solution);
     state.v = v_before_ + dv_;
-    if (!capture_chatter(state, state.v)) break;
+    if (!capture_chatter(state, changes)) break;
     system_.move_to(state.t, state.q, v_before_);
   }
-  end_rocking(state);
+  end_rocking(state, changes);
   system_.move_to(state.t, state.q, state.v);
-  double elsewhere = kinetic_before - system_.energy().kinetic;
-  for (const TouchingContact& c : touching_) elsewhere -= c.energy_lost();
-  return elsewhere;
+  lost_elsewhere_ += kinetic_before - system_.energy().kinetic;
+  for (const TouchingContact& c : touching_) {
+    losses_.push_back({c.contact, c.energy_lost()});
+    lost_elsewhere_ -= c.energy_lost();
+  }
 }
 
 // Rule 9.
@@ -153,19 +162,29 @@ void ContactModes::lock(State& state, const ContactChanges& changes, std::vector
   system_.move_to(state.t, state.q, state.v);
 }
 
-void ContactModes::fail_without_solution(const char* what) const {
-  std::string names;
+void ContactModes::fail_without_solution(const char* what, double t,
+                                         const complementarity::ContactSolution& solution) const {
+  std::vector<std::string_view> names;
   bool friction = false;
   for (const TouchingContact& c : touching_) {
     const model::ContactEntry& entry = system_.model().contacts[c.contact];
-    names += (names.empty() ? "" : ", ") + entry.name;
+    names.push_back(entry.name);
     friction = friction || entry.friction;
   }
-  throw RunFailed(fmt::format(
-      "the {} of contacts {} has no solution{}", what, names,
-      friction ? ": with rigid contacts and this much friction there may be none (Painleve); a compliant law, such as "
-                 "continuous_force, has one"
-               : ""));
+  const std::string compliant = "; a compliant law, such as continuous_force, has one";
+  std::string why;
+  if (solution.outcome != LcpOutcome::no_solution)
+    why = fmt::format(
+        "was not found: the best try violates the contacts' conditions by {:.2g} of the forces, {:.0g} is asked for{}",
+        solution.violation, complementarity::largest_violation, compliant);
+  else if (friction)
+    why =
+        "has no solution, as a search of all their modes proves: so much friction leaves rigid contacts none "
+        "(Painleve)" +
+        compliant;
+  else
+    why = "has no solution: they close on bodies that cannot give way";
+  throw RunFailed(fmt::format("at t = {:.9g} s: the {} of contacts {} {}", t, what, fmt::join(names, ", "), why));
 }
 
 bool ContactModes::cannot_follow(double separation, double acceleration) const {
@@ -175,23 +194,31 @@ bool ContactModes::cannot_follow(double separation, double acceleration) const {
   return separation * separation < chatter_steps_ * error * 2 * -acceleration;
 }
 
-// a_ with all that touches open, which is left to the caller to undo.
-void ContactModes::accelerate_open(const State& state, const Vec& v) {
+// a_ right after an impact, with the forces of those that touch without a rate then; the others fly.
+void ContactModes::accelerate_after(const State& state, const ContactChanges& changes) {
+  system_.move_to(state.t, state.q, state.v);
+  find_candidates(changes);
+  gather(state, changes, true);
+  problem_.prepare(system_);
   model::Modes open = modes_;
   open_all(open);
   system_.set_modes(open);
-  system_.move_to(state.t, state.q, v);
-  system_.accelerate({}, a_, lambda_);
+  system_.move_to(state.t, state.q, state.v);
+  accelerate_participants();
+  if (!problem_.who.empty() && problem_.solve(nothing()).outcome == LcpOutcome::solved) {
+    problem_.jump(dv_);
+    a_ += dv_;
+  }
 }
 
 // Takes e = 0 where the rebound is too short to follow; true if there is such a contact.
-bool ContactModes::capture_chatter(const State& state, const Vec& v) {
+bool ContactModes::capture_chatter(const State& state, const ContactChanges& changes) {
   // With e = 1 flights do not shrink: there is no chatter.
   const auto rebounds = [](const TouchingContact& c) {
     return c.restitution > 0 && c.restitution < 1 && c.impulse > 0;
   };
   if (chatter_steps_ <= 0 || std::none_of(touching_.begin(), touching_.end(), rebounds)) return false;
-  accelerate_open(state, v);
+  accelerate_after(state, changes);
   bool captured = false;
   for (TouchingContact& c : touching_)
     if (rebounds(c) && cannot_follow(c.after, system_.acceleration({c.contact, 0}, a_)))
@@ -201,13 +228,13 @@ bool ContactModes::capture_chatter(const State& state, const Vec& v) {
 }
 
 // Takes the rates of all that touch where some open, pushed by the impact of others, too little to follow.
-void ContactModes::end_rocking(State& state) {
+void ContactModes::end_rocking(State& state, const ContactChanges& changes) {
   const double at_rest = scale_.at_rest();
   const auto opens = [at_rest](const TouchingContact& c) {
     return c.was_closed && c.impulse == 0 && c.after > at_rest;
   };
   if (chatter_steps_ <= 0 || std::none_of(touching_.begin(), touching_.end(), opens)) return;
-  accelerate_open(state, state.v);
+  accelerate_after(state, changes);
   bool ends = true;
   for (const TouchingContact& c : touching_)
     ends = ends && (c.after <= at_rest || cannot_follow(c.after, system_.acceleration({c.contact, 0}, a_)));
@@ -248,18 +275,54 @@ double ContactModes::friction_noise(int contact) {
   return least > 0 ? scale_.no_acceleration() / least : 0;
 }
 
+double ContactModes::force_noise(const std::vector<model::ContactDirection>& directions) {
+  Mat jump, delassus;
+  system_.impulse_response(directions, jump, delassus);
+  const double most = delassus.cwiseAbs().rowwise().sum().maxCoeff();
+  return most > 0 ? scale_.no_acceleration() / most : 0;
+}
+
+// For those whose `restart` carries them over.
+void ContactModes::keep_forces(const State& state) {
+  lambda_before_ = state.lambda;
+  forces_before_.clear();
+  const auto carries = [this](const model::ContactEntry& contact) {
+    return contact.restitution && contact.restitution->treatment().restart == Restitution::Restart::carry;
+  };
+  const auto& contacts = system_.model().contacts;
+  if (std::none_of(contacts.begin(), contacts.end(), carries)) return;
+  forces_before_.assign(contacts.size(), Eigen::Vector3d::Zero());
+  if (state.lambda.size() != system_.sizes().nc) return;  // none yet
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const model::ContactMode& mode = before_.contacts[i];
+    if (!mode.closed) continue;
+    if (contacts[i].restitution) forces_before_[i][0] = system_.normal_force(int(i), state.lambda);
+    if (mode.friction == Friction::stick) forces_before_[i].tail<2>() = system_.friction_force(int(i), state.lambda);
+  }
+}
+
+// Multipliers that stand for the forces kept: of shared rows for their resultants.
+void ContactModes::carry_forces(Vec& lambda) const {
+  const int joint_rows = system_.model().sizes.nc;
+  lambda.setZero(system_.sizes().nc);
+  if (lambda_before_.size() >= joint_rows) lambda.head(joint_rows) = lambda_before_.head(joint_rows);
+  const auto force = [this](const model::ContactDirection& d) { return forces_before_[std::size_t(d.contact)][d.row]; };
+  for (int i = 0; i < int(forces_before_.size()); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (const int row = system_.row({i, k}); row >= 0) lambda[row] = -force({i, k});
+  for (const model::SharedRows& shared : system_.modes().shared)
+    for (std::size_t j = 0; j < shared.basis.size(); ++j)
+      for (std::size_t i = 0; i < shared.implied.size(); ++i)
+        lambda[system_.row(shared.basis[j])] -= shared.K(Eigen::Index(i), Eigen::Index(j)) * force(shared.implied[i]);
+}
+
 void ContactModes::finish(State& state, bool carry) {
   system_.set_modes(modes_);
   system_.move_to(state.t, state.q, state.v);
-  if (!carry) return system_.accelerate({}, state.a, state.lambda);
-  const int joint_rows = system_.model().sizes.nc;
-  state.lambda.setZero(system_.sizes().nc);
-  if (lambda_before_.size() >= joint_rows) state.lambda.head(joint_rows) = lambda_before_.head(joint_rows);
-  for (int i = 0; i < int(rows_before_.size()); ++i)
-    for (const auto& [row, before, n] : {std::tuple{system_.contact_row(i), rows_before_[i], 1},
-                                         std::tuple{system_.stick_row(i), sticks_before_[i], system_.tangents()}})
-      if (row >= 0 && before >= 0 && before < lambda_before_.size())
-        for (int k = 0; k < n; ++k) state.lambda[row + k] = lambda_before_[before + k];
+  if (carry)
+    carry_forces(state.lambda);
+  else
+    system_.accelerate({}, state.a, state.lambda);
 }
 
 void ContactModes::tell_normal(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events) {

@@ -74,16 +74,17 @@ class ContactModes {
       : system_(system), scale_(scale), steps_(settings.contact_step), chatter_steps_(settings.chatter_steps) {}
 
   // Applies the changes at `state`: v jumps, modes and sizes change, a and lambda are solved anew. Appends the events.
-  // Returns the kinetic energy that impacts took, beyond what is attributed to contacts, i.e. through moving rows [J].
-  double settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
+  void settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
+  // Of the last impacts [J]: through contacts, closed ones too, and beyond them, through moving rows.
+  struct Loss {
+    int contact;
+    double energy;
+  };
+  const std::vector<Loss>& losses() const { return losses_; }
+  double lost_elsewhere() const { return lost_elsewhere_; }
 
   bool any_closed() const;
 
-  struct Verdict {
-    bool opens = false, slips = false;
-  };
-  // By contact, what rules 3 and 5 would do to those that are closed and stick now.
-  const std::vector<Verdict>& foresee(const State& state);
   // [s] Of steps with error control, so that no double zero of a slip velocity is stepped over: 0.45 of the shortest
   // period in which a blow on a closed contact with set-valued friction swings back. Below half of it a swing turns at most
   // once within a step, so two zeros in it show in the slopes at its ends (EventLocation::dips finds those of c + cos in every
@@ -91,6 +92,8 @@ class ContactModes {
   double step_limit(const State& state);
   // Less than this is no friction force [N]: it moves the contact less than `no_acceleration`.
   double friction_noise(int contact);
+  // Nothing moves more than that by forces of this size along all of these directions [N].
+  double force_noise(const std::vector<model::ContactDirection>& directions);
 
  private:
   using Friction = model::ContactMode::Friction;
@@ -99,10 +102,10 @@ class ContactModes {
   void toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events);
   void forces_before(const ContactChanges& changes);
   void find_touching(const ContactChanges& changes);
-  double strike(State& state);
-  void accelerate_open(const State& state, const Vec& v);
-  bool capture_chatter(const State& state, const Vec& v);
-  void end_rocking(State& state);
+  void strike(State& state, const ContactChanges& changes);
+  void accelerate_after(const State& state, const ContactChanges& changes);
+  bool capture_chatter(const State& state, const ContactChanges& changes);
+  void end_rocking(State& state, const ContactChanges& changes);
   bool cannot_follow(double separation, double acceleration) const;
   void lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
   void find_candidates(const ContactChanges& changes);
@@ -110,17 +113,19 @@ class ContactModes {
   void gather(const State& state, const ContactChanges& changes, bool jumped);
   void add_friction(const State& state, Participant& p, const ContactChanges& changes, bool jumped);
   bool end_drift(State& state, ContactChanges& changes);
-  [[nodiscard]] bool decide(State& state, ContactChanges changes, bool jumped);  // false: no solution
+  [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped);
   void accelerate_participants();
-  bool stays_closed(const Participant& p) const;
-  void take_verdict(const Participant& p, const ContactChanges& changes);
+  void take_verdict(const Participant& p, bool kept_closed, const ContactChanges& changes);
   void finish(State& state, bool carry);
   void tell_normal(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
   void tell_friction(const State& state, std::vector<ContactEvent>& events);
   double nothing() const;
   double slow() const;
   double unresolved(int contact, const State& state);
-  [[noreturn]] void fail_without_solution(const char* what) const;
+  void keep_forces(const State& state);
+  void carry_forces(Vec& lambda) const;
+  [[noreturn]] void fail_without_solution(const char* what, double t,
+                                          const complementarity::ContactSolution& solution) const;
   Restitution::Treatment treatment(int contact) const {
     return system_.model().contacts[contact].restitution->treatment();
   }
@@ -134,10 +139,12 @@ class ContactModes {
   ContactProblem problem_;
   model::Modes before_, modes_;
   std::vector<TouchingContact> touching_;
-  std::vector<int> candidates_, rows_before_, sticks_before_;
-  std::vector<Tangential> held_by_;  // by contact: its friction before the event [N]
-  std::vector<Verdict> verdicts_;
-  bool redundant_ = false;
+  std::vector<int> candidates_;
+  std::vector<Tangential> held_by_;             // by contact: its friction before the event [N]
+  std::vector<bool> shared_before_;             // by contact: it shared rows with others
+  std::vector<Eigen::Vector3d> forces_before_;  // by contact and direction [N], where some are carried over
+  std::vector<Loss> losses_;
+  double lost_elsewhere_ = 0;
   double largest_ = 0;  // of the accelerations without the forces sought
   Vec dv_, v_before_, a_, lambda_, lambda_before_;
 };

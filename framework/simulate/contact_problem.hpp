@@ -1,4 +1,4 @@
-// The contacts that take part in one instant, and their forces or impulses: numerics/contact_forces.hpp for a System.
+// The contacts that take part in one instant, and their forces or impulses: complementarity/contact_forces.hpp for a System.
 //
 // Static and kinetic coefficients: every tangent at rest is first held with mu_0; those that it cannot hold get mu, and the
 // problem is solved again, so that the others are checked against what is left. Each repetition lets at least one more go, so
@@ -7,8 +7,9 @@
 
 #include <vector>
 
+#include "complementarity/carrying_rows.hpp"
+#include "complementarity/contact_forces.hpp"
 #include "model/assembled_system.hpp"
-#include "numerics/contact_forces.hpp"
 
 namespace trammel::simulate {
 
@@ -24,7 +25,8 @@ struct Participant {
   Tangential ratio = Tangential::Zero();      // sliding: T / N
   Tangential direction = Tangential::Zero();  // sliding: of the slip velocity, length 1
   bool let_go = false;                        // resting: mu from the start; in the end: mu_0 did not hold it
-  double free_n = 0;                          // a_n without the forces to be found
+
+  double vanishing = 0;  // of several solutions the one that is left of this approach in addition to a_n
 
   // Found: force [N] or impulse [N s], and acceleration or velocity, along normal and tangents.
   double N = 0, a_n = 0;
@@ -37,18 +39,24 @@ class ContactProblem {
 
   void prepare(model::AssembledSystem& system);  // their directions at the system's point
   // Of each participant: what its normal and its tangent do without the forces to be found, in `a_n` and `a_t`.
-  // `nothing`: smaller is 0. False: no solution.
-  [[nodiscard]] bool solve(double nothing);
+  // `nothing`: smaller is 0.
+  [[nodiscard]] complementarity::ContactSolution solve(double nothing);
   // Change of v by the forces found as impulses.
   void jump(Vec& dv) const;
   // The least change of v that ends the slip `a_t` of all tangents at rest and leaves the unilateral normals alone.
   void end_slip(Vec& dv) const;
+  // Unilateral ones without a force that the others keep closed: their rows follow from those of contacts that press.
+  std::vector<bool> kept_closed(double nothing) const;
+  // Once their modes are decided: which of those that are closed depend on each other, and how they share.
+  std::vector<model::SharedRows> shared_rows(const model::Modes& modes) const;
 
  private:
-  bool solve_once();
+  complementarity::ContactSolution solve_once(double nothing);
+  [[nodiscard]] bool let_approaches_vanish();
+  std::vector<complementarity::ContactRole> roles(const model::Modes& modes) const;
 
   std::vector<model::ContactDirection> directions_;
-  std::vector<numerics::ContactPoint> points_;
+  std::vector<complementarity::ContactPoint> points_;
   Mat jump_, delassus_;
   Vec b_, F_, a_;
 };

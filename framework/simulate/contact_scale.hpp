@@ -24,7 +24,7 @@ class ContactScale {
   double at_rest() const { return 1e-12 * speed_; }
   // Slip in space that has no direction [m/s] (model/slip.hpp).
   double slow() const { return 1e-7 * speed_; }
-  double no_acceleration() const { return length_ > 0 ? 1e-10 * speed_ * speed_ / length_ : 0; }
+  double no_acceleration() const { return length_ > 0 ? 1e-12 * speed_ * speed_ / length_ : 0; }
   // The digits to which positions and velocities are written in a scene.
   double written_length() const { return 1e-9 * length_; }
   double written_speed() const { return 1e-9 * speed_; }

@@ -37,8 +37,10 @@ void EventLocation::watch(int contact) {
     return;
   }
   if (entry.restitution && entry.restitution->treatment().release == Restitution::Release::never) return;
+  const model::AssembledSystem::Sharing sharing = system_.sharing(contact);
+  const int group = sharing.with_sliding ? -1 : sharing.group;
   if (entry.restitution)
-    watches_.push_back({.contact = contact, .kind = Kind::press});
+    watches_.push_back({.contact = contact, .kind = sharing.idle ? Kind::idle : Kind::press, .group = group});
   else
     watches_.push_back({.contact = contact, .kind = Kind::leave, .noise = scale_.touching()});
   if (mode.friction == Friction::slide)
@@ -46,20 +48,40 @@ void EventLocation::watch(int contact) {
   else if (mode.friction == Friction::stick)
     watches_.push_back({.contact = contact,
                         .kind = Kind::hold,
-                        .at_ends = entry.coulomb->decide() == SetValuedFriction::Decide::every_evaluation});
+                        .at_ends = entry.coulomb->decide() == SetValuedFriction::Decide::every_evaluation,
+                        .group = group});
 }
 
+namespace {
+
+bool same_modes(const std::vector<model::ContactMode>& a, const std::vector<model::ContactMode>& b) {
+  const auto same = [](const model::ContactMode& x, const model::ContactMode& y) {
+    return x.closed == y.closed && x.friction == y.friction && x.direction.dot(y.direction) >= 0;
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+}
+
+}  // namespace
+
 void EventLocation::restart(const State& now) {
+  std::vector<Watch> before;
+  if (same_modes(modes_before_, system_.modes().contacts)) before.swap(watches_);
+  modes_before_ = system_.modes().contacts;
   watches_.clear();
   h_before_ = longest_ = 0;
   system_.move_to(now.t, now.q, now.v);
   for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
+  for (Watch& each : watches_)
+    if (each.group >= 0) each.little = little_force(each.group);
   next_.resize(watches_.size()), probe_.resize(watches_.size());
   evaluate(now, now_);
   for (std::size_t w = 0; w < watches_.size(); ++w) watches_[w].steepest = std::abs(now_[w].slope);
+  for (std::size_t w = 0; w < before.size() && before.size() == watches_.size(); ++w)
+    wait_longer(before[w], now_[w], watches_[w]);
   // Sticking begins on its bound where the normal force begins at 0, and where mu = mu_0.
   for (int w = 0; w < int(watches_.size()); ++w)
-    if (watches_[w].kind == Kind::hold && !watches_[w].at_ends && now_[w].f <= 1e-9 * watches_[w].bound)
+    if (watches_[w].kind == Kind::hold && watches_[w].group < 0 && !watches_[w].at_ends &&
+        now_[w].f <= 1e-9 * watches_[w].bound)
       watches_[w].noise = modes_.friction_noise(watches_[w].contact);
 }
 
@@ -74,6 +96,20 @@ double EventLocation::longest_step(double swings) const {
     if (watches_[w].kind == Kind::slide) longest = std::min(longest, now_[w].f / (4 * watches_[w].steepest));
   }
   return std::min(std::max(swings, longest), resolved);
+}
+
+// Asked for by all who share.
+double EventLocation::spare_load(int group, const Vec& lambda) {
+  std::optional<double>& known = spare_loads_[std::size_t(group)];
+  if (!known) known = system_.spare_load(group, lambda);
+  return *known;
+}
+
+double EventLocation::little_force(int group) {
+  const model::SharedRows& shared = system_.modes().shared[std::size_t(group)];
+  std::vector<model::ContactDirection> all = shared.basis;
+  all.insert(all.end(), shared.implied.begin(), shared.implied.end());
+  return modes_.force_noise(all);
 }
 
 EventLocation::Value EventLocation::slide(int contact, const Vec& a) {
@@ -96,17 +132,21 @@ void EventLocation::accept(double h, const State& next) {
 }
 
 double EventLocation::force(Watch& watch, const Vec& lambda) {
+  if (watch.kind == Kind::idle) return -system_.spring_force(watch.contact, lambda);
+  if (watch.group >= 0) {
+    watch.bound = system_.largest_load(watch.group, lambda);
+    return watch.little + spare_load(watch.group, lambda);
+  }
   const double N = system_.normal_force(watch.contact, lambda);
-  if (watch.kind == Kind::press) return N;
-  watch.bound = system_.model().contacts[watch.contact].coulomb->static_coefficient() * N;
-  return watch.bound - system_.friction_force(watch.contact, lambda).norm();
+  if (watch.kind == Kind::hold) watch.bound = system_.model().contacts[watch.contact].coulomb->static_coefficient() * N;
+  return watch.kind == Kind::press ? N : watch.bound - system_.friction_force(watch.contact, lambda).norm();
 }
 
 void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
   system_.move_to(state.t, state.q, state.v);
   values.resize(watches_.size());
   const Vec* lambda = nullptr;
-  bool lets_go = false;
+  forget_forces();
   for (int w = 0; w < int(watches_.size()); ++w) {
     Watch& watch = watches_[w];
     Value& value = values[w] = {};
@@ -120,7 +160,6 @@ void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
         if (!own_force_) system_.accelerate({}, a_, lambda_);
       }
       value.f = force(watch, *lambda);
-      lets_go = lets_go || value.f < 0;
       continue;
     }
     if (watch.kind == Kind::slide) {
@@ -130,19 +169,6 @@ void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
     const double sign = watch.kind == Kind::leave ? -1 : 1;
     value.f = sign * system_.gap(watch.contact);
     value.slope = sign * system_.gap_rate(watch.contact);
-  }
-  if (lets_go && system_.redundant()) ask_complementarity(state, values);
-}
-
-// Signs from the complementarity problem, sizes as they are.
-void EventLocation::ask_complementarity(const State& state, std::vector<Value>& values) {
-  const std::vector<ContactModes::Verdict>& verdicts = modes_.foresee(state);
-  for (int w = 0; w < int(watches_.size()); ++w) {
-    if (!by_force(w) || watches_[w].at_ends) continue;
-    const ContactModes::Verdict& verdict = verdicts[watches_[w].contact];
-    const bool goes = watches_[w].kind == Kind::press ? verdict.opens : verdict.opens || verdict.slips;
-    const double size = std::max(std::abs(values[w].f), 2 * watches_[w].noise + std::numeric_limits<double>::min());
-    values[w].f = goes ? -size : size;
   }
 }
 
@@ -214,8 +240,17 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
   return Found::event;
 }
 
+// An event that changed nothing was round-off, or what was missed moves nothing yet. It is one again where several times as much is
+// missed.
+void EventLocation::wait_longer(const Watch& before, const Value& now, Watch& watch) const {
+  watch.noise = std::max(watch.noise, before.noise);
+  if (before.reported || now.f < 0)
+    watch.noise = std::max({watch.noise, watch.little, 2 * std::abs(now.f), 4 * before.noise});
+}
+
 void EventLocation::report(int w) {
   const int contact = watches_[w].contact;
+  watches_[w].reported = true;
   const auto add = [contact](std::vector<int>& list) {
     if (std::find(list.begin(), list.end(), contact) == list.end()) list.push_back(contact);
   };
@@ -225,6 +260,7 @@ void EventLocation::report(int w) {
     case Kind::leave:
       return add(changes_.toggled);
     case Kind::press:
+    case Kind::idle:
       return add(changes_.released);
     case Kind::hold:
       return add(changes_.yielded);
@@ -281,21 +317,23 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
 
 void EventLocation::archive(Archive& a) {
   const auto n = Eigen::Index(watches_.size());
-  Mat values(n, 5);
+  Mat values(n, 6);
   for (Eigen::Index w = 0; w < n; ++w)
-    values.row(w) << now_[w].f, now_[w].slope, watches_[w].noise, watches_[w].force_before, watches_[w].steepest;
+    values.row(w) << now_[w].f, now_[w].slope, watches_[w].noise, watches_[w].force_before, watches_[w].steepest,
+        watches_[w].little;
   Vec flat = Eigen::Map<const Vec>(values.data(), values.size());
   a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_);
   if (watches_.empty() && flat.size() > 0) {  // reading: the modes are back, their watches not yet
     for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
     next_.resize(watches_.size()), probe_.resize(watches_.size()), now_.resize(watches_.size());
   }
+  modes_before_ = system_.modes().contacts;
   const auto m = Eigen::Index(watches_.size());
-  if (flat.size() != 5 * m) return;  // of another scene: refused elsewhere
+  if (flat.size() != 6 * m) return;  // of another scene: refused elsewhere
   for (Eigen::Index w = 0; w < m; ++w) {
     now_[w] = {flat[w], flat[m + w]};
     watches_[w].noise = flat[2 * m + w], watches_[w].force_before = flat[3 * m + w],
-    watches_[w].steepest = flat[4 * m + w];
+    watches_[w].steepest = flat[4 * m + w], watches_[w].little = flat[5 * m + w];
   }
 }
 

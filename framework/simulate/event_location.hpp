@@ -5,6 +5,7 @@
 //     leave      compliant contact in touch      -gap
 //     press      closed contact (Restitution)    its normal force N; one that has locked needs no watch
 //     hold       sticking contact                mu_0 N - |T|, T the friction that holds it
+//     idle       closed, carries nothing         what it would carry as a spring, with the other sign
 //     slide      sliding contact                 slip velocity along its direction at the step's begin
 // An event shows in three ways: the function is negative at the step's end; it was positive at both ends but dipped between
 // them (the cubic through values and slopes of both ends tells where to look); or, just after an event that left it at
@@ -22,9 +23,12 @@
 //
 // Forces come from the equations of motion at the step's end; methods that satisfy neither position nor velocity rows work on
 // the level of accelerations, there lambda itself is that force, with their stabilisation. Where rows are redundant lambda is
-// one choice of many: whether a contact lets go is then decided by the complementarity problem (contact_mode.hpp).
+// one choice of many: contacts that share rows are watched together, by how much further each of them could be unloaded until
+// they cannot carry what they carry (AssembledSystem::spare_load); which of them then lets go is decided by the complementarity
+// problem (contact_mode.hpp). Where one of them slides its share decides the motion, and each is watched for itself.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <trammel/integrator.hpp>
@@ -57,15 +61,18 @@ class EventLocation {
   void archive(Archive& a);
 
  private:
-  enum class Kind { approach, leave, press, hold, slide };
+  enum class Kind { approach, leave, press, hold, slide, idle };
   struct Watch {
     int contact;
     Kind kind;
     bool at_ends = false;     // judged at the ends of steps only, never located
     double noise = 0;         // no nearer to 0 than this at first, and it has just had its event
     double force_before = 0;  // one step before now
-    double bound = 0;         // of friction, where it was asked for last [N]
+    double bound = 0;         // [N] where it was asked for last: of friction, or of a group the largest of its forces
     double steepest = 0;      // slide: the most that the slip has changed in a unit of time since it began [m/s^2]
+    bool reported = false;    // it had an event, the last one
+    int group = -1;           // of shared rows that is watched as one, or -1
+    double little = 0;        // [N] of those: no less is missed
   };
   struct Value {
     double f = 0, slope = 0;  // slopes of forces are not known
@@ -77,11 +84,16 @@ class EventLocation {
   struct Cubic;
 
   void watch(int contact);
-  bool by_force(int w) const { return watches_[w].kind == Kind::press || watches_[w].kind == Kind::hold; }
+  bool by_force(int w) const {
+    const Kind kind = watches_[w].kind;
+    return kind == Kind::press || kind == Kind::hold || kind == Kind::idle;
+  }
   double force(Watch& watch, const Vec& lambda);
+  double spare_load(int group, const Vec& lambda);
+  void forget_forces() { spare_loads_.assign(system_.modes().shared.size(), {}); }
+  double little_force(int group);
   Value slide(int contact, const Vec& a);
   void evaluate(const State& state, std::vector<Value>& values);
-  void ask_complementarity(const State& state, std::vector<Value>& values);
   bool just_handled(int w) const { return now_[w].f <= watches_[w].noise; }
   bool happened(int w, const Value& end) const;
   const Value& step_to(const State& now, double h, int w);
@@ -98,6 +110,7 @@ class EventLocation {
   double same_instant(int contact) const;
   void collect();
   void report(int w);
+  void wait_longer(const Watch& before, const Value& now, Watch& watch) const;
 
   model::AssembledSystem& system_;
   Integrator& integrator_;
@@ -106,9 +119,11 @@ class EventLocation {
   BetweenStates between_states_;
   bool own_force_;  // the integrator's lambda is the force
   std::vector<Watch> watches_;
+  std::vector<model::ContactMode> modes_before_;  // at the last restart
   std::vector<Value> now_, next_, probe_;
-  double h_before_ = 0;  // [s] 0: no step yet since the last change
-  double longest_ = 0;   // [s] step tried since then
+  std::vector<std::optional<double>> spare_loads_;  // of the groups, at the point that is evaluated
+  double h_before_ = 0;                             // [s] 0: no step yet since the last change
+  double longest_ = 0;                              // [s] step tried since then
   std::vector<Suspect> suspects_;
   std::vector<int> at_end_;
   ContactChanges changes_;

@@ -3,8 +3,14 @@
 #include <cmath>
 
 namespace trammel::simulate {
+namespace {
 
-bool Impact::solve(model::AssembledSystem& system, double at_rest, std::vector<TouchingContact>& touching, Vec& dv) {
+constexpr double vanishing = 1e-6;  // beside a slip; more than what a solution may be off by
+
+}  // namespace
+
+complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, double at_rest,
+                                               std::vector<TouchingContact>& touching, Vec& dv) {
   problem_.who.clear();
   for (TouchingContact& c : touching) {
     const model::ContactEntry& entry = system.model().contacts[c.contact];
@@ -12,6 +18,7 @@ bool Impact::solve(model::AssembledSystem& system, double at_rest, std::vector<T
     p.contact = c.contact;
     p.a_n = c.was_closed ? 0 : (1 + c.restitution) * c.before;
     if (entry.friction) p.a_t = c.slip_before = system.slip(c.contact);
+    if (c.without_collision) p.vanishing = vanishing * c.slip_before.norm();
     if (entry.coulomb) {
       p.tangent = Participant::Tangent::resting;
       p.mu_0 = entry.coulomb->static_coefficient();
@@ -24,7 +31,8 @@ bool Impact::solve(model::AssembledSystem& system, double at_rest, std::vector<T
     problem_.who.push_back(p);
   }
   problem_.prepare(system);
-  if (!problem_.solve(at_rest)) return false;
+  const complementarity::ContactSolution solution = problem_.solve(at_rest);
+  if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
   problem_.jump(dv);
   for (std::size_t i = 0; i < touching.size(); ++i) {
     TouchingContact& c = touching[i];
@@ -38,7 +46,7 @@ bool Impact::solve(model::AssembledSystem& system, double at_rest, std::vector<T
     c.friction = p.T;
     c.slip_after = p.a_t;
   }
-  return true;
+  return solution;
 }
 
 }  // namespace trammel::simulate

@@ -11,6 +11,9 @@
 // (Moreau): a slip that stops and turns within the impact is not followed, and with e > 0 an eccentric impact may gain
 // energy (Kane's paradox; the ledger would show it). With D the Delassus matrix it is the problem of contact_forces.hpp. Several
 // contacts at once are one problem; nature may answer otherwise (Pfeiffer, Glocker 1996), and a chain of equal balls does.
+// An impact without collision is asked for where sliding contacts have no finite forces (contact_mode.hpp, rule 8). No impulse at all
+// would solve it, too; the solution is taken that is left of an approach as it vanishes, which such contacts cannot end while they slide.
+//
 // Energy lost through contact i is -L_i (u_i- + u_i+)/2 - T_i (s_i- + s_i+)/2; the sum is the loss of kinetic energy if no
 // row depends on time.
 #pragma once
@@ -24,6 +27,7 @@ namespace trammel::simulate {
 struct TouchingContact {
   int contact = 0;
   bool was_closed = false;
+  bool without_collision = false;            // its slip must end though nothing approaches
   double before = 0;                         // u- [m/s]
   double restitution = 0;                    // e
   double impulse = 0;                        // L [N s]
@@ -36,9 +40,9 @@ struct TouchingContact {
 class Impact {
  public:
   // At the system's current point. `before`, `was_closed` and `restitution` of each are filled in; the jump of v is
-  // returned in `dv`. `at_rest` [m/s]: slower is no slip. False: the problem has no solution.
-  [[nodiscard]] bool solve(model::AssembledSystem& system, double at_rest, std::vector<TouchingContact>& touching,
-                           Vec& dv);
+  // returned in `dv`. `at_rest` [m/s]: slower is no slip.
+  [[nodiscard]] complementarity::ContactSolution solve(model::AssembledSystem& system, double at_rest,
+                                                       std::vector<TouchingContact>& touching, Vec& dv);
 
  private:
   ContactProblem problem_;

@@ -86,7 +86,7 @@ class Approach {
     system_.set_modes(held);
     const Vec still = Vec::Zero(system_.sizes().nv), no_force = Vec::Zero(system_.sizes().nc);
     system_.move_to(t_, q, still);
-    const Vec wanted = Vec::Unit(system_.sizes().nc, system_.contact_row(contact_));
+    const Vec wanted = Vec::Unit(system_.sizes().nc, system_.row({contact_, 0}));
     Vec mu, gradient = still, change = no_force;
     system_.add_rows_force(1, wanted, gradient);
     system_.factorise(minimum_norm, still, no_force, Factors::projection);

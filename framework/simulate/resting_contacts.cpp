@@ -3,14 +3,15 @@
 namespace trammel::simulate {
 
 RestingContacts::RestingContacts(model::AssembledSystem& system)
-    : system_(system), modes_{std::vector<model::ContactMode>(system.model().contacts.size())} {
+    : system_(system),
+      modes_{.contacts = std::vector<model::ContactMode>(system.model().contacts.size()), .shared = {}} {
   system_.hold_still(true);
   system_.set_modes(modes_);
 }
 
 RestingContacts::~RestingContacts() {
   system_.hold_still(false);
-  system_.set_modes({std::vector<model::ContactMode>(modes_.contacts.size())});
+  system_.set_modes({.contacts = std::vector<model::ContactMode>(modes_.contacts.size()), .shared = {}});
 }
 
 void RestingContacts::close_what_may_push() {
@@ -33,7 +34,7 @@ bool RestingContacts::close_penetrating() {
 bool RestingContacts::release_pulling(const Vec& lambda) {
   bool changed = false;
   for (std::size_t i = 0; i < modes_.contacts.size(); ++i) {
-    if (!modes_.contacts[i].closed || system_.contact_row(int(i)) < 0 || released_ >= 100) continue;
+    if (!modes_.contacts[i].closed || system_.row({int(i), 0}) < 0 || released_ >= 100) continue;
     if (system_.normal_force(int(i), lambda) >= -1e-9 * lambda.lpNorm<Eigen::Infinity>()) continue;
     modes_.contacts[i].closed = false;
     changed = true, ++released_;

@@ -20,6 +20,37 @@ void archive_tangential(Archive& a, const std::string& name, model::ContactMode&
   numbers("rolled_from", mode.rolled_from);
 }
 
+void archive_directions(Archive& a, const std::string& name, std::vector<model::ContactDirection>& directions) {
+  Vec flat(Eigen::Index(2 * directions.size()));
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    flat.segment<2>(Eigen::Index(2 * i)) << directions[i].contact, directions[i].row;
+  a(name, flat);
+  directions.clear();
+  for (Eigen::Index i = 0; i + 1 < flat.size(); i += 2) directions.push_back({int(flat[i]), int(flat[i + 1])});
+}
+
+void archive_matrix(Archive& a, const std::string& name, Mat& matrix, std::size_t rows, std::size_t columns) {
+  Vec flat = Eigen::Map<const Vec>(matrix.data(), matrix.size());
+  a(name, flat);
+  if (flat.size() == Eigen::Index(rows * columns))
+    matrix = Eigen::Map<const Mat>(flat.data(), Eigen::Index(rows), Eigen::Index(columns));
+}
+
+void archive_shared(Archive& a, std::vector<model::SharedRows>& shared) {
+  int groups = int(shared.size());
+  a("shared_rows", groups);
+  shared.resize(std::size_t(std::max(0, groups)));
+  for (std::size_t g = 0; g < shared.size(); ++g) {
+    model::SharedRows& group = shared[g];
+    const std::string name = fmt::format("shared_rows_{}_", g);
+    archive_directions(a, name + "basis", group.basis);
+    archive_directions(a, name + "implied", group.implied);
+    archive_matrix(a, name + "K", group.K, group.implied.size(), group.basis.size());
+    archive_matrix(a, name + "share", group.share, group.basis.size() + group.implied.size(), group.basis.size());
+    a(name + "sliding", group.sliding);
+  }
+}
+
 }  // namespace
 
 // Bodies first: those that are refined decide the sizes of all that follows.
@@ -60,8 +91,8 @@ void Simulator::archive_state(Archive& a) {
     modes.contacts[i].friction = model::ContactMode::Friction(friction);
     archive_tangential(a, name, modes.contacts[i]);
   }
-  const auto& current = system_.modes().contacts;
-  if (!std::equal(current.begin(), current.end(), modes.contacts.begin())) system_.set_modes(modes);
+  archive_shared(a, modes.shared);
+  if (modes != system_.modes()) system_.set_modes(modes);
   scale_.archive(a);
   a("hold_until", hold_until_), a("step_limit", step_limit_), a("drift_before", drift_before_);
   a("records", records_), a("last_row", last_row_), a("window_start", window_start_),

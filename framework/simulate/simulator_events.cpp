@@ -18,13 +18,14 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 void Simulator::settle(const ContactChanges& changes) {
   const std::size_t before = events_.size();
-  ledger_.moving_rows(-modes_.settle(now_, changes, events_));
+  modes_.settle(now_, changes, events_);
+  ledger_.moving_rows(-modes_.lost_elsewhere());
+  for (const ContactModes::Loss& loss : modes_.losses()) ledger_.impact(loss.contact, loss.energy);
   for (std::size_t i = before; i < events_.size(); ++i) {
     ++statistics_.events;
     if (events_[i].kind == ContactEvent::Kind::close) ++statistics_.touches;
     if (events_[i].kind != ContactEvent::Kind::impact && events_[i].kind != ContactEvent::Kind::latch) continue;
     ++statistics_.impacts;
-    ledger_.impact(events_[i].contact, events_[i].energy_lost);
   }
   window_events_ += 1;
   hold_until_ = now_.t + settings_.contact_hold;

@@ -92,8 +92,9 @@ Overrides with(Overrides overrides, const Overrides& more) {
   return overrides;
 }
 
-TEST(ThreeContacts, StayClosedWhereOnlyTheirForcesOfMinimumNormWouldPull) {
-  // Weight 10 at 0 and a push of 90 at -0.5 have their resultant at -0.45: two feet carry it, minimum norm pulls at one.
+TEST(ThreeContacts, StayClosedAndPushWhereForcesOfMinimumNormWouldPull) {
+  // Weight 10 at 0 and a push of 90 at -0.5 have their resultant at -0.45: minimum norm pulls at one, two feet carry it. Of all
+  // that push, N = (l, m, r) with l + m + r = 100 and -0.5 l + 0.4 m + 0.5 r = -45, the least is m = 5/0.9, r = 0.
   const Finished run = run_text(
       bar,
       with(third_foot, {{"forces.push", R"({"type": "load", "on": "bar.left", "force": {"x": 0, "y": "=-90*t"}})"},
@@ -101,8 +102,9 @@ TEST(ThreeContacts, StayClosedWhereOnlyTheirForcesOfMinimumNormWouldPull) {
                                           "middle": "contacts.middle.force", "right": "contacts.right.force"})"}}));
   ASSERT_TRUE(run.done()) << run.report.reason;
   EXPECT_EQ(run.of_kind("contact_open").size(), 0u);
-  EXPECT_LT(std::min(run.end("middle"), run.end("right")), 0);
-  EXPECT_NEAR(run.end("left") + run.end("middle") + run.end("right"), 100, 1e-9);
+  EXPECT_NEAR(run.end("left"), 100 - 5 / 0.9, 1e-10);
+  EXPECT_NEAR(run.end("middle"), 5 / 0.9, 1e-10);
+  EXPECT_EQ(run.end("right"), 0);
   EXPECT_NEAR(run.end("y"), 0, 1e-13);
   EXPECT_NEAR(run.end("angle"), 0, 1e-13);
 }

@@ -1,4 +1,4 @@
-#include "numerics/lcp.hpp"
+#include "complementarity/lcp.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include <Eigen/LU>
 
-namespace trammel::numerics {
+namespace trammel::complementarity {
 namespace {
 
 Mat random_positive_definite(std::mt19937& random, int n) {
@@ -122,4 +122,4 @@ TEST(Lcp, GivesUpOnNumbersThatAreNotFinite) {
 }
 
 }  // namespace
-}  // namespace trammel::numerics
+}  // namespace trammel::complementarity

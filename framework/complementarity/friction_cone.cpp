@@ -1,11 +1,11 @@
-#include "numerics/friction_cone.hpp"
+#include "complementarity/friction_cone.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/QR>
 
-namespace trammel::numerics {
+namespace trammel::complementarity {
 namespace {
 
 using Tangent = ContactPoint::Tangent;
@@ -32,27 +32,6 @@ class Cones {
       evaluate(F);
     }
     return false;
-  }
-
-  // Of a solution: what its conditions say is exactly 0, and forces within their bounds.
-  void polish(Vec& F, Vec& a) const {
-    a = A_ * F + b_;
-    for (const ContactPoint& p : points_) {
-      double N = p.given;
-      if (p.normal >= 0) {
-        const bool presses = F[p.normal] > r_[p.normal] * a[p.normal];
-        N = F[p.normal] = presses ? F[p.normal] : 0;
-        a[p.normal] = presses ? 0 : std::max(0.0, a[p.normal]);
-      }
-      if (!p.held()) continue;
-      const auto [T, a_t, bound] =
-          std::tuple(F.segment(p.tangent, p.tangents), a.segment(p.tangent, p.tangents), p.coefficient * N);
-      const double pushed = (T - r_[p.tangent] * a_t).norm();
-      if (bound > 0 && pushed <= bound * (1 + 1e-12))
-        a.segment(p.tangent, p.tangents).setZero();
-      else
-        F.segment(p.tangent, p.tangents) *= T.norm() > 0 ? bound / T.norm() : 0;
-    }
   }
 
  private:
@@ -160,16 +139,8 @@ class Cones {
 
 }  // namespace
 
-bool solve_cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a) {
-  Cones cones(points, A, b);
-  const bool solved = A.allFinite() && b.allFinite() && cones.solve(F);
-  if (solved) {
-    cones.polish(F, a);
-  } else {
-    F.setZero();
-    a.setZero(b.size());
-  }
-  return solved;
+bool solve_cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F) {
+  return A.allFinite() && b.allFinite() && Cones(points, A, b).solve(F);
 }
 
-}  // namespace trammel::numerics
+}  // namespace trammel::complementarity

@@ -3,10 +3,11 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
-#include "numerics/contact_forces.hpp"
+#include "complementarity/contact_forces.hpp"
 
-namespace trammel::numerics {
+namespace trammel::complementarity {
 namespace {
 
 using Tangent = ContactPoint::Tangent;
@@ -57,7 +58,7 @@ TEST(FrictionCone, HoldsForRandomFeet) {
     const int n = 1 + i % 4;
     const Scene scene = random_feet(random, n, 3 * n + 2, 0.3);
     Vec F, a;
-    ASSERT_EQ(solve_contacts(scene.points, scene.A, scene.b, F, a), LcpOutcome::solved) << i;
+    ASSERT_EQ(solve_contacts(scene.points, scene.A, scene.b, F, a).outcome, LcpOutcome::solved) << i;
     EXPECT_LT(violation(scene, F, a), 1e-11) << i;
   }
 }
@@ -85,7 +86,7 @@ TEST(FrictionCone, HoldsForRedundantFeet) {
   for (int i = 0; i < 200; ++i) {
     const Scene scene = random_table(random);
     Vec F, a;
-    ASSERT_EQ(solve_contacts(scene.points, scene.A, scene.b, F, a), LcpOutcome::solved) << i;
+    ASSERT_EQ(solve_contacts(scene.points, scene.A, scene.b, F, a).outcome, LcpOutcome::solved) << i;
     EXPECT_LT(violation(scene, F, a), 1e-9) << i;
   }
 }
@@ -108,7 +109,7 @@ TEST(FrictionCone, HoldsUnderGivenForcesWhateverTheCoefficient) {
                               .coefficient = uniform(random),
                               .given = uniform(random)});
     Vec F, a;
-    ASSERT_EQ(solve_contacts(scene.points, scene.A, scene.b, F, a), LcpOutcome::solved) << i;
+    ASSERT_EQ(solve_contacts(scene.points, scene.A, scene.b, F, a).outcome, LcpOutcome::solved) << i;
     EXPECT_LT(violation(scene, F, a), 1e-9) << i;
   }
 }
@@ -120,8 +121,8 @@ TEST(FrictionCone, PushedAlongOneTangentIsTheCaseOfThePlane) {
       {.normal = 0, .tangent = 1, .tangents = 2, .kind = Tangent::resting, .coefficient = 0.5}};
   const std::vector<ContactPoint> plane{{.normal = 0, .tangent = 1, .kind = Tangent::resting, .coefficient = 0.5}};
   Vec F, a, F_plane, a_plane;
-  ASSERT_EQ(solve_contacts(cone, A, b, F, a), LcpOutcome::solved);
-  ASSERT_EQ(solve_contacts(plane, A.topLeftCorner(2, 2), b.head(2), F_plane, a_plane), LcpOutcome::solved);
+  ASSERT_EQ(solve_contacts(cone, A, b, F, a).outcome, LcpOutcome::solved);
+  ASSERT_EQ(solve_contacts(plane, A.topLeftCorner(2, 2), b.head(2), F_plane, a_plane).outcome, LcpOutcome::solved);
   EXPECT_LT((F.head(2) - F_plane).norm() + std::abs(F[2]), 1e-14);
   EXPECT_LT((a.head(2) - a_plane).norm() + std::abs(a[2]), 1e-14);
 }
@@ -134,7 +135,7 @@ TEST(FrictionCone, IsRound) {
   for (double angle = 0; angle < 6.3; angle += 0.1) {
     const Vector2d e(std::cos(angle), std::sin(angle));
     Vec F, a;
-    ASSERT_EQ(solve_contacts(point, A, (Vec(3) << -10, 9 * e).finished(), F, a), LcpOutcome::solved);
+    ASSERT_EQ(solve_contacts(point, A, (Vec(3) << -10, 9 * e).finished(), F, a).outcome, LcpOutcome::solved);
     EXPECT_LT((F.tail(2) + 2.5 * e).norm(), 1e-12);  // it ends at 1e-14 of the forces, which A makes 10 times as much
     EXPECT_LT((a.tail(2) - 1.5 * e).norm(), 1e-12);
   }
@@ -145,10 +146,10 @@ TEST(FrictionCone, AForceExactlyOnItsBoundLeavesNoAcceleration) {
   const std::vector<ContactPoint> point{
       {.normal = 0, .tangent = 1, .tangents = 2, .kind = Tangent::resting, .coefficient = 0.5}};
   Vec F, a;
-  ASSERT_EQ(solve_contacts(point, A, (Vec(3) << -10, 4.5, 6).finished(), F, a), LcpOutcome::solved);
+  ASSERT_EQ(solve_contacts(point, A, (Vec(3) << -10, 4.5, 6).finished(), F, a).outcome, LcpOutcome::solved);
   EXPECT_LT((F.tail(2) - Vector2d(-1.5, -2)).norm(), 1e-14);
   EXPECT_LT(a.tail(2).norm(), 1e-14);
 }
 
 }  // namespace
-}  // namespace trammel::numerics
+}  // namespace trammel::complementarity

@@ -1,5 +1,5 @@
 // Friction as a complementarity problem: the instances of the reference, and what its degenerate cases end in.
-#include "numerics/contact_forces.hpp"
+#include "complementarity/contact_forces.hpp"
 
 #include <fstream>
 #include <random>
@@ -8,7 +8,7 @@
 #include <Eigen/LU>
 #include <nlohmann/json.hpp>
 
-namespace trammel::numerics {
+namespace trammel::complementarity {
 namespace {
 
 using nlohmann::json;
@@ -30,7 +30,7 @@ Answer solve(const Feet& feet) {
   for (int i = 0; i < feet.b.size(); ++i)
     points.push_back({.tangent = i, .kind = Tangent::resting, .coefficient = 1, .given = feet.cap[i]});
   Answer answer;
-  answer.outcome = solve_contacts(points, feet.A, feet.b, answer.F, answer.a);
+  answer.outcome = solve_contacts(points, feet.A, feet.b, answer.F, answer.a).outcome;
   return answer;
 }
 
@@ -100,11 +100,11 @@ TEST(ContactForces, OfABlockPushedOnAFloorHaveItsWeightAndItsBound) {
   const Mat A = Mat::Identity(2, 2) / 2;
   Vec F, a;
   std::vector<ContactPoint> foot{{.normal = 0, .tangent = 1, .kind = Tangent::resting, .coefficient = 0.5}};
-  ASSERT_EQ(solve_contacts(foot, A, Vec{{-10, 4.5}}, F, a), LcpOutcome::solved);
+  ASSERT_EQ(solve_contacts(foot, A, Vec{{-10, 4.5}}, F, a).outcome, LcpOutcome::solved);
   EXPECT_NEAR(F[0], 20, 1e-14);
   EXPECT_NEAR(F[1], -9, 1e-14);
   foot[0].coefficient = 0.4;  // 8 do not hold 9
-  ASSERT_EQ(solve_contacts(foot, A, Vec{{-10, 4.5}}, F, a), LcpOutcome::solved);
+  ASSERT_EQ(solve_contacts(foot, A, Vec{{-10, 4.5}}, F, a).outcome, LcpOutcome::solved);
   EXPECT_NEAR(F[1], -8, 1e-14);
   EXPECT_NEAR(a[1], 0.5, 1e-14);
 }
@@ -116,11 +116,11 @@ TEST(ContactForces, OfPainlevesRodWithTooMuchFrictionHaveNoSolution) {
   EXPECT_NEAR(A(0, 0) + mu * A(0, 1), -0.8, 1e-14);
   Vec F, a;
   const std::vector<ContactPoint> tip{{.normal = 0, .tangent = 1, .kind = Tangent::sliding, .ratio = {mu, 0}}};
-  EXPECT_EQ(solve_contacts(tip, A, Vec{{-9.81, 0}}, F, a), LcpOutcome::no_solution);
+  EXPECT_EQ(solve_contacts(tip, A, Vec{{-9.81, 0}}, F, a).outcome, LcpOutcome::no_solution);
   const std::vector<ContactPoint> less{{.normal = 0, .tangent = 1, .kind = Tangent::sliding, .ratio = {1.3, 0}}};
-  ASSERT_EQ(solve_contacts(less, A, Vec{{-9.81, 0}}, F, a), LcpOutcome::solved);
+  ASSERT_EQ(solve_contacts(less, A, Vec{{-9.81, 0}}, F, a).outcome, LcpOutcome::solved);
   EXPECT_NEAR(F[0], 245.25, 1e-10);
 }
 
 }  // namespace
-}  // namespace trammel::numerics
+}  // namespace trammel::complementarity

@@ -6,16 +6,16 @@
 // project: onto the disk of radius c max(0, N - r a_n), or c N where N is given; r > 0 any numbers, here one over the
 // diagonal of A. Phi is piecewise smooth; Newton's method with the derivative of the piece it is in (Alart, Curnier, Comput.
 // Methods Appl. Mech. Eng. 92, 353 (1991)), shortened where it does not make |Phi| smaller, ends at round-off in a few steps
-// from the pyramid's solution. The step is the least one where A is singular (redundant feet). Where it stalls, sweeps over
+// from the pyramid's solution. The step is the least one where A is singular (dependent feet). Where it stalls, sweeps over
 // the contacts, each projected for itself with the others' forces as they are (Gauss, Seidel), go on: with given normal
 // forces these converge from anywhere, to the least of T.A T/2 + b.T on the disks.
 #pragma once
 
-#include "numerics/contact_forces.hpp"
+#include "complementarity/contact_point.hpp"
 
-namespace trammel::numerics {
+namespace trammel::complementarity {
 
-// F: where to begin, and the solution. Fills a, exactly 0 where the conditions say so. False, both 0: none was found.
-[[nodiscard]] bool solve_cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a);
+// F: where to begin, and the solution. False: it found none.
+[[nodiscard]] bool solve_cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F);
 
-}  // namespace trammel::numerics
+}  // namespace trammel::complementarity

@@ -1,0 +1,154 @@
+#include "complementarity/contact_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "complementarity/exact_modes.hpp"
+#include "complementarity/friction_cone.hpp"
+#include "complementarity/mode_search.hpp"
+#include "complementarity/polyhedral_cone.hpp"
+#include "complementarity/pressing_forces.hpp"
+
+namespace trammel::complementarity {
+namespace {
+
+// Of the largest entry of A: what a contact yields per unit of its force where several solutions are to be told apart.
+constexpr double compliance = 1e-10;
+// A violation that is round-off: nothing better is looked for.
+constexpr double round_off = 1e-13;
+// Contacts whose modes are searched at most, and how many sets of modes.
+constexpr int few_contacts = 10, most_nodes = 200000;
+
+class Cascade {
+ public:
+  Cascade(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, double nothing)
+      : points_(points), A_(A), b_(b), nothing_(nothing) {
+    for (const ContactPoint& p : points_) {
+      friction_ = friction_ || p.held() || p.slides();
+      round_ = round_ || (p.held() && p.tangents == 2);
+    }
+  }
+
+  ContactSolution solve(Vec& F) {
+    if (!friction_) return without_friction(F);
+    for (const double yields : {compliance, 0.0})
+      if (by_pivoting(yields)) return found(F);
+    if (round_ && (try_cones(Vec::Zero(b_.size())) || try_cones(best_.size() ? best_ : Vec(Vec::Zero(b_.size())))))
+      return found(F);
+    if (least_ <= largest_violation) return found(F);
+    if (!round_ && points_.size() <= few_contacts) {
+      const LcpOutcome outcome = search_modes(
+          points_, A_, b_, most_nodes, [this](const Vec& near) { return accept(near), least_ <= largest_violation; });
+      if (outcome == LcpOutcome::solved) return found(F);
+      if (outcome == LcpOutcome::no_solution) return {LcpOutcome::no_solution, least_};
+    }
+    return {LcpOutcome::gave_up, least_};
+  }
+
+ private:
+  ContactSolution without_friction(Vec& F) {
+    Vec pressing = Vec::Zero(b_.size());
+    std::vector<Eigen::Index> normals;
+    for (const ContactPoint& p : points_)
+      if (p.normal >= 0) normals.push_back(p.normal);
+    Vec N;
+    const LcpOutcome outcome = pressing_forces(A_(normals, normals), b_(normals), N);
+    pressing(normals) = N;
+    if (outcome == LcpOutcome::no_solution)
+      return {outcome, violation(points_, A_, b_, Vec::Zero(b_.size()), nothing_)};
+    accept(pressing);
+    if (least_ <= largest_violation) return found(F);
+    return {LcpOutcome::gave_up, least_};
+  }
+
+  bool by_pivoting(double yields) {
+    const PolyhedralCone cone(points_, A_, b_, yields);
+    Vec z, w;
+    if (solve_lcp(cone.M(), cone.q(), z, w) != LcpOutcome::solved) return false;
+    return round_ ? try_cones(cone.forces(z)) : accept(cone.forces(z));
+  }
+
+  bool try_cones(Vec start) {
+    const bool found = solve_cones(points_, A_, b_, start);
+    return accept(start) && found;
+  }
+
+  // Keeps it if it is the best so far, once it is exact or else as it is. True: no better one is needed.
+  bool accept(const Vec& nearby) {
+    for (const double off : {1e-12, 1e-8}) {
+      Vec exact = nearby;
+      if (make_exact(points_, A_, b_, off, exact)) keep(exact);
+      if (least_ <= round_off) return true;
+    }
+    keep(nearby);
+    return least_ <= round_off;
+  }
+
+  void keep(const Vec& F) {
+    const double violated = violation(points_, A_, b_, F, nothing_);
+    if (!(violated < least_)) return;
+    least_ = violated;
+    best_ = F;
+  }
+
+  ContactSolution found(Vec& F) const {
+    F = best_;
+    return {LcpOutcome::solved, least_};
+  }
+
+  const std::vector<ContactPoint>& points_;
+  const Mat& A_;
+  const Vec& b_;
+  double nothing_;
+  bool friction_ = false, round_ = false;  // round: cones in space
+  Vec best_;
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
+// What the conditions say is 0.
+void clear_round_off(const std::vector<ContactPoint>& points, Vec& F, Vec& a) {
+  const double little = 1e-13 * F.lpNorm<Eigen::Infinity>();
+  for (const ContactPoint& p : points) {
+    double N = p.given;
+    if (p.normal >= 0) {
+      const bool presses = F[p.normal] > little;
+      N = F[p.normal] = presses ? F[p.normal] : 0;
+      a[p.normal] = presses ? 0 : std::max(0.0, a[p.normal]);
+    }
+    if (p.tangent < 0 || p.kind == ContactPoint::Tangent::none) continue;
+    auto T = F.segment(p.tangent, p.tangents);
+    auto a_t = a.segment(p.tangent, p.tangents);
+    if (p.kind == ContactPoint::Tangent::sliding) {
+      T = N * p.ratio.head(p.tangents);
+      continue;
+    }
+    const double bound = p.held() ? p.coefficient * N : 0;
+    if (bound == 0) {
+      T.setZero();
+      continue;
+    }
+    // On its bound and against a_t it slides; else it is held, and a_t is round-off.
+    const double size = T.norm();
+    const bool slides = size >= bound * (1 - 1e-9) && -T.dot(a_t) >= (1 - 1e-6) * size * a_t.norm() && a_t.norm() > 0;
+    if (!slides) a_t.setZero();
+    if (size > bound || slides) T *= bound / size;
+  }
+}
+
+}  // namespace
+
+ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
+                               double nothing) {
+  F.setZero(b.size());
+  a.setZero(b.size());
+  if (b.size() == 0) return {LcpOutcome::solved, 0};
+  if (!A.allFinite() || !b.allFinite()) return {LcpOutcome::gave_up, std::numeric_limits<double>::infinity()};
+  const ContactSolution solution = Cascade(points, A, b, nothing).solve(F);
+  if (solution.outcome != LcpOutcome::solved) return F.setZero(), solution;
+  a = A * F + b;
+  clear_round_off(points, F, a);
+  return solution;
+}
+
+}  // namespace trammel::complementarity

@@ -1,0 +1,24 @@
+// The exact forces in the modes that a nearby solution shows, and of dependent contacts the ones that are documented:
+//
+//     rows R: normals that are closed, tangents that stick:   a_R = A_R F + b_R = 0,   T = p N where a contact slides
+//
+// Where rows are independent these equations have one solution; of dependent ones it is that of carrying_rows.hpp.
+//
+// A mode that its own forces contradict is changed, one at a time: a pull opens a contact, what approaches closes, a force beyond its
+// cone slides, one that would drive the slip sticks. The nearby solution may be off by any small error.
+#pragma once
+
+#include <vector>
+
+#include "complementarity/carrying_rows.hpp"
+
+namespace trammel::complementarity {
+
+// Of a solution: what each contact does; smaller than `nothing` is no acceleration.
+std::vector<ContactRole> roles_of(const std::vector<ContactPoint>& points, const Vec& F, const Vec& a, double nothing);
+
+// Changes F, whose accelerations are off by no more than `nearby` of them, to the exact solution. False: it found none.
+[[nodiscard]] bool make_exact(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, double nearby,
+                              Vec& F);
+
+}  // namespace trammel::complementarity

@@ -1,0 +1,33 @@
+// Which rows of closed contacts are independent, and how the others follow from them.
+//
+//     g_implied = K g_basis + a combination of the joints' rows
+//
+// from the Delassus matrix A = G P G^T, where P holds the joints: a row follows from others where the pivot that is left of it in
+// a Cholesky factorisation, the square of the sine of its angle to them, is round-off. Forces along rows act alike where their
+// resultants on the basis are the same,
+//
+//     lambda = E F,   E = [1 K^T]
+//
+// A contact is statically indeterminate where one of its rows takes part in a self-stress, E F = 0.
+#pragma once
+
+#include <vector>
+
+#include <trammel/types.hpp>
+
+namespace trammel::complementarity {
+
+struct RowBasis {
+  std::vector<Eigen::Index> basis, implied;  // indices into A
+  Mat K;                                     // implied x basis; entries that are round-off are 0
+
+  Mat resultants() const;  // E: basis x (basis, then implied)
+};
+
+// `rows`: indices into A. Those of `first` enter the basis before all others do.
+RowBasis find_basis(const Mat& A, const std::vector<Eigen::Index>& first, const std::vector<Eigen::Index>& others = {});
+
+// Whether a row follows from these.
+bool follows(const Mat& A, const std::vector<Eigen::Index>& rows, Eigen::Index row);
+
+}  // namespace trammel::complementarity

@@ -1,0 +1,19 @@
+// How much further contacts could be unloaded before they can no longer carry what they carry: the cone program
+//
+//     maximise s,     E F = lambda,     |T| <= c (N - s)  at each contact
+//
+// Negative where no admissible forces have these resultants; continuous in them; no more than `most` of them where contacts press
+// against each other, which bounds nothing. By a primal-dual interior point method with Nesterov
+// and Todd's scaling and Mehrotra's correction (Vandenberghe, The CVXOPT linear and quadratic cone program solvers, 2010).
+#pragma once
+
+#include "complementarity/admissible_forces.hpp"
+
+namespace trammel::complementarity {
+
+constexpr double most = 10;
+
+// [N], right to 1e-11 of the forces.
+double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda);
+
+}  // namespace trammel::complementarity
