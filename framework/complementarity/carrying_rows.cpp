@@ -101,8 +101,9 @@ std::vector<SharingGroup> sharing_groups(const std::vector<ContactPoint>& points
     group.K = K(of_implied, of_basis);
     group.share = carrying.share(of_both, of_basis);
     for (std::size_t i = 0; i < points.size(); ++i)
-      group.sliding = group.sliding || (ties.root(i) == root && carrying.indeterminate[i] && points[i].normal >= 0 &&
-                                        roles[i].tangent == Tangent::slides);
+      if (ties.root(i) == root && carrying.indeterminate[i] && points[i].normal >= 0 &&
+          roles[i].tangent == Tangent::slides)
+        group.sliding.push_back(i);
     groups.push_back(std::move(group));
   }
   return groups;

@@ -35,7 +35,7 @@ CarryingRows carrying_rows(const std::vector<ContactPoint>& points, const Mat& A
 struct SharingGroup {
   std::vector<Eigen::Index> basis, implied;
   Mat K, share;
-  bool sliding = false;
+  std::vector<std::size_t> sliding;  // contacts among them that slide
 };
 std::vector<SharingGroup> sharing_groups(const std::vector<ContactPoint>& points, const std::vector<ContactRole>& roles,
                                          const CarryingRows& carrying);

@@ -96,7 +96,7 @@ class AssembledSystem final : public System {
   // How contacts share rows at the current modes.
   struct Sharing {
     bool shared = false;        // its normal, or a tangent that sticks
-    bool with_sliding = false;  // with a contact that slides
+    bool as_spring = false;     // it slides or is idle: its share decides the motion
     bool idle = false;          // closed, but it carries nothing while those it shares with carry as they do
     int group = -1;             // in modes().shared
   };

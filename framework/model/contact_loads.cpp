@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/QR>
+
 namespace trammel::model {
 namespace {
 
@@ -14,24 +16,46 @@ constexpr double round_off = 1e-12;  // of the forces
 void ContactLoads::lay_out(const Modes& modes) {
   modes_ = &modes;
   places_.assign(modes.contacts.size(), {});
-  groups_.clear();
-  for (std::size_t g = 0; g < modes.shared.size(); ++g) {
-    const SharedRows& shared = modes.shared[g];
-    Group& group = groups_.emplace_back();
-    const auto add = [&](const ContactDirection& d, std::size_t index) {
-      Place& place = places_[std::size_t(d.contact)][std::size_t(d.row)];
-      place.group = int(g), place.index = int(index);
-      auto member = std::find_if(group.members.begin(), group.members.end(),
-                                 [&](const Member& m) { return m.contact == d.contact; });
-      if (member == group.members.end()) {
-        member = group.members.emplace(member);
-        member->contact = d.contact;
-      }
-      member->columns[std::size_t(d.row)] = Eigen::Index(index);
-    };
-    for (std::size_t k = 0; k < shared.basis.size(); ++k) add(shared.basis[k], k);
-    for (std::size_t k = 0; k < shared.implied.size(); ++k) add(shared.implied[k], shared.basis.size() + k);
+  groups_.assign(modes.shared.size(), {});
+  for (std::size_t g = 0; g < groups_.size(); ++g) lay_out_group(int(g));
+}
+
+void ContactLoads::lay_out_group(int group) {
+  const SharedRows& rows = modes_->shared[std::size_t(group)];
+  std::vector<ContactDirection> all = rows.basis;
+  all.insert(all.end(), rows.implied.begin(), rows.implied.end());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Place& place = places_[std::size_t(all[k].contact)][std::size_t(all[k].row)];
+    place.group = group, place.index = int(k);
   }
+  Group& g = groups_[std::size_t(group)];
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const int contact = all[k].contact;
+    if (shares_as_spring(contact, group)) continue;
+    const auto of_contact = [contact](const Member& m) { return m.contact == contact; };
+    auto member = std::find_if(g.members.begin(), g.members.end(), of_contact);
+    if (member == g.members.end()) {
+      member = g.members.emplace(member);
+      member->contact = contact;
+    }
+    member->columns[std::size_t(all[k].row)] = Eigen::Index(g.directions.size());
+    g.directions.push_back(Eigen::Index(k));
+  }
+  if (g.directions.empty()) return;
+  const Eigen::Index n = basis_size(group);
+  Mat E(n, n + rows.K.rows());
+  E << Mat::Identity(n, n), rows.K.transpose();
+  const Mat of_members = E(Eigen::all, g.directions);
+  const Eigen::ColPivHouseholderQR<Mat> qr(of_members);
+  const Mat range = qr.householderQ() * Mat::Identity(n, qr.rank());
+  g.E = range.transpose() * of_members;
+}
+
+bool ContactLoads::shares_as_spring(int contact, int group) const {
+  const std::vector<int>& sliding = modes_->shared[std::size_t(group)].sliding;
+  if (std::find(sliding.begin(), sliding.end(), contact) != sliding.end()) return true;
+  const Place& normal = place({contact, 0});
+  return normal.group == group && shares(normal).isZero(0);
 }
 
 double ContactLoads::spring(ContactDirection d, const Vec& lambda) const {
@@ -44,10 +68,9 @@ double ContactLoads::spring(ContactDirection d, const Vec& lambda) const {
 }
 
 void ContactLoads::begin(int group, const Vec& lambda) {
-  Group& g = groups_[std::size_t(group)];
-  g.resultants.resize(basis_size(group));
-  for (int k = 0; k < int(g.resultants.size()); ++k) g.resultants[k] = -lambda(row_of_basis(group, k));
-  g.forces = modes_->shared[std::size_t(group)].share * g.resultants;
+  Vec resultants(basis_size(group));
+  for (int k = 0; k < int(resultants.size()); ++k) resultants[k] = -lambda(row_of_basis(group, k));
+  groups_[std::size_t(group)].forces = modes_->shared[std::size_t(group)].share * resultants;
 }
 
 double ContactLoads::scale(const Group& group) const {
@@ -59,13 +82,14 @@ double ContactLoads::scale(const Group& group) const {
 
 // The least distance of a contact's force from pulling and from the side of its cone.
 double ContactLoads::slack(const Group& group) const {
+  const Vec forces = group.shared();
   double least = std::numeric_limits<double>::infinity();
   for (const Member& m : group.members) {
-    const double N = m.columns[0] >= 0 ? group.forces[m.columns[0]] : m.bounds.given;
+    const double N = m.columns[0] >= 0 ? forces[m.columns[0]] : m.bounds.given;
     if (m.columns[0] >= 0) least = std::min(least, N);
     double T = 0;
     for (const Eigen::Index k : {m.columns[1], m.columns[2]})
-      if (k >= 0) T = std::hypot(T, group.forces[k]);
+      if (k >= 0) T = std::hypot(T, forces[k]);
     if (m.columns[1] >= 0 || m.columns[2] >= 0) least = std::min(least, m.bounds.coefficient * N - T);
   }
   return least;
@@ -85,25 +109,17 @@ std::vector<complementarity::SharingContact> ContactLoads::sharing(const Group& 
   return contacts;
 }
 
-Mat ContactLoads::resultants(int group) const {
-  const SharedRows& shared = modes_->shared[std::size_t(group)];
-  const Eigen::Index n = basis_size(group);
-  Mat E(n, n + shared.K.rows());
-  E << Mat::Identity(n, n), shared.K.transpose();
-  return E;
-}
-
-void ContactLoads::share_admissibly(int group) {
-  Group& g = groups_[std::size_t(group)];
-  const bool as_springs = modes_->shared[std::size_t(group)].sliding || slack(g) >= -round_off * scale(g);
-  if (as_springs) return;
+void ContactLoads::share_admissibly(Group& group) {
+  if (slack(group) >= -round_off * scale(group)) return;
   // Those that miss the resultants least, where none have them: until the event that follows from it.
-  complementarity::admissible_forces(sharing(g), resultants(group), g.resultants, g.forces);
+  Vec shared;
+  complementarity::admissible_forces(sharing(group), group.E, group.E * group.shared(), shared);
+  group.forces(group.directions) = shared;
 }
 
 double ContactLoads::spare_load(int group) const {
   const Group& g = groups_[std::size_t(group)];
-  return complementarity::spare_load(sharing(g), resultants(group), g.resultants);
+  return complementarity::spare_load(sharing(g), g.E, g.E * g.shared());
 }
 
 }  // namespace trammel::model

@@ -3,8 +3,8 @@
 //     F = -lambda of its row;   of shared rows F = share (-lambda of the basis)
 //
 // Where that pulls or leaves a friction cone, dependent contacts carry the same resultants by other forces
-// (complementarity/admissible_forces.hpp), as long as there are some. Not where one of them slides: friction, and with it the motion,
-// follows from its share, and an event ends it (simulate/event_location.hpp).
+// (complementarity/admissible_forces.hpp), as long as there are some. Those that slide do not: their friction, and with it the motion,
+// follows from their share as springs. Nor do those that are idle. The others share what these leave of the resultants.
 #pragma once
 
 #include <array>
@@ -50,29 +50,34 @@ class ContactLoads {
   void solve(int group, const Vec& lambda, BoundsOf&& bounds) {
     begin(group, lambda);
     for (Member& member : groups_[std::size_t(group)].members) member.bounds = bounds(member.contact);
-    share_admissibly(group);
+    share_admissibly(groups_[std::size_t(group)]);
   }
   double load(const Place& place) const { return groups_[std::size_t(place.group)].forces[place.index]; }
-  // [N] how much further each of them could be unloaded, after `solve`: complementarity/spare_load.hpp.
+  // It slides, or it is idle.
+  bool shares_as_spring(int contact, int group) const;
+  // [N] how much further each of the others could be unloaded, after `solve`: complementarity/spare_load.hpp.
   double spare_load(int group) const;
   double largest_load(int group) const { return scale(groups_[std::size_t(group)]); }
 
  private:
   struct Member {
     int contact = 0;
-    std::array<Eigen::Index, 3> columns = {-1, -1, -1};  // in (basis, implied) of its directions
+    std::array<Eigen::Index, 3> columns = {-1, -1, -1};  // in Group::directions, of its directions
     Bounds bounds;
   };
   struct Group {
-    std::vector<Member> members;
-    Vec resultants, forces;
+    std::vector<Member> members;           // those that do not share as springs
+    std::vector<Eigen::Index> directions;  // theirs, in (basis, implied)
+    Mat E;                                 // their resultants, as many as are independent, by their forces
+    Vec forces;                            // of all [N]
+    Vec shared() const { return forces(directions); }
   };
   Eigen::Index basis_size(int group) const { return Eigen::Index(modes_->shared[std::size_t(group)].basis.size()); }
+  void lay_out_group(int group);
   void begin(int group, const Vec& lambda);
-  void share_admissibly(int group);
+  void share_admissibly(Group& group);
   double slack(const Group& group) const;
   std::vector<complementarity::SharingContact> sharing(const Group& group) const;
-  Mat resultants(int group) const;  // E
   double scale(const Group& group) const;
 
   const Modes* modes_ = nullptr;

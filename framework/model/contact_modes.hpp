@@ -39,7 +39,8 @@ struct SharedRows {
   std::vector<ContactDirection> basis, implied;
   Eigen::MatrixXd K;      // implied x basis: g_implied = K g_basis + a combination of the joints' rows
   Eigen::MatrixXd share;  // (basis, implied) x basis: their forces of least norm by the resultants; 0 of idle contacts
-  bool sliding = false;   // a contact that slides is among them: its friction follows from its share
+  std::vector<int>
+      sliding;  // contacts among them that slide: their friction, and so the motion, follows from their share
   bool operator==(const SharedRows&) const = default;
 };
 

@@ -67,7 +67,7 @@ AssembledSystem::Sharing AssembledSystem::sharing(int contact) const {
     if (place.group < 0) continue;
     sharing.shared = true;
     sharing.group = place.group;
-    sharing.with_sliding = w.modes.shared[std::size_t(place.group)].sliding;
+    sharing.as_spring = w.loads.shares_as_spring(contact, place.group);
     sharing.idle = sharing.idle || (k == 0 && w.loads.shares(place).isZero(0));
   }
   return sharing;
@@ -95,7 +95,7 @@ double AssembledSystem::spring_force(int contact, const Vec& lambda) {
 std::vector<int> AssembledSystem::Work::contacts_of_row(ContactDirection d) const {
   std::vector<int> contacts = {d.contact};
   const int group = loads.place(d).group;
-  if (group < 0 || !modes.shared[std::size_t(group)].sliding) return contacts;
+  if (group < 0 || modes.shared[std::size_t(group)].sliding.empty()) return contacts;
   for (const auto* directions : {&modes.shared[std::size_t(group)].basis, &modes.shared[std::size_t(group)].implied})
     for (const ContactDirection& other : *directions)
       if (other.contact != d.contact && other.row == 0) contacts.push_back(other.contact);

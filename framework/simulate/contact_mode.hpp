@@ -6,8 +6,8 @@
 //     ones whose flight 2 u+/|gap acceleration| would last fewer than chatter_steps of them; with controlled ones that would
 //     rise less than chatter_steps times the error they may make in a position. The impact is solved again with e = 0 for it.
 //     Each repetition lowers the number of contacts with e > 0, so this ends. Contacts that open because others struck, and
-//     too little to follow (a block that rocks to rest: impacts without end in a finite time), keep no rate: all that touch
-//     rest.
+//     too little to follow (a block that rocks to rest, discs of a pile that knock against each other: impacts without end in
+//     a finite time), keep no rate: v is projected onto the motions in which they and all others without a rate have none.
 //  3. Contacts that then touch without rate are candidates. They close where the forces of the complementarity problem
 //         A = A_free + D N,   0 <= N complementary to A >= 0      (A gap accelerations, N normal forces)
 //     push; where the gap accelerates apart they stay open ("lift").
@@ -103,9 +103,11 @@ class ContactModes {
   void forces_before(const ContactChanges& changes);
   void find_touching(const ContactChanges& changes);
   void strike(State& state, const ContactChanges& changes);
-  void accelerate_after(const State& state, const ContactChanges& changes);
-  bool capture_chatter(const State& state, const ContactChanges& changes);
-  void end_rocking(State& state, const ContactChanges& changes);
+  std::vector<bool> falling_back(const State& state, const ContactChanges& changes);
+  double fastest_gap_acceleration();
+  bool capture_chatter(const std::vector<bool>& falls);
+  void end_rocking(State& state, const std::vector<bool>& falls);
+  void take_rates(State& state, const std::vector<bool>& rests);
   bool cannot_follow(double separation, double acceleration) const;
   void lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
   void find_candidates(const ContactChanges& changes);

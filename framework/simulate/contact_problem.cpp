@@ -127,9 +127,19 @@ std::vector<model::SharedRows> ContactProblem::shared_rows(const model::Modes& m
     return all;
   };
   std::vector<model::SharedRows> groups;
-  for (const complementarity::SharingGroup& group : complementarity::sharing_groups(points_, role, carrying))
-    groups.push_back({directions(group.basis), directions(group.implied), group.K, group.share, group.sliding});
+  for (const complementarity::SharingGroup& group : complementarity::sharing_groups(points_, role, carrying)) {
+    groups.push_back({directions(group.basis), directions(group.implied), group.K, group.share, {}});
+    for (const std::size_t i : group.sliding) groups.back().sliding.push_back(who[i].contact);
+  }
   return groups;
+}
+
+double ContactProblem::acceleration_without(std::size_t participant) const {
+  const complementarity::ContactPoint& p = points_[participant];
+  double own = delassus_(p.normal, p.normal) * F_[p.normal];
+  if (p.tangent >= 0)
+    own += delassus_.row(p.normal).segment(p.tangent, p.tangents).dot(F_.segment(p.tangent, p.tangents));
+  return a_[p.normal] - own;
 }
 
 void ContactProblem::jump(Vec& dv) const {

@@ -41,6 +41,8 @@ class ContactProblem {
   // Of each participant: what its normal and its tangent do without the forces to be found, in `a_n` and `a_t`.
   // `nothing`: smaller is 0.
   [[nodiscard]] complementarity::ContactSolution solve(double nothing);
+  // Of the gap, of a unilateral participant, without its own force [m/s^2]; after `solve`.
+  double acceleration_without(std::size_t participant) const;
   // Change of v by the forces found as impulses.
   void jump(Vec& dv) const;
   // The least change of v that ends the slip `a_t` of all tangents at rest and leaves the unilateral normals alone.

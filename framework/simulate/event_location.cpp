@@ -38,18 +38,23 @@ void EventLocation::watch(int contact) {
   }
   if (entry.restitution && entry.restitution->treatment().release == Restitution::Release::never) return;
   const model::AssembledSystem::Sharing sharing = system_.sharing(contact);
-  const int group = sharing.with_sliding ? -1 : sharing.group;
-  if (entry.restitution)
-    watches_.push_back({.contact = contact, .kind = sharing.idle ? Kind::idle : Kind::press, .group = group});
-  else
+  const bool as_one = sharing.group >= 0 && !sharing.as_spring;
+  if (as_one && !watched_group(sharing.group))
+    watches_.push_back({.contact = contact, .kind = Kind::unload, .group = sharing.group});
+  if (entry.force)
     watches_.push_back({.contact = contact, .kind = Kind::leave, .noise = scale_.touching()});
+  else if (!as_one)
+    watches_.push_back({.contact = contact, .kind = sharing.idle ? Kind::idle : Kind::press});
   if (mode.friction == Friction::slide)
     watches_.push_back({.contact = contact, .kind = Kind::slide, .noise = scale_.at_rest()});
-  else if (mode.friction == Friction::stick)
+  else if (mode.friction == Friction::stick && !as_one)
     watches_.push_back({.contact = contact,
                         .kind = Kind::hold,
-                        .at_ends = entry.coulomb->decide() == SetValuedFriction::Decide::every_evaluation,
-                        .group = group});
+                        .at_ends = entry.coulomb->decide() == SetValuedFriction::Decide::every_evaluation});
+}
+
+bool EventLocation::watched_group(int group) const {
+  return std::any_of(watches_.begin(), watches_.end(), [group](const Watch& w) { return w.group == group; });
 }
 
 namespace {
@@ -72,7 +77,7 @@ void EventLocation::restart(const State& now) {
   system_.move_to(now.t, now.q, now.v);
   for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
   for (Watch& each : watches_)
-    if (each.group >= 0) each.little = little_force(each.group);
+    if (each.kind == Kind::unload) each.little = little_force(each.group);
   next_.resize(watches_.size()), probe_.resize(watches_.size());
   evaluate(now, now_);
   for (std::size_t w = 0; w < watches_.size(); ++w) watches_[w].steepest = std::abs(now_[w].slope);
@@ -80,8 +85,7 @@ void EventLocation::restart(const State& now) {
     wait_longer(before[w], now_[w], watches_[w]);
   // Sticking begins on its bound where the normal force begins at 0, and where mu = mu_0.
   for (int w = 0; w < int(watches_.size()); ++w)
-    if (watches_[w].kind == Kind::hold && watches_[w].group < 0 && !watches_[w].at_ends &&
-        now_[w].f <= 1e-9 * watches_[w].bound)
+    if (watches_[w].kind == Kind::hold && !watches_[w].at_ends && now_[w].f <= 1e-9 * watches_[w].bound)
       watches_[w].noise = modes_.friction_noise(watches_[w].contact);
 }
 
@@ -92,17 +96,10 @@ double EventLocation::longest_step(double swings) const {
       matter && watches() ? between_states_.longest_resolved() : std::numeric_limits<double>::infinity();
   double longest = std::numeric_limits<double>::infinity();
   for (std::size_t w = 0; w < watches_.size(); ++w) {
-    if (watches_[w].kind == Kind::hold) return std::min(swings, resolved);
+    if (watches_[w].kind == Kind::hold || watches_[w].kind == Kind::unload) return std::min(swings, resolved);
     if (watches_[w].kind == Kind::slide) longest = std::min(longest, now_[w].f / (4 * watches_[w].steepest));
   }
   return std::min(std::max(swings, longest), resolved);
-}
-
-// Asked for by all who share.
-double EventLocation::spare_load(int group, const Vec& lambda) {
-  std::optional<double>& known = spare_loads_[std::size_t(group)];
-  if (!known) known = system_.spare_load(group, lambda);
-  return *known;
 }
 
 double EventLocation::little_force(int group) {
@@ -133,9 +130,9 @@ void EventLocation::accept(double h, const State& next) {
 
 double EventLocation::force(Watch& watch, const Vec& lambda) {
   if (watch.kind == Kind::idle) return -system_.spring_force(watch.contact, lambda);
-  if (watch.group >= 0) {
+  if (watch.kind == Kind::unload) {
     watch.bound = system_.largest_load(watch.group, lambda);
-    return watch.little + spare_load(watch.group, lambda);
+    return watch.little + system_.spare_load(watch.group, lambda);
   }
   const double N = system_.normal_force(watch.contact, lambda);
   if (watch.kind == Kind::hold) watch.bound = system_.model().contacts[watch.contact].coulomb->static_coefficient() * N;
@@ -146,7 +143,6 @@ void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
   system_.move_to(state.t, state.q, state.v);
   values.resize(watches_.size());
   const Vec* lambda = nullptr;
-  forget_forces();
   for (int w = 0; w < int(watches_.size()); ++w) {
     Watch& watch = watches_[w];
     Value& value = values[w] = {};
@@ -215,22 +211,29 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
       return Found::event;
     }
     double h_event = h;
+    if (getenv("DBGE"))
+      for (Suspect& s : suspects_)
+        fprintf(
+            stderr,
+            "t %.12f suspect kind %d contact %s now %g next %g high %g f_high %g h %g noise %g little %g bound %g\n",
+            now.t, int(watches_[s.watch].kind), system_.model().contacts[watches_[s.watch].contact].name.c_str(),
+            now_[s.watch].f, next_[s.watch].f, s.high, s.f_high, h, watches_[s.watch].noise, watches_[s.watch].little,
     for (Suspect& suspect : suspects_) {
-      if (suspect.high > h_event) {  // only if it comes before the earliest so far
-        const Value& there = step_to(now, h_event, suspect.watch);
-        if (!happened(suspect.watch, there)) continue;
-        suspect.high = h_event, suspect.f_high = there.f;
-      }
-      const double located = locate(now, suspect);
-      if (first < 0 || located < h_event) first = suspect.watch;
-      h_event = std::min(h_event, located);
+          if (suspect.high > h_event) {  // only if it comes before the earliest so far
+            const Value& there = step_to(now, h_event, suspect.watch);
+            if (!happened(suspect.watch, there)) continue;
+            suspect.high = h_event, suspect.f_high = there.f;
+          }
+          const double located = locate(now, suspect);
+          if (first < 0 || located < h_event) first = suspect.watch;
+          h_event = std::min(h_event, located);
     }
     h_event = std::min(h, std::max(h_event, 4 * eps * std::max(std::abs(now.t), std::abs(now.t + h))));
     if (h_event < h) {
-      ++steps_tried_;
-      if (!trial_step(integrator_, system_, now, h_event, next)) return Found::step_refused;
-      evaluate(next, next_);
-      h = h_event;
+          ++steps_tried_;
+          if (!trial_step(integrator_, system_, now, h_event, next)) return Found::step_refused;
+          evaluate(next, next_);
+          h = h_event;
     }
   } catch (const StepRefused&) {
     return Found::step_refused;
@@ -261,6 +264,7 @@ void EventLocation::report(int w) {
       return add(changes_.toggled);
     case Kind::press:
     case Kind::idle:
+    case Kind::unload:
       return add(changes_.released);
     case Kind::hold:
       return add(changes_.yielded);

@@ -6,6 +6,7 @@
 //     press      closed contact (Restitution)    its normal force N; one that has locked needs no watch
 //     hold       sticking contact                mu_0 N - |T|, T the friction that holds it
 //     idle       closed, carries nothing         what it would carry as a spring, with the other sign
+//     unload     contacts that share rows        how much further each of them could be unloaded
 //     slide      sliding contact                 slip velocity along its direction at the step's begin
 // An event shows in three ways: the function is negative at the step's end; it was positive at both ends but dipped between
 // them (the cubic through values and slopes of both ends tells where to look); or, just after an event that left it at
@@ -28,7 +29,6 @@
 // problem (contact_mode.hpp). Where one of them slides its share decides the motion, and each is watched for itself.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include <trammel/integrator.hpp>
@@ -61,7 +61,7 @@ class EventLocation {
   void archive(Archive& a);
 
  private:
-  enum class Kind { approach, leave, press, hold, slide, idle };
+  enum class Kind { approach, leave, press, hold, slide, idle, unload };
   struct Watch {
     int contact;
     Kind kind;
@@ -71,8 +71,8 @@ class EventLocation {
     double bound = 0;         // [N] where it was asked for last: of friction, or of a group the largest of its forces
     double steepest = 0;      // slide: the most that the slip has changed in a unit of time since it began [m/s^2]
     bool reported = false;    // it had an event, the last one
-    int group = -1;           // of shared rows that is watched as one, or -1
-    double little = 0;        // [N] of those: no less is missed
+    int group = -1;           // unload: in Modes::shared
+    double little = 0;        // [N] unload: no less is missed
   };
   struct Value {
     double f = 0, slope = 0;  // slopes of forces are not known
@@ -84,13 +84,12 @@ class EventLocation {
   struct Cubic;
 
   void watch(int contact);
+  bool watched_group(int group) const;
   bool by_force(int w) const {
     const Kind kind = watches_[w].kind;
-    return kind == Kind::press || kind == Kind::hold || kind == Kind::idle;
+    return kind == Kind::press || kind == Kind::hold || kind == Kind::idle || kind == Kind::unload;
   }
   double force(Watch& watch, const Vec& lambda);
-  double spare_load(int group, const Vec& lambda);
-  void forget_forces() { spare_loads_.assign(system_.modes().shared.size(), {}); }
   double little_force(int group);
   Value slide(int contact, const Vec& a);
   void evaluate(const State& state, std::vector<Value>& values);
@@ -121,9 +120,8 @@ class EventLocation {
   std::vector<Watch> watches_;
   std::vector<model::ContactMode> modes_before_;  // at the last restart
   std::vector<Value> now_, next_, probe_;
-  std::vector<std::optional<double>> spare_loads_;  // of the groups, at the point that is evaluated
-  double h_before_ = 0;                             // [s] 0: no step yet since the last change
-  double longest_ = 0;                              // [s] step tried since then
+  double h_before_ = 0;  // [s] 0: no step yet since the last change
+  double longest_ = 0;   // [s] step tried since then
   std::vector<Suspect> suspects_;
   std::vector<int> at_end_;
   ContactChanges changes_;

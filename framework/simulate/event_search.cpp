@@ -172,14 +172,12 @@ bool EventLocation::worth_slopes(int w, double h) const {
 double EventLocation::force_slope(const State& state, double dt, int w) {
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
-  forget_forces();
   const double before = force(watches_[w], lambda_);
   dq_ = dt * state.v + (0.5 * dt * dt) * state.a;
   system_.retract(state.q, dq_, moved_.q);
   moved_.v = state.v + dt * state.a;
   system_.move_to(state.t + dt, moved_.q, moved_.v);
   system_.accelerate({}, a_, lambda_);
-  forget_forces();
   return (force(watches_[w], lambda_) - before) / dt;
 }
 

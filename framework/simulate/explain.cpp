@@ -2,12 +2,15 @@
 #include <chrono>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "plugin/breadcrumb.hpp"
 #include "simulate/blame.hpp"
 #include "simulate/crash_witness.hpp"
 #include "simulate/redundancy.hpp"
+#include "simulate/run_failed.hpp"
 #include "simulate/setup.hpp"
+#include "simulate/simulator.hpp"
 #include "simulate/trial_step.hpp"
 
 namespace trammel::simulate {
@@ -92,8 +95,29 @@ void redundant(Text& text, const Setup& setup, model::AssembledSystem& system) {
   const std::vector<RedundantRows> found = redundant_rows(system, setup.initial);
   if (found.empty()) return;
   text.section("Redundant rows at the initial state (accelerations are unique, multipliers those of minimum norm)");
-  for (const RedundantRows& rows : found)
-    text.line("{}", told(rows));
+  for (const RedundantRows& rows : found) text.line("{}", told(rows));
+}
+
+// Contacts that are closed at the start with rows that depend on each other.
+void indeterminate(Text& text, Setup& setup) {
+  if (setup.model->contacts.empty()) return;
+  Simulator simulator(setup.model, *setup.integrator, setup.settings, {});
+  try {
+    simulator.start(setup.initial);
+  } catch (const RunFailed& failed) {
+    text.section("Contacts at the start");
+    text.line("{}", failed.what());
+    return;
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < setup.model->contacts.size(); ++i)
+    if (simulator.system().sharing(int(i)).shared) names.push_back(setup.model->contacts[i].name);
+  if (names.empty()) return;
+  text.section(
+      "Statically indeterminate contacts at the start (accelerations are unique without friction; forces: of those "
+      "that push and stay "
+      "in their cones the ones of least norm)");
+  text.line("contacts.{}", fmt::join(names, ", contacts."));
 }
 
 void costs(Text& text, Setup& setup, model::AssembledSystem& system) {
@@ -163,6 +187,7 @@ std::string explain(const scene::Scene& scene, plugin::Registry& registry, Crash
   const Watch watch(witness, setup, scene.root(), registry, system, {&setup.initial.t, nullptr});
   blaming(setup, system, scene.root(), registry, setup.initial.t, [&] {
     redundant(text, setup, system);
+    indeterminate(text, setup);
     costs(text, setup, system);
   });
   left_out(text, setup);

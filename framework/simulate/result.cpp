@@ -57,6 +57,14 @@ json dissipated(const model::Model& model, const Ledger& ledger, double drift) {
           {"numerical", -drift}};
 }
 
+// Contacts whose forces were one choice of many, and from when to when: [s] the first and the last record or event that showed it.
+json indeterminate(const model::Model& model, const ContactAudit& audit) {
+  json contacts = json::object();
+  for (const auto& [contact, span] : audit.indeterminate())
+    contacts[model.contacts[std::size_t(contact)].name] = {{"first", span.first}, {"last", span.last}};
+  return contacts;
+}
+
 }  // namespace
 
 json to_json(const Energy& e) {
@@ -103,7 +111,8 @@ std::string result_json(const scene::Scene& scene, const plugin::Registry& regis
   const Energy end = simulator.energy_at_state();
   const double drift = simulator.energy_drift();
   std::vector<std::string> warnings = setup.warnings;
-  warnings.insert(warnings.end(), simulator.warnings().begin(), simulator.warnings().end());
+  const std::vector<std::string> of_run = simulator.warnings();
+  warnings.insert(warnings.begin(), of_run.begin(), of_run.end());
   json result = result_head(scene, registry, outcomes);
   result.update(json{{"integrator", setup.integrator_type},
                      {"t_start", setup.settings.start},
@@ -125,6 +134,7 @@ std::string result_json(const scene::Scene& scene, const plugin::Registry& regis
                      {"energy_of_refinements", ledger.refinements()},
                      {"energy_drift", drift},
                      {"energy_dissipated", dissipated(*setup.model, ledger, drift)},
+                     {"statically_indeterminate", indeterminate(*setup.model, simulator.audit())},
                      {"constraint_maxima",
                       {{"position", statistics.largest.position},
                        {"velocity", statistics.largest.velocity},

@@ -84,6 +84,7 @@ double Simulator::record_time(long long k) const {
 void Simulator::record_due(Recorder& recorder) {
   while (!last_row_ && record_time(records_) <= now_.t) {
     recorder.row(system_, now_);
+    audit_.look(system_, now_);
     last_row_ = record_time(records_) >= settings_.until;
     ++records_;
     judge_energy();
@@ -279,9 +280,16 @@ void Simulator::record_inside(Recorder& recorder) {
     system_.move_to(t, inside_.q, inside_.v);
     system_.accelerate({}, inside_.a, inside_.lambda);
     recorder.row(system_, inside_);
+    audit_.look(system_, inside_);
     judge_joints(inside_);
     ++records_;
   }
+}
+
+std::vector<std::string> Simulator::warnings() const {
+  std::vector<std::string> all = audit_.warnings(system_.model(), ledger_);
+  all.insert(all.end(), warnings_.begin(), warnings_.end());
+  return all;
 }
 
 Energy Simulator::energy_at_state() {

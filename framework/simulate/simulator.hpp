@@ -18,6 +18,7 @@
 
 #include "simulate/checkpoint.hpp"
 #include "simulate/conflict.hpp"
+#include "simulate/contact_audit.hpp"
 #include "simulate/contact_mode.hpp"
 #include "simulate/contact_scale.hpp"
 #include "simulate/event_location.hpp"
@@ -54,7 +55,8 @@ class Simulator {
   model::AssembledSystem& system() { return system_; }
   const Statistics& statistics() const { return statistics_; }
   const Ledger& ledger() const { return ledger_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  std::vector<std::string> warnings() const;  // what makes the run doubtful first
+  const ContactAudit& audit() const { return audit_; }
   Energy energy_at_state();
   double energy_drift();  // [J] what no cause in the ledger explains
   // Joints and bodies whose rows no state near the last one satisfies, there or a step later; empty: none are known.
@@ -100,6 +102,7 @@ class Simulator {
   ContactModes modes_;
   EventLocation location_;
   Ledger ledger_;
+  ContactAudit audit_;
   Refinement refinement_;
   TurnCounts turns_;
   OpenJoints open_joints_;

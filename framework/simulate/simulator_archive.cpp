@@ -29,6 +29,13 @@ void archive_directions(Archive& a, const std::string& name, std::vector<model::
   for (Eigen::Index i = 0; i + 1 < flat.size(); i += 2) directions.push_back({int(flat[i]), int(flat[i + 1])});
 }
 
+void archive_contacts(Archive& a, const std::string& name, std::vector<int>& contacts) {
+  Vec flat(Eigen::Index(contacts.size()));
+  std::copy(contacts.begin(), contacts.end(), flat.begin());
+  a(name, flat);
+  contacts.assign(flat.begin(), flat.end());
+}
+
 void archive_matrix(Archive& a, const std::string& name, Mat& matrix, std::size_t rows, std::size_t columns) {
   Vec flat = Eigen::Map<const Vec>(matrix.data(), matrix.size());
   a(name, flat);
@@ -47,7 +54,7 @@ void archive_shared(Archive& a, std::vector<model::SharedRows>& shared) {
     archive_directions(a, name + "implied", group.implied);
     archive_matrix(a, name + "K", group.K, group.implied.size(), group.basis.size());
     archive_matrix(a, name + "share", group.share, group.basis.size() + group.implied.size(), group.basis.size());
-    a(name + "sliding", group.sliding);
+    archive_contacts(a, name + "sliding", group.sliding);
   }
 }
 
@@ -94,6 +101,7 @@ void Simulator::archive_state(Archive& a) {
   archive_shared(a, modes.shared);
   if (modes != system_.modes()) system_.set_modes(modes);
   scale_.archive(a);
+  audit_.archive(a);
   a("hold_until", hold_until_), a("step_limit", step_limit_), a("drift_before", drift_before_);
   a("records", records_), a("last_row", last_row_), a("window_start", window_start_),
       a("window_events", window_events_), a("standing", standing_);

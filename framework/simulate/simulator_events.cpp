@@ -29,6 +29,7 @@ void Simulator::settle(const ContactChanges& changes) {
   }
   window_events_ += 1;
   hold_until_ = now_.t + settings_.contact_hold;
+  audit_.look(system_, now_);
   at_new_modes();
 }
 
