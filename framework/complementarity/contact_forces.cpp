@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "complementarity/contact_order.hpp"
 #include "complementarity/exact_modes.hpp"
 #include "complementarity/friction_cone.hpp"
 #include "complementarity/mode_search.hpp"
@@ -15,8 +16,8 @@ namespace {
 
 // Of the largest entry of A: what a contact yields per unit of its force where several solutions are to be told apart.
 constexpr double compliance = 1e-10;
-// A violation that is round-off: nothing better is looked for.
-constexpr double round_off = 1e-13;
+// A violation that is round-off of A F, of 1e-4 of its shares: nothing better is looked for.
+constexpr double round_off = 1e-11;
 // Contacts whose modes are searched at most, and how many sets of modes.
 constexpr int few_contacts = 10, most_nodes = 200000;
 
@@ -74,14 +75,14 @@ class Cascade {
     return accept(start) && found;
   }
 
-  // Keeps it if it is the best so far, once it is exact or else as it is. True: no better one is needed.
+  // Keeps it if it is the best so far, once it is exact or else, where that fails, as it is. True: no better one is needed.
   bool accept(const Vec& nearby) {
     for (const double off : {1e-12, 1e-8}) {
       Vec exact = nearby;
       if (make_exact(points_, A_, b_, off, exact)) keep(exact);
       if (least_ <= round_off) return true;
     }
-    keep(nearby);
+    if (least_ > largest_violation) keep(nearby);
     return least_ <= round_off;
   }
 
@@ -144,10 +145,14 @@ ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Ma
   a.setZero(b.size());
   if (b.size() == 0) return {LcpOutcome::solved, 0};
   if (!A.allFinite() || !b.allFinite()) return {LcpOutcome::gave_up, std::numeric_limits<double>::infinity()};
-  const ContactSolution solution = Cascade(points, A, b, nothing).solve(F);
-  if (solution.outcome != LcpOutcome::solved) return F.setZero(), solution;
-  a = A * F + b;
-  clear_round_off(points, F, a);
+  const OrderedContacts ordered(points, A, b);
+  Vec F_ordered;
+  const ContactSolution solution = Cascade(ordered.points(), ordered.A(), ordered.b(), nothing).solve(F_ordered);
+  if (solution.outcome != LcpOutcome::solved) return solution;
+  Vec a_ordered = ordered.A() * F_ordered + ordered.b();
+  clear_round_off(ordered.points(), F_ordered, a_ordered);
+  F = ordered.as_named(F_ordered);
+  a = ordered.as_named(a_ordered);
   return solution;
 }
 

@@ -56,6 +56,14 @@ class ExactModes {
   }
 
   bool solve() {
+    if (!settle_modes()) return false;
+    share_by_accelerations();
+    return true;
+  }
+
+ private:
+  // Forces and modes that do not contradict each other. False: it found none.
+  bool settle_modes() {
     const int most = 6 * int(points_.size()) + 20;
     for (int i = 0; i < most; ++i) {
       if (!find_forces()) return false;
@@ -64,7 +72,20 @@ class ExactModes {
     return false;
   }
 
- private:
+  // How contacts share must not depend on the modes that were tried on the way: once more from those that the accelerations show,
+  // with all contacts closed that do not part and all tangents sticking that do not move.
+  void share_by_accelerations() {
+    const std::vector<ContactRole> on_the_way = roles_;
+    roles_ = roles_of(points_, F_, a_, round_off * acceleration_scale());
+    const auto same = [](const ContactRole& x, const ContactRole& y) {
+      return x.closed == y.closed && x.idle == y.idle && x.tangent == y.tangent;
+    };
+    if (std::equal(roles_.begin(), roles_.end(), on_the_way.begin(), same)) return;
+    const Vec F = F_, a = a_;
+    const double nothing = largest_violation * acceleration_scale();
+    if (!settle_modes() || !((a_ - a).lpNorm<Eigen::Infinity>() <= nothing)) F_ = F, a_ = a;
+  }
+
   double acceleration_scale() const {
     if (b_.size() == 0) return 0;
     return b_.lpNorm<Eigen::Infinity>() + (A_.cwiseAbs() * F_.cwiseAbs()).maxCoeff();
