@@ -19,7 +19,8 @@ constexpr double compliance = 1e-10;
 // A violation that is round-off of A F, of 1e-4 of its shares: nothing better is looked for.
 constexpr double round_off = 1e-11;
 // Contacts whose modes are searched at most, and how many sets of modes.
-constexpr int few_contacts = 10, most_nodes = 200000;
+constexpr std::size_t few_contacts = 10, few_round_contacts = 4;
+constexpr int most_nodes = 20000;
 
 class Cascade {
  public:
@@ -38,9 +39,11 @@ class Cascade {
     if (round_ && (try_cones(Vec::Zero(b_.size())) || try_cones(best_.size() ? best_ : Vec(Vec::Zero(b_.size())))))
       return found(F);
     if (least_ <= largest_violation) return found(F);
-    if (!round_ && points_.size() <= few_contacts) {
-      const LcpOutcome outcome = search_modes(
-          points_, A_, b_, most_nodes, [this](const Vec& near) { return accept(near), least_ <= largest_violation; });
+    if (points_.size() <= (round_ ? few_round_contacts : few_contacts)) {
+      const LcpOutcome outcome = search_modes(points_, A_, b_, most_nodes, [this](const Vec& near) {
+        round_ ? try_cones(near, 1) : accept(near);
+        return least_ <= largest_violation;
+      });
       if (outcome == LcpOutcome::solved) return found(F);
       if (outcome == LcpOutcome::no_solution) return {LcpOutcome::no_solution, least_};
     }
@@ -70,8 +73,8 @@ class Cascade {
     return round_ ? try_cones(cone.forces(z)) : accept(cone.forces(z));
   }
 
-  bool try_cones(Vec start) {
-    const bool found = solve_cones(points_, A_, b_, start);
+  bool try_cones(Vec start, int rounds = 40) {
+    const bool found = solve_cones(points_, A_, b_, start, rounds);
     return accept(start) && found;
   }
 
