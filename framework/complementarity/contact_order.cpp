@@ -15,14 +15,14 @@ double relative(double x, double size) {
   return size > 0 ? x / size : 0;
 }
 
-// Logarithms, since masses may differ by many powers of ten.
-double own_number(const ContactPoint& p, const Mat& A) {
-  const auto size = [](double x) { return x > 0 ? std::log(x) : 0; };
+// Without units; logarithms, since masses may differ by many powers of ten.
+double own_number(const ContactPoint& p, const Mat& A, double stiff, double load) {
+  const auto size = [stiff](double x) { return x > 0 ? std::log(x / stiff) : 0; };
   double number = weights[0] * p.coefficient + weights[1] * p.ratio[0] + weights[2] * p.ratio[1];
   if (p.normal >= 0)
     number += weights[3] * size(A(p.normal, p.normal));
   else
-    number += weights[4] * p.given - 1;
+    number += weights[4] * relative(p.given * stiff, load) - 1;
   if (p.tangent >= 0) number += 1 + weights[4] * size(A.block(p.tangent, p.tangent, p.tangents, p.tangents).trace());
   return number;
 }
@@ -42,8 +42,8 @@ OrderedContacts::OrderedContacts(const std::vector<ContactPoint>& points, const 
   const Vec first = A * b / stiff, second = A * first / stiff;
   std::vector<double> numbers;
   for (const ContactPoint& p : points)
-    numbers.push_back(own_number(p, A) + entries(p, b) + weights[1] * entries(p, first) +
-                      weights[2] * entries(p, second));
+    numbers.push_back(own_number(p, A, stiff, b.lpNorm<Eigen::Infinity>()) + entries(p, b) +
+                      weights[1] * entries(p, first) + weights[2] * entries(p, second));
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return numbers[i] < numbers[j]; });
