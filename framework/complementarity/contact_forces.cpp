@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "complementarity/contact_order.hpp"
 #include "complementarity/exact_modes.hpp"
 #include "complementarity/friction_cone.hpp"
 #include "complementarity/mode_search.hpp"
@@ -15,10 +16,11 @@ namespace {
 
 // Of the largest entry of A: what a contact yields per unit of its force where several solutions are to be told apart.
 constexpr double compliance = 1e-10;
-// A violation that is round-off: nothing better is looked for.
-constexpr double round_off = 1e-13;
+// A violation that is round-off of A F, of 1e-4 of its shares: nothing better is looked for.
+constexpr double round_off = 1e-11;
 // Contacts whose modes are searched at most, and how many sets of modes.
-constexpr int few_contacts = 10, most_nodes = 200000;
+constexpr std::size_t few_contacts = 10, few_round_contacts = 4;
+constexpr int most_nodes = 20000;
 
 class Cascade {
  public:
@@ -34,12 +36,13 @@ class Cascade {
     if (!friction_) return without_friction(F);
     for (const double yields : {compliance, 0.0})
       if (by_pivoting(yields)) return found(F);
-    if (round_ && (try_cones(Vec::Zero(b_.size())) || try_cones(best_.size() ? best_ : Vec(Vec::Zero(b_.size())))))
-      return found(F);
+    if (round_ && (try_cones(0, Vec::Zero(b_.size())) || (best_.size() > 0 && try_cones(0, best_)))) return found(F);
     if (least_ <= largest_violation) return found(F);
-    if (!round_ && points_.size() <= few_contacts) {
-      const LcpOutcome outcome = search_modes(
-          points_, A_, b_, most_nodes, [this](const Vec& near) { return accept(near), least_ <= largest_violation; });
+    if (points_.size() <= (round_ ? few_round_contacts : few_contacts)) {
+      const LcpOutcome outcome = search_modes(points_, A_, b_, most_nodes, [this](const Vec& near) {
+        round_ ? try_cones(0, near, 1) : accept(near);
+        return least_ <= largest_violation;
+      });
       if (outcome == LcpOutcome::solved) return found(F);
       if (outcome == LcpOutcome::no_solution) return {LcpOutcome::no_solution, least_};
     }
@@ -66,22 +69,32 @@ class Cascade {
     const PolyhedralCone cone(points_, A_, b_, yields);
     Vec z, w;
     if (solve_lcp(cone.M(), cone.q(), z, w) != LcpOutcome::solved) return false;
-    return round_ ? try_cones(cone.forces(z)) : accept(cone.forces(z));
+    const Vec near = cone.forces(z);
+    if (!round_) return accept(near);
+    return (yields > 0 && try_cones(yields, near)) || try_cones(0, near);
   }
 
-  bool try_cones(Vec start) {
-    const bool found = solve_cones(points_, A_, b_, start);
-    return accept(start) && found;
+  // Newton's method on the cones. With contacts that yield it comes to the one of several solutions that springs have, from which
+  // the way to the rigid ones is short.
+  bool try_cones(double yields, const Vec& start, int rounds = 40) {
+    Vec F = start;
+    if (yields > 0) {
+      const Mat compliant = A_ + yields * A_.diagonal().maxCoeff() * Mat::Identity(A_.rows(), A_.cols());
+      if (!solve_cones(points_, compliant, b_, F, rounds)) return false;
+    }
+    const bool found = solve_cones(points_, A_, b_, F, rounds);
+    return accept(F) && found;
   }
 
-  // Keeps it if it is the best so far, once it is exact or else as it is. True: no better one is needed.
+  // Keeps it if it is the best so far, once it is exact or else, where that fails, as it is. In space directions of slip are
+  // better known before: the better one. True: no better one is needed.
   bool accept(const Vec& nearby) {
     for (const double off : {1e-12, 1e-8}) {
       Vec exact = nearby;
       if (make_exact(points_, A_, b_, off, exact)) keep(exact);
-      if (least_ <= round_off) return true;
+      if (!round_ && least_ <= round_off) return true;
     }
-    keep(nearby);
+    if (round_ || least_ > largest_violation) keep(nearby);
     return least_ <= round_off;
   }
 
@@ -107,7 +120,7 @@ class Cascade {
 };
 
 // What the conditions say is 0.
-void clear_round_off(const std::vector<ContactPoint>& points, Vec& F, Vec& a) {
+void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, Vec& F, Vec& a) {
   const double little = 1e-13 * F.lpNorm<Eigen::Infinity>();
   for (const ContactPoint& p : points) {
     double N = p.given;
@@ -128,11 +141,15 @@ void clear_round_off(const std::vector<ContactPoint>& points, Vec& F, Vec& a) {
       T.setZero();
       continue;
     }
-    // On its bound and against a_t it slides; else it is held, and a_t is round-off.
-    const double size = T.norm();
-    const bool slides = size >= bound * (1 - 1e-9) && -T.dot(a_t) >= (1 - 1e-6) * size * a_t.norm() && a_t.norm() > 0;
+    // Where what a_t asks for is beyond the bound it slides; else it is held, and a_t is round-off.
+    const double stiff = A.block(p.tangent, p.tangent, p.tangents, p.tangents).trace() / p.tangents;
+    const Vec asked = stiff > 0 ? Vec(T - a_t / stiff) : Vec(T);
+    const bool slides = asked.norm() > bound + 10 * (little + 1e-13 * bound);
     if (!slides) a_t.setZero();
-    if (size > bound || slides) T *= bound / size;
+    if (slides)
+      T = bound * asked.normalized();
+    else if (const double size = T.norm(); size > bound)
+      T *= bound / size;
   }
 }
 
@@ -144,10 +161,14 @@ ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Ma
   a.setZero(b.size());
   if (b.size() == 0) return {LcpOutcome::solved, 0};
   if (!A.allFinite() || !b.allFinite()) return {LcpOutcome::gave_up, std::numeric_limits<double>::infinity()};
-  const ContactSolution solution = Cascade(points, A, b, nothing).solve(F);
-  if (solution.outcome != LcpOutcome::solved) return F.setZero(), solution;
-  a = A * F + b;
-  clear_round_off(points, F, a);
+  const OrderedContacts ordered(points, A, b);
+  Vec F_ordered;
+  const ContactSolution solution = Cascade(ordered.points(), ordered.A(), ordered.b(), nothing).solve(F_ordered);
+  if (solution.outcome != LcpOutcome::solved) return solution;
+  Vec a_ordered = ordered.A() * F_ordered + ordered.b();
+  clear_round_off(ordered.points(), ordered.A(), F_ordered, a_ordered);
+  F = ordered.as_named(F_ordered);
+  a = ordered.as_named(a_ordered);
   return solution;
 }
 

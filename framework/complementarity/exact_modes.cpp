@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
-
 #include "complementarity/admissible_forces.hpp"
+#include "complementarity/carrying_equations.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -14,8 +13,6 @@ using Tangent = ContactRole::Tangent;
 using Eigen::Index;
 
 constexpr double round_off = 1e-12;  // of the forces and of the accelerations
-// Of a row's own stiffness: less is none, as at Painleve's critical coefficient.
-constexpr double singular = 1e-12;
 
 Eigen::Vector2d part(const Vec& x, const ContactPoint& p) {
   Eigen::Vector2d both = Eigen::Vector2d::Zero();
@@ -56,6 +53,14 @@ class ExactModes {
   }
 
   bool solve() {
+    if (!settle_modes()) return false;
+    share_by_accelerations();
+    return true;
+  }
+
+ private:
+  // Forces and modes that do not contradict each other. False: it found none.
+  bool settle_modes() {
     const int most = 6 * int(points_.size()) + 20;
     for (int i = 0; i < most; ++i) {
       if (!find_forces()) return false;
@@ -64,44 +69,34 @@ class ExactModes {
     return false;
   }
 
- private:
+  // How contacts share must not depend on the modes that were tried on the way: once more from those that the accelerations show,
+  // with all contacts closed that do not part and all tangents sticking that do not move.
+  void share_by_accelerations() {
+    const std::vector<ContactRole> on_the_way = roles_;
+    roles_ = roles_of(points_, F_, a_, round_off * acceleration_scale());
+    const auto same = [](const ContactRole& x, const ContactRole& y) {
+      return x.closed == y.closed && x.idle == y.idle && x.tangent == y.tangent;
+    };
+    if (std::equal(roles_.begin(), roles_.end(), on_the_way.begin(), same)) return;
+    const Vec F = F_, a = a_;
+    const double nothing = largest_violation * acceleration_scale();
+    if (!settle_modes() || !((a_ - a).lpNorm<Eigen::Infinity>() <= nothing)) F_ = F, a_ = a;
+  }
+
   double acceleration_scale() const {
     if (b_.size() == 0) return 0;
     return b_.lpNorm<Eigen::Infinity>() + (A_.cwiseAbs() * F_.cwiseAbs()).maxCoeff();
   }
 
-  // A_R F + b_R = 0 for the resultants.
   bool find_forces() {
     carrying_ = carrying_rows(points_, A_, roles_);
-    const auto& [basis, implied, K] = carrying_.rows;
-    const Index n = Index(basis.size());
-    Mat along = Mat::Zero(b_.size(), n + K.rows());  // F by the forces along rows
-    for (Index k = 0; k < n + K.rows(); ++k) along(row_at(k), k) = 1;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const ContactPoint& p = points_[i];
-      if (roles_[i].tangent != Tangent::slides || !roles_[i].closed) continue;
-      if (p.normal < 0) continue;
-      for (Index k = 0; k < n + K.rows(); ++k)
-        if (row_at(k) == p.normal) along.col(k).segment(p.tangent, p.tangents) += roles_[i].ratio.head(p.tangents);
-    }
-    Vec given = Vec::Zero(b_.size());  // that slide under a given force
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      if (const ContactPoint& p = points_[i]; p.normal < 0 && p.held() && roles_[i].tangent == Tangent::slides)
-        given.segment(p.tangent, p.tangents) = p.given * roles_[i].ratio.head(p.tangents);
-    F_ = given;
-    if (n > 0) {
-      const Mat X = (A_ * along * carrying_.share)(basis, Eigen::all);
-      const Vec scale =
-          A_.diagonal()(basis).unaryExpr([](double x) { return std::exp2(-std::round(std::log2(x) / 2)); });
-      const Eigen::FullPivLU<Mat> lu(scale.asDiagonal() * X * scale.asDiagonal());
-      if (!(std::abs(lu.matrixLU()(n - 1, n - 1)) > singular)) return false;
-      lambda_ = scale.cwiseProduct(lu.solve(-scale.cwiseProduct((b_ + A_ * given)(basis))));
-      if (!lambda_.allFinite()) return false;
-      F_ += along * (carrying_.share * lambda_);
-    }
+    const CarryingEquations equations(points_, A_, b_, roles_, carrying_);
+    if (!equations.regular()) return false;
+    F_ = equations.forces();
     a_ = A_ * F_ + b_;
-    share_admissibly();
-    return F_.allFinite();
+    if (!F_.allFinite()) return false;
+    share_admissibly(equations);
+    return true;
   }
 
   Index row_at(Index k) const {
@@ -115,44 +110,55 @@ class ExactModes {
     return part(F_, points_[i]).norm() - points_[i].coefficient * std::max(0.0, normal_force(i));
   }
 
-  // Those that do not slide may share otherwise: their resultants alone matter.
-  void share_admissibly() {
-    const double little = round_off * F_.lpNorm<Eigen::Infinity>();
-    bool wanted = false;
-    std::vector<SharingContact> sharing;
-    std::vector<Index> columns;
-    const Mat E = carrying_.rows.resultants();
-    const auto column_of = [&](int row) -> Index {
-      for (Index k = 0; k < E.cols(); ++k)
-        if (row_at(k) == row) {
-          columns.push_back(k);
-          return Index(columns.size()) - 1;
-        }
-      return -1;
+  // Contacts that may share otherwise, for they do not slide and their resultants alone matter, and the columns of their forces.
+  std::vector<SharingContact> sharing_contacts(std::vector<Index>& columns) const {
+    const auto column_of = [&](int row) {
+      Index k = 0;
+      while (row_at(k) != row) ++k;
+      columns.push_back(k);
+      return Index(columns.size()) - 1;
     };
-    std::vector<std::size_t> who;
+    std::vector<SharingContact> sharing;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const ContactPoint& p = points_[i];
       const ContactRole& role = roles_[i];
-      if (!carrying_.indeterminate[i] || !role.closed || role.idle) continue;
-      if (role.tangent == Tangent::slides) continue;
+      if (!carrying_.indeterminate[i] || !role.closed || role.idle || role.tangent == Tangent::slides) continue;
       SharingContact& c = sharing.emplace_back();
-      who.push_back(i);
       c.given = p.given, c.coefficient = p.coefficient;
       if (p.normal >= 0) c.normal = column_of(p.normal);
       for (int k = 0; k < p.tangents && role.tangent == Tangent::sticks; ++k)
         c.tangents.push_back(column_of(p.tangent + k));
-      wanted = wanted || normal_force(i) < -little || (!c.tangents.empty() && beyond_cone(i) > little);
     }
-    if (!wanted) return;
-    const Mat E_sharing = E(Eigen::all, columns);
-    Vec now(E_sharing.cols()), shared;
-    for (std::size_t k = 0; k < columns.size(); ++k) now[Index(k)] = F_[row_at(columns[k])];
-    const Vec resultants = E_sharing * now;
-    const double missed = admissible_forces(sharing, E_sharing, resultants, shared);
-    if (!(missed <= round_off * resultants.norm())) return;
-    for (std::size_t k = 0; k < columns.size(); ++k) F_[row_at(columns[k])] = shared[Index(k)];
-    a_ = A_ * F_ + b_;
+    return sharing;
+  }
+
+  bool springs_are_admissible() const {
+    const double little = round_off * F_.lpNorm<Eigen::Infinity>();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const ContactRole& role = roles_[i];
+      if (!carrying_.indeterminate[i] || !role.closed || role.idle || role.tangent == Tangent::slides) continue;
+      if (normal_force(i) < -little || (role.tangent == Tangent::sticks && beyond_cone(i) > little)) return false;
+    }
+    return true;
+  }
+
+  // By the least admissible forces, where springs would pull or leave a cone. Resultants are corrected for what K and the
+  // projections leave of the accelerations: round-off of forces that may be many times those that accelerate.
+  void share_admissibly(const CarryingEquations& equations) {
+    if (springs_are_admissible()) return;
+    std::vector<Index> columns;
+    const std::vector<SharingContact> sharing = sharing_contacts(columns);
+    const Mat E = carrying_.rows.resultants()(Eigen::all, columns);
+    Vec forces(E.cols());
+    for (std::size_t k = 0; k < columns.size(); ++k) forces[Index(k)] = F_[row_at(columns[k])];
+    Vec resultants = E * forces;
+    for (int corrections = 0; corrections < 3; ++corrections) {
+      const double missed = admissible_forces(sharing, E, resultants, forces);
+      if (!(missed <= round_off * resultants.norm())) return;
+      for (std::size_t k = 0; k < columns.size(); ++k) F_[row_at(columns[k])] = forces[Index(k)];
+      a_ = A_ * F_ + b_;
+      resultants += equations.correction(a_);
+    }
   }
 
   // The mode that is contradicted most, by a share of all forces or accelerations. False: none is.
@@ -176,7 +182,7 @@ class ExactModes {
         continue;
       }
       if (role.idle) {
-        consider(i, spring_force(p.normal), forces, [](ContactRole& r) { r.idle = false; });
+        consider(i, spring_force(p.normal), forces, [&](ContactRole& r) { close(i, r); });
         continue;
       }
       if (p.normal >= 0)
@@ -222,7 +228,7 @@ class ExactModes {
   const Mat& A_;
   const Vec& b_;
   Vec& F_;
-  Vec a_, lambda_;
+  Vec a_;
   std::vector<ContactRole> roles_;
   CarryingRows carrying_;
 };

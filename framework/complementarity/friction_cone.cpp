@@ -24,9 +24,9 @@ class Cones {
     scale_ = r_.cwiseProduct(b).lpNorm<Eigen::Infinity>();
   }
 
-  bool solve(Vec& F) {
+  bool solve(Vec& F, int rounds) {
     evaluate(F);
-    for (int round = 0; round < 40; ++round) {
+    for (int round = 0; round < rounds; ++round) {
       if (newton(F)) return true;
       for (int i = 0; i < 200; ++i) sweep(F);
       evaluate(F);
@@ -139,8 +139,8 @@ class Cones {
 
 }  // namespace
 
-bool solve_cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F) {
-  return A.allFinite() && b.allFinite() && Cones(points, A, b).solve(F);
+bool solve_cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, int rounds) {
+  return A.allFinite() && b.allFinite() && Cones(points, A, b).solve(F, rounds);
 }
 
 }  // namespace trammel::complementarity

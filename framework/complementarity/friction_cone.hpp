@@ -15,7 +15,8 @@
 
 namespace trammel::complementarity {
 
-// F: where to begin, and the solution. False: it found none.
-[[nodiscard]] bool solve_cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F);
+// F: where to begin, and the solution. False: it found none in as many rounds of Newton's method and 200 sweeps.
+[[nodiscard]] bool solve_cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F,
+                               int rounds = 40);
 
 }  // namespace trammel::complementarity

@@ -2,125 +2,130 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "complementarity/nonnegative_least_squares.hpp"
-#include "complementarity/polyhedral_cone.hpp"
+#include "complementarity/mode_relaxation.hpp"
 
 namespace trammel::complementarity {
 namespace {
 
-// What equations must miss to count as contradictory, and what counts as 0, of the size of b [1].
-constexpr double contradictory = 1e-8, zero = 1e-9;
+using Eigen::Vector2d;
+using Kind = DecidedMode::Kind;
+using Verdict = RelaxedForces::Verdict;
 
-// [M, -1] (z, w) = -q
+constexpr double zero = 1e-9;                         // of the size of b [1]
+constexpr double narrowest = std::numbers::pi / 180;  // [rad]
+
+Vector2d part(const Vec& x, const ContactPoint& p) {
+  Vector2d both = Vector2d::Zero();
+  both.head(p.tangents) = x.segment(p.tangent, p.tangents);
+  return both;
+}
+
 class Search {
  public:
   Search(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, int most_nodes,
          const std::function<bool(const Vec&)>& accept)
-      : points_(points), cone_(points, A, b, 0), nodes_left_(most_nodes), accept_(accept) {
-    const Mat& M = cone_.M();
-    const Eigen::Index n = M.rows();
-    B_.resize(n, 2 * n);
-    B_ << M, -Mat::Identity(n, n);
-    d_ = -cone_.q();
-    usable_.assign(std::size_t(2 * n), true);
-    chosen_.assign(points.size(), false);
-  }
+      : points_(points), A_(A), b_(b), nodes_left_(most_nodes), accept_(accept), modes_(points.size()) {}
 
   LcpOutcome run() {
     if (visit()) return LcpOutcome::solved;
-    return doubtful_ || nodes_left_ <= 0 ? LcpOutcome::gave_up : LcpOutcome::no_solution;
+    return doubtful_ || nodes_left_ < 0 ? LcpOutcome::gave_up : LcpOutcome::no_solution;
   }
 
  private:
-  using Place = PolyhedralCone::Place;
-  enum class Mode { open, press, stick, slide };
   struct Choice {
-    Mode mode;
-    int beta = 0;  // of a slide: the one that is not 0
+    DecidedMode mode;
     double off = 0;
   };
 
-  double z(int i) const { return x_[i]; }
-  double w(int i) const { return x_[B_.rows() + i]; }
+  double stiffness(int row) const { return A_(row, row); }
 
   // How far what was found for the contact is from each of its modes: the sum of all that would be 0.
-  std::vector<Choice> choices(const Place& p) const {
+  std::vector<Choice> choices(std::size_t i, const RelaxedForces& found) const {
+    const ContactPoint& p = points_[i];
+    const double N = p.normal >= 0 ? found.F[p.normal] : p.given,
+                 apart = p.normal >= 0 ? std::abs(found.a[p.normal]) : 0;
     std::vector<Choice> all;
-    double betas = 0;
-    for (int k = 0; k < p.betas; ++k) betas += z(p.first_beta + k);
-    if (p.normal >= 0) all.push_back({Mode::open, 0, z(p.normal) + betas});
-    const double apart = p.normal >= 0 ? w(p.normal) : 0;
-    if (p.lambda < 0) {
-      all.push_back({Mode::press, 0, apart});
+    if (p.normal >= 0) all.push_back({{Kind::open}, stiffness(p.normal) * N});
+    if (!p.held()) {
+      all.push_back({{Kind::pressing}, apart});
     } else {
-      double moves = z(p.lambda);
-      for (int k = 0; k < p.betas; ++k) moves += w(p.first_beta + k);
-      all.push_back({Mode::stick, 0, apart + moves});
-      for (int k = 0; k < p.betas; ++k)
-        all.push_back({Mode::slide, k, apart + w(p.lambda) + w(p.first_beta + k) + betas - z(p.first_beta + k)});
+      const Vector2d T = part(found.F, p), a_t = part(found.a, p);
+      all.push_back({{Kind::sticking}, apart + a_t.norm()});
+      const auto add_slide = [&](double from, double to) {
+        all.push_back({{Kind::sliding, from, to}, apart + slides_off(p, N, T, a_t, (from + to) / 2)});
+      };
+      constexpr double quarter = std::numbers::pi / 2;
+      if (p.tangents == 1) add_slide(0, 0), add_slide(2 * quarter, 2 * quarter);
+      for (int k = 0; k < 4 && p.tangents == 2; ++k) add_slide(k * quarter, (k + 1) * quarter);
     }
     std::stable_sort(all.begin(), all.end(), [](const Choice& a, const Choice& b) { return a.off < b.off; });
     return all;
   }
 
-  // What the mode says is 0.
-  std::vector<int> zeros(const Place& p, const Choice& choice) const {
-    const int of_w = int(B_.rows());
-    std::vector<int> all;
-    if (choice.mode == Mode::open) {
-      all.push_back(p.normal);
-      for (int k = 0; k < p.betas; ++k) all.push_back(p.first_beta + k);
-      return all;
-    }
-    if (p.normal >= 0) all.push_back(of_w + p.normal);
-    if (choice.mode == Mode::stick) all.push_back(p.lambda);
-    if (choice.mode == Mode::slide) all.push_back(of_w + p.lambda);
-    for (int k = 0; k < p.betas; ++k) {
-      const bool moves_so = choice.mode == Mode::slide && k != choice.beta;
-      all.push_back((moves_so ? 0 : of_w) + p.first_beta + k);
-    }
-    return all;
+  double slides_off(const ContactPoint& p, double N, const Vector2d& T, const Vector2d& a_t, double angle) const {
+    const Vector2d e(std::cos(angle), p.tangents == 2 ? std::sin(angle) : 0);
+    return stiffness(p.tangent) * (T - p.coefficient * N * e).norm() + (a_t + a_t.norm() * e).norm();
   }
 
-  bool try_mode(const Place& place, const Choice& choice) {
-    const std::vector<int> barred = zeros(place, choice);
-    for (const int i : barred) usable_[std::size_t(i)] = false;
-    const bool found = visit();
-    for (const int i : barred) usable_[std::size_t(i)] = true;
-    return found;
+  // Off its law; of an undecided one, off the nearest mode.
+  double off(std::size_t i, const RelaxedForces& found) const {
+    const ContactPoint& p = points_[i];
+    if (modes_[i].kind == Kind::undecided && !(p.held() && p.tangents == 2)) return choices(i, found).front().off;
+    return violation({p}, A_, b_, found.F) * b_.lpNorm<Eigen::Infinity>();
+  }
+
+  bool can_be_split(std::size_t i) const {
+    return modes_[i].kind == Kind::undecided ||
+           (modes_[i].kind == Kind::sliding && modes_[i].to - modes_[i].from > narrowest);
+  }
+
+  std::vector<Choice> parts(std::size_t i, const RelaxedForces& found) const {
+    const DecidedMode& mode = modes_[i];
+    if (mode.kind == Kind::undecided) return choices(i, found);
+    const double middle = (mode.from + mode.to) / 2;
+    std::vector<Choice> halves{{{Kind::sliding, mode.from, middle}}, {{Kind::sliding, middle, mode.to}}};
+    const Vector2d T = part(found.F, points_[i]);
+    if (T[1] * std::cos(middle) > T[0] * std::sin(middle)) std::swap(halves[0], halves[1]);
+    return halves;
   }
 
   bool visit() {
     if (--nodes_left_ < 0) return false;
-    if (nonnegative_least_squares(B_, d_, x_, usable_) > contradictory) return false;
+    const RelaxedForces found = relaxed_forces(points_, A_, b_, modes_);
+    doubtful_ = doubtful_ || found.verdict == Verdict::doubtful;
+    if (found.verdict != Verdict::found) return false;
     std::size_t next = points_.size();
-    double worst = zero;
-    std::vector<Choice> branches;
+    const double nothing = zero * b_.lpNorm<Eigen::Infinity>();
+    double worst = nothing;
+    bool all_decided = true;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (chosen_[i]) continue;
-      std::vector<Choice> all = choices(cone_.places()[i]);
-      if (all.front().off > worst) worst = all.front().off, next = i, branches = std::move(all);
+      if (!can_be_split(i)) continue;
+      const double amount = off(i, found);
+      all_decided = all_decided && (modes_[i].kind != Kind::undecided || amount <= nothing);
+      if (amount > worst) worst = amount, next = i;
     }
+    if ((next == points_.size() || all_decided) && accept_(found.F)) return true;
     if (next == points_.size()) {
-      const bool accepted = accept_(cone_.forces(x_.head(B_.rows())));
-      doubtful_ = doubtful_ || !accepted;
-      return accepted;
+      doubtful_ = true;
+      return false;
     }
-    chosen_[next] = true;
-    for (const Choice& choice : branches)
-      if (try_mode(cone_.places()[next], choice)) return true;
-    chosen_[next] = false;
+    const DecidedMode before = modes_[next];
+    for (const Choice& choice : parts(next, found)) {
+      modes_[next] = choice.mode;
+      if (visit()) return true;
+    }
+    modes_[next] = before;
     return false;
   }
 
   const std::vector<ContactPoint>& points_;
-  PolyhedralCone cone_;
+  const Mat& A_;
+  const Vec& b_;
   int nodes_left_;
   const std::function<bool(const Vec&)>& accept_;
-  Mat B_;
-  Vec d_, x_;
-  std::vector<bool> usable_, chosen_;
+  std::vector<DecidedMode> modes_;
   bool doubtful_ = false;
 };
 

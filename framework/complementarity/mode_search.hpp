@@ -1,9 +1,9 @@
-// All modes of a few contacts: open, sticking, sliding one way or the other, by branch and bound. Complete: it finds forces that
-// obey contact_point.hpp wherever there are some, in the plane and of contacts that slide; "none" is a proof.
+// All modes of a few contacts: open, sticking, sliding, by branch and bound. Complete: it finds forces that obey contact_point.hpp
+// wherever there are some, and "none" is a proof.
 //
-// A contact without a mode yet is relaxed: all of its variables in polyhedral_cone.hpp are >= 0, whether they are complementary or
-// not. What is left is a system of linear equations and inequalities, which a non-negative least squares problem solves or
-// shows to have no solution; then no completion of these modes has one, and none is looked at.
+// A contact without a mode yet is relaxed (mode_relaxation.hpp). Where what is left has no forces, no completion of these modes
+// has, and none is looked at. In space the directions that a contact slides in are quarters of the circle first, then halves of
+// those, down to a degree; the round cone's own Newton method goes on from what is found there.
 #pragma once
 
 #include <functional>

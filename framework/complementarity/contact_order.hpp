@@ -1,0 +1,33 @@
+// An order of contacts that depends on what they are, not on how they are named.
+//
+// Problems with friction may have several solutions, and which one an algorithm ends in depends on the order of its rows. So
+// contacts are sorted by numbers that move with them when they are permuted: their own stiffness, coefficient and load, and their
+// entries of A b and A A b, which tell how they are coupled. Contacts with the same numbers look alike, as the two feet of a
+// symmetric block do. They keep the order that they come in, and no rule could do better: of two solutions that are mirror images
+// of each other either may be found.
+#pragma once
+
+#include <vector>
+
+#include "complementarity/contact_point.hpp"
+
+namespace trammel::complementarity {
+
+// A problem with its contacts in that order.
+class OrderedContacts {
+ public:
+  OrderedContacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b);
+
+  const std::vector<ContactPoint>& points() const { return points_; }
+  const Mat& A() const { return A_; }
+  const Vec& b() const { return b_; }
+  Vec as_named(const Vec& x) const;  // forces or accelerations in the order that the contacts came in
+
+ private:
+  std::vector<ContactPoint> points_;
+  std::vector<Eigen::Index> rows_;  // of each row the one that it was
+  Mat A_;
+  Vec b_;
+};
+
+}  // namespace trammel::complementarity

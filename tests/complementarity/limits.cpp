@@ -1,0 +1,70 @@
+// Numbers at their limits, units, and many contacts: answers are verified where no enumeration can judge.
+#include <gtest/gtest.h>
+
+#include "planar_bodies.hpp"
+#include "random_problems.hpp"
+
+namespace trammel::complementarity {
+namespace {
+
+void expect_solved(const Problem& problem) {
+  const Answer answer = solve(problem);
+  ASSERT_EQ(answer.outcome, LcpOutcome::solved) << problem.kind << ", violation " << answer.violation;
+  EXPECT_LE(offence(problem, answer.F, answer.a), little(problem, answer.F)) << problem.kind;
+}
+
+TEST(Limits, NothingComesOfNothing) {
+  std::mt19937 random(51);
+  for (int i = 0; i < 200; ++i) {
+    Problem problem = i % 2 ? any_structure(random, 8) : any_planar(random, 1 + i % 8);
+    problem.b.setZero();
+    for (ContactPoint& p : problem.points) p.given = 0;
+    const Answer answer = solve(problem);
+    ASSERT_EQ(answer.outcome, LcpOutcome::solved) << problem.kind;
+    EXPECT_EQ(answer.F, Vec::Zero(answer.F.size())) << problem.kind;
+    EXPECT_EQ(answer.a, Vec::Zero(answer.a.size())) << problem.kind;
+  }
+}
+
+TEST(Limits, AContactThatJustTouchesLeavesItsTangentAlone) {
+  const Mat A{{2, 0.5}, {0.5, 3}};
+  Vec F, a;
+  const std::vector<ContactPoint> point{
+      {.normal = 0, .tangent = 1, .kind = ContactPoint::Tangent::resting, .coefficient = 0.5}};
+  ASSERT_EQ(solve_contacts(point, A, Vec{{0, 4}}, F, a).outcome, LcpOutcome::solved);
+  EXPECT_EQ(F, Vec::Zero(2));
+  EXPECT_EQ(a[1], 4);
+}
+
+// Forces in newtons or micronewtons, accelerations in m/s^2 or nm/s^2: the same answer.
+TEST(Limits, UnitsDoNotMatter) {
+  std::mt19937 random(52);
+  for (int i = 0; i < 1000; ++i) {
+    const Problem problem = i % 2 ? any_structure(random, 8) : any_planar(random, 1 + i % 8);
+    Problem other = problem;
+    const double forces = 1e6, accelerations = 1e-9;
+    other.A *= accelerations / forces, other.b *= accelerations;
+    for (ContactPoint& p : other.points) p.given *= forces;
+    const Answer answer = solve(problem), scaled = solve(other);
+    ASSERT_EQ(answer.outcome, scaled.outcome) << problem.kind << ", " << i;
+    EXPECT_LE((scaled.F / forces - answer.F).lpNorm<Eigen::Infinity>(), 1e-8 * answer.F.lpNorm<Eigen::Infinity>())
+        << problem.kind << ", " << i;
+    EXPECT_LE((scaled.a / accelerations - answer.a).lpNorm<Eigen::Infinity>(), little(problem, answer.F))
+        << problem.kind << ", " << i;
+  }
+}
+
+TEST(Limits, TallStacksPilesArchesAndTablesAreSolved) {
+  std::mt19937 random(53);
+  for (const double mu : {0.1, 0.5, 1.0})
+    for (const double push : {0.0, 2.0, 9.0}) {
+      for (int blocks = 1; blocks <= 20; ++blocks) expect_solved(stack(random, blocks, mu, push, 1));
+      for (int feet = 1; feet <= 40; feet += 3) expect_solved(table(random, feet, mu, push));
+      for (int rows = 1; rows <= 5; ++rows) expect_solved(pile_of_discs(random, rows, mu));
+      for (int voussoirs = 3; voussoirs <= 15; voussoirs += 2)
+        for (const double thickness : {0.08, 0.15, 0.3}) expect_solved(arch(voussoirs, mu, thickness));
+    }
+}
+
+}  // namespace
+}  // namespace trammel::complementarity
