@@ -37,373 +37,356 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   shared_before_.resize(std::size_t(n));
   for (int i = 0; i < n; ++i) shared_before_[std::size_t(i)] = system_.sharing(i).shared;
   keep_forces(state);
-    fmt::print(stderr, "t {:.17g} struck {} released {} toggled {} yielded {} stopped {}\n", state.t,
-               fmt::join(changes.struck, " "), fmt::join(changes.released, " "), fmt::join(changes.toggled, " "),
-    for (int i = 0; i < n; ++i) {
-    if (!modes_.contacts[i].closed) continue;
-    auto sh = system_.sharing(i);
-    fmt::print(
-        stderr, "   {} {} closed {} fr {} gap {:.3g} rate {:.3g} N {:.6g} T {:.6g} shared {} sl {} idle {} spare {}\n",
-        i, system_.model().contacts[i].name, modes_.contacts[i].closed, int(modes_.contacts[i].friction),
-        system_.gap(i), system_.gap_rate(i), system_.normal_force(i, lambda_), system_.friction_force(i, lambda_)[0],
-        sh.shared, sh.as_spring, sh.idle, sh.group >= 0 ? system_.spare_load(sh.group, lambda_) : 0.0);
-    forces_before(changes);
-    toggle(state, changes.toggled, events);
-    find_touching(changes);
-    const auto approaches = [this](const TouchingContact& c) { return c.before < -scale_.at_rest(); };
-    bool jumped = !changes.struck.empty() && std::any_of(touching_.begin(), touching_.end(), approaches);
-    losses_.clear();
-    lost_elsewhere_ = 0;
-    if (jumped) strike(state, changes);
-    bool without_collision = false;
+  forces_before(changes);
+  toggle(state, changes.toggled, events);
+  find_touching(changes);
+  const auto approaches = [this](const TouchingContact& c) { return c.before < -scale_.at_rest(); };
+  bool jumped = !changes.struck.empty() && std::any_of(touching_.begin(), touching_.end(), approaches);
+  losses_.clear();
+  lost_elsewhere_ = 0;
+  if (jumped) strike(state, changes);
+  bool without_collision = false;
+  lock(state, changes, events);
+  find_candidates(changes);
+  auto solution = decide(state, changes, jumped);
+  if (solution.outcome == LcpOutcome::no_solution && !jumped) {  // rule 8
+    jumped = without_collision = true;
+    for (TouchingContact& c : touching_) c.without_collision = true;
+    system_.set_modes(before_);
+    system_.move_to(state.t, state.q, state.v);
+    strike(state, changes);
     lock(state, changes, events);
     find_candidates(changes);
-    auto solution = decide(state, changes, jumped);
-    if (solution.outcome == LcpOutcome::no_solution && !jumped) {  // rule 8
-      jumped = without_collision = true;
-      for (TouchingContact& c : touching_) c.without_collision = true;
-      system_.set_modes(before_);
-      system_.move_to(state.t, state.q, state.v);
-      strike(state, changes);
-      lock(state, changes, events);
-      find_candidates(changes);
-      solution = decide(state, changes, jumped);
-    }
-    if (solution.outcome != LcpOutcome::solved) fail_without_solution("balance of forces", state.t, solution);
-    bool carry = false;
-    for (const TouchingContact& c : touching_) {
-      const bool struck = contains(changes.struck, c.contact);
-      carry = carry || ((struck || contains(changes.released, c.contact)) &&
-                        treatment(c.contact).restart == Restitution::Restart::carry);
-      if (c.impulse > 0 && (!c.was_closed || without_collision))
-        events.push_back({.t = state.t,
-                          .contact = c.contact,
-                          .impulse = c.impulse,
-                          .approach = -c.before,
-                          .separation = c.after,
-                          .energy_lost = c.energy_lost(),
-                          .friction = system_.told(c.contact, c.friction)});
-      if (struck || (!c.was_closed && c.impulse > 0)) modes_.contacts[c.contact].approach_speed = -c.before;
-    }
-    finish(state, carry);
-    if (getenv("DBG"))
-      for (const Participant& p : problem_.who)
-      fmt::print(stderr, "     -> {} N {:.6g} T {:.6g} a_n {:.3g} a_t {:.3g} closed {} fr {}\n",
-                 system_.model().contacts[p.contact].name, p.N, p.T[0], p.a_n, p.a_t[0],
+    solution = decide(state, changes, jumped);
+  }
+  if (solution.outcome != LcpOutcome::solved) fail_without_solution("balance of forces", state.t, solution);
+  bool carry = false;
+  for (const TouchingContact& c : touching_) {
+    const bool struck = contains(changes.struck, c.contact);
+    carry = carry || ((struck || contains(changes.released, c.contact)) &&
+                      treatment(c.contact).restart == Restitution::Restart::carry);
+    if (c.impulse > 0 && (!c.was_closed || without_collision))
+      events.push_back({.t = state.t,
+                        .contact = c.contact,
+                        .impulse = c.impulse,
+                        .approach = -c.before,
+                        .separation = c.after,
+                        .energy_lost = c.energy_lost(),
+                        .friction = system_.told(c.contact, c.friction)});
+    if (struck || (!c.was_closed && c.impulse > 0)) modes_.contacts[c.contact].approach_speed = -c.before;
+  }
+  finish(state, carry);
   for (const TouchingContact& c : touching_) tell_normal(state, c, events);
   tell_friction(state, events);
 }
 
 // What held the contacts that now yield.
 void ContactModes::forces_before(const ContactChanges& changes) {
-    held_by_.assign(system_.model().contacts.size(), Tangential::Zero());
-    if (changes.yielded.empty()) return;
-    system_.accelerate({}, a_, lambda_);
-    for (const int i : changes.yielded) held_by_[i] = system_.friction_force(i, lambda_);
+  held_by_.assign(system_.model().contacts.size(), Tangential::Zero());
+  if (changes.yielded.empty()) return;
+  system_.accelerate({}, a_, lambda_);
+  for (const int i : changes.yielded) held_by_[i] = system_.friction_force(i, lambda_);
 }
 
 void ContactModes::toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events) {
-    for (const int i : contacts) {
-      model::ContactMode& mode = modes_.contacts[i];
-      const double rate = system_.gap_rate(i);
-      mode.closed = !mode.closed;
-      mode.friction = Friction::none;
-      if (mode.closed) mode.approach_speed = -rate > least_approach * scale_.speed() ? -rate : 0;
-      events.push_back({.t = state.t,
-                        .kind = mode.closed ? Kind::close : Kind::open,
-                        .contact = i,
-                        .approach = -rate,
-                        .separation = rate});
-    }
+  for (const int i : contacts) {
+    model::ContactMode& mode = modes_.contacts[i];
+    const double rate = system_.gap_rate(i);
+    mode.closed = !mode.closed;
+    mode.friction = Friction::none;
+    if (mode.closed) mode.approach_speed = -rate > least_approach * scale_.speed() ? -rate : 0;
+    events.push_back({.t = state.t,
+                      .kind = mode.closed ? Kind::close : Kind::open,
+                      .contact = i,
+                      .approach = -rate,
+                      .separation = rate});
+  }
 }
 
 void ContactModes::find_touching(const ContactChanges& changes) {
-    touching_.clear();
-    for (int i = 0; i < int(system_.model().contacts.size()); ++i) {
-      const Restitution* law = system_.model().contacts[i].restitution;
-      if (!law) continue;
-      const bool closed = before_.contacts[i].closed, struck = contains(changes.struck, i);
-      if (closed && locks(i)) continue;
-      if (!closed && !struck && system_.gap(i) > scale_.touching()) continue;
-      TouchingContact c;
-      c.contact = i;
-      c.was_closed = closed;
-      c.before = c.after = system_.gap_rate(i);
-      if (struck && -c.before > treatment(i).capture_speed) c.restitution = law->coefficient(-c.before);
-      touching_.push_back(c);
-    }
+  touching_.clear();
+  for (int i = 0; i < int(system_.model().contacts.size()); ++i) {
+    const Restitution* law = system_.model().contacts[i].restitution;
+    if (!law) continue;
+    const bool closed = before_.contacts[i].closed, struck = contains(changes.struck, i);
+    if (closed && locks(i)) continue;
+    if (!closed && !struck && system_.gap(i) > scale_.touching()) continue;
+    TouchingContact c;
+    c.contact = i;
+    c.was_closed = closed;
+    c.before = c.after = system_.gap_rate(i);
+    if (struck && -c.before > treatment(i).capture_speed) c.restitution = law->coefficient(-c.before);
+    touching_.push_back(c);
+  }
 }
 
 void ContactModes::strike(State& state, const ContactChanges& changes) {
-    const double kinetic_before = system_.energy().kinetic;
-    v_before_ = state.v;
-    std::vector<bool> falls;
-    for (;;) {
-      const auto solution = impact_.solve(system_, scale_.at_rest(), touching_, dv_);
-      if (solution.outcome != LcpOutcome::solved) fail_without_solution("impact", state.t, solution);
-      state.v = v_before_ + dv_;
-      falls = falling_back(state, changes);
-      if (!capture_chatter(falls)) break;
-      system_.move_to(state.t, state.q, v_before_);
-    }
-    end_rocking(state, falls);
-    system_.move_to(state.t, state.q, state.v);
-    lost_elsewhere_ += kinetic_before - system_.energy().kinetic;
-    for (const TouchingContact& c : touching_) {
-      losses_.push_back({c.contact, c.energy_lost()});
-      lost_elsewhere_ -= c.energy_lost();
-    }
+  const double kinetic_before = system_.energy().kinetic;
+  v_before_ = state.v;
+  std::vector<bool> falls;
+  for (;;) {
+    const auto solution = impact_.solve(system_, scale_.at_rest(), touching_, dv_);
+    if (solution.outcome != LcpOutcome::solved) fail_without_solution("impact", state.t, solution);
+    state.v = v_before_ + dv_;
+    falls = falling_back(state, changes);
+    if (!capture_chatter(falls)) break;
+    system_.move_to(state.t, state.q, v_before_);
+  }
+  end_rocking(state, falls);
+  system_.move_to(state.t, state.q, state.v);
+  lost_elsewhere_ += kinetic_before - system_.energy().kinetic;
+  for (const TouchingContact& c : touching_) {
+    losses_.push_back({c.contact, c.energy_lost()});
+    lost_elsewhere_ -= c.energy_lost();
+  }
 }
 
 // Rule 9.
 void ContactModes::lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events) {
-    model::Modes held = before_;
-    const auto locked = [&](const TouchingContact& c) {
-      if (!locks(c.contact) || !(contains(changes.struck, c.contact) || c.impulse > 0) || c.after > scale_.at_rest())
-        return false;
-      held.contacts[c.contact].closed = modes_.contacts[c.contact].closed = true;
-      modes_.contacts[c.contact].approach_speed = -c.before;
-      events.push_back({.t = state.t,
-                        .kind = ContactEvent::Kind::latch,
-                        .contact = c.contact,
-                        .impulse = c.impulse,
-                        .approach = -c.before,
-                        .separation = c.after,
-                        .energy_lost = c.energy_lost()});
-      return true;
-    };
-    if (std::erase_if(touching_, locked) == 0) return;
-    before_ = held;
-    system_.set_modes(held);
-    system_.move_to(state.t, state.q, state.v);
+  model::Modes held = before_;
+  const auto locked = [&](const TouchingContact& c) {
+    if (!locks(c.contact) || !(contains(changes.struck, c.contact) || c.impulse > 0) || c.after > scale_.at_rest())
+      return false;
+    held.contacts[c.contact].closed = modes_.contacts[c.contact].closed = true;
+    modes_.contacts[c.contact].approach_speed = -c.before;
+    events.push_back({.t = state.t,
+                      .kind = ContactEvent::Kind::latch,
+                      .contact = c.contact,
+                      .impulse = c.impulse,
+                      .approach = -c.before,
+                      .separation = c.after,
+                      .energy_lost = c.energy_lost()});
+    return true;
+  };
+  if (std::erase_if(touching_, locked) == 0) return;
+  before_ = held;
+  system_.set_modes(held);
+  system_.move_to(state.t, state.q, state.v);
 }
 
 void ContactModes::fail_without_solution(const char* what, double t,
                                          const complementarity::ContactSolution& solution) const {
-    std::vector<std::string_view> names;
-    bool friction = false;
-    for (const TouchingContact& c : touching_) {
-      const model::ContactEntry& entry = system_.model().contacts[c.contact];
-      names.push_back(entry.name);
-      friction = friction || entry.friction;
-    }
-    const std::string compliant = "; a compliant law, such as continuous_force, has one";
-    std::string why;
-    if (solution.outcome != LcpOutcome::no_solution)
-      why = fmt::format(
-          "was not found: the best try violates the contacts' conditions by {:.2g} of the forces, {:.0g} is asked "
-          "for{}",
-          solution.violation, complementarity::largest_violation, compliant);
-    else if (friction)
-      why =
-          "has no solution, as a search of all their modes proves: so much friction leaves rigid contacts none "
-          "(Painleve)" +
-          compliant;
-    else
-      why = "has no solution: they close on bodies that cannot give way";
-    throw RunFailed(fmt::format("at t = {:.9g} s: the {} of contacts {} {}", t, what, fmt::join(names, ", "), why));
+  std::vector<std::string_view> names;
+  bool friction = false;
+  for (const TouchingContact& c : touching_) {
+    const model::ContactEntry& entry = system_.model().contacts[c.contact];
+    names.push_back(entry.name);
+    friction = friction || entry.friction;
+  }
+  const std::string compliant = "; a compliant law, such as continuous_force, has one";
+  std::string why;
+  if (solution.outcome != LcpOutcome::no_solution)
+    why = fmt::format(
+        "was not found: the best try violates the contacts' conditions by {:.2g} of the forces, {:.0g} is asked "
+        "for{}",
+        solution.violation, complementarity::largest_violation, compliant);
+  else if (friction)
+    why =
+        "has no solution, as a search of all their modes proves: so much friction leaves rigid contacts none "
+        "(Painleve)" +
+        compliant;
+  else
+    why = "has no solution: they close on bodies that cannot give way";
+  throw RunFailed(fmt::format("at t = {:.9g} s: the {} of contacts {} {}", t, what, fmt::join(names, ", "), why));
 }
 
 bool ContactModes::cannot_follow(double separation, double acceleration) const {
-    if (!(acceleration < 0)) return false;
-    if (steps_.fixed) return 2 * separation < chatter_steps_ * *steps_.fixed * -acceleration;
-    const double error = steps_.tolerance.absolute + steps_.tolerance.relative * scale_.length();
-    return separation * separation < chatter_steps_ * error * 2 * -acceleration;
+  if (!(acceleration < 0)) return false;
+  if (steps_.fixed) return 2 * separation < chatter_steps_ * *steps_.fixed * -acceleration;
+  const double error = steps_.tolerance.absolute + steps_.tolerance.relative * scale_.length();
+  return separation * separation < chatter_steps_ * error * 2 * -acceleration;
 }
 
 // Of the touching contacts those that separate after the impact, but fall back before the steps can follow. All with so small a
 // separation are judged as one: in a pile each flies only as long as its neighbours do. Were they all at rest, those that would press
 // fall back, with the acceleration that their own force holds.
 std::vector<bool> ContactModes::falling_back(const State& state, const ContactChanges& changes) {
-    const double at_rest = scale_.at_rest();
-    const auto separates = [at_rest](const TouchingContact& c) {
-      const bool rebounds =
-          c.restitution > 0 && c.restitution < 1 && c.impulse > 0;  // with e = 1 flights do not shrink
-      return rebounds || (c.was_closed && c.impulse == 0 && c.after > at_rest);
-    };
-    std::vector<bool> falls(touching_.size(), false);
-    if (chatter_steps_ <= 0 || std::none_of(touching_.begin(), touching_.end(), separates)) return falls;
-    system_.move_to(state.t, state.q, state.v);
-    find_candidates(changes);
-    const std::size_t at_rest_now = candidates_.size();
-    model::Modes open = modes_;
-    open_all(open);
-    system_.set_modes(open);
-    system_.move_to(state.t, state.q, state.v);
-    const double fastest = fastest_gap_acceleration();
-    for (const TouchingContact& c : touching_)
-      if (separates(c) && !contains(candidates_, c.contact) && cannot_follow(c.after, -fastest))
-        candidates_.push_back(c.contact);
-    if (candidates_.size() > at_rest_now) {
-      gather(state, changes, true);
-      problem_.prepare(system_);
-      accelerate_participants();
-      if (problem_.solve(nothing()).outcome == LcpOutcome::solved)
-        for (std::size_t i = at_rest_now; i < candidates_.size(); ++i) {
-          const auto c = std::find_if(touching_.begin(), touching_.end(),
-                                      [&](const TouchingContact& each) { return each.contact == candidates_[i]; });
-          falls[std::size_t(c - touching_.begin())] =
-              problem_.who[i].N > 0 && cannot_follow(c->after, problem_.acceleration_without(i));
-        }
-    }
-    system_.set_modes(before_);
-    system_.move_to(state.t, state.q, state.v);
-    return falls;
+  const double at_rest = scale_.at_rest();
+  const auto separates = [at_rest](const TouchingContact& c) {
+    const bool rebounds = c.restitution > 0 && c.restitution < 1 && c.impulse > 0;  // with e = 1 flights do not shrink
+    return rebounds || (c.was_closed && c.impulse == 0 && c.after > at_rest);
+  };
+  std::vector<bool> falls(touching_.size(), false);
+  if (chatter_steps_ <= 0 || std::none_of(touching_.begin(), touching_.end(), separates)) return falls;
+  system_.move_to(state.t, state.q, state.v);
+  find_candidates(changes);
+  const std::size_t at_rest_now = candidates_.size();
+  model::Modes open = modes_;
+  open_all(open);
+  system_.set_modes(open);
+  system_.move_to(state.t, state.q, state.v);
+  const double fastest = fastest_gap_acceleration();
+  for (const TouchingContact& c : touching_)
+    if (separates(c) && !contains(candidates_, c.contact) && cannot_follow(c.after, -fastest))
+      candidates_.push_back(c.contact);
+  if (candidates_.size() > at_rest_now) {
+    gather(state, changes, true);
+    problem_.prepare(system_);
+    accelerate_participants();
+    if (problem_.solve(nothing()).outcome == LcpOutcome::solved)
+      for (std::size_t i = at_rest_now; i < candidates_.size(); ++i) {
+        const auto c = std::find_if(touching_.begin(), touching_.end(),
+                                    [&](const TouchingContact& each) { return each.contact == candidates_[i]; });
+        falls[std::size_t(c - touching_.begin())] =
+            problem_.who[i].N > 0 && cannot_follow(c->after, problem_.acceleration_without(i));
+      }
+  }
+  system_.set_modes(before_);
+  system_.move_to(state.t, state.q, state.v);
+  return falls;
 }
 
 double ContactModes::fastest_gap_acceleration() {
-    system_.accelerate({}, a_, lambda_);
-    double fastest = 0;
-    for (const TouchingContact& c : touching_)
-      fastest = std::max(fastest, std::abs(system_.acceleration({c.contact, 0}, a_)));
-    return fastest;
+  system_.accelerate({}, a_, lambda_);
+  double fastest = 0;
+  for (const TouchingContact& c : touching_)
+    fastest = std::max(fastest, std::abs(system_.acceleration({c.contact, 0}, a_)));
+  return fastest;
 }
 
 // Rule 2: takes e = 0 where the rebound is too short to follow; true if there is such a contact.
 bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
-    bool captured = false;
-    for (std::size_t i = 0; i < touching_.size(); ++i)
-      if (falls[i] && touching_[i].restitution > 0) touching_[i].restitution = 0, captured = true;
-    return captured;
+  bool captured = false;
+  for (std::size_t i = 0; i < touching_.size(); ++i)
+    if (falls[i] && touching_[i].restitution > 0) touching_[i].restitution = 0, captured = true;
+  return captured;
 }
 
 // Rule 2: takes the rates of those that opened, pushed by the impact of others, too little to follow.
 void ContactModes::end_rocking(State& state, const std::vector<bool>& falls) {
-    const double at_rest = scale_.at_rest();
-    std::vector<bool> rests = falls;
-    bool any = std::find(falls.begin(), falls.end(), true) != falls.end();
-    for (std::size_t i = 0; i < touching_.size(); ++i) rests[i] = rests[i] || touching_[i].after <= at_rest;
-    while (any) {
-      take_rates(state, rests);
-      any = false;
-      for (std::size_t i = 0; i < touching_.size(); ++i) {
-        TouchingContact& c = touching_[i];
-        c.after = rests[i] ? 0 : system_.gap_rate(c.contact);
-        if (c.after < -at_rest) rests[i] = any = true;
-      }
+  const double at_rest = scale_.at_rest();
+  std::vector<bool> rests = falls;
+  bool any = std::find(falls.begin(), falls.end(), true) != falls.end();
+  for (std::size_t i = 0; i < touching_.size(); ++i) rests[i] = rests[i] || touching_[i].after <= at_rest;
+  while (any) {
+    take_rates(state, rests);
+    any = false;
+    for (std::size_t i = 0; i < touching_.size(); ++i) {
+      TouchingContact& c = touching_[i];
+      c.after = rests[i] ? 0 : system_.gap_rate(c.contact);
+      if (c.after < -at_rest) rests[i] = any = true;
     }
+  }
 }
 
 // The least change of v, so a loss of energy, after which the contacts that rest have no rate.
 void ContactModes::take_rates(State& state, const std::vector<bool>& rests) {
-    std::vector<model::ContactDirection> held;
-    for (std::size_t i = 0; i < touching_.size(); ++i) {
-      const TouchingContact& c = touching_[i];
-      if (!rests[i]) continue;
-      held.push_back({c.contact, 0});
-      if (system_.model().contacts[c.contact].coulomb && c.slip_after.norm() <= scale_.at_rest())
-        for (int k = 1; k <= system_.tangents(); ++k) held.push_back({c.contact, k});
-    }
-    Vec rates(Eigen::Index(held.size()));
-    for (std::size_t i = 0; i < held.size(); ++i) rates[Eigen::Index(i)] = system_.rate(held[i]);
-    Mat jump, delassus;
-    system_.impulse_response(held, jump, delassus);
-    state.v -= jump * delassus.completeOrthogonalDecomposition().solve(rates);
-    system_.move_to(state.t, state.q, state.v);
+  std::vector<model::ContactDirection> held;
+  for (std::size_t i = 0; i < touching_.size(); ++i) {
+    const TouchingContact& c = touching_[i];
+    if (!rests[i]) continue;
+    held.push_back({c.contact, 0});
+    if (system_.model().contacts[c.contact].coulomb && c.slip_after.norm() <= scale_.at_rest())
+      for (int k = 1; k <= system_.tangents(); ++k) held.push_back({c.contact, k});
+  }
+  Vec rates(Eigen::Index(held.size()));
+  for (std::size_t i = 0; i < held.size(); ++i) rates[Eigen::Index(i)] = system_.rate(held[i]);
+  Mat jump, delassus;
+  system_.impulse_response(held, jump, delassus);
+  state.v -= jump * delassus.completeOrthogonalDecomposition().solve(rates);
+  system_.move_to(state.t, state.q, state.v);
 }
 
 double ContactModes::step_limit(const State& state) {
-    std::vector<model::ContactDirection> directions;
-    const auto& contacts = system_.modes().contacts;
-    for (int i = 0; i < int(contacts.size()); ++i)
-      if (contacts[i].closed && contacts[i].friction != Friction::none)
-        for (int row = 0; row <= system_.tangents(); ++row) directions.push_back({i, row});
-    if (directions.empty()) return std::numeric_limits<double>::infinity();
-    system_.move_to(state.t, state.q, state.v);
-    return 0.45 * 2 * std::numbers::pi / system_.highest_frequency(directions);
+  std::vector<model::ContactDirection> directions;
+  const auto& contacts = system_.modes().contacts;
+  for (int i = 0; i < int(contacts.size()); ++i)
+    if (contacts[i].closed && contacts[i].friction != Friction::none)
+      for (int row = 0; row <= system_.tangents(); ++row) directions.push_back({i, row});
+  if (directions.empty()) return std::numeric_limits<double>::infinity();
+  system_.move_to(state.t, state.q, state.v);
+  return 0.45 * 2 * std::numbers::pi / system_.highest_frequency(directions);
 }
 
 double ContactModes::friction_noise(int contact) {
-    std::vector<model::ContactDirection> along;
-    for (int k = 1; k <= system_.tangents(); ++k) along.push_back({contact, k});
-    Mat jump, delassus;
-    system_.impulse_response(along, jump, delassus);
-    const double least = delassus.diagonal().minCoeff();
-    return least > 0 ? scale_.no_acceleration() / least : 0;
+  std::vector<model::ContactDirection> along;
+  for (int k = 1; k <= system_.tangents(); ++k) along.push_back({contact, k});
+  Mat jump, delassus;
+  system_.impulse_response(along, jump, delassus);
+  const double least = delassus.diagonal().minCoeff();
+  return least > 0 ? scale_.no_acceleration() / least : 0;
 }
 
 double ContactModes::force_noise(const std::vector<model::ContactDirection>& directions) {
-    Mat jump, delassus;
-    system_.impulse_response(directions, jump, delassus);
-    const double most = delassus.cwiseAbs().rowwise().sum().maxCoeff();
-    return most > 0 ? scale_.no_acceleration() / most : 0;
+  Mat jump, delassus;
+  system_.impulse_response(directions, jump, delassus);
+  const double most = delassus.cwiseAbs().rowwise().sum().maxCoeff();
+  return most > 0 ? scale_.no_acceleration() / most : 0;
 }
 
 // For those whose `restart` carries them over.
 void ContactModes::keep_forces(const State& state) {
-    lambda_before_ = state.lambda;
-    forces_before_.clear();
-    const auto carries = [this](const model::ContactEntry& contact) {
-      return contact.restitution && contact.restitution->treatment().restart == Restitution::Restart::carry;
-    };
-    const auto& contacts = system_.model().contacts;
-    if (std::none_of(contacts.begin(), contacts.end(), carries)) return;
-    forces_before_.assign(contacts.size(), Eigen::Vector3d::Zero());
-    if (state.lambda.size() != system_.sizes().nc) return;  // none yet
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      const model::ContactMode& mode = before_.contacts[i];
-      if (!mode.closed) continue;
-      if (contacts[i].restitution) forces_before_[i][0] = system_.normal_force(int(i), state.lambda);
-      if (mode.friction == Friction::stick) forces_before_[i].tail<2>() = system_.friction_force(int(i), state.lambda);
-    }
+  lambda_before_ = state.lambda;
+  forces_before_.clear();
+  const auto carries = [this](const model::ContactEntry& contact) {
+    return contact.restitution && contact.restitution->treatment().restart == Restitution::Restart::carry;
+  };
+  const auto& contacts = system_.model().contacts;
+  if (std::none_of(contacts.begin(), contacts.end(), carries)) return;
+  forces_before_.assign(contacts.size(), Eigen::Vector3d::Zero());
+  if (state.lambda.size() != system_.sizes().nc) return;  // none yet
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const model::ContactMode& mode = before_.contacts[i];
+    if (!mode.closed) continue;
+    if (contacts[i].restitution) forces_before_[i][0] = system_.normal_force(int(i), state.lambda);
+    if (mode.friction == Friction::stick) forces_before_[i].tail<2>() = system_.friction_force(int(i), state.lambda);
+  }
 }
 
 // Multipliers that stand for the forces kept: of shared rows for their resultants.
 void ContactModes::carry_forces(Vec& lambda) const {
-    const int joint_rows = system_.model().sizes.nc;
-    lambda.setZero(system_.sizes().nc);
-    if (lambda_before_.size() >= joint_rows) lambda.head(joint_rows) = lambda_before_.head(joint_rows);
-    const auto force = [this](const model::ContactDirection& d) {
-      return forces_before_[std::size_t(d.contact)][d.row];
-    };
-    for (int i = 0; i < int(forces_before_.size()); ++i)
-      for (int k = 0; k < 3; ++k)
-        if (const int row = system_.row({i, k}); row >= 0) lambda[row] = -force({i, k});
-    for (const model::SharedRows& shared : system_.modes().shared)
-      for (std::size_t j = 0; j < shared.basis.size(); ++j)
-        for (std::size_t i = 0; i < shared.implied.size(); ++i)
-          lambda[system_.row(shared.basis[j])] -= shared.K(Eigen::Index(i), Eigen::Index(j)) * force(shared.implied[i]);
+  const int joint_rows = system_.model().sizes.nc;
+  lambda.setZero(system_.sizes().nc);
+  if (lambda_before_.size() >= joint_rows) lambda.head(joint_rows) = lambda_before_.head(joint_rows);
+  const auto force = [this](const model::ContactDirection& d) { return forces_before_[std::size_t(d.contact)][d.row]; };
+  for (int i = 0; i < int(forces_before_.size()); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (const int row = system_.row({i, k}); row >= 0) lambda[row] = -force({i, k});
+  for (const model::SharedRows& shared : system_.modes().shared)
+    for (std::size_t j = 0; j < shared.basis.size(); ++j)
+      for (std::size_t i = 0; i < shared.implied.size(); ++i)
+        lambda[system_.row(shared.basis[j])] -= shared.K(Eigen::Index(i), Eigen::Index(j)) * force(shared.implied[i]);
 }
 
 void ContactModes::finish(State& state, bool carry) {
-    system_.set_modes(modes_);
-    system_.move_to(state.t, state.q, state.v);
-    if (carry)
-      carry_forces(state.lambda);
-    else
-      system_.accelerate({}, state.a, state.lambda);
+  system_.set_modes(modes_);
+  system_.move_to(state.t, state.q, state.v);
+  if (carry)
+    carry_forces(state.lambda);
+  else
+    system_.accelerate({}, state.a, state.lambda);
 }
 
 void ContactModes::tell_normal(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events) {
-    const bool closed = modes_.contacts[c.contact].closed;
-    ContactEvent event{.t = state.t, .contact = c.contact, .approach = -c.before, .separation = c.after};
-    if (closed != c.was_closed) {
-      event.kind = closed ? Kind::close : Kind::open;
-    } else if (!closed && contains(candidates_, c.contact) && c.impulse > 0) {
-      event.kind = Kind::lift;
-    } else {
-      return;
-    }
-    events.push_back(event);
+  const bool closed = modes_.contacts[c.contact].closed;
+  ContactEvent event{.t = state.t, .contact = c.contact, .approach = -c.before, .separation = c.after};
+  if (closed != c.was_closed) {
+    event.kind = closed ? Kind::close : Kind::open;
+  } else if (!closed && contains(candidates_, c.contact) && c.impulse > 0) {
+    event.kind = Kind::lift;
+  } else {
+    return;
+  }
+  events.push_back(event);
 }
 
 void ContactModes::tell_friction(const State& state, std::vector<ContactEvent>& events) {
-    for (int i = 0; i < int(modes_.contacts.size()); ++i) {
-      const model::ContactMode &now = modes_.contacts[i], &before = before_.contacts[i];
-      if (!now.closed || now.friction == Friction::none) continue;
-      const bool sticks = now.friction == Friction::stick;
-      const bool same =
-          before.closed && now.friction == before.friction && (sticks || now.direction.dot(before.direction) > 0);
-      if (same) continue;
-      const bool slid = before.closed && before.friction == Friction::slide;
-      events.push_back({.t = state.t,
-                        .kind = sticks ? Kind::stick
-                                : slid ? Kind::reversal
-                                       : Kind::slip,
-                        .contact = i,
-                        .friction = system_.told(i, system_.friction_force(i, state.lambda)),
-                        .direction = system_.told(i, now.direction)});
-    }
+  for (int i = 0; i < int(modes_.contacts.size()); ++i) {
+    const model::ContactMode &now = modes_.contacts[i], &before = before_.contacts[i];
+    if (!now.closed || now.friction == Friction::none) continue;
+    const bool sticks = now.friction == Friction::stick;
+    const bool same =
+        before.closed && now.friction == before.friction && (sticks || now.direction.dot(before.direction) > 0);
+    if (same) continue;
+    const bool slid = before.closed && before.friction == Friction::slide;
+    events.push_back({.t = state.t,
+                      .kind = sticks ? Kind::stick
+                              : slid ? Kind::reversal
+                                     : Kind::slip,
+                      .contact = i,
+                      .friction = system_.told(i, system_.friction_force(i, state.lambda)),
+                      .direction = system_.told(i, now.direction)});
+  }
 }
 
 }  // namespace trammel::simulate

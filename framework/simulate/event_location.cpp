@@ -211,29 +211,22 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
       return Found::event;
     }
     double h_event = h;
-    if (getenv("DBGE"))
-      for (Suspect& s : suspects_)
-        fprintf(
-            stderr,
-            "t %.12f suspect kind %d contact %s now %g next %g high %g f_high %g h %g noise %g little %g bound %g\n",
-            now.t, int(watches_[s.watch].kind), system_.model().contacts[watches_[s.watch].contact].name.c_str(),
-            now_[s.watch].f, next_[s.watch].f, s.high, s.f_high, h, watches_[s.watch].noise, watches_[s.watch].little,
     for (Suspect& suspect : suspects_) {
-          if (suspect.high > h_event) {  // only if it comes before the earliest so far
-            const Value& there = step_to(now, h_event, suspect.watch);
-            if (!happened(suspect.watch, there)) continue;
-            suspect.high = h_event, suspect.f_high = there.f;
-          }
-          const double located = locate(now, suspect);
-          if (first < 0 || located < h_event) first = suspect.watch;
-          h_event = std::min(h_event, located);
+      if (suspect.high > h_event) {  // only if it comes before the earliest so far
+        const Value& there = step_to(now, h_event, suspect.watch);
+        if (!happened(suspect.watch, there)) continue;
+        suspect.high = h_event, suspect.f_high = there.f;
+      }
+      const double located = locate(now, suspect);
+      if (first < 0 || located < h_event) first = suspect.watch;
+      h_event = std::min(h_event, located);
     }
     h_event = std::min(h, std::max(h_event, 4 * eps * std::max(std::abs(now.t), std::abs(now.t + h))));
     if (h_event < h) {
-          ++steps_tried_;
-          if (!trial_step(integrator_, system_, now, h_event, next)) return Found::step_refused;
-          evaluate(next, next_);
-          h = h_event;
+      ++steps_tried_;
+      if (!trial_step(integrator_, system_, now, h_event, next)) return Found::step_refused;
+      evaluate(next, next_);
+      h = h_event;
     }
   } catch (const StepRefused&) {
     return Found::step_refused;
