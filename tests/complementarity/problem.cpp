@@ -77,7 +77,8 @@ Problem permuted(const Problem& problem, const std::vector<std::size_t>& order) 
 
 Vec permuted_back(const Problem& problem, const std::vector<std::size_t>& order, const Vec& x) {
   Vec result(x.size());
-  result(rows_of(problem, order)) = x;
+  Eigen::Index k = 0;
+  for (const Eigen::Index row : rows_of(problem, order)) result[row] = x[k++];
   return result;
 }
 
