@@ -70,7 +70,9 @@ double ContactLoads::spring(ContactDirection d, const Vec& lambda) const {
 void ContactLoads::begin(int group, const Vec& lambda) {
   Vec resultants(basis_size(group));
   for (int k = 0; k < int(resultants.size()); ++k) resultants[k] = -lambda(row_of_basis(group, k));
-  groups_[std::size_t(group)].forces = modes_->shared[std::size_t(group)].share * resultants;
+  Group& g = groups_[std::size_t(group)];
+  g.forces = modes_->shared[std::size_t(group)].share * resultants;
+  if (!g.members.empty()) g.resultants = g.E * g.shared();
 }
 
 double ContactLoads::scale(const Group& group) const {
@@ -113,13 +115,13 @@ void ContactLoads::share_admissibly(Group& group) {
   if (slack(group) >= -round_off * scale(group)) return;
   // Those that miss the resultants least, where none have them: until the event that follows from it.
   Vec shared;
-  complementarity::admissible_forces(sharing(group), group.E, group.E * group.shared(), shared);
+  complementarity::admissible_forces(sharing(group), group.E, group.resultants, shared);
   group.forces(group.directions) = shared;
 }
 
 double ContactLoads::spare_load(int group) const {
   const Group& g = groups_[std::size_t(group)];
-  return complementarity::spare_load(sharing(g), g.E, g.E * g.shared());
+  return complementarity::spare_load(sharing(g), g.E, g.resultants);
 }
 
 }  // namespace trammel::model

@@ -70,6 +70,7 @@ class ContactLoads {
     std::vector<Eigen::Index> directions;  // theirs, in (basis, implied)
     Mat E;                                 // their resultants, as many as are independent, by their forces
     Vec forces;                            // of all [N]
+    Vec resultants;                        // of the members [N]
     Vec shared() const { return forces(directions); }
   };
   Eigen::Index basis_size(int group) const { return Eigen::Index(modes_->shared[std::size_t(group)].basis.size()); }

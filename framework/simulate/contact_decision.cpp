@@ -80,8 +80,8 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
   }
   p.tangent = rests ? Tangent::resting : Tangent::sliding;
   if (!rests) p.ratio = -p.mu * p.direction;
-  p.let_go = rests && !shared_before_[p.contact] && contains(changes.yielded, p.contact) &&
-             entry.coulomb->decide() == SetValuedFriction::Decide::at_events;
+  p.let_go = p.yielded = rests && !shared_before_[p.contact] && contains(changes.yielded, p.contact) &&
+                         entry.coulomb->decide() == SetValuedFriction::Decide::at_events;
 }
 
 // Who takes part: candidates of rule 3, and compliant contacts at rest in the tangent.
@@ -145,7 +145,7 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
   const complementarity::ContactSolution solution = problem_.solve(nothing());
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
   const std::vector<bool> kept_closed = problem_.kept_closed(nothing());
-  for (std::size_t i = 0; i < problem_.who.size(); ++i) take_verdict(problem_.who[i], kept_closed[i], changes);
+  for (std::size_t i = 0; i < problem_.who.size(); ++i) take_verdict(problem_.who[i], kept_closed[i]);
   modes_.shared = problem_.shared_rows(modes_);
   return solution;
 }
@@ -162,7 +162,7 @@ void ContactModes::accelerate_participants() {
   }
 }
 
-void ContactModes::take_verdict(const Participant& p, bool kept_closed, const ContactChanges& changes) {
+void ContactModes::take_verdict(const Participant& p, bool kept_closed) {
   model::ContactMode& mode = modes_.contacts[p.contact];
   mode.closed = !p.unilateral || p.N > 0 || kept_closed;
   mode.friction = Friction::none;
@@ -173,9 +173,8 @@ void ContactModes::take_verdict(const Participant& p, bool kept_closed, const Co
   if (p.tangent == Tangent::sliding) return;
   if (p.a_t.norm() > nothing()) {
     mode.direction = direction_of(p.a_t);
-  } else if (contains(changes.yielded, p.contact) && held_by_[p.contact] != Tangential::Zero() &&
-             !shared_before_[p.contact]) {
-    mode.direction = -direction_of(held_by_[p.contact]);
+  } else if (p.yielded && p.T.norm() > (1 - 1e-6) * p.mu * p.N) {  // too slowly to be seen
+    mode.direction = -direction_of(p.T);
   } else {
     mode.friction = Friction::stick;
     if (before_.contacts[p.contact].friction != Friction::stick) system_.anchor(p.contact, mode);

@@ -37,7 +37,6 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   shared_before_.resize(std::size_t(n));
   for (int i = 0; i < n; ++i) shared_before_[std::size_t(i)] = system_.sharing(i).shared;
   keep_forces(state);
-  forces_before(changes);
   toggle(state, changes.toggled, events);
   find_touching(changes);
   const auto approaches = [this](const TouchingContact& c) { return c.before < -scale_.at_rest(); };
@@ -78,14 +77,6 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   finish(state, carry);
   for (const TouchingContact& c : touching_) tell_normal(state, c, events);
   tell_friction(state, events);
-}
-
-// What held the contacts that now yield.
-void ContactModes::forces_before(const ContactChanges& changes) {
-  held_by_.assign(system_.model().contacts.size(), Tangential::Zero());
-  if (changes.yielded.empty()) return;
-  system_.accelerate({}, a_, lambda_);
-  for (const int i : changes.yielded) held_by_[i] = system_.friction_force(i, lambda_);
 }
 
 void ContactModes::toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events) {

@@ -28,8 +28,9 @@
 //     step began (model/slip.hpp): more than `slow` across it there has turned, and slides on in its own direction; less
 //     counts as rest, so a slip that dips below `slow`, 1e-7 of the scene's speed, is taken through rest. Fixed steps do not
 //     resolve the end of a slip that turns; there also what a tenth of a step takes away counts as rest.
-//  6. A contact whose friction has reached its bound lets go: mu decides at once; if it accelerates neither way (mu = mu_0)
-//     it slides against the force that held it. All others at rest are checked at the same instant.
+//  6. A contact whose friction has reached its bound lets go: mu decides at once, less a part of 1e-8, so that it is not held
+//     exactly there (mu = mu_0). It slides, or opens where sliding would pull (much friction). All others at rest are checked at
+//     the same instant.
 //  7. What was left of the slip of those at rest by the steps (a drift) is ended by the least change of v. Others whose slip
 //     ends with it (the third foot of a table) are at rest as well: from rule 5 again.
 //  8. Where rigid contacts have no solution with finite forces (Painleve's rod), the slip stops in an impact without collision:
@@ -100,7 +101,6 @@ class ContactModes {
   using Kind = ContactEvent::Kind;
 
   void toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events);
-  void forces_before(const ContactChanges& changes);
   void find_touching(const ContactChanges& changes);
   void strike(State& state, const ContactChanges& changes);
   std::vector<bool> falling_back(const State& state, const ContactChanges& changes);
@@ -117,7 +117,7 @@ class ContactModes {
   bool end_drift(State& state, ContactChanges& changes);
   [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped);
   void accelerate_participants();
-  void take_verdict(const Participant& p, bool kept_closed, const ContactChanges& changes);
+  void take_verdict(const Participant& p, bool kept_closed);
   void finish(State& state, bool carry);
   void tell_normal(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
   void tell_friction(const State& state, std::vector<ContactEvent>& events);
@@ -142,7 +142,6 @@ class ContactModes {
   model::Modes before_, modes_;
   std::vector<TouchingContact> touching_;
   std::vector<int> candidates_;
-  std::vector<Tangential> held_by_;             // by contact: its friction before the event [N]
   std::vector<bool> shared_before_;             // by contact: it shared rows with others
   std::vector<Eigen::Vector3d> forces_before_;  // by contact and direction [N], where some are carried over
   std::vector<Loss> losses_;

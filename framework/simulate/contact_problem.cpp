@@ -14,6 +14,12 @@ Eigen::VectorBlock<Vec> along(Vec& x, const complementarity::ContactPoint& p) {
   return x.segment(p.tangent, p.tangents);
 }
 
+// Static or kinetic coefficient.
+double bound_of(const Participant& p) {
+  if (p.yielded) return (1 - 1e-8) * p.mu;
+  return p.let_go ? p.mu : p.mu_0;
+}
+
 }  // namespace
 
 void ContactProblem::prepare(model::AssembledSystem& system) {
@@ -37,7 +43,7 @@ complementarity::ContactSolution ContactProblem::solve_once(double nothing) {
     complementarity::ContactPoint& point = points_[i];
     point.given = p.given;
     if (p.tangent == Participant::Tangent::resting)
-      point.kind = complementarity::ContactPoint::Tangent::resting, point.coefficient = p.let_go ? p.mu : p.mu_0;
+      point.kind = complementarity::ContactPoint::Tangent::resting, point.coefficient = bound_of(p);
     else if (p.tangent == Participant::Tangent::sliding)
       point.kind = complementarity::ContactPoint::Tangent::sliding, point.ratio = p.ratio;
   }

@@ -25,6 +25,7 @@ struct Participant {
   Tangential ratio = Tangential::Zero();      // sliding: T / N
   Tangential direction = Tangential::Zero();  // sliding: of the slip velocity, length 1
   bool let_go = false;                        // resting: mu from the start; in the end: mu_0 did not hold it
+  bool yielded = false;  // resting, let go: its friction has reached its bound, it is not held there
 
   double vanishing = 0;  // of several solutions the one that is left of this approach in addition to a_n
 
