@@ -15,6 +15,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double dependent = 1e-13;
 // Of accelerations: round-off, and what a proof that nothing gives way must exceed.
 constexpr double round_off = 1e-14, certain = 1e-9;
+// Of the forces that accelerations ask for, A's diagonal being 1.
+constexpr double endless = 1e10;
 
 class PrincipalPivoting {
  public:
@@ -71,7 +73,9 @@ class PrincipalPivoting {
       for (Eigen::Index k = 0; k < yields.size(); ++k)
         if (yields[k] > 0 && x_[carrying_[std::size_t(k)]] < room * yields[k])
           first = k, room = x_[carrying_[std::size_t(k)]] / yields[k];
-      if (first < 0 && wanted == infinity) return end_of(j, yields, approach);
+      // A room as large is that of a force which falls by round-off only.
+      const bool unbounded = wanted == infinity && !(room <= endless * b_.lpNorm<Eigen::Infinity>());
+      if (unbounded) return end_of(j, yields, approach);
       const double by = std::min(wanted, room);
       for (Eigen::Index k = 0; k < yields.size(); ++k) x_[carrying_[std::size_t(k)]] -= by * yields[k];
       x_[j] += by;

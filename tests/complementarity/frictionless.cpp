@@ -42,6 +42,25 @@ TEST(Frictionless, HasASolutionOrAProofThatThereIsNone) {
   EXPECT_GT(without, 50);
 }
 
+// Squeezed blocks, whose forces are in balance to the last digit but one.
+TEST(Frictionless, StructuresHaveASolutionOrAProofThatThereIsNone) {
+  std::mt19937 random(38);
+  for (int i = 0; i < 3000; ++i) {
+    Problem problem = any_structure(random, 8);
+    std::vector<Eigen::Index> normals;
+    for (std::size_t k = 0; k < problem.points.size(); ++k) normals.push_back(Eigen::Index(2 * k));
+    problem.A = problem.A(normals, normals).eval(), problem.b = problem.b(normals).eval();
+    for (std::size_t k = 0; k < problem.points.size(); ++k) problem.points[k] = {.normal = int(k)};
+    const Answer answer = solve(problem);
+    if (answer.outcome == LcpOutcome::no_solution) {
+      expect_proof(problem, i);
+      continue;
+    }
+    ASSERT_EQ(answer.outcome, LcpOutcome::solved) << problem.kind << ", " << i;
+    EXPECT_LE(offence(problem, answer.F, answer.a), little(problem, answer.F)) << problem.kind << ", " << i;
+  }
+}
+
 // Consistent ones, b = G a_0, always have one: their accelerations are those nearest to a_0 that do not approach.
 TEST(Frictionless, IsSolvedWhateverTheRankWhereGapsAreConsistent) {
   std::mt19937 random(34);

@@ -36,22 +36,27 @@ TEST(Limits, AContactThatJustTouchesLeavesItsTangentAlone) {
   EXPECT_EQ(a[1], 4);
 }
 
-// Forces in newtons or micronewtons, accelerations in m/s^2 or nm/s^2: the same answer.
+// Forces in newtons or micronewtons, accelerations in m/s^2 or nm/s^2: the same answer. Of several solutions with friction and
+// different accelerations round-off may choose another, about one problem in a thousand of these; then it is one as well.
 TEST(Limits, UnitsDoNotMatter) {
   std::mt19937 random(52);
+  int others = 0;
   for (int i = 0; i < 1000; ++i) {
     const Problem problem = i % 2 ? any_structure(random, 8) : any_planar(random, 1 + i % 8);
-    Problem other = problem;
+    Problem scaled = problem;
     const double forces = 1e6, accelerations = 1e-9;
-    other.A *= accelerations / forces, other.b *= accelerations;
-    for (ContactPoint& p : other.points) p.given *= forces;
-    const Answer answer = solve(problem), scaled = solve(other);
-    ASSERT_EQ(answer.outcome, scaled.outcome) << problem.kind << ", " << i;
-    EXPECT_LE((scaled.F / forces - answer.F).lpNorm<Eigen::Infinity>(), 1e-8 * answer.F.lpNorm<Eigen::Infinity>())
-        << problem.kind << ", " << i;
-    EXPECT_LE((scaled.a / accelerations - answer.a).lpNorm<Eigen::Infinity>(), little(problem, answer.F))
-        << problem.kind << ", " << i;
+    scaled.A *= accelerations / forces, scaled.b *= accelerations;
+    for (ContactPoint& p : scaled.points) p.given *= forces;
+    const Answer answer = solve(problem), other = solve(scaled);
+    ASSERT_EQ(answer.outcome, other.outcome) << problem.kind << ", " << i;
+    const Vec F = other.F / forces, a = other.a / accelerations;
+    const bool same = (F - answer.F).lpNorm<Eigen::Infinity>() <= 1e-8 * F.lpNorm<Eigen::Infinity>() &&
+                      (a - answer.a).lpNorm<Eigen::Infinity>() <= little(problem, F);
+    if (same || answer.outcome != LcpOutcome::solved) continue;
+    ++others;
+    EXPECT_LE(offence(problem, F, a), little(problem, F)) << problem.kind << ", " << i;
   }
+  EXPECT_LE(others, 5);
 }
 
 TEST(Limits, TallStacksPilesArchesAndTablesAreSolved) {
