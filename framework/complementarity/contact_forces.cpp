@@ -99,10 +99,17 @@ class Cascade {
   }
 
   void keep(const Vec& F) {
+    if (lost_in_round_off(F)) return;
     const double violated = violation(points_, A_, b_, F, nothing_);
     if (!(violated < least_)) return;
     least_ = violated;
     best_ = F;
+  }
+
+  // Forces so large that the round-off of A F alone is of b's size are none: Painleve's critical coefficient.
+  bool lost_in_round_off(const Vec& F) const {
+    constexpr double eps = std::numeric_limits<double>::epsilon();
+    return eps * (A_.cwiseAbs() * F.cwiseAbs()).maxCoeff() > 1e-4 * b_.lpNorm<Eigen::Infinity>();
   }
 
   ContactSolution found(Vec& F) const {
