@@ -127,12 +127,13 @@ class Cascade {
 };
 
 // What the conditions say is 0.
-void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, Vec& F, Vec& a) {
-  const double little = 1e-13 * F.lpNorm<Eigen::Infinity>();
+void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a) {
+  // Of accelerations; of a force it is what makes as much, less where bodies are light.
+  const double little = 1e-13 * (b.lpNorm<Eigen::Infinity>() + (A.cwiseAbs() * F.cwiseAbs()).lpNorm<Eigen::Infinity>());
   for (const ContactPoint& p : points) {
     double N = p.given;
     if (p.normal >= 0) {
-      const bool presses = F[p.normal] > little;
+      const bool presses = A(p.normal, p.normal) * F[p.normal] > little;
       N = F[p.normal] = presses ? F[p.normal] : 0;
       a[p.normal] = presses ? 0 : std::max(0.0, a[p.normal]);
     }
@@ -151,7 +152,7 @@ void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, Vec&
     // Where what a_t asks for is beyond the bound it slides; else it is held, and a_t is round-off.
     const double stiff = A.block(p.tangent, p.tangent, p.tangents, p.tangents).trace() / p.tangents;
     const Vec asked = stiff > 0 ? Vec(T - a_t / stiff) : Vec(T);
-    const bool slides = asked.norm() > bound + 10 * (little + 1e-13 * bound);
+    const bool slides = stiff * asked.norm() > stiff * bound + 10 * little;
     if (!slides) a_t.setZero();
     if (slides)
       T = bound * asked.normalized();
@@ -173,7 +174,7 @@ ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Ma
   const ContactSolution solution = Cascade(ordered.points(), ordered.A(), ordered.b(), nothing).solve(F_ordered);
   if (solution.outcome != LcpOutcome::solved) return solution;
   Vec a_ordered = ordered.A() * F_ordered + ordered.b();
-  clear_round_off(ordered.points(), ordered.A(), F_ordered, a_ordered);
+  clear_round_off(ordered.points(), ordered.A(), ordered.b(), F_ordered, a_ordered);
   F = ordered.as_named(F_ordered);
   a = ordered.as_named(a_ordered);
   return solution;

@@ -106,8 +106,14 @@ class ExactModes {
   }
 
   double normal_force(std::size_t i) const { return points_[i].normal >= 0 ? F_[points_[i].normal] : points_[i].given; }
+  // What contradicts a force, as the acceleration that it makes: forces of light bodies are small.
+  double pull(std::size_t i) const {
+    const int normal = points_[i].normal;
+    return normal >= 0 ? -A_(normal, normal) * F_[normal] : 0;
+  }
   double beyond_cone(std::size_t i) const {
-    return part(F_, points_[i]).norm() - points_[i].coefficient * std::max(0.0, normal_force(i));
+    const ContactPoint& p = points_[i];
+    return A_(p.tangent, p.tangent) * (part(F_, p).norm() - p.coefficient * std::max(0.0, normal_force(i)));
   }
 
   // Contacts that may share otherwise, for they do not slide and their resultants alone matter, and the columns of their forces.
@@ -133,11 +139,11 @@ class ExactModes {
   }
 
   bool springs_are_admissible() const {
-    const double little = round_off * F_.lpNorm<Eigen::Infinity>();
+    const double little = round_off * acceleration_scale();
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const ContactRole& role = roles_[i];
       if (!carrying_.indeterminate[i] || !role.closed || role.idle || role.tangent == Tangent::slides) continue;
-      if (normal_force(i) < -little || (role.tangent == Tangent::sticks && beyond_cone(i) > little)) return false;
+      if (pull(i) > little || (role.tangent == Tangent::sticks && beyond_cone(i) > little)) return false;
     }
     return true;
   }
@@ -161,15 +167,14 @@ class ExactModes {
     }
   }
 
-  // The mode that is contradicted most, by a share of all forces or accelerations. False: none is.
+  // The mode that is contradicted most, as an acceleration. False: none is.
   bool change_worst() {
-    const double forces = F_.lpNorm<Eigen::Infinity>(), accelerations = acceleration_scale();
-    double worst = round_off;
+    double worst = round_off * acceleration_scale();
     std::size_t who = points_.size();
     ContactRole wanted;
-    const auto consider = [&](std::size_t i, double amount, double scale, auto&& change) {
-      if (!(amount > worst * scale)) return;
-      worst = amount / scale;
+    const auto consider = [&](std::size_t i, double amount, auto&& change) {
+      if (!(amount > worst)) return;
+      worst = amount;
       who = i;
       wanted = roles_[i];
       change(wanted);
@@ -178,15 +183,15 @@ class ExactModes {
       const ContactPoint& p = points_[i];
       const ContactRole& role = roles_[i];
       if (!role.closed) {
-        consider(i, -a_[p.normal], accelerations, [&](ContactRole& r) { close(i, r); });
+        consider(i, -a_[p.normal], [&](ContactRole& r) { close(i, r); });
         continue;
       }
       if (role.idle) {
-        consider(i, spring_force(p.normal), forces, [&](ContactRole& r) { close(i, r); });
+        consider(i, A_(p.normal, p.normal) * spring_force(p.normal), [&](ContactRole& r) { close(i, r); });
         continue;
       }
       if (p.normal >= 0)
-        consider(i, -F_[p.normal], forces, [&](ContactRole& r) {
+        consider(i, pull(i), [&](ContactRole& r) {
           if (carrying_.indeterminate[i] && carrying_.sliding_shares)
             r.idle = true;
           else
@@ -195,13 +200,12 @@ class ExactModes {
         });
       if (!p.held()) continue;
       if (role.tangent == Tangent::sticks)
-        consider(i, beyond_cone(i), forces, [&](ContactRole& r) {
+        consider(i, beyond_cone(i), [&](ContactRole& r) {
           r.tangent = Tangent::slides;
           r.ratio = p.coefficient * part(F_, p).normalized();
         });
       if (role.tangent == Tangent::slides && normal_force(i) > 0)
-        consider(i, part(a_, p).dot(role.ratio.normalized()), accelerations,
-                 [](ContactRole& r) { r.tangent = Tangent::sticks; });
+        consider(i, part(a_, p).dot(role.ratio.normalized()), [](ContactRole& r) { r.tangent = Tangent::sticks; });
     }
     if (who == points_.size()) return false;
     roles_[who] = wanted;

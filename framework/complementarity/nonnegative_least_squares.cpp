@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include <Eigen/QR>
 
@@ -10,11 +11,11 @@ namespace {
 
 class ActiveSet {
  public:
-  ActiveSet(const Mat& B, const Vec& d, Vec& x, const std::vector<bool>& usable)
+  ActiveSet(const Mat& B, const Vec& d, Vec& x)
       : B_(B), d_(d), x_(x), state_(std::size_t(B.cols()), State::zero), size_(B.colwise().norm()) {
     x_.setZero(B.cols());
     for (std::size_t j = 0; j < state_.size(); ++j)
-      if ((!usable.empty() && !usable[j]) || !(size_[Eigen::Index(j)] > 0)) state_[j] = State::barred;
+      if (!(size_[Eigen::Index(j)] > 0)) state_[j] = State::barred;
   }
 
   double solve() {
@@ -106,12 +107,12 @@ class ActiveSet {
 
 }  // namespace
 
-double nonnegative_least_squares(const Mat& B, const Vec& d, Vec& x, const std::vector<bool>& usable) {
+double nonnegative_least_squares(const Mat& B, const Vec& d, Vec& x) {
   if (!B.allFinite() || !d.allFinite()) {
     x.setZero(B.cols());
     return std::numeric_limits<double>::infinity();
   }
-  return ActiveSet(B, d, x, usable).solve();
+  return ActiveSet(B, d, x).solve();
 }
 
 }  // namespace trammel::complementarity

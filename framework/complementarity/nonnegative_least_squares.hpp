@@ -4,13 +4,11 @@
 // steps, whatever the rank of B. The residual is 0 exactly where d lies in the cone of B's columns.
 #pragma once
 
-#include <vector>
-
 #include <trammel/types.hpp>
 
 namespace trammel::complementarity {
 
-// Fills x; returns |B x - d|. `usable`: columns that may enter, all where it is empty.
-double nonnegative_least_squares(const Mat& B, const Vec& d, Vec& x, const std::vector<bool>& usable = {});
+// Fills x; returns |B x - d|.
+double nonnegative_least_squares(const Mat& B, const Vec& d, Vec& x);
 
 }  // namespace trammel::complementarity

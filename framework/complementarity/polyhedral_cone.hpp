@@ -34,13 +34,11 @@ class PolyhedralCone {
   const Vec& q() const { return q_; }
   Vec forces(const Vec& z) const { return unit_force_ * (P_ * z); }  // F
 
+ private:
   // Variables of one contact: where its N, its betas and its lambda are; -1: none.
   struct Place {
     int normal = -1, first_beta = -1, betas = 0, lambda = -1;
   };
-  const std::vector<Place>& places() const { return places_; }
-
- private:
   void lay_out(const std::vector<ContactPoint>& points, int sides);
 
   std::vector<Place> places_;

@@ -59,6 +59,12 @@ TEST(Limits, UnitsDoNotMatter) {
   EXPECT_LE(others, 5);
 }
 
+// Down to a millionth: of small forces no digit is lost beside large ones.
+TEST(Limits, LightBodiesOnHeavyOnesAreSolved) {
+  std::mt19937 random(54);
+  for (int i = 0; i < 1000; ++i) expect_solved(pile_of_discs(random, 2, 0.1 * (1 + i % 15)));
+}
+
 TEST(Limits, TallStacksPilesArchesAndTablesAreSolved) {
   std::mt19937 random(53);
   for (const double mu : {0.1, 0.5, 1.0})
