@@ -84,6 +84,7 @@ class EventLocation {
   struct Cubic;
 
   void watch(int contact);
+  void watch_friction(int contact, int group);
   bool by_force(int w) const {
     const Kind kind = watches_[w].kind;
     return kind == Kind::press || kind == Kind::hold || kind == Kind::idle;

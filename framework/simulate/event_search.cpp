@@ -59,7 +59,7 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
   if (h < 1e-6 * longest_) return false;
   bool gaps = false, forces = false;
   for (int w = 0; w < int(watches_.size()); ++w) {
-    if (watches_[w].kind == Kind::slide && system_.tangents() > 1 &&
+    if (watches_[w].kind == Kind::slide && system_.tangents(watches_[w].contact) > 1 &&
         overshoots(now_[w].f, next_[w].f, system_.modes().contacts[watches_[w].contact].slow))
       return true;
     // A longer step than swings allow, with a slip that has become steeper in it than any before.
