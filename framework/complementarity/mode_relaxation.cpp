@@ -41,7 +41,7 @@ class Relaxation {
     const Index m = Index(rows_.size());
     Mat B = Mat::Zero(m + Index(sums_.size()), all);
     Vec d = Vec::Ones(B.rows());
-    B.topLeftCorner(m, forces) = A_(rows_, Eigen::all) * F_x / size;
+    B.topLeftCorner(m, forces) = without_round_off(A_(rows_, Eigen::all), F_x) / size;
     d.head(m) = -b_(rows_) / size;
     for (Index k = forces; k < all; ++k)
       for (const auto& [row, entry] : slacks_[std::size_t(k - forces)]) B(row, k) = entry;
@@ -61,6 +61,12 @@ class Relaxation {
   struct Sum {
     Index first, count;  // these x together are 1
   };
+
+  // A F_x; round-off is no stiffness: Painleve's critical coefficient.
+  static Mat without_round_off(const Mat& A, const Mat& F_x) {
+    const Mat product = A * F_x, size = A.cwiseAbs() * F_x.cwiseAbs();
+    return (product.array().abs() > 1e-12 * size.array()).select(product, 0.0);
+  }
 
   // By Farkas' lemma the rest r = d - B x proves it: d.r > 0, and no column has a component along r.
   static RelaxedForces::Verdict verdict(const Mat& B, const Vec& d, const Vec& x, double missed) {

@@ -57,7 +57,7 @@ void AssembledSystem::set_modes(const Modes& modes) {
     const bool held =
         sticks && (w.chain.held_still() || entry.coulomb->decide() == SetValuedFriction::Decide::at_events);
     if (sticks && !held) w.judged.push_back(int(i));
-    for (int k = 1; k <= w.tangents() && held; ++k) add_row(k);
+    for (int k = 1; k <= w.tangents(int(i)) && held; ++k) add_row(k);
   }
   w.sizes.nc = row;
   w.lay_out_blocks();
@@ -198,16 +198,27 @@ void AssembledSystem::add_rows_force(double c, const Vec& mu, Vec& r) {
   work_->add_rows_force(c, mu, r);
 }
 
+namespace {
+constexpr int most_loads = 50;  // of bearings, tried by Newton's method: it takes 1 to 4
+}
+
 void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
   Work& w = *work_;
   w.evaluate_rows();
-  if (!w.factorise_mass(Work::at_point, true, w.rank_tolerance()))
-    throw NotSolvable("the mass matrix is not positive definite");
   const bool stabilised = s.alpha != 0 || s.beta != 0;
   if (stabilised) w.right_rows = w.gamma - 2 * s.alpha * w.g_dot - s.beta * s.beta * w.g;
-  // Who asked looks for the component whose answer is not finite.
-  if (!w.solve(Work::at_point, w.force(), stabilised ? w.right_rows : w.gamma, a, lambda))
-    a.setConstant(w.sizes.nv, std::numeric_limits<double>::quiet_NaN());
+  // From bearings without load on, whatever was asked before: the same point has the same answer.
+  w.bear_nothing();
+  for (int tries = 0;; ++tries) {
+    if (!w.factorise_mass(Work::at_point, true, w.rank_tolerance()))
+      throw NotSolvable("the mass matrix is not positive definite");
+    if (!w.solve(Work::at_point, w.force(), stabilised ? w.right_rows : w.gamma, a, lambda)) {
+      a.setConstant(w.sizes.nv, std::numeric_limits<double>::quiet_NaN());
+      break;  // who asked looks for the component whose answer is not finite
+    }
+    if (!w.bear(lambda)) break;
+    if (tries == most_loads) w.fail_without_loads();
+  }
   if (!w.judged.empty()) w.judge_friction(a, lambda);
 }
 
@@ -218,6 +229,7 @@ void AssembledSystem::factorise(Blend blend, const Vec& a, const Vec& lambda, Fa
   const bool mass_only = no_tangent && blend.c_m == 1 && blend.c_1 == 0;
   const bool identity_only = no_tangent && blend.c_m == 0 && blend.c_1 == 1;
   w.evaluate_rows();
+  if (with_friction) w.bear(lambda);
   if (identity_only) return w.factorise_identity(store);
   if (!mass_only) return w.factorise_tangent(store, blend, a, lambda, with_friction);
   if (!w.factorise_mass(store, with_friction, w.rank_tolerance()))

@@ -91,7 +91,7 @@ class AssembledSystem final : public System {
   double coordinate(ContactDirection direction);                  // [m] gap, or place along the tangent
   // Where rows are shared: as equal springs would share, or if those would pull or leave a friction cone, the least forces that do
   // not, if there are any.
-  double normal_force(int contact, const Vec& lambda);        // [N] >= 0 pushes; of either kind of law
+  double normal_force(int contact, const Vec& lambda);        // [N] >= 0 pushes; of a joint the load of its bearings
   Tangential friction_force(int contact, const Vec& lambda);  // [N] on A
   // How contacts share rows at the current modes.
   struct Sharing {
@@ -110,7 +110,7 @@ class AssembledSystem final : public System {
   Tangential slip(int contact);                             // [m/s]; of contacts with friction
   Tangential slip_acceleration(int contact, const Vec& a);  // [m/s^2]
   Vec3 told(int contact, const Tangential& x);              // along the tangent; in space in world axes
-  int tangents() const;                                     // of a contact: 1 or 2
+  int tangents(int contact) const;                          // 1, or 2 in space but for a joint's
   void anchor(int contact, ContactMode& mode);              // what holds it at this place
   // A step has become the solution, and the system is at its end: slip is measured from its direction there, in space, and
   // what a round body rolls from its place there. Rolling in space is no function of the configuration; within a step the

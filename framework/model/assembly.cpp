@@ -41,6 +41,7 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
   loads.lay_out(modes);
   sizes = model->sizes;
   held_rows = sizes.nc;
+  reserve_bearings();
   if (sparse) reserve_contacts();
   lay_out_blocks();
 }

@@ -73,6 +73,26 @@ struct AssembledSystem::Work {
   void place_rows(const Rows& r, const Slots& at, const Seen& motions, Eigen::Index first, Eigen::Index n, int row);
   void add_row_force(const Slots& at, const Rows& r, int row, double c, Vec& f) const;  // f += c J^T H^T
   void couple_reactions();
+
+  // Joints that rub (joint_friction.cpp).
+  struct Bearing {
+    int contact = 0;
+    long long point = -1;
+    Bearings at = {};
+    Mat6 loads = {};        // of all bearings by the joint's multipliers [1]
+    Vec6 load_by_row = {};  // dN/dlambda at those multipliers that W is for
+  };
+  void reserve_bearings();
+  const JointEntry& joint_of(int contact) const;
+  void slip_row(int contact, Rows& into);
+  Bearing& bearing(int contact);                        // at this point
+  double bearing_load(int contact, const Vec& lambda);  // N [N]
+  bool slides_in_bearing(int contact);                  // with friction
+  void bear_nothing();                                  // W as if the bearings had no load
+  bool bear(const Vec& lambda);                         // W at these multipliers; false: W^T lambda was right before
+  [[noreturn]] void fail_without_loads();
+  void add_slip_tangent(int contact, Blend c, const Vec& lambda, Matrix& S);
+
   const Rows& contact(int i);
   void evaluate_contact(int i, ContactRows& into);
   bool on_surface(std::size_t i) const { return surfaces[i].contact != nullptr; }
@@ -82,7 +102,7 @@ struct AssembledSystem::Work {
   double contact_rate(int i, int row);
   double contact_acceleration(int i, int row, const Vec& a);
   void judge_friction(Vec& a, Vec& lambda);  // adds that of `judged`
-  int tangents() const { return dimension(model->world.space) - 1; }
+  int tangents(int i) const { return model->contacts[std::size_t(i)].joint ? 1 : dimension(model->world.space) - 1; }
   Tangential slip(int i);
   SlipDirection slip_direction(int i);
   Tangential friction_ratio(int i);         // F_t / F_n while sliding; 0 where rows or nothing hold it
@@ -138,6 +158,8 @@ struct AssembledSystem::Work {
   std::vector<int> judged;           // closed contacts at rest whose friction every evaluation finds anew
   Eigen::Matrix2Xd judged_friction;  // [N] by contact, at the last accelerate
   bool coupled = false;              // a row's force has a sliding friction beside it: W != G
+  std::vector<Bearing> bearings;     // of joints that rub
+  std::vector<int> bearing_of;       // by contact: index into them; empty where there are none
   Sizes sizes;
   int held_rows = 0;  // the first rows of g, that hold through impacts: of bodies, joints and contacts that have locked
   struct CarriedFrom {

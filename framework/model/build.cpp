@@ -7,6 +7,7 @@
 #include <trammel/awaits_contact.hpp>
 
 #include "model/contact_input.hpp"
+#include "model/joint_friction_input.hpp"
 #include "model/marker_input.hpp"
 #include "model/scene_keys.hpp"
 #include "plugin/parameters.hpp"
@@ -135,6 +136,8 @@ class Builder {
     entry.joint = std::move(joint);
     entry.markers = std::move(markers);
     model_->joints.push_back(std::move(entry));
+    if (const Value* friction = value.find("friction"))
+      add_joint_friction(value, *friction, *model_, registry_, problems_);
   }
 
   void add_force(const std::string& name, const Value& value) {

@@ -200,6 +200,8 @@ class ContactInput {
             other->problem("it belongs to a contact with a plane or a surface; this one waits for a joint's row"));
     if (const Value* own = reaches.find("between"))
       problems_.error(own->problem("the markers stand in the contact's own \"between\""));
+    if (const Value* own = reaches.find("friction"))
+      problems_.error(own->problem("this joint is no bearing: it only says what the contact waits for; remove it"));
     if (const Value* from = value.find("from")) {
       const auto side = from->read_text(problems_);
       if (side && *side != "above" && *side != "below")

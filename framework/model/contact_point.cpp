@@ -32,7 +32,9 @@ void AssembledSystem::Work::evaluate_contact(int i, ContactRows& cache) {
   const ContactEntry& entry = model->contacts[std::size_t(i)];
   const bool tangents = entry.friction != nullptr;
   cache.rows.resize(tangents ? dimension(model->world.space) : 1, model->world.space);
-  if (entry.limit) {
+  if (entry.joint) {
+    slip_row(i, cache.rows);
+  } else if (entry.limit) {
     evaluate_constraint(*entry.limit->joint, entry.limit->joint->row_count(model->world.space), motions(at), at.count,
                         cache.rows);
     if (const double side = entry.limit->side; side != 1) {
@@ -69,7 +71,7 @@ double AssembledSystem::Work::contact_rate(int i, int row) {
 
 Tangential AssembledSystem::Work::slip(int i) {
   Tangential s = Tangential::Zero();
-  for (int k = 0; k < tangents(); ++k) s[k] = contact_rate(i, 1 + k);
+  for (int k = 0; k < tangents(i); ++k) s[k] = contact_rate(i, 1 + k);
   return s;
 }
 
@@ -94,7 +96,7 @@ Tangential AssembledSystem::Work::friction_ratio(int i) {
 Eigen::Matrix2d AssembledSystem::Work::friction_damping(int i) {
   const ContactEntry& entry = model->contacts[std::size_t(i)];
   if (entry.coulomb) {
-    if (tangents() == 1 || modes.contacts[std::size_t(i)].friction != ContactMode::Friction::slide)
+    if (tangents(i) == 1 || modes.contacts[std::size_t(i)].friction != ContactMode::Friction::slide)
       return Eigen::Matrix2d::Zero();
     return entry.coulomb->kinetic_coefficient(slip(i).norm()) * slip_direction(i).slope();
   }

@@ -49,6 +49,7 @@ void AssembledSystem::Work::add_rows_force(double c, const Vec& y, Vec& r) {
 }
 
 void AssembledSystem::Work::add_reaction(double c, const Vec& y, Vec& r) {
+  bear(y);
   if (!coupled)
     add_rows_force(c, y, r);
   else if (blocks)

@@ -14,6 +14,7 @@
 #include <trammel/force.hpp>
 #include <trammel/friction.hpp>
 #include <trammel/joint.hpp>
+#include <trammel/joint_friction.hpp>
 
 namespace trammel::model {
 
@@ -89,14 +90,23 @@ struct SurfaceSide {
   const SmoothFriction* friction = nullptr;
 };
 
+// Where a joint rubs: a contact that is always closed, whose normal force is the load of the joint's bearings (joint_friction.hpp)
+// and whose only tangent is the motion that the joint leaves free.
+struct JointBearing {
+  int joint = -1;                         // in Model::joints
+  const BearingJoint* bearing = nullptr;  // its ability
+};
+
 struct ContactEntry {
   std::string name;
+  std::string path() const { return (joint ? "joints." : "contacts.") + name; }  // in the scene
   MarkerRef A, B;
   PointOnPlane geometry;          // of a surface against a sphere the radius alone, against a surface nothing
   std::optional<RowLimit> limit;  // in its place
   std::optional<SurfaceSide> surface;
+  std::optional<JointBearing> joint;  // then there is no law
   std::unique_ptr<Component> law;
-  // The law's kind, looked up once; exactly one is set.
+  // The law's kind, looked up once; at most one is set.
   const Restitution* restitution = nullptr;
   const ContactForce* force = nullptr;
   std::unique_ptr<Component> friction;  // null: frictionless

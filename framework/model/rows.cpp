@@ -29,7 +29,7 @@ void AssembledSystem::Work::evaluate_rows() {
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
     if (!modes.contacts[i].closed || on_surface(i)) continue;
     const auto row_of = [&](int direction) { return loads.place({int(i), direction}).row; };
-    coupled = coupled || (model->contacts[i].restitution && friction_ratio(int(i)) != Tangential::Zero());
+    coupled = coupled || (!model->contacts[i].force && friction_ratio(int(i)) != Tangential::Zero());
     if (row_of(0) < 0 && row_of(1) < 0 && row_of(2) < 0) continue;
     const Rows& of_contact = contact(int(i));  // before its motions: on a surface it finds where they are
     const Seen seen = motions(contact_slots[i]);
@@ -37,12 +37,13 @@ void AssembledSystem::Work::evaluate_rows() {
       place_rows(of_contact, contact_slots[i], seen, 0, 1, row);
       g(row) -= modes.contacts[i].offset;
     }
-    for (int k = 1; k <= tangents(); ++k) {
+    for (int k = 1; k <= tangents(int(i)); ++k) {
       if (row_of(k) < 0) continue;
       place_rows(of_contact, contact_slots[i], seen, k, 1, row_of(k));
       g(row_of(k)) = displacement(int(i))[k - 1];
     }
   }
+  bear_nothing();
   if (coupled) couple_reactions();
   returned();
   rows_fresh = true;
@@ -144,7 +145,7 @@ void AssembledSystem::Work::add_row_force(const Slots& at, const Rows& r, int ro
   for (int k = 0; k < at.count; ++k) chain.add_wrench(at[k], r.H(k).row(row).transpose(), c, sum);
 }
 
-// W: where a contact slides, the friction beside the force of its row.
+// W: where a contact or a joint slides, the friction beside the force of its rows.
 void AssembledSystem::Work::couple_reactions() {
   const auto add_friction = [this](int slot, int row, const Mat6& H) {
     if (blocks)
@@ -157,14 +158,22 @@ void AssembledSystem::Work::couple_reactions() {
   else
     W = G;
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
-    if (!modes.contacts[i].closed || !model->contacts[i].restitution) continue;
+    if (!modes.contacts[i].closed || model->contacts[i].force) continue;
     const Tangential ratio = friction_ratio(int(i));
     if (ratio == Tangential::Zero()) continue;
     const Rows& r = contact(int(i));
+    // share x (ratio . tangents) added to a row of W
     const auto add_share = [&](int row, double share) {
       add_friction(contact_slots[i].A, row, share * pressed_by(r.H_A, 0, ratio).transpose());
       add_friction(contact_slots[i].B, row, share * pressed_by(r.H_B, 0, ratio).transpose());
     };
+    if (model->contacts[i].joint) {
+      const JointEntry& joint = model->joints[std::size_t(model->contacts[i].joint->joint)];
+      const Vec6& by = bearing(int(i)).load_by_row;
+      for (int k = 0; k < joint.rows; ++k)
+        if (by[k] != 0) add_share(joint.row + k, -by[k]);
+      continue;
+    }
     const ContactLoads::Place& place = loads.place({int(i), 0});
     if (place.group < 0) {
       add_share(place.row, 1);

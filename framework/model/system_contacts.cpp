@@ -52,7 +52,7 @@ Tangential AssembledSystem::friction_force(int contact, const Vec& lambda) {
   Tangential T = Tangential::Zero();
   if (w.modes.contacts[std::size_t(contact)].friction == ContactMode::Friction::stick) {
     if (std::find(w.judged.begin(), w.judged.end(), contact) != w.judged.end()) return w.judged_friction.col(contact);
-    for (int k = 0; k < w.tangents(); ++k) T[k] = w.force_along({contact, 1 + k}, lambda);
+    for (int k = 0; k < w.tangents(contact); ++k) T[k] = w.force_along({contact, 1 + k}, lambda);
     return T;
   }
   if (!w.model->contacts[std::size_t(contact)].friction) return T;
@@ -117,6 +117,7 @@ const ContactLoads& AssembledSystem::Work::shared_loads(int group, const Vec& la
 
 double AssembledSystem::Work::force_along(ContactDirection d, const Vec& lambda) {
   const ContactLoads::Place& place = loads.place(d);
+  if (d.row == 0 && model->contacts[std::size_t(d.contact)].joint) return bearing_load(d.contact, lambda);
   if (place.group >= 0) return shared_loads(place.group, lambda).load(place);
   if (place.row >= 0) return -lambda(place.row);
   const auto i = std::size_t(d.contact);
@@ -126,8 +127,8 @@ double AssembledSystem::Work::force_along(ContactDirection d, const Vec& lambda)
   return law->normal(contact(d.contact).g(0), contact_rate(d.contact, 0), modes.contacts[i].approach_speed);
 }
 
-int AssembledSystem::tangents() const {
-  return work_->tangents();
+int AssembledSystem::tangents(int contact) const {
+  return work_->tangents(contact);
 }
 
 Tangential AssembledSystem::slip(int contact) {
@@ -136,19 +137,19 @@ Tangential AssembledSystem::slip(int contact) {
 
 Tangential AssembledSystem::slip_acceleration(int contact, const Vec& a) {
   Tangential s = Tangential::Zero();
-  for (int k = 0; k < tangents(); ++k) s[k] = work_->contact_acceleration(contact, 1 + k, a);
+  for (int k = 0; k < tangents(contact); ++k) s[k] = work_->contact_acceleration(contact, 1 + k, a);
   return s;
 }
 
 Vec3 AssembledSystem::told(int contact, const Tangential& x) {
   Work& w = *work_;
-  if (tangents() == 1) return x.head(1);
+  if (tangents(contact) == 1) return x.head(1);
   const auto i = std::size_t(contact);
-  return w.motion(w.contact_slots[i].B).R * (w.model->contacts[i].geometry.tangents * x.head(tangents()));
+  return w.motion(w.contact_slots[i].B).R * (w.model->contacts[i].geometry.tangents * x);
 }
 
 bool AssembledSystem::Work::rolls(int i) const {
-  return tangents() == 2 && model->contacts[std::size_t(i)].geometry.radius > 0;
+  return tangents(i) == 2 && model->contacts[std::size_t(i)].geometry.radius > 0;
 }
 
 Eigen::Matrix3d AssembledSystem::Work::seen_from_B(int i) {
@@ -161,8 +162,10 @@ Eigen::Matrix3d AssembledSystem::Work::seen_from_B(int i) {
 Tangential AssembledSystem::Work::displacement(int i) {
   const ContactMode& mode = modes.contacts[std::size_t(i)];
   const Rows& r = contact(i);
+  if (const auto& joint = model->contacts[std::size_t(i)].joint)
+    return {joint->bearing->slid(mode.anchor[0], r.g(1)), 0};
   Tangential x = -mode.anchor;
-  for (int k = 0; k < tangents(); ++k) x[k] += r.g(1 + k);
+  for (int k = 0; k < tangents(i); ++k) x[k] += r.g(1 + k);
   if (!rolls(i)) return x;
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(seen_from_B(i) * mode.rolled_from.transpose()));
   const PointOnPlane& plane = model->contacts[std::size_t(i)].geometry;
@@ -175,16 +178,16 @@ Tangential AssembledSystem::Work::displacement(int i) {
 void AssembledSystem::anchor(int contact, ContactMode& mode) {
   Work& w = *work_;
   const Rows& r = w.contact(contact);
-  for (int k = 0; k < w.tangents(); ++k) mode.anchor[k] = r.g(1 + k);
+  for (int k = 0; k < w.tangents(contact); ++k) mode.anchor[k] = r.g(1 + k);
   if (w.rolls(contact)) mode.rolled_from = w.seen_from_B(contact);
 }
 
 void AssembledSystem::step_taken() {
   Work& w = *work_;
-  if (w.tangents() == 1) return;
+  if (w.model->world.space == Space::planar) return;
   for (std::size_t i = 0; i < w.modes.contacts.size(); ++i) {
     ContactMode& mode = w.modes.contacts[i];
-    if (!mode.closed || mode.friction == ContactMode::Friction::none) continue;
+    if (!mode.closed || mode.friction == ContactMode::Friction::none || w.tangents(int(i)) == 1) continue;
     if (mode.friction == ContactMode::Friction::slide) {
       const Tangential s = w.slip(int(i));
       if (s.dot(mode.direction) > mode.slow) mode.direction = s.normalized();
@@ -261,7 +264,7 @@ double AssembledSystem::highest_frequency(const std::vector<ContactDirection>& d
 // Method lcp_every_step: friction of the feet at rest from the problem of Zhang and Wang 2017, (32)-(39), with
 // A = W_T^T P W_T, P the inverse of the mass on the rows' null space.
 void AssembledSystem::Work::judge_friction(Vec& a, Vec& lambda) {
-  const Eigen::Index m = tangents(), n = m * Eigen::Index(judged.size());
+  const Eigen::Index m = tangents(judged.front()), n = m * Eigen::Index(judged.size());
   Mat response(sizes.nv, n), reaction(sizes.nc, n), columns = Mat::Zero(sizes.nv, n);
   Vec b(n), column, x, y, T, a_t;
   std::vector<complementarity::ContactPoint> points;

@@ -103,6 +103,10 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
       sum.friction(Eigen::Index(i)) = -w.loads.spring({int(i), 0}, lambda) * ratio.dot(slip);
       continue;
     }
+    if (w.model->contacts[i].joint) {  // likewise
+      sum.friction(Eigen::Index(i)) = -w.bearing_load(int(i), lambda) * ratio.dot(slip);
+      continue;
+    }
     const ContactForce* law = w.model->contacts[i].force;
     const double gap = r.g(0), rate = gap_rate(int(i)), approach = w.modes.contacts[i].approach_speed;
     w.called(w.model->contacts[i].name, "normal");
@@ -125,7 +129,7 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     // Rows of joints and bodies supply lambda . g_t; what they do on velocities that leave them is the method's error.
     sum.constraints += lambda.head(w.held_rows).dot(w.g_dot.head(w.held_rows));
     for (std::size_t i = 0; i < w.contact_slots.size(); ++i)
-      if (w.model->contacts[i].restitution) sum.constraints += sum.friction(Eigen::Index(i));
+      if (!w.model->contacts[i].force) sum.constraints += sum.friction(Eigen::Index(i));
   }
   w.returned();
   return sum;
@@ -169,6 +173,12 @@ CallSite AssembledSystem::find_not_finite() {
     if (!w.rows.g.allFinite() || !w.rows.gamma.allFinite()) return {&entry.name, "rows"};
     for (int k = 0; k < w.joint_slots[i].count; ++k)
       if (!w.rows.H(k).allFinite()) return {&entry.name, "rows"};
+  }
+  for (const Work::Bearing& b : w.bearings) {
+    const Rows& slip = w.contact(b.contact);
+    if (!slip.g.allFinite() || !slip.gamma.allFinite() || !slip.H_A.allFinite() || !slip.H_B.allFinite())
+      return {&w.joint_of(b.contact).name, "slip_row"};
+    if (!w.bearing(b.contact).loads.allFinite()) return {&w.joint_of(b.contact).name, "bearings"};
   }
   return {};
 }

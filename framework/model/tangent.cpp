@@ -111,6 +111,10 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
       surface(i).add_tangent(here(), c.c_k, c.c_d, S);
       continue;
     }
+    if (model->contacts[i].joint) {
+      add_slip_tangent(int(i), c, lambda, S);
+      continue;
+    }
     const Slots& at = contact_slots[i];
     const Rows& r = contact(int(i));
     const Tangential ratio = friction_ratio(int(i));
@@ -132,8 +136,8 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
       add(0, -(c.c_k * by_gap + c.c_d * by_rate), [&](int k) { return pressed_by(r.H(k), 1, ratio); });
     }
     const Eigen::Matrix2d damping = c.c_d * -pull_beside * friction_damping(int(i));
-    for (int m = 0; m < tangents(); ++m)
-      for (int n = 0; n < tangents(); ++n)
+    for (int m = 0; m < tangents(int(i)); ++m)
+      for (int n = 0; n < tangents(int(i)); ++n)
         if (damping(m, n) != 0) add(1 + n, damping(m, n), [&](int k) -> Wrench { return r.H(k).row(1 + m); });
     if (c.c_k == 0) continue;
     if (const auto& limit = model->contacts[i].limit) {
@@ -142,7 +146,7 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
     }
     for (int k = 0; k < at.count; ++k) {
       Wrench w = pressed_by(r.H(k), pull, pull_beside * ratio);
-      for (int m = 1; m <= tangents(); ++m)
+      for (int m = 1; m <= tangents(int(i)); ++m)
         if (const int row = loads.place({int(i), m}).row; row >= 0) w += lambda(row) * r.H(k).row(m).transpose();
       chain.add_reaction_derivative(at[k], t, q, w, c.c_k, S);
     }

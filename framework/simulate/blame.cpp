@@ -19,7 +19,7 @@ struct Place {
 };
 
 Place place_of(std::string_view call) {
-  if (call == "rows") return {"joints", Kind::joint};
+  if (call == "rows" || call == "slip_row" || call == "bearings") return {"joints", Kind::joint};
   if (call == "wrench" || call == "potential") return {"forces", Kind::force};
   if (call == "normal") return {"contacts", Kind::contact};
   return {"bodies", Kind::body};

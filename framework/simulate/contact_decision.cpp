@@ -20,6 +20,9 @@ Tangential direction_of(const Tangential& x) {
 void ContactModes::open_all(model::Modes& modes) const {
   for (const TouchingContact& c : touching_)
     modes.contacts[c.contact].closed = false, modes.contacts[c.contact].friction = Friction::none;
+  for (std::size_t i = 0; i < modes.contacts.size(); ++i)
+    if (system_.model().contacts[i].joint)
+      modes.contacts[i].closed = false, modes.contacts[i].friction = Friction::none;
   modes.shared.clear();
 }
 
@@ -37,13 +40,13 @@ void ContactModes::find_candidates(const ContactChanges& changes) {
 }
 
 double ContactModes::slow() const {
-  return system_.tangents() > 1 ? scale_.slow() : 0;
+  return system_.model().world.space == Space::spatial ? scale_.slow() : 0;
 }
 
 // Slip across its former direction that is none [m/s]: with fixed steps also what a tenth of a step takes away.
 double ContactModes::unresolved(int contact, const State& state) {
   const model::ContactMode& mode = before_.contacts[contact];
-  if (!steps_.fixed || system_.tangents() == 1) return mode.slow;
+  if (!steps_.fixed || system_.tangents(contact) == 1) return mode.slow;
   return std::max(mode.slow, 0.1 * *steps_.fixed * system_.slip_acceleration(contact, state.a).norm());
 }
 
@@ -84,7 +87,7 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
                          entry.coulomb->decide() == SetValuedFriction::Decide::at_events;
 }
 
-// Who takes part: candidates of rule 3, and compliant contacts at rest in the tangent.
+// Who takes part: candidates of rule 3, joints that rub, and compliant contacts at rest in the tangent.
 void ContactModes::gather(const State& state, const ContactChanges& changes, bool jumped) {
   problem_.who.clear();
   for (const int i : candidates_) {
@@ -94,6 +97,15 @@ void ContactModes::gather(const State& state, const ContactChanges& changes, boo
     problem_.who.push_back(p);
   }
   for (int i = 0; i < int(modes_.contacts.size()); ++i) {
+    if (system_.model().contacts[i].joint) {
+      Participant p;
+      p.contact = i;
+      p.unilateral = false;
+      p.given_pushes = true;
+      add_friction(state, p, changes, jumped);
+      problem_.who.push_back(p);
+      continue;
+    }
     model::ContactMode& mode = modes_.contacts[i];
     if (!mode.closed || !system_.model().contacts[i].force || !system_.model().contacts[i].coulomb) continue;
     Participant p;
@@ -142,6 +154,11 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
   system_.set_modes(modes_);
   system_.move_to(state.t, state.q, state.v);
   accelerate_participants();
+  if (has_bearings()) return decide_with_bearings(state, changes);
+  return take_verdicts(changes);
+}
+
+complementarity::ContactSolution ContactModes::take_verdicts(const ContactChanges& changes) {
   const complementarity::ContactSolution solution = problem_.solve(nothing());
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
   const std::vector<bool> kept_closed = problem_.kept_closed(nothing());

@@ -26,8 +26,9 @@ constexpr double least_approach = 1e-6;
 }  // namespace
 
 bool ContactModes::any_closed() const {
-  const auto& contacts = system_.modes().contacts;
-  return std::any_of(contacts.begin(), contacts.end(), [](const model::ContactMode& mode) { return mode.closed; });
+  for (std::size_t i = 0; i < system_.modes().contacts.size(); ++i)
+    if (system_.modes().contacts[i].closed && !system_.model().contacts[i].joint) return true;
+  return false;
 }
 
 void ContactModes::settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events) {
@@ -268,7 +269,7 @@ void ContactModes::take_rates(State& state, const std::vector<bool>& rests) {
     if (!rests[i]) continue;
     held.push_back({c.contact, 0});
     if (system_.model().contacts[c.contact].coulomb && c.slip_after.norm() <= scale_.at_rest())
-      for (int k = 1; k <= system_.tangents(); ++k) held.push_back({c.contact, k});
+      for (int k = 1; k <= system_.tangents(c.contact); ++k) held.push_back({c.contact, k});
   }
   Vec rates(Eigen::Index(held.size()));
   for (std::size_t i = 0; i < held.size(); ++i) rates[Eigen::Index(i)] = system_.rate(held[i]);
@@ -283,7 +284,7 @@ double ContactModes::step_limit(const State& state) {
   const auto& contacts = system_.modes().contacts;
   for (int i = 0; i < int(contacts.size()); ++i)
     if (contacts[i].closed && contacts[i].friction != Friction::none)
-      for (int row = 0; row <= system_.tangents(); ++row) directions.push_back({i, row});
+      for (int row = 0; row <= system_.tangents(i); ++row) directions.push_back({i, row});
   if (directions.empty()) return std::numeric_limits<double>::infinity();
   system_.move_to(state.t, state.q, state.v);
   return 0.45 * 2 * std::numbers::pi / system_.highest_frequency(directions);
@@ -291,7 +292,7 @@ double ContactModes::step_limit(const State& state) {
 
 double ContactModes::friction_noise(int contact) {
   std::vector<model::ContactDirection> along;
-  for (int k = 1; k <= system_.tangents(); ++k) along.push_back({contact, k});
+  for (int k = 1; k <= system_.tangents(contact); ++k) along.push_back({contact, k});
   Mat jump, delassus;
   system_.impulse_response(along, jump, delassus);
   const double least = delassus.diagonal().minCoeff();

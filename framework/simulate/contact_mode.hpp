@@ -15,6 +15,8 @@
 //     contacts (three feet of a planar block) the single forces mean nothing: they open only where 3 says so.
 //  9. A contact that never releases (a latch) has locked after rule 1, if it touches without rate: it is no candidate, and its
 //     row is held like a joint's from then on, through the decision that follows and all later impacts.
+// 10. Joints that rub take part like compliant contacts, with the load of their bearings for a normal force. It follows from the
+//     forces sought, so the problem is solved in rounds (bearing_decision.cpp). Impacts give their bearings no impulse of friction.
 // `rebound: constrained` makes candidates of contacts that separate at e u-, `restart: carry` leaves a as it was and starts
 // the multipliers of new rows from 0, `onset: next_step` only changes when an event is seen.
 //
@@ -84,7 +86,7 @@ class ContactModes {
   const std::vector<Loss>& losses() const { return losses_; }
   double lost_elsewhere() const { return lost_elsewhere_; }
 
-  bool any_closed() const;
+  bool any_closed() const;  // but for the bearings of joints, which always are
 
   // [s] Of steps with error control, so that no double zero of a slip velocity is stepped over: 0.45 of the shortest
   // period in which a blow on a closed contact with set-valued friction swings back. Below half of it a swing turns at most
@@ -116,6 +118,13 @@ class ContactModes {
   void add_friction(const State& state, Participant& p, const ContactChanges& changes, bool jumped);
   bool end_drift(State& state, ContactChanges& changes);
   [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped);
+  [[nodiscard]] complementarity::ContactSolution take_verdicts(const ContactChanges& changes);
+  // Of joints that rub (bearing_decision.cpp).
+  bool has_bearings() const;
+  [[nodiscard]] complementarity::ContactSolution decide_with_bearings(const State& state,
+                                                                      const ContactChanges& changes);
+  void load_bearings_at_rest(const State& state, const model::Modes& open);
+  void load_bearings(const State& state, const model::Modes& modes);
   void accelerate_participants();
   void take_verdict(const Participant& p, bool kept_closed);
   void finish(State& state, bool carry);

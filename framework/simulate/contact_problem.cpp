@@ -25,11 +25,15 @@ double bound_of(const Participant& p) {
 void ContactProblem::prepare(model::AssembledSystem& system) {
   directions_.clear();
   points_.clear();
+  pushed_.clear();
   for (const Participant& p : who) {
     complementarity::ContactPoint point;
     if (p.unilateral) point.normal = int(directions_.size()), directions_.push_back({p.contact, 0});
-    if (p.tangent != Participant::Tangent::none) {
-      point.tangent = int(directions_.size()), point.tangents = system.tangents();
+    if (p.given_pushes && p.tangent == Participant::Tangent::sliding) {
+      pushed_.push_back({points_.size(), Eigen::Index(directions_.size())});
+      directions_.push_back({p.contact, 1});
+    } else if (p.tangent != Participant::Tangent::none) {
+      point.tangent = int(directions_.size()), point.tangents = system.tangents(p.contact);
       for (int k = 0; k < point.tangents; ++k) directions_.push_back({p.contact, 1 + k});
     }
     points_.push_back(point);
@@ -56,6 +60,8 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
     if (points_[i].normal >= 0) b_[points_[i].normal] = who[i].a_n - who[i].vanishing;
     if (points_[i].tangent >= 0) along(b_, points_[i]) = who[i].a_t.head(points_[i].tangents);
   }
+  for (const Pushed& p : pushed_) b_[p.direction] = who[p.who].a_t[0];
+  for (const Pushed& p : pushed_) b_ += push(p) * delassus_.col(p.direction);
   complementarity::ContactSolution solution;
   for (bool settled = false; !settled;) {
     solution = solve_once(nothing);
@@ -69,6 +75,7 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
     }
   }
   if (!let_approaches_vanish()) solution.outcome = complementarity::LcpOutcome::gave_up;
+  for (const Pushed& p : pushed_) F_[p.direction] = push(p);
   for (std::size_t i = 0; i < who.size(); ++i) {
     Participant& p = who[i];
     p.N = p.given;

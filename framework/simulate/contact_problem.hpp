@@ -18,8 +18,9 @@ using model::Tangential;
 struct Participant {
   enum class Tangent { none, resting, sliding };
   int contact = 0;
-  bool unilateral = true;  // its normal force is unknown
-  double given = 0;        // [N] else
+  bool unilateral = true;     // its normal force is unknown
+  double given = 0;           // [N] else
+  bool given_pushes = false;  // where it slides under it: its friction is not in a_n and a_t yet
   Tangent tangent = Tangent::none;
   double mu_0 = 0, mu = 0;                    // resting
   Tangential ratio = Tangential::Zero();      // sliding: T / N
@@ -54,12 +55,19 @@ class ContactProblem {
   std::vector<model::SharedRows> shared_rows(const model::Modes& modes) const;
 
  private:
+  // Sliding under a normal force that is given, but not in a_n and a_t yet: a known force along its tangent.
+  struct Pushed {
+    std::size_t who;
+    Eigen::Index direction;
+  };
   complementarity::ContactSolution solve_once(double nothing);
+  double push(const Pushed& p) const { return who[p.who].ratio[0] * who[p.who].given; }  // [N]
   [[nodiscard]] bool let_approaches_vanish();
   std::vector<complementarity::ContactRole> roles(const model::Modes& modes) const;
 
   std::vector<model::ContactDirection> directions_;
   std::vector<complementarity::ContactPoint> points_;
+  std::vector<Pushed> pushed_;
   Mat jump_, delassus_;
   Vec b_, F_, a_;
 };

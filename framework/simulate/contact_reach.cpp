@@ -24,6 +24,7 @@ void check_reach(model::AssembledSystem& system, const State& start, const scene
   const Vec still = Vec::Zero(start.v.size());
   Vec elsewhere;
   for (int i = 0; i < int(system.model().contacts.size()); ++i) {
+    if (system.model().contacts[std::size_t(i)].joint) continue;
     system.move_to(start.t, start.q, still);
     const double gap = system.gap(i);
     bool reaches = moves(system, i);

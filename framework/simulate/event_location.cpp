@@ -31,6 +31,7 @@ EventLocation::EventLocation(model::AssembledSystem& system, Integrator& integra
 void EventLocation::watch(int contact) {
   const model::ContactEntry& entry = system_.model().contacts[contact];
   const model::ContactMode& mode = system_.modes().contacts[contact];
+  if (entry.joint) return watch_friction(contact, false);
   if (!mode.closed) {
     const bool at_ends = entry.restitution && entry.restitution->treatment().onset == Restitution::Onset::next_step;
     watches_.push_back({.contact = contact, .kind = Kind::approach, .at_ends = at_ends, .noise = scale_.touching()});
@@ -45,6 +46,13 @@ void EventLocation::watch(int contact) {
     watches_.push_back({.contact = contact, .kind = Kind::leave, .noise = scale_.touching()});
   else if (!as_one)
     watches_.push_back({.contact = contact, .kind = sharing.idle ? Kind::idle : Kind::press});
+  watch_friction(contact, as_one);
+}
+
+// `as_one`: what holds it is watched with those that share rows.
+void EventLocation::watch_friction(int contact, bool as_one) {
+  const model::ContactEntry& entry = system_.model().contacts[contact];
+  const model::ContactMode& mode = system_.modes().contacts[contact];
   if (mode.friction == Friction::slide)
     watches_.push_back({.contact = contact, .kind = Kind::slide, .noise = scale_.at_rest()});
   else if (mode.friction == Friction::stick && !as_one)
@@ -117,7 +125,7 @@ EventLocation::Value EventLocation::slide(int contact, const Vec& a) {
 void EventLocation::accept(double h, const State& next) {
   system_.move_to(next.t, next.q, next.v);
   system_.step_taken();
-  if (system_.tangents() > 1)  // along the directions they have now
+  if (system_.model().world.space == Space::spatial)  // along the directions they have now
     for (std::size_t w = 0; w < watches_.size(); ++w)
       if (watches_[w].kind == Kind::slide) next_[w] = slide(watches_[w].contact, next.a);
   for (std::size_t w = 0; w < watches_.size(); ++w) {

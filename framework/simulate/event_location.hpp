@@ -85,6 +85,7 @@ class EventLocation {
 
   void watch(int contact);
   bool watched_group(int group) const;
+  void watch_friction(int contact, bool as_one);
   bool by_force(int w) const {
     const Kind kind = watches_[w].kind;
     return kind == Kind::press || kind == Kind::hold || kind == Kind::idle || kind == Kind::unload;

@@ -38,8 +38,8 @@ struct EventLocation::Cubic {
     minimum = value(x);
     return true;
   }
-  // A distance of bodies that pass each other bends upwards alone, so it goes as low as its tangents at the ends meet, where it may
-  // have a kink that the cubic rounds off. Whether that is below 0.
+  // A distance of bodies that pass each other bends upwards alone, and so does the load of a joint's bearings, a sum of lengths: it
+  // goes as low as its tangents at the ends meet, where it may have a kink that the cubic rounds off. Whether that is below 0.
   bool tangents_cross() {
     if (!(S_low < 0 && S_high > 0)) return false;
     const double x = (F_low - F_high + S_high * (high - low)) / (S_high - S_low);
@@ -59,7 +59,7 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
   if (h < 1e-6 * longest_) return false;
   bool gaps = false, forces = false;
   for (int w = 0; w < int(watches_.size()); ++w) {
-    if (watches_[w].kind == Kind::slide && system_.tangents() > 1 &&
+    if (watches_[w].kind == Kind::slide && system_.tangents(watches_[w].contact) > 1 &&
         overshoots(now_[w].f, next_[w].f, system_.modes().contacts[watches_[w].contact].slow))
       return true;
     // A longer step than swings allow, with a slip that has become steeper in it than any before.
@@ -119,7 +119,7 @@ bool EventLocation::hides_force(double h) {
 
 // Whether the function, not negative at both ends, is negative between them.
 bool EventLocation::dips(const State& now, double h, const State& next, int w, Suspect& suspect) {
-  const bool force = by_force(w);
+  const bool force = by_force(w), may_have_kink = !force || system_.model().contacts[watches_[w].contact].joint;
   Cubic cubic{0, h, now_[w].f, next_[w].f, now_[w].slope, next_[w].slope};
   if (cubic.F_high <= 0 || (force && just_handled(w))) return false;
   if (just_handled(w) && cubic.S_low <= 0) return false;
@@ -131,7 +131,7 @@ bool EventLocation::dips(const State& now, double h, const State& next, int w, S
   for (int probes = 0; probes < 6; ++probes) {
     if (!cubic.dips()) return false;
     const bool near = cubic.minimum <= 0.25 * std::min(cubic.F_low, cubic.F_high);
-    if (!near && (force || !cubic.tangents_cross())) return false;
+    if (!near && !(may_have_kink && cubic.tangents_cross())) return false;
     const double at = cubic.at;
     const Value there = step_to(now, at, w);
     if (there.f < 0 && happened(w, there)) {

@@ -1,4 +1,5 @@
 // `trammel explain`: what was built, what each part costs, what was left out.
+#include <algorithm>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -54,6 +55,14 @@ class Text {
   std::string text_;
 };
 
+const char* friction_in(const model::Model& model, int joint) {
+  for (const model::ContactEntry& contact : model.contacts)
+    if (contact.joint && contact.joint->joint == joint)
+      return contact.coulomb ? ", friction by the load of its bearings: sticks in a row and slides by a force"
+                             : ", friction by the load of its bearings, as a force";
+  return "";
+}
+
 void built(Text& text, const scene::Scene& scene, const plugin::Registry& registry, const Setup& setup) {
   const model::Model& model = *setup.model;
   const auto type = [&](const char* group, const std::string& name) {
@@ -74,16 +83,19 @@ void built(Text& text, const scene::Scene& scene, const plugin::Registry& regist
     text.line("bodies.{} ({}): nq = {}, nv = {}{}, {} markers; derivatives {}", body.name, type("bodies", body.name),
               body.nq, body.nv, body.rows > 0 ? fmt::format(", {} rows of its own", body.rows) : "",
               body.body->markers().size(), body.tangent ? "exact" : "by differences");
-  for (const model::JointEntry& joint : model.joints)
-    text.line("joints.{} ({}): {} rows", joint.name, type("joints", joint.name), joint.rows);
+  for (int j = 0; j < int(model.joints.size()); ++j) {
+    const model::JointEntry& joint = model.joints[std::size_t(j)];
+    text.line("joints.{} ({}): {} rows{}", joint.name, type("joints", joint.name), joint.rows, friction_in(model, j));
+  }
   for (const model::ForceEntry& force : model.forces)
     text.line("forces.{} ({})", force.name, type("forces", force.name));
   for (const model::ContactEntry& contact : model.contacts)
-    text.line("contacts.{} ({}): {}, {}", contact.name, type("contacts", contact.name),
-              contact.restitution ? "impulse and row" : "compliant force",
-              contact.coulomb  ? "sticks in rows and slides by a force"
-              : contact.smooth ? "friction as a force"
-                               : "frictionless");
+    if (!contact.joint)
+      text.line("contacts.{} ({}): {}, {}", contact.name, type("contacts", contact.name),
+                contact.restitution ? "impulse and row" : "compliant force",
+                contact.coulomb  ? "sticks in rows and slides by a force"
+                : contact.smooth ? "friction as a force"
+                                 : "frictionless");
   text.line("integrator {}: step {}{}", setup.integrator_type, step_text(setup.settings.step),
             setup.settings.own_contact_step ? ", in contact " + step_text(setup.settings.contact_step) : "");
   text.section("Plugins loaded");
@@ -114,9 +126,8 @@ void indeterminate(Text& text, Setup& setup) {
     if (simulator.system().sharing(int(i)).shared) names.push_back(setup.model->contacts[i].name);
   if (names.empty()) return;
   text.section(
-      "Statically indeterminate contacts at the start (accelerations are unique without friction; forces: of those "
-      "that push and stay "
-      "in their cones the ones of least norm)");
+      "Statically indeterminate contacts at the start (of the forces that push and stay in their cones those of least "
+      "norm; accelerations are unique without friction)");
   text.line("contacts.{}", fmt::join(names, ", contacts."));
 }
 
@@ -140,8 +151,9 @@ void costs(Text& text, Setup& setup, model::AssembledSystem& system) {
   text.line("accelerations (M, f, rows, solution): {:.3g}",
             1e6 * least_time([&] { move(), system.accelerate({}, a, lambda); }));
   for (int i = 0; i < int(setup.model->contacts.size()); ++i)
-    text.line("gap and its rate of contacts.{}: {:.3g}", setup.model->contacts[i].name,
-              1e6 * least_time([&] { move(), system.gap(i), system.gap_rate(i); }));
+    if (!setup.model->contacts[std::size_t(i)].joint)
+      text.line("gap and its rate of contacts.{}: {:.3g}", setup.model->contacts[i].name,
+                1e6 * least_time([&] { move(), system.gap(i), system.gap_rate(i); }));
   const StepChoice& choice = setup.settings.step;
   const double h = choice.fixed ? *choice.fixed : choice.initial > 0 ? choice.initial : 1e-4;
   {
@@ -165,9 +177,12 @@ void left_out(Text& text, const Setup& setup) {
     text.line("{}", model.contacts.empty()
                         ? "no joints, no contacts: the system is an ODE and solved as one"
                         : "no joints: while no contact is closed the system is an ODE and solved as one");
+  const auto in_joint = [](const model::ContactEntry& contact) { return contact.joint.has_value(); };
+  if (!model.joints.empty() && std::none_of(model.contacts.begin(), model.contacts.end(), in_joint))
+    text.line("no friction in joints");
   if (model.contacts.empty())
     text.line("no contacts: no event functions are watched");
-  else
+  else if (!std::all_of(model.contacts.begin(), model.contacts.end(), in_joint))
     text.line("contact rows and forces exist only while their contact is closed");
   if (model.forces.empty()) text.line("no force elements between markers");
   if (model.flat) text.line("no rotation coordinates: configurations are plain vectors");

@@ -39,30 +39,41 @@ void add_tangential(const std::string& name, Space space, const Told& told, Choi
     choices.emplace_back(fmt::format("{}_{}", name, "xyz"[k]), [=](Moment& m) { return told(m)[k]; });
 }
 
-void add_contact(const std::string& name, int i, const Model& model, Choices& choices) {
+double normal_force(Moment& m, int i) {
+  if (!m.system().modes().contacts[i].closed) return 0;
+  const Vec& lambda = m.lambda();
+  return m.system().normal_force(i, lambda);
+}
+
+// `space`: planar for a contact with one tangent.
+void add_friction(const std::string& name, int i, Space space, Choices& choices) {
+  add_tangential(
+      name + ".slip", space, [=](Moment& m) { return m.system().told(i, m.system().slip(i)); }, choices);
+  add_tangential(
+      name + ".friction", space,
+      [=](Moment& m) -> Vec3 {
+        if (!m.system().modes().contacts[i].closed) return Vec3::Zero(space == Space::planar ? 1 : 3);
+        const Vec& lambda = m.lambda();
+        return m.system().told(i, m.system().friction_force(i, lambda));
+      },
+      choices);
+  choices.emplace_back(name + ".sticks", [=](Moment& m) {
+    return m.system().modes().contacts[i].friction == model::ContactMode::Friction::stick ? 1.0 : 0.0;
+  });
+}
+
+void add_contact(int i, const Model& model, Choices& choices) {
+  const model::ContactEntry& contact = model.contacts[i];
+  const std::string name = contact.path();
+  if (contact.joint) {
+    choices.emplace_back(name + ".load", [=](Moment& m) { return normal_force(m, i); });
+    add_friction(name, i, Space::planar, choices);
+    return;
+  }
   choices.emplace_back(name + ".gap", [=](Moment& m) { return m.system().gap(i); });
   choices.emplace_back(name + ".gap_rate", [=](Moment& m) { return m.system().gap_rate(i); });
-  choices.emplace_back(name + ".force", [=](Moment& m) {
-    if (!m.system().modes().contacts[i].closed) return 0.0;
-    const Vec& lambda = m.lambda();
-    return m.system().normal_force(i, lambda);
-  });
-  if (model.contacts[i].friction) {
-    const Space space = model.world.space;
-    add_tangential(
-        name + ".slip", space, [=](Moment& m) { return m.system().told(i, m.system().slip(i)); }, choices);
-    add_tangential(
-        name + ".friction", space,
-        [=](Moment& m) -> Vec3 {
-          if (!m.system().modes().contacts[i].closed) return Vec3::Zero(space == Space::planar ? 1 : 3);
-          const Vec& lambda = m.lambda();
-          return m.system().told(i, m.system().friction_force(i, lambda));
-        },
-        choices);
-    choices.emplace_back(name + ".sticks", [=](Moment& m) {
-      return m.system().modes().contacts[i].friction == model::ContactMode::Friction::stick ? 1.0 : 0.0;
-    });
-  }
+  choices.emplace_back(name + ".force", [=](Moment& m) { return normal_force(m, i); });
+  if (contact.friction) add_friction(name, i, model.world.space, choices);
   choices.emplace_back(name + ".closed", [=](Moment& m) { return m.system().modes().contacts[i].closed ? 1.0 : 0.0; });
 }
 
@@ -81,8 +92,7 @@ Choices all_choices(const Model& model) {
     const auto markers = entry.body->markers();
     for (int k = 0; k < int(markers.size()); ++k) add_marker(entry.name + "." + markers[k], {b, k}, model, choices);
   }
-  for (int i = 0; i < int(model.contacts.size()); ++i)
-    add_contact("contacts." + model.contacts[i].name, i, model, choices);
+  for (int i = 0; i < int(model.contacts.size()); ++i) add_contact(i, model, choices);
   for (const model::BodyEntry& entry : model.bodies)
     if (entry.rows > 0)
       choices.emplace_back(entry.name + ".reaction",

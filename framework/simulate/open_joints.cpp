@@ -56,8 +56,9 @@ void OpenJoints::measure(model::AssembledSystem& system, double otherwise) {
       if (marker.body >= 0) size = std::max(size, extent[std::size_t(marker.body)]);
     joints_.push_back({{"joints." + joint.name, joint.row, joint.rows}, joint.markers, size});
   }
+  // Where all there is stands in the origin nothing has a length; then 1 m.
   for (Joint& joint : joints_)
-    if (!(joint.size > 0)) joint.size = otherwise;
+    if (!(joint.size > 0)) joint.size = otherwise > 0 ? otherwise : 1;
 }
 
 std::string OpenJoints::told(model::AssembledSystem& system, const State& state) const {

@@ -104,10 +104,9 @@ void Recorder::animate(const State& state) {
 }
 
 void Recorder::event(const ContactEvent& event) {
-  const std::string& name = model_.contacts[event.contact].name;
   auto out = std::back_inserter(events_->buffer());
   const std::string friction = told("friction", event.friction);
-  fmt::format_to(out, "{:.17g},{},contacts.{},", event.t, to_string(event.kind), name);
+  fmt::format_to(out, "{:.17g},{},{},", event.t, to_string(event.kind), model_.contacts[event.contact].path());
   if (event.kind == ContactEvent::Kind::impact || event.kind == ContactEvent::Kind::latch)
     fmt::format_to(out, "impulse={:.17g} approach={:.17g} separation={:.17g} energy_lost={:.17g} {}", event.impulse,
                    event.approach + 0.0, event.separation + 0.0, event.energy_lost + 0.0, friction);  // no -0

@@ -9,6 +9,7 @@
 #include <trammel/integrator.hpp>
 
 #include "model/assembled_system.hpp"
+#include "scene/value.hpp"
 
 namespace trammel::simulate {
 
@@ -23,5 +24,8 @@ struct RedundantRows {
 std::vector<RedundantRows> redundant_rows(model::AssembledSystem& system, const State& state);
 // "joints.hinge: rows 4, 5 of 5 follow from the rows before".
 std::string told(const RedundantRows& rows);
+// Warns of joints that rub and whose reactions, and so their friction, are one choice of many.
+void check_bearing_loads(model::AssembledSystem& system, const State& state, const scene::Value& root,
+                         scene::Problems& problems);
 
 }  // namespace trammel::simulate

@@ -47,7 +47,7 @@ void RestingContacts::carry_along() {
   for (std::size_t i = 0; i < modes_.contacts.size(); ++i) {
     const model::ContactEntry& contact = system_.model().contacts[i];
     model::ContactMode& mode = modes_.contacts[i];
-    mode.closed = mode.closed && (contact.restitution || system_.gap(int(i)) < 0);
+    mode.closed = mode.closed && (contact.restitution || contact.joint || system_.gap(int(i)) < 0);
     if (mode.closed && contact.coulomb && contact.coulomb->static_coefficient() > 0)
       mode.friction = model::ContactMode::Friction::stick;
   }

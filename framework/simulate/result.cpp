@@ -44,14 +44,15 @@ json dissipated(const model::Model& model, const Ledger& ledger, double drift) {
   json impact = json::object();
   for (std::size_t i = 0; i < ledger.impacts().size(); ++i)
     if (model.contacts[i].restitution) impact[model.contacts[i].name] = ledger.impacts()[i];
-  json friction = json::object();
+  json friction = json::object(), joint_friction = json::object();
   for (std::size_t i = 0; i < model.contacts.size(); ++i)
     if (const model::ContactEntry& c = model.contacts[i]; c.friction || (c.surface && c.surface->friction))
-      friction[model.contacts[i].name] = ledger.friction()[Eigen::Index(i)];
+      (c.joint ? joint_friction : friction)[c.name] = ledger.friction()[Eigen::Index(i)];
   return {{"impact", impact},
           {"impact_total", ledger.impact_total()},
           {"contact_damping", ledger.contact_damping()},
           {"friction", friction},
+          {"joint_friction", joint_friction},
           {"friction_total", ledger.friction().sum()},
           {"dampers", ledger.dampers()},
           {"numerical", -drift}};

@@ -13,6 +13,7 @@
 #include "simulate/field_line.hpp"
 #include "simulate/initial_state.hpp"
 #include "simulate/latch_reach.hpp"
+#include "simulate/redundancy.hpp"
 #include "simulate/smooth_laws.hpp"
 
 namespace trammel::simulate {
@@ -127,6 +128,7 @@ void find_start(Setup& setup, model::AssembledSystem& system, const Value& root,
   problems.throw_if_any();
   check_latches(system, setup.initial, setup.settings.until, root, problems);
   problems.throw_if_any();
+  check_bearing_loads(system, setup.initial, root, problems);
   begin_columns(setup.columns, system, setup.initial);
 }
 

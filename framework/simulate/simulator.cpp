@@ -51,7 +51,12 @@ void Simulator::start(State initial) {
   scale_.take_all(system_);
   measure_joints();
   ContactChanges pressing, striking;
+  bool bears = false;
   for (int i = 0; i < int(system_.model().contacts.size()); ++i) {
+    if (system_.model().contacts[i].joint) {
+      bears = true;
+      continue;
+    }
     const bool compliant = system_.model().contacts[i].force, pressed = system_.gap(i) < -scale_.touching();
     if (system_.gap(i) > scale_.written_length()) continue;
     if (system_.gap_rate(i) > scale_.written_speed() && !(compliant && pressed)) continue;
@@ -62,6 +67,7 @@ void Simulator::start(State initial) {
   energy_start_ = energy_at_state();
   if (!striking.empty()) return settle(striking);
   if (!pressing.empty()) return;
+  if (bears) return settle({});
   system_.accelerate({}, now_.a, now_.lambda);
   at_new_modes();
 }

@@ -60,7 +60,7 @@ void Simulator::guard_against_standstill(double h, double wanted, int contact) {
       "they do where much friction leaves no motion of rigid contacts; a compliant law, such as continuous_force, has "
       "one",
       now_.t, statistics_.steps, standing_,
-      contact < 0 ? "" : fmt::format(", the last of contact \"{}\"", system_.model().contacts[contact].name)));
+      contact < 0 ? "" : fmt::format(", the last of {}", system_.model().contacts[contact].path())));
 }
 
 void Simulator::guard_against_storm(int contact) {
@@ -72,7 +72,7 @@ void Simulator::guard_against_storm(int contact) {
       "contact, "
       "or simulate.event_limit if they are real",
       now_.t, statistics_.steps, settings_.event_limit, now_.t - window_start_,
-      contact < 0 ? "" : fmt::format(", the last of contact \"{}\"", system_.model().contacts[contact].name)));
+      contact < 0 ? "" : fmt::format(", the last of {}", system_.model().contacts[contact].path())));
 }
 
 // An impact after which the contact stays closed is two events, and strikes once.

@@ -27,7 +27,8 @@ std::string causes(const model::Model& model, const Ledger& ledger, double drift
   for (std::size_t i = 0; i < ledger.impacts().size(); ++i)
     add("impacts of " + model.contacts[i].name, ledger.impacts()[i]);
   for (std::size_t i = 0; i < model.contacts.size(); ++i)
-    add("friction of " + model.contacts[i].name, ledger.friction()[Eigen::Index(i)]);
+    add("friction of " + (model.contacts[i].joint ? model.contacts[i].path() : model.contacts[i].name),
+        ledger.friction()[Eigen::Index(i)]);
   add("contact damping", ledger.contact_damping());
   add("dampers", ledger.dampers());
   add("refinements", -ledger.refinements());
@@ -40,6 +41,8 @@ std::string causes(const model::Model& model, const Ledger& ledger, double drift
 std::string summary(const scene::Scene& scene, const Setup& setup, Simulator& simulator, const Outcomes& outcomes,
                     const std::filesystem::path& folder) {
   const model::Model& model = *setup.model;
+  const auto contacts = std::size_t(std::count_if(model.contacts.begin(), model.contacts.end(),
+                                                  [](const model::ContactEntry& contact) { return !contact.joint; }));
   const Statistics& s = simulator.statistics();
   const Ledger& ledger = simulator.ledger();
   const State& state = simulator.state();
@@ -50,8 +53,8 @@ std::string summary(const scene::Scene& scene, const Setup& setup, Simulator& si
   line("simulated",
        fmt::format("{:.6g} s to {:.6g} s with {}; {}, {}, {}", setup.settings.start, state.t, setup.integrator_type,
                    counted(model.bodies.size(), "body", "bodies"), counted(model.joints.size(), "joint", "joints"),
-                   counted(model.contacts.size(), "contact", "contacts")));
-  if (!model.contacts.empty())
+                   counted(contacts, "contact", "contacts")));
+  if (contacts > 0)
     line("contact", fmt::format("{}{}, {} in all, {} of {} steps in contact", impacts_of(model, s),
                                 counted(std::size_t(s.touches), "touch", "touches"),
                                 counted(std::size_t(s.events), "event", "events"), s.contact_steps, s.steps));

@@ -156,5 +156,22 @@ TEST(CurlingTableScene, EndsOnOneFoot) {
   EXPECT_NEAR(run.end("y"), 0.0752361, 1e-7);
 }
 
+TEST(StickingDrawerScene, OpensBelowItsOverhangAndJamsBeyond) {
+  const Finished opens = run_file("friction/sticking_drawer.json");
+  ASSERT_TRUE(opens.done()) << opens.report.reason;
+  EXPECT_NEAR(opens.end("x"), 0.025, 1e-9);
+  const Finished jams = run_file("friction/sticking_drawer.json", {{"parameters.a", "=1.01*L/(2*mu)"}});
+  EXPECT_NEAR(jams.end("x"), 0, 1e-12);
+  EXPECT_EQ(jams.end("sticks"), 1);
+}
+
+TEST(JournalBearingScene, ComesToRestWithItsWeightInTheFrictionCircle) {
+  const Finished run = run_file("friction/journal_bearing.json");
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_EQ(run.end("sticks"), 1);
+  EXPECT_LE(0.5 * std::abs(std::sin(run.end("angle"))), 0.4 * 0.05);
+  EXPECT_NEAR(run.end("load"), g, 1e-9);
+}
+
 }  // namespace
 }  // namespace trammel::test
