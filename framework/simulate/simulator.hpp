@@ -55,6 +55,7 @@ class Simulator {
   const Statistics& statistics() const { return statistics_; }
   const Ledger& ledger() const { return ledger_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
+  std::vector<std::string> impact_warnings();
   Energy energy_at_state();
   double energy_drift();  // [J] what no cause in the ledger explains
   // Joints and bodies whose rows no state near the last one satisfies, there or a step later; empty: none are known.

@@ -32,6 +32,10 @@ void Simulator::settle(const ContactChanges& changes) {
   at_new_modes();
 }
 
+std::vector<std::string> Simulator::impact_warnings() {
+  return modes_.impact_warnings().lines(system_.model());
+}
+
 void Simulator::at_new_modes() {
   integrator_.restart(system_, now_);
   restart_all_but_integrator();
