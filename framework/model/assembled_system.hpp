@@ -95,10 +95,10 @@ class AssembledSystem final : public System {
   Tangential friction_force(int contact, const Vec& lambda);  // [N] on A
   // How contacts share rows at the current modes.
   struct Sharing {
-    bool shared = false;        // its normal, or a tangent that sticks
-    bool as_spring = false;     // it slides or is idle: its share decides the motion
-    bool idle = false;          // closed, but it carries nothing while those it shares with carry as they do
-    int group = -1;             // in modes().shared
+    bool shared = false;     // its normal, or a tangent that sticks
+    bool as_spring = false;  // it slides or is idle: its share decides the motion
+    bool idle = false;       // closed, but it carries nothing while those it shares with carry as they do
+    int group = -1;          // in modes().shared
   };
   Sharing sharing(int contact) const;
   // [N] how much further each contact of a group could be unloaded before no forces that they can exert carry what they carry;

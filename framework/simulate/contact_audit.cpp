@@ -47,21 +47,18 @@ void ContactAudit::look(model::AssembledSystem& system, const State& state) {
 
 std::vector<std::string> ContactAudit::warnings(const model::Model& model, const Ledger& ledger) const {
   std::vector<std::string> texts;
-  const auto name = [&model](int contact) -> const std::string& { return model.contacts[std::size_t(contact)].name; };
+  const auto name = [&model](int contact) { return model.contacts[std::size_t(contact)].path(); };
   if (pull_.contact >= 0)
-    texts.push_back(
-        fmt::format("not to be trusted: contacts.{} pulled with {:.3g} N at t = {:.9g} s; a contact only pushes",
-                    name(pull_.contact), pull_.force, pull_.t));
+    texts.push_back(fmt::format("not to be trusted: {} pulled with {:.3g} N at t = {:.9g} s; a contact only pushes",
+                                name(pull_.contact), pull_.force, pull_.t));
   if (beyond_cone_.contact >= 0)
-    texts.push_back(
-        fmt::format("not to be trusted: the friction of contacts.{} was {:.3g} N beyond its bound at t = {:.9g} s",
-                    name(beyond_cone_.contact), beyond_cone_.force, beyond_cone_.t));
+    texts.push_back(fmt::format("not to be trusted: the friction of {} was {:.3g} N beyond its bound at t = {:.9g} s",
+                                name(beyond_cone_.contact), beyond_cone_.force, beyond_cone_.t));
   const double moved = std::abs(ledger.dissipated()) + std::abs(ledger.supplied()) + ledger.friction().lpNorm<1>();
   for (Eigen::Index i = 0; i < ledger.friction().size(); ++i)
     if (ledger.friction()[i] < -little * moved)
-      texts.push_back(
-          fmt::format("not to be trusted: the friction of contacts.{} supplied {:.3g} J; friction only takes",
-                      name(int(i)), -ledger.friction()[i]));
+      texts.push_back(fmt::format("not to be trusted: the friction of {} supplied {:.3g} J; friction only takes",
+                                  name(int(i)), -ledger.friction()[i]));
   return texts;
 }
 

@@ -131,6 +131,7 @@ void ContactModes::strike(State& state, const ContactChanges& changes) {
     losses_.push_back({c.contact, c.energy_lost()});
     lost_elsewhere_ -= c.energy_lost();
   }
+  impact_warnings_.check(state.t, kinetic_before, touching_, impact_.cut_short());
 }
 
 // Rule 9.

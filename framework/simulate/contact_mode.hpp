@@ -1,7 +1,7 @@
 // Which contacts are closed and which of them stick, and what happens at an event: impacts, then the accelerations decide.
 //
 // Rules for set-valued contacts (Restitution), at an event at time t:
-//  1. Impact of every contact that touches and closes, with all that touch or are closed (impact.hpp).
+//  1. Impact of every contact that touches and closes, with all that touch or are closed (impact_laws.hpp).
 //  2. Capture: slower than capture_speed, e = 0. Also a rebound with e < 1 that the steps in contact cannot follow: with fixed
 //     ones whose flight 2 u+/|gap acceleration| would last fewer than chatter_steps of them; with controlled ones that would
 //     rise less than chatter_steps times the error they may make in a position. The impact is solved again with e = 0 for it.
@@ -49,7 +49,8 @@
 #include "simulate/contact_event.hpp"
 #include "simulate/contact_problem.hpp"
 #include "simulate/contact_scale.hpp"
-#include "simulate/impact.hpp"
+#include "simulate/impact_laws.hpp"
+#include "simulate/impact_warnings.hpp"
 #include "simulate/settings.hpp"
 
 namespace trammel::simulate {
@@ -85,6 +86,8 @@ class ContactModes {
   };
   const std::vector<Loss>& losses() const { return losses_; }
   double lost_elsewhere() const { return lost_elsewhere_; }
+  ImpactWarnings& impact_warnings() { return impact_warnings_; }
+  const ImpactWarnings& impact_warnings() const { return impact_warnings_; }
 
   bool any_closed() const;  // but for the bearings of joints, which always are
 
@@ -146,7 +149,8 @@ class ContactModes {
   const ContactScale& scale_;
   const StepChoice& steps_;
   double chatter_steps_;
-  Impact impact_;
+  ImpactLaws impact_;
+  ImpactWarnings impact_warnings_;
   ContactProblem problem_;
   model::Modes before_, modes_;
   std::vector<TouchingContact> touching_;

@@ -45,6 +45,7 @@ complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, d
       c.after = p.a_n - (c.was_closed ? -c.before : c.restitution * c.before);
     c.friction = p.T;
     c.slip_after = p.a_t;
+    c.course = 0;
   }
   return solution;
 }

@@ -9,13 +9,13 @@
 // L_i, T_i [N s] are the impulses, e_i the restitution of the contact's law at approach speed -u_i-; slower than the law's
 // capture_speed e_i = 0. The friction impulse is one Coulomb decision over the whole impact, judged by the slip at its end
 // (Moreau): a slip that stops and turns within the impact is not followed, and with e > 0 an eccentric impact may gain
-// energy (Kane's paradox; the ledger would show it). With D the Delassus matrix it is the problem of contact_forces.hpp. Several
+// energy (Kane's paradox), which is told (impact_gains.hpp). With D the Delassus matrix it is the problem of contact_forces.hpp. Several
 // contacts at once are one problem; nature may answer otherwise (Pfeiffer, Glocker 1996), and a chain of equal balls does.
 // An impact without collision is asked for where sliding contacts have no finite forces (contact_mode.hpp, rule 8). No impulse at all
 // would solve it, too; the solution is taken that is left of an approach as it vanishes, which such contacts cannot end while they slide.
 //
 // Energy lost through contact i is -L_i (u_i- + u_i+)/2 - T_i (s_i- + s_i+)/2; the sum is the loss of kinetic energy if no
-// row depends on time.
+// row depends on time. Laws that follow the rates through the impact know each contact's share better: it differs by `course`.
 #pragma once
 
 #include <vector>
@@ -34,7 +34,11 @@ struct TouchingContact {
   double after = 0;                          // u+ [m/s]
   Tangential friction = Tangential::Zero();  // T [N s]
   Tangential slip_before = Tangential::Zero(), slip_after = Tangential::Zero();
-  double energy_lost() const { return -0.5 * (impulse * (before + after) + friction.dot(slip_before + slip_after)); }
+  double course = 0;  // [J] lost here beyond the loss at the mean rates; 0 in the sum over the contacts of an impact
+  double energy_lost() const { return course + loss_at_mean_rates(); }
+  double loss_at_mean_rates() const {
+    return -0.5 * (impulse * (before + after) + friction.dot(slip_before + slip_after));
+  }
 };
 
 class Impact {

@@ -111,11 +111,12 @@ std::string result_json(const scene::Scene& scene, const plugin::Registry& regis
   const State& state = simulator.state();
   const Energy end = simulator.energy_at_state();
   const double drift = simulator.energy_drift();
-  std::vector<std::string> warnings = setup.warnings;
-  const std::vector<std::string> of_run = simulator.warnings();
-  warnings.insert(warnings.begin(), of_run.begin(), of_run.end());
+  std::vector<std::string> warnings = simulator.doubts();
+  warnings.insert(warnings.end(), setup.warnings.begin(), setup.warnings.end());
+  warnings.insert(warnings.end(), simulator.warnings().begin(), simulator.warnings().end());
   json result = result_head(scene, registry, outcomes);
-  result.update(json{{"integrator", setup.integrator_type},
+  result.update(json{{"warnings", warnings},
+                     {"integrator", setup.integrator_type},
                      {"t_start", setup.settings.start},
                      {"t_end", state.t},
                      {"t_until", setup.settings.until},
@@ -141,8 +142,7 @@ std::string result_json(const scene::Scene& scene, const plugin::Registry& regis
                        {"velocity", statistics.largest.velocity},
                        {"acceleration", statistics.largest.acceleration}}},
                      {"sizes", sizes(statistics)},
-                     {"sizes_left_out", statistics.sizes_left_out},
-                     {"warnings", warnings}});
+                     {"sizes_left_out", statistics.sizes_left_out}});
   return result.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

@@ -292,9 +292,10 @@ void Simulator::record_inside(Recorder& recorder) {
   }
 }
 
-std::vector<std::string> Simulator::warnings() const {
+std::vector<std::string> Simulator::doubts() const {
   std::vector<std::string> all = audit_.warnings(system_.model(), ledger_);
-  all.insert(all.end(), warnings_.begin(), warnings_.end());
+  const std::vector<std::string> of_impacts = modes_.impact_warnings().lines(system_.model());
+  all.insert(all.end(), of_impacts.begin(), of_impacts.end());
   return all;
 }
 

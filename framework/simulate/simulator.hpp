@@ -55,7 +55,9 @@ class Simulator {
   model::AssembledSystem& system() { return system_; }
   const Statistics& statistics() const { return statistics_; }
   const Ledger& ledger() const { return ledger_; }
-  std::vector<std::string> warnings() const;  // what makes the run doubtful first
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  std::vector<std::string> doubts()
+      const;  // what makes the run doubtful: contacts that pulled, impacts that created energy
   const ContactAudit& audit() const { return audit_; }
   Energy energy_at_state();
   double energy_drift();  // [J] what no cause in the ledger explains

@@ -113,6 +113,7 @@ void Simulator::archive_state(Archive& a) {
   ledger_.archive(a);
   statistics_.archive(a);
   location_.archive(a);
+  modes_.impact_warnings().archive(a);
 }
 
 }  // namespace trammel::simulate

@@ -50,6 +50,7 @@ std::string summary(const scene::Scene& scene, const Setup& setup, Simulator& si
   const auto line = [&text](const char* what, const std::string& value) {
     text += fmt::format("  {:<12}{}\n", what, value);
   };
+  for (const std::string& warning : simulator.doubts()) line("warning", warning);
   line("simulated",
        fmt::format("{:.6g} s to {:.6g} s with {}; {}, {}, {}", setup.settings.start, state.t, setup.integrator_type,
                    counted(model.bodies.size(), "body", "bodies"), counted(model.joints.size(), "joint", "joints"),

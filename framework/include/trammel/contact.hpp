@@ -16,15 +16,23 @@ class Restitution : public Component {
   enum class Rebound { free, constrained };   // a separating contact is open, or its row is active at once
   enum class Restart { consistent, carry };   // a, lambda solved anew at a change of mode, or carried over
   enum class Release { when_pulled, never };  // a closed contact opens where it would pull, or holds for good: a latch
+  // What e means in an impact (framework/simulate: impact.hpp, poisson_impact.hpp, spring_impact.hpp). Alike for one contact without
+  // friction; else newton and poisson may create energy, and energetic never does.
+  enum class ImpactLaw {
+    newton,     // u+ = -e u-, rates
+    poisson,    // N_E = e N_C, impulses of expansion and compression
+    energetic,  // W_E = -e^2 W_C, works of the normal force in expansion and compression
+  };
   struct Treatment {
     Onset onset = Onset::located;
     Rebound rebound = Rebound::free;
     Restart restart = Restart::consistent;
     double capture_speed = 1e-6;  // [m/s] slower impacts have restitution 0, which ends a sequence of bounces
     Release release = Release::when_pulled;
+    ImpactLaw impact_law = ImpactLaw::newton;
   };
 
-  virtual double coefficient(double approach_speed) const = 0;  // e in [0, 1]: u+ = -e u-
+  virtual double coefficient(double approach_speed) const = 0;  // e in [0, 1]
   virtual Treatment treatment() const = 0;
 };
 

@@ -1,6 +1,11 @@
-// The constraint method: Newton's impact law when the gap closes, then a constraint row while the contact pushes.
+// The constraint method: an impact with restitution when the gap closes, then a constraint row while the contact pushes.
 //
-//     u+ = -e u-        u gap rate [m/s];  e = restitution, or 0 for an impact slower than the capture speed
+//     newton      u+ = -e u-           u gap rate [m/s];  e = restitution, or 0 for an impact slower than the capture speed
+//     poisson     N_E = e N_C          N normal impulses [N s] of compression and expansion
+//     energetic   W_E = -e^2 W_C       W works of the normal force [J] in them
+//
+// One contact without friction does the same under all three. With friction, or several contacts, the first two may create energy
+// (which is told), the third never does.
 //
 // The capture speed ends a sequence of bounces, whose speeds fall geometrically; results do not change for 1e-3 to 1e-7
 // m/s. onset, rebound and restart are exact by default; their second choices are simplifications found in papers (Guo,
@@ -21,9 +26,12 @@ struct ConstraintMethod : Restitution {
   Onset onset = Onset::located;
   Rebound rebound = Rebound::free;
   Restart restart = Restart::consistent;
+  ImpactLaw impact_law = ImpactLaw::newton;
 
   double coefficient(double approach_speed) const override { return approach_speed < capture_speed ? 0 : restitution; }
-  Treatment treatment() const override { return {onset, rebound, restart, capture_speed}; }
+  Treatment treatment() const override {
+    return {onset, rebound, restart, capture_speed, Release::when_pulled, impact_law};
+  }
 };
 
 }  // namespace
@@ -31,7 +39,9 @@ struct ConstraintMethod : Restitution {
 TRAMMEL_PLUGIN(
     trammel::contact<ConstraintMethod>("constraint_method",
                                        "impact with restitution, then a constraint while it pushes")
-        .source("F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996: Newton's impact law")
+        .source("F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996: Newton's and Poisson's "
+                "impact laws; "
+                "W. J. Stronge, Proc. R. Soc. A 431, 169 (1990): the energetic one")
         .parameter("restitution", &ConstraintMethod::restitution,
                    {.min = 0, .max = 1, .doc = "e; 0 plastic, 1 elastic"})
         .parameter("capture_speed", &ConstraintMethod::capture_speed,
@@ -44,4 +54,10 @@ TRAMMEL_PLUGIN(
                 {.doc = "a separating contact is open, or its row is on at once"})
         .choice("restart", &ConstraintMethod::restart,
                 {{"consistent", ConstraintMethod::Restart::consistent}, {"carry", ConstraintMethod::Restart::carry}},
-                {.doc = "accelerations and multipliers after an impact: solved anew, or carried over"}))
+                {.doc = "accelerations and multipliers after an impact: solved anew, or carried over"})
+        .choice(
+            "impact_law", &ConstraintMethod::impact_law,
+            {{"newton", ConstraintMethod::ImpactLaw::newton},
+             {"poisson", ConstraintMethod::ImpactLaw::poisson},
+             {"energetic", ConstraintMethod::ImpactLaw::energetic}},
+            {.doc = "what e relates: gap rates, normal impulses, or works of the normal force (never creates energy)"}))

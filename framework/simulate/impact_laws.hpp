@@ -1,0 +1,30 @@
+// Which law an impact follows: Newton's (impact.hpp), Poisson's (poisson_impact.hpp) or the energetic one (spring_impact.hpp).
+//
+// All contacts that touch share one impact, so they share one law: of those that approach and were open the one that comes last in the order
+// newton, poisson, energetic; each keeps its own e. So an energetic contact that strikes is never spoiled by another that
+// strikes with it. An impact without collision (contact_mode.hpp, rule 8) has no restitution and follows Newton's law.
+#pragma once
+
+#include <vector>
+
+#include "simulate/energetic_impact.hpp"
+#include "simulate/impact.hpp"
+#include "simulate/poisson_impact.hpp"
+
+namespace trammel::simulate {
+
+class ImpactLaws {
+ public:
+  // As Impact::solve.
+  [[nodiscard]] complementarity::ContactSolution solve(model::AssembledSystem& system, double at_rest,
+                                                       std::vector<TouchingContact>& touching, Vec& dv);
+  bool cut_short() const { return cut_short_; }  // the last one: SpringImpact::cut_short
+
+ private:
+  Impact newton_;
+  PoissonImpact poisson_;
+  EnergeticImpact energetic_;
+  bool cut_short_ = false;
+};
+
+}  // namespace trammel::simulate

@@ -1,0 +1,129 @@
+// Energetic restitution for any number of contacts with friction: each contact is a spring, and nothing else moves while they push.
+//
+//     u = u- + A P       rates of gaps and slips [m/s], P impulses [N s], A the Delassus matrix at the frozen configuration
+//     dP_n/dtau = F = k x,   dx/dtau = -u_n     where x > 0 or u_n < 0 (it presses);   F = 0 elsewhere
+//     dP_t/dtau = T          |T| <= mu_0 F where s = 0 (it sticks),  T = -mu F s/|s| elsewhere
+//
+// Where a compression ends (u_n reaches 0) a part 1 - e^2 of the work that this compression has stored is lost, and the spring
+// keeps the rest: k x^2/2 becomes k x_0^2/2 + e^2 k (x^2 - x_0^2)/2, with x_0 from before this compression. A contact that is
+// pressed again compresses again. It ends where no spring pushes and no gap closes.
+//
+// All springs have the same stiffness k; P does not depend on how large it is. Of a single contact it is Stronge's hypothesis
+// (Proc. R. Soc. A 431, 169 (1990)), since the rates follow from P_n alone: Routh's construction in the plane, in space the hodograph of
+// Keller (J. Appl. Mech. 53, 1 (1986)). Of several, the distributing law of Liu, Zhao, Brogliato (Proc. R. Soc. A 464, 3193 (2008)) for
+// equal linear springs, but that the loss happens at the end of compression: so springs do not stiffen as e becomes small.
+//
+// Guarantee, whatever the contacts' number, friction and dependence: each normal's work is -(1 - e^2) times the work of its
+// compressions, friction takes energy only, so the energy never grows. Forces along normals are given at each instant, so friction always
+// has a solution (Painleve's paradox does not arise). Springs that friction or other contacts keep compressed when all has come to rest
+// give nothing back. What is left at the end, as where walls without clearance return a body for
+// ever, is ended by an impact without restitution, which takes energy only.
+//
+// Between events (a rate, slip or spring reaches 0, friction its bound) it is a smooth differential equation; midpoint steps
+// extrapolated to order 12 (Gragg, Bulirsch, Stoer) follow it to round-off.
+#pragma once
+
+#include <vector>
+
+#include "complementarity/contact_forces.hpp"
+
+namespace trammel::simulate {
+
+struct SpringContact {
+  int normal = 0;    // index into A
+  int tangent = -1;  // of the first tangent; -1: frictionless
+  double e = 0;
+  double mu_0 = 0, mu = 0;
+};
+
+class SpringImpact {
+ public:
+  // `u`: rates before. `tangents`: of a contact, 1 or 2.
+  SpringImpact(std::vector<SpringContact> contacts, const Mat& A, const Vec& u, int tangents);
+
+  // `no_solution`: gaps close on bodies that cannot give way.
+  [[nodiscard]] complementarity::ContactSolution run();
+
+  const Vec& impulses() const { return P_; }
+  // The same but for the shares of contacts that stick together, which here are in their cones.
+  const Vec& told() const { return told_; }
+  Vec rates() const { return u_before_ + A_ * P_; }
+  // By contact [J]: what its spring took in all compressions; what was lost there, in the normal direction and in friction.
+  const Vec& compressed() const { return compressed_; }
+  const Vec& lost_normal() const { return lost_normal_; }
+  const Vec& lost_friction() const { return lost_friction_; }
+  // What springs still held at the end [J], counted as lost: of contacts that friction, or each other, keeps wedged.
+  double held() const { return held_; }
+  bool cut_short() const { return cut_short_; }  // ended without restitution, after `most_phases`
+  static constexpr int most_phases = 500;
+
+ private:
+  enum class Tangent { none, sticks, slides };
+  struct Contact : SpringContact {
+    bool presses = false, compresses = false;
+    double x_0 = 0;  // where this compression began
+    Tangent mode = Tangent::none;
+    Eigen::Vector2d direction = Eigen::Vector2d::Zero();  // of its slip, while that is too slow to have one
+    bool slid = false;                                    // it has been faster than that
+  };
+
+  bool finished() const;
+  bool wedged();
+  void begin_phase();
+  bool advance_to_event();  // false: none comes
+  void handle_events();
+  void handle_normal(std::size_t i);
+  void press(std::size_t i);
+  void end_compression(std::size_t i);
+  void choose_tangents();
+  void hold_sticking();
+  void force_slip();
+  [[nodiscard]] complementarity::ContactSolution close();
+  complementarity::ContactSolution end_approaches(double yields);
+  double fastest_approach() const;
+  void share_sticking_forces();
+
+  // The course: state y = (x, P, work lost to friction).
+  void derivative(const Vec& y, Vec& dy);
+  void forces(const Vec& y, const Vec& u, Vec& f) const;
+  double extrapolate(const Vec& y, double h, Vec& y_end);
+  void midpoint(const Vec& y, double h, int n, Vec& y_end);
+  void take(const Vec& y);
+  Vec state() const;
+
+  // Events: negative margins. Of the smallest, and of each contact.
+  struct Margins {
+    double normal = 0, tangent = 0;
+  };
+  double margin(const Vec& y);
+  void all_margins(const Vec& y, std::vector<Margins>& margins);
+  double least_sticking(const Vec& f, double F_scale) const;
+  bool some_forces_hold(const Vec& f) const;
+
+  bool rubs(const Contact& c) const { return c.presses && c.mu_0 > 0 && c.tangent >= 0; }
+  Vec slip(const Contact& c, const Vec& u) const { return u.segment(c.tangent, t_); }
+  std::vector<Eigen::Index> sticking_rows() const;
+  std::vector<complementarity::ContactPoint> resting_points(const Vec& F, const std::vector<std::size_t>& resting,
+                                                            const std::vector<bool>& let_go) const;
+
+  std::vector<Contact> contacts_;
+  Mat A_;
+  Vec u_before_;
+  int t_;
+  Eigen::Index n_ = 0, m_ = 0;
+  double v_ = 0, k_ = 1,
+         slow_ = 0;  // [m/s] the largest rate; stiffness, here of a period 2 pi; slips without direction
+  Vec x_, P_, told_, lost_friction_, lost_normal_, compressed_;
+  // Forces of those that stick: f_S = hold_ f.
+  std::vector<Eigen::Index> sticking_;
+  Mat hold_;
+  bool dependent_ = false;
+  double h_ = 0.5;
+  int standing_ = 0;  // events in a row at one instant
+  double held_ = 0;
+  bool cut_short_ = false;
+  Vec u_, f_, dy_, middle_, ahead_;
+  std::vector<Margins> margins_;
+};
+
+}  // namespace trammel::simulate
