@@ -62,7 +62,7 @@ void ContactModes::load_bearings_at_rest(const State& state, const model::Modes&
   load_bearings(state, at_rest);
 }
 
-complementarity::ContactSolution ContactModes::decide_with_bearings(const State& state, const ContactChanges& changes) {
+complementarity::ContactSolution ContactModes::decide_with_bearings(const State& state) {
   const std::vector<Participant> asked = problem_.who;
   const model::Modes open = modes_;
   model::Modes last;
@@ -73,7 +73,7 @@ complementarity::ContactSolution ContactModes::decide_with_bearings(const State&
       if (system_.model().contacts[who[i].contact].joint) who[i].given = problem_.who[i].given;
     problem_.who = std::move(who);
     modes_ = open;
-    const complementarity::ContactSolution solution = take_verdicts(changes);
+    const complementarity::ContactSolution solution = take_verdicts();
     if (solution.outcome != complementarity::LcpOutcome::solved || (round > 0 && agree(modes_, last))) return solution;
     last = modes_;
     load_bearings(state, modes_);

@@ -154,11 +154,11 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
   system_.set_modes(modes_);
   system_.move_to(state.t, state.q, state.v);
   accelerate_participants();
-  if (has_bearings()) return decide_with_bearings(state, changes);
-  return take_verdicts(changes);
+  if (has_bearings()) return decide_with_bearings(state);
+  return take_verdicts();
 }
 
-complementarity::ContactSolution ContactModes::take_verdicts(const ContactChanges& changes) {
+complementarity::ContactSolution ContactModes::take_verdicts() {
   const complementarity::ContactSolution solution = problem_.solve(nothing());
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
   const std::vector<bool> kept_closed = problem_.kept_closed(nothing());

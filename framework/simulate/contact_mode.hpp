@@ -121,11 +121,10 @@ class ContactModes {
   void add_friction(const State& state, Participant& p, const ContactChanges& changes, bool jumped);
   bool end_drift(State& state, ContactChanges& changes);
   [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped);
-  [[nodiscard]] complementarity::ContactSolution take_verdicts(const ContactChanges& changes);
+  [[nodiscard]] complementarity::ContactSolution take_verdicts();
   // Of joints that rub (bearing_decision.cpp).
   bool has_bearings() const;
-  [[nodiscard]] complementarity::ContactSolution decide_with_bearings(const State& state,
-                                                                      const ContactChanges& changes);
+  [[nodiscard]] complementarity::ContactSolution decide_with_bearings(const State& state);
   void load_bearings_at_rest(const State& state, const model::Modes& open);
   void load_bearings(const State& state, const model::Modes& modes);
   void accelerate_participants();
