@@ -15,7 +15,7 @@ ImpactDirections::Friction coefficients(const model::ContactEntry& contact, doub
 void ImpactDirections::prepare(model::AssembledSystem& system, std::vector<TouchingContact>& touching) {
   std::vector<model::ContactDirection> directions;
   normal.clear(), tangent.clear(), friction.clear();
-  tangents = system.tangents();
+  tangents = touching.empty() ? 0 : system.tangents(touching.front().contact);  // the same for all that strike
   for (TouchingContact& c : touching) {
     const model::ContactEntry& contact = system.model().contacts[c.contact];
     if (contact.friction) c.slip_before = system.slip(c.contact);
