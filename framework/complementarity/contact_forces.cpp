@@ -7,6 +7,7 @@
 #include "complementarity/contact_order.hpp"
 #include "complementarity/exact_modes.hpp"
 #include "complementarity/friction_cone.hpp"
+#include "complementarity/islands.hpp"
 #include "complementarity/mode_search.hpp"
 #include "complementarity/polyhedral_cone.hpp"
 #include "complementarity/pressing_forces.hpp"
@@ -163,13 +164,10 @@ void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, cons
 
 }  // namespace
 
-ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
-                               double nothing) {
-  F.setZero(b.size());
-  a.setZero(b.size());
-  if (b.size() == 0) return {LcpOutcome::solved, 0};
-  if (!A.allFinite() || !b.allFinite()) return {LcpOutcome::gave_up, std::numeric_limits<double>::infinity()};
-  const OrderedContacts ordered(points, A, b);
+namespace {
+
+ContactSolution solve_island(const Island& island, const Mat& A, const Vec& b, Vec& F, Vec& a, double nothing) {
+  const OrderedContacts ordered(island.points, A, b);
   Vec F_ordered;
   const ContactSolution solution = Cascade(ordered.points(), ordered.A(), ordered.b(), nothing).solve(F_ordered);
   if (solution.outcome != LcpOutcome::solved) return solution;
@@ -178,6 +176,31 @@ ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Ma
   F = ordered.as_named(F_ordered);
   a = ordered.as_named(a_ordered);
   return solution;
+}
+
+}  // namespace
+
+ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
+                               double nothing) {
+  F.setZero(b.size());
+  a.setZero(b.size());
+  if (b.size() == 0) return {LcpOutcome::solved, 0};
+  if (!A.allFinite() || !b.allFinite()) return {LcpOutcome::gave_up, std::numeric_limits<double>::infinity()};
+  ContactSolution all{LcpOutcome::solved, 0};
+  Vec F_island, a_island;
+  for (const Island& island : islands(points, A)) {
+    if (island.rows.empty()) continue;
+    const ContactSolution one =
+        solve_island(island, A(island.rows, island.rows), b(island.rows), F_island, a_island, nothing);
+    if (one.outcome != LcpOutcome::solved) {
+      F.setZero(), a.setZero();
+      return one;
+    }
+    all.violation = std::max(all.violation, one.violation);
+    F(island.rows) = F_island;
+    a(island.rows) = a_island;
+  }
+  return all;
 }
 
 }  // namespace trammel::complementarity

@@ -95,7 +95,7 @@ class Tableau {
   }
 
   int n_, pivots_ = 0;
-  Mat first_, rows_;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> first_, rows_;  // pivots work on rows
   std::vector<int> basis_;
 };
 

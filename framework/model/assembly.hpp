@@ -153,8 +153,9 @@ struct AssembledSystem::Work {
   double force_along(ContactDirection d,
                      const Vec& lambda);  // [N] of a closed contact, where its friction does not slide
   void clear_held(const Mat& N, Mat& jump, Mat& delassus);
-  ContactLoads::Bounds bounds(int contact, const Vec& lambda);  // of its forces where it shares rows
-  const ContactLoads& shared_loads(int group, const Vec& lambda);
+  ContactLoads::Bounds bounds(int contact, const Vec& lambda);     // of its forces where it shares rows
+  const ContactLoads& shared_rows(int group, const Vec& lambda);   // with the resultants of a group
+  const ContactLoads& shared_loads(int group, const Vec& lambda);  // and with its forces
   std::vector<int> judged;           // closed contacts at rest whose friction every evaluation finds anew
   Eigen::Matrix2Xd judged_friction;  // [N] by contact, at the last accelerate
   bool coupled = false;              // a row's force has a sliding friction beside it: W != G

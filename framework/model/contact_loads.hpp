@@ -45,17 +45,22 @@ class ContactLoads {
     double coefficient = 0;  // of static friction
     double given = 0;        // [N] normal force, where no row holds it
   };
-  // Those of all contacts of a group; `bounds(contact)` gives the Bounds.
+  // Resultants of a group, and its forces as springs share them; `bounds(contact)` gives the Bounds.
   template <class BoundsOf>
-  void solve(int group, const Vec& lambda, BoundsOf&& bounds) {
+  void prepare(int group, const Vec& lambda, BoundsOf&& bounds) {
     begin(group, lambda);
     for (Member& member : groups_[std::size_t(group)].members) member.bounds = bounds(member.contact);
+  }
+  // The forces of all contacts of a group.
+  template <class BoundsOf>
+  void solve(int group, const Vec& lambda, BoundsOf&& bounds) {
+    prepare(group, lambda, bounds);
     share_admissibly(groups_[std::size_t(group)]);
   }
   double load(const Place& place) const { return groups_[std::size_t(place.group)].forces[place.index]; }
   // It slides, or it is idle.
   bool shares_as_spring(int contact, int group) const;
-  // [N] how much further each of the others could be unloaded, after `solve`: complementarity/spare_load.hpp.
+  // [N] how much further each of the others could be unloaded, after `prepare`: complementarity/spare_load.hpp.
   double spare_load(int group) const;
   double largest_load(int group) const { return scale(groups_[std::size_t(group)]); }
 

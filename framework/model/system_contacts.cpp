@@ -74,11 +74,11 @@ AssembledSystem::Sharing AssembledSystem::sharing(int contact) const {
 }
 
 double AssembledSystem::spare_load(int group, const Vec& lambda) {
-  return work_->shared_loads(group, lambda).spare_load(group);
+  return work_->shared_rows(group, lambda).spare_load(group);
 }
 
 double AssembledSystem::largest_load(int group, const Vec& lambda) {
-  return work_->shared_loads(group, lambda).largest_load(group);
+  return work_->shared_rows(group, lambda).largest_load(group);
 }
 
 double AssembledSystem::spring_force(int contact, const Vec& lambda) {
@@ -108,6 +108,11 @@ ContactLoads::Bounds AssembledSystem::Work::bounds(int contact, const Vec& lambd
   if (entry.coulomb) bounds.coefficient = entry.coulomb->static_coefficient();
   if (loads.place({contact, 0}).group < 0) bounds.given = std::max(0.0, force_along({contact, 0}, lambda));
   return bounds;
+}
+
+const ContactLoads& AssembledSystem::Work::shared_rows(int group, const Vec& lambda) {
+  loads.prepare(group, lambda, [&](int contact) { return bounds(contact, lambda); });
+  return loads;
 }
 
 const ContactLoads& AssembledSystem::Work::shared_loads(int group, const Vec& lambda) {

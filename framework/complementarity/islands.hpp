@@ -1,0 +1,16 @@
+// Contacts that act on each other, directly or through others: a chain of entries of A that are not 0. Each island is a problem of its own.
+#pragma once
+
+#include <vector>
+
+#include "complementarity/contact_point.hpp"
+
+namespace trammel::complementarity {
+
+struct Island {
+  std::vector<ContactPoint> points;  // with rows of its own
+  std::vector<Eigen::Index> rows;    // of A, by row of its own
+};
+std::vector<Island> islands(const std::vector<ContactPoint>& points, const Mat& A);
+
+}  // namespace trammel::complementarity
