@@ -100,7 +100,7 @@ class Cascade {
   }
 
   void keep(const Vec& F) {
-    if (lost_in_round_off(F)) return;
+    if (friction_ && lost_in_round_off(F)) return;
     const double violated = violation(points_, A_, b_, F, nothing_);
     if (!(violated < least_)) return;
     least_ = violated;
