@@ -38,6 +38,7 @@ class Cascade {
     for (const double yields : {compliance, 0.0})
       if (by_pivoting(yields)) return found(F);
     if (round_ && (try_cones(0, Vec::Zero(b_.size())) || (best_.size() > 0 && try_cones(0, best_)))) return found(F);
+    if (!round_ && least_ > largest_violation) try_cones(0, best_.size() > 0 ? best_ : Vec(Vec::Zero(b_.size())));
     if (least_ <= largest_violation) return found(F);
     if (points_.size() <= (round_ ? few_round_contacts : few_contacts)) {
       const LcpOutcome outcome = search_modes(points_, A_, b_, most_nodes, [this](const Vec& near) {
