@@ -9,8 +9,8 @@
 // to the cone of N_E. Closed contacts have e = 0.
 //
 // Without friction and with one contact it is Newton's law, u+ = -e u-. Energy may grow, though less often than under Newton's law
-// (several contacts, or friction that reverses a slip). F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996,
-// chapter 8; there a part of the tangential impulse is given back as well, here none.
+// (several contacts, or friction that reverses a slip). F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996;
+// there a part of the tangential impulse is given back as well, here none.
 #pragma once
 
 #include <vector>

@@ -22,10 +22,20 @@ constexpr double tolerance = 1e-13, negligible = 1e-12, still = 1e-9;
 constexpr double no_slip = 1e-11, no_slip_in_space = 1e-9;
 constexpr double step_error = 2e-13;
 constexpr int columns = 6, order = 2 * columns;
+// Of the largest rate: what may be left of an impact that had not ended without being told.
+constexpr double worth_telling = 1e-3;
 // In units of the springs' time: how far ahead the forces are looked at where contacts begin to push.
 constexpr double ahead = 1e-6;
 constexpr int most_steps = 20000;
 constexpr double compliance = 1e-9;
+// Of the largest pivot: rows that depend on others leave round-off.
+constexpr double dependence = 1e-10;
+
+Eigen::CompleteOrthogonalDecomposition<Mat> decomposed(const Mat& A) {
+  Eigen::CompleteOrthogonalDecomposition<Mat> qr;
+  qr.setThreshold(dependence);
+  return qr.compute(A);
+}
 
 }  // namespace
 
@@ -48,18 +58,16 @@ ContactSolution SpringImpact::run() {
   u_ = rates();
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     if (u_[contacts_[i].normal] < -tolerance * v_) press(i);
-  for (int phase = 0; !finished() && !wedged(); ++phase) {
-    if (phase == most_phases) {
-      cut_short_ = true;
-      break;
-    }
+  bool ended = false;
+  for (int phase = 0; !ended && phase < most_phases; ++phase) {
     begin_phase();
-    if (!advance_to_event()) {
-      cut_short_ = true;
-      break;
-    }
+    ended = finished() || wedged();
+    if (ended) break;
+    if (!advance_to_event()) break;
     handle_events();
   }
+  const double left = std::max(fastest_approach() / v_, x_.norm() / v_);
+  cut_short_ = !ended && left > worth_telling;
   return close();
 }
 
@@ -99,7 +107,8 @@ void SpringImpact::end_compression(std::size_t i) {
   c.compresses = false;
   c.presses = x_[at] > 0;
   // What is left of the rate, where an event is located to a few units of `tolerance`.
-  if (A_(c.normal, c.normal) > 0) P_[c.normal] = std::max(0.0, P_[c.normal] - u_[c.normal] / A_(c.normal, c.normal));
+  if (A_(c.normal, c.normal) > 0 && std::abs(u_[c.normal]) <= 10 * negligible * v_)
+    P_[c.normal] = std::max(0.0, P_[c.normal] - u_[c.normal] / A_(c.normal, c.normal));
 }
 
 void SpringImpact::handle_normal(std::size_t i) {
@@ -168,24 +177,39 @@ void SpringImpact::derivative(const Vec& y, Vec& dy) {
   }
 }
 
-void SpringImpact::midpoint(const Vec& y, double h, int n, Vec& y_end) {
+// Whether a slip in space has turned by more than 60 degrees against u: then it has passed 0, where friction jumps.
+bool SpringImpact::turned_from(const Vec& u) const {
+  for (const Contact& c : contacts_) {
+    if (t_ == 1 || !c.presses || c.mode != Tangent::slides || !c.slid) continue;
+    const Vec s = slip(c, u), now = slip(c, u_);
+    if (s.dot(now) < 0.5 * s.norm() * now.norm()) return true;
+  }
+  return false;
+}
+
+// False: friction jumps on the way.
+bool SpringImpact::midpoint(const Vec& y, double h, int n, Vec& y_end) {
   const double d = h / n;
   derivative(y, dy_);
+  const Vec u = u_;
   Vec before = y, now = y + d * dy_;
-  for (int i = 1; i < n; ++i) {
+  bool smooth = true;
+  for (int i = 1; i < n && smooth; ++i) {
     derivative(now, dy_);
+    smooth = !turned_from(u);
     middle_ = before + 2 * d * dy_;
     before.swap(now), now.swap(middle_);
   }
   derivative(now, dy_);
   y_end = 0.5 * (before + now + d * dy_);
+  return smooth && !turned_from(u);
 }
 
 // The estimated error, in parts of `step_error`.
 double SpringImpact::extrapolate(const Vec& y, double h, Vec& y_end) {
   std::vector<Vec> row(columns), last(columns);
   for (int j = 0; j < columns; ++j) {
-    midpoint(y, h, 2 * (j + 1), row[0]);
+    if (!midpoint(y, h, 2 * (j + 1), row[0])) return std::numeric_limits<double>::infinity();
     for (int k = 1; k <= j; ++k) {
       const double ratio = double(j + 1) / double(j + 1 - k);
       row[std::size_t(k)] =
@@ -281,7 +305,7 @@ void SpringImpact::all_margins(const Vec& y, std::vector<Margins>& margins) {
     } else {
       const Vec s = slip(c, u_);
       const bool turns = t_ == 2 && c.slid;
-      margins[i].tangent = (turns ? s.norm() - slow_ : s.dot(c.direction.head(t_)) + (t_ == 2 ? 2 * slow_ : 0)) / v_;
+      margins[i].tangent = (turns ? s.norm() - slow_ : s.dot(c.direction.head(t_)) + (c.slid ? 0 : 2 * slow_)) / v_;
     }
   }
   if (!dependent_) return;
@@ -406,7 +430,7 @@ void SpringImpact::begin_phase() {
   // What is left of their slip.
   const Vec s = u_(sticking_);
   const Mat A_SS = A_(sticking_, sticking_);
-  const Vec P = -A_SS.completeOrthogonalDecomposition().solve(s);
+  const Vec P = -decomposed(A_SS).solve(s);
   const Vec mean = s + 0.5 * A_SS * P;
   P_(sticking_) += P;
   Eigen::Index at = 0;
@@ -422,7 +446,7 @@ void SpringImpact::hold_sticking() {
   sticking_ = sticking_rows();
   dependent_ = false;
   if (sticking_.empty()) return;
-  const auto qr = Mat(A_(sticking_, sticking_)).completeOrthogonalDecomposition();
+  const auto qr = decomposed(A_(sticking_, sticking_));
   dependent_ = qr.rank() < Eigen::Index(sticking_.size());
   Mat others = A_(sticking_, Eigen::all);
   for (const Eigen::Index row : sticking_) others.col(row).setZero();
@@ -432,7 +456,7 @@ void SpringImpact::hold_sticking() {
 // --- the end ---
 
 ContactSolution SpringImpact::close() {
-  held_ = k_ / 2 * x_.squaredNorm();
+  taken_at_end_ = k_ / 2 * x_.squaredNorm();
   lost_normal_ += k_ / 2 * x_.cwiseAbs2();
   for (Eigen::Index i = 0; i < n_; ++i)
     if (const Contact& c = contacts_[std::size_t(i)]; c.compresses)
@@ -478,6 +502,7 @@ ContactSolution SpringImpact::end_approaches(double yields) {
   const Vec mean = u + 0.5 * A_ * P;
   for (Eigen::Index i = 0; i < n_; ++i) {
     const Contact& c = contacts_[std::size_t(i)];
+    taken_at_end_ += std::abs(P[c.normal] * mean[c.normal]);
     lost_normal_[i] -= P[c.normal] * mean[c.normal];
     if (c.tangent >= 0) lost_friction_[i] -= P.segment(c.tangent, t_).dot(mean.segment(c.tangent, t_));
   }

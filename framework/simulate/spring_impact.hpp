@@ -52,10 +52,11 @@ class SpringImpact {
   const Vec& compressed() const { return compressed_; }
   const Vec& lost_normal() const { return lost_normal_; }
   const Vec& lost_friction() const { return lost_friction_; }
-  // What springs still held at the end [J], counted as lost: of contacts that friction, or each other, keeps wedged.
-  double held() const { return held_; }
+  // Work of normal forces that the end took [J], counted as lost: what springs still held, of contacts that friction or others keep
+  // wedged, and what ended the last approaches.
+  double taken_at_end() const { return taken_at_end_; }
   bool cut_short() const { return cut_short_; }  // ended without restitution, after `most_phases`
-  static constexpr int most_phases = 500;
+  static constexpr int most_phases = 1000;
 
  private:
   enum class Tangent { none, sticks, slides };
@@ -87,7 +88,8 @@ class SpringImpact {
   void derivative(const Vec& y, Vec& dy);
   void forces(const Vec& y, const Vec& u, Vec& f) const;
   double extrapolate(const Vec& y, double h, Vec& y_end);
-  void midpoint(const Vec& y, double h, int n, Vec& y_end);
+  bool midpoint(const Vec& y, double h, int n, Vec& y_end);
+  bool turned_from(const Vec& u) const;
   void take(const Vec& y);
   Vec state() const;
 
@@ -120,7 +122,7 @@ class SpringImpact {
   bool dependent_ = false;
   double h_ = 0.5;
   int standing_ = 0;  // events in a row at one instant
-  double held_ = 0;
+  double taken_at_end_ = 0;
   bool cut_short_ = false;
   Vec u_, f_, dy_, middle_, ahead_;
   std::vector<Margins> margins_;

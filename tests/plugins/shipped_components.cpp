@@ -173,6 +173,9 @@ const std::vector<Shipped>& compliant_contacts() {
 const std::vector<Shipped>& set_valued_contacts() {
   static const std::vector<Shipped> all = {
       {"constraint_method", "", R"({"type": "constraint_method", "restitution": 0.3})"},
+      {"constraint_method", "poisson", R"({"type": "constraint_method", "restitution": 0.3, "impact_law": "poisson"})"},
+      {"constraint_method", "energetic",
+       R"({"type": "constraint_method", "restitution": 0.3, "impact_law": "energetic"})"},
       {"latch", "", R"({"type": "latch"})"},
       {"constraint_method", "elastic", R"({"type": "constraint_method", "restitution": 1, "capture_speed": 1e-3})"},
   };

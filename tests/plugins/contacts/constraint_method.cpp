@@ -35,6 +35,14 @@ TEST(ConstraintMethod, OffersTheSimplificationsOfPapersByName) {
   EXPECT_EQ(treatment.restart, Restitution::Restart::carry);
 }
 
+TEST(ConstraintMethod, OffersThreeImpactLawsByName) {
+  using Law = Restitution::ImpactLaw;
+  EXPECT_EQ(contact(R"("restitution": 0.3)")->treatment().impact_law, Law::newton);
+  EXPECT_EQ(contact(R"("impact_law": "newton")")->treatment().impact_law, Law::newton);
+  EXPECT_EQ(contact(R"("impact_law": "poisson")")->treatment().impact_law, Law::poisson);
+  EXPECT_EQ(contact(R"("impact_law": "energetic")")->treatment().impact_law, Law::energetic);
+}
+
 TEST(ConstraintMethod, RefusesARestitutionThatWouldGainEnergy) {
   EXPECT_NE(refusal(Kind::contact, R"({"type": "constraint_method", "restitution": 1.01})").find("restitution"),
             std::string::npos);
