@@ -8,6 +8,10 @@ using trammel::beam::Coupling;
 TRAMMEL_PLUGIN(
     trammel::body<AssumedModeBeam>("assumed_mode_beam", "planar Euler-Bernoulli beam by axial and transverse modes")
         .source("Guo, Zhang, Chen 2017, Acta Physica Sinica 66, 164501, eqs (1)-(4)")
+        .markers("root, tip, and those of \"markers\"")
+        .observables(
+            "angle, angular_velocity, tip_axial, tip_transverse, axial_1 ..., transverse_1 ...: modal coordinates; "
+            "axial_rate_1 ..., transverse_rate_1 ...: their rates")
         .parameter("length", &AssumedModeBeam::length, {.unit = "m", .min = 0, .above_min = true, .required = true})
         .parameter("area", &AssumedModeBeam::area,
                    {.unit = "m^2", .min = 0, .above_min = true, .required = true, .doc = "of the cross section"})

@@ -163,6 +163,8 @@ struct Bar : Body, ExactTangent, ReactionDerivative, Constrained, LinearMarkers,
 TRAMMEL_PLUGIN(
     trammel::body<Bar>("bar", "straight rigid rod by its end points, planar or spatial")
         .source("J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994")
+        .markers("from, to, mid, and those of \"markers\"")
+        .observables("length; in the plane angle")
         .parameter("mass", &Bar::mass_, {.unit = "kg", .min = 0, .required = true, .doc = "uniform along the bar"})
         .parameter("from", &Bar::from_, {.unit = "m", .required = true, .doc = "first end at the start"})
         .parameter("to", &Bar::to_, {.unit = "m", .required = true, .doc = "second end at the start"})

@@ -109,6 +109,7 @@ struct MovingBase : Body, Drawn {
 TRAMMEL_PLUGIN(trammel::body<MovingBase>("moving_base",
                                          "a body that moves by given laws of time and has no coordinates")
                    .source("kinematics of a rigid frame")
+                   .markers("origin, and those of \"markers\"")
                    .parameter("x", &MovingBase::x_, {.unit = "m", .doc = "of the origin, a law of t", .derivatives = 2})
                    .parameter("y", &MovingBase::y_, {.unit = "m", .doc = "of the origin, a law of t", .derivatives = 2})
                    .parameter("z", &MovingBase::z_,

@@ -83,6 +83,7 @@ struct PointMass : Body, ExactTangent, ReactionDerivative, LinearMarkers, Drawn,
 
 TRAMMEL_PLUGIN(trammel::body<PointMass>("point_mass", "point with mass, planar or spatial")
                    .source("J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994")
+                   .markers("point, com: two names of the same point")
                    .parameter("mass", &PointMass::mass_,
                               {.unit = "kg", .min = 0, .above_min = true, .required = true, .doc = "mass"})
                    .parameter("position", &PointMass::position_, {.unit = "m", .doc = "at the start"})

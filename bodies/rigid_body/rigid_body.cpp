@@ -172,6 +172,11 @@ TRAMMEL_PLUGIN(
     trammel::body<RigidBody>("rigid_body", "rigid body, planar or spatial, in the coordinates of its centre of mass")
         .source("A. A. Shabana, Dynamics of Multibody Systems (plane); R. Featherstone, Rigid Body Dynamics Algorithms "
                 "(space)")
+        .markers("com, and those of \"markers\"")
+        .observables(
+            "angle, angular_velocity, momentum_x, momentum_y, angular_momentum; in space omega_x, omega_y, omega_z "
+            "(body axes), quaternion_w, quaternion_x, quaternion_y, quaternion_z, momentum_x, momentum_y, "
+            "momentum_z, angular_momentum_x, angular_momentum_y, angular_momentum_z (about the origin)")
         .parameter("mass", &RigidBody::mass_, {.unit = "kg", .min = 0, .above_min = true, .doc = "mass; or a density"})
         .parameter("density", &RigidBody::density_,
                    {.unit = "kg/m^3", .min = 0, .above_min = true, .doc = "of the shape, in place of the mass"})

@@ -141,6 +141,8 @@ TRAMMEL_PLUGIN(
     trammel::body<SliderCrankRod>("slider_crank_rod",
                                   "flexible rod of Simeon's slider-crank benchmark: frame and four modes")
         .source("B. Simeon, Math. Modelling of Systems 2 (1996) 1-18; Test Set for IVP Solvers, slider crank")
+        .markers("pin, tip")
+        .observables("angle, q1, q2, q3, q4, angular_velocity, q1_rate, q2_rate, q3_rate, q4_rate")
         .parameter("length", &SliderCrankRod::length, {.unit = "m", .min = 0, .above_min = true, .doc = "L"})
         .parameter("width", &SliderCrankRod::width, {.unit = "m", .min = 0, .above_min = true, .doc = "of the section"})
         .parameter("height", &SliderCrankRod::height,

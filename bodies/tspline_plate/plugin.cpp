@@ -7,6 +7,11 @@ using P = trammel::plate::TsplinePlate;
 TRAMMEL_PLUGIN(
     trammel::body<P>("tspline_plate", "thin plate or shell on rational bicubic T-splines; its mesh can refine")
         .source("Kiendl et al. 2009, CMAME 198; Wang, Cui, Yu, Lan, Lu 2021, Chin. J. Theor. Appl. Mech. 53(8)")
+        .markers(
+            "centre, u0v0, u1v0, u0v1, u1v1, and those of \"markers\"; of a body with named patches PATCH_centre, ...")
+        .observables(
+            "von_mises_top, von_mises_middle, von_mises_bottom: the largest [Pa]; energy_membrane, energy_bending "
+            "[J]; elements; von_mises_top_MARKER, von_mises_middle_MARKER, von_mises_bottom_MARKER")
         .parameter("thickness", &P::thickness, {.unit = "m", .min = 0, .above_min = true, .required = true})
         .parameter("density", &P::density, {.unit = "kg/m^3", .min = 0, .above_min = true, .required = true})
         .parameter("youngs_modulus", &P::youngs_modulus, {.unit = "Pa", .min = 0, .above_min = true, .required = true})

@@ -31,10 +31,13 @@ class Builder {
         markers_(*model_, problems) {}
 
   std::shared_ptr<Model> build() {
-    check_keys(root_,
-               {"trammel", "title", "description", "plugins", "space", "gravity", "parameters", "bodies", "joints",
-                "forces", "contacts", "integrator", "corrections", "initial", "simulate", "static", "record"},
-               problems_);
+    check_keys(
+        root_,
+        {"trammel", "$schema", "title", "description", "include", "plugins", "space", "gravity", "parameters", "bodies",
+         "joints", "forces", "contacts", "integrator", "corrections", "initial", "simulate", "static", "record"},
+        problems_);
+    for (const char* key : {"$schema", "title", "description"})
+      if (const Value* text = root_.find(key)) text->read_text(problems_);
     read_version();
     read_world();
     each("bodies", [this](const std::string& name, const Value& value) { add_body(name, value); });

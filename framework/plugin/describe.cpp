@@ -129,9 +129,7 @@ std::string describe_keys(Kind kind) {
   std::string page = fmt::format("\nKeys of every {}\n", to_string(kind));
   std::size_t width = 0;
   for (const FrameworkKey& key : keys) width = std::max(width, key.name.size());
-  const std::string indent(width + 4, ' ');
-  for (const FrameworkKey& key : keys)
-    page += fmt::format("  {:<{}}  {}", key.name, width, wrapped(key.doc, indent).substr(indent.size()));
+  for (const FrameworkKey& key : keys) page += aligned(key.name, width, key.doc);
   return page;
 }
 
@@ -146,6 +144,11 @@ std::string example(const Declaration& declaration) {
 }
 
 }  // namespace
+
+std::string aligned(const std::string& name, std::size_t width, const std::string& text) {
+  const std::string indent(width + 4, ' ');
+  return fmt::format("  {:<{}}  {}", name, width, wrapped(text, indent).substr(indent.size()));
+}
 
 std::string range(double min, bool above_min, double max) {
   if (std::isfinite(min) && std::isfinite(max) && !above_min) return fmt::format("{} to {}", min, max);
@@ -187,6 +190,10 @@ std::string describe(const Entry& entry) {
   for (const Parameter& parameter : declaration.parameters) width = std::max(width, parameter.name.size());
   for (const Parameter& parameter : declaration.parameters)
     page += describe(parameter, default_of(entry, parameter), width);
+  if (!declaration.markers.empty())
+    page += "\nMarkers ('trammel describe markers')\n" + wrapped(declaration.markers, "  ");
+  if (!declaration.observables.empty())
+    page += "\nObservables ('trammel describe observables')\n" + wrapped(declaration.observables, "  ");
   return page + describe_keys(declaration.kind);
 }
 

@@ -29,6 +29,9 @@ std::string list(const std::vector<const Entry*>& entries);  // `trammel list`: 
 // JSON Schema (draft 2020-12) of scenes made of these.
 std::string schema(const std::vector<const Entry*>& entries, const std::vector<Part>& parts = {});
 
+// "  name   text", the text wrapped and aligned behind a name of up to `width` characters.
+std::string aligned(const std::string& name, std::size_t width, const std::string& text);
+
 // For messages, manual and schema alike.
 std::string range(double min, bool above_min, double max);  // "> 0", "0 to 1", "" if anything goes
 std::string expected(const Parameter& parameter);           // "a number > 0 [m]", "one of \"none\", \"full\""

@@ -176,7 +176,7 @@ Json correction(const std::vector<const Entry*>& entries) {
   for (const Entry* entry : entries)
     if (entry->declaration.kind == Kind::correction) names.push_back(entry->declaration.name);
   if (names.empty()) return {{"type", "string"}};
-  return {{"enum", std::move(names)}};
+  return any_of({{"enum", std::move(names)}}, reference("correction"));
 }
 
 // What several places of a scene share.
@@ -246,7 +246,8 @@ Json complete(const std::vector<const Entry*>& entries) {
 std::string schema(const std::vector<const Entry*>& entries, const std::vector<Part>& parts) {
   Json definitions = Json::object();
   define_common(definitions, parts);
-  for (const Kind kind : {Kind::integrator, Kind::body, Kind::joint, Kind::force, Kind::contact, Kind::friction})
+  for (const Kind kind :
+       {Kind::integrator, Kind::body, Kind::joint, Kind::force, Kind::contact, Kind::friction, Kind::correction})
     definitions[to_string(kind)] = choice_of(kind, entries);
   for (const Entry* entry : entries) definitions[definition(entry->declaration)] = schema_of(*entry);
 
@@ -254,6 +255,7 @@ std::string schema(const std::vector<const Entry*>& entries, const std::vector<P
   const Json texts = array_of(text);
   Json properties;
   properties["trammel"] = with({{"const", 1}}, "version of the scene format");
+  properties["$schema"] = with(text, "where an editor finds this schema: 'trammel schema > scene.schema.json'");
   properties["title"] = text;
   properties["description"] = text;
   properties["space"] = {{"enum", {"planar", "spatial"}}};

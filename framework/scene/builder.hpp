@@ -42,8 +42,13 @@ void apply(const Override& override, Value& root);
 // The "parameters" block, evaluated; expressions in it may use one another.
 std::shared_ptr<const Value::Parameters> evaluate_parameters(const Value& root);
 
+// Whether a unit has "for".
+bool repeats_units(const Value& root);
 // Puts copies in place of bodies, joints, forces and contacts with "for" (repeat.cpp). Throws SceneError.
 void repeat_units(Value& root, const Value::Parameters& parameters);
+
+// The tree as a JSON text that Scene reads back. Files beside the scene that it names (tables, plugins) become absolute paths.
+std::string written(const Value& root);
 
 // A warning for each parameter that was set and that nothing in the scene uses, directly or through another parameter.
 std::vector<Problem> set_in_vain(const Value& root, const std::vector<Override>& overrides);

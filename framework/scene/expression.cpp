@@ -239,6 +239,12 @@ double Formula::operator()(const std::vector<double>& values) const {
   return TimeFunction(std::move(code), "")(0);
 }
 
+std::vector<std::string> function_signatures() {
+  std::vector<std::string> all;
+  for (const Function& f : functions) all.push_back(fmt::format("{}({})", f.name, f.arguments == 1 ? "x" : "x, y"));
+  return all;
+}
+
 bool is_name(std::string_view text) {
   if (text.empty() || !starts_name(text[0])) return false;
   for (const char c : text)

@@ -56,6 +56,9 @@ class Formula {
   std::vector<int> uses_;
 };
 
+// "sin(x)", "atan2(x, y)", ...: all functions there are.
+std::vector<std::string> function_signatures();
+
 // True when the whole text is one name.
 bool is_name(std::string_view text);
 

@@ -26,13 +26,29 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
-// By commas if there are any, else by semicolons, else by blanks.
+// Where one of these characters stands outside of double quotes, from `at` on.
+std::size_t find_unquoted(std::string_view line, std::string_view characters, std::size_t at = 0) {
+  for (bool quoted = false; at < line.size(); ++at) {
+    if (line[at] == '"') quoted = !quoted;
+    if (!quoted && characters.find(line[at]) != characters.npos) return at;
+  }
+  return line.npos;
+}
+
+std::string_view unquoted(std::string_view cell) {
+  const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+  return quoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+}
+
+// By commas if there are any, else by semicolons, else by blanks. A cell may stand in double quotes.
 Cells cells_of(std::string_view line) {
-  const char separator = line.find(',') != line.npos ? ',' : line.find(';') != line.npos ? ';' : ' ';
+  const char separator = find_unquoted(line, ",") != line.npos   ? ','
+                         : find_unquoted(line, ";") != line.npos ? ';'
+                                                                 : ' ';
   Cells cells;
   for (std::size_t at = 0; at <= line.size();) {
-    const auto end = separator == ' ' ? line.find_first_of(" \t", at) : line.find(separator, at);
-    const auto cell = trimmed(line.substr(at, std::min(end, line.size()) - at));
+    const auto end = find_unquoted(line, separator == ' ' ? " \t" : std::string_view(&separator, 1), at);
+    const auto cell = unquoted(trimmed(line.substr(at, std::min(end, line.size()) - at)));
     if (separator != ' ' || !cell.empty()) cells.push_back(cell);
     at = end == line.npos ? line.size() + 1 : end + 1;
   }

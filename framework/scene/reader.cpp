@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/builder.hpp"
+#include "scene/syntax_error.hpp"
 
 namespace trammel::scene {
 
@@ -104,6 +105,10 @@ class Tree {
     if (error.id == 406) {  // number overflow
       const std::size_t start = number_start(), length = text_.find_first_not_of(number_characters, start) - start;
       return refuse(start, fmt::format("{} is too large for a number", text_.substr(start, length)));
+    }
+    if (auto found = find_syntax_error(text_)) {
+      problems_.error({lines_.at(found->at), here(), "not valid JSON: " + std::move(found->message)});
+      return false;
     }
     // "[json.exception...] parse error at line 1, column 2: syntax error while parsing value - invalid literal; last read..."
     if (const auto colon = what.find(": "); colon != std::string::npos) what = what.substr(colon + 2);

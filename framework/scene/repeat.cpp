@@ -6,6 +6,8 @@
 // "i": N counts 0 ... N - 1, "i": [a, b] counts a ... b; several names count all combinations. In the copies' names and texts
 // {...}, an expression of these names and of the scene's parameters, is replaced by its value, a whole number; in other members
 // of these groups and under "record" too: "strut_{n-1}.to.x".
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -19,6 +21,7 @@
 namespace trammel::scene {
 namespace {
 
+constexpr std::array groups = {"bodies", "joints", "forces", "contacts"};
 constexpr double most_copies = 1e6;  // of one unit
 
 using Counters = std::vector<std::pair<std::string, double>>;
@@ -168,10 +171,19 @@ class Repetition {
 
 }  // namespace
 
+bool repeats_units(const Value& root) {
+  return std::any_of(groups.begin(), groups.end(), [&](const char* group) {
+    const Value* units = root.find(group);
+    if (!units || units->type() != Value::Type::object) return false;
+    return std::any_of(units->members().begin(), units->members().end(),
+                       [](const auto& unit) { return unit.second.find("for") != nullptr; });
+  });
+}
+
 void repeat_units(Value& root, const Value::Parameters& parameters) {
   Problems problems;
   Repetition repetition(parameters, problems);
-  for (const char* group : {"bodies", "joints", "forces", "contacts"})
+  for (const char* group : groups)
     if (Value* units = Builder::find(root, group); units && units->type() == Value::Type::object)
       Builder::members(*units) = repetition.all(std::move(Builder::members(*units)));
   if (Value* record = Builder::find(root, "record")) repetition.fill(*record, {});

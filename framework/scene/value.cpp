@@ -9,6 +9,7 @@
 
 #include "scene/builder.hpp"
 #include "scene/expression.hpp"
+#include "scene/fnv_hash.hpp"
 #include "scene/motion_table.hpp"
 #include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
@@ -246,53 +247,37 @@ void Builder::order_by_name(Value& object) {
             [&](int a, int b) { return members[std::size_t(a)].first < members[std::size_t(b)].first; });
 }
 
-namespace {
-
-// FNV-1a.
-struct Hash {
-  std::uint64_t state = 14695981039346656037u;
-  void add(const void* data, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) state = (state ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211u;
-  }
-  template <class T>
-  void add_value(T x) {
-    add(&x, sizeof x);
-  }
-};
-
-}  // namespace
-
 std::uint64_t Builder::hash(const Value& value) {
-  Hash h;
-  h.add_value(int(value.type()));
+  FnvHash h;
+  h.number(int(value.type()));
   switch (value.type()) {
     case Value::Type::null:
       break;
     case Value::Type::boolean:
-      h.add_value(value.boolean());
+      h.number(value.boolean());
       break;
     case Value::Type::number:
-      h.add_value(std::get<double>(value.content_) + 0.0);
+      h.number(std::get<double>(value.content_) + 0.0);
       break;  // -0 is 0
     case Value::Type::text:
-      h.add(value.text().data(), value.text().size());
+      h.text(value.text());
       break;
     case Value::Type::array:
-      for (const Value& item : value.items()) h.add_value(hash(item));
+      for (const Value& item : value.items()) h.number(hash(item));
       break;
     case Value::Type::object: {
       std::vector<std::uint64_t> each;
       for (const auto& [name, member] : value.members()) {
-        Hash pair;
-        pair.add(name.data(), name.size());
-        pair.add_value(hash(member));
-        each.push_back(pair.state);
+        FnvHash pair;
+        pair.text(name);
+        pair.number(hash(member));
+        each.push_back(pair.value());
       }
       std::sort(each.begin(), each.end());
-      for (const std::uint64_t x : each) h.add_value(x);
+      for (const std::uint64_t x : each) h.number(x);
     }
   }
-  return h.state;
+  return h.value();
 }
 
 }  // namespace trammel::scene

@@ -73,6 +73,7 @@ class Value {
 
   // The raw content; the caller has asked type().
   bool boolean() const { return std::get<bool>(content_); }
+  double number() const { return std::get<double>(content_); }
   const std::string& text() const { return std::get<std::string>(content_); }  // also the source text of an expression
   const Items& items() const { return std::get<Items>(content_); }
   const Members& members() const { return std::get<Members>(content_); }
@@ -118,12 +119,17 @@ class Scene {
   const std::string& file() const { return file_; }
   const std::vector<Problem>& warnings() const { return warnings_; }
   std::uint64_t hash() const { return hash_; }  // of the resolved content: the same for a scene that means the same
+  const std::vector<Override>& overrides() const { return overrides_; }
+  // One file that means the same: includes and overrides applied, files that it names by absolute paths; "for" is kept.
+  std::string resolved() const;
 
  private:
   Scene(const std::string& text, const std::string& file, const std::vector<Override>& overrides);
 
   Value root_;
+  std::optional<Value> before_repetition_;  // where something is repeated
   std::string file_;
+  std::vector<Override> overrides_;
   std::vector<Problem> warnings_;
   std::uint64_t hash_ = 0;
 };

@@ -17,6 +17,7 @@ class BetweenStates {
       : system_(system), own_(dynamic_cast<OscillatingSteps*>(&integrator)) {}
 
   OscillatingSteps* oscillating() { return own_; }  // none: steps are smooth
+  bool swings() const { return own_ != nullptr; }
   // [s] of steps that are as smooth as the cubic through their ends supposes.
   double longest_resolved() const {
     constexpr double radians = 2;

@@ -102,9 +102,19 @@ void built(Text& text, const scene::Scene& scene, const plugin::Registry& regist
   for (const std::string& file : registry.files()) text.line("{}", file);
 }
 
-void redundant(Text& text, const Setup& setup, model::AssembledSystem& system) {
-  if (setup.model->sizes.nc == 0) return;
-  const std::vector<RedundantRows> found = redundant_rows(system, setup.initial);
+// nv less the rank of G at the initial state. Contacts and latches that close later take more away.
+void freedom(Text& text, Setup& setup, const std::vector<RedundantRows>& redundant) {
+  const Sizes& n = setup.model->sizes;
+  int rank = n.nc;
+  for (const RedundantRows& rows : redundant) rank -= int(rows.rows.size());
+  text.section("Degrees of freedom");
+  text.line("{} = nv {} - rank {} of the {} rows of joints and bodies", n.nv - rank, n.nv, rank, n.nc);
+  if (n.nv == rank)
+    setup.warnings.push_back(
+        "the joints leave no degree of freedom: everything stands still or follows the joints' laws of time");
+}
+
+void redundant(Text& text, const std::vector<RedundantRows>& found) {
   if (found.empty()) return;
   text.section("Redundant rows at the initial state (accelerations are unique, multipliers those of minimum norm)");
   for (const RedundantRows& rows : found) text.line("{}", told(rows));
@@ -201,7 +211,10 @@ std::string explain(const scene::Scene& scene, plugin::Registry& registry, Crash
   model::AssembledSystem system(setup.model);
   const Watch watch(witness, setup, scene.root(), registry, system, {&setup.initial.t, nullptr});
   blaming(setup, system, scene.root(), registry, setup.initial.t, [&] {
-    redundant(text, setup, system);
+    std::vector<RedundantRows> rows;
+    if (setup.model->sizes.nc > 0) rows = redundant_rows(system, setup.initial);
+    freedom(text, setup, rows);
+    redundant(text, rows);
     indeterminate(text, setup);
     costs(text, setup, system);
   });

@@ -14,6 +14,13 @@ double size(const Balance& p) {
          std::abs(p.markers) + p.friction.lpNorm<1>();
 }
 
+double supply(const Balance& p) {
+  return p.drives + p.constraints + p.markers;
+}
+double dissipation(const Balance& p) {
+  return p.contacts + p.friction.sum() + p.dampers;
+}
+
 }  // namespace
 
 Ledger::Ledger(model::AssembledSystem& system, Integrator& integrator)
@@ -41,6 +48,7 @@ void Ledger::restart(const State& state) {
 }
 
 void Ledger::step(const State& now, const State& next) {
+  step_begin_ = totals(), step_ = next.t - now.t;
   end_ = balance(next.t, next.q, next.v, next.lambda);
   g_dot_end_ = system_.g_dot();
   // A closed contact's row does work at the level of round-off; that is not worth an evaluation.
@@ -122,6 +130,20 @@ void Ledger::add(double duration, const Balance& power) {
   constraints_ += duration * power.constraints;
   markers_ += duration * power.markers;
   friction_ += duration * power.friction;
+}
+
+Ledger::Totals Ledger::totals_inside(double theta) const {
+  const Totals end = totals();
+  const double share = theta * theta * (3 - 2 * theta);  // Hermite's cubics
+  const double at_begin = theta * (1 - theta) * (1 - theta) * step_, at_end = theta * theta * (theta - 1) * step_;
+  const auto between = [&](double from, double to, double power_begin, double power_end) {
+    if (from == to) return to;
+    if (between_.swings()) return from + theta * (to - from);
+    return from + share * (to - from) + at_begin * power_begin + at_end * power_end;
+  };
+  // The powers at the step's begin are in end_ since the last swap.
+  return {between(step_begin_.supplied, end.supplied, supply(end_), supply(now_)),
+          between(step_begin_.dissipated, end.dissipated, dissipation(end_), dissipation(now_))};
 }
 
 double Ledger::impact_total() const {

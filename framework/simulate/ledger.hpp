@@ -31,6 +31,13 @@ class Ledger {
   void moving_rows(double supplied) { constraints_ += supplied; }
   void refinement(double gained) { refinements_ += gained; }
 
+  struct Totals {
+    double supplied = 0, dissipated = 0;  // [J] since the start
+  };
+  Totals totals() const { return {supplied(), dissipated()}; }
+  // At t + theta h of the last step: the cubic through totals and powers at its ends, a line in steps that swing.
+  Totals totals_inside(double theta) const;
+
   double energy_start() const { return energy_start_; }
   double energy() const { return energy_start_ + supplied() + refinements_ - dissipated(); }  // due by now
   double supplied() const { return drives_ + constraints_ + markers_; }
@@ -65,6 +72,8 @@ class Ledger {
   double refinements_ = 0;                                                                             // [J]
   Vec friction_;
   std::vector<double> impacts_;
+  Totals step_begin_;      // before the last step, of length step_
+  double step_ = 0;        // [s]
   Vec g_dot_, g_dot_end_;  // at `now` and at the step's end
   State inside_;
   Vec a_, lambda_;

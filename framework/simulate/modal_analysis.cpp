@@ -130,8 +130,8 @@ double hertz(double angular) {
 
 class Report {
  public:
-  Report(const scene::Scene& scene, const plugin::Registry& registry, Posed& posed, const Spectrum& spectrum)
-      : scene_(scene), registry_(registry), posed_(posed), spectrum_(spectrum) {}
+  Report(const scene::Scene& scene, Posed& posed, const Spectrum& spectrum)
+      : scene_(scene), posed_(posed), spectrum_(spectrum) {}
 
   json result(const Outcomes& outcomes) const {
     json modes = json::array();
@@ -144,7 +144,7 @@ class Report {
                        {"damping_ratio", mode.damping_ratio()},
                        {"eigenvalue", {{"real", mode.lambda.real()}, {"imaginary", mode.lambda.imag()}}}});
     }
-    json all = result_head(scene_, registry_, outcomes);
+    json all = result_head(scene_, posed_.setup(), outcomes);
     const Sizes n = posed_.system().sizes();
     all.update(json{{"analysis", "modes"},
                     {"state", posed_.what()},
@@ -214,7 +214,6 @@ class Report {
   }
 
   const scene::Scene& scene_;
-  const plugin::Registry& registry_;
   Posed& posed_;
   const Spectrum& spectrum_;
 };
@@ -234,7 +233,8 @@ Spectrum spectrum_of(Posed& posed, int count) {
 RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, const ModesOptions& options) {
   if (options.at && purpose_of(scene.root()) == Purpose::motion) {
     RunOptions run_options;
-    run_options.out = options.out, run_options.interrupt = options.interrupt, run_options.witness = options.witness;
+    run_options.out = options.out, run_options.command = options.command, run_options.interrupt = options.interrupt,
+    run_options.witness = options.witness;
     RunReport to_there = run(scene, registry, run_options);
     if (to_there.status != Status::done) return to_there;
   }
@@ -243,12 +243,14 @@ RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, c
   try {
     const Spectrum spectrum = spectrum_of(posed, options.count);
     Outcomes outcomes;
+    outcomes.command = options.command;
     outcomes.cost.cpu = double(std::clock() - began) / CLOCKS_PER_SEC;
-    const Report report(scene, registry, posed, spectrum);
+    const Report report(scene, posed, spectrum);
     RunReport done;
     done.result_json = report.result(outcomes).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
     std::error_code error;
     fs::create_directories(options.out, error);
+    write_whole(options.out / "scene.resolved.json", scene.resolved());
     write_whole(options.out / "modes.json", done.result_json);
     write_whole(options.out / "modes.csv", report.csv());
     write_whole(options.out / "shapes.csv", shapes_csv(posed.system(), posed.state(), spectrum.modes));

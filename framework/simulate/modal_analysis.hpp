@@ -15,6 +15,7 @@ struct ModesOptions {
   std::optional<double> at;                   // [s]
   std::optional<std::filesystem::path> from;  // a results folder with a checkpoint
   bool steady = false;
+  std::vector<std::string> command;  // as in RunOptions
   std::atomic<bool>* interrupt = nullptr;
   CrashWitness* witness = nullptr;
 };

@@ -11,6 +11,7 @@
 #include "scene/expression.hpp"
 #include "scene/suggestion.hpp"
 #include "simulate/relative_motion.hpp"
+#include "simulate/series_columns.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -209,8 +210,10 @@ std::vector<Column> read_observables(const scene::Value& root, const Model& mode
   for (const auto& choice : choices) names.push_back(choice.first);
   MotionReader motions(model, problems);
   for (const auto& [name, value] : observe->members()) {
-    if (name.empty() || name == "t" || name.find_first_of(",\"\n\r") != std::string::npos)
+    if (name.empty() || name.find_first_of(",\"\n\r") != std::string::npos)
       problems.error(value.problem(fmt::format("\"{}\" cannot be a column's name", name)));
+    if (is_fixed_column(name))
+      problems.error(value.problem(fmt::format("series.csv has a column \"{}\" always; choose another name", name)));
     if (value.type() == scene::Value::Type::object) {
       if (auto column = motions.read(name, value)) columns.push_back(std::move(*column));
       continue;

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "simulate/series_columns.hpp"
+
 namespace trammel::simulate {
 namespace {
 
@@ -36,8 +38,12 @@ ConstraintNorms constraint_norms(model::AssembledSystem& system, const State& st
 }
 
 Recorder::Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns,
-                   std::optional<Lengths> keep, std::vector<double> field_times)
-    : model_(model), columns_(std::move(columns)), field_line_(model), field_times_(std::move(field_times)) {
+                   Books books, std::optional<Lengths> keep, std::vector<double> field_times)
+    : model_(model),
+      columns_(std::move(columns)),
+      books_(books),
+      field_line_(model),
+      field_times_(std::move(field_times)) {
   const bool drawn =
       std::any_of(model.bodies.begin(), model.bodies.end(), [](const auto& entry) { return entry.drawn != nullptr; });
   const auto open = [&](std::optional<LogFile>& log, const char* name, long long Lengths::*length) {
@@ -51,21 +57,28 @@ Recorder::Recorder(const std::filesystem::path& folder, const model::Model& mode
     next_field_time_ = std::size_t(keep->field_times);
     return;
   }
-  std::string header = "t";
-  for (const Column& column : columns_) header += "," + column.name;
-  series_->append(header +
-                  ",energy_kinetic,energy_potential,energy_elastic,energy_total,"
-                  "constraint_position,constraint_velocity,constraint_acceleration\n");
+  series_->append(header());
   events_->append("t,kind,component,detail\n");
 }
 
-void Recorder::row(model::AssembledSystem& system, const State& state) {
+std::string Recorder::header() const {
+  std::string line = "t";
+  const auto add = [&line](std::string_view name) { line.append(",").append(name); };
+  for (const Column& column : columns_) add(column.name);
+  std::for_each(energy_columns.begin(), energy_columns.end(), add);
+  if (books_ == Books::kept) std::for_each(book_columns.begin(), book_columns.end(), add);
+  std::for_each(norm_columns.begin(), norm_columns.end(), add);
+  return line + "\n";
+}
+
+void Recorder::row(model::AssembledSystem& system, const State& state, const Ledger::Totals& books) {
   Moment moment(system, state);
   const auto number = [out = std::back_inserter(series_->buffer())](double x) { fmt::format_to(out, ",{:.17g}", x); };
   fmt::format_to(std::back_inserter(series_->buffer()), "{:.17g}", state.t);
   for (const Column& column : columns_) number(column.value(moment));
   const Energy& energy = moment.energy();
   number(energy.kinetic), number(energy.potential), number(energy.elastic), number(energy.total());
+  if (books_ == Books::kept) number(books.supplied), number(books.dissipated);
   const ConstraintNorms norms = constraint_norms(system, state, scratch_);
   number(norms.position), number(norms.velocity), number(norms.acceleration);
   series_->buffer() += '\n';

@@ -5,6 +5,7 @@
 
 #include "simulate/contact_event.hpp"
 #include "simulate/field_line.hpp"
+#include "simulate/ledger.hpp"
 #include "simulate/log_file.hpp"
 #include "simulate/observable.hpp"
 #include "simulate/refine_event.hpp"
@@ -23,16 +24,17 @@ ConstraintNorms constraint_norms(model::AssembledSystem& system, const State& st
 
 class Recorder {
  public:
+  enum class Books { kept, none };  // kept: rows tell the energy supplied and dissipated
   struct Lengths {
     long long series = 0, events = 0, animation = 0, fields = 0;  // [bytes]
     long long field_times = 0;                                    // done with
   };
   // A new folder's logs, or those of an interrupted run shortened to `keep`. The first row at or after each of `field_times`, which
   // ascend, goes to fields.ndjson, too.
-  Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns,
+  Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns, Books books,
            std::optional<Lengths> keep, std::vector<double> field_times = {});
 
-  void row(model::AssembledSystem& system, const State& state);
+  void row(model::AssembledSystem& system, const State& state, const Ledger::Totals& books = {});
   void event(const ContactEvent& event);
   void event(const RefineEvent& event);
   void flush();                  // throws OutputError once all files were tried
@@ -42,11 +44,13 @@ class Recorder {
   Lengths lengths() const;
 
  private:
+  std::string header() const;
   void animate(const State& state);
   void show_fields(const State& state);
   std::vector<LogFile*> files();
   const model::Model& model_;
   std::vector<Column> columns_;
+  Books books_;
   std::optional<LogFile> series_, events_, animation_, fields_;
   FieldLine field_line_;
   std::vector<double> field_times_;

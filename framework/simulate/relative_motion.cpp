@@ -33,14 +33,17 @@ Twist acceleration(Moment& moment, model::MarkerRef marker, const Motion& motion
 
 std::vector<std::pair<std::string, MotionComponent>> motion_components(const model::Model& model,
                                                                        model::MarkerRef marker) {
-  const Space space = model.world.space;
+  return motion_components(model.world.space, model::has_orientation(model, marker));
+}
+
+std::vector<std::pair<std::string, MotionComponent>> motion_components(Space space, bool orientation) {
   std::vector<std::pair<std::string, MotionComponent>> all;
   const char* prefixes[] = {"", "v", "a"};
   const char* axes[] = {"x", "y", "z"};
   for (int order = 0; order < 3; ++order)
     for (int i = 0; i < dimension(space); ++i)
       all.emplace_back(std::string(prefixes[order]) + axes[i], MotionComponent{order, i});
-  if (!model::has_orientation(model, marker)) return all;
+  if (!orientation) return all;
   if (space == Space::planar)
     for (const auto& [name, order] : {std::pair{"angle", 0}, std::pair{"omega", 1}, std::pair{"alpha", 2}})
       all.emplace_back(name, MotionComponent{order, 2});

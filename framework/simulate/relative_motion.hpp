@@ -25,6 +25,7 @@ struct MotionComponent {
 
 // The names that may follow a marker's: x y z vx vy vz ax ay az; of one with an orientation in the plane angle omega alpha too, in
 // space omega_x ... alpha_z.
+std::vector<std::pair<std::string, MotionComponent>> motion_components(Space space, bool orientation);
 std::vector<std::pair<std::string, MotionComponent>> motion_components(const model::Model& model,
                                                                        model::MarkerRef marker);
 

@@ -1,21 +1,14 @@
 #include "simulate/result.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-#include <trammel/plugin.hpp>
+#include "simulate/provenance.hpp"
 
 namespace trammel::simulate {
 namespace {
 
 using json = nlohmann::ordered_json;
-
-json versions() {
-  return {{"trammel_sdk", fmt::format("{}.{}", TRAMMEL_SDK_MAJOR, TRAMMEL_SDK_MINOR)},
-          {"compiler", __VERSION__},
-          {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
-}
 
 json counts(Simulator& simulator) {
   const Statistics& s = simulator.statistics();
@@ -77,19 +70,16 @@ std::string title_of(const scene::Scene& scene) {
   return title && title->type() == scene::Value::Type::text ? title->text() : scene.file();
 }
 
-json result_head(const scene::Scene& scene, const plugin::Registry& registry, const Outcomes& outcomes) {
-  json plugins = json::array();
-  for (const std::string& file : registry.files())
-    plugins.push_back({{"name", std::filesystem::path(file).stem().string()}, {"file", file}});
+json result_head(const scene::Scene& scene, const Setup& setup, const Outcomes& outcomes) {
   const bool titled = scene.root().find("title") != nullptr;
-  return {{"trammel_result", 1},
-          {"status", to_string(outcomes.status)},
-          {"reason", outcomes.reason},
-          {"scene", scene.file()},
-          {"title", titled ? title_of(scene) : ""},
-          {"scene_hash", fmt::format("{:016x}", scene.hash())},
-          {"versions", versions()},
-          {"plugins", plugins}};
+  json head = {{"trammel_result", 1},
+               {"status", to_string(outcomes.status)},
+               {"reason", outcomes.reason},
+               {"scene", scene.file()},
+               {"title", titled ? title_of(scene) : ""},
+               {"scene_hash", fmt::format("{:016x}", scene.hash())}};
+  head.update(provenance(scene, outcomes.command, setup.plugins));
+  return head;
 }
 
 const char* to_string(Status status) {
@@ -104,8 +94,7 @@ const char* to_string(Status status) {
   return "";
 }
 
-std::string result_json(const scene::Scene& scene, const plugin::Registry& registry, const Setup& setup,
-                        Simulator& simulator, const Outcomes& outcomes) {
+std::string result_json(const scene::Scene& scene, const Setup& setup, Simulator& simulator, const Outcomes& outcomes) {
   const Statistics& statistics = simulator.statistics();
   const Ledger& ledger = simulator.ledger();
   const State& state = simulator.state();
@@ -114,7 +103,7 @@ std::string result_json(const scene::Scene& scene, const plugin::Registry& regis
   std::vector<std::string> warnings = simulator.doubts();
   warnings.insert(warnings.end(), setup.warnings.begin(), setup.warnings.end());
   warnings.insert(warnings.end(), simulator.warnings().begin(), simulator.warnings().end());
-  json result = result_head(scene, registry, outcomes);
+  json result = result_head(scene, setup, outcomes);
   result.update(json{{"warnings", warnings},
                      {"integrator", setup.integrator_type},
                      {"t_start", setup.settings.start},

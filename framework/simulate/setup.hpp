@@ -9,6 +9,7 @@
 #include <trammel/integrator.hpp>
 
 #include "model/model.hpp"
+#include "plugin/identity.hpp"
 #include "plugin/plugin_error.hpp"
 #include "simulate/observable.hpp"
 #include "simulate/settings.hpp"
@@ -30,6 +31,7 @@ struct Setup {
   std::vector<Column> columns;
   State initial;
   std::vector<std::string> warnings;
+  std::vector<plugin::Identity> plugins;  // loaded for this scene, as their files were then
 };
 
 // Throws SceneError, PluginError. Statics needs no integrator, makes none and no corrections.

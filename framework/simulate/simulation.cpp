@@ -138,9 +138,11 @@ class Run {
         throw OutputError(fmt::format("cannot make the results folder {}: {}", options_.out.string(), error.message()));
       for (const char* stale : {"checkpoint.cbor", "result.json"}) fs::remove(options_.out / stale, error);
     }
+    write_whole(options_.out / "scene.resolved.json", scene_.resolved());
     const Sizes& sizes = setup_.model->sizes;
     reserve_.emplace(options_.out, room_for_logs + room_per_number * (sizes.nq + sizes.nv + sizes.nc));
-    recorder_.emplace(options_.out, *setup_.model, setup_.columns, keep, setup_.settings.field_times);
+    recorder_.emplace(options_.out, *setup_.model, setup_.columns, Recorder::Books::kept, keep,
+                      setup_.settings.field_times);
     if (options_.witness) options_.witness->record_with(*recorder_);
     if (!options_.resume) simulator_->start(setup_.initial);
   }
@@ -248,14 +250,14 @@ class Run {
   // Everything known is kept; what cannot be written any more is told in the reason.
   void end(Status status, const std::string& reason) {
     reserve_.reset();
-    Outcomes outcomes{status, reason, cost(), options_.resume};
+    Outcomes outcomes{status, reason, cost(), options_.resume, options_.command};
     try {
       if (recorder_) recorder_->flush();
     } catch (const OutputError& e) {
       if (outcomes.reason.empty()) outcomes.reason = e.what();
       outcomes.status = Status::failed;
     }
-    report_.result_json = result_json(scene_, registry_, setup_, *simulator_, outcomes);
+    report_.result_json = result_json(scene_, setup_, *simulator_, outcomes);
     try {
       write_whole(options_.out / "result.json", report_.result_json);
     } catch (const OutputError& e) {

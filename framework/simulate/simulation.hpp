@@ -23,6 +23,7 @@ struct RunOptions {
   std::filesystem::path out;                      // results folder, made if missing
   bool resume = false;                            // continue from out/checkpoint.cbor
   std::atomic<bool>* interrupt = nullptr;         // set by a signal handler: stop after this step, keep everything
+  std::vector<std::string> command;               // the words of the command line, for result.json
   CrashWitness* witness = nullptr;                // told what a handler of crashes needs
   std::function<void(const Progress&)> progress;  // called about ten times a second of wall-clock time
 };

@@ -89,7 +89,7 @@ double Simulator::record_time(long long k) const {
 // The rows that are due at the state itself.
 void Simulator::record_due(Recorder& recorder) {
   while (!last_row_ && record_time(records_) <= now_.t) {
-    recorder.row(system_, now_);
+    recorder.row(system_, now_, ledger_.totals());
     audit_.look(system_, now_);
     last_row_ = record_time(records_) >= settings_.until;
     ++records_;
@@ -285,7 +285,7 @@ void Simulator::record_inside(Recorder& recorder) {
     inside_.t = t;
     system_.move_to(t, inside_.q, inside_.v);
     system_.accelerate({}, inside_.a, inside_.lambda);
-    recorder.row(system_, inside_);
+    recorder.row(system_, inside_, ledger_.totals_inside((t - next_.t) / h));
     audit_.look(system_, inside_);
     judge_joints(inside_);
     ++records_;

@@ -41,7 +41,9 @@ class StaticRun {
       if (error)
         throw OutputError(fmt::format("cannot make the results folder {}: {}", options_.out.string(), error.message()));
       for (const char* stale : {"checkpoint.cbor", "result.json"}) fs::remove(options_.out / stale, error);
-      recorder_.emplace(options_.out, *setup_.model, setup_.columns, std::nullopt, setup_.settings.field_times);
+      write_whole(options_.out / "scene.resolved.json", scene_.resolved());
+      recorder_.emplace(options_.out, *setup_.model, setup_.columns, Recorder::Books::none, std::nullopt,
+                        setup_.settings.field_times);
       load();
     } catch (const RunFailed& e) {
       end(Status::failed, e.what());
@@ -82,7 +84,7 @@ class StaticRun {
   }
 
   void end(Status status, const std::string& reason) {
-    Outcomes outcomes{status, reason, {}, false};
+    Outcomes outcomes{status, reason, {}, false, options_.command};
     outcomes.cost.wall = std::chrono::duration<double>(Clock::now() - began_).count();
     outcomes.cost.cpu = double(std::clock() - cpu_began_) / CLOCKS_PER_SEC;
     report_.result_json = result(outcomes).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
@@ -107,7 +109,7 @@ class StaticRun {
     json steps = json::array();
     for (const LoadStep& s : path_.steps())
       steps.push_back({{"t", s.t}, {"iterations", s.iterations}, {"parts", s.parts}, {"unbalanced", s.unbalanced}});
-    json all = result_head(scene_, registry_, outcomes);
+    json all = result_head(scene_, setup_, outcomes);
     all.update(json{{"analysis", "static"},
                     {"t_start", setup_.settings.start},
                     {"t_end", path_.state().t},

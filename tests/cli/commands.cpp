@@ -261,7 +261,7 @@ TEST(Run, WritesIntoOutAndTheScenesNameByDefault) {
   const auto result = trammel({"run", cli::bounce}, {.folder = folder.path()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("out/bounce"));
-  for (const char* file : {"series.csv", "events.csv", "result.json", "checkpoint.cbor"})
+  for (const char* file : {"series.csv", "events.csv", "result.json", "scene.resolved.json", "checkpoint.cbor"})
     EXPECT_TRUE(fs::exists(folder.path() / "out/bounce" / file)) << file;
 }
 
@@ -269,8 +269,8 @@ TEST(Run, HasTheColumnsOfTheContract) {
   const cli::TemporaryFolder folder;
   ASSERT_EQ(trammel({"run", cli::bounce, "--out", "r"}, {.folder = folder.path()}).exit_code, 0);
   EXPECT_EQ(lines(cli::read_file(folder.path() / "r/series.csv")).front(),
-            "t,height,energy_kinetic,energy_potential,energy_elastic,energy_total,constraint_position,"
-            "constraint_velocity,constraint_acceleration");
+            "t,height,energy_kinetic,energy_potential,energy_elastic,energy_total,energy_supplied,"
+            "energy_dissipated,constraint_position,constraint_velocity,constraint_acceleration");
   EXPECT_EQ(lines(cli::read_file(folder.path() / "r/events.csv")).front(), "t,kind,component,detail");
 }
 

@@ -89,8 +89,7 @@ TEST(SceneReader, RefusesAHundredThousandLevelsAtTheHundredAndFirst) {
 
 TEST(SceneReader, SaysWhereTheSyntaxBreaks) {
   const std::string error = error_of("{\"a\": 1,\n \"b\" true}");
-  EXPECT_NE(error.find("scene.json:2:9: b: not valid JSON: syntax error"), std::string::npos) << error;
-  EXPECT_NE(error.find("expected ':'"), std::string::npos) << error;
+  EXPECT_NE(error.find("scene.json:2:5: b: not valid JSON: a colon is missing here"), std::string::npos) << error;
 }
 
 TEST(SceneReader, RefusesTextsThatAreNoObject) {

@@ -1,10 +1,12 @@
 // Every scene of the repository is valid.
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include <gtest/gtest.h>
 
 #include "scene/value.hpp"
+#include "simulate/setup.hpp"
 #include "simulate/simulation.hpp"
 
 #include "../plugins/made.hpp"
@@ -26,6 +28,56 @@ class EveryScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryScene, IsValidWithoutWarnings) {
   EXPECT_NO_THROW(EXPECT_EQ(simulate::validate(scene::Scene::load(kScenes / GetParam()), registry()), ""));
+}
+
+// As one file it means the same, and resolves to itself. Tables' names become absolute, which changes the hash.
+TEST_P(EveryScene, IsResolvedToOneFileThatMeansTheSame) {
+  const scene::Scene scene = scene::Scene::load(kScenes / GetParam());
+  const scene::Scene again = scene::Scene::parse(scene.resolved(), "resolved.json");
+  EXPECT_EQ(again.resolved(), scene.resolved());
+  if (scene.resolved().find("\"table\"") == std::string::npos) {
+    EXPECT_EQ(again.hash(), scene.hash());
+  }
+}
+
+std::set<std::string> words(const std::string& text) {
+  std::set<std::string> all;
+  const auto part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (auto begin = text.begin(); (begin = std::find_if(begin, text.end(), part)) != text.end();) {
+    const auto end = std::find_if_not(begin, text.end(), part);
+    all.emplace(begin, end);
+    begin = end;
+  }
+  return all;
+}
+
+// As a manual page writes it: "transverse_3" is one of "transverse_1 ...", "von_mises_top_tip" one of "von_mises_top_MARKER".
+std::string as_declared(std::string name, const std::vector<std::string>& markers) {
+  for (const std::string& marker : markers)
+    if (name.ends_with("_" + marker)) name.replace(name.size() - marker.size(), marker.size(), "MARKER");
+  const std::size_t digits = name.find_last_not_of("0123456789") + 1;
+  if (digits < name.size() && digits > 0 && name[digits - 1] == '_') name.replace(digits, name.npos, "1");
+  return name;
+}
+
+TEST_P(EveryScene, HasBodiesWithTheMarkersAndObservablesThatTheirManualNames) {
+  const scene::Scene scene = scene::Scene::load(kScenes / GetParam());
+  const simulate::Setup setup = simulate::set_up(scene, registry(), simulate::purpose_of(scene.root()));
+  for (const model::BodyEntry& body : setup.model->bodies) {
+    const scene::Value& entry = *scene.root().at_path("bodies." + body.name);
+    const Declaration& declared = registry().find(Kind::body, entry.find("type")->text()).declaration;
+    const auto known = words(declared.markers), observed = words(declared.observables);
+    const auto given = entry.find("markers");
+    const auto range = body.body->markers();
+    const std::vector<std::string> markers(range.begin(), range.end());
+    for (const std::string& name : markers) {
+      const bool of_patch = known.contains("PATCH_centre") && entry.find("patches");
+      EXPECT_TRUE(known.contains(name) || (given && given->find(name)) || of_patch) << body.name << "." << name;
+    }
+    if (!body.observed) continue;
+    for (const std::string& name : body.observed->observables())
+      EXPECT_TRUE(observed.contains(name) || observed.contains(as_declared(name, markers))) << body.name << "." << name;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(all_scenes()), [](const auto& scene) {

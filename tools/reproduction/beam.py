@@ -317,7 +317,7 @@ def computing_time(results):
     ratios = [paper / results[TABLE_1[method, N]].cpu for method, row in SECONDS_OF_PAPER.items() for N, paper in zip(MODES, row)
               if results[TABLE_1[method, N]].done]
     slowest = results[TABLE_1["HHT alpha = 0", 9]].cpu
-    return Verdict(f"{s(slowest)} s; whole table {s(min(ratios), 2)} to {s(max(ratios), 2)} times less than the paper's", "other machine and code")
+    return yes_if(slowest > 3600, f"{s(slowest)} s of CPU; whole table {s(min(ratios), 2)} to {s(max(ratios), 2)} times less than the paper's")
 
 
 def of(*groups):
@@ -328,35 +328,34 @@ def of(*groups):
 
 CLAIMS = [
     Claim("alpha hardly changes theta(t)", "curves coincide", "Up to bounce 2; then chaos: each alpha leaves the fast modes "
-          "another phase, through the contact too, since 1e-5 s in free flight changes little.", of(HHT, FINE_HHT), alpha_and_theta),
-    Claim("alpha < 0 loses energy in free flight after an impact", "energy falls between bounces", "Damping of the modes with "
-          "omega h above about 1, which the impact has excited.", of(HHT), alpha_and_energy),
+          "another phase, through the contact too, since short steps in free flight change little.", of(HHT, FINE_HHT), alpha_and_theta),
+    Claim("alpha < 0 loses energy in free flight after an impact", "energy falls between bounces", "Damping of the modes "
+          "that the steps do not resolve, which the impact has excited.", of(HHT), alpha_and_energy),
     Claim("high modes are excited; alpha damps them, not the low ones", "W7 vanishes, W1 stays", "As above.", of(SHARES), shares),
     Claim("delta and epsilon change theta(t) much", "clearly different curves", "An onset not located leaves an overshoot C0, "
           "and -epsilon^2 C0 acts as a force; a row switched on while the tip separates does work.", of(BAUMGARTE, LOCATED), delta_and_theta),
     Claim("energy rises at impact 1 for (0, 0) and (10, 50), e = 0.3", "rises; not for (1000, 5000)", "The row is switched on "
           "while the tip leaves with e v: its force does the work f C'.", of(BAUMGARTE, LOCATED, ACCURATE[0.3]), energy_rises),
     Claim("Baumgarte's largest velocity and acceleration violations", "(10, 50): 1e-4, 1e-1; (1000, 5000): 1e-1, 1e3",
-          "epsilon^2 C0 with the overshoot C0 = 4e-5 m of looking for contact every 1e-5 s.", of(BAUMGARTE, LOCATED), baumgarte_violations),
+          "epsilon^2 C0 with the overshoot C0 of looking for contact at the steps' ends only.", of(BAUMGARTE, LOCATED), baumgarte_violations),
     Claim("HHT's velocity constraint holds to round-off", "1e-14", "It is an equation of the Newton system.", of(NORMS), hht_velocity),
     Claim("HHT's acceleration violation is large and grows with N", "1e4", "Accelerations and multipliers of before the impact are "
           "kept at the onset.", of(NORMS, NORMS_CONSISTENT), hht_acceleration),
     Claim("Baumgarte diverges for N = 9, e = 0", "diverges", "Not Baumgarte's doing: AB4 in PECE mode is unstable on the whole "
-          "imaginary axis, and axial mode 9 has 1.33e5 rad/s. Without stabilisation the energy grows alike; with AB3, stable there, it does "
+          "imaginary axis, and the highest axial mode lies far out on it. Without stabilisation the energy grows alike; with AB3, stable there, it does "
           "not.", of(STEPS_N9, N9_AT_2E6), adams_n9),
-    Claim("Adams with 1e-4 s in free flight", "used", "omega h = 7 for N = 5; impossible. The scenes use 1e-6 s.", of(FREE_1E4), adams_1e4),
+    Claim("Adams with 1e-4 s in free flight", "used", "Beyond the method's stability for the highest axial mode; the scenes use shorter steps.", of(FREE_1E4), adams_1e4),
     Claim("N matters strongly from bounce 2", "curves separate", "The impulse goes with the tip's effective mass, about 1/N: each "
           "N is another system.", of(MODES_HHT), modes_matter),
-    Claim("HHT and the continuous force agree", "curves coincide", "The law's nominal e is not the restitution it gives: 0.3 "
-          "rebounds a point mass with 0.684.", of(HHT, FORCE, ACCURATE[0.3]), hht_and_force),
+    Claim("HHT and the continuous force agree", "curves coincide", "The law's nominal e is not the restitution it gives.", of(HHT, FORCE, ACCURATE[0.3]), hht_and_force),
     Claim("alpha towards -1/3 speeds HHT up 1.8 times", "305 to 166 s, 9818 to 7233 s", "Iterations a step differ little; the "
           "number of contact steps is chaotic.", of(TABLE_1), alpha_and_cost),
-    Claim("HHT is dearer than Adams", "3 to 4 times", "A step is, by its iterations; a run is not, because Adams needs 1e-6 s "
-          "everywhere.", of(TABLE_1), hht_and_adams),
+    Claim("HHT is dearer than Adams", "3 to 4 times", "A step is, by its iterations; a run is not, because Adams needs its short "
+          "steps everywhere.", of(TABLE_1), hht_and_adams),
     Claim("HHT without stabilisation diverges", "diverges", "Only if the impact is not located: position rows alone then "
-          "pull an overshoot of 4e-4 m back within one step of 1e-6 s, at hundreds of m/s. Stale accelerations do no such harm.",
+          "pull the overshoot back within one step, at a speed far above the motion's. Stale accelerations do no such harm.",
           of(INDEX3, STABILISED, STABILISED_LATE), without_stabilisation),
     Claim("the row switched on at once is right for e > 0 with HHT", "implied by its algorithm", "Stabilisation makes C' = 0 an "
           "equation, which erases the rebound in the first step.", of(LITERAL_HHT, HHT), literal_hht),
-    Claim("2 s of N = 9, HHT alpha = 0, take hours", "9818 s", "CPU time of one core.", of(TABLE_1), computing_time),
+    Claim("2 s of N = 9, HHT alpha = 0, take hours", "9818 s", "Another machine, and code of our time.", of(TABLE_1), computing_time, expected="no"),
 ]

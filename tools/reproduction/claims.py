@@ -7,7 +7,7 @@ from runs import Run
 
 @dataclasses.dataclass
 class Verdict:
-    """What Trammel computed, in words and numbers; holds: "yes", "no" or "partly"."""
+    """What Trammel computed, in words and numbers; holds: "yes", "no", "partly" or under what condition."""
 
     trammel: str
     holds: str
@@ -15,15 +15,22 @@ class Verdict:
 
 @dataclasses.dataclass
 class Claim:
+    """`why` explains in words: every figure of a claim is computed by its judge. `expected`: the verdict that the program is
+    known to give; another one fails tools/reproduce."""
+
     claim: str
     paper: str
     why: str
     runs: list[Run]
     judge: Callable  # of the results
+    expected: str = "yes"
 
-    def row(self, results):
-        verdict = self.judge(results)
+    def row(self, verdict):
         return [self.claim, self.paper, verdict.trammel, verdict.holds, self.why]
+
+    def surprise(self, verdict):
+        """A line if the verdict is not the expected one, else nothing."""
+        return "" if verdict.holds == self.expected else f'"{self.claim}": found "{verdict.holds}", expected "{self.expected}"'
 
 
 def yes_if(condition, trammel):

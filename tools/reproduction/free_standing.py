@@ -112,14 +112,18 @@ def rebounds(results):
     r = results[DROP]
     height = feet(r)
     tops = [max(height[(r.t > 0.2869 + 0.573867945 * k) & (r.t < 0.8594 + 0.573867945 * k)]) for k in range(4)]
-    return yes_if(all(abs(top - 0.4) < 1e-5 for top in tops[:2]), "tops " + ", ".join(f"{top:.6f}" for top in tops) + " m")
+    equal = sum(abs(top - 0.4) < 1e-5 for top in tops)
+    return Verdict("tops " + ", ".join(f"{top:.6f}" for top in tops) + " m",
+                   "yes" if equal == len(tops) else "partly" if equal >= 2 else "no")
 
 
 def steps_coincide(results):
-    rows = min(len(results[which].t) for which in DROPS.values())  # a run that the limit of time stopped is shorter
-    coarse, *fine = (results[which]["y"][:rows] for which in DROPS.values())
+    cut = [f"h = {s(h)}: {s(results[which].t[-1])} s" for h, which in DROPS.items() if not results[which].done]
+    if cut:
+        return Verdict("stopped early: " + ", ".join(cut), "not judged")
+    coarse, *fine = (results[which]["y"] for which in DROPS.values())
     between = [max(abs(a - b)) for a, b in zip([coarse, *fine], fine)]
-    until = results[DROPS[1e-6]].t[rows - 1]
+    until = results[DROPS[1e-6]].t[-1]
     return yes_if(between[-1] < 1e-6, f"largest difference of y to {s(until)} s: h = 1e-5 to 1e-6 {s(between[0], 2)} m, 1e-6 to 1e-7 {s(between[1], 2)} m")
 
 
@@ -148,24 +152,27 @@ def both(results):
 def price(results):
     scheme, best = results[SCHEME[1e-6]], results[BEST]
     good = [results[r] for r in EVENTS.values() if error(results[r], best) < 1e-6]
-    cheapest = min(good, key=lambda r: r.cpu)
+    if not good:
+        return Verdict("no event-driven run is within 1e-6 m", "yes")
+    cheapest = min(good, key=lambda r: r.counts["residual_evaluations"])
+    needless = cheapest.counts["residual_evaluations"] < scheme.counts["residual_evaluations"]
     return Verdict(f"h = 1e-6: {scheme.counts['steps']} steps, {scheme.counts['residual_evaluations']} evaluations, {s(scheme.cpu)} s, error "
                    f"{s(error(scheme, best), 2)} m; event-driven to 1e-6 m: {cheapest.counts['steps']} steps, "
                    f"{cheapest.counts['residual_evaluations']} evaluations, {s(cheapest.cpu)} s, {s(scheme.cpu / cheapest.cpu)} times less",
-                   "not needed")
+                   "no" if needless else "yes")
 
 
 CLAIMS = [
-    Claim("the drop rebounds to equal heights", "equal", "The first bounces; a flat elastic landing is unstable in tilt (-128 per bounce), "
-          "so round-off ends them.", [DROP], rebounds),
-    Claim("results with h = 1e-6 and 1e-7 coincide", "coincide", "Touch-down is located; else d^1.5 leaves order 2 to 3.",
+    Claim("the drop rebounds to equal heights", "equal", "The first bounces; a flat elastic landing is unstable in tilt, so "
+          "round-off ends them.", [DROP], rebounds, expected="partly"),
+    Claim("results with h = 1e-6 and 1e-7 coincide", "coincide", "Touch-down is located; else the force law's kink lowers the order.",
           list(DROPS.values()), steps_coincide),
-    Claim("stick and slip show at once in slip velocity and forces", "visible", "Release drops the force to 0.8 of its bound.", [CLOSE], switching),
+    Claim("stick and slip show at once in slip velocity and forces", "visible", "Release drops the force from its static to its kinetic bound.", [CLOSE], switching),
     Claim("horizontal base: a symmetric body is periodic, an unsymmetric one drifts", "so", "One-sided rocking unloads one foot in each "
           "period.", [CASE["1a"], CASE["1s"]], horizontal),
     Claim("vertical base: a symmetric body stays, an unsymmetric one moves sideways", "so", "The feet strike unequally, so the legs' reactions "
           "have a sum.", [CASE["2a"], CASE["2s"]], vertical),
     Claim("both: a symmetric body drifts", "so", "Phase of hopping and shaking.", [CASE["3v"], CASE["3h"]], both),
-    Claim("steps of 1e-6 s are used", "h = 1e-6", "They pay for events that a fixed step does not locate.",
-          [SCHEME[1e-6], *EVENTS.values(), BEST], price),
+    Claim("steps of 1e-6 s are needed", "h = 1e-6", "They pay for events that a fixed step does not locate.",
+          [SCHEME[1e-6], *EVENTS.values(), BEST], price, expected="no"),
 ]

@@ -46,8 +46,12 @@ def main():
         with open(out / f"{name}.csv", "w", newline="") as file:
             csv.writer(file).writerows([header, *rows])
         text += [f"## {title}", "", claims.markdown(header, rows), ""]
-    table = claims.markdown(["claim", "paper", "Trammel", "holds", "why"], [claim.row(results) for claim in system.CLAIMS])
+    verdicts = [(claim, claim.judge(results)) for claim in system.CLAIMS]
+    table = claims.markdown(["claim", "paper", "Trammel", "holds", "why"], [claim.row(verdict) for claim, verdict in verdicts])
     text += ["## Claims", "", table, ""]
+    surprises = [line for claim, verdict in verdicts if (line := claim.surprise(verdict))]
+    if surprises:
+        text += ["## Claims judged otherwise than expected", "", *("    " + line for line in surprises), ""]
     if results.unexpected:
         text += ["## Runs that failed", "", *("    " + line for line in results.unexpected), ""]
     (out / "claims.md").write_text("\n".join(text))
@@ -55,7 +59,7 @@ def main():
     print("\n".join(text))
     print(f"{len(results.of_key)} runs, {len(system.FIGURES)} figures, {time.monotonic() - start:.0f} s. Figures (SVG, CSV) and "
           f"claims.md are in {out}")
-    return 1 if results.unexpected else 0
+    return 1 if results.unexpected or surprises else 0
 
 
 if __name__ == "__main__":

@@ -31,7 +31,8 @@ std::string Command::help() const {
 }
 
 Arguments::Arguments(const Command& command, std::span<const std::string> words, std::string program)
-    : program_(std::move(program)) {
+    : program_(std::move(program)), words_{std::string(command.name)} {
+  words_.insert(words_.end(), words.begin(), words.end());
   std::vector<std::string> operands;
   bool options_ended = false;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -76,6 +77,12 @@ std::string shell_quoted(const std::string& word) {
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
+}
+
+std::vector<std::string> Arguments::command_line() const {
+  std::vector<std::string> all = {program_};
+  all.insert(all.end(), words_.begin(), words_.end());
+  return all;
 }
 
 const std::string& Arguments::last(std::string_view option) const {

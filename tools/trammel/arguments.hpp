@@ -44,6 +44,7 @@ class Arguments {
   Arguments(const Command& command, std::span<const std::string> words, std::string program);
 
   const std::string& program() const { return program_; }  // as it was called
+  std::vector<std::string> command_line() const;           // all words
   const std::string& operand() const { return operand_; }
   bool has(std::string_view option) const { return values_.contains(option); }
   const std::string& last(std::string_view option) const;       // of an option that was given
@@ -51,6 +52,7 @@ class Arguments {
 
  private:
   std::string program_, operand_;
+  std::vector<std::string> words_;  // from the command's name on
   std::map<std::string, std::vector<std::string>, std::less<>> values_;
 };
 

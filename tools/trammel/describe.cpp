@@ -1,10 +1,11 @@
-// trammel describe NAME: the manual page of a component or of a part of a scene, from its declaration.
+// trammel describe NAME: the manual page of a component, of a part of a scene, or of the scene language.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "arguments.hpp"
 #include "input.hpp"
 #include "plugin/describe.hpp"
+#include "simulate/scene_topics.hpp"
 #include "simulate/setting_parts.hpp"
 
 namespace trammel::tool {
@@ -21,6 +22,12 @@ Exit describe(const Arguments& arguments) {
   }
   plugin::Registry registry;
   load_plugins(arguments, registry);
+  for (const simulate::Topic& topic : simulate::scene_topics(registry.all())) {
+    names.push_back(topic.name);
+    if (topic.name != arguments.operand()) continue;
+    fmt::print("{}", topic.page);
+    return Exit::done;
+  }
   try {
     const char* separator = "";
     for (const plugin::Entry* entry : registry.find_any(arguments.operand())) {
@@ -28,7 +35,7 @@ Exit describe(const Arguments& arguments) {
       separator = "\n";
     }
   } catch (const plugin::UnknownComponent& unknown) {
-    throw UsageError(fmt::format("{}. Parts of a scene: {}", unknown.what(), fmt::join(names, ", ")));
+    throw UsageError(fmt::format("{}. Of the scene language: {}", unknown.what(), fmt::join(names, ", ")));
   }
   return Exit::done;
 }
@@ -37,8 +44,9 @@ Exit describe(const Arguments& arguments) {
 
 Command describe_command() {
   return {"describe",
-          "COMPONENT",
-          "Show the manual page of a component, or of a part of a scene such as simulate.",
+          "NAME",
+          "Show the manual page of a component, of a part of a scene (simulate, step), or of the language (scene, "
+          "markers).",
           {kPlugin},
           describe};
 }

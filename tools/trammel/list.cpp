@@ -5,10 +5,25 @@
 #include "arguments.hpp"
 #include "input.hpp"
 #include "plugin/describe.hpp"
+#include "simulate/scene_topics.hpp"
+#include "simulate/setting_parts.hpp"
 
 namespace trammel::tool {
 
 namespace {
+
+constexpr Option kAll{"--all", "", "also the parts of a scene and the pages on its language, for 'trammel describe'"};
+
+// What 'trammel describe' explains beside components.
+std::string pages(const std::vector<const plugin::Entry*>& entries) {
+  std::string text = "part of a scene\n";
+  for (const plugin::Part& part : simulate::setting_parts())
+    text += plugin::aligned(part.name, 24, part.summary.substr(0, part.summary.find(". ")));
+  text += "\nscene language\n";
+  for (const simulate::Topic& topic : simulate::scene_topics(entries))
+    text += plugin::aligned(topic.name, 24, topic.summary);
+  return text;
+}
 
 Exit list(const Arguments& arguments) {
   plugin::Registry registry;
@@ -30,6 +45,7 @@ Exit list(const Arguments& arguments) {
     return Exit::done;
   }
   fmt::print("{}", plugin::list(entries));
+  if (arguments.has(kAll.name)) fmt::print("\n{}", pages(entries));
   for (const plugin::PluginError& error : registry.failures()) fmt::print(stderr, "warning: {}\n", error.what());
   return Exit::done;
 }
@@ -40,7 +56,7 @@ Command list_command() {
   return {"list",
           "",
           "List all components: integrators, bodies, joints, forces, contacts, friction, corrections.",
-          {kPlugin, kJson},
+          {kAll, kPlugin, kJson},
           list};
 }
 

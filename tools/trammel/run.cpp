@@ -54,6 +54,7 @@ Exit run(const Arguments& arguments) {
   load_plugins(arguments, registry);
 
   require_writable(options.out);
+  options.command = arguments.command_line();
   options.interrupt = &watch_for_interrupts();
   options.witness = &witness();
   simulate::RunReport report;

@@ -38,8 +38,8 @@ using Named = std::vector<std::pair<std::string, T>>;
 //   Named<double>, Named<Vec3>        objects keyed by name
 //   Named<Part>                       the same of parts, objects with parameters of their own: declared by .parts(...)
 //   an enum                           one of the names given to .choice(...)
-using ParameterValue = std::variant<std::monostate, double, int, bool, std::string, Vec3, std::vector<double>, TimeFunction,
-                                    Named<double>, Named<Vec3>, Named<std::shared_ptr<Component>>>;
+using ParameterValue = std::variant<std::monostate, double, int, bool, std::string, Vec3, std::vector<double>,
+                                    TimeFunction, Named<double>, Named<Vec3>, Named<std::shared_ptr<Component>>>;
 
 // What a declaration says about one parameter. Outside min..max is an error, outside usual_min..usual_max a warning.
 struct ParameterTraits {
@@ -59,7 +59,18 @@ struct Declaration;
 struct Parameter {
   std::string name;  // dotted
   // As in ParameterValue; a choice is text with `choices`.
-  enum class Type { number, integer, boolean, text, vector, numbers, time_function, named_numbers, named_vectors, named_parts };
+  enum class Type {
+    number,
+    integer,
+    boolean,
+    text,
+    vector,
+    numbers,
+    time_function,
+    named_numbers,
+    named_vectors,
+    named_parts
+  };
   Type type;
   bool optional = false;
   ParameterTraits traits;
@@ -74,23 +85,41 @@ namespace detail {
 template <class T>
 struct ParameterTypeOf;
 template <>
-struct ParameterTypeOf<double> { static constexpr auto value = Parameter::Type::number; };
+struct ParameterTypeOf<double> {
+  static constexpr auto value = Parameter::Type::number;
+};
 template <>
-struct ParameterTypeOf<int> { static constexpr auto value = Parameter::Type::integer; };
+struct ParameterTypeOf<int> {
+  static constexpr auto value = Parameter::Type::integer;
+};
 template <>
-struct ParameterTypeOf<bool> { static constexpr auto value = Parameter::Type::boolean; };
+struct ParameterTypeOf<bool> {
+  static constexpr auto value = Parameter::Type::boolean;
+};
 template <>
-struct ParameterTypeOf<std::string> { static constexpr auto value = Parameter::Type::text; };
+struct ParameterTypeOf<std::string> {
+  static constexpr auto value = Parameter::Type::text;
+};
 template <>
-struct ParameterTypeOf<Vec3> { static constexpr auto value = Parameter::Type::vector; };
+struct ParameterTypeOf<Vec3> {
+  static constexpr auto value = Parameter::Type::vector;
+};
 template <>
-struct ParameterTypeOf<std::vector<double>> { static constexpr auto value = Parameter::Type::numbers; };
+struct ParameterTypeOf<std::vector<double>> {
+  static constexpr auto value = Parameter::Type::numbers;
+};
 template <>
-struct ParameterTypeOf<TimeFunction> { static constexpr auto value = Parameter::Type::time_function; };
+struct ParameterTypeOf<TimeFunction> {
+  static constexpr auto value = Parameter::Type::time_function;
+};
 template <>
-struct ParameterTypeOf<Named<double>> { static constexpr auto value = Parameter::Type::named_numbers; };
+struct ParameterTypeOf<Named<double>> {
+  static constexpr auto value = Parameter::Type::named_numbers;
+};
 template <>
-struct ParameterTypeOf<Named<Vec3>> { static constexpr auto value = Parameter::Type::named_vectors; };
+struct ParameterTypeOf<Named<Vec3>> {
+  static constexpr auto value = Parameter::Type::named_vectors;
+};
 
 }  // namespace detail
 
@@ -101,6 +130,8 @@ struct Declaration {
   std::string source;   // paper, equations
   std::vector<Parameter> parameters;
   std::function<std::unique_ptr<Component>()> make;  // with every parameter at its default
+  // Of bodies, for the manual: the names of their markers and of the quantities that they offer beside the markers' motions.
+  std::string markers = {}, observables = {};
 };
 
 // The builder behind integrator<T>(...), body<T>(...), ...
@@ -119,9 +150,20 @@ class Declare {
     return *this;
   }
 
+  // "root, tip, and those of \"markers\"": names, comma-separated; what depends on parameters in words.
+  Declare& markers(std::string names) {
+    declaration_.markers = std::move(names);
+    return *this;
+  }
+  Declare& observables(std::string names) {
+    declaration_.observables = std::move(names);
+    return *this;
+  }
+
   template <class Owner, class Value>
   Declare& parameter(std::string name, Value Owner::*member, ParameterTraits traits = {}) {
-    add(std::move(name), detail::ParameterTypeOf<Value>::value, traits,
+    add(
+        std::move(name), detail::ParameterTypeOf<Value>::value, traits,
         [member](Component& c, const ParameterValue& v) { static_cast<T&>(c).*member = std::get<Value>(v); },
         [member](const Component& c) -> ParameterValue { return static_cast<const T&>(c).*member; });
     return *this;
@@ -129,7 +171,8 @@ class Declare {
 
   template <class Owner, class Value>
   Declare& parameter(std::string name, std::optional<Value> Owner::*member, ParameterTraits traits = {}) {
-    add(std::move(name), detail::ParameterTypeOf<Value>::value, traits,
+    add(
+        std::move(name), detail::ParameterTypeOf<Value>::value, traits,
         [member](Component& c, const ParameterValue& v) { static_cast<T&>(c).*member = std::get<Value>(v); },
         [member](const Component& c) -> ParameterValue {
           const auto& value = static_cast<const T&>(c).*member;
@@ -144,7 +187,8 @@ class Declare {
                   ParameterTraits traits = {}) {
     std::vector<std::string> choices;
     for (const auto& [text, value] : names) choices.push_back(text);
-    add(std::move(name), Parameter::Type::text, traits,
+    add(
+        std::move(name), Parameter::Type::text, traits,
         [member, names](Component& c, const ParameterValue& v) {
           for (const auto& [text, value] : names)
             if (text == std::get<std::string>(v)) static_cast<T&>(c).*member = value;
@@ -162,7 +206,8 @@ class Declare {
   // from Component and can be copied; nobody calls its `prepare` but the component it belongs to.
   template <class Owner, class Part>
   Declare& parts(std::string name, Named<Part> Owner::*member, const Declaration& part, ParameterTraits traits = {}) {
-    add(std::move(name), Parameter::Type::named_parts, traits,
+    add(
+        std::move(name), Parameter::Type::named_parts, traits,
         [member](Component& c, const ParameterValue& v) {
           auto& all = static_cast<T&>(c).*member;
           all.clear();
@@ -194,28 +239,44 @@ class Declare {
 
  private:
   void add(std::string name, Parameter::Type type, ParameterTraits traits,
-           std::function<void(Component&, const ParameterValue&)> set, std::function<ParameterValue(const Component&)> get) {
-    declaration_.parameters.push_back(
-        {std::move(name), type, false, traits, {}, std::move(set), std::move(get), {}});
+           std::function<void(Component&, const ParameterValue&)> set,
+           std::function<ParameterValue(const Component&)> get) {
+    declaration_.parameters.push_back({std::move(name), type, false, traits, {}, std::move(set), std::move(get), {}});
   }
   Declaration declaration_;
 };
 
 template <class T>
-Declare<T> integrator(std::string name, std::string summary) { return {Kind::integrator, std::move(name), std::move(summary)}; }
+Declare<T> integrator(std::string name, std::string summary) {
+  return {Kind::integrator, std::move(name), std::move(summary)};
+}
 template <class T>
-Declare<T> body(std::string name, std::string summary) { return {Kind::body, std::move(name), std::move(summary)}; }
+Declare<T> body(std::string name, std::string summary) {
+  return {Kind::body, std::move(name), std::move(summary)};
+}
 template <class T>
-Declare<T> joint(std::string name, std::string summary) { return {Kind::joint, std::move(name), std::move(summary)}; }
+Declare<T> joint(std::string name, std::string summary) {
+  return {Kind::joint, std::move(name), std::move(summary)};
+}
 template <class T>
-Declare<T> force(std::string name, std::string summary) { return {Kind::force, std::move(name), std::move(summary)}; }
+Declare<T> force(std::string name, std::string summary) {
+  return {Kind::force, std::move(name), std::move(summary)};
+}
 template <class T>
-Declare<T> contact(std::string name, std::string summary) { return {Kind::contact, std::move(name), std::move(summary)}; }
+Declare<T> contact(std::string name, std::string summary) {
+  return {Kind::contact, std::move(name), std::move(summary)};
+}
 template <class T>
-Declare<T> friction(std::string name, std::string summary) { return {Kind::friction, std::move(name), std::move(summary)}; }
+Declare<T> friction(std::string name, std::string summary) {
+  return {Kind::friction, std::move(name), std::move(summary)};
+}
 template <class T>
-Declare<T> correction(std::string name, std::string summary) { return {Kind::correction, std::move(name), std::move(summary)}; }
+Declare<T> correction(std::string name, std::string summary) {
+  return {Kind::correction, std::move(name), std::move(summary)};
+}
 template <class T>
-Declare<T> part(std::string name, std::string summary) { return {Kind::part, std::move(name), std::move(summary)}; }
+Declare<T> part(std::string name, std::string summary) {
+  return {Kind::part, std::move(name), std::move(summary)};
+}
 
 }  // namespace trammel

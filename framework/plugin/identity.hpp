@@ -1,0 +1,18 @@
+// Which library was used: what a result must say to be made again.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace trammel::plugin {
+
+struct Identity {
+  std::string file;
+  std::string sdk;         // version of the SDK that it was built against, "2.0"
+  std::uint64_t hash = 0;  // of the whole file (fnv_hash.hpp); 0: it could not be read any more
+};
+
+Identity identify(const std::filesystem::path& library);
+
+}  // namespace trammel::plugin

@@ -1,0 +1,29 @@
+// How a result was made: by which program, on which machine, from which command.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "plugin/identity.hpp"
+#include "scene/value.hpp"
+
+namespace trammel::simulate {
+
+struct BuildInfo {
+  std::string version;          // "0.1.0"
+  std::string commit;           // of the sources, "-dirty" if they were changed; "unknown" outside of a git checkout
+  std::string build_type;       // "Release"
+  std::string instruction_set;  // that the program was compiled for: "x86-64-v3"
+};
+BuildInfo build_info();
+// The highest level that this machine's processor has, "x86-64-v4"; "unknown" on others than x86-64.
+std::string host_instruction_set();
+std::string utc_now();  // "2026-11-24T18:19:00Z"
+
+// "made": {"command", "set", "date", "program", "host"}; "versions"; "plugins" with file, SDK and hash of each.
+nlohmann::ordered_json provenance(const scene::Scene& scene, const std::vector<std::string>& command,
+                                  const std::vector<plugin::Identity>& plugins);
+
+}  // namespace trammel::simulate

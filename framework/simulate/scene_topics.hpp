@@ -1,0 +1,19 @@
+// Manual pages of the scene language itself: `trammel describe scene`, `expressions`, `for`, `table`, `markers`, ...
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plugin/registry.hpp"
+
+namespace trammel::simulate {
+
+struct Topic {
+  std::string name, summary;  // a word, and a line for `trammel list --all`
+  std::string page;
+};
+
+// Lists in the pages (functions, kinds of events, markers of each body) are made from what the program does, so they are whole.
+std::vector<Topic> scene_topics(const std::vector<const plugin::Entry*>& components);
+
+}  // namespace trammel::simulate

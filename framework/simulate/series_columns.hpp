@@ -1,0 +1,28 @@
+// The columns that series.csv has beside the observed ones.
+//
+//     t, the observed, energies of the state, the books of the analysis, norms of the constraints
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <string_view>
+
+namespace trammel::simulate {
+
+constexpr std::array<std::string_view, 4> energy_columns = {"energy_kinetic", "energy_potential", "energy_elastic",
+                                                            "energy_total"};
+// Of a motion alone: E_start + supplied - dissipated is the energy due by now (ledger.hpp).
+constexpr std::array<std::string_view, 2> book_columns = {"energy_supplied", "energy_dissipated"};
+constexpr std::array<std::string_view, 3> norm_columns = {"constraint_position", "constraint_velocity",
+                                                          "constraint_acceleration"};
+
+// No observed column may have such a name.
+constexpr bool is_fixed_column(std::string_view name) {
+  const auto holds = [name](const auto& columns) {
+    return std::find(columns.begin(), columns.end(), name) != columns.end();
+  };
+  return name == "t" || holds(energy_columns) || holds(book_columns) || holds(norm_columns);
+}
+
+}  // namespace trammel::simulate
