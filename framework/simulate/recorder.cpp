@@ -38,7 +38,7 @@ ConstraintNorms constraint_norms(model::AssembledSystem& system, const State& st
 }
 
 Recorder::Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns,
-                   Books books, std::optional<Lengths> keep, std::vector<double> field_times)
+                   std::optional<Lengths> keep, std::vector<double> field_times, Books books)
     : model_(model),
       columns_(std::move(columns)),
       books_(books),

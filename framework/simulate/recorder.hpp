@@ -31,8 +31,8 @@ class Recorder {
   };
   // A new folder's logs, or those of an interrupted run shortened to `keep`. The first row at or after each of `field_times`, which
   // ascend, goes to fields.ndjson, too.
-  Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns, Books books,
-           std::optional<Lengths> keep, std::vector<double> field_times = {});
+  Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns,
+           std::optional<Lengths> keep, std::vector<double> field_times = {}, Books books = Books::kept);
 
   void row(model::AssembledSystem& system, const State& state, const Ledger::Totals& books = {});
   void event(const ContactEvent& event);

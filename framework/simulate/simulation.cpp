@@ -141,8 +141,7 @@ class Run {
     write_whole(options_.out / "scene.resolved.json", scene_.resolved());
     const Sizes& sizes = setup_.model->sizes;
     reserve_.emplace(options_.out, room_for_logs + room_per_number * (sizes.nq + sizes.nv + sizes.nc));
-    recorder_.emplace(options_.out, *setup_.model, setup_.columns, Recorder::Books::kept, keep,
-                      setup_.settings.field_times);
+    recorder_.emplace(options_.out, *setup_.model, setup_.columns, keep, setup_.settings.field_times);
     if (options_.witness) options_.witness->record_with(*recorder_);
     if (!options_.resume) simulator_->start(setup_.initial);
   }

@@ -42,8 +42,8 @@ class StaticRun {
         throw OutputError(fmt::format("cannot make the results folder {}: {}", options_.out.string(), error.message()));
       for (const char* stale : {"checkpoint.cbor", "result.json"}) fs::remove(options_.out / stale, error);
       write_whole(options_.out / "scene.resolved.json", scene_.resolved());
-      recorder_.emplace(options_.out, *setup_.model, setup_.columns, Recorder::Books::none, std::nullopt,
-                        setup_.settings.field_times);
+      recorder_.emplace(options_.out, *setup_.model, setup_.columns, std::nullopt, setup_.settings.field_times,
+                        Recorder::Books::none);
       load();
     } catch (const RunFailed& e) {
       end(Status::failed, e.what());

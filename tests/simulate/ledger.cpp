@@ -32,25 +32,23 @@ TEST(EnergyLedger, GivesADamperWhatItTook) {
 
 // E(t) = E(0) + supplied(t) - dissipated(t) at each record: of fixed steps at their ends, of controlled ones within them.
 TEST(EnergyLedger, ClosesAtEveryRecordOfTheSeries) {
-  const char* spring_and_push = R"({
+  const char* spring_and_push = R"json({
     "spring": {"type": "spring_damper", "between": ["ground", "mass.point"], "stiffness": 40, "damping": 0.6, "length": 1},
-    "push": {"type": "load", "on": "mass.point", "force": ["=3*cos(5*t)", 0]
-}
-})";
+    "push": {"type": "load", "on": "mass.point", "force": {"x": "=3*cos(5*t)"}}})json";
   const std::pair<const char*, double> methods[] = {
-      {R"({"type": "runge_kutta_4", "step": 1e-3})", 1e-9},              // Simpson and RK4: (omega h)^4
+      {R"({"type": "runge_kutta_4", "step": 1e-3})", 1e-9},                  // Simpson and RK4: (omega h)^4
       {R"({"type": "dormand_prince", "step": {"tolerance": 1e-9}})", 1e-5},  // the cubic through a step of some 0.05 s
       {R"({"type": "dop853", "step": {"tolerance": 1e-9, "max": 0.02}})", 1e-6}};
-for (const auto& [integrator, tolerance] : methods) {
-  const Finished run =
-      run_text(puck, {{"forces", spring_and_push}, {"record.every", "0.013"}, {"integrator", integrator}});
-  const auto &total = run.column("energy_total"), &supplied = run.column("energy_supplied"),
-             &dissipated = run.column("energy_dissipated");
-  ASSERT_GT(total.size(), 70u);
-  EXPECT_GT(dissipated.back(), 0.1);
-  for (std::size_t i = 0; i < total.size(); ++i)
-    EXPECT_NEAR(total[i], total[0] + supplied[i] - dissipated[i], tolerance) << integrator << ", row " << i;
-}
+  for (const auto& [integrator, tolerance] : methods) {
+    const Finished run =
+        run_text(puck, {{"forces", spring_and_push}, {"record.every", "0.013"}, {"integrator", integrator}});
+    const auto &total = run.series.at("energy_total"), &supplied = run.series.at("energy_supplied"),
+               &dissipated = run.series.at("energy_dissipated");
+    ASSERT_GT(total.size(), 70u);
+    EXPECT_GT(dissipated.back(), 0.1);
+    for (std::size_t i = 0; i < total.size(); ++i)
+      EXPECT_NEAR(total[i], total[0] + supplied[i] - dissipated[i], tolerance) << integrator << ", row " << i;
+  }
 }
 
 TEST(EnergyLedger, GivesADamperWhatItTookWithTheOrderOfTheMethod) {
