@@ -76,8 +76,9 @@ class LoadPath {
   Failure correct_by_forces(const Point& at, Vec& dq, Vec& dlambda);
   Vec reaction(const Point& at);    // G^T lambda; the system is there, with its f and g
   bool unbalance(const Point& at);  // r_ and g of the system; true: in equilibrium
-  bool correct(Point& at, const Arc* arc, Vec& dq);
+  bool correct(Point& at, const Arc* arc, const Vec& from, Vec& dq);
   bool along_t(const Point& at, Vec& q_by_t, Vec& lambda_by_t);
+  bool along_t_with_factors(const Point& at, Vec& q_by_t, Vec& lambda_by_t);
   Point predict(double t) const;
   void keep(Point point);
   [[noreturn]] void fail(double t, Failure why);
