@@ -30,6 +30,7 @@ LoadPath::LoadPath(model::AssembledSystem& system, const Settings& settings, con
       zero_(Vec::Zero(system.sizes().nv)),
       contacts_(system),
       turns_(system),
+      theories_(system.model()),
       part_((settings.until - settings.start) / settings.load_steps) {
   state_.v = state_.a = zero_;
 }
@@ -267,6 +268,7 @@ LoadPath::Point LoadPath::predict(double t) const {
 }
 
 void LoadPath::keep(Point point) {
+  theories_.look(point.t, point.q);
   Vec moved;
   system_.difference(point.q, start_, moved);
   if (moved.size() > 0) extent_ = std::max(extent_, moved.lpNorm<Eigen::Infinity>());

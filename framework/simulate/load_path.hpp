@@ -30,6 +30,7 @@
 
 #include "simulate/resting_contacts.hpp"
 #include "simulate/settings.hpp"
+#include "simulate/theory_watch.hpp"
 #include "simulate/turn_counts.hpp"
 
 namespace trammel::simulate {
@@ -52,6 +53,7 @@ class LoadPath {
   bool at_end() const { return !passed_.empty() && passed_.back().t == settings_.until; }
   const State& state() const { return state_; }
   const std::vector<LoadStep>& steps() const { return steps_; }
+  std::vector<std::string> warnings() const { return theories_.warnings(); }
 
  private:
   struct Point {
@@ -89,6 +91,7 @@ class LoadPath {
   Vec start_, zero_;
   RestingContacts contacts_;
   TurnCounts turns_;
+  TheoryWatch theories_;
   std::deque<Point> passed_;  // the last equilibria, newest last
   std::vector<LoadStep> steps_;
   LoadStep now_;
