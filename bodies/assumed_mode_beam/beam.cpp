@@ -18,10 +18,11 @@ AssumedModeBeam::AssumedModeBeam() {
   velocity = Eigen::Vector2d::Zero();
 }
 
-void AssumedModeBeam::check_amplitudes(const char* name, const std::vector<double>& given, int modes) const {
-  if (given.empty() || int(given.size()) == modes) return;
-  throw ParameterError(name,
-                       fmt::format("found {} numbers, expected {} (the number of modes) or none", given.size(), modes));
+void AssumedModeBeam::check_amplitudes(const char* name, const std::vector<double>& given, int functions) const {
+  if (given.empty() || int(given.size()) == functions) return;
+  throw ParameterError(
+      name, fmt::format("found {} numbers, expected {} (the number of modes, static functions counted) or none",
+                        given.size(), functions));
 }
 
 void AssumedModeBeam::check_parameters(const World& world) const {
@@ -37,10 +38,10 @@ void AssumedModeBeam::check_parameters(const World& world) const {
     throw ParameterError("torque", "a clamped beam cannot be driven; use mount hinge");
   if (clamped && angular_velocity != 0) throw ParameterError("angular_velocity", "a clamped beam cannot turn");
   if (!free && velocity.norm() != 0) throw ParameterError("velocity", "only a free root has one; use mount free");
-  check_amplitudes("initial.axial", axial, axial_modes);
-  check_amplitudes("initial.transverse", transverse, transverse_modes);
-  check_amplitudes("initial.axial_rate", axial_rate, axial_modes);
-  check_amplitudes("initial.transverse_rate", transverse_rate, transverse_modes);
+  check_amplitudes("initial.axial", axial, n_axial_);
+  check_amplitudes("initial.transverse", transverse, N_);
+  check_amplitudes("initial.axial_rate", axial_rate, n_axial_);
+  check_amplitudes("initial.transverse_rate", transverse_rate, N_);
   for (const auto& [name, x] : extra_markers) {
     if (!(x >= 0 && x <= length))
       throw ParameterError("markers", fmt::format("\"{}\" is at x = {}, expected 0 to {} (length)", name, x, length));
@@ -51,9 +52,11 @@ void AssumedModeBeam::check_parameters(const World& world) const {
 }
 
 void AssumedModeBeam::prepare(const World& world) {
+  n_axial_ = axial_modes + (static_axial ? 1 : 0);
+  N_ = transverse_modes + (static_transverse ? 2 : 0);
   check_parameters(world);
   gravity_ = world.gravity;
-  const int n_axial = axial_modes, N = transverse_modes;
+  const int n_axial = n_axial_, N = N_;
 
   n_ = 0;
   if (free) i_o_ = 0, n_ = 2;
@@ -62,9 +65,11 @@ void AssumedModeBeam::prepare(const World& world) {
   i_B_ = i_A_ + n_axial;
   n_ = i_B_ + N;
 
-  Shape shape{length, hub_radius, {}, {}};
-  for (int i = 1; i <= n_axial; ++i) shape.axial.emplace_back(i, length);
-  for (int i = 1; i <= N; ++i) shape.transverse.emplace_back(i, length);
+  Shape shape{length, hub_radius, {}, {}, {}, {}};
+  for (int i = 1; i <= axial_modes; ++i) shape.axial.emplace_back(i, length);
+  for (int i = 1; i <= transverse_modes; ++i) shape.transverse.emplace_back(i, length);
+  if (static_axial) shape.static_axial = {static_stretching(length, shape.axial)};
+  if (static_transverse) shape.static_transverse = static_bending(length, shape.transverse);
   const bool foreshortening = coupling == Coupling::full;
   const double line_density = density * area;
   const Quadrature rule = gauss_legendre(stations_for(std::max(n_axial, N)), 0, length);
@@ -96,10 +101,19 @@ void AssumedModeBeam::prepare(const World& world) {
   Myx_ = Mat::Zero(padded(N), n_axial);
   Myx_.topRows(N) = with_x.bottomRows(N);
   K1_.resize(n_axial), K2_.resize(N);
-  for (int i = 0; i < n_axial; ++i)
+  for (int i = 0; i < axial_modes; ++i)
     K1_(i) = youngs_modulus * area * std::pow(shape.axial[std::size_t(i)].wave_number(), 2) * length / 2;
-  for (int i = 0; i < N; ++i)
+  for (int i = axial_modes; i < n_axial; ++i)
+    K1_(i) = youngs_modulus * area * shape.static_axial[std::size_t(i - axial_modes)].stiffness;
+  for (int i = 0; i < transverse_modes; ++i)
     K2_(i) = youngs_modulus * second_moment * std::pow(shape.transverse[std::size_t(i)].wave_number(), 4) * length;
+
+  for (int i = transverse_modes; i < N; ++i)
+    K2_(i) = youngs_modulus * second_moment * shape.static_transverse[std::size_t(i - transverse_modes)].stiffness;
+
+  const Vec slope_x = Vec::LinSpaced(std::max(33, 4 * N + 1), 0, length);
+  slopes_ = Mat::NullaryExpr(slope_x.size(), N,
+                             [&](Eigen::Index k, Eigen::Index i) { return shape.slope_y(int(i), slope_x(k)); });
 
   observable_names_ = {"angle", "angular_velocity", "tip_axial", "tip_transverse"};
   for (const char* suffix : {"", "_rate"}) {
@@ -158,7 +172,7 @@ void AssumedModeBeam::add_tangent(double, In q, In v, In a, Blend c, Matrix& S) 
 }
 
 Energy AssumedModeBeam::energy(double, In q, In v) const {
-  const auto A = q.segment(i_A_, axial_modes), B = q.segment(i_B_, transverse_modes);
+  const auto A = q.segment(i_A_, n_axial_), B = q.segment(i_B_, N_);
   Energy e{.elastic = 0.5 * ((K1_.array() * A.array().square()).sum() + (K2_.array() * B.array().square()).sum())};
   Eigen::Vector2d moment;  // int (X, Y) dm
   if (coupling == Coupling::none) {

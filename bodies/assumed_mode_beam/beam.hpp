@@ -23,6 +23,7 @@
 
 #include <trammel/body.hpp>
 #include <trammel/parameters.hpp>
+#include <trammel/theory_limit.hpp>
 #include <trammel/time_function.hpp>
 
 #include "inertia_basis.hpp"
@@ -37,11 +38,13 @@ class AssumedModeBeam final : public Body,
                               public ExactTangent,
                               public ReactionDerivative,
                               public Observed,
-                              public Drawn {
+                              public Drawn,
+                              public TheoryLimit {
  public:
   // Parameters; see the declaration in plugin.cpp.
   double length = 1, area = 0, second_moment = 0, density = 0, youngs_modulus = 0;
   int axial_modes = 0, transverse_modes = 0;
+  bool static_axial = false, static_transverse = false;  // static_functions.hpp
   Coupling coupling = Coupling::full;
   std::optional<Vec3> hinge, clamped, free;
   double angle = 0, angular_velocity = 0;
@@ -72,13 +75,16 @@ class AssumedModeBeam final : public Body,
   double observe(int observable, double t, In q, In v) const override;
   void shape(double t, In q, Mat& points) const override;
 
+  Bounds bounds() const override;
+  double stretched(double t, In q) const override;
+
  private:
   // Coefficients in the inertia basis of L = X0 + Phi_x A, F = 1/2 B^T H B, X = L - F, Y = Phi_y B, and the rows
   // p_i = (H B)_i; behind those of F and p their integrals with Phi_x, as in the rows of H. On the stack: no allocation,
   // and several threads may use one beam.
   struct Deformation {
     alignas(64) double L[InertiaBasis::most], X[InertiaBasis::most], Y[InertiaBasis::most];
-    alignas(64) double F[InertiaBasis::most_row], p[most_modes * InertiaBasis::most_row];
+    alignas(64) double F[InertiaBasis::most_row], p[most_functions * InertiaBasis::most_row];
   };
   AnySizes sizes() const;
   template <class Sizes>
@@ -127,20 +133,22 @@ class AssumedModeBeam final : public Body,
   double uncoupled_kinetic_energy(In v) const;
 
   void check_parameters(const World& world) const;
-  void check_amplitudes(const char* name, const std::vector<double>& given, int modes) const;
+  void check_amplitudes(const char* name, const std::vector<double>& given, int functions) const;
 
   // Position in the beam's axes, slope of u_y and p at one point.
   struct Point {
     double X, Y, slope;
-    alignas(64) double p[padded(most_modes)];
+    alignas(64) double p[padded(most_functions)];
   };
   Point point(const PointShape& shape, In q) const;
 
   // Where things stand in q and v; -1: not there.
   int i_o_ = -1, i_theta_ = -1, i_A_ = 0, i_B_ = 0, n_ = 0;
+  int n_axial_ = 0, N_ = 0;  // functions of each kind: modes and static ones
   Eigen::Vector2d gravity_ = Eigen::Vector2d::Zero();
   std::optional<InertiaBasis> basis_;
   std::vector<PointShape> marker_shapes_, outline_shapes_;
+  Mat slopes_;              // Phi_y' at places close enough to see the shortest wave, by rows
   double mass_ = 0;         // rho S L
   double S0_ = 0, I0_ = 0;  // int X0 dm, int X0^2 dm
   Vec Sx_, Sy_;             // int Phi_x dm, int Phi_y dm

@@ -22,7 +22,7 @@ void AssumedModeBeam::bending_square(const Sizes& s, const double* b, double* y)
     std::fill_n(y, int(s.row), 0.0);
     return;
   }
-  double by[triangle(most_modes)];
+  double by[triangle(most_functions)];
   int m = 0;
   for (int i = 0; i < s.N; ++i) {
     for (int j = 0; j < i; ++j) by[m++] = 2 * b[i] * b[j];
@@ -41,7 +41,7 @@ void AssumedModeBeam::deform(const Sizes& s, In q, Deformation& at) const {
     std::fill_n(at.F, int(s.row), 0.0);
   } else {
     foreshorten(s, B, at.p);
-    double half_B[most_modes];
+    double half_B[most_functions];
     for (int i = 0; i < s.N; ++i) half_B[i] = 0.5 * B[i];
     combine(s.row, s.N, Rows{at.p, s.row}, half_B, at.F);
   }

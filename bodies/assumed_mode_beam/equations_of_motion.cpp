@@ -13,7 +13,7 @@
 namespace trammel::beam {
 
 AnySizes AssumedModeBeam::sizes() const {
-  return {axial_modes, transverse_modes, basis_->size(), basis_->row()};
+  return {n_axial_, N_, basis_->size(), basis_->row()};
 }
 
 // M = int J^T J dm
@@ -32,18 +32,19 @@ void AssumedModeBeam::add_mass(const Sizes& s, In q, const Deformation& at, Matr
   if (s.size > 0)
     for (int j = 0; j < s.N; ++j) {
       const double* p = at.p + j * s.row;
-      double pp[padded(most_modes)];
+      double pp[padded(most_functions)];
       products(s.size, j + 1, Rows{at.p, s.row}, p, pp);
       symmetric(j, s.B(0), s.B(j), pp);
       M.add(s.B(j), s.B(j), pp[j]);
-      double p_x[padded(most_modes)];
+      double p_x[padded(most_functions)];
       for (int i = 0; i < s.n_axial; ++i) p_x[i] = -p[s.size + i];
       symmetric(s.n_axial, s.A(0), s.B(j), p_x);
     }
   if (i_theta_ < 0) return;
 
   // (Y Phi_x),  (X Phi_y) + (Y p),  (X X) + (Y Y)
-  double Y_x[padded(most_modes)], L_y[padded(most_modes)], F_y[padded(most_modes)] = {}, Y_p[padded(most_modes)] = {};
+  double Y_x[padded(most_functions)], L_y[padded(most_functions)], F_y[padded(most_functions)] = {},
+                                                                   Y_p[padded(most_functions)] = {};
   combine(padded(s.n_axial), s.N, Rows{Mxy_.data(), padded(s.n_axial)}, B, Y_x);
   combine_from(Dy_.data(), padded(s.N), s.n_axial, Rows{Myx_.data(), padded(s.N)}, A, L_y);
   if (s.size > 0) {
@@ -76,9 +77,8 @@ void AssumedModeBeam::add_origin_mass(In q, const Deformation& at, Matrix& M) co
   M.add(i_o_ + 1, i_o_ + 1, mass_);
   const Eigen::Vector2d moment = first_moment(q, at);
   add(i_theta_, -moment(1), moment(0));
-  for (int i = 0; i < axial_modes; ++i) add(i_A_ + i, Sx_(i), 0);
-  for (int i = 0; i < transverse_modes; ++i)
-    add(i_B_ + i, b.size() > 0 ? -dot(b.size(), b.one(), at.p + i * b.row()) : 0, Sy_(i));
+  for (int i = 0; i < n_axial_; ++i) add(i_A_ + i, Sx_(i), 0);
+  for (int i = 0; i < N_; ++i) add(i_B_ + i, b.size() > 0 ? -dot(b.size(), b.one(), at.p + i * b.row()) : 0, Sy_(i));
 }
 
 // f = -int J^T (alpha - gravity) dm - K with the acceleration at v' = 0
@@ -95,7 +95,8 @@ void AssumedModeBeam::add_force(const Sizes& s, In q, In v, const Deformation& a
   shortening_rate(s, at, Bd, P);
 
   // (Phi_x alpha_1) and (Phi_y alpha_2) - (p alpha_1)
-  double y_x[padded(most_modes)], x_y[padded(most_modes)], P_y[padded(most_modes)] = {}, p_a1[padded(most_modes)] = {};
+  double y_x[padded(most_functions)], x_y[padded(most_functions)], P_y[padded(most_functions)] = {},
+                                                                   p_a1[padded(most_functions)] = {};
   combine(padded(s.n_axial), s.N, Rows{Mxy_.data(), padded(s.n_axial)}, Bd, y_x);
   combine(padded(s.N), s.n_axial, Rows{Myx_.data(), padded(s.N)}, Ad, x_y);
   if (s.size > 0) {
@@ -106,7 +107,7 @@ void AssumedModeBeam::add_force(const Sizes& s, In q, In v, const Deformation& a
     products(s.size, s.N, Rows{b.phi_y(), s.size}, P, P_y);
   }
   const double *F_x = at.F + s.size, *D_x = D + s.size;
-  double f_A[most_modes], f_B[most_modes];  // complete before f is written, which might be what is read
+  double f_A[most_functions], f_B[most_functions];  // complete before f is written, which might be what is read
   for (int i = 0; i < s.n_axial; ++i)
     f_A[i] = D_x[i] + 2 * w * y_x[i] + w * w * (Dx_(i) + mass_ / 2 * A[i] - F_x[i]) + g(0) * Sx_(i) - K1_(i) * A[i];
   for (int i = 0; i < s.N; ++i)

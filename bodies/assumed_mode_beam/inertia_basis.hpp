@@ -13,11 +13,13 @@
 #include <vector>
 
 #include "point_shape.hpp"
+#include "static_functions.hpp"
 #include "vector_loops.hpp"
 
 namespace trammel::beam {
 
 inline constexpr int most_modes = 40;  // of each kind
+inline constexpr int most_functions = most_modes + most_static;
 // Stations for functions with up to N modes a factor: integrals of four slopes have 4 N half waves, and 5.5 N points give
 // them to round-off.
 constexpr int stations_for(int N) {
@@ -26,8 +28,8 @@ constexpr int stations_for(int N) {
 
 class InertiaBasis {
  public:
-  static constexpr int most = padded(stations_for(most_modes));  // no more dimensions than stations
-  static constexpr int most_row = most + padded(most_modes);
+  static constexpr int most = padded(stations_for(most_functions));  // no more dimensions than stations
+  static constexpr int most_row = most + padded(most_functions);
 
   // From values at quadrature stations; weight: those of the rule times the mass per length.
   InertiaBasis(const std::vector<PointShape>& at, const Vec& weight);

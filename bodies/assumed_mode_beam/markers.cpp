@@ -6,10 +6,10 @@
 namespace trammel::beam {
 
 AssumedModeBeam::Point AssumedModeBeam::point(const PointShape& shape, In q) const {
-  const int N = transverse_modes;
+  const int N = N_;
   const double *A = q.data() + i_A_, *B = q.data() + i_B_;
   Point at{shape.X0, 0, 0, {}};
-  for (int i = 0; i < axial_modes; ++i) at.X += shape.phi_x(i) * A[i];
+  for (int i = 0; i < n_axial_; ++i) at.X += shape.phi_x(i) * A[i];
   for (int i = 0; i < N; ++i) {
     at.Y += shape.phi_y(i) * B[i];
     at.slope += shape.slope_y(i) * B[i];
@@ -23,7 +23,7 @@ AssumedModeBeam::Point AssumedModeBeam::point(const PointShape& shape, In q) con
 // With the coupling none the kinetic energy knows only the undeformed beam, but a marker is where the material is.
 void AssumedModeBeam::motion(int marker, double, In q, In v, Motion& motion) const {
   const PointShape& shape = marker_shapes_[std::size_t(marker)];
-  const int N = transverse_modes;
+  const int N = N_;
   const Point at = point(shape, q);
   const double *Ad = v.data() + i_A_, *Bd = v.data() + i_B_;
   const double w = omega(v), angle_now = theta(q), c = std::cos(angle_now), s = std::sin(angle_now);
@@ -48,7 +48,7 @@ void AssumedModeBeam::motion(int marker, double, In q, In v, Motion& motion) con
   };
   if (i_o_ >= 0) motion.J(0, i_o_) = motion.J(1, i_o_ + 1) = 1;
   if (i_theta_ >= 0) column(i_theta_, -at.Y, at.X, 1);
-  for (int i = 0; i < axial_modes; ++i) {
+  for (int i = 0; i < n_axial_; ++i) {
     column(i_A_ + i, shape.phi_x(i), 0, 0);
     ud_x += shape.phi_x(i) * Ad[i];
   }
@@ -81,12 +81,12 @@ void AssumedModeBeam::add_reaction_derivative(int marker, double, In q, const Wr
   };
   if (i_theta_ >= 0) {
     S.add(i_theta_, i_theta_, c * (-at.Y * b2 - at.X * b1));
-    for (int i = 0; i < axial_modes; ++i) symmetric(i_theta_, i_A_ + i, shape.phi_x(i) * b2);
-    for (int i = 0; i < transverse_modes; ++i) symmetric(i_theta_, i_B_ + i, -at.p[i] * b2 - shape.phi_y(i) * b1);
+    for (int i = 0; i < n_axial_; ++i) symmetric(i_theta_, i_A_ + i, shape.phi_x(i) * b2);
+    for (int i = 0; i < N_; ++i) symmetric(i_theta_, i_B_ + i, -at.p[i] * b2 - shape.phi_y(i) * b1);
   }
   const double tilt = 1 / (1 + at.slope * at.slope), turning = -2 * at.slope * tilt * tilt * F(2);
-  for (int i = 0; i < transverse_modes; ++i)
-    for (int j = 0; j < transverse_modes; ++j) {
+  for (int i = 0; i < N_; ++i)
+    for (int j = 0; j < N_; ++j) {
       double value = turning * shape.slope_y(i) * shape.slope_y(j);
       if (coupling == Coupling::full) value -= shape.H(i, j) * b1;
       S.add(i_B_ + i, i_B_ + j, c * value);
@@ -106,7 +106,7 @@ double AssumedModeBeam::observe(int observable, double, In q, In v) const {
     default:
       break;
   }
-  const int i = observable - 4, modes = axial_modes + transverse_modes;  // A and B stand side by side, as the names do
+  const int i = observable - 4, modes = n_axial_ + N_;  // A and B stand side by side, as the names do
   return i < modes ? q(i_A_ + i) : v(i_A_ + i - modes);
 }
 

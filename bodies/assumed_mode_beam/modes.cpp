@@ -44,10 +44,22 @@ double BendingMode::slope(double x) const {
                sigma_ * std::cos(z));
 }
 
+// cosh + cos - sigma (sinh + sin)
+double BendingMode::curvature(double x) const {
+  const double z = b_ * x;
+  return b_ * b_ *
+         (std::exp(-z) + growing_ * (std::exp(b_ * (x - L_)) - std::exp(-b_ * (x + L_))) + std::cos(z) -
+          sigma_ * std::sin(z));
+}
+
 AxialMode::AxialMode(int i, double L) : l_((2 * i - 1) * std::numbers::pi / (2 * L)) {}
 
 double AxialMode::value(double x) const {
   return std::sin(l_ * x);
+}
+
+double AxialMode::slope(double x) const {
+  return l_ * std::cos(l_ * x);
 }
 
 }  // namespace trammel::beam

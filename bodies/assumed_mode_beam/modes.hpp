@@ -15,6 +15,7 @@ class BendingMode {
   double wave_number() const { return b_; }  // [1/m]
   double value(double x) const;
   double slope(double x) const;
+  double curvature(double x) const;
 
  private:
   double b_, L_;
@@ -27,6 +28,7 @@ class AxialMode {
   AxialMode(int i, double L);
   double wave_number() const { return l_; }
   double value(double x) const;
+  double slope(double x) const;
 
  private:
   double l_;

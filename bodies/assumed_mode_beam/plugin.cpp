@@ -6,7 +6,8 @@ using trammel::beam::AssumedModeBeam;
 using trammel::beam::Coupling;
 
 TRAMMEL_PLUGIN(
-    trammel::body<AssumedModeBeam>("assumed_mode_beam", "planar Euler-Bernoulli beam by axial and transverse modes")
+    trammel::body<AssumedModeBeam>("assumed_mode_beam",
+                                   "planar Euler-Bernoulli beam by axial and transverse modes, for small slopes")
         .source("Guo, Zhang, Chen 2017, Acta Physica Sinica 66, 164501, eqs (1)-(4)")
         .markers("root, tip, and those of \"markers\"")
         .observables(
@@ -25,9 +26,15 @@ TRAMMEL_PLUGIN(
                    {.min = 0, .max = trammel::beam::most_modes, .doc = "number of axial modes"})
         .parameter("modes.transverse", &AssumedModeBeam::transverse_modes,
                    {.min = 0, .max = trammel::beam::most_modes, .doc = "number of transverse modes"})
-        .choice("coupling", &AssumedModeBeam::coupling,
-                {{"none", Coupling::none}, {"linear", Coupling::linear}, {"full", Coupling::full}},
-                {.doc = "full: with foreshortening; linear: without; none: inertia of the undeformed beam"})
+        .parameter("modes.static_axial", &AssumedModeBeam::static_axial,
+                   {.doc = "one axial function more, for a tip that is held or pulled along the beam"})
+        .parameter("modes.static_transverse", &AssumedModeBeam::static_transverse,
+                   {.doc = "two transverse functions more, for a tip that is held, turned or loaded across the beam"})
+        .choice(
+            "coupling", &AssumedModeBeam::coupling,
+            {{"none", Coupling::none}, {"linear", Coupling::linear}, {"full", Coupling::full}},
+            {.doc = "full: with foreshortening, within 1 % up to slopes of 0.086; linear: without, up to 0.025; none: "
+                    "as linear, with the inertia of the undeformed beam"})
         .parameter("mount.hinge", &AssumedModeBeam::hinge, {.unit = "m", .doc = "the root turns about this point"})
         .parameter("mount.clamped", &AssumedModeBeam::clamped,
                    {.unit = "m", .doc = "the root is fixed here, at `angle`"})

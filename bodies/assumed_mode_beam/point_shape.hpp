@@ -8,13 +8,23 @@
 #include <trammel/types.hpp>
 
 #include "modes.hpp"
+#include "static_functions.hpp"
 
 namespace trammel::beam {
 
+// The functions that the deformation is a sum of: modes, and behind them static functions where the beam has such.
 struct Shape {
   double L = 0, hub_radius = 0;
   std::vector<AxialMode> axial;
   std::vector<BendingMode> transverse;
+  std::vector<StaticFunction<AxialMode>> static_axial;
+  std::vector<StaticFunction<BendingMode>> static_transverse;
+
+  int axial_count() const { return int(axial.size() + static_axial.size()); }
+  int transverse_count() const { return int(transverse.size() + static_transverse.size()); }
+  double phi_x(int i, double x) const;
+  double phi_y(int i, double x) const;
+  double slope_y(int i, double x) const;
 };
 
 struct PointShape {

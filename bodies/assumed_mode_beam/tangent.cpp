@@ -27,7 +27,7 @@ struct AssumedModeBeam::TangentPoint {
   Deformation at;
   // Rows as those of F: P = p Bd, p B'', Bd^T H Bd; and s_j, e_j.
   alignas(64) double P[InertiaBasis::most_row], P_dot[InertiaBasis::most_row], D[InertiaBasis::most_row];
-  alignas(64) double s[most_modes * InertiaBasis::most_row], e[most_modes * InertiaBasis::most_row];
+  alignas(64) double s[most_functions * InertiaBasis::most_row], e[most_functions * InertiaBasis::most_row];
   // Coefficients of alpha and of -U by theta's first component.
   alignas(64) double a1[InertiaBasis::most], a2[InertiaBasis::most], U1[InertiaBasis::most];
 };
@@ -43,7 +43,7 @@ void AssumedModeBeam::prepare_tangent(const Sizes& z, In q, TangentPoint& t) con
   t.X = first_moment(z, t.A, t.B, t.at);
   if (z.size == 0) return;
 
-  double by_s[most_modes], by_e[most_modes];
+  double by_s[most_functions], by_e[most_functions];
   for (int i = 0; i < z.N; ++i) {
     by_s[i] = t.k1 * t.B[i] + 2 * c.c_d * t.Bd[i] + c.c_k * t.Bdd[i];
     by_e[i] = t.k2 * t.B[i] + 2 * t.w * c.c_k * t.Bd[i];
@@ -86,7 +86,7 @@ void AssumedModeBeam::add_modal_tangent(const Sizes& z, const TangentPoint& t, M
     }
     // p_i (k2 Phi_y,j + s_j) - Phi_y,i e_j - c_k H_ij alpha_1
     alignas(64) double sum[InertiaBasis::most];
-    double by_p[padded(most_modes)], by_phi[padded(most_modes)], H_alpha[padded(most_modes)];
+    double by_p[padded(most_functions)], by_phi[padded(most_functions)], H_alpha[padded(most_functions)];
     for (int k = 0; k < z.size; ++k) sum[k] = t.k2 * phi_j[k] + s_j[k];
     products(z.size, z.N, Rows{t.at.p, z.row}, sum, by_p);
     products(z.size, z.N, Rows{phi_y, z.size}, t.e + j * z.row, by_phi);
@@ -109,7 +109,7 @@ void AssumedModeBeam::add_turning_tangent(const Sizes& z, const TangentPoint& t,
   const auto bending_by = [&](const double* A, double* y) {  // (Phi_x A  Phi_y)
     combine(padded(z.N), z.n_axial, Rows{Myx_.data(), padded(z.N)}, A, y);
   };
-  double Y_x[padded(most_modes)], yd_x[padded(most_modes)], ydd_x[padded(most_modes)];
+  double Y_x[padded(most_functions)], yd_x[padded(most_functions)], ydd_x[padded(most_functions)];
   axial_by(t.B, Y_x), axial_by(t.Bd, yd_x), axial_by(t.Bdd, ydd_x);
   for (int i = 0; i < z.n_axial; ++i) {
     const double X_x = Dx_(i) + mass_ / 2 * t.A[i] - t.at.F[z.size + i], xd_x = mass_ / 2 * t.Ad[i] - t.P[z.size + i];
@@ -118,8 +118,8 @@ void AssumedModeBeam::add_turning_tangent(const Sizes& z, const TangentPoint& t,
   }
 
   // With (p U1), (s Y) - (e X) - c_k (p alpha_2), and the share of F and its rates in (X Phi_y), (ud_x Phi_y), (alpha_1 Phi_y)
-  double A_y[padded(most_modes)], Ad_y[padded(most_modes)], Add_y[padded(most_modes)];
-  double column[padded(most_modes)] = {}, row[padded(most_modes)] = {};
+  double A_y[padded(most_functions)], Ad_y[padded(most_functions)], Add_y[padded(most_functions)];
+  double column[padded(most_functions)] = {}, row[padded(most_functions)] = {};
   bending_by(t.A, A_y), bending_by(t.Ad, Ad_y), bending_by(t.Add, Add_y);
   if (z.size > 0) {
     alignas(64) double in_column[InertiaBasis::most], in_row[InertiaBasis::most];
@@ -127,7 +127,7 @@ void AssumedModeBeam::add_turning_tangent(const Sizes& z, const TangentPoint& t,
       in_column[k] = -c.c_m * t.at.F[k] - 2 * c.c_d * t.P[k];
       in_row[k] = -c.c_m * t.at.F[k] + c.c_k * (t.P_dot[k] + t.D[k]);
     }
-    double by[padded(most_modes)];
+    double by[padded(most_functions)];
     const auto add = [&](const double* rows, int stride, const double* x, double scale, double* out) {
       products(z.size, z.N, Rows{rows, stride}, x, by);
       for (int i = 0; i < z.N; ++i) out[i] += scale * by[i];
@@ -155,7 +155,7 @@ void AssumedModeBeam::add_turning_tangent(const Sizes& z, const TangentPoint& t,
 void AssumedModeBeam::add_origin_tangent(const TangentPoint& t, Matrix& S) const {
   const InertiaBasis& basis = *basis_;
   const Blend c = t.c;
-  const int n = basis.size(), row = basis.row(), N = transverse_modes;
+  const int n = basis.size(), row = basis.row(), N = N_;
   const auto mean = [&](const double* coefficients) { return n > 0 ? dot(n, basis.one(), coefficients) : 0; };
   const auto sum = [](const Vec& S_, const double* x) { return S_.dot(Eigen::Map<const Vec>(x, S_.size())); };
   const auto place = [&](int j, double U_1, double U_2) {
@@ -175,7 +175,7 @@ void AssumedModeBeam::add_origin_tangent(const TangentPoint& t, Matrix& S) const
   const double U_2 = c.c_m * t.X(0) + 2 * c.c_d * (ud(0) - t.w * t.X(1)) - c.c_k * mass_ * t.b(0);
   place(i_theta_, U_1 - c.c_k * alpha(1), U_2 + c.c_k * alpha(0));
   place_row(i_theta_, turned(0), turned(1));
-  for (int i = 0; i < axial_modes; ++i) {
+  for (int i = 0; i < n_axial_; ++i) {
     place(i_A_ + i, t.k1 * Sx_(i), t.k2 * Sx_(i));
     place_row(i_A_ + i, Sx_(i), 0);
   }

@@ -98,14 +98,6 @@ void AssembledSystem::hold_still(bool still) {
   ++w.configuration;
 }
 
-void AssembledSystem::carry_stress(const Vec& q, const Vec& dq) {
-  work_->carried_stress = {q, dq};
-}
-
-void AssembledSystem::carry_no_stress() {
-  work_->carried_stress.reset();
-}
-
 namespace {
 
 // Runs f(part, index in q, index in v) over all parts of all bodies.
@@ -234,6 +226,13 @@ void AssembledSystem::factorise(Blend blend, const Vec& a, const Vec& lambda, Fa
   if (!mass_only) return w.factorise_tangent(store, blend, a, lambda, with_friction);
   if (!w.factorise_mass(store, with_friction, w.rank_tolerance()))
     throw NotSolvable("the mass matrix is not positive definite");
+}
+
+void AssembledSystem::factorise_with_stress(const CarriedFrom& carried, const Vec& lambda) {
+  Work& w = *work_;
+  w.evaluate_rows();
+  w.bear(lambda);
+  w.factorise_tangent(Work::Store(Factors::iteration), {0, 0, 1}, Vec::Zero(w.sizes.nv), lambda, true, &carried);
 }
 
 bool AssembledSystem::correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda, Factors which) {

@@ -41,6 +41,12 @@ struct CallSite {
 enum class Storage { automatic, dense, sparse, blocks };
 Storage storage_for(const Model& model);
 
+// Where the stresses of a CarriedStress tangent come from: those at `from`, carried on linearly by the increment dq.
+struct CarriedFrom {
+  const Vec& from;
+  const Vec& dq;
+};
+
 class AssembledSystem final : public System {
  public:
   explicit AssembledSystem(std::shared_ptr<const Model> model, Storage storage = Storage::automatic);
@@ -79,9 +85,9 @@ class AssembledSystem final : public System {
   // For statics: points have v = 0, markers that a law of time moves stand still where they are, and contacts stick by rows,
   // however their friction decides. Modes are to be set anew afterwards.
   void hold_still(bool still);
-  // For statics: from now on K has the stresses at `q` carried on linearly by dq, in bodies with CarriedStress.
-  void carry_stress(const Vec& q, const Vec& dq);
-  void carry_no_stress();  // K is exact again
+  // For statics: factorise({0, 0, 1}, 0, lambda), but in bodies with CarriedStress K has the stresses at `carried.from` carried on
+  // linearly by `carried.dq`. It is a part of this call alone: every other K is exact.
+  void factorise_with_stress(const CarriedFrom& carried, const Vec& lambda);
 
   // At the point of the last move_to. Each evaluates only what it needs.
   double gap(int contact);

@@ -110,11 +110,14 @@ struct AssembledSystem::Work {
   bool rolls(int i) const;                  // it is round, in space: the coordinates of its tangents follow from steps
   Eigen::Matrix3d seen_from_B(int i);       // A's orientation
   Tangential displacement(int i);           // g along the tangents, from the mode's anchor
-  void add_tangent(Blend c, const Vec& a, const Vec& lambda, Matrix& S);
+  // S += c_m M + c_d D + c_k K + c_1 1. `carried`: K with stresses from there (CarriedStress); null: exact.
+  void add_tangent(Blend c, const Vec& a, const Vec& lambda, Matrix& S, const CarriedFrom* carried = nullptr);
   bool factorise_mass(Store store, bool with_friction, double rank_tolerance);
   void factorise_identity(Store store);
-  void factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda, bool with_friction);
-  void factorise_sparse(Kept& store, Blend c, const Vec& a, const Vec& lambda, bool sliding);
+  void factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda, bool with_friction,
+                         const CarriedFrom* carried = nullptr);
+  void factorise_sparse(Kept& store, Blend c, const Vec& a, const Vec& lambda, bool sliding,
+                        const CarriedFrom* carried);
   void add_rows_to(numerics::SparseSum& sum, bool sliding);  // W^T and G beside S
   bool redundant(Store store) const;                         // rows, at its last factorise_mass
   [[nodiscard]] bool solve(Store store, const Vec& b, const Vec& c, Vec& x, Vec& y);
@@ -163,10 +166,6 @@ struct AssembledSystem::Work {
   std::vector<int> bearing_of;       // by contact: index into them; empty where there are none
   Sizes sizes;
   int held_rows = 0;  // the first rows of g, that hold through impacts: of bodies, joints and contacts that have locked
-  struct CarriedFrom {
-    Vec q, dq;
-  };
-  std::optional<CarriedFrom> carried_stress;  // none: K is exact
 
   double t = 0;
   Vec q, v;

@@ -109,28 +109,29 @@ void AssembledSystem::Work::factorise_identity(Store store) {
 }
 
 void AssembledSystem::Work::factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda,
-                                              bool with_friction) {
+                                              bool with_friction, const CarriedFrom* carried) {
   evaluate_rows();
   ++counts.jacobian_evaluations;  // once, though a sparse sum may be filled twice until its places are known
   ++counts.factorizations;
   kept[store].symmetric = false;
   const bool sliding = with_friction && coupled;
-  if (sparse) return factorise_sparse(kept[store], c, a, lambda, sliding);
+  if (sparse) return factorise_sparse(kept[store], c, a, lambda, sliding, carried);
   Mat& S = blocks ? tangent : kept[store].iteration.begin(sizes.nv, sizes.nc);
   if (blocks) S.setZero(sizes.nv, sizes.nv);
   Matrix target = Matrix::onto(S);
-  add_tangent(c, a, lambda, target);
+  add_tangent(c, a, lambda, target, carried);
   if (blocks)
     blocks->factorise_tangent(blocks->kept[store], sizes.nc, S, sliding);
   else
     kept[store].iteration.factorise(sliding ? W : G, G, rank_tolerance());
 }
 
-void AssembledSystem::Work::factorise_sparse(Kept& store, Blend c, const Vec& a, const Vec& lambda, bool sliding) {
+void AssembledSystem::Work::factorise_sparse(Kept& store, Blend c, const Vec& a, const Vec& lambda, bool sliding,
+                                             const CarriedFrom* carried) {
   numerics::SparseSum& sum = store.sparse.sum();
   Matrix target = Matrix::onto(sum);
   store.sparse.factorise(sizes.nv, G, rank_tolerance(), [&] {
-    add_tangent(c, a, lambda, target);
+    add_tangent(c, a, lambda, target, carried);
     add_rows_to(sum, sliding);
   });
 }

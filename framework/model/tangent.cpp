@@ -41,7 +41,8 @@ class ForceWrench final : public MarkerWrenches {
 
 }  // namespace
 
-void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda, Matrix& S) {
+void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda, Matrix& S,
+                                        const CarriedFrom* carried) {
   if (c.c_1 != 0)
     for (int i = 0; i < sizes.nv; ++i) S.add(i, i, c.c_1);
   for (const BodyEntry& entry : model->bodies) {
@@ -52,9 +53,9 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
     const auto a_body = a.segment(entry.v0, entry.nv);
     if (entry.rows > 0 && c.c_k != 0)
       entry.constrained->add_own_rows_derivative(t, q_body, lambda.segment(entry.row, entry.rows), c.c_k, target);
-    if (carried_stress && entry.carried_stress && c.c_m == 0 && c.c_d == 0) {
-      entry.carried_stress->add_tangent_with_stress_from(t, q_body, carried_stress->q.segment(entry.q0, entry.nq),
-                                                         carried_stress->dq.segment(entry.v0, entry.nv), c.c_k, target);
+    if (carried && entry.carried_stress) {
+      entry.carried_stress->add_tangent_with_stress_from(t, q_body, carried->from.segment(entry.q0, entry.nq),
+                                                         carried->dq.segment(entry.v0, entry.nv), c.c_k, target);
       continue;
     }
     if (entry.tangent) {

@@ -14,6 +14,7 @@
 #include <trammel/oscillating_steps.hpp>
 #include <trammel/parameters.hpp>
 #include <trammel/system.hpp>
+#include <trammel/theory_limit.hpp>
 
 namespace trammel {
 
@@ -43,6 +44,7 @@ Drawn::~Drawn() = default;
 Refinable::~Refinable() = default;
 HasMomentum::~HasMomentum() = default;
 HasFields::~HasFields() = default;
+TheoryLimit::~TheoryLimit() = default;
 AwaitsContact::~AwaitsContact() = default;
 LinearMarkers::~LinearMarkers() = default;
 CarriedStress::~CarriedStress() = default;

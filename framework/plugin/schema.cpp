@@ -191,7 +191,8 @@ void define_common(Json& definitions, const std::vector<Part>& parts) {
                                       {"time", column},
                                       {"column", column},
                                       {"holds", {{"enum", {"values", "accelerations"}}}},
-                                      {"scale", number}}),
+                                      {"scale", number},
+                                      {"beyond", {{"enum", {"hold", "zero", "repeat"}}}}}),
                               "a law of time from a text table, its columns by name or by number from 1");
   definitions["vector"] = array_of(number);
   Json frame = object({{"point", reference("vector")}, {"angle", number}, {"axis", reference("vector")}});

@@ -1,6 +1,7 @@
 // What stands behind a TimeFunction that is no constant: an expression (JetCode) or a table (TabulatedLaw).
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <trammel/time_function.hpp>
@@ -14,6 +15,11 @@ class TimeFunction::Code {
   // Which way each switch of the law (step, abs, max, ...) is thrown at t. Where the list is the same at two times, no
   // switch was seen between them.
   virtual void branches(double /*t*/, std::vector<double>& way) const { way.clear(); }
+  // [s] Where the law says what it is. Outside it may be asked for nothing but differences at an end.
+  struct Span {
+    double begin = -std::numeric_limits<double>::infinity(), end = std::numeric_limits<double>::infinity();
+  };
+  virtual Span span() const { return {}; }
 
  protected:
   Code() = default;

@@ -68,7 +68,7 @@ class Table {
   Table(const Value& object, Problems& problems) : object_(object), problems_(problems) {}
 
   std::optional<TimeFunction> read() {
-    static const std::vector<std::string> keys = {"table", "time", "column", "holds", "scale"};
+    static const std::vector<std::string> keys = {"table", "time", "column", "holds", "scale", "beyond"};
     for (const auto& [key, value] : object_.members())
       if (std::find(keys.begin(), keys.end(), key) == keys.end())
         problems_.error(value.problem(fmt::format("unknown key \"{}\"{}", key, did_you_mean(key, keys))));
@@ -88,8 +88,8 @@ class Table {
       return {};
     }
     if (!read_rows()) return {};
-    auto law = accelerations_ ? TabulatedLaw::of_accelerations(std::move(t_), std::move(x_))
-                              : TabulatedLaw::of_values(std::move(t_), std::move(x_));
+    auto law = accelerations_ ? TabulatedLaw::of_accelerations(std::move(t_), std::move(x_), beyond_)
+                              : TabulatedLaw::of_values(std::move(t_), std::move(x_), beyond_);
     return TimeFunction(std::make_shared<const TabulatedLaw>(std::move(law)), fmt::format("table {}", *name));
   }
 
@@ -104,12 +104,28 @@ class Table {
       }
       accelerations_ = *text == "accelerations";
     }
+    if (const Value* beyond = object_.find("beyond"); beyond && !read_beyond(*beyond)) return false;
     if (const Value* scale = object_.find("scale")) {
       const auto factor = scale->read_number(problems_);
       if (!factor) return false;
       scale_ = *factor;
     }
     return true;
+  }
+
+  bool read_beyond(const Value& value) {
+    const auto text = value.read_text(problems_);
+    if (!text) return false;
+    using Beyond = TabulatedLaw::Beyond;
+    for (const auto& [name, beyond] :
+         {std::pair{"hold", Beyond::hold}, {"zero", Beyond::zero}, {"repeat", Beyond::repeat}}) {
+      if (*text != name) continue;
+      beyond_ = beyond;
+      return true;
+    }
+    problems_.error(value.problem(fmt::format("found \"{}\", expected \"hold\", \"zero\" or \"repeat\"{}", *text,
+                                              did_you_mean(*text, {"hold", "zero", "repeat"}))));
+    return false;
   }
 
   bool read_rows() {
@@ -129,12 +145,25 @@ class Table {
         if (!find_column("time", 1, header, cells.size(), time_) ||
             !find_column("column", 2, header, cells.size(), column_))
           return false;
+        if (time_ == column_) return refuse_time_as_data(header);
         if (names) continue;
       }
       if (!add_row(cells, line_number)) return false;
     }
     if (t_.size() >= fewest_rows) return true;
     return complain(line_number, fmt::format("found {} rows, expected at least {}", t_.size(), fewest_rows));
+  }
+
+  bool refuse_time_as_data(const Cells& header) {
+    const Value* column = object_.find("column");
+    const Value* named = column ? column : object_.find("time");
+    const std::string which = header.empty() ? fmt::format("{}", time_ + 1) : fmt::format("\"{}\"", header[time_]);
+    problems_.error(
+        (named ? *named : object_)
+            .problem(fmt::format("column {} of {} is taken for the time and for what moves; \"time\" is column 1 "
+                                 "and \"column\" is column 2 unless they are named",
+                                 which, file_)));
+    return false;
   }
 
   // A column by its name in the header or its number from 1; the index from 0.
@@ -183,6 +212,7 @@ class Table {
   std::string file_, text_;
   bool accelerations_ = false;
   double scale_ = 1;
+  TabulatedLaw::Beyond beyond_ = TabulatedLaw::Beyond::unsaid;
   std::size_t time_ = 0, column_ = 1;
   std::vector<double> t_, x_;
 };

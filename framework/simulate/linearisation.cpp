@@ -4,42 +4,14 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 
-#include "numerics/kkt.hpp"
+#include "simulate/tangent_space.hpp"
 
 namespace trammel::simulate {
 namespace {
 
 // Round-off and truncation of a central difference balance there, for arguments of size one.
 constexpr double difference = 6e-6;
-
-// G^T or W^T, column by column.
-template <class Add>
-Mat transposed_rows(const Sizes& n, Add&& add) {
-  Mat transposed(n.nv, n.nc);
-  Vec column;
-  for (int i = 0; i < n.nc; ++i) {
-    column.setZero(n.nv);
-    add(Vec(Vec::Unit(n.nc, i)), column);
-    transposed.col(i) = column;
-  }
-  return transposed;
-}
-
-// An orthonormal basis of what is perpendicular to the columns.
-Mat complement(Mat columns, double rank_tolerance) {
-  for (Eigen::Index i = 0; i < columns.cols(); ++i)
-    if (const double length = columns.col(i).norm(); length > 0) columns.col(i) /= length;
-  const Eigen::Index n = columns.rows();
-  if (columns.cols() == 0) return Mat::Identity(n, n);
-  Eigen::ColPivHouseholderQR<Mat> qr;
-  qr.setThreshold(rank_tolerance);
-  qr.compute(columns);
-  Mat basis = Mat::Identity(n, n).rightCols(n - qr.rank());
-  basis.applyOnTheLeft(qr.householderQ());
-  return basis;
-}
 
 class AtState {
  public:
@@ -50,23 +22,17 @@ class AtState {
   Linearisation operator()() {
     Linearisation l;
     l.noise = noise_of_stiffness(system_.model());
-    const Mat Gt = transposed_rows(n_, [&](const Vec& e, Vec& r) { system_.add_rows_force(1, e, r); });
-    const Mat Wt = transposed_rows(n_, [&](const Vec& e, Vec& r) { system_.add_reaction(1, e, r); });
-    const double violation = n_.nc > 0 ? system_.g().lpNorm<Eigen::Infinity>() : 0;
-    const double tolerance = numerics::rank_tolerance_at(violation);
-    l.Z = complement(Gt, tolerance);
-    l.redundant = n_.nc - int(n_.nv - l.Z.cols());
-    const bool sliding = Gt != Wt;
-    left_ = sliding ? complement(Wt, tolerance) : l.Z;
-    if (left_.cols() != l.Z.cols())
-      throw model::NotSolvable("friction jams: a sliding contact's force does not move what its row holds");
+    const TangentSpace space = tangent_space(system_);
+    l.Z = space.Z;
+    l.redundant = space.redundant;
+    left_ = space.left;
 
     const Mat M = tangent(system_, {1, 0, 0}, s_), D = tangent(system_, {0, 1, 0}, s_),
               K = tangent(system_, {0, 0, 1}, s_);
     l.M = left_.transpose() * M * l.Z;
     l.D = left_.transpose() * D * l.Z;
     l.K = left_.transpose() * K * l.Z;
-    if (!s_.v.isZero(0)) add_motion(l, M, D, sliding);
+    if (!s_.v.isZero(0)) add_motion(l, M, D, space.sliding);
     system_.move_to(s_.t, s_.q, s_.v);
     return l;
   }

@@ -30,6 +30,7 @@ LoadPath::LoadPath(model::AssembledSystem& system, const Settings& settings, con
       zero_(Vec::Zero(system.sizes().nv)),
       contacts_(system),
       turns_(system),
+      theories_(system.model()),
       part_((settings.until - settings.start) / settings.load_steps) {
   state_.v = state_.a = zero_;
 }
@@ -100,7 +101,6 @@ void LoadPath::by_load(double t) {
 void LoadPath::by_arc() {
   const Point& last = passed_.back();
   Vec q_by_t, lambda_by_t;
-  system_.carry_no_stress();
   if (!along_t(last, q_by_t, lambda_by_t)) fail(last.t, Failure::singular);
   const double n = std::max(1.0, double(zero_.size()));
   const double step = (settings_.until - settings_.start) / settings_.load_steps;
@@ -176,8 +176,7 @@ LoadPath::Failure LoadPath::balance(Point& trial, const Arc* arc) {
     if (balanced) return Failure::none;
     if (i == settings_.load_iterations) break;
     const Vec before = trial.q;
-    system_.carry_stress(from, dq);
-    if (!correct(trial, arc, dq)) return Failure::singular;
+    if (!correct(trial, arc, from, dq)) return Failure::singular;
     ++now_.iterations;
     from = before;
     const double change = dq.lpNorm<Eigen::Infinity>();
@@ -207,9 +206,10 @@ bool LoadPath::unbalance(const Point& at) {
   return now_.unbalanced <= settings_.load_tolerance && g <= std::max(1e-14, settled * extent_);
 }
 
-// One Newton step from where the system is, with r_.
-bool LoadPath::correct(Point& at, const Arc* arc, Vec& dq) {
-  system_.factorise({0, 0, 1}, zero_, at.lambda);
+// One Newton step from where the system is, with r_ and stresses carried on from `from` by the last increment dq, which becomes
+// the new one.
+bool LoadPath::correct(Point& at, const Arc* arc, const Vec& from, Vec& dq) {
+  system_.factorise_with_stress({from, dq}, at.lambda);
   Vec dlambda, q;
   const Vec g = system_.g();
   if (!system_.correct(r_, g, dq, dlambda)) return false;
@@ -217,7 +217,7 @@ bool LoadPath::correct(Point& at, const Arc* arc, Vec& dq) {
     const Point& last = passed_.back();
     Vec moved, q_by_t, lambda_by_t;
     system_.difference(at.q, last.q, moved);
-    if (!along_t(at, q_by_t, lambda_by_t)) return false;
+    if (!along_t_with_factors(at, q_by_t, lambda_by_t)) return false;
     const double n = std::max(1.0, double(zero_.size()));
     const double missing = arc->length - arc->n_q.dot(moved + dq) / n - s2_ * arc->n_t * (at.t - last.t);
     const double dt = missing / (arc->n_q.dot(q_by_t) / n + s2_ * arc->n_t);
@@ -229,8 +229,14 @@ bool LoadPath::correct(Point& at, const Arc* arc, Vec& dq) {
   return std::isfinite(at.t);
 }
 
-// dq/dt and dlambda/dt along the equilibria, with the factors at hand or, at an equilibrium, fresh ones.
+// dq/dt and dlambda/dt along the equilibria, at one of them.
 bool LoadPath::along_t(const Point& at, Vec& q_by_t, Vec& lambda_by_t) {
+  system_.move_to(at.t, at.q, zero_);
+  system_.factorise({0, 0, 1}, zero_, at.lambda);
+  return along_t_with_factors(at, q_by_t, lambda_by_t);
+}
+
+bool LoadPath::along_t_with_factors(const Point& at, Vec& q_by_t, Vec& lambda_by_t) {
   const double dt = 1e-6 * std::abs(settings_.until - settings_.start);
   Vec r[2], g[2];
   for (const int side : {0, 1}) {
@@ -240,7 +246,6 @@ bool LoadPath::along_t(const Point& at, Vec& q_by_t, Vec& lambda_by_t) {
     g[side] = system_.g();
   }
   system_.move_to(at.t, at.q, zero_);
-  if (at.q == passed_.back().q) system_.factorise({0, 0, 1}, zero_, at.lambda);
   return system_.correct((r[1] - r[0]) / (2 * dt), (g[1] - g[0]) / (2 * dt), q_by_t, lambda_by_t);
 }
 
@@ -263,6 +268,7 @@ LoadPath::Point LoadPath::predict(double t) const {
 }
 
 void LoadPath::keep(Point point) {
+  theories_.look(point.t, point.q);
   Vec moved;
   system_.difference(point.q, start_, moved);
   if (moved.size() > 0) extent_ = std::max(extent_, moved.lpNorm<Eigen::Infinity>());

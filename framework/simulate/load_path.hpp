@@ -30,6 +30,7 @@
 
 #include "simulate/resting_contacts.hpp"
 #include "simulate/settings.hpp"
+#include "simulate/theory_watch.hpp"
 #include "simulate/turn_counts.hpp"
 
 namespace trammel::simulate {
@@ -52,6 +53,7 @@ class LoadPath {
   bool at_end() const { return !passed_.empty() && passed_.back().t == settings_.until; }
   const State& state() const { return state_; }
   const std::vector<LoadStep>& steps() const { return steps_; }
+  std::vector<std::string> warnings() const { return theories_.warnings(); }
 
  private:
   struct Point {
@@ -76,8 +78,9 @@ class LoadPath {
   Failure correct_by_forces(const Point& at, Vec& dq, Vec& dlambda);
   Vec reaction(const Point& at);    // G^T lambda; the system is there, with its f and g
   bool unbalance(const Point& at);  // r_ and g of the system; true: in equilibrium
-  bool correct(Point& at, const Arc* arc, Vec& dq);
+  bool correct(Point& at, const Arc* arc, const Vec& from, Vec& dq);
   bool along_t(const Point& at, Vec& q_by_t, Vec& lambda_by_t);
+  bool along_t_with_factors(const Point& at, Vec& q_by_t, Vec& lambda_by_t);
   Point predict(double t) const;
   void keep(Point point);
   [[noreturn]] void fail(double t, Failure why);
@@ -88,6 +91,7 @@ class LoadPath {
   Vec start_, zero_;
   RestingContacts contacts_;
   TurnCounts turns_;
+  TheoryWatch theories_;
   std::deque<Point> passed_;  // the last equilibria, newest last
   std::vector<LoadStep> steps_;
   LoadStep now_;

@@ -33,7 +33,6 @@ bool LoadPath::turn_to_forces(const Point& from) {
 }
 
 LoadPath::Failure LoadPath::balance_by_forces(Point& trial) {
-  system_.carry_no_stress();
   const double shift_of_M = shift * stiffness_of_unrelated_motion(system_, trial.t, trial.q);
   double least = std::numeric_limits<double>::infinity();  // of the increments
   Vec dq, dlambda, q;

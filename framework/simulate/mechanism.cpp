@@ -46,7 +46,6 @@ double stiffness_of_unrelated_motion(model::AssembledSystem& system, double t, c
 std::optional<std::string> find_mechanism(model::AssembledSystem& system, double t, const Vec& q) {
   const Vec zero = Vec::Zero(system.sizes().nv);
   const Vec lambda = Vec::Zero(system.sizes().nc);
-  system.carry_no_stress();
   const double stiff = stiffness_of_unrelated_motion(system, t, q);
   if (!std::isfinite(stiff)) return {};
   const double shift = std::max(1e-12 * stiff, 1e-12);

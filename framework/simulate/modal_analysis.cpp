@@ -19,13 +19,17 @@
 #include "simulate/result.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/simulator.hpp"
-#include "simulate/steady_motion.hpp"
+#include "simulate/steady_linearisation.hpp"
+#include "simulate/theory_watch.hpp"
 
 namespace trammel::simulate {
 namespace {
 
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
+
+constexpr Eigen::Index null_space_limit = 1500, undamped_limit = 500,
+                       damped_limit = 200;  // a few seconds of dense matrices
 
 // The scene at the state that the options ask for, with contacts as they are there.
 class Posed {
@@ -42,6 +46,7 @@ class Posed {
 
   model::AssembledSystem& system() { return simulator_ ? simulator_->system() : *statics_; }
   const State& state() const { return state_; }
+  const SteadyMotion& motion() const { return motion_; }  // no rates: the state is not steady
   const std::string& what() const { return what_; }
   Setup& setup() { return setup_; }
 
@@ -55,10 +60,22 @@ class Posed {
       of_statics(options, watch);
     else
       in_motion(scene, options, watch);
-    if (!options.steady) return;
-    if (const auto why = find_steady_motion(system(), state_))
-      throw RunFailed(fmt::format("no steady motion was found from the state at t = {:.9g}: {}", state_.t, *why));
-    what_ = "in steady motion from " + what_;
+    TheoryWatch theories(system().model());
+    if (options.steady) {
+      if (!state_.v.isZero(0) && state_.v.size() > undamped_limit)
+        throw RunFailed(fmt::format("a model of {} coordinates is too large for the modes of a motion: {} at most",
+                                    state_.v.size(), undamped_limit));
+      const auto found = find_steady_motion(system(), state_);
+      if (const auto* why = std::get_if<std::string>(&found))
+        throw RunFailed(fmt::format("no steady motion was found from the state at t = {:.9g}: {}", state_.t, *why));
+      motion_ = std::get<SteadyMotion>(found);
+      state_ = motion_.state;
+      what_ = "in steady motion from " + what_;
+    } else if (!state_.v.isZero(0) && state_.v.size() <= undamped_limit) {
+      motion_ = steady_as_it_is(system(), state_);
+    }
+    theories.look(state_.t, state_.q);
+    for (const std::string& warning : theories.warnings()) setup_.warnings.push_back(warning);
   }
 
   template <class Watching>
@@ -120,6 +137,7 @@ class Posed {
   std::optional<model::AssembledSystem> statics_;
   std::optional<LoadPath> path_;  // holds the contacts' modes
   State state_;
+  SteadyMotion motion_;
   std::string what_;
   std::optional<Watch> watch_;  // last: it looks at what stands above
 };
@@ -151,6 +169,8 @@ class Report {
                     {"t", posed_.state().t},
                     {"largest_speed", size(posed_.state().v)},
                     {"largest_acceleration", size(posed_.state().a)},
+                    {"coefficients", spectrum_.frozen ? "frozen" : "constant"},
+                    {"frame_rate", {spectrum_.frame_rate(0), spectrum_.frame_rate(1), spectrum_.frame_rate(2)}},
                     {"sizes", {{"nq", n.nq}, {"nv", n.nv}, {"nc", n.nc}}},
                     {"redundant_rows", spectrum_.redundant},
                     {"degrees_of_freedom", spectrum_.degrees},
@@ -180,8 +200,12 @@ class Report {
     };
     line("state", fmt::format("t = {:.9g}, {}", s.t, posed_.what()));
     if (size(s.v) > 0)
-      line("", fmt::format("in motion, up to {:.3g} (m/s, rad/s): coefficients frozen there", size(s.v)));
-    if (size(s.a) > 1e-6)
+      line("", fmt::format("in {}motion, up to {:.3g} (m/s, rad/s){}", spectrum_.frozen ? "" : "steady ", size(s.v),
+                           spectrum_.frozen ? ": coefficients frozen there" : ""));
+    if (const Eigen::Vector3d& w = spectrum_.frame_rate; w.norm() > 0)
+      line("frame", fmt::format("turns at ({:.9g}, {:.9g}, {:.9g}) rad/s; frequencies are those seen from it", w(0),
+                                w(1), w(2)));
+    if (size(s.a) > 1e-6 && spectrum_.frozen)
       line("", fmt::format("not in equilibrium: it accelerates by up to {:.3g} (m/s^2, rad/s^2)", size(s.a)));
     line("freedom", spectrum_.degrees < 0
                         ? fmt::format("nv = {}, nc = {}", n.nv, n.nc)
@@ -218,14 +242,32 @@ class Report {
   const Spectrum& spectrum_;
 };
 
-Spectrum spectrum_of(Posed& posed, int count) {
+// In a frame that the steady motion goes with.
+Spectrum steady_spectrum(const Linearisation& l, int count) {
+  Spectrum spectrum = dense_modes(l, count);
+  spectrum.frame_rate = l.frame_rate;
+  return spectrum;
+}
+
+Spectrum spectrum_of(Posed& posed, const ModesOptions& options) {
   const State& s = posed.state();
+  const int count = options.count;
   if (!s.a.allFinite()) throw RunFailed(fmt::format("at t = {:.9g}: the accelerations are not finite", s.t));
-  constexpr int null_space_limit = 1500, undamped_limit = 500, damped_limit = 200;  // a few seconds of dense matrices
   if (s.q.size() > null_space_limit) return krylov_modes(posed.system(), s, count);
+  const bool moves = !s.v.isZero(0);
+  if (moves && !posed.motion().rates.empty()) {
+    if (const auto l = linearise_steady(posed.system(), posed.motion())) return steady_spectrum(*l, count);
+    if (options.steady)
+      throw RunFailed(
+          "the motion is steady, but small motions about it have coefficients that change with time: something without "
+          "symmetry about an axis turns against what holds it. It has no modes; runs from states nearby show how it "
+          "goes on");
+  }
   const Linearisation l = linearise(posed.system(), s);
   const bool dense = l.M.rows() <= (l.D.isZero(0) ? undamped_limit : damped_limit) || count > l.M.rows() / 3;
-  return dense ? dense_modes(l, count) : krylov_modes(posed.system(), s, count);
+  Spectrum spectrum = dense ? dense_modes(l, count) : krylov_modes(posed.system(), s, count);
+  spectrum.frozen = moves;
+  return spectrum;
 }
 
 }  // namespace
@@ -241,7 +283,7 @@ RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, c
   const std::clock_t began = std::clock();
   Posed posed(scene, registry, options);
   try {
-    const Spectrum spectrum = spectrum_of(posed, options.count);
+    const Spectrum spectrum = spectrum_of(posed, options);
     Outcomes outcomes;
     outcomes.command = options.command;
     outcomes.cost.cpu = double(std::clock() - began) / CLOCKS_PER_SEC;

@@ -43,6 +43,13 @@ Undamped undamped(const Linearisation& l) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
+// What nothing holds stays where it is in the world, or drifts, and goes round as seen from the frame: lambda = i Omega, twice,
+// which round-off parts to its root.
+Complex without_drift(Complex lambda, double frame_rate) {
+  const Complex round(0, frame_rate);
+  return std::abs(lambda - round) <= 1e-6 * frame_rate ? round : lambda;
+}
+
 // With lambda = s mu and columns of M scaled to 1: [0 1; -K/s^2 -D/s] (y, mu y) = mu (y, mu y).
 void first_order(const Linearisation& l, const Vec& scale, std::vector<Mode>& modes) {
   const Eigen::Index m = l.M.rows();
@@ -69,7 +76,7 @@ void first_order(const Linearisation& l, const Vec& scale, std::vector<Mode>& mo
     const bool undamped = damping <= l.noise * terms,
                slow = std::abs(lambda) * std::abs(y.dot(l.M * y)) < 0.5 * damping;
     const bool zero = vanishes(l.K, y, l.noise) && (undamped || slow);
-    modes.push_back(made_mode(lambda, l.Z * y, zero, fastest));
+    modes.push_back(made_mode(without_drift(lambda, l.frame_rate.norm()), l.Z * y, zero, fastest));
   }
 }
 

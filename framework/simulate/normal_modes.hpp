@@ -36,6 +36,8 @@ struct Spectrum {
   int degrees = -1;         // of freedom, m; -1: not counted
   int redundant = 0;        // rows
   bool damped = false;      // or gyroscopic, or with forces that follow
+  bool frozen = false;      // the state moves, and its coefficients are those of one instant
+  Eigen::Vector3d frame_rate = Eigen::Vector3d::Zero();  // Linearisation's
 };
 
 // The lowest `count` modes by dense matrices: the cost is m^3, all modes are found. Throws model::NotSolvable.

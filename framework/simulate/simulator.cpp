@@ -41,12 +41,14 @@ Simulator::Simulator(std::shared_ptr<model::Model> model, Integrator& integrator
       location_(system_, integrator, modes_, scale_),
       ledger_(system_, integrator),
       refinement_(std::move(model), system_),
-      turns_(system_) {}
+      turns_(system_),
+      theories_(system_.model()) {}
 
 void Simulator::start(State initial) {
   now_ = std::move(initial);
   window_start_ = now_.t;
   turns_.follow(now_.t, now_.q, now_.v);
+  theories_.look(now_.t, now_.q);
   system_.move_to(now_.t, now_.q, now_.v);
   scale_.take_all(system_);
   measure_joints();
@@ -274,6 +276,7 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
   if (corrections_.empty()) ledger_.step(now_, next_);  // last: it leaves the system in the middle of the step
   std::swap(now_, next_);
   turns_.follow(now_.t, now_.q, now_.v);
+  theories_.look(now_.t, now_.q);
 }
 
 // Rows due inside the last step (next_ -> now_), by the method's own interpolation.
@@ -296,6 +299,8 @@ std::vector<std::string> Simulator::doubts() const {
   std::vector<std::string> all = audit_.warnings(system_.model(), ledger_);
   const std::vector<std::string> of_impacts = modes_.impact_warnings().lines(system_.model());
   all.insert(all.end(), of_impacts.begin(), of_impacts.end());
+  const std::vector<std::string> of_theories = theories_.warnings();
+  all.insert(all.end(), of_theories.begin(), of_theories.end());
   return all;
 }
 

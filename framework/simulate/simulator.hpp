@@ -29,6 +29,7 @@
 #include "simulate/settings.hpp"
 #include "simulate/statistics.hpp"
 #include "simulate/step_control.hpp"
+#include "simulate/theory_watch.hpp"
 #include "simulate/turn_counts.hpp"
 
 namespace trammel::simulate {
@@ -56,8 +57,8 @@ class Simulator {
   const Statistics& statistics() const { return statistics_; }
   const Ledger& ledger() const { return ledger_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
-  std::vector<std::string> doubts()
-      const;  // what makes the run doubtful: contacts that pulled, impacts that created energy
+  // What makes the run doubtful: contacts that pulled, impacts that created energy, bodies beyond their theory.
+  std::vector<std::string> doubts() const;
   const ContactAudit& audit() const { return audit_; }
   Energy energy_at_state();
   double energy_drift();  // [J] what no cause in the ledger explains
@@ -107,6 +108,7 @@ class Simulator {
   ContactAudit audit_;
   Refinement refinement_;
   TurnCounts turns_;
+  TheoryWatch theories_;
   OpenJoints open_joints_;
   Statistics statistics_;
 

@@ -114,6 +114,7 @@ void Simulator::archive_state(Archive& a) {
   statistics_.archive(a);
   location_.archive(a);
   modes_.impact_warnings().archive(a);
+  theories_.archive(a);
 }
 
 }  // namespace trammel::simulate

@@ -1,5 +1,6 @@
 #include "simulate/smooth_laws.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "scene/continuity.hpp"
+#include "scene/law_code.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -47,9 +49,45 @@ void check(const Value& component, const plugin::Entry& entry, double begin, dou
   }
 }
 
+// A table ends where its records do. What follows is for the scene to say: a record of 30 s in a run of 40 s may be a mistake.
+void check_span(const Value& table, double begin, double end, Problems& problems) {
+  Problems ignored;  // reported when the component was made
+  const auto law = table.read_time_function(ignored);
+  if (!law || !law->code()) return;
+  const auto [first, last] = law->code()->span();
+  const double round_off = 1e-12 * std::max({std::abs(begin), std::abs(end), end - begin});
+  std::string misses;
+  if (first > begin + round_off)
+    misses = fmt::format("begins at t = {:.9g} s, but the run at t = {:.9g} s", first, begin);
+  if (last < end - round_off)
+    misses +=
+        fmt::format("{}ends at t = {:.9g} s, but the run at t = {:.9g} s", misses.empty() ? "" : "; it ", last, end);
+  if (misses.empty()) return;
+  problems.error(
+      table.problem(fmt::format("{} {}; change simulate, or say what holds beyond the table: \"beyond\": \"hold\", "
+                                "\"zero\" or \"repeat\"",
+                                law->text(), misses)));
+}
+
+bool is_table(const Value& value) {
+  const Value* file = value.find("table");
+  return file && file->type() == Value::Type::text && !value.find("type");
+}
+
+// However deep they stand: in parts of a component, or in a list.
+void check_tables(const Value& value, double begin, double end, Problems& problems) {
+  if (is_table(value)) return check_span(value, begin, end, problems);
+  if (value.type() == Value::Type::object)
+    for (const auto& [name, member] : value.members()) check_tables(member, begin, end, problems);
+  if (value.type() == Value::Type::array)
+    for (const Value& item : value.items()) check_tables(item, begin, end, problems);
+}
+
 }  // namespace
 
 void check_laws(const Value& root, plugin::Registry& registry, double begin, double end, Problems& problems) {
+  for (const char* group : {"bodies", "joints", "forces", "contacts"})
+    if (const Value* components = root.find(group)) check_tables(*components, begin, end, problems);
   for (const auto& [group, kind] :
        {std::pair{"bodies", Kind::body}, std::pair{"joints", Kind::joint}, std::pair{"forces", Kind::force}}) {
     const Value* components = root.find(group);

@@ -129,6 +129,8 @@ class StaticRun {
   // Of the worst step that forces told: what is left may be nothing but the round-off of what is stiffest, or more.
   std::vector<std::string> warnings() const {
     std::vector<std::string> all = setup_.warnings;
+    const std::vector<std::string> of_path = path_.warnings();
+    all.insert(all.end(), of_path.begin(), of_path.end());
     const LoadStep* worst = nullptr;
     for (const LoadStep& s : path_.steps())
       if (s.by_forces > 0 && s.unbalanced > std::max(setup_.settings.load_tolerance, worst ? worst->unbalanced : 0))

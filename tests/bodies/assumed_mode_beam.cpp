@@ -140,6 +140,52 @@ TEST(BendingMode, AreOrthogonalAndScaledUpToThirty) {
   }
 }
 
+// To modes and to one another, in the mass (here of weight 1) and in the stiffness; scaled as the modes are. Their values are
+// differences of functions of order 1, 1e-6 of them at 40 modes: round-off is 1e-10 of what is left, and its square root in a slope.
+TEST(StaticFunctions, AreOrthogonalToModesAndToOneAnother) {
+  const double L = 0.7;
+  for (const int N : {0, 1, 5, 20, 40}) {
+    std::vector<BendingMode> bending;
+    std::vector<AxialMode> axial;
+    for (int i = 1; i <= N; ++i) bending.emplace_back(i, L), axial.emplace_back(i, L);
+    const auto across = static_bending(L, bending);
+    const auto along = static_stretching(L, axial);
+    const Quadrature rule = gauss_legendre(300, 0, L);
+    const auto product = [&](const auto& f, const auto& g) {
+      double sum = 0;
+      for (Eigen::Index k = 0; k < 300; ++k) sum += rule.weight(k) * f(rule.x(k)) * g(rule.x(k));
+      return sum;
+    };
+    const auto value = [](const auto& s) { return [&s](double x) { return s.value(x); }; };
+    const auto slope = [](const auto& s) { return [&s](double x) { return s.slope(x); }; };
+    ASSERT_EQ(across.size(), 2u);
+    EXPECT_NEAR(product(value(across[0]), value(across[0])), L, 1e-9 * L) << N;
+    EXPECT_NEAR(product(value(across[1]), value(across[1])), L, 1e-9 * L) << N;
+    EXPECT_NEAR(product(value(across[0]), value(across[1])), 0, 1e-9 * L) << N;
+    EXPECT_NEAR(product(value(along), value(along)), L / 2, 1e-9 * L) << N;
+    EXPECT_NEAR(product(slope(along), slope(along)) / along.stiffness, 1, 1e-9) << N;
+    for (int i = 0; i < N; ++i) {
+      for (const auto& s : across)
+        EXPECT_NEAR(product(value(s), value(bending[std::size_t(i)])), 0, 1e-8 * L) << N << i;
+      EXPECT_NEAR(product(value(along), value(axial[std::size_t(i)])), 0, 1e-9 * L) << N << i;
+    }
+    // By differences of slopes: int s'' s'' of each is its stiffness, of both 0.
+    const auto curvature = [&](const auto& s) {
+      return [&](double x) {
+        const double h = 1e-5 * L / (N + 1);
+        return (s.slope(x + h) - s.slope(x - h)) / (2 * h);
+      };
+    };
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j)
+        EXPECT_NEAR(product(curvature(across[std::size_t(i)]), curvature(across[std::size_t(j)])) /
+                        std::sqrt(across[std::size_t(i)].stiffness * across[std::size_t(j)].stiffness),
+                    i == j, 1e-5)
+            << N;
+    EXPECT_GT(across[0].stiffness, N > 0 ? L * std::pow(bending.back().wave_number(), 4) : 0) << "above all modes";
+  }
+}
+
 TEST(Beam, IsFiniteForAnyNumberOfModes) {
   for (int N : {0, 1, 2, 13, 30, 40}) {
     const auto beam = make(N);

@@ -102,6 +102,92 @@ TEST(TabulatedLaw, RestsBeforeItsFirstRowAndAfterItsLast) {
   }
 }
 
+using Beyond = TabulatedLaw::Beyond;
+
+TEST(TabulatedLaw, HoldsTheColumnBeyondItsRows) {
+  const TabulatedLaw values = TabulatedLaw::of_values({1, 2, 3, 4}, {5, 6, 5, 7}, Beyond::hold);
+  EXPECT_EQ(values.jet(-3).value, 5);
+  EXPECT_EQ(values.jet(40).value, 7);
+  // a = 3 t: v = 1.5 (t^2 - 1), x = t^3/2 - 1.5 t + 1 from t = 1; then a = 12 on, and 3 before.
+  const TabulatedLaw law = TabulatedLaw::of_accelerations({1, 2, 3, 4}, {3, 6, 9, 12}, Beyond::hold);
+  EXPECT_NEAR(law.jet(6).second, 12, 1e-12);
+  EXPECT_NEAR(law.jet(6).rate, 22.5 + 24, 1e-12);
+  EXPECT_NEAR(law.jet(6).value, 27 + 2 * 22.5 + 24, 1e-11);
+  EXPECT_NEAR(law.jet(-1).second, 3, 1e-12);
+  EXPECT_NEAR(law.jet(-1).rate, -6, 1e-12);
+  EXPECT_NEAR(law.jet(-1).value, 6, 1e-12);
+}
+
+TEST(TabulatedLaw, IsZeroBeyondItsRows) {
+  const TabulatedLaw values = TabulatedLaw::of_values({1, 2, 3, 4}, {5, 6, 5, 7}, Beyond::zero);
+  for (const double t : {0.999, 4.001, 50.0}) EXPECT_EQ(values.jet(t).value, 0) << t;
+  const TabulatedLaw law = TabulatedLaw::of_accelerations({1, 2, 3, 4}, {3, 6, 9, 12}, Beyond::zero);
+  EXPECT_EQ(law.jet(6).second, 0);
+  EXPECT_NEAR(law.jet(6).rate, 22.5, 1e-12);
+  EXPECT_NEAR(law.jet(6).value, 27 + 45, 1e-11);
+  EXPECT_EQ(law.jet(0.5).value, 0);
+}
+
+// A sine from any row on, in rows at unlike distances: the periodic spline knows no ends, so it is as good there as within.
+TEST(TabulatedLaw, RepeatsValuesWithoutASeam) {
+  const double T = 1.7;
+  std::vector<double> t, x;
+  const auto exact = [T](double at) { return std::sin(2 * pi * at / T + 0.8); };
+  for (int i = 0; i <= 60; ++i) {
+    t.push_back(0.3 + T * (i / 60.0 + 0.003 * std::sin(2 * pi * 7 * i / 60)));
+    x.push_back(exact(t.back()));
+  }
+  const TabulatedLaw law = TabulatedLaw::of_values(t, x, Beyond::repeat);
+  const double w = 2 * pi / T;
+  for (double at = -7; at < 12; at += 0.0137) {
+    const Jet jet = law.jet(at);
+    // 60 rows a period, order 6: (2 pi/60)^6/720 = 2e-9 of the value, and one order less for each derivative.
+    EXPECT_NEAR(jet.value, exact(at), 1e-8);
+    EXPECT_NEAR(jet.rate, w * std::cos(w * at + 0.8), 1e-6 * w);
+    EXPECT_NEAR(jet.second, -w * w * std::sin(w * at + 0.8), 1e-4 * w * w);
+  }
+}
+
+// What a period gains of velocity stays: x'' = 1 + sin(2 pi t) for ever.
+TEST(TabulatedLaw, RepeatsAccelerationsAndKeepsTheVelocityGained) {
+  std::vector<double> t, a;
+  for (int i = 0; i <= 200; ++i) t.push_back(i / 200.0), a.push_back(1 + std::sin(2 * pi * t.back()));
+  const TabulatedLaw law = TabulatedLaw::of_accelerations(t, a, Beyond::repeat);
+  const double w = 2 * pi;
+  for (double at = -2.3; at < 4; at += 0.0419) {
+    const Jet jet = law.jet(at);
+    const double v = at + (1 - std::cos(w * at)) / w, x = at * at / 2 + at / w - std::sin(w * at) / (w * w);
+    EXPECT_NEAR(jet.second, 1 + std::sin(w * at), 1e-6);
+    EXPECT_NEAR(jet.rate, v, 1e-7);
+    EXPECT_NEAR(jet.value, x, 1e-6);
+  }
+}
+
+TEST(TabulatedLaw, WhatJumpsIsSeenAsAJump) {
+  const auto jump = [](Beyond beyond, std::vector<double> x, double until, int derivatives = 2) {
+    const TimeFunction law(
+        std::make_shared<const TabulatedLaw>(TabulatedLaw::of_values({0, 1, 2, 3}, std::move(x), beyond)), "");
+    return find_jump(law, derivatives, 0, until);
+  };
+  ASSERT_TRUE(jump(Beyond::repeat, {0, 1, 2, 3}, 10));
+  EXPECT_NEAR(jump(Beyond::repeat, {0, 1, 2, 3}, 10)->t, 3, 1e-12);
+  EXPECT_NEAR(jump(Beyond::repeat, {0, 1, 2, 3}, 10)->by, -3, 1e-12);
+  ASSERT_TRUE(jump(Beyond::zero, {0, 1, 2, 3}, 10));
+  EXPECT_NEAR(jump(Beyond::zero, {0, 1, 2, 3}, 10)->by, -3, 1e-12);
+  EXPECT_FALSE(jump(Beyond::repeat, {3, 1, 2, 3}, 100));
+  EXPECT_FALSE(jump(Beyond::zero, {0, 1, 2, 0}, 10));
+  EXPECT_FALSE(jump(Beyond::hold, {0, 1, 2, 3}, 10));
+  EXPECT_FALSE(jump(Beyond::zero, {0, 1, 2, 3}, 2.9));
+}
+
+TEST(TabulatedLaw, SaysWhereItIsKnown) {
+  const std::vector<double> t = {1, 2, 3, 4}, x = {0, 1, 0, 0};
+  EXPECT_EQ(TabulatedLaw::of_values(t, x).span().begin, 1);
+  EXPECT_EQ(TabulatedLaw::of_accelerations(t, x).span().end, 4);
+  for (const Beyond beyond : {Beyond::hold, Beyond::zero, Beyond::repeat})
+    EXPECT_FALSE(std::isfinite(TabulatedLaw::of_values(t, x, beyond).span().end));
+}
+
 struct Read {
   std::optional<TimeFunction> law;
   std::string problems;
@@ -173,6 +259,11 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{good, R"({"table": "quake.csv", "time": 0})", "found column 0, but"},
         Wrong{good, R"({"table": "quake.csv", "holds": "acceleration"})",
               "found \"acceleration\", expected \"values\" or \"accelerations\""},
+        Wrong{good, R"({"table": "quake.csv", "beyond": "repaet"})",
+              "found \"repaet\", expected \"hold\", \"zero\" or \"repeat\""},
+        Wrong{good, R"({"table": "quake.csv", "column": "t"})", "column \"t\" of"},
+        Wrong{good, R"({"table": "quake.csv", "column": 1})", "is taken for the time and for what moves"},
+        Wrong{good, R"({"table": "quake.csv", "time": "x"})", "column \"x\" of"},
         Wrong{good, R"({"table": "quack.csv"})", "cannot read the table \"quack.csv\""},
         Wrong{good, R"({"table": "quake.csv", "colum": 2})", "unknown key \"colum\""},
         Wrong{good, R"({"file": "quake.csv"})", "expected a number, an expression of t or {\"table\": FILE, ...}"}));

@@ -5,9 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "run_scene.hpp"
+#include "modes_of.hpp"
 #include "simulate/krylov_modes.hpp"
-#include "simulate/modal_analysis.hpp"
 #include "simulate/setup.hpp"
 
 namespace trammel::test {
@@ -17,37 +16,6 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr double pi = std::numbers::pi;
-
-struct Modes {
-  json result;
-  std::string shapes;
-  double frequency(std::size_t mode) const { return result["modes"].at(mode)["frequency_rad_s"]; }
-  double real(std::size_t mode) const { return result["modes"].at(mode)["eigenvalue"]["real"]; }
-  std::string kind(std::size_t mode) const { return result["modes"].at(mode)["kind"]; }
-  std::size_t count() const { return result["modes"].size(); }
-  std::vector<std::string> kinds() const {
-    std::vector<std::string> all;
-    for (std::size_t i = 0; i < count(); ++i) all.push_back(kind(i));
-    return all;
-  }
-};
-
-Modes modes_of(const scene::Scene& scene, simulate::ModesOptions options = {}) {
-  const Folder folder;
-  options.out = folder.path();
-  const simulate::RunReport report = simulate::analyse_modes(scene, registry(), options);
-  EXPECT_EQ(report.status, simulate::Status::done) << report.reason;
-  EXPECT_EQ(report.result_json, read_text(folder.path() / "modes.json"));
-  return {json::parse(report.result_json), read_text(folder.path() / "shapes.csv")};
-}
-
-Modes modes_of(const std::string& text, const Overrides& overrides = {}, simulate::ModesOptions options = {}) {
-  return modes_of(scene::Scene::parse(text, "test.json", overrides), options);
-}
-
-Modes modes_of_file(const std::string& file, const Overrides& overrides, simulate::ModesOptions options = {}) {
-  return modes_of(scene::Scene::load(TRAMMEL_SOURCE_DIR "/scenes/" + file, overrides), options);
-}
 
 // A bar of mass 2 and inertia 0.3, hung 0.5 m above its centre; `side` -1 stands it on its hinge.
 const std::string kBar = R"({
@@ -197,13 +165,6 @@ TEST(Modes, AtATimeAreThoseOfTheStateThatARunReaches) {
   EXPECT_NEAR(modes.result["t"], 0.3, 1e-12);
 }
 
-std::vector<double> oscillations(const Modes& modes) {
-  std::vector<double> all;
-  for (std::size_t i = 0; i < modes.count(); ++i)
-    if (modes.kind(i) == "oscillation") all.push_back(modes.frequency(i));
-  return all;
-}
-
 TEST(Modes, OfARotatingCantilever) {
   const json data =
       json::parse(read_text(TRAMMEL_SOURCE_DIR "/tests/data/benchmarks/rotating_cantilever_frequencies.json"));
@@ -220,7 +181,7 @@ TEST(Modes, OfARotatingCantilever) {
         // The data's own tolerances are 5e-4 of the value. Ritz' method comes from above, with the third power of the number of modes:
         // 20 of them leave 3.5e-5 of the third frequency at eta = 10, delta = 5, 30 leave 6e-6.
         const double mu = std::stod(flapwise[i].get<std::string>()), chordwise = std::sqrt(mu * mu - eta * eta);
-        EXPECT_NEAR(oscillations(modes).at(i), chordwise, 5e-5 * chordwise) << delta << " " << eta << " " << i;
+        EXPECT_NEAR(modes.oscillations().at(i), chordwise, 5e-5 * chordwise) << delta << " " << eta << " " << i;
       }
     }
 }
@@ -234,8 +195,8 @@ TEST(Modes, OfAClampedAndAFreePlateAreTheReferenceMeshs) {
   const Modes free = modes_of_file("plate/classical/free_square.json", {}, options);
   for (std::size_t i = 0; i < 6; ++i) {
     // The same discrete problem but for the quadrature's order.
-    EXPECT_NEAR(oscillations(clamped).at(i) / data["clamped"][i].get<double>(), 1, 1e-6) << i;
-    EXPECT_NEAR(oscillations(free).at(i) / data["free"][i].get<double>(), 1, 1e-6) << i;
+    EXPECT_NEAR(clamped.oscillations().at(i) / data["clamped"][i].get<double>(), 1, 1e-6) << i;
+    EXPECT_NEAR(free.oscillations().at(i) / data["free"][i].get<double>(), 1, 1e-6) << i;
     EXPECT_EQ(free.kind(i), "zero");
   }
 }

@@ -21,7 +21,8 @@ constexpr Option kFolder{"--out", "DIR", "results folder; default out/<scene nam
 constexpr Option kAt{"--at", "TIME",
                      "the state after a run to that time [s], or under the loads of it in a scene of statics"};
 constexpr Option kFrom{"--from", "DIR", "the state of the checkpoint in a results folder"};
-constexpr Option kSteady{"--steady", "", "the steady motion near that state: velocities stay, nothing accelerates"};
+constexpr Option kSteady{"--steady", "",
+                         "the steady motion near that state, seen from the world or from a frame that turns with it"};
 constexpr Option kCount{"--count", "N", "so many of the lowest modes; default 10"};
 
 double number(const Arguments& arguments, const Option& option, const char* expected) {

@@ -1,0 +1,28 @@
+// How far the beam may bend.
+//
+// In the arc length x of an axis that does not stretch, u_y' = sin psi with the angle psi of the axis, so that u_x' = cos psi - 1, and
+// the curvature is psi'. The beam takes u_x' = -u_y'^2/2 (coupling full; 0 in the others), psi = atan u_y' and psi' = u_y''. With s the
+// slope at the tip, what is off first against the elastica is:
+//
+//     full           the displacement: by 16/35 s^2 of it under a force across the tip, 11/12 s^2 under a moment; the angle: 4/3 s^2
+//     linear, none   the foreshortening: 2/5 s of the displacement under a force, 1/3 s under a moment
+//
+// No angle has a sine larger than 1.
+#include <cmath>
+
+#include "beam.hpp"
+
+namespace trammel::beam {
+
+double AssumedModeBeam::stretched(double, In q) const {
+  return N_ > 0 ? (slopes_ * q.segment(i_B_, N_)).lpNorm<Eigen::Infinity>() : 0;
+}
+
+TheoryLimit::Bounds AssumedModeBeam::bounds() const {
+  constexpr double error = 0.01;
+  const bool full = coupling == Coupling::full;
+  return {"slope against its undeformed axis", full ? std::sqrt(error * 3 / 4) : error * 5 / 2, 1,
+          full ? "several beams joined end to end bend further" : "\"coupling\": \"full\" goes further"};
+}
+
+}  // namespace trammel::beam
