@@ -103,6 +103,8 @@ Keys
   holds    "values" (the default): a quintic spline through them, at rest at both ends; or "accelerations": integrated twice
            exactly from a cubic spline, from rest at 0
   scale    what the values are multiplied by; 1 if left out
+  beyond   what holds before the first and after the last row: "hold" (the value of that row goes on), "zero" or
+           "repeat". Without it a table must hold the whole run
 )page"};
 }
 
