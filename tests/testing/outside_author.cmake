@@ -6,6 +6,7 @@ function(run)
     string(REPLACE ";" " " command "${ARGV}")
     message(FATAL_ERROR "${command}\n${output}")
   endif()
+  set(output "${output}" PARENT_SCOPE)
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})
@@ -16,6 +17,10 @@ run(${CMAKE_COMMAND} -S ${WORK}/project -B ${WORK}/build -DTrammel_ROOT=${WORK}/
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
 run(${WORK}/build/heun_tests)
+run(${CMAKE_COMMAND} -E env TRAMMEL_MEASURED=1 ${WORK}/build/heun_tests)
+if(NOT output MATCHES "holds: ")
+  message(FATAL_ERROR "TRAMMEL_MEASURED=1 heun_tests prints nothing of what it measured:\n${output}")
+endif()
 run(${WORK}/installed/bin/trammel run ${WORK}/project/scene.json --plugin ${WORK}/build/heun.so --out ${WORK}/run --quiet)
 
 # v t - g t^2/2 at 1 s: -3.905 m, which a method of second order finds but for round-off.

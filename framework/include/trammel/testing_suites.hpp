@@ -2,7 +2,12 @@
 //
 //     const bool registered = trammel::register_suite("MyMethod", trammel::integrator_checks(make, {.order = 2, .steps = 64}));
 //     const bool registered = trammel::register_suite("MyBody", trammel::body_checks(make));
+//
+// With TRAMMEL_MEASURED=1 in the environment each test prints what it measured, also where its claim holds.
 #pragma once
+
+#include <cstdlib>
+#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -16,6 +21,7 @@ inline bool register_suite(const std::string& suite, const std::vector<Check>& c
     explicit Test(Check c) : check(std::move(c)) {}
     void TestBody() override {
       const Report report = check();
+      if (std::getenv("TRAMMEL_MEASURED")) std::cout << report.table;
       EXPECT_TRUE(report.holds) << report.table;
     }
     Check check;
