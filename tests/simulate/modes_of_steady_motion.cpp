@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 simulate::ModesOptions steady() {
   simulate::ModesOptions options;
-  options.steady = true;
+  options.steady = true, options.count = 20;
   return options;
 }
 
@@ -142,16 +142,6 @@ TEST(ModesOfSteadyMotion, ATopInRegularPrecessionNutates) {
   }
 }
 
-// Where the state is a little off, one near it is found: the same spin and precession with another tilt, or near that.
-TEST(ModesOfSteadyMotion, ThatATopIsNearIsFound) {
-  Precession p = precession(0.7, 0.3, 4);
-  const double I1 = p.top.about_foot();
-  p.top.omega += 1e-3 * Vector3d::UnitZ();
-  const Modes modes = modes_of(p.top.scene(), {}, steady());
-  ASSERT_EQ(modes.oscillations().size(), 1u);
-  EXPECT_NEAR(modes.oscillations()[0], p.nutation, 0.01 * p.nutation + 1e-3 * p.top.inertia(2) / I1);
-}
-
 // A free body that turns about its axis of symmetry: the tilt goes with I3/I1 w in the world.
 TEST(ModesOfSteadyMotion, AFreeBodyWobbles) {
   for (const double w : {2.0, 50.0}) {
@@ -169,8 +159,8 @@ TEST(ModesOfSteadyMotion, AFreeBodyWobbles) {
 // A rotor of momentum H in two gimbals, J1 about the outer axis and J2 about the inner one: it nutates with H/sqrt(J1 J2).
 std::string gyroscope(double spin, const char* rotor_inertia) {
   return fmt::format(R"({{"trammel": 1, "space": "spatial",
-    "bodies": {{"outer": {{"type": "rigid_body", "mass": 1, "inertia": [0.3, 0.2, 0.05]}},
-                "inner": {{"type": "rigid_body", "mass": 1, "inertia": [0.04, 0.07, 0.03]}},
+    "bodies": {{"outer": {{"type": "rigid_body", "mass": 1, "inertia": [0.12, 0.2, 0.1]}},
+                "inner": {{"type": "rigid_body", "mass": 1, "inertia": [0.04, 0.07, 0.035]}},
                 "rotor": {{"type": "rigid_body", "mass": 2, "inertia": {}, "angular_velocity": [0, {:.17g}, 0]}}}},
     "joints": {{"outer": {{"type": "revolute", "between": ["ground", "outer.com"], "axis": [0, 0, 1]}},
                 "inner": {{"type": "revolute", "between": ["outer.com", "inner.com"], "axis": [1, 0, 0]}},
@@ -181,7 +171,7 @@ std::string gyroscope(double spin, const char* rotor_inertia) {
 TEST(ModesOfSteadyMotion, AGyroscopeInGimbalsNutates) {
   for (const double spin : {5.0, 100.0, -3000.0}) {
     const Modes modes = modes_of(gyroscope(spin, "[0.02, 0.035, 0.02]"), {}, steady());
-    const double J1 = 0.05 + 0.03 + 0.02, J2 = 0.04 + 0.02, exact = 0.035 * std::abs(spin) / std::sqrt(J1 * J2);
+    const double J1 = 0.1 + 0.035 + 0.02, J2 = 0.04 + 0.02, exact = 0.035 * std::abs(spin) / std::sqrt(J1 * J2);
     ASSERT_EQ(modes.oscillations().size(), 1u) << spin;
     EXPECT_NEAR(modes.oscillations()[0], exact, close * std::abs(spin)) << spin;
     EXPECT_EQ(modes.result["unstable"], 0);
