@@ -142,6 +142,39 @@ TEST(ModesOfSteadyMotion, ATopInRegularPrecessionNutates) {
   }
 }
 
+// The same of a rotor on a hinge at the end of an arm that goes round with the precession and does not spin: I3 w3 is the momentum
+// of both along the axis, I1 the moment of both about the foot.
+TEST(ModesOfSteadyMotion, ARotorOnAnArmInRegularPrecessionNutates) {
+  const double g = 9.81, C_arm = 0.002, C_rotor = 0.03;
+  const double I1 = 0.01 + 0.5 * 0.2 * 0.2 + 0.02 + 1.3 * 0.4 * 0.4, pull = g * (0.5 * 0.2 + 1.3 * 0.4);
+  for (const double theta : {0.4, pi / 2, 2.0})
+    for (const double Omega : {1.5, 9.0}) {
+      const double c = std::cos(theta), s = std::sin(theta);
+      const double b = (pull + I1 * Omega * Omega * c) / Omega, spin = (b - C_arm * Omega * c) / C_rotor;
+      const Matrix3d R = Eigen::AngleAxisd(theta, Vector3d::UnitY()).toRotationMatrix();
+      const Vector3d e = R.col(2), round = Omega * Vector3d::UnitZ(), of_rotor = round + (spin - Omega * c) * e;
+      const auto body = [&](double mass, const char* inertia, double at, const Vector3d& omega, const char* markers) {
+        return fmt::format(R"({{"type": "rigid_body", "mass": {}, "inertia": {}, "position": {}, "velocity": {},
+          "axis": [0, 1, 0], "angle": {:.17g}, "angular_velocity": {}, "markers": {}}})",
+                           mass, inertia, vec(at * e), vec(round.cross(at * e)), theta, vec(R.transpose() * omega),
+                           markers);
+      };
+      const Modes modes = modes_of(
+          fmt::format(
+              R"({{"trammel": 1, "space": "spatial", "gravity": [0, 0, -9.81], "bodies": {{"arm": {}, "rotor": {}}},
+        "joints": {{"foot": {{"type": "spherical", "between": ["ground", "arm.foot"]}},
+                    "axle": {{"type": "revolute", "between": ["arm.end", "rotor.com"], "axis": [0, 0, 1]}}}},
+        "simulate": {{"until": 1}}}})",
+              body(0.5, "[0.01, 0.01, 0.002]", 0.2, round, R"({"foot": [0, 0, -0.2], "end": [0, 0, 0.2]})"),
+              body(1.3, "[0.02, 0.02, 0.03]", 0.4, of_rotor, "{}")),
+          {}, steady());
+      EXPECT_NEAR(modes.result["frame_rate"][2], Omega, 1e-7 * of_rotor.norm());
+      EXPECT_EQ(modes.result["unstable"], 0);
+      ASSERT_EQ(modes.oscillations().size(), 1u) << theta << " " << Omega;
+      EXPECT_NEAR(modes.oscillations()[0], std::hypot(b / I1 - 2 * Omega * c, Omega * s), close * of_rotor.norm());
+    }
+}
+
 // A free body that turns about its axis of symmetry: the tilt goes with I3/I1 w in the world.
 TEST(ModesOfSteadyMotion, AFreeBodyWobbles) {
   for (const double w : {2.0, 50.0}) {
