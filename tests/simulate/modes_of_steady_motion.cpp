@@ -142,6 +142,19 @@ TEST(ModesOfSteadyMotion, ATopInRegularPrecessionNutates) {
   }
 }
 
+// Rates written with a few digits: the nearest regular precession is found, whose nutation differs by as much as they did.
+TEST(ModesOfSteadyMotion, ATopNearlyInPrecessionNutatesAsItsNeighbour) {
+  for (const double off : {1e-6, 1e-4, 1e-2}) {
+    Precession p = precession(0.7, 0.3, 4);
+    const double spin = p.top.omega.norm();
+    p.top.omega += off * Vector3d(0.5, -0.3, 1);
+    const Modes modes = modes_of(p.top.scene(), {}, steady());
+    ASSERT_EQ(modes.oscillations().size(), 1u) << off;
+    EXPECT_EQ(modes.result["unstable"], 0);
+    EXPECT_NEAR(modes.oscillations()[0], p.nutation, 2 * off + close * spin) << off;
+  }
+}
+
 // The same of a rotor on a hinge at the end of an arm that goes round with the precession and does not spin: I3 w3 is the momentum
 // of both along the axis, I1 the moment of both about the foot.
 TEST(ModesOfSteadyMotion, ARotorOnAnArmInRegularPrecessionNutates) {
