@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 namespace trammel::simulate {
 namespace {
@@ -43,6 +45,24 @@ Undamped undamped(const Linearisation& l) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
+// About a steady motion each direction that K leaves free may be moved along, and its rate may be another: lambda = 0 twice, which
+// round-off parts to its root. Which of the eigenvalues these are.
+std::vector<bool> drifts_of(const Linearisation& l, const Eigen::VectorXcd& mu) {
+  std::vector<bool> drifts(std::size_t(mu.size()), false);
+  if (!l.steady) return drifts;
+  Eigen::ColPivHouseholderQR<Mat> qr;
+  qr.setThreshold(1e-9);
+  qr.compute(l.K);
+  std::vector<Eigen::Index> order(std::size_t(mu.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](Eigen::Index i, Eigen::Index j) { return std::abs(mu(i)) < std::abs(mu(j)); });
+  const auto most = std::min(order.size(), std::size_t(2 * (l.K.rows() - qr.rank())));
+  for (std::size_t k = 0; k < most; ++k)
+    drifts[std::size_t(order[k])] = std::abs(mu(order[k])) <= 1e-5 * std::abs(mu(order.back()));
+  return drifts;
+}
+
 // What nothing holds stays where it is in the world, or drifts, and goes round as seen from the frame: lambda = i Omega, twice,
 // which round-off parts to its root.
 Complex without_drift(Complex lambda, double frame_rate) {
@@ -65,6 +85,7 @@ void first_order(const Linearisation& l, const Vec& scale, std::vector<Mode>& mo
   const auto mu = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
   const double fastest = s * mu.cwiseAbs().maxCoeff();
+  const std::vector<bool> drifts = drifts_of(l, mu);
   for (Eigen::Index i = 0; i < 2 * m; ++i) {
     if (mu(i).imag() < 0) continue;
     const Complex lambda = s * mu(i);
@@ -75,7 +96,7 @@ void first_order(const Linearisation& l, const Vec& scale, std::vector<Mode>& mo
     const double damping = std::abs(y.dot(l.D * y)), terms = size.dot(l.D.cwiseAbs() * size);
     const bool undamped = damping <= l.noise * terms,
                slow = std::abs(lambda) * std::abs(y.dot(l.M * y)) < 0.5 * damping;
-    const bool zero = vanishes(l.K, y, l.noise) && (undamped || slow);
+    const bool zero = drifts[std::size_t(i)] || (vanishes(l.K, y, l.noise) && (undamped || slow));
     modes.push_back(made_mode(without_drift(lambda, l.frame_rate.norm()), l.Z * y, zero, fastest));
   }
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <Eigen/QR>
 
+#include "simulate/nearest_steady.hpp"
 #include "simulate/steady_linearisation.hpp"
 #include "simulate/tangent_space.hpp"
 
@@ -19,6 +20,7 @@ constexpr int most_iterations = 30;
 constexpr double settled = 1e-13;  // [m, rad] of coordinates of order 1
 // [1/s^2] of M in the iteration matrix: what nothing holds and nothing pushes, as the angle of a rotor, keeps its place.
 constexpr double damping = 1e-6;
+constexpr double far = 0.5;  // of velocities: another motion than the one that was meant
 // Forces that are left over, against those there are: of a state that is written with a few digits less than doubles have.
 constexpr double unbalanced = 1e-8;
 
@@ -131,7 +133,10 @@ class InFrame {
       const double change = largest(dq), size = std::max(1.0, largest(s.q));
       if (!std::isfinite(change) || change > 10 * size) break;
       move(s, dq);
-      if (!onto_rows(s)) break;
+      const auto along = [&](const State& at, const Vec& by) -> Vec {
+        return TurningFrame(system_.model(), flat_, at, rate_).turned(by);
+      };
+      if (!onto_rows(system_, s, along)) break;
       if (change <= settled * size || (change <= 1e-9 * size && change >= before)) return {};
       before = change;
     }
@@ -144,26 +149,6 @@ class InFrame {
     Vec q;
     system_.retract(s.q, dq, q);
     s.q = q;
-  }
-
-  bool onto_rows(State& s) {
-    const Sizes n = system_.sizes();
-    if (n.nc == 0) return true;
-    const Vec zero = Vec::Zero(n.nv), no_force = Vec::Zero(n.nc);
-    Vec dq, dv, unused;
-    for (int i = 0; i < 5; ++i) {
-      system_.move_to(s.t, s.q, s.v);
-      const Vec g = system_.g();
-      if (largest(g) <= 1e-15 * std::max(1.0, largest(s.q))) break;
-      system_.factorise({1, 0, 0}, zero, no_force, Factors::projection);
-      if (!system_.correct(zero, g, dq, unused, Factors::projection)) return false;
-      move(s, dq);
-    }
-    system_.move_to(s.t, s.q, s.v);
-    system_.factorise({1, 0, 0}, zero, no_force, Factors::projection);
-    if (!system_.correct(zero, Vec(system_.g_dot()), dv, unused, Factors::projection)) return false;
-    s.v += dv;
-    return true;
   }
 
   model::AssembledSystem& system_;
@@ -206,13 +191,17 @@ std::variant<SteadyMotion, std::string> find_steady_motion(model::AssembledSyste
   system.move_to(state.t, state.q, state.v);
   s = state;
   system.accelerate({}, s.a, s.lambda);
-  rates.push_back(least_rate(system.model(), flat, s));
+  rates.insert(rates.begin(), least_rate(system.model(), flat, s));
   for (const Vector3d& rate : rates) {
     if (rate.isZero(0)) continue;
     s = state;
     if (InFrame(system, flat, rate).settle(s)) continue;
+    if (largest(s.v - state.v) > far * largest(state.v)) continue;
     if (SteadyMotion motion = steady_as_it_is(system, flat, s); !motion.rates.empty()) return motion;
   }
+  for (const Vector3d& rate : rates)
+    if (const std::optional<State> found = nearest_steady(system, flat, state, rate))
+      if (SteadyMotion motion = steady_as_it_is(system, flat, *found); !motion.rates.empty()) return motion;
   return *why;
 }
 

@@ -4,8 +4,9 @@
 //
 // E v are the accelerations of what turns with the frame (turning_frame.hpp): a rotor at its speed, a top in regular precession, a
 // train on a straight line (a = 0), masses that go round. Omega follows from the state's own accelerations where they are of that
-// kind; rotating bodies may also carry the frame. Where the state is not steady itself, one near it is sought by Newton's method
-// in q: velocities go along with what turns, v += E dq, and keep their spin. That the motion lasts is looked at some way on.
+// kind; rotating bodies may also carry the frame. Where the state is not steady itself, one near it is sought: by Newton's method in q
+// while velocities go along with what turns, v += E dq, and keep their spin; then in q, v and Omega (nearest_steady.hpp). That the
+// motion lasts is looked at some way on.
 #pragma once
 
 #include <string>

@@ -71,7 +71,9 @@ TEST(ModesOfLoadedPlates, DoNotDependOnTheLoadSteps) {
           << "h = " << h << ", " << share << " of the critical force, " << steps << " steps";
     }
     // The strip is stretched or pressed by P/Eh, 1e-4 here at most, which its beam is not.
-    if (share > 0) EXPECT_NEAR(first, exact, 1e-3 * exact) << share;
+    if (share > 0) {
+      EXPECT_NEAR(first, exact, 1e-3 * exact) << share;
+    }
   }
 }
 
