@@ -29,9 +29,9 @@ class Operators {
   const Eigen::SparseMatrix<double>& D() const { return D_; }
 
   // y = P M^-1 r. False: the rows are singular.
-  [[nodiscard]] bool along_rows(const Vec& r, Vec& y) { return solve(-r, no_rows_, y); }
-  // The x of least kinetic energy with G x = s.
-  [[nodiscard]] bool across_rows(const Vec& s, Vec& x) { return solve(zero_, -s, x); }
+  [[nodiscard]] bool along_rows(const Vec& r, Vec& y) {
+    return system_.correct(-r, no_rows_, y, mu_, Factors::projection) && y.allFinite();
+  }
 
   double norm(const Vec& x) { return std::sqrt(std::max(0.0, x.dot(momentum(x)))); }
   const Vec& momentum(const Vec& x) {
@@ -58,19 +58,7 @@ class Operators {
     return found;
   }
 
-  double coupling() {
-    const Eigen::Index nc = no_rows_.size();
-    double found = 0;
-    Vec x, y;
-    if (nc == 0 || !across_rows(uneven(nc), x) || !along_rows(K_ * x, y)) return 0;
-    if (const double size = norm(x); size > 0) found = norm(y) / size;
-    return found;
-  }
-
  private:
-  bool solve(const Vec& r, const Vec& rc, Vec& x) {
-    return system_.correct(r, rc, x, mu_, Factors::projection) && x.allFinite();
-  }
   // No mode is perpendicular to it but by chance, and the same every time.
   static Vec uneven(Eigen::Index n) {
     Vec x(n);
@@ -96,24 +84,6 @@ int body_of_most_energy(Operators& operators, const model::Model& model, const V
   return most;
 }
 
-struct Heavy {
-  const std::string* name = nullptr;
-  double mass = 0;
-};
-
-// Of the bodies that know their mass.
-std::pair<Heavy, Heavy> lightest_and_heaviest(const model::Model& model, const State& s) {
-  Heavy light, heavy;
-  for (const model::BodyEntry& body : model.bodies) {
-    if (!body.momentum || body.nv == 0) continue;
-    const double mass = body.momentum->momentum(s.t, s.q.segment(body.q0, body.nq), s.v.segment(body.v0, body.nv)).mass;
-    if (!(mass > 0)) continue;
-    if (!light.name || mass < light.mass) light = {&body.name, mass};
-    if (!heavy.name || mass > heavy.mass) heavy = {&body.name, mass};
-  }
-  return {light, heavy};
-}
-
 }  // namespace
 
 FastestMotion fastest_motion(model::AssembledSystem& system, const State& state) {
@@ -123,23 +93,16 @@ FastestMotion fastest_motion(model::AssembledSystem& system, const State& state)
   Vec swings = Vec::Zero(system.sizes().nv), decays = swings;
   fastest.frequency = std::sqrt(operators.largest(operators.K(), swings));
   fastest.decay = operators.largest(operators.D(), decays);
-  fastest.off_rows = std::sqrt(operators.coupling());
   if (fastest.rate() > 0)
     fastest.body = body_of_most_energy(operators, system.model(), fastest.frequency >= fastest.decay ? swings : decays);
   return fastest;
 }
 
-std::string told(const FastestMotion& fastest, const model::Model& model, const State& state) {
-  if (fastest.held_by_light_bodies()) {
-    const auto [light, heavy] = lightest_and_heaviest(model, state);
-    if (light.name && heavy.name && heavy.mass > light.mass)
-      return fmt::format("bodies.{} of {:.3g} kg is held to bodies.{} of {:.3g} kg, a mass ratio of {:.3g}",
-                         *light.name, light.mass, *heavy.name, heavy.mass, heavy.mass / light.mass);
-    return fmt::format("off the rows, forces of light bodies' rows act at a rate of {:.3g} 1/s", fastest.off_rows);
-  }
-  const std::string who = fastest.body >= 0 ? "bodies." + model.bodies[std::size_t(fastest.body)].name : "nothing";
-  return fastest.frequency >= fastest.decay ? fmt::format("{} swings at {:.3g} rad/s", who, fastest.frequency)
-                                            : fmt::format("{} decays at {:.3g} 1/s", who, fastest.decay);
+std::string told(const FastestMotion& fastest, const model::Model& model) {
+  if (fastest.body < 0) return "nothing swings or decays at its start";
+  const std::string& who = model.bodies[std::size_t(fastest.body)].name;
+  return fastest.frequency >= fastest.decay ? fmt::format("bodies.{} swings at {:.3g} rad/s", who, fastest.frequency)
+                                            : fmt::format("bodies.{} decays at {:.3g} 1/s", who, fastest.decay);
 }
 
 }  // namespace trammel::simulate

@@ -6,14 +6,13 @@
 
 #include "plugin/parameters.hpp"
 #include "simulate/fastest_motion.hpp"
+#include "simulate/mass_ratio.hpp"
 
 namespace trammel::simulate {
 namespace {
 
 // Of an explicit method, each about a radian of what is fastest.
 constexpr double most_steps = 1e6;
-// Fewer cost too little to be worth twice the factorisations.
-constexpr double many_steps_off_rows = 1e4;
 
 struct Choice {
   const char* name;
@@ -30,15 +29,14 @@ bool decides_friction_at_every_evaluation(const model::Model& model) {
   });
 }
 
-bool exceeds_explicit_steps(const FastestMotion& fastest, const Setup& setup, double time) {
+bool exceeds_explicit_steps(const FastestMotion& fastest, const Setup& setup) {
+  const double time = setup.settings.until - setup.settings.start;
   return fastest.rate() * time > most_steps && !decides_friction_at_every_evaluation(*setup.model);
 }
 
-const Choice& fitting(const FastestMotion& fastest, const Setup& setup) {
-  const double time = setup.settings.until - setup.settings.start;
-  if (exceeds_explicit_steps(fastest, setup, time)) return damped_steps;
-  if (fastest.held_by_light_bodies() && fastest.off_rows * time > many_steps_off_rows) return steps_on_rows;
-  return explicit_steps;
+const Choice& fitting(const FastestMotion& fastest, const MassRatio& ratio, const Setup& setup) {
+  if (exceeds_explicit_steps(fastest, setup)) return damped_steps;
+  return ratio.is_large() ? steps_on_rows : explicit_steps;
 }
 
 const Choice& named(const std::string& name) {
@@ -67,11 +65,12 @@ void choose_integrator(Setup& setup, model::AssembledSystem& system, const std::
   } catch (const model::NotSolvable&) {
     return;  // the run tells, with its time
   }
-  const Choice& choice = before.empty() ? fitting(fastest, setup) : named(before);
+  const MassRatio ratio = mass_ratio(*setup.model, setup.initial);
+  const Choice& choice = before.empty() ? fitting(fastest, ratio, setup) : named(before);
   if (&choice != &explicit_steps) take(choice, setup, registry, problems);
   setup.chosen = choice.name;
   setup.choice = fmt::format("{}, tolerance {:.3g}: the scene names none, and {}", choice.name, choice.tolerance,
-                             told(fastest, *setup.model, setup.initial));
+                             &choice == &steps_on_rows ? told(ratio, *setup.model) : told(fastest, *setup.model));
 }
 
 }  // namespace trammel::simulate

@@ -1,7 +1,7 @@
 // The integrator of a scene that names none.
 //
 //     dop853, tolerance 1e-9                        as a rule: no step need be chosen, and contacts and friction are located as events
-//     the same with "rows": "projected"             where light bodies hold heavy ones: Baumgarte's form takes steps of 1/sqrt(c)
+//     the same with "rows": "projected"             where light bodies are tied to heavy ones (mass_ratio.hpp)
 //     hht_alpha, tolerance 1e-7                     where explicit steps would be more than a million: it does not follow what is
 //                                                   fast beside the rest, and damps it
 //

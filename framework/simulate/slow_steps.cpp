@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "simulate/fastest_motion.hpp"
+#include "simulate/mass_ratio.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -16,9 +17,10 @@ constexpr double accounts_for = 0.02;  // radians of the fastest motion in a ste
 
 std::string cause(const FastestMotion& fastest, const Setup& setup, const Simulator& simulator, double h) {
   const bool implicit = setup.integrator->traits().implicit, on_rows = setup.integrator->traits().holds_position;
-  const std::string what = told(fastest, *setup.model, simulator.state());
-  if (fastest.held_by_light_bodies() && !on_rows)
-    return fmt::format("{}; \"rows\": \"projected\" in the integrator takes long steps there", what);
+  if (const MassRatio ratio = mass_ratio(*setup.model, simulator.state()); ratio.is_large() && !on_rows)
+    return fmt::format("{}; \"rows\": \"projected\" in the integrator takes long steps there",
+                       told(ratio, *setup.model));
+  const std::string what = told(fastest, *setup.model);
   if (fastest.rate() * h < accounts_for)
     return fmt::format("{}, which asks for none so short, with {} events so far; a looser tolerance takes longer ones",
                        what, simulator.statistics().events);

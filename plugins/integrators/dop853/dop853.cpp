@@ -149,10 +149,10 @@ class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput
  private:
   // Of the last step, evaluated when first asked for. False: one of them has no slope.
   [[nodiscard]] bool has_dense_stages(System& s, const State& now) {
-    constexpr const double* rows[] = {a_dense_1, a_dense_2, a_dense_3};
+    constexpr const double* weights[] = {a_dense_1, a_dense_2, a_dense_3};
     constexpr int first = 13;
     for (int i = method_.slopes() - first; i < 3; ++i)
-      if (!method_.add_stage(s, now, c_dense[i], rows[i])) return false;
+      if (!method_.add_stage(s, now, c_dense[i], weights[i])) return false;
     return true;
   }
 
