@@ -18,7 +18,7 @@ class Operators {
     const auto [nq, nv, nc] = system.sizes();
     no_rows_.setZero(nc);
     zero_.setZero(nv);
-    system.move_to(s.t, s.q, s.v);
+    system.move_to(s.t, s.q, zero_);
     system.accelerate({}, a_, lambda_);
     K_ = system.sparse_tangent({0, 0, 1}, a_, lambda_);
     D_ = system.sparse_tangent({0, 1, 0}, a_, lambda_);

@@ -1,4 +1,5 @@
-// How fast the equations of motion swing and decay about a state: what bounds the steps of explicit methods.
+// How fast the equations of motion swing and decay about a configuration at rest: what bounds the steps of explicit methods. At rest,
+// because a fast spin is a motion to be followed, and neither stiff nor damped.
 //
 //     omega^2 the largest of |P M^-1 K x| / |x|,   1/tau that of |P M^-1 D x| / |x|      x with G x = 0
 //
@@ -21,7 +22,7 @@ struct FastestMotion {
   double rate() const { return std::max(frequency, decay); }
 };
 
-// Leaves the system at the state, its projection's factors there. Throws model::NotSolvable.
+// Leaves the system at rest there, its projection's factors there. Throws model::NotSolvable.
 FastestMotion fastest_motion(model::AssembledSystem& system, const State& state);
 
 // "bodies.b swings at 1.4e+07 rad/s"

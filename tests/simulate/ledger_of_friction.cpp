@@ -31,63 +31,30 @@ int count(const Finished& run, const std::string& kind) {
 // A slider between dead centres, driven so hard that it lifts off its plane, one edge after the other or both.
 std::string slider_crank(std::mt19937& random) {
   const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
-  return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
-    "parameters": {{"r": {}, "l": {}, "phi": {}, "beta": "=-asin(r*sin(phi)/l)"
-}
-}
-, "bodies" : {{
-  "crank" : {{
-    "type" : "rigid_body",
-    "mass" : 1,
-    "inertia" : "=r^2/12",
-    "position" : [ "=r/2*cos(phi)", "=r/2*sin(phi)" ],
-    "angle" : "=phi",
-    "markers" : {{"a" : [ "=-r/2", 0 ], "b" : [ "=r/2", 0 ]}}
-  }},
-  "rod" : {{
-    "type" : "rigid_body",
-    "mass" : 0.5,
-    "inertia" : "=0.5*l^2/12",
-    "angle" : "=beta",
-    "position" : [ "=r*cos(phi)+l/2*cos(beta)", "=r*sin(phi)+l/2*sin(beta)" ],
-    "markers" : {{"a" : [ "=-l/2", 0 ], "b" : [ "=l/2", 0 ]}}
-  }},
-  "slider" : {{
-    "type" : "rigid_body",
-    "mass" : {},
-    "inertia" : 0.001,
-    "position" : [ "=r*cos(phi)+l*cos(beta)", 0 ],
-    "markers" : {{"left" : [ -0.04, -0.02 ], "right" : [ 0.04, -0.02 ]}}
-  }}
-}},
-             "joints" : {{
-               "main" : {{"type" : "revolute", "between" : [ "ground", "crank.a" ]}},
-               "pin" : {{"type" : "revolute", "between" : [ "crank.b", "rod.a" ]}},
-               "wrist" : {{"type" : "revolute", "between" : [ "rod.b", "slider.com" ]}}
-             }},
-                        "forces"
-    : {{"motor" : {{"type" : "drive", "between" : [ "ground", "crank.a" ], "stall" : {}, "free_speed" : {}}}}},
-      "contacts" : {{
-        "left" : {{
-          "type" : "constraint_method",
-          "between" : [ "slider.left", {{"plane" : {{"point" : [ 0, -0.02 ], "normal" : [ 0, 1 ]}}}} ],
-          "friction" : {{"type" : "coulomb", "static" : {}, "kinetic" : {}}}
-        }},
-        "right" : {{
-          "type" : "constraint_method",
-          "between" : [ "slider.right", {{"plane" : {{"point" : [ 0, -0.02 ], "normal" : [ 0, 1 ]}}}} ],
-          "friction" : {{"type" : "coulomb", "static" : 0.25, "kinetic" : 0.15}}
-        }}
-      }},
-                   "integrator" : {{"type" : "dop853", "step" : {{"tolerance" : 1e-10}}}},
-                                  "simulate" : {{"until" : 0.6}},
-                                               "record" : {
-  { "every" : 0.1 }
-}
-}
-})",
-                     between(0.08, 0.12), between(0.28, 0.35), between(0.6, 1.2), between(0.6, 1), between(4, 6),
-                     between(25, 35), between(0.2, 0.3), between(0.1, 0.2));
+  return fmt::format(
+      R"json({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+    "parameters": {{"r": {}, "l": {}, "phi": {}, "beta": "=-asin(r*sin(phi)/l)"}},
+    "bodies": {{
+      "crank": {{"type": "rigid_body", "mass": 1, "inertia": "=r^2/12", "position": ["=r/2*cos(phi)", "=r/2*sin(phi)"],
+                "angle": "=phi", "markers": {{"a": ["=-r/2", 0], "b": ["=r/2", 0]}}}},
+      "rod": {{"type": "rigid_body", "mass": 0.5, "inertia": "=0.5*l^2/12", "angle": "=beta",
+              "position": ["=r*cos(phi)+l/2*cos(beta)", "=r*sin(phi)+l/2*sin(beta)"],
+              "markers": {{"a": ["=-l/2", 0], "b": ["=l/2", 0]}}}},
+      "slider": {{"type": "rigid_body", "mass": {}, "inertia": 0.001, "position": ["=r*cos(phi)+l*cos(beta)", 0],
+                 "markers": {{"left": [-0.04, -0.02], "right": [0.04, -0.02]}}}}}},
+    "joints": {{"main": {{"type": "revolute", "between": ["ground", "crank.a"]}},
+               "pin": {{"type": "revolute", "between": ["crank.b", "rod.a"]}},
+               "wrist": {{"type": "revolute", "between": ["rod.b", "slider.com"]}}}},
+    "forces": {{"motor": {{"type": "drive", "between": ["ground", "crank.a"], "stall": {}, "free_speed": {}}}}},
+    "contacts": {{
+      "left": {{"type": "constraint_method", "between": ["slider.left", {{"plane": {{"point": [0, -0.02], "normal": [0, 1]}}}}],
+               "friction": {{"type": "coulomb", "static": {}, "kinetic": {}}}}},
+      "right": {{"type": "constraint_method", "between": ["slider.right", {{"plane": {{"point": [0, -0.02], "normal": [0, 1]}}}}],
+                "friction": {{"type": "coulomb", "static": 0.25, "kinetic": 0.15}}}}}},
+    "integrator": {{"type": "dop853", "step": {{"tolerance": 1e-10}}}},
+    "simulate": {{"until": 0.6}}, "record": {{"every": 0.1}}}})json",
+      between(0.08, 0.12), between(0.28, 0.35), between(0.6, 1.2), between(0.6, 1), between(4, 6), between(25, 35),
+      between(0.2, 0.3), between(0.1, 0.2));
 }
 
 TEST(LedgerOfFriction, ClosesOverSlidersThatLiftOffAndComeBack) {
@@ -105,36 +72,20 @@ TEST(LedgerOfFriction, ClosesOverSlidersThatLiftOffAndComeBack) {
 }
 
 // A block that a load along the normal presses on its plane and lifts off it, as it slides.
-std::string lifted_block(std::mt19937& random, const std::string& integrator) {
+std::string lifted_block(std::mt19937& random, double tolerance) {
   const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
   const double mu = between(0.1, 0.4);
-  return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -10],
+  return fmt::format(
+      R"json({{"trammel": 1, "space": "planar", "gravity": [0, -10],
     "bodies": {{"block": {{"type": "point_mass", "mass": 1, "position": [0, 0], "velocity": [{}, 0]}}}},
-    "forces": {{"lift": {{"type": "load", "on": "block.point", "force": {{"x": 0, "y": "={}*sin({}*t)"
-}
-}
-}
-}
-, "spring" : {
-  { "type" : "spring_damper", "between" : [ "ground", "block.point" ], "stiffness" : {}, "length" : 0 }
-}
-}
-}
-, "contacts" : {{
-  "floor" : {{
-    "type" : "constraint_method",
-    "between" : [ "block.point", {{"plane" : {{"point" : [ 0, 0 ], "normal" : [ 0, 1 ]}}}} ],
-    "friction" : {{"type" : "coulomb", "static" : {}, "kinetic" : {}}}
-  }}
-}},
-               "integrator" : {},
-                              "simulate" : {{"until" : 2}},
-                                           "record" : {
-  { "every" : 0.5 }
-}
-}
-})",
-                     between(1, 4), between(11, 16), between(10, 20), between(20, 80), mu, mu, integrator);
+    "forces": {{"lift": {{"type": "load", "on": "block.point", "force": {{"x": 0, "y": "={}*sin({}*t)"}}}},
+               "spring": {{"type": "spring_damper", "between": ["ground", "block.point"], "stiffness": {}, "length": 0}}}},
+    "contacts": {{"floor": {{"type": "constraint_method",
+                            "between": ["block.point", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}],
+                            "friction": {{"type": "coulomb", "static": {}, "kinetic": {}}}}}}},
+    "integrator": {{"type": "dop853", "step": {{"tolerance": {}}}}},
+    "simulate": {{"until": 2}}, "record": {{"every": 0.5}}}})json",
+      between(1, 4), between(11, 16), between(10, 20), between(20, 80), mu, mu, tolerance);
 }
 
 TEST(LedgerOfFriction, ClosesOverBlocksThatAreLiftedAsTheySlide) {
@@ -142,8 +93,7 @@ TEST(LedgerOfFriction, ClosesOverBlocksThatAreLiftedAsTheySlide) {
   for (const double tolerance : {1e-6, 1e-10}) {
     int opened = 0;
     for (int i = 0; i < 12; ++i) {
-      const std::string scene =
-          lifted_block(random, fmt::format(R"({{"type": "dop853", "step": {{"tolerance": {}}}}})", tolerance));
+      const std::string scene = lifted_block(random, tolerance);
       const Finished run = run_text(scene);
       ASSERT_TRUE(run.done()) << run.report.reason;
       EXPECT_LT(unexplained(run), allowed(run, tolerance)) << scene;
