@@ -237,7 +237,10 @@ void AssembledSystem::factorise_with_stress(const CarriedFrom& carried, const Ve
 
 bool AssembledSystem::correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda, Factors which) {
   Work& w = *work_;
-  if (which == Factors::iteration) ++w.counts.newton_iterations;
+  if (which == Factors::iteration && w.iterated_at != w.point && !r.isZero(0)) {
+    ++w.counts.newton_iterations;
+    w.iterated_at = w.point;
+  }
   w.right = -r;
   w.right_rows = -rc;
   return w.solve(Work::Store(which), w.right, w.right_rows, da, dlambda);

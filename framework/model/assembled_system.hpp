@@ -21,7 +21,9 @@ struct Counts {
   long long residual_evaluations = 0;  // evaluations of f
   long long jacobian_evaluations = 0;  // of the iteration matrix
   long long factorizations = 0;
-  long long newton_iterations = 0;  // solves with the iteration matrix
+  // Of implicit methods: points at which increments were solved for by the iteration matrix. Several solutions at one point (rows
+  // of velocity and of position, a look at the round-off) are one iteration; solutions for rows alone, without a residual, are none.
+  long long newton_iterations = 0;
 };
 
 // The equations of motion have no solution at a point: a fault of the scene, not of a plugin that asked for it.
@@ -140,7 +142,10 @@ class AssembledSystem final : public System {
     double markers = 0;      // supplied by forces and contacts at markers that move by a law of time
     Vec friction;            // dissipated in sliding, contact by contact
   };
-  const Balance& balance(const Vec& lambda);                   // valid until the next call
+  const Balance& balance(const Vec& lambda);  // valid until the next call
+  // Whether something slides with friction, however slowly now: its power may be 0 at both ends of a step and not between.
+  bool rubs() const;
+  bool rubs_by_reactions() const;                              // by a normal force that is a multiplier
   void constraint_acceleration(const Vec& a, Vec& r);          // G a - gamma
   Eigen::SparseMatrix<double, Eigen::RowMajor> sparse_rows();  // G, without entries that are 0
   // S += c_m M + c_d D + c_k K + c_1 1, the matrix that `factorise` takes (nv x nv).

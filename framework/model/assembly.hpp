@@ -170,6 +170,7 @@ struct AssembledSystem::Work {
   double t = 0;
   Vec q, v;
   long long point = 0;
+  long long iterated_at = -1;   // the point of the last Newton iteration
   long long configuration = 0;  // counts changes of what M and G depend on: t, q, modes
   bool mass_fresh = false, rows_fresh = false;
   bool bodies_fresh = false, force_fresh = false;  // f holds what the bodies add; all of it

@@ -135,6 +135,28 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
   return sum;
 }
 
+namespace {
+
+bool rubs(const ContactEntry& entry, const ContactMode& mode) {
+  const bool on_surface = entry.surface && entry.surface->friction;
+  return mode.closed && (entry.friction || on_surface) && mode.friction != ContactMode::Friction::stick;
+}
+
+}  // namespace
+
+bool AssembledSystem::rubs() const {
+  for (std::size_t i = 0; i < work_->modes.contacts.size(); ++i)
+    if (model::rubs(work_->model->contacts[i], work_->modes.contacts[i])) return true;
+  return false;
+}
+
+bool AssembledSystem::rubs_by_reactions() const {
+  for (std::size_t i = 0; i < work_->modes.contacts.size(); ++i)
+    if (!work_->model->contacts[i].force && model::rubs(work_->model->contacts[i], work_->modes.contacts[i]))
+      return true;
+  return false;
+}
+
 CallSite AssembledSystem::find_not_finite() {
   Work& w = *work_;
   for (const BodyEntry& entry : w.model->bodies) {

@@ -34,7 +34,12 @@ bool RungeKutta::evaluate(System& s, double t, const Vec& q, const Vec& v, Slope
   return within_range(slope.q) && within_range(slope.v) && within_range(slope.lambda);
 }
 
-// False: nothing to keep.
+void RungeKutta::begin(System& s, const State& now, Slope& slope) {
+  forget();
+  kept_ = false;
+  if (!evaluate(s, now.t, now.q, now.v, slope)) slope = {};
+}
+
 bool RungeKutta::keep_null_space(System& s, const State& now) {
   kept_ = rows == Rows::null_space && s.sizes().nc > 0;
   if (!kept_) return false;
@@ -110,6 +115,8 @@ double RungeKutta::norm(System& s, const State& now, const State& next, const Ve
 }
 
 Outcome RungeKutta::step(System& s, const State& now, const Slope& first, double h, State& next) {
+  filled_ = 0;
+  if (first.v.size() != now.v.size()) return Outcome::reject(out_of_range);
   k_[0] = first;
   return within_step(s, now, [&] { return all_stages(s, now, h, next); });
 }
@@ -131,8 +138,9 @@ Outcome RungeKutta::all_stages(System& s, const State& now, double h, State& nex
 Outcome RungeKutta::end(System& s, State& next) {
   if (!within_range(next.q) || !within_range(next.v)) return Outcome::reject(diverged);
   s.normalise(next.q);
-  Slope& slope = k_[std::size_t(filled_++)];
+  Slope& slope = k_[std::size_t(filled_)];
   if (!evaluate(s, next.t, next.q, next.v, slope)) return Outcome::reject(diverged);
+  ++filled_;
   if (projects()) taken_at(next.q, next.v);
   next.a = slope.v;
   next.lambda = slope.lambda;
@@ -146,11 +154,11 @@ bool RungeKutta::add_stage(System& s, const State& now, double c, const double* 
   if (k_.size() == std::size_t(filled_)) k_.emplace_back();
   // Others may have used the factors since the step.
   const bool later = by_null_space_ && filled_ > tableau_.stages;
-  if (later) keep_null_space(s, now);
-  const bool finite = evaluate(s, now.t + c * h_, q_, v_, k_[std::size_t(filled_)]);
+  if (later && !keep_null_space(s, now)) return false;
+  const bool known = evaluate(s, now.t + c * h_, q_, v_, k_[std::size_t(filled_)]);
   if (later) kept_ = false;
-  ++filled_;
-  return finite;
+  if (known) ++filled_;
+  return known;
 }
 
 bool RungeKutta::recall(System& s, const State& now, const State& next) {
@@ -189,6 +197,16 @@ void RungeKutta::interpolate(const System& s, const State& now, const State& nex
   at.v = now.v + theta * (dv_ + at.v);
   at.t = now.t + theta * h_;
   s.normalise(at.q);
+}
+
+void RungeKutta::step_inside(System& s, const State& now, const State& next, double theta, State& at) {
+  const Slope first = k_[0];
+  const double h = theta * (next.t - now.t);
+  if (step(s, now, first, h, at)) return;
+  at = now;
+  at.t += h;
+  at.q.setConstant(std::numeric_limits<double>::quiet_NaN());
+  at.v.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
 void error_increment(const System& s, const Vec& q, const Vec& e, Vec& embedded, Vec& increment) {

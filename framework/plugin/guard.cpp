@@ -4,6 +4,8 @@
 
 #include <exception>
 
+#include <trammel/outside_domain.hpp>
+
 namespace trammel::plugin {
 
 PassesThroughPlugins::~PassesThroughPlugins() = default;
@@ -15,6 +17,8 @@ void rethrow_as_plugin_error(const Origin& origin, const char* call, std::option
     throw;  // from a component that this one called through the System
   } catch (const PassesThroughPlugins&) {
     throw;
+  } catch (const OutsideDomain&) {
+    throw;  // the scene's fault
   } catch (const std::exception& e) {
     throw PluginError(origin, call, fmt::format("it threw: {}", e.what()), t);
   } catch (...) {

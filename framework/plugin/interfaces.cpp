@@ -12,6 +12,7 @@
 #include <trammel/linear_rows.hpp>
 #include <trammel/needs_orientation.hpp>
 #include <trammel/oscillating_steps.hpp>
+#include <trammel/outside_domain.hpp>
 #include <trammel/parameters.hpp>
 #include <trammel/system.hpp>
 #include <trammel/theory_limit.hpp>
@@ -25,6 +26,7 @@ Archive::~Archive() = default;
 ParameterError::ParameterError(std::string parameter, const std::string& message)
     : std::runtime_error(message), parameter_(std::move(parameter)) {}
 ParameterError::~ParameterError() = default;
+OutsideDomain::~OutsideDomain() = default;
 
 // Abilities of integrators.
 ErrorEstimate::~ErrorEstimate() = default;

@@ -7,7 +7,7 @@ namespace trammel::scene {
 
 class Builder {
  public:
-  using Content = std::variant<std::monostate, bool, double, std::string, Items, Members>;
+  using Content = std::variant<Null, bool, double, std::string, Items, Members>;
 
   static Value make(Content content, Position at);
   static Value like(const Value& other, Content content);  // at its place, with its path and parameters

@@ -12,7 +12,7 @@ namespace trammel::scene {
 
 namespace {
 
-using Result = std::variant<double, std::string>;
+using Result = Value::Parameter;
 
 // Evaluates parameters in the order they need one another.
 class Evaluation {

@@ -61,6 +61,14 @@ using Items = std::vector<Value>;
 
 class Formula;
 
+// JSON's null. Copying one is no memcpy, which keeps libstdc++ from taking a variant of texts, vectors and plain numbers for one that
+// always holds something: it then destroys a copy that ran out of memory half way as if it were whole, and jumps anywhere.
+struct Null {
+  Null() = default;
+  Null(const Null&) noexcept {}
+  Null& operator=(const Null&) noexcept { return *this; }
+};
+
 class Value {
  public:
   enum class Type { null, boolean, number, text, array, object };
@@ -92,11 +100,12 @@ class Value {
   // "=..." over these dotted names, which change from call to call, and the scene's parameters.
   std::optional<Formula> read_formula(const std::vector<std::string>& names, Problems&) const;
 
-  using Parameters = std::vector<std::pair<std::string, std::variant<double, std::string>>>;
+  using Parameter = std::variant<double, std::string, Null>;  // never null
+  using Parameters = std::vector<std::pair<std::string, Parameter>>;
 
  private:
   friend class Builder;
-  std::variant<std::monostate, bool, double, std::string, Items, Members> content_;
+  std::variant<Null, bool, double, std::string, Items, Members> content_;
   Position position_;
   std::string path_;
   std::shared_ptr<const Parameters> parameters_;  // of the whole scene

@@ -1,6 +1,6 @@
 // The state at a part theta of a step, between two states of a solution: the cubic through v and a of both ends (Hermite), and
 // the one through q and v, on the manifold of configurations; or, of an integrator whose steps are not like that
-// (oscillating_steps.hpp), its own.
+// (oscillating_steps.hpp), its own where it finds one.
 #pragma once
 
 #include <limits>
@@ -26,10 +26,8 @@ class BetweenStates {
   }
   // Fills t, q, v.
   void at(const State& now, const State& next, double theta, State& between) {
-    if (own_)
-      own_->interpolate(system_, now, next, theta, between);
-    else
-      cubic(now, next, theta, between);
+    if (own_) own_->interpolate(system_, now, next, theta, between);
+    if (!own_ || !between.q.allFinite() || !between.v.allFinite()) cubic(now, next, theta, between);
     between.t = now.t + theta * (next.t - now.t);
   }
 

@@ -37,9 +37,27 @@ std::string what_was_thrown() {
 
 }  // namespace
 
+namespace {
+
+std::string path_of(const model::CallSite& site) {
+  return fmt::format("{}.{}", place_of(site.call).group, *site.component);
+}
+
+}  // namespace
+
+std::string said(const OutsideDomain& outside, const model::CallSite& site) {
+  return site.component ? fmt::format("{}: {}", path_of(site), outside.what()) : std::string(outside.what());
+}
+
+scene::Problem problem_of(const OutsideDomain& outside, const model::CallSite& site, const scene::Value& root,
+                          double t) {
+  const scene::Value* at = site.component ? root.at_path(path_of(site)) : nullptr;
+  return (at ? *at : root).problem(fmt::format("at t = {:.9g} s {}", t, outside.what()));
+}
+
 plugin::Origin origin_of(const model::CallSite& site, const scene::Value& root, plugin::Registry& registry) {
   const Place place = place_of(site.call);
-  const std::string path = fmt::format("{}.{}", place.group, *site.component);
+  const std::string path = path_of(site);
   if (const scene::Value* object = root.at_path(path))
     if (const scene::Value* type = object->find("type")) {
       scene::Problems ignored;
@@ -75,6 +93,8 @@ void rethrow_blamed(const Setup& setup, const model::CallSite& site, const scene
     throw;
   } catch (const plugin::PassesThroughPlugins&) {
     throw;
+  } catch (const OutsideDomain& e) {
+    throw scene::SceneError({problem_of(e, site, root, t)});
   } catch (...) {
     if (!site.component && setup.integrator_origin.file.empty()) throw;  // statics: nobody else can be meant
     throw blame(setup, site, root, registry, t, std::nullopt);

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
+
+#include <trammel/outside_domain.hpp>
 
 #include "model/assembled_system.hpp"
 #include "plugin/registry.hpp"
@@ -29,6 +32,11 @@ void blaming(const Setup& setup, const model::AssembledSystem& system, const sce
     rethrow_blamed(setup, system.last_call(), root, registry, t);
   }
 }
+
+// Inside a catch block of OutsideDomain: what it said, at the component that was being called. `said` alone: "forces.s: its ...".
+std::string said(const OutsideDomain& outside, const model::CallSite& site);
+scene::Problem problem_of(const OutsideDomain& outside, const model::CallSite& site, const scene::Value& root,
+                          double t);
 
 // Where the component comes from, that was called there.
 plugin::Origin origin_of(const model::CallSite& site, const scene::Value& root, plugin::Registry& registry);

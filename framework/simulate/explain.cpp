@@ -98,6 +98,7 @@ void built(Text& text, const scene::Scene& scene, const plugin::Registry& regist
                                  : "frictionless");
   text.line("integrator {}: step {}{}", setup.integrator_type, step_text(setup.settings.step),
             setup.settings.own_contact_step ? ", in contact " + step_text(setup.settings.contact_step) : "");
+  if (!setup.choice.empty()) text.line("chosen: {}", setup.choice);
   text.section("Plugins loaded");
   for (const std::string& file : registry.files()) text.line("{}", file);
 }

@@ -54,11 +54,12 @@ void Ledger::step(const State& now, const State& next) {
   // A closed contact's row does work at the level of round-off; that is not worth an evaluation.
   const double work = (size(now_) + size(end_)) * (next.t - now.t), energy = std::abs(energy_start_);
   const bool matters = work > 1e-12 * energy;
-  if (OscillatingSteps* steps = between_.oscillating(); steps && matters)
+  const bool rubs = system_.rubs();
+  if (OscillatingSteps* steps = between_.oscillating(); steps && (matters || rubs))
     integrate_by(*steps, now, next);
-  else if (dense_ && matters)
+  else if (dense_ && (matters || rubs))
     integrate_by_dense_output(now, next);
-  else if (work > 1e-16 * energy)
+  else if (work > 1e-16 * energy || rubs)
     integrate_by_middle(now, next);
   std::swap(now_, end_);
   g_dot_.swap(g_dot_end_);
@@ -66,6 +67,8 @@ void Ledger::step(const State& now, const State& next) {
 
 void Ledger::integrate_by(OscillatingSteps& steps, const State& now, const State& next) {
   const int last = steps.quadrature_points() - 1;
+  steps.evaluated(system_, now, next, 1, inside_);
+  if (!inside_.q.allFinite() || !inside_.v.allFinite()) return integrate_by_middle(now, next);
   for (int i = 0; i <= last; ++i) {
     const double weight = steps.evaluated(system_, now, next, i, inside_);
     if (i == 0 || i == last) {
@@ -81,30 +84,32 @@ void Ledger::integrate_by(OscillatingSteps& steps, const State& now, const State
 void Ledger::integrate_by_middle(const State& now, const State& next) {
   const double h = next.t - now.t;
   between_.at(now, next, 0.5, inside_);
-  evaluate_inside(now, next, 0.5, std::abs(now_.constraints) + std::abs(end_.constraints));
+  evaluate_inside(now, next, 0.5);
   add(h / 6, now_), add(4 * h / 6, middle_), add(h / 6, end_);
 }
 
 // Exact for polynomials of degree 7.
 void Ledger::integrate_by_dense_output(const State& now, const State& next) {
   const double h = next.t - now.t, apart = std::sqrt(21) / 14;
-  const auto work_of_forces = [](const Balance& p) { return std::abs(p.constraints) + p.friction.lpNorm<1>(); };
   add(h / 20, now_), add(h / 20, end_);
   for (const auto& [theta, weight] :
        {std::pair(0.5 - apart, 49.0 / 180), {0.5, 16.0 / 45}, {0.5 + apart, 49.0 / 180}}) {
     dense_->interpolate(system_, now, next, theta, inside_);
-    evaluate_inside(now, next, theta, work_of_forces(now_) + work_of_forces(end_));
+    if (!inside_.q.allFinite() || !inside_.v.allFinite()) between_.at(now, next, theta, inside_);
+    evaluate_inside(now, next, theta);
     add(weight * h, middle_);
   }
 }
 
-// Fills middle_. `work_of_reactions`: what of the power at the ends follows from lambda, which its mean does not give where it swings
-// within a step.
-void Ledger::evaluate_inside(const State& now, const State& next, double theta, double work_of_reactions) {
+// Fills middle_. Of lambda the mean of the ends, which is of second order and knows no swing within a step, serves only where it has
+// no power.
+void Ledger::evaluate_inside(const State& now, const State& next, double theta) {
   const double power = size(now_) + size(end_);
+  double work_of_reactions = std::abs(now_.constraints) + std::abs(end_.constraints);
   system_.move_to(inside_.t, inside_.q, inside_.v);
   lambda_ = (1 - theta) * now.lambda + theta * next.lambda;
-  const auto matters = [&] { return work_of_reactions > 1e-9 * power; };
+  const bool rubs = system_.rubs_by_reactions();
+  const auto matters = [&] { return rubs || work_of_reactions > 1e-9 * power; };
   if (!matters()) {
     middle_ = system_.balance(lambda_);
     work_of_reactions += std::abs(middle_.constraints);

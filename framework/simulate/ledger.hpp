@@ -6,7 +6,8 @@
 // Impacts are exact (impact.hpp). Powers of drives, moving rows, dampers and compliant contacts are integrated along accepted
 // steps: by Simpson's rule with the state in the middle (between_states.hpp); where that would be less accurate than the integrator,
 // of an order above four with dense output of its own, by Lobatto's rule through five points of that; in steps that swing by the
-// integrator's own quadrature. Nothing is evaluated there while all powers are 0 but for round-off. `numerical` is what remains: the
+// integrator's own quadrature. Nothing is evaluated there while all powers are 0 but for round-off and nothing slides with friction:
+// from a reversal of a slip to the opening of its contact friction has no power at both ends. `numerical` is what remains: the
 // error of the integrator, of that rule, and of corrections. A row that is switched on while its contact moves
 // (`rebound: constrained`) does work too; it counts as supplied by constraints.
 #pragma once
@@ -60,7 +61,7 @@ class Ledger {
   void integrate_by_middle(const State& now, const State& next);
   void integrate_by_dense_output(const State& now, const State& next);
   void integrate_by(OscillatingSteps& steps, const State& now, const State& next);
-  void evaluate_inside(const State& now, const State& next, double theta, double work_of_reactions);
+  void evaluate_inside(const State& now, const State& next, double theta);
   double off_rows(const Vec& lambda, double theta);
   void add(double duration, const model::AssembledSystem::Balance& power);
 

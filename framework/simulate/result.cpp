@@ -106,6 +106,7 @@ std::string result_json(const scene::Scene& scene, const Setup& setup, Simulator
   json result = result_head(scene, setup, outcomes);
   result.update(json{{"warnings", warnings},
                      {"integrator", setup.integrator_type},
+                     {"integrator_choice", setup.choice},
                      {"t_start", setup.settings.start},
                      {"t_end", state.t},
                      {"t_until", setup.settings.until},

@@ -20,8 +20,7 @@ Part integrator() {
       "The method, and its steps. Its own parameters stand beside these: 'trammel list' shows the methods, 'trammel "
       "describe hht_alpha' one of them.",
       R"({"type": "hht_alpha", "step": 1e-4, "contact_step": 1e-6, ...})",
-      {key("type", Type::text, {.doc = "without an integrator a scene is run by dop853 with errors below 1e-9"},
-           std::string("dop853")),
+      {key("type", Type::text, {.doc = "without an integrator Trammel chooses one, see below"}, std::string("dop853")),
        key("step", Type::number,
            {.unit = "s",
             .min = 0,
@@ -60,7 +59,15 @@ Part step() {
        key("max", Type::number,
            {.unit = "s", .min = 0, .above_min = true, .doc = "20 times record.every if left out, and at most that"},
            defaults.most)},
-      {"A step must be at least 16 units in the last place of the largest |t| of the run (7.1e-15 s for 2 s): t + h "
+      {"A scene without an integrator is run by dop853 with errors below 1e-9; with \"rows\": \"projected\" where "
+       "bodies whose masses differ by more than 1e7 are tied by joints; and by hht_alpha with errors below 1e-7 a step, "
+       "which damps what is fast beside the rest, where the fastest motion goes through more than a million radians in "
+       "the run. The summary, 'trammel explain' and \"integrator_choice\" in result.json tell which and why.",
+       "A run whose error-controlled steps are far shorter than its records need says so after some seconds, with what "
+       "makes them so short and what cures it. \"newton_iterations\" in result.json counts the points at which an "
+       "implicit method solved for increments of the motion, rejected steps and those that locate events among them; "
+       "solutions for the rows alone are not counted.",
+       "A step must be at least 16 units in the last place of the largest |t| of the run (7.1e-15 s for 2 s): t + h "
        "tells smaller ones apart badly or not at all."}};
 }
 

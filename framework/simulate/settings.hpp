@@ -46,8 +46,7 @@ struct Settings {
   bool arc_length = false;       // the path may turn back in t
 };
 
-// What the scene says of its integrator. Without a word: dop853 with errors below 1e-9, which needs no step to be chosen and
-// locates contacts and friction as events.
+// What the scene says of its integrator. Without a word: dop853 with errors below 1e-9, unless another fits (integrator_choice.hpp).
 const scene::Value& integrator_entry(const scene::Value& root);
 
 // A scene in motion, or equilibria one after another under loads that follow t (load_path.hpp).

@@ -12,6 +12,7 @@
 #include "simulate/crash_witness.hpp"
 #include "simulate/field_line.hpp"
 #include "simulate/initial_state.hpp"
+#include "simulate/integrator_choice.hpp"
 #include "simulate/latch_reach.hpp"
 #include "simulate/redundancy.hpp"
 #include "simulate/smooth_laws.hpp"
@@ -22,16 +23,38 @@ namespace {
 using scene::Problems;
 using scene::Value;
 
-// Names of integrators with an error estimate, of those that can be found.
-std::string with_error_estimate(plugin::Registry& registry) {
+// Names of integrators that can do it, of those that can be found.
+template <class Can>
+std::string integrators_that(plugin::Registry& registry, Can can) {
   std::string names;
   for (const plugin::Entry* entry : registry.all()) {
     if (entry->declaration.kind != Kind::integrator) continue;
     const std::unique_ptr<Component> candidate = plugin::new_component(*entry);
-    if (dynamic_cast<const ErrorEstimate*>(candidate.get()))
-      names += (names.empty() ? "" : ", ") + entry->declaration.name;
+    const auto* integrator = dynamic_cast<const Integrator*>(candidate.get());
+    if (integrator && can(*integrator)) names += (names.empty() ? "" : ", ") + entry->declaration.name;
   }
   return names.empty() ? "none found" : names;
+}
+
+// What of a model has rows, or makes some during the run; empty: nothing.
+std::string source_of_rows(const model::Model& model) {
+  if (const std::vector<model::RowGroup> groups = model::row_groups(model); !groups.empty())
+    return fmt::format("{} has {}", groups.front().path, groups.front().count == 1 ? "a row" : "rows");
+  for (const model::ContactEntry& contact : model.contacts) {
+    if (contact.restitution) return fmt::format("{} is a row while it is closed", contact.path());
+    if (contact.coulomb && contact.coulomb->decide() == SetValuedFriction::Decide::at_events)
+      return fmt::format("the friction of {} sticks in a row", contact.path());
+  }
+  return "";
+}
+
+void check_takes_rows(const Value& value, plugin::Registry& registry, const Setup& setup, Problems& problems) {
+  if (setup.integrator->traits().rows) return;
+  const std::string source = source_of_rows(*setup.model);
+  if (source.empty()) return;
+  problems.error(value.problem(
+      fmt::format("\"{}\" takes no rows, but {}; integrators that take them: {}", setup.integrator_type, source,
+                  integrators_that(registry, [](const Integrator& one) { return one.traits().rows; }))));
 }
 
 void read_integrator(const Value& root, plugin::Registry& registry, Setup& setup, Problems& problems) {
@@ -51,13 +74,15 @@ void read_integrator(const Value& root, plugin::Registry& registry, Setup& setup
           value.problem(fmt::format("the friction of contacts.{} is decided at every evaluation, which takes an "
                                     "explicit method such as runge_kutta_4",
                                     contact.name)));
+  check_takes_rows(value, registry, setup, problems);
   if (dynamic_cast<const ErrorEstimate*>(setup.integrator.get())) return;
+  const auto estimates = [](const Integrator& one) { return dynamic_cast<const ErrorEstimate*>(&one) != nullptr; };
   for (const auto& [key, choice] :
        {std::pair{"step", &setup.settings.step}, std::pair{"contact_step", &setup.settings.contact_step}})
     if (const Value* step = value.find(key); step && !choice->fixed)
       problems.error(step->problem(
           fmt::format("\"{}\" cannot estimate its error, so it takes fixed steps only; those that can: {}",
-                      setup.integrator_type, with_error_estimate(registry))));
+                      setup.integrator_type, integrators_that(registry, estimates))));
 }
 
 // Pictures are asked for: some body must have fields.
@@ -117,6 +142,17 @@ void read_corrections(const Value& root, plugin::Registry& registry, Setup& setu
   }
 }
 
+// The start must be inside of every component's domain. What else goes wrong there the run tells, with its time and results.
+void check_domain(model::AssembledSystem& system, const State& start) {
+  try {
+    system.move_to(start.t, start.q, start.v);
+    system.f();
+  } catch (const OutsideDomain&) {
+    throw;
+  } catch (...) {
+  }
+}
+
 // Reaches out for a state to start from: the first calls of bodies, joints, forces and contacts.
 void find_start(Setup& setup, model::AssembledSystem& system, const Value& root, Problems& problems) {
   State start;
@@ -126,6 +162,7 @@ void find_start(Setup& setup, model::AssembledSystem& system, const Value& root,
   problems.throw_if_any();
   setup.initial = initial_state(system, setup.settings.start, setup.settings.initial, root, problems);
   problems.throw_if_any();
+  check_domain(system, setup.initial);
   check_latches(system, setup.initial, setup.settings.until, root, problems);
   problems.throw_if_any();
   check_bearing_loads(system, setup.initial, root, problems);
@@ -134,7 +171,8 @@ void find_start(Setup& setup, model::AssembledSystem& system, const Value& root,
 
 }  // namespace
 
-Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purpose, CrashWitness* witness) {
+Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purpose, CrashWitness* witness,
+             const std::string& chosen_before) {
   const Value& root = scene.root();
   Setup setup;
   for (const scene::Problem& warning : scene.warnings()) setup.warnings.push_back(warning.text());
@@ -157,7 +195,12 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purp
   for (const std::string& file : registry.files()) setup.plugins.push_back(plugin::identify(file));
   model::AssembledSystem system(setup.model);
   const Watch watch(witness, setup, root, registry, system, {&setup.settings.start, nullptr});
-  blaming(setup, system, root, registry, setup.settings.start, [&] { find_start(setup, system, root, problems); });
+  blaming(setup, system, root, registry, setup.settings.start, [&] {
+    find_start(setup, system, root, problems);
+    if (purpose == Purpose::motion && !root.find("integrator"))
+      choose_integrator(setup, system, chosen_before, registry, problems);
+  });
+  problems.throw_if_any();
   for (const scene::Problem& warning : problems.warnings()) setup.warnings.push_back(warning.text());
   return setup;
 }

@@ -22,6 +22,8 @@ struct Setup {
   std::unique_ptr<Integrator> integrator;
   plugin::Origin integrator_origin;
   std::string integrator_type;
+  std::string chosen;  // by Trammel, for a scene that names no integrator (integrator_choice.hpp); else empty
+  std::string choice;  // the same in full, and why
   struct LevelCorrection {
     Correction::Level level;
     std::unique_ptr<Correction> correction;
@@ -35,8 +37,9 @@ struct Setup {
 };
 
 // Throws SceneError, PluginError. Statics needs no integrator, makes none and no corrections.
-// The witness, if any, is told of the model while it is asked for its first state.
+// The witness, if any, is told of the model while it is asked for its first state. `chosen_before` is the Setup::chosen of the run that
+// is resumed.
 Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purpose = Purpose::motion,
-             CrashWitness* witness = nullptr);
+             CrashWitness* witness = nullptr, const std::string& chosen_before = "");
 
 }  // namespace trammel::simulate

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "plugin/out_of_memory.hpp"
 #include "simulate/blame.hpp"
 #include "simulate/checkpoint.hpp"
 #include "simulate/conflict.hpp"
@@ -15,6 +16,7 @@
 #include "simulate/result.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/simulator.hpp"
+#include "simulate/slow_steps.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -41,8 +43,8 @@ class Run {
       : scene_(scene),
         registry_(registry),
         options_(options),
-        setup_(set_up(scene, registry, Purpose::motion, options.witness)),
-        hash_(resume_hash(scene.root())) {}
+        hash_(resume_hash(scene.root())),
+        setup_(set_up(scene, registry, Purpose::motion, options.witness, chosen_before())) {}
 
   ~Run() {
     if (options_.witness) options_.witness->leave();
@@ -69,6 +71,8 @@ class Run {
       end(Status::failed, e.what() + contradiction());
     } catch (const model::NotSolvable& e) {
       end(Status::failed, where(e.what()) + contradiction());
+    } catch (const OutsideDomain& e) {
+      end(Status::failed, where(said(e, simulator_->system().last_call()).c_str()));
     } catch (const OutputError& e) {
       out_of_room(e);
     } catch (const plugin::PluginError& e) {
@@ -76,8 +80,8 @@ class Run {
       throw;
     } catch (const scene::SceneError&) {
       throw;
-    } catch (const std::bad_alloc&) {
-      end(Status::failed, where("out of memory"));
+    } catch (const std::bad_alloc& e) {
+      end(Status::failed, where(plugin::told(e)));
     } catch (...) {
       fail(blame(setup_, simulator_->system().last_call(), scene_.root(), registry_, simulator_->state().t, step()));
     }
@@ -85,6 +89,11 @@ class Run {
   }
 
  private:
+  // The integrator that the run was begun with, where Trammel chose it.
+  std::string chosen_before() const {
+    if (!options_.resume) return "";
+    return read_checkpoint(options_.out / "checkpoint.cbor", hash_).value("chosen_integrator", "");
+  }
   std::string where(const char* what) const {
     return fmt::format("at t = {:.9g} s, step {}: {}", simulator_->state().t, step(), what);
   }
@@ -147,7 +156,9 @@ class Run {
   }
 
   void loop() {
-    Clock::time_point checked = Clock::now(), checkpointed = checked, shown = checked;
+    const Clock::time_point began = Clock::now();
+    Clock::time_point checked = began, checkpointed = began, shown = began;
+    SlowSteps slow_steps(simulator_->state().t, simulator_->statistics().steps);
     long long stride = 1, since = 0;  // steps between looks at the clock, about 1 ms
     for (;;) {
       const bool more = simulator_->advance(*recorder_);
@@ -167,9 +178,16 @@ class Run {
       else if (passed > 4e-3 && stride > 1)
         stride /= 2;
       checked = now;
+      if (const std::string slow = slow_steps.look(seconds(now - began), setup_, *simulator_); !slow.empty())
+        warn(slow);
       if (options_.progress && seconds(now - shown) >= between_progress) show(), shown = now;
       if (seconds(now - checkpointed) >= between_checkpoints) write(), checkpointed = Clock::now();
     }
+  }
+
+  void warn(const std::string& warning) {
+    simulator_->warn(warning);
+    if (options_.warn) options_.warn(warning);
   }
 
   void show() {
@@ -205,6 +223,7 @@ class Run {
     archive_lengths(archive, lengths);
     Cost so_far = cost();
     archive("wall", so_far.wall), archive("cpu", so_far.cpu);
+    data["chosen_integrator"] = setup_.chosen;
     write_checkpoint(options_.out / "checkpoint.cbor", hash_, data);
   }
 
@@ -271,8 +290,8 @@ class Run {
   const scene::Scene& scene_;
   plugin::Registry& registry_;
   const RunOptions& options_;
-  Setup setup_;
   std::uint64_t hash_;
+  Setup setup_;
   std::optional<Simulator> simulator_;
   std::optional<Reserve> reserve_;
   std::optional<Recorder> recorder_;

@@ -26,6 +26,7 @@ struct RunOptions {
   std::vector<std::string> command;               // the words of the command line, for result.json
   CrashWitness* witness = nullptr;                // told what a handler of crashes needs
   std::function<void(const Progress&)> progress;  // called about ten times a second of wall-clock time
+  std::function<void(const std::string&)> warn;   // called at once with what is worth knowing before the run ends
 };
 
 enum class Status { done, failed, interrupted };

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "plugin/guard.hpp"
+#include "simulate/blame.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/trial_step.hpp"
 
@@ -153,6 +154,15 @@ bool Simulator::advance(Recorder& recorder) {
 }
 
 bool Simulator::try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error) {
+  try {
+    return take_step(proposal, h, found, error);
+  } catch (const OutsideDomain& e) {  // a shorter step may stay inside
+    return refuse(proposal, said(e, system_.last_call()).c_str()), false;
+  }
+}
+
+bool Simulator::take_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found,
+                          double& error) {
   const Outcome outcome = trial_step(integrator_, system_, now_, h, next_);
   if (!outcome) return refuse(proposal, outcome.reason()), false;
   const auto refuse_not_finite = [&] {
@@ -286,6 +296,10 @@ void Simulator::record_inside(Recorder& recorder) {
   for (double t = record_time(records_); !last_row_ && t < now_.t; t = record_time(records_)) {
     dense_->interpolate(system_, next_, now_, (t - next_.t) / h, inside_);
     inside_.t = t;
+    if (!inside_.q.allFinite() || !inside_.v.allFinite())
+      fail(h, fmt::format("the method finds no state at t = {:.9g} s, inside its last step; a tighter tolerance takes "
+                          "shorter steps",
+                          t));
     system_.move_to(t, inside_.q, inside_.v);
     system_.accelerate({}, inside_.a, inside_.lambda);
     recorder.row(system_, inside_, ledger_.totals_inside((t - next_.t) / h));

@@ -57,6 +57,7 @@ class Simulator {
   const Statistics& statistics() const { return statistics_; }
   const Ledger& ledger() const { return ledger_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
+  void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
   // What makes the run doubtful: contacts that pulled, impacts that created energy, bodies beyond their theory.
   std::vector<std::string> doubts() const;
   const ContactAudit& audit() const { return audit_; }
@@ -78,6 +79,7 @@ class Simulator {
   bool contradictory(const ConstraintNorms& norms);
   bool near_the_end_of_numbers() const;
   bool try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
+  bool take_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
   void refuse(const StepControl::Proposal& proposal, const char* reason);
   std::string when(double h) const;
   [[noreturn]] void fail(double h, const std::string& why) const;

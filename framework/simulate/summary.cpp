@@ -55,6 +55,7 @@ std::string summary(const scene::Scene& scene, const Setup& setup, Simulator& si
        fmt::format("{:.6g} s to {:.6g} s with {}; {}, {}, {}", setup.settings.start, state.t, setup.integrator_type,
                    counted(model.bodies.size(), "body", "bodies"), counted(model.joints.size(), "joint", "joints"),
                    counted(contacts, "contact", "contacts")));
+  if (!setup.choice.empty()) line("integrator", setup.choice);
   if (contacts > 0)
     line("contact", fmt::format("{}{}, {} in all, {} of {} steps in contact", impacts_of(model, s),
                                 counted(std::size_t(s.touches), "touch", "touches"),

@@ -1,6 +1,7 @@
-// Forces that count turns in space (CountsTurns), told the states that became the solution.
+// Forces and joints that count turns in space (CountsTurns), told the states that became the solution.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <trammel/counts_turns.hpp>
@@ -13,17 +14,19 @@ namespace trammel::simulate {
 class TurnCounts {
  public:
   explicit TurnCounts(model::AssembledSystem& system);
-  // Moves the system there if any force asks for it. Throws RunFailed in the name of one that can follow no further.
+  // Moves the system there if any component asks for it. Throws RunFailed in the name of one that can follow no further.
   void follow(double t, const Vec& q, const Vec& v);
   void archive(JsonArchive& a);
 
  private:
   struct Counted {
-    const model::ForceEntry* entry;
-    CountsTurns* force;
+    std::string path;  // in the scene
+    std::string key;   // in the archive
+    model::MarkerRef A, B;
+    CountsTurns* component;
   };
   model::AssembledSystem& system_;
-  std::vector<Counted> forces_;
+  std::vector<Counted> counted_;
 };
 
 }  // namespace trammel::simulate

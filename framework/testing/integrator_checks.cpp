@@ -3,6 +3,29 @@
 
 namespace trammel {
 
+namespace {
+
+bool takes_rows(const Maker& make) {
+  return make()->traits().rows;
+}
+
+// What is asked of methods that take rows.
+Check on_rows(const char* name, const Maker& make, const std::function<Report()>& find_out) {
+  return {name, [=] {
+            if (takes_rows(make)) return find_out();
+            Report report;
+            report.claim("takes no rows, as its traits say: not asked", true);
+            return report;
+          }};
+}
+
+// With rows where the method takes them.
+Problem any_pendulum(const Maker& make) {
+  return takes_rows(make) ? problems::pendulum_with_rod() : problems::pendulum();
+}
+
+}  // namespace
+
 std::vector<Check> integrator_checks(const Maker& make, const IntegratorClaims& c) {
   using namespace problems;
   const int fine = 2 * c.steps;
@@ -11,15 +34,17 @@ std::vector<Check> integrator_checks(const Maker& make, const IntegratorClaims& 
       {"HasItsOrderOnThePendulum", [=] { return check_order(make, pendulum(), c.order, c.steps); }},
       {"HasItsOrderWhereTheMassVaries",
        [=] { return check_order(make, pendulum_of_varying_mass(), c.order, c.steps); }},
-      {"HasItsOrderOnThePendulumWithRod", [=] { return check_order(make, pendulum_with_rod(), c.order, fine); }},
+      on_rows("HasItsOrderOnThePendulumWithRod", make,
+              [=] { return check_order(make, pendulum_with_rod(), c.order, fine); }),
       {"HoldsTheEnergyOfThePendulum", [=] { return check_energy(make, pendulum(), c.steps, c.energy); }},
-      {"HoldsTheRowOfThePendulum", [=] { return check_constraints(make, pendulum_with_rod(), fine, c.constraints); }},
-      {"HoldsRepeatedRows",
-       [=] {
-         return check_constraints(make, pendulum_with_rod(1, 0.4, {1, 2}), fine, c.constraints);
-       }},
-      {"LeavesNoTraceOfATrial", [=] { return trial_leaves_no_trace(make, pendulum_with_rod()); }},
-      {"ResumesBitForBit", [=] { return resumes_bitwise(make, pendulum_with_rod()); }},
+      on_rows("HoldsTheRowOfThePendulum", make,
+              [=] { return check_constraints(make, pendulum_with_rod(), fine, c.constraints); }),
+      on_rows("HoldsRepeatedRows", make,
+              [=] {
+                return check_constraints(make, pendulum_with_rod(1, 0.4, {1, 2}), fine, c.constraints);
+              }),
+      {"LeavesNoTraceOfATrial", [=] { return trial_leaves_no_trace(make, any_pendulum(make)); }},
+      {"ResumesBitForBit", [=] { return resumes_bitwise(make, any_pendulum(make)); }},
   };
   if (c.imaginary_limit > 0)
     checks.push_back(

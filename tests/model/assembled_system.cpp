@@ -223,5 +223,26 @@ TEST(AssembledSystem, NamesTheComponentThatIsNotFinite) {
   EXPECT_EQ(*site.component, "two");  // whose coordinate it is
 }
 
+// Several solutions at one point are one iteration of Newton's method, those of rows alone are none.
+TEST(AssembledSystem, CountsNewtonIterationsByPoints) {
+  At at(double_pendulum(false));
+  const Vec r = Vec::Ones(4), rows = Vec::Ones(2), none = Vec::Zero(4), no_rows = Vec::Zero(2);
+  Vec da, dlambda;
+  at.system.factorise({1, 0, 0}, none, no_rows);
+  at.system.factorise({1, 0, 0}, none, no_rows, Factors::projection);
+  const auto count = [&] { return at.system.counts().newton_iterations; };
+  ASSERT_TRUE(at.system.correct(r, rows, da, dlambda));
+  ASSERT_TRUE(at.system.correct(r, no_rows, da, dlambda));
+  ASSERT_TRUE(at.system.correct(none, rows, da, dlambda));
+  EXPECT_EQ(count(), 1);
+  at.system.move_to(0.1, at.q, at.v);
+  ASSERT_TRUE(at.system.correct(none, rows, da, dlambda));
+  ASSERT_TRUE(at.system.correct(r, rows, da, dlambda, Factors::projection));
+  EXPECT_EQ(count(), 1);
+  at.system.move_to(0.2, at.q, at.v);
+  ASSERT_TRUE(at.system.correct(r, rows, da, dlambda));
+  EXPECT_EQ(count(), 2);
+}
+
 }  // namespace
 }  // namespace trammel::model

@@ -1,12 +1,14 @@
 // The checks refuse methods that are wrong on purpose: each of these is explicit Euler with one defect.
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include <trammel/testing.hpp>
 
 namespace trammel {
 namespace {
 
-enum class Defect { none, trial_leaves_trace, forgets_archive, changes_with_next, claims_rows };
+enum class Defect { none, trial_leaves_trace, forgets_archive, changes_with_next, claims_rows, takes_none };
 
 class Euler final : public Integrator {
  public:
@@ -14,10 +16,12 @@ class Euler final : public Integrator {
   Traits traits() const override {
     Traits t;
     t.holds_position = t.holds_velocity = defect_ == Defect::claims_rows;
+    t.rows = defect_ != Defect::takes_none;
     return t;
   }
   void restart(System&, const State&) override { count_ = 0; }
   Outcome step(System& s, const State& now, double h, State& next) override {
+    if (defect_ == Defect::takes_none && s.sizes().nc > 0) throw std::logic_error("it was given rows");
     if (defect_ == Defect::trial_leaves_trace) count_ += 1;
     const double error = defect_ == Defect::changes_with_next && next.q.size() == 7 ? 1e-9 : 0;
     if (error > 0) count_ += 1;
@@ -51,6 +55,30 @@ TEST(CheckOrder, RefusesEulerWithOrder2) {
 TEST(CheckOrder, RefusesRungeKutta4WithOrder3) {
   const auto rk4 = from_plugin(TRAMMEL_BUILD_DIR "/lib/trammel", "runge_kutta_4");
   EXPECT_FALSE(check_order(rk4, problems::pendulum(), 3, 32));
+}
+TEST(IntegratorChecks, AskAMethodThatTakesNoRowsForNone) {
+  int asked = 0;
+  for (const Check& check : integrator_checks(euler(Defect::takes_none), {.order = 1, .steps = 256, .energy = 0.1})) {
+    const Report report = check();
+    EXPECT_TRUE(report) << check.name << report.table;
+    asked += report.table.find("not asked") == std::string::npos;
+  }
+  EXPECT_GE(asked, 6);
+}
+TEST(IntegratorChecks, RefuseRowsThatAMethodCannotTakeAndDoesNotSaySo) {
+  // The same method without its trait throws in every check with rows.
+  const Maker silent = [] {
+    struct Silent final : Integrator {
+      Euler euler{Defect::takes_none};
+      Traits traits() const override { return {.order = 1}; }
+      void restart(System& s, const State& now) override { euler.restart(s, now); }
+      Outcome step(System& s, const State& now, double h, State& next) override { return euler.step(s, now, h, next); }
+    };
+    return std::make_unique<Silent>();
+  };
+  int refused = 0;
+  for (const Check& check : integrator_checks(silent, {.order = 1, .steps = 256, .energy = 0.1})) refused += !check();
+  EXPECT_EQ(refused, 5);  // three with rows, and the trial and the archive, asked on the pendulum with its rod
 }
 TEST(CheckStability, RefusesEulerOnTheImaginaryAxis) {
   EXPECT_FALSE(check_stability(euler(Defect::none), Axis::imaginary, 2));

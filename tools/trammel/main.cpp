@@ -13,6 +13,7 @@
 #include "arguments.hpp"
 #include "crash.hpp"
 #include "input.hpp"
+#include "plugin/out_of_memory.hpp"
 #include "scene/suggestion.hpp"
 
 namespace trammel::tool {
@@ -97,9 +98,9 @@ int run_program(const std::string& program, std::span<const std::string> words) 
     return fail(Exit::bad_input, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (const plugin::PluginError& error) {
     return fail(Exit::bad_plugin, problem(error), fmt::format("trammel: {}", error.what()));
-  } catch (const std::bad_alloc&) {
-    const std::runtime_error error("out of memory");
-    return fail(Exit::failed, problem(error), "trammel: out of memory");
+  } catch (const std::bad_alloc& lack) {
+    const std::runtime_error error(plugin::told(lack));
+    return fail(Exit::failed, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (const std::exception& error) {
     return fail(Exit::failed, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (...) {

@@ -21,6 +21,10 @@ std::string duration(double seconds) {
 ProgressBar::ProgressBar(bool wanted) : visible_(wanted && isatty(STDERR_FILENO)) {}
 
 ProgressBar::~ProgressBar() {
+  clear();
+}
+
+void ProgressBar::clear() {
   if (drawn_) fmt::print(stderr, "\r\033[K");
 }
 

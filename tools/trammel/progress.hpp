@@ -17,6 +17,7 @@ class ProgressBar {
 
   bool visible() const { return visible_; }
   void draw(const simulate::Progress& progress);
+  void clear();  // for a line of text; the next call draws it again
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -60,6 +60,11 @@ Exit run(const Arguments& arguments) {
   simulate::RunReport report;
   {
     ProgressBar bar(!json && !quiet);
+    if (!quiet)
+      options.warn = [&bar](const std::string& warning) {
+        bar.clear();
+        fmt::print(stderr, "trammel: warning: {}\n", warning);
+      };
     if (bar.visible()) options.progress = [&bar](const simulate::Progress& progress) { bar.draw(progress); };
     report = simulate::run(scene, registry, options);
   }

@@ -4,7 +4,7 @@
 //     psi = atan2(y . w, x . w)        x, y, n a right-handed triad of A, w the direction of B that is x where R_A = R_B
 //     psi' = h . (omega_B - omega_A),  h = (n - s w)/(1 - s^2),  s = n . w       s = 0 while B turns about the axis alone
 //
-// In space psi [rad] lies in (-pi, pi] (counts_turns.hpp counts on), and means nothing where B's w points along the axis.
+// In space psi [rad] lies in (-pi, pi] (counts_turns.hpp counts on), and means nothing where B's w points along the axis (OutsideDomain).
 #pragma once
 
 #include <cmath>
@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include <trammel/marker.hpp>
+#include <trammel/outside_domain.hpp>
 
 namespace trammel {
 
@@ -55,7 +56,12 @@ class AxisAngle {
   static bool planar(const Motion& A) { return A.x.size() == 2; }
   Directions directions(const Motion& A, const Motion& B) const {
     const Eigen::Vector3d n = A.R * n_, w = B.R * x_;
-    return {n, w, n.dot(w)};
+    const double s = n.dot(w);
+    constexpr double round_off = 1e-15;
+    if (1 - s * s <= round_off)
+      throw OutsideDomain(
+          "it measures an angle about an axis that its B has tilted by a right angle, where there is none");
+    return {n, w, s};
   }
 
   Eigen::Vector3d n_ = Eigen::Vector3d::UnitZ(), x_ = Eigen::Vector3d::UnitX(), y_ = Eigen::Vector3d::UnitY();

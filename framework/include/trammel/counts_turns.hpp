@@ -1,5 +1,5 @@
 // Turns in space beyond half of one: a pose tells an angle but for whole turns. They are counted on from state to state, as planar
-// bodies' own angles count them, by forces that depend on such an angle.
+// bodies' own angles count them, by forces and joints that depend on such an angle.
 #pragma once
 
 #include <cmath>
@@ -26,11 +26,12 @@ class CountedAngle {
   double last_;
 };
 
-// Ability of forces: to be told the states that became the solution, from the first one on.
+// Ability of forces and joints: to be told the states that became the solution, from the first one on; of more than two markers A and
+// B. Each instance counts for itself, and its count is part of a checkpoint.
 class CountsTurns {
  public:
   virtual ~CountsTurns();
-  // May throw where what it depends on can be counted no further: the run then ends.
+  // May throw OutsideDomain where what it depends on can be counted no further: the run then ends.
   virtual void follow(const Motion& A, const Motion& B) = 0;
   virtual void archive(Archive&) = 0;
 };

@@ -25,6 +25,7 @@ struct Traits {
   int steps = 1;                // of memory: 1 for one-step methods, 4 for fourth-order Adams
   bool holds_position = false;  // g = 0 at the end of each step, to the iteration's tolerance
   bool holds_velocity = false;  // G v + g_t = 0 likewise
+  bool rows = true;  // false: only for systems without rows (nc = 0); scenes that have or make some are refused
 };
 
 class Integrator : public Component {
@@ -67,7 +68,7 @@ class ErrorEstimate {
 class DenseOutput {
  public:
   virtual ~DenseOutput();
-  // State inside the last trial, theta in [0, 1]; fills t, q, v.
+  // State inside the last trial, theta in [0, 1]; fills t, q, v. Numbers that are not finite: the method finds none there.
   virtual void interpolate(System&, const State& now, const State& next, double theta, State& at) = 0;
 };
 

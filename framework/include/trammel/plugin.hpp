@@ -19,7 +19,7 @@
 #include <trammel/parameters.hpp>
 
 // The SDK that these headers are. Major: a virtual function or a type's layout changed; minor: abilities were added (CHANGES.md).
-#define TRAMMEL_SDK_MAJOR 2
+#define TRAMMEL_SDK_MAJOR 3
 #define TRAMMEL_SDK_MINOR 0
 
 namespace trammel {

@@ -32,6 +32,8 @@ struct Tableau {
 class RungeKutta {
  public:
   static constexpr const char* diverged = "the step left the finite numbers: too large for an explicit method";
+  static constexpr const char* out_of_range =
+      "the step begins where accelerations leave the range of numbers: lengths and speeds stay below 1e60";
 
   explicit RungeKutta(const Tableau& tableau);
 
@@ -56,8 +58,10 @@ class RungeKutta {
   static constexpr const char* rows_doc =
       "baumgarte: stabilised off the rows; projected: every stage on them; null_space: by quasi-velocities";
 
-  // The slope at a point. False: beyond the range of any model.
-  bool evaluate(System& s, double t, const Vec& q, const Vec& v, Slope& slope);
+  // The slope at a point. False: beyond the range of any model; there is none.
+  [[nodiscard]] bool evaluate(System& s, double t, const Vec& q, const Vec& v, Slope& slope);
+  // That where a motion begins; empty where there is none, and every step from there is rejected.
+  void begin(System& s, const State& now, Slope& slope);
   // Where that slope was taken, which is on the rows if it `projects`.
   void taken_at(Vec& q, Vec& v) const { q = on_manifold_, v = held_v_; }
   // Leaves out what of dv is across the rows there (error_along_rows.hpp).
@@ -76,16 +80,16 @@ class RungeKutta {
     return trial();
   }
 
-  // One step; `first` is the slope at `now`. next.a and next.lambda are those at the step's end.
+  // One step; `first` is the slope at `now`. next.a and next.lambda are those at the step's end. Rejected if `first` is empty.
   Outcome step(System& s, const State& now, const Slope& first, double h, State& next);
 
   // --- of the last step: its slopes are those of its stages, of its end, then those added here ---
   int slopes() const { return filled_; }
   double h() const { return h_; }
-  // Makes the step from `now` to `next` the last one: repeats it if another was tried since.
-  bool recall(System& s, const State& now, const State& next);
-  // The slope at now.t + c h; `row` has a weight for each slope so far.
-  bool add_stage(System& s, const State& now, double c, const double* row);
+  // Makes the step from `now` to `next` the last one: repeats it if another was tried since. False: it was refused.
+  [[nodiscard]] bool recall(System& s, const State& now, const State& next);
+  // The slope at now.t + c h; `row` has a weight for each slope so far. False: there is none, and it is not added.
+  [[nodiscard]] bool add_stage(System& s, const State& now, double c, const double* row);
   // h sum_i weights[i] k_i over the first n slopes.
   void combine(const double* weights, int n, Vec& dq, Vec& dv) const;
   // The norm of a local error at the step's end, of e, numbers of q, and e_v: of the whole, or without e_v's part across the rows.
@@ -103,12 +107,14 @@ class RungeKutta {
   // of higher degree h sum_i row[i] k_i over all slopes.
   void interpolate(const System& s, const State& now, const State& next, double theta,
                    std::initializer_list<const double*> terms, State& at);
+  // The same by a step to there, for a dense output that lacks a slope. NaN where that is refused, too.
+  void step_inside(System& s, const State& now, const State& next, double theta, State& at);
 
  private:
   Outcome all_stages(System& s, const State& now, double h, State& next);
   Outcome end(System& s, State& next);
-  bool keep_null_space(System& s, const State& now);
-  bool onto_rows(System& s, double t);  // on_manifold_ and held_v_
+  [[nodiscard]] bool keep_null_space(System& s, const State& now);  // false: nothing to keep
+  [[nodiscard]] bool onto_rows(System& s, double t);                // on_manifold_ and held_v_
 
   Tableau tableau_;
   std::vector<Slope> k_;

@@ -17,6 +17,7 @@
 #include <trammel/counts_turns.hpp>
 #include <trammel/force.hpp>
 #include <trammel/needs_orientation.hpp>
+#include <trammel/outside_domain.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
@@ -49,8 +50,8 @@ struct Bushing : Force, NeedsOrientation, CountsTurns {
   void follow(const Motion& A, const Motion& B) override {
     if (A.x.size() == 2 || K_r_.isZero(0)) return;
     last_phi_ = Offset(A, B, last_phi_).phi;
-    if (!(last_phi_.norm() < 2 * std::numbers::pi))
-      throw std::domain_error(
+    if (last_phi_.norm() >= 2 * std::numbers::pi)
+      throw OutsideDomain(
           "B has turned by a full turn against A, which is the limit of a bushing; a hinge with a torsional_spring "
           "counts turns");
   }

@@ -8,9 +8,9 @@
 // folded onto each other, is a dead point, where the force has no bound.
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <trammel/force.hpp>
+#include <trammel/outside_domain.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
@@ -29,8 +29,7 @@ struct HingeSpring : Force {
   void wrench(double, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
     const Vec3 d = B.x - A.x;
     const Bend bend = bend_of(d.squaredNorm());
-    if (!(bend.cosine > -1))
-      throw std::domain_error("its arms are folded onto each other, where its force has no bound");
+    if (bend.cosine <= -1) throw OutsideDomain("its arms are folded onto each other, where its force has no bound");
     const Vec3 push = stiffness * bend.over_sine / (arms[0] * arms[1]) * d;
     on_B.head(d.size()) += push;
     on_A.head(d.size()) -= push;

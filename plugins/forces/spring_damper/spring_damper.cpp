@@ -5,9 +5,8 @@
 //
 // A is pulled with +F u and B with -F u. Where the markers meet (l = 0) there is no direction: a spring of rest length
 // 0 exerts no force there, any other is refused.
-#include <stdexcept>
-
 #include <trammel/force.hpp>
+#include <trammel/outside_domain.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
@@ -28,7 +27,7 @@ struct SpringDamper : Force {
   void wrench(double, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
     const Line line = between(A, B);
     if (line.l == 0 && stiffness > 0 && rest_ > 0)
-      throw std::domain_error("its markers coincide, so a spring of rest length > 0 has no direction");
+      throw OutsideDomain("its markers coincide, so a spring of rest length > 0 has no direction");
     const double tension = stiffness * (line.l - rest_) + damping * line.l_dot;
     on_A.head(line.u.size()) += tension * line.u;
     on_B.head(line.u.size()) -= tension * line.u;
@@ -52,7 +51,7 @@ struct SpringDamper : Force {
   static Line between(const Motion& A, const Motion& B) {
     const auto dim = A.x.size();
     const Vec3 d = B.x - A.x;
-    const double l = d.norm();
+    const double l = d.stableNorm();  // of 1e-300 m, too
     if (l == 0) return {Vec3::Zero(dim), 0, 0};
     const Vec3 u = d / l;
     return {u, l, u.dot(B.V.head(dim) - A.V.head(dim))};

@@ -48,8 +48,7 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   }
 
   void restart(System& s, const State& now) override {
-    starter_.forget();
-    starter_.evaluate(s, now.t, now.q, now.v, past_[0]);
+    starter_.begin(s, now, past_[0]);
     filled_ = 1;
     h_ = 0;
   }

@@ -107,10 +107,7 @@ class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput
     return {.order = 8, .holds_position = method_.projects(), .holds_velocity = method_.projects()};
   }
 
-  void restart(System& s, const State& now) override {
-    method_.forget();
-    method_.evaluate(s, now.t, now.q, now.v, slope_);
-  }
+  void restart(System& s, const State& now) override { method_.begin(s, now, slope_); }
 
   Outcome step(System& s, const State& now, double h, State& next) override {
     return method_.step(s, now, slope_, h, next);
@@ -136,13 +133,10 @@ class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput
   int error_order() const override { return 8; }
 
   void interpolate(System& s, const State& now, const State& next, double theta, State& at) override {
-    method_.recall(s, now, next);
-    if (method_.slopes() == 13) {
-      method_.add_stage(s, now, c_dense[0], a_dense_1);
-      method_.add_stage(s, now, c_dense[1], a_dense_2);
-      method_.add_stage(s, now, c_dense[2], a_dense_3);
-    }
-    method_.interpolate(s, now, next, theta, {dense_4, dense_5, dense_6, dense_7}, at);
+    if (method_.recall(s, now, next) && has_dense_stages(s, now))
+      method_.interpolate(s, now, next, theta, {dense_4, dense_5, dense_6, dense_7}, at);
+    else
+      method_.step_inside(s, now, next, theta, at);
   }
 
   void archive(Archive& archive) override {
@@ -153,6 +147,15 @@ class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput
   }
 
  private:
+  // Of the last step, evaluated when first asked for. False: one of them has no slope.
+  [[nodiscard]] bool has_dense_stages(System& s, const State& now) {
+    constexpr const double* weights[] = {a_dense_1, a_dense_2, a_dense_3};
+    constexpr int first = 13;
+    for (int i = method_.slopes() - first; i < 3; ++i)
+      if (!method_.add_stage(s, now, c_dense[i], weights[i])) return false;
+    return true;
+  }
+
   RungeKutta method_{{12, c, a, b}};
   Slope slope_;  // at the last accepted point
   Vec e_, e_v_;

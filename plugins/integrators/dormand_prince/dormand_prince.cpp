@@ -36,10 +36,7 @@ class DormandPrince final : public Integrator, public ErrorEstimate, public Dens
     return {.order = 5, .holds_position = method_.projects(), .holds_velocity = method_.projects()};
   }
 
-  void restart(System& s, const State& now) override {
-    method_.forget();
-    method_.evaluate(s, now.t, now.q, now.v, slope_);
-  }
+  void restart(System& s, const State& now) override { method_.begin(s, now, slope_); }
 
   Outcome step(System& s, const State& now, double h, State& next) override {
     return method_.step(s, now, slope_, h, next);
@@ -61,8 +58,10 @@ class DormandPrince final : public Integrator, public ErrorEstimate, public Dens
   int error_order() const override { return 5; }
 
   void interpolate(System& s, const State& now, const State& next, double theta, State& at) override {
-    method_.recall(s, now, next);
-    method_.interpolate(s, now, next, theta, {dense}, at);
+    if (method_.recall(s, now, next))
+      method_.interpolate(s, now, next, theta, {dense}, at);
+    else
+      method_.step_inside(s, now, next, theta, at);
   }
 
   void archive(Archive& archive) override {

@@ -89,10 +89,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   int error_order() const override { return points; }
 
   void interpolate(System& s, const State& now, const State& next, double theta, State& at) override {
-    if (!recall(s, now, next)) {
-      at = next;
-      return;
-    }
+    if (!recall(s, now, next)) return set_unknown(now, at);
     if (theta != inside_at_ || trial_h_ != inside_h_) weigh(modes_.omega(), theta, trial_h_, inside_);
     inside_at_ = theta, inside_h_ = trial_h_;
     solution_at(s, now, inside_, at.q, at.v);
@@ -102,8 +99,10 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   int quadrature_points() const override { return points; }
   double evaluated(System& s, const State& now, const State& next, int i, State& at) override {
     const bool known = recall(s, now, next);
-    if (i == 0 || i == last || !known) {
+    if (i == 0 || i == last) {
       at = i == 0 ? now : next;
+    } else if (!known) {
+      set_unknown(now, at);
     } else {
       at.t = now.t + weights_[i].t;
       at.q = q_.col(i), at.v = v_.col(i), at.lambda = lambda_.col(i);
@@ -175,7 +174,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   }
 
   // Multipliers are wanted as they are at the end.
-  bool evaluate_end(System& s, State& next) {
+  [[nodiscard]] bool evaluate_end(System& s, State& next) {
     if (!field_.evaluate(s, next.t, next.q, next.v, slope_)) return false;
     end_nu_ = rest(), end_v_ = next.v, slope_end_ = slope_.q;
     if (field_.projects()) field_.taken_at(next.q, next.v);
@@ -202,7 +201,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
             eps * rest_.lpNorm<Eigen::Infinity>() / (h * h)};
   }
 
-  bool sweep(System& s, const State& now) {
+  [[nodiscard]] bool sweep(System& s, const State& now) {
     swept_nu_ = nu_, swept_r_ = r_;
     swept_nu_.col(0).setZero();
     SweepConvergence::Change change{.whole = 0, .along_rows = 0};
@@ -327,8 +326,14 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     return field_.norm(s, now, next, e_, e_v_, part, tolerance);
   }
 
-  // Makes the step from `now` to `next` the last one: repeats it if another was tried since.
-  bool recall(System& s, const State& now, const State& next) {
+  static void set_unknown(const State& now, State& at) {
+    at = now;
+    at.q.setConstant(std::numeric_limits<double>::quiet_NaN());
+    at.v.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  // Makes the step from `now` to `next` the last one: repeats it if another was tried since. False: it was refused.
+  [[nodiscard]] bool recall(System& s, const State& now, const State& next) {
     const double h = next.t - now.t;
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(now.t), std::abs(next.t));
     if (trial_h_ > 0 && std::abs(h - trial_h_) <= rounding && now.a == a_0_) return true;

@@ -29,10 +29,7 @@ class RungeKutta4 final : public Integrator, public ErrorEstimate {
     return {.order = 4, .holds_position = method_.projects(), .holds_velocity = method_.projects()};
   }
 
-  void restart(System& s, const State& now) override {
-    method_.forget();
-    method_.evaluate(s, now.t, now.q, now.v, slope_);
-  }
+  void restart(System& s, const State& now) override { method_.begin(s, now, slope_); }
 
   Outcome step(System& s, const State& now, double h, State& next) override {
     return method_.step(s, now, slope_, h, next);

@@ -8,10 +8,10 @@
 //
 // lambda [N] > 0: the rod is in tension. Source: Garcia de Jalon, Bayo 1994, rigid-body conditions in natural
 // coordinates, here divided by 2 L so that g is a length and lambda a force.
-#include <stdexcept>
 #include <string>
 
 #include <trammel/joint.hpp>
+#include <trammel/outside_domain.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
@@ -29,7 +29,7 @@ struct Distance : Joint, ReactionTangent {
 
   void rows(double t, const Motion& A, const Motion& B, Rows& rows) const override {
     const auto [L, L_dot, L_ddot] = length.jet(t);
-    if (!(L > 0)) throw std::domain_error("length is " + std::to_string(L) + " m; it must stay greater than 0");
+    if (L <= 0) throw OutsideDomain("its length is " + std::to_string(L) + " m; it must stay greater than 0");
 
     const auto dim = A.x.size();
     const Vec3 d = B.x - A.x;
