@@ -5,19 +5,30 @@
 #include <trammel/error_norm.hpp>
 
 namespace trammel {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+// Steps of methods that keep errors of 1e-6 to 1e-12 are about this part of the time in which a motion changes.
+constexpr double steps_in_a_motion = 10;
+
+double largest(const Vec& a, const Vec& b) {
+  return a.size() ? std::max(a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>()) : 0;
+}
+
+}  // namespace
 
 double error_norm(const Vec& e_q, const Vec& e_v, const State& now, const State& next, const Tolerance& tolerance) {
   const Eigen::Index n = e_v.size();
   if (n == 0) return 0;
-  const bool flat = now.q.size() == n;
-  const double all = std::max(now.q.lpNorm<Eigen::Infinity>(), next.q.lpNorm<Eigen::Infinity>());
+  const double ahead = steps_in_a_motion * std::abs(next.t - now.t);
+  const double round_off_q = 4 * eps * largest(now.q, next.q), round_off_v = 4 * eps * largest(now.v, next.v);
   double sum = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double size_q = flat ? std::max(std::abs(now.q[i]), std::abs(next.q[i])) : all;
     const double size_v = std::max(std::abs(now.v[i]), std::abs(next.v[i]));
-    const double of_q = e_q[i] / (tolerance.absolute + tolerance.relative * size_q);
-    const double of_v = e_v[i] / (tolerance.absolute + tolerance.relative * size_v);
-    sum += of_q * of_q + of_v * of_v;
+    const double allowed_q = tolerance.absolute + tolerance.relative * ahead * size_v + round_off_q;
+    const double allowed_v = tolerance.absolute + tolerance.relative * size_v + round_off_v;
+    if (e_q[i] != 0) sum += e_q[i] / allowed_q * (e_q[i] / allowed_q);
+    if (e_v[i] != 0) sum += e_v[i] / allowed_v * (e_v[i] / allowed_v);
   }
   const double norm = std::sqrt(sum / double(2 * n));
   return std::isfinite(norm) ? norm : std::numeric_limits<double>::infinity();

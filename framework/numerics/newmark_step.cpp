@@ -20,11 +20,21 @@ double relative(double change, double size) {
 
 }  // namespace
 
+// Metres and radians do not compare: an angle of a rod a kilometre long is not known to 1e-11 where 1e-8 rad are left. A coordinate is
+// measured by its own way in the step, or by 1 where that is less, but never by more than the largest. Below its round-off nothing is
+// asked for.
+void NewmarkStep::measure(const State& now, double h) {
+  const Vec noise = now.q.size() == now.v.size() ? Vec(now.q.cwiseAbs()) : Vec::Constant(now.v.size(), largest(now.q));
+  sizes_q_ = h * now.v.cwiseAbs() + h * h * now.a.cwiseAbs() + dq.cwiseAbs();
+  sizes_q_ = sizes_q_.cwiseMax((64 * eps / newton.tolerance) * noise).cwiseMax(1).cwiseMin(size_q_);
+}
+
 void NewmarkStep::begin(const System& s, const State& now, double h, double c_q, double c_v, State& next) {
   const Sizes sizes = s.sizes();
   c_q_ = c_q, c_v_ = c_v;
   size_q_ = largest(now.q) + h * largest(now.v) + h * h * largest(now.a) + largest(dq);
   size_v_ = largest(now.v) + h * largest(now.a) + largest(v);
+  measure(now, h);
   zero_.setZero(sizes.nc > 0 ? sizes.nv : 0);
   pi_.setZero(formulation == Formulation::stabilised ? zero_.size() : 0);
   dpi_.resize(pi_.size());
@@ -84,6 +94,11 @@ bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
   const double da = largest(da_), a = largest(next.a);
   change_q_ = relative(c_q_ * da + largest(dpi_), size_q_ + c_q_ * a);
   change_v_ = relative(c_v_ * da, size_v_ + c_v_ * a);
+  change_each_ = change_q_;
+  for (Eigen::Index i = 0; i < sizes_q_.size(); ++i) {
+    const double change = std::abs(c_q_ * da_[i]) + (pi_.size() > 0 ? std::abs(dpi_[i]) : 0);
+    change_each_ = std::max(change_each_, relative(change, sizes_q_[i] + c_q_ * std::abs(next.a[i])));
+  }
   return true;
 }
 
@@ -118,7 +133,7 @@ void NewmarkStep::correct(System& s, Blend blend, const Vec& r, State& next) {
   }
   if (newton.wants_factors()) factorise(s, blend, next);
   if (!correct_rows(s, r, next)) return newton.fail("the iteration matrix is singular");
-  const double change = std::max(change_q_, change_v_);
+  const double change = std::max(change_each_, change_v_);
   newton.judge(change, !newton.fast(change) && at_round_off(s, r));
 }
 
@@ -132,7 +147,7 @@ Outcome NewmarkStep::finish(System& s, const State& now, State& next) {
       move(s, now, next);
       missed = largest(s.g());
       if (!correct_rows(s, zero_, next)) return Outcome::reject("the iteration matrix is singular");
-      change = formulation == Formulation::index3 ? change_q_ : std::max(change_q_, change_v_);
+      change = formulation == Formulation::index3 ? change_each_ : std::max(change_each_, change_v_);
     } while (change * newton.rate() > eps && ++passes < 4);
     if (missed > std::max(1e-8, 1e-6 * size_q_)) return Outcome::reject("the joints' rows contradict each other");
     // Rows of position divide their round-off by h^2. Where that is no longer small beside the velocity, say so.

@@ -75,7 +75,7 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
                         .friction = system_.told(c.contact, c.friction)});
     if (struck || (!c.was_closed && c.impulse > 0)) modes_.contacts[c.contact].approach_speed = -c.before;
   }
-  finish(state, carry);
+  finish(state, carry && state.a.size() == system_.sizes().nv);  // none yet at the start
   for (const TouchingContact& c : touching_) tell_normal(state, c, events);
   tell_friction(state, events);
 }
@@ -107,7 +107,7 @@ void ContactModes::find_touching(const ContactChanges& changes) {
     c.contact = i;
     c.was_closed = closed;
     c.before = c.after = system_.gap_rate(i);
-    if (struck && -c.before > treatment(i).capture_speed) c.restitution = law->coefficient(-c.before);
+    if (struck && -c.before > capture_speed(i)) c.restitution = law->coefficient(-c.before);
     touching_.push_back(c);
   }
 }
@@ -183,11 +183,16 @@ void ContactModes::fail_without_solution(const char* what, double t,
   throw RunFailed(fmt::format("at t = {:.9g} s: the {} of contacts {} {}", t, what, fmt::join(names, ", "), why));
 }
 
+// A law that names none leaves it to the scene.
+double ContactModes::capture_speed(int contact) const {
+  const double named = treatment(contact).capture_speed;
+  return named > 0 ? named : scale_.slow();
+}
+
 bool ContactModes::cannot_follow(double separation, double acceleration) const {
   if (!(acceleration < 0)) return false;
   if (steps_.fixed) return 2 * separation < chatter_steps_ * *steps_.fixed * -acceleration;
-  const double error = steps_.tolerance.absolute + steps_.tolerance.relative * scale_.length();
-  return separation * separation < chatter_steps_ * error * 2 * -acceleration;
+  return separation * separation < chatter_steps_ * scale_.error_of_position(steps_.tolerance) * 2 * -acceleration;
 }
 
 // Of the touching contacts those that separate after the impact, but fall back before the steps can follow. All with so small a

@@ -142,6 +142,7 @@ class ContactModes {
   Restitution::Treatment treatment(int contact) const {
     return system_.model().contacts[contact].restitution->treatment();
   }
+  double capture_speed(int contact) const;
   bool locks(int contact) const { return treatment(contact).release == Restitution::Release::never; }
 
   model::AssembledSystem& system_;

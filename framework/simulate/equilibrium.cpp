@@ -84,16 +84,19 @@ class Rest {
                : std::string("nothing can move");
   }
 
-  // q' of the equilibrium as time goes on; see the header. `state.q` is settled.
-  void follow() {
+  // q' of the equilibrium as time goes on; see the header. `state.q` is settled. A text: what direction has no rate.
+  std::optional<std::string> follow() {
     look(state_.q);
     contacts_.carry_along();
     look(state_.q);
-    const double dt = 1e-4, tau = 1;
+    const double dt = 1e-4;
+    constexpr int most = 120, slow = 40;
+    constexpr double inexact = 1e-6;  // of v
     state_.v = zero_v_;
     const Vec lambda = lambda_;
     Vec ahead, behind, q, rows, dv, mu;
-    for (int i = 0; i < 40; ++i) {
+    double tau = 1, before = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < most; ++i) {
       unbalance(state_.t + dt, dt * state_.v, lambda, ahead);
       unbalance(state_.t - dt, -dt * state_.v, lambda, behind);
       ahead = (ahead - behind) / (2 * dt);
@@ -103,10 +106,17 @@ class Rest {
       system_.hold_still(true);
       system_.move_to(state_.t, state_.q, zero_v_);
       system_.factorise({1 / (tau * tau), 0, 1}, zero_v_, lambda);
-      if (!system_.correct(ahead, rows, dv, mu)) return;
+      if (!system_.correct(ahead, rows, dv, mu)) return undetermined(ahead);
       state_.v += dv;
-      if (dv.lpNorm<Eigen::Infinity>() <= settled * state_.v.lpNorm<Eigen::Infinity>()) return;
+      const double change = dv.lpNorm<Eigen::Infinity>(), speed = state_.v.lpNorm<Eigen::Infinity>();
+      if (change <= settled * speed) return {};
+      if ((i + 1) % slow != 0) continue;
+      // Round-off; or what soft springs hold, which less damping finds. What nothing holds goes ever faster.
+      if (change <= inexact * speed) return {};
+      if (!(change < 0.5 * before)) return undetermined(dv);
+      before = change, tau *= 10;
     }
+    return undetermined(dv);
   }
 
  private:
@@ -114,6 +124,47 @@ class Rest {
     Vec r = zero_v_;
     system_.add_mass_times(1, x, r);
     return r;
+  }
+
+  std::string undetermined(const Vec& x) {
+    return fmt::format(
+        "the equilibrium is not determined: it moves with time, and nothing holds {}, so its velocity there follows "
+        "from "
+        "nothing. Hold it by a joint, a spring or a contact, or start from positions and velocities of your own",
+        direction(x));
+  }
+
+  // "bodies.rod in its angle": of the coordinates that x moves, the one with the most energy.
+  std::string direction(const Vec& x) {
+    const Vec energy = x.cwiseProduct(mass_times(x)).cwiseAbs();
+    const model::BodyEntry* most = nullptr;
+    Eigen::Index k = 0;
+    double largest = -1;
+    for (const model::BodyEntry& body : system_.model().bodies) {
+      if (body.nv == 0) continue;
+      Eigen::Index own = 0;
+      if (const double e = energy.segment(body.v0, body.nv).maxCoeff(&own); e > largest)
+        largest = e, most = &body, k = own;
+    }
+    return most ? fmt::format("bodies.{} in {}", most->name, coordinate(*most, k)) : "what moves";
+  }
+
+  // By what it does to the body's first marker.
+  std::string coordinate(const model::BodyEntry& body, Eigen::Index k) {
+    const std::string number = fmt::format("its coordinate {} of {}", k + 1, body.nv);
+    if (body.body->markers().empty()) return number;
+    Motion m;
+    body.body->motion(0, state_.t, state_.q.segment(body.q0, body.nq), zero_v_.segment(body.v0, body.nv), m);
+    for (std::size_t j = 0; j < m.dofs.size(); ++j) {
+      if (m.dofs[j] != k) continue;
+      const Vec by = m.J.col(Eigen::Index(j));
+      const Eigen::Index dim = m.x.size();
+      Eigen::Index axis = 0;
+      if (by.tail(by.size() - dim).cwiseAbs().maxCoeff(&axis) > 0)
+        return dim == 2 ? "its angle" : fmt::format("its turn about {}", "xyz"[axis]);
+      if (by.head(dim).cwiseAbs().maxCoeff(&axis) > 0) return fmt::format("{}", "xyz"[axis]);
+    }
+    return number;
   }
 
   // Moves the system to q at rest, finds a_ and lambda_ there, and returns |a| in the norm of the mass matrix.
@@ -178,10 +229,7 @@ class Rest {
 
 std::optional<std::string> find_equilibrium(model::AssembledSystem& system, State& state) {
   Rest rest(system, state);
-  if (rest.settle()) {
-    rest.follow();
-    return {};
-  }
+  if (rest.settle()) return rest.follow();
   return fmt::format("no static equilibrium was found: {}", rest.culprit());
 }
 

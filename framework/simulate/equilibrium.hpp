@@ -11,7 +11,8 @@
 // 508 (1998)):   (K + M / tau^2) dq + G^T dlambda = f - G^T lambda,  G dq = -g.
 // tau grows while the unbalanced acceleration a (the one with which the system would leave from rest) shrinks, and falls where
 // a step would raise it or go against it; so the method moves with the forces, away from unstable equilibria, and ends as
-// Newton's. A direction that nothing holds and nothing pushes keeps its coordinates.
+// Newton's. A direction that nothing holds and nothing pushes keeps its coordinates. One that nothing holds while the equilibrium
+// moves has no velocity of its own; then there is a text that names it.
 #pragma once
 
 #include <optional>

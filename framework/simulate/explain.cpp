@@ -38,8 +38,9 @@ double least_time(Call call) {
 
 std::string step_text(const StepChoice& choice) {
   if (choice.fixed) return fmt::format("{:.6g} s", *choice.fixed);
-  return fmt::format("error-controlled, relative {:.3g}, absolute {:.3g}", choice.tolerance.relative,
-                     choice.tolerance.absolute);
+  const double absolute = choice.tolerance.absolute;
+  return fmt::format("error-controlled, relative {:.3g}, absolute {}", choice.tolerance.relative,
+                     absolute > 0 ? fmt::format("{:.3g}", absolute) : "in the scene's size");
 }
 
 class Text {

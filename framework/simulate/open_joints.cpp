@@ -43,7 +43,7 @@ double OpenJoints::distance(model::AssembledSystem& system, const std::vector<mo
   return largest;
 }
 
-void OpenJoints::measure(model::AssembledSystem& system, double otherwise) {
+void OpenJoints::measure(model::AssembledSystem& system, double otherwise, double round_off) {
   joints_.clear();
   const std::vector<double> extent = extents(system);
   const model::Model& model = system.model();
@@ -51,14 +51,16 @@ void OpenJoints::measure(model::AssembledSystem& system, double otherwise) {
     if (const model::BodyEntry& body = model.bodies[i]; body.rows > 0)
       joints_.push_back({{"bodies." + body.name, body.row, body.rows}, {}, extent[i]});
   for (const model::JointEntry& joint : model.joints) {
-    double size = distance(system, joint.markers);
+    // What its rows are off by is not its size.
+    double size = distance(system, joint.markers) - system.g().segment(joint.row, joint.rows).norm();
     for (const model::MarkerRef marker : joint.markers)
       if (marker.body >= 0) size = std::max(size, extent[std::size_t(marker.body)]);
     joints_.push_back({{"joints." + joint.name, joint.row, joint.rows}, joint.markers, size});
   }
-  // Where all there is stands in the origin nothing has a length; then 1 m.
+  // A point that was computed in two ways has no length, but the round-off of its place. Where all there is stands in one point
+  // nothing has a length; then 1 m.
   for (Joint& joint : joints_)
-    if (!(joint.size > 0)) joint.size = otherwise > 0 ? otherwise : 1;
+    if (!(joint.size > round_off)) joint.size = otherwise > round_off ? otherwise : 1;
 }
 
 std::string OpenJoints::told(model::AssembledSystem& system, const State& state) const {

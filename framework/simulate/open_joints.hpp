@@ -18,8 +18,8 @@ namespace trammel::simulate {
 class OpenJoints {
  public:
   // At the system's point, where the rows hold; once, and again where the model was laid out anew. `otherwise` [m] is the size of
-  // bodies without extent in joints without a length.
-  void measure(model::AssembledSystem& system, double otherwise);
+  // bodies without extent in joints without a length, which is one of no more than `round_off` [m].
+  void measure(model::AssembledSystem& system, double otherwise, double round_off);
   // "joints.crank by 0.25 m, joints.axis by 0.3 rad", the worst few; empty: none. At the state, where the system is.
   std::string told(model::AssembledSystem& system, const State& state) const;
 

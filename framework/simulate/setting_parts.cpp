@@ -42,13 +42,22 @@ Part step() {
       "step",
       "integrator.step and integrator.contact_step. A number is a fixed step [s], shortened only to meet records and "
       "events. An object keeps the error of each step, component by component in the mean square, below absolute + "
-      "relative |x|; that takes a method with an error estimate.",
+      "relative |v| in velocities, and below absolute + relative 10 h |v| in coordinates, the way of ten steps: so the "
+      "place "
+      "of a scene does not matter. That takes a method with an error estimate.",
       R"("step": 1e-4   or   "step": {"tolerance": 1e-9, "max": 1e-3})",
       {key("tolerance", Type::number,
-           {.min = 0, .above_min = true, .doc = "relative and absolute alike; needed unless both of them are given"}),
+           {.min = 0,
+            .above_min = true,
+            .doc = "relative to the motion and to the scene's size; needed unless both others are given"}),
        key("relative", Type::number, {.min = 0, .doc = "\"tolerance\" if left out"}),
        key("absolute", Type::number,
-           {.unit = "m, rad, m/s, rad/s", .min = 0, .above_min = true, .doc = "\"tolerance\" if left out"}),
+           {.unit = "m, rad, m/s, rad/s",
+            .min = 0,
+            .above_min = true,
+            .doc =
+                "\"relative\" times the scene's size, its largest gap, body or distance of joined markers, but 1 m at "
+                "most, if left out"}),
        key("initial", Type::number,
            {.unit = "s", .min = 0, .above_min = true, .doc = "first trial; record.every if left out"}),
        key("min", Type::number,

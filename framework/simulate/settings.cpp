@@ -72,7 +72,8 @@ StepChoice read_step(const Value& value, const Resolution& resolution, Problems&
   if (!value.find("tolerance") && !(value.find("relative") && value.find("absolute")))
     problems.error(value.problem("give \"tolerance\", or both \"relative\" and \"absolute\""));
   choice.tolerance.relative = number(value, part, "relative", both, problems);
-  choice.tolerance.absolute = number(value, part, "absolute", both, problems);
+  choice.tolerance.absolute =
+      number(value, part, "absolute", 0, problems);  // 0: in the scene's own unit (ContactScale)
   const auto length = [&](const char* key, double fallback) {
     const double h = number(value, part, key, fallback, problems);
     return h == fallback || resolution.admits(*value.find(key), h, problems) ? h : fallback;

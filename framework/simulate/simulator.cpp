@@ -174,7 +174,8 @@ bool Simulator::take_step(const StepControl::Proposal& proposal, double& h, Even
   };
   if (!next_.q.allFinite() || !next_.v.allFinite() || !next_.a.allFinite()) return refuse_not_finite();
   if (control().controlled()) {
-    error = estimate_->error(system_, now_, next_, control().tolerance());
+    const Tolerance tolerance = scale_.in_own_unit(control().tolerance(), settings_.every);
+    error = estimate_->error(system_, now_, next_, tolerance);
     if (!(error <= 1)) {
       ++statistics_.rejected;
       control().rejected_for_error(h, error);

@@ -10,7 +10,7 @@ namespace trammel::simulate {
 
 void Simulator::measure_joints() {
   system_.move_to(now_.t, now_.q, now_.v);
-  open_joints_.measure(system_, scale_.length());
+  open_joints_.measure(system_, scale_.length(), scale_.one_point());
 }
 
 void Simulator::judge_joints(const State& state) {

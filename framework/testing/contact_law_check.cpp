@@ -134,11 +134,12 @@ Report restitution_loses_energy(const Restitution& law) {
 }
 
 Report bounces_end(const Restitution& law) {
-  return compare("slower than its capture speed, which is above 0, nothing bounces", [&](Comparison& c) {
+  return compare("slower than its capture speed nothing bounces (0: the scene's size decides)", [&](Comparison& c) {
     const double capture = law.treatment().capture_speed;
-    c.holds(capture > 0 && std::isfinite(capture), fmt::format("capture speed {:.6g} m/s", capture));
+    c.holds(capture >= 0 && std::isfinite(capture), fmt::format("capture speed {:.6g} m/s", capture));
     for (const double part : {0.0, 1e-6, 0.5, 0.999})
-      c.within(law.coefficient(part * capture), 0, 0, fmt::format("restitution at {:.3g} m/s", part * capture));
+      if (capture > 0)
+        c.within(law.coefficient(part * capture), 0, 0, fmt::format("restitution at {:.3g} m/s", part * capture));
   });
 }
 

@@ -1,8 +1,9 @@
 // The norm in which a local error is measured: root mean square over q (as increments) and v of
 //
-//     e_i / (absolute + relative max(|x_i| at the step's start, at its end))
+//     e_q / (absolute + relative 10 h |v_i|)     e_v / (absolute + relative |v_i|)      |v_i| the larger at the step's ends
 //
-// Where q has more numbers than increments (rotations), every increment takes the size of the largest entry of q.
+// The size of a coordinate is the way that it goes in ten steps, whatever its unit and place: a motion is as accurate 10^8 m from
+// the origin as at it. Beside that, round-off of the largest entry of q, or of v, is no error of the method.
 #pragma once
 
 #include <trammel/integrator.hpp>

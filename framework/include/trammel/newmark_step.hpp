@@ -48,6 +48,7 @@ class NewmarkStep {
   Outcome finish(System& s, const State& now, State& next);
 
  private:
+  void measure(const State& now, double h);
   void factorise(System& s, Blend blend, const State& next);
   void update(const System& s, const State& now, State& next);
   bool correct_rows(System& s, const Vec& r, State& next);
@@ -57,6 +58,8 @@ class NewmarkStep {
   double c_q_ = 0, c_v_ = 0;
   double size_q_ = 0, size_v_ = 0;      // of q and v
   double change_q_ = 0, change_v_ = 0;  // by the last increment, relative to them
+  Vec sizes_q_;                         // of each coordinate, in its own unit
+  double change_each_ = 0;              // of the coordinate that changed most, relative to its own size
   Factors of_pi_ = Factors::iteration;  // projection where they differ
   bool leads_ = false;                  // a_n further than v_n, by lead_
   Vec pi_, dpi_, zero_;                 // empty where there is no pi; zero_ where there are no rows

@@ -22,7 +22,7 @@ using namespace trammel;
 
 struct ConstraintMethod : Restitution {
   double restitution = 0;
-  double capture_speed = 1e-6;
+  double capture_speed = 0;
   Onset onset = Onset::located;
   Rebound rebound = Rebound::free;
   Restart restart = Restart::consistent;
@@ -45,7 +45,10 @@ TRAMMEL_PLUGIN(
         .parameter("restitution", &ConstraintMethod::restitution,
                    {.min = 0, .max = 1, .doc = "e; 0 plastic, 1 elastic"})
         .parameter("capture_speed", &ConstraintMethod::capture_speed,
-                   {.unit = "m/s", .min = 0, .usual_max = 1e-2, .above_min = true, .doc = "slower impacts have e = 0"})
+                   {.unit = "m/s",
+                    .min = 0,
+                    .usual_max = 1e-2,
+                    .doc = "slower impacts have e = 0; 0: a ten millionth of the scene's speed"})
         .choice("onset", &ConstraintMethod::onset,
                 {{"located", ConstraintMethod::Onset::located}, {"next_step", ConstraintMethod::Onset::next_step}},
                 {.doc = "impact at the crossing, or at the end of the step that passed it"})
