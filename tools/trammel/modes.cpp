@@ -85,7 +85,7 @@ Command modes_command() {
   return {"modes",
           "SCENE",
           "Find frequencies, damping and shapes of small motions about a state.",
-          {kFolder, kAt, kFrom, kSteady, kCount, kSet, kPlugin, kJson, kQuiet},
+          {kFolder, kAt, kFrom, kSteady, kCount, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
           run};
 }
 

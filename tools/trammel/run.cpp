@@ -37,6 +37,7 @@ std::string continuation(const Arguments& arguments, const fs::path& folder) {
   const auto add = [&command](const std::string& word) { command += " " + shell_quoted(word); };
   for (const char* option : {"--plugin", "--set"})
     for (const std::string& value : arguments.all(option)) add(option), add(value);
+  if (arguments.has(kAllowScenePlugins.name)) add(std::string(kAllowScenePlugins.name));
   add("--resume"), add(folder.string());
   if (arguments.operand().starts_with("-")) add("--");
   add(arguments.operand());
@@ -83,7 +84,7 @@ Exit run(const Arguments& arguments) {
 
 Command run_command() {
   return {
-      "run", "SCENE", "Simulate a scene and write its results.", {kOut, kSet, kPlugin, kResume, kJson, kQuiet}, run};
+      "run", "SCENE", "Simulate a scene and write its results.", {kOut, kSet, kPlugin, kAllowScenePlugins, kResume, kJson, kQuiet}, run};
 }
 
 }  // namespace trammel::tool

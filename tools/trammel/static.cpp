@@ -42,7 +42,7 @@ Command static_command() {
   return {"static",
           "SCENE",
           "Find equilibria under growing loads: t is the load.",
-          {kOut, kSet, kPlugin, kJson, kQuiet},
+          {kOut, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
           run};
 }
 
