@@ -14,6 +14,7 @@
 #include "crash.hpp"
 #include "input.hpp"
 #include "scene/suggestion.hpp"
+#include "simulate/results_folder.hpp"
 
 namespace trammel::tool {
 
@@ -94,6 +95,8 @@ int run_program(const std::string& program, std::span<const std::string> words) 
   } catch (const scene::SceneError& error) {
     return fail(Exit::bad_input, error.problems(), error.what());
   } catch (const UsageError& error) {
+    return fail(Exit::bad_input, problem(error), fmt::format("trammel: {}", error.what()));
+  } catch (const simulate::FolderRefused& error) {
     return fail(Exit::bad_input, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (const plugin::PluginError& error) {
     return fail(Exit::bad_plugin, problem(error), fmt::format("trammel: {}", error.what()));

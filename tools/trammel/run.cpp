@@ -26,7 +26,8 @@ fs::path folder_of_run(const Arguments& arguments) {
     throw UsageError("--out and --resume exclude each other: a resumed run goes on in its own folder");
   const fs::path folder = arguments.last("--resume");
   std::error_code error;
-  if (!fs::exists(folder / "checkpoint.cbor", error))
+  if (!fs::exists(folder / simulate::newest_checkpoint, error) &&
+      !fs::exists(folder / simulate::checkpoint_before, error))
     throw UsageError(fmt::format("--resume {0}: there is no {0}/checkpoint.cbor to continue from", folder.string()));
   return folder;
 }
@@ -54,7 +55,7 @@ Exit run(const Arguments& arguments) {
   plugin::Registry registry;
   load_plugins(arguments, registry);
 
-  require_writable(options.out);
+  const simulate::ResultsFolder folder(options.out, simulate::Analysis::motion);
   options.interrupt = &watch_for_interrupts();
   options.witness = &witness();
   simulate::RunReport report;
@@ -83,8 +84,11 @@ Exit run(const Arguments& arguments) {
 }  // namespace
 
 Command run_command() {
-  return {
-      "run", "SCENE", "Simulate a scene and write its results.", {kOut, kSet, kPlugin, kAllowScenePlugins, kResume, kJson, kQuiet}, run};
+  return {"run",
+          "SCENE",
+          "Simulate a scene and write its results.",
+          {kOut, kSet, kPlugin, kAllowScenePlugins, kResume, kJson, kQuiet},
+          run};
 }
 
 }  // namespace trammel::tool
