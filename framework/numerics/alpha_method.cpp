@@ -39,8 +39,8 @@ void AlphaMethod::accept(const State& next) {
 }
 
 void AlphaMethod::archive(Archive& archive) {
-  archive("a", a_);
-  archive("A", A_);
+  archive("now_algorithmic_a", a_);
+  archive("now_a", A_);
   error_.archive(archive);
 }
 

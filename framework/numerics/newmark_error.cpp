@@ -62,7 +62,7 @@ void NewmarkError::archive(Archive& a) {
   a("error_t", t_);
   a("error_h_before", h_before_);
   a("error_a", a_);
-  a("error_a_before", a_before_);
+  a("error_before_a", a_before_);
   along_rows_.archive(a);
 }
 

@@ -1,5 +1,7 @@
 // Out-of-line destructors of the public interfaces: each interface's vtable and type_info live here, in libtrammel,
 // once. So dynamic_cast and exceptions work between program and plugins, also when a plugin hides its own symbols.
+#include <algorithm>
+#include <stdexcept>
 
 #include <trammel/archive.hpp>
 #include <trammel/awaits_contact.hpp>
@@ -64,8 +66,13 @@ void Archive::operator()(std::string_view name, std::vector<Vec>& values) {
   const std::string stem(name);
   int count = static_cast<int>(values.size());
   (*this)(stem + ".count", count);
-  values.resize(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) (*this)(stem + "." + std::to_string(i), values[static_cast<std::size_t>(i)]);
+  if (count < 0) throw std::length_error(stem + ".count");
+  values.resize(std::min(values.size(), static_cast<std::size_t>(count)));
+  // One after another: what is read may claim more than there is.
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    if (i == values.size()) values.emplace_back();
+    (*this)(stem + "." + std::to_string(i), values[i]);
+  }
 }
 
 const char* to_string(Kind kind) {

@@ -12,6 +12,7 @@
 #include "plugin/fingerprint.hpp"
 #include "plugin/library_section.hpp"
 #include "plugin/rehearsal.hpp"
+#include "scene/files.hpp"
 #include "scene/suggestion.hpp"
 
 namespace trammel::plugin {
@@ -32,6 +33,13 @@ std::string full_path(const fs::path& file) {
 // <prefix>/lib/trammel for <prefix>/lib/libtrammel.so; the same in a build folder.
 fs::path installed_folder() {
   return fs::path(boost::dll::this_line_location().parent_path().string()) / "trammel";
+}
+
+// Empty: there is none.
+fs::path users_folder() {
+  const char *data = std::getenv("XDG_DATA_HOME"), *home = std::getenv("HOME");
+  if (data && fs::path(data).is_absolute()) return fs::path(data) / "trammel/plugins";
+  return home && fs::path(home).is_absolute() ? fs::path(home) / ".local/share/trammel/plugins" : fs::path();
 }
 
 // Runs the library's own code.
@@ -98,7 +106,9 @@ Origin Entry::origin(std::string scene_path) const {
 
 Registry::Registry(Start start) {
   if (start == Start::empty) return;
-  if (fs::is_directory(installed_folder())) folders_.push_back(installed_folder());
+  std::error_code error;
+  for (const fs::path& folder : {installed_folder(), users_folder()})
+    if (fs::is_directory(folder, error)) folders_.push_back(folder);
   const char* variable = std::getenv("TRAMMEL_PLUGIN_PATH");
   std::string_view paths = variable ? variable : "";
   while (!paths.empty()) {
@@ -128,11 +138,22 @@ void Registry::search_scene(const scene::Value& root, scene::Problems& problems)
     const auto path = item.read_text(problems);
     if (!path) continue;
     const fs::path file = fs::path(item.position().file).parent_path() / *path;
-    if (std::error_code error; fs::exists(file, error))
+    if (std::error_code error; !fs::exists(file, error))
+      problems.error(item.problem(fmt::format("no such file or folder: {}", file.string())));
+    else if (scene_plugins_allowed_ || is_trusted(file))
       search(file);
     else
-      problems.error(item.problem(fmt::format("no such file or folder: {}", file.string())));
+      problems.error(item.problem(
+          fmt::format("{} is not loaded: code of a library that the scene names would run. --allow-scene-plugins allows "
+                      "it; so does a folder of yours that holds it, given by --plugin or TRAMMEL_PLUGIN_PATH",
+                      full_path(file))));
   }
+}
+
+bool Registry::is_trusted(const fs::path& path) const {
+  return std::find(files_.begin(), files_.end(), full_path(path)) != files_.end() ||
+         std::any_of(folders_.begin(), folders_.end(),
+                     [&](const fs::path& folder) { return scene::is_within(folder, path); });
 }
 
 void Registry::load(const fs::path& library) {

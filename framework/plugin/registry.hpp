@@ -1,6 +1,7 @@
 // Which component comes from which shared library.
 //
-// Libraries are looked for in the search path: what `search` was given, TRAMMEL_PLUGIN_PATH, and the installed folder.
+// Libraries are looked for in the search path: what `search` was given, TRAMMEL_PLUGIN_PATH, the user's own folder
+// ($XDG_DATA_HOME/trammel/plugins, by default ~/.local/share/trammel/plugins) and the installed folder; never in the current one.
 // A library of the search path is loaded at once; a folder is looked into when a name is asked for: the component NAME
 // is expected in NAME.so, and only if it is not there are the folder's other libraries loaded to look for it. So a run
 // loads the libraries its scene names and no others. Loaded libraries stay: objects, exceptions and texts may outlive
@@ -38,13 +39,16 @@ class UnknownComponent : public std::runtime_error {
 class Registry {
  public:
   enum class Start { installed, empty };
-  // installed: TRAMMEL_PLUGIN_PATH and the folder beside libtrammel are searched from the start.
+  // installed: TRAMMEL_PLUGIN_PATH, the user's folder and the one beside libtrammel are searched from the start.
   explicit Registry(Start start = Start::installed);
 
   // Adds a library or a folder of libraries. Throws PluginError if it is neither, or if the library cannot be used.
   void search(const std::filesystem::path& path);
-  // The scene's own "plugins": ["my_method.so", "../plugins"], relative to the scene file.
+  // The scene's own "plugins": ["my_method.so", "../plugins"], relative to the scene file. Their code runs even when a scene is only
+  // checked, so whoever wrote the scene does not decide that: they must lie in a folder that is searched anyway, or the user
+  // has allowed them.
   void search_scene(const scene::Value& root, scene::Problems& problems);
+  void allow_scene_plugins() { scene_plugins_allowed_ = true; }
 
   // Loads one library: pre-flight of the file, comparison of the fingerprint, then its code. Throws PluginError.
   // Loading a file again does nothing.
@@ -68,6 +72,7 @@ class Registry {
   const Entry* loaded(Kind kind, std::string_view name) const;
   void look_for(std::string_view name);
   void load_folders();
+  bool is_trusted(const std::filesystem::path& path) const;
   void add(const Declarations& declarations, const std::string& file);
   std::string unknown(std::string_view what, std::string_view name, const Kind* kind) const;
 
@@ -75,7 +80,7 @@ class Registry {
   std::vector<std::unique_ptr<Entry>> entries_;
   std::vector<std::string> files_;  // canonical
   std::set<std::string, std::less<>> names_looked_for_;
-  bool folders_loaded_ = false;
+  bool folders_loaded_ = false, scene_plugins_allowed_ = false;
   std::vector<PluginError> failures_;
 };
 

@@ -18,16 +18,20 @@ class Builder {
   }
   static void place(Value& value, Position at) { value.position_ = std::move(at); }
   static Value* find(Value& object, std::string_view key);
-  // Dotted paths, the scene's parameters and ways to find members, for the whole tree.
+  // Dotted paths, the scene's parameters and ways to find members, for the whole tree. Throws SceneError where it grows beyond
+  // limits::values.
   static void finish(Value& value, const std::string& path, const std::shared_ptr<const Value::Parameters>& parameters);
   static std::uint64_t hash(const Value& value);  // independent of the order of members
+  // How many values it has, itself among them; long texts and many {...} count as more (limits.hpp).
+  static std::size_t size(const Value& value);
 
  private:
+  static void finish(Value& value, const std::string& path, const std::shared_ptr<const Value::Parameters>& parameters,
+                     std::size_t& size);
   static void order_by_name(Value& object);
 };
 
-// One file or text, as it stands. Throws SceneError.
-std::string read_file(const std::string& file);
+// A text as it stands. Throws SceneError.
 Value parse_text(const std::string& text, const std::string& file);
 
 // `over` onto `base`: objects merge member by member, null removes one, all else replaces. An object with another "type" replaces the
@@ -39,11 +43,14 @@ Value resolve_includes(Value&& root, const std::string& file);
 
 void apply(const Override& override, Value& root);
 
-// The "parameters" block, evaluated; expressions in it may use one another.
+// The "parameters" block, evaluated, in the order of their names; expressions in it may use one another.
 std::shared_ptr<const Value::Parameters> evaluate_parameters(const Value& root);
 
 // Whether a unit has "for".
 bool repeats_units(const Value& root);
+// nullptr: there is none of this name.
+const std::variant<double, std::string>* find_parameter(const Value::Parameters& parameters, std::string_view name);
+
 // Puts copies in place of bodies, joints, forces and contacts with "for" (repeat.cpp). Throws SceneError.
 void repeat_units(Value& root, const Value::Parameters& parameters);
 

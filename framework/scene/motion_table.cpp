@@ -8,7 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "scene/builder.hpp"
+#include "scene/files.hpp"
+#include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
 #include "scene/tabulated_law.hpp"
 
@@ -80,9 +81,11 @@ class Table {
     }
     const auto name = table->read_text(problems_);
     if (!name || !read_options()) return {};
-    file_ = (std::filesystem::path(table->position().file).parent_path() / *name).string();
+    const auto folder = std::filesystem::path(table->position().file).parent_path();
+    file_ = (folder / *name).string();
+    quotable_ = is_within(folder, file_);
     try {
-      text_ = read_file(file_);
+      text_ = read_named_file(file_);
     } catch (const SceneError& error) {
       problems_.error(table->problem(fmt::format("cannot read the table \"{}\": {}", *name, error.what())));
       return {};
@@ -175,9 +178,9 @@ class Table {
       if (found != header.end()) return true;
       const std::vector<std::string> names(header.begin(), header.end());
       problems_.error(value->problem(
-          header.empty()
-              ? fmt::format("{} has no line that names its columns, so give a number from 1", file_)
-              : fmt::format("{} has no column \"{}\"{}", file_, value->text(), did_you_mean(value->text(), names))));
+          header.empty() ? fmt::format("{} has no line that names its columns, so give a number from 1", file_)
+                         : fmt::format("{} has no column \"{}\"{}", file_, value->text(),
+                                       quotable_ ? did_you_mean(value->text(), names) : "")));
       return false;
     }
     const std::optional<int> number = value ? value->read_integer(problems_) : fallback;
@@ -194,9 +197,15 @@ class Table {
       return complain(line,
                       fmt::format("found {} cells, expected at least {}", cells.size(), std::max(time_, column_) + 1));
     const auto t = number_of(cells[time_]), x = number_of(cells[column_]);
-    if (!t || !x) return complain(line, fmt::format("found \"{}\", expected a number", cells[t ? column_ : time_]));
+    if (!t || !x) {
+      const std::string found =
+          quotable_ ? fmt::format("\"{}\"", shortened(cells[t ? column_ : time_])) : "something else";
+      return complain(line, fmt::format("found {}, expected a number", found));
+    }
     if (!t_.empty() && !(*t > t_.back()))
-      return complain(line, fmt::format("the time {} does not come after {} in the row before", *t, t_.back()));
+      return complain(line, quotable_
+                                ? fmt::format("the time {} does not come after {} in the row before", *t, t_.back())
+                                : "the time does not come after the one in the row before");
     t_.push_back(*t);
     x_.push_back(scale_ * *x);
     return true;
@@ -210,6 +219,7 @@ class Table {
   const Value& object_;
   Problems& problems_;
   std::string file_, text_;
+  bool quotable_ = true;  // the table lies in the folder of the file that names it; nothing of others is shown
   bool accelerations_ = false;
   double scale_ = 1;
   TabulatedLaw::Beyond beyond_ = TabulatedLaw::Beyond::unsaid;

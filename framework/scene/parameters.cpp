@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
@@ -5,6 +6,7 @@
 
 #include "scene/builder.hpp"
 #include "scene/expression.hpp"
+#include "scene/limits.hpp"
 #include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
 
@@ -17,7 +19,7 @@ using Result = Value::Parameter;
 // Evaluates parameters in the order they need one another.
 class Evaluation {
  public:
-  Evaluation(const Members& members, Problems& problems) : members_(members), problems_(problems) {}
+  Evaluation(const Value& block, Problems& problems) : block_(block), problems_(problems) {}
 
   const Result* value_of(const std::string& name, const Value& value) {
     if (const auto known = done_.find(name); known != done_.end()) return known->second ? &*known->second : nullptr;
@@ -74,6 +76,7 @@ class Evaluation {
           if (!result) return std::nullopt;
           return *result;
         }
+      if (!prepare(text)) return std::nullopt;  // told already
       return evaluate(text, [this](std::string_view name, int column) { return number(name, column); });
     } catch (const ExpressionError& error) {
       problems_.error(value.problem(fmt::format("in the expression \"{}\", column {}: {}", shortened(value.text()),
@@ -82,11 +85,24 @@ class Evaluation {
     }
   }
 
+  // Those that it uses come first, one after another: while it is compiled itself, nothing is evaluated within. False: one of
+  // them has no value.
+  bool prepare(std::string_view text) {
+    for (const std::string_view name : names_in(text)) {
+      const auto end = std::size_t(name.data() - text.data()) + name.size();
+      const auto next = text.find_first_not_of(" \t\r\n", end);
+      if (next != text.npos && text[next] == '(') continue;  // a function
+      const Value* other = find(name);
+      if (other && !need(std::string(name), *other, int(name.data() - text.data()) + 1)) return false;
+    }
+    return true;
+  }
+
   double number(std::string_view name, int column) {
     const Value* other = find(name);
     if (!other) {
       std::vector<std::string> names = {"pi"};
-      for (const auto& [key, value] : members_) names.push_back(key);
+      for (const auto& [key, value] : block_.members()) names.push_back(key);
       throw ExpressionError(column, fmt::format("no parameter \"{}\"{}", shortened(name), did_you_mean(name, names)));
     }
     const Result* result = need(std::string(name), *other, column);
@@ -102,16 +118,15 @@ class Evaluation {
         for (const std::string& link : open_) circle += link + " -> ";
         throw ExpressionError(column, "parameters go round in a circle: " + circle + name);
       }
+    if (open_.size() >= limits::nested)
+      throw ExpressionError(column, fmt::format("parameters use one another more than {} deep: {} -> ... -> {}",
+                                                limits::nested, open_.front(), name));
     return value_of(name, value);
   }
 
-  const Value* find(std::string_view name) const {
-    for (const auto& [key, value] : members_)
-      if (key == name) return &value;
-    return nullptr;
-  }
+  const Value* find(std::string_view name) const { return block_.find(name); }
 
-  const Members& members_;
+  const Value& block_;
   Problems& problems_;
   std::map<std::string, std::optional<Result>> done_;
   std::vector<std::string> open_;
@@ -126,7 +141,7 @@ std::shared_ptr<const Value::Parameters> evaluate_parameters(const Value& root) 
   Problems problems;
   if (block->type() != Value::Type::object)
     throw SceneError({block->problem(fmt::format("found {}, expected an object of named values", block->type_name()))});
-  Evaluation evaluation(block->members(), problems);
+  Evaluation evaluation(*block, problems);
   for (const auto& [name, value] : block->members()) {
     if (!is_name(name) || name == "t" || name == "pi")
       problems.error(
@@ -135,7 +150,14 @@ std::shared_ptr<const Value::Parameters> evaluate_parameters(const Value& root) 
       parameters->emplace_back(name, *result);
   }
   problems.throw_if_any();
+  std::sort(parameters->begin(), parameters->end());
   return parameters;
+}
+
+const std::variant<double, std::string>* find_parameter(const Value::Parameters& parameters, std::string_view name) {
+  const auto at = std::lower_bound(parameters.begin(), parameters.end(), name,
+                                   [](const auto& parameter, std::string_view key) { return parameter.first < key; });
+  return at != parameters.end() && at->first == name ? &at->second : nullptr;
 }
 
 }  // namespace trammel::scene

@@ -1,24 +1,21 @@
 // Reads JSON with comments by nlohmann-json's event parser, over an iterator that counts bytes: each value learns where it
 // starts. What that parser lets pass is refused here: duplicate keys, numbers that vanish or overflow, deep nesting.
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <unordered_set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "scene/builder.hpp"
+#include "scene/limits.hpp"
+#include "scene/shortened.hpp"
 #include "scene/syntax_error.hpp"
 
 namespace trammel::scene {
 
 namespace {
 
-constexpr int deepest = 100;
 constexpr std::string_view number_characters = "0123456789.+-eE";
-constexpr std::uintmax_t largest_file = 64u << 20;
 
 // Walks a text and tells how far it got, also to those who hold no copy of it.
 class CountingIterator {
@@ -80,7 +77,7 @@ class Tree {
   bool number_unsigned(std::uint64_t value) { return scalar(double(value), number_start()); }
   bool number_float(double value, const std::string& digits) {
     if (value == 0 && digits.substr(0, digits.find_first_of("eE")).find_first_of("123456789") != std::string::npos)
-      return refuse(number_start(), fmt::format("{} is too small for a number, it would become 0", digits));
+      return refuse(number_start(), fmt::format("{} is too small for a number, it would become 0", shortened(digits)));
     return scalar(value, number_start());
   }
   bool string(std::string& value) { return scalar(std::move(value), string_start()); }
@@ -89,6 +86,8 @@ class Tree {
   bool start_object(std::size_t) { return open(Members()); }
   bool key(std::string& name) {
     Frame& frame = open_.back();
+    if (name.size() > limits::name)
+      return refuse(string_start(), fmt::format("a key of {} bytes, expected at most {}", name.size(), limits::name));
     if (!frame.keys.insert(name).second) {
       problems_.error({lines_.at(string_start()), join(name),
                        fmt::format("the key \"{}\" stands here a second time; each key may stand once", name)});
@@ -104,7 +103,8 @@ class Tree {
     std::string what = error.what();
     if (error.id == 406) {  // number overflow
       const std::size_t start = number_start(), length = text_.find_first_not_of(number_characters, start) - start;
-      return refuse(start, fmt::format("{} is too large for a number", text_.substr(start, length)));
+      return refuse(
+          start, fmt::format("{} is too large for a number", shortened(std::string_view(text_).substr(start, length))));
     }
     if (auto found = find_syntax_error(text_)) {
       problems_.error({lines_.at(found->at), here(), "not valid JSON: " + std::move(found->message)});
@@ -167,13 +167,21 @@ class Tree {
     problems_.error({lines_.at(at), here(), std::move(message)});
     return false;
   }
+  bool too_many(std::size_t at) {
+    if (++values_ <= limits::values) return false;
+    refuse(at, fmt::format("the scene has more than {} values", limits::values));
+    return true;
+  }
   bool scalar(Builder::Content content, std::size_t start) {
+    if (too_many(start)) return false;
     place(Builder::make(std::move(content), lines_.at(start)));
     return true;
   }
   bool open(Builder::Content content) {
     const std::size_t start = consumed() - 1;
-    if (open_.size() >= deepest) return refuse(start, fmt::format("nested deeper than {} levels", deepest));
+    if (too_many(start)) return false;
+    if (open_.size() >= limits::nested)
+      return refuse(start, fmt::format("nested deeper than {} levels", limits::nested));
     open_.push_back({Builder::make(std::move(content), lines_.at(start)), {}, {}});
     return true;
   }
@@ -198,6 +206,7 @@ class Tree {
   Lines lines_;
   Problems problems_;
   std::vector<Frame> open_;
+  std::size_t values_ = 0;
   Value root_;
 };
 
@@ -206,28 +215,6 @@ class Tree {
 }
 
 }  // namespace
-
-std::string read_file(const std::string& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found) fail(file, "no such file");
-  if (status.type() == std::filesystem::file_type::directory) fail(file, "is a directory, expected a scene file");
-  if (status.type() == std::filesystem::file_type::regular) {
-    const auto size = std::filesystem::file_size(file, error);
-    if (!error && size > largest_file)
-      fail(file, fmt::format("has {} bytes; a scene has at most {} (64 MiB)", size, largest_file));
-  }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail(file, "cannot be opened for reading");
-  std::string text;
-  char block[1 << 16];
-  while (in.read(block, sizeof block) || in.gcount() > 0) {
-    text.append(block, std::size_t(in.gcount()));
-    if (text.size() > largest_file) fail(file, fmt::format("is longer than {} bytes (64 MiB)", largest_file));
-  }
-  if (in.bad()) fail(file, "cannot be read");
-  return text;
-}
 
 Value parse_text(const std::string& text, const std::string& file) {
   if (text.find('\0') != std::string::npos) fail(file, "holds binary data, expected a JSON text");

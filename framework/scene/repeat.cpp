@@ -16,6 +16,8 @@
 
 #include "scene/builder.hpp"
 #include "scene/expression.hpp"
+#include "scene/limits.hpp"
+#include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
 
 namespace trammel::scene {
@@ -41,12 +43,7 @@ class Repetition {
       fill(value, {});
       members.emplace_back(filled(name, {}, value), std::move(value));
     }
-    std::set<std::string_view> known;
-    for (const auto& [name, value] : members)
-      if (!known.insert(name).second) {
-        problems_.error(value.problem(fmt::format("there are several of the name \"{}\"", name)));
-        break;
-      }
+    require_single_names(members);
     return members;
   }
 
@@ -57,7 +54,12 @@ class Repetition {
     } else if (value.type() == Value::Type::array) {
       for (Value& item : Builder::items(value)) fill(item, at);
     } else if (value.type() == Value::Type::object) {
-      for (auto& [name, member] : Builder::members(value)) name = filled(name, at, member), fill(member, at);
+      bool renamed = false;
+      for (auto& [name, member] : Builder::members(value)) {
+        renamed = renamed || name.find('{') != std::string::npos;
+        name = filled(name, at, member), fill(member, at);
+      }
+      if (renamed) require_single_names(value.members());
     }
   }
 
@@ -66,6 +68,14 @@ class Repetition {
     std::string name;
     int first = 0, last = -1;
   };
+
+  // "a{i}" and "a0" may become one.
+  void require_single_names(const Members& members) {
+    std::set<std::string_view> known;
+    for (const auto& [name, value] : members)
+      if (!known.insert(name).second)
+        return problems_.error(value.problem(fmt::format("there are several of the name \"{}\"", name)));
+  }
 
   void repeat(const std::string& name, Value& unit, Members& members) {
     const Value ranges_of = *unit.find("for");
@@ -77,6 +87,11 @@ class Repetition {
     if (copies > most_copies)
       return problems_.error(
           ranges_of.problem(fmt::format("found {:.6g} copies, expected at most {:.6g}", copies, most_copies)));
+    values_ += copies * double(Builder::size(unit));
+    if (values_ > double(limits::values))
+      return problems_.error(ranges_of.problem(fmt::format(
+          "{:.6g} copies of {} values, with the copies before more than the {} values that a scene may have", copies,
+          Builder::size(unit), limits::values)));
     Counters at;
     for (const Range& range : ranges) at.emplace_back(range.name, range.first);
     if (copies == 0) return;
@@ -101,8 +116,8 @@ class Repetition {
       return false;
     }
     for (const auto& [name, bounds] : value.members()) {
-      for (const auto& [parameter, unused] : parameters_)
-        if (parameter == name) problems_.error(bounds.problem(fmt::format("\"{}\" is a parameter already", name)));
+      if (find_parameter(parameters_, name))
+        problems_.error(bounds.problem(fmt::format("\"{}\" is a parameter already", name)));
       if (!is_name(name) || name == "t" || name == "pi")
         problems_.error(
             bounds.problem(fmt::format("\"{}\" cannot be counted by: letters, digits and _, not t or pi", name)));
@@ -127,7 +142,7 @@ class Repetition {
     for (std::size_t open; (open = text.find('{', done)) != std::string::npos;) {
       const std::size_t close = text.find('}', open);
       if (close == std::string::npos) {
-        problems_.error(where.problem(fmt::format("\"{}\" has a {{ without its }}", text)));
+        problems_.error(where.problem(fmt::format("\"{}\" has a {{ without its }}", shortened(text))));
         return text;
       }
       result.append(text, done, open - done);
@@ -145,28 +160,30 @@ class Repetition {
         const auto whole = static_cast<long long>(std::round(value));
         return whole < 0 && in_expression ? fmt::format("({})", whole) : fmt::format("{}", whole);
       }
-      problems_.error(where.problem(fmt::format("found {{{}}} = {:.9g}, expected a whole number", inner, value)));
+      problems_.error(
+          where.problem(fmt::format("found {{{}}} = {:.9g}, expected a whole number", shortened(inner), value)));
     } catch (const ExpressionError& error) {
-      problems_.error(where.problem(fmt::format("in {{{}}}, column {}: {}", inner, error.column(), error.what())));
+      problems_.error(
+          where.problem(fmt::format("in {{{}}}, column {}: {}", shortened(inner), error.column(), error.what())));
     }
     return "";
   }
 
   double look_up(std::string_view name, int column, const Counters& at) const {
-    std::vector<std::string> names;
-    for (const auto& [key, value] : at) {
+    for (const auto& [key, value] : at)
       if (key == name) return value;
-      names.push_back(key);
-    }
-    for (const auto& [key, value] : parameters_) {
-      if (const double* x = std::get_if<double>(&value); x && key == name) return *x;
-      names.push_back(key);
-    }
-    throw ExpressionError(column, fmt::format("nothing here counts by \"{}\"{}", name, did_you_mean(name, names)));
+    if (const auto* value = find_parameter(parameters_, name))
+      if (const double* x = std::get_if<double>(value)) return *x;
+    std::vector<std::string> names;
+    for (const auto& [key, value] : at) names.push_back(key);
+    for (const auto& [key, value] : parameters_) names.push_back(key);
+    throw ExpressionError(column,
+                          fmt::format("nothing here counts by \"{}\"{}", shortened(name), did_you_mean(name, names)));
   }
 
   const Value::Parameters& parameters_;
   Problems& problems_;
+  double values_ = 0;  // of all copies so far
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "scene/builder.hpp"
+#include "scene/files.hpp"
 
 namespace trammel::scene {
 

@@ -3,11 +3,21 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <span>
 #include <utility>
+
+#include "scene/shortened.hpp"
 
 namespace trammel::scene {
 
 namespace {
+
+// Nobody mistypes longer words, nor looks through more names; both keep the cost of hostile input bounded.
+constexpr std::size_t longest = 200, most = 1000;
+
+std::span<const std::string> compared(const std::vector<std::string>& candidates) {
+  return std::span(candidates).first(std::min(most, candidates.size()));
+}
 
 char lower(char c) {
   return char(std::tolower(static_cast<unsigned char>(c)));
@@ -37,11 +47,11 @@ double distance(std::string_view a, std::string_view b) {
 
 // All of a list that can be read at a glance, the nearest of a longer one.
 std::vector<std::string> worth_showing(std::string_view word, const std::vector<std::string>& candidates) {
-  constexpr std::size_t glance = 24, few = 12, longest = 200;
+  constexpr std::size_t glance = 24, few = 12;
   if (candidates.size() <= glance) return candidates;
   std::vector<std::pair<double, const std::string*>> ranked;
-  for (const std::string& candidate : candidates)
-    ranked.emplace_back(distance(word.substr(0, longest), candidate), &candidate);
+  for (const std::string& candidate : compared(candidates))
+    ranked.emplace_back(distance(word.substr(0, longest), std::string_view(candidate).substr(0, longest)), &candidate);
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
   std::vector<std::string> shown;
   for (std::size_t i = 0; i < few; ++i) shown.push_back(*ranked[i].second);
@@ -63,11 +73,11 @@ std::string begun_with(std::string_view word, const std::vector<std::string>& ca
 }  // namespace
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
-  constexpr std::size_t longest = 200;  // nobody mistypes more; keeps the cost of hostile input bounded
   if (word.size() > longest) return {};
   double best = std::numeric_limits<double>::infinity();
   std::string found;
-  for (const std::string& candidate : candidates) {
+  for (const std::string& candidate : compared(candidates)) {
+    if (candidate.size() > longest) continue;
     const double d = distance(word, candidate);
     if (d < best) best = d, found = candidate;
   }
@@ -82,7 +92,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   if (candidates.empty()) return {};
   const std::vector<std::string> shown = worth_showing(word, candidates);
   std::string text = "; known: ";
-  for (std::size_t i = 0; i < shown.size(); ++i) text += (i ? ", " : "") + shown[i];
+  for (std::size_t i = 0; i < shown.size(); ++i) text += (i ? ", " : "") + shortened(shown[i]);
   if (shown.size() < candidates.size()) text += " and " + std::to_string(candidates.size() - shown.size()) + " more";
   const std::string guess = nearest(word, candidates);
   if (!guess.empty()) text += ". Did you mean \"" + guess + "\"?";

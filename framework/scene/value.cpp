@@ -10,6 +10,7 @@
 #include "scene/builder.hpp"
 #include "scene/expression.hpp"
 #include "scene/fnv_hash.hpp"
+#include "scene/limits.hpp"
 #include "scene/motion_table.hpp"
 #include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
@@ -30,16 +31,34 @@ std::string all_texts(const std::vector<Problem>& problems) {
   return text;
 }
 
+// What names and texts of the scene have made long.
+Problem bounded(Problem problem) {
+  problem.at.file = shortened(problem.at.file, limits::message);
+  problem.path = shortened(problem.path, limits::path);
+  problem.message = shortened(problem.message, limits::message);
+  return problem;
+}
+
+std::vector<Problem> bounded(std::vector<Problem> problems) {
+  for (Problem& problem : problems) problem = bounded(std::move(problem));
+  return problems;
+}
+
 }  // namespace
 
 SceneError::SceneError(std::vector<Problem> problems)
-    : std::runtime_error(all_texts(problems)), problems_(std::move(problems)) {}
+    : std::runtime_error(all_texts(bounded(problems))), problems_(bounded(std::move(problems))) {}
 
 void Problems::error(Problem problem) {
-  errors_.push_back(std::move(problem));
+  if (errors_.size() == limits::problems) {
+    errors_.push_back(
+        {problem.at, "", fmt::format("{} problems are enough: what follows was not read", limits::problems)});
+    throw_if_any();
+  }
+  errors_.push_back(bounded(std::move(problem)));
 }
 void Problems::warning(Problem problem) {
-  warnings_.push_back(std::move(problem));
+  if (warnings_.size() < limits::problems) warnings_.push_back(bounded(std::move(problem)));
 }
 void Problems::throw_if_any() const {
   if (!errors_.empty()) throw SceneError(errors_);
@@ -97,14 +116,13 @@ std::string found(const Value& value) {
 // The scene's parameters as a Lookup.
 Lookup lookup_in(const Value::Parameters* parameters) {
   return [parameters](std::string_view name, int column) -> double {
+    if (const auto* value = parameters ? find_parameter(*parameters, name) : nullptr) {
+      if (const double* number = std::get_if<double>(value)) return *number;
+      throw ExpressionError(column, fmt::format("the parameter \"{}\" is a text, expected a number", name));
+    }
     std::vector<std::string> names = {"pi"};
     if (parameters)
-      for (const auto& [key, value] : *parameters) {
-        names.push_back(key);
-        if (key != name) continue;
-        if (const double* number = std::get_if<double>(&value)) return *number;
-        throw ExpressionError(column, fmt::format("the parameter \"{}\" is a text, expected a number", name));
-      }
+      for (const auto& [key, value] : *parameters) names.push_back(key);
     throw ExpressionError(column, fmt::format("no parameter \"{}\"{}", shortened(name), did_you_mean(name, names)));
   };
 }
@@ -160,12 +178,12 @@ std::optional<std::string> Value::read_text(Problems& problems) const {
   }
   if (!is_expression(*this)) return text();
   const std::string_view name = std::string_view(text()).substr(1);
+  if (const auto* value = parameters_ ? find_parameter(*parameters_, name) : nullptr)
+    if (const std::string* named = std::get_if<std::string>(value)) return *named;
   std::vector<std::string> names;
   if (parameters_)
-    for (const auto& [key, value] : *parameters_) {
-      if (key == name && std::holds_alternative<std::string>(value)) return std::get<std::string>(value);
+    for (const auto& [key, value] : *parameters_)
       if (std::holds_alternative<std::string>(value)) names.push_back(key);
-    }
   problems.error(problem(fmt::format("found the expression \"{}\", expected a text or the name of a text parameter{}",
                                      shortened(text()), did_you_mean(name, names))));
   return std::nullopt;
@@ -224,15 +242,48 @@ Value* Builder::find(Value& object, std::string_view key) {
   return const_cast<Value*>(std::as_const(object).find(key));
 }
 
+namespace {
+
+// A long text takes the memory of several values.
+std::size_t excess(std::size_t bytes) {
+  return bytes / limits::bytes_of_a_value;
+}
+
+}  // namespace
+
+std::size_t Builder::size(const Value& value) {
+  std::size_t sum = 1 + excess(value.position().file.size());
+  if (value.type() == Value::Type::text) {
+    const std::string& text = value.text();
+    sum += excess(text.size()) + std::size_t(std::count(text.begin(), text.end(), '{'));
+  } else if (value.type() == Value::Type::array) {
+    for (const Value& item : value.items()) sum += size(item);
+  } else if (value.type() == Value::Type::object) {
+    for (const auto& [name, member] : value.members()) sum += excess(name.size()) + size(member);
+  }
+  return sum;
+}
+
 void Builder::finish(Value& value, const std::string& path,
                      const std::shared_ptr<const Value::Parameters>& parameters) {
+  std::size_t sum = 0;
+  finish(value, path, parameters, sum);
+}
+
+void Builder::finish(Value& value, const std::string& path, const std::shared_ptr<const Value::Parameters>& parameters,
+                     std::size_t& size) {
   value.path_ = path;
   value.parameters_ = parameters;
+  size += 1 + excess(path.size()) + excess(value.position().file.size());
+  if (size > limits::values)
+    throw SceneError({value.problem(fmt::format(
+        "the scene grows beyond {} values here; long names and deep nesting count as more", limits::values))});
   if (value.type() == Value::Type::array) {
     int i = 0;
-    for (Value& item : items(value)) finish(item, fmt::format("{}[{}]", path, i++), parameters);
+    for (Value& item : items(value)) finish(item, fmt::format("{}[{}]", path, i++), parameters, size);
   } else if (value.type() == Value::Type::object) {
-    for (auto& [name, member] : members(value)) finish(member, path.empty() ? name : path + "." + name, parameters);
+    for (auto& [name, member] : members(value))
+      finish(member, path.empty() ? name : path + "." + name, parameters, size);
     order_by_name(value);
   }
 }

@@ -1,4 +1,5 @@
-// A checkpoint: everything that decides how a run goes on, bit for bit, in one CBOR file that is renamed into place.
+// A checkpoint: everything that decides how a run goes on, bit for bit, in one CBOR file that is renamed into place. One that was
+// damaged, or made by somebody, is refused: whoever reads it checks all types, ranges and lengths.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <trammel/archive.hpp>
+#include <trammel/types.hpp>
 
 #include "scene/value.hpp"
 
@@ -28,6 +30,9 @@ class JsonArchive final : public Archive {
 
   // An object of its own, for a component whose names might repeat ours.
   JsonArchive nested(std::string_view name);
+  // Vectors whose names end in _q, _v, _a or _lambda (a number may follow) have the system's lengths nq, nv, nv and nc, or none
+  // yet; those that also begin with now_ are never empty. Throws std::length_error.
+  void require_lengths(const Sizes& sizes) const;
   bool reading() const { return direction_ == Direction::read; }
 
  private:
@@ -40,9 +45,12 @@ class JsonArchive final : public Archive {
 // Of everything in the scene but simulate.until: a run may be resumed with a later end.
 std::uint64_t resume_hash(const scene::Value& root);
 
+// The file that was there stays as checkpoint.previous.cbor beside it.
 void write_checkpoint(const std::filesystem::path& file, std::uint64_t scene_hash, const nlohmann::json& data);
 // Throws SceneError if the file is missing, damaged, or of another scene.
 nlohmann::json read_checkpoint(const std::filesystem::path& file, std::uint64_t scene_hash);
+
+nlohmann::json decode_checkpoint(const std::string& bytes, const std::filesystem::path& file, std::uint64_t scene_hash);
 
 // For a checkpoint that reads well but does not fit.
 [[noreturn]] void refuse_checkpoint(const std::filesystem::path& file, const std::string& why);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -66,8 +67,13 @@ void ContactAudit::Worst::archive(Archive& a, const std::string& name) {
   a(name + "_contact", contact), a(name + "_t", t), a(name + "_force", force), a(name + "_relative", relative);
 }
 
-void ContactAudit::archive(Archive& a) {
+void ContactAudit::archive(Archive& a, std::size_t contacts) {
+  const auto known = [contacts](double i) {
+    if (!(i >= -1 && i < double(contacts))) throw std::out_of_range("contact");
+    return int(i);
+  };
   pull_.archive(a, "pull"), beyond_cone_.archive(a, "beyond_cone");
+  known(pull_.contact), known(beyond_cone_.contact);
   Vec flat(Eigen::Index(3 * indeterminate_.size()));
   Eigen::Index k = 0;
   for (const auto& [contact, span] : indeterminate_) {
@@ -76,7 +82,7 @@ void ContactAudit::archive(Archive& a) {
   }
   a("indeterminate", flat);
   indeterminate_.clear();
-  for (k = 0; k + 2 < flat.size(); k += 3) indeterminate_[int(flat[k])] = {flat[k + 1], flat[k + 2]};
+  for (k = 0; k + 2 < flat.size(); k += 3) indeterminate_[std::max(0, known(flat[k]))] = {flat[k + 1], flat[k + 2]};
 }
 
 }  // namespace trammel::simulate

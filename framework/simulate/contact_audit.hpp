@@ -24,7 +24,7 @@ class ContactAudit {
   const std::map<int, Span>& indeterminate() const { return indeterminate_; }  // by contact
   std::vector<std::string> warnings(const model::Model& model, const Ledger& ledger) const;
 
-  void archive(Archive& a);
+  void archive(Archive& a, std::size_t contacts);
 
  private:
   // The worst of a kind, relative to the largest normal force at that instant.

@@ -1,6 +1,7 @@
 #include "simulate/impact_warnings.hpp"
 
 #include <cmath>
+#include <stdexcept>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -58,7 +59,7 @@ std::vector<std::string> ImpactWarnings::lines(const model::Model& model) const 
   return all;
 }
 
-void ImpactWarnings::archive(Archive& a) {
+void ImpactWarnings::archive(Archive& a, std::size_t count) {
   a("impact_gains", gains_), a("impact_gain_total", total_), a("impact_gain_largest", largest_);
   a("impact_gain_kinetic", kinetic_), a("impact_gain_time", time_);
   a("impacts_cut_short", cut_short_), a("impact_first_cut", first_cut_);
@@ -66,7 +67,10 @@ void ImpactWarnings::archive(Archive& a) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts[Eigen::Index(i)] = contacts_[i];
   a("impact_gain_contacts", contacts);
   contacts_.clear();
-  for (const double i : contacts) contacts_.push_back(int(i));
+  for (const double i : contacts) {
+    if (!(i >= 0 && i < double(count))) throw std::out_of_range("impact_gain_contacts");
+    contacts_.push_back(int(i));
+  }
 }
 
 }  // namespace trammel::simulate

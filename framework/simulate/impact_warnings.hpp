@@ -19,7 +19,7 @@ class ImpactWarnings {
   // After an impact at t; `kinetic` [J] before it.
   void check(double t, double kinetic, const std::vector<TouchingContact>& touching, bool cut_short);
   std::vector<std::string> lines(const model::Model& model) const;
-  void archive(Archive& a);
+  void archive(Archive& a, std::size_t contacts);
 
  private:
   long long gains_ = 0, cut_short_ = 0;

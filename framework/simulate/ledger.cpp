@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace trammel::simulate {
@@ -165,6 +166,10 @@ void Ledger::archive(Archive& a) {
   a("power_markers", now_.markers), a("power_friction", now_.friction);
   Vec impacts = Eigen::Map<const Vec>(impacts_.data(), Eigen::Index(impacts_.size()));
   a("lost_to_impacts", impacts);
+  const auto contacts = Eigen::Index(impacts_.size());
+  if (impacts.size() != contacts || friction_.size() != contacts || now_.friction.size() != contacts ||
+      g_dot_.size() != system_.sizes().nc)
+    throw std::length_error("lost_to_impacts");
   impacts_.assign(impacts.data(), impacts.data() + impacts.size());
 }
 

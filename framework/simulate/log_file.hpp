@@ -1,4 +1,5 @@
-// Files of the results folder: append-only logs that survive a kill, and files that are renamed into place when complete.
+// Files of the results folder: append-only logs that survive a kill, and files that are renamed into place when complete. No
+// symbolic link is followed: whoever can write into a folder does not decide which other files of the user are overwritten.
 //
 // A disk that fills up costs the lines that are not yet written, never a half line nor what stands already: a log gives back
 // the line it could not finish, keeps what is left in memory, and may be tried again. A Reserve holds room for the end.
@@ -8,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "simulate/checksum.hpp"
 
 namespace trammel::simulate {
 
@@ -30,11 +33,17 @@ class Descriptor {
   int number_;
 };
 
+// A log as far as it went when something was written about it.
+struct LogPart {
+  long long bytes = 0;
+  std::uint64_t checksum = Checksum().value();
+};
+
 class LogFile {
  public:
-  // Starts a new file, or goes on after its first `keep` bytes.
+  // Starts a new file, or goes on after `keep` of it.
   explicit LogFile(const std::filesystem::path& path);
-  LogFile(const std::filesystem::path& path, long long keep);
+  LogFile(const std::filesystem::path& path, const LogPart& keep);
   ~LogFile();
 
   void append(std::string_view text);        // whole lines
@@ -45,7 +54,8 @@ class LogFile {
   const std::string& problem() const { return problem_; }  // of the last try to write; empty: none
   std::string name() const { return path_.filename().string(); }
   long long unwritten_lines() const;
-  long long length() const { return length_ + static_cast<long long>(buffer_.size()); }
+  LogPart part() const;  // all of it, written or not
+  bool sync();           // `flush`, and then what is written survives a loss of power, too
   // What is left goes out as far as the last whole line. Calls nothing that a signal handler must not.
   void rescue() const noexcept;
 
@@ -53,7 +63,7 @@ class LogFile {
   std::filesystem::path path_;
   Descriptor file_;
   std::string buffer_, problem_;
-  long long length_ = 0;  // [bytes] written
+  LogPart written_;
 };
 
 // Room on the disk, taken when a run starts and given back when the disk is full, so that the last lines, the checkpoint and
@@ -67,7 +77,11 @@ class Reserve {
   Descriptor file_;
 };
 
-// Writes a temporary file beside `path` and renames it: readers see the old content or the new, nothing between.
-void write_whole(const std::filesystem::path& path, std::string_view content);
+// Why a log does not begin with this part any more, as after a loss of power; empty: it does.
+std::string damage_of(const std::filesystem::path& path, const LogPart& part);
+
+// Writes a temporary file beside `path` and renames it: readers see the old content or the new, nothing between, also after a loss
+// of power. With `before` the old content stays under that name.
+void write_whole(const std::filesystem::path& path, std::string_view content, const std::filesystem::path& before = {});
 
 }  // namespace trammel::simulate

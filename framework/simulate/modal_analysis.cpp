@@ -17,6 +17,7 @@
 #include "simulate/mode_shapes.hpp"
 #include "simulate/normal_modes.hpp"
 #include "simulate/result.hpp"
+#include "simulate/results_folder.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/simulator.hpp"
 #include "simulate/steady_linearisation.hpp"
@@ -30,6 +31,7 @@ using json = nlohmann::ordered_json;
 
 constexpr Eigen::Index null_space_limit = 1500, undamped_limit = 500,
                        damped_limit = 200;  // a few seconds of dense matrices
+constexpr const char* run_to_state = "run";  // the folder below ours, of the run to the state that is analysed
 
 // The scene at the state that the options ask for, with contacts as they are there.
 class Posed {
@@ -107,16 +109,16 @@ class Posed {
     simulator_.emplace(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
     watch();
     const std::optional<fs::path> folder = options.from ? options.from
-                                           : options.at ? std::optional(options.out)
+                                           : options.at ? std::optional(options.out / run_to_state)
                                                         : std::nullopt;
     if (folder) {
-      nlohmann::json data = read_checkpoint(*folder / "checkpoint.cbor", resume_hash(scene.root()));
+      nlohmann::json data = read_checkpoint(*folder / newest_checkpoint, resume_hash(scene.root()));
       try {
         JsonArchive archive(data, JsonArchive::Direction::read);
         simulator_->archive(archive);
-      } catch (const nlohmann::json::exception& e) {
-        refuse_checkpoint(*folder / "checkpoint.cbor",
-                          fmt::format("its content does not fit this program ({})", e.what()));
+      } catch (const std::exception& e) {
+        refuse_checkpoint(*folder / newest_checkpoint,
+                          fmt::format("its content does not fit this scene and program ({})", e.what()));
       }
       what_ = options.from ? "the checkpoint in " + folder->string() : "a run to that time";
     } else {
@@ -273,9 +275,11 @@ Spectrum spectrum_of(Posed& posed, const ModesOptions& options) {
 }  // namespace
 
 RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, const ModesOptions& options) {
-  if (options.at && purpose_of(scene.root()) == Purpose::motion) {
+  const bool ran = options.at && purpose_of(scene.root()) == Purpose::motion;
+  if (ran) {
     RunOptions run_options;
-    run_options.out = options.out, run_options.command = options.command, run_options.interrupt = options.interrupt,
+    run_options.out = options.out / run_to_state, run_options.command = options.command;
+    run_options.interrupt = options.interrupt;
     run_options.witness = options.witness;
     RunReport to_there = run(scene, registry, run_options);
     if (to_there.status != Status::done) return to_there;
@@ -292,6 +296,8 @@ RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, c
     done.result_json = report.result(outcomes).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
     std::error_code error;
     fs::create_directories(options.out, error);
+    remove_results(options.out);
+    if (!ran && !options.from) remove_results(options.out / run_to_state);  // of an older analysis
     write_whole(options.out / "scene.resolved.json", scene.resolved());
     write_whole(options.out / "modes.json", done.result_json);
     write_whole(options.out / "modes.csv", report.csv());

@@ -8,8 +8,9 @@
 namespace trammel::simulate {
 
 struct ModesOptions {
-  std::filesystem::path out;  // modes.json, modes.csv, shapes.csv; made if missing
-  int count = 10;             // of the lowest modes
+  std::filesystem::path
+      out;         // modes.json, modes.csv, shapes.csv; made if missing. A run to the state has its own in run/
+  int count = 10;  // of the lowest modes
   // The state: where the scene starts ("initial" says how); at a time, after a run to there, or under the loads of that time for a
   // scene of statics; of a checkpoint; or in steady motion, from the start on by Newton's method: v as it is, v' = 0.
   std::optional<double> at;                   // [s]

@@ -46,8 +46,8 @@ Recorder::Recorder(const std::filesystem::path& folder, const model::Model& mode
       field_times_(std::move(field_times)) {
   const bool drawn =
       std::any_of(model.bodies.begin(), model.bodies.end(), [](const auto& entry) { return entry.drawn != nullptr; });
-  const auto open = [&](std::optional<LogFile>& log, const char* name, long long Lengths::*length) {
-    keep ? log.emplace(folder / name, (*keep).*length) : log.emplace(folder / name);
+  const auto open = [&](std::optional<LogFile>& log, const char* name, LogPart Lengths::*part) {
+    keep ? log.emplace(folder / name, (*keep).*part) : log.emplace(folder / name);
   };
   open(series_, "series.csv", &Lengths::series);
   open(events_, "events.csv", &Lengths::events);
@@ -163,8 +163,17 @@ void Recorder::event(const RefineEvent& event) {
 }
 
 Recorder::Lengths Recorder::lengths() const {
-  const auto length = [](const std::optional<LogFile>& file) { return file ? file->length() : 0; };
-  return {length(series_), length(events_), length(animation_), length(fields_), (long long)(next_field_time_)};
+  const auto part = [](const std::optional<LogFile>& file) { return file ? file->part() : LogPart(); };
+  return {part(series_), part(events_), part(animation_), part(fields_), (long long)(next_field_time_)};
+}
+
+std::string Recorder::damage(const std::filesystem::path& folder, const Lengths& keep) {
+  for (const auto& [name, part] :
+       {std::pair("series.csv", &keep.series), std::pair("events.csv", &keep.events),
+        std::pair("animation.ndjson", &keep.animation), std::pair("fields.ndjson", &keep.fields)})
+    if (part->bytes != 0)
+      if (std::string why = damage_of(folder / name, *part); !why.empty()) return why;
+  return "";
 }
 
 std::vector<LogFile*> Recorder::files() {
@@ -176,6 +185,11 @@ std::vector<LogFile*> Recorder::files() {
 
 void Recorder::flush() {
   for (LogFile* file : files()) file->flush();  // each: one may still find room
+  check();
+}
+
+void Recorder::sync() {
+  for (LogFile* file : files()) file->sync();
   check();
 }
 

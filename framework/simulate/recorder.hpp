@@ -26,8 +26,8 @@ class Recorder {
  public:
   enum class Books { kept, none };  // kept: rows tell the energy supplied and dissipated
   struct Lengths {
-    long long series = 0, events = 0, animation = 0, fields = 0;  // [bytes]
-    long long field_times = 0;                                    // done with
+    LogPart series, events, animation, fields;
+    long long field_times = 0;  // done with
   };
   // A new folder's logs, or those of an interrupted run shortened to `keep`. The first row at or after each of `field_times`, which
   // ascend, goes to fields.ndjson, too.
@@ -38,10 +38,13 @@ class Recorder {
   void event(const ContactEvent& event);
   void event(const RefineEvent& event);
   void flush();                  // throws OutputError once all files were tried
+  void sync();                   // the same, and to the disk itself
   void check() const;            // throws OutputError if a file could not take what it was given; nothing is lost yet
   std::string missing();         // which files lack how many lines that could not be written; empty: none
   void rescue() const noexcept;  // for a signal handler: whole lines still in memory go out
   Lengths lengths() const;
+  // Why the logs in a folder do not begin with `keep` any more; empty: they do.
+  static std::string damage(const std::filesystem::path& folder, const Lengths& keep);
 
  private:
   std::string header() const;

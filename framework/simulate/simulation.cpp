@@ -2,6 +2,7 @@
 #include "simulate/simulation.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <ctime>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "simulate/conflict.hpp"
 #include "simulate/crash_witness.hpp"
 #include "simulate/result.hpp"
+#include "simulate/results_folder.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/simulator.hpp"
 #include "simulate/slow_steps.hpp"
@@ -79,6 +81,7 @@ class Run {
       end(Status::failed, e.what());
       throw;
     } catch (const scene::SceneError&) {
+      if (!options_.resume) leave_nothing();  // the scene is wrong, which its start has shown
       throw;
     } catch (const std::bad_alloc& e) {
       end(Status::failed, where(plugin::told(e)));
@@ -90,9 +93,16 @@ class Run {
 
  private:
   // The integrator that the run was begun with, where Trammel chose it.
+  // Of the run that is resumed. What is wrong with its checkpoints resume() says.
   std::string chosen_before() const {
     if (!options_.resume) return "";
-    return read_checkpoint(options_.out / "checkpoint.cbor", hash_).value("chosen_integrator", "");
+    for (const char* name : {newest_checkpoint, checkpoint_before}) {
+      try {
+        return read_checkpoint(options_.out / name, hash_).value("chosen_integrator", "");
+      } catch (const std::exception&) {
+      }
+    }
+    return "";
   }
   std::string where(const char* what) const {
     return fmt::format("at t = {:.9g} s, step {}: {}", simulator_->state().t, step(), what);
@@ -139,13 +149,13 @@ class Run {
     cpu_start_ = cpu_now();
     std::optional<Recorder::Lengths> keep;
     if (options_.resume) {
-      keep = read();
+      keep = resume();
     } else {
       std::error_code error;
       fs::create_directories(options_.out, error);
       if (error)
         throw OutputError(fmt::format("cannot make the results folder {}: {}", options_.out.string(), error.message()));
-      for (const char* stale : {"checkpoint.cbor", "result.json"}) fs::remove(options_.out / stale, error);
+      remove_results(options_.out);
     }
     write_whole(options_.out / "scene.resolved.json", scene_.resolved());
     const Sizes& sizes = setup_.model->sizes;
@@ -208,14 +218,20 @@ class Run {
   }
 
   static void archive_lengths(Archive& archive, Recorder::Lengths& lengths) {
-    archive("bytes_series", lengths.series), archive("bytes_events", lengths.events);
-    archive("bytes_animation", lengths.animation), archive("bytes_fields", lengths.fields);
+    const auto part = [&archive](const std::string& name, LogPart& log) {
+      archive("bytes_" + name, log.bytes);
+      auto checksum = std::bit_cast<long long>(log.checksum);
+      archive("checksum_" + name, checksum);
+      log.checksum = std::bit_cast<std::uint64_t>(checksum);
+    };
+    part("series", lengths.series), part("events", lengths.events);
+    part("animation", lengths.animation), part("fields", lengths.fields);
     archive("field_times", lengths.field_times);
   }
 
   // Logs first: a checkpoint never tells of bytes that are not there.
   void write() {
-    recorder_->flush();
+    recorder_->sync();
     json data = json::object();
     JsonArchive archive(data, JsonArchive::Direction::write);
     simulator_->archive(archive);
@@ -224,26 +240,73 @@ class Run {
     Cost so_far = cost();
     archive("wall", so_far.wall), archive("cpu", so_far.cpu);
     data["chosen_integrator"] = setup_.chosen;
-    write_checkpoint(options_.out / "checkpoint.cbor", hash_, data);
+    write_checkpoint(options_.out / newest_checkpoint, hash_, data);
   }
 
-  Recorder::Lengths read() {
-    const fs::path file = options_.out / "checkpoint.cbor";
-    json data = read_checkpoint(file, hash_);
+  struct Checkpoint {
+    fs::path file;
+    json data;
     Recorder::Lengths lengths;
+  };
+
+  // Whole, of this scene, and written when the logs were as they still are.
+  Checkpoint read(const char* name) {
+    Checkpoint found{options_.out / name, {}, {}};
+    found.data = read_checkpoint(found.file, hash_);
+    fitting(found, [&](JsonArchive& archive) { archive_lengths(archive, found.lengths); });
+    if (const std::string damage = Recorder::damage(options_.out, found.lengths); !damage.empty())
+      refuse_checkpoint(found.file, damage);
+    return found;
+  }
+
+  // The one before it serves where the newest is damaged, or logs have lost what it tells of.
+  Checkpoint read() {
     try {
-      JsonArchive archive(data, JsonArchive::Direction::read);
-      simulator_->archive(archive);
-      archive_lengths(archive, lengths);
-      archive("wall", before_.wall), archive("cpu", before_.cpu);
-    } catch (const json::exception& e) {
-      refuse_checkpoint(file, fmt::format("its content does not fit this program ({}); start the run anew", e.what()));
+      return read(newest_checkpoint);
+    } catch (const scene::SceneError& newest) {
+      std::optional<Checkpoint> before;
+      try {
+        before = read(checkpoint_before);
+      } catch (const scene::SceneError&) {
+      }
+      if (!before) throw;
+      setup_.warnings.push_back(fmt::format("{}; the run went on from {}", newest.what(), checkpoint_before));
+      return std::move(*before);
     }
+  }
+
+  Recorder::Lengths resume() {
+    Checkpoint found = read();
+    fitting(found, [&](JsonArchive& archive) {
+      simulator_->archive(archive);
+      archive("wall", before_.wall), archive("cpu", before_.cpu);
+      if (found.lengths.field_times < 0 || found.lengths.field_times > (long long)(setup_.settings.field_times.size()))
+        throw std::out_of_range("field_times");
+    });
     simulator_->resume();
     if (simulator_->state().t > setup_.settings.until)
-      refuse_checkpoint(file, fmt::format("it has reached t = {:.9g} s already, the scene ends at {:.9g} s",
-                                          simulator_->state().t, setup_.settings.until));
-    return lengths;
+      refuse_checkpoint(found.file, fmt::format("it has reached t = {:.9g} s already, the scene ends at {:.9g} s",
+                                                simulator_->state().t, setup_.settings.until));
+    return found.lengths;
+  }
+
+  // Whatever a component says of what it reads: the checkpoint is not one that it wrote.
+  template <class Read>
+  static void fitting(Checkpoint& found, Read read) {
+    try {
+      JsonArchive archive(found.data, JsonArchive::Direction::read);
+      read(archive);
+    } catch (const std::exception& e) {
+      refuse_checkpoint(
+          found.file,
+          fmt::format("its content does not fit this scene and program ({}); start the run anew", e.what()));
+    }
+  }
+
+  void leave_nothing() {
+    if (options_.witness) options_.witness->leave();
+    recorder_.reset();
+    remove_results(options_.out);
   }
 
   // The reserve's room goes to the last lines and a checkpoint. A limit on the length of one file may still stop a log.
@@ -258,7 +321,7 @@ class Run {
       } catch (const OutputError&) {
         if (const std::string missing = recorder_->missing(); !missing.empty()) reason += "; " + missing;
         std::error_code error;
-        if (fs::exists(options_.out / "checkpoint.cbor", error))
+        if (fs::exists(options_.out / newest_checkpoint, error))
           reason += "; --resume goes on from the last checkpoint";
       }
     }

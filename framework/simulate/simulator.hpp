@@ -70,6 +70,7 @@ class Simulator {
   StepControl& control() { return in_contact_ || now_.t < hold_until_ ? contact_control_ : free_control_; }
   void archive_bodies(JsonArchive& a);
   void archive_state(Archive& a);
+  void require_state_fits() const;  // throws std::out_of_range
   double record_time(long long k) const;
   void record_due(Recorder& recorder);
   double relative_drift();

@@ -1,5 +1,7 @@
 // What a checkpoint holds of a run, so that it goes on bit by bit as if it had never stopped.
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -8,11 +10,22 @@
 namespace trammel::simulate {
 namespace {
 
+// What was not written by a run of this scene is refused before anything is read beyond its end.
+void require(bool fits, const std::string& name) {
+  if (!fits) throw std::out_of_range(fmt::format("\"{}\" does not fit", name));
+}
+
+int index(double x, std::size_t count, const std::string& name) {
+  require(x >= 0 && x < double(count) && x == std::floor(x), name);
+  return int(x);
+}
+
 void archive_tangential(Archive& a, const std::string& name, model::ContactMode& mode) {
   const auto numbers = [&](const char* what, auto& x) {
     Vec flat = Eigen::Map<const Vec>(x.data(), x.size());
     a(name + what, flat);
-    if (flat.size() == x.size()) std::copy(flat.begin(), flat.end(), x.data());
+    require(flat.size() == x.size(), name + what);
+    std::copy(flat.begin(), flat.end(), x.data());
   };
   numbers("direction", mode.direction);
   a(name + "slow", mode.slow);
@@ -20,41 +33,50 @@ void archive_tangential(Archive& a, const std::string& name, model::ContactMode&
   numbers("rolled_from", mode.rolled_from);
 }
 
-void archive_directions(Archive& a, const std::string& name, std::vector<model::ContactDirection>& directions) {
+// Each of a closed contact.
+void archive_directions(Archive& a, const std::string& name, std::vector<model::ContactDirection>& directions,
+                        const std::vector<model::ContactMode>& modes, int rows) {
   Vec flat(Eigen::Index(2 * directions.size()));
   for (std::size_t i = 0; i < directions.size(); ++i)
     flat.segment<2>(Eigen::Index(2 * i)) << directions[i].contact, directions[i].row;
   a(name, flat);
+  require(flat.size() % 2 == 0, name);
   directions.clear();
-  for (Eigen::Index i = 0; i + 1 < flat.size(); i += 2) directions.push_back({int(flat[i]), int(flat[i + 1])});
+  for (Eigen::Index i = 0; i < flat.size(); i += 2) {
+    directions.push_back({index(flat[i], modes.size(), name), index(flat[i + 1], std::size_t(rows), name)});
+    require(modes[std::size_t(directions.back().contact)].closed, name);
+  }
 }
 
-void archive_contacts(Archive& a, const std::string& name, std::vector<int>& contacts) {
+void archive_contacts(Archive& a, const std::string& name, std::vector<int>& contacts, std::size_t count) {
   Vec flat(Eigen::Index(contacts.size()));
   std::copy(contacts.begin(), contacts.end(), flat.begin());
   a(name, flat);
-  contacts.assign(flat.begin(), flat.end());
+  contacts.clear();
+  for (const double x : flat) contacts.push_back(index(x, count, name));
 }
 
 void archive_matrix(Archive& a, const std::string& name, Mat& matrix, std::size_t rows, std::size_t columns) {
   Vec flat = Eigen::Map<const Vec>(matrix.data(), matrix.size());
   a(name, flat);
-  if (flat.size() == Eigen::Index(rows * columns))
-    matrix = Eigen::Map<const Mat>(flat.data(), Eigen::Index(rows), Eigen::Index(columns));
+  require(flat.size() == Eigen::Index(rows * columns), name);
+  matrix = Eigen::Map<const Mat>(flat.data(), Eigen::Index(rows), Eigen::Index(columns));
 }
 
-void archive_shared(Archive& a, std::vector<model::SharedRows>& shared) {
+void archive_shared(Archive& a, model::Modes& modes, int rows) {
+  std::vector<model::SharedRows>& shared = modes.shared;
   int groups = int(shared.size());
   a("shared_rows", groups);
-  shared.resize(std::size_t(std::max(0, groups)));
+  require(groups >= 0 && std::size_t(groups) <= modes.contacts.size(), "shared_rows");
+  shared.resize(std::size_t(groups));
   for (std::size_t g = 0; g < shared.size(); ++g) {
     model::SharedRows& group = shared[g];
     const std::string name = fmt::format("shared_rows_{}_", g);
-    archive_directions(a, name + "basis", group.basis);
-    archive_directions(a, name + "implied", group.implied);
+    archive_directions(a, name + "basis", group.basis, modes.contacts, rows);
+    archive_directions(a, name + "implied", group.implied, modes.contacts, rows);
     archive_matrix(a, name + "K", group.K, group.implied.size(), group.basis.size());
     archive_matrix(a, name + "share", group.share, group.basis.size() + group.implied.size(), group.basis.size());
-    archive_contacts(a, name + "sliding", group.sliding);
+    archive_contacts(a, name + "sliding", group.sliding, modes.contacts.size());
   }
 }
 
@@ -66,6 +88,7 @@ void Simulator::archive(JsonArchive& a) {
   archive_state(a);
   turns_.archive(a);
   JsonArchive integrator = a.nested("integrator");
+  if (a.reading()) integrator.require_lengths(system_.sizes());
   integrator_.archive(integrator);
   for (std::size_t i = 0; i < corrections_.size(); ++i) {
     JsonArchive correction = a.nested(fmt::format("correction_{}", i));
@@ -87,6 +110,7 @@ void Simulator::archive_state(Archive& a) {
   a("start_kinetic", energy_start_.kinetic), a("start_potential", energy_start_.potential);
   a("start_elastic", energy_start_.elastic);
   a("t", now_.t), a("q", now_.q), a("v", now_.v), a("a", now_.a), a("lambda", now_.lambda);
+  const model::Model& model = system_.model();
   model::Modes modes = system_.modes();
   for (std::size_t i = 0; i < modes.contacts.size(); ++i) {
     const std::string name = fmt::format("contact_{}_", i);
@@ -95,13 +119,17 @@ void Simulator::archive_state(Archive& a) {
     a(name + "offset", modes.contacts[i].offset);
     int friction = int(modes.contacts[i].friction);
     a(name + "friction", friction);
+    require(
+        friction == 0 || ((friction == 1 || friction == 2) && model.contacts[i].coulomb && modes.contacts[i].closed),
+        name + "friction");
     modes.contacts[i].friction = model::ContactMode::Friction(friction);
     archive_tangential(a, name, modes.contacts[i]);
   }
-  archive_shared(a, modes.shared);
+  archive_shared(a, modes, dimension(model.world.space));
   if (modes != system_.modes()) system_.set_modes(modes);
+  require_state_fits();
   scale_.archive(a);
-  audit_.archive(a);
+  audit_.archive(a, model.contacts.size());
   a("hold_until", hold_until_), a("step_limit", step_limit_), a("drift_before", drift_before_);
   a("records", records_), a("last_row", last_row_), a("window_start", window_start_),
       a("window_events", window_events_), a("standing", standing_);
@@ -113,8 +141,21 @@ void Simulator::archive_state(Archive& a) {
   ledger_.archive(a);
   statistics_.archive(a);
   location_.archive(a);
-  modes_.impact_warnings().archive(a);
+  modes_.impact_warnings().archive(a, model.contacts.size());
   theories_.archive(a);
+  // A row is due after each that is written, in time order: no other count belongs to this t.
+  const double rows_so_far = (now_.t - settings_.start) / settings_.every;
+  require(std::abs(double(records_) - rows_so_far) < 3, "records");
+}
+
+void Simulator::require_state_fits() const {
+  const Sizes& sizes = system_.sizes();
+  const auto fits = [](const char* name, const Vec& x, int length) {
+    require(x.size() == length && x.allFinite(), name);
+  };
+  require(std::isfinite(now_.t) && now_.t >= settings_.start, "t");
+  fits("q", now_.q, sizes.nq), fits("v", now_.v, sizes.nv), fits("a", now_.a, sizes.nv);
+  fits("lambda", now_.lambda, sizes.nc);
 }
 
 }  // namespace trammel::simulate

@@ -12,6 +12,7 @@
 #include "simulate/load_path.hpp"
 #include "simulate/recorder.hpp"
 #include "simulate/result.hpp"
+#include "simulate/results_folder.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/simulation.hpp"
 
@@ -41,7 +42,7 @@ class StaticRun {
       fs::create_directories(options_.out, error);
       if (error)
         throw OutputError(fmt::format("cannot make the results folder {}: {}", options_.out.string(), error.message()));
-      for (const char* stale : {"checkpoint.cbor", "result.json"}) fs::remove(options_.out / stale, error);
+      remove_results(options_.out);
       write_whole(options_.out / "scene.resolved.json", scene_.resolved());
       recorder_.emplace(options_.out, *setup_.model, setup_.columns, std::nullopt, setup_.settings.field_times,
                         Recorder::Books::none);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace trammel::simulate {
 namespace {
@@ -87,6 +88,8 @@ void StepControl::archive(Archive& a, const std::string& prefix) {
   a(prefix + "planned_for", planned_for_);
   a(prefix + "done", done_), a(prefix + "halvings", halvings_);
   a(prefix + "wish", wish_), a(prefix + "error_before", error_before_);
+  for (const double x : {t0_, stop_, h_, wish_})
+    if (std::isnan(x)) throw std::out_of_range(prefix + "h");
 }
 
 }  // namespace trammel::simulate

@@ -100,9 +100,53 @@ TEST(Registry, SearchesTheScenesPluginsBesideTheSceneFile) {
   write(folder / "scene.json", R"({"plugins": ["good.so"]})");
   const scene::Scene scene = scene::Scene::load((folder / "scene.json").string());
   Registry registry = empty_registry();
+  registry.allow_scene_plugins();
   scene::Problems problems;
   registry.search_scene(scene.root(), problems);
   EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(registry.find(Kind::integrator, "good").declaration.name, "good");
+}
+
+TEST(Registry, LoadsNothingThatASceneNamesWithoutConsent) {
+  const Folder folder;
+  folder.copy("good", "good.so");
+  write(folder / "scene.json", R"({"plugins": ["good.so", "."]})");
+  const scene::Scene scene = scene::Scene::load((folder / "scene.json").string());
+  Registry registry = empty_registry();
+  scene::Problems problems;
+  registry.search_scene(scene.root(), problems);
+  ASSERT_EQ(problems.errors().size(), 2u);
+  EXPECT_THAT(problems.errors()[0].text(), HasSubstr("scene.json:1:14: plugins[0]: "));
+  EXPECT_THAT(problems.errors()[0].text(), HasSubstr("--allow-scene-plugins"));
+  EXPECT_TRUE(registry.files().empty());
+}
+
+TEST(Registry, TrustsAScenesPluginsInAFolderThatIsSearchedAndNoLinkOutOfIt) {
+  const Folder trusted, stranger;
+  trusted.copy("good", "good.so");
+  const auto elsewhere = stranger.copy("spoilt_force", "spoilt_force.so");
+  std::filesystem::create_symlink(elsewhere, trusted / "link.so");
+  Registry registry = empty_registry();
+  registry.search(trusted.path());
+  scene::Problems problems;
+  const auto naming = [&](const char* file) {
+    return scene_of((R"({"plugins": [")" + (trusted / file).string() + R"("]})").c_str());
+  };
+  registry.search_scene(naming("good.so"), problems);
+  EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(registry.files().size(), 1u);
+  registry.search_scene(naming("link.so"), problems);
+  EXPECT_EQ(problems.errors().size(), 1u);
+  EXPECT_EQ(registry.files().size(), 1u);
+}
+
+TEST(Registry, SearchesTheUsersFolder) {
+  const Folder data;
+  std::filesystem::create_directories(data / "trammel/plugins");
+  std::filesystem::copy_file(library("good"), data / "trammel/plugins/good.so");
+  ::setenv("XDG_DATA_HOME", data.path().c_str(), 1);
+  Registry registry;
+  ::unsetenv("XDG_DATA_HOME");
   EXPECT_EQ(registry.find(Kind::integrator, "good").declaration.name, "good");
 }
 

@@ -20,6 +20,7 @@ inline plugin::Registry& registry() {
   static plugin::Registry built = [] {
     plugin::Registry r(plugin::Registry::Start::empty);
     r.search(TRAMMEL_BUILD_DIR "/lib/trammel");
+    r.allow_scene_plugins();  // the scenes are ours
     return r;
   }();
   return built;

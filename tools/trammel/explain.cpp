@@ -24,7 +24,7 @@ Command explain_command() {
   return {"explain",
           "SCENE",
           "Show what is built from a scene, which rows are redundant, what each part costs, what is left out.",
-          {kSet, kPlugin},
+          {kSet, kPlugin, kAllowScenePlugins},
           explain};
 }
 

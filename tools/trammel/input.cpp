@@ -21,6 +21,7 @@ scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override>
 }
 
 void load_plugins(const Arguments& arguments, plugin::Registry& registry) {
+  if (arguments.has(kAllowScenePlugins.name)) registry.allow_scene_plugins();
   for (const std::string& library : arguments.all("--plugin")) registry.search(library);
 }
 

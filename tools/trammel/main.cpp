@@ -15,6 +15,7 @@
 #include "input.hpp"
 #include "plugin/out_of_memory.hpp"
 #include "scene/suggestion.hpp"
+#include "simulate/results_folder.hpp"
 
 namespace trammel::tool {
 
@@ -95,6 +96,8 @@ int run_program(const std::string& program, std::span<const std::string> words) 
   } catch (const scene::SceneError& error) {
     return fail(Exit::bad_input, error.problems(), error.what());
   } catch (const UsageError& error) {
+    return fail(Exit::bad_input, problem(error), fmt::format("trammel: {}", error.what()));
+  } catch (const simulate::FolderRefused& error) {
     return fail(Exit::bad_input, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (const plugin::PluginError& error) {
     return fail(Exit::bad_plugin, problem(error), fmt::format("trammel: {}", error.what()));

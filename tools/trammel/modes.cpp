@@ -36,8 +36,7 @@ double number(const Arguments& arguments, const Option& option, const char* expe
 
 simulate::ModesOptions read(const Arguments& arguments) {
   simulate::ModesOptions options;
-  options.out = arguments.has("--out") ? fs::path(arguments.last("--out"))
-                                       : fs::path("out") / (fs::path(arguments.operand()).stem().string() + "_modes");
+  options.out = results_folder(arguments, "_modes");
   if (arguments.has("--count")) {
     const char* expected = "a whole number of modes from 1 to 100000";
     const double count = number(arguments, kCount, expected);
@@ -66,7 +65,7 @@ Exit run(const Arguments& arguments) {
   const scene::Scene scene = load_scene(arguments, std::move(more));
   plugin::Registry registry;
   load_plugins(arguments, registry);
-  require_writable(options.out);
+  const simulate::ResultsFolder folder(options.out, simulate::Analysis::modes);
   options.command = arguments.command_line();
   options.interrupt = &watch_for_interrupts();
   options.witness = &witness();
@@ -87,7 +86,7 @@ Command modes_command() {
   return {"modes",
           "SCENE",
           "Find frequencies, damping and shapes of small motions about a state.",
-          {kFolder, kAt, kFrom, kSteady, kCount, kSet, kPlugin, kJson, kQuiet},
+          {kFolder, kAt, kFrom, kSteady, kCount, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
           run};
 }
 

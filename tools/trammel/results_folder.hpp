@@ -4,14 +4,14 @@
 #include <filesystem>
 
 #include "arguments.hpp"
+#include "simulate/results_folder.hpp"
 
 namespace trammel::tool {
 
 inline constexpr Option kOut{"--out", "DIR", "results folder; default out/<scene name>"};
 inline constexpr Option kQuiet{"--quiet", "", "no progress, no summary"};
 
-std::filesystem::path results_folder(const Arguments& arguments);
-// Throws UsageError: found out before a long run starts, not at its first record.
-void require_writable(const std::filesystem::path& folder);
+// --out, or out/<scene name> with an ending that keeps commands apart.
+std::filesystem::path results_folder(const Arguments& arguments, const char* ending = "");
 
 }  // namespace trammel::tool

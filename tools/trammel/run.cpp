@@ -26,7 +26,8 @@ fs::path folder_of_run(const Arguments& arguments) {
     throw UsageError("--out and --resume exclude each other: a resumed run goes on in its own folder");
   const fs::path folder = arguments.last("--resume");
   std::error_code error;
-  if (!fs::exists(folder / "checkpoint.cbor", error))
+  if (!fs::exists(folder / simulate::newest_checkpoint, error) &&
+      !fs::exists(folder / simulate::checkpoint_before, error))
     throw UsageError(fmt::format("--resume {0}: there is no {0}/checkpoint.cbor to continue from", folder.string()));
   return folder;
 }
@@ -37,6 +38,7 @@ std::string continuation(const Arguments& arguments, const fs::path& folder) {
   const auto add = [&command](const std::string& word) { command += " " + shell_quoted(word); };
   for (const char* option : {"--plugin", "--set"})
     for (const std::string& value : arguments.all(option)) add(option), add(value);
+  if (arguments.has(kAllowScenePlugins.name)) add(std::string(kAllowScenePlugins.name));
   add("--resume"), add(folder.string());
   if (arguments.operand().starts_with("-")) add("--");
   add(arguments.operand());
@@ -53,7 +55,7 @@ Exit run(const Arguments& arguments) {
   plugin::Registry registry;
   load_plugins(arguments, registry);
 
-  require_writable(options.out);
+  const simulate::ResultsFolder folder(options.out, simulate::Analysis::motion);
   options.command = arguments.command_line();
   options.interrupt = &watch_for_interrupts();
   options.witness = &witness();
@@ -88,8 +90,11 @@ Exit run(const Arguments& arguments) {
 }  // namespace
 
 Command run_command() {
-  return {
-      "run", "SCENE", "Simulate a scene and write its results.", {kOut, kSet, kPlugin, kResume, kJson, kQuiet}, run};
+  return {"run",
+          "SCENE",
+          "Simulate a scene and write its results.",
+          {kOut, kSet, kPlugin, kAllowScenePlugins, kResume, kJson, kQuiet},
+          run};
 }
 
 }  // namespace trammel::tool

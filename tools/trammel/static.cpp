@@ -13,14 +13,16 @@ namespace trammel::tool {
 
 namespace {
 
+constexpr Option kFolder{"--out", "DIR", "results folder; default out/<scene name>_static"};
+
 Exit run(const Arguments& arguments) {
   const bool json = arguments.has("--json"), quiet = arguments.has("--quiet");
   simulate::RunOptions options;
-  options.out = results_folder(arguments);
+  options.out = results_folder(arguments, "_static");
   const scene::Scene scene = load_scene(arguments);
   plugin::Registry registry;
   load_plugins(arguments, registry);
-  require_writable(options.out);
+  const simulate::ResultsFolder folder(options.out, simulate::Analysis::statics);
   options.command = arguments.command_line();
   options.interrupt = &watch_for_interrupts();
   options.witness = &witness();
@@ -43,7 +45,7 @@ Command static_command() {
   return {"static",
           "SCENE",
           "Find equilibria under growing loads: t is the load.",
-          {kOut, kSet, kPlugin, kJson, kQuiet},
+          {kFolder, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
           run};
 }
 

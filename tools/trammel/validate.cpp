@@ -31,7 +31,7 @@ Command validate_command() {
   return {"validate",
           "SCENE",
           "Check a scene without running it; every problem is reported.",
-          {kSet, kPlugin, kJson},
+          {kSet, kPlugin, kAllowScenePlugins, kJson},
           validate};
 }
 

@@ -99,6 +99,9 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
       archive(name + "_v", past_[i].v);
       archive(name + "_lambda", past_[i].lambda);
     }
+    if (filled_ < 0 || std::size_t(filled_) > past_.size()) throw std::out_of_range("filled");
+    for (std::size_t i = 0; i < std::size_t(filled_); ++i)
+      if (past_[i].q.size() == 0 || past_[i].v.size() == 0) throw std::length_error("past");
   }
 
  private:

@@ -141,9 +141,9 @@ class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput
 
   void archive(Archive& archive) override {
     method_.archive(archive);
-    archive("slope_q", slope_.q);
-    archive("slope_v", slope_.v);
-    archive("slope_lambda", slope_.lambda);
+    archive("now_slope_q", slope_.q);
+    archive("now_slope_v", slope_.v);
+    archive("now_slope_lambda", slope_.lambda);
   }
 
  private:

@@ -66,9 +66,9 @@ class DormandPrince final : public Integrator, public ErrorEstimate, public Dens
 
   void archive(Archive& archive) override {
     method_.archive(archive);
-    archive("slope_q", slope_.q);
-    archive("slope_v", slope_.v);
-    archive("slope_lambda", slope_.lambda);
+    archive("now_slope_q", slope_.q);
+    archive("now_slope_v", slope_.v);
+    archive("now_slope_lambda", slope_.lambda);
   }
 
  private:

@@ -124,11 +124,12 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
       for (int j = 0; j < points && past_h_ > 0; ++j) {
         Vec column = m.cols() == points ? Vec(m.col(j)) : Vec();
         archive(name + std::to_string(j), column);
+        if (j > 0 && column.size() != m.rows()) throw std::length_error(name);
         m.conservativeResize(column.size(), points);
         m.col(j) = column;
       }
     };
-    points_of("past_nu_", past_nu_), points_of("past_v_", past_v_), points_of("past_q_dot_", past_q_dot_);
+    points_of("past_nu_v_", past_nu_), points_of("past_v_", past_v_), points_of("past_rate_q_", past_q_dot_);
   }
 
  private:

@@ -1,6 +1,7 @@
 #include "small_oscillations.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 
 namespace trammel {
@@ -15,6 +16,7 @@ void archive_matrix(Archive& archive, const std::string& name, Mat& m) {
   long long rows = m.rows();
   archive(name + "_rows", rows);
   archive(name, entries);
+  if (rows < 0 || (rows == 0 ? entries.size() != 0 : entries.size() % rows != 0)) throw std::length_error(name);
   m = Eigen::Map<const Mat>(entries.data(), rows, rows > 0 ? entries.size() / rows : 0);
 }
 
@@ -97,6 +99,8 @@ void SmallOscillations::archive(Archive& archive) {
   omega_ = omega_2_.cwiseSqrt();
   archive_matrix(archive, "shapes", phi_);
   archive_matrix(archive, "amplitudes", psi_);
+  if (phi_.cols() != omega_.size() || psi_.rows() != omega_.size() || psi_.cols() != phi_.rows())
+    throw std::length_error("shapes");
 }
 
 }  // namespace trammel

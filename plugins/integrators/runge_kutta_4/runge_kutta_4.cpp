@@ -52,9 +52,9 @@ class RungeKutta4 final : public Integrator, public ErrorEstimate {
 
   void archive(Archive& archive) override {
     method_.archive(archive);
-    archive("slope_q", slope_.q);
-    archive("slope_v", slope_.v);
-    archive("slope_lambda", slope_.lambda);
+    archive("now_slope_q", slope_.q);
+    archive("now_slope_v", slope_.v);
+    archive("now_slope_lambda", slope_.lambda);
   }
 
  private:
