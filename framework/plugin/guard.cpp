@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <new>
 
 namespace trammel::plugin {
 
@@ -14,6 +15,8 @@ void rethrow_as_plugin_error(const Origin& origin, const char* call, std::option
   } catch (const PluginError&) {
     throw;  // from a component that this one called through the System
   } catch (const PassesThroughPlugins&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
     throw PluginError(origin, call, fmt::format("it threw: {}", e.what()), t);

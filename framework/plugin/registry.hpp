@@ -46,7 +46,8 @@ class Registry {
   // The scene's own "plugins": ["my_method.so", "../plugins"], relative to the scene file.
   void search_scene(const scene::Value& root, scene::Problems& problems);
 
-  // Loads one library: pre-flight of the file, comparison of the fingerprint, then its code. Throws PluginError.
+  // Loads one library: pre-flight of the file, comparison of the fingerprint and of the seal, then its code, in a child process
+  // first. Throws PluginError.
   // Loading a file again does nothing.
   void load(const std::filesystem::path& library);
 

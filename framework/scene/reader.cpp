@@ -1,6 +1,7 @@
 // Reads JSON with comments by nlohmann-json's event parser, over an iterator that counts bytes: each value learns where it
 // starts. What that parser lets pass is refused here: duplicate keys, numbers that vanish or overflow, deep nesting.
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/builder.hpp"
+#include "scene/no_memory.hpp"
 
 namespace trammel::scene {
 
@@ -213,7 +215,10 @@ std::string read_file(const std::string& file) {
       fail(file, fmt::format("has {} bytes; a scene has at most {} (64 MiB)", size, largest_file));
   }
   std::ifstream in(file, std::ios::binary);
-  if (!in) fail(file, "cannot be opened for reading");
+  if (!in) {
+    require_memory(errno);
+    fail(file, "cannot be opened for reading");
+  }
   std::string text;
   char block[1 << 16];
   while (in.read(block, sizeof block) || in.gcount() > 0) {
