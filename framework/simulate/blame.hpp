@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "model/assembled_system.hpp"
+#include "plugin/process_settings.hpp"
 #include "plugin/registry.hpp"
 #include "simulate/setup.hpp"
 
@@ -29,6 +30,9 @@ void blaming(const Setup& setup, const model::AssembledSystem& system, const sce
     rethrow_blamed(setup, system.last_call(), root, registry, t);
   }
 }
+
+// Wrong numbers otherwise: throws PluginError if a component has left the arithmetic of the process changed, and puts it back.
+void require_arithmetic(plugin::ProcessSettings& settings, const Setup& setup, double t, long long step);
 
 // Where the component comes from, that was called there.
 plugin::Origin origin_of(const model::CallSite& site, const scene::Value& root, plugin::Registry& registry);

@@ -1,12 +1,14 @@
 #include "simulate/checkpoint.hpp"
 
 #include <bit>
+#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "scene/no_memory.hpp"
 #include "simulate/log_file.hpp"
 
 namespace trammel::simulate {
@@ -135,7 +137,10 @@ void write_checkpoint(const std::filesystem::path& file, std::uint64_t scene_has
 
 json read_checkpoint(const std::filesystem::path& file, std::uint64_t scene_hash) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) refuse_checkpoint(file, "there is no checkpoint to resume from");
+  if (!in) {
+    scene::require_memory(errno);
+    refuse_checkpoint(file, "there is no checkpoint to resume from");
+  }
   const std::string bytes((std::istreambuf_iterator<char>(in)), {});
   const json whole = json::from_cbor(bytes, true, false);
   const bool complete = whole.is_object() && whole.contains("trammel_checkpoint") && whole.contains("scene_hash") &&

@@ -15,7 +15,7 @@ struct ModesOptions {
   std::optional<double> at;                   // [s]
   std::optional<std::filesystem::path> from;  // a results folder with a checkpoint
   bool steady = false;
-  std::atomic<bool>* interrupt = nullptr;
+  Interrupt* interrupt = nullptr;
   CrashWitness* witness = nullptr;
 };
 

@@ -2,10 +2,16 @@
 // message.
 //
 // Exit codes: 0 done, 1 the run failed (results kept), 2 bad input, 3 bad plugin, 130 interrupted (resumable).
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <new>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +19,8 @@
 #include "arguments.hpp"
 #include "crash.hpp"
 #include "input.hpp"
+#include "last_words.hpp"
+#include "no_memory.hpp"
 #include "scene/suggestion.hpp"
 
 namespace trammel::tool {
@@ -20,8 +28,9 @@ namespace trammel::tool {
 namespace {
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {run_command(),     static_command(), modes_command(),    validate_command(),
-                                           explain_command(), list_command(),   describe_command(), schema_command()};
+  static const std::vector<Command> all = {run_command(),      static_command(),  modes_command(),
+                                           validate_command(), explain_command(), list_command(),
+                                           describe_command(), schema_command(),  seal_command()};
   return all;
 }
 
@@ -82,9 +91,14 @@ void report(const std::vector<scene::Problem>& problems, const char* text, bool 
   print_json({{"status", "error"}, {"problems", all}});
 }
 
+// A file opened later would become one of them if it were closed, and messages would go into the results.
+void open_standard_descriptors() {
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(standard, F_GETFD) < 0 && errno == EBADF && ::open("/dev/null", O_RDWR) < 0) return;
+}
+
 int run_program(const std::string& program, std::span<const std::string> words) {
   const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
-  watch_for_crashes(json);
   const auto fail = [&](Exit code, const std::vector<scene::Problem>& problems, const std::string& text) {
     report(problems, text.c_str(), json);
     return code;
@@ -97,9 +111,9 @@ int run_program(const std::string& program, std::span<const std::string> words) 
     return fail(Exit::bad_input, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (const plugin::PluginError& error) {
     return fail(Exit::bad_plugin, problem(error), fmt::format("trammel: {}", error.what()));
-  } catch (const std::bad_alloc&) {
-    const std::runtime_error error("out of memory");
-    return fail(Exit::failed, problem(error), "trammel: out of memory");
+  } catch (const std::bad_alloc& error) {
+    if (std::string_view(error.what()) == std::bad_alloc().what()) end_without_memory();
+    return fail(Exit::failed, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (const std::exception& error) {
     return fail(Exit::failed, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (...) {
@@ -113,14 +127,23 @@ int run_program(const std::string& program, std::span<const std::string> words) 
 }  // namespace trammel::tool
 
 int main(int argc, char** argv) {
+  using namespace trammel::tool;
+  open_standard_descriptors();
+  if (std::any_of(argv, argv + argc, [](const char* word) { return std::strcmp(word, "--json") == 0; })) speak_json();
+  watch_for_lack_of_memory();
+  watch_for_crashes();
   // A file that meets its size limit is then an error of the write, with results kept, and not the end of the process.
   std::signal(SIGXFSZ, SIG_IGN);
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  const int code = trammel::tool::run_program(argc > 0 ? argv[0] : "trammel", words);
-  trammel::tool::ends_by_itself();
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  int code = run_program(argc > 0 ? argv[0] : "trammel", words);
+  ends_by_itself();
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
-    fmt::print(stderr, "trammel: could not write to standard output\n");
-    return code == 0 ? 1 : code;
+    std::fputs("trammel: could not write to standard output\n", stderr);
+    code = code == 0 ? 1 : code;
   }
-  return code;
+#if defined(__SANITIZE_ADDRESS__)
+  return code;  // looks for leaks
+#else
+  leave(code);  // a plugin's globals are never destroyed: what is done stays done whatever they would do
+#endif
 }
