@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <new>
 
 #include <trammel/outside_domain.hpp>
 
@@ -19,6 +20,8 @@ void rethrow_as_plugin_error(const Origin& origin, const char* call, std::option
     throw;
   } catch (const OutsideDomain&) {
     throw;  // the scene's fault
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     throw PluginError(origin, call, fmt::format("it threw: {}", e.what()), t);
   } catch (...) {

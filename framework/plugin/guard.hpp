@@ -1,5 +1,5 @@
 // The guard around calls into plugins: whatever is thrown becomes one PluginError that names library, call and time,
-// and what comes back is checked for size and finiteness. Nothing thrown: no allocation, a few instructions.
+// and what comes back is checked for size and finiteness. Rounding mode and locale are put back.
 //
 //     guard(origin, "force", t, [&] { body.force(t, q, v, f); });
 //     require_finite(origin, "force", t, "f", f);
@@ -12,6 +12,7 @@
 #include <trammel/types.hpp>
 
 #include "plugin/plugin_error.hpp"
+#include "plugin/process_settings.hpp"
 
 namespace trammel::plugin {
 
@@ -22,11 +23,12 @@ class PassesThroughPlugins {
   virtual ~PassesThroughPlugins();
 };
 
-// Inside a catch block: rethrows what must pass (PluginError, PassesThroughPlugins), the rest as a PluginError.
+// Inside a catch block: rethrows what must pass (PluginError, PassesThroughPlugins, a lack of memory), the rest as a PluginError.
 [[noreturn]] void rethrow_as_plugin_error(const Origin& origin, const char* call, std::optional<double> t);
 
 template <class Call>
 decltype(auto) guard(const Origin& origin, const char* call, std::optional<double> t, Call&& body) {
+  const ProcessSettings settings;
   try {
     return std::forward<Call>(body)();
   } catch (...) {

@@ -3,6 +3,8 @@
 #include <elf.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -10,6 +12,8 @@
 #include <vector>
 
 #include "plugin/plugin_error.hpp"
+#include "scene/fnv_hash.hpp"
+#include "scene/no_memory.hpp"
 
 namespace trammel::plugin {
 
@@ -34,7 +38,10 @@ class LibraryFile {
     if (std::filesystem::is_directory(status)) refuse("it is a folder, not a shared library");
     if (!std::filesystem::is_regular_file(status)) refuse("it is not a regular file");
     stream_.open(file, std::ios::binary);
-    if (!stream_) refuse(fmt::format("cannot be read: {}", std::strerror(errno)));
+    if (!stream_) {
+      scene::require_memory(errno);
+      refuse(fmt::format("cannot be read: {}", std::strerror(errno)));
+    }
     size_ = std::filesystem::file_size(file, error);
     if (error) refuse(fmt::format("cannot be read: {}", error.message()));
     check_header();
@@ -46,16 +53,56 @@ class LibraryFile {
         require_inside(section.sh_offset, section.sh_size, "a section");
   }
 
-  std::optional<std::string> section(const std::string& name) {
-    if (header_.e_shstrndx >= sections_.size()) return {};
-    const std::string names = bytes(sections_[header_.e_shstrndx]);
+  const Elf64_Shdr* find(const std::string& name) {
+    const std::string names = section_names();
     for (const Elf64_Shdr& section : sections_)
-      if (section.sh_type == SHT_PROGBITS && section.sh_name < names.size() && name == names.c_str() + section.sh_name)
-        return bytes(section);
-    return {};
+      if (section.sh_type == SHT_PROGBITS && name == name_in(names, section)) return &section;
+    return nullptr;
+  }
+
+  std::string bytes(const Elf64_Shdr& section) {
+    if (section.sh_size > longest_section) refuse(fmt::format("damaged: a section of {} bytes", section.sh_size));
+    std::string content(section.sh_size, '\0');
+    read(section.sh_offset, content.data(), content.size());
+    return content;
+  }
+
+  std::uint64_t checksum(const std::string& except) {
+    const std::string names = section_names();
+    scene::FnvHash hash;
+    for (const Elf64_Shdr& section : sections_) {
+      const char* name = name_in(names, section);
+      if (!is_checked(section) || name == except) continue;
+      hash.text(name), hash.number(section.sh_addr), hash.number(section.sh_size);
+      add_bytes(section, hash);
+    }
+    return hash.value();
   }
 
  private:
+  // The search paths stand in the dynamic section and its strings. Notes say how a library was built and are not used.
+  static bool is_checked(const Elf64_Shdr& section) {
+    if (!(section.sh_flags & SHF_ALLOC)) return false;
+    return section.sh_type != SHT_NOBITS && section.sh_type != SHT_DYNAMIC && section.sh_type != SHT_STRTAB &&
+           section.sh_type != SHT_NOTE;
+  }
+
+  std::string section_names() {
+    return header_.e_shstrndx < sections_.size() ? bytes(sections_[header_.e_shstrndx]) : std::string();
+  }
+  static const char* name_in(const std::string& names, const Elf64_Shdr& section) {
+    return section.sh_name < names.size() ? names.c_str() + section.sh_name : "";
+  }
+
+  void add_bytes(const Elf64_Shdr& section, scene::FnvHash& hash) {
+    std::array<char, 1 << 14> block;
+    for (std::uint64_t done = 0; done < section.sh_size; done += block.size()) {
+      const std::size_t size = std::min<std::uint64_t>(block.size(), section.sh_size - done);
+      read(section.sh_offset + done, block.data(), size);
+      hash.bytes(block.data(), size);
+    }
+  }
+
   [[noreturn]] void refuse(const std::string& cause) const { throw PluginError(file_.string(), cause); }
 
   void check_header() {
@@ -96,13 +143,6 @@ class LibraryFile {
     return headers;
   }
 
-  std::string bytes(const Elf64_Shdr& section) {
-    if (section.sh_size > longest_section) refuse(fmt::format("damaged: a section of {} bytes", section.sh_size));
-    std::string content(section.sh_size, '\0');
-    read(section.sh_offset, content.data(), content.size());
-    return content;
-  }
-
   void read(std::uint64_t offset, void* to, std::size_t size) {
     stream_.seekg(static_cast<std::streamoff>(offset));
     stream_.read(static_cast<char*>(to), static_cast<std::streamsize>(size));
@@ -120,7 +160,19 @@ class LibraryFile {
 }  // namespace
 
 std::optional<std::string> library_section(const std::filesystem::path& file, const std::string& name) {
-  return LibraryFile(file).section(name);
+  LibraryFile library(file);
+  const Elf64_Shdr* section = library.find(name);
+  return section ? std::optional(library.bytes(*section)) : std::nullopt;
+}
+
+std::optional<std::uint64_t> library_section_offset(const std::filesystem::path& file, const std::string& name) {
+  LibraryFile library(file);
+  const Elf64_Shdr* section = library.find(name);
+  return section ? std::optional(section->sh_offset) : std::nullopt;
+}
+
+std::uint64_t library_checksum(const std::filesystem::path& file, const std::string& except) {
+  return LibraryFile(file).checksum(except);
 }
 
 }  // namespace trammel::plugin

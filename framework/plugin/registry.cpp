@@ -7,12 +7,17 @@
 #include <boost/dll/runtime_symbol_info.hpp>
 #include <boost/dll/shared_library.hpp>
 #include <cstdlib>
+#include <new>
 #include <tuple>
 
+#include "plugin/breadcrumb.hpp"
 #include "plugin/fingerprint.hpp"
 #include "plugin/library_section.hpp"
+#include "plugin/process_settings.hpp"
 #include "plugin/rehearsal.hpp"
+#include "plugin/seal.hpp"
 #include "scene/files.hpp"
+#include "scene/no_memory.hpp"
 #include "scene/suggestion.hpp"
 
 namespace trammel::plugin {
@@ -21,12 +26,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* entry_point = "trammel_declarations";
 constexpr const char* extension = ".so";
 
 std::string full_path(const fs::path& file) {
   std::error_code error;
   const fs::path path = fs::canonical(file, error);
+  scene::require_memory(error.value());
   return (error ? fs::absolute(file) : path).string();
 }
 
@@ -45,11 +50,15 @@ fs::path users_folder() {
 // Runs the library's own code.
 const Declarations& open(const std::string& file) {
   namespace dll = boost::dll;
+  const Origin origin{file, "", ""};
+  const Breadcrumb goes_on(origin, "loading it");  // what went well in the rehearsal may still end the process here
+  const ProcessSettings settings;
   dll::shared_library library;
   boost::dll::fs::error_code failed;
   library.load(file, dll::load_mode::rtld_now | dll::load_mode::rtld_local, failed);
   if (failed) {
     const char* text = ::dlerror();  // Boost.DLL's own text is an unrelated errno
+    if (text && tells_of_no_memory(text)) throw std::bad_alloc();
     throw PluginError(file, text ? text : "cannot be loaded");
   }
   // From here on it stays: objects, exceptions and texts of it may outlive every handle.
@@ -58,6 +67,8 @@ const Declarations& open(const std::string& file) {
     throw PluginError(file, fmt::format("it exports no function {}; is it hidden by a linker script?", entry_point));
   try {
     return *library.get<const Declarations*()>(entry_point)();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     throw PluginError(file, fmt::format("it threw while declaring its components: {}", e.what()));
   } catch (...) {
@@ -92,7 +103,9 @@ void require_sound(const Declaration& declaration, const std::string& file) {
 std::vector<fs::path> libraries_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
-  for (const auto& item : fs::directory_iterator(folder, error))
+  const fs::directory_iterator items(folder, error);
+  scene::require_memory(error.value());
+  for (const auto& item : items)
     if (item.path().extension() == extension && !item.is_directory(error)) files.push_back(item.path());
   std::sort(files.begin(), files.end());  // the same order on every machine
   return files;
@@ -163,7 +176,8 @@ void Registry::load(const fs::path& library) {
   if (!section) throw PluginError(file, "not a Trammel plugin: it has no .trammel section (TRAMMEL_PLUGIN makes it)");
   if (const std::string differences = mismatch(*section, host_fingerprint()); !differences.empty())
     throw PluginError(file, fmt::format("built for another program: {}", differences));
-  rehearse_loading(file);
+  require_seal(file, *section);
+  rehearse(file);
   add(open(file), file);
   files_.push_back(file);
 }

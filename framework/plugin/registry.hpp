@@ -50,7 +50,8 @@ class Registry {
   void search_scene(const scene::Value& root, scene::Problems& problems);
   void allow_scene_plugins() { scene_plugins_allowed_ = true; }
 
-  // Loads one library: pre-flight of the file, comparison of the fingerprint, then its code. Throws PluginError.
+  // Loads one library: pre-flight of the file, comparison of the fingerprint and of the seal, then its code, in a child process
+  // first. Throws PluginError.
   // Loading a file again does nothing.
   void load(const std::filesystem::path& library);
 

@@ -75,6 +75,17 @@ plugin::PluginError blame(const Setup& setup, const model::CallSite& site, const
   return step ? error.in_step(*step) : error;
 }
 
+// Which component did it is not known: asking after each call would cost as much as the cheapest of them.
+void require_arithmetic(plugin::ProcessSettings& settings, const Setup& setup, double t, long long step) {
+  const std::string fault = plugin::arithmetic_fault();
+  if (fault.empty()) return;
+  settings.put_back();
+  const std::string cause = fault + ": it changed the arithmetic of the process, or a component that was called did";
+  const bool has_integrator = !setup.integrator_origin.file.empty();
+  const plugin::Origin origin = has_integrator ? setup.integrator_origin : plugin::Origin{"of this scene", "", ""};
+  throw plugin::PluginError(origin, has_integrator ? "step" : "a load step", cause, t).in_step(step);
+}
+
 void rethrow_blamed(const Setup& setup, const model::CallSite& site, const scene::Value& root,
                     plugin::Registry& registry, double t) {
   try {

@@ -7,6 +7,7 @@
 #include <trammel/outside_domain.hpp>
 
 #include "model/assembled_system.hpp"
+#include "plugin/process_settings.hpp"
 #include "plugin/registry.hpp"
 #include "simulate/setup.hpp"
 
@@ -37,6 +38,8 @@ void blaming(const Setup& setup, const model::AssembledSystem& system, const sce
 std::string said(const OutsideDomain& outside, const model::CallSite& site);
 scene::Problem problem_of(const OutsideDomain& outside, const model::CallSite& site, const scene::Value& root,
                           double t);
+// Wrong numbers otherwise: throws PluginError if a component has left the arithmetic of the process changed, and puts it back.
+void require_arithmetic(plugin::ProcessSettings& settings, const Setup& setup, double t, long long step);
 
 // Where the component comes from, that was called there.
 plugin::Origin origin_of(const model::CallSite& site, const scene::Value& root, plugin::Registry& registry);

@@ -1,6 +1,7 @@
 #include "simulate/checkpoint.hpp"
 
 #include <bit>
+#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -12,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/no_memory.hpp"
 #include "simulate/checksum.hpp"
 #include "simulate/log_file.hpp"
 #include "simulate/results_folder.hpp"
@@ -217,6 +219,7 @@ json read_checkpoint(const std::filesystem::path& file, std::uint64_t scene_hash
   if (!std::filesystem::is_regular_file(status)) refuse_checkpoint(file, "it is no regular file");
   if (std::filesystem::file_size(file, error) > largest) refuse_checkpoint(file, "it is longer than 1 GiB");
   std::ifstream in(file, std::ios::binary);
+  if (!in) scene::require_memory(errno);
   return decode_checkpoint(std::string(std::istreambuf_iterator<char>(in), {}), file, scene_hash);
 }
 

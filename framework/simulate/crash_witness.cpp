@@ -28,6 +28,7 @@ void CrashWitness::leave() {
   system_ = nullptr;
   clock_ = {};
   recorder_ = nullptr;
+  result_ = nullptr;
 }
 
 CrashWitness::Culprit CrashWitness::culprit() const noexcept {
@@ -41,19 +42,19 @@ CrashWitness::Culprit CrashWitness::culprit() const noexcept {
         who.origin = &origin, who.call = site.call;
         return who;
       }
-    who.certain = false;
-    if (clock_.steps) {
-      who.origin = &integrator_, who.call = "step";
-      return who;
-    }
   }
   const plugin::PresentCall guarded = plugin::present_call();
   who.origin = guarded.origin, who.call = guarded.call;
+  if (!guarded.origin && watching_ && clock_.steps) {
+    who.origin = &integrator_, who.call = "step";
+    who.certain = false;
+  }
   return who;
 }
 
-void CrashWitness::rescue() const noexcept {
+void CrashWitness::rescue(const char* status, std::string_view reason) const noexcept {
   if (recorder_) recorder_->rescue();
+  if (result_) result_->write(status, reason);
 }
 
 }  // namespace trammel::simulate

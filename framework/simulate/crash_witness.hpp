@@ -1,5 +1,5 @@
-// Who to name when the process crashes inside a plugin: a signal handler can build nothing and ask nobody, so all it may need
-// stands ready here while plugins are called. The component being called is the breadcrumb that the assembled system leaves.
+// Who to name when the process crashes inside a plugin or does not come back from it, and what then becomes of the records: a signal
+// handler can build nothing and ask nobody, so all it may need stands ready here while plugins are called. The component being called is the breadcrumb that the assembled system leaves.
 #pragma once
 
 #include <atomic>
@@ -10,6 +10,7 @@
 
 #include "model/assembled_system.hpp"
 #include "plugin/registry.hpp"
+#include "simulate/last_result.hpp"
 #include "simulate/recorder.hpp"
 #include "simulate/setup.hpp"
 
@@ -21,11 +22,14 @@ class CrashWitness {
     const double* t = nullptr;         // [s]
     const long long* steps = nullptr;  // accepted so far; null: outside a run
   };
-  // From here to `leave` the arguments live, the recorder perhaps not yet. The call around the component's is the
-  // integrator's step in a run, and what plugin::Breadcrumb says elsewhere.
+  // From here to `leave` the arguments live, the recorder perhaps not yet. The call around the component's is what
+  // plugin::Breadcrumb says, and in a run without one the integrator's step.
   void follow(const Setup& setup, const scene::Value& root, plugin::Registry& registry,
               const model::AssembledSystem& system, Clock clock);
-  void record_with(const Recorder& recorder) { recorder_ = &recorder; }
+  void record_with(const Recorder& recorder, const LastResult& result) {
+    recorder_ = &recorder;
+    result_ = &result;
+  }
   void leave();
 
   // --- for the signal handler: no allocation, nothing thrown ---
@@ -37,7 +41,8 @@ class CrashWitness {
     bool certain = true;  // false: the integrator's step, or the framework on its behalf
   };
   Culprit culprit() const noexcept;
-  void rescue() const noexcept;  // records still in memory go out
+  // Records still in memory go out, and a result that says how the run ended.
+  void rescue(const char* status, std::string_view reason) const noexcept;
 
  private:
   std::atomic<bool> watching_ = false;
@@ -46,6 +51,7 @@ class CrashWitness {
   const model::AssembledSystem* system_ = nullptr;
   Clock clock_;
   const Recorder* recorder_ = nullptr;
+  const LastResult* result_ = nullptr;
 };
 
 // A witness, if there is one, follows while this lives.

@@ -105,7 +105,7 @@ class Posed {
   template <class Watching>
   void in_motion(const scene::Scene& scene, const ModesOptions& options, Watching watch) {
     std::vector<Simulator::LevelCorrection> corrections;
-    for (const auto& [level, correction] : setup_.corrections) corrections.push_back({level, correction.get()});
+    for (const auto& c : setup_.corrections) corrections.push_back({c.level, c.correction.get(), &c.origin});
     simulator_.emplace(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
     watch();
     const std::optional<fs::path> folder = options.from ? options.from

@@ -17,7 +17,7 @@ struct ModesOptions {
   std::optional<std::filesystem::path> from;  // a results folder with a checkpoint
   bool steady = false;
   std::vector<std::string> command;  // as in RunOptions
-  std::atomic<bool>* interrupt = nullptr;
+  Interrupt* interrupt = nullptr;
   CrashWitness* witness = nullptr;
 };
 

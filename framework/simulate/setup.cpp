@@ -138,7 +138,7 @@ void read_corrections(const Value& root, plugin::Registry& registry, Setup& setu
     if (!made.component->corrects(level))
       problems.error(value->problem(fmt::format("\"{}\" does not correct the {}; those that do: {}",
                                                 entry->declaration.name, part, that_correct(level, registry))));
-    setup.corrections.push_back({level, std::move(made.component)});
+    setup.corrections.push_back({level, std::move(made.component), std::move(made.origin)});
   }
 }
 

@@ -27,6 +27,7 @@ struct Setup {
   struct LevelCorrection {
     Correction::Level level;
     std::unique_ptr<Correction> correction;
+    plugin::Origin origin;
   };
   std::vector<LevelCorrection> corrections;  // in the order they are applied
   Settings settings;

@@ -56,7 +56,7 @@ class Run {
 
   RunReport operator()() {
     std::vector<Simulator::LevelCorrection> corrections;
-    for (const auto& [level, correction] : setup_.corrections) corrections.push_back({level, correction.get()});
+    for (const auto& c : setup_.corrections) corrections.push_back({c.level, c.correction.get(), &c.origin});
     simulator_.emplace(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
     if (options_.witness)
       options_.witness->follow(setup_, scene_.root(), registry_, simulator_->system(),
@@ -78,8 +78,7 @@ class Run {
     } catch (const OutputError& e) {
       out_of_room(e);
     } catch (const plugin::PluginError& e) {
-      end(Status::failed, e.what());
-      throw;
+      fail(e.step() || e.call().empty() ? e : e.in_step(step()));
     } catch (const scene::SceneError&) {
       if (!options_.resume) leave_nothing();  // the scene is wrong, which its start has shown
       throw;
@@ -161,7 +160,8 @@ class Run {
     const Sizes& sizes = setup_.model->sizes;
     reserve_.emplace(options_.out, room_for_logs + room_per_number * (sizes.nq + sizes.nv + sizes.nc));
     recorder_.emplace(options_.out, *setup_.model, setup_.columns, keep, setup_.settings.field_times);
-    if (options_.witness) options_.witness->record_with(*recorder_);
+    last_result_.emplace(options_.out, result_head(scene_, setup_, {Status::failed, "", {}, options_.resume, options_.command}));
+    if (options_.witness) options_.witness->record_with(*recorder_, *last_result_);
     if (!options_.resume) simulator_->start(setup_.initial);
   }
 
@@ -172,10 +172,11 @@ class Run {
     long long stride = 1, since = 0;  // steps between looks at the clock, about 1 ms
     for (;;) {
       const bool more = simulator_->advance(*recorder_);
+      require_arithmetic(settings_, setup_, simulator_->state().t, step());
       recorder_->check();  // between steps, where a checkpoint is possible
       if (!more) return;
       // After a step at least: it writes what happened at the start.
-      if (options_.interrupt && options_.interrupt->load(std::memory_order_relaxed)) {
+      if (options_.interrupt && options_.interrupt->heed()) {
         status_ = Status::interrupted;
         return;
       }
@@ -339,25 +340,29 @@ class Run {
       outcomes.status = Status::failed;
     }
     report_.result_json = result_json(scene_, setup_, *simulator_, outcomes);
+    report_.summary = summary(scene_, setup_, *simulator_, outcomes, options_.out);
     try {
       write_whole(options_.out / "result.json", report_.result_json);
     } catch (const OutputError& e) {
       outcomes.reason += (outcomes.reason.empty() ? "" : "; ") + std::string(e.what());
       outcomes.status = Status::failed;
+      report_.summary = summary(scene_, setup_, *simulator_, outcomes, options_.out);
     }
+    if (options_.witness) options_.witness->leave();  // the result stands there: nobody replaces it any more
     report_.status = outcomes.status;
     report_.reason = outcomes.reason;
-    report_.summary = summary(scene_, setup_, *simulator_, outcomes, options_.out);
   }
 
   const scene::Scene& scene_;
   plugin::Registry& registry_;
   const RunOptions& options_;
+  plugin::ProcessSettings settings_;
   std::uint64_t hash_;
   Setup setup_;
   std::optional<Simulator> simulator_;
   std::optional<Reserve> reserve_;
   std::optional<Recorder> recorder_;
+  std::optional<LastResult> last_result_;
   Status status_ = Status::done;
   RunReport report_;
   Clock::time_point wall_start_;

@@ -1,13 +1,13 @@
 // Runs a scene: builds the model, advances it, and writes the results folder.
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <string>
 
 #include "plugin/registry.hpp"
 #include "scene/value.hpp"
+#include "simulate/interrupt.hpp"
 
 namespace trammel::simulate {
 
@@ -22,7 +22,7 @@ class CrashWitness;
 struct RunOptions {
   std::filesystem::path out;                      // results folder, made if missing
   bool resume = false;                            // continue from out/checkpoint.cbor
-  std::atomic<bool>* interrupt = nullptr;         // set by a signal handler: stop after this step, keep everything
+  Interrupt* interrupt = nullptr;                 // from a signal handler: stop after this step, keep everything
   std::vector<std::string> command;               // the words of the command line, for result.json
   CrashWitness* witness = nullptr;                // told what a handler of crashes needs
   std::function<void(const Progress&)> progress;  // called about ten times a second of wall-clock time

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "plugin/breadcrumb.hpp"
 #include "plugin/guard.hpp"
 #include "simulate/blame.hpp"
 #include "simulate/run_failed.hpp"
@@ -242,14 +243,24 @@ void Simulator::fail_not_finite(double h) {
   fail(h, "the solution diverged: numbers that are not finite. The step may be too long for the method");
 }
 
+// What it throws is its own fault unless a component that it called through the system threw it.
+Outcome Simulator::corrected(const LevelCorrection& entry, const Correction::Step& step) {
+  const plugin::Breadcrumb goes_on(*entry.origin, "apply");
+  try {
+    return entry.correction->apply(entry.level, system_, step, next_);
+  } catch (...) {
+    if (system_.last_call().component) throw;
+    plugin::rethrow_as_plugin_error(*entry.origin, "apply", next_.t);
+  }
+}
+
 // The ledger follows the method's own step: what a correction adds or takes is nobody's supply.
 void Simulator::step_ledger_and_correct() {
   ledger_.step(now_, next_);
   uncorrected_ = next_;
   const Correction::Step step{now_, uncorrected_, ledger_.energy()};
-  for (const auto& [level, correction] : corrections_)
-    if (const Outcome outcome = correction->apply(level, system_, step, next_); !outcome)
-      fail(next_.t - now_.t, outcome.reason());
+  for (const LevelCorrection& entry : corrections_)
+    if (const Outcome outcome = corrected(entry, step); !outcome) fail(next_.t - now_.t, outcome.reason());
   if (next_.q == uncorrected_.q && next_.v == uncorrected_.v) return;
   if (!next_.q.allFinite() || !next_.v.allFinite())
     fail(next_.t - now_.t, "a correction gave numbers that are not finite");

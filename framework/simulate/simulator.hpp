@@ -16,6 +16,7 @@
 
 #include <trammel/correction.hpp>
 
+#include "plugin/plugin_error.hpp"
 #include "simulate/checkpoint.hpp"
 #include "simulate/conflict.hpp"
 #include "simulate/contact_audit.hpp"
@@ -39,6 +40,7 @@ class Simulator {
   struct LevelCorrection {
     Correction::Level level;
     Correction* correction;
+    const plugin::Origin* origin;  // lives as long as the correction
   };
   Simulator(std::shared_ptr<model::Model> model, Integrator& integrator, const Settings& settings,
             std::vector<LevelCorrection> corrections);
@@ -87,6 +89,7 @@ class Simulator {
   void find_culprit(double h);
   [[noreturn]] void fail_not_finite(double h);
   void step_ledger_and_correct();
+  Outcome corrected(const LevelCorrection& entry, const Correction::Step& step);
   void accept(double h, bool shortened, const StepControl::Proposal& proposal, double error);
   void record_inside(Recorder& recorder);
   void settle(const ContactChanges& changes);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "plugin/breadcrumb.hpp"
 #include "simulate/run_failed.hpp"
 #include "simulate/simulator.hpp"
 
@@ -43,7 +44,10 @@ void Simulator::restart_all_but_integrator() {
   step_limit_ = control().controlled() ? modes_.step_limit(now_) : std::numeric_limits<double>::infinity();
   free_control_.interrupted();
   contact_control_.interrupted();
-  for (const auto& entry : corrections_) entry.correction->restart(system_, now_);
+  for (const LevelCorrection& entry : corrections_) {
+    const plugin::Breadcrumb goes_on(*entry.origin, "restart");
+    entry.correction->restart(system_, now_);
+  }
   location_.restart(now_);
   ledger_.restart(now_);
   statistics_.note_sizes(now_.t, system_.sizes());

@@ -46,6 +46,8 @@ class StaticRun {
       write_whole(options_.out / "scene.resolved.json", scene_.resolved());
       recorder_.emplace(options_.out, *setup_.model, setup_.columns, std::nullopt, setup_.settings.field_times,
                         Recorder::Books::none);
+      last_result_.emplace(options_.out, result_head(scene_, setup_, {Status::failed, "", {}, false, options_.command}));
+      if (options_.witness) options_.witness->record_with(*recorder_, *last_result_);
       load();
     } catch (const RunFailed& e) {
       end(Status::failed, e.what());
@@ -74,9 +76,10 @@ class StaticRun {
 
   void load() {
     while (!path_.at_end()) {
-      if (options_.interrupt && options_.interrupt->load(std::memory_order_relaxed))
+      if (options_.interrupt && options_.interrupt->heed())
         return end(Status::interrupted, fmt::format("interrupted at t = {:.9g}", path_.state().t));
       path_.advance();
+      require_arithmetic(settings_, setup_, path_.state().t, step());
       recorder_->row(system_, path_.state());
       recorder_->flush();
       system_.move_to(path_.state().t, path_.state().q, path_.state().v);
@@ -92,15 +95,17 @@ class StaticRun {
     outcomes.cost.wall = std::chrono::duration<double>(Clock::now() - began_).count();
     outcomes.cost.cpu = double(std::clock() - cpu_began_) / CLOCKS_PER_SEC;
     report_.result_json = result(outcomes).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+    report_.summary = text(outcomes);
     try {
       write_whole(options_.out / "result.json", report_.result_json);
     } catch (const OutputError& e) {
       outcomes.status = Status::failed;
       outcomes.reason += (outcomes.reason.empty() ? "" : "; ") + std::string(e.what());
+      report_.summary = text(outcomes);
     }
+    if (options_.witness) options_.witness->leave();  // the result stands there: nobody replaces it any more
     report_.status = outcomes.status;
     report_.reason = outcomes.reason;
-    report_.summary = text(outcomes);
   }
 
   int iterations() const {
@@ -170,11 +175,13 @@ class StaticRun {
   const scene::Scene& scene_;
   plugin::Registry& registry_;
   const RunOptions& options_;
+  plugin::ProcessSettings settings_;
   Setup setup_;
   model::AssembledSystem system_;
-  Watch watch_;
-  LoadPath path_;
   std::optional<Recorder> recorder_;
+  std::optional<LastResult> last_result_;
+  Watch watch_;  // of those above
+  LoadPath path_;
   Energy energy_start_, energy_;
   RunReport report_;
   Clock::time_point began_ = Clock::now();

@@ -28,7 +28,7 @@ std::vector<std::string> lines(const std::string& text) {
 TEST(Commands, HelpNamesEachOfThem) {
   const auto result = trammel({"help"});
   EXPECT_EQ(result.exit_code, 0);
-  for (const char* name : {"run", "static", "modes", "validate", "explain", "list", "describe", "schema"})
+  for (const char* name : {"run", "static", "modes", "validate", "explain", "list", "describe", "schema", "seal"})
     EXPECT_THAT(result.out, HasSubstr("trammel " + std::string(name)));
   EXPECT_EQ(result.err, "");
 }

@@ -134,7 +134,8 @@ TEST_F(Plugin, WhoseStepIsNotFiniteHoweverShortIsNamed) {
 }
 
 TEST_F(Plugin, ThatEndsTheProgramInStep1000IsNoSuccessAndRecordsAreKept) {
-  for (const char* how : {"exit", "quick_exit"}) expect_blamed_in_step_1000(how, "it ended the program (exit)");
+  for (const char* how : {"exit", "quick_exit", "_exit"})
+    expect_blamed_in_step_1000(how, "it ended the program (exit)");
 }
 
 // Commands that run no scene call plugins too: to see what an integrator costs, or where the bodies are.
@@ -161,7 +162,92 @@ TEST_F(Plugin, ThatEndsTheProgramInItsConstructorIsNamed) {
       trammel({"describe", "ends_in_constructor", "--plugin", (kPlugins / "ends_in_constructor.so").string()});
   EXPECT_EQ(result.exit_code, 3) << result.err;
   EXPECT_THAT(result.err,
-              HasSubstr("ends_in_constructor.so: correction ends_in_constructor: its constructor: it ended"));
+              HasSubstr("ends_in_constructor.so: it ends the program with code 0 in the constructor of correction"));
+}
+
+// Numbers would be wrong from then on without a word.
+TEST_F(Plugin, ThatChangesTheRoundingOfNumbersInStep1000IsNamed) {
+  const auto result = run(kPlugins / "spoilt_step.so", spoilt("rounding"));
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("spoilt_step.so: integrator spoilt_step (integrator): step at t = "));
+  EXPECT_THAT(result.err, HasSubstr("numbers are no longer rounded to nearest"));
+  EXPECT_EQ(recorded_status(), "failed");
+}
+
+TEST_F(Plugin, ThatChangesTheRoundingWhileItIsLoadedChangesNoResult) {
+  ASSERT_EQ(trammel({"run", cli::bounce, "--out", "plain"}, {.folder = folder.path()}).exit_code, 0);
+  const auto result = run(kPlugins / "changes_arithmetic.so", {"corrections.position=changes_arithmetic"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(cli::read_file(folder.path() / "out/bounce/series.csv"),
+            cli::read_file(folder.path() / "plain/series.csv"));
+}
+
+// What goes well when it is tried out may still end the process when it counts, by a crash or past all functions of atexit.
+TEST_F(Plugin, ThatFailsTheSecondTimeItIsLoadedIsNamed) {
+  for (const auto& [name, how] : {std::pair{"ends_the_second_time.so", "it ended the program (exit)"},
+                                  {"crashes_the_second_time.so", "SIGSEGV"}}) {
+    const auto result = trammel({"run", cli::bounce, "--plugin", (kPlugins / name).string()},
+                                {.folder = folder.path(), .environment = {{"TRAMMEL_TEST_FILE", "mark"}}});
+    EXPECT_THAT(result.err, HasSubstr(name));
+#if defined(__SANITIZE_ADDRESS__)
+    if (result.err.find("AddressSanitizer") != std::string::npos) continue;  // reports crashes by itself
+#endif
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("loading it: "));
+    EXPECT_THAT(result.err, HasSubstr(how));
+  }
+}
+
+#if !defined(__SANITIZE_ADDRESS__)
+TEST_F(Plugin, WhoseGlobalsCrashAtTheEndSpoilsNoResult) {
+  for (const std::vector<std::string> settings :
+       {std::vector<std::string>{}, {"corrections.position=crashes_at_the_end"}}) {
+    const auto result = run(kPlugins / "crashes_at_the_end.so", settings);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(recorded_status(), "done");
+  }
+}
+
+TEST_F(Plugin, WhoseCorrectionFailsIsNamedAndNotTheIntegrator) {
+  for (const auto& [how, cause] : {std::pair{"crash", "SIGSEGV"}, {"throw", "it threw: no way back"}}) {
+    const auto result = run(kPlugins / "never_returns.so",
+                            {R"(corrections.position={"type": "never_returns", "how": ")" + std::string(how) + "\"}"});
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_THAT(result.err,
+                HasSubstr("never_returns.so: correction never_returns (corrections.position): apply at t = "));
+    EXPECT_THAT(result.err, HasSubstr("step 500"));
+    EXPECT_THAT(result.err, HasSubstr(cause));
+    EXPECT_EQ(recorded_status(), "failed");
+  }
+}
+#endif
+
+// In a folder of libraries, sound ones and damaged ones, `list` and a run find what is sound.
+TEST_F(Plugin, ThatIsDamagedDoesNotKeepOthersFromBeingListed) {
+  const fs::path libraries = folder.path() / "libraries";
+  fs::create_directory(libraries);
+  fs::copy_file(kPlugins / "good.so", libraries / "m.so");
+  const std::vector<std::string> bad = {
+      "crashes_at_load",      "exits_at_load",       "throws_at_load", "crashes_while_declaring",
+      "ends_while_declaring", "ends_in_constructor", "other_abi",      "leaves_a_process"};
+  for (const std::string& name : bad) fs::copy_file(kPlugins / (name + ".so"), libraries / (name + ".so"));
+  fs::copy_file(kPlugins / "same_name.so", libraries / "damaged.so");
+  ASSERT_EQ(trammel({"seal", (libraries / "damaged.so").string()}).exit_code, 0);
+  std::string bytes = cli::read_file(libraries / "damaged.so");
+  bytes[bytes.find("same_name")] ^= 1;  // a constant in it
+  cli::write_file(libraries / "damaged.so", bytes);
+  const auto listed = trammel({"list", "--json", "--plugin", "libraries"}, {.folder = folder.path()});
+  ASSERT_EQ(listed.exit_code, 0) << listed.err;
+  const json found = json::parse(listed.out);
+  EXPECT_EQ(found["unusable"].size(), bad.size() + 1);
+  EXPECT_THAT(found["unusable"].dump(), HasSubstr("damaged: its code has the checksum"));
+  EXPECT_THAT(found["components"].dump(), HasSubstr("good_contact"));
+  EXPECT_EQ(run(libraries, {"integrator.type=good"}).exit_code, 0);
+}
+
+TEST_F(Plugin, ThatHangsWhileItIsTriedOutIsRefusedInTime) {
+  expect_refused(kPlugins / "hangs_while_declaring.so", "it did not finish within 10000 ms while it declares");
 }
 
 TEST_F(Plugin, ThatReturnsNanIsNamedWithTheTime) {

@@ -68,6 +68,7 @@ Result run_program(const fs::path& program, const std::vector<std::string>& word
 
   Result result;
   bool signal_sent = false;
+  std::optional<std::chrono::time_point<Clock, std::chrono::duration<double>>> again;
   std::array<pollfd, 2> streams{pollfd{out[0], POLLIN, 0}, pollfd{err[0], POLLIN, 0}};
   const auto deadline = Clock::now() + std::chrono::duration<double>(setting.time_limit);
   while (streams[0].fd >= 0 || streams[1].fd >= 0) {
@@ -77,6 +78,11 @@ Result run_program(const fs::path& program, const std::vector<std::string>& word
     if (setting.send_signal_when && !signal_sent && setting.send_signal_when()) {
       kill(child, setting.signal);
       signal_sent = true;
+      if (setting.again_after > 0) again = Clock::now() + std::chrono::duration<double>(setting.again_after);
+    }
+    if (again && Clock::now() > *again) {
+      kill(child, setting.signal);
+      again.reset();
     }
     if (Clock::now() > deadline) kill(child, SIGKILL);
   }

@@ -24,6 +24,7 @@ struct Setting {
   // Asked every few milliseconds; true: the signal is sent (once).
   std::function<bool()> send_signal_when = {};
   int signal = SIGINT;
+  double again_after = 0;  // [s] then it is sent once more; 0: never
   double time_limit = 60;  // [s] then the child is killed, and `exit_code` is -SIGKILL
 };
 

@@ -3,12 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <chrono>
+#include <clocale>
 #include <cstdlib>
 
 #include <trammel/body.hpp>
 #include <trammel/integrator.hpp>
 
 #include "plugin/parameters.hpp"
+#include "plugin/process_settings.hpp"
 #include "plugin/rehearsal.hpp"
 #include "test_library.hpp"
 
@@ -284,13 +289,81 @@ TEST(BadPlugin, CrashingAtLoad) {
   EXPECT_EQ(refusal(library("crashes_at_load")), "it crashes while it is loaded: Killed");
 }
 
-TEST(BadPlugin, NeverFinishingToLoad) {
-  try {
-    rehearse_loading(library("never_loaded"), std::chrono::milliseconds(100));
-    FAIL() << "it waits for ever";
-  } catch (const PluginError& e) {
-    EXPECT_EQ(e.cause(), "it did not finish loading within 100 ms");
+// Each waits for ever, or writes for ever. The limit is one on the whole, so that signs of life do not prolong it.
+TEST(BadPlugin, NeverFinishing) {
+  using std::chrono::steady_clock;
+  const std::chrono::milliseconds limit(300);
+  for (const auto& [name, where] :
+       {std::pair{"never_loaded", "while it is loaded"},
+        {"writes_for_ever", "while it is loaded"},
+        {"hangs_while_declaring", "while it declares its components"},
+        {"hangs_in_constructor", "in the constructor of correction \"hangs_in_constructor\""}}) {
+    const auto began = steady_clock::now();
+    try {
+      rehearse(library(name), limit);
+      FAIL() << name << " goes on for ever";
+    } catch (const PluginError& e) {
+      EXPECT_EQ(e.cause(), std::string("it did not finish within 300 ms ") + where);
+    }
+    EXPECT_LT(steady_clock::now() - began, limit + std::chrono::seconds(5)) << name;  // of a busy machine
   }
+}
+
+// A process is gone when it has no entry in /proc, or is a zombie that nobody has asked for.
+bool is_gone(const std::string& process) {
+  const std::string status = content("/proc/" + process + "/stat");
+  return status.empty() || status.find(") Z") != std::string::npos;
+}
+
+TEST(BadPlugin, LeavingAProcessBehindThatIsEnded) {
+  const Folder folder;
+  const std::string mark = folder / "process";
+  ::setenv("TRAMMEL_TEST_FILE", mark.c_str(), 1);
+  const auto began = std::chrono::steady_clock::now();
+  EXPECT_EQ(refusal(library("leaves_a_process")),
+            "it starts a process while it is loaded that goes on when this one ends");
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(10));  // it would go on for 60 s
+  ::unsetenv("TRAMMEL_TEST_FILE");
+  std::string process = content(mark);
+  ASSERT_FALSE(process.empty());
+  process.pop_back();
+  for (int i = 0; i < 200 && !is_gone(process); ++i) ::usleep(10'000);
+  EXPECT_TRUE(is_gone(process)) << process;
+}
+
+TEST(BadPlugin, CrashingWhileDeclaring) {
+  EXPECT_THAT(refusal(library("crashes_while_declaring")), HasSubstr("while it declares its components"));
+}
+
+TEST(BadPlugin, EndingTheProcessWhileDeclaring) {
+  EXPECT_EQ(refusal(library("ends_while_declaring")),
+            "it ends the program with code 0 while it declares its components");
+}
+
+TEST(BadPlugin, EndingTheProcessInAConstructor) {
+  EXPECT_EQ(refusal(library("ends_in_constructor")),
+            "it ends the program with code 0 in the constructor of correction \"ends_in_constructor\"");
+}
+
+TEST(BadPlugin, ChangingTheArithmeticOfTheProcessLeavesItAsItWas) {
+  const std::string locale = std::setlocale(LC_ALL, nullptr);
+  EXPECT_EQ(refusal(library("changes_arithmetic")), "");
+  EXPECT_STREQ(arithmetic_fault(), "");
+  EXPECT_EQ(std::setlocale(LC_ALL, nullptr), locale);
+}
+
+// Every library that fails before it is loaded, in one folder with a sound one.
+TEST(BadPlugin, DoesNotKeepOthersOfItsFolderFromBeingFound) {
+  const Folder folder;
+  folder.copy("good", "m.so");
+  const std::vector<std::string> bad = {"crashes_at_load",         "exits_at_load",        "throws_at_load",
+                                        "crashes_while_declaring", "ends_while_declaring", "throws_while_declaring",
+                                        "ends_in_constructor",     "missing_symbol",       "hides_its_entry"};
+  for (const std::string& name : bad) folder.copy(name, name + ".so");
+  Registry registry = empty_registry();
+  registry.search(folder.path());
+  EXPECT_EQ(registry.find(Kind::integrator, "good").declaration.name, "good");
+  EXPECT_EQ(registry.failures().size(), bad.size());
 }
 
 TEST(BadPlugin, ThrowingWhileDeclaring) {

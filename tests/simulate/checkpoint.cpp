@@ -138,8 +138,9 @@ TEST(ResumedRun, KeepsTheEventsOfItsStart) {
   const scene::Scene scene =
       scene::Scene::parse(struck_bar, "test.json",
                           {{"simulate.until", "0.5"}, {"bodies.bar.position", "[0.5, 0]"}, {"bodies.bar.angle", "0"}});
-  std::atomic<bool> at_once = true;
-  const auto go = [&](const Folder& folder, std::atomic<bool>* interrupt, bool resume) {
+  simulate::Interrupt at_once;
+  at_once.request();
+  const auto go = [&](const Folder& folder, simulate::Interrupt* interrupt, bool resume) {
     simulate::RunOptions options;
     options.out = folder.path(), options.interrupt = interrupt, options.resume = resume;
     return simulate::run(scene, registry(), options).status;

@@ -16,6 +16,25 @@ file(COPY ${SOURCE}/ DESTINATION ${WORK}/project)
 run(${CMAKE_COMMAND} -S ${WORK}/project -B ${WORK}/build -DTrammel_ROOT=${WORK}/installed "-DCMAKE_CXX_FLAGS=${FLAGS}"
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
+
+# The plugin is sealed.
+file(STRINGS ${WORK}/build/heun.so seal REGEX "^code=")
+if(NOT seal MATCHES "^code=[0-9a-f]+$")
+  message(FATAL_ERROR "heun.so is not sealed: ${seal}")
+endif()
+
+# Without a build type a plugin is optimised all the same; with one, it is what was asked for.
+function(expect_flags build expected unexpected)
+  run(${CMAKE_COMMAND} -S ${WORK}/project -B ${WORK}/${build} -DTrammel_ROOT=${WORK}/installed -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+      -DCMAKE_CXX_COMPILER=${COMPILER} ${ARGN})
+  file(STRINGS ${WORK}/${build}/compile_commands.json commands REGEX "command.*heun.cpp")
+  if(NOT commands MATCHES "${expected}" OR commands MATCHES "${unexpected}")
+    message(FATAL_ERROR "${build}: ${commands}")
+  endif()
+endfunction()
+expect_flags(no_type "-O3 -DNDEBUG" "-O0")
+expect_flags(debug "-g" "-O3" -DCMAKE_BUILD_TYPE=Debug)
+expect_flags(own_level "-O1" "-O3" -DCMAKE_CXX_FLAGS=-O1)
 run(${WORK}/build/heun_tests)
 run(${CMAKE_COMMAND} -E env TRAMMEL_MEASURED=1 ${WORK}/build/heun_tests)
 if(NOT output MATCHES "holds: ")

@@ -57,7 +57,7 @@ void step(benchmark::State& report, const std::string& name) {
   const RecordsFolder folder;
   simulate::Recorder recorder(folder.path, *setup.model, setup.columns, {});
   std::vector<simulate::Simulator::LevelCorrection> corrections;
-  for (const auto& [level, correction] : setup.corrections) corrections.push_back({level, correction.get()});
+  for (const auto& c : setup.corrections) corrections.push_back({c.level, c.correction.get(), &c.origin});
   simulate::Simulator simulator(setup.model, *setup.integrator, setup.settings, corrections);
   simulator.start(setup.initial);
   // Two steps: the second still takes memory, for factors kept beside those of the first.

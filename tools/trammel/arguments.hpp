@@ -76,5 +76,6 @@ Command explain_command();
 Command list_command();
 Command describe_command();
 Command schema_command();
+Command seal_command();
 
 }  // namespace trammel::tool

@@ -6,19 +6,18 @@
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <exception>
+#include <new>
 #include <string_view>
 
-#include <fmt/format.h>
-
-#include "arguments.hpp"
+#include "last_words.hpp"
+#include "no_memory.hpp"
 
 namespace trammel::tool {
 
 namespace {
 
-// Handlers of signals and of the program's end have no other way to reach the run.
-simulate::CrashWitness the_witness;
-bool as_json = false;
+// Handlers of signals and of the program's end have no other way to learn it.
 std::atomic<bool> in_the_midst = false;
 pid_t this_process = 0;                   // not a child that tries out a library
 std::array<char, 1 << 16> handler_stack;  // a run that overflowed its own stack leaves none
@@ -38,62 +37,17 @@ const char* what_happened(int signal) {
   }
 }
 
-// Text in a fixed place: a crashed process may not allocate. What does not fit is cut off.
-class Line {
- public:
-  template <class... Args>
-  void add(fmt::format_string<Args...> format, Args&&... args) {
-    const auto end = fmt::format_to_n(text_.data() + size_, text_.size() - size_, format, std::forward<Args>(args)...);
-    size_ = std::size_t(end.out - text_.data());
-  }
-  std::string_view text() const { return {text_.data(), size_}; }
-
- private:
-  std::array<char, 2048> text_;
-  std::size_t size_ = 0;
-};
-
-void put(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t n = ::write(file, text.data(), text.size());
-    if (n <= 0) return;
-    text.remove_prefix(std::size_t(n));
-  }
-}
-
-void put_json(std::string_view message) {
-  put(STDOUT_FILENO,
-      R"({"status": "error", "problems": [{"file": "", "line": 0, "column": 0, "path": "", "message": ")");
-  for (const char c : message) {
-    if (c == '"' || c == '\\') put(STDOUT_FILENO, "\\");
-    put(STDOUT_FILENO, {&c, 1});
-  }
-  put(STDOUT_FILENO, "\"}]}\n");
-}
-
 // Says who ended the process and how; ends it.
-[[noreturn]] void tell_and_end(const char* how) {
-  the_witness.rescue();
-  const simulate::CrashWitness::Culprit who = the_witness.culprit();
+[[noreturn]] void tell_and_end(std::string_view how) {
+  const simulate::CrashWitness::Culprit who = witness().culprit();
   Line line;
-  if (who.origin) {
-    line.add("plugin {}: {}", who.origin->file, who.origin->component);
-    if (!who.origin->path.empty()) line.add(" ({})", who.origin->path);
-    line.add(": {}{}", who.call, who.certain ? "" : ", or the program on its behalf,");
-  } else {
+  if (who.origin)
+    line.add_culprit(who);
+  else
     line.add("the program ended where no plugin is known to be called");
-  }
-  if (who.t) line.add(" at t = {:.9g} s", *who.t);
-  if (who.step) line.add(", step {}", *who.step);
+  line.add_time(who);
   line.add(": {}", how);
-  if (as_json) {
-    put_json(line.text());
-  } else {
-    put(STDERR_FILENO, "trammel: ");
-    put(STDERR_FILENO, line.text());
-    put(STDERR_FILENO, "\n");
-  }
-  ::_exit(static_cast<int>(who.origin ? Exit::bad_plugin : Exit::failed));
+  end_process(who.origin ? Exit::bad_plugin : Exit::failed, "failed", line);
 }
 
 void on_crash(int signal) {
@@ -105,22 +59,32 @@ void on_exit() {
   if (in_the_midst && ::getpid() == this_process) tell_and_end("it ended the program (exit), which no plugin may");
 }
 
-}  // namespace
-
-simulate::CrashWitness& witness() {
-  return the_witness;
+[[noreturn]] void on_terminate() {
+  try {
+    if (std::current_exception()) throw;
+  } catch (const std::bad_alloc&) {
+    end_without_memory();
+  } catch (const std::exception& e) {
+    Line how;
+    how.add("it threw where no exception may leave: {}", e.what());
+    tell_and_end(how.text());
+  } catch (...) {
+  }
+  tell_and_end("it ended the program (std::terminate)");
 }
+
+}  // namespace
 
 void ends_by_itself() {
   in_the_midst = false;
 }
 
-void watch_for_crashes(bool json) {
-  as_json = json;
+void watch_for_crashes() {
   this_process = ::getpid();
   in_the_midst = true;
   std::atexit(on_exit);
   std::at_quick_exit(on_exit);
+  std::set_terminate(on_terminate);
   stack_t stack = {};
   stack.ss_sp = handler_stack.data();
   stack.ss_size = handler_stack.size();
@@ -136,3 +100,12 @@ void watch_for_crashes(bool json) {
 }
 
 }  // namespace trammel::tool
+
+// In place of the C library's: a plugin that calls it ends no run as if all were well. The C library itself calls its own.
+extern "C" [[noreturn, gnu::visibility("default")]] void _exit(int code) {
+  trammel::tool::on_exit();
+  trammel::tool::leave(code);
+}
+extern "C" [[noreturn, gnu::visibility("default")]] void _Exit(int code) {
+  ::_exit(code);
+}

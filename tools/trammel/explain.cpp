@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "arguments.hpp"
-#include "crash.hpp"
 #include "input.hpp"
+#include "last_words.hpp"
 #include "simulate/simulation.hpp"
 
 namespace trammel::tool {

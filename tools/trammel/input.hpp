@@ -19,6 +19,7 @@ scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override>
 void load_plugins(const Arguments& arguments, plugin::Registry& registry);
 
 void print_json(const nlohmann::ordered_json& object);
+void print_line(const std::string& text);  // takes no memory: results are complete by then
 
 std::vector<std::string> lines(const std::string& text);  // without empty ones
 

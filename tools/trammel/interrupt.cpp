@@ -1,29 +1,81 @@
 #include "interrupt.hpp"
 
+#include <time.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <csignal>
+
+#include "last_words.hpp"
 
 namespace trammel::tool {
 
 namespace {
 
-// A signal handler has no other way to reach the run; a lock-free atomic is what it may touch.
-std::atomic<bool> stop_requested = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
+constexpr unsigned patience = 5;       // [s] for a step to return
+constexpr double same_request = 0.25;  // [s] `timeout` and a terminal that closes send their signal twice
 
-void request_stop(int) {
-  stop_requested = true;
+// A signal handler has no other way to reach the run.
+simulate::Interrupt interrupt;
+double requested_at = 0;  // [s]
+
+double now() {
+  timespec t{};
+  ::clock_gettime(CLOCK_MONOTONIC, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+[[noreturn]] void end_in_the_midst(const char* why) {
+  const simulate::CrashWitness::Culprit who = witness().culprit();
+  Line line;
+  line.add("interrupted");
+  line.add_time(who);
+  line.add(", before the step had returned, {}", why);
+  if (who.origin) {
+    line.add("; it was in ");
+    line.add_culprit(who);
+  }
+  line.add(". What was recorded is kept, and --resume goes on from the last checkpoint, if there is one");
+  end_process(Exit::interrupted, "interrupted", line);
+}
+
+// After the limit of CPU time SIGXCPU comes every second, so it insists on nothing.
+bool insists(int signal) {
+  return (signal == SIGINT || signal == SIGTERM) && now() - requested_at > same_request;
+}
+
+void on_request(int signal) {
+  const int error = errno;
+  if (!interrupt.requested()) {
+    requested_at = now();
+    interrupt.request();
+    ::alarm(patience);
+  } else if (insists(signal)) {
+    end_in_the_midst("by a second signal");
+  }
+  errno = error;
+}
+
+void on_alarm(int) {
+  if (!interrupt.heeded()) end_in_the_midst("5 s after the signal");
 }
 
 }  // namespace
 
-std::atomic<bool>& watch_for_interrupts() {
+simulate::Interrupt& watch_for_interrupts() {
   struct sigaction action = {};
-  action.sa_handler = request_stop;
-  // Back to the default after the first signal: the second one ends the process.
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  return stop_requested;
+  action.sa_flags = SA_RESTART | SA_ONSTACK;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGALRM}) sigaddset(&action.sa_mask, signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+    struct sigaction present = {};
+    sigaction(signal, nullptr, &present);
+    if (present.sa_handler == SIG_IGN) continue;
+    action.sa_handler = on_request;
+    sigaction(signal, &action, nullptr);
+  }
+  action.sa_handler = on_alarm;
+  sigaction(SIGALRM, &action, nullptr);
+  return interrupt;
 }
 
 }  // namespace trammel::tool

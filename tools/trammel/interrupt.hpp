@@ -1,11 +1,12 @@
-// Ctrl-C and SIGTERM ask the run to stop after its current step; a second one ends the process at once.
+// Ctrl-C, SIGTERM, SIGHUP and SIGXCPU (the limit of CPU time) ask the run to stop after its current step. A step that does not return
+// is ended by the second Ctrl-C or SIGTERM, or some seconds after the first signal; records so far are kept then, too.
 #pragma once
 
-#include <atomic>
+#include "simulate/interrupt.hpp"
 
 namespace trammel::tool {
 
-// Installs the handlers and returns the flag that they set.
-std::atomic<bool>& watch_for_interrupts();
+// Installs the handlers, and returns what they request. Signals that are ignored (nohup, a shell's background) stay ignored.
+simulate::Interrupt& watch_for_interrupts();
 
 }  // namespace trammel::tool

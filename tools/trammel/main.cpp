@@ -2,10 +2,16 @@
 // message.
 //
 // Exit codes: 0 done, 1 the run failed (results kept), 2 bad input, 3 bad plugin, 130 interrupted (resumable).
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <new>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +19,8 @@
 #include "arguments.hpp"
 #include "crash.hpp"
 #include "input.hpp"
+#include "last_words.hpp"
+#include "no_memory.hpp"
 #include "plugin/out_of_memory.hpp"
 #include "scene/suggestion.hpp"
 #include "simulate/results_folder.hpp"
@@ -22,8 +30,9 @@ namespace trammel::tool {
 namespace {
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {run_command(),     static_command(), modes_command(),    validate_command(),
-                                           explain_command(), list_command(),   describe_command(), schema_command()};
+  static const std::vector<Command> all = {run_command(),      static_command(),  modes_command(),
+                                           validate_command(), explain_command(), list_command(),
+                                           describe_command(), schema_command(),  seal_command()};
   return all;
 }
 
@@ -84,9 +93,14 @@ void report(const std::vector<scene::Problem>& problems, const char* text, bool 
   print_json({{"status", "error"}, {"problems", all}});
 }
 
+// A file opened later would become one of them if it were closed, and messages would go into the results.
+void open_standard_descriptors() {
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(standard, F_GETFD) < 0 && errno == EBADF && ::open("/dev/null", O_RDWR) < 0) return;
+}
+
 int run_program(const std::string& program, std::span<const std::string> words) {
   const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
-  watch_for_crashes(json);
   const auto fail = [&](Exit code, const std::vector<scene::Problem>& problems, const std::string& text) {
     report(problems, text.c_str(), json);
     return code;
@@ -101,8 +115,8 @@ int run_program(const std::string& program, std::span<const std::string> words) 
     return fail(Exit::bad_input, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (const plugin::PluginError& error) {
     return fail(Exit::bad_plugin, problem(error), fmt::format("trammel: {}", error.what()));
-  } catch (const std::bad_alloc& lack) {
-    const std::runtime_error error(plugin::told(lack));
+  } catch (const std::bad_alloc& error) {
+    if (!dynamic_cast<const plugin::OutOfMemory*>(&error)) end_without_memory();
     return fail(Exit::failed, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (const std::exception& error) {
     return fail(Exit::failed, problem(error), fmt::format("trammel: {}", error.what()));
@@ -117,14 +131,23 @@ int run_program(const std::string& program, std::span<const std::string> words) 
 }  // namespace trammel::tool
 
 int main(int argc, char** argv) {
+  using namespace trammel::tool;
+  open_standard_descriptors();
+  if (std::any_of(argv, argv + argc, [](const char* word) { return std::strcmp(word, "--json") == 0; })) speak_json();
+  watch_for_lack_of_memory();
+  watch_for_crashes();
   // A file that meets its size limit is then an error of the write, with results kept, and not the end of the process.
   std::signal(SIGXFSZ, SIG_IGN);
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  const int code = trammel::tool::run_program(argc > 0 ? argv[0] : "trammel", words);
-  trammel::tool::ends_by_itself();
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  int code = run_program(argc > 0 ? argv[0] : "trammel", words);
+  ends_by_itself();
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
-    fmt::print(stderr, "trammel: could not write to standard output\n");
-    return code == 0 ? 1 : code;
+    std::fputs("trammel: could not write to standard output\n", stderr);
+    code = code == 0 ? 1 : code;
   }
-  return code;
+#if defined(__SANITIZE_ADDRESS__)
+  return code;  // looks for leaks
+#else
+  leave(code);  // a plugin's globals are never destroyed: what is done stays done whatever they would do
+#endif
 }

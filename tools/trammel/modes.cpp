@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "arguments.hpp"
-#include "crash.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
+#include "last_words.hpp"
 #include "results_folder.hpp"
 #include "simulate/modal_analysis.hpp"
 
@@ -71,12 +71,12 @@ Exit run(const Arguments& arguments) {
   options.witness = &witness();
   const simulate::RunReport report = simulate::analyse_modes(scene, registry, options);
   if (report.status != simulate::Status::done) {
-    if (json) fmt::print("{}\n", report.result_json);
+    if (json) print_line(report.result_json);
     fmt::print(stderr, "trammel: on the way to t = {:.9g}: {}\n", *options.at, report.reason);
     return report.status == simulate::Status::interrupted ? Exit::interrupted : Exit::failed;
   }
-  if (json) fmt::print("{}\n", report.result_json);
-  if (!json && !quiet) fmt::print("{}\n", report.summary);
+  if (json) print_line(report.result_json);
+  if (!json && !quiet) print_line(report.summary);
   return Exit::done;
 }
 

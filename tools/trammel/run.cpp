@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "arguments.hpp"
-#include "crash.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
+#include "last_words.hpp"
 #include "progress.hpp"
 #include "results_folder.hpp"
 #include "simulate/simulation.hpp"
@@ -71,8 +71,8 @@ Exit run(const Arguments& arguments) {
     report = simulate::run(scene, registry, options);
   }
 
-  if (json) fmt::print("{}\n", report.result_json);
-  if (!json && !quiet) fmt::print("{}\n", report.summary);
+  if (json) print_line(report.result_json);
+  if (!json && !quiet) print_line(report.summary);
   switch (report.status) {
     case simulate::Status::done:
       return Exit::done;

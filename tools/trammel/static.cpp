@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "arguments.hpp"
-#include "crash.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
+#include "last_words.hpp"
 #include "progress.hpp"
 #include "results_folder.hpp"
 #include "simulate/simulation.hpp"
@@ -32,8 +32,8 @@ Exit run(const Arguments& arguments) {
     if (bar.visible()) options.progress = [&bar](const simulate::Progress& progress) { bar.draw(progress); };
     report = simulate::run_static(scene, registry, options);
   }
-  if (json) fmt::print("{}\n", report.result_json);
-  if (!json && !quiet) fmt::print("{}\n", report.summary);
+  if (json) print_line(report.result_json);
+  if (!json && !quiet) print_line(report.summary);
   if (report.status == simulate::Status::done) return Exit::done;
   fmt::print(stderr, "trammel: {}\nResults up to there are in {}\n", report.reason, options.out.string());
   return report.status == simulate::Status::interrupted ? Exit::interrupted : Exit::failed;

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "arguments.hpp"
-#include "crash.hpp"
 #include "input.hpp"
+#include "last_words.hpp"
 #include "simulate/simulation.hpp"
 
 namespace trammel::tool {

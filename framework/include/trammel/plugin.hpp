@@ -10,7 +10,9 @@
 //   .trammel               magic line, then key=value lines: everything that must be equal in plugin and host before a
 //   C++
 //                          object crosses between them. The host reads it from the file, so nothing of a library that
-//                          does not fit is ever run. It survives strip and --gc-sections.
+//                          does not fit is ever run. It survives strip and --gc-sections. Its last line has room for a checksum
+//                          of the library's code, which trammel_add_plugin and `trammel seal` write: a file that was damaged
+//                          afterwards is refused before it is loaded. Without one it is not compared.
 //   trammel_declarations   the declarations of the library's components; called once, after the comparison.
 #pragma once
 
@@ -90,9 +92,12 @@ using Declarations = std::vector<Declaration>;
   "\neigen_index=" TRAMMEL_TEXT(EIGEN_DEFAULT_DENSE_INDEX_TYPE)                                                      \
   "\neigen_storage=" TRAMMEL_EIGEN_STORAGE "\n"
 
-#define TRAMMEL_PLUGIN(...)                                                                                           \
-  [[gnu::section(".trammel"), gnu::used, gnu::retain]] static const char trammel_fingerprint[] = TRAMMEL_FINGERPRINT; \
-  extern "C" [[gnu::visibility("default"), gnu::used]] const ::trammel::Declarations* trammel_declarations() {        \
-    static const ::trammel::Declarations declarations{__VA_ARGS__};                                                   \
-    return &declarations;                                                                                             \
+#define TRAMMEL_UNSEALED "code=----------------\n"
+
+#define TRAMMEL_PLUGIN(...)                                                                                    \
+  [[gnu::section(".trammel"), gnu::used, gnu::retain]] static const char trammel_fingerprint[] =               \
+      TRAMMEL_FINGERPRINT TRAMMEL_UNSEALED;                                                                    \
+  extern "C" [[gnu::visibility("default"), gnu::used]] const ::trammel::Declarations* trammel_declarations() { \
+    static const ::trammel::Declarations declarations{__VA_ARGS__};                                            \
+    return &declarations;                                                                                      \
   }

@@ -1,5 +1,9 @@
 // An integrator (semi-implicit Euler) whose step goes wrong after a number of steps: it throws, or throws what is no
-// std::exception, gives vectors of a wrong size or numbers that are not finite, ends the program, or reads from address 0.
+// std::exception, gives vectors of a wrong size or numbers that are not finite, rounds otherwise from then on, ends the program, or
+// reads from address 0.
+#include <unistd.h>
+
+#include <cfenv>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
@@ -37,7 +41,9 @@ struct SpoiltStep : Integrator {
     if (how == "text") throw std::runtime_error("one step too many");
     if (how == "size") next.q.resize(3);
     if (how == "not_finite") next.q[0] = std::numeric_limits<double>::quiet_NaN();
+    if (how == "rounding") std::fesetround(FE_TOWARDZERO);
     if (how == "exit") std::exit(0);
+    if (how == "_exit") ::_exit(0);
     if (how == "quick_exit") std::quick_exit(0);
     if (how == "memory") {
       double* volatile nowhere = nullptr;
@@ -55,4 +61,4 @@ TRAMMEL_PLUGIN(integrator<SpoiltStep>("spoilt_step", "semi-implicit Euler whose 
                    .source("none")
                    .parameter("after", &SpoiltStep::after, {.min = 0, .doc = "so many good steps"})
                    .parameter("how", &SpoiltStep::how,
-                              {.doc = "number, text, size, not_finite, exit, quick_exit, memory"}))
+                              {.doc = "number, text, size, not_finite, rounding, exit, _exit, quick_exit, memory"}))

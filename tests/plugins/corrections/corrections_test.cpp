@@ -227,7 +227,7 @@ struct FreeMast {
                                 {"corrections.energy", fmt::format(R"({{"type": "energy", "keeps": "{}"}})", keeps)}}),
             registry())) {
     std::vector<simulate::Simulator::LevelCorrection> corrections;
-    for (const auto& [level, correction] : setup.corrections) corrections.push_back({level, correction.get()});
+    for (const auto& c : setup.corrections) corrections.push_back({c.level, c.correction.get(), &c.origin});
     simulator.emplace(setup.model, *setup.integrator, setup.settings, corrections);
     std::filesystem::create_directories(folder.path());
     recorder.emplace(folder.path(), *setup.model, setup.columns, std::nullopt);

@@ -1,0 +1,43 @@
+// What a process says that cannot go on, and its end: for handlers of signals and of failed allocations. Nothing here allocates.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "arguments.hpp"
+#include "simulate/crash_witness.hpp"
+
+namespace trammel::tool {
+
+// Whom the handlers ask where the run stands.
+simulate::CrashWitness& witness();
+
+// From here on the last words are a JSON object on standard output.
+void speak_json();
+
+// Text in a fixed place. What does not fit is cut off.
+class Line {
+ public:
+  template <class... Args>
+  void add(fmt::format_string<Args...> format, Args&&... args) {
+    const auto end = fmt::format_to_n(text_.data() + size_, text_.size() - size_, format, std::forward<Args>(args)...);
+    size_ = std::size_t(end.out - text_.data());
+  }
+  void add_culprit(const simulate::CrashWitness::Culprit& who);  // has an origin
+  void add_time(const simulate::CrashWitness::Culprit& who);     // and step, as far as they are known
+  std::string_view text() const { return {text_.data(), size_}; }
+
+ private:
+  std::array<char, 2048> text_;
+  std::size_t size_ = 0;
+};
+
+// Records go out, result.json gets `status` with the line as its reason, and the line is printed.
+[[noreturn]] void end_process(Exit code, const char* status, const Line& line);
+
+// Ends the process without destructors of globals and functions of atexit.
+[[noreturn]] void leave(int code);
+
+}  // namespace trammel::tool
