@@ -34,7 +34,8 @@ std::string read(const std::string& file, bool regular) {
   if (opened.number < 0) fail(file, errno == ENOENT ? "no such file" : "cannot be opened for reading");
   struct stat status = {};
   if (::fstat(opened.number, &status) != 0) fail(file, "cannot be read");
-  if (S_ISDIR(status.st_mode)) fail(file, regular ? "is a directory, expected a file" : "is a directory, expected a scene file");
+  if (S_ISDIR(status.st_mode))
+    fail(file, regular ? "is a directory, expected a file" : "is a directory, expected a scene file");
   if (regular && !S_ISREG(status.st_mode)) fail(file, "is a pipe or a device, expected a regular file");
   if (S_ISREG(status.st_mode) && status.st_size > off_t(limits::bytes))
     fail(file, fmt::format("has {} bytes; a scene has at most {} (64 MiB)", status.st_size, limits::bytes));

@@ -13,8 +13,8 @@
 
 #include <fmt/format.h>
 
+#include "scene/fnv_hash.hpp"
 #include "scene/no_memory.hpp"
-#include "simulate/checksum.hpp"
 #include "simulate/log_file.hpp"
 #include "simulate/results_folder.hpp"
 
@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-void add(Checksum& hash, const scene::Value& value) {
+void add(scene::FnvHash& hash, const scene::Value& value) {
   using Type = scene::Value::Type;
   if (value.path() == "simulate.until") return;
   hash.number(static_cast<std::uint64_t>(value.type()));
@@ -55,7 +55,7 @@ void add(Checksum& hash, const scene::Value& value) {
 }
 
 std::uint64_t checksum(const std::vector<std::uint8_t>& data) {
-  Checksum hash;
+  scene::FnvHash hash;
   hash.bytes(data.data(), data.size());
   return hash.value();
 }
@@ -196,7 +196,7 @@ void JsonArchive::require_lengths(const Sizes& sizes) const {
 }
 
 std::uint64_t resume_hash(const scene::Value& root) {
-  Checksum hash;
+  scene::FnvHash hash;
   add(hash, root);
   return hash.value();
 }

@@ -43,7 +43,7 @@ std::size_t write_to(int file, std::string_view text) noexcept {
 }
 
 LogPart extended(const LogPart& part, std::string_view text) {
-  Checksum sum = Checksum::from(part.checksum);
+  scene::FnvHash sum = scene::FnvHash::from(part.checksum);
   sum.bytes(text.data(), text.size());
   return {part.bytes + static_cast<long long>(text.size()), sum.value()};
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "simulate/checksum.hpp"
+#include "scene/fnv_hash.hpp"
 
 namespace trammel::simulate {
 
@@ -36,7 +36,7 @@ class Descriptor {
 // A log as far as it went when something was written about it.
 struct LogPart {
   long long bytes = 0;
-  std::uint64_t checksum = Checksum().value();
+  std::uint64_t checksum = scene::FnvHash().value();
 };
 
 class LogFile {

@@ -160,7 +160,8 @@ class Run {
     const Sizes& sizes = setup_.model->sizes;
     reserve_.emplace(options_.out, room_for_logs + room_per_number * (sizes.nq + sizes.nv + sizes.nc));
     recorder_.emplace(options_.out, *setup_.model, setup_.columns, keep, setup_.settings.field_times);
-    last_result_.emplace(options_.out, result_head(scene_, setup_, {Status::failed, "", {}, options_.resume, options_.command}));
+    last_result_.emplace(options_.out,
+                         result_head(scene_, setup_, {Status::failed, "", {}, options_.resume, options_.command}));
     if (options_.witness) options_.witness->record_with(*recorder_, *last_result_);
     if (!options_.resume) simulator_->start(setup_.initial);
   }

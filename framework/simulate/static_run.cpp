@@ -46,7 +46,8 @@ class StaticRun {
       write_whole(options_.out / "scene.resolved.json", scene_.resolved());
       recorder_.emplace(options_.out, *setup_.model, setup_.columns, std::nullopt, setup_.settings.field_times,
                         Recorder::Books::none);
-      last_result_.emplace(options_.out, result_head(scene_, setup_, {Status::failed, "", {}, false, options_.command}));
+      last_result_.emplace(options_.out,
+                           result_head(scene_, setup_, {Status::failed, "", {}, false, options_.command}));
       if (options_.witness) options_.witness->record_with(*recorder_, *last_result_);
       load();
     } catch (const RunFailed& e) {
