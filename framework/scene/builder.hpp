@@ -49,7 +49,7 @@ std::shared_ptr<const Value::Parameters> evaluate_parameters(const Value& root);
 // Whether a unit has "for".
 bool repeats_units(const Value& root);
 // nullptr: there is none of this name.
-const std::variant<double, std::string>* find_parameter(const Value::Parameters& parameters, std::string_view name);
+const Value::Parameter* find_parameter(const Value::Parameters& parameters, std::string_view name);
 
 // Puts copies in place of bodies, joints, forces and contacts with "for" (repeat.cpp). Throws SceneError.
 void repeat_units(Value& root, const Value::Parameters& parameters);

@@ -150,11 +150,12 @@ std::shared_ptr<const Value::Parameters> evaluate_parameters(const Value& root) 
       parameters->emplace_back(name, *result);
   }
   problems.throw_if_any();
-  std::sort(parameters->begin(), parameters->end());
+  std::sort(parameters->begin(), parameters->end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
   return parameters;
 }
 
-const std::variant<double, std::string>* find_parameter(const Value::Parameters& parameters, std::string_view name) {
+const Value::Parameter* find_parameter(const Value::Parameters& parameters, std::string_view name) {
   const auto at = std::lower_bound(parameters.begin(), parameters.end(), name,
                                    [](const auto& parameter, std::string_view key) { return parameter.first < key; });
   return at != parameters.end() && at->first == name ? &at->second : nullptr;

@@ -1,6 +1,6 @@
 #include "simulate/slow_steps.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 
 #include <fmt/format.h>
@@ -11,9 +11,9 @@
 namespace trammel::simulate {
 namespace {
 
-constexpr double many = 50;            // steps between two records
-constexpr double long_wait = 20;       // [s] of wall-clock time to the end
-constexpr double accounts_for = 0.02;  // radians of the fastest motion in a step: fewer are short for another reason
+constexpr double many = 50;           // steps between two records
+constexpr double long_wait = 20;      // [s] of wall-clock time to the end
+constexpr double accounts_for = 0.1;  // radians of the fastest motion in a step: fewer are short for another reason
 
 std::string cause(const FastestMotion& fastest, const Setup& setup, const Simulator& simulator, double h) {
   const bool implicit = setup.integrator->traits().implicit, on_rows = setup.integrator->traits().holds_position;
@@ -22,8 +22,11 @@ std::string cause(const FastestMotion& fastest, const Setup& setup, const Simula
                        told(ratio, *setup.model));
   const std::string what = told(fastest, *setup.model);
   if (fastest.rate() * h < accounts_for)
-    return fmt::format("{}, which asks for none so short, with {} events so far; a looser tolerance takes longer ones",
-                       what, simulator.statistics().events);
+    return fmt::format(
+        "{}, which asks for none so short, with {} events so far; a looser tolerance takes longer ones, or fixed "
+        "steps: "
+        "\"integrator\": {{\"type\": \"generalized_alpha\", \"step\": {:.0e}}}",
+        what, simulator.statistics().events, std::min(setup.settings.every, 1 / fastest.rate()));
   if (implicit)
     return fmt::format(
         "{}, and the error control follows it; a looser tolerance does not, nor does hht_alpha with "
@@ -39,10 +42,11 @@ std::string cause(const FastestMotion& fastest, const Setup& setup, const Simula
 
 std::string SlowSteps::look(double seconds, const Setup& setup, Simulator& simulator) {
   if (seconds < next_look_ || setup.settings.step.fixed) return "";
-  next_look_ *= 2;
   const double passed = simulator.state().t - t_, left = setup.settings.until - simulator.state().t;
-  const double steps = double(simulator.statistics().steps - steps_);
-  const double wait = passed > 0 ? seconds * left / passed : std::numeric_limits<double>::infinity();
+  const double steps = double(simulator.statistics().steps - steps_), took = seconds - last_look_;
+  const double wait = passed > 0 ? took * left / passed : std::numeric_limits<double>::infinity();
+  t_ = simulator.state().t, steps_ = simulator.statistics().steps;
+  last_look_ = seconds, next_look_ = 2 * seconds;
   if (steps * setup.settings.every < many * passed || wait < long_wait) return "";
   next_look_ = std::numeric_limits<double>::infinity();
   const double h = passed / std::max(1.0, steps);

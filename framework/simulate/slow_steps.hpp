@@ -18,9 +18,10 @@ class SlowSteps {
   std::string look(double seconds, const Setup& setup, Simulator& simulator);
 
  private:
+  // At the last look.
   double t_;
   long long steps_;
-  double next_look_ = 2;  // [s]
+  double last_look_ = 0, next_look_ = 2;  // [s]
 };
 
 }  // namespace trammel::simulate

@@ -109,7 +109,7 @@ TEST_P(FailingSystem, IsRejectedOrLeftOutAtAnyEvaluation) {
     while (run(how, n) && n < 2000) ++n;
     EXPECT_LT(n, 2000);
     if (how != Failing::How::singular) {
-      EXPECT_GT(n, 6);  // it was asked for something in each step
+      EXPECT_GE(n, 6);  // it is asked for something twice or more in each step
     }
   }
 }
