@@ -1,4 +1,5 @@
 // Every component that Trammel ships goes through the checks that authors of others use, in every form that differs.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -27,10 +28,11 @@ std::string suite(const std::string& kind, const Shipped& s) {
 }
 
 const char* const plain_beam = R"({"type": "assumed_mode_beam", "length": 1, "area": 3.14e-4, "second_moment": 7.85e-9,
-  "density": 2766.7, "youngs_modulus": 6.8952e10, "modes": {"axial": 3, "transverse": 3}, "angle": 0.7,
+  "density": 2766.7, "youngs_modulus": 6.8952e10, "angle": 0.7,
   "markers": {"middle": 0.4}, )";
-std::string beam(const std::string& more) {
-  return plain_beam + more + "}";
+std::string beam(const std::string& more, const char* static_functions = "false") {
+  return fmt::format(R"({}"modes": {{"axial": 3, "transverse": 3, "static_axial": {}, "static_transverse": {}}}, {}}})",
+                     plain_beam, static_functions, static_functions, more);
 }
 const std::string hinge = R"("mount": {"hinge": [0.3, -0.1]}, "hub_radius": 0.2, "hub_inertia": 0.05)";
 
@@ -51,6 +53,8 @@ const std::vector<Shipped>& bodies() {
       {"assumed_mode_beam", "hinged", beam(hinge)},
       {"assumed_mode_beam", "driven", beam(hinge + R"x(, "torque": "=3*sin(5*t)")x")},
       {"assumed_mode_beam", "clamped", beam(R"("mount": {"clamped": [0, 0]})")},
+      {"assumed_mode_beam", "with_static_functions", beam(hinge, "true")},
+      {"assumed_mode_beam", "free_with_static_functions", beam(R"("mount": {"free": [0.5, 1]})", "true")},
       {"assumed_mode_beam", "free", beam(R"("mount": {"free": [0.5, 1]})")},
       {"assumed_mode_beam", "linear", beam(hinge + R"(, "coupling": "linear")")},
       {"assumed_mode_beam", "uncoupled", beam(hinge + R"(, "coupling": "none")")},
