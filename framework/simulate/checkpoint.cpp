@@ -60,7 +60,6 @@ std::uint64_t checksum(const std::vector<std::uint8_t>& data) {
   return hash.value();
 }
 
-constexpr int format = 3;
 constexpr std::uintmax_t largest = 1u << 30;  // [bytes]
 constexpr int nested = 8;                     // more than any component needs
 
@@ -203,7 +202,7 @@ std::uint64_t resume_hash(const scene::Value& root) {
 
 void write_checkpoint(const std::filesystem::path& file, std::uint64_t scene_hash, const json& data) {
   const std::vector<std::uint8_t> content = json::to_cbor(data);
-  const json whole = {{"trammel_checkpoint", format},
+  const json whole = {{"trammel_checkpoint", checkpoint_format},
                       {"scene_hash", scene_hash},
                       {"checksum", checksum(content)},
                       {"content", json::binary(content)}};
@@ -230,7 +229,7 @@ json decode_checkpoint(const std::string& bytes, const std::filesystem::path& fi
     if (!there) refuse_checkpoint(file, "the file is damaged or no checkpoint; start the run anew");
     return whole->at(key);
   };
-  if (member("trammel_checkpoint") != format)
+  if (member("trammel_checkpoint") != checkpoint_format)
     refuse_checkpoint(file, "it was written by another version of the program; start the run anew");
   const json &sum = member("checksum"), &hash = member("scene_hash"), &bytes_within = member("content");
   if (!bytes_within.is_binary()) refuse_checkpoint(file, "the file is damaged; start the run anew");

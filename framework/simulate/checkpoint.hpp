@@ -15,6 +15,8 @@
 
 namespace trammel::simulate {
 
+inline constexpr int checkpoint_format = 3;
+
 // Writes values into a JSON object, or reads them back.
 class JsonArchive final : public Archive {
  public:

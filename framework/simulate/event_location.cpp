@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "numerics/root_bracket.hpp"
 #include "simulate/trial_step.hpp"
@@ -334,7 +335,7 @@ void EventLocation::archive(Archive& a) {
   }
   modes_before_ = system_.modes().contacts;
   const auto m = Eigen::Index(watches_.size());
-  if (flat.size() != 6 * m) return;  // of another scene: refused elsewhere
+  if (flat.size() != 6 * m) throw std::length_error("watched");
   for (Eigen::Index w = 0; w < m; ++w) {
     now_[w] = {flat[w], flat[m + w]};
     watches_[w].noise = flat[2 * m + w], watches_[w].force_before = flat[3 * m + w],
