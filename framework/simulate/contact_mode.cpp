@@ -49,7 +49,8 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   bool without_collision = false;
   lock(state, changes, events);
   find_candidates(changes);
-  auto solution = decide(state, changes, jumped);
+  auto solution =
+      changes.locked ? complementarity::ContactSolution{LcpOutcome::no_solution, 0} : decide(state, changes, jumped);
   if (solution.outcome == LcpOutcome::no_solution && !jumped) {  // rule 8
     jumped = without_collision = true;
     for (TouchingContact& c : touching_) c.without_collision = true;

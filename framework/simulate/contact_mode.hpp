@@ -63,10 +63,11 @@ struct ContactChanges {
   std::vector<int> toggled;   // ContactForce: force on or off
   std::vector<int> yielded;   // sticking contacts whose friction reached its bound
   std::vector<int> stopped;   // sliding contacts whose slip reached 0
+  bool locked = false;        // joints that slide have no finite forces from here on (rule 8)
   bool empty() const {
-    return struck.empty() && released.empty() && toggled.empty() && yielded.empty() && stopped.empty();
+    return struck.empty() && released.empty() && toggled.empty() && yielded.empty() && stopped.empty() && !locked;
   }
-  void clear() { struck.clear(), released.clear(), toggled.clear(), yielded.clear(), stopped.clear(); }
+  void clear() { struck.clear(), released.clear(), toggled.clear(), yielded.clear(), stopped.clear(), locked = false; }
 };
 
 inline bool contains(const std::vector<int>& contacts, int i) {

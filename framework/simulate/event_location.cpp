@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "numerics/root_bracket.hpp"
+#include "simulate/signed_loads.hpp"
 #include "simulate/trial_step.hpp"
 
 namespace trammel::simulate {
@@ -31,7 +32,10 @@ EventLocation::EventLocation(model::AssembledSystem& system, Integrator& integra
 void EventLocation::watch(int contact) {
   const model::ContactEntry& entry = system_.model().contacts[contact];
   const model::ContactMode& mode = system_.modes().contacts[contact];
-  if (entry.joint) return watch_friction(contact, false);
+  if (entry.joint) {
+    watch_loads(contact);
+    return watch_friction(contact, false);
+  }
   if (!mode.closed) {
     const bool at_ends = entry.restitution && entry.restitution->treatment().onset == Restitution::Onset::next_step;
     watches_.push_back({.contact = contact, .kind = Kind::approach, .at_ends = at_ends, .noise = scale_.touching()});
@@ -61,6 +65,25 @@ void EventLocation::watch_friction(int contact, bool as_one) {
                         .at_ends = entry.coulomb->decide() == SetValuedFriction::Decide::every_evaluation});
 }
 
+// Of a joint that sticks they bound what holds it; of one that slides they decide the motion.
+void EventLocation::watch_loads(int contact) {
+  if (system_.modes().contacts[contact].friction == Friction::none) return;
+  const int count = count_signed_loads(system_.model(), contact);
+  for (int k = 0; k < count; ++k) watches_.push_back({.contact = contact, .kind = Kind::load, .bearing = k});
+}
+
+// On which side bearings press: where they do; of one whose load has just passed through 0 the other one.
+void EventLocation::choose_sides(const std::vector<Watch>& before) {
+  for (std::size_t w = 0; w < watches_.size(); ++w) {
+    Watch& watch = watches_[w];
+    if (watch.kind != Kind::load) continue;
+    const bool passed = before.size() == watches_.size() && before[w].reported;
+    watch.side = passed ? -before[w].side : now_[w].f < 0 ? -1 : 1;
+    now_[w].f *= watch.side;
+    watch.noise = std::max(modes_.friction_noise(watch.contact), 1e-12 * watch.bound);
+  }
+}
+
 bool EventLocation::watched_group(int group) const {
   return std::any_of(watches_.begin(), watches_.end(), [group](const Watch& w) { return w.group == group; });
 }
@@ -88,6 +111,7 @@ void EventLocation::restart(const State& now) {
     if (each.kind == Kind::unload) each.little = little_force(each.group);
   next_.resize(watches_.size()), probe_.resize(watches_.size());
   evaluate(now, now_);
+  choose_sides(before);
   for (std::size_t w = 0; w < watches_.size(); ++w) watches_[w].steepest = std::abs(now_[w].slope);
   for (std::size_t w = 0; w < before.size() && before.size() == watches_.size(); ++w)
     wait_longer(before[w], now_[w], watches_[w]);
@@ -136,13 +160,17 @@ void EventLocation::accept(double h, const State& next) {
   now_.swap(next_);
 }
 
-double EventLocation::force(Watch& watch, const Vec& lambda) {
+double EventLocation::force(Watch& watch, double t, const Vec& lambda) {
   if (watch.kind == Kind::idle) return -system_.spring_force(watch.contact, lambda);
   if (watch.kind == Kind::unload) {
     watch.bound = system_.largest_load(watch.group, lambda);
     return watch.little + system_.spare_load(watch.group, lambda);
   }
   const double N = system_.normal_force(watch.contact, lambda);
+  if (watch.kind == Kind::load) {
+    watch.bound = N;
+    return watch.side * signed_loads(system_, watch.contact, t, lambda)[std::size_t(watch.bearing)];
+  }
   if (watch.kind == Kind::hold) watch.bound = system_.model().contacts[watch.contact].coulomb->static_coefficient() * N;
   return watch.kind == Kind::press ? N : watch.bound - system_.friction_force(watch.contact, lambda).norm();
 }
@@ -168,7 +196,7 @@ EventLocation::Value EventLocation::value(int w, const State& state, const Vec*&
     lambda = own_force_ ? &state.lambda : &lambda_;
     if (!own_force_) system_.accelerate({}, a_, lambda_);
   }
-  return {force(watch, *lambda), 0};
+  return {force(watch, state.t, *lambda), 0};
 }
 
 // Just after an event a function at round-off of 0 tells nothing, unless it goes on falling; nor does one that began below
@@ -251,6 +279,7 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
 // An event that changed nothing was round-off, or what was missed moves nothing yet. It is one again where several times as much is
 // missed.
 void EventLocation::wait_longer(const Watch& before, const Value& now, Watch& watch) const {
+  if (watch.kind == Kind::load) return;
   watch.noise = std::max(watch.noise, before.noise);
   if (before.reported || now.f < 0)
     watch.noise = std::max({watch.noise, watch.little, 2 * std::abs(now.f), 4 * before.noise});
@@ -273,6 +302,8 @@ void EventLocation::report(int w) {
       return add(changes_.released);
     case Kind::hold:
       return add(changes_.yielded);
+    case Kind::load:  // all is decided anew
+      return;
     case Kind::slide:
       return add(changes_.stopped);
   }
@@ -331,10 +362,10 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
 
 void EventLocation::archive(Archive& a) {
   const auto n = Eigen::Index(watches_.size());
-  Mat values(n, 6);
+  Mat values(n, 7);
   for (Eigen::Index w = 0; w < n; ++w)
     values.row(w) << now_[w].f, now_[w].slope, watches_[w].noise, watches_[w].force_before, watches_[w].steepest,
-        watches_[w].little;
+        watches_[w].little, watches_[w].side;
   Vec flat = Eigen::Map<const Vec>(values.data(), values.size());
   a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_);
   if (watches_.empty() && flat.size() > 0) {  // reading: the modes are back, their watches not yet
@@ -343,11 +374,11 @@ void EventLocation::archive(Archive& a) {
   }
   modes_before_ = system_.modes().contacts;
   const auto m = Eigen::Index(watches_.size());
-  if (flat.size() != 6 * m) return;  // of another scene: refused elsewhere
+  if (flat.size() != 7 * m) return;  // of another scene: refused elsewhere
   for (Eigen::Index w = 0; w < m; ++w) {
     now_[w] = {flat[w], flat[m + w]};
     watches_[w].noise = flat[2 * m + w], watches_[w].force_before = flat[3 * m + w],
-    watches_[w].steepest = flat[4 * m + w], watches_[w].little = flat[5 * m + w];
+    watches_[w].steepest = flat[4 * m + w], watches_[w].little = flat[5 * m + w], watches_[w].side = flat[6 * m + w];
   }
 }
 

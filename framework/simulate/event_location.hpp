@@ -8,6 +8,7 @@
 //     idle       closed, carries nothing         what it would carry as a spring, with the other sign
 //     unload     contacts that share rows        how much further each of them could be unloaded
 //     slide      sliding contact                 slip velocity along its direction at the step's begin
+//     load       bearing of a joint that rubs    its load, on the side on which it presses (signed_loads.hpp)
 // An event shows in three ways: the function is negative at the step's end; it was positive at both ends but dipped between
 // them (the cubic through values and slopes of both ends tells where to look); or, just after an event that left it at
 // round-off of 0, the parabola of its start says that it came back within the step. It is located by repeating the step
@@ -62,7 +63,7 @@ class EventLocation {
   void archive(Archive& a);
 
  private:
-  enum class Kind { approach, leave, press, hold, slide, idle, unload };
+  enum class Kind { approach, leave, press, hold, slide, idle, unload, load };
   struct Watch {
     int contact;
     Kind kind;
@@ -74,6 +75,8 @@ class EventLocation {
     bool reported = false;    // it had an event, the last one
     int group = -1;           // unload: in Modes::shared
     double little = 0;        // [N] unload: no less is missed
+    int bearing = -1;         // load: among those with a sign
+    double side = 1;          // load: 1 or -1
   };
   using Value = numerics::ValueAndSlope;  // slopes of forces are not known
   struct Suspect {
@@ -86,11 +89,14 @@ class EventLocation {
   void watch(int contact);
   bool watched_group(int group) const;
   void watch_friction(int contact, bool as_one);
+  void watch_loads(int contact);
+  void choose_sides(const std::vector<Watch>& before);
   bool by_force(int w) const {
     const Kind kind = watches_[w].kind;
-    return kind == Kind::press || kind == Kind::hold || kind == Kind::idle || kind == Kind::unload;
+    return kind == Kind::press || kind == Kind::hold || kind == Kind::idle || kind == Kind::unload ||
+           kind == Kind::load;
   }
-  double force(Watch& watch, const Vec& lambda);
+  double force(Watch& watch, double t, const Vec& lambda);
   double little_force(int group);
   Value slide(int contact, const Vec& a);
   void evaluate(const State& state, std::vector<Value>& values);

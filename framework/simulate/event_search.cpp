@@ -171,7 +171,8 @@ bool EventLocation::worth_slopes(int w, double h) const {
 
 double EventLocation::force_slope(const State& state, double dt, int w) {
   double slope = 0;
-  force_slopes(state, dt, [&](double sign, const Vec& lambda) { slope += sign * force(watches_[w], lambda) / dt; });
+  force_slopes(state, dt,
+               [&](double sign, double t, const Vec& lambda) { slope += sign * force(watches_[w], t, lambda) / dt; });
   return slope;
 }
 
@@ -179,27 +180,27 @@ double EventLocation::force_slope(const State& state, double dt, int w) {
 double EventLocation::slope_at_end(const State& state, double dt, int w, double h, std::vector<double>& slopes) {
   if (slopes.empty()) {
     slopes.resize(watches_.size());
-    force_slopes(state, dt, [&](double sign, const Vec& lambda) {
+    force_slopes(state, dt, [&](double sign, double t, const Vec& lambda) {
       for (int i = w; i < int(watches_.size()); ++i)
         if (by_force(i) && !watches_[i].at_ends && worth_slopes(i, h))
-          slopes[i] += sign * force(watches_[i], lambda) / dt;
+          slopes[i] += sign * force(watches_[i], t, lambda) / dt;
     });
   }
   return slopes[w];
 }
 
-// Calls each(-1, lambda) at the state, then each(1, lambda) a time dt later, as far as its accelerations tell.
+// Calls each(-1, t, lambda) at the state, then each(1, t + dt, lambda) a time dt later, as far as its accelerations tell.
 template <class Each>
 void EventLocation::force_slopes(const State& state, double dt, Each&& each) {
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
-  each(-1, lambda_);
+  each(-1, state.t, lambda_);
   dq_ = dt * state.v + (0.5 * dt * dt) * state.a;
   system_.retract(state.q, dq_, moved_.q);
   moved_.v = state.v + dt * state.a;
   system_.move_to(state.t + dt, moved_.q, moved_.v);
   system_.accelerate({}, a_, lambda_);
-  each(1, lambda_);
+  each(1, state.t + dt, lambda_);
 }
 
 }  // namespace trammel::simulate
