@@ -124,13 +124,6 @@ void Ledger::add(double duration, const Balance& power) {
   friction_ += duration * power.friction;
 }
 
-void Ledger::impact(int contact, double energy) {
-  if (system_.model().contacts[std::size_t(contact)].joint)
-    friction_[contact] += energy;
-  else
-    impacts_[std::size_t(contact)] += energy;
-}
-
 double Ledger::impact_total() const {
   return std::accumulate(impacts_.begin(), impacts_.end(), 0.0);
 }

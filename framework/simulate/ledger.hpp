@@ -27,7 +27,7 @@ class Ledger {
   void start(const State& state);    // the energy to begin with; restart follows once a and lambda are known
   void restart(const State& state);  // powers at `state`, after a jump
   void step(const State& now, const State& next);
-  void impact(int contact, double energy);  // of a joint it counts as friction
+  void impact(int contact, double energy) { impacts_[contact] += energy; }
   void moving_rows(double supplied) { constraints_ += supplied; }
   void refinement(double gained) { refinements_ += gained; }
 

@@ -18,6 +18,12 @@ Books books(const StruckBodies& s, const simulate::SpringImpact& impact) {
   return {0.5 * impact.impulses().dot(s.u + impact.rates()), impact.lost_normal().sum() + impact.lost_friction().sum()};
 }
 
+simulate::SpringImpact struck(const StruckBodies& s, int i) {
+  simulate::SpringImpact impact(s.contacts, s.A, s.u, s.tangents);
+  EXPECT_EQ(impact.run().outcome, complementarity::LcpOutcome::solved) << i;
+  return impact;
+}
+
 // How far friction impulses are outside of their cones, in parts of them.
 double outside(const StruckBodies& s, const Vec& P) {
   double most = 0;
@@ -42,8 +48,7 @@ TEST(EnergeticLaw, NeverGainsEnergyInRandomImpactsAndTheBooksOfItsLossesBalance)
   int cut_short = 0;
   for (int i = 0; i < 2000; ++i) {
     const StruckBodies s = RandomStrike(random, kinds_of(i)).make();
-    simulate::SpringImpact impact(s.contacts, s.A, s.u, s.tangents);
-    ASSERT_EQ(impact.run().outcome, complementarity::LcpOutcome::solved) << i;
+    const simulate::SpringImpact impact = struck(s, i);
     cut_short += impact.cut_short();
     const auto [change, lost] = books(s, impact);
     EXPECT_LE(change, 1e-14 * s.kinetic) << i;  // round-off of this sum
@@ -65,8 +70,7 @@ TEST(EnergeticLaw, GivesBackOfEachContactsCompressionThePartThatItAsks) {
   int judged = 0;
   for (int i = 0; i < 500; ++i) {
     const StruckBodies s = RandomStrike(random, kinds_of(i)).make();
-    simulate::SpringImpact impact(s.contacts, s.A, s.u, s.tangents);
-    ASSERT_EQ(impact.run().outcome, complementarity::LcpOutcome::solved) << i;
+    const simulate::SpringImpact impact = struck(s, i);
     if (impact.taken_at_end() > 0) continue;  // springs that stay wedged give nothing back
     ++judged;
     for (std::size_t k = 0; k < s.contacts.size(); ++k) {
@@ -84,8 +88,7 @@ TEST(EnergeticLaw, IsNewtonsLawOfOneContactWithoutFriction) {
     Kinds kinds = kinds_of(i);
     kinds.contacts = 1, kinds.friction = false;
     const StruckBodies s = RandomStrike(random, kinds).make();
-    simulate::SpringImpact impact(s.contacts, s.A, s.u, s.tangents);
-    ASSERT_EQ(impact.run().outcome, complementarity::LcpOutcome::solved) << i;
+    const simulate::SpringImpact impact = struck(s, i);
     const double e = s.contacts[0].e, expected = s.u[0] < 0 ? -e * s.u[0] : s.u[0];
     EXPECT_NEAR(impact.rates()[0], expected, 1e-12 * std::abs(s.u[0])) << i;
   }
