@@ -13,6 +13,7 @@
 #include <trammel/joint_friction.hpp>
 
 #include "model/assembly.hpp"
+#include "model/locks_itself.hpp"
 
 namespace trammel {
 
@@ -139,7 +140,7 @@ void AssembledSystem::Work::fail_without_loads() {
   for (const Bearing& b : bearings)
     if (slides_in_bearing(b.contact))
       names += (names.empty() ? "" : ", ") + model->contacts[std::size_t(b.contact)].path();
-  throw NotSolvable(
+  throw LocksItself(
       fmt::format("the sliding friction of {} was not found: the bearings' loads and the friction that follows from "
                   "them raise each "
                   "other; with so much friction the joint may lock itself as it slides",

@@ -246,9 +246,8 @@ std::span<const FrameworkKey> framework_keys(Kind kind) {
        "[A, B], markers: \"beam.tip\", \"ground\" or a frame {\"point\": ..., \"angle\": ...} fixed in the world; "
        "three or four where a joint ties so many"},
       {"friction",
-       "a law of friction, such as {\"type\": \"coulomb\", ...}, of a joint that bears beside its one free motion; "
-       "none if "
-       "left out"}};
+       "a law of friction, such as {\"type\": \"coulomb\", ...}, of a joint that bears beside its one free motion, "
+       "as prismatic and revolute do; none if left out"}};
   static const std::vector<FrameworkKey> force = {type,
                                                   {"between", "[A, B], markers as those of joints"},
                                                   {"on", "in its place, the one marker that the force acts on"}};

@@ -5,12 +5,15 @@
 //
 //     loads of the modes of the last round, exactly (AssembledSystem::accelerate)  ->  problem with these loads given  ->  modes
 //
+// A joint that locks itself while it slides has none: it jams (rule 8).
+//
 // The round that gives the same modes again is the check: it solves the whole problem with the loads of its own solution. The first
 // round has the loads with which all that may rest rests, so where a joint could stay or go, it stays.
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include "model/locks_itself.hpp"
 #include "simulate/contact_mode.hpp"
 #include "simulate/run_failed.hpp"
 
@@ -62,7 +65,8 @@ void ContactModes::load_bearings_at_rest(const State& state, const model::Modes&
   load_bearings(state, at_rest);
 }
 
-complementarity::ContactSolution ContactModes::decide_with_bearings(const State& state) {
+// No solution where bearings that slide find none for their loads.
+complementarity::ContactSolution ContactModes::decide_with_bearings(const State& state) try {
   const std::vector<Participant> asked = problem_.who;
   const model::Modes open = modes_;
   model::Modes last;
@@ -78,15 +82,22 @@ complementarity::ContactSolution ContactModes::decide_with_bearings(const State&
     last = modes_;
     load_bearings(state, modes_);
   }
+  return {complementarity::LcpOutcome::no_solution, 0};
+} catch (const model::LocksItself&) {
+  return {complementarity::LcpOutcome::no_solution, 0};
+}
+
+void ContactModes::fail_on_bearings(double t) const {
   std::string names;
   for (const Participant& p : problem_.who)
     if (const model::ContactEntry& entry = system_.model().contacts[p.contact]; entry.joint)
       names += (names.empty() ? "" : ", ") + entry.path();
   throw RunFailed(
       fmt::format("at t = {:.9g} s: gave up on the friction of {}: in {} rounds no modes were found, sticking or "
-                  "sliding, that agree with "
-                  "the loads of the bearings that follow from them; with so much friction a joint may lock itself",
-                  state.t, names, most_rounds));
+                  "sliding, that agree with the loads of the bearings that follow from them, nor an impulse after "
+                  "which there are some; with so much "
+                  "friction a joint may lock itself",
+                  t, names, most_rounds));
 }
 
 }  // namespace trammel::simulate

@@ -44,14 +44,17 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   bool jumped = !changes.struck.empty() && std::any_of(touching_.begin(), touching_.end(), approaches);
   losses_.clear();
   lost_elsewhere_ = 0;
+  find_bearings();
   if (jumped) strike(state, changes);
   bool without_collision = false;
   lock(state, changes, events);
   find_candidates(changes);
-  auto solution = decide(state, changes, jumped);
+  auto solution =
+      changes.locked ? complementarity::ContactSolution{LcpOutcome::no_solution, 0} : decide(state, changes, jumped);
   if (solution.outcome == LcpOutcome::no_solution && !jumped) {  // rule 8
     jumped = without_collision = true;
     for (TouchingContact& c : touching_) c.without_collision = true;
+    for (TouchingContact& c : bearings_) c.without_collision = true;
     system_.set_modes(before_);
     system_.move_to(state.t, state.q, state.v);
     strike(state, changes);
@@ -75,6 +78,13 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
                         .friction = system_.told(c.contact, c.friction)});
     if (struck || (!c.was_closed && c.impulse > 0)) modes_.contacts[c.contact].approach_speed = -c.before;
   }
+  for (const TouchingContact& c : bearings_)
+    if (!c.friction.isZero(0))
+      events.push_back({.t = state.t,
+                        .contact = c.contact,
+                        .impulse = c.impulse,
+                        .energy_lost = c.energy_lost(),
+                        .friction = system_.told(c.contact, c.friction)});
   finish(state, carry && state.a.size() == system_.sizes().nv);  // none yet at the start
   for (const TouchingContact& c : touching_) tell_normal(state, c, events);
   tell_friction(state, events);
@@ -112,13 +122,24 @@ void ContactModes::find_touching(const ContactChanges& changes) {
   }
 }
 
+void ContactModes::find_bearings() {
+  bearings_.clear();
+  for (int i = 0; i < int(system_.model().contacts.size()); ++i)
+    if (rubs_in_impacts(system_.model().contacts[i])) bearings_.push_back({.contact = i, .was_closed = true});
+}
+
 void ContactModes::strike(State& state, const ContactChanges& changes) {
   const double kinetic_before = system_.energy().kinetic;
   v_before_ = state.v;
   std::vector<bool> falls;
+  std::vector<TouchingContact> all;
   for (;;) {
-    const auto solution = impact_.solve(system_, scale_.at_rest(), touching_, dv_);
+    all = touching_;
+    all.insert(all.end(), bearings_.begin(), bearings_.end());
+    const auto solution = impact_.solve(system_, state, scale_.at_rest(), all, dv_);
     if (solution.outcome != LcpOutcome::solved) fail_without_solution("impact", state.t, solution);
+    std::copy_n(all.begin(), touching_.size(), touching_.begin());
+    std::copy_n(all.begin() + std::ptrdiff_t(touching_.size()), bearings_.size(), bearings_.begin());
     state.v = v_before_ + dv_;
     falls = falling_back(state, changes);
     if (!capture_chatter(falls)) break;
@@ -127,11 +148,13 @@ void ContactModes::strike(State& state, const ContactChanges& changes) {
   end_rocking(state, falls);
   system_.move_to(state.t, state.q, state.v);
   lost_elsewhere_ += kinetic_before - system_.energy().kinetic;
-  for (const TouchingContact& c : touching_) {
+  all = touching_;  // as end_rocking leaves them
+  all.insert(all.end(), bearings_.begin(), bearings_.end());
+  for (const TouchingContact& c : all) {
     losses_.push_back({c.contact, c.energy_lost()});
     lost_elsewhere_ -= c.energy_lost();
   }
-  impact_warnings_.check(state.t, kinetic_before, touching_, impact_.cut_short());
+  impact_warnings_.check(state.t, kinetic_before, all, impact_.cut_short());
 }
 
 // Rule 9.
@@ -159,6 +182,7 @@ void ContactModes::lock(State& state, const ContactChanges& changes, std::vector
 
 void ContactModes::fail_without_solution(const char* what, double t,
                                          const complementarity::ContactSolution& solution) const {
+  if (has_bearings()) fail_on_bearings(t);
   std::vector<std::string_view> names;
   bool friction = false;
   for (const TouchingContact& c : touching_) {

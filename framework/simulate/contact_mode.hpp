@@ -16,7 +16,8 @@
 //  9. A contact that never releases (a latch) has locked after rule 1, if it touches without rate: it is no candidate, and its
 //     row is held like a joint's from then on, through the decision that follows and all later impacts.
 // 10. Joints that rub take part like compliant contacts, with the load of their bearings for a normal force. It follows from the
-//     forces sought, so the problem is solved in rounds (bearing_decision.cpp). Impacts give their bearings no impulse of friction.
+//     forces sought, so the problem is solved in rounds (bearing_decision.cpp). In impacts they rub under the impulses of their
+//     reactions (bearing_impulses.hpp). A joint that locks itself while it slides has no finite forces: it jams by rule 8.
 // `rebound: constrained` makes candidates of contacts that separate at e u-, `restart: carry` leaves a as it was and starts
 // the multipliers of new rows from 0, `onset: next_step` only changes when an event is seen.
 //
@@ -62,10 +63,11 @@ struct ContactChanges {
   std::vector<int> toggled;   // ContactForce: force on or off
   std::vector<int> yielded;   // sticking contacts whose friction reached its bound
   std::vector<int> stopped;   // sliding contacts whose slip reached 0
+  bool locked = false;        // joints that slide have no finite forces from here on (rule 8)
   bool empty() const {
-    return struck.empty() && released.empty() && toggled.empty() && yielded.empty() && stopped.empty();
+    return struck.empty() && released.empty() && toggled.empty() && yielded.empty() && stopped.empty() && !locked;
   }
-  void clear() { struck.clear(), released.clear(), toggled.clear(), yielded.clear(), stopped.clear(); }
+  void clear() { struck.clear(), released.clear(), toggled.clear(), yielded.clear(), stopped.clear(), locked = false; }
 };
 
 inline bool contains(const std::vector<int>& contacts, int i) {
@@ -107,6 +109,7 @@ class ContactModes {
 
   void toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events);
   void find_touching(const ContactChanges& changes);
+  void find_bearings();
   void strike(State& state, const ContactChanges& changes);
   std::vector<bool> falling_back(const State& state, const ContactChanges& changes);
   double fastest_gap_acceleration();
@@ -125,6 +128,7 @@ class ContactModes {
   // Of joints that rub (bearing_decision.cpp).
   bool has_bearings() const;
   [[nodiscard]] complementarity::ContactSolution decide_with_bearings(const State& state);
+  [[noreturn]] void fail_on_bearings(double t) const;
   void load_bearings_at_rest(const State& state, const model::Modes& open);
   void load_bearings(const State& state, const model::Modes& modes);
   void accelerate_participants();
@@ -153,7 +157,7 @@ class ContactModes {
   ImpactWarnings impact_warnings_;
   ContactProblem problem_;
   model::Modes before_, modes_;
-  std::vector<TouchingContact> touching_;
+  std::vector<TouchingContact> touching_, bearings_;  // contacts; joints that rub
   std::vector<int> candidates_;
   std::vector<bool> shared_before_;             // by contact: it shared rows with others
   std::vector<Eigen::Vector3d> forces_before_;  // by contact and direction [N], where some are carried over

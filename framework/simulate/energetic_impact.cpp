@@ -15,7 +15,7 @@ complementarity::ContactSolution EnergeticImpact::solve(model::AssembledSystem& 
   const complementarity::ContactSolution solution = impact.run();
   cut_short_ = impact.cut_short();
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
-  const Vec &P = impact.told(), u = impact.rates();
+  const Vec &P = impact.admissible_impulses(), u = impact.rates();
   dv.noalias() = directions_.jump * impact.impulses();
   for (std::size_t i = 0; i < touching.size(); ++i) {
     TouchingContact& c = touching[i];

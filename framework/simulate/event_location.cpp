@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "numerics/root_bracket.hpp"
+#include "simulate/signed_loads.hpp"
 #include "simulate/trial_step.hpp"
 
 namespace trammel::simulate {
@@ -32,7 +33,10 @@ EventLocation::EventLocation(model::AssembledSystem& system, Integrator& integra
 void EventLocation::watch(int contact) {
   const model::ContactEntry& entry = system_.model().contacts[contact];
   const model::ContactMode& mode = system_.modes().contacts[contact];
-  if (entry.joint) return watch_friction(contact, false);
+  if (entry.joint) {
+    watch_loads(contact);
+    return watch_friction(contact, false);
+  }
   if (!mode.closed) {
     const bool at_ends = entry.restitution && entry.restitution->treatment().onset == Restitution::Onset::next_step;
     watches_.push_back({.contact = contact, .kind = Kind::approach, .at_ends = at_ends, .noise = scale_.touching()});
@@ -62,6 +66,25 @@ void EventLocation::watch_friction(int contact, bool as_one) {
                         .at_ends = entry.coulomb->decide() == SetValuedFriction::Decide::every_evaluation});
 }
 
+// Of a joint that sticks they bound what holds it; of one that slides they decide the motion.
+void EventLocation::watch_loads(int contact) {
+  if (system_.modes().contacts[contact].friction == Friction::none) return;
+  const int count = count_signed_loads(system_.model(), contact);
+  for (int k = 0; k < count; ++k) watches_.push_back({.contact = contact, .kind = Kind::load, .bearing = k});
+}
+
+// On which side bearings press: where they do; of one whose load has just passed through 0 the other one.
+void EventLocation::choose_sides(const std::vector<Watch>& before) {
+  for (std::size_t w = 0; w < watches_.size(); ++w) {
+    Watch& watch = watches_[w];
+    if (watch.kind != Kind::load) continue;
+    const bool passed = before.size() == watches_.size() && before[w].reported;
+    watch.side = passed ? -before[w].side : now_[w].f < 0 ? -1 : 1;
+    now_[w].f *= watch.side;
+    watch.noise = std::max(modes_.friction_noise(watch.contact), 1e-12 * watch.bound);
+  }
+}
+
 bool EventLocation::watched_group(int group) const {
   return std::any_of(watches_.begin(), watches_.end(), [group](const Watch& w) { return w.group == group; });
 }
@@ -89,6 +112,7 @@ void EventLocation::restart(const State& now) {
     if (each.kind == Kind::unload) each.little = little_force(each.group);
   next_.resize(watches_.size()), probe_.resize(watches_.size());
   evaluate(now, now_);
+  choose_sides(before);
   for (std::size_t w = 0; w < watches_.size(); ++w) watches_[w].steepest = std::abs(now_[w].slope);
   for (std::size_t w = 0; w < before.size() && before.size() == watches_.size(); ++w)
     wait_longer(before[w], now_[w], watches_[w]);
@@ -137,13 +161,17 @@ void EventLocation::accept(double h, const State& next) {
   now_.swap(next_);
 }
 
-double EventLocation::force(Watch& watch, const Vec& lambda) {
+double EventLocation::force(Watch& watch, double t, const Vec& lambda) {
   if (watch.kind == Kind::idle) return -system_.spring_force(watch.contact, lambda);
   if (watch.kind == Kind::unload) {
     watch.bound = system_.largest_load(watch.group, lambda);
     return watch.little + system_.spare_load(watch.group, lambda);
   }
   const double N = system_.normal_force(watch.contact, lambda);
+  if (watch.kind == Kind::load) {
+    watch.bound = N;
+    return watch.side * signed_loads(system_, watch.contact, t, lambda)[std::size_t(watch.bearing)];
+  }
   if (watch.kind == Kind::hold) watch.bound = system_.model().contacts[watch.contact].coulomb->static_coefficient() * N;
   return watch.kind == Kind::press ? N : watch.bound - system_.friction_force(watch.contact, lambda).norm();
 }
@@ -152,29 +180,24 @@ void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
   system_.move_to(state.t, state.q, state.v);
   values.resize(watches_.size());
   const Vec* lambda = nullptr;
-  for (int w = 0; w < int(watches_.size()); ++w) {
-    Watch& watch = watches_[w];
-    Value& value = values[w] = {};
-    if (by_force(w)) {
-      if (watch.kind == Kind::hold && watch.at_ends) {
-        value.f = scale_.no_acceleration() - system_.slip_acceleration(watch.contact, state.a).norm();
-        continue;
-      }
-      if (!lambda) {
-        lambda = own_force_ ? &state.lambda : &lambda_;
-        if (!own_force_) system_.accelerate({}, a_, lambda_);
-      }
-      value.f = force(watch, *lambda);
-      continue;
-    }
-    if (watch.kind == Kind::slide) {
-      value = slide(watch.contact, state.a);
-      continue;
-    }
+  for (std::size_t w = 0; w < watches_.size(); ++w) values[w] = value(int(w), state, lambda);
+}
+
+// At the system's point, `state`; `lambda`: the forces there, once one has asked for them.
+EventLocation::Value EventLocation::value(int w, const State& state, const Vec*& lambda) {
+  Watch& watch = watches_[std::size_t(w)];
+  if (watch.kind == Kind::slide) return slide(watch.contact, state.a);
+  if (!by_force(w)) {
     const double sign = watch.kind == Kind::leave ? -1 : 1;
-    value.f = sign * system_.gap(watch.contact);
-    value.slope = sign * system_.gap_rate(watch.contact);
+    return {sign * system_.gap(watch.contact), sign * system_.gap_rate(watch.contact)};
   }
+  if (watch.kind == Kind::hold && watch.at_ends)
+    return {scale_.no_acceleration() - system_.slip_acceleration(watch.contact, state.a).norm(), 0};
+  if (!lambda) {
+    lambda = own_force_ ? &state.lambda : &lambda_;
+    if (!own_force_) system_.accelerate({}, a_, lambda_);
+  }
+  return {force(watch, state.t, *lambda), 0};
 }
 
 // Just after an event a function at round-off of 0 tells nothing, unless it goes on falling; nor does one that began below
@@ -185,16 +208,21 @@ bool EventLocation::happened(int w, const Value& end) const {
   return watches_[w].kind != Kind::slide && !by_force(w) && end.slope < -scale_.at_rest();
 }
 
-const EventLocation::Value& EventLocation::step_to(const State& now, double h, int w) {
-  ++steps_tried_;
-  if (!trial_step(integrator_, system_, now, h, trial_)) throw StepRefused{};
-  evaluate(trial_, probe_);
-  return probe_[w];
+EventLocation::Value EventLocation::step_to(const State& now, double h, int w) {
+  if (h != h_tried_) {
+    ++steps_tried_;
+    h_tried_ = 0;
+    if (!trial_step(integrator_, system_, now, h, trial_)) throw StepRefused{};
+    h_tried_ = h;
+  }
+  system_.move_to(trial_.t, trial_.q, trial_.v);
+  const Vec* lambda = nullptr;
+  return value(w, trial_, lambda);
 }
 
 void EventLocation::find_suspects(const State& now, double h, const State& next) {
   for (int w = 0; w < int(watches_.size()); ++w) {
-    Suspect suspect{w, h, next_[w].f};
+    Suspect suspect{w, h, next_[w]};
     if (watches_[w].at_ends) {
       if (next_[w].f < 0 && (by_force(w) || next_[w].slope < -scale_.at_rest())) at_end_.push_back(w);
     } else if (happened(w, next_[w]) || dips(now, h, next, w, suspect) || returns(now, h, w, suspect)) {
@@ -211,6 +239,8 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
   suspects_.clear();
   at_end_.clear();
   changes_.clear();
+  h_tried_ = 0;
+  begin_slopes_.clear(), end_slopes_.clear();
   int first = -1;
   try {
     find_suspects(now, h, next);
@@ -222,9 +252,9 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
     double h_event = h;
     for (Suspect& suspect : suspects_) {
       if (suspect.high > h_event) {  // only if it comes before the earliest so far
-        const Value& there = step_to(now, h_event, suspect.watch);
+        const Value there = step_to(now, h_event, suspect.watch);
         if (!happened(suspect.watch, there)) continue;
-        suspect.high = h_event, suspect.f_high = there.f;
+        suspect.high = h_event, suspect.at_high = there;
       }
       const double located = locate(now, suspect);
       if (first < 0 || located < h_event) first = suspect.watch;
@@ -232,8 +262,10 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
     }
     h_event = std::min(h, std::max(h_event, 4 * eps * std::max(std::abs(now.t), std::abs(now.t + h))));
     if (h_event < h) {
-      ++steps_tried_;
-      if (!trial_step(integrator_, system_, now, h_event, next)) return Found::step_refused;
+      if (h_event == h_tried_)
+        next = trial_;
+      else if (++steps_tried_; !trial_step(integrator_, system_, now, h_event, next))
+        return Found::step_refused;
       evaluate(next, next_);
       h = h_event;
     }
@@ -248,6 +280,7 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
 // An event that changed nothing was round-off, or what was missed moves nothing yet. It is one again where several times as much is
 // missed.
 void EventLocation::wait_longer(const Watch& before, const Value& now, Watch& watch) const {
+  if (watch.kind == Kind::load) return;
   watch.noise = std::max(watch.noise, before.noise);
   if (before.reported || now.f < 0)
     watch.noise = std::max({watch.noise, watch.little, 2 * std::abs(now.f), 4 * before.noise});
@@ -270,6 +303,8 @@ void EventLocation::report(int w) {
       return add(changes_.released);
     case Kind::hold:
       return add(changes_.yielded);
+    case Kind::load:  // all is decided anew
+      return;
     case Kind::slide:
       return add(changes_.stopped);
   }
@@ -300,33 +335,38 @@ void EventLocation::collect() {
 double EventLocation::locate(const State& now, const Suspect& suspect) {
   const int w = suspect.watch;
   const double resolution = 2 * eps * std::max(std::abs(now.t), std::abs(now.t + suspect.high));
-  numerics::RootBracket bracket{0, suspect.high, now_[w].f, suspect.f_high};
+  numerics::FallingBracket bracket{0, suspect.high, now_[w], suspect.at_high};
   if (just_handled(w)) {  // look for a moment when it was apart
     double apart = suspect.high;
     bool found = false;
     while (!found && apart > resolution) {
       apart /= 2;
-      const Value& there = step_to(now, apart, w);
+      const Value there = step_to(now, apart, w);
       if (there.f > 0)
-        bracket.low = apart, bracket.f_low = there.f, found = true;
+        bracket.low = apart, bracket.at_low = there, found = true;
       else if (happened(w, there))
-        bracket.high = apart, bracket.f_high = there.f;
+        bracket.high = apart, bracket.at_high = there;
       else  // so near that nothing is to be seen yet: a step to there would find no event, and so without end
         break;
     }
     if (!found) return bracket.high;
   }
-  if (bracket.f_high >= 0) return bracket.high;
-  bracket = numerics::narrow([&](double h) { return step_to(now, h, w).f; }, bracket, resolution);
-  return bracket.high;
+  if (bracket.at_high.f >= 0) return bracket.high;
+  if (by_force(w)) {
+    const auto f = [&](double h) { return step_to(now, h, w).f; };
+    return numerics::narrow(f, {bracket.low, bracket.high, bracket.at_low.f, bracket.at_high.f}, resolution).high;
+  }
+  // A thousandth of what counts as there.
+  const double round_off = 1e-3 * (watches_[w].kind == Kind::slide ? scale_.at_rest() : scale_.touching());
+  return numerics::crossing([&](double h) { return step_to(now, h, w); }, bracket, resolution, round_off);
 }
 
 void EventLocation::archive(Archive& a) {
   const auto n = Eigen::Index(watches_.size());
-  Mat values(n, 6);
+  Mat values(n, 7);
   for (Eigen::Index w = 0; w < n; ++w)
     values.row(w) << now_[w].f, now_[w].slope, watches_[w].noise, watches_[w].force_before, watches_[w].steepest,
-        watches_[w].little;
+        watches_[w].little, watches_[w].side;
   Vec flat = Eigen::Map<const Vec>(values.data(), values.size());
   a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_);
   if (watches_.empty() && flat.size() > 0) {  // reading: the modes are back, their watches not yet
@@ -335,11 +375,11 @@ void EventLocation::archive(Archive& a) {
   }
   modes_before_ = system_.modes().contacts;
   const auto m = Eigen::Index(watches_.size());
-  if (flat.size() != 6 * m) throw std::length_error("watched");
+  if (flat.size() != 7 * m) throw std::length_error("watched");
   for (Eigen::Index w = 0; w < m; ++w) {
     now_[w] = {flat[w], flat[m + w]};
     watches_[w].noise = flat[2 * m + w], watches_[w].force_before = flat[3 * m + w],
-    watches_[w].steepest = flat[4 * m + w], watches_[w].little = flat[5 * m + w];
+    watches_[w].steepest = flat[4 * m + w], watches_[w].little = flat[5 * m + w], watches_[w].side = flat[6 * m + w];
   }
 }
 

@@ -8,6 +8,7 @@
 //     idle       closed, carries nothing         what it would carry as a spring, with the other sign
 //     unload     contacts that share rows        how much further each of them could be unloaded
 //     slide      sliding contact                 slip velocity along its direction at the step's begin
+//     load       bearing of a joint that rubs    its load, on the side on which it presses (signed_loads.hpp)
 // An event shows in three ways: the function is negative at the step's end; it was positive at both ends but dipped between
 // them (the cubic through values and slopes of both ends tells where to look); or, just after an event that left it at
 // round-off of 0, the parabola of its start says that it came back within the step. It is located by repeating the step
@@ -33,6 +34,7 @@
 
 #include <trammel/integrator.hpp>
 
+#include "numerics/root_bracket.hpp"
 #include "simulate/between_states.hpp"
 #include "simulate/contact_mode.hpp"
 #include "simulate/contact_scale.hpp"
@@ -61,7 +63,7 @@ class EventLocation {
   void archive(Archive& a);
 
  private:
-  enum class Kind { approach, leave, press, hold, slide, idle, unload };
+  enum class Kind { approach, leave, press, hold, slide, idle, unload, load };
   struct Watch {
     int contact;
     Kind kind;
@@ -73,30 +75,35 @@ class EventLocation {
     bool reported = false;    // it had an event, the last one
     int group = -1;           // unload: in Modes::shared
     double little = 0;        // [N] unload: no less is missed
+    int bearing = -1;         // load: among those with a sign
+    double side = 1;          // load: 1 or -1
   };
-  struct Value {
-    double f = 0, slope = 0;  // slopes of forces are not known
-  };
+  using Value = numerics::ValueAndSlope;  // slopes of forces are not known
   struct Suspect {
     int watch;
-    double high, f_high;  // [s] length of a step after which the event has happened, and the function there
+    double high;    // [s] length of a step after which the event has happened
+    Value at_high;  // the function there
   };
   struct Cubic;
 
   void watch(int contact);
   bool watched_group(int group) const;
   void watch_friction(int contact, bool as_one);
+  void watch_loads(int contact);
+  void choose_sides(const std::vector<Watch>& before);
   bool by_force(int w) const {
     const Kind kind = watches_[w].kind;
-    return kind == Kind::press || kind == Kind::hold || kind == Kind::idle || kind == Kind::unload;
+    return kind == Kind::press || kind == Kind::hold || kind == Kind::idle || kind == Kind::unload ||
+           kind == Kind::load;
   }
-  double force(Watch& watch, const Vec& lambda);
+  double force(Watch& watch, double t, const Vec& lambda);
   double little_force(int group);
   Value slide(int contact, const Vec& a);
   void evaluate(const State& state, std::vector<Value>& values);
+  Value value(int w, const State& state, const Vec*& lambda);
   bool just_handled(int w) const { return now_[w].f <= watches_[w].noise; }
   bool happened(int w, const Value& end) const;
-  const Value& step_to(const State& now, double h, int w);
+  Value step_to(const State& now, double h, int w);
   bool hides(const State& now, double h, const State& next);
   bool swings_matter(const std::vector<Value>& values, double h) const;
   bool hides_gap(double h);
@@ -105,6 +112,9 @@ class EventLocation {
   bool returns(const State& now, double h, int w, Suspect& suspect);
   bool worth_slopes(int w, double h) const;
   double force_slope(const State& state, double dt, int w);
+  double slope_at_end(const State& state, double dt, int w, double h, std::vector<double>& slopes);
+  template <class Each>
+  void force_slopes(const State& state, double dt, Each&& each);
   void find_suspects(const State& now, double h, const State& next);
   double locate(const State& now, const Suspect& suspect);
   double same_instant(int contact) const;
@@ -125,6 +135,9 @@ class EventLocation {
   double longest_ = 0;   // [s] step tried since then
   std::vector<Suspect> suspects_;
   std::vector<int> at_end_;
+  std::vector<double> begin_slopes_,
+      end_slopes_;      // of forces at the ends of the step examined, where they were asked for
+  double h_tried_ = 0;  // [s] of the last trial, trial_; 0: none
   ContactChanges changes_;
   State trial_, moved_;
   State between_;

@@ -20,10 +20,12 @@
 
 #include <vector>
 
+#include "simulate/bearing_impulses.hpp"
 #include "simulate/contact_problem.hpp"
 
 namespace trammel::simulate {
 
+// Or a joint that rubs (bearing_impulses.hpp): `impulse` is the load of its bearings, and its gap has no rate.
 struct TouchingContact {
   int contact = 0;
   bool was_closed = false;
@@ -43,13 +45,14 @@ struct TouchingContact {
 
 class Impact {
  public:
-  // At the system's current point. `before`, `was_closed` and `restitution` of each are filled in; the jump of v is
+  // The system is at `state`. `before`, `was_closed` and `restitution` of each are filled in; the jump of v is
   // returned in `dv`. `at_rest` [m/s]: slower is no slip.
-  [[nodiscard]] complementarity::ContactSolution solve(model::AssembledSystem& system, double at_rest,
-                                                       std::vector<TouchingContact>& touching, Vec& dv);
+  [[nodiscard]] complementarity::ContactSolution solve(model::AssembledSystem& system, const State& state,
+                                                       double at_rest, std::vector<TouchingContact>& touching, Vec& dv);
 
  private:
   ContactProblem problem_;
+  BearingImpulses bearings_;
 };
 
 }  // namespace trammel::simulate

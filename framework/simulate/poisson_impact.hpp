@@ -8,8 +8,8 @@
 // contacts from closing again. N_E = e N_C + dN enters as two forces at one point, one given and one to be found: their cones add up
 // to the cone of N_E. Closed contacts have e = 0.
 //
-// Without friction and with one contact it is Newton's law, u+ = -e u-. Energy may grow, though less often than under Newton's law
-// (several contacts, or friction that reverses a slip). F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996;
+// Without friction and with one contact it is Newton's law, u+ = -e u-. Energy may grow where friction reverses a slip; without
+// friction it never does (poisson_impact.cpp). F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996;
 // there a part of the tangential impulse is given back as well, here none.
 #pragma once
 

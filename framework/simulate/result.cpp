@@ -36,7 +36,8 @@ json sizes(const Statistics& statistics) {
 json dissipated(const model::Model& model, const Ledger& ledger, double drift) {
   json impact = json::object();
   for (std::size_t i = 0; i < ledger.impacts().size(); ++i)
-    if (model.contacts[i].restitution) impact[model.contacts[i].name] = ledger.impacts()[i];
+    if (const model::ContactEntry& c = model.contacts[i]; c.restitution || (c.joint && c.coulomb))
+      impact[c.joint ? c.path() : c.name] = ledger.impacts()[i];
   json friction = json::object(), joint_friction = json::object();
   for (std::size_t i = 0; i < model.contacts.size(); ++i)
     if (const model::ContactEntry& c = model.contacts[i]; c.friction || (c.surface && c.surface->friction))

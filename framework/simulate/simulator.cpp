@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "model/locks_itself.hpp"
 #include "plugin/breadcrumb.hpp"
 #include "plugin/guard.hpp"
 #include "simulate/blame.hpp"
@@ -132,6 +133,10 @@ void Simulator::judge_energy() {
 
 bool Simulator::advance(Recorder& recorder) {
   write_events(recorder);
+  if (record_time(records_) <= now_.t && locks_here()) {
+    jam(recorder, 0);
+    return true;
+  }
   record_due(recorder);
   if (now_.t >= settings_.until) return false;
   const double stop = dense_ && control().controlled() ? settings_.until : record_time(records_);
@@ -139,7 +144,11 @@ bool Simulator::advance(Recorder& recorder) {
     const StepControl::Proposal proposal = control().propose(now_.t, stop, location_.longest_step(step_limit_));
     double h = proposal.h, error = 0;
     EventLocation::Found found = EventLocation::Found::nothing;
-    if (!try_step(proposal, h, found, error)) continue;
+    if (!try_step(proposal, h, found, error)) {
+      if (!locked_) continue;
+      jam(recorder, proposal.h);
+      return true;
+    }
     accept(h, h < proposal.h, proposal, error);
     record_inside(recorder);
     if (found == EventLocation::Found::event) {
@@ -154,16 +163,49 @@ bool Simulator::advance(Recorder& recorder) {
   }
 }
 
-bool Simulator::try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error) {
+// At the state itself, which the last step has met up to round-off.
+bool Simulator::locks_here() {
+  const auto slides = [this](std::size_t i) {
+    return system_.model().contacts[i].joint &&
+           system_.modes().contacts[i].friction == model::ContactMode::Friction::slide;
+  };
+  bool any = false;
+  for (std::size_t i = 0; i < system_.modes().contacts.size(); ++i) any = any || slides(i);
+  if (!any) return false;
   try {
-    return take_step(proposal, h, found, error);
-  } catch (const OutsideDomain& e) {  // a shorter step may stay inside
-    return refuse(proposal, said(e, system_.last_call()).c_str()), false;
+    system_.move_to(now_.t, now_.q, now_.v);
+    system_.accelerate({}, inside_.a, inside_.lambda);
+    return false;
+  } catch (const model::LocksItself&) {
+    return true;
   }
 }
 
-bool Simulator::take_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found,
-                          double& error) {
+// Joints that lock themselves as they slide come to rest where they are.
+void Simulator::jam(Recorder& recorder, double h) {
+  locked_ = false;
+  ContactChanges changes;
+  changes.locked = true;
+  settle(changes);
+  write_events(recorder);
+  guard_against_standstill(0, h, -1);
+}
+
+bool Simulator::try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error) {
+  try {
+    return step_and_examine(proposal, h, found, error);
+  } catch (const OutsideDomain& e) {  // a shorter step may stay inside
+    return refuse(proposal, said(e, system_.last_call()).c_str()), false;
+  } catch (const model::LocksItself&) {  // within the step: look how far it goes without
+    ++statistics_.rejected;
+    control().rejected(proposal.h);
+    locked_ = control().too_small(now_.t);
+    return false;
+  }
+}
+
+bool Simulator::step_and_examine(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found,
+                                 double& error) {
   const Outcome outcome = trial_step(integrator_, system_, now_, h, next_);
   if (!outcome) return refuse(proposal, outcome.reason()), false;
   const auto refuse_not_finite = [&] {

@@ -82,7 +82,9 @@ class Simulator {
   bool contradictory(const ConstraintNorms& norms);
   bool near_the_end_of_numbers() const;
   bool try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
-  bool take_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
+  bool step_and_examine(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
+  bool locks_here();
+  void jam(Recorder& recorder, double h);
   void refuse(const StepControl::Proposal& proposal, const char* reason);
   std::string when(double h) const;
   [[noreturn]] void fail(double h, const std::string& why) const;
@@ -128,7 +130,8 @@ class Simulator {
   Energy energy_start_;
   double window_start_ = 0;
   long long window_events_ = 0;
-  int standing_ = 0;  // events in a row that hardly moved t
+  bool locked_ = false;  // no step from here is short enough for joints that slide to have finite forces
+  int standing_ = 0;     // events in a row that hardly moved t
   std::vector<ContactEvent> events_;
   std::vector<std::string> warnings_;
   Vec scratch_;

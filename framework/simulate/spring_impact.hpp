@@ -45,8 +45,8 @@ class SpringImpact {
   [[nodiscard]] complementarity::ContactSolution run();
 
   const Vec& impulses() const { return P_; }
-  // The same but for the shares of contacts that stick together, which here are in their cones.
-  const Vec& told() const { return told_; }
+  // The same, except for the shares of contacts that stick together, which here are in their cones.
+  const Vec& admissible_impulses() const { return admissible_; }
   Vec rates() const { return u_before_ + A_ * P_; }
   // By contact [J]: what its spring took in all compressions; what was lost there, in the normal direction and in friction.
   const Vec& compressed() const { return compressed_; }
@@ -59,6 +59,8 @@ class SpringImpact {
   static constexpr int most_phases = 1000;
 
  private:
+  // Of the largest rate: what an event's margin may be below 0, what is left at the end, and what moves wedged contacts no more.
+  static constexpr double tolerance = 1e-13, negligible = 1e-12, still = 1e-9;
   enum class Tangent { none, sticks, slides };
   struct Contact : SpringContact {
     bool presses = false, compresses = false;
@@ -88,6 +90,8 @@ class SpringImpact {
   void derivative(const Vec& y, Vec& dy);
   void forces(const Vec& y, const Vec& u, Vec& f) const;
   double extrapolate(const Vec& y, double h, Vec& y_end);
+  bool dips_within(const Vec& y, double h, const Vec& y_end);
+  double locate(const Vec& y, double h, double at_end, Vec& y_end);
   bool midpoint(const Vec& y, double h, int n, Vec& y_end);
   bool turned_from(const Vec& u) const;
   void take(const Vec& y);
@@ -115,7 +119,7 @@ class SpringImpact {
   Eigen::Index n_ = 0, m_ = 0;
   double v_ = 0, k_ = 1,
          slow_ = 0;  // [m/s] the largest rate; stiffness, here of a period 2 pi; slips without direction
-  Vec x_, P_, told_, lost_friction_, lost_normal_, compressed_;
+  Vec x_, P_, admissible_, lost_friction_, lost_normal_, compressed_;
   // Forces of those that stick: f_S = hold_ f.
   std::vector<Eigen::Index> sticking_;
   Mat hold_;
