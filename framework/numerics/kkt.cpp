@@ -24,22 +24,40 @@ bool pivots_are_safe(const Cholesky& factors, const Mat& matrix, double toleranc
   return true;
 }
 
+// What a row has of an angle is a lever [m]. Where levers are long, rows in metres look alike by them, and what the rows are off by
+// is less of a length: both are measured by the longest. The rows reach the same.
+struct WithoutLevers {
+  Mat G;
+  double longest = 1;  // [m] and no less
+
+  explicit WithoutLevers(const Mat& rows) : G(rows) {
+    if (G.rows() == 0) return;
+    for (Eigen::Index j = 0; j < G.cols(); ++j) {
+      const double lever = std::max(1.0, G.col(j).lpNorm<Eigen::Infinity>());
+      if (lever > 1) G.col(j) /= lever;
+      longest = std::max(longest, lever);
+    }
+  }
+  double tolerance(double of_rows) const { return std::max(rank_tolerance_at(0), of_rows / longest); }
+};
+
 // Of the rows at length one, whose pivots are sines of angles to the rows before: masses and units, and the lengths of rows near a
 // singular position, must not make independent rows look alike.
-Eigen::ColPivHouseholderQR<Mat> decomposed(const Mat& G, const Vec& lengths, double tolerance) {
-  Mat unit = G;
-  for (Eigen::Index i = 0; i < G.rows(); ++i)
+Eigen::ColPivHouseholderQR<Mat> decomposed(const WithoutLevers& rows, const Vec& lengths, double tolerance) {
+  Mat unit = rows.G;
+  for (Eigen::Index i = 0; i < unit.rows(); ++i)
     if (lengths[i] > 0) unit.row(i) /= lengths[i];
-  Eigen::ColPivHouseholderQR<Mat> qr(G.rows(), G.cols());
-  qr.setThreshold(tolerance);
+  Eigen::ColPivHouseholderQR<Mat> qr(unit.rows(), unit.cols());
+  qr.setThreshold(rows.tolerance(tolerance));
   qr.compute(unit);
   return qr;
 }
 
 // A basis of what G reaches, nc x rank.
 Mat range_of(const Mat& G, double tolerance) {
-  const Vec lengths = G.rowwise().norm();
-  const Eigen::ColPivHouseholderQR<Mat> qr = decomposed(G, lengths, tolerance);
+  const WithoutLevers rows(G);
+  const Vec lengths = rows.G.rowwise().norm();
+  const Eigen::ColPivHouseholderQR<Mat> qr = decomposed(rows, lengths, tolerance);
   return lengths.asDiagonal() * (qr.householderQ() * Mat::Identity(G.rows(), qr.rank())).eval();
 }
 
@@ -54,7 +72,8 @@ double rank_tolerance_at(double violation) {
 }
 
 Eigen::Index rank_of_rows(const Mat& G, double tolerance) {
-  return decomposed(G, G.rowwise().norm(), tolerance).rank();
+  const WithoutLevers rows(G);
+  return decomposed(rows, rows.G.rowwise().norm(), tolerance).rank();
 }
 
 template <class Factors, class Masses>

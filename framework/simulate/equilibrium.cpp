@@ -95,7 +95,7 @@ class Rest {
     state_.v = zero_v_;
     const Vec lambda = lambda_;
     Vec ahead, behind, q, rows, dv, mu;
-    double tau = 1, before = std::numeric_limits<double>::infinity();
+    double tau = 1, before = 0;
     for (int i = 0; i < most; ++i) {
       unbalance(state_.t + dt, dt * state_.v, lambda, ahead);
       unbalance(state_.t - dt, -dt * state_.v, lambda, behind);
@@ -110,10 +110,11 @@ class Rest {
       state_.v += dv;
       const double change = dv.lpNorm<Eigen::Infinity>(), speed = state_.v.lpNorm<Eigen::Infinity>();
       if (change <= settled * speed) return {};
+      if (i == 0) before = change;
       if ((i + 1) % slow != 0) continue;
       // Round-off; or what soft springs hold, which less damping finds. What nothing holds goes ever faster.
       if (change <= inexact * speed) return {};
-      if (!(change < 0.5 * before)) return undetermined(dv);
+      if (!(change < before)) return undetermined(dv);
       before = change, tau *= 10;
     }
     return undetermined(dv);

@@ -15,29 +15,45 @@
 namespace trammel::simulate {
 namespace {
 
-constexpr double tolerance = 1e-8;  // [m], [rad], [m/s], [rad/s]
+constexpr double tolerance = 1e-8;  // of the scene's length and speed, and 1 m, 1 rad, 1 m/s, 1 rad/s at most
 
 // What "nearest" weighs: masses, and with contacts what the bodies store at 1 rad/s too, so that a beam that reaches into a plane
 // is turned out of it and not bent.
 constexpr Blend by_mass = {1, 0, 0}, by_mass_and_stiffness = {1, 0, 1};
 
+// What rows may be off by at the start: digits of a scene. Angles take the lengths' measure too where those are below 1 m.
+struct Allowed {
+  double length, speed;  // [m], [m/s]
+  double round_off;      // [m] that an iteration may end with
+};
+Allowed allowed_at(model::AssembledSystem& system, const State& s) {
+  system.move_to(s.t, s.q, s.v);
+  ContactScale scale;
+  scale.take_all(system);
+  const double length = tolerance * std::min(1.0, scale.length() > 0 ? scale.length() : 1) + scale.resolution();
+  const double speed = s.v.size() > 0 ? s.v.norm() : 0;
+  const double unit = std::max(scale.length() > 0 ? std::min(1.0, scale.length()) : 1, speed);
+  return {length, tolerance * unit, 1e-3 * tolerance + 64 * scale.resolution()};
+}
+
 bool project_position(model::AssembledSystem& system, State& s, Blend nearest = by_mass) {
   Vec zero = Vec::Zero(system.sizes().nv), dq, mu, q;
   const Vec no_force = Vec::Zero(system.sizes().nc);
+  const Allowed allowed = allowed_at(system, s);
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 50; ++i) {
     system.move_to(s.t, s.q, s.v);
     const Vec g = system.g();
     const double now = g.norm();
     if (!std::isfinite(now)) return false;
-    if (now < 1e-15 || (now < 1e-11 && now > 0.5 * before)) return true;
+    if (now < 1e-7 * allowed.length || (now < allowed.round_off && now > 0.5 * before)) return true;
     before = now;
     system.factorise(nearest, zero, no_force);
     if (!system.correct(zero, g, dq, mu)) return false;
     system.retract(s.q, dq, q);
     s.q = q;
   }
-  return before < tolerance;
+  return before < allowed.length;
 }
 
 bool project_velocity(model::AssembledSystem& system, State& s) {
@@ -141,13 +157,14 @@ void check_motion(model::AssembledSystem& system, const State& s, const scene::V
 void check_rows(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
   system.move_to(s.t, s.q, s.v);
   const Vec g = system.g(), g_dot = system.g_dot();
-  const double speed = std::max(1.0, s.v.norm());
+  const Allowed allowed = allowed_at(system, s);
+  system.move_to(s.t, s.q, s.v);
   State nearest = s;
   bool wrong = false;
   for (const model::RowGroup& rows : row_groups(system.model())) {
     const double position = g.segment(rows.first, rows.count).norm(),
                  velocity = g_dot.segment(rows.first, rows.count).norm();
-    if (position <= tolerance && velocity <= tolerance * speed) continue;
+    if (position <= allowed.length && velocity <= allowed.speed) continue;
     const Offset off = norm(row_offsets(system, rows, s));
     problems.error(problem_at(
         {rows.path}, root,

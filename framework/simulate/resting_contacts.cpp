@@ -1,5 +1,7 @@
 #include "simulate/resting_contacts.hpp"
 
+#include "simulate/contact_scale.hpp"
+
 namespace trammel::simulate {
 
 RestingContacts::RestingContacts(model::AssembledSystem& system)
@@ -15,8 +17,11 @@ RestingContacts::~RestingContacts() {
 }
 
 void RestingContacts::close_what_may_push() {
+  ContactScale scale;
+  scale.take_all(system_);
+  const double touching = scale.written_length();
   for (std::size_t i = 0; i < modes_.contacts.size(); ++i)
-    modes_.contacts[i].closed = system_.model().contacts[i].force || system_.gap(int(i)) <= 1e-9;
+    modes_.contacts[i].closed = system_.model().contacts[i].force || system_.gap(int(i)) <= touching;
   system_.set_modes(modes_);
 }
 

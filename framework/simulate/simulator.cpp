@@ -103,14 +103,23 @@ void Simulator::record_due(Recorder& recorder) {
   }
 }
 
-// Energy without a cause, relative to what was there at the start, fell or rose, came in and went out. A nanojoule more keeps
+// What is no energy in this scene [J]: a nanojoule, or that part of what its masses have at its speed.
+double Simulator::little_energy() {
+  constexpr double little = 1e-9;
+  scratch_.setZero(now_.v.size());
+  system_.add_mass_times(1, Vec::Ones(now_.v.size()), scratch_);
+  const double moving = scratch_.lpNorm<Eigen::Infinity>() * scale_.speed() * scale_.speed();
+  return little * (moving > 0 ? std::min(1.0, moving) : 1);
+}
+
+// Energy without a cause, relative to what was there at the start, fell or rose, came in and went out. A little more keeps
 // round-off of a system at rest from counting.
 double Simulator::relative_drift() {
   const double potential = energy_at_state().potential;
   const double moved = energy_start_.kinetic + std::abs(energy_start_.elastic) +
                        std::abs(potential - energy_start_.potential) + std::abs(ledger_.supplied()) +
                        std::abs(ledger_.refinements()) + ledger_.dissipated();
-  return std::abs(energy_drift()) / (moved + 1e-9 * (1 + std::abs(ledger_.energy_start())));
+  return std::abs(energy_drift()) / (moved + little_energy() + 1e-9 * std::abs(ledger_.energy_start()));
 }
 
 // A method that is unstable with its step may give finite nonsense for long. Its energy tells: it goes on growing, where that of
@@ -369,6 +378,8 @@ std::vector<std::string> Simulator::doubts() const {
   all.insert(all.end(), of_impacts.begin(), of_impacts.end());
   const std::vector<std::string> of_theories = theories_.warnings();
   all.insert(all.end(), of_theories.begin(), of_theories.end());
+  const std::vector<std::string> coarse = thresholds_.warnings(system_.model(), settings_, scale_);
+  all.insert(all.end(), coarse.begin(), coarse.end());
   return all;
 }
 

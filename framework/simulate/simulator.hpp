@@ -18,6 +18,7 @@
 
 #include "plugin/plugin_error.hpp"
 #include "simulate/checkpoint.hpp"
+#include "simulate/coarse_thresholds.hpp"
 #include "simulate/conflict.hpp"
 #include "simulate/contact_audit.hpp"
 #include "simulate/contact_mode.hpp"
@@ -76,6 +77,7 @@ class Simulator {
   double record_time(long long k) const;
   void record_due(Recorder& recorder);
   double relative_drift();
+  double little_energy();
   void judge_energy();
   void measure_joints();
   void judge_joints(const State& state);
@@ -114,6 +116,7 @@ class Simulator {
   EventLocation location_;
   Ledger ledger_;
   ContactAudit audit_;
+  CoarseThresholds thresholds_;
   Refinement refinement_;
   TurnCounts turns_;
   TheoryWatch theories_;

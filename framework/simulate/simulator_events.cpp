@@ -27,6 +27,7 @@ void Simulator::settle(const ContactChanges& changes) {
     if (events_[i].kind == ContactEvent::Kind::close) ++statistics_.touches;
     if (events_[i].kind != ContactEvent::Kind::impact && events_[i].kind != ContactEvent::Kind::latch) continue;
     ++statistics_.impacts;
+    thresholds_.look(events_[i]);
   }
   window_events_ += 1;
   hold_until_ = now_.t + settings_.contact_hold;

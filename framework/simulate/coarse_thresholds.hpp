@@ -1,0 +1,29 @@
+// Thresholds of a scene that are larger than the motion that they judge: what they let pass then is the motion itself.
+//
+//     integrator.step.absolute       an error that steps may make, beside the scene's size (ContactScale)
+//     contacts.NAME.capture_speed    below which impacts have no rebound, beside the fastest impact of the contact
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <trammel/archive.hpp>
+
+#include "simulate/contact_event.hpp"
+#include "simulate/contact_scale.hpp"
+#include "simulate/settings.hpp"
+
+namespace trammel::simulate {
+
+class CoarseThresholds {
+ public:
+  void look(const ContactEvent& event);  // an impact
+  std::vector<std::string> warnings(const model::Model& model, const Settings& settings,
+                                    const ContactScale& scale) const;
+  void archive(Archive& a);
+
+ private:
+  Vec fastest_;  // [m/s] approach, by contact as far as they have struck
+};
+
+}  // namespace trammel::simulate

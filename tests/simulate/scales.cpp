@@ -1,0 +1,259 @@
+// A scene in other units of length, or elsewhere, has the same events.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "run_scene.hpp"
+
+namespace trammel::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+// Where a scene is and how long its metre is; gravity stays, so times go with the square root of the length.
+struct Place {
+  double length = 1;
+  double x = 0, y = 0;
+  double time() const { return std::sqrt(length); }
+};
+
+struct Draw {
+  explicit Draw(unsigned seed) : random(seed) {}
+  double operator()(double least, double most) { return std::uniform_real_distribution<double>(least, most)(random); }
+  std::mt19937 random;
+};
+
+// A ball that falls on a rough floor and bounces to rest, beside a spring that swings against a wall. Coordinates that a shift
+// rounds are written after it: what is drawn are multiples of 2^-20, which a shift of up to 2^32 leaves as they are.
+double digits(double x) {
+  return std::ldexp(std::round(std::ldexp(x, 20)), -20);
+}
+
+std::string bouncing(unsigned seed, const Place& at) {
+  Draw draw(seed);
+  const double s = at.length, v = s / at.time();
+  const double height = digits(draw(0.5, 2)), speed = draw(-1, 1), e = draw(0.3, 0.7), far = digits(draw(0.2, 0.6));
+  return fmt::format(
+      R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+  "bodies": {{"ball": {{"type": "point_mass", "mass": 1, "position": [{x:.17g}, {ball:.17g}], "velocity": [{u:.17g}, 0]}},
+             "swing": {{"type": "point_mass", "mass": 1, "position": [{swing:.17g}, {y:.17g}]}}}},
+  "forces": {{"spring": {{"type": "spring_damper", "between": [{{"point": [{x:.17g}, {y:.17g}]}}, "swing.point"],
+                        "stiffness": {k:.17g}, "length": {rest:.17g}}},
+             "up": {{"type": "load", "on": "swing.point", "force": {{"x": 0, "y": 9.81}}}}}},
+  "contacts": {{"floor": {{"type": "constraint_method", "restitution": {e:.17g},
+                         "friction": {{"type": "coulomb", "static": 0.3, "kinetic": 0.2}},
+                         "between": ["ball.point", {{"plane": {{"point": [0, {y:.17g}], "normal": [0, 1]}}}}]}},
+               "wall": {{"type": "constraint_method", "restitution": 1,
+                        "between": ["swing.point", {{"plane": {{"point": [{wall:.17g}, 0], "normal": [-1, 0]}}}}]}}}},
+  "simulate": {{"until": {until:.17g}}}, "record": {{"every": {every:.17g}, "observe": {{"x": "ball.point.x"}}}}}})",
+      fmt::arg("x", at.x * s), fmt::arg("y", at.y * s), fmt::arg("ball", (at.y + height) * s), fmt::arg("u", speed * v),
+      fmt::arg("swing", (at.x + 1 - far) * s), fmt::arg("k", 40 / s), fmt::arg("rest", s), fmt::arg("e", e),
+      fmt::arg("wall", (at.x + 1 + far / 2) * s), fmt::arg("until", 4 * at.time()),
+      fmt::arg("every", 0.05 * at.time()));
+}
+
+// A block on two corners rocks to rest.
+std::string rocking(unsigned seed, const Place& at) {
+  Draw draw(seed);
+  const double s = at.length, half = 0.25, angle = -draw(0.08, 0.16);
+  const double x = -half * std::cos(angle) - std::sin(angle), y = -half * std::sin(angle) + std::cos(angle);
+  return fmt::format(
+      R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+  "bodies": {{"block": {{"type": "rigid_body", "mass": 1, "inertia": {inertia:.17g}, "position": [{x:.17g}, {y:.17g}],
+                       "angle": {angle:.17g},
+                       "markers": {{"left": [{left:.17g}, {low:.17g}], "right": [{right:.17g}, {low:.17g}]}}}}}},
+  "contacts": {{"left": {{"type": "constraint_method", "friction": {{"type": "coulomb", "static": 10, "kinetic": 10}},
+                        "between": ["block.left", {{"plane": {{"point": [0, {floor:.17g}], "normal": [0, 1]}}}}]}},
+               "right": {{"type": "constraint_method", "friction": {{"type": "coulomb", "static": 10, "kinetic": 10}},
+                         "between": ["block.right", {{"plane": {{"point": [0, {floor:.17g}], "normal": [0, 1]}}}}]}}}},
+  "simulate": {{"until": {until:.17g}}}, "record": {{"every": {every:.17g}, "observe": {{"a": "block.angle"}}}}}})",
+      fmt::arg("inertia", (1 + half * half) / 3 * s * s), fmt::arg("x", (at.x + x) * s),
+      fmt::arg("y", (at.y + digits(y)) * s), fmt::arg("angle", angle), fmt::arg("left", -half * s),
+      fmt::arg("right", half * s), fmt::arg("low", -s), fmt::arg("floor", at.y * s), fmt::arg("until", 2 * at.time()),
+      fmt::arg("every", 0.02 * at.time()));
+}
+
+std::string warnings(const Finished& run) {
+  return run.result.at("warnings").dump();
+}
+
+// Of kinds that no place decides: impacts in a contact that was open.
+std::vector<Event> impacts(const std::string& scene) {
+  const Finished run = run_text(scene);
+  EXPECT_TRUE(run.done()) << run.report.reason;
+  return run.of_kind("impact");
+}
+
+// The same contacts in the same order, at the same times but for `off` in units of the scene's.
+void expect_same(const std::vector<Event>& here, const std::vector<Event>& there, const Place& at, double off,
+                 const std::string& what) {
+  ASSERT_EQ(there.size(), here.size()) << what;
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    EXPECT_EQ(there[i].contact, here[i].contact) << what << ", impact " << i;
+    EXPECT_NEAR(there[i].t / at.time(), here[i].t, off) << what << ", impact " << i;
+  }
+}
+
+// Errors of 1e-9 a step, of which there are some tens between impacts, grown by a few bounces.
+constexpr double of_steps = 3e-7;
+
+TEST(Scales, AScaledSceneHasTheSameImpacts) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const std::vector<Event> here = impacts(bouncing(seed, {}));
+    ASSERT_GT(here.size(), 8u);
+    for (const double length : {1e-9, 1e-6, 1e-3, 1e3, 1e6}) {
+      const Place at{.length = length};
+      expect_same(here, impacts(bouncing(seed, at)), at, of_steps, fmt::format("seed {}, length {}", seed, length));
+    }
+  }
+}
+
+TEST(Scales, AMovedSceneHasTheSameImpacts) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const std::vector<Event> here = impacts(bouncing(seed, {}));
+    for (const double far : {1e3, 1e5, 5e6}) {
+      const Place at{.x = far, .y = -2 * far};
+      // Bounces whose flight doubles do not hold there end; of the rest, times to the rounding of a gap over the speed of impact.
+      std::vector<Event> there = impacts(bouncing(seed, at));
+      std::vector<Event> held;
+      for (const Event& event : here) {
+        const double speed = event.detail.at("separation"), rises = speed * speed / (2 * 9.81);
+        if (event.contact == "contacts.wall" || rises > 1e4 * eps * 2 * far) held.push_back(event);
+      }
+      const auto fast = [&](const Event& event) {
+        const double speed = event.detail.at("separation"), rises = speed * speed / (2 * 9.81);
+        return event.contact == "contacts.wall" || rises > 1e4 * eps * 2 * far;
+      };
+      std::erase_if(there, [&](const Event& event) { return !fast(event); });
+      const double slowest = std::sqrt(2 * 9.81 * 1e4 * eps * 2 * far);
+      expect_same(held, there, at, of_steps + 400 * eps * 2 * far / slowest, fmt::format("seed {}, {} m", seed, far));
+    }
+  }
+}
+
+TEST(Scales, ABlockOfAnySizeRocksToRestInTheSameImpacts) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const std::vector<Event> here = impacts(rocking(seed, {}));
+    ASSERT_GE(here.size(), 3u);
+    for (const double length : {1e-9, 1e-6, 1e-3, 1e3, 1e6}) {
+      const Place at{.length = length};
+      expect_same(here, impacts(rocking(seed, at)), at, 1e-5, fmt::format("seed {}, length {}", seed, length));
+    }
+  }
+}
+
+// x = cos t, y = 0.5 sin t in units of the length; 1e-9 a step, 20 s.
+TEST(Scales, ASpringOfAnySizeAnywhereSwingsAsAccurately) {
+  for (const double length : {1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6})
+    for (const double far : {0.0, 1e3, 1e6}) {
+      const double x = far * length;
+      const std::string scene = fmt::format(
+          R"({{"trammel": 1, "space": "planar", "gravity": [0, 0],
+          "bodies": {{"b": {{"type": "point_mass", "mass": 1, "position": [{:.17g}, 0], "velocity": [0, {:.17g}]}}}},
+          "forces": {{"s": {{"type": "spring_damper", "between": [{{"point": [{:.17g}, 0]}}, "b.point"], "stiffness": 1, "length": 0}}}},
+          "simulate": {{"until": 20}}, "record": {{"every": 1, "observe": {{"x": "b.point.x", "y": "b.point.y"}}}}}})",
+          x + length, 0.5 * length, x);
+      const Finished run = run_text(scene);
+      ASSERT_TRUE(run.done()) << run.report.reason;
+      const double off = 1e-6 + 100 * eps * far;
+      EXPECT_NEAR((run.end("x") - x) / length, std::cos(20), off) << length << " m, at " << x;
+      EXPECT_NEAR(run.end("y") / length, 0.5 * std::sin(20), off) << length << " m, at " << x;
+    }
+}
+
+// A pendulum's quarter swing does not know how long its metre is; steps are a hundredth of the period, index 2 methods of second
+// order.
+TEST(Scales, APendulumOfAnyLengthSwingsAlikeByImplicitMethods) {
+  for (const char* type : {"hht_alpha", "newmark", "generalized_alpha"}) {
+    double angle_of_a_metre = 0;
+    for (const double L : {1.0, 1e-6, 1e-3, 1e3, 1e4, 1e6}) {
+      const double t = std::sqrt(L);
+      const std::string scene = fmt::format(
+          R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+          "bodies": {{"bar": {{"type": "rigid_body", "mass": 2, "inertia": {:.17g}, "position": [{:.17g}, 0],
+                             "markers": {{"hinge": [{:.17g}, 0]}}}}}},
+          "joints": {{"hinge": {{"type": "revolute", "between": ["ground", "bar.hinge"]}}}},
+          "integrator": {{"type": "{}", "step": {:.17g}}},
+          "simulate": {{"until": {:.17g}}}, "record": {{"every": {:.17g}, "observe": {{"angle": "bar.angle"}}}}}})",
+          L * L / 6, L / 2, -L / 2, type, 0.01 * t, 5 * t, 0.1 * t);
+      const Finished run = run_text(scene);
+      ASSERT_TRUE(run.done()) << type << ", " << L << " m: " << run.report.reason;
+      if (L == 1) angle_of_a_metre = run.end("angle");
+      EXPECT_NEAR(run.end("angle"), angle_of_a_metre, 1e-7)
+          << type << ", " << L << " m";  // 500 steps, 1e-11 each, amplified
+    }
+  }
+}
+
+TEST(Scales, AJointHasNoSizeOfRoundOff) {
+  for (const double place : {0.3, 0.7, 1.1, 123.4, 1e6 + 0.3}) {
+    const double near = std::nextafter(place, 2 * place);
+    for (const char* x : {"com", "com"}) {
+      const Finished run = run_text(fmt::format(
+          R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+          "bodies": {{"w": {{"type": "rigid_body", "mass": 1, "inertia": 1, "position": [{:.17g}, {:.17g}], "angular_velocity": 3}}}},
+          "joints": {{"a": {{"type": "revolute", "between": [{{"point": [{:.17g}, {:.17g}]}}, "w.{}"]}}}},
+          "simulate": {{"until": 1}}, "record": {{"every": 0.1, "observe": {{"w": "w.angular_velocity"}}}}}})",
+          near, place, place, near, x));
+      ASSERT_TRUE(run.done()) << run.report.reason;
+      EXPECT_NEAR(run.end("w"), 3, 1e-12);
+    }
+  }
+}
+
+TEST(Scales, AnAbsoluteToleranceLargerThanTheMotionIsSaid) {
+  const std::string step =
+      R"("integrator": {"type": "dop853", "step": {"tolerance": 1e-9, "absolute": 1e-7}}, "simulate")";
+  std::string scene = bouncing(1, {.length = 1e-6});
+  scene.replace(scene.find("\"simulate\""), 10, step);
+  const Finished run = run_text(scene);
+  EXPECT_THAT(warnings(run), HasSubstr("integrator.step.absolute"));
+  EXPECT_THAT(warnings(run_text(bouncing(1, {.length = 1e-6}))), Not(HasSubstr("absolute")));
+}
+
+TEST(Scales, ACaptureSpeedAboveAllImpactsIsSaid) {
+  std::string scene = bouncing(1, {.length = 1e-6});
+  const std::string law = R"("restitution": 1,)";
+  scene.replace(scene.find(law), law.size(), R"("restitution": 1, "capture_speed": 0.01,)");
+  const Finished run = run_text(scene);
+  EXPECT_THAT(warnings(run), HasSubstr("no impact of contacts.wall was faster than its capture_speed"));
+}
+
+// Nothing has accelerated yet: there is none to carry over.
+TEST(Scales, AContactThatTouchesAtTheStartCarriesNoAcceleration) {
+  const Overrides at_rest = {{"parameters.h", "0"}, {"contacts.floor.restart", "carry"}, {"simulate.until", "0.2"}};
+  for (const char* type : {"runge_kutta_4", "hht_alpha", "newmark", "generalized_alpha"}) {
+    Overrides overrides = at_rest;
+    overrides.push_back({"integrator.type", type});
+    const Finished run = run_file("tour/02_bouncing_ball.json", overrides);
+    ASSERT_TRUE(run.done()) << type << ": " << run.report.reason;
+    EXPECT_NEAR(run.end("y"), 0, 1e-12) << type;
+    EXPECT_NEAR(run.end("x"), 0.1, 1e-12) << type;
+  }
+  const Finished beam = run_file("beam_impact/figure_9.json", {{"bodies.beam.angle", "0"}, {"simulate.until", "0.01"}});
+  EXPECT_TRUE(beam.done()) << beam.report.reason;
+}
+
+// Two feet at one point hold no turn, whatever carries them.
+TEST(Scales, AnEquilibriumThatNothingDeterminesNamesTheFreeDirection) {
+  try {
+    run_file("free_standing/1s.json", {{"parameters.b0", "0"}});
+    FAIL() << "it ran";
+  } catch (const scene::SceneError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("initial"));
+    EXPECT_THAT(error.what(), HasSubstr("nothing holds bodies.main in its angle"));
+  }
+  EXPECT_TRUE(run_file("free_standing/1s.json", {{"simulate.until", "0.1"}}).done());
+}
+
+}  // namespace
+}  // namespace trammel::test
