@@ -86,8 +86,11 @@ class Tree {
   bool start_object(std::size_t) { return open(Members()); }
   bool key(std::string& name) {
     Frame& frame = open_.back();
-    if (name.size() > limits::name)
-      return refuse(string_start(), fmt::format("a key of {} bytes, expected at most {}", name.size(), limits::name));
+    if (name.size() > limits::name) {
+      problems_.error({lines_.at(string_start()), join(""),
+                       fmt::format("a key of {} bytes, expected at most {}", name.size(), limits::name)});
+      return false;
+    }
     if (!frame.keys.insert(name).second) {
       problems_.error({lines_.at(string_start()), join(name),
                        fmt::format("the key \"{}\" stands here a second time; each key may stand once", name)});

@@ -34,8 +34,9 @@ double cpu_now() {
   return double(std::clock()) / CLOCKS_PER_SEC;
 }
 
-constexpr double between_checkpoints = 2;  // [s] wall-clock
-constexpr double between_progress = 0.1;   // [s]
+constexpr double between_checkpoints = 2;      // [s] wall-clock
+constexpr double share_of_checkpoints = 0.05;  // of the time at most: a slow disk is asked less often
+constexpr double between_progress = 0.1;       // [s]
 // Room held for the end of a run on a full disk [bytes]: three buffers of logs, the result, and the checkpoint's numbers.
 constexpr long long room_for_logs = 1 << 19, room_per_number = 256;
 
@@ -169,6 +170,7 @@ class Run {
   void loop() {
     const Clock::time_point began = Clock::now();
     Clock::time_point checked = began, checkpointed = began, shown = began;
+    double pause = between_checkpoints;
     SlowSteps slow_steps(simulator_->state().t, simulator_->statistics().steps);
     long long stride = 1, since = 0;  // steps between looks at the clock, about 1 ms
     for (;;) {
@@ -193,7 +195,10 @@ class Run {
       if (const std::string slow = slow_steps.look(seconds(now - began), setup_, *simulator_); !slow.empty())
         warn(slow);
       if (options_.progress && seconds(now - shown) >= between_progress) show(), shown = now;
-      if (seconds(now - checkpointed) >= between_checkpoints) write(), checkpointed = Clock::now();
+      if (seconds(now - checkpointed) < pause) continue;
+      write();
+      checkpointed = Clock::now();
+      pause = std::max(between_checkpoints, seconds(checkpointed - now) / share_of_checkpoints);
     }
   }
 
