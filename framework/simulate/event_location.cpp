@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "numerics/root_bracket.hpp"
 #include "simulate/trial_step.hpp"
@@ -27,6 +28,13 @@ EventLocation::EventLocation(model::AssembledSystem& system, Integrator& integra
       scale_(scale),
       between_states_(system, integrator),
       own_force_(!integrator.traits().holds_position && !integrator.traits().holds_velocity) {}
+
+void EventLocation::watch_all() {
+  for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
+  const std::vector<model::SharedRows>& shared = system_.modes().shared;
+  for (std::size_t group = 0; group < shared.size(); ++group)
+    watches_.push_back({.contact = shared[group].implied.front().contact, .kind = Kind::follow, .group = int(group)});
+}
 
 void EventLocation::watch(int contact) {
   const model::ContactEntry& entry = system_.model().contacts[contact];
@@ -83,9 +91,11 @@ void EventLocation::restart(const State& now) {
   watches_.clear();
   h_before_ = longest_ = 0;
   system_.move_to(now.t, now.q, now.v);
-  for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
-  for (Watch& each : watches_)
+  watch_all();
+  for (Watch& each : watches_) {
     if (each.kind == Kind::unload) each.little = little_force(each.group);
+    if (each.kind == Kind::follow) each.little = 10 * modes_.nothing();
+  }
   next_.resize(watches_.size()), probe_.resize(watches_.size());
   evaluate(now, now_);
   for (std::size_t w = 0; w < watches_.size(); ++w) watches_[w].steepest = std::abs(now_[w].slope);
@@ -151,6 +161,10 @@ void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
   system_.move_to(state.t, state.q, state.v);
   values.resize(watches_.size());
   const Vec* lambda = nullptr;
+  bool accelerated = false;
+  const auto accelerate = [&] {
+    if (!std::exchange(accelerated, true)) system_.accelerate({}, a_, lambda_);
+  };
   for (int w = 0; w < int(watches_.size()); ++w) {
     Watch& watch = watches_[w];
     Value& value = values[w] = {};
@@ -161,9 +175,14 @@ void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
       }
       if (!lambda) {
         lambda = own_force_ ? &state.lambda : &lambda_;
-        if (!own_force_) system_.accelerate({}, a_, lambda_);
+        if (!own_force_) accelerate();
       }
       value.f = force(watch, *lambda);
+      continue;
+    }
+    if (watch.kind == Kind::follow) {
+      accelerate();
+      value.f = watch.little - system_.departure(watch.group, a_);
       continue;
     }
     if (watch.kind == Kind::slide) {
@@ -266,6 +285,7 @@ void EventLocation::report(int w) {
     case Kind::press:
     case Kind::idle:
     case Kind::unload:
+    case Kind::follow:
       return add(changes_.released);
     case Kind::hold:
       return add(changes_.yielded);
@@ -329,7 +349,7 @@ void EventLocation::archive(Archive& a) {
   Vec flat = Eigen::Map<const Vec>(values.data(), values.size());
   a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_);
   if (watches_.empty() && flat.size() > 0) {  // reading: the modes are back, their watches not yet
-    for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
+    watch_all();
     next_.resize(watches_.size()), probe_.resize(watches_.size()), now_.resize(watches_.size());
   }
   modes_before_ = system_.modes().contacts;
