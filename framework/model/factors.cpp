@@ -108,8 +108,8 @@ void AssembledSystem::Work::factorise_identity(Store store) {
     kept[store].mass.factorise(Mat::Identity(sizes.nv, sizes.nv), G, G, rank_tolerance());
 }
 
-void AssembledSystem::Work::factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda,
-                                              bool with_friction, const CarriedFrom* carried) {
+void AssembledSystem::Work::factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda, bool with_friction,
+                                              const CarriedFrom* carried) {
   evaluate_rows();
   ++counts.jacobian_evaluations;  // once, though a sparse sum may be filled twice until its places are known
   ++counts.factorizations;

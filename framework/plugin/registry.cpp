@@ -156,10 +156,10 @@ void Registry::search_scene(const scene::Value& root, scene::Problems& problems)
     else if (scene_plugins_allowed_ || is_trusted(file))
       search(file);
     else
-      problems.error(item.problem(
-          fmt::format("{} is not loaded: code of a library that the scene names would run. --allow-scene-plugins allows "
-                      "it; so does a folder of yours that holds it, given by --plugin or TRAMMEL_PLUGIN_PATH",
-                      full_path(file))));
+      problems.error(item.problem(fmt::format(
+          "{} is not loaded: code of a library that the scene names would run. --allow-scene-plugins allows "
+          "it; so does a folder of yours that holds it, given by --plugin or TRAMMEL_PLUGIN_PATH",
+          full_path(file))));
   }
 }
 

@@ -261,7 +261,9 @@ std::string schema(const std::vector<const Entry*>& entries, const std::vector<P
   properties["description"] = text;
   properties["space"] = {{"enum", {"planar", "spatial"}}};
   properties["gravity"] = with(reference("vector"), "[m/s^2]");
-  properties["plugins"] = with(texts, "libraries and folders of libraries, relative to this file; loaded with --allow-scene-plugins or from a folder that is searched anyway");
+  properties["plugins"] = with(texts,
+                               "libraries and folders of libraries, relative to this file; loaded with "
+                               "--allow-scene-plugins or from a folder that is searched anyway");
   properties["parameters"] = with(keyed({{"type", {"number", "string", "object"}}}), "names for expressions");
   properties["include"] = with(any_of(text, texts), "scenes that this one extends; this one wins");
   properties["bodies"] = keyed(reference("body"));

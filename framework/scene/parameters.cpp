@@ -150,8 +150,7 @@ std::shared_ptr<const Value::Parameters> evaluate_parameters(const Value& root) 
       parameters->emplace_back(name, *result);
   }
   problems.throw_if_any();
-  std::sort(parameters->begin(), parameters->end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::sort(parameters->begin(), parameters->end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   return parameters;
 }
 

@@ -32,6 +32,8 @@ class ContactScale {
   // Nearer than this is touching [m], slower is at rest [m/s], less is no acceleration [m/s^2].
   double touching() const { return 1e-12 * length_ + resolution(); }
   double at_rest() const { return 1e-12 * speed_; }
+  // Slower than this may be what the steps leave of the rates of rows that they hold [m/s].
+  double drift() const { return 1e-6 * speed_; }
   // Slip in space that has no direction [m/s] (model/slip.hpp); impacts slower than that have no rebound unless the law says so.
   double slow() const { return 1e-7 * speed_; }
   double no_acceleration() const;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "numerics/root_bracket.hpp"
 #include "simulate/signed_loads.hpp"
@@ -29,6 +30,13 @@ EventLocation::EventLocation(model::AssembledSystem& system, Integrator& integra
       scale_(scale),
       between_states_(system, integrator),
       own_force_(!integrator.traits().holds_position && !integrator.traits().holds_velocity) {}
+
+void EventLocation::watch_all() {
+  for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
+  const std::vector<model::SharedRows>& shared = system_.modes().shared;
+  for (std::size_t group = 0; group < shared.size(); ++group)
+    watches_.push_back({.contact = shared[group].implied.front().contact, .kind = Kind::follow, .group = int(group)});
+}
 
 void EventLocation::watch(int contact) {
   const model::ContactEntry& entry = system_.model().contacts[contact];
@@ -107,9 +115,11 @@ void EventLocation::restart(const State& now) {
   watches_.clear();
   h_before_ = longest_ = 0;
   system_.move_to(now.t, now.q, now.v);
-  for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
-  for (Watch& each : watches_)
+  watch_all();
+  for (Watch& each : watches_) {
     if (each.kind == Kind::unload) each.little = little_force(each.group);
+    if (each.kind == Kind::follow) each.little = 10 * modes_.nothing();
+  }
   next_.resize(watches_.size()), probe_.resize(watches_.size());
   evaluate(now, now_);
   choose_sides(before);
@@ -179,25 +189,29 @@ double EventLocation::force(Watch& watch, double t, const Vec& lambda) {
 void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
   system_.move_to(state.t, state.q, state.v);
   values.resize(watches_.size());
-  const Vec* lambda = nullptr;
-  for (std::size_t w = 0; w < watches_.size(); ++w) values[w] = value(int(w), state, lambda);
+  bool accelerated = false;
+  for (std::size_t w = 0; w < watches_.size(); ++w) values[w] = value(int(w), state, accelerated);
 }
 
-// At the system's point, `state`; `lambda`: the forces there, once one has asked for them.
-EventLocation::Value EventLocation::value(int w, const State& state, const Vec*& lambda) {
+// At the system's point, `state`; accelerated: a_ and lambda_ are those of this point, once a watch has asked for them.
+EventLocation::Value EventLocation::value(int w, const State& state, bool& accelerated) {
+  const auto accelerate = [&] {
+    if (!std::exchange(accelerated, true)) system_.accelerate({}, a_, lambda_);
+  };
   Watch& watch = watches_[std::size_t(w)];
   if (watch.kind == Kind::slide) return slide(watch.contact, state.a);
+  if (watch.kind == Kind::follow) {
+    accelerate();
+    return {watch.little - system_.departure(watch.group, a_), 0};
+  }
   if (!by_force(w)) {
     const double sign = watch.kind == Kind::leave ? -1 : 1;
     return {sign * system_.gap(watch.contact), sign * system_.gap_rate(watch.contact)};
   }
   if (watch.kind == Kind::hold && watch.at_ends)
     return {scale_.no_acceleration() - system_.slip_acceleration(watch.contact, state.a).norm(), 0};
-  if (!lambda) {
-    lambda = own_force_ ? &state.lambda : &lambda_;
-    if (!own_force_) system_.accelerate({}, a_, lambda_);
-  }
-  return {force(watch, state.t, *lambda), 0};
+  if (!own_force_) accelerate();
+  return {force(watch, state.t, own_force_ ? state.lambda : lambda_), 0};
 }
 
 // Just after an event a function at round-off of 0 tells nothing, unless it goes on falling; nor does one that began below
@@ -216,8 +230,8 @@ EventLocation::Value EventLocation::step_to(const State& now, double h, int w) {
     h_tried_ = h;
   }
   system_.move_to(trial_.t, trial_.q, trial_.v);
-  const Vec* lambda = nullptr;
-  return value(w, trial_, lambda);
+  bool accelerated = false;
+  return value(w, trial_, accelerated);
 }
 
 void EventLocation::find_suspects(const State& now, double h, const State& next) {
@@ -300,6 +314,7 @@ void EventLocation::report(int w) {
     case Kind::press:
     case Kind::idle:
     case Kind::unload:
+    case Kind::follow:
       return add(changes_.released);
     case Kind::hold:
       return add(changes_.yielded);
@@ -370,7 +385,7 @@ void EventLocation::archive(Archive& a) {
   Vec flat = Eigen::Map<const Vec>(values.data(), values.size());
   a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_);
   if (watches_.empty() && flat.size() > 0) {  // reading: the modes are back, their watches not yet
-    for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
+    watch_all();
     next_.resize(watches_.size()), probe_.resize(watches_.size()), now_.resize(watches_.size());
   }
   modes_before_ = system_.modes().contacts;

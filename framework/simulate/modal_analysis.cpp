@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
 constexpr Eigen::Index null_space_limit = 1500, undamped_limit = 500,
-                       damped_limit = 200;  // a few seconds of dense matrices
+                       damped_limit = 200;   // a few seconds of dense matrices
 constexpr const char* run_to_state = "run";  // the folder below ours, of the run to the state that is analysed
 
 // The scene at the state that the options ask for, with contacts as they are there.

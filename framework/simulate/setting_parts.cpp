@@ -69,7 +69,8 @@ Part step() {
            {.unit = "s", .min = 0, .above_min = true, .doc = "20 times record.every if left out, and at most that"},
            defaults.most)},
       {"A scene without an integrator is run by dop853 with errors below 1e-9; with \"rows\": \"projected\" where "
-       "bodies whose masses differ by more than 1e7 are tied by joints; and by hht_alpha with errors below 1e-7 a step, "
+       "bodies whose masses differ by more than 1e7 are tied by joints; and by hht_alpha with errors below 1e-7 a "
+       "step, "
        "which damps what is fast beside the rest, where the fastest motion goes through more than a million radians in "
        "the run. The summary, 'trammel explain' and \"integrator_choice\" in result.json tell which and why.",
        "A run whose error-controlled steps are far shorter than its records need says so after some seconds, with what "
