@@ -70,7 +70,7 @@ std::optional<Linearisation> linearise_steady(model::AssembledSystem& system, co
                        then = coefficients_in(system, frame_later, later, Z_later, left_later);
     if (!agree(now, then, 1 / tau, noise)) continue;
     system.move_to(s.t, s.q, s.v);
-    return Linearisation{now.M, now.D, now.K, space.Z, space.redundant, noise, true, rate};
+    return Linearisation{now.M, now.D, now.K, space.Z, space.redundant, noise, s.v.lpNorm<Eigen::Infinity>(), rate};
   }
   system.move_to(s.t, s.q, s.v);
   return {};

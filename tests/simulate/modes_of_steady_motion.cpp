@@ -249,6 +249,32 @@ TEST(ModesOfSteadyMotion, APendulumThatSwingsHasNone) {
         << rate;
 }
 
+// A rotor on a ball at its centre, at the end of an arm on a hinge: the arm and the spin are free. Its axis stays in the world, or
+// nutates with I3/I1 w there; the arm's frame sees both turn back by W.
+TEST(ModesOfSteadyMotion, ARotorOnATurningArmIsSeenFromTheArm) {
+  const double W = 4, w = 54;
+  const auto arm = [&](const char* joint, const char* inertia) {
+    return fmt::format(R"({{"trammel": 1, "space": "spatial", "gravity": [0, 0, -9.81],
+      "bodies": {{"arm": {{"type": "rigid_body", "mass": 5, "inertia": [0.1, 0.4, 0.45], "position": [0.5, 0, 0],
+                           "velocity": [0, {0}, 0], "angular_velocity": [0, 0, {1}],
+                           "markers": {{"hub": [-0.5, 0, 0], "end": [0.5, 0, 0]}}}},
+                  "rotor": {{"type": "rigid_body", "mass": 1, "inertia": {2}, "position": [1, 0, 0], "velocity": [0, {1}, 0],
+                             "angular_velocity": [0, 0, {3}]}}}},
+      "joints": {{"hub": {{"type": "revolute", "between": ["ground", "arm.hub"]}},
+                  "rotor": {{"type": "{4}", "between": ["arm.end", "rotor.com"]}}}}, "simulate": {{"until": 1}}}})",
+                       W / 2, W, inertia, w, joint);
+  };
+  const Modes ball = modes_of(arm("spherical", "[0.02, 0.02, 0.03]"), {}, steady());
+  ASSERT_EQ(ball.oscillations().size(), 2u);
+  EXPECT_NEAR(ball.oscillations()[0], W, close * w);
+  EXPECT_NEAR(ball.oscillations()[1], 1.5 * w - W, close * w);
+  EXPECT_EQ(ball.result["unstable"], 0);
+  // On an axle along the arm's own axis nothing is left but both turns, whatever the rotor's symmetry.
+  for (const char* inertia : {"[0.02, 0.02, 0.03]", "[0.02, 0.025, 0.03]"})
+    EXPECT_THAT(modes_of(arm("revolute", inertia), {}, steady()).kinds(), testing::Each("zero")) << inertia;
+  EXPECT_THAT(failure_of(arm("spherical", "[0.02, 0.025, 0.03]")), HasSubstr("coefficients that change with time"));
+}
+
 // A mass on a rod at the end of an arm of length R that turns at W: it lags with W sqrt(R/l) and flaps with W sqrt(1 + R/l).
 TEST(ModesOfSteadyMotion, APendulumOnATurningArmLagsAndFlaps) {
   for (const double W : {3.0, 40.0})
