@@ -10,9 +10,9 @@
 //     D_r = Z^T (M (Z' + Y) + D Z)
 //     K_r = Z^T (M Y' + D Y + K Z),        Z^T M Z'' = -Z'^T M Z' - Z^T M' Z'
 //
-// Without these terms a pendulum that passes its lowest point would be stiffer by the pull of its own rotation. A steady motion has
-// coefficients that need no freezing: steady_linearisation.hpp.
-// A sliding contact's force lies beside its row (W is not G): Z^T on the left is then the null space of W.
+// Without these terms a pendulum that passes its lowest point would be stiffer by the pull of its own rotation. A
+// steady motion has coefficients that need no freezing: steady_linearisation.hpp. A sliding contact's force lies beside
+// its row (W is not G): Z^T on the left is then the null space of W.
 #pragma once
 
 #include <trammel/integrator.hpp>

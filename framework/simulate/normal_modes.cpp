@@ -45,8 +45,8 @@ Undamped undamped(const Linearisation& l) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-// About a steady motion each direction that K leaves free may be moved along, and its rate may be another: lambda = 0 twice, which
-// round-off parts to its root. Which of the lambda = s mu these are; K is M^-1 K [1/s^2].
+// About a steady motion each direction that K leaves free may be moved along, and its rate may be another: lambda = 0
+// twice, which round-off parts to its root. Which of the lambda = s mu these are; K is M^-1 K [1/s^2].
 std::vector<bool> drifts_of(const Mat& K, double noise, double speed, double s, const Eigen::VectorXcd& mu) {
   std::vector<bool> drifts(std::size_t(mu.size()), false);
   if (speed == 0) return drifts;
@@ -62,8 +62,8 @@ std::vector<bool> drifts_of(const Mat& K, double noise, double speed, double s, 
   return drifts;
 }
 
-// What nothing holds stays where it is in the world, or drifts, and goes round as seen from the frame: lambda = i Omega, twice,
-// which round-off parts to its root.
+// What nothing holds stays where it is in the world, or drifts, and goes round as seen from the frame: lambda = i
+// Omega, twice, which round-off parts to its root.
 Complex without_drift(Complex lambda, double frame_rate) {
   const Complex round(0, frame_rate);
   return std::abs(lambda - round) <= 1e-6 * frame_rate ? round : lambda;

@@ -10,7 +10,8 @@
 namespace trammel::simulate {
 namespace {
 
-// Coefficients may differ by this much of the rate of the motion [1/s], or its square, and by so many times the noise of K.
+// Coefficients may differ by this much of the rate of the motion [1/s], or its square, and by so many times the noise
+// of K.
 constexpr double constant = 1e-7, noisy = 100;
 
 // Of rows against what stands in their null space.
