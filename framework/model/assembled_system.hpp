@@ -87,8 +87,8 @@ class AssembledSystem final : public System {
   // For statics: points have v = 0, markers that a law of time moves stand still where they are, and contacts stick by rows,
   // however their friction decides. Modes are to be set anew afterwards.
   void hold_still(bool still);
-  // For statics: factorise({0, 0, 1}, 0, lambda), but in bodies with CarriedStress K has the stresses at `carried.from` carried on
-  // linearly by `carried.dq`. It is a part of this call alone: every other K is exact.
+  // For statics: factorise({0, 0, 1}, 0, lambda), but in bodies with CarriedStress K has the stresses at `carried.from`
+  // carried on linearly by `carried.dq`. It is a part of this call alone: every other K is exact.
   void factorise_with_stress(const CarriedFrom& carried, const Vec& lambda);
 
   // At the point of the last move_to. Each evaluates only what it needs.

@@ -24,7 +24,8 @@ Bend bend_at_end(double rise) {
   return {rise * Vector2d(60, 360), Matrix2d{{-24, -3}, {-168, -24}}, Matrix2d{{-36, 9}, {-192, 36}}};
 }
 
-// The bends of two pieces that meet, in units of the piece before: its third derivative times h^2, the fourth times h^3.
+// The bends of two pieces that meet, in units of the piece before: its third derivative times h^2, the fourth times
+// h^3.
 struct Meeting {
   double h, k;  // lengths before and after
   Bend before, after;
@@ -43,8 +44,8 @@ struct Meeting {
   Vector2d right() const { return scaled * after.step - before.step; }
 };
 
-// (v_i, a_i) of the quintic spline with those of both ends given: at each inner row the bend at the end of the piece before
-// equals the one at the beginning of the piece after, a block tridiagonal system.
+// (v_i, a_i) of the quintic spline with those of both ends given: at each inner row the bend at the end of the piece
+// before equals the one at the beginning of the piece after, a block tridiagonal system.
 std::vector<Vector2d> slopes_of_spline(const std::vector<double>& t, const std::vector<double>& x,
                                        const Vector2d& ends) {
   const std::size_t n = t.size();
@@ -69,8 +70,8 @@ std::vector<Vector2d> slopes_of_spline(const std::vector<double>& t, const std::
   return u;
 }
 
-// The same where the last row is the first of the next period: the ends are such that the bends agree there, too. They enter
-// linearly, so three splines tell.
+// The same where the last row is the first of the next period: the ends are such that the bends agree there, too. They
+// enter linearly, so three splines tell.
 std::vector<Vector2d> slopes_of_periodic_spline(const std::vector<double>& t, const std::vector<double>& x) {
   const std::size_t n = t.size();
   const Meeting at(x[n - 2], x[n - 1], x[1], t[n - 1] - t[n - 2], t[1] - t[0]);

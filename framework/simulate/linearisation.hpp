@@ -10,9 +10,9 @@
 //     D_r = Z^T (M (Z' + Y) + D Z)
 //     K_r = Z^T (M Y' + D Y + K Z),        Z^T M Z'' = -Z'^T M Z' - Z^T M' Z'
 //
-// Without these terms a pendulum that passes its lowest point would be stiffer by the pull of its own rotation. A steady motion has
-// coefficients that need no freezing: steady_linearisation.hpp.
-// A sliding contact's force lies beside its row (W is not G): Z^T on the left is then the null space of W.
+// Without these terms a pendulum that passes its lowest point would be stiffer by the pull of its own rotation. A
+// steady motion has coefficients that need no freezing: steady_linearisation.hpp. A sliding contact's force lies beside
+// its row (W is not G): Z^T on the left is then the null space of W.
 #pragma once
 
 #include <trammel/integrator.hpp>
@@ -26,8 +26,7 @@ struct Linearisation {
   Mat Z;                // nv x m
   int redundant = 0;    // rows
   double noise = 1e-9;  // noise_of_stiffness
-  bool steady =
-      false;  // of a steady motion: the coefficients are constant, and rates of motions that nothing holds may drift
+  double speed = 0;  // of a steady motion, whose coefficients are constant: its largest velocity [m/s, rad/s]; else 0
   // [rad/s] of the frame that y is seen from, in the plane about the third axis; 0: none turns.
   Eigen::Vector3d frame_rate = Eigen::Vector3d::Zero();
 };

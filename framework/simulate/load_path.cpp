@@ -206,8 +206,8 @@ bool LoadPath::unbalance(const Point& at) {
   return now_.unbalanced <= settings_.load_tolerance && g <= std::max(1e-14, settled * extent_);
 }
 
-// One Newton step from where the system is, with r_ and stresses carried on from `from` by the last increment dq, which becomes
-// the new one.
+// One Newton step from where the system is, with r_ and stresses carried on from `from` by the last increment dq, which
+// becomes the new one.
 bool LoadPath::correct(Point& at, const Arc* arc, const Vec& from, Vec& dq) {
   system_.factorise_with_stress({from, dq}, at.lambda);
   Vec dlambda, q;

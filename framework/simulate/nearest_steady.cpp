@@ -24,7 +24,8 @@ double largest(const Vec& x) {
   return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0;
 }
 
-// z = (y, u, w): increments of q and v along the rows' tangent space, and of Omega; u and w in parts of the largest velocity.
+// z = (y, u, w): increments of q and v along the rows' tangent space, and of Omega; u and w in parts of the largest
+// velocity.
 class Nearest {
  public:
   Nearest(model::AssembledSystem& system, const FlatTurning& flat, const State& s, const Vector3d& rate)

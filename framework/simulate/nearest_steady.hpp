@@ -1,12 +1,13 @@
-// The steady motion nearest to a state that is not quite one: a top in precession whose rate was written with a few digits.
+// The steady motion nearest to a state that is not quite one: a top in precession whose rate was written with a few
+// digits.
 //
-// Unknown are q and v within the rows and Omega. The accelerations must be those of what turns with the frame, not at once only but
-// some way on along the motion as well: else a rotor whose spin is off its axis would pass.
+// Unknown are q and v within the rows and Omega. The accelerations must be those of what turns with the frame, not at
+// once only but some way on along the motion as well: else a rotor whose spin is off its axis would pass.
 //
 //     M (E v - a) = 0 at tau = 0, tau_1, tau_2
 //
-// By Gauss and Newton's method with differences; of many solutions (a top has one for each tilt and spin) each step goes to the
-// nearest.
+// By Gauss and Newton's method with differences; of many solutions (a top has one for each tilt and spin) each step
+// goes to the nearest.
 #pragma once
 
 #include <algorithm>

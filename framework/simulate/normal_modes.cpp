@@ -45,26 +45,25 @@ Undamped undamped(const Linearisation& l) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-// About a steady motion each direction that K leaves free may be moved along, and its rate may be another: lambda = 0 twice, which
-// round-off parts to its root. Which of the eigenvalues these are.
-std::vector<bool> drifts_of(const Linearisation& l, const Eigen::VectorXcd& mu) {
+// About a steady motion each direction that K leaves free may be moved along, and its rate may be another: lambda = 0
+// twice, which round-off parts to its root. Which of the lambda = s mu these are; K is M^-1 K [1/s^2].
+std::vector<bool> drifts_of(const Mat& K, double noise, double speed, double s, const Eigen::VectorXcd& mu) {
   std::vector<bool> drifts(std::size_t(mu.size()), false);
-  if (!l.steady) return drifts;
-  Eigen::ColPivHouseholderQR<Mat> qr;
-  qr.setThreshold(1e-9);
-  qr.compute(l.K);
+  if (speed == 0) return drifts;
+  const Vec pivots = Eigen::ColPivHouseholderQR<Mat>(K).matrixQR().diagonal().cwiseAbs();
+  const double zero = 100 * noise * std::max(pivots.maxCoeff(), speed * speed);
   std::vector<Eigen::Index> order(std::size_t(mu.size()));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](Eigen::Index i, Eigen::Index j) { return std::abs(mu(i)) < std::abs(mu(j)); });
-  const auto most = std::min(order.size(), std::size_t(2 * (l.K.rows() - qr.rank())));
-  for (std::size_t k = 0; k < most; ++k)
-    drifts[std::size_t(order[k])] = std::abs(mu(order[k])) <= 1e-5 * std::abs(mu(order.back()));
+  const double slow = 1e-5 * std::max(s * std::abs(mu(order.back())), speed);
+  const auto most = std::size_t(2 * (pivots.array() <= zero).count());
+  for (std::size_t k = 0; k < most; ++k) drifts[std::size_t(order[k])] = s * std::abs(mu(order[k])) <= slow;
   return drifts;
 }
 
-// What nothing holds stays where it is in the world, or drifts, and goes round as seen from the frame: lambda = i Omega, twice,
-// which round-off parts to its root.
+// What nothing holds stays where it is in the world, or drifts, and goes round as seen from the frame: lambda = i
+// Omega, twice, which round-off parts to its root.
 Complex without_drift(Complex lambda, double frame_rate) {
   const Complex round(0, frame_rate);
   return std::abs(lambda - round) <= 1e-6 * frame_rate ? round : lambda;
@@ -85,7 +84,7 @@ void first_order(const Linearisation& l, const Vec& scale, std::vector<Mode>& mo
   const auto mu = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
   const double fastest = s * mu.cwiseAbs().maxCoeff();
-  const std::vector<bool> drifts = drifts_of(l, mu);
+  const std::vector<bool> drifts = drifts_of(K, l.noise, l.speed, s, mu);
   for (Eigen::Index i = 0; i < 2 * m; ++i) {
     if (mu(i).imag() < 0) continue;
     const Complex lambda = s * mu(i);
@@ -152,7 +151,8 @@ Spectrum dense_modes(const Linearisation& l, int count) {
     const double fastest = std::sqrt(u.omega2.cwiseAbs().maxCoeff());
     for (Eigen::Index i = 0; i < u.omega2.size(); ++i) {
       const double omega2 = u.omega2(i), omega = std::sqrt(std::abs(omega2));
-      const bool zero = vanishes(l.K, u.y.col(i), l.noise);
+      // K of a steady motion is a sum of terms of speed^2.
+      const bool zero = vanishes(l.K, u.y.col(i), l.noise) || std::abs(omega2) <= l.noise * l.speed * l.speed;
       if (!zero && (slowest == 0 || omega < slowest)) slowest = omega;
       const Complex lambda = omega2 < 0 ? Complex(omega, 0) : Complex(0, omega);
       spectrum.modes.push_back(made_mode(lambda, l.Z * u.y.col(i).cast<Complex>(), zero, fastest));

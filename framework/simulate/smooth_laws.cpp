@@ -49,7 +49,8 @@ void check(const Value& component, const plugin::Entry& entry, double begin, dou
   }
 }
 
-// A table ends where its records do. What follows is for the scene to say: a record of 30 s in a run of 40 s may be a mistake.
+// A table ends where its records do. What follows is for the scene to say: a record of 30 s in a run of 40 s may be a
+// mistake.
 void check_span(const Value& table, double begin, double end, Problems& problems) {
   Problems ignored;  // reported when the component was made
   const auto law = table.read_time_function(ignored);

@@ -1,5 +1,5 @@
-// Laws of time must say what they are throughout the run, and those whose derivatives enter the equations of motion must have
-// them: the length of a rod, the place of a base.
+// Laws of time must say what they are throughout the run, and those whose derivatives enter the equations of motion
+// must have them: the length of a rod, the place of a base.
 #pragma once
 
 #include "plugin/parameters.hpp"
@@ -7,8 +7,8 @@
 
 namespace trammel::simulate {
 
-// Reports tables that begin after the run does or end before it, and the first jump in the run of each law that a component of
-// the scene differentiates.
+// Reports tables that begin after the run does or end before it, and the first jump in the run of each law that a
+// component of the scene differentiates.
 void check_laws(const scene::Value& root, plugin::Registry& registry, double begin, double end,
                 scene::Problems& problems);
 

@@ -10,7 +10,8 @@
 namespace trammel::simulate {
 namespace {
 
-// Coefficients may differ by this much of the rate of the motion [1/s], or its square, and by so many times the noise of K.
+// Coefficients may differ by this much of the rate of the motion [1/s], or its square, and by so many times the noise
+// of K.
 constexpr double constant = 1e-7, noisy = 100;
 
 // Of rows against what stands in their null space.
@@ -70,7 +71,7 @@ std::optional<Linearisation> linearise_steady(model::AssembledSystem& system, co
                        then = coefficients_in(system, frame_later, later, Z_later, left_later);
     if (!agree(now, then, 1 / tau, noise)) continue;
     system.move_to(s.t, s.q, s.v);
-    return Linearisation{now.M, now.D, now.K, space.Z, space.redundant, noise, true, rate};
+    return Linearisation{now.M, now.D, now.K, space.Z, space.redundant, noise, s.v.lpNorm<Eigen::Infinity>(), rate};
   }
   system.move_to(s.t, s.q, s.v);
   return {};

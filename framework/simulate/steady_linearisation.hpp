@@ -4,9 +4,9 @@
 //
 //     M_r = Z^T M Z,   D_r = Z^T (M (Z' + Y) + D Z),   K_r = Z^T (M Y' + D Y + K Z)
 //
-// with the system's D and K of the steady accelerations. The coefficients are constant where the frame sees a system that does not
-// change: a rotor with an axis of symmetry may spin in it, another may not. That is looked at: they are compared with those some
-// way on along the motion. Frequencies are those seen from the frame.
+// with the system's D and K of the steady accelerations. The coefficients are constant where the frame sees a system
+// that does not change: a rotor with an axis of symmetry may spin in it, another may not. That is looked at: they are
+// compared with those some way on along the motion. Frequencies are those seen from the frame.
 #pragma once
 
 #include <optional>

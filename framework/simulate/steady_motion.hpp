@@ -1,12 +1,13 @@
-// A state of steady motion: it goes on as a whole seen from a frame that turns at a constant rate Omega, or from the world (0).
+// A state of steady motion: it goes on as a whole seen from a frame that turns at a constant rate Omega, or from the
+// world (0).
 //
 //     M a - f(t, q, v) + W^T lambda = 0,   g(t, q) = 0,   G v + g_t = 0,   a = E v
 //
-// E v are the accelerations of what turns with the frame (turning_frame.hpp): a rotor at its speed, a top in regular precession, a
-// train on a straight line (a = 0), masses that go round. Omega follows from the state's own accelerations where they are of that
-// kind; rotating bodies may also carry the frame. Where the state is not steady itself, one near it is sought: by Newton's method in q
-// while velocities go along with what turns, v += E dq, and keep their spin; then in q, v and Omega (nearest_steady.hpp). That the
-// motion lasts is looked at some way on.
+// E v are the accelerations of what turns with the frame (turning_frame.hpp): a rotor at its speed, a top in regular
+// precession, a train on a straight line (a = 0), masses that go round. Omega follows from the state's own
+// accelerations where they are of that kind; rotating bodies may also carry the frame. Where the state is not steady
+// itself, one near it is sought: by Newton's method in q while velocities go along with what turns, v += E dq, and keep
+// their spin; then in q, v and Omega (nearest_steady.hpp). That the motion lasts is looked at some way on.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Whether bodies stay within their theory (TheoryLimit), looked at in each accepted state: a warning where its error passes 1 %, an
-// end where no body could have that shape.
+// Whether bodies stay within their theory (TheoryLimit), looked at in each accepted state: a warning where its error
+// passes 1 %, an end where no body could have that shape.
 #pragma once
 
 #include <string>

@@ -1,12 +1,13 @@
 // How a system's numbers change while what they describe stands still in a frame that turns at a constant rate Omega.
 //
-// Some coordinates are places in the world's axes, some are turns in a body's own axes, some are neither (angles of hinges, amplitudes
-// of modes). An increment x of the configuration that stands still in the frame has
+// Some coordinates are places in the world's axes, some are turns in a body's own axes, some are neither (angles of
+// hinges, amplitudes of modes). An increment x of the configuration that stands still in the frame has
 //
 //     x' = B x          places: Omega x x;   turns in body axes: (R^T Omega - omega) x x;   others: 0
 //
-// and the velocities of a neighbouring motion differ by dv = (dq)' + C dq with C = omega x of turns. So dv = E x with E = B + C,
-// which is Omega x of places and R^T Omega x of turns. A motion that is steady in the frame has the accelerations E v.
+// and the velocities of a neighbouring motion differ by dv = (dq)' + C dq with C = omega x of turns. So dv = E x with E
+// = B + C, which is Omega x of places and R^T Omega x of turns. A motion that is steady in the frame has the
+// accelerations E v.
 #pragma once
 
 #include <array>
@@ -20,8 +21,8 @@ namespace trammel::simulate {
 
 // x' of a body's flat coordinates for 1 rad/s about each of the world's axes; empty: they do not turn.
 using FlatTurning = std::vector<std::array<Mat, 3>>;
-// By the bodies' momentum, which tells how they move when the world turns. Bodies that do not tell it are taken for coordinates
-// that do not turn. Exact for coordinates that are places.
+// By the bodies' momentum, which tells how they move when the world turns. Bodies that do not tell it are taken for
+// coordinates that do not turn. Exact for coordinates that are places.
 FlatTurning flat_turning(model::AssembledSystem& system, double t, const Vec& q);
 
 class TurningFrame {

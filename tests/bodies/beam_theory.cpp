@@ -1,4 +1,5 @@
-// The beam beside exact theory: how fast its functions converge when the tip is held or loaded, and how far it may bend.
+// The beam beside exact theory: how fast its functions converge when the tip is held or loaded, and how far it may
+// bend.
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -96,8 +97,8 @@ class HeldTip : public testing::TestWithParam<Held> {
   }
 };
 
-// Modes alone are asymptotic from an error of a few per cent on: N = 20. With static functions the last errors are some 1e-9, where
-// round-off begins (1e-12 of frequencies 100 times as high).
+// Modes alone are asymptotic from an error of a few per cent on: N = 20. With static functions the last errors are some
+// 1e-9, where round-off begins (1e-12 of frequencies 100 times as high).
 TEST_P(HeldTip, ConvergesAsTheFunctionsThatAreLeftOut) {
   EXPECT_NEAR(measured_without({20, 24, 28, 34, 40}), GetParam().without, 0.15);
   EXPECT_NEAR(measured_with_static(GetParam().axial ? std::vector{10, 14, 20, 28, 40} : std::vector{7, 8, 10, 12, 14}),
@@ -155,7 +156,8 @@ TEST(StaticFunctions, CarryATipLoadExactly) {
 struct Tip {
   double x, y, angle;
 };
-// EI psi'' = -P cos psi from psi = 0 with psi'(0) = k, by the classical Runge-Kutta method; lengths by L. The error is 1e-11.
+// EI psi'' = -P cos psi from psi = 0 with psi'(0) = k, by the classical Runge-Kutta method; lengths by L. The error is
+// 1e-11.
 Tip follow(double P, double k, double* moment) {
   constexpr int n = 400;
   const double h = 1.0 / n;
@@ -216,7 +218,8 @@ class BendingLimit : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Coupling, BendingLimit, testing::Values("none", "linear", "full"),
                          [](const auto& test) { return std::string(test.param); });
 
-// Where nothing is said, the elastica is met within 1 %; the limit is not drawn closer than the theory's first neglected term.
+// Where nothing is said, the elastica is met within 1 %; the limit is not drawn closer than the theory's first
+// neglected term.
 TEST_P(BendingLimit, IsSaidWhereTheElasticaIsLeftByOnePercent) {
   const double limit = std::string(GetParam()) == "full" ? std::sqrt(0.0075) : 0.025;
   double worst_below = 0, worst_above = 0;

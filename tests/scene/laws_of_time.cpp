@@ -128,7 +128,8 @@ TEST(TabulatedLaw, IsZeroBeyondItsRows) {
   EXPECT_EQ(law.jet(0.5).value, 0);
 }
 
-// A sine from any row on, in rows at unlike distances: the periodic spline knows no ends, so it is as good there as within.
+// A sine from any row on, in rows at unlike distances: the periodic spline knows no ends, so it is as good there as
+// within.
 TEST(TabulatedLaw, RepeatsValuesWithoutASeam) {
   const double T = 1.7;
   std::vector<double> t, x;

@@ -1,5 +1,6 @@
-// Modes of plates under static loads against the closed forms of beams: a column, and a strip under tension. A strip with Poisson's
-// ratio 0 is a beam of bending stiffness E h^3/12 a width; 12 elements of third degree leave less than 1e-5 of the first frequency.
+// Modes of plates under static loads against the closed forms of beams: a column, and a strip under tension. A strip
+// with Poisson's ratio 0 is a beam of bending stiffness E h^3/12 a width; 12 elements of third degree leave less than
+// 1e-5 of the first frequency.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -36,8 +37,8 @@ double critical_force(double h) {  // [N/m] of a cantilever
   return pi * pi * E * h * h * h / 12 / (4 * L * L);
 }
 
-// Of a cantilever under a dead force, with n = P/EI and m = rho h w^2/EI (both by L), the frequency that makes w = A cosh + B sinh +
-// C cos + D sin of the roots of r^4 + n r^2 - m = 0 meet w'' = 0 and w''' + n w' = 0 at the end.
+// Of a cantilever under a dead force, with n = P/EI and m = rho h w^2/EI (both by L), the frequency that makes w = A
+// cosh + B sinh + C cos + D sin of the roots of r^4 + n r^2 - m = 0 meet w'' = 0 and w''' + n w' = 0 at the end.
 double determinant(double n, double m) {
   const double d = std::sqrt(n * n / 4 + m), a = std::sqrt(d - n / 2), b = std::sqrt(d + n / 2);
   // w'' and w''' + n w' of cosh ax - cos bx and sinh ax - (a/b) sin bx; a^2 + n = b^2.
@@ -84,8 +85,8 @@ TEST(ModesOfLoadedPlates, TheColumnBucklesAtEulersForce) {
     const Modes modes = modes_at(strip(h, clamped, -critical_force(h), 4), share);
     const double exact = frequency_of_column(h, share);
     EXPECT_EQ(modes.result["unstable"], 0) << share;
-    // The pressed column has a critical force that is less by P/Eh = 2e-5 times a small number; near it that moves w^2 by so much
-    // of its value at rest.
+    // The pressed column has a critical force that is less by P/Eh = 2e-5 times a small number; near it that moves w^2
+    // by so much of its value at rest.
     const double at_rest = frequency_of_column(h, 0);
     EXPECT_NEAR(std::pow(modes.frequency(0), 2), exact * exact, 1e-4 * at_rest * at_rest) << share;
   }

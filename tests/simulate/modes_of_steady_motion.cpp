@@ -29,7 +29,8 @@ std::string vec(const Vector3d& x) {
   return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", x(0), x(1), x(2));
 }
 
-// A body on a ball joint at the origin with its centre of mass l along its third axis, at an orientation and angular velocity.
+// A body on a ball joint at the origin with its centre of mass l along its third axis, at an orientation and angular
+// velocity.
 struct Top {
   double mass = 1.3, l = 0.4, g = 9.81;
   Vector3d inertia{0.05, 0.05, 0.03};  // about the centre of mass
@@ -142,7 +143,8 @@ TEST(ModesOfSteadyMotion, ATopInRegularPrecessionNutates) {
   }
 }
 
-// Rates written with a few digits: the nearest regular precession is found, whose nutation differs by as much as they did.
+// Rates written with a few digits: the nearest regular precession is found, whose nutation differs by as much as they
+// did.
 TEST(ModesOfSteadyMotion, ATopNearlyInPrecessionNutatesAsItsNeighbour) {
   for (const double off : {1e-6, 1e-4, 1e-2}) {
     Precession p = precession(0.7, 0.3, 4);
@@ -155,8 +157,8 @@ TEST(ModesOfSteadyMotion, ATopNearlyInPrecessionNutatesAsItsNeighbour) {
   }
 }
 
-// The same of a rotor on a hinge at the end of an arm that goes round with the precession and does not spin: I3 w3 is the momentum
-// of both along the axis, I1 the moment of both about the foot.
+// The same of a rotor on a hinge at the end of an arm that goes round with the precession and does not spin: I3 w3 is
+// the momentum of both along the axis, I1 the moment of both about the foot.
 TEST(ModesOfSteadyMotion, ARotorOnAnArmInRegularPrecessionNutates) {
   const double g = 9.81, C_arm = 0.002, C_rotor = 0.03;
   const double I1 = 0.01 + 0.5 * 0.2 * 0.2 + 0.02 + 1.3 * 0.4 * 0.4, pull = g * (0.5 * 0.2 + 1.3 * 0.4);
@@ -202,7 +204,8 @@ TEST(ModesOfSteadyMotion, AFreeBodyWobbles) {
   }
 }
 
-// A rotor of momentum H in two gimbals, J1 about the outer axis and J2 about the inner one: it nutates with H/sqrt(J1 J2).
+// A rotor of momentum H in two gimbals, J1 about the outer axis and J2 about the inner one: it nutates with H/sqrt(J1
+// J2).
 std::string gyroscope(double spin, const char* rotor_inertia) {
   return fmt::format(R"({{"trammel": 1, "space": "spatial",
     "bodies": {{"outer": {{"type": "rigid_body", "mass": 1, "inertia": [0.12, 0.2, 0.1]}},
@@ -249,7 +252,34 @@ TEST(ModesOfSteadyMotion, APendulumThatSwingsHasNone) {
         << rate;
 }
 
-// A mass on a rod at the end of an arm of length R that turns at W: it lags with W sqrt(R/l) and flaps with W sqrt(1 + R/l).
+// A rotor on a ball at its centre, at the end of an arm on a hinge: the arm and the spin are free. Its axis stays in
+// the world, or nutates with I3/I1 w there; the arm's frame sees both turn back by W.
+TEST(ModesOfSteadyMotion, ARotorOnATurningArmIsSeenFromTheArm) {
+  const double W = 4, w = 54;
+  const auto arm = [&](const char* joint, const char* inertia) {
+    return fmt::format(R"({{"trammel": 1, "space": "spatial", "gravity": [0, 0, -9.81],
+      "bodies": {{"arm": {{"type": "rigid_body", "mass": 5, "inertia": [0.1, 0.4, 0.45], "position": [0.5, 0, 0],
+                           "velocity": [0, {0}, 0], "angular_velocity": [0, 0, {1}],
+                           "markers": {{"hub": [-0.5, 0, 0], "end": [0.5, 0, 0]}}}},
+                  "rotor": {{"type": "rigid_body", "mass": 1, "inertia": {2}, "position": [1, 0, 0], "velocity": [0, {1}, 0],
+                             "angular_velocity": [0, 0, {3}]}}}},
+      "joints": {{"hub": {{"type": "revolute", "between": ["ground", "arm.hub"]}},
+                  "rotor": {{"type": "{4}", "between": ["arm.end", "rotor.com"]}}}}, "simulate": {{"until": 1}}}})",
+                       W / 2, W, inertia, w, joint);
+  };
+  const Modes ball = modes_of(arm("spherical", "[0.02, 0.02, 0.03]"), {}, steady());
+  ASSERT_EQ(ball.oscillations().size(), 2u);
+  EXPECT_NEAR(ball.oscillations()[0], W, close * w);
+  EXPECT_NEAR(ball.oscillations()[1], 1.5 * w - W, close * w);
+  EXPECT_EQ(ball.result["unstable"], 0);
+  // On an axle along the arm's own axis nothing is left but both turns, whatever the rotor's symmetry.
+  for (const char* inertia : {"[0.02, 0.02, 0.03]", "[0.02, 0.025, 0.03]"})
+    EXPECT_THAT(modes_of(arm("revolute", inertia), {}, steady()).kinds(), testing::Each("zero")) << inertia;
+  EXPECT_THAT(failure_of(arm("spherical", "[0.02, 0.025, 0.03]")), HasSubstr("coefficients that change with time"));
+}
+
+// A mass on a rod at the end of an arm of length R that turns at W: it lags with W sqrt(R/l) and flaps with W sqrt(1 +
+// R/l).
 TEST(ModesOfSteadyMotion, APendulumOnATurningArmLagsAndFlaps) {
   for (const double W : {3.0, 40.0})
     for (const double R : {0.3, 2.0}) {
@@ -270,8 +300,8 @@ TEST(ModesOfSteadyMotion, APendulumOnATurningArmLagsAndFlaps) {
     }
 }
 
-// Two equal masses on two equal rods that turn about a hinge, in the plane without weight: M [2 1; 1 1], K = W^2 [1 -1; -1 1] of the
-// rods' angles, so sqrt(5) W beside the turn itself.
+// Two equal masses on two equal rods that turn about a hinge, in the plane without weight: M [2 1; 1 1], K = W^2 [1 -1;
+// -1 1] of the rods' angles, so sqrt(5) W beside the turn itself.
 TEST(ModesOfSteadyMotion, ATurningChainSwingsAboutItsLine) {
   for (const double W : {1.0, 12.0}) {
     const Modes modes = modes_of(fmt::format(R"({{"trammel": 1, "space": "planar",
@@ -288,8 +318,8 @@ TEST(ModesOfSteadyMotion, ATurningChainSwingsAboutItsLine) {
   }
 }
 
-// Two masses joined by a spring that turns: the start is not stretched, the steady motion is. At W the length is k l0/(k - m W^2/2),
-// and it breathes with w^2 = 2 k/m + 3 W^2 at constant momentum.
+// Two masses joined by a spring that turns: the start is not stretched, the steady motion is. At W the length is k
+// l0/(k - m W^2/2), and it breathes with w^2 = 2 k/m + 3 W^2 at constant momentum.
 TEST(ModesOfSteadyMotion, ATurningSpringIsStretchedFirst) {
   const double k = 300, m = 1, W = 5, l0 = 1;
   const Modes modes = modes_of(fmt::format(R"({{"trammel": 1, "space": "planar",

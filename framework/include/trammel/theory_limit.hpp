@@ -1,5 +1,5 @@
-// Ability of a body whose equations hold for small deformations only, such as a beam with small slopes. Runs, statics and modes ask
-// it: they warn where its theory is less accurate than 1 %, and end where no body could have its shape.
+// Ability of a body whose equations hold for small deformations only, such as a beam with small slopes. Runs, statics
+// and modes ask it: they warn where its theory is less accurate than 1 %, and end where no body could have its shape.
 #pragma once
 
 #include <string>
