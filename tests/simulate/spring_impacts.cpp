@@ -57,7 +57,9 @@ TEST(EnergeticLaw, NeverGainsEnergyInRandomImpactsAndTheBooksOfItsLossesBalance)
     EXPECT_LE(outside(s, impact.admissible_impulses()), 1e-9) << i;
     EXPECT_GE(impact.admissible_impulses()(0), 0) << i;
     // An end without restitution takes energy in all, though friction may take at one contact what it gives at another.
-    if (!impact.cut_short()) EXPECT_GE(impact.lost_friction().minCoeff(), -round_off * s.kinetic) << i;
+    if (!impact.cut_short()) {
+      EXPECT_GE(impact.lost_friction().minCoeff(), -round_off * s.kinetic) << i;
+    }
     const Vec u = impact.rates();
     for (const simulate::SpringContact& c : s.contacts)
       EXPECT_GE(u[c.normal], -1e-9 * s.u.lpNorm<Eigen::Infinity>()) << i;  // dependent contacts give way by as much
