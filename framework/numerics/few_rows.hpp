@@ -1,5 +1,5 @@
 // Products with matrices X of few rows and any number of columns, as the rows of constraints are: loops over the columns, with what
-// belongs to one of them in registers. For more rows Eigen's products are as fast.
+// belongs to one of them in registers. For more rows Eigen's products are as fast, unless each touches few of the columns.
 #pragma once
 
 #include <type_traits>
@@ -64,11 +64,23 @@ Eigen::Map<const PartOfRows<part>> part_at(const double* x) {
   return Eigen::Map<const PartOfRows<part>>(x);
 }
 
+// S = X Y^T of rows that are mostly 0, as those of many bodies are: for each number of Y a column of X.
+inline void multiply_sparse_rows(const Mat& X, const Mat& Y, Mat& S) {
+  S.setZero();
+  for (Eigen::Index j = 0; j < Y.cols(); ++j)
+    for (Eigen::Index k = 0; k < Y.rows(); ++k)
+      if (const double y = Y(k, j); y != 0) S.col(k) += y * X.col(j);
+}
+
 // S = X Y^T
 inline void multiply_rows(const Mat& X, const Mat& Y, Mat& S) {
+  constexpr double mostly_zero = 0.2;
   const Eigen::Index m = X.rows(), p = Y.rows(), n = X.cols();
   S.resize(m, p);
-  if (m > few || p > few) return void(S.noalias() = X * Y.transpose());
+  if (m > few || p > few) {
+    if (double((Y.array() != 0).count()) < mostly_zero * double(Y.size())) return multiply_sparse_rows(X, Y, S);
+    return void(S.noalias() = X * Y.transpose());
+  }
   in_parts(m, [&](auto rows, Eigen::Index i) {
     in_parts<4>(p, [&](auto columns, Eigen::Index k) {
       PartOfRows<rows> sum[columns];

@@ -1,7 +1,8 @@
 // The crossing of a continuous function within a bracket, to the resolution asked for.
 //
 // Algorithm 748 (Alefeld, Potra, Shi 1995, ACM TOMS 21(3)): inverse cubic interpolation guarded by bisection, at most twice as
-// many evaluations as bisection, about eight for a smooth function.
+// many evaluations as bisection, about eight for a smooth function. Where slopes are known: by the cubic through values and slopes
+// of both ends (Hermite), guarded by bisection, two or three evaluations.
 #pragma once
 
 #include <functional>
@@ -16,5 +17,17 @@ struct RootBracket {
 
 // Narrows the bracket until it is no wider than `resolution`.
 RootBracket narrow(const std::function<double(double)>& f, RootBracket bracket, double resolution);
+
+struct ValueAndSlope {
+  double f, slope;
+};
+// A bracket from f > 0 at `low` to f < 0 at `high`.
+struct FallingBracket {
+  double low, high;
+  ValueAndSlope at_low, at_high;
+};
+// Returns a place at most `resolution` after the crossing, or so near to it that 0 >= f >= -round_off.
+double crossing(const std::function<ValueAndSlope(double)>& f, FallingBracket bracket, double resolution,
+                double round_off);
 
 }  // namespace trammel::numerics

@@ -151,29 +151,24 @@ void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
   system_.move_to(state.t, state.q, state.v);
   values.resize(watches_.size());
   const Vec* lambda = nullptr;
-  for (int w = 0; w < int(watches_.size()); ++w) {
-    Watch& watch = watches_[w];
-    Value& value = values[w] = {};
-    if (by_force(w)) {
-      if (watch.kind == Kind::hold && watch.at_ends) {
-        value.f = scale_.no_acceleration() - system_.slip_acceleration(watch.contact, state.a).norm();
-        continue;
-      }
-      if (!lambda) {
-        lambda = own_force_ ? &state.lambda : &lambda_;
-        if (!own_force_) system_.accelerate({}, a_, lambda_);
-      }
-      value.f = force(watch, *lambda);
-      continue;
-    }
-    if (watch.kind == Kind::slide) {
-      value = slide(watch.contact, state.a);
-      continue;
-    }
+  for (std::size_t w = 0; w < watches_.size(); ++w) values[w] = value(int(w), state, lambda);
+}
+
+// At the system's point, `state`; `lambda`: the forces there, once one has asked for them.
+EventLocation::Value EventLocation::value(int w, const State& state, const Vec*& lambda) {
+  Watch& watch = watches_[std::size_t(w)];
+  if (watch.kind == Kind::slide) return slide(watch.contact, state.a);
+  if (!by_force(w)) {
     const double sign = watch.kind == Kind::leave ? -1 : 1;
-    value.f = sign * system_.gap(watch.contact);
-    value.slope = sign * system_.gap_rate(watch.contact);
+    return {sign * system_.gap(watch.contact), sign * system_.gap_rate(watch.contact)};
   }
+  if (watch.kind == Kind::hold && watch.at_ends)
+    return {scale_.no_acceleration() - system_.slip_acceleration(watch.contact, state.a).norm(), 0};
+  if (!lambda) {
+    lambda = own_force_ ? &state.lambda : &lambda_;
+    if (!own_force_) system_.accelerate({}, a_, lambda_);
+  }
+  return {force(watch, *lambda), 0};
 }
 
 // Just after an event a function at round-off of 0 tells nothing, unless it goes on falling; nor does one that began below
@@ -184,16 +179,21 @@ bool EventLocation::happened(int w, const Value& end) const {
   return watches_[w].kind != Kind::slide && !by_force(w) && end.slope < -scale_.at_rest();
 }
 
-const EventLocation::Value& EventLocation::step_to(const State& now, double h, int w) {
-  ++steps_tried_;
-  if (!trial_step(integrator_, system_, now, h, trial_)) throw StepRefused{};
-  evaluate(trial_, probe_);
-  return probe_[w];
+EventLocation::Value EventLocation::step_to(const State& now, double h, int w) {
+  if (h != h_tried_) {
+    ++steps_tried_;
+    h_tried_ = 0;
+    if (!trial_step(integrator_, system_, now, h, trial_)) throw StepRefused{};
+    h_tried_ = h;
+  }
+  system_.move_to(trial_.t, trial_.q, trial_.v);
+  const Vec* lambda = nullptr;
+  return value(w, trial_, lambda);
 }
 
 void EventLocation::find_suspects(const State& now, double h, const State& next) {
   for (int w = 0; w < int(watches_.size()); ++w) {
-    Suspect suspect{w, h, next_[w].f};
+    Suspect suspect{w, h, next_[w]};
     if (watches_[w].at_ends) {
       if (next_[w].f < 0 && (by_force(w) || next_[w].slope < -scale_.at_rest())) at_end_.push_back(w);
     } else if (happened(w, next_[w]) || dips(now, h, next, w, suspect) || returns(now, h, w, suspect)) {
@@ -210,6 +210,8 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
   suspects_.clear();
   at_end_.clear();
   changes_.clear();
+  h_tried_ = 0;
+  begin_slopes_.clear(), end_slopes_.clear();
   int first = -1;
   try {
     find_suspects(now, h, next);
@@ -221,9 +223,9 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
     double h_event = h;
     for (Suspect& suspect : suspects_) {
       if (suspect.high > h_event) {  // only if it comes before the earliest so far
-        const Value& there = step_to(now, h_event, suspect.watch);
+        const Value there = step_to(now, h_event, suspect.watch);
         if (!happened(suspect.watch, there)) continue;
-        suspect.high = h_event, suspect.f_high = there.f;
+        suspect.high = h_event, suspect.at_high = there;
       }
       const double located = locate(now, suspect);
       if (first < 0 || located < h_event) first = suspect.watch;
@@ -231,8 +233,10 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
     }
     h_event = std::min(h, std::max(h_event, 4 * eps * std::max(std::abs(now.t), std::abs(now.t + h))));
     if (h_event < h) {
-      ++steps_tried_;
-      if (!trial_step(integrator_, system_, now, h_event, next)) return Found::step_refused;
+      if (h_event == h_tried_)
+        next = trial_;
+      else if (++steps_tried_; !trial_step(integrator_, system_, now, h_event, next))
+        return Found::step_refused;
       evaluate(next, next_);
       h = h_event;
     }
@@ -299,25 +303,30 @@ void EventLocation::collect() {
 double EventLocation::locate(const State& now, const Suspect& suspect) {
   const int w = suspect.watch;
   const double resolution = 2 * eps * std::max(std::abs(now.t), std::abs(now.t + suspect.high));
-  numerics::RootBracket bracket{0, suspect.high, now_[w].f, suspect.f_high};
+  numerics::FallingBracket bracket{0, suspect.high, now_[w], suspect.at_high};
   if (just_handled(w)) {  // look for a moment when it was apart
     double apart = suspect.high;
     bool found = false;
     while (!found && apart > resolution) {
       apart /= 2;
-      const Value& there = step_to(now, apart, w);
+      const Value there = step_to(now, apart, w);
       if (there.f > 0)
-        bracket.low = apart, bracket.f_low = there.f, found = true;
+        bracket.low = apart, bracket.at_low = there, found = true;
       else if (happened(w, there))
-        bracket.high = apart, bracket.f_high = there.f;
+        bracket.high = apart, bracket.at_high = there;
       else  // so near that nothing is to be seen yet: a step to there would find no event, and so without end
         break;
     }
     if (!found) return bracket.high;
   }
-  if (bracket.f_high >= 0) return bracket.high;
-  bracket = numerics::narrow([&](double h) { return step_to(now, h, w).f; }, bracket, resolution);
-  return bracket.high;
+  if (bracket.at_high.f >= 0) return bracket.high;
+  if (by_force(w)) {
+    const auto f = [&](double h) { return step_to(now, h, w).f; };
+    return numerics::narrow(f, {bracket.low, bracket.high, bracket.at_low.f, bracket.at_high.f}, resolution).high;
+  }
+  // A thousandth of what counts as there.
+  const double round_off = 1e-3 * (watches_[w].kind == Kind::slide ? scale_.at_rest() : scale_.touching());
+  return numerics::crossing([&](double h) { return step_to(now, h, w); }, bracket, resolution, round_off);
 }
 
 void EventLocation::archive(Archive& a) {

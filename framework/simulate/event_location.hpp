@@ -33,6 +33,7 @@
 
 #include <trammel/integrator.hpp>
 
+#include "numerics/root_bracket.hpp"
 #include "simulate/between_states.hpp"
 #include "simulate/contact_mode.hpp"
 #include "simulate/contact_scale.hpp"
@@ -74,12 +75,11 @@ class EventLocation {
     int group = -1;           // unload: in Modes::shared
     double little = 0;        // [N] unload: no less is missed
   };
-  struct Value {
-    double f = 0, slope = 0;  // slopes of forces are not known
-  };
+  using Value = numerics::ValueAndSlope;  // slopes of forces are not known
   struct Suspect {
     int watch;
-    double high, f_high;  // [s] length of a step after which the event has happened, and the function there
+    double high;    // [s] length of a step after which the event has happened
+    Value at_high;  // the function there
   };
   struct Cubic;
 
@@ -94,9 +94,10 @@ class EventLocation {
   double little_force(int group);
   Value slide(int contact, const Vec& a);
   void evaluate(const State& state, std::vector<Value>& values);
+  Value value(int w, const State& state, const Vec*& lambda);
   bool just_handled(int w) const { return now_[w].f <= watches_[w].noise; }
   bool happened(int w, const Value& end) const;
-  const Value& step_to(const State& now, double h, int w);
+  Value step_to(const State& now, double h, int w);
   bool hides(const State& now, double h, const State& next);
   bool swings_matter(const std::vector<Value>& values, double h) const;
   bool hides_gap(double h);
@@ -105,6 +106,9 @@ class EventLocation {
   bool returns(const State& now, double h, int w, Suspect& suspect);
   bool worth_slopes(int w, double h) const;
   double force_slope(const State& state, double dt, int w);
+  double slope_at_end(const State& state, double dt, int w, double h, std::vector<double>& slopes);
+  template <class Each>
+  void force_slopes(const State& state, double dt, Each&& each);
   void find_suspects(const State& now, double h, const State& next);
   double locate(const State& now, const Suspect& suspect);
   double same_instant(int contact) const;
@@ -125,6 +129,9 @@ class EventLocation {
   double longest_ = 0;   // [s] step tried since then
   std::vector<Suspect> suspects_;
   std::vector<int> at_end_;
+  std::vector<double> begin_slopes_,
+      end_slopes_;      // of forces at the ends of the step examined, where they were asked for
+  double h_tried_ = 0;  // [s] of the last trial, trial_; 0: none
   ContactChanges changes_;
   State trial_, moved_;
   State between_;

@@ -125,8 +125,8 @@ bool EventLocation::dips(const State& now, double h, const State& next, int w, S
   if (just_handled(w) && cubic.S_low <= 0) return false;
   if (force) {
     if (!worth_slopes(w, h)) return false;
-    cubic.S_low = force_slope(now, 1e-3 * h, w);
-    cubic.S_high = force_slope(next, -1e-3 * h, w);
+    cubic.S_low = slope_at_end(now, 1e-3 * h, w, h, begin_slopes_);
+    cubic.S_high = slope_at_end(next, -1e-3 * h, w, h, end_slopes_);
   }
   for (int probes = 0; probes < 6; ++probes) {
     if (!cubic.dips()) return false;
@@ -135,7 +135,7 @@ bool EventLocation::dips(const State& now, double h, const State& next, int w, S
     const double at = cubic.at;
     const Value there = step_to(now, at, w);
     if (there.f < 0 && happened(w, there)) {
-      suspect.high = at, suspect.f_high = there.f;
+      suspect.high = at, suspect.at_high = there;
       return true;
     }
     const double slope = force ? force_slope(trial_, 1e-3 * h, w) : there.slope;
@@ -156,7 +156,7 @@ bool EventLocation::returns(const State& now, double h, int w, Suspect& suspect)
   if (!(A < 0 && at < h)) return false;
   const Value there = step_to(now, at, w);
   if (!happened(w, there)) return false;
-  suspect.high = at, suspect.f_high = there.f;
+  suspect.high = at, suspect.at_high = there;
   return true;
 }
 
@@ -170,15 +170,36 @@ bool EventLocation::worth_slopes(int w, double h) const {
 }
 
 double EventLocation::force_slope(const State& state, double dt, int w) {
+  double slope = 0;
+  force_slopes(state, dt, [&](double sign, const Vec& lambda) { slope += sign * force(watches_[w], lambda) / dt; });
+  return slope;
+}
+
+// Of all forces at once, for those whose slopes are worth it.
+double EventLocation::slope_at_end(const State& state, double dt, int w, double h, std::vector<double>& slopes) {
+  if (slopes.empty()) {
+    slopes.resize(watches_.size());
+    force_slopes(state, dt, [&](double sign, const Vec& lambda) {
+      for (int i = w; i < int(watches_.size()); ++i)
+        if (by_force(i) && !watches_[i].at_ends && worth_slopes(i, h))
+          slopes[i] += sign * force(watches_[i], lambda) / dt;
+    });
+  }
+  return slopes[w];
+}
+
+// Calls each(-1, lambda) at the state, then each(1, lambda) a time dt later, as far as its accelerations tell.
+template <class Each>
+void EventLocation::force_slopes(const State& state, double dt, Each&& each) {
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
-  const double before = force(watches_[w], lambda_);
+  each(-1, lambda_);
   dq_ = dt * state.v + (0.5 * dt * dt) * state.a;
   system_.retract(state.q, dq_, moved_.q);
   moved_.v = state.v + dt * state.a;
   system_.move_to(state.t + dt, moved_.q, moved_.v);
   system_.accelerate({}, a_, lambda_);
-  return (force(watches_[w], lambda_) - before) / dt;
+  each(1, lambda_);
 }
 
 }  // namespace trammel::simulate

@@ -1,6 +1,7 @@
 #include "simulate/impact_warnings.hpp"
 
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ void ImpactWarnings::check(double t, double kinetic, const std::vector<TouchingC
   if (cut_short && cut_short_++ == 0) first_cut_ = t;
   double gain = 0, most = 0;
   for (const TouchingContact& c : touching) gain -= c.energy_lost(), most += work_at_most(c);
-  if (!(gain > round_off * most)) return;
+  if (!(gain > round_off * most && gain > std::numeric_limits<double>::epsilon() * kinetic)) return;
   ++gains_;
   total_ += gain;
   if (gain <= largest_) return;
