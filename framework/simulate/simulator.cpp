@@ -67,6 +67,7 @@ void Simulator::start(State initial) {
   if (!pressing.empty()) settle(pressing);  // what they store is there from the first instant
   ledger_.start(now_);
   energy_start_ = energy_at_state();
+  most_kinetic_ = energy_start_.kinetic;
   if (!striking.empty()) return settle(striking);
   if (!pressing.empty()) return;
   if (bears) return settle({});
@@ -100,12 +101,14 @@ void Simulator::record_due(Recorder& recorder) {
   }
 }
 
-// Energy without a cause, relative to what was there at the start, fell or rose, came in and went out. A nanojoule more keeps
-// round-off of a system at rest from counting.
+// Energy without a cause, relative to what moved most, fell or rose, came in and went out. A nanojoule more keeps round-off of a
+// system at rest from counting.
 double Simulator::relative_drift() {
-  const double potential = energy_at_state().potential;
-  const double moved = energy_start_.kinetic + std::abs(energy_start_.elastic) +
-                       std::abs(potential - energy_start_.potential) + std::abs(ledger_.supplied()) +
+  const Energy energy = energy_at_state();
+  most_kinetic_ =
+      std::max(most_kinetic_, energy.kinetic);  // what a base brings in to move it, and takes out, is no supply
+  const double moved = most_kinetic_ + std::abs(energy_start_.elastic) +
+                       std::abs(energy.potential - energy_start_.potential) + std::abs(ledger_.supplied()) +
                        std::abs(ledger_.refinements()) + ledger_.dissipated();
   return std::abs(energy_drift()) / (moved + 1e-9 * (1 + std::abs(ledger_.energy_start())));
 }

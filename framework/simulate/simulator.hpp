@@ -120,6 +120,7 @@ class Simulator {
   long long records_ = 0;                                         // written
   bool last_row_ = false;                                         // the row at the end is written
   Energy energy_start_;
+  double most_kinetic_ = 0;  // [J] at the start and at records
   double window_start_ = 0;
   long long window_events_ = 0;
   int standing_ = 0;  // events in a row that hardly moved t
