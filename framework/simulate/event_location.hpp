@@ -78,8 +78,9 @@ class EventLocation {
   using Value = numerics::ValueAndSlope;  // slopes of forces are not known
   struct Suspect {
     int watch;
-    double high;    // [s] length of a step after which the event has happened
-    Value at_high;  // the function there
+    double high;       // [s] length of a step after which the event has happened
+    Value at_high;     // the function there
+    double about = 0;  // [s] where it crosses 0, roughly
   };
   struct Cubic;
 
@@ -110,6 +111,7 @@ class EventLocation {
   template <class Each>
   void force_slopes(const State& state, double dt, Each&& each);
   void find_suspects(const State& now, double h, const State& next);
+  void earliest_first(std::vector<Suspect>& suspects) const;
   double locate(const State& now, const Suspect& suspect);
   double same_instant(int contact) const;
   void collect();
