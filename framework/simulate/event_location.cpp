@@ -218,6 +218,7 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
   evaluate(next, next_);
   for (const Value& value : next_)
     if (!std::isfinite(value.f)) return Found::not_finite;
+  probed_ = false;
   if (may_shorten && hides(now, h, next)) return Found::step_too_long;
   suspects_.clear();
   at_end_.clear();

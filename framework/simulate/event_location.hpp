@@ -127,6 +127,7 @@ class EventLocation {
   std::vector<Watch> watches_;
   std::vector<model::ContactMode> modes_before_;  // at the last restart
   std::vector<Value> now_, next_, probe_;
+  bool probed_ = false;  // probe_ has the functions inside the step examined
   double h_before_ = 0;  // [s] 0: no step yet since the last change
   double longest_ = 0;   // [s] step tried since then
   std::vector<Suspect> suspects_;
