@@ -293,6 +293,7 @@ void Simulator::record_inside(Recorder& recorder) {
     system_.accelerate({}, inside_.a, inside_.lambda);
     recorder.row(system_, inside_, ledger_.totals_inside((t - next_.t) / h));
     audit_.look(system_, inside_);
+    most_kinetic_ = std::max(most_kinetic_, system_.energy().kinetic);
     judge_joints(inside_);
     ++records_;
   }

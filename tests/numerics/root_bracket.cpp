@@ -48,9 +48,9 @@ std::vector<Falling> falling_functions() {
            },
            std::sqrt(0.3)},
           {[](double x) {
-             return ValueAndSlope{std::cos(9 * x), -9 * std::sin(9 * x)};
+             return ValueAndSlope{std::cos(3 * x), -3 * std::sin(3 * x)};
            },
-           std::numbers::pi / 18},
+           std::numbers::pi / 6},
           {[](double x) {
              return ValueAndSlope{std::exp(-20 * x) - 1e-4, -20 * std::exp(-20 * x)};
            },
