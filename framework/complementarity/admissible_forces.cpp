@@ -20,6 +20,8 @@ class DualNewton {
     evaluate(Eigen::LDLT<Mat>(all).solve(lambda));
   }
 
+  void begin_at(const Vec& y) { evaluate(y); }
+
   double solve(Vec& F) {
     const double size = lambda_.norm();
     for (int i = 0; i < most_iterations && missed_.norm() > round_off * size; ++i)
@@ -136,10 +138,68 @@ class DualNewton {
   double value_ = 0, size_ = 0;  // size_: of E E^T
 };
 
+// Tangents of a contact without friction have no force.
+std::size_t tangents(const SharingContact& c) {
+  return c.coefficient > 0 ? c.tangents.size() : 0;
+}
+
+Vec forces_of(const std::vector<SharingContact>& contacts, const Vec& x, Eigen::Index columns) {
+  Vec F = Vec::Zero(columns);
+  Eigen::Index first = 0;
+  for (const SharingContact& c : contacts) {
+    if (c.normal >= 0) F[c.normal] = x[first];
+    ++first;
+    for (std::size_t k = 0; k < tangents(c); ++k) F[c.tangents[k]] = c.coefficient * x[first++];
+  }
+  return F;
+}
+
 }  // namespace
 
+ConeProgram sharing_program(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda) {
+  ConeProgram program;
+  Eigen::Index columns = 0, given = E.rows();
+  for (const SharingContact& c : contacts) {
+    program.cones.push_back(Eigen::Index(1 + tangents(c)));
+    columns += program.cones.back();
+    if (c.normal < 0) ++given;
+  }
+  program.D.setOnes(columns);
+  program.G.setZero(given, columns);
+  program.r.setZero(given);
+  program.r.head(E.rows()) = lambda;
+  Eigen::Index x = 0, row = E.rows();
+  for (const SharingContact& c : contacts) {
+    if (c.normal >= 0)
+      program.G.col(x).head(E.rows()) = E.col(c.normal);
+    else
+      program.G(row, x) = 1, program.r[row++] = c.given;
+    ++x;
+    for (std::size_t k = 0; k < tangents(c); ++k, ++x) {
+      program.D[x] = c.coefficient * c.coefficient;
+      program.G.col(x).head(E.rows()) = c.coefficient * E.col(c.tangents[k]);
+    }
+  }
+  return program;
+}
+
 double admissible_forces(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec& F) {
-  return DualNewton(contacts, E, lambda).solve(F);
+  constexpr double solved = 1e-12;  // of lambda
+  DualNewton newton(contacts, E, lambda);
+  double missed = newton.solve(F);
+  if (missed <= solved * lambda.norm()) return missed;
+  ConeProgram program = sharing_program(contacts, E, lambda);
+  const double size = program.r.lpNorm<Eigen::Infinity>();
+  program.r /= size;
+  const ConeSolution inside = solve_cone_program(program);
+  Vec other = forces_of(contacts, size * inside.x, E.cols());
+  const auto keep_if_better = [&](double other_missed) {
+    if (other_missed < missed) missed = other_missed, F = other;
+  };
+  keep_if_better((E * other - lambda).norm());
+  newton.begin_at(size * inside.y.head(E.rows()));
+  keep_if_better(newton.solve(other));
+  return missed;
 }
 
 }  // namespace trammel::complementarity

@@ -4,12 +4,15 @@
 //
 // Its dual has no constraint: F = Pi(E^T y) with Pi the projection onto the cones, and y minimises |Pi(E^T y)|^2 / 2 - lambda . y,
 // a convex function with a continuous gradient, E F - lambda, by Newton's method with the derivative of the piece that y is in.
-// As springs of the same compliance, pushed by y, dependent contacts share so.
+// As springs of the same compliance, pushed by y, dependent contacts share this way. Where cones are thin, or no force is inside of
+// them, y is far away or has no end, and Newton's method gets stuck: then an interior point method (cone_program.hpp) finds F.
 #pragma once
 
 #include <vector>
 
 #include <trammel/types.hpp>
+
+#include "complementarity/cone_program.hpp"
 
 namespace trammel::complementarity {
 
@@ -20,6 +23,9 @@ struct SharingContact {
   double coefficient = 0;              // c
   double given = 0;                    // N, where `normal` is -1
 };
+
+// E F = lambda and the cones, of x = (N, T/c) of one contact after the other; G's last rows are what is given. Minimises |F|^2 / 2.
+ConeProgram sharing_program(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda);
 
 // Fills F; returns |E F - lambda|, round-off where there are such forces.
 double admissible_forces(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec& F);

@@ -28,6 +28,14 @@ std::vector<std::size_t> contacts_of_rows(const std::vector<ContactPoint>& point
 
 }  // namespace
 
+Mat least_norm_shares(const Mat& shares) {
+  const Index n = shares.cols();
+  const Mat alone = Eigen::LLT<Mat>(Mat::Identity(n, n) + shares.transpose() * shares).solve(Mat::Identity(n, n));
+  Mat share(n + shares.rows(), n);
+  share << alone, shares * alone;
+  return share;
+}
+
 CarryingRows carrying_rows(const std::vector<ContactPoint>& points, const Mat& A,
                            const std::vector<ContactRole>& roles) {
   std::vector<Index> carrying, idle;
@@ -44,9 +52,7 @@ CarryingRows carrying_rows(const std::vector<ContactPoint>& points, const Mat& A
   for (std::size_t i = 0; i < implied.size(); ++i)
     if (std::find(idle.begin(), idle.end(), implied[i]) != idle.end()) shares.row(Index(i)).setZero();
   const Index n = Index(basis.size());
-  result.share.resize(n + shares.rows(), n);
-  const Mat alone = Eigen::LLT<Mat>(Mat::Identity(n, n) + shares.transpose() * shares).solve(Mat::Identity(n, n));
-  result.share << alone, shares * alone;
+  result.share = least_norm_shares(shares);
   result.indeterminate.assign(points.size(), false);
   for (Index i = 0; i < K.rows(); ++i) {
     result.indeterminate[contact_of[std::size_t(implied[std::size_t(i)])]] = true;

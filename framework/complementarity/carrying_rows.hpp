@@ -31,6 +31,10 @@ struct CarryingRows {
 CarryingRows carrying_rows(const std::vector<ContactPoint>& points, const Mat& A,
                            const std::vector<ContactRole>& roles);
 
+// Forces of least norm by their resultants, F = share lambda, (basis, then implied) x basis; rows of `shares` are those of K, or 0
+// where an implied one is idle.
+Mat least_norm_shares(const Mat& shares);
+
 // Contacts that share with each other, by their rows: indices into A, those of each contact together.
 struct SharingGroup {
   std::vector<Eigen::Index> basis, implied;

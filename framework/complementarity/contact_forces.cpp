@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 
 #include "complementarity/contact_order.hpp"
 #include "complementarity/exact_modes.hpp"
@@ -11,12 +13,14 @@
 #include "complementarity/mode_search.hpp"
 #include "complementarity/polyhedral_cone.hpp"
 #include "complementarity/pressing_forces.hpp"
+#include "complementarity/row_basis.hpp"
 
 namespace trammel::complementarity {
 namespace {
 
-// Of the largest entry of A: what a contact yields per unit of its force where several solutions are to be told apart.
-constexpr double compliance = 1e-10;
+// Of the largest entry of A: what a contact yields per unit of its force where several solutions are to be told apart. Where rows
+// depend on each other the first are larger than what Lemke's method perturbs, so that it ends where springs do.
+constexpr double compliances[] = {1e-10, 0.0}, dependent_compliances[] = {1e-6, 1e-8, 1e-10, 0.0};
 // A violation that is round-off of A F, of 1e-4 of its shares: nothing better is looked for.
 constexpr double round_off = 1e-11;
 // Contacts whose modes are searched at most, and how many sets of modes.
@@ -35,7 +39,8 @@ class Cascade {
 
   ContactSolution solve(Vec& F) {
     if (!friction_) return without_friction(F);
-    for (const double yields : {compliance, 0.0})
+    dependent_ = !independent();
+    for (const double yields : dependent_ ? std::span<const double>(dependent_compliances) : compliances)
       if (by_pivoting(yields)) return found(F);
     if (round_ && (try_cones(0, Vec::Zero(b_.size())) || (best_.size() > 0 && try_cones(0, best_)))) return found(F);
     if (!round_ && least_ > largest_violation) try_cones(0, best_.size() > 0 ? best_ : Vec(Vec::Zero(b_.size())));
@@ -72,8 +77,19 @@ class Cascade {
     Vec z, w;
     if (solve_lcp(cone.M(), cone.q(), z, w) != LcpOutcome::solved) return false;
     const Vec near = cone.forces(z);
-    if (!round_) return accept(near);
-    return (yields > 0 && try_cones(yields, near)) || try_cones(0, near);
+    if (!round_) return accept(near, compliant(yields) * near + b_);
+    if (yields > 0 && try_cones(yields, near)) return true;
+    return (yields == 0 || !dependent_) && try_cones(0, near);
+  }
+
+  bool independent() const {
+    std::vector<Eigen::Index> rows(std::size_t(b_.size()));
+    std::iota(rows.begin(), rows.end(), Eigen::Index(0));
+    return find_basis(A_, rows).implied.empty();
+  }
+
+  Mat compliant(double yields) const {
+    return A_ + yields * A_.diagonal().maxCoeff() * Mat::Identity(A_.rows(), A_.cols());
   }
 
   // Newton's method on the cones. With contacts that yield it comes to the one of several solutions that springs have, from which
@@ -81,19 +97,35 @@ class Cascade {
   bool try_cones(double yields, const Vec& start, int rounds = 40) {
     Vec F = start;
     if (yields > 0) {
-      const Mat compliant = A_ + yields * A_.diagonal().maxCoeff() * Mat::Identity(A_.rows(), A_.cols());
-      if (!solve_cones(points_, compliant, b_, F, rounds)) return false;
+      if (!solve_cones(points_, compliant(yields), b_, F, rounds)) return false;
+      if (dependent_ && try_springs(yields, F)) return true;
     }
     const bool found = solve_cones(points_, A_, b_, F, rounds);
     return accept(F) && found;
   }
 
+  // With the share of equal springs, exactly: where the rows that carry also resist forces along their self-stress, these are 0.
+  bool try_springs(double yields, const Vec& nearby) {
+    const Vec a = compliant(yields) * nearby + b_;
+    const CarryingRows carrying =
+        carrying_rows(points_, A_, roles_of(points_, nearby, a, 1e-8 * b_.lpNorm<Eigen::Infinity>()));
+    std::vector<Eigen::Index> rows = carrying.rows.basis;
+    rows.insert(rows.end(), carrying.rows.implied.begin(), carrying.rows.implied.end());
+    const Eigen::Index n = Eigen::Index(rows.size());
+    Mat springs = A_;
+    springs(rows, rows) +=
+        A_.diagonal().maxCoeff() * (Mat::Identity(n, n) - carrying.share * carrying.rows.resultants());
+    Vec F = nearby;
+    return solve_cones(points_, springs, b_, F) && accept(F);
+  }
+
   // Keeps it if it is the best so far, once it is exact or else, where that fails, as it is. In space directions of slip are
   // better known before: the better one. True: no better one is needed.
-  bool accept(const Vec& nearby) {
+  bool accept(const Vec& nearby) { return accept(nearby, A_ * nearby + b_); }
+  bool accept(const Vec& nearby, const Vec& a) {
     for (const double off : {1e-12, 1e-8}) {
       Vec exact = nearby;
-      if (make_exact(points_, A_, b_, off, exact)) keep(exact);
+      if (make_exact(points_, A_, b_, a, off, exact)) keep(exact);
       if (!round_ && least_ <= round_off) return true;
     }
     if (round_ || least_ > largest_violation) keep(nearby);
@@ -123,7 +155,7 @@ class Cascade {
   const Mat& A_;
   const Vec& b_;
   double nothing_;
-  bool friction_ = false, round_ = false;  // round: cones in space
+  bool friction_ = false, round_ = false, dependent_ = false;  // round: cones in space; dependent: rows of A
   Vec best_;
   double least_ = std::numeric_limits<double>::infinity();
 };
@@ -162,10 +194,6 @@ void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, cons
       T *= bound / size;
   }
 }
-
-}  // namespace
-
-namespace {
 
 ContactSolution solve_island(const Island& island, const Mat& A, const Vec& b, Vec& F, Vec& a, double nothing) {
   const OrderedContacts ordered(island.points, A, b);

@@ -3,7 +3,8 @@
 //  1. Without friction: the convex program of pressing_forces.hpp. It finds a solution or proves that there is none, whatever the
 //     number of contacts and the rank of A.
 //  2. With friction: Lemke's method on polyhedral_cone.hpp, first with a small compliance, then without. In space Newton's method
-//     goes on to the round cone (friction_cone.hpp).
+//     goes on to the round cone (friction_cone.hpp). Where rows depend on each other it begins with a larger compliance, and goes on
+//     with springs along their self-stress: the solution that the phase after it has, too.
 //  3. Where that fails: all modes of few contacts, by branch and bound (mode_search.hpp), up to 10 in the plane and 4 in space. It
 //     finds a solution or proves that there is none (Painleve). It gives up where something comes near to a solution, 1e-8 of b,
 //     and is none, and after 20,000 sets of modes.

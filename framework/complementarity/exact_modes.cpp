@@ -46,9 +46,8 @@ namespace {
 
 class ExactModes {
  public:
-  ExactModes(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, double nearby, Vec& F)
-      : points_(points), A_(A), b_(b), F_(F) {
-    a_ = A * F + b;
+  ExactModes(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, const Vec& a, double nearby, Vec& F)
+      : points_(points), A_(A), b_(b), F_(F), a_(a) {
     roles_ = roles_of(points, F, a_, nearby * acceleration_scale());
   }
 
@@ -240,8 +239,13 @@ class ExactModes {
 }  // namespace
 
 bool make_exact(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, double nearby, Vec& F) {
+  return make_exact(points, A, b, A * F + b, nearby, F);
+}
+
+bool make_exact(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, const Vec& a, double nearby,
+                Vec& F) {
   Vec exact = F;
-  if (!ExactModes(points, A, b, nearby, exact).solve()) return false;
+  if (!ExactModes(points, A, b, a, nearby, exact).solve()) return false;
   F = exact;
   return true;
 }

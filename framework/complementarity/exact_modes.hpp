@@ -20,5 +20,8 @@ std::vector<ContactRole> roles_of(const std::vector<ContactPoint>& points, const
 // Changes F, whose accelerations are off by no more than `nearby` of them, to the exact solution. False: it found none.
 [[nodiscard]] bool make_exact(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, double nearby,
                               Vec& F);
+// The same, with the accelerations `a` of the nearby solution, which may be those of contacts that yield.
+[[nodiscard]] bool make_exact(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, const Vec& a,
+                              double nearby, Vec& F);
 
 }  // namespace trammel::complementarity

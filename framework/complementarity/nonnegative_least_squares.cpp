@@ -31,7 +31,9 @@ class ActiveSet {
       }
       while (!all_positive()) {
         back_to_feasible();
-        if (!least_squares()) break;
+        if (least_squares()) continue;
+        z_ = x_(positive_);  // dependent by round-off: no better than it is
+        break;
       }
       take();
       for (State& state : state_)

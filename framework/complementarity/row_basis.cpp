@@ -61,20 +61,23 @@ RowBasis find_basis(const Mat& A, const std::vector<Eigen::Index>& first, const 
   PivotedCholesky cholesky(A);
   cholesky.take(first, result);
   cholesky.take(others, result);
-  const Eigen::Index n = Eigen::Index(result.basis.size()), m = Eigen::Index(result.implied.size());
-  result.K.setZero(m, n);
-  if (n == 0 || m == 0) return result;
+  result.K = implied_by(A, result.basis, result.implied);
+  return result;
+}
+
+Mat implied_by(const Mat& A, const std::vector<Eigen::Index>& basis, const std::vector<Eigen::Index>& implied) {
+  const Eigen::Index n = Eigen::Index(basis.size()), m = Eigen::Index(implied.size());
+  Mat K = Mat::Zero(m, n);
+  if (n == 0 || m == 0) return K;
   const Vec length = A.diagonal().cwiseSqrt();
-  const Vec scale = length(result.basis).cwiseInverse();
-  const Mat of_basis = scale.asDiagonal() * A(result.basis, result.basis) * scale.asDiagonal();
-  const Mat of_implied = scale.asDiagonal() * A(result.basis, result.implied);
-  result.K = (scale.asDiagonal() * Eigen::LLT<Mat>(of_basis).solve(of_implied)).transpose();
+  const Vec scale = length(basis).cwiseInverse();
+  const Mat of_basis = scale.asDiagonal() * A(basis, basis) * scale.asDiagonal();
+  const Mat of_implied = scale.asDiagonal() * A(basis, implied);
+  K = (scale.asDiagonal() * Eigen::LLT<Mat>(of_basis).solve(of_implied)).transpose();
   for (Eigen::Index i = 0; i < m; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
-      if (std::abs(result.K(i, j)) * length[result.basis[std::size_t(j)]] <=
-          no_share * length[result.implied[std::size_t(i)]])
-        result.K(i, j) = 0;
-  return result;
+      if (std::abs(K(i, j)) * length[basis[std::size_t(j)]] <= no_share * length[implied[std::size_t(i)]]) K(i, j) = 0;
+  return K;
 }
 
 bool follows(const Mat& A, const std::vector<Eigen::Index>& rows, Eigen::Index row) {

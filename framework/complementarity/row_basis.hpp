@@ -27,6 +27,9 @@ struct RowBasis {
 // `rows`: indices into A. Those of `first` enter the basis before all others do.
 RowBasis find_basis(const Mat& A, const std::vector<Eigen::Index>& first, const std::vector<Eigen::Index>& others = {});
 
+// K of implied rows: basis and implied are indices into A.
+Mat implied_by(const Mat& A, const std::vector<Eigen::Index>& basis, const std::vector<Eigen::Index>& implied);
+
 // Whether a row follows from these.
 bool follows(const Mat& A, const std::vector<Eigen::Index>& rows, Eigen::Index row);
 

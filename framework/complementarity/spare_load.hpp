@@ -3,8 +3,7 @@
 //     maximise s,     E F = lambda,     |T| <= c (N - s)  at each contact
 //
 // Negative where no admissible forces have these resultants; continuous in them; no more than `most` of them where contacts press
-// against each other, which bounds nothing. By a primal-dual interior point method with Nesterov
-// and Todd's scaling and Mehrotra's correction (Vandenberghe, The CVXOPT linear and quadratic cone program solvers, 2010).
+// against each other, which bounds nothing. By cone_program.hpp.
 #pragma once
 
 #include "complementarity/admissible_forces.hpp"

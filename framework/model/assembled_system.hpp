@@ -111,6 +111,8 @@ class AssembledSystem final : public System {
   // negative where none do.
   double spare_load(int group, const Vec& lambda);
   double largest_load(int group, const Vec& lambda);  // of their forces [N]
+  // [m/s^2] the largest acceleration along a direction that is implied, by an acceleration of the system: 0 while it is.
+  double departure(int group, const Vec& a);
   // [N] of an idle contact: what it would carry as a spring among those that carry; it begins to where this rises through 0.
   double spring_force(int contact, const Vec& lambda);
   Tangential slip(int contact);                             // [m/s]; of contacts with friction

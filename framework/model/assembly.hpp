@@ -155,7 +155,17 @@ struct AssembledSystem::Work {
   }
   double force_along(ContactDirection d,
                      const Vec& lambda);  // [N] of a closed contact, where its friction does not slide
+  void impulse_response(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus);
   void clear_held(const Mat& N, Mat& jump, Mat& delassus);
+  // K and the shares of shared rows at this point (shared_rows.cpp); true if some have changed.
+  bool follow_shares();
+  bool still_implied(const SharedRows& group, const Vec& some);
+  void renew_shares(int group);
+  Vec some_motion();
+  struct Rate {
+    double sum = 0, terms = 0;  // terms: of their sizes
+  };
+  Rate rate_by(ContactDirection d, const Vec& some);
   ContactLoads::Bounds bounds(int contact, const Vec& lambda);     // of its forces where it shares rows
   const ContactLoads& shared_rows(int group, const Vec& lambda);   // with the resultants of a group
   const ContactLoads& shared_loads(int group, const Vec& lambda);  // and with its forces
@@ -170,6 +180,7 @@ struct AssembledSystem::Work {
   double t = 0;
   Vec q, v;
   long long point = 0;
+  long long shares_at = -1;     // the configuration that K and the shares were last looked at
   long long configuration = 0;  // counts changes of what M and G depend on: t, q, modes
   bool mass_fresh = false, rows_fresh = false;
   bool bodies_fresh = false, force_fresh = false;  // f holds what the bodies add; all of it

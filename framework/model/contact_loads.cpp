@@ -10,6 +10,7 @@ namespace trammel::model {
 namespace {
 
 constexpr double round_off = 1e-12;  // of the forces
+constexpr double carried = 1e-9;     // of their resultants: what is missed where the last forces are about to be lost
 
 }  // namespace
 
@@ -41,7 +42,18 @@ void ContactLoads::lay_out_group(int group) {
     member->columns[std::size_t(all[k].row)] = Eigen::Index(g.directions.size());
     g.directions.push_back(Eigen::Index(k));
   }
+  form_resultants(group);
+}
+
+bool ContactLoads::sliding_shares() const {
+  return std::any_of(modes_->shared.begin(), modes_->shared.end(),
+                     [](const SharedRows& s) { return !s.sliding.empty(); });
+}
+
+void ContactLoads::form_resultants(int group) {
+  Group& g = groups_[std::size_t(group)];
   if (g.directions.empty()) return;
+  const SharedRows& rows = modes_->shared[std::size_t(group)];
   const Eigen::Index n = basis_size(group);
   Mat E(n, n + rows.K.rows());
   E << Mat::Identity(n, n), rows.K.transpose();
@@ -113,10 +125,10 @@ std::vector<complementarity::SharingContact> ContactLoads::sharing(const Group& 
 
 void ContactLoads::share_admissibly(Group& group) {
   if (slack(group) >= -round_off * scale(group)) return;
-  // Those that miss the resultants least, where none have them: until the event that follows from it.
+  // Where none have the resultants, springs' forces stay, until the event that follows from it.
   Vec shared;
-  complementarity::admissible_forces(sharing(group), group.E, group.resultants, shared);
-  group.forces(group.directions) = shared;
+  const double missed = complementarity::admissible_forces(sharing(group), group.E, group.resultants, shared);
+  if (missed <= carried * group.resultants.norm()) group.forces(group.directions) = shared;
 }
 
 double ContactLoads::spare_load(int group) const {

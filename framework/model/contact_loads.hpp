@@ -62,6 +62,8 @@ class ContactLoads {
   bool shares_as_spring(int contact, int group) const;
   // [N] how much further each of the others could be unloaded, after `prepare`: complementarity/spare_load.hpp.
   double spare_load(int group) const;
+  bool sliding_shares() const;      // some decide the motion
+  void form_resultants(int group);  // once its K has changed
   double largest_load(int group) const { return scale(groups_[std::size_t(group)]); }
 
  private:

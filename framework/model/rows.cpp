@@ -47,6 +47,7 @@ void AssembledSystem::Work::evaluate_rows() {
   if (coupled) couple_reactions();
   returned();
   rows_fresh = true;
+  if (coupled && loads.sliding_shares() && follow_shares()) couple_reactions();
 }
 
 void AssembledSystem::Work::evaluate_constant_rows() {

@@ -82,7 +82,8 @@ double AssembledSystem::largest_load(int group, const Vec& lambda) {
 }
 
 double AssembledSystem::spring_force(int contact, const Vec& lambda) {
-  const Work& w = *work_;
+  Work& w = *work_;
+  w.follow_shares();
   const ContactLoads::Place& place = w.loads.place({contact, 0});
   const SharedRows& shared = w.modes.shared[std::size_t(place.group)];
   const auto n = int(shared.basis.size());
@@ -90,6 +91,13 @@ double AssembledSystem::spring_force(int contact, const Vec& lambda) {
   for (int k = 0; k < n; ++k)
     sum += shared.K(place.index - n, k) * w.loads.spring(shared.basis[std::size_t(k)], lambda);
   return sum;
+}
+
+double AssembledSystem::departure(int group, const Vec& a) {
+  double most = 0;
+  for (const ContactDirection& d : work_->modes.shared[std::size_t(group)].implied)
+    most = std::max(most, std::abs(acceleration(d, a)));
+  return most;
 }
 
 std::vector<int> AssembledSystem::Work::contacts_of_row(ContactDirection d) const {
@@ -111,11 +119,13 @@ ContactLoads::Bounds AssembledSystem::Work::bounds(int contact, const Vec& lambd
 }
 
 const ContactLoads& AssembledSystem::Work::shared_rows(int group, const Vec& lambda) {
+  follow_shares();
   loads.prepare(group, lambda, [&](int contact) { return bounds(contact, lambda); });
   return loads;
 }
 
 const ContactLoads& AssembledSystem::Work::shared_loads(int group, const Vec& lambda) {
+  follow_shares();
   loads.solve(group, lambda, [&](int contact) { return bounds(contact, lambda); });
   return loads;
 }
@@ -205,26 +215,30 @@ void AssembledSystem::step_taken() {
 }
 
 void AssembledSystem::impulse_response(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus) {
-  Work& w = *work_;
-  w.evaluate_rows();
+  work_->impulse_response(directions, jump, delassus);
+}
+
+void AssembledSystem::Work::impulse_response(const std::vector<ContactDirection>& directions, Mat& jump,
+                                             Mat& delassus) {
+  evaluate_rows();
   const auto n = Eigen::Index(directions.size());
-  const auto respond = w.with_joints_held();
-  Mat N = Mat::Zero(w.sizes.nv, n);
-  jump.resize(w.sizes.nv, n);
+  const auto respond = with_joints_held();
+  Mat N = Mat::Zero(sizes.nv, n);
+  jump.resize(sizes.nv, n);
   Vec dv, column;
   for (Eigen::Index i = 0; i < n; ++i) {
     const ContactDirection d = directions[std::size_t(i)];
-    const Rows& r = w.contact(d.contact);
-    const Work::Slots& at = w.contact_slots[std::size_t(d.contact)];
-    for (int k = 0; k < at.count; ++k) w.motion(at[k]);
-    column.setZero(w.sizes.nv);
-    w.add_row_force(at, r, d.row, 1, column);
+    const Rows& r = contact(d.contact);
+    const Slots& at = contact_slots[std::size_t(d.contact)];
+    for (int k = 0; k < at.count; ++k) motion(at[k]);
+    column.setZero(sizes.nv);
+    add_row_force(at, r, d.row, 1, column);
     N.col(i) = column;
     respond(column, dv);
     jump.col(i) = dv;
   }
   delassus.noalias() = N.transpose() * jump;
-  w.clear_held(N, jump, delassus);
+  clear_held(N, jump, delassus);
 }
 
 // Directions that the joints hold: what is left of them is round-off.

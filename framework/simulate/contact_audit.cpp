@@ -28,6 +28,7 @@ void ContactAudit::look(model::AssembledSystem& system, const State& state) {
   if (closed.empty()) return;
   Moment moment(system, state);
   const Vec& lambda = moment.lambda();
+  look_at_groups(system, state.t, lambda);
   double largest = 0;
   for (const int i : closed) largest = std::max(largest, std::abs(system.normal_force(i, lambda)));
   for (const int i : closed) {
@@ -45,6 +46,13 @@ void ContactAudit::look(model::AssembledSystem& system, const State& state) {
   }
 }
 
+void ContactAudit::look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda) {
+  const std::vector<model::SharedRows>& shared = system.modes().shared;
+  for (std::size_t group = 0; group < shared.size(); ++group)
+    overloaded_.raise_to(shared[group].implied.front().contact, t, -system.spare_load(int(group), lambda),
+                         system.largest_load(int(group), lambda));
+}
+
 std::vector<std::string> ContactAudit::warnings(const model::Model& model, const Ledger& ledger) const {
   std::vector<std::string> texts;
   const auto name = [&model](int contact) { return model.contacts[std::size_t(contact)].path(); };
@@ -54,6 +62,10 @@ std::vector<std::string> ContactAudit::warnings(const model::Model& model, const
   if (beyond_cone_.contact >= 0)
     texts.push_back(fmt::format("not to be trusted: the friction of {} was {:.3g} N beyond its bound at t = {:.9g} s",
                                 name(beyond_cone_.contact), beyond_cone_.force, beyond_cone_.t));
+  if (overloaded_.contact >= 0)
+    texts.push_back(fmt::format(
+        "not to be trusted: {} and those it shares rows with carry {:.3g} N more than they can at t = {:.9g} s",
+        name(overloaded_.contact), overloaded_.force, overloaded_.t));
   const double moved = std::abs(ledger.dissipated()) + std::abs(ledger.supplied()) + ledger.friction().lpNorm<1>();
   for (Eigen::Index i = 0; i < ledger.friction().size(); ++i)
     if (ledger.friction()[i] < -little * moved)
@@ -67,7 +79,7 @@ void ContactAudit::Worst::archive(Archive& a, const std::string& name) {
 }
 
 void ContactAudit::archive(Archive& a) {
-  pull_.archive(a, "pull"), beyond_cone_.archive(a, "beyond_cone");
+  pull_.archive(a, "pull"), beyond_cone_.archive(a, "beyond_cone"), overloaded_.archive(a, "overloaded");
   Vec flat(Eigen::Index(3 * indeterminate_.size()));
   Eigen::Index k = 0;
   for (const auto& [contact, span] : indeterminate_) {

@@ -2,6 +2,7 @@
 //
 //     N >= 0,   |T| <= mu_0 N  [N],   work of friction <= 0 [J]      but for round-off
 //
+// and whether those that share rows can carry what they carry (AssembledSystem::spare_load).
 // What does not is told in a warning: the run cannot be trusted there. It also keeps when contacts were statically indeterminate,
 // closed with rows that depend on each other, so that their forces are one choice of many (complementarity/carrying_rows.hpp).
 #pragma once
@@ -34,7 +35,9 @@ class ContactAudit {
     void raise_to(int i, double when, double amount, double scale);
     void archive(Archive& a, const std::string& name);
   };
-  Worst pull_, beyond_cone_;
+  void look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda);
+
+  Worst pull_, beyond_cone_, overloaded_;
   std::map<int, Span> indeterminate_;
 };
 

@@ -119,6 +119,21 @@ void ContactModes::gather(const State& state, const ContactChanges& changes, boo
   }
 }
 
+// Rule 7: contacts that slide while what rests, and what is closed, leaves them no slip. The steps leave some, so such slips, the
+// feet of one block, do not reach 0 at one instant. True if there are any, which are added to `changes`.
+bool ContactModes::stop_with_others(ContactChanges& changes) {
+  if (changes.stopped.empty()) return false;
+  const std::vector<bool> held = problem_.held_by_others();
+  const std::size_t before = changes.stopped.size();
+  for (std::size_t i = 0; i < problem_.who.size(); ++i) {
+    const int contact = problem_.who[i].contact;
+    if (!held[i] || !system_.model().contacts[contact].coulomb || contains(changes.stopped, contact)) continue;
+    if (before_.contacts[contact].closed && system_.slip(contact).norm() <= scale_.drift())
+      changes.stopped.push_back(contact);
+  }
+  return changes.stopped.size() > before;
+}
+
 // Rule 7; true if it has ended the slip of contacts that slid, which are added to `changes`.
 bool ContactModes::end_drift(State& state, ContactChanges& changes) {
   bool drifted = false;
@@ -150,7 +165,7 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
     open_all(modes_);
     if (problem_.who.empty()) return {complementarity::LcpOutcome::solved, 0};
     problem_.prepare(system_);
-  } while (end_drift(state, changes));
+  } while (stop_with_others(changes) || end_drift(state, changes));
   system_.set_modes(modes_);
   system_.move_to(state.t, state.q, state.v);
   accelerate_participants();

@@ -34,7 +34,8 @@
 //     exactly there (mu = mu_0). It slides, or opens where sliding would pull (much friction). All others at rest are checked at
 //     the same instant.
 //  7. What was left of the slip of those at rest by the steps (a drift) is ended by the least change of v. Others whose slip
-//     ends with it (the third foot of a table) are at rest as well: from rule 5 again.
+//     ends with it (the third foot of a table) are at rest as well, and so are those that what rests leaves no slip: from rule 5
+//     again.
 //  8. Where rigid contacts have no solution with finite forces (Painleve's rod), the slip stops in an impact without collision:
 //     rule 1 with nothing approaching. If that has none, the run ends with a message; so do modes that contradict each other
 //     at one instant (Simulator).
@@ -89,6 +90,7 @@ class ContactModes {
   ImpactWarnings& impact_warnings() { return impact_warnings_; }
   const ImpactWarnings& impact_warnings() const { return impact_warnings_; }
 
+  double nothing() const;   // [m/s^2] less is no acceleration
   bool any_closed() const;  // but for the bearings of joints, which always are
 
   // [s] Of steps with error control, so that no double zero of a slip velocity is stepped over: 0.45 of the shortest
@@ -119,6 +121,7 @@ class ContactModes {
   void open_all(model::Modes& modes) const;
   void gather(const State& state, const ContactChanges& changes, bool jumped);
   void add_friction(const State& state, Participant& p, const ContactChanges& changes, bool jumped);
+  bool stop_with_others(ContactChanges& changes);
   bool end_drift(State& state, ContactChanges& changes);
   [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped);
   [[nodiscard]] complementarity::ContactSolution take_verdicts();
@@ -132,7 +135,6 @@ class ContactModes {
   void finish(State& state, bool carry);
   void tell_normal(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
   void tell_friction(const State& state, std::vector<ContactEvent>& events);
-  double nothing() const;
   double slow() const;
   double unresolved(int contact, const State& state);
   void keep_forces(const State& state);

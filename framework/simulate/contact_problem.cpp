@@ -159,6 +159,23 @@ void ContactProblem::jump(Vec& dv) const {
   dv.noalias() = jump_ * F_;
 }
 
+std::vector<bool> ContactProblem::held_by_others() const {
+  std::vector<Eigen::Index> held;
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    if (points_[i].normal >= 0) held.push_back(points_[i].normal);
+    for (int k = 0; k < points_[i].tangents && who[i].tangent == Participant::Tangent::resting; ++k)
+      held.push_back(points_[i].tangent + k);
+  }
+  std::vector<bool> all(who.size(), false);
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    if (who[i].tangent != Participant::Tangent::sliding || points_[i].tangent < 0) continue;
+    all[i] = true;
+    for (int k = 0; k < points_[i].tangents; ++k)
+      all[i] = all[i] && complementarity::follows(delassus_, held, points_[i].tangent + k);
+  }
+  return all;
+}
+
 void ContactProblem::end_slip(Vec& dv) const {
   std::vector<Eigen::Index> held;
   Vec slip = Vec::Zero(Eigen::Index(directions_.size()));

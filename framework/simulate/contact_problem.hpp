@@ -47,6 +47,8 @@ class ContactProblem {
   double acceleration_without(std::size_t participant) const;
   // Change of v by the forces found as impulses.
   void jump(Vec& dv) const;
+  // Those that slide along tangents which follow from the normals and from the tangents at rest.
+  std::vector<bool> held_by_others() const;
   // The least change of v that ends the slip `a_t` of all tangents at rest and leaves the unilateral normals alone.
   void end_slip(Vec& dv) const;
   // Unilateral ones without a force that the others keep closed: their rows follow from those of contacts that press.

@@ -22,6 +22,8 @@ class ContactScale {
   // Nearer than this is touching [m], slower is at rest [m/s], less is no acceleration [m/s^2].
   double touching() const { return 1e-12 * length_; }
   double at_rest() const { return 1e-12 * speed_; }
+  // Slower than this may be what the steps leave of the rates of rows that they hold [m/s].
+  double drift() const { return 1e-6 * speed_; }
   // Slip in space that has no direction [m/s] (model/slip.hpp).
   double slow() const { return 1e-7 * speed_; }
   double no_acceleration() const { return length_ > 0 ? 1e-12 * speed_ * speed_ / length_ : 0; }

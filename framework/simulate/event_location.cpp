@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "numerics/root_bracket.hpp"
 #include "simulate/trial_step.hpp"
@@ -27,6 +28,13 @@ EventLocation::EventLocation(model::AssembledSystem& system, Integrator& integra
       scale_(scale),
       between_states_(system, integrator),
       own_force_(!integrator.traits().holds_position && !integrator.traits().holds_velocity) {}
+
+void EventLocation::watch_all() {
+  for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
+  const std::vector<model::SharedRows>& shared = system_.modes().shared;
+  for (std::size_t group = 0; group < shared.size(); ++group)
+    watches_.push_back({.contact = shared[group].implied.front().contact, .kind = Kind::follow, .group = int(group)});
+}
 
 void EventLocation::watch(int contact) {
   const model::ContactEntry& entry = system_.model().contacts[contact];
@@ -83,9 +91,11 @@ void EventLocation::restart(const State& now) {
   watches_.clear();
   h_before_ = longest_ = 0;
   system_.move_to(now.t, now.q, now.v);
-  for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
-  for (Watch& each : watches_)
+  watch_all();
+  for (Watch& each : watches_) {
     if (each.kind == Kind::unload) each.little = little_force(each.group);
+    if (each.kind == Kind::follow) each.little = 10 * modes_.nothing();
+  }
   next_.resize(watches_.size()), probe_.resize(watches_.size());
   evaluate(now, now_);
   for (std::size_t w = 0; w < watches_.size(); ++w) watches_[w].steepest = std::abs(now_[w].slope);
@@ -150,25 +160,29 @@ double EventLocation::force(Watch& watch, const Vec& lambda) {
 void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
   system_.move_to(state.t, state.q, state.v);
   values.resize(watches_.size());
-  const Vec* lambda = nullptr;
-  for (std::size_t w = 0; w < watches_.size(); ++w) values[w] = value(int(w), state, lambda);
+  bool accelerated = false;
+  for (std::size_t w = 0; w < watches_.size(); ++w) values[w] = value(int(w), state, accelerated);
 }
 
-// At the system's point, `state`; `lambda`: the forces there, once one has asked for them.
-EventLocation::Value EventLocation::value(int w, const State& state, const Vec*& lambda) {
+// At the system's point, `state`; `accelerated`: a_ and lambda_ are those there.
+EventLocation::Value EventLocation::value(int w, const State& state, bool& accelerated) {
   Watch& watch = watches_[std::size_t(w)];
+  const auto accelerate = [&] {
+    if (!std::exchange(accelerated, true)) system_.accelerate({}, a_, lambda_);
+  };
   if (watch.kind == Kind::slide) return slide(watch.contact, state.a);
+  if (watch.kind == Kind::follow) {
+    accelerate();
+    return {watch.little - system_.departure(watch.group, a_), 0};
+  }
   if (!by_force(w)) {
     const double sign = watch.kind == Kind::leave ? -1 : 1;
     return {sign * system_.gap(watch.contact), sign * system_.gap_rate(watch.contact)};
   }
   if (watch.kind == Kind::hold && watch.at_ends)
     return {scale_.no_acceleration() - system_.slip_acceleration(watch.contact, state.a).norm(), 0};
-  if (!lambda) {
-    lambda = own_force_ ? &state.lambda : &lambda_;
-    if (!own_force_) system_.accelerate({}, a_, lambda_);
-  }
-  return {force(watch, *lambda), 0};
+  if (!own_force_) accelerate();
+  return {force(watch, own_force_ ? state.lambda : lambda_), 0};
 }
 
 // Just after an event a function at round-off of 0 tells nothing, unless it goes on falling; nor does one that began below
@@ -187,8 +201,8 @@ EventLocation::Value EventLocation::step_to(const State& now, double h, int w) {
     h_tried_ = h;
   }
   system_.move_to(trial_.t, trial_.q, trial_.v);
-  const Vec* lambda = nullptr;
-  return value(w, trial_, lambda);
+  bool accelerated = false;
+  return value(w, trial_, accelerated);
 }
 
 void EventLocation::find_suspects(const State& now, double h, const State& next) {
@@ -207,7 +221,7 @@ void EventLocation::earliest_first(std::vector<Suspect>& suspects) const {
   const auto crossing = [this](const Suspect& s) {
     const Value& begin = now_[s.watch];
     if (!(begin.f > 0 && s.at_high.f < 0)) return s.high;
-    if (by_force(s.watch)) return s.high * begin.f / (begin.f - s.at_high.f);
+    if (!has_slope(s.watch)) return s.high * begin.f / (begin.f - s.at_high.f);
     return numerics::crossing_of_cubic({0, s.high, begin, s.at_high});
   };
   for (Suspect& s : suspects) s.about = crossing(s);
@@ -284,6 +298,7 @@ void EventLocation::report(int w) {
     case Kind::press:
     case Kind::idle:
     case Kind::unload:
+    case Kind::follow:
       return add(changes_.released);
     case Kind::hold:
       return add(changes_.yielded);
@@ -334,7 +349,7 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
     if (!found) return bracket.high;
   }
   if (bracket.at_high.f >= 0) return bracket.high;
-  if (by_force(w)) {
+  if (!has_slope(w)) {
     const auto f = [&](double h) { return step_to(now, h, w).f; };
     return numerics::narrow(f, {bracket.low, bracket.high, bracket.at_low.f, bracket.at_high.f}, resolution).high;
   }
@@ -352,7 +367,7 @@ void EventLocation::archive(Archive& a) {
   Vec flat = Eigen::Map<const Vec>(values.data(), values.size());
   a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_);
   if (watches_.empty() && flat.size() > 0) {  // reading: the modes are back, their watches not yet
-    for (int i = 0; i < int(system_.model().contacts.size()); ++i) watch(i);
+    watch_all();
     next_.resize(watches_.size()), probe_.resize(watches_.size()), now_.resize(watches_.size());
   }
   modes_before_ = system_.modes().contacts;

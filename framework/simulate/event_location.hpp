@@ -7,6 +7,7 @@
 //     hold       sticking contact                mu_0 N - |T|, T the friction that holds it
 //     idle       closed, carries nothing         what it would carry as a spring, with the other sign
 //     unload     contacts that share rows        how much further each of them could be unloaded
+//     follow     contacts that share rows        a little acceleration, less that of a direction that is implied by others
 //     slide      sliding contact                 slip velocity along its direction at the step's begin
 // An event shows in three ways: the function is negative at the step's end; it was positive at both ends but dipped between
 // them (the cubic through values and slopes of both ends tells where to look); or, just after an event that left it at
@@ -26,7 +27,9 @@
 // the level of accelerations, there lambda itself is that force, with their stabilisation. Where rows are redundant lambda is
 // one choice of many: contacts that share rows are watched together, by how much further each of them could be unloaded until
 // they cannot carry what they carry (AssembledSystem::spare_load); which of them then lets go is decided by the complementarity
-// problem (contact_mode.hpp). Where one of them slides its share decides the motion, and each is watched for itself.
+// problem (contact_mode.hpp). Where one of them slides its share decides the motion, and each is watched for itself. What is implied
+// by others has no row in g, so nothing holds it once it no longer follows from them: a support that moves by a law of its own, or
+// bodies that turn out of a singular place. Its acceleration shows that first.
 #pragma once
 
 #include <vector>
@@ -62,7 +65,7 @@ class EventLocation {
   void archive(Archive& a);
 
  private:
-  enum class Kind { approach, leave, press, hold, slide, idle, unload };
+  enum class Kind { approach, leave, press, hold, slide, idle, unload, follow };
   struct Watch {
     int contact;
     Kind kind;
@@ -72,10 +75,10 @@ class EventLocation {
     double bound = 0;         // [N] where it was asked for last: of friction, or of a group the largest of its forces
     double steepest = 0;      // slide: the most that the slip has changed in a unit of time since it began [m/s^2]
     bool reported = false;    // it had an event, the last one
-    int group = -1;           // unload: in Modes::shared
-    double little = 0;        // [N] unload: no less is missed
+    int group = -1;           // unload, follow: in Modes::shared
+    double little = 0;        // no less is missed: [N] unload, [m/s^2] follow
   };
-  using Value = numerics::ValueAndSlope;  // slopes of forces are not known
+  using Value = numerics::ValueAndSlope;  // slopes of forces and accelerations are not known
   struct Suspect {
     int watch;
     double high;       // [s] length of a step after which the event has happened
@@ -84,6 +87,7 @@ class EventLocation {
   };
   struct Cubic;
 
+  void watch_all();
   void watch(int contact);
   bool watched_group(int group) const;
   void watch_friction(int contact, bool as_one);
@@ -91,11 +95,12 @@ class EventLocation {
     const Kind kind = watches_[w].kind;
     return kind == Kind::press || kind == Kind::hold || kind == Kind::idle || kind == Kind::unload;
   }
+  bool has_slope(int w) const { return !by_force(w) && watches_[w].kind != Kind::follow; }
   double force(Watch& watch, const Vec& lambda);
   double little_force(int group);
   Value slide(int contact, const Vec& a);
   void evaluate(const State& state, std::vector<Value>& values);
-  Value value(int w, const State& state, const Vec*& lambda);
+  Value value(int w, const State& state, bool& accelerated);
   bool just_handled(int w) const { return now_[w].f <= watches_[w].noise; }
   bool happened(int w, const Value& end) const;
   Value step_to(const State& now, double h, int w);

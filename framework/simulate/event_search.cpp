@@ -66,7 +66,7 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
     if (watches_[w].kind == Kind::slide && std::abs(next_[w].slope) > 4 * watches_[w].steepest &&
         std::abs(next_[w].slope) * h > now_[w].f && now_[w].f > watches_[w].noise)
       return true;
-    if (watches_[w].at_ends || watches_[w].kind == Kind::slide) continue;
+    if (watches_[w].at_ends || watches_[w].kind == Kind::slide || watches_[w].kind == Kind::follow) continue;
     (by_force(w) ? forces : gaps) = true;
   }
   if (gaps || (forces && h_before_ == 0)) {
@@ -89,7 +89,8 @@ bool EventLocation::swings_matter(const std::vector<Value>& values, double h) co
 bool EventLocation::hides_gap(double h) {
   system_.move_to(between_.t, between_.q, between_.v);
   for (int w = 0; w < int(watches_.size()); ++w) {
-    if (watches_[w].at_ends || watches_[w].kind == Kind::slide || by_force(w)) continue;
+    if (watches_[w].at_ends || watches_[w].kind == Kind::slide || watches_[w].kind == Kind::follow || by_force(w))
+      continue;
     const Value &begin = now_[w], &end = next_[w];
     const Cubic cubic{0, h, begin.f, end.f, begin.slope, end.slope};
     const double there = (watches_[w].kind == Kind::leave ? -1 : 1) * system_.gap(watches_[w].contact);

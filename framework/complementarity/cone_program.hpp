@@ -1,0 +1,30 @@
+// A program over second-order cones:
+//
+//     minimise  x.D x / 2 - s,     G x + u s = r,     x in the cones x_0 >= |x_1|, one after the other;   D >= 0 diagonal
+//
+// s is free, and left out where u is empty. By a primal-dual interior point method with Nesterov and Todd's scaling and Mehrotra's
+// correction (Vandenberghe, The CVXOPT linear and quadratic cone program solvers, 2010). It does not ask that cones are wide or that
+// the program has a solution inside of them, and ends at round-off.
+#pragma once
+
+#include <vector>
+
+#include <trammel/types.hpp>
+
+namespace trammel::complementarity {
+
+struct ConeProgram {
+  std::vector<Eigen::Index> cones;  // sizes, 1 is x_0 >= 0
+  Vec D;
+  Mat G;
+  Vec u, r;  // r of the order of 1
+};
+
+struct ConeSolution {
+  Vec x, y;  // y: D x - G^T y = z, in the cones; u.y = -1
+  double s = 0;
+  double off = 0;  // the largest of the residuals and the gap x.z
+};
+ConeSolution solve_cone_program(const ConeProgram& program);
+
+}  // namespace trammel::complementarity
