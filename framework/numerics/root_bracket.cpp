@@ -19,9 +19,7 @@ RootBracket narrow(const std::function<double(double)>& f, RootBracket bracket, 
   return {low, high, bracket.f_low, bracket.f_high};
 }
 
-namespace {
-
-// Where the cubic through values and slopes of both ends crosses 0, by Newton's method and bisection.
+// By Newton's method and bisection.
 double crossing_of_cubic(const FallingBracket& b) {
   const double h = b.high - b.low, d = (b.at_high.f - b.at_low.f) / h, S = b.at_low.slope, E = b.at_high.slope;
   const auto at = [&](double x) {
@@ -38,8 +36,6 @@ double crossing_of_cubic(const FallingBracket& b) {
   }
   return b.low + h * x;
 }
-
-}  // namespace
 
 // Each place is looked for a little after the crossing of the cubic, as far as round-off reaches, so that it becomes the end.
 double crossing(const std::function<ValueAndSlope(double)>& f, FallingBracket b, double resolution, double round_off) {

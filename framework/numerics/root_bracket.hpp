@@ -26,6 +26,8 @@ struct FallingBracket {
   double low, high;
   ValueAndSlope at_low, at_high;
 };
+// Where the cubic through both ends crosses 0.
+double crossing_of_cubic(const FallingBracket& bracket);
 // Returns a place at most `resolution` after the crossing, or so near to it that 0 >= f >= -round_off.
 double crossing(const std::function<ValueAndSlope(double)>& f, FallingBracket bracket, double resolution,
                 double round_off);

@@ -145,7 +145,14 @@ void ContactModes::strike(State& state, const ContactChanges& changes) {
     if (!capture_chatter(falls)) break;
     system_.move_to(state.t, state.q, v_before_);
   }
-  end_rocking(state, falls);
+  if (const auto first = std::find(falls.begin(), falls.end(), true); first != falls.end()) {
+    system_.move_to(state.t, state.q, state.v);
+    const double rocking = system_.energy().kinetic;
+    end_rocking(state, falls);
+    const double taken = rocking - system_.energy().kinetic;  // by them all; told of one
+    losses_.push_back({touching_[std::size_t(first - falls.begin())].contact, taken});
+    lost_elsewhere_ -= taken;
+  }
   system_.move_to(state.t, state.q, state.v);
   lost_elsewhere_ += kinetic_before - system_.energy().kinetic;
   all = touching_;  // as end_rocking leaves them
@@ -278,7 +285,7 @@ bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
 void ContactModes::end_rocking(State& state, const std::vector<bool>& falls) {
   const double at_rest = scale_.at_rest();
   std::vector<bool> rests = falls;
-  bool any = std::find(falls.begin(), falls.end(), true) != falls.end();
+  bool any = true;
   for (std::size_t i = 0; i < touching_.size(); ++i) rests[i] = rests[i] || touching_[i].after <= at_rest;
   while (any) {
     take_rates(state, rests);

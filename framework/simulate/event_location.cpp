@@ -245,10 +245,23 @@ void EventLocation::find_suspects(const State& now, double h, const State& next)
   }
 }
 
+// By what values and slopes at the ends tell, so that of many the first one is located and the others are seen to come later.
+void EventLocation::earliest_first(std::vector<Suspect>& suspects) const {
+  const auto crossing = [this](const Suspect& s) {
+    const Value& begin = now_[s.watch];
+    if (!(begin.f > 0 && s.at_high.f < 0)) return s.high;
+    if (!has_slope(s.watch)) return s.high * begin.f / (begin.f - s.at_high.f);
+    return numerics::crossing_of_cubic({0, s.high, begin, s.at_high});
+  };
+  for (Suspect& s : suspects) s.about = crossing(s);
+  std::stable_sort(suspects.begin(), suspects.end(), [](const auto& a, const auto& b) { return a.about < b.about; });
+}
+
 EventLocation::Found EventLocation::examine(const State& now, double& h, State& next, bool may_shorten) {
   evaluate(next, next_);
   for (const Value& value : next_)
     if (!std::isfinite(value.f)) return Found::not_finite;
+  probed_ = false;
   if (may_shorten && hides(now, h, next)) return Found::step_too_long;
   suspects_.clear();
   at_end_.clear();
@@ -263,6 +276,7 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
       for (const int w : at_end_) report(w);
       return Found::event;
     }
+    earliest_first(suspects_);
     double h_event = h;
     for (Suspect& suspect : suspects_) {
       if (suspect.high > h_event) {  // only if it comes before the earliest so far
@@ -367,7 +381,7 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
     if (!found) return bracket.high;
   }
   if (bracket.at_high.f >= 0) return bracket.high;
-  if (by_force(w)) {
+  if (!has_slope(w)) {
     const auto f = [&](double h) { return step_to(now, h, w).f; };
     return numerics::narrow(f, {bracket.low, bracket.high, bracket.at_low.f, bracket.at_high.f}, resolution).high;
   }

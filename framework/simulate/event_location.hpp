@@ -81,11 +81,12 @@ class EventLocation {
     int bearing = -1;         // load: among those with a sign
     double side = 1;          // load: 1 or -1
   };
-  using Value = numerics::ValueAndSlope;  // slopes of forces are not known
+  using Value = numerics::ValueAndSlope;  // slopes of forces and accelerations are not known
   struct Suspect {
     int watch;
-    double high;    // [s] length of a step after which the event has happened
-    Value at_high;  // the function there
+    double high;       // [s] length of a step after which the event has happened
+    Value at_high;     // the function there
+    double about = 0;  // [s] where it crosses 0, roughly
   };
   struct Cubic;
 
@@ -100,6 +101,7 @@ class EventLocation {
     return kind == Kind::press || kind == Kind::hold || kind == Kind::idle || kind == Kind::unload ||
            kind == Kind::load;
   }
+  bool has_slope(int w) const { return !by_force(w) && watches_[w].kind != Kind::follow; }
   double force(Watch& watch, double t, const Vec& lambda);
   double little_force(int group);
   Value slide(int contact, const Vec& a);
@@ -120,6 +122,7 @@ class EventLocation {
   template <class Each>
   void force_slopes(const State& state, double dt, Each&& each);
   void find_suspects(const State& now, double h, const State& next);
+  void earliest_first(std::vector<Suspect>& suspects) const;
   double locate(const State& now, const Suspect& suspect);
   double same_instant(int contact) const;
   void collect();
@@ -135,6 +138,7 @@ class EventLocation {
   std::vector<Watch> watches_;
   std::vector<model::ContactMode> modes_before_;  // at the last restart
   std::vector<Value> now_, next_, probe_;
+  bool probed_ = false;  // probe_ has the functions inside the step examined
   double h_before_ = 0;  // [s] 0: no step yet since the last change
   double longest_ = 0;   // [s] step tried since then
   std::vector<Suspect> suspects_;

@@ -106,6 +106,7 @@ bool EventLocation::hides_force(double h) {
     system_.move_to(between_.t, between_.q, between_.v);
     system_.accelerate({}, between_.a, between_.lambda);
     evaluate(between_, probe_);
+    probed_ = true;
   }
   for (int w = 0; w < int(watches_.size()); ++w) {
     if (watches_[w].at_ends || !by_force(w)) continue;
@@ -164,10 +165,12 @@ bool EventLocation::returns(const State& now, double h, int w, Suspect& suspect)
 // Slopes of the force cost a solution of the equations of motion each; they are asked for when the force is so small, compared
 // with its change and the bend of its last three values, that it could have crossed 0 and come back.
 bool EventLocation::worth_slopes(int w, double h) const {
-  const double least = std::min(now_[w].f, next_[w].f), change = std::abs(next_[w].f - now_[w].f);
-  if (h_before_ == 0) return true;
-  const double bend = std::abs((next_[w].f - now_[w].f) - (now_[w].f - watches_[w].force_before) * (h / h_before_));
-  return least < 0.5 * (change + bend);
+  const double least = std::min(now_[w].f, next_[w].f), change = next_[w].f - now_[w].f;
+  if (h_before_ == 0 && !probed_) return true;
+  // Of a parabola: what a step as long before would have shown, from its distance to the chord inside.
+  const double bend = h_before_ == 0 ? (probe_[w].f - now_[w].f - inside * change) * 2 / (inside * (1 - inside))
+                                     : change - (now_[w].f - watches_[w].force_before) * (h / h_before_);
+  return least < 0.5 * (std::abs(change) + std::abs(bend));
 }
 
 double EventLocation::force_slope(const State& state, double dt, int w) {

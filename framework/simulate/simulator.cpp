@@ -70,6 +70,7 @@ void Simulator::start(State initial) {
   if (!pressing.empty()) settle(pressing);  // what they store is there from the first instant
   ledger_.start(now_);
   energy_start_ = energy_at_state();
+  most_kinetic_ = energy_start_.kinetic;
   if (!striking.empty()) return settle(striking);
   if (!pressing.empty()) return;
   if (bears) return settle({});
@@ -112,12 +113,14 @@ double Simulator::little_energy() {
   return little * (moving > 0 ? std::min(1.0, moving) : 1);
 }
 
-// Energy without a cause, relative to what was there at the start, fell or rose, came in and went out. A little more keeps
-// round-off of a system at rest from counting.
+// Energy without a cause, relative to what moved most, fell or rose, came in and went out. A little more keeps round-off of a
+// system at rest from counting.
 double Simulator::relative_drift() {
-  const double potential = energy_at_state().potential;
-  const double moved = energy_start_.kinetic + std::abs(energy_start_.elastic) +
-                       std::abs(potential - energy_start_.potential) + std::abs(ledger_.supplied()) +
+  const Energy energy = energy_at_state();
+  most_kinetic_ =
+      std::max(most_kinetic_, energy.kinetic);  // what a base brings in to move it, and takes out, is no supply
+  const double moved = most_kinetic_ + std::abs(energy_start_.elastic) +
+                       std::abs(energy.potential - energy_start_.potential) + std::abs(ledger_.supplied()) +
                        std::abs(ledger_.refinements()) + ledger_.dissipated();
   return std::abs(energy_drift()) / (moved + little_energy() + 1e-9 * std::abs(ledger_.energy_start()));
 }
@@ -367,6 +370,7 @@ void Simulator::record_inside(Recorder& recorder) {
     system_.accelerate({}, inside_.a, inside_.lambda);
     recorder.row(system_, inside_, ledger_.totals_inside((t - next_.t) / h));
     audit_.look(system_, inside_);
+    most_kinetic_ = std::max(most_kinetic_, system_.energy().kinetic);
     judge_joints(inside_);
     ++records_;
   }

@@ -131,6 +131,7 @@ class Simulator {
   long long records_ = 0;                                         // written
   bool last_row_ = false;                                         // the row at the end is written
   Energy energy_start_;
+  double most_kinetic_ = 0;  // [J] at the start and at records
   double window_start_ = 0;
   long long window_events_ = 0;
   bool locked_ = false;  // no step from here is short enough for joints that slide to have finite forces
