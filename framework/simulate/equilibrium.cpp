@@ -135,19 +135,19 @@ class Rest {
         direction(x));
   }
 
-  // "bodies.rod in its angle": of the coordinates that x moves, the one with the most energy.
+  // "bodies.rod in its angle": the body that x moves with the most energy, and its coordinates that have a tenth of it.
   std::string direction(const Vec& x) {
     const Vec energy = x.cwiseProduct(mass_times(x)).cwiseAbs();
     const model::BodyEntry* most = nullptr;
-    Eigen::Index k = 0;
-    double largest = -1;
-    for (const model::BodyEntry& body : system_.model().bodies) {
-      if (body.nv == 0) continue;
-      Eigen::Index own = 0;
-      if (const double e = energy.segment(body.v0, body.nv).maxCoeff(&own); e > largest)
-        largest = e, most = &body, k = own;
-    }
-    return most ? fmt::format("bodies.{} in {}", most->name, coordinate(*most, k)) : "what moves";
+    for (const model::BodyEntry& body : system_.model().bodies)
+      if (body.nv > 0 && (!most || energy.segment(body.v0, body.nv).sum() > energy.segment(most->v0, most->nv).sum()))
+        most = &body;
+    if (!most) return "what moves";
+    const Vec own = energy.segment(most->v0, most->nv);
+    std::string text;
+    for (Eigen::Index k = 0; k < own.size(); ++k)
+      if (own[k] >= 0.1 * own.sum()) text += (text.empty() ? "" : ", ") + coordinate(*most, k);
+    return fmt::format("bodies.{} in {}", most->name, text);
   }
 
   // By what it does to the body's first marker.

