@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "plugin/out_of_memory.hpp"
 #include "simulate/blame.hpp"
 #include "simulate/checkpoint.hpp"
 #include "simulate/conflict.hpp"
@@ -75,8 +76,8 @@ class Run {
       fail(e.step() || e.call().empty() ? e : e.in_step(step()));
     } catch (const scene::SceneError&) {
       throw;
-    } catch (const std::bad_alloc&) {
-      end(Status::failed, where("out of memory"));
+    } catch (const std::bad_alloc& e) {
+      end(Status::failed, where(plugin::told(e)));
     } catch (...) {
       fail(blame(setup_, simulator_->system().last_call(), scene_.root(), registry_, simulator_->state().t, step()));
     }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "plugin/out_of_memory.hpp"
 #include "simulate/blame.hpp"
 #include "simulate/crash_witness.hpp"
 #include "simulate/load_path.hpp"
@@ -54,8 +55,8 @@ class StaticRun {
     } catch (const plugin::PluginError& e) {
       end(Status::failed, e.what());
       throw;
-    } catch (const std::bad_alloc&) {
-      end(Status::failed, "out of memory");
+    } catch (const std::bad_alloc& e) {
+      end(Status::failed, plugin::told(e));
     } catch (...) {
       const plugin::PluginError error =
           blame(setup_, system_.last_call(), scene_.root(), registry_, path_.state().t, step());

@@ -200,7 +200,7 @@ TEST_F(Plugin, ThatFailsTheSecondTimeItIsLoadedIsNamed) {
 
 #if !defined(__SANITIZE_ADDRESS__)
 TEST_F(Plugin, WhoseGlobalsCrashAtTheEndSpoilsNoResult) {
-  for (const std::vector<std::string> settings :
+  for (const std::vector<std::string>& settings :
        {std::vector<std::string>{}, {"corrections.position=crashes_at_the_end"}}) {
     const auto result = run(kPlugins / "crashes_at_the_end.so", settings);
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -216,7 +216,7 @@ TEST_F(Plugin, WhoseCorrectionFailsIsNamedAndNotTheIntegrator) {
     EXPECT_EQ(result.exit_code, 3) << result.err;
     EXPECT_THAT(result.err,
                 HasSubstr("never_returns.so: correction never_returns (corrections.position): apply at t = "));
-    EXPECT_THAT(result.err, HasSubstr("step 500"));
+    EXPECT_THAT(result.err, HasSubstr("step 501: "));  // the impact split one step in two
     EXPECT_THAT(result.err, HasSubstr(cause));
     EXPECT_EQ(recorded_status(), "failed");
   }

@@ -1,0 +1,28 @@
+// Lack of memory, with the size that was asked for. The program's operator new throws it; Eigen throws std::bad_alloc, which knows none.
+#pragma once
+
+#include <cstdio>
+#include <new>
+
+namespace trammel::plugin {
+
+class OutOfMemory final : public std::bad_alloc {
+ public:
+  explicit OutOfMemory(std::size_t size) noexcept {
+    constexpr double mebibyte = 1 << 20;
+    if (double(size) >= mebibyte)
+      std::snprintf(text_, sizeof text_, "out of memory: %.0f MiB more were asked for", double(size) / mebibyte);
+    else
+      std::snprintf(text_, sizeof text_, "out of memory: %zu bytes more were asked for", size);
+  }
+  const char* what() const noexcept override { return text_; }
+
+ private:
+  char text_[80];  // nothing is allocated for it
+};
+
+inline const char* told(const std::bad_alloc& error) noexcept {
+  return dynamic_cast<const OutOfMemory*>(&error) ? error.what() : "out of memory";
+}
+
+}  // namespace trammel::plugin
