@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "plugin/library_section.hpp"
 #include "program.hpp"
 
 namespace {
@@ -235,7 +236,7 @@ TEST_F(Plugin, ThatIsDamagedDoesNotKeepOthersFromBeingListed) {
   fs::copy_file(kPlugins / "same_name.so", libraries / "damaged.so");
   ASSERT_EQ(trammel({"seal", (libraries / "damaged.so").string()}).exit_code, 0);
   std::string bytes = cli::read_file(libraries / "damaged.so");
-  bytes[bytes.find("same_name")] ^= 1;  // a constant in it
+  bytes[*::trammel::plugin::library_section_offset(libraries / "damaged.so", ".text") + 100] ^= 1;
   cli::write_file(libraries / "damaged.so", bytes);
   const auto listed = trammel({"list", "--json", "--plugin", "libraries"}, {.folder = folder.path()});
   ASSERT_EQ(listed.exit_code, 0) << listed.err;

@@ -14,7 +14,10 @@ void* operator new(std::size_t size) {
   constexpr std::size_t large = 1 << 20;  // bytes: much more than unwinding, a message and result.json take
   if (void* p = std::malloc(size > 0 ? size : 1)) return p;
   if (size >= large) throw trammel::plugin::OutOfMemory(size);
-  trammel::tool::end_without_memory(size);
+  const trammel::plugin::OutOfMemory missing(size);
+  // A child process that tries out a library has another handler, which tells its parent.
+  if (const std::new_handler handler = std::get_new_handler()) trammel::tool::note_missing(missing), handler();
+  trammel::tool::end_without_memory(missing);
 }
 void operator delete(void* p) noexcept {
   std::free(p);

@@ -1,16 +1,27 @@
 #include "no_memory.hpp"
 
 #include "last_words.hpp"
-#include "plugin/out_of_memory.hpp"
 
 namespace trammel::tool {
 
-void watch_for_lack_of_memory() {
-  std::set_new_handler([] { end_without_memory(std::bad_alloc()); });  // for aligned blocks
+namespace {
+
+// A handler has no other way to learn it. None: an aligned block, which the library's own operator new was asked for.
+const plugin::OutOfMemory* noted = nullptr;
+
+void end() {
+  if (noted) end_without_memory(*noted);
+  end_without_memory(std::bad_alloc());
 }
 
-void end_without_memory(std::size_t asked_for) {
-  end_without_memory(plugin::OutOfMemory(asked_for));
+}  // namespace
+
+void watch_for_lack_of_memory() {
+  std::set_new_handler(end);
+}
+
+void note_missing(const plugin::OutOfMemory& block) noexcept {
+  noted = &block;
 }
 
 void end_without_memory(const std::bad_alloc& error) {

@@ -2,15 +2,17 @@
 // code 1, and the records so far; result.json says "failed".
 #pragma once
 
-#include <cstddef>
 #include <new>
+
+#include "plugin/out_of_memory.hpp"
 
 namespace trammel::tool {
 
-// What is asked for by other ways than operator new (allocation.cpp) is watched from here on, too.
+// Sets the handler that operator new calls.
 void watch_for_lack_of_memory();
 
-[[noreturn]] void end_without_memory(std::size_t asked_for);  // [bytes]
+void note_missing(const plugin::OutOfMemory& block) noexcept;  // what the handler will tell of
+
 [[noreturn]] void end_without_memory(const std::bad_alloc& error);
 
 }  // namespace trammel::tool
