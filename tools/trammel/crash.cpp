@@ -62,8 +62,8 @@ void on_exit() {
 [[noreturn]] void on_terminate() {
   try {
     if (std::current_exception()) throw;
-  } catch (const std::bad_alloc&) {
-    end_without_memory();
+  } catch (const std::bad_alloc& error) {
+    end_without_memory(error);
   } catch (const std::exception& e) {
     Line how;
     how.add("it threw where no exception may leave: {}", e.what());

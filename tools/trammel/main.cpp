@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -116,8 +115,7 @@ int run_program(const std::string& program, std::span<const std::string> words) 
   } catch (const plugin::PluginError& error) {
     return fail(Exit::bad_plugin, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (const std::bad_alloc& error) {
-    if (!dynamic_cast<const plugin::OutOfMemory*>(&error)) end_without_memory();
-    return fail(Exit::failed, problem(error), fmt::format("trammel: {}", error.what()));
+    end_without_memory(error);
   } catch (const std::exception& error) {
     return fail(Exit::failed, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (...) {

@@ -1,48 +1,34 @@
 #include "no_memory.hpp"
 
-#include <cstdlib>
-#include <exception>
-#include <new>
-
 #include "last_words.hpp"
-#include "plugin/out_of_memory.hpp"
 
 namespace trammel::tool {
 
 namespace {
 
-constexpr std::size_t large = 1 << 20;  // bytes: much more than unwinding, a message and result.json take
+// A handler has no other way to learn it. None: an aligned block, which the library's own operator new was asked for.
+const plugin::OutOfMemory* noted = nullptr;
 
-[[noreturn]] void missing(std::size_t size) {
-  if (size >= large) throw plugin::OutOfMemory(size);
-  end_without_memory();
+void end() {
+  if (noted) end_without_memory(*noted);
+  end_without_memory(std::bad_alloc());
 }
 
 }  // namespace
 
 void watch_for_lack_of_memory() {
-  std::set_new_handler(end_without_memory);  // for aligned blocks
+  std::set_new_handler(end);
 }
 
-void end_without_memory() {
+void note_missing(const plugin::OutOfMemory& block) noexcept {
+  noted = &block;
+}
+
+void end_without_memory(const std::bad_alloc& error) {
   Line line;
-  line.add("out of memory");
+  line.add("{}", plugin::told(error));
   line.add_time(witness().culprit());
   end_process(Exit::failed, "failed", line);
 }
 
 }  // namespace trammel::tool
-
-// Sanitizers bring their own.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-void* operator new(std::size_t size) {
-  if (void* block = std::malloc(size ? size : 1)) return block;
-  trammel::tool::missing(size);
-}
-void operator delete(void* block) noexcept {
-  std::free(block);
-}
-void operator delete(void* block, std::size_t) noexcept {
-  std::free(block);
-}
-#endif

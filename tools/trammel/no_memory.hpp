@@ -1,15 +1,18 @@
-// A lack of memory is nobody's fault and leaves nothing to build a message from: where a small block cannot be had, the process ends
-// with one that stands ready, exit code 1, and the records so far; result.json says "failed".
-//
-// A large block that is missing leaves room for small ones: std::bad_alloc takes the usual way, to whoever knows what it was for. Its
-// what() says how much was asked for.
+// A lack of memory is nobody's fault and leaves nothing to build a message from: the process ends with one that stands ready, exit
+// code 1, and the records so far; result.json says "failed".
 #pragma once
+
+#include <new>
+
+#include "plugin/out_of_memory.hpp"
 
 namespace trammel::tool {
 
-// What is asked for by other ways than operator new is watched from here on, too.
+// Sets the handler that operator new calls.
 void watch_for_lack_of_memory();
 
-[[noreturn]] void end_without_memory();
+void note_missing(const plugin::OutOfMemory& block) noexcept;  // what the handler will tell of
+
+[[noreturn]] void end_without_memory(const std::bad_alloc& error);
 
 }  // namespace trammel::tool

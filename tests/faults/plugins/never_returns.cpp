@@ -1,6 +1,7 @@
 // The correction works on for ever, or crashes, or throws, once some steps are done.
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <stdexcept>
 #include <string>
@@ -15,9 +16,14 @@ struct NeverReturns : Idle {
     if (next.t < from) return trammel::Outcome::accept();
     if (how == "crash") std::raise(SIGSEGV);
     if (how == "throw") throw std::runtime_error("no way back");
-    for (volatile int i = 0;; i = i + 1)
+    for (;;) {
       if (how == "wait") ::usleep(1000);
+      spins_ = spins_ + 1;
+    }
   }
+
+ private:
+  std::atomic<long> spins_ = 0;  // a loop without any effect would be no loop
 };
 }  // namespace
 

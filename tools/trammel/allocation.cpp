@@ -1,0 +1,29 @@
+// operator new that says how much was asked for when there is no memory; the program's libraries and plugins use it, too. A large
+// block that is missing leaves room for small ones, and its exception takes the usual way. Where a small one is missing, nothing can
+// be built any more: the process ends with a message that stands ready.
+#include <cstdlib>
+#include <new>
+
+#include "no_memory.hpp"
+#include "plugin/out_of_memory.hpp"
+
+// Sanitizers bring their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+void* operator new(std::size_t size) {
+  constexpr std::size_t large = 1 << 20;  // bytes: much more than unwinding, a message and result.json take
+  if (void* p = std::malloc(size > 0 ? size : 1)) return p;
+  if (size >= large) throw trammel::plugin::OutOfMemory(size);
+  const trammel::plugin::OutOfMemory missing(size);
+  // A child process that tries out a library has another handler, which tells its parent.
+  if (const std::new_handler handler = std::get_new_handler()) trammel::tool::note_missing(missing), handler();
+  trammel::tool::end_without_memory(missing);
+}
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+
+#endif
