@@ -20,7 +20,6 @@
 #include "input.hpp"
 #include "last_words.hpp"
 #include "no_memory.hpp"
-#include "plugin/out_of_memory.hpp"
 #include "scene/suggestion.hpp"
 #include "simulate/results_folder.hpp"
 
