@@ -77,10 +77,13 @@ double ContactScale::no_acceleration() const {
   return way > 0 ? 1e-12 * std::max(gravity_, speed_ * speed_ / way) : 0;
 }
 
+// Bodies at rest shake by the round-off of the weight that contacts hold: no less is asked for.
 Tolerance ContactScale::in_own_unit(const Tolerance& tolerance, double every) const {
   if (tolerance.absolute > 0) return tolerance;
-  const double unit = length_ > 0 ? length_ : speed_ > 0 ? speed_ * every : place_ > 0 ? place_ : 1;
-  return {tolerance.relative, tolerance.relative * std::min(1.0, unit)};
+  const double way = speed_ * every + gravity_ * every * every;
+  const double unit = length_ > 0 ? length_ : way > one_point() ? way : place_ > one_point() ? place_ : 1;
+  const double round_off = 256 * std::numeric_limits<double>::epsilon() * gravity_ * every;
+  return {tolerance.relative, std::max(tolerance.relative * std::min(1.0, unit), round_off)};
 }
 
 double ContactScale::error_of_position(const Tolerance& tolerance) const {
