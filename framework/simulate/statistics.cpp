@@ -1,5 +1,7 @@
 #include "simulate/statistics.hpp"
 
+#include <stdexcept>
+
 namespace trammel::simulate {
 
 void Statistics::note_sizes(double t, Sizes now) {
@@ -20,6 +22,7 @@ void Statistics::archive(Archive& a) {
   for (std::size_t i = 0; i < sizes.size(); ++i)
     flat.segment<4>(Eigen::Index(4 * i)) << sizes[i].t, sizes[i].sizes.nq, sizes[i].sizes.nv, sizes[i].sizes.nc;
   a("sizes", flat);
+  if (flat.size() % 4 != 0) throw std::length_error("sizes");
   sizes.clear();
   for (Eigen::Index i = 0; i + 3 < flat.size(); i += 4)
     sizes.push_back({flat[i], {int(flat[i + 1]), int(flat[i + 2]), int(flat[i + 3])}});

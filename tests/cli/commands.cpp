@@ -52,11 +52,11 @@ TEST(Static, LetsAPendulumHangAndWritesIt) {
   const cli::TemporaryFolder folder;
   const auto result = trammel({"static", kPendulum, "--json"}, {.folder = folder.path()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  const json written = json::parse(cli::read_file(folder.path() / "out/pendulum/result.json"));
+  const json written = json::parse(cli::read_file(folder.path() / "out/pendulum_static/result.json"));
   EXPECT_EQ(json::parse(result.out), written);
   EXPECT_EQ(written["analysis"], "static");
   EXPECT_EQ(written["load_steps"].size(), 11u);
-  const std::string last = lines(cli::read_file(folder.path() / "out/pendulum/series.csv")).back();
+  const std::string last = lines(cli::read_file(folder.path() / "out/pendulum_static/series.csv")).back();
   ASSERT_THAT(last, StartsWith("0.5,-"));
   EXPECT_NEAR(std::stod(last.substr(4)), -1, 1e-12) << "bottom_y";
 }
