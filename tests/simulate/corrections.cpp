@@ -54,7 +54,7 @@ const std::string swinging = R"({
 struct OneStep {
   OneStep(const std::string& text, Correction& correction)
       : setup(simulate::set_up(scene::Scene::parse(text, "test.json"), registry())),
-        simulator(setup.model, *setup.integrator, setup.settings, {{Correction::Level::velocity, &correction}}),
+        simulator(setup.model, *setup.integrator, setup.settings, {{Correction::Level::velocity, &correction, nullptr}}),
         recorder(made(folder.path()), *setup.model, setup.columns, std::nullopt) {
     simulator.start(setup.initial);
     simulator.advance(recorder);

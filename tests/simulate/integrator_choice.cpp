@@ -134,15 +134,15 @@ TEST(MassRatio, IsThatOfBodiesTiedByJoints) {
 // Says within seconds what makes it crawl and what cures it, and goes on.
 std::string said_while_it_crawls(const std::string& text) {
   const Folder folder;
-  std::atomic<bool> stop{false};
+  simulate::Interrupt stop;
   std::string said;
   simulate::RunOptions options;
   options.out = folder.path();
   options.interrupt = &stop;
-  options.warn = [&](const std::string& warning) { said = warning, stop = true; };
+  options.warn = [&](const std::string& warning) { said = warning, stop.request(); };
   const auto began = std::chrono::steady_clock::now();
   options.progress = [&](const simulate::Progress&) {
-    if (std::chrono::steady_clock::now() - began > std::chrono::seconds(30)) stop = true;
+    if (std::chrono::steady_clock::now() - began > std::chrono::seconds(30)) stop.request();
   };
   const simulate::RunReport report = simulate::run(scene::Scene::parse(text, "test.json"), registry(), options);
   EXPECT_THAT(nlohmann::json::parse(report.result_json)["warnings"].dump(), HasSubstr(said.substr(0, 20)));
