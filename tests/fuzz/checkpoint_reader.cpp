@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "simulate/checkpoint.hpp"
-#include "simulate/checksum.hpp"
+#include "scene/fnv_hash.hpp"
 
 namespace {
 
@@ -50,7 +50,7 @@ void read(const std::string& bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   read(std::string(reinterpret_cast<const char*>(data), size));
-  Checksum sum;
+  scene::FnvHash sum;
   sum.bytes(data, size);
   const nlohmann::json forged = {{"trammel_checkpoint", checkpoint_format},
                                  {"scene_hash", scene_hash},
