@@ -8,8 +8,9 @@ namespace trammel {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-// Steps of methods that keep errors of 1e-6 to 1e-12 are about this part of the time in which a motion changes.
-constexpr double steps_in_a_motion = 10;
+// The longest steps that keep errors of 1e-9 or so, of methods of order 8, go half the size of a motion (0.6 of the amplitude of a
+// swing); shorter ones are measured more strictly.
+constexpr double steps_in_a_motion = 2;
 
 double largest(const Vec& a, const Vec& b) {
   return a.size() ? std::max(a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>()) : 0;
