@@ -24,9 +24,13 @@ double relative(double change, double size) {
 // measured by its own way in the step, or by 1 where that is less, but never by more than the largest. Below its round-off nothing is
 // asked for.
 void NewmarkStep::measure(const State& now, double h) {
-  const Vec noise = now.q.size() == now.v.size() ? Vec(now.q.cwiseAbs()) : Vec::Constant(now.v.size(), largest(now.q));
   sizes_q_ = h * now.v.cwiseAbs() + h * h * now.a.cwiseAbs() + dq.cwiseAbs();
-  sizes_q_ = sizes_q_.cwiseMax((64 * eps / newton.tolerance) * noise).cwiseMax(1).cwiseMin(size_q_);
+  const double noise = 64 * eps / newton.tolerance;
+  if (now.q.size() == now.v.size())
+    sizes_q_ = sizes_q_.cwiseMax(noise * now.q.cwiseAbs());
+  else
+    sizes_q_ = sizes_q_.cwiseMax(noise * largest(now.q));
+  sizes_q_ = sizes_q_.cwiseMax(1).cwiseMin(size_q_);
 }
 
 void NewmarkStep::begin(const System& s, const State& now, double h, double c_q, double c_v, State& next) {

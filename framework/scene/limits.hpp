@@ -9,7 +9,7 @@ namespace trammel::scene::limits {
 inline constexpr std::size_t bytes = 64u << 20;   // of a scene with all it includes; of a table
 inline constexpr int files = 1000;                // read by include, a file as often as it is named
 inline constexpr int nested = 100;                // arrays and objects; includes by includes; parameters by one another
-inline constexpr std::size_t values = 4'000'000;  // of the whole scene after repetition, about 1 GB of memory
+inline constexpr std::size_t values = 30'000'000;  // of the whole scene after repetition: a mast of 100,000 units has 26 million
 inline constexpr std::size_t bytes_of_a_value = 64;  // longer texts, names and paths count as more values
 inline constexpr std::size_t name = 500;             // [bytes] of a key
 inline constexpr std::size_t problems = 100;         // reported; the next one ends the reading

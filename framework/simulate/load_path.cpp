@@ -268,7 +268,8 @@ LoadPath::Point LoadPath::predict(double t) const {
 }
 
 void LoadPath::keep(Point point) {
-  theories_.look(point.t, point.q);
+  if (const std::string impossible = theories_.look(point.t, point.q); !impossible.empty())
+    throw RunFailed(fmt::format("at t = {:.9g}: {}", point.t, impossible));
   Vec moved;
   system_.difference(point.q, start_, moved);
   if (moved.size() > 0) extent_ = std::max(extent_, moved.lpNorm<Eigen::Infinity>());

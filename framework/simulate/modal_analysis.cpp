@@ -76,7 +76,8 @@ class Posed {
     } else if (!state_.v.isZero(0) && state_.v.size() <= undamped_limit) {
       motion_ = steady_as_it_is(system(), state_);
     }
-    theories.look(state_.t, state_.q);
+    if (const std::string impossible = theories.look(state_.t, state_.q); !impossible.empty())
+      throw RunFailed(fmt::format("at t = {:.9g}: {}", state_.t, impossible));
     for (const std::string& warning : theories.warnings()) setup_.warnings.push_back(warning);
   }
 

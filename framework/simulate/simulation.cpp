@@ -289,6 +289,8 @@ class Run {
       archive("wall", before_.wall), archive("cpu", before_.cpu);
       if (found.lengths.field_times < 0 || found.lengths.field_times > (long long)(setup_.settings.field_times.size()))
         throw std::out_of_range("field_times");
+      if (found.data.at("chosen_integrator").get<std::string>() != setup_.chosen)
+        throw std::invalid_argument("chosen_integrator");
     });
     simulator_->resume();
     if (simulator_->state().t > setup_.settings.until)

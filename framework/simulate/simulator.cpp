@@ -51,7 +51,7 @@ void Simulator::start(State initial) {
   now_ = std::move(initial);
   window_start_ = now_.t;
   turns_.follow(now_.t, now_.q, now_.v);
-  theories_.look(now_.t, now_.q);
+  look_at_theories();
   system_.move_to(now_.t, now_.q, now_.v);
   scale_.take_all(system_);
   measure_joints();
@@ -117,11 +117,10 @@ double Simulator::little_energy() {
 // system at rest from counting.
 double Simulator::relative_drift() {
   const Energy energy = energy_at_state();
-  most_kinetic_ =
-      std::max(most_kinetic_, energy.kinetic);  // what a base brings in to move it, and takes out, is no supply
-  const double moved = most_kinetic_ + std::abs(energy_start_.elastic) +
-                       std::abs(energy.potential - energy_start_.potential) + std::abs(ledger_.supplied()) +
-                       std::abs(ledger_.refinements()) + ledger_.dissipated();
+  most_kinetic_ = std::max(most_kinetic_, energy.kinetic);  // what a base brings in and takes out again is no supply
+  const double changed = std::abs(energy_start_.elastic) + std::abs(energy.potential - energy_start_.potential) +
+                         std::abs(ledger_.supplied()) + std::abs(ledger_.refinements()) + ledger_.dissipated();
+  const double moved = std::max(most_kinetic_, energy_start_.kinetic + changed);
   return std::abs(energy_drift()) / (moved + little_energy() + 1e-9 * std::abs(ledger_.energy_start()));
 }
 
@@ -141,6 +140,11 @@ void Simulator::judge_energy() {
     warnings_.push_back(fmt::format(
         "the method itself changed the energy by {:.3g} J, {:.2g} times all that moved; shorter steps change less",
         energy_drift(), drift));
+}
+
+void Simulator::look_at_theories() {
+  if (const std::string impossible = theories_.look(now_.t, now_.q); !impossible.empty())
+    throw RunFailed(fmt::format("at t = {:.9g} s, step {}: {}", now_.t, statistics_.steps, impossible));
 }
 
 bool Simulator::advance(Recorder& recorder) {
@@ -352,7 +356,7 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
   if (corrections_.empty()) ledger_.step(now_, next_);  // last: it leaves the system in the middle of the step
   std::swap(now_, next_);
   turns_.follow(now_.t, now_.q, now_.v);
-  theories_.look(now_.t, now_.q);
+  look_at_theories();
 }
 
 // Rows due inside the last step (next_ -> now_), by the method's own interpolation.

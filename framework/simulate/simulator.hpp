@@ -87,6 +87,7 @@ class Simulator {
   bool step_and_examine(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
   bool locks_here();
   void jam(Recorder& recorder, double h);
+  void look_at_theories();
   void refuse(const StepControl::Proposal& proposal, const char* reason);
   std::string when(double h) const;
   [[noreturn]] void fail(double h, const std::string& why) const;

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "simulate/run_failed.hpp"
-
 namespace trammel::simulate {
 
 TheoryWatch::TheoryWatch(const model::Model& model) : model_(model) {
@@ -12,19 +10,19 @@ TheoryWatch::TheoryWatch(const model::Model& model) : model_(model) {
       watched_.push_back({i, theory, theory->bounds()});
 }
 
-void TheoryWatch::look(double t, const Vec& q) {
+std::string TheoryWatch::look(double t, const Vec& q) {
   for (Watched& w : watched_) {
     const model::BodyEntry& body = model_.bodies[w.body];
     const double measure = w.theory->stretched(t, q.segment(body.q0, body.nq));
     if (w.largest <= w.bounds.accurate && measure > w.bounds.accurate) w.passed_at = t;
     if (measure > w.largest) w.largest = measure, w.largest_at = t;
     if (measure > w.bounds.possible)
-      throw RunFailed(fmt::format(
-          "at t = {:.9g}: bodies.{} cannot have this shape: its {} is {:.3g}, and a body's is {:.3g} at most; its "
-          "theory is "
-          "accurate to 1 % up to {:.3g}; {}",
-          t, body.name, w.bounds.measure, measure, w.bounds.possible, w.bounds.accurate, w.bounds.alternative));
+      return fmt::format(
+          "bodies.{} cannot have this shape: its {} is {:.3g}, and a body's is {:.3g} at most; its theory is accurate "
+          "to 1 % up to {:.3g}; {}",
+          body.name, w.bounds.measure, measure, w.bounds.possible, w.bounds.accurate, w.bounds.alternative);
   }
+  return "";
 }
 
 std::vector<std::string> TheoryWatch::warnings() const {

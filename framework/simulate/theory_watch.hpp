@@ -16,7 +16,8 @@ namespace trammel::simulate {
 class TheoryWatch {
  public:
   explicit TheoryWatch(const model::Model& model);
-  void look(double t, const Vec& q);  // throws RunFailed
+  // Why no body could have this shape; empty: they could.
+  [[nodiscard]] std::string look(double t, const Vec& q);
   std::vector<std::string> warnings() const;
   void archive(Archive& a);
 

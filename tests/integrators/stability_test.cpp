@@ -24,7 +24,7 @@ double spectral_radius(const Mat& A) {
 }
 
 // The amplification of (d, h v, h^2 a) over one step of h = 1, column by column. Methods with accelerations of their own
-// beside the true ones ("a" in their archive) get the column's there.
+// beside the true ones ("now_algorithmic_a" in their archive) get the column's there.
 Mat newmark_amplification(const std::string& name, const Settings& settings, double Omega) {
   Posed s(oscillators({Omega}));
   Mat A(3, 3);
@@ -34,9 +34,9 @@ Mat newmark_amplification(const std::string& name, const Settings& settings, dou
     method->restart(s, now);
     MemoryArchive memory;
     method->archive(memory);
-    const bool own = memory.vectors.contains("A");
+    const bool own = memory.vectors.contains("now_algorithmic_a");
     if (own) {
-      memory.vectors.at("A") = -Omega * Omega * now.q;
+      memory.vectors.at("now_a") = -Omega * Omega * now.q;
       memory.reading = true;
       method->archive(memory);
       memory.reading = false;
@@ -44,7 +44,7 @@ Mat newmark_amplification(const std::string& name, const Settings& settings, dou
     if (const Outcome outcome = method->step(s, now, 1, next); !outcome) throw std::runtime_error(outcome.reason());
     method->accept(s, now, next);
     method->archive(memory);
-    A.col(j) << next.q, next.v, own ? memory.vectors.at("a") : next.a;
+    A.col(j) << next.q, next.v, own ? memory.vectors.at("now_algorithmic_a") : next.a;
   }
   return A;
 }

@@ -93,13 +93,14 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
     starter_.archive(archive);
     archive("filled", filled_);
     archive("h", h_);
+    if (filled_ < 0 || std::size_t(filled_) > past_.size()) throw std::out_of_range("filled");
     for (std::size_t i = 0; i < past_.size(); ++i) {
+      if (i >= std::size_t(filled_)) past_[i] = {};  // of before a restart, perhaps of another size
       const std::string name = "past_" + std::to_string(i);
       archive(name + "_q", past_[i].q);
       archive(name + "_v", past_[i].v);
       archive(name + "_lambda", past_[i].lambda);
     }
-    if (filled_ < 0 || std::size_t(filled_) > past_.size()) throw std::out_of_range("filled");
     for (std::size_t i = 0; i < std::size_t(filled_); ++i)
       if (past_[i].q.size() == 0 || past_[i].v.size() == 0) throw std::length_error("past");
   }
