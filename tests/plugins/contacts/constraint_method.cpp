@@ -24,7 +24,7 @@ TEST(ConstraintMethod, IsExactUnlessAskedOtherwise) {
   EXPECT_EQ(treatment.onset, Restitution::Onset::located);
   EXPECT_EQ(treatment.rebound, Restitution::Rebound::free);
   EXPECT_EQ(treatment.restart, Restitution::Restart::consistent);
-  EXPECT_EQ(treatment.capture_speed, 0);  // a part of the scene's own speed: a sequence of bounces ends in every unit
+  EXPECT_EQ(treatment.capture_speed, 0);  // the scene's size decides
 }
 
 TEST(ConstraintMethod, OffersTheSimplificationsOfPapersByName) {
