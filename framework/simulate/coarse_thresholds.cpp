@@ -1,8 +1,8 @@
 #include "simulate/coarse_thresholds.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+#include <algorithm>
+#include <stdexcept>
 
 namespace trammel::simulate {
 namespace {
@@ -56,7 +56,9 @@ std::vector<std::string> CoarseThresholds::warnings(const model::Model& model, c
 }
 
 void CoarseThresholds::archive(Archive& a) {
+  const Eigen::Index contacts = fastest_.size();
   a("fastest_impacts", fastest_);
+  if (fastest_.size() != contacts) throw std::length_error("fastest_impacts");
 }
 
 }  // namespace trammel::simulate

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double many = 50;           // steps between two records
 constexpr double long_wait = 20;      // [s] of wall-clock time to the end
-constexpr double accounts_for = 0.1;  // radians of the fastest motion in a step: fewer are short for another reason
+constexpr double accounts_for = 0.01;  // radians of the fastest motion in a step: fewer are short for another reason
 
 std::string cause(const FastestMotion& fastest, const Setup& setup, const Simulator& simulator, double h) {
   const bool implicit = setup.integrator->traits().implicit, on_rows = setup.integrator->traits().holds_position;

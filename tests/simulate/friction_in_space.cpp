@@ -321,7 +321,8 @@ TEST(Table, ThatSlidesAndSpinsEndsOnOneFoot) {
   EXPECT_NEAR(other.end("x"), run.end("x"), 1e-7);
   EXPECT_NEAR(run.result["energy_dissipated"]["friction_total"], 0.5 * 2 * 1.09 + 0.5 * 0.08 * 36,
               3e-4);  // by Simpson's rule
-  EXPECT_NEAR(other.result["energy_dissipated"]["friction_total"], 0.5 * 2 * 1.09 + 0.5 * 0.08 * 36, 1e-5);
+  // What fixed steps miss of a slip that turns while it ends depends on where they fall: 4e-7 to 1.1e-5 J for steps of 2.5e-5 to 4e-4 s.
+  EXPECT_NEAR(other.result["energy_dissipated"]["friction_total"], 0.5 * 2 * 1.09 + 0.5 * 0.08 * 36, 2e-5);
 }
 
 // A growing push through its feet's plane: all let go where it is mu_0 m g, whatever share each foot had.
