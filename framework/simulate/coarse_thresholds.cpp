@@ -1,8 +1,9 @@
 #include "simulate/coarse_thresholds.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace trammel::simulate {
 namespace {
@@ -27,11 +28,6 @@ bool rebounds(const Restitution& law, double capture_speed) {
 }  // namespace
 
 void CoarseThresholds::look(const ContactEvent& event) {
-  const Eigen::Index known = fastest_.size();
-  if (event.contact >= known) {
-    fastest_.conservativeResize(event.contact + 1);
-    fastest_.tail(event.contact + 1 - known).setZero();
-  }
   fastest_[event.contact] = std::max(fastest_[event.contact], event.approach);
 }
 

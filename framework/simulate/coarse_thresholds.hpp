@@ -17,13 +17,14 @@ namespace trammel::simulate {
 
 class CoarseThresholds {
  public:
+  explicit CoarseThresholds(const model::Model& model) { fastest_.setZero(Eigen::Index(model.contacts.size())); }
   void look(const ContactEvent& event);  // an impact
   std::vector<std::string> warnings(const model::Model& model, const Settings& settings,
                                     const ContactScale& scale) const;
   void archive(Archive& a);
 
  private:
-  Vec fastest_;  // [m/s] approach, by contact as far as they have struck
+  Vec fastest_;  // [m/s] approach, by contact; 0: it has not struck
 };
 
 }  // namespace trammel::simulate
