@@ -292,7 +292,7 @@ TEST(BadPlugin, CrashingAtLoad) {
 // Each waits for ever, or writes for ever. The limit is one on the whole, so that signs of life do not prolong it.
 TEST(BadPlugin, NeverFinishing) {
   using std::chrono::steady_clock;
-  const std::chrono::milliseconds limit(300);
+  const std::chrono::milliseconds limit(2000);  // a busy machine gets to each place by then
   for (const auto& [name, where] :
        {std::pair{"never_loaded", "while it is loaded"},
         {"writes_for_ever", "while it is loaded"},
@@ -303,7 +303,7 @@ TEST(BadPlugin, NeverFinishing) {
       rehearse(library(name), limit);
       FAIL() << name << " goes on for ever";
     } catch (const PluginError& e) {
-      EXPECT_EQ(e.cause(), std::string("it did not finish within 300 ms ") + where);
+      EXPECT_EQ(e.cause(), std::string("it did not finish within 2000 ms ") + where);
     }
     EXPECT_LT(steady_clock::now() - began, limit + std::chrono::seconds(5)) << name;  // of a busy machine
   }
