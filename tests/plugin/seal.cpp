@@ -92,7 +92,7 @@ TEST_F(Seal, AndPreflightBearDamageAnywhere) {
 
 TEST_F(Seal, SurvivesStrip) {
   const std::size_t size = content(sealed).size();
-  if (std::system(("strip --strip-all " + sealed.string()).c_str()) != 0) GTEST_SKIP() << "no strip here";
+  ASSERT_EQ(std::system(("strip --strip-all " + sealed.string()).c_str()), 0);  // of binutils, as the compiler's assembler
   EXPECT_LT(content(sealed).size(), size);
   EXPECT_EQ(refusal(sealed), "");
 }
