@@ -1,4 +1,4 @@
-#include "plate.hpp"
+#include "tspline_plate/plate.hpp"
 
 #include <algorithm>
 

@@ -16,14 +16,14 @@
 #include <trammel/fields.hpp>
 #include <trammel/parameters.hpp>
 
-#include "discretisation.hpp"
-#include "edge.hpp"
-#include "loads.hpp"
-#include "patch.hpp"
-#include "refinement_trigger.hpp"
-#include "seam.hpp"
-#include "stress.hpp"
-#include "surface_point.hpp"
+#include "tspline_plate/shell/discretisation.hpp"
+#include "tspline_plate/conditions/edge.hpp"
+#include "tspline_plate/conditions/loads.hpp"
+#include "tspline_plate/mesh/patch.hpp"
+#include "tspline_plate/shell/refinement_trigger.hpp"
+#include "tspline_plate/conditions/seam.hpp"
+#include "tspline_plate/shell/stress.hpp"
+#include "tspline_plate/shell/surface_point.hpp"
 
 namespace trammel::plate {
 

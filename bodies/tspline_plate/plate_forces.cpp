@@ -1,7 +1,7 @@
 // The plate's mass, forces, energies and tangent, cell by cell.
 #include <Eigen/Geometry>
 
-#include "plate.hpp"
+#include "tspline_plate/plate.hpp"
 
 namespace trammel::plate {
 

@@ -1,7 +1,7 @@
 // What the plate shows of itself: observables, outline, stresses over its elements.
 #include <algorithm>
 
-#include "plate.hpp"
+#include "tspline_plate/plate.hpp"
 
 namespace trammel::plate {
 

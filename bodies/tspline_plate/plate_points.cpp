@@ -11,8 +11,8 @@
 
 #include <trammel/quadrature.hpp>
 
-#include "plate.hpp"
-#include "pole_point.hpp"
+#include "tspline_plate/plate.hpp"
+#include "tspline_plate/shell/pole_point.hpp"
 
 namespace trammel::plate {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "plate.hpp"
+#include "tspline_plate/plate.hpp"
 
 namespace trammel::plate {
 

@@ -1,6 +1,6 @@
 #include <trammel/plugin.hpp>
 
-#include "plate.hpp"
+#include "tspline_plate/plate.hpp"
 
 using P = trammel::plate::TsplinePlate;
 

@@ -8,12 +8,12 @@
 
 #include "complementarity/contact_order.hpp"
 #include "complementarity/exact_modes.hpp"
-#include "complementarity/friction_cone.hpp"
+#include "complementarity/programs/friction_cone.hpp"
 #include "complementarity/islands.hpp"
 #include "complementarity/mode_search.hpp"
-#include "complementarity/polyhedral_cone.hpp"
-#include "complementarity/pressing_forces.hpp"
-#include "complementarity/row_basis.hpp"
+#include "complementarity/programs/polyhedral_cone.hpp"
+#include "complementarity/shares/pressing_forces.hpp"
+#include "complementarity/shares/row_basis.hpp"
 
 namespace trammel::complementarity {
 namespace {

@@ -22,8 +22,8 @@
 
 #include <vector>
 
-#include "complementarity/contact_point.hpp"
-#include "complementarity/lcp.hpp"
+#include "complementarity/programs/contact_point.hpp"
+#include "complementarity/programs/lcp.hpp"
 
 namespace trammel::complementarity {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "complementarity/admissible_forces.hpp"
-#include "complementarity/carrying_equations.hpp"
+#include "complementarity/shares/admissible_forces.hpp"
+#include "complementarity/shares/carrying_equations.hpp"
 
 namespace trammel::complementarity {
 namespace {

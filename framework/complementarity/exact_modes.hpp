@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "complementarity/carrying_rows.hpp"
+#include "complementarity/shares/carrying_rows.hpp"
 
 namespace trammel::complementarity {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "complementarity/contact_point.hpp"
+#include "complementarity/programs/contact_point.hpp"
 
 namespace trammel::complementarity {
 

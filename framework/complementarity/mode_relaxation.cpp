@@ -6,7 +6,7 @@
 
 #include <Eigen/QR>
 
-#include "complementarity/nonnegative_least_squares.hpp"
+#include "complementarity/programs/nonnegative_least_squares.hpp"
 
 namespace trammel::complementarity {
 namespace {

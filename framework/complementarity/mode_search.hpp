@@ -9,8 +9,8 @@
 #include <functional>
 #include <vector>
 
-#include "complementarity/contact_point.hpp"
-#include "complementarity/lcp.hpp"
+#include "complementarity/programs/contact_point.hpp"
+#include "complementarity/programs/lcp.hpp"
 
 namespace trammel::complementarity {
 

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/jet_code.hpp"
+#include "scene/laws/jet_code.hpp"
 #include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
 

@@ -11,7 +11,7 @@
 #include "scene/files.hpp"
 #include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
-#include "scene/tabulated_law.hpp"
+#include "scene/laws/tabulated_law.hpp"
 
 namespace trammel::scene {
 namespace {

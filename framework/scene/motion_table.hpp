@@ -6,7 +6,7 @@
 // with # and empty lines do not count; a first line that is no row of numbers names the columns. "time" and "column" are such
 // names or numbers from 1 (default 1 and 2). "holds": "values" (default) or "accelerations"; "scale" multiplies them.
 // tabulated_law.hpp says how rows are joined, and what "beyond" makes of times before the first row and after the last:
-// "hold", "zero" or "repeat". Without it the table must hold the whole run (simulate/smooth_laws.hpp).
+// "hold", "zero" or "repeat". Without it the table must hold the whole run (simulate/start/smooth_laws.hpp).
 #pragma once
 
 #include "scene/value.hpp"

@@ -13,9 +13,9 @@
 
 #include <fmt/format.h>
 
-#include "model/locks_itself.hpp"
+#include "system/locks_itself.hpp"
 #include "simulate/contact_mode.hpp"
-#include "simulate/run_failed.hpp"
+#include "run/run_failed.hpp"
 
 namespace trammel::simulate {
 namespace {

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "simulate/run_failed.hpp"
+#include "run/run_failed.hpp"
 
 namespace trammel::simulate {
 

@@ -28,7 +28,7 @@
 //  5. A contact slides, T = -mu N slip/|slip|, or it rests: new contacts without slip, those that stick, and those whose slip
 //     has just reached 0. Those at rest stick where mu_0 (and, once they let go, mu) suffices; else they slide the way they
 //     accelerate. In space a slip may turn instead of stopping. Its zero is looked for along the direction it had where the
-//     step began (model/slip.hpp): more than `slow` across it there has turned, and slides on in its own direction; less
+//     step began (system/slip.hpp): more than `slow` across it there has turned, and slides on in its own direction; less
 //     counts as rest, so a slip that dips below `slow`, 1e-7 of the scene's speed, is taken through rest. Fixed steps do not
 //     resolve the end of a slip that turns; there also what a tenth of a step takes away counts as rest.
 //  6. A contact whose friction has reached its bound lets go: mu decides at once, less a part of 1e-8, so that it is not held
@@ -48,12 +48,12 @@
 
 #include <trammel/integrator.hpp>
 
-#include "simulate/contact_event.hpp"
-#include "simulate/contact_problem.hpp"
-#include "simulate/contact_scale.hpp"
-#include "simulate/impact_laws.hpp"
-#include "simulate/impact_warnings.hpp"
-#include "simulate/settings.hpp"
+#include "simulate/results/contact_event.hpp"
+#include "simulate/contact/contact_problem.hpp"
+#include "simulate/contact/contact_scale.hpp"
+#include "simulate/impact/impact_laws.hpp"
+#include "simulate/impact/impact_warnings.hpp"
+#include "run/settings.hpp"
 
 namespace trammel::simulate {
 

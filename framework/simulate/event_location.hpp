@@ -37,10 +37,10 @@
 
 #include <trammel/integrator.hpp>
 
-#include "numerics/root_bracket.hpp"
-#include "simulate/between_states.hpp"
+#include "simulate/root_bracket.hpp"
+#include "system/between_states.hpp"
 #include "simulate/contact_mode.hpp"
-#include "simulate/contact_scale.hpp"
+#include "simulate/contact/contact_scale.hpp"
 
 namespace trammel::simulate {
 

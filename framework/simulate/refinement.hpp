@@ -12,9 +12,9 @@
 
 #include <trammel/integrator.hpp>
 
-#include "model/assembled_system.hpp"
+#include "system/assembled_system.hpp"
 #include "model/refinement.hpp"
-#include "simulate/refine_event.hpp"
+#include "simulate/results/refine_event.hpp"
 
 namespace trammel::simulate {
 

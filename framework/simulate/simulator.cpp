@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "model/locks_itself.hpp"
+#include "system/locks_itself.hpp"
 #include "plugin/breadcrumb.hpp"
 #include "plugin/guard.hpp"
-#include "simulate/blame.hpp"
-#include "simulate/run_failed.hpp"
+#include "simulate/start/blame.hpp"
+#include "run/run_failed.hpp"
 #include "simulate/trial_step.hpp"
 
 namespace trammel::simulate {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "plugin/breadcrumb.hpp"
-#include "simulate/run_failed.hpp"
+#include "run/run_failed.hpp"
 #include "simulate/simulator.hpp"
 
 namespace trammel::simulate {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "simulate/run_failed.hpp"
+#include "run/run_failed.hpp"
 #include "simulate/simulator.hpp"
 
 namespace trammel::simulate {

@@ -17,7 +17,7 @@
 
 #include <trammel/archive.hpp>
 
-#include "simulate/settings.hpp"
+#include "run/settings.hpp"
 
 namespace trammel::simulate {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "simulate/run_failed.hpp"
+#include "run/run_failed.hpp"
 
 namespace trammel::simulate {
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include <trammel/testing.hpp>
-#include <trammel/testing_archive.hpp>
+#include <trammel/testing/measurements.hpp>
+#include <trammel/testing/archive.hpp>
 
 namespace trammel {
 namespace {

@@ -1,7 +1,7 @@
 // How well rows hold after steps: |g| and |G v + g_t|.
 #include <fmt/format.h>
 
-#include <trammel/testing.hpp>
+#include <trammel/testing/measurements.hpp>
 
 namespace trammel {
 namespace {

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trammel/testing_components.hpp>
+#include <trammel/testing/components.hpp>
 
 #include "testing/difference.hpp"
 

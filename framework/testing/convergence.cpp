@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <trammel/testing.hpp>
+#include <trammel/testing/measurements.hpp>
 
 namespace trammel {
 namespace {

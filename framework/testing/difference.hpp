@@ -9,7 +9,7 @@
 #include <functional>
 #include <string>
 
-#include <trammel/testing.hpp>
+#include <trammel/testing/measurements.hpp>
 
 namespace trammel {
 

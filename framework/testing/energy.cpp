@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <trammel/testing.hpp>
+#include <trammel/testing/measurements.hpp>
 
 namespace trammel {
 

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include <trammel/needs_orientation.hpp>
-#include <trammel/testing_components.hpp>
-#include <trammel/testing_markers.hpp>
+#include <trammel/testing/components.hpp>
+#include <trammel/testing/markers.hpp>
 
 #include "testing/difference.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include <trammel/testing.hpp>
+#include <trammel/testing/measurements.hpp>
 
 #include "testing/plugin_folder.hpp"
 

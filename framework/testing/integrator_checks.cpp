@@ -1,5 +1,5 @@
 // The claims of an integrator that a suite of tests looks into.
-#include <trammel/testing.hpp>
+#include <trammel/testing/measurements.hpp>
 
 namespace trammel {
 

@@ -13,8 +13,8 @@
 
 #include <trammel/linear_rows.hpp>
 #include <trammel/needs_orientation.hpp>
-#include <trammel/testing_components.hpp>
-#include <trammel/testing_markers.hpp>
+#include <trammel/testing/components.hpp>
+#include <trammel/testing/markers.hpp>
 
 #include "testing/difference.hpp"
 

@@ -2,7 +2,7 @@
 #include <map>
 #include <mutex>
 
-#include <trammel/testing_components.hpp>
+#include <trammel/testing/components.hpp>
 
 #include "plugin/parameters.hpp"
 #include "testing/plugin_folder.hpp"

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include <trammel/testing_markers.hpp>
+#include <trammel/testing/markers.hpp>
 
 namespace trammel {
 namespace {

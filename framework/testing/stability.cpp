@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trammel/testing.hpp>
+#include <trammel/testing/measurements.hpp>
 
 namespace trammel {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <trammel/testing_components.hpp>
+#include <trammel/testing/components.hpp>
 
 #include "model/coordinates.hpp"
 #include "testing/difference.hpp"

@@ -1,7 +1,7 @@
 // The bar in natural coordinates, beyond the checks of tests/plugins/shipped_components.cpp: it moves as a rigid rod does.
 #include <cmath>
 
-#include "../simulate/run_scene.hpp"
+#include "support/run_scene.hpp"
 
 namespace trammel::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../simulate/modes_of.hpp"
+#include "support/modes_of.hpp"
 
 namespace trammel::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <trammel/body.hpp>
 #include <trammel/marker.hpp>
 
-#include "../plugins/made.hpp"
+#include "support/made.hpp"
 
 namespace trammel::test {
 namespace {

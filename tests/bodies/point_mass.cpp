@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <trammel/body.hpp>
 
-#include "../plugins/made.hpp"
+#include "support/made.hpp"
 
 namespace trammel::test {
 namespace {

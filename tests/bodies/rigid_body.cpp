@@ -8,7 +8,7 @@
 
 #include "model/coordinates.hpp"
 
-#include "../plugins/made.hpp"
+#include "support/made.hpp"
 
 namespace trammel::test {
 namespace {

@@ -1,5 +1,5 @@
 // Least forces with given resultants, in friction cones of any width.
-#include "complementarity/admissible_forces.hpp"
+#include "complementarity/shares/admissible_forces.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "complementarity/spare_load.hpp"
+#include "complementarity/shares/spare_load.hpp"
 
 namespace trammel::complementarity {
 namespace {

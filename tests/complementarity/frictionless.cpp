@@ -1,8 +1,8 @@
 // Without friction: a convex program, solved for any number of contacts, dependent or not, or proved to have no solution.
 #include <gtest/gtest.h>
 
-#include "complementarity/nonnegative_least_squares.hpp"
-#include "complementarity/pressing_forces.hpp"
+#include "complementarity/programs/nonnegative_least_squares.hpp"
+#include "complementarity/shares/pressing_forces.hpp"
 #include "planar_bodies.hpp"
 #include "random_problems.hpp"
 

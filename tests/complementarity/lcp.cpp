@@ -1,4 +1,4 @@
-#include "complementarity/lcp.hpp"
+#include "complementarity/programs/lcp.hpp"
 
 #include <gtest/gtest.h>
 

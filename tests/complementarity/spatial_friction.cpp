@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "complementarity/polyhedral_cone.hpp"
+#include "complementarity/programs/polyhedral_cone.hpp"
 #include "random_problems.hpp"
 #include "spatial_bodies.hpp"
 

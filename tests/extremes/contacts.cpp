@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "../simulate/scenes.hpp"
+#include "support/scenes.hpp"
 #include "outcome.hpp"
 
 namespace trammel::test {

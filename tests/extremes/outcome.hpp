@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "../simulate/run_scene.hpp"
+#include "support/run_scene.hpp"
 
 namespace trammel::test {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../simulate/run_in_pieces.hpp"
+#include "support/run_in_pieces.hpp"
 #include "outcome.hpp"
 
 namespace trammel::test {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "simulate/checkpoint.hpp"
+#include "simulate/results/checkpoint.hpp"
 #include "scene/fnv_hash.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <trammel/testing.hpp>
+#include <trammel/testing/measurements.hpp>
 
 namespace trammel::test {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <trammel/testing.hpp>
+#include <trammel/testing/measurements.hpp>
 
 #include "posed.hpp"
 

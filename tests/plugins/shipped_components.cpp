@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
-#include <trammel/testing_suites.hpp>
+#include <trammel/testing/suites.hpp>
 
-#include "made.hpp"
+#include "support/made.hpp"
 
 namespace trammel::test {
 namespace {

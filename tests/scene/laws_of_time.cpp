@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "scene/continuity.hpp"
+#include "scene/laws/continuity.hpp"
 #include "scene/expression.hpp"
-#include "scene/tabulated_law.hpp"
+#include "scene/laws/tabulated_law.hpp"
 #include "scene/value.hpp"
 
 #include "folder.hpp"

@@ -3,7 +3,7 @@
 // Tolerances are the tiers of that file: what an error-controlled method must reach, and what HHT with its steps can.
 #include <cmath>
 
-#include "../simulate/run_scene.hpp"
+#include "support/run_scene.hpp"
 
 namespace trammel::test {
 namespace {

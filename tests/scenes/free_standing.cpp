@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../simulate/run_scene.hpp"
+#include "support/run_scene.hpp"
 
 namespace trammel::test {
 namespace {

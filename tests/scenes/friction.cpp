@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "../simulate/run_scene.hpp"
+#include "support/run_scene.hpp"
 
 namespace trammel::test {
 namespace {

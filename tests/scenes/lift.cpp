@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "scene/value.hpp"
-#include "simulate/simulation.hpp"
+#include "commands/simulation.hpp"
 
-#include "../plugins/made.hpp"
+#include "support/made.hpp"
 
 namespace trammel::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "../simulate/run_scene.hpp"
+#include "support/run_scene.hpp"
 
 namespace trammel::test {
 namespace {

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "scene/value.hpp"
-#include "simulate/setup.hpp"
-#include "simulate/simulation.hpp"
+#include "simulate/start/setup.hpp"
+#include "commands/simulation.hpp"
 
-#include "../plugins/made.hpp"
+#include "support/made.hpp"
 
 namespace trammel::test {
 namespace {

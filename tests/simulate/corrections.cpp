@@ -3,10 +3,10 @@
 
 #include <trammel/correction.hpp>
 
-#include "simulate/setup.hpp"
+#include "simulate/start/setup.hpp"
 #include "simulate/simulator.hpp"
 
-#include "run_scene.hpp"
+#include "support/run_scene.hpp"
 
 namespace trammel::test {
 namespace {

@@ -1,8 +1,8 @@
 // Runs that cannot go on say when, in which step and why, and keep what they have.
 #include <gmock/gmock.h>
 
-#include "run_scene.hpp"
-#include "scenes.hpp"
+#include "support/run_scene.hpp"
+#include "support/scenes.hpp"
 
 namespace trammel::test {
 namespace {

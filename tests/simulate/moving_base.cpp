@@ -3,7 +3,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "run_scene.hpp"
+#include "support/run_scene.hpp"
 
 namespace trammel::test {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "run_in_pieces.hpp"
-#include "run_scene.hpp"
-#include "scenes.hpp"
+#include "support/run_in_pieces.hpp"
+#include "support/run_scene.hpp"
+#include "support/scenes.hpp"
 
 namespace trammel::test {
 namespace {

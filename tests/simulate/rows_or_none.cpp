@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "run_scene.hpp"
+#include "support/run_scene.hpp"
 
 namespace trammel::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "run_scene.hpp"
+#include "support/run_scene.hpp"
 
 namespace trammel::test {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "run_in_pieces.hpp"
-#include "scenes.hpp"
+#include "support/run_in_pieces.hpp"
+#include "support/scenes.hpp"
 
 namespace trammel::test {
 namespace {

@@ -1,8 +1,8 @@
 // Springs between axes of bodies count full turns, in space as in the plane.
 #include <cmath>
 
-#include "run_in_pieces.hpp"
-#include "scenes.hpp"
+#include "support/run_in_pieces.hpp"
+#include "support/scenes.hpp"
 
 namespace trammel::test {
 namespace {

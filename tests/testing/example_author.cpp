@@ -1,5 +1,5 @@
 // The example of framework/testing/README.md.
-#include <trammel/testing_suites.hpp>
+#include <trammel/testing/suites.hpp>
 
 using namespace trammel;
 

@@ -6,8 +6,8 @@
 #include <set>
 #include <string>
 
-#include <trammel/testing_components.hpp>
-#include <trammel/testing_markers.hpp>
+#include <trammel/testing/components.hpp>
+#include <trammel/testing/markers.hpp>
 
 namespace trammel::test {
 

@@ -14,8 +14,8 @@
 #include "allocations.hpp"
 #include "beam_scene.hpp"
 #include "main.hpp"
-#include "model/assembled_system.hpp"
-#include "simulate/setup.hpp"
+#include "system/assembled_system.hpp"
+#include "simulate/start/setup.hpp"
 
 namespace trammel::bench {
 namespace {

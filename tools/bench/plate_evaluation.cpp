@@ -9,7 +9,7 @@
 #include <benchmark/benchmark.h>
 
 #include "main.hpp"
-#include "tspline_plate/cell_forces.hpp"
+#include "tspline_plate/shell/cell_forces.hpp"
 #include "tspline_plate/plate.hpp"
 
 namespace trammel::plate {

@@ -17,7 +17,7 @@
 
 #include "main.hpp"
 #include "records_folder.hpp"
-#include "simulate/setup.hpp"
+#include "simulate/start/setup.hpp"
 #include "simulate/simulator.hpp"
 
 namespace trammel::bench {

@@ -14,7 +14,7 @@
 #include "beam_scene.hpp"
 #include "main.hpp"
 #include "records_folder.hpp"
-#include "simulate/setup.hpp"
+#include "simulate/start/setup.hpp"
 #include "simulate/simulator.hpp"
 
 namespace trammel::bench {

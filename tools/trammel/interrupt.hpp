@@ -2,7 +2,7 @@
 // is ended by the second Ctrl-C or SIGTERM, or some seconds after the first signal; records so far are kept then, too.
 #pragma once
 
-#include "simulate/interrupt.hpp"
+#include "run/interrupt.hpp"
 
 namespace trammel::tool {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "arguments.hpp"
-#include "simulate/crash_witness.hpp"
+#include "simulate/start/crash_witness.hpp"
 
 namespace trammel::tool {
 

@@ -5,8 +5,8 @@
 #include "arguments.hpp"
 #include "input.hpp"
 #include "plugin/describe.hpp"
-#include "simulate/scene_topics.hpp"
-#include "simulate/setting_parts.hpp"
+#include "commands/scene_topics.hpp"
+#include "run/setting_parts.hpp"
 
 namespace trammel::tool {
 

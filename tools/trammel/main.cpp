@@ -21,7 +21,7 @@
 #include "last_words.hpp"
 #include "no_memory.hpp"
 #include "scene/suggestion.hpp"
-#include "simulate/results_folder.hpp"
+#include "simulate/results/results_folder.hpp"
 
 namespace trammel::tool {
 

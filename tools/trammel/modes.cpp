@@ -9,7 +9,7 @@
 #include "interrupt.hpp"
 #include "last_words.hpp"
 #include "results_folder.hpp"
-#include "simulate/modal_analysis.hpp"
+#include "commands/modal_analysis.hpp"
 
 namespace trammel::tool {
 

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "simulate/simulation.hpp"
+#include "commands/simulation.hpp"
 
 namespace trammel::tool {
 

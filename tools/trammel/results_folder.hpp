@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "arguments.hpp"
-#include "simulate/results_folder.hpp"
+#include "simulate/results/results_folder.hpp"
 
 namespace trammel::tool {
 

@@ -4,7 +4,7 @@
 #include "arguments.hpp"
 #include "input.hpp"
 #include "plugin/describe.hpp"
-#include "simulate/setting_parts.hpp"
+#include "run/setting_parts.hpp"
 
 namespace trammel::tool {
 

@@ -7,7 +7,7 @@
 #include "last_words.hpp"
 #include "progress.hpp"
 #include "results_folder.hpp"
-#include "simulate/simulation.hpp"
+#include "commands/simulation.hpp"
 
 namespace trammel::tool {
 

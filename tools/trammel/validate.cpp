@@ -5,7 +5,7 @@
 #include "arguments.hpp"
 #include "input.hpp"
 #include "last_words.hpp"
-#include "simulate/simulation.hpp"
+#include "commands/simulation.hpp"
 
 namespace trammel::tool {
 

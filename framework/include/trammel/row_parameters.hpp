@@ -8,7 +8,7 @@
 #pragma once
 
 #include <trammel/parameters.hpp>
-#include <trammel/runge_kutta.hpp>
+#include <trammel/methods/runge_kutta.hpp>
 
 namespace trammel {
 

@@ -5,7 +5,7 @@
 // Source: Goldstein, Classical Mechanics, section 1.6.
 #include <cmath>
 
-#include <trammel/testing_problems.hpp>
+#include <trammel/testing/problems.hpp>
 
 namespace trammel::problems {
 

@@ -2,7 +2,7 @@
 // rod turns at a constant rate. Elementary; the masses make the saddle-point matrix as badly scaled as one likes.
 #include <cmath>
 
-#include <trammel/testing_problems.hpp>
+#include <trammel/testing/problems.hpp>
 
 namespace trammel::problems {
 

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include <trammel/testing_problems.hpp>
+#include <trammel/testing/problems.hpp>
 
 namespace trammel::problems {
 namespace {

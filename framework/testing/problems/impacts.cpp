@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include <trammel/testing_problems.hpp>
+#include <trammel/testing/problems.hpp>
 
 namespace trammel::problems {
 

@@ -2,7 +2,7 @@
 // Closed forms: any text on vibrations, e.g. Meirovitch, Fundamentals of Vibrations, chapters 2 and 3.
 #include <cmath>
 
-#include <trammel/testing_problems.hpp>
+#include <trammel/testing/problems.hpp>
 
 namespace trammel::problems {
 

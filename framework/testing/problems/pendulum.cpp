@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include <trammel/testing_problems.hpp>
+#include <trammel/testing/problems.hpp>
 
 namespace trammel::problems {
 namespace {

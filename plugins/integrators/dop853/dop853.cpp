@@ -10,7 +10,7 @@
 
 #include <trammel/plugin.hpp>
 #include <trammel/row_parameters.hpp>
-#include <trammel/runge_kutta.hpp>
+#include <trammel/methods/runge_kutta.hpp>
 
 namespace {
 

@@ -4,7 +4,7 @@
 // Norsett, Wanner, Solving ODEs I, II.5 and II.6.
 #include <trammel/plugin.hpp>
 #include <trammel/row_parameters.hpp>
-#include <trammel/runge_kutta.hpp>
+#include <trammel/methods/runge_kutta.hpp>
 
 namespace {
 

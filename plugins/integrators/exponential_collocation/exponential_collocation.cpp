@@ -20,11 +20,11 @@
 #include <string>
 #include <utility>
 
-#include <trammel/error_norm.hpp>
-#include <trammel/oscillating_steps.hpp>
+#include <trammel/methods/error_norm.hpp>
+#include <trammel/methods/oscillating_steps.hpp>
 #include <trammel/plugin.hpp>
 #include <trammel/row_parameters.hpp>
-#include <trammel/runge_kutta.hpp>
+#include <trammel/methods/runge_kutta.hpp>
 
 #include "collocation_weights.hpp"
 #include "small_oscillations.hpp"

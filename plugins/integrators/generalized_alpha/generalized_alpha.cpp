@@ -5,8 +5,8 @@
 //
 // rho in [0, 1] is the spectral radius for infinitely fast modes.
 // Chung, Hulbert, J. Appl. Mech. 60(2), 371-375 (1993); Arnold, Bruls, Multibody Syst. Dyn. 18, 185-202 (2007).
-#include <trammel/alpha_method.hpp>
-#include <trammel/newmark_parameters.hpp>
+#include <trammel/methods/alpha_method.hpp>
+#include <trammel/methods/newmark_parameters.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {

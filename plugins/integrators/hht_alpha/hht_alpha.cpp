@@ -6,8 +6,8 @@
 //     1/(1+alpha) M a_{n+1} - (f - W^T lambda)_{n+1} + alpha/(1+alpha) (f - W^T lambda)_n = 0
 // Negrut, Rampalli, Ottarsson, Sajdak, J. Comput. Nonlinear Dynam. 2(1), 73-85 (2007); Jay, Negrut, ETNA 26, 190-208
 // (2007).
-#include <trammel/alpha_method.hpp>
-#include <trammel/newmark_parameters.hpp>
+#include <trammel/methods/alpha_method.hpp>
+#include <trammel/methods/newmark_parameters.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {

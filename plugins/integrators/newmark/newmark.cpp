@@ -6,9 +6,9 @@
 //
 // with the rows of NewmarkStep (stabilised or index 3). Second order for gamma = 1/2, else first order with damping;
 // stable for every step if 2 beta >= gamma >= 1/2. Newmark, J. Eng. Mech. Div. ASCE 85(3), 67-94 (1959).
-#include <trammel/newmark_error.hpp>
-#include <trammel/newmark_parameters.hpp>
-#include <trammel/newmark_step.hpp>
+#include <trammel/methods/newmark_error.hpp>
+#include <trammel/methods/newmark_parameters.hpp>
+#include <trammel/methods/newmark_step.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {

@@ -8,7 +8,7 @@
 // k_5) shrinks with h^4. Kutta, Z. Math. Phys. 46, 435-453 (1901).
 #include <trammel/plugin.hpp>
 #include <trammel/row_parameters.hpp>
-#include <trammel/runge_kutta.hpp>
+#include <trammel/methods/runge_kutta.hpp>
 
 namespace {
 

@@ -1,8 +1,8 @@
-#include "tspline_plate/control_net.hpp"
+#include "tspline_plate/mesh/control_net.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tspline_plate/edge.hpp"
+#include "tspline_plate/conditions/edge.hpp"
 
 namespace trammel::plate {
 namespace {

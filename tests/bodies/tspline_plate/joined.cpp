@@ -1,7 +1,7 @@
 // Plates of several patches.
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <trammel/testing_archive.hpp>
+#include <trammel/testing/archive.hpp>
 
 #include "difference_checks.hpp"
 #include "plates.hpp"

@@ -1,11 +1,11 @@
-#include "tspline_plate/material_point.hpp"
+#include "tspline_plate/shell/material_point.hpp"
 
 #include <random>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "tspline_plate/viscous_point.hpp"
+#include "tspline_plate/shell/viscous_point.hpp"
 
 namespace trammel::plate {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tspline_plate/t_junction.hpp"
+#include "tspline_plate/mesh/t_junction.hpp"
 
 namespace trammel::plate::test {
 

@@ -1,4 +1,4 @@
-#include "tspline_plate/refinement_operator.hpp"
+#include "tspline_plate/mesh/refinement_operator.hpp"
 
 #include <random>
 

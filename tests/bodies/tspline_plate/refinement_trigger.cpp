@@ -1,4 +1,4 @@
-#include "tspline_plate/refinement_trigger.hpp"
+#include "tspline_plate/shell/refinement_trigger.hpp"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
-#include "tspline_plate/t_mesh.hpp"
+#include "tspline_plate/mesh/t_mesh.hpp"
 
 #include <gtest/gtest.h>
 
 #include "meshes.hpp"
-#include "tspline_plate/refinement_operator.hpp"
+#include "tspline_plate/mesh/refinement_operator.hpp"
 
 namespace trammel::plate {
 namespace {

@@ -1,11 +1,11 @@
-#include "tspline_plate/tspline_basis.hpp"
+#include "tspline_plate/mesh/tspline_basis.hpp"
 
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "meshes.hpp"
-#include "tspline_plate/refinement_operator.hpp"
+#include "tspline_plate/mesh/refinement_operator.hpp"
 
 namespace trammel::plate {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <trammel/contact.hpp>
 
-#include "../made.hpp"
+#include "support/made.hpp"
 
 namespace trammel::test {
 namespace {

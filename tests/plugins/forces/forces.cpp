@@ -1,9 +1,9 @@
 // What single forces promise beyond the checks of shipped_components.cpp: signs, laws of time, refusals.
 #include <gtest/gtest.h>
 #include <trammel/force.hpp>
-#include <trammel/testing_markers.hpp>
+#include <trammel/testing/markers.hpp>
 
-#include "../made.hpp"
+#include "support/made.hpp"
 
 namespace trammel::test {
 namespace {

@@ -1,9 +1,9 @@
 // What single joints promise beyond the checks of shipped_components.cpp: signs, scales and refusals.
 #include <gtest/gtest.h>
 #include <trammel/joint.hpp>
-#include <trammel/testing_markers.hpp>
+#include <trammel/testing/markers.hpp>
 
-#include "../made.hpp"
+#include "support/made.hpp"
 
 namespace trammel::test {
 namespace {

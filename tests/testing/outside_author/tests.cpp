@@ -1,4 +1,4 @@
-#include <trammel/testing_suites.hpp>
+#include <trammel/testing/suites.hpp>
 
 using namespace trammel;
 

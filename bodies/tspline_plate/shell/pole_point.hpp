@@ -1,0 +1,16 @@
+// A pole among the points of a surface: where an edge of the reference is one point, one tangent vanishes, and with it what is
+// told by tangents. Beside it there is a plane to tell.
+#pragma once
+
+#include <optional>
+
+#include "tspline_plate/shell/discretisation.hpp"
+
+namespace trammel::plate {
+
+// The parameter that turns about the pole, 0 u or 1 v; none: `at` is no pole.
+std::optional<int> turning_at_pole(const Discretisation& mesh, const Eigen::Vector2d& at);
+// `at` itself where there is none, else a millionth of the patch away.
+Eigen::Vector2d beside_pole(const Discretisation& mesh, const Eigen::Vector2d& at);
+
+}  // namespace trammel::plate

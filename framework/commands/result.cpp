@@ -1,0 +1,140 @@
+#include "commands/result.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "simulate/results/provenance.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json counts(Simulator& simulator) {
+  const Statistics& s = simulator.statistics();
+  const model::Counts& c = simulator.system().counts();
+  return {{"steps", s.steps},
+          {"contact_steps", s.contact_steps},
+          {"rejected", s.rejected},
+          {"locating_steps", s.locating_steps},
+          {"residual_evaluations", c.residual_evaluations},
+          {"jacobian_evaluations", c.jacobian_evaluations},
+          {"factorizations", c.factorizations},
+          {"newton_iterations", c.newton_iterations},
+          {"events", s.events},
+          {"impacts", s.impacts},
+          {"touches", s.touches}};
+}
+
+json sizes(const Statistics& statistics) {
+  json list = json::array();
+  for (const Statistics::SizesAt& at : statistics.sizes)
+    list.push_back({{"t", at.t}, {"nq", at.sizes.nq}, {"nv", at.sizes.nv}, {"nc", at.sizes.nc}});
+  return list;
+}
+
+json dissipated(const model::Model& model, const Ledger& ledger, double drift) {
+  json impact = json::object();
+  for (std::size_t i = 0; i < ledger.impacts().size(); ++i)
+    if (const model::ContactEntry& c = model.contacts[i]; c.restitution || (c.joint && c.coulomb))
+      impact[c.joint ? c.path() : c.name] = ledger.impacts()[i];
+  json friction = json::object(), joint_friction = json::object();
+  for (std::size_t i = 0; i < model.contacts.size(); ++i)
+    if (const model::ContactEntry& c = model.contacts[i]; c.friction || (c.surface && c.surface->friction))
+      (c.joint ? joint_friction : friction)[c.name] = ledger.friction()[Eigen::Index(i)];
+  return {{"impact", impact},
+          {"impact_total", ledger.impact_total()},
+          {"contact_damping", ledger.contact_damping()},
+          {"friction", friction},
+          {"joint_friction", joint_friction},
+          {"friction_total", ledger.friction().sum()},
+          {"dampers", ledger.dampers()},
+          {"numerical", -drift}};
+}
+
+// Contacts whose forces were one choice of many, and from when to when: [s] the first and the last record or event that showed it.
+json indeterminate(const model::Model& model, const ContactAudit& audit) {
+  json contacts = json::object();
+  for (const auto& [contact, span] : audit.indeterminate())
+    contacts[model.contacts[std::size_t(contact)].name] = {{"first", span.first}, {"last", span.last}};
+  return contacts;
+}
+
+}  // namespace
+
+json to_json(const Energy& e) {
+  return {{"kinetic", e.kinetic}, {"potential", e.potential}, {"elastic", e.elastic}, {"total", e.total()}};
+}
+
+std::string title_of(const scene::Scene& scene) {
+  const scene::Value* title = scene.root().find("title");
+  return title && title->type() == scene::Value::Type::text ? title->text() : scene.file();
+}
+
+json result_head(const scene::Scene& scene, const Setup& setup, const Outcomes& outcomes) {
+  const bool titled = scene.root().find("title") != nullptr;
+  json head = {{"trammel_result", 1},
+               {"status", to_string(outcomes.status)},
+               {"reason", outcomes.reason},
+               {"scene", scene.file()},
+               {"title", titled ? title_of(scene) : ""},
+               {"scene_hash", fmt::format("{:016x}", scene.hash())}};
+  head.update(provenance(scene, outcomes.command, setup.plugins));
+  return head;
+}
+
+const char* to_string(Status status) {
+  switch (status) {
+    case Status::done:
+      return "done";
+    case Status::failed:
+      return "failed";
+    case Status::interrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+std::string result_json(const scene::Scene& scene, const Setup& setup, Simulator& simulator, const Outcomes& outcomes) {
+  const Statistics& statistics = simulator.statistics();
+  const Ledger& ledger = simulator.ledger();
+  const State& state = simulator.state();
+  const Energy end = simulator.energy_at_state();
+  const double drift = simulator.energy_drift();
+  std::vector<std::string> warnings = simulator.doubts();
+  warnings.insert(warnings.end(), setup.warnings.begin(), setup.warnings.end());
+  warnings.insert(warnings.end(), simulator.warnings().begin(), simulator.warnings().end());
+  json result = result_head(scene, setup, outcomes);
+  result.update(json{{"warnings", warnings},
+                     {"integrator", setup.integrator_type},
+                     {"integrator_choice", setup.choice},
+                     {"t_start", setup.settings.start},
+                     {"t_end", state.t},
+                     {"t_until", setup.settings.until},
+                     {"wall_time_s", outcomes.cost.wall},
+                     {"cpu_time_s", outcomes.cost.cpu},
+                     {"resumed", outcomes.resumed},
+                     {"counts", counts(simulator)},
+                     {"smallest_step", statistics.smallest_step},
+                     {"largest_step", statistics.largest_step},
+                     {"energy_start", ledger.energy_start()},
+                     {"energy_end", to_json(end)},
+                     {"energy_supplied",
+                      {{"drives", ledger.drives()},
+                       {"constraints", ledger.constraints()},
+                       {"moving_markers", ledger.markers()},
+                       {"total", ledger.supplied()}}},
+                     {"energy_of_refinements", ledger.refinements()},
+                     {"energy_drift", drift},
+                     {"energy_dissipated", dissipated(*setup.model, ledger, drift)},
+                     {"statically_indeterminate", indeterminate(*setup.model, simulator.audit())},
+                     {"constraint_maxima",
+                      {{"position", statistics.largest.position},
+                       {"velocity", statistics.largest.velocity},
+                       {"acceleration", statistics.largest.acceleration}}},
+                     {"sizes", sizes(statistics)},
+                     {"sizes_left_out", statistics.sizes_left_out}});
+  return result.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace trammel::simulate

@@ -1,0 +1,394 @@
+// Runs a scene from the first line to the last: set-up, logs, the loop, checkpoints, and the results at every end.
+#include "commands/simulation.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <ctime>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "plugin/out_of_memory.hpp"
+#include "simulate/start/blame.hpp"
+#include "simulate/results/checkpoint.hpp"
+#include "diagnose/conflict.hpp"
+#include "simulate/start/crash_witness.hpp"
+#include "commands/result.hpp"
+#include "simulate/results/results_folder.hpp"
+#include "run/run_failed.hpp"
+#include "simulate/simulator.hpp"
+#include "commands/slow_steps.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+double seconds(Clock::duration d) {
+  return std::chrono::duration<double>(d).count();
+}
+double cpu_now() {
+  return double(std::clock()) / CLOCKS_PER_SEC;
+}
+
+constexpr double between_checkpoints = 2;      // [s] wall-clock
+constexpr double share_of_checkpoints = 0.05;  // of the time at most: a slow disk is asked less often
+constexpr double between_progress = 0.1;       // [s]
+// Room held for the end of a run on a full disk [bytes]: three buffers of logs, the result, and the checkpoint's numbers.
+constexpr long long room_for_logs = 1 << 19, room_per_number = 256;
+
+class Run {
+ public:
+  Run(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options)
+      : scene_(scene),
+        registry_(registry),
+        options_(options),
+        hash_(resume_hash(scene.root())),
+        setup_(set_up(scene, registry, Purpose::motion, options.witness, chosen_before())) {}
+
+  ~Run() {
+    if (options_.witness) options_.witness->leave();
+  }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  RunReport operator()() {
+    std::vector<Simulator::LevelCorrection> corrections;
+    for (const auto& c : setup_.corrections) corrections.push_back({c.level, c.correction.get(), &c.origin});
+    simulator_.emplace(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
+    if (options_.witness)
+      options_.witness->follow(setup_, scene_.root(), registry_, simulator_->system(),
+                               {&simulator_->state().t, &simulator_->statistics().steps});
+    try {
+      open();
+      loop();
+      finish();
+    } catch (const NotFinite& e) {
+      not_finite(e);
+    } catch (const BadStep& e) {
+      fail(plugin::PluginError(setup_.integrator_origin, "step", e.what(), simulator_->state().t).in_step(step()));
+    } catch (const RunFailed& e) {
+      end(Status::failed, e.what() + contradiction());
+    } catch (const model::NotSolvable& e) {
+      end(Status::failed, where(e.what()) + contradiction());
+    } catch (const OutsideDomain& e) {
+      end(Status::failed, where(said(e, simulator_->system().last_call()).c_str()));
+    } catch (const OutputError& e) {
+      out_of_room(e);
+    } catch (const plugin::PluginError& e) {
+      fail(e.step() || e.call().empty() ? e : e.in_step(step()));
+    } catch (const scene::SceneError&) {
+      if (!options_.resume) leave_nothing();  // the scene is wrong, which its start has shown
+      throw;
+    } catch (const std::bad_alloc& e) {
+      end(Status::failed, where(plugin::told(e)));
+    } catch (...) {
+      fail(blame(setup_, simulator_->system().last_call(), scene_.root(), registry_, simulator_->state().t, step()));
+    }
+    return std::move(report_);
+  }
+
+ private:
+  // The integrator that the run was begun with, where Trammel chose it.
+  // Of the run that is resumed. What is wrong with its checkpoints resume() says.
+  std::string chosen_before() const {
+    if (!options_.resume) return "";
+    for (const char* name : {newest_checkpoint, checkpoint_before}) {
+      try {
+        return read_checkpoint(options_.out / name, hash_).value("chosen_integrator", "");
+      } catch (const std::exception&) {
+      }
+    }
+    return "";
+  }
+  std::string where(const char* what) const {
+    return fmt::format("at t = {:.9g} s, step {}: {}", simulator_->state().t, step(), what);
+  }
+  // Whatever a method says of its steps: the reason may be rows that no motion satisfies.
+  std::string contradiction() {
+    try {
+      const Conflict conflict = simulator_->conflict();
+      return conflict.empty() ? "" : "; " + told(conflict);
+    } catch (const std::exception&) {
+      return "";  // a component has no answer there; the failure itself is told
+    }
+  }
+  long long step() const { return simulator_->statistics().steps + 1; }
+
+  [[noreturn]] void fail(const plugin::PluginError& error) {
+    end(Status::failed, error.what());
+    throw error;
+  }
+
+  // The scene's fault if the component follows a law of time written there, such as sqrt(1-t); else the plugin's.
+  void not_finite(const NotFinite& e) {
+    const plugin::Origin origin = origin_of(e.site(), scene_.root(), registry_);
+    const scene::Value* entry = scene_.root().at_path(origin.path);
+    if (entry && has_expression(*entry))
+      return end(Status::failed, fmt::format("{}: {} ({} of {}) gave numbers that are not finite in its \"{}\"",
+                                             e.what(), origin.path, origin.component, origin.file, e.site().call));
+    fail(plugin::PluginError(origin, e.site().call, "it gave numbers that are not finite", simulator_->state().t)
+             .in_step(step()));
+  }
+
+  static bool has_expression(const scene::Value& value) {
+    using Type = scene::Value::Type;
+    if (value.type() == Type::text) return value.text().starts_with("=");
+    if (value.type() == Type::array) return std::any_of(value.items().begin(), value.items().end(), has_expression);
+    if (value.type() == Type::object)
+      return std::any_of(value.members().begin(), value.members().end(),
+                         [](const auto& member) { return has_expression(member.second); });
+    return false;
+  }
+
+  void open() {
+    wall_start_ = Clock::now();
+    cpu_start_ = cpu_now();
+    std::optional<Recorder::Lengths> keep;
+    if (options_.resume) {
+      keep = resume();
+    } else {
+      std::error_code error;
+      fs::create_directories(options_.out, error);
+      if (error)
+        throw OutputError(fmt::format("cannot make the results folder {}: {}", options_.out.string(), error.message()));
+      remove_results(options_.out);
+    }
+    write_whole(options_.out / "scene.resolved.json", scene_.resolved());
+    const Sizes& sizes = setup_.model->sizes;
+    reserve_.emplace(options_.out, room_for_logs + room_per_number * (sizes.nq + sizes.nv + sizes.nc));
+    recorder_.emplace(options_.out, *setup_.model, setup_.columns, keep, setup_.settings.field_times);
+    last_result_.emplace(options_.out,
+                         result_head(scene_, setup_, {Status::failed, "", {}, options_.resume, options_.command}));
+    if (options_.witness) options_.witness->record_with(*recorder_, *last_result_);
+    if (!options_.resume) simulator_->start(setup_.initial);
+  }
+
+  void loop() {
+    const Clock::time_point began = Clock::now();
+    Clock::time_point checked = began, checkpointed = began, shown = began;
+    double pause = between_checkpoints;
+    SlowSteps slow_steps(simulator_->state().t, simulator_->statistics().steps);
+    long long stride = 1, since = 0;  // steps between looks at the clock, about 1 ms
+    for (;;) {
+      const bool more = simulator_->advance(*recorder_);
+      require_arithmetic(settings_, setup_, simulator_->state().t, step());
+      recorder_->check();  // between steps, where a checkpoint is possible
+      if (!more) return;
+      // After a step at least: it writes what happened at the start.
+      if (options_.interrupt && options_.interrupt->heed()) {
+        status_ = Status::interrupted;
+        return;
+      }
+      if (++since < stride) continue;
+      since = 0;
+      const Clock::time_point now = Clock::now();
+      const double passed = seconds(now - checked);
+      if (passed < 1e-3 && stride < (1 << 16))
+        stride *= 2;
+      else if (passed > 4e-3 && stride > 1)
+        stride /= 2;
+      checked = now;
+      if (const std::string slow = slow_steps.look(seconds(now - began), setup_, *simulator_); !slow.empty())
+        warn(slow);
+      if (options_.progress && seconds(now - shown) >= between_progress) show(), shown = now;
+      if (seconds(now - checkpointed) < pause) continue;
+      write();
+      checkpointed = Clock::now();
+      pause = std::max(between_checkpoints, seconds(checkpointed - now) / share_of_checkpoints);
+    }
+  }
+
+  void warn(const std::string& warning) {
+    simulator_->warn(warning);
+    if (options_.warn) options_.warn(warning);
+  }
+
+  void show() {
+    const Statistics& s = simulator_->statistics();
+    options_.progress({simulator_->state().t, setup_.settings.until, s.steps, int(s.impacts)});
+  }
+
+  void finish() {
+    write();
+    if (options_.progress) show();
+    end(status_, status_ == Status::interrupted ? fmt::format("interrupted at t = {:.9g} s after {} steps",
+                                                              simulator_->state().t, simulator_->statistics().steps)
+                                                : "");
+  }
+
+  Cost cost() const {
+    return {before_.wall + seconds(Clock::now() - wall_start_), before_.cpu + (cpu_now() - cpu_start_)};
+  }
+
+  static void archive_lengths(Archive& archive, Recorder::Lengths& lengths) {
+    const auto part = [&archive](const std::string& name, LogPart& log) {
+      archive("bytes_" + name, log.bytes);
+      auto checksum = std::bit_cast<long long>(log.checksum);
+      archive("checksum_" + name, checksum);
+      log.checksum = std::bit_cast<std::uint64_t>(checksum);
+    };
+    part("series", lengths.series), part("events", lengths.events);
+    part("animation", lengths.animation), part("fields", lengths.fields);
+    archive("field_times", lengths.field_times);
+  }
+
+  // Logs first: a checkpoint never tells of bytes that are not there.
+  void write() {
+    recorder_->sync();
+    json data = json::object();
+    JsonArchive archive(data, JsonArchive::Direction::write);
+    simulator_->archive(archive);
+    Recorder::Lengths lengths = recorder_->lengths();
+    archive_lengths(archive, lengths);
+    Cost so_far = cost();
+    archive("wall", so_far.wall), archive("cpu", so_far.cpu);
+    data["chosen_integrator"] = setup_.chosen;
+    write_checkpoint(options_.out / newest_checkpoint, hash_, data);
+  }
+
+  struct Checkpoint {
+    fs::path file;
+    json data;
+    Recorder::Lengths lengths;
+  };
+
+  // Whole, of this scene, and written when the logs were as they still are.
+  Checkpoint read(const char* name) {
+    Checkpoint found{options_.out / name, {}, {}};
+    found.data = read_checkpoint(found.file, hash_);
+    fitting(found, [&](JsonArchive& archive) { archive_lengths(archive, found.lengths); });
+    if (const std::string damage = Recorder::damage(options_.out, found.lengths); !damage.empty())
+      refuse_checkpoint(found.file, damage);
+    return found;
+  }
+
+  // The one before it serves where the newest is damaged, or logs have lost what it tells of.
+  Checkpoint read() {
+    try {
+      return read(newest_checkpoint);
+    } catch (const scene::SceneError& newest) {
+      std::optional<Checkpoint> before;
+      try {
+        before = read(checkpoint_before);
+      } catch (const scene::SceneError&) {
+      }
+      if (!before) throw;
+      setup_.warnings.push_back(fmt::format("{}; the run went on from {}", newest.what(), checkpoint_before));
+      return std::move(*before);
+    }
+  }
+
+  Recorder::Lengths resume() {
+    Checkpoint found = read();
+    fitting(found, [&](JsonArchive& archive) {
+      simulator_->archive(archive);
+      archive("wall", before_.wall), archive("cpu", before_.cpu);
+      if (found.lengths.field_times < 0 || found.lengths.field_times > (long long)(setup_.settings.field_times.size()))
+        throw std::out_of_range("field_times");
+      if (found.data.at("chosen_integrator").get<std::string>() != setup_.chosen)
+        throw std::invalid_argument("chosen_integrator");
+    });
+    simulator_->resume();
+    if (simulator_->state().t > setup_.settings.until)
+      refuse_checkpoint(found.file, fmt::format("it has reached t = {:.9g} s already, the scene ends at {:.9g} s",
+                                                simulator_->state().t, setup_.settings.until));
+    return found.lengths;
+  }
+
+  // Whatever a component says of what it reads: the checkpoint is not one that it wrote.
+  template <class Read>
+  static void fitting(Checkpoint& found, Read read) {
+    try {
+      JsonArchive archive(found.data, JsonArchive::Direction::read);
+      read(archive);
+    } catch (const std::exception& e) {
+      refuse_checkpoint(
+          found.file,
+          fmt::format("its content does not fit this scene and program ({}); start the run anew", e.what()));
+    }
+  }
+
+  void leave_nothing() {
+    if (options_.witness) options_.witness->leave();
+    recorder_.reset();
+    remove_results(options_.out);
+  }
+
+  // The reserve's room goes to the last lines and a checkpoint. A limit on the length of one file may still stop a log.
+  void out_of_room(const OutputError& e) {
+    reserve_.reset();
+    std::string reason = e.what();
+    if (recorder_) {
+      reason += fmt::format("; t = {:.9g} s was reached", simulator_->state().t);
+      try {
+        write();
+        reason += ", and all of it is kept: make room and go on with --resume";
+      } catch (const OutputError&) {
+        if (const std::string missing = recorder_->missing(); !missing.empty()) reason += "; " + missing;
+        std::error_code error;
+        if (fs::exists(options_.out / newest_checkpoint, error))
+          reason += "; --resume goes on from the last checkpoint";
+      }
+    }
+    end(Status::failed, reason);
+  }
+
+  // Everything known is kept; what cannot be written any more is told in the reason.
+  void end(Status status, const std::string& reason) {
+    reserve_.reset();
+    Outcomes outcomes{status, reason, cost(), options_.resume, options_.command};
+    try {
+      if (recorder_) recorder_->flush();
+    } catch (const OutputError& e) {
+      if (outcomes.reason.empty()) outcomes.reason = e.what();
+      outcomes.status = Status::failed;
+    }
+    report_.result_json = result_json(scene_, setup_, *simulator_, outcomes);
+    report_.summary = summary(scene_, setup_, *simulator_, outcomes, options_.out);
+    try {
+      write_whole(options_.out / "result.json", report_.result_json);
+    } catch (const OutputError& e) {
+      outcomes.reason += (outcomes.reason.empty() ? "" : "; ") + std::string(e.what());
+      outcomes.status = Status::failed;
+      report_.summary = summary(scene_, setup_, *simulator_, outcomes, options_.out);
+    }
+    if (options_.witness) options_.witness->leave();  // the result stands there: nobody replaces it any more
+    report_.status = outcomes.status;
+    report_.reason = outcomes.reason;
+  }
+
+  const scene::Scene& scene_;
+  plugin::Registry& registry_;
+  const RunOptions& options_;
+  plugin::ProcessSettings settings_;
+  std::uint64_t hash_;
+  Setup setup_;
+  std::optional<Simulator> simulator_;
+  std::optional<Reserve> reserve_;
+  std::optional<Recorder> recorder_;
+  std::optional<LastResult> last_result_;
+  Status status_ = Status::done;
+  RunReport report_;
+  Clock::time_point wall_start_;
+  double cpu_start_ = 0;
+  Cost before_;
+};
+
+}  // namespace
+
+RunReport run(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options) {
+  return Run(scene, registry, options)();
+}
+
+std::string validate(const scene::Scene& scene, plugin::Registry& registry, CrashWitness* witness) {
+  std::string text;
+  for (const std::string& warning : set_up(scene, registry, purpose_of(scene.root()), witness).warnings)
+    text += warning + "\n";
+  return text;
+}
+
+}  // namespace trammel::simulate

@@ -1,0 +1,54 @@
+// Runs a scene: builds the model, advances it, and writes the results folder.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "plugin/registry.hpp"
+#include "scene/value.hpp"
+#include "run/interrupt.hpp"
+
+namespace trammel::simulate {
+
+struct Progress {
+  double t = 0, until = 0;  // [s] simulated
+  long long steps = 0;
+  int impacts = 0;
+};
+
+class CrashWitness;
+
+struct RunOptions {
+  std::filesystem::path out;                      // results folder, made if missing
+  bool resume = false;                            // continue from out/checkpoint.cbor
+  Interrupt* interrupt = nullptr;                 // from a signal handler: stop after this step, keep everything
+  std::vector<std::string> command;               // the words of the command line, for result.json
+  CrashWitness* witness = nullptr;                // told what a handler of crashes needs
+  std::function<void(const Progress&)> progress;  // called about ten times a second of wall-clock time
+  std::function<void(const std::string&)> warn;   // called at once with what is worth knowing before the run ends
+};
+
+enum class Status { done, failed, interrupted };
+
+struct RunReport {
+  Status status = Status::done;
+  std::string reason;       // why it failed: time, step and cause
+  std::string result_json;  // as written to out/result.json
+  std::string summary;  // a few lines for a person: what was simulated, impacts, energy by cause, norms, cost, where
+};
+
+// Throws scene::SceneError for bad input, plugin::PluginError for a plugin that misbehaves (results so far are kept).
+RunReport run(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options);
+
+// Equilibria under loads that follow t, from simulate.start to simulate.until, a record each (load_path.hpp); writes series.csv,
+// animation.ndjson, fields.ndjson and result.json. Throws like run.
+RunReport run_static(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options);
+
+// Reads everything and builds the model without running; throws like run. Returns warnings, a line each.
+std::string validate(const scene::Scene& scene, plugin::Registry& registry, CrashWitness* witness = nullptr);
+
+// What was built, what each part costs, what was left out: a text for a person.
+std::string explain(const scene::Scene& scene, plugin::Registry& registry, CrashWitness* witness = nullptr);
+
+}  // namespace trammel::simulate

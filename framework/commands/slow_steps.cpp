@@ -1,0 +1,65 @@
+#include "commands/slow_steps.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "diagnose/fastest_motion.hpp"
+#include "diagnose/mass_ratio.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+constexpr double many = 50;           // steps between two records
+constexpr double long_wait = 20;      // [s] of wall-clock time to the end
+constexpr double accounts_for = 0.01;  // radians of the fastest motion in a step: fewer are short for another reason
+
+std::string cause(const FastestMotion& fastest, const Setup& setup, const Simulator& simulator, double h) {
+  const bool implicit = setup.integrator->traits().implicit, on_rows = setup.integrator->traits().holds_position;
+  if (const MassRatio ratio = mass_ratio(*setup.model, simulator.state()); ratio.is_large() && !on_rows)
+    return fmt::format("{}; \"rows\": \"projected\" in the integrator takes long steps there",
+                       told(ratio, *setup.model));
+  const std::string what = told(fastest, *setup.model);
+  if (fastest.rate() * h < accounts_for)
+    return fmt::format(
+        "{}, which asks for none so short, with {} events so far; a looser tolerance takes longer ones, or fixed "
+        "steps: "
+        "\"integrator\": {{\"type\": \"generalized_alpha\", \"step\": {:.0e}}}",
+        what, simulator.statistics().events, std::min(setup.settings.every, 1 / fastest.rate()));
+  if (implicit)
+    return fmt::format(
+        "{}, and the error control follows it; a looser tolerance does not, nor does hht_alpha with "
+        "more damping (\"alpha\": -0.3)",
+        what);
+  return fmt::format(
+      "{}, and an explicit method follows it; \"integrator\": {{\"type\": \"hht_alpha\", \"step\": "
+      "{{\"tolerance\": 1e-6}}}} does not",
+      what);
+}
+
+}  // namespace
+
+std::string SlowSteps::look(double seconds, const Setup& setup, Simulator& simulator) {
+  if (seconds < next_look_ || setup.settings.step.fixed) return "";
+  const double passed = simulator.state().t - t_, left = setup.settings.until - simulator.state().t;
+  const double steps = double(simulator.statistics().steps - steps_), took = seconds - last_look_;
+  const double wait = passed > 0 ? took * left / passed : std::numeric_limits<double>::infinity();
+  t_ = simulator.state().t, steps_ = simulator.statistics().steps;
+  last_look_ = seconds, next_look_ = 2 * seconds;
+  if (steps * setup.settings.every < many * passed || wait < long_wait) return "";
+  next_look_ = std::numeric_limits<double>::infinity();
+  const double h = passed / std::max(1.0, steps);
+  const std::string slow = fmt::format(
+      "t = {:.6g} s: steps of {:.2g} s, {:.3g} of them between two records, leave {:.2g} s of wall-clock time to go",
+      simulator.state().t, h, passed > 0 ? setup.settings.every / h : steps, wait);
+  try {
+    model::AssembledSystem system(setup.model);
+    system.set_modes(simulator.system().modes());
+    return slow + ": " + cause(fastest_motion(system, simulator.state()), setup, simulator, h);
+  } catch (const std::exception&) {
+    return slow;  // a component has no answer beside the solution
+  }
+}
+
+}  // namespace trammel::simulate

@@ -1,0 +1,182 @@
+#include "complementarity/programs/cone_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
+
+namespace trammel::complementarity {
+namespace {
+
+using Eigen::Index;
+using ConstBlock = Eigen::VectorBlock<const Vec>;
+
+constexpr int most_iterations = 50;
+constexpr double accurate = 1e-12;  // residuals and gap, of numbers of the order of 1
+
+// The cone x_0 >= |x_1|; its product is the Jordan algebra's.
+double J_norm(const ConstBlock& x) {
+  const double tail = x.tail(x.size() - 1).norm();
+  return std::sqrt(std::max(0.0, (x[0] - tail) * (x[0] + tail)));
+}
+
+Vec product(const ConstBlock& x, const ConstBlock& y) {
+  Vec p(x.size());
+  p[0] = x.dot(y);
+  p.tail(x.size() - 1) = x[0] * y.tail(x.size() - 1) + y[0] * x.tail(x.size() - 1);
+  return p;
+}
+
+// x with product(x, y) = p
+Vec quotient(const ConstBlock& p, const ConstBlock& y) {
+  const Index n = y.size() - 1;
+  const double norm = J_norm(y) * J_norm(y);
+  Vec x(n + 1);
+  x[0] = (y[0] * p[0] - y.tail(n).dot(p.tail(n))) / norm;
+  x.tail(n) = (p.tail(n) - x[0] * y.tail(n)) / y[0];
+  return x;
+}
+
+// The largest step along d that stays in the cone.
+double longest(const ConstBlock& x, const ConstBlock& d) {
+  const Index n = x.size() - 1;
+  const double a = d[0] * d[0] - d.tail(n).squaredNorm(), b = x[0] * d[0] - x.tail(n).dot(d.tail(n)),
+               c = J_norm(x) * J_norm(x);
+  double step = d[0] < 0 ? -x[0] / d[0] : 1e300;
+  const double discriminant = b * b - a * c;
+  if (discriminant >= 0) {  // a t^2 + 2 b t + c = 0
+    const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+    for (const double t : {a != 0 ? q / a : -1.0, q != 0 ? c / q : -1.0})
+      if (t > 0) step = std::min(step, t);
+  }
+  return step;
+}
+
+// Its dual: D x - G^T y = z,  u . y = -1,  z in the cones.
+class InteriorPoint {
+ public:
+  explicit InteriorPoint(const ConeProgram& program) : D_(program.D), G_(program.G), u_(program.u), r_(program.r) {
+    Index first = 0;
+    for (const Index size : program.cones) {
+      cones_.push_back({first, size});
+      first += size;
+    }
+    now_.x.setZero(first);
+    for (const Cone& c : cones_) now_.x[c.first] = 1;
+    z_ = scaled_ = now_.x;
+    now_.y.setZero(r_.size());
+  }
+
+  // Ends at round-off, which grows once it is reached.
+  ConeSolution solve() {
+    ConeSolution best;
+    best.off = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < most_iterations; ++i) {
+      primal_ = r_ - G_ * now_.x;
+      if (has_s()) primal_ -= now_.s * u_;
+      dual_ = D_.cwiseProduct(now_.x) - G_.transpose() * now_.y - z_;
+      free_ = has_s() ? -1 - u_.dot(now_.y) : 0;
+      const double gap = now_.x.dot(z_);
+      now_.off = std::max({primal_.norm(), dual_.norm(), std::abs(free_), gap});
+      if (now_.off < best.off) best = now_;
+      if (now_.off < accurate || !(now_.off < 1e3 * best.off) || !step(gap / double(cones_.size()))) break;
+    }
+    return best;
+  }
+
+ private:
+  struct Cone {
+    Index first, size;
+  };
+
+  bool has_s() const { return u_.size() > 0; }
+  static ConstBlock of(const Vec& v, const Cone& c) { return v.segment(c.first, c.size); }
+
+  bool step(double mu) {
+    scale();
+    Vec right = -scaled_;
+    if (!direction(right)) return false;
+    double reach = std::min({1.0, reach_of(now_.x, dx_), reach_of(z_, dz_)});
+    const double centre = std::pow(1 - reach, 3);
+    const Vec dx_scaled = W_inverse_ * dx_, dz_scaled = W_ * dz_;
+    for (const Cone& c : cones_) {
+      Vec p = -product(of(scaled_, c), of(scaled_, c)) - product(of(dx_scaled, c), of(dz_scaled, c));
+      p[0] += centre * mu;
+      right.segment(c.first, c.size) = quotient(ConstBlock(p, 0, p.size()), of(scaled_, c));
+    }
+    if (!direction(right)) return false;
+    reach = std::min(1.0, 0.99 * std::min(reach_of(now_.x, dx_), reach_of(z_, dz_)));
+    now_.x += reach * dx_, z_ += reach * dz_, now_.y += reach * dy_, now_.s += reach * ds_;
+    return true;
+  }
+
+  // W with W z = W^-1 x, symmetric, and (1 + W D W)^-1.
+  void scale() {
+    const Index n = now_.x.size();
+    W_.setZero(n, n), W_inverse_.setZero(n, n), yields_.setZero(n, n);
+    for (const Cone& c : cones_) {
+      const auto x = of(now_.x, c), z = of(z_, c);
+      const double nx = J_norm(x), nz = J_norm(z), gamma = std::sqrt((1 + x.dot(z) / (nx * nz)) / 2);
+      Vec w = x / nx;
+      w[0] += z[0] / nz;
+      w.tail(c.size - 1) -= z.tail(c.size - 1) / nz;
+      w /= 2 * gamma;
+      const double eta = std::sqrt(nx / nz);
+      auto W = W_.block(c.first, c.first, c.size, c.size);
+      W = w * w.transpose() / (1 + w[0]);
+      W.row(0) = w.transpose(), W.col(0) = w;
+      W.diagonal().tail(c.size - 1).array() += 1;
+      auto inverse = W_inverse_.block(c.first, c.first, c.size, c.size);
+      inverse = W / eta;
+      inverse.row(0).tail(c.size - 1) *= -1, inverse.col(0).tail(c.size - 1) *= -1;
+      W *= eta;
+      const Mat stiff = Mat::Identity(c.size, c.size) + W * D_.segment(c.first, c.size).asDiagonal() * W;
+      yields_.block(c.first, c.first, c.size, c.size) = stiff.inverse();
+    }
+    scaled_ = W_ * z_;
+  }
+
+  // W^-1 dx + W dz = right, and the linear equations.
+  bool direction(const Vec& right) {
+    const Index rows = G_.rows(), all = rows + has_s();
+    const Mat GW = G_ * W_, GWY = GW * yields_;
+    Mat K = Mat::Zero(all, all);
+    K.topLeftCorner(rows, rows) = GWY * GW.transpose();
+    Vec r(all);
+    r.head(rows) = primal_ - GWY * (right - W_ * dual_);
+    if (has_s()) K.col(rows).head(rows) = u_, K.row(rows).head(rows) = u_.transpose(), r[rows] = free_;
+    const Eigen::FullPivLU<Mat> lu(K);
+    Vec d = lu.solve(r);
+    d += lu.solve(r - K * d);
+    if (!d.allFinite()) return false;
+    dy_ = d.head(rows), ds_ = has_s() ? d[rows] : 0;
+    dx_ = W_ * (yields_ * (right - W_ * (dual_ - G_.transpose() * dy_)));
+    dz_ = dual_ - G_.transpose() * dy_ + D_.cwiseProduct(dx_);
+    return true;
+  }
+
+  double reach_of(const Vec& from, const Vec& along) const {
+    double least = 1e300;
+    for (const Cone& c : cones_) least = std::min(least, longest(of(from, c), of(along, c)));
+    return least;
+  }
+
+  const Vec& D_;
+  const Mat& G_;
+  const Vec &u_, &r_;
+  std::vector<Cone> cones_;
+  ConeSolution now_;
+  Vec z_, scaled_;
+  Vec primal_, dual_, dx_, dy_, dz_;
+  double free_ = 0, ds_ = 0;
+  Mat W_, W_inverse_, yields_;
+};
+
+}  // namespace
+
+ConeSolution solve_cone_program(const ConeProgram& program) {
+  return InteriorPoint(program).solve();
+}
+
+}  // namespace trammel::complementarity

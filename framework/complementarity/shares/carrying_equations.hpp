@@ -1,0 +1,35 @@
+// The equations of closed contacts that carry (carrying_rows.hpp), for the resultants lambda of their forces:
+//
+//     a_R = A_R F + b_R = 0 along the basis,     F = F_0 + W share lambda
+//
+// W: the unknowns along rows, and T = p N where a contact slides. F_0: friction that slides under a given normal force.
+#pragma once
+
+#include <Eigen/LU>
+
+#include "complementarity/shares/carrying_rows.hpp"
+
+namespace trammel::complementarity {
+
+class CarryingEquations {
+ public:
+  CarryingEquations(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b,
+                    const std::vector<ContactRole>& roles, const CarryingRows& carrying);
+
+  // False: they have no or many solutions, as at Painleve's critical coefficient.
+  bool regular() const;
+  Vec forces() const;  // F
+  // The change of lambda that cancels what is left of these accelerations along the basis.
+  Vec correction(const Vec& a) const;
+
+ private:
+  Mat along_rows(const std::vector<ContactPoint>& points, const std::vector<ContactRole>& roles,
+                 const CarryingRows& carrying) const;
+
+  std::vector<Eigen::Index> basis_;
+  Vec F_0_, rest_, scale_;  // rest_: accelerations by F_0
+  Mat F_lambda_;            // W share
+  Eigen::FullPivLU<Mat> lu_;
+};
+
+}  // namespace trammel::complementarity

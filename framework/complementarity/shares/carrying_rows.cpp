@@ -1,0 +1,118 @@
+#include "complementarity/shares/carrying_rows.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+
+namespace trammel::complementarity {
+
+using Eigen::Index;
+using Tangent = ContactRole::Tangent;
+
+namespace {
+
+// The contact that a row of A belongs to.
+std::vector<std::size_t> contacts_of_rows(const std::vector<ContactPoint>& points) {
+  std::vector<std::size_t> contacts;
+  const auto add = [&contacts](int row, std::size_t contact) {
+    if (row >= int(contacts.size())) contacts.resize(std::size_t(row) + 1);
+    contacts[std::size_t(row)] = contact;
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].normal >= 0) add(points[i].normal, i);
+    for (int k = 0; k < points[i].tangents && points[i].tangent >= 0; ++k) add(points[i].tangent + k, i);
+  }
+  return contacts;
+}
+
+}  // namespace
+
+Mat least_norm_shares(const Mat& shares) {
+  const Index n = shares.cols();
+  const Mat alone = Eigen::LLT<Mat>(Mat::Identity(n, n) + shares.transpose() * shares).solve(Mat::Identity(n, n));
+  Mat share(n + shares.rows(), n);
+  share << alone, shares * alone;
+  return share;
+}
+
+CarryingRows carrying_rows(const std::vector<ContactPoint>& points, const Mat& A,
+                           const std::vector<ContactRole>& roles) {
+  std::vector<Index> carrying, idle;
+  const std::vector<std::size_t> contact_of = contacts_of_rows(points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ContactPoint& p = points[i];
+    if (roles[i].closed && p.normal >= 0) (roles[i].idle ? idle : carrying).push_back(p.normal);
+    for (int k = 0; k < p.tangents && roles[i].tangent == Tangent::sticks; ++k) carrying.push_back(p.tangent + k);
+  }
+  CarryingRows result;
+  result.rows = find_basis(A, carrying, idle);
+  const auto& [basis, implied, K] = result.rows;
+  Mat shares = K;  // of what carries
+  for (std::size_t i = 0; i < implied.size(); ++i)
+    if (std::find(idle.begin(), idle.end(), implied[i]) != idle.end()) shares.row(Index(i)).setZero();
+  const Index n = Index(basis.size());
+  result.share = least_norm_shares(shares);
+  result.indeterminate.assign(points.size(), false);
+  for (Index i = 0; i < K.rows(); ++i) {
+    result.indeterminate[contact_of[std::size_t(implied[std::size_t(i)])]] = true;
+    for (Index j = 0; j < n; ++j)
+      if (K(i, j) != 0) result.indeterminate[contact_of[std::size_t(basis[std::size_t(j)])]] = true;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    result.sliding_shares = result.sliding_shares ||
+                            (result.indeterminate[i] && points[i].normal >= 0 && roles[i].tangent == Tangent::slides);
+  return result;
+}
+
+namespace {
+
+// Contacts tied by what depends on what: trees, each known by its root.
+class Ties {
+ public:
+  explicit Ties(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t(0)); }
+  std::size_t root(std::size_t i) const {
+    while (parent_[i] != i) i = parent_[i];
+    return i;
+  }
+  void tie(std::size_t i, std::size_t j) { parent_[root(i)] = root(j); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+}  // namespace
+
+std::vector<SharingGroup> sharing_groups(const std::vector<ContactPoint>& points, const std::vector<ContactRole>& roles,
+                                         const CarryingRows& carrying) {
+  const auto& [basis, implied, K] = carrying.rows;
+  const std::vector<std::size_t> contact_of = contacts_of_rows(points);
+  Ties ties(points.size());
+  for (std::size_t i = 0; i < implied.size(); ++i)
+    for (std::size_t j = 0; j < basis.size(); ++j)
+      if (K(Index(i), Index(j)) != 0) ties.tie(contact_of[std::size_t(implied[i])], contact_of[std::size_t(basis[j])]);
+  std::vector<SharingGroup> groups;
+  for (std::size_t root = 0; root < points.size(); ++root) {
+    SharingGroup group;
+    std::vector<Index> of_basis, of_implied, of_both;
+    for (std::size_t j = 0; j < basis.size(); ++j)
+      if (ties.root(contact_of[std::size_t(basis[j])]) == root)
+        of_basis.push_back(Index(j)), group.basis.push_back(basis[j]);
+    for (std::size_t i = 0; i < implied.size(); ++i)
+      if (ties.root(contact_of[std::size_t(implied[i])]) == root)
+        of_implied.push_back(Index(i)), group.implied.push_back(implied[i]);
+    if (of_implied.empty()) continue;
+    of_both = of_basis;
+    for (const Index i : of_implied) of_both.push_back(Index(basis.size()) + i);
+    group.K = K(of_implied, of_basis);
+    group.share = carrying.share(of_both, of_basis);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (ties.root(i) == root && carrying.indeterminate[i] && points[i].normal >= 0 &&
+          roles[i].tangent == Tangent::slides)
+        group.sliding.push_back(i);
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+}  // namespace trammel::complementarity

@@ -1,0 +1,88 @@
+#include "complementarity/shares/row_basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace trammel::complementarity {
+namespace {
+
+// Squares of sines of angles: below this a row follows from others. Where A is built from rows that are right to 1e-16, what is
+// left of a dependent one is some 1e-14; contacts 1e-6 of a body's size apart leave 1e-12.
+constexpr double dependent = 1e-13;
+constexpr double no_share = 1e-9;  // of K, rows at length one
+
+// Cholesky with diagonal pivoting, the rows of `order` only.
+class PivotedCholesky {
+ public:
+  explicit PivotedCholesky(const Mat& A) : left_(A.diagonal()), size_(A.diagonal()), A_(A) { L_.setZero(A.rows(), 0); }
+
+  void take(std::vector<Eigen::Index> rows, RowBasis& result) {
+    while (!rows.empty()) {
+      std::size_t best = 0;
+      for (std::size_t k = 1; k < rows.size(); ++k)
+        if (share(rows[k]) > share(rows[best])) best = k;
+      const Eigen::Index row = rows[best];
+      if (!(share(row) > dependent)) break;
+      eliminate(row);
+      result.basis.push_back(row);
+      rows.erase(rows.begin() + std::ptrdiff_t(best));
+    }
+    result.implied.insert(result.implied.end(), rows.begin(), rows.end());
+  }
+
+ private:
+  double share(Eigen::Index i) const { return size_[i] > 0 ? left_[i] / size_[i] : 0; }
+
+  void eliminate(Eigen::Index row) {
+    const Vec column = (A_.col(row) - L_ * L_.row(row).transpose()) / std::sqrt(left_[row]);
+    L_.conservativeResize(Eigen::NoChange, L_.cols() + 1);
+    L_.rightCols(1) = column;
+    left_ -= column.cwiseAbs2();
+    left_[row] = 0;
+  }
+
+  Vec left_, size_;
+  Mat L_;
+  const Mat& A_;
+};
+
+}  // namespace
+
+Mat RowBasis::resultants() const {
+  Mat E(Eigen::Index(basis.size()), Eigen::Index(basis.size() + implied.size()));
+  E << Mat::Identity(E.rows(), E.rows()), K.transpose();
+  return E;
+}
+
+RowBasis find_basis(const Mat& A, const std::vector<Eigen::Index>& first, const std::vector<Eigen::Index>& others) {
+  RowBasis result;
+  PivotedCholesky cholesky(A);
+  cholesky.take(first, result);
+  cholesky.take(others, result);
+  result.K = implied_by(A, result.basis, result.implied);
+  return result;
+}
+
+Mat implied_by(const Mat& A, const std::vector<Eigen::Index>& basis, const std::vector<Eigen::Index>& implied) {
+  const Eigen::Index n = Eigen::Index(basis.size()), m = Eigen::Index(implied.size());
+  Mat K = Mat::Zero(m, n);
+  if (n == 0 || m == 0) return K;
+  const Vec length = A.diagonal().cwiseSqrt();
+  const Vec scale = length(basis).cwiseInverse();
+  const Mat of_basis = scale.asDiagonal() * A(basis, basis) * scale.asDiagonal();
+  const Mat of_implied = scale.asDiagonal() * A(basis, implied);
+  K = (scale.asDiagonal() * Eigen::LLT<Mat>(of_basis).solve(of_implied)).transpose();
+  for (Eigen::Index i = 0; i < m; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      if (std::abs(K(i, j)) * length[basis[std::size_t(j)]] <= no_share * length[implied[std::size_t(i)]]) K(i, j) = 0;
+  return K;
+}
+
+bool follows(const Mat& A, const std::vector<Eigen::Index>& rows, Eigen::Index row) {
+  const RowBasis found = find_basis(A, rows, {row});
+  return std::find(found.implied.begin(), found.implied.end(), row) != found.implied.end();
+}
+
+}  // namespace trammel::complementarity

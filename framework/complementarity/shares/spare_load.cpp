@@ -1,0 +1,33 @@
+#include "complementarity/shares/spare_load.hpp"
+
+#include <algorithm>
+
+#include "complementarity/programs/cone_program.hpp"
+
+namespace trammel::complementarity {
+
+using Eigen::Index;
+
+// Each contact is unloaded to x_0 = N - s, and s by what is left of `most`: s + x = most.
+double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda) {
+  Vec F_s = Vec::Zero(E.cols());  // dF/ds
+  for (const SharingContact& c : contacts)
+    if (c.normal >= 0) F_s[c.normal] = 1;
+  ConeProgram program = sharing_program(contacts, E, lambda);
+  const Index rows = program.G.rows(), columns = program.G.cols();
+  program.D.setZero(columns + 1);
+  program.cones.push_back(1);
+  program.u.setOnes(rows + 1);
+  program.u.head(E.rows()) = E * F_s;
+  const double size = std::max(program.r.lpNorm<Eigen::Infinity>(), 1e-300);
+  program.r.conservativeResize(rows + 1);
+  program.r /= size;
+  program.r[rows] = most;
+  Mat G = Mat::Zero(rows + 1, columns + 1);
+  G.topLeftCorner(rows, columns) = program.G;
+  G(rows, columns) = 1;
+  program.G = std::move(G);
+  return size * solve_cone_program(program).s;
+}
+
+}  // namespace trammel::complementarity

@@ -1,0 +1,261 @@
+#include "diagnose/conflict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <Eigen/QR>
+
+#include "diagnose/redundancy.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+using model::RowGroup;
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+constexpr int most_rows = 1000;     // at a time: they are dense here, n^3 operations
+constexpr double tolerance = 1e-8;  // [m], [rad] and their rates: what counts as satisfied
+
+// Rows of chosen joints and bodies.
+class Chosen {
+ public:
+  Chosen(model::AssembledSystem& system, std::vector<RowGroup> groups) : system_(system), groups_(std::move(groups)) {}
+
+  // Positions, then velocities and accelerations, which are linear. What the velocities are beyond those that the rows ask for
+  // must not count: where their rank is about to change no motion may go on from them.
+  bool can_hold(State s) const {
+    if (!find_positions(s)) return false;
+    const Vec v = s.v;
+    for (const Vec& start : {v, Vec(Vec::Zero(v.size()))}) {
+      s.v = start;
+      if (find_velocities(s) && has_accelerations()) return true;
+    }
+    return false;
+  }
+
+ private:
+  // Newton's method with steps of minimum norm, shorter ones where they do not help.
+  bool find_positions(State& s) const {
+    constexpr double least_step = 1e-2, least_gain = 0.1;
+    double now = move_to(s, s.q);
+    for (int i = 0; i < 50 && now > 1e-3 * tolerance; ++i) {
+      const Vec dq = -minimum_norm(rows_of(system_.g()));
+      double step = 1, then = 0;
+      Vec q;
+      for (; step > least_step; step /= 2) {
+        system_.retract(s.q, step * dq, q);
+        then = move_to(s, q);
+        if (then < (1 - least_gain * step) * now) break;
+      }
+      if (!(step > least_step)) break;
+      s.q = q;
+      now = then;
+    }
+    move_to(s, s.q);
+    return now < tolerance;
+  }
+  double move_to(const State& s, const Vec& q) const {
+    system_.move_to(s.t, q, s.v);
+    return rows_of(system_.g()).norm();
+  }
+
+  bool find_velocities(State& s) const {
+    system_.move_to(s.t, s.q, s.v);
+    s.v -= minimum_norm(rows_of(system_.g_dot()));
+    system_.move_to(s.t, s.q, s.v);
+    return rows_of(system_.g_dot()).norm() < tolerance * std::max(1.0, s.v.norm());
+  }
+
+  bool has_accelerations() const {
+    Vec gamma;
+    system_.constraint_acceleration(Vec::Zero(system_.sizes().nv), gamma);
+    const Vec wanted = -rows_of(gamma);
+    const Vec a = minimum_norm(wanted);
+    system_.constraint_acceleration(a, gamma);
+    return rows_of(gamma).norm() < 1e-6 * std::max(1.0, wanted.norm());
+  }
+
+  Vec rows_of(const Vec& all) const {
+    std::vector<double> some;
+    for (const RowGroup& rows : groups_)
+      some.insert(some.end(), all.data() + rows.first, all.data() + rows.first + rows.count);
+    return Eigen::Map<const Vec>(some.data(), Eigen::Index(some.size()));
+  }
+
+  // x of least norm with G x = r, in the least-squares sense.
+  Vec minimum_norm(const Vec& r) const {
+    Vec x = Vec::Zero(system_.sizes().nv);
+    if (r.size() == 0) return x;
+    std::vector<int> columns;  // that these rows are about
+    const Mat G = dense_rows(columns);
+    Eigen::CompleteOrthogonalDecomposition<Mat> decomposition;
+    decomposition.setThreshold(rank_tolerance);
+    decomposition.compute(G);
+    const Vec of_columns = decomposition.solve(r);
+    x(columns) = of_columns;
+    return x;
+  }
+  Mat dense_rows(std::vector<int>& columns) const {
+    const SparseRows all = system_.sparse_rows();
+    std::vector<int> rows, place(std::size_t(all.cols()), -1);
+    for (const RowGroup& group : groups_)
+      for (int i = group.first; i < group.first + group.count; ++i) {
+        rows.push_back(i);
+        for (SparseRows::InnerIterator entry(all, i); entry; ++entry) {
+          int& at = place[std::size_t(entry.col())];
+          if (at < 0) at = int(columns.size()), columns.push_back(int(entry.col()));
+        }
+      }
+    Mat G = Mat::Zero(Eigen::Index(rows.size()), Eigen::Index(columns.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (SparseRows::InnerIterator entry(all, rows[i]); entry; ++entry)
+        G(Eigen::Index(i), place[std::size_t(entry.col())]) = entry.value();
+    return G;
+  }
+
+  model::AssembledSystem& system_;
+  std::vector<RowGroup> groups_;
+};
+
+// By how much each row is missed after steps of Newton's method over all of them: in positions, or else in velocities, or else in
+// accelerations. What was only off holds then, what conflicts does not. Empty: all hold.
+Vec missed_rows(model::AssembledSystem& system, State s) {
+  constexpr int steps = 20;
+  const Vec no_force = Vec::Zero(system.sizes().nv);
+  Vec change, mu, q;
+  const auto nearest = [&](const Vec& missed) {
+    system.factorise({.c_m = 0, .c_1 = 1}, no_force, missed, Factors::projection);
+    return system.correct(no_force, missed, change, mu, Factors::projection);
+  };
+  system.move_to(s.t, s.q, s.v);
+  for (int i = 0; i < steps && system.g().norm() > tolerance && nearest(system.g()); ++i) {
+    system.retract(s.q, change, q);
+    s.q = q;
+    system.move_to(s.t, s.q, s.v);
+  }
+  if (system.g().norm() > tolerance) return system.g();
+  if (nearest(system.g_dot())) s.v += change;
+  system.move_to(s.t, s.q, s.v);
+  if (system.g_dot().norm() > tolerance * std::max(1.0, s.v.norm())) return system.g_dot();
+  Vec missed;
+  system.constraint_acceleration(no_force, missed);
+  const double wanted = missed.norm();
+  if (nearest(missed)) system.constraint_acceleration(change, missed);
+  return missed.norm() > 1e-6 * std::max(1.0, wanted) ? missed : Vec();
+}
+
+int group_of(int row, const std::vector<RowGroup>& groups) {
+  const auto after = std::find_if(groups.begin(), groups.end(),
+                                  [row](const RowGroup& group) { return row < group.first + group.count; });
+  return int(after - groups.begin());
+}
+
+// The groups' numbers, outwards from `worst`: those that share columns of G with the ones before.
+std::vector<int> outwards(const SparseRows& G, const std::vector<RowGroup>& groups, int worst) {
+  std::vector<std::vector<int>> of_column(static_cast<std::size_t>(G.cols()));
+  std::vector<int> order = {worst};
+  std::vector<char> seen(groups.size(), 0);
+  seen[std::size_t(worst)] = 1;
+  const auto each_column = [&](const RowGroup& group, auto&& f) {
+    for (int i = group.first; i < group.first + group.count; ++i)
+      for (SparseRows::InnerIterator entry(G, i); entry; ++entry) f(std::size_t(entry.col()));
+  };
+  const auto see = [&](int k) {
+    if (!seen[std::size_t(k)]) seen[std::size_t(k)] = 1, order.push_back(k);
+  };
+  for (int k = 0; k < int(groups.size()); ++k)
+    each_column(groups[std::size_t(k)], [&](std::size_t column) { of_column[column].push_back(k); });
+  for (std::size_t at = 0; at < order.size(); ++at)
+    each_column(groups[std::size_t(order[at])], [&](std::size_t column) {
+      for (const int other : of_column[column]) see(other);
+    });
+  return order;
+}
+
+std::vector<RowGroup> conflicting(model::AssembledSystem& system, const State& start, std::vector<RowGroup> groups) {
+  return Chosen(system, groups).can_hold(start) ? std::vector<RowGroup>() : groups;
+}
+
+// More and more groups around `worst`, until they cannot hold. None: those of `most_rows` rows can.
+std::vector<RowGroup> conflict_around(int worst, model::AssembledSystem& system, const State& start,
+                                      const std::vector<RowGroup>& all) {
+  system.move_to(start.t, start.q, start.v);
+  const std::vector<int> order = outwards(system.sparse_rows(), all, worst);
+  std::vector<RowGroup> some;
+  for (int enough = 16, taken = 0; some.size() < order.size() && taken < most_rows; enough *= 2) {
+    while (some.size() < order.size() && taken < std::min(enough, most_rows))
+      taken += some.emplace_back(all[std::size_t(order[some.size()])]).count;
+    std::vector<RowGroup> found = conflicting(system, start, some);
+    std::sort(found.begin(), found.end(), [](const RowGroup& a, const RowGroup& b) { return a.first < b.first; });
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
+// Without any `apart` neighbours of them the rest can hold. Half of them are left out at a time, then fewer: of many rows few
+// conflict.
+std::vector<RowGroup> smallest_of(std::vector<RowGroup> conflict, std::size_t& apart, model::AssembledSystem& system,
+                                  const State& start) {
+  constexpr std::size_t most_tries = 100;
+  for (std::size_t part = std::max<std::size_t>(1, conflict.size() / 2);; part /= 2) {
+    for (std::size_t at = 0; at < conflict.size();) {
+      std::vector<RowGroup> rest = conflict;
+      const auto first = rest.begin() + std::ptrdiff_t(at);
+      rest.erase(first, first + std::ptrdiff_t(std::min(part, rest.size() - at)));
+      if (Chosen(system, rest).can_hold(start))
+        at += part;
+      else
+        conflict = std::move(rest);
+    }
+    apart = part;
+    if (part == 1 || 2 * conflict.size() / part > most_tries) return conflict;
+  }
+}
+
+}  // namespace
+
+Conflict smallest_conflict(model::AssembledSystem& system, const State& start) {
+  const std::vector<RowGroup> all = row_groups(system.model());
+  const int rows = all.empty() ? 0 : all.back().first + all.back().count;
+  std::vector<RowGroup> found;
+  if (rows <= most_rows) {
+    found = conflicting(system, start, all);
+  } else {
+    const Vec missed = missed_rows(system, start);
+    if (missed.size() == 0 || !missed.allFinite()) return {};
+    Eigen::Index row = 0;
+    missed.head(rows).cwiseAbs().maxCoeff(&row);
+    const int worst = group_of(int(row), all);
+    found = conflict_around(worst, system, start, all);
+    if (found.empty()) return {{all[std::size_t(worst)].path}, false};
+  }
+  Conflict conflict;
+  std::size_t apart = 1;
+  for (const RowGroup& group : smallest_of(std::move(found), apart, system, start))
+    conflict.paths.push_back(group.path);
+  conflict.smallest = apart == 1;
+  return conflict;
+}
+
+std::string names(const Conflict& conflict) {
+  constexpr std::size_t most = 12, shown = 4;
+  const std::vector<std::string>& all = conflict.paths;
+  if (all.size() <= most) return fmt::format("{}", fmt::join(all, ", "));
+  return fmt::format("{}, ... ({} more) ..., {}", fmt::join(all.begin(), all.begin() + shown, ", "),
+                     all.size() - 2 * shown, fmt::join(all.end() - shown, all.end(), ", "));
+}
+
+std::string remark(const Conflict& conflict) {
+  return conflict.smallest ? "; without any one of them the rest can hold" : "; not all of them need be part of it";
+}
+
+std::string told(const Conflict& conflict) {
+  if (conflict.paths.size() == 1)
+    return conflict.paths[0] + (conflict.smallest ? " alone cannot hold from there" : " is missed most");
+  return fmt::format("{} prescribe motions that contradict each other{}", names(conflict), remark(conflict));
+}
+
+}  // namespace trammel::simulate

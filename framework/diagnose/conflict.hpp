@@ -1,0 +1,29 @@
+// Which joints, and bodies with rows of their own, contradict each other.
+//
+// They do when no state near the given one satisfies them all: their positions, their velocities G v = -g_t, or their
+// accelerations G a = gamma; velocities that the rows do not ask for are given up where those then can be met. The conflicting set
+// named is a smallest one: without any of its members the rest can hold. Of more than 1000 rows it is looked for around the row
+// that is missed most; where it is not among 1000 rows there, that one alone is named.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <trammel/integrator.hpp>
+
+#include "system/assembled_system.hpp"
+
+namespace trammel::simulate {
+
+struct Conflict {
+  std::vector<std::string> paths;  // of joints and bodies in the order of their rows; empty: all can hold
+  bool smallest = true;            // false: some around it as well, or only the one that is missed most
+  bool empty() const { return paths.empty(); }
+};
+Conflict smallest_conflict(model::AssembledSystem& system, const State& start);
+// What to say of it, if there is one: "joints.a, joints.b prescribe motions that contradict each other; without ...", and its parts.
+std::string told(const Conflict& conflict);
+std::string names(const Conflict& conflict);   // of many the first and last
+std::string remark(const Conflict& conflict);  // "; without any one of them the rest can hold"
+
+}  // namespace trammel::simulate

@@ -1,0 +1,31 @@
+// Which joints, and bodies with rows of their own, say the same twice.
+//
+// Rows are independent as long as each has a part perpendicular to all rows before it; a row without one is redundant.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <trammel/integrator.hpp>
+
+#include "system/assembled_system.hpp"
+#include "scene/value.hpp"
+
+namespace trammel::simulate {
+
+constexpr double rank_tolerance = 1e-7;  // sine of a row's angle to those before it
+
+struct RedundantRows {
+  std::string path;       // in the scene: "joints.hinge", "bodies.rod"
+  std::vector<int> rows;  // those of its own that are redundant, counted from 0
+  int of = 0;             // so many
+};
+// In the scene's order, at the state; its positions should hold.
+std::vector<RedundantRows> redundant_rows(model::AssembledSystem& system, const State& state);
+// "joints.hinge: rows 4, 5 of 5 follow from the rows before".
+std::string told(const RedundantRows& rows);
+// Warns of joints that rub and whose reactions, and so their friction, are one choice of many.
+void check_bearing_loads(model::AssembledSystem& system, const State& state, const scene::Value& root,
+                         scene::Problems& problems);
+
+}  // namespace trammel::simulate

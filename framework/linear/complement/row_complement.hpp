@@ -1,0 +1,60 @@
+// S = G M^-1 G^T + eps 1 of many bodies, the Schur complement of the rows, and its factors L D L^T.
+//
+// A sum over bodies, each giving a block on the rows that touch it. It is never formed as a whole: bodies' shares go right to the
+// fronts (complement_layout.hpp) that eliminate their rows (F) and leave a matrix on their boundary (B) to the front above:
+//
+//     [S_FF S_BF^T]  =  [L_FF  ] [D  ] [L_FF^T L_BF^T]
+//     [S_BF S_BB  ]     [L_BF 1] [  R] [            1]
+//
+// Of a chain of 100 links with five rows each this takes half of the time of Eigen's simplicial factors (22 instead of 46 us; a
+// solve 6.1 instead of 7.8).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <trammel/types.hpp>
+
+#include "linear/bodies/body_block.hpp"
+#include "linear/bodies/body_masses.hpp"
+#include "linear/complement/complement_layout.hpp"
+
+namespace trammel::numerics {
+
+class RowComplement {
+ public:
+  // Of the first nc rows.
+  void factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc, double eps);
+  // Each pivot is more than the square of `least_sine` beside its diagonal: its row's angle to those eliminated before.
+  bool is_safe(double least_sine) const { return least_square_sine_ > least_sine * least_sine; }
+  // Of y = S^-1 r: a mean of the eigenvalues of S with its diagonal scaled to 1 (a Rayleigh quotient), so no less than the least.
+  // Close to it where r has some of its direction: inverse iteration brings that out.
+  double softness(const Vec& r, const Vec& y) const { return r.dot(y) / y.cwiseAbs2().dot(diagonal_); }
+  double largest() const { return diagonal_.maxCoeff(); }
+  // |S_ii y_i|
+  double largest_share(const Vec& y) const { return diagonal_.cwiseProduct(y).lpNorm<Eigen::Infinity>(); }
+  void solve(const Vec& r, Vec& y);  // y = S^-1 r, not in place
+
+ private:
+  using Front = ComplementLayout::Front;
+  using Share = ComplementLayout::Share;
+  void resize(int nc);
+  void assemble(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, const Front& front, double eps);
+  Eigen::Map<Mat> form_Y(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, const Share& share);
+  void add_at(std::span<const int> places, const double* A, Eigen::Index stride, const Front& front);
+  void eliminate(const Front& front);
+  double* column(const Front& front, Eigen::Index j);  // of L or R
+  void solve_lower(const Front& front, Vec& y);
+  void solve_upper(const Front& front, Vec& y);
+  void solve_upper_of_many(const Front& front, Vec& y);
+
+  ComplementLayout layout_;
+  Vec L_, R_;     // of all fronts; on L's diagonal, which is 1, D^-1
+  Vec diagonal_;  // of S
+  double least_square_sine_ = 0;
+  Vec work_;
+  // Of one body, in the order of elimination: Y = G C^-T, M = C C^T, below them padded rows of zeros; Y Y^T.
+  Vec Y_, product_;
+};
+
+}  // namespace trammel::numerics

@@ -1,0 +1,35 @@
+// P A = L U by Gaussian elimination with row pivoting, dense, and the solves with it.
+//
+// Plain loops by columns (packs.hpp): up to 20 unknowns Eigen's blocked algorithm takes over twice as long for the factors, and
+// one and a half times as long for a solve. Larger matrices are left to it.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/LU>
+
+#include <trammel/types.hpp>
+
+#include "linear/dense/packs.hpp"
+
+namespace trammel::numerics {
+
+class Lu {
+ public:
+  void compute(const Mat& A);  // square; a singular one gives a pivot that is 0 or round-off
+  double pivot(Eigen::Index j) const { return in_blocks() ? blocks_.matrixLU()(j, j) : LU_(j, j); }
+  void solve(const Vec& b, Vec& x);  // not in place
+
+ private:
+  bool in_blocks() const { return n_ == 0; }
+  bool of_few() const { return !in_blocks() && padded(n_) == few; }
+  void eliminate();
+
+  Eigen::Index n_ = 0;
+  Mat LU_;                          // columns padded
+  std::vector<Eigen::Index> rows_;  // LU_'s row i is A's row rows_[i]
+  Vec inverse_pivots_, rest_, y_;
+  Eigen::PartialPivLU<Mat> blocks_;
+};
+
+}  // namespace trammel::numerics

@@ -1,0 +1,73 @@
+#include "linear/fronts/frontal_factors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trammel::numerics {
+
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+void FrontalFactors::measure(const Sparse& A) {
+  largest_.setZero(A.cols());
+  for (Index j = 0; j < A.cols(); ++j)
+    for (auto k = A.outerIndexPtr()[j]; k < A.outerIndexPtr()[j + 1]; ++k)
+      largest_(j) = std::max(largest_(j), std::abs(A.valuePtr()[k]));
+}
+
+// Symmetric, with a positive diagonal. As the columns are gone through, they meet the upper entries of each later column in order.
+bool FrontalFactors::may_be_definite(const Sparse& A) {
+  constexpr double rounding = 64 * eps;
+  const int *const starts = A.outerIndexPtr(), *const rows = A.innerIndexPtr();
+  const double* const values = A.valuePtr();
+  mirrored_.assign(starts, starts + A.cols());
+  for (Index j = 0; j < A.cols(); ++j) {
+    int k = mirrored_[std::size_t(j)];  // the upper entries are behind
+    if (!(values[k] > 0)) return false;
+    while (++k < starts[j + 1]) {
+      const double other = values[mirrored_[std::size_t(rows[k])]++];
+      if (!(std::abs(values[k] - other) <= rounding * std::max(largest_(j), largest_(rows[k])))) return false;
+    }
+  }
+  return true;
+}
+
+bool FrontalFactors::factorise(const Sparse& A) {
+  measure(A);
+  by_cholesky_ = may_be_definite(A) && cholesky_.factorise(pattern_, A, largest_);
+  return by_cholesky_ || lu_.factorise(pattern_, A, largest_);
+}
+
+void FrontalFactors::substitute(Vec& x) {
+  if (by_cholesky_)
+    cholesky_.substitute(pattern_, x);
+  else
+    lu_.substitute(pattern_, x);
+}
+
+bool FrontalFactors::solve(const Sparse& A, const Vec& b, Vec& x) {
+  constexpr int most_corrections = 10;
+  constexpr double round_off = 64 * eps, good = 1e-10;  // of the equations
+  x = b;
+  substitute(x);
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0;; ++i) {
+    residual_ = b;
+    residual_.noalias() -= A * x;
+    const double size = largest_.cwiseProduct(x).lpNorm<Eigen::Infinity>() + b.lpNorm<Eigen::Infinity>();
+    const double left = residual_.lpNorm<Eigen::Infinity>();
+    if (left <= round_off * size) return true;
+    if (i == most_corrections || !(left < before / 2)) return left <= good * size;
+    before = left;
+    substitute(residual_);
+    x += residual_;
+  }
+}
+
+}  // namespace trammel::numerics

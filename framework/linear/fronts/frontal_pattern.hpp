@@ -1,0 +1,69 @@
+// Which fronts a matrix most of whose entries are 0 is eliminated in, and where each of its numbers goes.
+//
+// The unknowns that a front eliminates (elimination_tree.hpp; F), with its boundary (B), make a dense matrix: their entries of A and
+// what the fronts below leave. It leaves another, on B, to the front above.
+// Order and places follow from the pattern alone and are kept while it lasts: once per mesh of a plate. Unknowns with the same
+// neighbours make one node of the tree. One without a diagonal entry, a multiplier of a row, shares the node of an unknown in its
+// row, so that their front has a pivot for both.
+// Duff, Reid, ACM Trans. Math. Softw. 9 (1983), 302; 10 (1984), 633 (unsymmetric).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include <trammel/types.hpp>
+
+#include "linear/order/elimination_tree.hpp"
+
+namespace trammel::numerics {
+
+class FrontalPattern {
+ public:
+  using Sparse = Eigen::SparseMatrix<double>;
+  struct Entry {
+    int from, row, column;  // of A's values, in the front's matrix
+  };
+  struct Child {
+    std::size_t map;  // this front's place of each unknown of the child's boundary, ascending
+    int boundary;     // how many these are
+  };
+  // In the order of elimination: F, then B.
+  struct Front {
+    int eliminated = 0, size = 0;  // unknowns: of F; of F and B
+    std::size_t unknowns = 0;      // in those of all fronts
+    std::size_t entries = 0, entries_end = 0;
+    std::vector<Child> children = {};  // the last one first: fronts leave their matrices on a stack
+    int boundary() const { return size - eliminated; }
+  };
+
+  // The pattern is symmetric and has the diagonal; some entries may be 0. Numbers decide only which unknown's node takes one that
+  // has 0 there. To be called again when the pattern has changed.
+  void analyse(const Sparse& A);
+
+  const std::vector<Front>& fronts() const { return fronts_; }  // children first, each right after its last child
+  std::size_t all_unknowns() const { return unknowns_.size(); }
+  int largest() const { return largest_; }                    // front, in unknowns
+  std::size_t most_waiting() const { return most_waiting_; }  // numbers that fronts have left and none has taken yet
+  const int* unknowns(const Front& front) const { return unknowns_.data() + front.unknowns; }
+  const int* map(const Child& child) const { return maps_.data() + child.map; }
+  // f(entry) for all of A that the front is the first to eliminate the row or the column of.
+  template <class F>
+  void each_entry(const Front& front, F&& f) const {
+    for (std::size_t e = front.entries; e < front.entries_end; ++e) f(entries_[e]);
+  }
+
+ private:
+  void lay_out(const EliminationTree& tree, const std::vector<std::vector<int>>& members, Eigen::Index n);
+  void place_entries(const Sparse& A);
+
+  std::vector<Front> fronts_;
+  std::vector<int> unknowns_;
+  std::vector<Entry> entries_;
+  std::vector<int> maps_;
+  int largest_ = 0;
+  std::size_t most_waiting_ = 0;
+};
+
+}  // namespace trammel::numerics

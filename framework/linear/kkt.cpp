@@ -1,0 +1,264 @@
+#include "linear/kkt.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linear/dense/few_rows.hpp"
+
+namespace trammel::numerics {
+
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+// Shares of multipliers in the rows' accelerations that are so many times what is left of them take their digits with them: of a
+// light body between heavy ones.
+constexpr double cancelling = 1e6;
+
+// The pivots of G M^-1 G^T over its diagonal are squares of those sines, row by row against the rows before. They are only
+// a warning, given early; the decomposition decides.
+bool pivots_are_safe(const Cholesky& factors, const Mat& matrix, double tolerance) {
+  const double safe = 100 * tolerance * tolerance;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    if (!(factors.pivot(i) * factors.pivot(i) > safe * matrix(i, i))) return false;
+  return true;
+}
+
+// What a row has of an angle is a lever [m]. Where levers are long, rows in metres look alike by them, and what the rows are off by
+// is less of a length: both are measured by the longest. The rows reach the same.
+struct WithoutLevers {
+  Mat G;
+  double longest = 1;  // [m] and no less
+
+  explicit WithoutLevers(const Mat& rows) : G(rows) {
+    if (G.rows() == 0) return;
+    for (Eigen::Index j = 0; j < G.cols(); ++j) {
+      const double lever = std::max(1.0, G.col(j).lpNorm<Eigen::Infinity>());
+      if (lever > 1) G.col(j) /= lever;
+      longest = std::max(longest, lever);
+    }
+  }
+  double tolerance(double of_rows) const { return std::max(rank_tolerance_at(0), of_rows / longest); }
+};
+
+// Of the rows at length one, whose pivots are sines of angles to the rows before: masses and units, and the lengths of rows near a
+// singular position, must not make independent rows look alike.
+Eigen::ColPivHouseholderQR<Mat> decomposed(const WithoutLevers& rows, const Vec& lengths, double tolerance) {
+  Mat unit = rows.G;
+  for (Eigen::Index i = 0; i < unit.rows(); ++i)
+    if (lengths[i] > 0) unit.row(i) /= lengths[i];
+  Eigen::ColPivHouseholderQR<Mat> qr(unit.rows(), unit.cols());
+  qr.setThreshold(rows.tolerance(tolerance));
+  qr.compute(unit);
+  return qr;
+}
+
+// A basis of what G reaches, nc x rank.
+Mat range_of(const Mat& G, double tolerance) {
+  const WithoutLevers rows(G);
+  const Vec lengths = rows.G.rowwise().norm();
+  const Eigen::ColPivHouseholderQR<Mat> qr = decomposed(rows, lengths, tolerance);
+  return lengths.asDiagonal() * (qr.householderQ() * Mat::Identity(G.rows(), qr.rank())).eval();
+}
+
+Mat orthonormal(const Mat& basis) {
+  return Eigen::HouseholderQR<Mat>(basis).householderQ() * Mat::Identity(basis.rows(), basis.cols());
+}
+
+}  // namespace
+
+double rank_tolerance_at(double violation) {
+  return std::clamp(10 * violation, 1e-7, 1e-2);
+}
+
+Eigen::Index rank_of_rows(const Mat& G, double tolerance) {
+  const WithoutLevers rows(G);
+  return decomposed(rows, rows.G.rowwise().norm(), tolerance).rank();
+}
+
+template <class Factors, class Masses>
+bool MassKkt::factorise_by(const Masses& M, const Mat& G, const Mat& W, double rank_tolerance) {
+  if (!std::holds_alternative<Factors>(mass_)) mass_.emplace<Factors>();
+  if (!std::get<Factors>(mass_).compute(M)) return false;
+  change_rows(G, W, rank_tolerance);
+  return true;
+}
+
+bool MassKkt::factorise(const Mat& M, const Mat& G, const Mat& W, double rank_tolerance) {
+  return factorise_by<Cholesky>(M, G, W, rank_tolerance);
+}
+
+bool MassKkt::factorise(const Eigen::SparseMatrix<double>& M, const Mat& G, const Mat& W, double rank_tolerance) {
+  return factorise_by<SparseCholesky>(M, G, W, rank_tolerance);
+}
+
+void MassKkt::change_rows(const Mat& G, const Mat& W, double rank_tolerance) {
+  redundant_ = false;
+  coupled_ = &W != &G;
+  B_ = G;
+  if (G.rows() == 0) return;
+  with_mass([&](auto& mass) { mass.solve_lower_of_rows(B_); });
+  if (coupled_) return complement(W, rank_tolerance);
+  multiply_rows(B_, B_, schur_);
+  redundant_ = !schur_cholesky_.compute(schur_) || !pivots_are_safe(schur_cholesky_, schur_, rank_tolerance);
+  if (redundant_) merge_rows(G, rank_tolerance);
+}
+
+// A decomposition with pivoting alone would leave U uncertain by what the rows part by, differently from call to call: then
+// the accelerations were no smooth function of the state, and a Runge-Kutta method of second order. A step of the power
+// method, with the square of that, takes it to round-off.
+void MassKkt::merge_rows(const Mat& G, double rank_tolerance) {
+  merged_ = orthonormal(schur_ * range_of(G, rank_tolerance));
+  cod_.setThreshold(Eigen::Default);
+  cod_.compute(B_.transpose() * merged_);
+}
+
+// Its pivots are of the order of the squares of those sines too, and of its own round-off.
+void MassKkt::complement(const Mat& W, double rank_tolerance) {
+  constexpr double round_off = 1e-10;
+  const double dependent = rank_tolerance * rank_tolerance;
+  C_ = W;
+  with_mass([&](auto& mass) { mass.solve_lower_of_rows(C_); });
+  multiply_rows(B_, C_, schur_);
+  schur_lu_.compute(schur_);
+  for (Eigen::Index j = 0; j < schur_.cols(); ++j) {
+    const double scale = schur_.col(j).cwiseAbs().maxCoeff();
+    if (!(std::abs(schur_lu_.pivot(j)) > std::max(round_off, 100 * dependent) * scale)) redundant_ = true;
+  }
+  if (!redundant_) return;
+  cod_.setThreshold(std::max(round_off, dependent));
+  cod_.compute(schur_);
+}
+
+// x is z = L^T x before the last line:  z = L^-1 b - B^T y,  B z = c;  or with C for the first B.
+void MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
+  x = b;
+  y.resize(B_.rows());
+  if (B_.rows() == 0) return with_mass([&](auto& mass) { mass.solve(x); });
+  with_mass([&](auto& mass) { mass.solve_lower(x); });
+  if (coupled_) {
+    w_ = -c;
+    add_rows_product(1, B_, x, w_);
+    if (redundant_)
+      y = cod_.solve(w_);
+    else
+      schur_lu_.solve(w_, y);
+    add_transposed_product(-1, C_, y, x);
+  } else if (redundant_) {
+    const Vec particular = cod_.transpose().solve(merged_.transpose() * c);
+    y = merged_ * cod_.solve(x - particular);
+    add_transposed_product(-1, B_, y, x);
+  } else {
+    const auto hold_rows = [&](Vec& dy) {
+      dy = -c;
+      add_rows_product(1, B_, x, dy);
+      const double missed = dy.lpNorm<Eigen::Infinity>();
+      schur_cholesky_.solve(dy);
+      add_transposed_product(-1, B_, dy, x);
+      return missed;
+    };
+    const double missed = hold_rows(y);
+    if (schur_.diagonal().cwiseProduct(y).lpNorm<Eigen::Infinity>() > cancelling * missed) {
+      hold_rows(w_);
+      y += w_;
+    }
+  }
+  with_mass([&](auto& mass) { mass.solve_transposed(x); });
+}
+
+Mat& IterationKkt::begin(Eigen::Index nv, Eigen::Index nc) {
+  nv_ = nv;
+  full_.setZero(nv + nc, nv + nc);
+  return full_;
+}
+
+namespace {
+
+// In the columns from `first` on. A pivot is compared with its own column, so unlike scales of S and G make none small; the
+// largest entry of all is asked first, which is cheaper and nearly always enough.
+bool has_small_pivot(const Lu& lu, const Mat& matrix, Eigen::Index first, double smallest) {
+  const double largest = matrix.cwiseAbs().maxCoeff();
+  const auto is_safe = [&](Eigen::Index j, double scale) { return std::abs(lu.pivot(j)) > smallest * scale; };
+  for (Eigen::Index j = first; j < matrix.cols(); ++j)
+    if (!is_safe(j, largest) && !is_safe(j, matrix.col(j).cwiseAbs().maxCoeff())) return true;
+  return false;
+}
+
+}  // namespace
+
+void IterationKkt::factorise(const Mat& W, const Mat& G, double rank_tolerance) {
+  const auto nc = G.rows();
+  if (nc > 0) {
+    full_.topRightCorner(nv_, nc) = W.transpose();
+    full_.bottomLeftCorner(nc, nv_) = G;
+  }
+  redundant_ = singular_ = false;
+  finite_ = true;
+  if (full_.rows() == 0) return;
+  lu_.compute(full_);
+  // Dependent rows show in the columns of W. Only a warning, given early; the rows' own decomposition decides.
+  if (has_small_pivot(lu_, full_, nv_, 100 * rank_tolerance)) {
+    finite_ = full_.allFinite();
+    if (!finite_) return;
+    redundant_ = merge_rows(W, G, rank_tolerance);
+    if (redundant_) lu_.compute(full_);
+  }
+  singular_ = has_small_pivot(lu_, full_, 0, 8 * eps);
+  finite_ = !singular_ || full_.allFinite();
+  if (singular_ && finite_) {
+    cod_.setThreshold(Eigen::Default);
+    cod_.compute(full_);
+  }
+}
+
+// False: they are independent.
+bool IterationKkt::merge_rows(const Mat& W, const Mat& G, double rank_tolerance) {
+  const Mat range = range_of(G, rank_tolerance);
+  const auto rank = range.cols();
+  if (rank == G.rows()) return false;
+  merged_ = orthonormal(range);
+  Mat small = Mat::Zero(nv_ + rank, nv_ + rank);
+  small.topLeftCorner(nv_, nv_) = full_.topLeftCorner(nv_, nv_);
+  small.topRightCorner(nv_, rank) = W.transpose() * merged_;
+  small.bottomLeftCorner(rank, nv_) = merged_.transpose() * G;
+  full_.swap(small);
+  return true;
+}
+
+bool IterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
+  if (!finite_) return false;
+  const auto rows = redundant_ ? merged_.cols() : c.size();
+  if (rows == 0 && nv_ > 0 && !singular_) {
+    lu_.solve(b, x);
+    y.setZero(c.size());
+    return x.allFinite();
+  }
+  right_.resize(nv_ + rows);
+  right_.head(nv_) = b;
+  if (redundant_)
+    right_.tail(rows).noalias() = merged_.transpose() * c;
+  else
+    right_.tail(rows) = c;
+  if (right_.size() == 0) {
+    solution_.resize(0);
+  } else if (!singular_) {
+    lu_.solve(right_, solution_);
+  } else {
+    if (!right_.allFinite()) return false;
+    solution_ = cod_.solve(right_);
+    // A least-squares answer that leaves a residual is no solution; unless it is round-off of positions of the order of 1.
+    const Vec residual = full_ * solution_ - right_;
+    const double noise = 1e-13, S = full_.topLeftCorner(nv_, nv_).lpNorm<Eigen::Infinity>();
+    const double G = std::max(1.0, full_.bottomLeftCorner(rows, nv_).lpNorm<Eigen::Infinity>());
+    const bool round_off = residual.head(nv_).norm() <= noise * S && residual.tail(rows).norm() <= noise * G;
+    if (!(residual.norm() <= 1e-6 * right_.norm() || round_off)) return false;
+  }
+  x = solution_.head(nv_);
+  if (redundant_)
+    y = merged_ * solution_.tail(rows);
+  else
+    y = solution_.tail(rows);
+  return solution_.allFinite();
+}
+
+}  // namespace trammel::numerics

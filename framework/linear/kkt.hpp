@@ -1,0 +1,95 @@
+// The saddle-point systems of constrained dynamics with dense rows:
+//
+//     [S W^T] [x]   [b]
+//     [G  0 ] [y] = [c]        S: nv x nv, G and W: nc x nv
+//
+// Two factorisations, by what S is:
+//  - Mass: S = M symmetric positive definite. Cholesky of M and of the Schur complement G M^-1 G^T, whose pivots warn of
+//    redundant rows; those are solved by orthogonal decompositions of G L^-T: x stays unique, and the condition number is
+//    not squared. With W other than G (sliding friction) the complement G M^-1 W^T is factorised as it is, by LU, redundant
+//    or singular ones orthogonally. M may be sparse.
+//  - Iteration: S any dense matrix (a sparse one: frontal_iteration_kkt.hpp). LU of the whole with row
+//    pivoting. If it is singular beyond redundant rows, the minimum-norm solution.
+// Of redundant rows combinations U^T G are taken in their place, U an orthonormal basis of their range: y = U z is of minimum
+// norm, and what of c is outside the range, which no x reaches, is left.
+// Storage is kept from one factorisation to the next: no allocation at constant sizes while rows are independent.
+#pragma once
+
+#include <variant>
+
+#include <Eigen/QR>
+
+#include <trammel/types.hpp>
+
+#include "linear/dense/cholesky.hpp"
+#include "linear/dense/lu.hpp"
+#include "linear/sparse/sparse_cholesky.hpp"
+
+namespace trammel::numerics {
+
+// Below which sine of the angle to the others a row counts as dependent on them, for rows that are off by `violation` (max norm
+// of g, of lengths of order one). Redundant rows are dependent only where they hold: otherwise they part by the violation, and
+// must not pass for new ones. Not more than ten times that: a long chain's own rows are dependent but for n^-2. (Where branches of
+// motion cross, rows part by the distance from the crossing, over which a violation shifts the state by itself; slopes on the rows
+// pass there, RungeKutta::Rows.)
+double rank_tolerance_at(double violation);
+// Of the rows at length one: masses and units must not make independent rows look alike.
+Eigen::Index rank_of_rows(const Mat& G, double tolerance);
+
+class MassKkt {
+ public:
+  // False: M is not positive definite. `G` may have no rows.
+  bool factorise(const Mat& M, const Mat& G, const Mat& W, double rank_tolerance = rank_tolerance_at(0));
+  bool factorise(const Mat& M, const Mat& G) { return factorise(M, G, G); }
+  bool factorise(const Eigen::SparseMatrix<double>& M, const Mat& G, const Mat& W,
+                 double rank_tolerance = rank_tolerance_at(0));
+  // Keeps the factors of M, takes new rows. W may be the same object as G.
+  void change_rows(const Mat& G, const Mat& W, double rank_tolerance = rank_tolerance_at(0));
+  void change_rows(const Mat& G) { change_rows(G, G); }
+  void solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
+  bool redundant() const { return redundant_; }
+
+ private:
+  void complement(const Mat& W, double rank_tolerance);
+  void merge_rows(const Mat& G, double rank_tolerance);
+
+  template <class Factors, class Masses>
+  bool factorise_by(const Masses& M, const Mat& G, const Mat& W, double rank_tolerance);
+  template <class Solve>
+  void with_mass(Solve&& solve) {
+    std::visit(solve, mass_);
+  }
+
+  std::variant<Cholesky, SparseCholesky> mass_;
+  Mat B_;       // G L^-T (nc x nv)
+  Mat C_;       // W L^-T, where W is not G
+  Mat schur_;   // B B^T or B C^T
+  Mat merged_;  // U, nc x rank, while redundant
+  Lu schur_lu_;
+  Cholesky schur_cholesky_;
+  Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
+  Vec w_;
+  bool redundant_ = false, coupled_ = false;
+};
+
+class IterationKkt {
+ public:
+  // The caller fills S() (nv x nv, zero on entry) after `begin` and then calls `factorise`.
+  Mat& begin(Eigen::Index nv, Eigen::Index nc);
+  void factorise(const Mat& W, const Mat& G, double rank_tolerance = rank_tolerance_at(0));
+  // False: not solvable (singular beyond redundant rows), or not finite.
+  [[nodiscard]] bool solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
+
+ private:
+  bool merge_rows(const Mat& W, const Mat& G, double rank_tolerance);
+
+  Mat full_;
+  Mat merged_;  // U, nc x rank, while rows are redundant
+  Lu lu_;
+  Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
+  Vec right_, solution_;
+  Eigen::Index nv_ = 0;
+  bool redundant_ = false, singular_ = false, finite_ = true;
+};
+
+}  // namespace trammel::numerics

@@ -1,0 +1,209 @@
+#include "modes/steady_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <Eigen/QR>
+
+#include "modes/nearest_steady.hpp"
+#include "modes/steady_linearisation.hpp"
+#include "system/tangent_space.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int most_iterations = 30;
+constexpr double settled = 1e-13;  // [m, rad] of coordinates of order 1
+// [1/s^2] of M in the iteration matrix: what nothing holds and nothing pushes, as the angle of a rotor, keeps its place.
+constexpr double damping = 1e-6;
+constexpr double far = 0.5;  // of velocities: another motion than the one that was meant
+// Forces that are left over, against those there are: of a state that is written with a few digits less than doubles
+// have.
+constexpr double unbalanced = 1e-8;
+
+double largest(const Vec& x) {
+  return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0;
+}
+
+// M a - f + W^T lambda with the accelerations of the steady motion, and what its terms are.
+struct Balance {
+  Vec left_over;
+  double terms = 0;
+  bool holds() const { return largest(left_over) <= unbalanced * terms; }
+};
+Balance balance(model::AssembledSystem& system, const State& s) {
+  system.move_to(s.t, s.q, s.v);
+  const Vec zero = Vec::Zero(s.v.size());
+  Vec Ma = zero, held = zero, momentum = zero;
+  system.add_mass_times(1, s.a, Ma);
+  system.add_mass_times(1, s.v, momentum);
+  system.add_reaction(1, s.lambda, held);
+  const Vec& f = system.f();
+  // Where nothing pushes, what it takes to turn the momentum counts: gyroscopic forces may all vanish.
+  const double terms = std::max({largest(Ma), largest(f), largest(held), 1e-4 * largest(momentum) * largest(s.v)});
+  return {Ma - f + held, terms};
+}
+
+// Omega of least size whose accelerations are nearest to the state's own.
+Vector3d least_rate(const model::Model& model, const FlatTurning& flat, const State& s) {
+  Mat by_rate(s.v.size(), 3);
+  for (int k = 0; k < 3; ++k) {
+    const bool in_space = model.world.space == Space::spatial || k == 2;
+    const TurningFrame frame(model, flat, s, in_space ? Vector3d(Vector3d::Unit(k)) : Vector3d(Vector3d::Zero()));
+    by_rate.col(k) = frame.turned(s.v);
+  }
+  Eigen::CompleteOrthogonalDecomposition<Mat> least;
+  least.setThreshold(1e-9);
+  least.compute(by_rate);
+  if (least.rank() == 0) return Vector3d::Zero();
+  const Vector3d rate = least.solve(s.a);
+  return rate.norm() <= 1e-12 * largest(s.v) ? Vector3d(Vector3d::Zero()) : rate;
+}
+
+bool lasts(model::AssembledSystem& system, const FlatTurning& flat, const State& s, double tau, const Vector3d& rate) {
+  if (!balance(system, steady_state(system, flat, s, rate)).holds()) return false;
+  const State later = steady_state(system, flat, TurningFrame(system.model(), flat, s, rate).after(tau), rate);
+  return later.lambda.allFinite() && balance(system, later).holds();
+}
+
+SteadyMotion steady_as_it_is(model::AssembledSystem& system, const FlatTurning& flat, State s) {
+  system.move_to(s.t, s.q, s.v);
+  system.accelerate({}, s.a, s.lambda);
+  SteadyMotion motion{std::move(s), {}};
+  std::vector<Vector3d> rates = body_rates(system.model(), motion.state);
+  rates.insert(rates.begin(), least_rate(system.model(), flat, motion.state));
+  for (const Vector3d& rate : rates)
+    if (lasts(system, flat, motion.state, motion.tau(), rate)) motion.rates.push_back(rate);
+  return motion;
+}
+
+// Newton's method seen from the world: v as it is, a = 0.
+std::optional<std::string> settle_in_the_world(model::AssembledSystem& system, State& s) {
+  const Vec zero = Vec::Zero(system.sizes().nv);
+  Vec r, q, dq, dv, dlambda, unused;
+  system.move_to(s.t, s.q, s.v);
+  system.accelerate({}, s.a, s.lambda);
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < most_iterations; ++i) {
+    r = -system.f();
+    system.add_reaction(1, s.lambda, r);
+    system.factorise({damping, 0, 1}, zero, s.lambda);
+    if (!system.correct(r, system.g(), dq, dlambda)) return "its stiffness there is singular";
+    const double change = largest(dq);
+    if (!std::isfinite(change) || change > 1e3 * std::max(1.0, largest(s.q))) break;
+    system.retract(s.q, dq, q);
+    s.q = q, s.lambda += dlambda;
+    system.move_to(s.t, s.q, s.v);
+    if (system.sizes().nc > 0) {
+      system.factorise({1, 0, 0}, zero, Vec::Zero(system.sizes().nc), Factors::projection);
+      if (!system.correct(zero, Vec(system.g_dot()), dv, unused, Factors::projection)) break;
+      s.v += dv;
+      system.move_to(s.t, s.q, s.v);
+    }
+    // At the end of the digits steps no longer shrink.
+    const double size = std::max(1.0, largest(s.q));
+    if (change <= settled * size || (change <= 1e-9 * size && change >= before)) return {};
+    before = change;
+  }
+  return fmt::format("Newton's method did not settle in {} iterations", most_iterations);
+}
+
+// Newton's method seen from a turning frame, with K_r of the linearised equations.
+class InFrame {
+ public:
+  InFrame(model::AssembledSystem& system, const FlatTurning& flat, const Vector3d& rate)
+      : system_(system), flat_(flat), rate_(rate) {}
+
+  std::optional<std::string> settle(State& s) {
+    double before = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < most_iterations; ++i) {
+      s = steady_state(system_, flat_, s, rate_);
+      if (!s.lambda.allFinite()) break;
+      const Vec left_over = balance(system_, s).left_over;
+      const TangentSpace space = tangent_space(system_);
+      const TurningFrame frame(system_.model(), flat_, s, rate_);
+      const Mat K = coefficients_in(system_, frame, s, space.Z, space.left).K;
+      Eigen::CompleteOrthogonalDecomposition<Mat> least;  // what nothing holds keeps its place
+      least.setThreshold(1e-9);
+      least.compute(K);
+      const Vec dq = space.Z * least.solve(-space.left.transpose() * left_over);
+      const double change = largest(dq), size = std::max(1.0, largest(s.q));
+      if (!std::isfinite(change) || change > 10 * size) break;
+      move(s, dq);
+      const auto along = [&](const State& at, const Vec& by) -> Vec {
+        return TurningFrame(system_.model(), flat_, at, rate_).turned(by);
+      };
+      if (!onto_rows(system_, s, along)) break;
+      if (change <= settled * size || (change <= 1e-9 * size && change >= before)) return {};
+      before = change;
+    }
+    return fmt::format("Newton's method did not settle in {} iterations", most_iterations);
+  }
+
+ private:
+  void move(State& s, const Vec& dq) {
+    s.v += TurningFrame(system_.model(), flat_, s, rate_).turned(dq);
+    Vec q;
+    system_.retract(s.q, dq, q);
+    s.q = q;
+  }
+
+  model::AssembledSystem& system_;
+  const FlatTurning& flat_;
+  Vector3d rate_;
+};
+
+}  // namespace
+
+double SteadyMotion::tau() const {
+  return 0.7 / std::max(1e-300, largest(state.v));
+}
+
+State steady_state(model::AssembledSystem& system, const FlatTurning& flat, State at, const Vector3d& rate) {
+  system.move_to(at.t, at.q, at.v);
+  system.accelerate({}, at.a, at.lambda);
+  at.a = TurningFrame(system.model(), flat, at, rate).turned(at.v);
+  return at;
+}
+
+SteadyMotion steady_as_it_is(model::AssembledSystem& system, const State& state) {
+  return steady_as_it_is(system, flat_turning(system, state.t, state.q), state);
+}
+
+std::variant<SteadyMotion, std::string> find_steady_motion(model::AssembledSystem& system, const State& state) {
+  const FlatTurning flat = flat_turning(system, state.t, state.q);
+  if (!state.v.isZero(0))
+    if (SteadyMotion motion = steady_as_it_is(system, flat, state); !motion.rates.empty()) return motion;
+
+  State s = state;
+  std::optional<std::string> why = settle_in_the_world(system, s);
+  if (!why) {
+    s.a = Vec::Zero(s.v.size());
+    if (s.v.isZero(0)) return SteadyMotion{s, {Vector3d::Zero()}};
+    if (SteadyMotion motion = steady_as_it_is(system, flat, s); !motion.rates.empty()) return motion;
+    why = "the one that Newton's method came to does not last";
+  }
+  if (state.v.isZero(0)) return *why;
+  std::vector<Vector3d> rates = body_rates(system.model(), state);
+  system.move_to(state.t, state.q, state.v);
+  s = state;
+  system.accelerate({}, s.a, s.lambda);
+  rates.insert(rates.begin(), least_rate(system.model(), flat, s));
+  for (const Vector3d& rate : rates) {
+    if (rate.isZero(0)) continue;
+    s = state;
+    if (InFrame(system, flat, rate).settle(s)) continue;
+    if (largest(s.v - state.v) > far * largest(state.v)) continue;
+    if (SteadyMotion motion = steady_as_it_is(system, flat, s); !motion.rates.empty()) return motion;
+  }
+  for (const Vector3d& rate : rates)
+    if (const std::optional<State> found = nearest_steady(system, flat, state, rate))
+      if (SteadyMotion motion = steady_as_it_is(system, flat, *found); !motion.rates.empty()) return motion;
+  return *why;
+}
+
+}  // namespace trammel::simulate

@@ -1,0 +1,55 @@
+// How a system's numbers change while what they describe stands still in a frame that turns at a constant rate Omega.
+//
+// Some coordinates are places in the world's axes, some are turns in a body's own axes, some are neither (angles of
+// hinges, amplitudes of modes). An increment x of the configuration that stands still in the frame has
+//
+//     x' = B x          places: Omega x x;   turns in body axes: (R^T Omega - omega) x x;   others: 0
+//
+// and the velocities of a neighbouring motion differ by dv = (dq)' + C dq with C = omega x of turns. So dv = E x with E
+// = B + C, which is Omega x of places and R^T Omega x of turns. A motion that is steady in the frame has the
+// accelerations E v.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <trammel/integrator.hpp>
+
+#include "system/assembled_system.hpp"
+
+namespace trammel::simulate {
+
+// x' of a body's flat coordinates for 1 rad/s about each of the world's axes; empty: they do not turn.
+using FlatTurning = std::vector<std::array<Mat, 3>>;
+// By the bodies' momentum, which tells how they move when the world turns. Bodies that do not tell it are taken for
+// coordinates that do not turn. Exact for coordinates that are places.
+FlatTurning flat_turning(model::AssembledSystem& system, double t, const Vec& q);
+
+class TurningFrame {
+ public:
+  // `rate` is Omega [rad/s], in the plane about the third axis. `at` gives t, q, v.
+  TurningFrame(const model::Model& model, const FlatTurning& flat, const State& at, const Eigen::Vector3d& rate);
+
+  Mat carried(const Mat& x) const;  // B x
+  Mat turned(const Mat& x) const;   // E x
+  // What stands still in the frame, and the steady motion itself, tau [s] later.
+  Mat after(double tau, const Mat& x) const;
+  State after(double tau) const;  // t, q, v
+
+ private:
+  struct Part {
+    bool rotation;
+    int q0, v0, nv;
+    Mat by_rate;                     // of places: x' = by_rate x; empty: they do not turn
+    Eigen::Vector3d rate, relative;  // of turns, in body axes: Omega, omega - Omega
+  };
+  const State& at_;
+  double speed_;  // |Omega|
+  Eigen::Vector3d rate_;
+  std::vector<Part> parts_;
+};
+
+// Of the bodies that turn about themselves [rad/s], world axes, each once.
+std::vector<Eigen::Vector3d> body_rates(const model::Model& model, const State& at);
+
+}  // namespace trammel::simulate

@@ -1,0 +1,42 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <trammel/methods/error_norm.hpp>
+
+namespace trammel {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+// The longest steps that keep errors of 1e-9 or so, of methods of order 8, go half the size of a motion (0.6 of the amplitude of a
+// swing); shorter ones are measured more strictly.
+constexpr double steps_in_a_motion = 2;
+
+double largest(const Vec& a, const Vec& b) {
+  return a.size() ? std::max(a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>()) : 0;
+}
+
+}  // namespace
+
+double error_norm(const Vec& e_q, const Vec& e_v, const State& now, const State& next, const Tolerance& tolerance) {
+  const Eigen::Index n = e_v.size();
+  if (n == 0) return 0;
+  const double ahead = steps_in_a_motion * std::abs(next.t - now.t);
+  const double round_off_v = 4 * eps * largest(now.v, next.v);
+  const bool flat = now.q.size() == n;
+  const double all_q = largest(now.q, next.q), round_off_q = 4 * eps * all_q;
+  double sum = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double size_v = std::max(std::abs(now.v[i]), std::abs(next.v[i]));
+    const double entry = flat ? std::max(std::abs(now.q[i]), std::abs(next.q[i])) : all_q;
+    const double size_q = std::min(entry, ahead * size_v);  // a step may be many swings of a coordinate long
+    const double allowed_q = tolerance.absolute + tolerance.relative * size_q + round_off_q;
+    const double allowed_v = tolerance.absolute + tolerance.relative * size_v + round_off_v;
+    if (e_q[i] != 0) sum += e_q[i] / allowed_q * (e_q[i] / allowed_q);
+    if (e_v[i] != 0) sum += e_v[i] / allowed_v * (e_v[i] / allowed_v);
+  }
+  const double norm = std::sqrt(sum / double(2 * n));
+  return std::isfinite(norm) ? norm : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace trammel

@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <trammel/methods/newmark_step.hpp>
+
+namespace trammel {
+
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+double largest(const Vec& x) {
+  return x.size() ? x.lpNorm<Eigen::Infinity>() : 0;
+}
+// Near the smallest normal numbers (a motion damped out) nothing is left to be relative to.
+double relative(double change, double size) {
+  return change / (size + 1e-280);
+}
+
+}  // namespace
+
+// Metres and radians do not compare: an angle of a rod a kilometre long is not known to 1e-11 where 1e-8 rad are left. A coordinate is
+// measured by its own way in the step, or by 1 where that is less, but never by more than the largest. Below its round-off nothing is
+// asked for.
+void NewmarkStep::measure(const State& now, double h) {
+  sizes_q_ = h * now.v.cwiseAbs() + h * h * now.a.cwiseAbs() + dq.cwiseAbs();
+  const double noise = 64 * eps / newton.tolerance;
+  if (now.q.size() == now.v.size())
+    sizes_q_ = sizes_q_.cwiseMax(noise * now.q.cwiseAbs());
+  else
+    sizes_q_ = sizes_q_.cwiseMax(noise * largest(now.q));
+  sizes_q_ = sizes_q_.cwiseMax(1).cwiseMin(size_q_);
+}
+
+void NewmarkStep::begin(const System& s, const State& now, double h, double c_q, double c_v, State& next) {
+  const Sizes sizes = s.sizes();
+  c_q_ = c_q, c_v_ = c_v;
+  size_q_ = largest(now.q) + h * largest(now.v) + h * h * largest(now.a) + largest(dq);
+  size_v_ = largest(now.v) + h * largest(now.a) + largest(v);
+  measure(now, h);
+  zero_.setZero(sizes.nc > 0 ? sizes.nv : 0);
+  pi_.setZero(formulation == Formulation::stabilised ? zero_.size() : 0);
+  dpi_.resize(pi_.size());
+  next.t = now.t + h;
+  next.a = now.a;
+  lead_ = dq - h * now.v;
+  lead_ += c_q * now.a;
+  leads_ = c_q > 0 && largest(lead_) > h * largest(now.v);
+  next.lambda = now.lambda;
+  newton.start();
+  if (sizes.nv == 0) newton.judge(0, true);  // nothing to solve for
+}
+
+void NewmarkStep::update(const System& s, const State& now, State& next) {
+  increment_ = dq + c_q_ * next.a;
+  if (pi_.size() > 0) increment_ += pi_;
+  s.retract(now.q, increment_, next.q);
+  next.v = v + c_v_ * next.a;
+}
+
+void NewmarkStep::move(System& s, const State& now, State& next) {
+  update(s, now, next);
+  s.move_to(next.t, next.q, next.v);
+}
+
+void NewmarkStep::factorise(System& s, Blend blend, const State& next) {
+  s.factorise(blend, next.a, next.lambda);
+  of_pi_ = Factors::iteration;
+  if (s.sizes().nc == 0 || formulation == Formulation::index3) return;
+  // W = G gives the same force for any multipliers, to the last bit. The vectors are free until rows are corrected.
+  rc_.setLinSpaced(s.sizes().nc, 1, 2);
+  da_ = dpi_ = zero_;
+  s.add_reaction(1, rc_, da_);
+  s.add_rows_force(1, rc_, dpi_);
+  if (da_ == dpi_) return;
+  s.factorise(blend, next.a, next.lambda, Factors::projection);
+  of_pi_ = Factors::projection;
+}
+
+bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
+  if (s.sizes().nc == 0) {
+    rc_.resize(0);
+    if (!s.correct(r, rc_, da_, dlambda_)) return false;
+  } else if (formulation == Formulation::index3) {
+    rc_ = s.g() / c_q_;
+    if (!s.correct(r, rc_, da_, dlambda_)) return false;
+  } else {
+    rc_ = s.g_dot() / c_v_;
+    if (!s.correct(r, rc_, da_, dlambda_)) return false;
+    // g after that increment, which moves q by c_q da with G da = -rc.
+    rc_ = s.g() - c_q_ * rc_;
+    if (!s.correct(zero_, rc_, dpi_, mu_, of_pi_)) return false;
+    pi_ += dpi_;
+  }
+  next.a += da_;
+  next.lambda += dlambda_;
+  const double da = largest(da_), a = largest(next.a);
+  change_q_ = relative(c_q_ * da + largest(dpi_), size_q_ + c_q_ * a);
+  change_v_ = relative(c_v_ * da, size_v_ + c_v_ * a);
+  change_each_ = change_q_;
+  for (Eigen::Index i = 0; i < sizes_q_.size(); ++i) {
+    const double change = std::abs(c_q_ * da_[i]) + (pi_.size() > 0 ? std::abs(dpi_[i]) : 0);
+    change_each_ = std::max(change_each_, relative(change, sizes_q_[i] + c_q_ * std::abs(next.a[i])));
+  }
+  return true;
+}
+
+// c_q a of a mode changes its force by omega^2 c_q M a: by more than M a where the step is too long for it, whatever its phase.
+bool NewmarkStep::misled(System& s, const Vec& r) {
+  if (!leads_) return false;
+  leads_ = false;
+  lead_ /= c_q_;
+  da_.setZero(lead_.size());
+  s.add_mass_times(1, lead_, da_);
+  return largest(r) > largest(da_);
+}
+
+// Near a change of rank, an angle theta from it, rows that hold to their round-off d leave q uncertain by d / theta and v by
+// d / theta^2; likewise a rod's angle beside a body a million million times as long, whose coordinates take no increment below
+// their own spacing. Then q moves at every increment, and r with it. What r alone asks for tells whether the iteration has come to
+// its end: it is within the tolerance, or moves q in a step by little beside what the rows' round-off does.
+bool NewmarkStep::at_round_off(System& s, const Vec& r) {
+  if (change_q_ <= 64 * eps || largest(r) <= 64 * eps * largest(s.f())) return true;
+  if (s.sizes().nc == 0 || largest(s.g()) > 4 * eps * size_q_) return false;
+  rc_.setZero(s.sizes().nc);
+  if (!s.correct(r, rc_, da_, dlambda_)) return false;
+  constexpr double little = 0.01;
+  const double dv = c_v_ * largest(da_);
+  return relative(dv, size_v_) <= newton.tolerance || c_v_ * dv <= little * change_q_ * size_q_;
+}
+
+void NewmarkStep::correct(System& s, Blend blend, const Vec& r, State& next) {
+  if (misled(s, r)) {
+    next.a -= lead_;
+    return;
+  }
+  if (newton.wants_factors()) factorise(s, blend, next);
+  if (!correct_rows(s, r, next)) return newton.fail("the iteration matrix is singular");
+  const double change = std::max(change_each_, change_v_);
+  newton.judge(change, !newton.fast(change) && at_round_off(s, r));
+}
+
+Outcome NewmarkStep::finish(System& s, const State& now, State& next) {
+  if (!newton.converged()) return newton.outcome();
+  if (s.sizes().nc > 0) {
+    // The rows alone cost no force. They converge as the iteration did.
+    double change = 0, missed = 0;
+    int passes = 0;
+    do {
+      move(s, now, next);
+      missed = largest(s.g());
+      if (!correct_rows(s, zero_, next)) return Outcome::reject("the iteration matrix is singular");
+      change = formulation == Formulation::index3 ? change_each_ : std::max(change_each_, change_v_);
+    } while (change * newton.rate() > eps && ++passes < 4);
+    if (missed > std::max(1e-8, 1e-6 * size_q_)) return Outcome::reject("the joints' rows contradict each other");
+    // Rows of position divide their round-off by h^2. Where that is no longer small beside the velocity, say so.
+    const double noise = eps * size_q_ * c_v_ / std::max(c_q_, std::numeric_limits<double>::min());
+    if (formulation == Formulation::index3 && noise > 1e-3 * size_v_)
+      return Outcome::reject(
+          "the step is too small for formulation index3: round-off of the positions outweighs the velocity");
+  }
+  update(s, now, next);
+  if (!(next.q.allFinite() && next.v.allFinite() && next.a.allFinite() && next.lambda.allFinite()))
+    return Outcome::reject("the step left the finite numbers");
+  return Outcome::accept();
+}
+
+}  // namespace trammel

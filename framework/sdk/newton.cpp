@@ -1,0 +1,48 @@
+#include <cmath>
+
+#include <trammel/methods/newton.hpp>
+
+namespace trammel {
+
+namespace {
+
+// An increment of this relative size, larger than the one before, which was larger too, will not come to an end soon.
+constexpr double hopeless = 0.1;
+
+}  // namespace
+
+void Newton::start() {
+  state_ = State::iterating;
+  wants_factors_ = true;
+  iterations_ = 0;
+  last_change_ = 0;
+  rate_ = 1;
+  reason_ = "";
+}
+
+void Newton::judge(double change, bool at_round_off) {
+  if (!std::isfinite(change)) return fail("Newton's iteration left the finite numbers");
+  ++iterations_;
+  // The first increment has no rate: it must be within the tolerance itself.
+  const bool first = iterations_ == 1;
+  const double rate_before = rate_;
+  rate_ = first ? 1 : change / last_change_;
+  const double error = first ? change : rate_ / (1 - rate_) * change;
+  const bool shrinking = first || rate_ < 1;
+  if (change == 0 || (shrinking && error <= tolerance) || (!first && at_round_off)) {
+    state_ = State::converged;
+    return;
+  }
+  if (iterations_ > 2 && rate_before > 1 && rate_ > 1 && change > hopeless)
+    return fail("Newton's iteration did not converge");
+  if (iterations_ >= max_iterations) return fail("Newton's iteration did not converge");
+  wants_factors_ = !first && rate_ > 0.3;
+  last_change_ = change;
+}
+
+void Newton::fail(const char* reason) {
+  state_ = State::failed;
+  reason_ = reason;
+}
+
+}  // namespace trammel

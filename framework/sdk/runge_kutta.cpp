@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <trammel/methods/error_norm.hpp>
+#include <trammel/methods/runge_kutta.hpp>
+
+namespace trammel {
+
+namespace {
+
+// How far off the rows a slope may be taken [m, rad; relative to the speed]: to round-off inside a step as at its end. Near a change of
+// rank accelerations are wrong by it over the square of the angle between rows, which are told apart down to 1e-7.
+constexpr double round_off = 1e-15;
+
+// Far beyond any model's range, and small enough for a model to square and square again.
+bool within_range(const Vec& x) {
+  return x.squaredNorm() < 1e120;  // false for NaN too
+}
+
+}  // namespace
+
+RungeKutta::RungeKutta(const Tableau& tableau) : tableau_(tableau), k_(std::size_t(tableau.stages) + 1) {}
+
+bool RungeKutta::evaluate(System& s, double t, const Vec& q, const Vec& v, Slope& slope) {
+  if (!within_range(q) || !within_range(v)) return false;
+  on_manifold_ = q;
+  s.normalise(on_manifold_);
+  held_v_ = v;
+  if (projects() && s.sizes().nc > 0 && !onto_rows(s, t)) return false;
+  s.rate(on_manifold_, held_v_, slope.q);
+  s.move_to(t, on_manifold_, held_v_);
+  s.accelerate(baumgarte, slope.v, slope.lambda);
+  return within_range(slope.q) && within_range(slope.v) && within_range(slope.lambda);
+}
+
+void RungeKutta::begin(System& s, const State& now, Slope& slope) {
+  forget();
+  kept_ = false;
+  if (!evaluate(s, now.t, now.q, now.v, slope)) slope = {};
+}
+
+bool RungeKutta::keep_null_space(System& s, const State& now) {
+  kept_ = rows == Rows::null_space && s.sizes().nc > 0;
+  if (!kept_) return false;
+  zero_.setZero(s.sizes().nv);
+  no_force_.setZero(s.sizes().nc);
+  s.move_to(now.t, now.q, now.v);
+  s.factorise({1, 0, 0}, zero_, no_force_, Factors::projection);
+  return true;
+}
+
+// Projected: the first factors are off by the violation itself; the second, nearly in place, serve to the end. With kept factors
+// violations shrink by h with each solution; beyond their reach it fails.
+bool RungeKutta::onto_rows(System& s, double t) {
+  constexpr int most_iterations = 20;
+  constexpr double in_place = 1e-3, well = 0.1, lost = 1e-6, reach = 0.25;
+  // Slow from here on is round-off; with kept factors it may be their reach.
+  const double near_round_off = kept_ ? 1e-14 * std::max(1.0, on_manifold_.lpNorm<Eigen::Infinity>()) : 1e-9;
+  zero_.setZero(s.sizes().nv);
+  no_force_.setZero(s.sizes().nc);
+  double factorised_at = std::numeric_limits<double>::infinity(), before = 0, violation = 0;
+  // False: settled, or down to round-off.
+  const auto remains = [&](int i, const Vec& off, double size) {
+    right_ = off;
+    before = violation;
+    violation = right_.lpNorm<Eigen::Infinity>();
+    return violation > round_off * size && !(i > 0 && violation > 0.5 * before && violation < near_round_off * size);
+  };
+  const auto solve = [&](int i, double off, double size) {
+    const auto shrinks_less_than = [&](double factor) {
+      return i > 0 && violation > factor * before && violation > near_round_off * size;
+    };
+    if (kept_) {
+      if (shrinks_less_than(reach)) return false;
+    } else if (off < factorised_at && (factorised_at > in_place || shrinks_less_than(well))) {
+      s.factorise({1, 0, 0}, zero_, no_force_, Factors::projection);
+      factorised_at = off;
+    }
+    return s.correct(zero_, right_, change_, mu_, Factors::projection);
+  };
+  for (int i = 0; i < most_iterations; ++i) {
+    s.move_to(t, on_manifold_, held_v_);
+    if (!remains(i, s.g(), 1)) break;
+    if (!solve(i, violation, 1)) return false;
+    s.retract(on_manifold_, change_, q_);
+    on_manifold_.swap(q_);
+  }
+  if (!(violation <= lost)) return false;
+  const double off = violation, speed = std::max(1.0, held_v_.lpNorm<Eigen::Infinity>());
+  for (int i = 0; i < most_iterations; ++i) {
+    s.move_to(t, on_manifold_, held_v_);
+    if (!remains(i, s.g_dot(), speed)) break;
+    if (!solve(i, off, speed)) return false;
+    held_v_ += change_;
+  }
+  return within_range(on_manifold_) && within_range(held_v_);
+}
+
+void RungeKutta::combine(const double* weights, int n, Vec& dq, Vec& dv) const {
+  dq = h_ * weights[0] * k_[0].q;
+  dv = h_ * weights[0] * k_[0].v;
+  for (int i = 1; i < n; ++i) {
+    if (weights[i] == 0) continue;
+    dq += h_ * weights[i] * k_[std::size_t(i)].q;
+    dv += h_ * weights[i] * k_[std::size_t(i)].v;
+  }
+}
+
+double RungeKutta::norm(System& s, const State& now, const State& next, const Vec& e, Vec& e_v, Part part,
+                        const Tolerance& tolerance) {
+  if (part == Part::along_rows) along_rows_.project(s, next, e_v);
+  error_increment(s, next.q, e, embedded_, e_q_);
+  return error_norm(e_q_, e_v, now, next, tolerance);
+}
+
+Outcome RungeKutta::step(System& s, const State& now, const Slope& first, double h, State& next) {
+  filled_ = 0;
+  if (first.v.size() != now.v.size()) return Outcome::reject(out_of_range);
+  k_[0] = first;
+  return within_step(s, now, [&] { return all_stages(s, now, h, next); });
+}
+
+Outcome RungeKutta::all_stages(System& s, const State& now, double h, State& next) {
+  const int stages = tableau_.stages;
+  filled_ = 1;
+  h_ = h;
+  for (const double* row = tableau_.a; filled_ < stages; row += filled_ - 1)
+    if (!add_stage(s, now, tableau_.c[filled_], row)) return Outcome::reject(diverged);
+
+  combine(tableau_.b, stages, dq_, dv_);
+  next.t = now.t + h;
+  next.q = now.q + dq_;
+  next.v = now.v + dv_;
+  return end(s, next);
+}
+
+Outcome RungeKutta::end(System& s, State& next) {
+  if (!within_range(next.q) || !within_range(next.v)) return Outcome::reject(diverged);
+  s.normalise(next.q);
+  Slope& slope = k_[std::size_t(filled_)];
+  if (!evaluate(s, next.t, next.q, next.v, slope)) return Outcome::reject(diverged);
+  ++filled_;
+  if (projects()) taken_at(next.q, next.v);
+  next.a = slope.v;
+  next.lambda = slope.lambda;
+  return Outcome::accept();
+}
+
+bool RungeKutta::add_stage(System& s, const State& now, double c, const double* row) {
+  combine(row, filled_, dq_, dv_);
+  q_ = now.q + dq_;
+  v_ = now.v + dv_;
+  if (k_.size() == std::size_t(filled_)) k_.emplace_back();
+  // Others may have used the factors since the step.
+  const bool later = by_null_space_ && filled_ > tableau_.stages;
+  if (later && !keep_null_space(s, now)) return false;
+  const bool known = evaluate(s, now.t + c * h_, q_, v_, k_[std::size_t(filled_)]);
+  if (later) kept_ = false;
+  if (known) ++filled_;
+  return known;
+}
+
+bool RungeKutta::recall(System& s, const State& now, const State& next) {
+  // By its length, as t is rounded, and its end's acceleration: either alone may be that of another step.
+  const double h = next.t - now.t;
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(now.t), std::abs(next.t));
+  const Vec& a = k_[std::size_t(tableau_.stages)].v;
+  if (filled_ > tableau_.stages && std::abs(h - h_) <= rounding && a.size() == next.a.size() && a == next.a)
+    return true;
+  const Slope first = k_[0];
+  return step(s, now, first, h, repeated_).accepted();
+}
+
+void RungeKutta::interpolate(const System& s, const State& now, const State& next, double theta,
+                             std::initializer_list<const double*> terms, State& at) {
+  const Slope& first = k_[0];
+  const Slope& last = k_[std::size_t(tableau_.stages)];
+  // Hairer's nested form, from the inside out: y_0 + theta (F_0 + (1 - theta) (F_1 + theta (F_2 + (1 - theta) (F_3 +
+  // ...)))).
+  at.q.setZero(now.q.size());
+  at.v.setZero(now.v.size());
+  int level = 2 + int(terms.size());
+  for (const double* const* row = terms.end(); row != terms.begin(); --level) {
+    combine(*--row, filled_, dq_, dv_);
+    const double weight = level % 2 ? 1 - theta : theta;
+    at.q = weight * (dq_ + at.q);
+    at.v = weight * (dv_ + at.v);
+  }
+  dq_ = next.q - now.q;
+  dv_ = next.v - now.v;
+  at.q = theta * (2 * dq_ - h_ * (first.q + last.q) + at.q);
+  at.v = theta * (2 * dv_ - h_ * (first.v + last.v) + at.v);
+  at.q = (1 - theta) * (h_ * first.q - dq_ + at.q);
+  at.v = (1 - theta) * (h_ * first.v - dv_ + at.v);
+  at.q = now.q + theta * (dq_ + at.q);
+  at.v = now.v + theta * (dv_ + at.v);
+  at.t = now.t + theta * h_;
+  s.normalise(at.q);
+}
+
+void RungeKutta::step_inside(System& s, const State& now, const State& next, double theta, State& at) {
+  const Slope first = k_[0];
+  const double h = theta * (next.t - now.t);
+  if (step(s, now, first, h, at)) return;
+  at = now;
+  at.t += h;
+  at.q.setConstant(std::numeric_limits<double>::quiet_NaN());
+  at.v.setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
+void error_increment(const System& s, const Vec& q, const Vec& e, Vec& embedded, Vec& increment) {
+  embedded = q - e;
+  s.normalise(embedded);
+  s.difference(q, embedded, increment);
+}
+
+}  // namespace trammel

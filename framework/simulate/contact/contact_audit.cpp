@@ -1,0 +1,100 @@
+#include "simulate/contact/contact_audit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "simulate/results/observable.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+// Of the largest normal force, or of all energy that was lost: round-off and what the location of events leaves.
+constexpr double little = 1e-8;
+
+}  // namespace
+
+void ContactAudit::Worst::raise_to(int i, double when, double amount, double scale) {
+  if (!(amount > std::max(little, relative) * scale)) return;
+  contact = i, t = when, force = amount, relative = amount / scale;
+}
+
+void ContactAudit::look(model::AssembledSystem& system, const State& state) {
+  const std::vector<model::ContactMode>& modes = system.modes().contacts;
+  std::vector<int> closed;
+  for (int i = 0; i < int(modes.size()); ++i)
+    if (modes[std::size_t(i)].closed && system.model().contacts[std::size_t(i)].restitution) closed.push_back(i);
+  if (closed.empty()) return;
+  Moment moment(system, state);
+  const Vec& lambda = moment.lambda();
+  look_at_groups(system, state.t, lambda);
+  double largest = 0;
+  for (const int i : closed) largest = std::max(largest, std::abs(system.normal_force(i, lambda)));
+  for (const int i : closed) {
+    const model::ContactEntry& entry = system.model().contacts[std::size_t(i)];
+    if (system.sharing(i).shared) {
+      const auto [span, added] = indeterminate_.try_emplace(i, Span{state.t, state.t});
+      span->second.last = state.t;
+    }
+    if (entry.restitution->treatment().release == Restitution::Release::never) continue;  // a latch may pull
+    const double N = system.normal_force(i, lambda);
+    pull_.raise_to(i, state.t, -N, largest);
+    if (!entry.coulomb || modes[std::size_t(i)].friction != model::ContactMode::Friction::stick) continue;
+    const double T = system.friction_force(i, lambda).norm(), bound = entry.coulomb->static_coefficient() * N;
+    beyond_cone_.raise_to(i, state.t, T - std::max(0.0, bound), largest);
+  }
+}
+
+void ContactAudit::look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda) {
+  const std::vector<model::SharedRows>& shared = system.modes().shared;
+  for (std::size_t group = 0; group < shared.size(); ++group)
+    overloaded_.raise_to(shared[group].implied.front().contact, t, -system.spare_load(int(group), lambda),
+                         system.largest_load(int(group), lambda));
+}
+
+std::vector<std::string> ContactAudit::warnings(const model::Model& model, const Ledger& ledger) const {
+  std::vector<std::string> texts;
+  const auto name = [&model](int contact) { return model.contacts[std::size_t(contact)].path(); };
+  if (pull_.contact >= 0)
+    texts.push_back(fmt::format("not to be trusted: {} pulled with {:.3g} N at t = {:.9g} s; a contact only pushes",
+                                name(pull_.contact), pull_.force, pull_.t));
+  if (beyond_cone_.contact >= 0)
+    texts.push_back(fmt::format("not to be trusted: the friction of {} was {:.3g} N beyond its bound at t = {:.9g} s",
+                                name(beyond_cone_.contact), beyond_cone_.force, beyond_cone_.t));
+  if (overloaded_.contact >= 0)
+    texts.push_back(fmt::format(
+        "not to be trusted: {} and those it shares rows with carry {:.3g} N more than they can at t = {:.9g} s",
+        name(overloaded_.contact), overloaded_.force, overloaded_.t));
+  const double moved = std::abs(ledger.dissipated()) + std::abs(ledger.supplied()) + ledger.friction().lpNorm<1>();
+  for (Eigen::Index i = 0; i < ledger.friction().size(); ++i)
+    if (ledger.friction()[i] < -little * moved)
+      texts.push_back(fmt::format("not to be trusted: the friction of {} supplied {:.3g} J; friction only takes",
+                                  name(int(i)), -ledger.friction()[i]));
+  return texts;
+}
+
+void ContactAudit::Worst::archive(Archive& a, const std::string& name) {
+  a(name + "_contact", contact), a(name + "_t", t), a(name + "_force", force), a(name + "_relative", relative);
+}
+
+void ContactAudit::archive(Archive& a, std::size_t contacts) {
+  const auto known = [contacts](double i) {
+    if (!(i >= -1 && i < double(contacts))) throw std::out_of_range("contact");
+    return int(i);
+  };
+  pull_.archive(a, "pull"), beyond_cone_.archive(a, "beyond_cone"), overloaded_.archive(a, "overloaded");
+  known(pull_.contact), known(beyond_cone_.contact), known(overloaded_.contact);
+  Vec flat(Eigen::Index(3 * indeterminate_.size()));
+  Eigen::Index k = 0;
+  for (const auto& [contact, span] : indeterminate_) {
+    flat.segment<3>(k) << contact, span.first, span.last;
+    k += 3;
+  }
+  a("indeterminate", flat);
+  indeterminate_.clear();
+  for (k = 0; k + 2 < flat.size(); k += 3) indeterminate_[std::max(0, known(flat[k]))] = {flat[k + 1], flat[k + 2]};
+}
+
+}  // namespace trammel::simulate

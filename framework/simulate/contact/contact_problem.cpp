@@ -1,0 +1,193 @@
+#include "simulate/contact/contact_problem.hpp"
+
+#include <cmath>
+
+#include <Eigen/QR>
+
+#include "complementarity/exact_modes.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+// The part of x that belongs to the tangents of a contact.
+Eigen::VectorBlock<Vec> along(Vec& x, const complementarity::ContactPoint& p) {
+  return x.segment(p.tangent, p.tangents);
+}
+
+// Static or kinetic coefficient.
+double bound_of(const Participant& p) {
+  if (p.yielded) return (1 - 1e-8) * p.mu;
+  return p.let_go ? p.mu : p.mu_0;
+}
+
+}  // namespace
+
+void ContactProblem::prepare(model::AssembledSystem& system) {
+  directions_.clear();
+  points_.clear();
+  pushed_.clear();
+  for (const Participant& p : who) {
+    complementarity::ContactPoint point;
+    if (p.unilateral) point.normal = int(directions_.size()), directions_.push_back({p.contact, 0});
+    if (p.given_pushes && p.tangent == Participant::Tangent::sliding) {
+      pushed_.push_back({points_.size(), Eigen::Index(directions_.size())});
+      directions_.push_back({p.contact, 1});
+    } else if (p.tangent != Participant::Tangent::none) {
+      point.tangent = int(directions_.size()), point.tangents = system.tangents(p.contact);
+      for (int k = 0; k < point.tangents; ++k) directions_.push_back({p.contact, 1 + k});
+    }
+    points_.push_back(point);
+  }
+  system.impulse_response(directions_, jump_, delassus_);
+}
+
+complementarity::ContactSolution ContactProblem::solve_once(double nothing) {
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    const Participant& p = who[i];
+    complementarity::ContactPoint& point = points_[i];
+    point.given = p.given;
+    if (p.tangent == Participant::Tangent::resting)
+      point.kind = complementarity::ContactPoint::Tangent::resting, point.coefficient = bound_of(p);
+    else if (p.tangent == Participant::Tangent::sliding)
+      point.kind = complementarity::ContactPoint::Tangent::sliding, point.ratio = p.ratio;
+  }
+  return complementarity::solve_contacts(points_, delassus_, b_, F_, a_, nothing);
+}
+
+complementarity::ContactSolution ContactProblem::solve(double nothing) {
+  b_.resize(Eigen::Index(directions_.size()));
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    if (points_[i].normal >= 0) b_[points_[i].normal] = who[i].a_n - who[i].vanishing;
+    if (points_[i].tangent >= 0) along(b_, points_[i]) = who[i].a_t.head(points_[i].tangents);
+  }
+  for (const Pushed& p : pushed_) b_[p.direction] = who[p.who].a_t[0];
+  for (const Pushed& p : pushed_) b_ += push(p) * delassus_.col(p.direction);
+  complementarity::ContactSolution solution;
+  for (bool settled = false; !settled;) {
+    solution = solve_once(nothing);
+    if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
+    settled = true;
+    for (std::size_t i = 0; i < who.size(); ++i) {
+      Participant& p = who[i];
+      if (p.tangent != Participant::Tangent::resting || p.let_go || along(a_, points_[i]).norm() <= nothing) continue;
+      p.let_go = true;
+      if (p.mu < p.mu_0) settled = false;
+    }
+  }
+  if (!let_approaches_vanish()) solution.outcome = complementarity::LcpOutcome::gave_up;
+  for (const Pushed& p : pushed_) F_[p.direction] = push(p);
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    Participant& p = who[i];
+    p.N = p.given;
+    if (points_[i].normal >= 0) p.N = F_[points_[i].normal], p.a_n = a_[points_[i].normal];
+    if (const int n = points_[i].tangents; points_[i].tangent >= 0)
+      p.T.head(n) = along(F_, points_[i]), p.a_t.head(n) = along(a_, points_[i]);
+  }
+  return solution;
+}
+
+bool ContactProblem::let_approaches_vanish() {
+  bool any = false;
+  for (std::size_t i = 0; i < who.size(); ++i)
+    if (who[i].vanishing > 0) any = true, b_[points_[i].normal] += who[i].vanishing;
+  if (!any) return true;
+  if (!complementarity::make_exact(points_, delassus_, b_, 1e-4, F_)) return false;
+  a_ = delassus_ * F_ + b_;
+  return true;
+}
+
+std::vector<complementarity::ContactRole> ContactProblem::roles(const model::Modes& modes) const {
+  using Tangent = complementarity::ContactRole::Tangent;
+  using Friction = model::ContactMode::Friction;
+  std::vector<complementarity::ContactRole> roles;
+  for (const Participant& p : who) {
+    const model::ContactMode& mode = modes.contacts[std::size_t(p.contact)];
+    complementarity::ContactRole& role = roles.emplace_back();
+    role.closed = mode.closed;
+    const bool slides = mode.friction == Friction::slide || p.tangent == Participant::Tangent::sliding;
+    if (mode.closed && mode.friction == Friction::stick) role.tangent = Tangent::sticks;
+    if (mode.closed && p.unilateral && slides) role.tangent = Tangent::slides;
+  }
+  return roles;
+}
+
+std::vector<bool> ContactProblem::kept_closed(double nothing) const {
+  std::vector<Eigen::Index> pressing;
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    const Participant& p = who[i];
+    if (p.unilateral && p.N > 0) pressing.push_back(points_[i].normal);
+    const bool sticks = p.tangent == Participant::Tangent::resting && p.N > 0 && p.a_t.norm() <= nothing;
+    for (int k = 0; k < points_[i].tangents && sticks; ++k) pressing.push_back(points_[i].tangent + k);
+  }
+  std::vector<bool> kept(who.size(), false);
+  for (std::size_t i = 0; i < who.size(); ++i)
+    if (who[i].unilateral && who[i].N == 0 && who[i].a_n <= nothing)
+      kept[i] = complementarity::follows(delassus_, pressing, points_[i].normal);
+  return kept;
+}
+
+std::vector<model::SharedRows> ContactProblem::shared_rows(const model::Modes& modes) const {
+  std::vector<complementarity::ContactRole> role = roles(modes);
+  complementarity::CarryingRows carrying = complementarity::carrying_rows(points_, delassus_, role);
+  if (carrying.sliding_shares) {
+    for (std::size_t i = 0; i < who.size(); ++i)
+      role[i].idle = role[i].closed && who[i].unilateral && carrying.indeterminate[i] && who[i].N == 0;
+    carrying = complementarity::carrying_rows(points_, delassus_, role);
+  }
+  const auto directions = [this](const std::vector<Eigen::Index>& rows) {
+    std::vector<model::ContactDirection> all;
+    for (const Eigen::Index row : rows) all.push_back(directions_[std::size_t(row)]);
+    return all;
+  };
+  std::vector<model::SharedRows> groups;
+  for (const complementarity::SharingGroup& group : complementarity::sharing_groups(points_, role, carrying)) {
+    groups.push_back({directions(group.basis), directions(group.implied), group.K, group.share, {}});
+    for (const std::size_t i : group.sliding) groups.back().sliding.push_back(who[i].contact);
+  }
+  return groups;
+}
+
+double ContactProblem::acceleration_without(std::size_t participant) const {
+  const complementarity::ContactPoint& p = points_[participant];
+  double own = delassus_(p.normal, p.normal) * F_[p.normal];
+  if (p.tangent >= 0)
+    own += delassus_.row(p.normal).segment(p.tangent, p.tangents).dot(F_.segment(p.tangent, p.tangents));
+  return a_[p.normal] - own;
+}
+
+void ContactProblem::jump(Vec& dv) const {
+  dv.noalias() = jump_ * F_;
+}
+
+std::vector<bool> ContactProblem::held_by_others() const {
+  std::vector<Eigen::Index> held;
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    if (points_[i].normal >= 0) held.push_back(points_[i].normal);
+    for (int k = 0; k < points_[i].tangents && who[i].tangent == Participant::Tangent::resting; ++k)
+      held.push_back(points_[i].tangent + k);
+  }
+  std::vector<bool> all(who.size(), false);
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    if (who[i].tangent != Participant::Tangent::sliding || points_[i].tangent < 0) continue;
+    all[i] = true;
+    for (int k = 0; k < points_[i].tangents; ++k)
+      all[i] = all[i] && complementarity::follows(delassus_, held, points_[i].tangent + k);
+  }
+  return all;
+}
+
+void ContactProblem::end_slip(Vec& dv) const {
+  std::vector<Eigen::Index> held;
+  Vec slip = Vec::Zero(Eigen::Index(directions_.size()));
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    if (points_[i].normal >= 0) held.push_back(points_[i].normal);
+    if (who[i].tangent != Participant::Tangent::resting) continue;
+    for (int k = 0; k < points_[i].tangents; ++k) held.push_back(points_[i].tangent + k);
+    along(slip, points_[i]) = who[i].a_t.head(points_[i].tangents);
+  }
+  const Mat A = delassus_(held, held);
+  const Vec impulses = A.completeOrthogonalDecomposition().solve(-slip(held));
+  dv.noalias() = jump_(Eigen::all, held) * impulses;
+}
+
+}  // namespace trammel::simulate

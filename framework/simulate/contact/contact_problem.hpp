@@ -1,0 +1,77 @@
+// The contacts that take part in one instant, and their forces or impulses: complementarity/contact_forces.hpp for a System.
+//
+// Static and kinetic coefficients: every tangent at rest is first held with mu_0; those that it cannot hold get mu, and the
+// problem is solved again, so that the others are checked against what is left. Each repetition lets at least one more go, so
+// this ends; a tangent that mu holds after all stays at rest.
+#pragma once
+
+#include <vector>
+
+#include "complementarity/shares/carrying_rows.hpp"
+#include "complementarity/contact_forces.hpp"
+#include "system/assembled_system.hpp"
+
+namespace trammel::simulate {
+
+using model::Tangential;
+
+struct Participant {
+  enum class Tangent { none, resting, sliding };
+  int contact = 0;
+  bool unilateral = true;     // its normal force is unknown
+  double given = 0;           // [N] else
+  bool given_pushes = false;  // where it slides under it: its friction is not in a_n and a_t yet
+  Tangent tangent = Tangent::none;
+  double mu_0 = 0, mu = 0;                    // resting
+  Tangential ratio = Tangential::Zero();      // sliding: T / N
+  Tangential direction = Tangential::Zero();  // sliding: of the slip velocity, length 1
+  bool let_go = false;                        // resting: mu from the start; in the end: mu_0 did not hold it
+  bool yielded = false;  // resting, let go: its friction has reached its bound, it is not held there
+
+  double vanishing = 0;  // of several solutions the one that is left of this approach in addition to a_n
+
+  // Found: force [N] or impulse [N s], and acceleration or velocity, along normal and tangents.
+  double N = 0, a_n = 0;
+  Tangential T = Tangential::Zero(), a_t = Tangential::Zero();
+};
+
+class ContactProblem {
+ public:
+  std::vector<Participant> who;
+
+  void prepare(model::AssembledSystem& system);  // their directions at the system's point
+  // Of each participant: what its normal and its tangent do without the forces to be found, in `a_n` and `a_t`.
+  // `nothing`: smaller is 0.
+  [[nodiscard]] complementarity::ContactSolution solve(double nothing);
+  // Of the gap, of a unilateral participant, without its own force [m/s^2]; after `solve`.
+  double acceleration_without(std::size_t participant) const;
+  // Change of v by the forces found as impulses.
+  void jump(Vec& dv) const;
+  // Those that slide along tangents which follow from the normals and from the tangents at rest.
+  std::vector<bool> held_by_others() const;
+  // The least change of v that ends the slip `a_t` of all tangents at rest and leaves the unilateral normals alone.
+  void end_slip(Vec& dv) const;
+  // Unilateral ones without a force that the others keep closed: their rows follow from those of contacts that press.
+  std::vector<bool> kept_closed(double nothing) const;
+  // Once their modes are decided: which of those that are closed depend on each other, and how they share.
+  std::vector<model::SharedRows> shared_rows(const model::Modes& modes) const;
+
+ private:
+  // Sliding under a normal force that is given, but not in a_n and a_t yet: a known force along its tangent.
+  struct Pushed {
+    std::size_t who;
+    Eigen::Index direction;
+  };
+  complementarity::ContactSolution solve_once(double nothing);
+  double push(const Pushed& p) const { return who[p.who].ratio[0] * who[p.who].given; }  // [N]
+  [[nodiscard]] bool let_approaches_vanish();
+  std::vector<complementarity::ContactRole> roles(const model::Modes& modes) const;
+
+  std::vector<model::ContactDirection> directions_;
+  std::vector<complementarity::ContactPoint> points_;
+  std::vector<Pushed> pushed_;
+  Mat jump_, delassus_;
+  Vec b_, F_, a_;
+};
+
+}  // namespace trammel::simulate

@@ -1,0 +1,56 @@
+#include "simulate/contact/contact_reach.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "system/unrelated.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+// Whether some acceleration changes the gap's, where the system is.
+bool moves(model::AssembledSystem& system, int contact) {
+  const Vec rest = Vec::Zero(system.sizes().nv);
+  const double by =
+      system.acceleration({contact, 0}, unrelated(rest.size(), 1, 0)) - system.acceleration({contact, 0}, rest);
+  return std::abs(by) > 1e-12 * (1 + system.contact_marker(contact).x.norm());
+}
+
+}  // namespace
+
+void check_reach(model::AssembledSystem& system, const State& start, const scene::Value& root,
+                 scene::Problems& problems) {
+  const Vec still = Vec::Zero(start.v.size());
+  Vec elsewhere;
+  for (int i = 0; i < int(system.model().contacts.size()); ++i) {
+    if (system.model().contacts[std::size_t(i)].joint) continue;
+    system.move_to(start.t, start.q, still);
+    const double gap = system.gap(i);
+    bool reaches = moves(system, i);
+    for (double seed = 1; seed < 3 && !reaches; ++seed) {  // a dead centre, perhaps
+      system.retract(start.q, unrelated(start.v.size(), 0.1, seed), elsewhere);
+      system.move_to(start.t, elsewhere, still);
+      reaches = moves(system, i);
+    }
+    const model::ContactEntry& contact = system.model().contacts[std::size_t(i)];
+    const scene::Value* at = root.at_path("contacts." + contact.name);
+    system.move_to(start.t, start.q, still);
+    if (const double depth = system.all_behind_plane(i); depth > 0)
+      problems.error((at ? *at : root)
+                         .problem(fmt::format("all of bodies.{} starts {:.6g} m or more behind this plane: its normal "
+                                              "points to the free side, does it face away?",
+                                              system.model().bodies[std::size_t(contact.A.body)].name, depth)));
+    if (reaches) continue;
+    const bool one_body = contact.A.body >= 0 && contact.A.body == contact.B.body;
+    problems.error((at ? *at : root)
+                       .problem(fmt::format(
+                           "these can never touch: {}, so no motion changes their gap of {:.6g} m",
+                           one_body ? "both are on bodies." + system.model().bodies[std::size_t(contact.A.body)].name
+                                    : std::string("neither is on a body that can be moved"),
+                           gap)));
+  }
+  system.move_to(start.t, start.q, start.v);
+}
+
+}  // namespace trammel::simulate

@@ -1,0 +1,32 @@
+// Which contacts push on a system at rest. Compliant ones are always evaluated: their law says 0 while they are apart. Those
+// with rows are closed where they push (gap = 0, force >= 0) and open elsewhere, found by closing what penetrates and letting
+// go what pulls, until neither is left.
+#pragma once
+
+#include "system/assembled_system.hpp"
+
+namespace trammel::simulate {
+
+class RestingContacts {
+ public:
+  // Markers that a law of time moves stand still while this lives; afterwards all contacts are open.
+  explicit RestingContacts(model::AssembledSystem& system);
+  ~RestingContacts();
+  RestingContacts(const RestingContacts&) = delete;
+  RestingContacts& operator=(const RestingContacts&) = delete;
+
+  // All three at the system's point; true: the rows have changed.
+  void close_what_may_push();
+  bool close_penetrating();
+  // Each contact is let go a few times at most: a set that opens and closes for ever has no equilibrium.
+  bool release_pulling(const Vec& lambda);
+  // What rests on something with friction goes with it.
+  void carry_along();
+
+ private:
+  model::AssembledSystem& system_;
+  model::Modes modes_;
+  int released_ = 0;
+};
+
+}  // namespace trammel::simulate

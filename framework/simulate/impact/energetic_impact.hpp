@@ -1,0 +1,25 @@
+// The energetic law of restitution for the contacts that touch: spring_impact.hpp for a System.
+//
+// Closed contacts and those that touch without having struck take part with e = 0. A contact's loss is that of its own course: what its
+// compressions stored times 1 - e^2, and what friction took.
+#pragma once
+
+#include <vector>
+
+#include "simulate/impact/impact_directions.hpp"
+
+namespace trammel::simulate {
+
+class EnergeticImpact {
+ public:
+  // As Impact::solve.
+  [[nodiscard]] complementarity::ContactSolution solve(model::AssembledSystem& system,
+                                                       std::vector<TouchingContact>& touching, Vec& dv);
+  bool cut_short() const { return cut_short_; }  // the last one: SpringImpact::cut_short
+
+ private:
+  ImpactDirections directions_;
+  bool cut_short_ = false;
+};
+
+}  // namespace trammel::simulate

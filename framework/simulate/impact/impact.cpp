@@ -1,0 +1,62 @@
+#include "simulate/impact/impact.hpp"
+
+#include <cmath>
+
+namespace trammel::simulate {
+namespace {
+
+constexpr double vanishing = 1e-6;  // beside a slip; more than what a solution may be off by
+
+}  // namespace
+
+complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, const State& state, double at_rest,
+                                               std::vector<TouchingContact>& touching, Vec& dv) {
+  problem_.who.clear();
+  auto from = BearingImpulses::From::nothing;
+  for (TouchingContact& c : touching) {
+    const model::ContactEntry& entry = system.model().contacts[c.contact];
+    Participant p;
+    p.contact = c.contact;
+    p.a_n = c.was_closed ? 0 : (1 + c.restitution) * c.before;
+    if (entry.friction) p.a_t = c.slip_before = system.slip(c.contact);
+    if (entry.joint) {
+      p.unilateral = false;
+      if (c.without_collision) from = BearingImpulses::From::held;
+    } else if (c.without_collision) {
+      p.vanishing = vanishing * c.slip_before.norm();
+    }
+    if (entry.coulomb) {
+      p.tangent = Participant::Tangent::resting;
+      p.mu_0 = entry.coulomb->static_coefficient();
+      p.mu = entry.coulomb->kinetic_coefficient(p.a_t.norm());
+    } else if (entry.smooth) {
+      p.tangent = Participant::Tangent::sliding;
+      const double speed = p.a_t.norm();
+      if (speed > 0) p.ratio = -entry.smooth->ratio(speed) * (p.a_t / speed);
+    }
+    problem_.who.push_back(p);
+  }
+  problem_.prepare(system);
+  bearings_.prepare(system, state, problem_.who);
+  const complementarity::ContactSolution solution = bearings_.solve(problem_, at_rest, from);
+  if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
+  problem_.jump(dv);
+  for (std::size_t i = 0; i < touching.size(); ++i) {
+    TouchingContact& c = touching[i];
+    const Participant& p = problem_.who[i];
+    c.impulse = p.N;
+    // From the complementarity itself where the impulse acts: -e u- exactly, without the round-off of D L.
+    if (system.model().contacts[c.contact].joint)
+      c.after = c.before;
+    else if (c.impulse > 0)
+      c.after = c.was_closed ? c.before : -c.restitution * c.before;
+    else
+      c.after = p.a_n - (c.was_closed ? -c.before : c.restitution * c.before);
+    c.friction = p.T;
+    c.slip_after = p.a_t;
+    c.course = 0;
+  }
+  return solution;
+}
+
+}  // namespace trammel::simulate

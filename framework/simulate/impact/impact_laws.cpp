@@ -1,0 +1,47 @@
+#include "simulate/impact/impact_laws.hpp"
+
+#include <algorithm>
+
+namespace trammel::simulate {
+namespace {
+
+using Law = Restitution::ImpactLaw;
+
+Law law_of(const model::Model& model, double at_rest, const std::vector<TouchingContact>& touching) {
+  Law law = Law::newton;
+  for (const TouchingContact& c : touching)
+    if (!c.was_closed && !c.without_collision && c.before < -at_rest)
+      law = std::max(law, model.contacts[std::size_t(c.contact)].restitution->treatment().impact_law);
+  return law;
+}
+
+}  // namespace
+
+complementarity::ContactSolution ImpactLaws::solve(model::AssembledSystem& system, const State& state, double at_rest,
+                                                   std::vector<TouchingContact>& touching, Vec& dv) {
+  cut_short_ = false;
+  law_ = law_of(system.model(), at_rest, touching);
+  if (law_ == Law::newton) return newton_.solve(system, state, at_rest, touching, dv);
+  const auto rubs = [&](const TouchingContact& c) {
+    return system.model().contacts[std::size_t(c.contact)].joint.has_value();
+  };
+  const auto joints =
+      std::stable_partition(touching.begin(), touching.end(), [&](const TouchingContact& c) { return !rubs(c); });
+  std::vector<TouchingContact> bearings(joints, touching.end());
+  touching.erase(joints, touching.end());
+  complementarity::ContactSolution solution = strike(system, at_rest, touching, dv);
+  if (solution.outcome == complementarity::LcpOutcome::solved && !bearings.empty())
+    solution = rubbing_after_.solve(system, state, at_rest, touching, bearings, dv);
+  touching.insert(touching.end(), bearings.begin(), bearings.end());
+  return solution;
+}
+
+complementarity::ContactSolution ImpactLaws::strike(model::AssembledSystem& system, double at_rest,
+                                                    std::vector<TouchingContact>& touching, Vec& dv) {
+  if (law_ == Law::poisson) return poisson_.solve(system, at_rest, touching, dv);
+  const complementarity::ContactSolution solution = energetic_.solve(system, touching, dv);
+  cut_short_ = energetic_.cut_short();
+  return solution;
+}
+
+}  // namespace trammel::simulate

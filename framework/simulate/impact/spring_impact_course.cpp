@@ -1,0 +1,211 @@
+// The course of an impact between two events, and where the next event is: midpoint steps, extrapolated.
+#include "simulate/impact/spring_impact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trammel::simulate {
+
+namespace {
+
+constexpr double step_error = 2e-13;
+constexpr int columns = 6, order = 2 * columns;
+constexpr int most_steps = 20000;
+
+}  // namespace
+
+Vec SpringImpact::state() const {
+  Vec y(2 * n_ + m_);
+  y << x_, P_, lost_friction_;
+  return y;
+}
+
+void SpringImpact::take(const Vec& y) {
+  x_ = y.head(n_), P_ = y.segment(n_, m_), lost_friction_ = y.tail(n_);
+  u_ = rates();
+  for (Contact& c : contacts_)
+    if (c.mode == Tangent::slides && slip(c, u_).norm() > 2 * slow_) c.slid = true;
+}
+
+void SpringImpact::forces(const Vec& y, const Vec& u, Vec& f) const {
+  f.setZero(m_);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& c = contacts_[i];
+    if (!c.presses) continue;
+    const double F = f[c.normal] = k_ * y[Eigen::Index(i)];
+    if (c.mode != Tangent::slides) continue;
+    const bool turns = t_ == 2 && c.slid;
+    const Vec direction = turns ? Vec(slip(c, u).normalized()) : Vec(c.direction.head(t_));
+    f.segment(c.tangent, t_) = -c.mu * F * direction;
+  }
+  if (!sticking_.empty()) f(sticking_) = hold_ * f;
+}
+
+void SpringImpact::derivative(const Vec& y, Vec& dy) {
+  u_.noalias() = A_ * y.segment(n_, m_);
+  u_ += u_before_;
+  forces(y, u_, f_);
+  dy.resize(y.size());
+  dy.segment(n_, m_) = f_;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& c = contacts_[i];
+    dy[Eigen::Index(i)] = c.presses ? -u_[c.normal] : 0;
+    const bool slides = c.presses && c.mode == Tangent::slides;
+    dy[n_ + m_ + Eigen::Index(i)] = slides ? -f_.segment(c.tangent, t_).dot(u_.segment(c.tangent, t_)) : 0;
+  }
+}
+
+// Whether a slip in space has turned by more than 60 degrees against u: then it has passed 0, where friction jumps.
+bool SpringImpact::turned_from(const Vec& u) const {
+  for (const Contact& c : contacts_) {
+    if (t_ == 1 || !c.presses || c.mode != Tangent::slides || !c.slid) continue;
+    const Vec s = slip(c, u), now = slip(c, u_);
+    if (s.dot(now) < 0.5 * s.norm() * now.norm()) return true;
+  }
+  return false;
+}
+
+// False: friction jumps on the way.
+bool SpringImpact::midpoint(const Vec& y, double h, int n, Vec& y_end) {
+  const double d = h / n;
+  derivative(y, dy_);
+  const Vec u = u_;
+  Vec before = y, now = y + d * dy_;
+  bool smooth = true;
+  for (int i = 1; i < n && smooth; ++i) {
+    derivative(now, dy_);
+    smooth = !turned_from(u);
+    middle_ = before + 2 * d * dy_;
+    before.swap(now), now.swap(middle_);
+  }
+  derivative(now, dy_);
+  y_end = 0.5 * (before + now + d * dy_);
+  return smooth && !turned_from(u);
+}
+
+// The estimated error, in parts of `step_error`.
+double SpringImpact::extrapolate(const Vec& y, double h, Vec& y_end) {
+  std::vector<Vec> row(columns), last(columns);
+  for (int j = 0; j < columns; ++j) {
+    if (!midpoint(y, h, 2 * (j + 1), row[0])) return std::numeric_limits<double>::infinity();
+    for (int k = 1; k <= j; ++k) {
+      const double ratio = double(j + 1) / double(j + 1 - k);
+      row[std::size_t(k)] =
+          row[std::size_t(k - 1)] + (row[std::size_t(k - 1)] - last[std::size_t(k - 1)]) / (ratio * ratio - 1);
+    }
+    row.swap(last);
+  }
+  y_end = last[columns - 1];
+  const Vec off = y_end - last[columns - 2];
+  double error = 0;
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    error = std::max(error, std::abs(off[i]) / std::max(v_, std::abs(y[i])));
+    error = std::max(error, std::abs(off[n_ + m_ + i]) / (k_ * v_ * v_));
+  }
+  for (Eigen::Index i = 0; i < m_; ++i) error = std::max(error, std::abs(off[n_ + i]) * std::sqrt(A_(i, i) / k_) / v_);
+  return error / step_error;
+}
+
+// A margin that is negative within the step only, judged by the cubic through its ends.
+bool SpringImpact::dips_within(const Vec& y, double h, const Vec& y_end) {
+  Vec slope, slope_end;
+  derivative(y, slope), derivative(y_end, slope_end);
+  const auto between = [&](double s) {
+    const double r = 1 - s;
+    return Vec(r * r * (1 + 2 * s) * y + s * s * (3 - 2 * s) * y_end + h * s * r * (r * slope - s * slope_end));
+  };
+  return std::min({margin(between(0.25)), margin(between(0.5)), margin(between(0.75))}) < -tolerance;
+}
+
+// The first event within h, by the method of Illinois; the margin ends between 1 and 9 tolerances below 0. Returns its time, and its
+// state in `y_end`, which comes in as that after h, with the margin `at_end`.
+double SpringImpact::locate(const Vec& y, double h, double at_end, Vec& y_end) {
+  const double aim = 5 * tolerance;
+  Vec inside;
+  double lo = 0, hi = h, off = at_end + aim;  // of the margin from the aim, at hi
+  double weight_lo = std::max(0.0, margin(y)) + aim, weight_hi = off;
+  for (int i = 0, side = 0; i < 100 && off < -4 * tolerance && hi - lo > 1e-15 * h; ++i) {
+    double middle = hi - weight_hi * (hi - lo) / (weight_hi - weight_lo);
+    if (i > 20 || !(middle > lo && middle < hi)) middle = 0.5 * (lo + hi);
+    extrapolate(y, middle, inside);
+    const double at = margin(inside) + aim;
+    if (at <= 4 * tolerance) {
+      hi = middle, off = weight_hi = at, y_end = inside;
+      if (side < 0) weight_lo /= 2;
+      side = -1;
+    } else {
+      lo = middle, weight_lo = at;
+      if (side > 0) weight_hi /= 2;
+      side = 1;
+    }
+  }
+  return hi;
+}
+
+bool SpringImpact::advance_to_event() {
+  Vec y = state(), y_end;
+  double gone = 0;
+  for (int step = 0; step < most_steps; ++step) {
+    const double error = extrapolate(y, h_, y_end);
+    const double factor = std::clamp(0.9 * std::pow(std::max(error, 1e-30), -1.0 / (order - 1)), 0.2, 3.0);
+    if (!(error <= 1) && h_ > 1e-12) {
+      h_ *= std::isfinite(error) ? factor : 0.2;
+      continue;
+    }
+    const double at_end = margin(y_end);
+    if (at_end < -tolerance) {
+      gone += locate(y, h_, at_end, y_end);
+      take(y_end);
+      standing_ = gone > 1e-12 ? 0 : standing_ + 1;
+      return standing_ <= 50 + 10 * n_;
+    }
+    if (h_ > 1e-3 && dips_within(y, h_, y_end)) {
+      h_ /= 2;
+      continue;
+    }
+    y = y_end;
+    take(y);
+    gone += h_;
+    h_ = std::min(h_ * factor, 1e9);
+    if (gone > 1e8 || finished() || wedged()) return gone <= 1e8;
+  }
+  return false;
+}
+
+double SpringImpact::margin(const Vec& y) {
+  all_margins(y, margins_);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Margins& m : margins_) least = std::min({least, m.normal, m.tangent});
+  return least;
+}
+
+void SpringImpact::all_margins(const Vec& y, std::vector<Margins>& margins) {
+  derivative(y, dy_);
+  margins.assign(contacts_.size(), {});
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& c = contacts_[i];
+    const double x = y[Eigen::Index(i)] / v_, rate = u_[c.normal] / v_;
+    margins[i].normal = !c.presses ? rate : c.compresses ? -rate : std::min(x, rate);
+    if (!c.presses || c.mode == Tangent::none) continue;
+    if (c.mode == Tangent::sticks) {
+      margins[i].tangent = (c.mu_0 * f_[c.normal] - f_.segment(c.tangent, t_).norm()) / (k_ * v_);
+    } else {
+      const Vec s = slip(c, u_);
+      const bool turns = t_ == 2 && c.slid;
+      margins[i].tangent = (turns ? s.norm() - slow_ : s.dot(c.direction.head(t_)) + (c.slid ? 0 : 2 * slow_)) / v_;
+    }
+  }
+  if (!dependent_) return;
+  // Of dependent contacts these friction forces are one choice of many.
+  const auto too_large = [](const Contact& c, const Margins& m) {
+    return c.presses && c.mode == Tangent::sticks && m.tangent < -tolerance;
+  };
+  bool any = false;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) any = any || too_large(contacts_[i], margins[i]);
+  if (!any || !some_forces_hold(f_)) return;
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (contacts_[i].mode == Tangent::sticks) margins[i].tangent = std::max(0.0, margins[i].tangent);
+}
+
+}  // namespace trammel::simulate

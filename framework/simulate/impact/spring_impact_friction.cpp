@@ -1,0 +1,159 @@
+// Which contacts stick and slide while springs push, and the forces that hold those that stick.
+#include "simulate/impact/spring_impact.hpp"
+
+#include <cmath>
+
+#include <Eigen/QR>
+
+namespace trammel::simulate {
+
+using complementarity::ContactPoint;
+using complementarity::LcpOutcome;
+
+namespace {
+
+// In units of the springs' time: how far ahead the forces are looked at where contacts begin to push.
+constexpr double ahead = 1e-6;
+// Of the largest pivot: rows that depend on others leave round-off.
+constexpr double dependence = 1e-10;
+
+Eigen::CompleteOrthogonalDecomposition<Mat> decomposed(const Mat& A) {
+  Eigen::CompleteOrthogonalDecomposition<Mat> qr;
+  qr.setThreshold(dependence);
+  return qr.compute(A);
+}
+
+}  // namespace
+
+std::vector<ContactPoint> SpringImpact::resting_points(const Vec& F, const std::vector<std::size_t>& resting,
+                                                       const std::vector<bool>& let_go) const {
+  std::vector<ContactPoint> points;
+  int next = 0;
+  for (std::size_t j = 0; j < resting.size(); ++j) {
+    const Contact& c = contacts_[resting[j]];
+    ContactPoint p;
+    p.tangent = next, p.tangents = t_;
+    p.kind = ContactPoint::Tangent::resting;
+    p.coefficient = let_go[j] ? c.mu : c.mu_0;
+    p.given = F[c.normal];
+    points.push_back(p);
+    next += t_;
+  }
+  return points;
+}
+
+std::vector<Eigen::Index> SpringImpact::sticking_rows() const {
+  std::vector<Eigen::Index> rows;
+  for (const Contact& c : contacts_)
+    for (int k = 0; k < t_ && c.presses && c.mode == Tangent::sticks; ++k) rows.push_back(c.tangent + k);
+  return rows;
+}
+
+// Whether any forces in the cones hold all that stick, at the forces f.
+bool SpringImpact::some_forces_hold(const Vec& f) const {
+  std::vector<std::size_t> sticking;
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (contacts_[i].presses && contacts_[i].mode == Tangent::sticks) sticking.push_back(i);
+  const std::vector<ContactPoint> points = resting_points(f, sticking, std::vector<bool>(sticking.size(), false));
+  Vec others = f;
+  others(sticking_).setZero();
+  const Vec b = (A_ * others)(sticking_);
+  Vec T, a;
+  if (complementarity::solve_contacts(points, A_(sticking_, sticking_), b, T, a).outcome != LcpOutcome::solved)
+    return false;
+  return a.lpNorm<Eigen::Infinity>() <= 1e-9 * b.lpNorm<Eigen::Infinity>();
+}
+
+// Those without slip stick or begin to slide, as the forces a moment later decide.
+void SpringImpact::choose_tangents() {
+  std::vector<std::size_t> resting;
+  Vec F = Vec::Zero(m_), f = Vec::Zero(m_);
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    Contact& c = contacts_[i];
+    if (c.presses) f[c.normal] = F[c.normal] = k_ * std::max(0.0, x_[Eigen::Index(i)] - ahead * u_[c.normal]);
+    c.mode = Tangent::none;
+    if (!rubs(c)) continue;
+    const Vec s = slip(c, u_);
+    if (s.norm() > 2 * slow_) {
+      c.mode = Tangent::slides, c.slid = true;
+      c.direction.head(t_) = s.normalized();
+      f.segment(c.tangent, t_) = -c.mu * F[c.normal] * s.normalized();
+      continue;
+    }
+    resting.push_back(i);
+    for (int k = 0; k < t_; ++k) rows.push_back(c.tangent + k);
+  }
+  if (resting.empty()) return;
+  const double largest = F.maxCoeff();
+  if (largest > 0) F /= largest, f /= largest;
+  const Vec b = (A_ * f)(rows);
+  Vec T, a = Vec::Zero(b.size());
+  std::vector<bool> let_go(resting.size(), false);
+  for (bool settled = false; !settled;) {
+    settled = true;
+    const auto points = resting_points(F, resting, let_go);
+    if (complementarity::solve_contacts(points, A_(rows, rows), b, T, a).outcome != LcpOutcome::solved) a = b;
+    for (std::size_t j = 0; j < resting.size(); ++j) {
+      if (let_go[j] || a.segment(Eigen::Index(j) * t_, t_).isZero(0)) continue;
+      let_go[j] = true;
+      const Contact& c = contacts_[resting[j]];
+      settled = settled && c.mu == c.mu_0;
+    }
+  }
+  for (std::size_t j = 0; j < resting.size(); ++j) {
+    Contact& c = contacts_[resting[j]];
+    const Vec begins = a.segment(Eigen::Index(j) * t_, t_);
+    c.slid = false;
+    c.mode = begins.isZero(0) ? Tangent::sticks : Tangent::slides;
+    if (c.mode == Tangent::slides) c.direction.head(t_) = begins.normalized();
+  }
+}
+
+// Friction at its bound that no look ahead tells to slide: the contact whose bound is exceeded most slides against its friction.
+void SpringImpact::force_slip() {
+  hold_sticking();
+  derivative(state(), dy_);
+  Contact* worst = nullptr;
+  double most = 0;
+  for (Contact& c : contacts_) {
+    if (!c.presses || c.mode != Tangent::sticks) continue;
+    const double over = f_.segment(c.tangent, t_).norm() - c.mu_0 * f_[c.normal];
+    if (!worst || over > most) worst = &c, most = over;
+  }
+  if (!worst || f_.segment(worst->tangent, t_).isZero(0)) return;
+  worst->mode = Tangent::slides;
+  worst->direction.head(t_) = -f_.segment(worst->tangent, t_).normalized();
+}
+
+void SpringImpact::begin_phase() {
+  if (P_.isZero(0)) choose_tangents();
+  hold_sticking();
+  if (sticking_.empty()) return;
+  // What is left of their slip.
+  const Vec s = u_(sticking_);
+  const Mat A_SS = A_(sticking_, sticking_);
+  const Vec P = -decomposed(A_SS).solve(s);
+  const Vec mean = s + 0.5 * A_SS * P;
+  P_(sticking_) += P;
+  Eigen::Index at = 0;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (!contacts_[i].presses || contacts_[i].mode != Tangent::sticks) continue;
+    lost_friction_[Eigen::Index(i)] -= P.segment(at, t_).dot(mean.segment(at, t_));
+    at += t_;
+  }
+  u_ = rates();
+}
+
+void SpringImpact::hold_sticking() {
+  sticking_ = sticking_rows();
+  dependent_ = false;
+  if (sticking_.empty()) return;
+  const auto qr = decomposed(A_(sticking_, sticking_));
+  dependent_ = qr.rank() < Eigen::Index(sticking_.size());
+  Mat others = A_(sticking_, Eigen::all);
+  for (const Eigen::Index row : sticking_) others.col(row).setZero();
+  hold_ = -qr.solve(others);
+}
+
+}  // namespace trammel::simulate

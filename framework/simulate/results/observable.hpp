@@ -1,0 +1,58 @@
+// What "record": {"observe": {"name": "what"}} may name, evaluated at a moment of the run.
+//
+//     BODY.OBSERVABLE                 a body's own scalars: "beam.angle"
+//     BODY.MARKER.x y z vx vy vz ax ay az angle omega alpha      in world axes; angle, omega, alpha in planar scenes
+//     contacts.NAME.gap gap_rate force closed                    force [N] >= 0 pushes; closed is 0 or 1
+//     joints.NAME.reaction            2-norm of the joint's multipliers
+//     energy.kinetic potential elastic total                     [J]
+//
+// or {"of": "block.com.x", "relative_to": "table.origin", "since_start": true}: a marker's motion as seen from another one
+// (relative_motion.hpp), with "since_start" less its value at the start.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <trammel/integrator.hpp>
+
+#include "system/assembled_system.hpp"
+#include "scene/value.hpp"
+
+namespace trammel::simulate {
+
+// The system moved to one state of the solution; accelerations and multipliers are solved for when first asked for, from the
+// equations of motion, whatever the integrator keeps.
+class Moment {
+ public:
+  Moment(model::AssembledSystem& system, const State& state) : system_(system), state_(state) {
+    system_.move_to(state.t, state.q, state.v);
+  }
+  model::AssembledSystem& system() { return system_; }
+  const State& state() const { return state_; }
+  const Vec& a() { return solve(), a_; }
+  const Vec& lambda() { return solve(), lambda_; }
+  const Energy& energy();
+
+ private:
+  void solve();
+  model::AssembledSystem& system_;
+  const State& state_;
+  Vec a_, lambda_;
+  Energy energy_;
+  bool solved_ = false, energy_known_ = false;
+};
+
+struct Column {
+  std::string name;  // in the header
+  std::function<double(Moment&)> value;
+  bool since_start = false;  // less the value at the start; so from begin_columns on
+};
+
+// The columns "record" asks for, in scene order; unknown names are reported with the nearest.
+std::vector<Column> read_observables(const scene::Value& root, const model::Model& model, scene::Problems& problems);
+
+// Tells the columns the state that the run starts from, also when it resumes.
+void begin_columns(std::vector<Column>& columns, model::AssembledSystem& system, const State& start);
+
+}  // namespace trammel::simulate

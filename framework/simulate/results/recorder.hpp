@@ -1,0 +1,65 @@
+// The logs of a run: series.csv, events.csv, animation.ndjson and fields.ndjson in the results folder.
+#pragma once
+
+#include <optional>
+
+#include "simulate/results/contact_event.hpp"
+#include "simulate/results/field_line.hpp"
+#include "simulate/results/ledger.hpp"
+#include "simulate/results/log_file.hpp"
+#include "simulate/results/observable.hpp"
+#include "simulate/results/refine_event.hpp"
+
+namespace trammel::simulate {
+
+// 2-norms over the active rows.
+struct ConstraintNorms {
+  double position = 0;      // of g
+  double velocity = 0;      // of G v + g_t
+  double acceleration = 0;  // of G a - gamma with the integrator's own a
+  void raise_to(const ConstraintNorms& other);
+};
+// The system has been moved to the state.
+ConstraintNorms constraint_norms(model::AssembledSystem& system, const State& state, Vec& scratch);
+
+class Recorder {
+ public:
+  enum class Books { kept, none };  // kept: rows tell the energy supplied and dissipated
+  struct Lengths {
+    LogPart series, events, animation, fields;
+    long long field_times = 0;  // done with
+  };
+  // A new folder's logs, or those of an interrupted run shortened to `keep`. The first row at or after each of `field_times`, which
+  // ascend, goes to fields.ndjson, too.
+  Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns,
+           std::optional<Lengths> keep, std::vector<double> field_times = {}, Books books = Books::kept);
+
+  void row(model::AssembledSystem& system, const State& state, const Ledger::Totals& books = {});
+  void event(const ContactEvent& event);
+  void event(const RefineEvent& event);
+  void flush();                  // throws OutputError once all files were tried
+  void sync();                   // the same, and to the disk itself
+  void check() const;            // throws OutputError if a file could not take what it was given; nothing is lost yet
+  std::string missing();         // which files lack how many lines that could not be written; empty: none
+  void rescue() const noexcept;  // for a signal handler: whole lines still in memory go out
+  Lengths lengths() const;
+  // Why the logs in a folder do not begin with `keep` any more; empty: they do.
+  static std::string damage(const std::filesystem::path& folder, const Lengths& keep);
+
+ private:
+  std::string header() const;
+  void animate(const State& state);
+  void show_fields(const State& state);
+  std::vector<LogFile*> files();
+  const model::Model& model_;
+  std::vector<Column> columns_;
+  Books books_;
+  std::optional<LogFile> series_, events_, animation_, fields_;
+  FieldLine field_line_;
+  std::vector<double> field_times_;
+  std::size_t next_field_time_ = 0;
+  Mat shape_;
+  Vec scratch_;
+};
+
+}  // namespace trammel::simulate

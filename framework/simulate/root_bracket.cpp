@@ -1,0 +1,60 @@
+#include "simulate/root_bracket.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <boost/math/tools/toms748_solve.hpp>
+
+namespace trammel::numerics {
+
+RootBracket narrow(const std::function<double(double)>& f, RootBracket bracket, double resolution) {
+  if (bracket.f_low == 0) return {bracket.low, bracket.low, 0, 0};
+  if (bracket.f_high == 0) return {bracket.high, bracket.high, 0, 0};
+  std::uintmax_t evaluations = 200;  // bisection from any bracket of doubles to its last bit takes far fewer
+  const auto narrow_enough = [resolution](double low, double high) { return high - low <= resolution; };
+  const auto [low, high] = boost::math::tools::toms748_solve(f, bracket.low, bracket.high, bracket.f_low,
+                                                             bracket.f_high, narrow_enough, evaluations);
+  // The values at the ends are not handed out; evaluating again would cost a step each, and only the signs are of use.
+  return {low, high, bracket.f_low, bracket.f_high};
+}
+
+// By Newton's method and bisection.
+double crossing_of_cubic(const FallingBracket& b) {
+  const double h = b.high - b.low, d = (b.at_high.f - b.at_low.f) / h, S = b.at_low.slope, E = b.at_high.slope;
+  const auto at = [&](double x) {
+    const double curve = 3 * d - 2 * S - E, twist = S + E - 2 * d;
+    return ValueAndSlope{b.at_low.f + h * x * (S + x * (curve + x * twist)), h * (S + x * (2 * curve + 3 * x * twist))};
+  };
+  double low = 0, high = 1, x = b.at_low.f / (b.at_low.f - b.at_high.f);
+  for (int i = 0; i < 100 && high - low > 1e-16; ++i) {
+    const ValueAndSlope there = at(x);
+    (there.f > 0 ? low : high) = x;
+    const double newton = x - there.f / there.slope;
+    if (newton == x) break;
+    x = newton > low && newton < high ? newton : 0.5 * (low + high);
+  }
+  return b.low + h * x;
+}
+
+// Each place is looked for a little after the crossing of the cubic, as far as round-off reaches, so that it becomes the end.
+double crossing(const std::function<ValueAndSlope(double)>& f, FallingBracket b, double resolution, double round_off) {
+  bool bisect = false;
+  for (int i = 0; i < 200 && b.high - b.low > resolution; ++i) {
+    if (b.at_high.f >= -round_off || -b.at_high.f <= resolution * -b.at_high.slope) break;
+    const double slope = std::abs(b.at_low.f <= -b.at_high.f ? b.at_low.slope : b.at_high.slope);
+    const double after = slope > 0 ? std::max(0.5 * resolution, 0.5 * round_off / slope) : 0.5 * resolution;
+    double x = bisect ? 0.5 * (b.low + b.high) : crossing_of_cubic(b) + after;
+    if (!(x > b.low && x < b.high)) x = 0.5 * (b.low + b.high);
+    const ValueAndSlope there = f(x);
+    const double nearest = std::min(b.at_low.f, -b.at_high.f);
+    bisect = !(std::abs(there.f) <= 0.25 * nearest);
+    if (there.f > 0)
+      b.low = x, b.at_low = there;
+    else
+      b.high = x, b.at_high = there;
+  }
+  return b.high;
+}
+
+}  // namespace trammel::numerics

@@ -1,0 +1,75 @@
+// Who to name when the process crashes inside a plugin or does not come back from it, and what then becomes of the records: a signal
+// handler can build nothing and ask nobody, so all it may need stands ready here while plugins are called. The component being called is the breadcrumb that the assembled system leaves.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "system/assembled_system.hpp"
+#include "plugin/registry.hpp"
+#include "simulate/results/last_result.hpp"
+#include "simulate/results/recorder.hpp"
+#include "simulate/start/setup.hpp"
+
+namespace trammel::simulate {
+
+class CrashWitness {
+ public:
+  struct Clock {
+    const double* t = nullptr;         // [s]
+    const long long* steps = nullptr;  // accepted so far; null: outside a run
+  };
+  // From here to `leave` the arguments live, the recorder perhaps not yet. The call around the component's is what
+  // plugin::Breadcrumb says, and in a run without one the integrator's step.
+  void follow(const Setup& setup, const scene::Value& root, plugin::Registry& registry,
+              const model::AssembledSystem& system, Clock clock);
+  void record_with(const Recorder& recorder, const LastResult& result) {
+    recorder_ = &recorder;
+    result_ = &result;
+  }
+  void leave();
+
+  // --- for the signal handler: no allocation, nothing thrown ---
+  struct Culprit {
+    const plugin::Origin* origin = nullptr;  // null: nobody is known to be called
+    const char* call = "";
+    std::optional<double> t;
+    std::optional<long long> step;
+    bool certain = true;  // false: the integrator's step, or the framework on its behalf
+  };
+  Culprit culprit() const noexcept;
+  // Records still in memory go out, and a result that says how the run ended.
+  void rescue(const char* status, std::string_view reason) const noexcept;
+
+ private:
+  std::atomic<bool> watching_ = false;
+  std::vector<std::pair<const std::string*, plugin::Origin>> origins_;  // by the entry's name in the model
+  plugin::Origin integrator_;
+  const model::AssembledSystem* system_ = nullptr;
+  Clock clock_;
+  const Recorder* recorder_ = nullptr;
+  const LastResult* result_ = nullptr;
+};
+
+// A witness, if there is one, follows while this lives.
+class Watch {
+ public:
+  Watch(CrashWitness* witness, const Setup& setup, const scene::Value& root, plugin::Registry& registry,
+        const model::AssembledSystem& system, CrashWitness::Clock clock)
+      : witness_(witness) {
+    if (witness_) witness_->follow(setup, root, registry, system, clock);
+  }
+  ~Watch() {
+    if (witness_) witness_->leave();
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+ private:
+  CrashWitness* witness_;
+};
+
+}  // namespace trammel::simulate

@@ -1,0 +1,236 @@
+#include "simulate/start/initial_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "diagnose/conflict.hpp"
+#include "simulate/contact/contact_scale.hpp"
+#include "simulate/start/equilibrium.hpp"
+#include "diagnose/row_offsets.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+constexpr double tolerance = 1e-8;  // of the scene's length and speed, and 1 m, 1 rad, 1 m/s, 1 rad/s at most
+
+// What "nearest" weighs: masses, and with contacts what the bodies store at 1 rad/s too, so that a beam that reaches into a plane
+// is turned out of it and not bent.
+constexpr Blend by_mass = {1, 0, 0}, by_mass_and_stiffness = {1, 0, 1};
+
+// What rows may be off by at the start: digits of a scene. Angles take the lengths' measure too where those are below 1 m.
+struct Allowed {
+  double length, speed;  // [m], [m/s]
+  double round_off;      // [m] that an iteration may end with
+};
+Allowed allowed_at(model::AssembledSystem& system, const State& s) {
+  system.move_to(s.t, s.q, s.v);
+  ContactScale scale;
+  scale.take_all(system);
+  const double length = tolerance * std::min(1.0, scale.length() > 0 ? scale.length() : 1) + scale.resolution();
+  const double speed = s.v.size() > 0 ? s.v.norm() : 0;
+  const double unit = std::max(scale.length() > 0 ? std::min(1.0, scale.length()) : 1, speed);
+  return {length, tolerance * unit, 1e-3 * tolerance + 64 * scale.resolution()};
+}
+
+bool project_position(model::AssembledSystem& system, State& s, Blend nearest = by_mass) {
+  Vec zero = Vec::Zero(system.sizes().nv), dq, mu, q;
+  const Vec no_force = Vec::Zero(system.sizes().nc);
+  const Allowed allowed = allowed_at(system, s);
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 50; ++i) {
+    system.move_to(s.t, s.q, s.v);
+    const Vec g = system.g();
+    const double now = g.norm();
+    if (!std::isfinite(now)) return false;
+    if (now < 1e-7 * allowed.length || (now < allowed.round_off && now > 0.5 * before)) return true;
+    before = now;
+    system.factorise(nearest, zero, no_force);
+    if (!system.correct(zero, g, dq, mu)) return false;
+    system.retract(s.q, dq, q);
+    s.q = q;
+  }
+  return before < allowed.length;
+}
+
+bool project_velocity(model::AssembledSystem& system, State& s) {
+  Vec zero = Vec::Zero(system.sizes().nv), dv, mu;
+  const Vec no_force = Vec::Zero(system.sizes().nc);
+  for (int i = 0; i < 2; ++i) {
+    system.move_to(s.t, s.q, s.v);
+    const Vec g_dot = system.g_dot();
+    system.factorise({1, 0, 0}, zero, no_force);
+    if (!system.correct(zero, g_dot, dv, mu)) return false;
+    s.v += dv;
+  }
+  system.move_to(s.t, s.q, s.v);
+  return system.g_dot().norm() < tolerance * std::max(1.0, s.v.norm());
+}
+
+// Contacts with rows whose gap is below 0 by more than a scene's digits.
+std::vector<int> penetrated(model::AssembledSystem& system, const State& s) {
+  system.move_to(s.t, s.q, s.v);
+  ContactScale scale;
+  scale.take_all(system);
+  std::vector<int> all;
+  for (int i = 0; i < int(system.model().contacts.size()); ++i) {
+    if (system.model().contacts[i].force) continue;  // compliant: it starts under load
+    if (system.gap(i) < -scale.written_length()) all.push_back(i);
+  }
+  return all;
+}
+
+// Moves the state to the nearest one in which those touch that penetrated; joints hold. Others that penetrate then join them, so
+// it ends. False: none was found.
+bool project_out_of_contacts(model::AssembledSystem& system, State& s) {
+  const model::Modes before = system.modes();
+  model::Modes touching = before;
+  bool found = true;
+  for (std::vector<int> wrong = penetrated(system, s); found && !wrong.empty(); wrong = penetrated(system, s)) {
+    bool more = false;
+    for (const int i : wrong) more = more || !touching.contacts[std::size_t(i)].closed;
+    for (const int i : wrong) touching.contacts[std::size_t(i)].closed = true;
+    system.set_modes(touching);
+    found = more && project_position(system, s, by_mass_and_stiffness);
+    system.set_modes(before);
+  }
+  return found && (system.sizes().nc == 0 || project_velocity(system, s));
+}
+
+// "bodies.rod moves by up to 0.012" for each body that the projection moves.
+std::string moves(model::AssembledSystem& system, const State& from, const State& to) {
+  Vec dq;
+  system.difference(to.q, from.q, dq);
+  std::string text;
+  for (const model::BodyEntry& body : system.model().bodies) {
+    if (body.nv == 0) continue;
+    const double by = dq.segment(body.v0, body.nv).cwiseAbs().maxCoeff();
+    const double rate = (to.v - from.v).segment(body.v0, body.nv).cwiseAbs().maxCoeff();
+    if (by <= 0 && rate <= 0) continue;
+    text += fmt::format("{}bodies.{} by up to {:.3g} (m, rad) and {:.3g} (m/s, rad/s)", text.empty() ? "" : ", ",
+                        body.name, by, rate);
+  }
+  return text;
+}
+
+// At the first joint or body of a conflict.
+scene::Problem problem_at(const std::vector<std::string>& paths, const scene::Value& root, std::string message) {
+  const scene::Value* at = paths.empty() ? nullptr : root.at_path(paths.front());
+  return (at ? *at : root).problem(std::move(message));
+}
+
+// Why no consistent state was found, and which joints and bodies are to blame.
+scene::Problem contradiction(model::AssembledSystem& system, const State& start, const scene::Value& root) {
+  const Conflict conflict = smallest_conflict(system, start);
+  const std::vector<std::string>& paths = conflict.paths;
+  const std::string none = "no consistent initial state was found nearby: ";
+  const std::string either = "the joints contradict each other, or the bodies are far off";
+  if (paths.empty()) return root.problem(none + either);
+  if (paths.size() == 1)
+    return problem_at(paths, root, none + (conflict.smallest ? "" : either + "; ") + told(conflict));
+  return problem_at(paths, root, fmt::format("{}{} contradict each other{}", none, names(conflict), remark(conflict)));
+}
+
+// Rows that hold as they are, and still ask for accelerations that no motion has.
+void check_motion(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
+  Vec a, lambda, missed;
+  system.move_to(s.t, s.q, s.v);
+  try {
+    system.accelerate({}, a, lambda);
+  } catch (const model::NotSolvable&) {
+    return;  // the run's own first solution says so, with its time
+  }
+  system.constraint_acceleration(a, missed);
+  if (missed.norm() <= 1e-6 * std::max(1.0, a.norm())) return;
+  const Conflict conflict = smallest_conflict(system, s);
+  if (conflict.empty()) return;
+  const std::string who = conflict.paths.size() > 1 ? names(conflict) : "joints",
+                    why = conflict.paths.size() > 1 ? remark(conflict) : "; " + told(conflict);
+  problems.error(
+      problem_at(conflict.paths, root,
+                 fmt::format("{} hold at the start but prescribe motions that contradict each other{}", who, why)));
+}
+
+void check_rows(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
+  system.move_to(s.t, s.q, s.v);
+  const Vec g = system.g(), g_dot = system.g_dot();
+  const Allowed allowed = allowed_at(system, s);
+  system.move_to(s.t, s.q, s.v);
+  State nearest = s;
+  bool wrong = false;
+  for (const model::RowGroup& rows : row_groups(system.model())) {
+    const double position = g.segment(rows.first, rows.count).norm(),
+                 velocity = g_dot.segment(rows.first, rows.count).norm();
+    if (position <= allowed.length && velocity <= allowed.speed) continue;
+    const Offset off = norm(row_offsets(system, rows, s));
+    problems.error(problem_at(
+        {rows.path}, root,
+        fmt::format("the initial state does not satisfy this {}: off by {:.6g} (m, rad) in "
+                    "position and {:.6g} (m/s, rad/s) in velocity",
+                    rows.path.starts_with("joints.") ? "joint" : "body's own rows", off.position, off.velocity)));
+    wrong = true;
+  }
+  if (!wrong) return;
+  const bool found = project_position(system, nearest) && project_velocity(system, nearest);
+  if (!found) return problems.error(contradiction(system, s, root));
+  problems.error(root.problem(fmt::format(
+      "the nearest consistent initial state moves {}; \"initial\": {{\"consistent\": \"project\"}} takes it",
+      moves(system, s, nearest))));
+}
+
+void check_contacts(model::AssembledSystem& system, const State& s, const scene::Value& root,
+                    scene::Problems& problems) {
+  const std::vector<int> wrong = penetrated(system, s);
+  for (const int i : wrong) {
+    const model::ContactEntry& contact = system.model().contacts[std::size_t(i)];
+    const scene::Value* at = root.at_path("contacts." + contact.name);
+    const auto& limit = contact.limit;
+    problems.error(
+        (at ? *at : root)
+            .problem(limit ? fmt::format("the initial state has passed the value that this contact waits for by {:.6g} "
+                                         "(m, rad); expected a start {} it, or \"from\": \"{}\"",
+                                         std::abs(row_offset(system, *limit, s.t).position),
+                                         limit->side > 0 ? "above" : "below", limit->side > 0 ? "below" : "above")
+                           : fmt::format("the initial state penetrates the plane by {:.6g} m; expected a gap >= 0",
+                                         -system.gap(i))));
+  }
+  const bool latch = std::any_of(wrong.begin(), wrong.end(),
+                                 [&](int i) { return system.model().contacts[std::size_t(i)].limit.has_value(); });
+  State nearest = s;
+  if (wrong.empty() || latch || !project_out_of_contacts(system, nearest)) return;
+  problems.error(
+      root.problem(fmt::format("the nearest initial state that touches moves {}; \"initial\": \"project\" takes it",
+                               moves(system, s, nearest))));
+}
+
+}  // namespace
+
+State initial_state(model::AssembledSystem& system, double t, Settings::Initial wanted, const scene::Value& root,
+                    scene::Problems& problems) {
+  State s;
+  s.t = t;
+  system.initial(s.q, s.v);
+  model::Modes open;
+  open.contacts.resize(system.model().contacts.size());
+  system.set_modes(open);
+  if (system.sizes().nc > 0) {
+    if (wanted == Settings::Initial::check)
+      check_rows(system, s, root, problems);
+    else if (!project_position(system, s) || !project_velocity(system, s))
+      problems.error(contradiction(system, s, root));
+    if (problems.empty()) check_motion(system, s, root, problems);
+  }
+  if (wanted == Settings::Initial::equilibrium && problems.empty())
+    if (const auto why = find_equilibrium(system, s))
+      problems.error((root.find("initial") ? *root.find("initial") : root).problem(*why));
+  if (wanted == Settings::Initial::project && problems.empty() && !penetrated(system, s).empty() &&
+      !project_out_of_contacts(system, s))
+    problems.error(root.problem("no state was found nearby in which no contact penetrates"));
+  if (problems.empty()) check_contacts(system, s, root, problems);
+  return s;
+}
+
+}  // namespace trammel::simulate

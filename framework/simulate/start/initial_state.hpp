@@ -1,0 +1,22 @@
+// The state a run starts from: the bodies' parameters, checked against the joints' rows, or moved onto them.
+//
+// Nearest in the sense of kinetic energy: Gauss-Newton steps  min dq^T M dq  with  G dq = -g  until g = 0, then once
+// min dv^T M dv  with  G dv = -(G v + g_t).
+#pragma once
+
+#include <trammel/integrator.hpp>
+
+#include "system/assembled_system.hpp"
+#include "scene/value.hpp"
+#include "run/settings.hpp"
+
+namespace trammel::simulate {
+
+// t, q and v of the start. Rows violated by more than 1e-8 (m, rad; m/s, rad/s) are an error that tells by how much and what
+// the nearest consistent state would change; with `project` that state is taken, with `equilibrium` one at rest near it. So it
+// is with a contact that penetrates: the nearest state in which it touches is offered, or taken. There elastic coordinates weigh
+// by what they store too,  min dq^T (M + K (1 s)^2) dq.
+State initial_state(model::AssembledSystem& system, double t, Settings::Initial wanted, const scene::Value& root,
+                    scene::Problems& problems);
+
+}  // namespace trammel::simulate

@@ -1,0 +1,76 @@
+#include "simulate/start/integrator_choice.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "plugin/parameters.hpp"
+#include "diagnose/fastest_motion.hpp"
+#include "diagnose/mass_ratio.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+// Of an explicit method, each about a radian of what is fastest.
+constexpr double most_steps = 1e6;
+
+struct Choice {
+  const char* name;
+  const char* parameters;
+  double tolerance;
+};
+constexpr Choice explicit_steps = {"dop853", R"({"type": "dop853"})", 1e-9},
+                 steps_on_rows = {"dop853 with projected rows", R"({"type": "dop853", "rows": "projected"})", 1e-9},
+                 damped_steps = {"hht_alpha", R"({"type": "hht_alpha"})", 1e-7};
+
+bool decides_friction_at_every_evaluation(const model::Model& model) {
+  return std::any_of(model.contacts.begin(), model.contacts.end(), [](const model::ContactEntry& contact) {
+    return contact.coulomb && contact.coulomb->decide() == SetValuedFriction::Decide::every_evaluation;
+  });
+}
+
+bool exceeds_explicit_steps(const FastestMotion& fastest, const Setup& setup) {
+  const double time = setup.settings.until - setup.settings.start;
+  return fastest.rate() * time > most_steps && !decides_friction_at_every_evaluation(*setup.model);
+}
+
+const Choice& fitting(const FastestMotion& fastest, const MassRatio& ratio, const Setup& setup) {
+  if (exceeds_explicit_steps(fastest, setup)) return damped_steps;
+  return ratio.is_large() ? steps_on_rows : explicit_steps;
+}
+
+const Choice& named(const std::string& name) {
+  for (const Choice* each : {&steps_on_rows, &damped_steps})
+    if (name == each->name) return *each;
+  return explicit_steps;
+}
+
+void take(const Choice& choice, Setup& setup, plugin::Registry& registry, scene::Problems& problems) {
+  const scene::Scene parameters = scene::Scene::parse(choice.parameters, "Trammel's choice of an integrator");
+  auto made = plugin::make<Integrator>(registry, Kind::integrator, parameters.root(), setup.model->world, problems);
+  if (!made.component) return;
+  setup.integrator = std::move(made.component);
+  setup.integrator_origin = std::move(made.origin);
+  setup.integrator_type = parameters.root().find("type")->text();
+  setup.settings.step.tolerance = setup.settings.contact_step.tolerance = {choice.tolerance, choice.tolerance};
+}
+
+}  // namespace
+
+void choose_integrator(Setup& setup, model::AssembledSystem& system, const std::string& before,
+                       plugin::Registry& registry, scene::Problems& problems) {
+  FastestMotion fastest;
+  try {
+    fastest = fastest_motion(system, setup.initial);
+  } catch (const model::NotSolvable&) {
+    return;  // the run tells, with its time
+  }
+  const MassRatio ratio = mass_ratio(*setup.model, setup.initial);
+  const Choice& choice = before.empty() ? fitting(fastest, ratio, setup) : named(before);
+  if (&choice != &explicit_steps) take(choice, setup, registry, problems);
+  setup.chosen = choice.name;
+  setup.choice = fmt::format("{}, tolerance {:.3g}: the scene names none, and {}", choice.name, choice.tolerance,
+                             &choice == &steps_on_rows ? told(ratio, *setup.model) : told(fastest, *setup.model));
+}
+
+}  // namespace trammel::simulate

@@ -1,0 +1,162 @@
+#include "simulate/start/latch_reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "diagnose/row_offsets.hpp"
+#include "system/unrelated.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+constexpr int most_rows = 1000;
+constexpr Blend minimum_norm = {.c_m = 0, .c_1 = 1};
+
+class Approach {
+ public:
+  enum class End { reached, stationary, unknown };
+
+  Approach(model::AssembledSystem& system, double t, int contact) : system_(system), t_(t), contact_(contact) {
+    open_.contacts.resize(system.model().contacts.size());
+  }
+
+  // Where the gap gets to from q, which is near the rows.
+  End from(Vec q) {
+    constexpr int most_steps = 200;
+    constexpr double enough = 1e-5;       // of the first gap
+    constexpr double least_sine = 1e-4;   // of the gap's gradient to the rows: a gap within 1e-8 of the stationary one
+    constexpr double least_change = 0.1;  // of what a step should bring
+    double longest = 0.1;                 // [m, rad] change of a coordinate in a step
+    if (!restore(q)) return End::unknown;
+    const double first = gap_;
+    for (int i = 0; i < most_steps; ++i) {
+      if (gap_ <= enough * first) return End::reached;
+      const double gap = gap_, sine = closing_direction(q);
+      if (!std::isfinite(sine)) return End::unknown;
+      if (sine < least_sine) return End::stationary;
+      const double size = closing_.lpNorm<Eigen::Infinity>(), by = std::min(gap, longest / size);
+      Vec tried;
+      system_.retract(q, by * closing_, tried);
+      if (restore(tried) && gap_ < gap - least_change * by) {
+        q = tried;
+        longest *= 2;
+      } else {
+        gap_ = gap;
+        longest = by * size / 2;
+      }
+    }
+    return End::unknown;
+  }
+  double gap() const { return gap_; }
+
+ private:
+  // q onto the rows, and its gap.
+  bool restore(Vec& q) {
+    constexpr int most_iterations = 10;
+    constexpr double settled = 1e-9;
+    system_.set_modes(open_);
+    const Vec still = Vec::Zero(system_.sizes().nv), no_force = Vec::Zero(system_.sizes().nc);
+    double before = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < most_iterations; ++i) {
+      system_.move_to(t_, q, still);
+      gap_ = system_.gap(contact_);
+      const double violation = no_force.size() > 0 ? system_.g().lpNorm<Eigen::Infinity>() : 0;
+      if (violation < settled) return std::isfinite(gap_);
+      if (!(violation < before)) return false;
+      before = violation;
+      Vec dq, mu, moved;
+      system_.factorise(minimum_norm, still, no_force, Factors::projection);
+      if (!system_.correct(still, Vec(system_.g()), dq, mu, Factors::projection)) return false;
+      system_.retract(q, dq, moved);
+      q = moved;
+    }
+    return false;
+  }
+
+  // closing_: the change of least norm that keeps the rows and takes 1 off the gap. Returns the sine of the angle between the gap's
+  // gradient and the rows.
+  double closing_direction(const Vec& q) {
+    model::Modes held = open_;
+    held.contacts[std::size_t(contact_)].closed = true;
+    held.contacts[std::size_t(contact_)].offset = gap_;
+    system_.set_modes(held);
+    const Vec still = Vec::Zero(system_.sizes().nv), no_force = Vec::Zero(system_.sizes().nc);
+    system_.move_to(t_, q, still);
+    const Vec wanted = Vec::Unit(system_.sizes().nc, system_.row({contact_, 0}));
+    Vec mu, gradient = still, change = no_force;
+    system_.add_rows_force(1, wanted, gradient);
+    system_.factorise(minimum_norm, still, no_force, Factors::projection);
+    if (!system_.correct(still, wanted, closing_, mu, Factors::projection))
+      return std::numeric_limits<double>::quiet_NaN();
+    system_.add_rows_times(1, closing_, change);
+    // Else it counts as one of the rows.
+    const bool closes = (change + wanted).lpNorm<Eigen::Infinity>() < 1e-3;
+    return closes ? 1 / (gradient.norm() * closing_.norm()) : 0;
+  }
+
+  model::AssembledSystem& system_;
+  double t_;
+  int contact_;
+  model::Modes open_;
+  Vec closing_;
+  double gap_ = 0;
+};
+
+bool is_latch(const model::ContactEntry& contact) {
+  return contact.restitution && contact.restitution->treatment().release == Restitution::Release::never &&
+         !contact.surface;
+}
+
+bool rows_depend_on_time(model::AssembledSystem& system, const State& start, double until, int contact) {
+  const Vec still = Vec::Zero(start.v.size());
+  Vec first;
+  for (const double part : {0.0, 0.37, 1.0}) {
+    system.move_to(start.t + part * (until - start.t), start.q, still);
+    Vec now(system.sizes().nc + 1);
+    now << system.g(), system.gap(contact);
+    if (part == 0) first = now;
+    if (!(now == first)) return true;
+  }
+  return false;
+}
+
+// [m, rad] Empty: it can, or nobody knows.
+std::optional<double> nearest_if_never(model::AssembledSystem& system, const State& start, int contact) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int attempt = 0; attempt < 4; ++attempt) {
+    Vec q = start.q;
+    if (attempt > 0) system.retract(start.q, unrelated(start.v.size(), 0.1, attempt), q);
+    Approach approach(system, start.t, contact);
+    if (approach.from(q) != Approach::End::stationary) return {};
+    const auto& limit = system.model().contacts[std::size_t(contact)].limit;
+    nearest = std::min(nearest, limit ? std::abs(row_offset(system, *limit, start.t).position) : approach.gap());
+  }
+  return nearest;
+}
+
+}  // namespace
+
+void check_latches(model::AssembledSystem& system, const State& start, double until, const scene::Value& root,
+                   scene::Problems& problems) {
+  if (system.sizes().nc > most_rows) return;
+  const model::Modes before = system.modes();
+  for (int i = 0; i < int(system.model().contacts.size()); ++i) {
+    const model::ContactEntry& contact = system.model().contacts[std::size_t(i)];
+    if (!is_latch(contact) || rows_depend_on_time(system, start, until, i)) continue;
+    const std::optional<double> nearest = nearest_if_never(system, start, i);
+    system.set_modes(before);
+    if (!nearest) continue;
+    const scene::Value* at = root.at_path("contacts." + contact.name);
+    problems.error((at ? *at : root)
+                       .problem(fmt::format("this latch can never lock: the joints let its gap come no nearer to 0 "
+                                            "than {:.6g} (m, rad)",
+                                            *nearest)));
+  }
+  system.move_to(start.t, start.q, start.v);
+}
+
+}  // namespace trammel::simulate

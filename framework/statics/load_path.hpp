@@ -1,0 +1,107 @@
+// Statics: equilibria under loads that grow, one after another.
+//
+//     r(t, q, lambda) = -f(t, q) + G^T lambda = 0,    g(t, q) = 0        everything at rest, t the load parameter
+//
+// Whatever in the scene depends on t is scaled by it: "pressure": "=1e5*t", a law of a joint, a table. Contacts push as
+// resting_contacts.hpp says, without friction.
+//
+// A load step starts where the polynomial through the last equilibria leads and goes on by Newton's method,
+// K dq + G^T dlambda = -r, G dq = -g, with stresses carried on linearly in bodies that can (CarriedStress). It has converged
+// when |r| <= tolerance * load and g is round-off, or when dq is; the load is the largest |f| at the start configuration, or
+// |G^T lambda|, so far. A step that fails is halved, again and again; the parts grow back while they are easy.
+//
+// What is softest may be lost in the round-off of what is stiffest: a strip 10^4 times as long as wide bends 10^16 times as
+// easily along it as across, and K has no digits for that. Forces have. So where all else fails and a motion without resistance
+// is found, each of Newton's increments is sought with differences of r along it, by Anderson's acceleration of steps with the
+// factors of K + shift M, which are good for all but the softest motions. The parts of a load step are halved as before. It has
+// converged when dq is small, or round-off that shrinks no further; what is then left of r is recorded, and a warning.
+//
+// Past a limit point the load must fall. With arc length t is an unknown, and a step goes the length ds along the path's
+// tangent n (Riks 1979, normal plane):   n_q . (q - q_last) / nv + s^2 n_t (t - t_last) = ds, s^2 = |dq/dt|^2 / nv at the start.
+// The lengths are the load step's own at the start; near limit points they become shorter. Each is recorded, until t has
+// passed the end, where one load step leads back.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include <trammel/integrator.hpp>
+
+#include "simulate/contact/resting_contacts.hpp"
+#include "run/settings.hpp"
+#include "simulate/watch/theory_watch.hpp"
+#include "simulate/watch/turn_counts.hpp"
+
+namespace trammel::simulate {
+
+// What one recorded equilibrium took.
+struct LoadStep {
+  double t = 0;
+  int iterations = 0;     // of Newton's method, those of failed attempts included
+  int parts = 0;          // equilibria that were passed on the way, itself included
+  double unbalanced = 0;  // |r| over the load
+  double by_forces = 0;   // largest displacement of the last increment, where forces tell it; 0 where K does
+};
+
+class LoadPath {
+ public:
+  LoadPath(model::AssembledSystem& system, const Settings& settings, const State& start);
+
+  // To the next equilibrium, the first of them at the start. Throws RunFailed: there is none; the last one is kept.
+  void advance();
+  bool at_end() const { return !passed_.empty() && passed_.back().t == settings_.until; }
+  const State& state() const { return state_; }
+  const std::vector<LoadStep>& steps() const { return steps_; }
+  std::vector<std::string> warnings() const { return theories_.warnings(); }
+
+ private:
+  struct Point {
+    double t;
+    Vec q, lambda;
+  };
+  struct Arc {
+    Vec n_q;
+    double n_t, length;
+  };
+  enum class Failure { none, too_many_iterations, singular, diverged };
+
+  void begin();
+  void by_load(double t);
+  void by_arc();
+  bool solve_from_rest(Point& first);
+  bool turn_to_forces(const Point& from);
+  Failure solve(Point& trial, const Arc* arc);
+  Failure balance_with_contacts(Point& trial, const Arc* arc);
+  Failure balance(Point& trial, const Arc* arc);  // with the contacts' rows as they are
+  Failure balance_by_forces(Point& trial);
+  Failure correct_by_forces(const Point& at, Vec& dq, Vec& dlambda);
+  Vec reaction(const Point& at);    // G^T lambda; the system is there, with its f and g
+  bool unbalance(const Point& at);  // r_ and g of the system; true: in equilibrium
+  bool correct(Point& at, const Arc* arc, const Vec& from, Vec& dq);
+  bool along_t(const Point& at, Vec& q_by_t, Vec& lambda_by_t);
+  bool along_t_with_factors(const Point& at, Vec& q_by_t, Vec& lambda_by_t);
+  Point predict(double t) const;
+  void keep(Point point);
+  [[noreturn]] void fail(double t, Failure why);
+
+  model::AssembledSystem& system_;
+  const Settings& settings_;
+  State state_;
+  Vec start_, zero_;
+  RestingContacts contacts_;
+  TurnCounts turns_;
+  TheoryWatch theories_;
+  std::deque<Point> passed_;  // the last equilibria, newest last
+  std::vector<LoadStep> steps_;
+  LoadStep now_;
+  double load_ = 0;    // scale of r
+  double extent_ = 0;  // largest displacement so far: scale of dq
+  double part_ = 0;    // of t in the next part of a load step, or length of the next arc
+  double s2_ = 0;
+  Arc last_arc_;
+  bool by_forces_ = false;
+  Vec r_;
+};
+
+}  // namespace trammel::simulate

@@ -1,0 +1,139 @@
+#include "system/contact_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/QR>
+
+namespace trammel::model {
+namespace {
+
+constexpr double round_off = 1e-12;  // of the forces
+constexpr double carried = 1e-9;     // of their resultants: what is missed where the last forces are about to be lost
+
+}  // namespace
+
+void ContactLoads::lay_out(const Modes& modes) {
+  modes_ = &modes;
+  places_.assign(modes.contacts.size(), {});
+  groups_.assign(modes.shared.size(), {});
+  for (std::size_t g = 0; g < groups_.size(); ++g) lay_out_group(int(g));
+}
+
+void ContactLoads::lay_out_group(int group) {
+  const SharedRows& rows = modes_->shared[std::size_t(group)];
+  std::vector<ContactDirection> all = rows.basis;
+  all.insert(all.end(), rows.implied.begin(), rows.implied.end());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Place& place = places_[std::size_t(all[k].contact)][std::size_t(all[k].row)];
+    place.group = group, place.index = int(k);
+  }
+  Group& g = groups_[std::size_t(group)];
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const int contact = all[k].contact;
+    if (shares_as_spring(contact, group)) continue;
+    const auto of_contact = [contact](const Member& m) { return m.contact == contact; };
+    auto member = std::find_if(g.members.begin(), g.members.end(), of_contact);
+    if (member == g.members.end()) {
+      member = g.members.emplace(member);
+      member->contact = contact;
+    }
+    member->columns[std::size_t(all[k].row)] = Eigen::Index(g.directions.size());
+    g.directions.push_back(Eigen::Index(k));
+  }
+  form_resultants(group);
+}
+
+bool ContactLoads::sliding_shares() const {
+  return std::any_of(modes_->shared.begin(), modes_->shared.end(),
+                     [](const SharedRows& s) { return !s.sliding.empty(); });
+}
+
+void ContactLoads::form_resultants(int group) {
+  Group& g = groups_[std::size_t(group)];
+  if (g.directions.empty()) return;
+  const SharedRows& rows = modes_->shared[std::size_t(group)];
+  const Eigen::Index n = basis_size(group);
+  Mat E(n, n + rows.K.rows());
+  E << Mat::Identity(n, n), rows.K.transpose();
+  const Mat of_members = E(Eigen::all, g.directions);
+  const Eigen::ColPivHouseholderQR<Mat> qr(of_members);
+  const Mat range = qr.householderQ() * Mat::Identity(n, qr.rank());
+  g.E = range.transpose() * of_members;
+}
+
+bool ContactLoads::shares_as_spring(int contact, int group) const {
+  const std::vector<int>& sliding = modes_->shared[std::size_t(group)].sliding;
+  if (std::find(sliding.begin(), sliding.end(), contact) != sliding.end()) return true;
+  const Place& normal = place({contact, 0});
+  return normal.group == group && shares(normal).isZero(0);
+}
+
+double ContactLoads::spring(ContactDirection d, const Vec& lambda) const {
+  const Place& at = place(d);
+  if (at.group < 0) return at.row >= 0 ? -lambda(at.row) : 0;
+  const auto by = shares(at);
+  double sum = 0;
+  for (int k = 0; k < int(by.size()); ++k) sum -= by[k] * lambda(row_of_basis(at.group, k));
+  return sum;
+}
+
+void ContactLoads::begin(int group, const Vec& lambda) {
+  Vec resultants(basis_size(group));
+  for (int k = 0; k < int(resultants.size()); ++k) resultants[k] = -lambda(row_of_basis(group, k));
+  Group& g = groups_[std::size_t(group)];
+  g.forces = modes_->shared[std::size_t(group)].share * resultants;
+  if (!g.members.empty()) g.resultants = g.E * g.shared();
+}
+
+double ContactLoads::scale(const Group& group) const {
+  double largest = group.forces.size() > 0 ? group.forces.lpNorm<Eigen::Infinity>() : 0;
+  for (const Member& m : group.members)
+    if (m.columns[0] < 0) largest = std::max(largest, m.bounds.given);
+  return largest;
+}
+
+// The least distance of a contact's force from pulling and from the side of its cone.
+double ContactLoads::slack(const Group& group) const {
+  const Vec forces = group.shared();
+  double least = std::numeric_limits<double>::infinity();
+  for (const Member& m : group.members) {
+    const double N = m.columns[0] >= 0 ? forces[m.columns[0]] : m.bounds.given;
+    if (m.columns[0] >= 0) least = std::min(least, N);
+    double T = 0;
+    for (const Eigen::Index k : {m.columns[1], m.columns[2]})
+      if (k >= 0) T = std::hypot(T, forces[k]);
+    if (m.columns[1] >= 0 || m.columns[2] >= 0) least = std::min(least, m.bounds.coefficient * N - T);
+  }
+  return least;
+}
+
+// The contacts as complementarity/shares/admissible_forces.hpp knows them.
+std::vector<complementarity::SharingContact> ContactLoads::sharing(const Group& group) const {
+  std::vector<complementarity::SharingContact> contacts;
+  for (const Member& m : group.members) {
+    auto& contact = contacts.emplace_back();
+    contact.normal = m.columns[0];
+    contact.coefficient = m.bounds.coefficient;
+    contact.given = m.bounds.given;
+    for (const Eigen::Index k : {m.columns[1], m.columns[2]})
+      if (k >= 0) contact.tangents.push_back(k);
+  }
+  return contacts;
+}
+
+void ContactLoads::share_admissibly(Group& group) {
+  if (slack(group) >= -round_off * scale(group)) return;
+  // Where none have the resultants, springs' forces stay, until the event that follows from it.
+  Vec shared;
+  const double missed = complementarity::admissible_forces(sharing(group), group.E, group.resultants, shared);
+  if (missed <= carried * group.resultants.norm()) group.forces(group.directions) = shared;
+}
+
+double ContactLoads::spare_load(int group) const {
+  const Group& g = groups_[std::size_t(group)];
+  return complementarity::spare_load(sharing(g), g.E, g.resultants);
+}
+
+}  // namespace trammel::model

@@ -1,0 +1,65 @@
+// Rows of joints and contacts times what markers do. The numbers of rows, 1 to 6, and of a twist's parts, 3 or 6, are known to the
+// compiler in these loops: else they cost more than the products.
+#pragma once
+
+#include <type_traits>
+
+#include <trammel/marker.hpp>
+
+#include "linear/dense/few_rows.hpp"
+
+namespace trammel::model {
+
+// f(3) in the plane, f(6) in space.
+template <class F>
+void with_twist(Eigen::Index size, F&& f) {
+  if (size == 3)
+    f(std::integral_constant<int, 3>());
+  else
+    f(std::integral_constant<int, 6>());
+}
+
+// Rows first .. first + n - 1 of H
+struct RowsOf {
+  const Mat6& H;
+  Eigen::Index first, n;
+};
+
+// rate_i += (H V)_i and free_i -= (H bias)_i
+inline void add_motion(const RowsOf& rows, const Motion& marker, double* rate, double* free) {
+  const double *const H = rows.H.data() + rows.first, *const V = marker.V.data(), *const bias = marker.bias.data();
+  const Eigen::Index stride = rows.H.rows();
+  with_twist(marker.V.size(), [=](auto twist) {
+    numerics::with_few<6>(rows.n, [=](auto n) {
+      double along_V[n] = {}, along_bias[n] = {};
+      for (int k = 0; k < twist; ++k)
+        for (int i = 0; i < n; ++i) {
+          along_V[i] += H[k * stride + i] * V[k];
+          along_bias[i] += H[k * stride + i] * bias[k];
+        }
+      for (int i = 0; i < n; ++i) rate[i] += along_V[i], free[i] -= along_bias[i];
+    });
+  });
+}
+
+// add(j, (H J)_0j ... (H J)_n-1,j, n) for all columns j of J
+template <class Add>
+void for_each_column(const RowsOf& rows, const Jac& J, Add&& add) {
+  const double* const H = rows.H.data() + rows.first;
+  const Eigen::Index stride = rows.H.rows(), columns = J.cols();
+  with_twist(J.rows(), [&](auto twist) {
+    numerics::with_few<6>(rows.n, [&](auto n) {
+      double h[n * twist];
+      for (int k = 0; k < twist; ++k)
+        for (int i = 0; i < n; ++i) h[k * n + i] = H[k * stride + i];
+      for (Eigen::Index j = 0; j < columns; ++j) {
+        double sum[n] = {};
+        for (int k = 0; k < twist; ++k)
+          for (int i = 0; i < n; ++i) sum[i] += h[k * n + i] * J.data()[k * columns + j];
+        add(j, sum, n);
+      }
+    });
+  });
+}
+
+}  // namespace trammel::model

@@ -1,0 +1,178 @@
+// S = c_m M + c_d D + c_k K + c_1 1, D and K of M a - f + W^T lambda: what bodies, forces, joints and contacts add to it.
+#include "system/assembly.hpp"
+#include "system/markers/numeric_derivative.hpp"
+
+namespace trammel::model {
+
+namespace {
+
+// H^T lambda as wrenches on the markers.
+class Reaction final : public MarkerWrenches {
+ public:
+  Reaction(const Constraint& constraint, double t, const Vec6& lambda, Space space)
+      : constraint_(constraint), t_(t), lambda_(lambda), space_(space) {}
+  void operator()(Motions markers, std::span<Wrench> on) const override {
+    Rows rows;
+    rows.resize(int(lambda_.size()), space_, int(markers.size()));
+    constraint_.rows_between(t_, markers, rows);
+    for (std::size_t k = 0; k < on.size(); ++k) on[k] = rows.H(int(k)).transpose() * lambda_;
+  }
+  bool depends_on_velocity() const override { return false; }
+
+ private:
+  const Constraint& constraint_;
+  double t_;
+  const Vec6& lambda_;
+  Space space_;
+};
+
+class ForceWrench final : public MarkerWrenches {
+ public:
+  ForceWrench(const Force& force, double t) : force_(force), t_(t) {}
+  void operator()(Motions markers, std::span<Wrench> on) const override {
+    force_.wrench(t_, *markers[0], *markers[1], on[0], on[1]);
+  }
+  bool depends_on_velocity() const override { return true; }
+
+ private:
+  const Force& force_;
+  double t_;
+};
+
+}  // namespace
+
+void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda, Matrix& S,
+                                        const CarriedFrom* carried) {
+  if (c.c_1 != 0)
+    for (int i = 0; i < sizes.nv; ++i) S.add(i, i, c.c_1);
+  for (const BodyEntry& entry : model->bodies) {
+    Matrix target = S.from(entry.v0, entry.v0);
+    called(entry.name, "tangent");
+    const auto q_body = q.segment(entry.q0, entry.nq);
+    const auto v_body = v.segment(entry.v0, entry.nv);
+    const auto a_body = a.segment(entry.v0, entry.nv);
+    if (entry.rows > 0 && c.c_k != 0)
+      entry.constrained->add_own_rows_derivative(t, q_body, lambda.segment(entry.row, entry.rows), c.c_k, target);
+    if (carried && entry.carried_stress) {
+      entry.carried_stress->add_tangent_with_stress_from(t, q_body, carried->from.segment(entry.q0, entry.nq),
+                                                         carried->dq.segment(entry.v0, entry.nv), c.c_k, target);
+      continue;
+    }
+    if (entry.tangent) {
+      entry.tangent->add_tangent(t, q_body, v_body, a_body, c, target);
+      continue;
+    }
+    entry.body->mass(t, q_body, target);
+    if (c.c_m != 1) {
+      Mat M_body = Mat::Zero(entry.nv, entry.nv);
+      Matrix alone = Matrix::onto(M_body);
+      entry.body->mass(t, q_body, alone);
+      target.add(0, 0, M_body, c.c_m - 1);
+    }
+    Mat block;
+    if (c.c_d != 0) {
+      velocity_differences(
+          v_body,
+          [&](const Vec& moved, Vec& out) {
+            out.setZero(entry.nv);
+            entry.body->force(t, q_body, moved, out);
+          },
+          block);
+      target.add(0, 0, block, -c.c_d);
+    }
+    if (c.c_k != 0) {
+      Mat M_body;
+      tangent_differences(
+          entry, q_body,
+          [&](const Vec& moved, Vec& out) {
+            out.setZero(entry.nv);
+            entry.body->force(t, moved, v_body, out);
+            M_body.setZero(entry.nv, entry.nv);
+            Matrix alone = Matrix::onto(M_body);
+            entry.body->mass(t, moved, alone);
+            out = M_body * a_body - out;
+          },
+          block);
+      target.add(0, 0, block, c.c_k);
+    }
+  }
+  for (std::size_t i = 0; i < force_slots.size(); ++i) {
+    called(model->forces[i].name, "wrench");
+    const std::array<int, 2> both = {force_slots[i].A, force_slots[i].B};
+    add_wrench_tangent(chain, both, t, q, v, ForceWrench(*model->forces[i].force, t), -c.c_k, -c.c_d, S);
+  }
+  for (std::size_t i = 0; i < joint_slots.size() && c.c_k != 0; ++i) {
+    const JointEntry& entry = model->joints[i];
+    called(entry.name, "rows");
+    add_reaction_of(*entry.joint, entry.tangent, joint_slots[i], lambda.segment(entry.row, entry.rows), c.c_k, S);
+  }
+  for (std::size_t i = 0; i < contact_slots.size(); ++i) {
+    if (!modes.contacts[i].closed) continue;
+    if (on_surface(i)) {
+      surface(i).add_tangent(here(), c.c_k, c.c_d, S);
+      continue;
+    }
+    if (model->contacts[i].joint) {
+      add_slip_tangent(int(i), c, lambda, S);
+      continue;
+    }
+    const Slots& at = contact_slots[i];
+    const Rows& r = contact(int(i));
+    const Tangential ratio = friction_ratio(int(i));
+    const auto add = [&](int row, double weight, auto&& along) {
+      for (int k = 0; k < at.count; ++k)
+        for (int l = 0; l < at.count; ++l) chain.add_pair(at[k], at[l], along(k) * r.H(l).row(row), weight, S);
+    };
+    // W^T lambda: of the row, or -f of the law; and beside it by what slides
+    double pull = 0, pull_beside = 0;
+    if (model->contacts[i].restitution) {
+      const int row = loads.place({int(i), 0}).row;
+      pull = row >= 0 ? lambda(row) : 0;
+      pull_beside = -loads.spring({int(i), 0}, lambda);
+    } else {
+      const double rate = contact_rate(int(i), 0), approach = modes.contacts[i].approach_speed;
+      const ContactForce* law = model->contacts[i].force;
+      pull = pull_beside = -law->normal(r.g(0), rate, approach);
+      const auto [by_gap, by_rate] = law->slope(r.g(0), rate, approach);
+      add(0, -(c.c_k * by_gap + c.c_d * by_rate), [&](int k) { return pressed_by(r.H(k), 1, ratio); });
+    }
+    const Eigen::Matrix2d damping = c.c_d * -pull_beside * friction_damping(int(i));
+    for (int m = 0; m < tangents(int(i)); ++m)
+      for (int n = 0; n < tangents(int(i)); ++n)
+        if (damping(m, n) != 0) add(1 + n, damping(m, n), [&](int k) -> Wrench { return r.H(k).row(1 + m); });
+    if (c.c_k == 0) continue;
+    if (const auto& limit = model->contacts[i].limit) {
+      add_reaction_of(*limit->joint, limit->tangent, at, Vec6::Constant(1, limit->side * pull), c.c_k, S);
+      continue;
+    }
+    for (int k = 0; k < at.count; ++k) {
+      Wrench w = pressed_by(r.H(k), pull, pull_beside * ratio);
+      for (int m = 1; m <= tangents(int(i)); ++m)
+        if (const int row = loads.place({int(i), m}).row; row >= 0) w += lambda(row) * r.H(k).row(m).transpose();
+      chain.add_reaction_derivative(at[k], t, q, w, c.c_k, S);
+    }
+  }
+  returned();
+}
+
+void AssembledSystem::Work::add_reaction_of(const Constraint& constraint, const ReactionTangent* exact, const Slots& at,
+                                            const Vec6& lambda, double c, Matrix& S) {
+  if (!exact) {
+    const std::array<int, Rows::most_markers> slots = {at.A, at.B, at.C, at.D};
+    const Reaction reaction(constraint, t, lambda, model->world.space);
+    return add_wrench_tangent(chain, std::span(slots).first(std::size_t(at.count)), t, q, v, reaction, c, 0, S);
+  }
+  const Motion &A = motion(at.A), &B = motion(at.B);
+  const auto twist = A.V.size();
+  for (Mat6* block : {&wrench_by.AA, &wrench_by.AB, &wrench_by.BA, &wrench_by.BB}) block->setZero(twist, twist);
+  exact->add_reaction_tangent(t, A, B, lambda, wrench_by);
+  chain.add_pair(at.A, at.A, wrench_by.AA, c, S);
+  chain.add_pair(at.A, at.B, wrench_by.AB, c, S);
+  chain.add_pair(at.B, at.A, wrench_by.BA, c, S);
+  chain.add_pair(at.B, at.B, wrench_by.BB, c, S);
+  evaluate_constraint(constraint, constraint.row_count(model->world.space), {&A, &B}, 2, rows);
+  chain.add_reaction_derivative(at.A, t, q, rows.H_A.transpose() * lambda, c, S);
+  chain.add_reaction_derivative(at.B, t, q, rows.H_B.transpose() * lambda, c, S);
+}
+
+}  // namespace trammel::model

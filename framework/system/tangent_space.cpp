@@ -1,0 +1,62 @@
+#include "system/tangent_space.hpp"
+
+#include <Eigen/QR>
+
+#include "linear/kkt.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+// Column by column.
+template <class Add>
+Mat transposed(const Sizes& n, Add&& add) {
+  Mat all(n.nv, n.nc);
+  Vec column;
+  for (int i = 0; i < n.nc; ++i) {
+    column.setZero(n.nv);
+    add(Vec(Vec::Unit(n.nc, i)), column);
+    all.col(i) = column;
+  }
+  return all;
+}
+
+// An orthonormal basis of what is perpendicular to the columns.
+Mat complement(Mat columns, double rank_tolerance) {
+  for (Eigen::Index i = 0; i < columns.cols(); ++i)
+    if (const double length = columns.col(i).norm(); length > 0) columns.col(i) /= length;
+  const Eigen::Index n = columns.rows();
+  if (columns.cols() == 0) return Mat::Identity(n, n);
+  Eigen::ColPivHouseholderQR<Mat> qr;
+  qr.setThreshold(rank_tolerance);
+  qr.compute(columns);
+  Mat basis = Mat::Identity(n, n).rightCols(n - qr.rank());
+  basis.applyOnTheLeft(qr.householderQ());
+  return basis;
+}
+
+}  // namespace
+
+Mat rows_transposed(model::AssembledSystem& system) {
+  return transposed(system.sizes(), [&](const Vec& e, Vec& r) { system.add_rows_force(1, e, r); });
+}
+
+Mat reactions_transposed(model::AssembledSystem& system) {
+  return transposed(system.sizes(), [&](const Vec& e, Vec& r) { system.add_reaction(1, e, r); });
+}
+
+TangentSpace tangent_space(model::AssembledSystem& system) {
+  const Sizes n = system.sizes();
+  const Mat Gt = rows_transposed(system), Wt = reactions_transposed(system);
+  const double violation = n.nc > 0 ? system.g().lpNorm<Eigen::Infinity>() : 0;
+  const double tolerance = numerics::rank_tolerance_at(violation);
+  TangentSpace space;
+  space.Z = complement(Gt, tolerance);
+  space.redundant = n.nc - int(n.nv - space.Z.cols());
+  space.sliding = Gt != Wt;
+  space.left = space.sliding ? complement(Wt, tolerance) : space.Z;
+  if (space.left.cols() != space.Z.cols())
+    throw model::NotSolvable("friction jams: a sliding contact's force does not move what its row holds");
+  return space;
+}
+
+}  // namespace trammel::simulate

@@ -1,0 +1,19 @@
+// What the rows leave free at the system's point, and what their forces do not push.
+#pragma once
+
+#include "system/assembled_system.hpp"
+
+namespace trammel::simulate {
+
+struct TangentSpace {
+  Mat Z;                 // G Z = 0: nv x m, orthonormal
+  Mat left;              // W left = 0; Z itself unless sliding friction couples rows
+  bool sliding = false;  // W is not G
+  int redundant = 0;     // rows
+};
+TangentSpace tangent_space(model::AssembledSystem& system);  // throws model::NotSolvable
+
+Mat rows_transposed(model::AssembledSystem& system);       // G^T
+Mat reactions_transposed(model::AssembledSystem& system);  // W^T
+
+}  // namespace trammel::simulate

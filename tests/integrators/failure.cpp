@@ -1,0 +1,141 @@
+// Every integrator in every form on systems that fail at the n-th evaluation, for every n: a step is accepted with finite numbers or
+// rejected, and leaves no trace; what lies inside a step is a state, or not finite.
+#include <cmath>
+#include <limits>
+
+#include <trammel/methods/runge_kutta.hpp>
+
+#include "support.hpp"
+
+namespace trammel::test {
+namespace {
+
+// Forwards to a system, and answers the n-th request for accelerations or corrections with what no method can use.
+class Failing final : public System {
+ public:
+  enum class How { beyond_range, not_a_number, singular };
+  Failing(System& sound, How how) : sound_(sound), how_(how) {}
+  void fail_at(int n) { left_ = n; }
+  bool has_failed() const { return left_ < 0; }
+
+  Sizes sizes() const override { return sound_.sizes(); }
+  void rate(const Vec& q, const Vec& v, Vec& q_dot) const override { sound_.rate(q, v, q_dot); }
+  void normalise(Vec& q) const override { sound_.normalise(q); }
+  void retract(const Vec& q, const Vec& dq, Vec& q_new) const override { sound_.retract(q, dq, q_new); }
+  void difference(const Vec& q1, const Vec& q0, Vec& dq) const override { sound_.difference(q1, q0, dq); }
+  void move_to(double t, const Vec& q, const Vec& v) override { sound_.move_to(t, q, v); }
+  const Vec& f() override {
+    f_ = sound_.f();
+    if (how_ != How::singular && fails()) f_.setConstant(poison());
+    return f_;
+  }
+  const Vec& g() override { return sound_.g(); }
+  const Vec& g_dot() override { return sound_.g_dot(); }
+  void add_mass_times(double c, const Vec& a, Vec& r) override { sound_.add_mass_times(c, a, r); }
+  void add_reaction(double c, const Vec& lambda, Vec& r) override { sound_.add_reaction(c, lambda, r); }
+  void add_rows_times(double c, const Vec& x, Vec& rc) override { sound_.add_rows_times(c, x, rc); }
+  void add_rows_force(double c, const Vec& mu, Vec& r) override { sound_.add_rows_force(c, mu, r); }
+  Energy energy() override { return sound_.energy(); }
+  void accelerate(Stabilisation s, Vec& a, Vec& lambda) override {
+    sound_.accelerate(s, a, lambda);
+    if (how_ != How::singular && fails()) a.setConstant(poison());
+  }
+  void factorise(Blend b, const Vec& a, const Vec& lambda, Factors kept) override {
+    sound_.factorise(b, a, lambda, kept);
+  }
+  [[nodiscard]] bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda, Factors kept) override {
+    const bool solved = sound_.correct(r, rc, da, dlambda, kept);
+    return solved && !(how_ == How::singular && fails());
+  }
+
+ private:
+  bool fails() { return left_ >= 0 && left_-- == 0; }
+  double poison() const { return how_ == How::beyond_range ? 1e200 : std::numeric_limits<double>::quiet_NaN(); }
+
+  System& sound_;
+  How how_;
+  int left_ = std::numeric_limits<int>::min();  // evaluations before the failure
+  Vec f_;
+};
+
+bool finite(const State& s) {
+  return s.q.allFinite() && s.v.allFinite() && s.a.allFinite() && s.lambda.allFinite();
+}
+
+class FailingSystem : public testing::TestWithParam<Form> {
+ protected:
+  static constexpr double h = 5e-3;
+
+  // A restart, three steps with all that may be asked about each, the n-th evaluation failing. False: there are no n of them.
+  bool run(Failing::How how, int n) {
+    Posed sound(problems::pendulum_with_rod());
+    Failing system(sound, how);
+    auto method = make(GetParam().name, GetParam().settings);
+    State now = sound.start(), next, inside;
+    system.fail_at(n);
+    method->restart(system, now);
+    for (int i = 0; i < 3; ++i) {
+      const State before = now;
+      if (!method->step(system, now, h, next)) {
+        EXPECT_TRUE(system.has_failed()) << n;
+        EXPECT_TRUE(same_bits(before, now));
+        // Where a motion could not begin none can go on; else the rejected trial has left nothing behind.
+        const Outcome again = method->step(system, now, h, next);
+        if (i == 0 && !again) return true;
+        EXPECT_TRUE(again) << again.reason();
+      }
+      EXPECT_TRUE(finite(next)) << n;
+      if (auto* estimate = dynamic_cast<ErrorEstimate*>(method.get())) estimate->error(system, now, next, {});
+      if (auto* dense = dynamic_cast<DenseOutput*>(method.get()))
+        for (const double theta : {0.3, 0.7}) {
+          dense->interpolate(system, now, next, theta, inside);
+          const bool state = inside.q.allFinite() && inside.v.allFinite();
+          EXPECT_TRUE(state || system.has_failed()) << n;
+          if (state) {
+            // Between two points of an arc of 0.1 rad/s to 10 rad/s, 5 ms apart.
+            EXPECT_LE((inside.q - now.q).norm(), 1.5 * (next.q - now.q).norm() + 1e-3) << n;
+          }
+        }
+      method->accept(system, now, next);
+      std::swap(now, next);
+    }
+    return system.has_failed();
+  }
+};
+
+TEST_P(FailingSystem, IsRejectedOrLeftOutAtAnyEvaluation) {
+  for (const auto how : {Failing::How::beyond_range, Failing::How::not_a_number, Failing::How::singular}) {
+    int n = 0;
+    while (run(how, n) && n < 2000) ++n;
+    EXPECT_LT(n, 2000);
+    if (how != Failing::How::singular) {
+      EXPECT_GE(n, 6);  // it is asked for something twice or more in each step
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FailingSystem, testing::ValuesIn(all_forms()),
+                         [](const testing::TestParamInfo<Form>& tested) {
+                           return tested.param.name + "_" + std::to_string(tested.index);
+                         });
+
+// Numbers so large that a model cannot square them: nothing begins there, and a step says so.
+TEST(RungeKuttaMethods, RejectEveryStepFromWhereNoMotionBegins) {
+  for (const char* name : {"adams_baumgarte", "runge_kutta_4", "dormand_prince", "dop853"}) {
+    Posed s(flight());
+    auto method = make(name);
+    State now = s.start(), next;
+    now.v.setConstant(1e100);
+    method->restart(s, now);
+    const Outcome outcome = method->step(s, now, 1e-3, next);
+    ASSERT_FALSE(outcome) << name;
+    EXPECT_STREQ(outcome.reason(), RungeKutta::out_of_range) << name;
+    // And forgets it with the next motion.
+    now = s.start();
+    method->restart(s, now);
+    EXPECT_TRUE(method->step(s, now, 1e-3, next)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace trammel::test

@@ -1,0 +1,205 @@
+// Saddle-point systems: what comes out satisfies both equations, whichever way it was solved.
+#include "linear/kkt.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+namespace trammel::numerics {
+namespace {
+
+// Three unequal masses, coupled; two rows of a size.
+const Mat M{{2, 0.3, 0}, {0.3, 1, -0.2}, {0, -0.2, 0.5}};
+const Mat G{{1, 2, -1}, {0.5, -1, 2}};
+const Vec b = Eigen::Vector3d(1, -2, 0.7);
+
+struct Solution {
+  Vec x, y;
+};
+Solution by_mass(const Mat& mass, const Mat& rows, const Vec& right, const Vec& c) {
+  MassKkt kkt;
+  EXPECT_TRUE(kkt.factorise(mass, rows));
+  Solution s;
+  kkt.solve(right, c, s.x, s.y);
+  return s;
+}
+
+class Iteration {
+ public:
+  Iteration(const Mat& S, const Mat& W, const Mat& rows) {
+    kkt_.begin(S.rows(), rows.rows()).topLeftCorner(S.rows(), S.cols()) = S;
+    kkt_.factorise(W, rows);
+  }
+  bool solve(const Vec& right, const Vec& c, Solution& s) { return kkt_.solve(right, c, s.x, s.y); }
+
+ private:
+  IterationKkt kkt_;
+};
+
+// Residuals of both equations within a few roundings of their own terms.
+void expect_solved(const Mat& S, const Mat& W, const Mat& rows, const Vec& right, const Vec& c, const Solution& s,
+                   double roundings = 50) {
+  const double eps = roundings * 2.2e-16;
+  const Vec terms = S.cwiseAbs() * s.x.cwiseAbs() + W.transpose().cwiseAbs() * s.y.cwiseAbs() + right.cwiseAbs();
+  EXPECT_LE((S * s.x + W.transpose() * s.y - right).cwiseAbs().maxCoeff(), eps * terms.maxCoeff());
+  if (c.size()) {
+    EXPECT_LE((rows * s.x - c).cwiseAbs().maxCoeff(),
+              eps * (rows.cwiseAbs() * s.x.cwiseAbs() + c.cwiseAbs()).maxCoeff());
+  }
+}
+
+TEST(MassKkt, SolvesBothEquations) {
+  const Vec c = Eigen::Vector2d(0.4, -3);
+  expect_solved(M, G, G, b, c, by_mass(M, G, b, c));
+}
+
+TEST(MassKkt, SolvesWithoutRows) {
+  expect_solved(M, Mat(0, 3), Mat(0, 3), b, Vec(0), by_mass(M, Mat(0, 3), b, Vec(0)));
+}
+
+TEST(MassKkt, GivesRedundantRowsTheMultipliersOfMinimumNorm) {
+  Mat rows(3, 3);
+  rows << G.row(0), G.row(1), 2 * G.row(0);
+  const Solution s = by_mass(M, rows, b, Eigen::Vector3d(0.4, -3, 0.8));
+  const Solution independent = by_mass(M, G, b, Eigen::Vector2d(0.4, -3));
+  EXPECT_LE((s.x - independent.x).norm(), 1e-14);  // round-off
+  EXPECT_LE((rows.transpose() * s.y - G.transpose() * independent.y).norm(), 1e-13);
+  // The null space of rows^T is (2, 0, -1): minimum norm is orthogonal to it, lambda_0 (1, 2)/5 of the one row.
+  EXPECT_NEAR(2 * s.y(0) - s.y(2), 0, 1e-13);
+  EXPECT_NEAR(s.y(0), independent.y(0) / 5, 1e-13);
+}
+
+TEST(MassKkt, SaysWhetherRowsAreRedundant) {
+  MassKkt kkt;
+  ASSERT_TRUE(kkt.factorise(M, G));
+  EXPECT_FALSE(kkt.redundant());
+  kkt.change_rows(G.row(0).replicate(2, 1));
+  EXPECT_TRUE(kkt.redundant());
+  kkt.change_rows(G);
+  EXPECT_FALSE(kkt.redundant());
+  Mat more_rows_than_coordinates(4, 3);
+  more_rows_than_coordinates << G, Mat::Identity(2, 3);
+  kkt.change_rows(more_rows_than_coordinates);
+  EXPECT_TRUE(kkt.redundant());
+}
+
+// Dropped, the second row would miss its 0.7 whole; kept, it is met to round-off over the sine.
+TEST(MassKkt, KeepsARowThatIsNearlyDependentBesideALongOne) {
+  const double sine = 5 * rank_tolerance_at(0);
+  const Mat rows{{1, 0, 0}, {1, sine, 0}, {0, 0, 100}};
+  const Solution s = by_mass(M, rows, b, Vec(rows * Eigen::Vector3d(0.2, 0.7, -1)));
+  EXPECT_NEAR(s.x(1), 0.7, 1e-14 / sine);
+}
+
+TEST(MassKkt, TakesNewRowsWithTheSameMass) {
+  MassKkt kkt;
+  ASSERT_TRUE(kkt.factorise(M, G));
+  kkt.change_rows(G.row(1));
+  Solution s;
+  const Vec c = Vec::Constant(1, 0.3);
+  kkt.solve(b, c, s.x, s.y);
+  expect_solved(M, G.row(1), G.row(1), b, c, s);
+}
+
+TEST(MassKkt, RefusesAMassThatIsNotPositive) {
+  MassKkt kkt;
+  EXPECT_FALSE(kkt.factorise(Eigen::Vector3d(1, 0, 1).asDiagonal().toDenseMatrix(), G));
+  EXPECT_FALSE(kkt.factorise(Eigen::Vector3d(1, -1, 1).asDiagonal().toDenseMatrix(), G));
+}
+
+TEST(MassKkt, KeepsItsDigitsForUnlikeMassesAndRows) {
+  const Mat light = Eigen::Vector3d(1e9, 1, 1e-3).asDiagonal();
+  for (const double scale : {1e-8, 1.0, 1e8}) {
+    const Mat rows = Eigen::Vector2d(scale, 1).asDiagonal() * G;
+    const Vec c = Eigen::Vector2d(scale * 0.4, -3);
+    // By way of M^-1, whose entries reach 1e3.
+    expect_solved(light, rows, rows, b, c, by_mass(light, rows, b, c), 1000);
+  }
+}
+
+// Nothing of it is symmetric: a stiffness with gyroscopic terms, friction in W.
+const Mat S{{3, 1, -2}, {0.5, 2, 1}, {4, -1, 1}};
+const Mat W{{1, 2.3, -1}, {0.5, -1, 2.6}};
+
+TEST(IterationKkt, SolvesBothEquationsWithAnotherWThanG) {
+  Iteration kkt(S, W, G);
+  const Vec c = Eigen::Vector2d(0.4, -3);
+  Solution s;
+  ASSERT_TRUE(kkt.solve(b, c, s));
+  expect_solved(S, W, G, b, c, s);
+}
+
+TEST(IterationKkt, SolvesNothingAndNoRows) {
+  Solution s;
+  Iteration empty(Mat(0, 0), Mat(0, 0), Mat(0, 0));
+  EXPECT_TRUE(empty.solve(Vec(0), Vec(0), s));
+  Iteration free(S, Mat(0, 3), Mat(0, 3));
+  ASSERT_TRUE(free.solve(b, Vec(0), s));
+  expect_solved(S, Mat(0, 3), Mat(0, 3), b, Vec(0), s);
+}
+
+TEST(IterationKkt, SolvesWhereOnlyTheRowsHoldASingularMatrix) {
+  const Mat singular = Eigen::Vector3d(1, 1, 0).asDiagonal();  // the third coordinate is held by both rows
+  Iteration kkt(singular, G, G);
+  const Vec c = Eigen::Vector2d(0.4, -3);
+  Solution s;
+  ASSERT_TRUE(kkt.solve(b, c, s));
+  expect_solved(singular, G, G, b, c, s);
+}
+
+TEST(IterationKkt, RefusesAMatrixThatIsSingularWhereTheRowsLeaveItFree) {
+  const Mat singular = Eigen::Vector3d(1, 0, 1).asDiagonal();
+  const Mat row{{1, 0, 1}};
+  Iteration kkt(singular, row, row);
+  Solution s;
+  EXPECT_FALSE(kkt.solve(b, Vec::Zero(1), s));
+  EXPECT_TRUE(kkt.solve(Eigen::Vector3d(1, 0, 2), Vec::Zero(1), s));  // no force where nothing resists
+}
+
+TEST(IterationKkt, GivesRedundantRowsTheMultipliersOfMinimumNorm) {
+  Mat rows(3, 3);
+  rows << G.row(0), G.row(1), G.row(0);
+  Iteration kkt(S, rows, rows);
+  const Vec c = Eigen::Vector3d(0.4, -3, 0.4);
+  Solution s;
+  ASSERT_TRUE(kkt.solve(b, c, s));
+  expect_solved(S, rows, rows, b, c, s);
+  EXPECT_NEAR(s.y(0), s.y(2), 1e-13);
+}
+
+TEST(IterationKkt, LeavesOfRedundantRowsWhatNoneReaches) {
+  Mat rows(3, 3);
+  rows << G.row(0), G.row(1), G.row(0);
+  Iteration kkt(S, rows, rows);
+  Solution s;
+  ASSERT_TRUE(kkt.solve(b, Eigen::Vector3d(0.4, -3, 0.5), s));
+  EXPECT_LT((rows * s.x - Eigen::Vector3d(0.45, -3, 0.45)).norm(), 1e-14 * s.x.norm());  // round-off
+  EXPECT_LT((S * s.x + rows.transpose() * s.y - b).norm(), 1e-14 * s.x.norm());
+  EXPECT_NEAR(s.y[0], s.y[2], 1e-14 * s.y.norm()) << "of minimum norm";
+}
+
+TEST(IterationKkt, DoesNotTakeUnlikeScalesForSingular) {
+  // From a matrix of masses of grams to one of a stiff beam; rows in micrometres and in megametres.
+  for (const auto& [stiffness, row] : {std::pair{1e-8, 1.0}, {1.0, 1e-6}, {1.0, 1e6}, {1e12, 1.0}}) {
+    const Mat scaled = stiffness * S, rows = row * G;
+    Iteration kkt(scaled, rows, rows);
+    const Vec right = stiffness * b, c = row * Eigen::Vector2d(0.4, -3);  // x stays of the order of 1
+    Solution s;
+    ASSERT_TRUE(kkt.solve(right, c, s)) << stiffness << " " << row;
+    expect_solved(scaled, rows, rows, right, c, s);
+  }
+}
+
+TEST(IterationKkt, RefusesWhatIsNotANumber) {
+  const double nan = std::nan("");
+  Solution s;
+  Iteration kkt(S, G, G);
+  EXPECT_FALSE(kkt.solve(Eigen::Vector3d(nan, 0, 0), Vec::Zero(2), s));
+  EXPECT_FALSE(kkt.solve(b, Eigen::Vector2d(0, nan), s));
+  Iteration broken(nan * S, G, G);
+  EXPECT_FALSE(broken.solve(b, Vec::Zero(2), s));
+}
+
+}  // namespace
+}  // namespace trammel::numerics

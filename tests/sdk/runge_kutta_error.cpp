@@ -1,0 +1,59 @@
+#include <gtest/gtest.h>
+
+#include <trammel/methods/runge_kutta.hpp>
+#include <trammel/testing/archive.hpp>
+
+namespace trammel {
+namespace {
+
+RungeKutta on_rows() {
+  RungeKutta method({1, nullptr, nullptr, nullptr});
+  method.rows = RungeKutta::Rows::projected;
+  return method;
+}
+
+// Of a trial from t to t + h whose error is `whole`, and 0.5 along the rows.
+double error(RungeKutta& method, double t, double h, double whole) {
+  State now, next;
+  now.t = t, next.t = t + h;
+  return method.error(now, next, [&](RungeKutta::Part part) { return part == RungeKutta::Part::whole ? whole : 0.5; });
+}
+
+TEST(RungeKuttaError, IsThatOfTheWholeWhileItFallsWithTheStep) {
+  RungeKutta method = on_rows();
+  EXPECT_EQ(error(method, 1, 0.1, 1000), 1000);
+  EXPECT_EQ(error(method, 1, 0.05, 200), 200);
+  EXPECT_EQ(error(method, 1, 0.04, 0.9), 0.9);
+  EXPECT_EQ(error(method, 1.04, 0.04, 1000), 1000) << "a first trial has nothing to be compared with";
+}
+
+TEST(RungeKuttaError, IsThatAlongTheRowsFromWhereTheWholeDoesNotFallToWhereItIsSmall) {
+  RungeKutta method = on_rows();
+  EXPECT_EQ(error(method, 1, 0.1, 1000), 1000);
+  EXPECT_EQ(error(method, 1, 0.05, 300), 0.5);
+  EXPECT_EQ(error(method, 1.05, 0.05, 1e6), 0.5);
+  EXPECT_EQ(error(method, 1.1, 0.05, 0.7), 0.7);
+  EXPECT_EQ(error(method, 1.15, 0.05, 300), 300);
+}
+
+TEST(RungeKuttaError, IsThatOfTheWholeWithBaumgartesTerms) {
+  RungeKutta method = on_rows();
+  method.rows = RungeKutta::Rows::baumgarte;
+  EXPECT_EQ(error(method, 1, 0.1, 1000), 1000);
+  EXPECT_EQ(error(method, 1, 0.05, 1000), 1000);
+}
+
+TEST(RungeKuttaError, GoesOnInAResumedRunAndBeginsAnewWithAMotion) {
+  RungeKutta method = on_rows(), resumed = on_rows();
+  error(method, 1, 0.1, 1000), error(method, 1, 0.05, 1000);
+  MemoryArchive memory;
+  method.archive(memory);
+  memory.reading = true;
+  resumed.archive(memory);
+  EXPECT_EQ(error(resumed, 1.05, 0.05, 1000), 0.5);
+  resumed.forget();
+  EXPECT_EQ(error(resumed, 1.1, 0.05, 1000), 1000);
+}
+
+}  // namespace
+}  // namespace trammel

@@ -1,0 +1,184 @@
+// Contacts whose rows depend on each other, while time passes: supports that move, bodies that turn, a slip that ends.
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/run_scene.hpp"
+
+namespace trammel::test {
+namespace {
+
+using nlohmann::json;
+
+void expect_trusted(const Finished& run) {
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
+}
+
+json contact(const std::string& marker, const json& plane, double mu) {
+  json c = {{"type", "constraint_method"}, {"between", {marker, {{"plane", plane}}}}};
+  if (mu > 0) c["friction"] = {{"type", "coulomb"}, {"static", mu}, {"kinetic", mu}};
+  return c;
+}
+
+// A bar of mass 1 and length 2 on feet at -1, 0 and 1; foot `moved` stands on a base whose height follows `law`.
+json bar_on_supports(const std::string& law, int moved, double mu) {
+  json s = {{"trammel", 1},
+            {"space", "planar"},
+            {"gravity", {0, -9.81}},
+            {"simulate", {{"until", 0.5}}},
+            {"record", {{"every", 0.05}, {"observe", {{"y", "bar.com.y"}}}}}};
+  s["bodies"]["base"] = {{"type", "moving_base"}, {"y", law}};
+  s["bodies"]["bar"] = {{"type", "rigid_body"},
+                        {"mass", 1},
+                        {"inertia", 1.0 / 3},
+                        {"markers", {{"f0", {-1, 0}}, {"f1", {0, 0}}, {"f2", {1, 0}}}}};
+  for (int i = 0; i < 3; ++i) {
+    json plane = {{"point", {0, 0}}, {"normal", {0, 1}}};
+    if (i == moved) plane["on"] = "base.origin";
+    s["contacts"][fmt::format("c{}", i)] = contact(fmt::format("bar.f{}", i), plane, mu);
+    for (const char* what : {"gap", "force"})
+      s["record"]["observe"][fmt::format("{}{}", what, i)] = fmt::format("contacts.c{}.{}", i, what);
+  }
+  return s;
+}
+
+// Where a support leaves with no speed and no acceleration, no rate of its contact shows it, and its row is not in g.
+TEST(BarOnThreeSupports, IsLiftedByTheMiddleOneHoweverGentlyItBegins) {
+  for (const char* law : {"=t^3", "=t^4", "=t^5"})
+    for (const double mu : {0.0, 0.3}) {
+      const Finished run = run_text(bar_on_supports(law, 1, mu).dump());
+      expect_trusted(run);
+      const double n = law[3] - '0', y = std::pow(0.5, n), a = n * (n - 1) * std::pow(0.5, n - 2);
+      EXPECT_NEAR(run.end("y"), y, 1e-9) << law;
+      EXPECT_NEAR(run.end("force1"), 9.81 + a, 1e-8) << law;
+      EXPECT_EQ(run.end("force0"), 0) << law;
+      EXPECT_EQ(run.end("force2"), 0) << law;
+      EXPECT_NEAR(run.end("gap0"), y, 1e-9) << law;
+    }
+}
+
+TEST(BarOnThreeSupports, RestsOnTheOuterOnesWhereTheMiddleOneSinks) {
+  for (const char* law : {"=-t^3", "=-t^4", "=-1e-3*t^5"}) {
+    const Finished run = run_text(bar_on_supports(law, 1, 0.3).dump());
+    expect_trusted(run);
+    EXPECT_NEAR(run.end("y"), 0, 1e-12) << law;
+    EXPECT_NEAR(run.end("force0"), 9.81 / 2, 1e-9) << law;
+    EXPECT_EQ(run.end("force1"), 0) << law;
+    EXPECT_GT(run.end("gap1"), 1e-5) << law;
+  }
+}
+
+TEST(BarOnThreeSupports, LeavesNoGapBehindItWhereAnOuterOneMoves) {
+  for (const char* law : {"=t^3", "=-t^3", "=1e-3*sin(5*t)^3", "=-1e-3*sin(5*t)^3"}) {
+    const Finished run = run_text(bar_on_supports(law, 0, 0).dump());
+    expect_trusted(run);
+    for (std::size_t i = 0; i < run.series.at("t").size(); ++i)
+      for (int foot = 0; foot < 3; ++foot) {
+        const double gap = run.series.at(fmt::format("gap{}", foot))[i],
+                     force = run.series.at(fmt::format("force{}", foot))[i];
+        EXPECT_GT(gap, -1e-8) << law;  // the method's tolerance
+        EXPECT_GE(force, 0) << law;
+        EXPECT_TRUE(force == 0 || gap < 1e-8) << law;
+      }
+  }
+}
+
+// Two cards lean on each other at one point and carry a roof there: three contacts of which each pair holds what the third does. The
+// feet slip, the cards turn, and how the normal of one follows from the others turns with them.
+TEST(CardsUnderARoof, HaveForcesThatAccelerateThem) {
+  const double angle = 1.3, mu = 0.1, c = std::cos(angle), h = std::sin(angle);
+  json s = {{"trammel", 1},
+            {"space", "planar"},
+            {"gravity", {0, -9.81}},
+            {"simulate", {{"until", 0.24}}},
+            {"record", {{"every", 0.02}, {"observe", json::object()}}}};
+  json& observe = s["record"]["observe"];
+  const auto card = [&](double side) {
+    return json{{"type", "rigid_body"},
+                {"mass", 1},
+                {"inertia", 1.0 / 12},
+                {"position", {side * c / 2, h / 2}},
+                {"angle", side < 0 ? angle : std::numbers::pi - angle},
+                {"markers", {{"foot", {-0.5, 0}}, {"tip", {0.5, 0}}}}};
+  };
+  s["bodies"] = {{"l", card(-1)},
+                 {"r", card(1)},
+                 {"roof", {{"type", "rigid_body"}, {"mass", 5}, {"inertia", 1}, {"position", {0, h + 0.05}}}}};
+  const json ground = {{"point", {0, 0}}, {"normal", {0, 1}}},
+             on_roof = {{"point", {0, -0.05}}, {"normal", {0, -1}}, {"on", "roof.com"}};
+  const double turned = -(std::numbers::pi - angle);  // (-1, 0) in the axes of the right card
+  s["contacts"] = {
+      {"foot_l", contact("l.foot", ground, mu)},
+      {"foot_r", contact("r.foot", ground, mu)},
+      {"roof_l", contact("l.tip", on_roof, mu)},
+      {"roof_r", contact("r.tip", on_roof, mu)},
+      {"apex",
+       contact("l.tip", {{"point", {0.5, 0}}, {"normal", {-std::cos(turned), -std::sin(turned)}}, {"on", "r.com"}},
+               mu)}};
+  for (const char* name : {"foot_l", "roof_l", "apex"})
+    for (const char* what : {"force", "friction"})
+      observe[fmt::format("{} {}", name, what)] = fmt::format("contacts.{}.{}", name, what);
+  observe["ax"] = "l.com.ax", observe["ay"] = "l.com.ay", observe["angle_r"] = "r.com.angle";
+  const Finished run = run_text(s.dump());
+  expect_trusted(run);
+  const auto& series = run.series;
+  EXPECT_GT(std::abs(series.at("angle_r").back() - series.at("angle_r").front()), 0.1);
+  for (std::size_t i = 0; i < series.at("t").size(); ++i) {
+    const double N = series.at("apex force")[i], T = series.at("apex friction")[i],
+                 by = turned + series.at("angle_r")[i], nx = -std::cos(by), ny = -std::sin(by);
+    const double fx = series.at("foot_l friction")[i] - series.at("roof_l friction")[i] + N * nx + T * ny,
+                 fy = series.at("foot_l force")[i] - series.at("roof_l force")[i] + N * ny - T * nx - 9.81;
+    EXPECT_NEAR(fx, series.at("ax")[i], 1e-6) << i;  // the dependence is kept to 1e-8 of forces of 20 N
+    EXPECT_NEAR(fy, series.at("ay")[i], 1e-6) << i;
+  }
+}
+
+// A block of lengths 2 x and 2 y and mass m that slides at `v`, pushed by `load` at `at`.
+json block_in_a_channel(double x, double y, double m, double inertia, double v, const json& load, const json& at,
+                        double mu) {
+  json s = {{"trammel", 1},
+            {"space", "planar"},
+            {"gravity", {0, -9.81}},
+            {"simulate", {{"until", 0.3}}},
+            {"record", {{"every", 0.015}, {"observe", {{"v", "b.com.vx"}}}}}};
+  s["bodies"]["b"] = {{"type", "rigid_body"},
+                      {"mass", m},
+                      {"inertia", inertia},
+                      {"position", {0, y}},
+                      {"velocity", {v, 0}},
+                      {"markers", {{"l", {-x, -y}}, {"r", {x, -y}}, {"tl", {-x, y}}, {"tr", {x, y}}, {"load", at}}}};
+  s["forces"]["load"] = {{"type", "load"}, {"on", "b.load"}, {"force", load}};
+  char name = 'a';
+  for (const char* corner : {"l", "tl", "r", "tr"}) {
+    const bool above = corner[0] == 't';
+    s["contacts"][std::string(1, name++)] =
+        contact(fmt::format("b.{}", corner), {{"point", {0, above ? 2 * y : 0}}, {"normal", {0, above ? -1 : 1}}}, mu);
+  }
+  return s;
+}
+
+// All four corners stop at once, though the steps leave their slips 1e-8 m/s apart.
+TEST(BlockInAChannel, StopsAtAllCornersTogether) {
+  std::mt19937 random(7);
+  const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+  int stopped = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double x = any(0.05, 1), y = any(0.05, 1), m = std::pow(10, any(-2, 2));
+    const json load = {{"x", m * any(-20, 20)}, {"y", m * any(-20, 20)}}, at = {any(-0.5, 0.5) * x, any(-0.5, 0.5) * y};
+    const Finished run =
+        run_text(block_in_a_channel(x, y, m, m * (x * x + y * y) / 3, any(-2, 2), load, at, i % 2 ? 5 : 1).dump());
+    expect_trusted(run);
+    const std::size_t sticks = run.of_kind("stick").size();
+    EXPECT_EQ(sticks % 4, 0u) << i;
+    stopped += sticks > 0;
+  }
+  EXPECT_GT(stopped, 50);
+}
+
+}  // namespace
+}  // namespace trammel::test

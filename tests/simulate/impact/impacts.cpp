@@ -1,0 +1,188 @@
+// Laws of impact in whole runs: what they do alike, and which of them creates energy.
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "../routh.hpp"
+#include "support/run_scene.hpp"
+#include "simulate/impact/impact_warnings.hpp"
+
+namespace trammel::test {
+namespace {
+
+using testing::HasSubstr;
+
+// Kane's paradox: a rod of mass 2 and inertia 1/6 strikes with its end, at 1 rad, 0.5 m/s along and 1 m/s down. Issue 27's scene.
+const std::string rod = R"({
+  "trammel": 1, "space": "planar", "gravity": [0, 0],
+  "bodies": {"rod": {"type": "rigid_body", "mass": 2, "inertia": "=1/6", "position": [0, "=0.5*sin(1)+1e-4"], "angle": 1,
+                     "velocity": [0.5, -1], "markers": {"end": [-0.5, 0]}}},
+  "contacts": {"tip": {"type": "constraint_method", "restitution": 1, "impact_law": "newton",
+                       "between": ["rod.end", {"plane": {"point": [0, 0], "normal": [0, 1]}}],
+                       "friction": {"type": "coulomb", "static": 0.5, "kinetic": 0.5}}},
+  "integrator": {"type": "dop853", "step": 1e-3},
+  "simulate": {"until": 0.002},
+  "record": {"every": 0.002, "observe": {"vx": "rod.com.vx", "vy": "rod.com.vy", "omega": "rod.angular_velocity"}}
+})";
+const Struck rod_end = [] {
+  const double x = -0.5 * std::cos(1), y = -0.5 * std::sin(1), m = 2, I = 1.0 / 6;
+  return Struck{1 / m + x * x / I, -x * y / I, 1 / m + y * y / I, -1, 0.5};
+}();
+
+double energy_after(const Struck& c, const Eigen::Vector2d& P) {
+  const Eigen::Vector2d u(c.u, c.s), after(c.u + c.a * P[0] + c.b * P[1], c.s + c.b * P[0] + c.c * P[1]);
+  return 1.25 + 0.5 * P.dot(u + after);
+}
+
+// Round-off of the angle, 1e-4 s on: the rod turns no further before it strikes.
+constexpr double round_off = 1e-12;
+
+TEST(KanesRod, GainsEnergyByNewtonsLawAndTheRunSaysSoFirst) {
+  const Finished run = run_text(rod);
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_NEAR(run.end("energy_total") / 1.25, 1.179, 5e-4);  // 17.9 %
+  ASSERT_EQ(run.result["warnings"].size(), 1u);
+  const std::string warning = run.result["warnings"][0];
+  EXPECT_THAT(warning, HasSubstr("0.224 J, 17.9 % of the kinetic energy at t = 0.0001 s through tip"));
+  EXPECT_THAT(warning, HasSubstr("\"impact_law\": \"energetic\""));
+  EXPECT_LT(run.report.summary.find("created energy"), run.report.summary.find("simulated"));
+}
+
+TEST(KanesRod, SticksInCompressionByPoissonsLawAndLosesEnergy) {
+  // Compression ends at u = s = 0; the expansion's impulse is as large, and the rod still sticks: T = -b/c N.
+  const auto [a, b, c, u, s] = rod_end;
+  const double det = a * c - b * b, N = (-u * c + s * b) / det, T = (-s * a + u * b) / det;
+  ASSERT_LT(std::abs(T), 0.5 * N);
+  ASSERT_LT(std::abs(b), 0.5 * c);
+  const Finished run = run_text(rod, {{"contacts.tip.impact_law", "poisson"}});
+  EXPECT_NEAR(run.end("energy_total"), energy_after(rod_end, {2 * N, T - b / c * N}), round_off);
+  EXPECT_TRUE(run.result["warnings"].empty());
+}
+
+TEST(KanesRod, FollowsRouthByTheEnergeticLawForEveryRestitutionAndFriction) {
+  for (const double e : {0.0, 0.4, 1.0})
+    for (const double mu : {0.1, 0.5, 1.5}) {
+      const Finished run = run_text(rod, {{"contacts.tip.impact_law", "energetic"},
+                                          {"contacts.tip.restitution", fmt::format("{}", e)},
+                                          {"contacts.tip.friction.static", fmt::format("{}", mu)},
+                                          {"contacts.tip.friction.kinetic", fmt::format("{}", mu)}});
+      ASSERT_TRUE(run.done()) << run.report.reason;
+      const Eigen::Vector2d P = routh(rod_end, e, mu);
+      const Event impact = run.of_kind("impact").at(0);
+      EXPECT_NEAR(impact.detail.at("impulse"), P[0], 1e-10) << e << " " << mu;  // as spring_impact.cpp
+      EXPECT_NEAR(impact.detail.at("energy_lost"), 1.25 - energy_after(rod_end, P), 1e-10) << e << " " << mu;
+      EXPECT_TRUE(run.result["warnings"].empty()) << e << " " << mu;
+    }
+}
+
+TEST(ImpactLaws, AreAlikeForOneContactWithoutFriction) {
+  const auto smooth = [](const char* law) {
+    return fmt::format(R"({{"type": "constraint_method", "restitution": 0.6, "impact_law": "{}",
+        "between": ["rod.end", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}})",
+                       law);
+  };
+  const auto run_smooth = [&](const char* law) {
+    return run_text(rod, {{"contacts", fmt::format(R"({{"tip": {}}})", smooth(law))}});
+  };
+  const Finished newton = run_smooth("newton");
+  for (const char* law : {"poisson", "energetic"}) {
+    const Finished run = run_smooth(law);
+    for (const char* rate : {"vx", "vy", "omega"}) EXPECT_NEAR(run.end(rate), newton.end(rate), 1e-11) << law;
+  }
+}
+
+TEST(ImpactLaws, AreAlikeWithoutRestitutionWhereTheSlipDoesNotTurn) {
+  const Overrides slides = {{"contacts.tip.restitution", "0"},
+                            {"contacts.tip.friction.static", "0.1"},
+                            {"contacts.tip.friction.kinetic", "0.1"},
+                            {"bodies.rod.velocity", "[5, -1]"}};
+  const Finished newton = run_text(rod, slides);
+  for (const char* law : {"poisson", "energetic"}) {
+    Overrides overrides = slides;
+    overrides.push_back({"contacts.tip.impact_law", law});
+    const Finished run = run_text(rod, overrides);
+    for (const char* rate : {"vx", "vy", "omega"}) EXPECT_NEAR(run.end(rate), newton.end(rate), 1e-10) << law;
+  }
+}
+
+// A block that lands flat on its two lower corners.
+const std::string block = R"({
+  "trammel": 1, "space": "planar", "gravity": [0, 0],
+  "bodies": {"block": {"type": "rigid_body", "mass": 3, "inertia": 0.5, "position": [0, 0.2], "velocity": [0, -1],
+                       "markers": {"left": [-0.4, -0.1], "right": [0.4, -0.1]}}},
+  "contacts": {
+    "a": {"type": "constraint_method", "restitution": 0.5, "impact_law": "energetic",
+          "between": ["block.left", {"plane": {"point": [0, 0], "normal": [0, 1]}}],
+          "friction": {"type": "coulomb", "static": 0.4, "kinetic": 0.3}},
+    "b": {"type": "constraint_method", "restitution": 0.5, "impact_law": "energetic",
+          "between": ["block.right", {"plane": {"point": [0, 0], "normal": [0, 1]}}],
+          "friction": {"type": "coulomb", "static": 0.4, "kinetic": 0.3}}},
+  "integrator": {"type": "dop853", "step": 1e-2},
+  "simulate": {"until": 0.15},
+  "record": {"every": 0.15, "observe": {"vx": "block.com.vx", "vy": "block.com.vy", "omega": "block.angular_velocity"}}
+})";
+
+TEST(FlatBlock, ReboundsWithoutTurning) {
+  for (const char* law : {"newton", "poisson", "energetic"}) {
+    const std::string quoted = law;
+    const Finished run = run_text(block, {{"contacts.a.impact_law", quoted}, {"contacts.b.impact_law", quoted}});
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    EXPECT_NEAR(run.end("vx"), 0, 1e-11) << law;
+    EXPECT_NEAR(run.end("vy"), 0.5, 1e-11) << law;
+    EXPECT_NEAR(run.end("omega"), 0, 1e-11) << law;
+  }
+}
+
+TEST(FlatBlock, DoesTheSameWhateverItsContactsAreCalled) {
+  for (const char* velocity : {"[0.2, -1]", "[3, -1]"}) {
+    const Finished one = run_text(block, {{"bodies.block.velocity", velocity}});
+    const Finished other =
+        run_text(block, {{"bodies.block.velocity", velocity},
+                         {"bodies.block.markers", R"({"left": [0.4, -0.1], "right": [-0.4, -0.1]})"}});
+    for (const char* rate : {"vx", "vy", "omega"}) EXPECT_NEAR(one.end(rate), other.end(rate), 1e-11) << velocity;
+    EXPECT_TRUE(one.result["warnings"].empty());
+  }
+}
+
+TEST(FlatBlock, ObeysTheEnergeticLawWhereOnlyOneCornerAsksForIt) {
+  const Overrides moves = {{"bodies.block.velocity", "[0.5, -1]"}};
+  const Finished both = run_text(block, moves);
+  const Finished one = run_text(block, {moves[0], {"contacts.b.impact_law", "newton"}});
+  for (const char* rate : {"vx", "vy", "omega"}) EXPECT_EQ(one.end(rate), both.end(rate));
+}
+
+TEST(ABallThatChatters, ComesToRestUnderEveryLaw) {
+  for (const char* law : {"newton", "poisson", "energetic"}) {
+    const Finished run = run_text(block, {{"gravity", "[0, -10]"},
+                                          {"simulate.until", "2"},
+                                          {"bodies.block.velocity", "[0.1, 0]"},
+                                          {"contacts.a.impact_law", law},
+                                          {"contacts.b.impact_law", law}});
+    ASSERT_TRUE(run.done()) << law << ": " << run.report.reason;
+    EXPECT_NEAR(run.end("vy"), 0, 1e-9) << law;
+    EXPECT_NEAR(run.end("vx"), 0, 1e-9) << law;
+  }
+}
+
+TEST(ImpactWarnings, CountManyGainsInOneLine) {
+  model::Model model;
+  model.contacts.resize(1);
+  model.contacts[0].name = "tip";
+  simulate::ImpactWarnings warnings;
+  simulate::TouchingContact gains, loses;
+  gains.impulse = loses.impulse = 2;
+  gains.before = -1, gains.after = 1.25;
+  loses.before = -1, loses.after = 1;
+  for (int i = 1; i <= 10000; ++i) {
+    gains.impulse = i == 7 ? 4 : 2;
+    warnings.check(0.1 * i, 5, {gains}, false);
+    warnings.check(0.1 * i, 5, {loses}, false);
+  }
+  const std::vector<std::string> lines = warnings.lines(model);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_THAT(lines[0], HasSubstr("10000 impacts created energy: 2.5e+03 J in all"));
+  EXPECT_THAT(lines[0], HasSubstr("the largest 0.5 J, 10 % of the kinetic energy at t = 0.7 s through tip"));
+}
+
+}  // namespace
+}  // namespace trammel::test

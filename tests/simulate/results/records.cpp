@@ -1,0 +1,65 @@
+// Rows are written at start + k every, exactly, whatever the steps and events do.
+#include <cmath>
+
+#include "support/run_scene.hpp"
+#include "support/scenes.hpp"
+
+namespace trammel::test {
+namespace {
+
+class RecordTimes : public testing::TestWithParam<Method> {};
+
+TEST_P(RecordTimes, AreMultiplesBitForBit) {
+  const Finished run = run_text(ball, {{"integrator", GetParam().json}, {"record.every", "0.1"}});
+  const std::vector<double>& t = run.series.at("t");
+  ASSERT_EQ(t.size(), 21u);
+  for (std::size_t k = 0; k < t.size(); ++k) EXPECT_EQ(t[k], double(k) * 0.1) << k;
+}
+
+TEST_P(RecordTimes, DoNotDependOnWhereTheRunStartsOrEnds) {
+  const Finished run = run_text(ball, {{"integrator", GetParam().json},
+                                       {"simulate.start", "-0.3"},
+                                       {"simulate.until", "1.234"},
+                                       {"record.every", "0.07"}});
+  const std::vector<double>& t = run.series.at("t");
+  ASSERT_EQ(t.size(), 23u);
+  for (std::size_t k = 0; k + 1 < t.size(); ++k) EXPECT_EQ(t[k], -0.3 + double(k) * 0.07) << k;
+  EXPECT_EQ(t.back(), 1.234);  // the end has a row of its own
+}
+
+TEST_P(RecordTimes, HoldTheStateAtThatTime) {
+  const Finished run = run_text(ball, {{"integrator", GetParam().json}, {"record.every", "0.013"}});
+  const std::vector<double>&t = run.series.at("t"), &y = run.series.at("y");
+  for (std::size_t k = 0; k < t.size() && t[k] < std::sqrt(0.2); ++k)
+    EXPECT_NEAR(y[k], 1 - 5 * t[k] * t[k], 1e-12) << k;  // round-off of the steps
+}
+
+std::vector<Method> all_methods() {
+  std::vector<Method> methods = fixed_methods("0.03");  // divides neither 0.1 nor 0.07
+  for (const Method& method : controlled_methods("1e-9")) methods.push_back(method);
+  return methods;
+}
+INSTANTIATE_TEST_SUITE_P(Of, RecordTimes, testing::ValuesIn(all_methods()), method_name);
+
+TEST(ARunOfZeroLength, WritesOneRowAndIsDone) {
+  const Finished run = run_text(ball, {{"simulate.until", "0"}});
+  EXPECT_TRUE(run.done());
+  ASSERT_EQ(run.series.at("t").size(), 1u);
+  EXPECT_EQ(run.end("y"), 1);
+  EXPECT_EQ(run.result["counts"]["steps"], 0);
+}
+
+TEST(ResultsFolder, ThatCannotBeMadeIsNamedWithTheReason) {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path());
+  std::ofstream(folder.path() / "file") << "not a folder";
+  simulate::RunOptions options;
+  options.out = folder.path() / "file" / "results";
+  const simulate::RunReport report = simulate::run(scene::Scene::parse(ball, "test.json"), registry(), options);
+  EXPECT_EQ(report.status, simulate::Status::failed);
+  EXPECT_NE(report.reason.find((folder.path() / "file" / "results").string()), std::string::npos) << report.reason;
+  EXPECT_NE(report.reason.find("Not a directory"), std::string::npos) << report.reason;
+}
+
+}  // namespace
+}  // namespace trammel::test

@@ -1,0 +1,53 @@
+// `trammel modes` in this process, for the tests of it.
+#pragma once
+
+#include <vector>
+
+#include "run_scene.hpp"
+#include "commands/modal_analysis.hpp"
+
+namespace trammel::test {
+
+struct Modes {
+  nlohmann::json result;
+  std::string shapes;
+  double frequency(std::size_t mode) const { return result["modes"].at(mode)["frequency_rad_s"]; }
+  double real(std::size_t mode) const { return result["modes"].at(mode)["eigenvalue"]["real"]; }
+  std::string kind(std::size_t mode) const { return result["modes"].at(mode)["kind"]; }
+  std::size_t count() const { return result["modes"].size(); }
+  std::vector<std::string> kinds() const {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < count(); ++i) all.push_back(kind(i));
+    return all;
+  }
+  std::vector<double> oscillations() const {  // [rad/s] of those that neither grow nor stand still, ascending
+    std::vector<double> all;
+    for (std::size_t i = 0; i < count(); ++i)
+      if (kind(i) == "oscillation") all.push_back(frequency(i));
+    return all;
+  }
+  double growth() const {  // [1/s] of the one that grows fastest
+    double most = 0;
+    for (std::size_t i = 0; i < count(); ++i) most = std::max(most, real(i));
+    return most;
+  }
+};
+
+inline Modes modes_of(const scene::Scene& scene, simulate::ModesOptions options = {}) {
+  const Folder folder;
+  options.out = folder.path();
+  const simulate::RunReport report = simulate::analyse_modes(scene, registry(), options);
+  EXPECT_EQ(report.status, simulate::Status::done) << report.reason;
+  EXPECT_EQ(report.result_json, read_text(folder.path() / "modes.json"));
+  return {nlohmann::json::parse(report.result_json), read_text(folder.path() / "shapes.csv")};
+}
+
+inline Modes modes_of(const std::string& text, const Overrides& overrides = {}, simulate::ModesOptions options = {}) {
+  return modes_of(scene::Scene::parse(text, "test.json", overrides), options);
+}
+
+inline Modes modes_of_file(const std::string& file, const Overrides& overrides, simulate::ModesOptions options = {}) {
+  return modes_of(scene::Scene::load(TRAMMEL_SOURCE_DIR "/scenes/" + file, overrides), options);
+}
+
+}  // namespace trammel::test
