@@ -12,10 +12,11 @@
 #include <trammel/fields.hpp>
 #include <trammel/integrator.hpp>
 #include <trammel/linear_rows.hpp>
-#include <trammel/needs_orientation.hpp>
 #include <trammel/methods/oscillating_steps.hpp>
+#include <trammel/needs_orientation.hpp>
 #include <trammel/outside_domain.hpp>
 #include <trammel/parameters.hpp>
+#include <trammel/rigid_motions.hpp>
 #include <trammel/system.hpp>
 #include <trammel/theory_limit.hpp>
 
@@ -29,6 +30,8 @@ ParameterError::ParameterError(std::string parameter, const std::string& message
     : std::runtime_error(message), parameter_(std::move(parameter)) {}
 ParameterError::~ParameterError() = default;
 OutsideDomain::~OutsideDomain() = default;
+
+HasRigidMotions::~HasRigidMotions() = default;
 
 // Abilities of integrators.
 ErrorEstimate::~ErrorEstimate() = default;

@@ -8,11 +8,12 @@
 
 #include <Eigen/SparseCore>
 
+#include <trammel/rigid_motions.hpp>
 #include <trammel/system.hpp>
 
-#include "system/contact_modes.hpp"
 #include "model/model.hpp"
 #include "plugin/guard.hpp"
+#include "system/contact_modes.hpp"
 
 namespace trammel::model {
 
@@ -49,7 +50,7 @@ struct CarriedFrom {
   const Vec& dq;
 };
 
-class AssembledSystem final : public System {
+class AssembledSystem final : public System, public HasRigidMotions {
  public:
   explicit AssembledSystem(std::shared_ptr<const Model> model, Storage storage = Storage::automatic);
   ~AssembledSystem() override;
@@ -72,6 +73,8 @@ class AssembledSystem final : public System {
   void factorise(Blend, const Vec& a, const Vec& lambda, Factors kept = Factors::iteration) override;
   [[nodiscard]] bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda,
                              Factors kept = Factors::iteration) override;
+
+  [[nodiscard]] bool rigid_motions(double t, const Vec& q, Mat& r) override;
 
   // --- for the Simulator ---
   const Model& model() const;

@@ -79,9 +79,10 @@ class EnergyCorrection final : public Correction {
     return s.correct(zero_, rates_, v_t_, multipliers_, Factors::projection);
   }
 
-  // Columns of free_: the motions as one rigid body with G r = 0, orthonormal in M. False: the system does not tell them.
+  // Columns of free_: the motions as one rigid body with G r = 0, orthonormal in M. False: the system cannot give them.
   bool find_free_motions(System& s, const State& state) {
-    if (!rigid_motions(s, state.t, state.q, free_)) return false;
+    auto* const bodies = dynamic_cast<HasRigidMotions*>(&s);
+    if (!bodies || !bodies->rigid_motions(state.t, state.q, free_)) return false;
     orthonormalise(s);
     if (s.sizes().nc == 0) return true;
     Mat moved(s.sizes().nc, free_.cols());

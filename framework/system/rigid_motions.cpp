@@ -1,24 +1,22 @@
 // A body's momentum is p = R^T M v with its velocities R as part of one rigid body, so R = M^-1 (dp/dv)^T: body by body, and exact
 // for bodies whose coordinates hold those motions.
-#include <trammel/rigid_motions.hpp>
-
 #include <algorithm>
 
 #include <Eigen/Cholesky>
 
 #include "system/assembled_system.hpp"
 
-namespace trammel {
+namespace trammel::model {
 namespace {
 
 // Column j: what M makes of the j-th velocity of all bodies at once.
-Mat columns_of_mass(model::AssembledSystem& system) {
+Mat columns_of_mass(AssembledSystem& system) {
   int most = 0;
-  for (const model::BodyEntry& body : system.model().bodies) most = std::max(most, body.nv);
+  for (const BodyEntry& body : system.model().bodies) most = std::max(most, body.nv);
   Mat columns(system.sizes().nv, most);
   for (int j = 0; j < most; ++j) {
     Vec one = Vec::Zero(columns.rows()), Mv = one;
-    for (const model::BodyEntry& body : system.model().bodies)
+    for (const BodyEntry& body : system.model().bodies)
       if (j < body.nv) one(body.v0 + j) = 1;
     system.add_mass_times(1, one, Mv);
     columns.col(j) = Mv;
@@ -28,16 +26,14 @@ Mat columns_of_mass(model::AssembledSystem& system) {
 
 }  // namespace
 
-bool rigid_motions(System& s, double t, const Vec& q, Mat& r) {
-  auto* const system = dynamic_cast<model::AssembledSystem*>(&s);
-  if (!system) return false;
-  for (const model::BodyEntry& body : system->model().bodies)
+bool AssembledSystem::rigid_motions(double t, const Vec& q, Mat& r) {
+  for (const BodyEntry& body : model().bodies)
     if (body.nv > 0 && !body.momentum) return false;
-  const Space space = system->model().world.space;
+  const Space space = model().world.space;
   const int linear = dimension(space), all = twist_size(space);
-  const Mat mass = columns_of_mass(*system);
-  r.setZero(s.sizes().nv, all);
-  for (const model::BodyEntry& body : system->model().bodies) {
+  const Mat mass = columns_of_mass(*this);
+  r.setZero(sizes().nv, all);
+  for (const BodyEntry& body : model().bodies) {
     Mat p(body.nv, all);
     for (int j = 0; j < body.nv; ++j) {
       const Momentum of_one = body.momentum->momentum(t, q.segment(body.q0, body.nq), Vec::Unit(body.nv, j));
@@ -49,4 +45,4 @@ bool rigid_motions(System& s, double t, const Vec& q, Mat& r) {
   return true;
 }
 
-}  // namespace trammel
+}  // namespace trammel::model

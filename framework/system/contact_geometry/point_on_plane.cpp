@@ -1,30 +1,9 @@
+// A marker A, or a ball around it, and a plane that B carries: gap and slip, their rates and accelerations.
 #include <Eigen/Geometry>
-
-#include <trammel/body.hpp>
 
 #include "model/model.hpp"
 
-namespace trammel {
-
-// All the room there is: stores of a number known when compiling take a fifth of the time of memset.
-void Rows::resize(int n, Space space, int markers) {
-  const auto clear = [](auto& x, auto... size) {
-    x.resize(size...);
-    Eigen::Map<Eigen::Array<double, std::decay_t<decltype(x)>::MaxSizeAtCompileTime, 1>>(x.data()).setZero();
-  };
-  clear(g, n), clear(g_t, n), clear(gamma, n);
-  for (int k = 0; k < markers; ++k) clear(H(k), n, twist_size(space));
-  for (int k = markers; k < most_markers; ++k) H(k).resize(0, twist_size(space));
-}
-
-void BodyRows::resize(int n, int nv) {
-  g.setZero(n);
-  g_t.setZero(n);
-  gamma.setZero(n);
-  G.setZero(n, nv);
-}
-
-namespace model {
+namespace trammel::model {
 
 namespace {
 
@@ -124,5 +103,4 @@ void surface_row(double reach, const Motion& A, const Motion& B, Rows& rows) {
   rows.H_B.row(0).head(3) = -n.transpose();
 }
 
-}  // namespace model
-}  // namespace trammel
+}  // namespace trammel::model
