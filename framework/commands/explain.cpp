@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "diagnose/redundancy.hpp"
 #include "plugin/breadcrumb.hpp"
+#include "run/run_failed.hpp"
+#include "simulate/simulator.hpp"
 #include "simulate/start/blame.hpp"
 #include "simulate/start/crash_witness.hpp"
-#include "diagnose/redundancy.hpp"
-#include "run/run_failed.hpp"
 #include "simulate/start/setup.hpp"
-#include "simulate/simulator.hpp"
 #include "simulate/trial_step.hpp"
 
 namespace trammel::simulate {
@@ -211,8 +211,8 @@ std::string explain(const scene::Scene& scene, plugin::Registry& registry, Crash
   Text text;
   built(text, scene, registry, setup);
   model::AssembledSystem system(setup.model);
-  const Watch watch(witness, setup, scene.root(), registry, system, {&setup.initial.t, nullptr});
-  blaming(setup, system, scene.root(), registry, setup.initial.t, [&] {
+  const Watch watch(witness, setup, system, {&setup.initial.t, nullptr});
+  blaming(setup, system, scene.root(), setup.initial.t, [&] {
     std::vector<RedundantRows> rows;
     if (setup.model->sizes.nc > 0) rows = redundant_rows(system, setup.initial);
     freedom(text, setup, rows);

@@ -8,20 +8,20 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "simulate/start/blame.hpp"
-#include "simulate/results/checkpoint.hpp"
-#include "simulate/start/crash_witness.hpp"
+#include "commands/result.hpp"
 #include "modes/krylov_modes.hpp"
-#include "statics/load_path.hpp"
-#include "simulate/results/log_file.hpp"
 #include "modes/mode_shapes.hpp"
 #include "modes/normal_modes.hpp"
-#include "commands/result.hpp"
-#include "simulate/results/results_folder.hpp"
-#include "run/run_failed.hpp"
-#include "simulate/simulator.hpp"
 #include "modes/steady_linearisation.hpp"
+#include "run/run_failed.hpp"
+#include "simulate/results/checkpoint.hpp"
+#include "simulate/results/log_file.hpp"
+#include "simulate/results/results_folder.hpp"
+#include "simulate/simulator.hpp"
+#include "simulate/start/blame.hpp"
+#include "simulate/start/crash_witness.hpp"
 #include "simulate/watch/theory_watch.hpp"
+#include "statics/load_path.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -39,10 +39,10 @@ class Posed {
   Posed(const scene::Scene& scene, plugin::Registry& registry, const ModesOptions& options)
       : setup_(set_up(scene, registry, purpose_of(scene.root()), options.witness)) {
     try {
-      pose(scene, registry, options);
+      pose(scene, options);
     } catch (...) {
       const bool built = simulator_ || statics_;
-      rethrow_blamed(setup_, built ? system().last_call() : model::CallSite{}, scene.root(), registry, state_.t);
+      rethrow_blamed(setup_, built ? system().last_call() : model::CallSite{}, scene.root(), state_.t);
     }
   }
 
@@ -53,10 +53,9 @@ class Posed {
   Setup& setup() { return setup_; }
 
  private:
-  void pose(const scene::Scene& scene, plugin::Registry& registry, const ModesOptions& options) {
+  void pose(const scene::Scene& scene, const ModesOptions& options) {
     const auto watch = [&] {
-      watch_.emplace(options.witness, setup_, scene.root(), registry, system(),
-                     CrashWitness::Clock{&state_.t, nullptr});
+      watch_.emplace(options.witness, setup_, system(), CrashWitness::Clock{&state_.t, nullptr});
     };
     if (!setup_.integrator)
       of_statics(options, watch);
@@ -306,7 +305,7 @@ RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, c
     done.summary = report.summary(options.out);
     return done;
   } catch (...) {
-    rethrow_blamed(posed.setup(), posed.system().last_call(), scene.root(), registry, posed.state().t);
+    rethrow_blamed(posed.setup(), posed.system().last_call(), scene.root(), posed.state().t);
   }
 }
 

@@ -99,8 +99,8 @@ std::string result_json(const scene::Scene& scene, const Setup& setup, Simulator
   const Statistics& statistics = simulator.statistics();
   const Ledger& ledger = simulator.ledger();
   const State& state = simulator.state();
-  const Energy end = simulator.energy_at_state();
-  const double drift = simulator.energy_drift();
+  const Energy end = simulator.last_energy();
+  const double drift = end.total() - ledger.energy();
   std::vector<std::string> warnings = simulator.doubts();
   warnings.insert(warnings.end(), setup.warnings.begin(), setup.warnings.end());
   warnings.insert(warnings.end(), simulator.warnings().begin(), simulator.warnings().end());

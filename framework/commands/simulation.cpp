@@ -9,16 +9,15 @@
 
 #include <fmt/format.h>
 
-#include "plugin/out_of_memory.hpp"
-#include "simulate/start/blame.hpp"
-#include "simulate/results/checkpoint.hpp"
-#include "diagnose/conflict.hpp"
-#include "simulate/start/crash_witness.hpp"
-#include "commands/result.hpp"
-#include "simulate/results/results_folder.hpp"
-#include "run/run_failed.hpp"
-#include "simulate/simulator.hpp"
+#include "commands/ending.hpp"
+#include "commands/run_records.hpp"
 #include "commands/slow_steps.hpp"
+#include "diagnose/conflict.hpp"
+#include "run/run_failed.hpp"
+#include "simulate/results/checkpoint.hpp"
+#include "simulate/results/results_folder.hpp"
+#include "simulate/simulator.hpp"
+#include "simulate/start/blame.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -37,56 +36,28 @@ double cpu_now() {
 constexpr double between_checkpoints = 2;      // [s] wall-clock
 constexpr double share_of_checkpoints = 0.05;  // of the time at most: a slow disk is asked less often
 constexpr double between_progress = 0.1;       // [s]
-// Room held for the end of a run on a full disk [bytes]: three buffers of logs, the result, and the checkpoint's numbers.
-constexpr long long room_for_logs = 1 << 19, room_per_number = 256;
 
 class Run {
  public:
   Run(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options)
       : scene_(scene),
-        registry_(registry),
         options_(options),
         hash_(resume_hash(scene.root())),
-        setup_(set_up(scene, registry, Purpose::motion, options.witness, chosen_before())) {}
-
-  ~Run() {
-    if (options_.witness) options_.witness->leave();
-  }
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
+        setup_(set_up(scene, registry, Purpose::motion, options.witness, chosen_before())),
+        records_(scene, options, setup_) {}
 
   RunReport operator()() {
     std::vector<Simulator::LevelCorrection> corrections;
     for (const auto& c : setup_.corrections) corrections.push_back({c.level, c.correction.get(), &c.origin});
     simulator_.emplace(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
     if (options_.witness)
-      options_.witness->follow(setup_, scene_.root(), registry_, simulator_->system(),
-                               {&simulator_->state().t, &simulator_->statistics().steps});
+      options_.witness->follow(setup_, simulator_->system(), {&simulator_->state().t, &simulator_->statistics().steps});
     try {
       open();
       loop();
       finish();
-    } catch (const NotFinite& e) {
-      not_finite(e);
-    } catch (const BadStep& e) {
-      fail(plugin::PluginError(setup_.integrator_origin, "step", e.what(), simulator_->state().t).in_step(step()));
-    } catch (const RunFailed& e) {
-      end(Status::failed, e.what() + contradiction());
-    } catch (const model::NotSolvable& e) {
-      end(Status::failed, where(e.what()) + contradiction());
-    } catch (const OutsideDomain& e) {
-      end(Status::failed, where(said(e, simulator_->system().last_call()).c_str()));
-    } catch (const OutputError& e) {
-      out_of_room(e);
-    } catch (const plugin::PluginError& e) {
-      fail(e.step() || e.call().empty() ? e : e.in_step(step()));
-    } catch (const scene::SceneError&) {
-      if (!options_.resume) leave_nothing();  // the scene is wrong, which its start has shown
-      throw;
-    } catch (const std::bad_alloc& e) {
-      end(Status::failed, where(plugin::told(e)));
     } catch (...) {
-      fail(blame(setup_, simulator_->system().last_call(), scene_.root(), registry_, simulator_->state().t, step()));
+      fail(ending(setup_, scene_.root(), now()));
     }
     return std::move(report_);
   }
@@ -104,8 +75,9 @@ class Run {
     }
     return "";
   }
-  std::string where(const char* what) const {
-    return fmt::format("at t = {:.9g} s, step {}: {}", simulator_->state().t, step(), what);
+  RunPoint now() {
+    const double t = simulator_->state().t;
+    return {t, step(), fmt::format("at t = {:.9g} s, step {}: ", t, step()), simulator_->system().last_call()};
   }
   // Whatever a method says of its steps: the reason may be rows that no motion satisfies.
   std::string contradiction() {
@@ -118,52 +90,22 @@ class Run {
   }
   long long step() const { return simulator_->statistics().steps + 1; }
 
-  [[noreturn]] void fail(const plugin::PluginError& error) {
-    end(Status::failed, error.what());
-    throw error;
-  }
-
-  // The scene's fault if the component follows a law of time written there, such as sqrt(1-t); else the plugin's.
-  void not_finite(const NotFinite& e) {
-    const plugin::Origin origin = origin_of(e.site(), scene_.root(), registry_);
-    const scene::Value* entry = scene_.root().at_path(origin.path);
-    if (entry && has_expression(*entry))
-      return end(Status::failed, fmt::format("{}: {} ({} of {}) gave numbers that are not finite in its \"{}\"",
-                                             e.what(), origin.path, origin.component, origin.file, e.site().call));
-    fail(plugin::PluginError(origin, e.site().call, "it gave numbers that are not finite", simulator_->state().t)
-             .in_step(step()));
-  }
-
-  static bool has_expression(const scene::Value& value) {
-    using Type = scene::Value::Type;
-    if (value.type() == Type::text) return value.text().starts_with("=");
-    if (value.type() == Type::array) return std::any_of(value.items().begin(), value.items().end(), has_expression);
-    if (value.type() == Type::object)
-      return std::any_of(value.members().begin(), value.members().end(),
-                         [](const auto& member) { return has_expression(member.second); });
-    return false;
+  void fail(const Ending& e) {
+    if (e.cause == Ending::Cause::output) return out_of_room(e.reason);
+    if (e.cause == Ending::Cause::scene) {
+      if (!options_.resume) records_.remove();  // the scene is wrong, which its start has shown
+    } else {
+      end(Status::failed, e.reason + (e.cause == Ending::Cause::rows ? contradiction() : ""));
+    }
+    if (e.thrown) std::rethrow_exception(e.thrown);
   }
 
   void open() {
     wall_start_ = Clock::now();
     cpu_start_ = cpu_now();
     std::optional<Recorder::Lengths> keep;
-    if (options_.resume) {
-      keep = resume();
-    } else {
-      std::error_code error;
-      fs::create_directories(options_.out, error);
-      if (error)
-        throw OutputError(fmt::format("cannot make the results folder {}: {}", options_.out.string(), error.message()));
-      remove_results(options_.out);
-    }
-    write_whole(options_.out / "scene.resolved.json", scene_.resolved());
-    const Sizes& sizes = setup_.model->sizes;
-    reserve_.emplace(options_.out, room_for_logs + room_per_number * (sizes.nq + sizes.nv + sizes.nc));
-    recorder_.emplace(options_.out, *setup_.model, setup_.columns, keep, setup_.settings.field_times);
-    last_result_.emplace(options_.out,
-                         result_head(scene_, setup_, {Status::failed, "", {}, options_.resume, options_.command}));
-    if (options_.witness) options_.witness->record_with(*recorder_, *last_result_);
+    if (options_.resume) keep = resume();
+    records_.open(keep, Recorder::Books::kept);
     if (!options_.resume) simulator_->start(setup_.initial);
   }
 
@@ -174,9 +116,9 @@ class Run {
     SlowSteps slow_steps(simulator_->state().t, simulator_->statistics().steps);
     long long stride = 1, since = 0;  // steps between looks at the clock, about 1 ms
     for (;;) {
-      const bool more = simulator_->advance(*recorder_);
+      const bool more = simulator_->advance(*records_.recorder());
       require_arithmetic(settings_, setup_, simulator_->state().t, step());
-      recorder_->check();  // between steps, where a checkpoint is possible
+      records_.recorder()->check();  // between steps, where a checkpoint is possible
       if (!more) return;
       // After a step at least: it writes what happened at the start.
       if (options_.interrupt && options_.interrupt->heed()) {
@@ -238,11 +180,11 @@ class Run {
 
   // Logs first: a checkpoint never tells of bytes that are not there.
   void write() {
-    recorder_->sync();
+    records_.recorder()->sync();
     json data = json::object();
     JsonArchive archive(data, JsonArchive::Direction::write);
     simulator_->archive(archive);
-    Recorder::Lengths lengths = recorder_->lengths();
+    Recorder::Lengths lengths = records_.recorder()->lengths();
     archive_lengths(archive, lengths);
     Cost so_far = cost();
     archive("wall", so_far.wall), archive("cpu", so_far.cpu);
@@ -312,23 +254,16 @@ class Run {
     }
   }
 
-  void leave_nothing() {
-    if (options_.witness) options_.witness->leave();
-    recorder_.reset();
-    remove_results(options_.out);
-  }
-
-  // The reserve's room goes to the last lines and a checkpoint. A limit on the length of one file may still stop a log.
-  void out_of_room(const OutputError& e) {
-    reserve_.reset();
-    std::string reason = e.what();
-    if (recorder_) {
+  // The room that is held goes to the last lines and a checkpoint. A limit on the length of one file may still stop a log.
+  void out_of_room(std::string reason) {
+    records_.give_room();
+    if (Recorder* const recorder = records_.recorder()) {
       reason += fmt::format("; t = {:.9g} s was reached", simulator_->state().t);
       try {
         write();
         reason += ", and all of it is kept: make room and go on with --resume";
       } catch (const OutputError&) {
-        if (const std::string missing = recorder_->missing(); !missing.empty()) reason += "; " + missing;
+        if (const std::string missing = recorder->missing(); !missing.empty()) reason += "; " + missing;
         std::error_code error;
         if (fs::exists(options_.out / newest_checkpoint, error))
           reason += "; --resume goes on from the last checkpoint";
@@ -337,40 +272,20 @@ class Run {
     end(Status::failed, reason);
   }
 
-  // Everything known is kept; what cannot be written any more is told in the reason.
   void end(Status status, const std::string& reason) {
-    reserve_.reset();
-    Outcomes outcomes{status, reason, cost(), options_.resume, options_.command};
-    try {
-      if (recorder_) recorder_->flush();
-    } catch (const OutputError& e) {
-      if (outcomes.reason.empty()) outcomes.reason = e.what();
-      outcomes.status = Status::failed;
-    }
-    report_.result_json = result_json(scene_, setup_, *simulator_, outcomes);
-    report_.summary = summary(scene_, setup_, *simulator_, outcomes, options_.out);
-    try {
-      write_whole(options_.out / "result.json", report_.result_json);
-    } catch (const OutputError& e) {
-      outcomes.reason += (outcomes.reason.empty() ? "" : "; ") + std::string(e.what());
-      outcomes.status = Status::failed;
-      report_.summary = summary(scene_, setup_, *simulator_, outcomes, options_.out);
-    }
-    if (options_.witness) options_.witness->leave();  // the result stands there: nobody replaces it any more
-    report_.status = outcomes.status;
-    report_.reason = outcomes.reason;
+    report_ = records_.end(
+        {status, reason, cost(), options_.resume, options_.command},
+        [&](const Outcomes& outcomes) { return result_json(scene_, setup_, *simulator_, outcomes); },
+        [&](const Outcomes& outcomes) { return summary(scene_, setup_, *simulator_, outcomes, options_.out); });
   }
 
   const scene::Scene& scene_;
-  plugin::Registry& registry_;
   const RunOptions& options_;
   plugin::ProcessSettings settings_;
   std::uint64_t hash_;
   Setup setup_;
   std::optional<Simulator> simulator_;
-  std::optional<Reserve> reserve_;
-  std::optional<Recorder> recorder_;
-  std::optional<LastResult> last_result_;
+  RunRecords records_;  // after what its witness looks at
   Status status_ = Status::done;
   RunReport report_;
   Clock::time_point wall_start_;

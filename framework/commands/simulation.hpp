@@ -6,8 +6,8 @@
 #include <string>
 
 #include "plugin/registry.hpp"
-#include "scene/value.hpp"
 #include "run/interrupt.hpp"
+#include "scene/value.hpp"
 
 namespace trammel::simulate {
 

@@ -6,20 +6,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "plugin/out_of_memory.hpp"
-#include "simulate/start/blame.hpp"
-#include "simulate/start/crash_witness.hpp"
-#include "statics/load_path.hpp"
-#include "simulate/results/recorder.hpp"
-#include "commands/result.hpp"
-#include "simulate/results/results_folder.hpp"
-#include "run/run_failed.hpp"
+#include "commands/ending.hpp"
+#include "commands/run_records.hpp"
 #include "commands/simulation.hpp"
+#include "simulate/start/blame.hpp"
+#include "statics/load_path.hpp"
 
 namespace trammel::simulate {
 namespace {
 
-namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
@@ -27,47 +22,25 @@ class StaticRun {
  public:
   StaticRun(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options)
       : scene_(scene),
-        registry_(registry),
         options_(options),
         setup_(set_up(scene, registry, Purpose::statics, options.witness)),
+        records_(scene, options, setup_),
         system_(setup_.model),
-        watch_(options.witness, setup_, scene.root(), registry, system_, {&setup_.settings.start, nullptr}),
+        watch_(options.witness, setup_, system_, {&setup_.settings.start, nullptr}),
         path_(system_, setup_.settings, setup_.initial) {}
 
   RunReport operator()() {
-    if (options_.witness)
-      options_.witness->follow(setup_, scene_.root(), registry_, system_, {&path_.state().t, nullptr});
+    if (options_.witness) options_.witness->follow(setup_, system_, {&path_.state().t, nullptr});
     try {
-      std::error_code error;
-      fs::create_directories(options_.out, error);
-      if (error)
-        throw OutputError(fmt::format("cannot make the results folder {}: {}", options_.out.string(), error.message()));
-      remove_results(options_.out);
-      write_whole(options_.out / "scene.resolved.json", scene_.resolved());
-      recorder_.emplace(options_.out, *setup_.model, setup_.columns, std::nullopt, setup_.settings.field_times,
-                        Recorder::Books::none);
-      last_result_.emplace(options_.out,
-                           result_head(scene_, setup_, {Status::failed, "", {}, false, options_.command}));
-      if (options_.witness) options_.witness->record_with(*recorder_, *last_result_);
+      records_.open(std::nullopt, Recorder::Books::none);
       load();
-    } catch (const RunFailed& e) {
-      end(Status::failed, e.what());
-    } catch (const model::NotSolvable& e) {
-      end(Status::failed, fmt::format("at t = {:.9g}: {}", path_.state().t, e.what()));
-    } catch (const OutsideDomain& e) {
-      end(Status::failed, fmt::format("after t = {:.9g}: {}", path_.state().t, said(e, system_.last_call())));
-    } catch (const OutputError& e) {
-      end(Status::failed, e.what());
-    } catch (const plugin::PluginError& e) {
-      end(Status::failed, e.what());
-      throw;
-    } catch (const std::bad_alloc& e) {
-      end(Status::failed, plugin::told(e));
     } catch (...) {
-      const plugin::PluginError error =
-          blame(setup_, system_.last_call(), scene_.root(), registry_, path_.state().t, step());
-      end(Status::failed, error.what());
-      throw error;
+      const Ending e = ending(setup_, scene_.root(), now());
+      if (e.cause == Ending::Cause::scene)
+        records_.remove();
+      else
+        end(Status::failed, e.reason);
+      if (e.thrown) std::rethrow_exception(e.thrown);
     }
     return std::move(report_);
   }
@@ -75,14 +48,19 @@ class StaticRun {
  private:
   long long step() const { return (long long)(path_.steps().size()) + 1; }
 
+  RunPoint now() {
+    const double t = path_.state().t;
+    return {t, step(), fmt::format("after t = {:.9g}: ", t), system_.last_call()};
+  }
+
   void load() {
     while (!path_.at_end()) {
       if (options_.interrupt && options_.interrupt->heed())
         return end(Status::interrupted, fmt::format("interrupted at t = {:.9g}", path_.state().t));
       path_.advance();
       require_arithmetic(settings_, setup_, path_.state().t, step());
-      recorder_->row(system_, path_.state());
-      recorder_->flush();
+      records_.recorder()->row(system_, path_.state());
+      records_.recorder()->flush();
       system_.move_to(path_.state().t, path_.state().q, path_.state().v);
       energy_ = system_.energy();
       if (path_.steps().size() == 1) energy_start_ = energy_;
@@ -95,18 +73,10 @@ class StaticRun {
     Outcomes outcomes{status, reason, {}, false, options_.command};
     outcomes.cost.wall = std::chrono::duration<double>(Clock::now() - began_).count();
     outcomes.cost.cpu = double(std::clock() - cpu_began_) / CLOCKS_PER_SEC;
-    report_.result_json = result(outcomes).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
-    report_.summary = text(outcomes);
-    try {
-      write_whole(options_.out / "result.json", report_.result_json);
-    } catch (const OutputError& e) {
-      outcomes.status = Status::failed;
-      outcomes.reason += (outcomes.reason.empty() ? "" : "; ") + std::string(e.what());
-      report_.summary = text(outcomes);
-    }
-    if (options_.witness) options_.witness->leave();  // the result stands there: nobody replaces it any more
-    report_.status = outcomes.status;
-    report_.reason = outcomes.reason;
+    report_ = records_.end(
+        outcomes,
+        [&](const Outcomes& all) { return result(all).dump(2, ' ', false, json::error_handler_t::replace) + "\n"; },
+        [&](const Outcomes& all) { return text(all); });
   }
 
   int iterations() const {
@@ -174,13 +144,11 @@ class StaticRun {
   }
 
   const scene::Scene& scene_;
-  plugin::Registry& registry_;
   const RunOptions& options_;
   plugin::ProcessSettings settings_;
   Setup setup_;
+  RunRecords records_;
   model::AssembledSystem system_;
-  std::optional<Recorder> recorder_;
-  std::optional<LastResult> last_result_;
   Watch watch_;  // of those above
   LoadPath path_;
   Energy energy_start_, energy_;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -60,9 +61,9 @@ std::string summary(const scene::Scene& scene, const Setup& setup, Simulator& si
     line("contact", fmt::format("{}{}, {} in all, {} of {} steps in contact", impacts_of(model, s),
                                 counted(std::size_t(s.touches), "touch", "touches"),
                                 counted(std::size_t(s.events), "event", "events"), s.contact_steps, s.steps));
-  const double end = simulator.energy_at_state().total();
-  line("energy", fmt::format("{:.9g} J -> {:.9g} J; supplied {:.6g} J; lost to {}", ledger.energy_start(), end,
-                             ledger.supplied(), causes(model, ledger, simulator.energy_drift())));
+  if (const double end = simulator.last_energy().total(); std::isfinite(end))
+    line("energy", fmt::format("{:.9g} J -> {:.9g} J; supplied {:.6g} J; lost to {}", ledger.energy_start(), end,
+                               ledger.supplied(), causes(model, ledger, end - ledger.energy())));
   if (s.largest.position > 0 || s.largest.velocity > 0 || s.largest.acceleration > 0)
     line("constraints", fmt::format("largest norms: position {:.3g}, velocity {:.3g}, acceleration {:.3g}",
                                     s.largest.position, s.largest.velocity, s.largest.acceleration));

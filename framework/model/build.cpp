@@ -121,6 +121,7 @@ class Builder {
     check_marker_names(*body, value);
     BodyEntry entry;
     entry.name = name;
+    entry.origin = origin;
     entry.tangent = dynamic_cast<const ExactTangent*>(body.get());
     entry.reaction_derivative = dynamic_cast<const ReactionDerivative*>(body.get());
     entry.observed = dynamic_cast<const Observed*>(body.get());
@@ -136,6 +137,7 @@ class Builder {
     if (!joint || markers.empty()) return;
     JointEntry entry;
     entry.name = name;
+    entry.origin = origin;
     entry.joint = std::move(joint);
     entry.markers = std::move(markers);
     model_->joints.push_back(std::move(entry));
@@ -162,6 +164,7 @@ class Builder {
         markers_.check_orientation(force.get(), k, k == 0 ? *A : *B, value.find("between")->items()[k]);
     ForceEntry entry;
     entry.name = name;
+    entry.origin = origin;
     entry.force = std::move(force);
     entry.A = *A, entry.B = *B;
     model_->forces.push_back(std::move(entry));

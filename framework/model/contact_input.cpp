@@ -181,6 +181,7 @@ class ContactInput {
       throw plugin::PluginError(origin, "load",
                                 "a friction law is either a SetValuedFriction or a SmoothFriction, exactly one");
     entry.friction = std::move(law);
+    entry.friction_origin = origin;
     if (entry.restitution && entry.coulomb && entry.coulomb->decide() == SetValuedFriction::Decide::every_evaluation)
       problems_.error(
           value.problem("friction that is decided at every evaluation takes the normal force as given: it needs a "
@@ -193,6 +194,7 @@ class ContactInput {
     const Value& reaches = *value.find("reaches");
     auto [joint, origin] = plugin::make<Constraint>(registry_, Kind::joint, reaches, model_.world, problems_);
     RowLimit limit;
+    limit.origin = origin;
     limit.markers = markers_.markers_of(value, joint.get());
     for (const char* key : {"radius", "friction"})
       if (const Value* other = value.find(key))
@@ -261,6 +263,7 @@ class ContactInput {
           "\"spacing\": ... [m]"));
     if (const Value* friction = value.find("friction")) add_friction(*friction, entry);
     entry.law = std::move(law);
+    entry.origin = origin;
     model_.contacts.push_back(std::move(entry));
   }
 

@@ -48,6 +48,7 @@ void add_joint_friction(const Value& joint, const Value& friction, Model& model,
   const JointEntry& of = model.joints.back();
   ContactEntry entry;
   entry.name = of.name;
+  entry.origin = of.origin, entry.friction_origin = origin;
   entry.coulomb = dynamic_cast<const SetValuedFriction*>(law.get());
   entry.smooth = dynamic_cast<const SmoothFriction*>(law.get());
   if (!entry.coulomb == !entry.smooth)

@@ -16,6 +16,8 @@
 #include <trammel/joint.hpp>
 #include <trammel/joint_friction.hpp>
 
+#include "plugin/plugin_error.hpp"
+
 namespace trammel::model {
 
 // A marker by its place: of a body, or a fixed frame of the ground (body = -1).
@@ -24,8 +26,10 @@ struct MarkerRef {
   int marker = 0;  // of the body; for the ground: index into Model::ground_frames
 };
 
+// Each entry carries where its component comes from, so that a fault is charged to it.
 struct BodyEntry {
   std::string name;
+  plugin::Origin origin;
   std::unique_ptr<Body> body;
   // Place of its segment in q and v.
   int q0 = 0, v0 = 0, nq = 0, nv = 0;
@@ -48,6 +52,7 @@ struct BodyEntry {
 
 struct JointEntry {
   std::string name;
+  plugin::Origin origin;
   std::unique_ptr<Constraint> joint;
   const ReactionTangent* tangent = nullptr;  // ability, looked up once
   std::vector<MarkerRef> markers;
@@ -56,6 +61,7 @@ struct JointEntry {
 
 struct ForceEntry {
   std::string name;
+  plugin::Origin origin;
   std::unique_ptr<Force> force;
   MarkerRef A, B;
 };
@@ -72,6 +78,7 @@ struct PointOnPlane {
 
 // A row of a joint that may have one sign only: gap = side g, until the contact closes and holds it at 0.
 struct RowLimit {
+  plugin::Origin origin;
   std::unique_ptr<Constraint> joint;         // of one row
   const ReactionTangent* tangent = nullptr;  // ability, looked up once
   std::vector<MarkerRef> markers;
@@ -99,6 +106,8 @@ struct JointBearing {
 
 struct ContactEntry {
   std::string name;
+  plugin::Origin origin;           // of its law; of joint friction, of the joint
+  plugin::Origin friction_origin;  // of its friction law
   std::string path() const { return (joint ? "joints." : "contacts.") + name; }  // in the scene
   MarkerRef A, B;
   PointOnPlane geometry;          // of a surface against a sphere the radius alone, against a surface nothing

@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "system/locks_itself.hpp"
 #include "plugin/breadcrumb.hpp"
 #include "plugin/guard.hpp"
-#include "simulate/start/blame.hpp"
 #include "run/run_failed.hpp"
+#include "simulate/start/blame.hpp"
 #include "simulate/trial_step.hpp"
+#include "system/locks_itself.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -289,7 +289,7 @@ void Simulator::find_culprit(double h) {
   for (const double part : {0.0, 0.5, 1.0, 2.0}) {
     system_.move_to(now_.t + part * h, now_.q, now_.v);
     const model::CallSite site = system_.find_not_finite();
-    if (site.component) throw NotFinite(when(h), site);
+    if (site.origin) throw NotFinite(when(h), site);
   }
 }
 
@@ -308,7 +308,7 @@ Outcome Simulator::corrected(const LevelCorrection& entry, const Correction::Ste
   try {
     return entry.correction->apply(entry.level, system_, step, next_);
   } catch (...) {
-    if (system_.last_call().component) throw;
+    if (system_.last_call().origin) throw;
     plugin::rethrow_as_plugin_error(*entry.origin, "apply", next_.t);
   }
 }
@@ -396,6 +396,15 @@ Energy Simulator::energy_at_state() {
   if (now_.q.size() == 0) return {};
   system_.move_to(now_.t, now_.q, now_.v);
   return system_.energy();
+}
+
+Energy Simulator::last_energy() {
+  try {
+    return energy_at_state();
+  } catch (const std::exception&) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {unknown, unknown, unknown};
+  }
 }
 
 double Simulator::energy_drift() {

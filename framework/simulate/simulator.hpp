@@ -65,6 +65,7 @@ class Simulator {
   std::vector<std::string> doubts() const;
   const ContactAudit& audit() const { return audit_; }
   Energy energy_at_state();
+  Energy last_energy();  // of a run that has ended, perhaps by a component that cannot give its own any more: then NaN
   double energy_drift();  // [J] what no cause in the ledger explains
   // Joints and bodies whose rows no state near the last one satisfies, there or a step later; empty: none are known.
   Conflict conflict();

@@ -11,6 +11,7 @@
 #include <trammel/rigid_motions.hpp>
 #include <trammel/system.hpp>
 
+#include "model/call_site.hpp"
 #include "model/model.hpp"
 #include "plugin/guard.hpp"
 #include "system/contact_modes.hpp"
@@ -31,12 +32,6 @@ struct Counts {
 class NotSolvable : public std::runtime_error, public plugin::PassesThroughPlugins {
  public:
   using std::runtime_error::runtime_error;
-};
-
-// The component and method that are being called: who to name when one of them throws. No component: none is.
-struct CallSite {
-  const std::string* component = nullptr;  // name in the scene, "bodies.beam"
-  const char* call = "";
 };
 
 // Dense matrices; sparse M and S with dense rows, for bodies of many coordinates; or blocks by bodies with sparse factorisations, for

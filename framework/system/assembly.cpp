@@ -9,7 +9,7 @@
 namespace trammel::model {
 
 AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
-    : model(std::move(m)), storage(how), chain(*model) {
+    : model(std::move(m)), storage(how), chain(*model, site) {
   const Storage chosen = storage == Storage::automatic ? storage_for(*model) : storage;
   sparse = chosen == Storage::sparse;
   if (chosen == Storage::blocks) blocks.emplace(*model), blocks->kept[at_point].passing = true;
@@ -133,14 +133,14 @@ void AssembledSystem::Work::evaluate_bodies() {
       Matrix target = blocks ? Matrix::onto(blocks->mass(k)) : Matrix::onto(M).from(entry.v0, entry.v0);
       if (blocks) blocks->mass(k).setZero();
       if (entry.mass_and_force) {
-        called(entry.name, "mass_and_force");
+        called(entry.origin, "mass_and_force");
         entry.mass_and_force->mass_and_force(t, q_body, v_body, target, f.segment(entry.v0, entry.nv));
         continue;
       }
-      called(entry.name, "mass");
+      called(entry.origin, "mass");
       entry.body->mass(t, q_body, target);
     }
-    called(entry.name, "force");
+    called(entry.origin, "force");
     entry.body->force(t, q_body, v_body, f.segment(entry.v0, entry.nv));
   }
   returned();
@@ -150,7 +150,7 @@ void AssembledSystem::Work::evaluate_bodies() {
 void AssembledSystem::Work::sum_mass() {
   sparse_mass.fill(sizes.nv, [this] {
     for (const BodyEntry& entry : model->bodies) {
-      called(entry.name, "mass");
+      called(entry.origin, "mass");
       Matrix target = Matrix::onto(sparse_mass).from(entry.v0, entry.v0);
       entry.body->mass(t, q.segment(entry.q0, entry.nq), target);
     }
@@ -169,7 +169,7 @@ const Vec& AssembledSystem::Work::force() {
     numerics::look_ahead(i, force_slots.size(),
                          [&](std::size_t next) { chain.fetch(force_slots[next].A), chain.fetch(force_slots[next].B); });
     const int A = force_slots[i].A, B = force_slots[i].B;
-    called(model->forces[i].name, "wrench");
+    called(model->forces[i].origin, "wrench");
     on_A.setZero(twist);
     on_B.setZero(twist);
     model->forces[i].force->wrench(t, motion(A), motion(B), on_A, on_B);
@@ -185,7 +185,7 @@ const Vec& AssembledSystem::Work::force() {
     }
     const Rows& r = contact(int(i));
     const double rate = contact_rate(int(i), 0);
-    called(model->contacts[i].name, "normal");
+    called(model->contacts[i].origin, "normal");
     const double N = law->normal(r.g(0), rate, modes.contacts[i].approach_speed);
     const Tangential ratio = friction_ratio(int(i));
     const Slots& at = contact_slots[i];

@@ -7,14 +7,14 @@
 #include <optional>
 #include <vector>
 
+#include "linear/frontal_iteration_kkt.hpp"
+#include "linear/kkt.hpp"
 #include "system/assembled_system.hpp"
 #include "system/body_blocks.hpp"
 #include "system/constant_rows.hpp"
+#include "system/contact_geometry/surface_contact.hpp"
 #include "system/contact_loads.hpp"
 #include "system/markers/marker_chain.hpp"
-#include "system/contact_geometry/surface_contact.hpp"
-#include "linear/frontal_iteration_kkt.hpp"
-#include "linear/kkt.hpp"
 
 namespace trammel::model {
 
@@ -105,6 +105,8 @@ struct AssembledSystem::Work {
   int tangents(int i) const { return model->contacts[std::size_t(i)].joint ? 1 : dimension(model->world.space) - 1; }
   Tangential slip(int i);
   SlipDirection slip_direction(int i);
+  template <class Call>
+  double ask_friction(int contact, const char* name, Call call);
   Tangential friction_ratio(int i);         // F_t / F_n while sliding; 0 where rows or nothing hold it
   Eigen::Matrix2d friction_damping(int i);  // -d(F_t / F_n)/d(slip velocity) [s/m]
   bool rolls(int i) const;                  // it is round, in space: the coordinates of its tangents follow from steps
@@ -131,12 +133,13 @@ struct AssembledSystem::Work {
   double violation() const { return g.size() ? g.lpNorm<Eigen::Infinity>() : 0; }
   double rank_tolerance() const { return numerics::rank_tolerance_at(violation()); }
 
-  void called(const std::string& component, const char* call) { site = {&component, call}; }
-  void returned() { site.component = nullptr; }
+  void called(const plugin::Origin& component, const char* call) { site = {&component, call}; }
+  void returned() { site.origin = nullptr; }
 
   std::shared_ptr<const Model> model;
   Storage storage;
   bool sparse = false;  // M and S
+  CallSite site;        // before `chain`, which names bodies there
   MarkerChain chain;
   std::vector<Slots> joint_slots, force_slots, contact_slots;
   std::vector<std::size_t> joint_order;  // by their first bodies: of many bodies each is then fetched from memory once
@@ -195,7 +198,6 @@ struct AssembledSystem::Work {
   ConstantRows constant_rows;
   bool constant_rows_placed = false;  // in it and in `blocks`
   Counts counts;
-  CallSite site;
 
   // scratch
   Balance power;

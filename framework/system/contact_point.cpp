@@ -28,8 +28,9 @@ const Rows& AssembledSystem::Work::contact(int i) {
 void AssembledSystem::Work::evaluate_contact(int i, ContactRows& cache) {
   const Slots& at = contact_slots[std::size_t(i)];
   const int A = at.A, B = at.B;
-  called(model->contacts[std::size_t(i)].name, "motion");
   const ContactEntry& entry = model->contacts[std::size_t(i)];
+  const CallSite around = site;
+  called(entry.limit ? entry.limit->origin : entry.origin, entry.limit ? "rows" : "normal");
   const bool tangents = entry.friction != nullptr;
   cache.rows.resize(tangents ? dimension(model->world.space) : 1, model->world.space);
   if (entry.joint) {
@@ -46,7 +47,7 @@ void AssembledSystem::Work::evaluate_contact(int i, ContactRows& cache) {
   } else {
     model::contact_rows(entry.geometry, motion(A), motion(B), tangents, cache.rows);
   }
-  returned();
+  site = around;
   cache.rate = cache.rows.g_t;
   cache.free = cache.rows.gamma;
   for (int k = 0; k < at.count; ++k)
@@ -56,9 +57,10 @@ void AssembledSystem::Work::evaluate_contact(int i, ContactRows& cache) {
 SurfaceContact& AssembledSystem::Work::surface(std::size_t i) {
   Pressed& pressed = surfaces[i];
   if (pressed.point != point) {
-    called(model->contacts[i].name, "normal");
+    const CallSite around = site;
+    called(model->contacts[i].origin, "normal");
     pressed.contact->press(here(), modes.contacts[i].approach_speed);
-    returned();
+    site = around;
     pressed.point = point;
   }
   return *pressed.contact;
@@ -80,17 +82,26 @@ SlipDirection AssembledSystem::Work::slip_direction(int i) {
   return {slip(i), mode.direction, mode.slow};
 }
 
+// How the friction law is asked for a figure.
+template <class Call>
+double AssembledSystem::Work::ask_friction(int i, const char* name, Call call) {
+  return call_inside(site, model->contacts[std::size_t(i)].friction_origin, name, call);
+}
+
 Tangential AssembledSystem::Work::friction_ratio(int i) {
   const ContactEntry& entry = model->contacts[std::size_t(i)];
   const ContactMode& mode = modes.contacts[std::size_t(i)];
   if (entry.coulomb && mode.friction == ContactMode::Friction::slide) {
     const Tangential s = slip(i);
-    return -entry.coulomb->kinetic_coefficient(s.norm()) * SlipDirection(s, mode.direction, mode.slow).unit();
+    const double mu =
+        ask_friction(i, "kinetic_coefficient", [&] { return entry.coulomb->kinetic_coefficient(s.norm()); });
+    return -mu * SlipDirection(s, mode.direction, mode.slow).unit();
   }
   if (!entry.smooth) return Tangential::Zero();
   const Tangential s = slip(i);
   const double speed = s.norm();
-  return speed > 0 ? Tangential(-entry.smooth->ratio(speed) * (s / speed)) : Tangential(Tangential::Zero());
+  if (!(speed > 0)) return Tangential::Zero();
+  return -ask_friction(i, "ratio", [&] { return entry.smooth->ratio(speed); }) * (s / speed);
 }
 
 Eigen::Matrix2d AssembledSystem::Work::friction_damping(int i) {
@@ -98,14 +109,17 @@ Eigen::Matrix2d AssembledSystem::Work::friction_damping(int i) {
   if (entry.coulomb) {
     if (tangents(i) == 1 || modes.contacts[std::size_t(i)].friction != ContactMode::Friction::slide)
       return Eigen::Matrix2d::Zero();
-    return entry.coulomb->kinetic_coefficient(slip(i).norm()) * slip_direction(i).slope();
+    const double speed = slip(i).norm();
+    const double mu = ask_friction(i, "kinetic_coefficient", [&] { return entry.coulomb->kinetic_coefficient(speed); });
+    return mu * slip_direction(i).slope();
   }
   if (!entry.smooth) return Eigen::Matrix2d::Zero();
   const Tangential s = slip(i);
-  const double speed = s.norm(), slope = entry.smooth->slope(speed);
+  const double speed = s.norm();
+  const double slope = ask_friction(i, "slope", [&] { return entry.smooth->slope(speed); });
   if (speed == 0) return slope * Eigen::Matrix2d::Identity();
   const Tangential e = s / speed;
-  const double turning = entry.smooth->ratio(speed) / speed;
+  const double turning = ask_friction(i, "ratio", [&] { return entry.smooth->ratio(speed); }) / speed;
   return turning * Eigen::Matrix2d::Identity() + (slope - turning) * e * e.transpose();
 }
 

@@ -69,7 +69,7 @@ const JointEntry& AssembledSystem::Work::joint_of(int contact) const {
 void AssembledSystem::Work::slip_row(int contact, Rows& into) {
   const JointBearing& joint = *model->contacts[std::size_t(contact)].joint;
   const Slots& at = contact_slots[std::size_t(contact)];
-  called(joint_of(contact).name, "slip_row");
+  called(joint_of(contact).origin, "slip_row");
   rows.resize(1, model->world.space);
   joint.bearing->slip_row(t, motion(at.A), motion(at.B), rows);
   into.g(1) = rows.g(0), into.g_t(1) = rows.g_t(0), into.gamma(1) = rows.gamma(0);
@@ -81,12 +81,13 @@ AssembledSystem::Work::Bearing& AssembledSystem::Work::bearing(int contact) {
   if (b.point == point) return b;
   const JointEntry& joint = joint_of(contact);
   const Slots& at = contact_slots[std::size_t(contact)];
-  called(joint.name, "rows");
+  const CallSite around = site;
+  called(joint.origin, "rows");
   evaluate_constraint(*joint.joint, joint.rows, motions(at), at.count, rows);
-  called(joint.name, "bearings");
+  called(joint.origin, "bearings");
   b.at.begin(model->world.space);
   model->contacts[std::size_t(contact)].joint->bearing->bearings(t, motion(at.A), motion(at.B), b.at);
-  returned();
+  site = around;
   b.loads = b.at.C * rows.H_B.transpose();
   b.point = point;
   return b;
@@ -202,7 +203,7 @@ void AssembledSystem::Work::add_slip_tangent(int contact, Blend c, const Vec& la
   const double ratio = friction_ratio(contact)[0], held = row >= 0 ? lambda(row) : 0;
   if (c.c_k == 0 || (ratio == 0 && held == 0)) return;
   const JointEntry& joint = joint_of(contact);
-  called(joint.name, "bearings");
+  called(joint.origin, "bearings");
   const SlipForce force(joint, *model->contacts[std::size_t(contact)].joint->bearing, t,
                         lambda.segment(joint.row, joint.rows), ratio, held);
   const std::array<int, 2> both = {at.A, at.B};

@@ -1,6 +1,6 @@
 // Rows of bodies, joints and contacts at the point: g, g_dot, gamma, G and W.
-#include "system/assembly.hpp"
 #include "linear/dense/fetch.hpp"
+#include "system/assembly.hpp"
 
 namespace trammel::model {
 
@@ -19,7 +19,7 @@ void AssembledSystem::Work::evaluate_rows() {
   }
   for (const std::size_t i : joint_order) {
     const JointEntry& entry = model->joints[i];
-    called(entry.name, "rows");
+    called(entry.origin, "rows");
     const Slots& at = joint_slots[i];
     const Seen seen = motions_in_passing(at);
     evaluate_constraint(*entry.joint, entry.rows, seen, at.count, rows);
@@ -67,7 +67,7 @@ void AssembledSystem::Work::place_constant_rows() {
       motions[k] = chain.motion_at_zero(at[int(k)]);
       seen[k] = &motions[k];
     }
-    called(entry.name, "rows");
+    called(entry.origin, "rows");
     rows.resize(entry.rows, model->world.space, at.count);
     entry.joint->rows_between(0, Motions(seen.data(), std::size_t(at.count)), rows);
     for (int k = 0; k < at.count; ++k)  // from 0, as it was laid out
@@ -119,7 +119,7 @@ void AssembledSystem::Work::place_rows(const Rows& r, const Slots& at, const See
 }
 
 void AssembledSystem::Work::evaluate_own_rows(const BodyEntry& entry) {
-  called(entry.name, "own_rows");
+  called(entry.origin, "own_rows");
   const auto v_body = v.segment(entry.v0, entry.nv);
   own_rows.resize(entry.rows, entry.nv);
   entry.constrained->own_rows(t, q.segment(entry.q0, entry.nq), v_body, own_rows);

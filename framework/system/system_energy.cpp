@@ -8,7 +8,7 @@ Energy AssembledSystem::energy() {
   Work& w = *work_;
   Energy sum;
   for (const BodyEntry& entry : w.model->bodies) {
-    w.called(entry.name, "energy");
+    w.called(entry.origin, "energy");
     const Energy e = entry.body->energy(w.t, w.q.segment(entry.q0, entry.nq), w.v.segment(entry.v0, entry.nv));
     sum.kinetic += e.kinetic;
     sum.potential += e.potential;
@@ -16,12 +16,12 @@ Energy AssembledSystem::energy() {
   }
   for (std::size_t i = 0; i < w.force_slots.size(); ++i) {
     const int A = w.force_slots[i].A, B = w.force_slots[i].B;
-    w.called(w.model->forces[i].name, "potential");
+    w.called(w.model->forces[i].origin, "potential");
     sum.elastic += w.model->forces[i].force->potential(w.t, w.motion(A), w.motion(B));
   }
   for (std::size_t i = 0; i < w.contact_slots.size(); ++i)
     if (w.model->contacts[i].force && w.modes.contacts[i].closed) {
-      w.called(w.model->contacts[i].name, "potential");
+      w.called(w.model->contacts[i].origin, "potential");
       sum.elastic += w.on_surface(i) ? w.surface(i).sums().potential
                                      : w.model->contacts[i].force->potential(w.contact(int(i)).g(0));
     }
@@ -63,19 +63,19 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     if (may_follow_law(slot)) sum.markers -= power_of_law(w.motion(slot), w.v, w.chain.first_velocity(slot), wrench);
   };
   for (const BodyEntry& entry : w.model->bodies) {
-    w.called(entry.name, "power");
+    w.called(entry.origin, "power");
     const Power p = entry.body->power(w.t, w.q.segment(entry.q0, entry.nq), w.v.segment(entry.v0, entry.nv));
     sum.drives += p.supplied;
     sum.dampers += p.dissipated;
   }
   for (std::size_t i = 0; i < w.force_slots.size(); ++i) {
     const int A = w.force_slots[i].A, B = w.force_slots[i].B;
-    w.called(w.model->forces[i].name, "power");
+    w.called(w.model->forces[i].origin, "power");
     const Power p = w.model->forces[i].force->power(w.t, w.motion(A), w.motion(B));
     sum.drives += p.supplied;
     sum.dampers += p.dissipated;
     if (!may_follow_law(A) && !may_follow_law(B)) continue;
-    w.called(w.model->forces[i].name, "wrench");
+    w.called(w.model->forces[i].origin, "wrench");
     w.on_A.setZero(twist_size(w.model->world.space));
     w.on_B.setZero(twist_size(w.model->world.space));
     w.model->forces[i].force->wrench(w.t, w.motion(A), w.motion(B), w.on_A, w.on_B);
@@ -109,7 +109,7 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     }
     const ContactForce* law = w.model->contacts[i].force;
     const double gap = r.g(0), rate = gap_rate(int(i)), approach = w.modes.contacts[i].approach_speed;
-    w.called(w.model->contacts[i].name, "normal");
+    w.called(w.model->contacts[i].origin, "normal");
     // What the law gives beyond its elastic part, which is its value at rest.
     const double normal = law->normal(gap, rate, approach);
     sum.contacts -= (normal - law->normal(gap, 0, approach)) * rate;
@@ -164,22 +164,22 @@ CallSite AssembledSystem::find_not_finite() {
     const auto v = w.v.segment(entry.v0, entry.nv);
     Vec f = Vec::Zero(entry.nv);
     entry.body->force(w.t, q, v, f);
-    if (!f.allFinite()) return {&entry.name, "force"};
+    if (!f.allFinite()) return {&entry.origin, "force"};
     numerics::SparseSum M;
     Matrix target = Matrix::onto(M);
     M.fill(entry.nv, [&] { entry.body->mass(w.t, q, target); });
-    if (!M.matrix().coeffs().allFinite()) return {&entry.name, "mass"};
+    if (!M.matrix().coeffs().allFinite()) return {&entry.origin, "mass"};
     if (entry.rows == 0) continue;
     w.own_rows.resize(entry.rows, entry.nv);
     entry.constrained->own_rows(w.t, q, v, w.own_rows);
     if (!w.own_rows.g.allFinite() || !w.own_rows.G.allFinite() || !w.own_rows.gamma.allFinite())
-      return {&entry.name, "own_rows"};
+      return {&entry.origin, "own_rows"};
   }
   for (int slot = 0; slot < w.chain.slots(); ++slot) {
     if (w.chain.body(slot) < 0 || w.chain.on_surface(slot)) continue;
     const Motion& m = w.motion(slot);
     if (!m.x.allFinite() || !m.V.allFinite() || !m.bias.allFinite() || !m.J.allFinite())
-      return {&w.model->bodies[std::size_t(w.chain.body(slot))].name, "motion"};
+      return {&w.model->bodies[std::size_t(w.chain.body(slot))].origin, "motion"};
   }
   for (std::size_t i = 0; i < w.force_slots.size(); ++i) {
     const int A = w.force_slots[i].A, B = w.force_slots[i].B;
@@ -187,20 +187,20 @@ CallSite AssembledSystem::find_not_finite() {
     w.on_A.setZero(twist);
     w.on_B.setZero(twist);
     w.model->forces[i].force->wrench(w.t, w.motion(A), w.motion(B), w.on_A, w.on_B);
-    if (!w.on_A.allFinite() || !w.on_B.allFinite()) return {&w.model->forces[i].name, "wrench"};
+    if (!w.on_A.allFinite() || !w.on_B.allFinite()) return {&w.model->forces[i].origin, "wrench"};
   }
   for (std::size_t i = 0; i < w.joint_slots.size(); ++i) {
     const JointEntry& entry = w.model->joints[i];
     w.evaluate_constraint(*entry.joint, entry.rows, w.motions(w.joint_slots[i]), w.joint_slots[i].count, w.rows);
-    if (!w.rows.g.allFinite() || !w.rows.gamma.allFinite()) return {&entry.name, "rows"};
+    if (!w.rows.g.allFinite() || !w.rows.gamma.allFinite()) return {&entry.origin, "rows"};
     for (int k = 0; k < w.joint_slots[i].count; ++k)
-      if (!w.rows.H(k).allFinite()) return {&entry.name, "rows"};
+      if (!w.rows.H(k).allFinite()) return {&entry.origin, "rows"};
   }
   for (const Work::Bearing& b : w.bearings) {
     const Rows& slip = w.contact(b.contact);
     if (!slip.g.allFinite() || !slip.gamma.allFinite() || !slip.H_A.allFinite() || !slip.H_B.allFinite())
-      return {&w.joint_of(b.contact).name, "slip_row"};
-    if (!w.bearing(b.contact).loads.allFinite()) return {&w.joint_of(b.contact).name, "bearings"};
+      return {&w.joint_of(b.contact).origin, "slip_row"};
+    if (!w.bearing(b.contact).loads.allFinite()) return {&w.joint_of(b.contact).origin, "bearings"};
   }
   return {};
 }

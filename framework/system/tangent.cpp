@@ -47,21 +47,24 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
     for (int i = 0; i < sizes.nv; ++i) S.add(i, i, c.c_1);
   for (const BodyEntry& entry : model->bodies) {
     Matrix target = S.from(entry.v0, entry.v0);
-    called(entry.name, "tangent");
     const auto q_body = q.segment(entry.q0, entry.nq);
     const auto v_body = v.segment(entry.v0, entry.nv);
     const auto a_body = a.segment(entry.v0, entry.nv);
+    called(entry.origin, "add_own_rows_derivative");
     if (entry.rows > 0 && c.c_k != 0)
       entry.constrained->add_own_rows_derivative(t, q_body, lambda.segment(entry.row, entry.rows), c.c_k, target);
     if (carried && entry.carried_stress) {
+      called(entry.origin, "add_tangent_with_stress_from");
       entry.carried_stress->add_tangent_with_stress_from(t, q_body, carried->from.segment(entry.q0, entry.nq),
                                                          carried->dq.segment(entry.v0, entry.nv), c.c_k, target);
       continue;
     }
     if (entry.tangent) {
+      called(entry.origin, "add_tangent");
       entry.tangent->add_tangent(t, q_body, v_body, a_body, c, target);
       continue;
     }
+    called(entry.origin, "mass");
     entry.body->mass(t, q_body, target);
     if (c.c_m != 1) {
       Mat M_body = Mat::Zero(entry.nv, entry.nv);
@@ -70,6 +73,7 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
       target.add(0, 0, M_body, c.c_m - 1);
     }
     Mat block;
+    called(entry.origin, "force");
     if (c.c_d != 0) {
       velocity_differences(
           v_body,
@@ -97,13 +101,13 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
     }
   }
   for (std::size_t i = 0; i < force_slots.size(); ++i) {
-    called(model->forces[i].name, "wrench");
+    called(model->forces[i].origin, "wrench");
     const std::array<int, 2> both = {force_slots[i].A, force_slots[i].B};
     add_wrench_tangent(chain, both, t, q, v, ForceWrench(*model->forces[i].force, t), -c.c_k, -c.c_d, S);
   }
   for (std::size_t i = 0; i < joint_slots.size() && c.c_k != 0; ++i) {
     const JointEntry& entry = model->joints[i];
-    called(entry.name, "rows");
+    called(entry.origin, "rows");
     add_reaction_of(*entry.joint, entry.tangent, joint_slots[i], lambda.segment(entry.row, entry.rows), c.c_k, S);
   }
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
@@ -132,6 +136,7 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
     } else {
       const double rate = contact_rate(int(i), 0), approach = modes.contacts[i].approach_speed;
       const ContactForce* law = model->contacts[i].force;
+      called(model->contacts[i].origin, "slope");
       pull = pull_beside = -law->normal(r.g(0), rate, approach);
       const auto [by_gap, by_rate] = law->slope(r.g(0), rate, approach);
       add(0, -(c.c_k * by_gap + c.c_d * by_rate), [&](int k) { return pressed_by(r.H(k), 1, ratio); });

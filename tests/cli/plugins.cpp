@@ -264,6 +264,44 @@ TEST_F(Plugin, ThatReturnsNanIsNamedWithTheTime) {
   EXPECT_THAT(result.err, HasSubstr("t = 0.5"));
 }
 
+// Whichever call throws, and whoever asked for it: a joint asks for motions of bodies, a contact for its friction law.
+TEST_F(Plugin, ThatThrowsIsNamedInEveryCallOfEveryInterface) {
+  const std::string scene = R"({"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+    "bodies": {"b": {"type": "throwing_body"}, "c": {"type": "throwing_body"}, "p": {"type": "point_mass", "mass": 1, "velocity": [1, 0]}},
+    "joints": {"j": {"type": "throwing_joint", "between": ["ground", "b.point"]}},
+    "forces": {"f": {"type": "throwing_force", "between": ["ground", "c.point"]}},
+    "contacts": {"k": {"type": "throwing_contact", "friction": {"type": "throwing_friction"},
+                       "between": ["p.point", {"plane": {"point": [0, -1e-6], "normal": [0, 1]}}]}},
+    "integrator": {"type": "hht_alpha", "alpha": -0.1, "step": 1e-3}, "simulate": {"until": 0.01}})";
+  cli::write_file(folder.path() / "throws.json", scene);
+  struct Case {
+    const char *path, *kind, *call;
+  };
+  for (const Case& c : {Case{"bodies.b", "body throwing_body", "mass"},
+                        {"bodies.b", "body throwing_body", "force"},
+                        {"bodies.b", "body throwing_body", "energy"},
+                        {"bodies.b", "body throwing_body", "power"},
+                        {"bodies.b", "body throwing_body", "motion"},
+                        {"bodies.c", "body throwing_body", "motion"},
+                        {"bodies.b", "body throwing_body", "add_tangent"},
+                        {"bodies.b", "body throwing_body", "add_reaction_derivative"},
+                        {"joints.j", "joint throwing_joint", "rows"},
+                        {"forces.f", "force throwing_force", "wrench"},
+                        {"forces.f", "force throwing_force", "potential"},
+                        {"forces.f", "force throwing_force", "power"},
+                        {"contacts.k", "contact throwing_contact", "normal"},
+                        {"contacts.k", "contact throwing_contact", "potential"},
+                        {"contacts.k", "contact throwing_contact", "slope"},
+                        {"contacts.k.friction", "friction throwing_friction", "ratio"},
+                        {"contacts.k.friction", "friction throwing_friction", "slope"}}) {
+    const auto result = trammel({"run", "throws.json", "--plugin", (kPlugins / "throws_in.so").string(), "--set",
+                                 std::string(c.path) + ".in=" + c.call},
+                                {.folder = folder.path()});
+    EXPECT_EQ(result.exit_code, 3) << c.path << ", " << c.call << ": " << result.err;
+    EXPECT_THAT(result.err, HasSubstr(std::string(c.kind) + " (" + c.path + "): " + c.call)) << result.err;
+  }
+}
+
 // A sanitizer reports crashes by itself, so the program leaves them to it.
 #if !defined(__SANITIZE_ADDRESS__)
 TEST_F(Plugin, ThatCrashesInAnotherCommandThanRunIsNamedThereToo) {

@@ -2,28 +2,14 @@
 
 #include <exception>
 #include <new>
-#include <string_view>
 
 #include <fmt/format.h>
 
-#include "simulate/results/log_file.hpp"
 #include "run/run_failed.hpp"
+#include "simulate/results/log_file.hpp"
 
 namespace trammel::simulate {
 namespace {
-
-// Where a component of this name stands in the scene; `call` tells the kind.
-struct Place {
-  const char* group;
-  Kind kind;
-};
-
-Place place_of(std::string_view call) {
-  if (call == "rows" || call == "slip_row" || call == "bearings") return {"joints", Kind::joint};
-  if (call == "wrench" || call == "potential") return {"forces", Kind::force};
-  if (call == "normal") return {"contacts", Kind::contact};
-  return {"bodies", Kind::body};
-}
 
 std::string what_was_thrown() {
   try {
@@ -37,41 +23,20 @@ std::string what_was_thrown() {
 
 }  // namespace
 
-namespace {
-
-std::string path_of(const model::CallSite& site) {
-  return fmt::format("{}.{}", place_of(site.call).group, *site.component);
-}
-
-}  // namespace
-
 std::string said(const OutsideDomain& outside, const model::CallSite& site) {
-  return site.component ? fmt::format("{}: {}", path_of(site), outside.what()) : std::string(outside.what());
+  return site.origin ? fmt::format("{}: {}", site.origin->path, outside.what()) : std::string(outside.what());
 }
 
 scene::Problem problem_of(const OutsideDomain& outside, const model::CallSite& site, const scene::Value& root,
                           double t) {
-  const scene::Value* at = site.component ? root.at_path(path_of(site)) : nullptr;
+  const scene::Value* at = site.origin ? root.at_path(site.origin->path) : nullptr;
   return (at ? *at : root).problem(fmt::format("at t = {:.9g} s {}", t, outside.what()));
 }
 
-plugin::Origin origin_of(const model::CallSite& site, const scene::Value& root, plugin::Registry& registry) {
-  const Place place = place_of(site.call);
-  const std::string path = path_of(site);
-  if (const scene::Value* object = root.at_path(path))
-    if (const scene::Value* type = object->find("type")) {
-      scene::Problems ignored;
-      if (const plugin::Entry* entry = registry.find(place.kind, *type, ignored)) return entry->origin(path);
-    }
-  return {"", to_string(place.kind), path};
-}
-
-plugin::PluginError blame(const Setup& setup, const model::CallSite& site, const scene::Value& root,
-                          plugin::Registry& registry, double t, std::optional<long long> step) {
+plugin::PluginError blame(const Setup& setup, const model::CallSite& site, double t, std::optional<long long> step) {
   const std::string cause = what_was_thrown();
-  const plugin::PluginError error = site.component
-                                        ? plugin::PluginError(origin_of(site, root, registry), site.call, cause, t)
-                                        : plugin::PluginError(setup.integrator_origin, "step", cause, t);
+  const plugin::PluginError error(site.origin ? *site.origin : setup.integrator_origin,
+                                  site.origin ? site.call : "step", cause, t);
   return step ? error.in_step(*step) : error;
 }
 
@@ -86,8 +51,7 @@ void require_arithmetic(plugin::ProcessSettings& settings, const Setup& setup, d
   throw plugin::PluginError(origin, has_integrator ? "step" : "a load step", cause, t).in_step(step);
 }
 
-void rethrow_blamed(const Setup& setup, const model::CallSite& site, const scene::Value& root,
-                    plugin::Registry& registry, double t) {
+void rethrow_blamed(const Setup& setup, const model::CallSite& site, const scene::Value& root, double t) {
   try {
     throw;
   } catch (const std::bad_alloc&) {
@@ -107,8 +71,8 @@ void rethrow_blamed(const Setup& setup, const model::CallSite& site, const scene
   } catch (const OutsideDomain& e) {
     throw scene::SceneError({problem_of(e, site, root, t)});
   } catch (...) {
-    if (!site.component && setup.integrator_origin.file.empty()) throw;  // statics: nobody else can be meant
-    throw blame(setup, site, root, registry, t, std::nullopt);
+    if (!site.origin && setup.integrator_origin.file.empty()) throw;  // statics: nobody else can be meant
+    throw blame(setup, site, t, std::nullopt);
   }
 }
 

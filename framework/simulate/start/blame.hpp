@@ -6,31 +6,27 @@
 
 #include <trammel/outside_domain.hpp>
 
-#include "system/assembled_system.hpp"
 #include "plugin/process_settings.hpp"
-#include "plugin/registry.hpp"
 #include "simulate/start/setup.hpp"
+#include "system/assembled_system.hpp"
 
 namespace trammel::simulate {
 
 // Inside a catch block; see `blaming`.
-[[noreturn]] void rethrow_blamed(const Setup& setup, const model::CallSite& site, const scene::Value& root,
-                                 plugin::Registry& registry, double t);
+[[noreturn]] void rethrow_blamed(const Setup& setup, const model::CallSite& site, const scene::Value& root, double t);
 
 // Inside a catch block: what was thrown, as the fault of the component that was being called, or of the integrator if none was.
 // Without a step outside a run.
-plugin::PluginError blame(const Setup& setup, const model::CallSite& site, const scene::Value& root,
-                          plugin::Registry& registry, double t, std::optional<long long> step);
+plugin::PluginError blame(const Setup& setup, const model::CallSite& site, double t, std::optional<long long> step);
 
 // Lets what the framework itself throws pass, errors of the scene and of plugins with a name among it; blames all else. For calls
 // into a model that is no run yet.
 template <class Call>
-void blaming(const Setup& setup, const model::AssembledSystem& system, const scene::Value& root,
-             plugin::Registry& registry, double t, Call call) {
+void blaming(const Setup& setup, const model::AssembledSystem& system, const scene::Value& root, double t, Call call) {
   try {
     call();
   } catch (...) {
-    rethrow_blamed(setup, system.last_call(), root, registry, t);
+    rethrow_blamed(setup, system.last_call(), root, t);
   }
 }
 
@@ -40,8 +36,5 @@ scene::Problem problem_of(const OutsideDomain& outside, const model::CallSite& s
                           double t);
 // Wrong numbers otherwise: throws PluginError if a component has left the arithmetic of the process changed, and puts it back.
 void require_arithmetic(plugin::ProcessSettings& settings, const Setup& setup, double t, long long step);
-
-// Where the component comes from, that was called there.
-plugin::Origin origin_of(const model::CallSite& site, const scene::Value& root, plugin::Registry& registry);
 
 }  // namespace trammel::simulate

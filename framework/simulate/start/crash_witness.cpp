@@ -1,21 +1,11 @@
 #include "simulate/start/crash_witness.hpp"
 
 #include "plugin/breadcrumb.hpp"
-#include "simulate/start/blame.hpp"
 
 namespace trammel::simulate {
 
-void CrashWitness::follow(const Setup& setup, const scene::Value& root, plugin::Registry& registry,
-                          const model::AssembledSystem& system, Clock clock) {
+void CrashWitness::follow(const Setup& setup, const model::AssembledSystem& system, Clock clock) {
   leave();
-  const auto all = [&](const auto& entries, const char* some_call) {
-    for (const auto& entry : entries)
-      origins_.emplace_back(&entry.name, origin_of({&entry.name, some_call}, root, registry));
-  };
-  all(setup.model->bodies, "force");
-  all(setup.model->joints, "rows");
-  all(setup.model->forces, "wrench");
-  all(setup.model->contacts, "normal");
   integrator_ = setup.integrator_origin;
   system_ = &system;
   clock_ = clock;
@@ -24,7 +14,6 @@ void CrashWitness::follow(const Setup& setup, const scene::Value& root, plugin::
 
 void CrashWitness::leave() {
   watching_ = false;
-  origins_.clear();
   system_ = nullptr;
   clock_ = {};
   recorder_ = nullptr;
@@ -37,11 +26,10 @@ CrashWitness::Culprit CrashWitness::culprit() const noexcept {
     const model::CallSite& site = system_->last_call();
     if (clock_.t) who.t = *clock_.t;
     if (clock_.steps) who.step = *clock_.steps + 1;
-    for (const auto& [name, origin] : origins_)
-      if (name == site.component) {
-        who.origin = &origin, who.call = site.call;
-        return who;
-      }
+    if (site.origin) {
+      who.origin = site.origin, who.call = site.call;
+      return who;
+    }
   }
   const plugin::PresentCall guarded = plugin::present_call();
   who.origin = guarded.origin, who.call = guarded.call;

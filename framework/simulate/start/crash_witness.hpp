@@ -5,14 +5,11 @@
 #include <atomic>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "system/assembled_system.hpp"
-#include "plugin/registry.hpp"
 #include "simulate/results/last_result.hpp"
 #include "simulate/results/recorder.hpp"
 #include "simulate/start/setup.hpp"
+#include "system/assembled_system.hpp"
 
 namespace trammel::simulate {
 
@@ -24,8 +21,7 @@ class CrashWitness {
   };
   // From here to `leave` the arguments live, the recorder perhaps not yet. The call around the component's is what
   // plugin::Breadcrumb says, and in a run without one the integrator's step.
-  void follow(const Setup& setup, const scene::Value& root, plugin::Registry& registry,
-              const model::AssembledSystem& system, Clock clock);
+  void follow(const Setup& setup, const model::AssembledSystem& system, Clock clock);
   void record_with(const Recorder& recorder, const LastResult& result) {
     recorder_ = &recorder;
     result_ = &result;
@@ -46,7 +42,6 @@ class CrashWitness {
 
  private:
   std::atomic<bool> watching_ = false;
-  std::vector<std::pair<const std::string*, plugin::Origin>> origins_;  // by the entry's name in the model
   plugin::Origin integrator_;
   const model::AssembledSystem* system_ = nullptr;
   Clock clock_;
@@ -57,10 +52,9 @@ class CrashWitness {
 // A witness, if there is one, follows while this lives.
 class Watch {
  public:
-  Watch(CrashWitness* witness, const Setup& setup, const scene::Value& root, plugin::Registry& registry,
-        const model::AssembledSystem& system, CrashWitness::Clock clock)
+  Watch(CrashWitness* witness, const Setup& setup, const model::AssembledSystem& system, CrashWitness::Clock clock)
       : witness_(witness) {
-    if (witness_) witness_->follow(setup, root, registry, system, clock);
+    if (witness_) witness_->follow(setup, system, clock);
   }
   ~Watch() {
     if (witness_) witness_->leave();

@@ -2,20 +2,20 @@
 
 #include <fmt/format.h>
 
-#include "system/assembled_system.hpp"
+#include "diagnose/redundancy.hpp"
 #include "model/build.hpp"
 #include "model/scene_keys.hpp"
 #include "plugin/describe.hpp"
 #include "plugin/parameters.hpp"
-#include "simulate/start/blame.hpp"
 #include "simulate/contact/contact_reach.hpp"
-#include "simulate/start/crash_witness.hpp"
 #include "simulate/results/field_line.hpp"
+#include "simulate/start/blame.hpp"
+#include "simulate/start/crash_witness.hpp"
 #include "simulate/start/initial_state.hpp"
 #include "simulate/start/integrator_choice.hpp"
 #include "simulate/start/latch_reach.hpp"
-#include "diagnose/redundancy.hpp"
 #include "simulate/start/smooth_laws.hpp"
+#include "system/assembled_system.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -194,8 +194,8 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purp
   problems.throw_if_any();
   for (const std::string& file : registry.files()) setup.plugins.push_back(plugin::identify(file));
   model::AssembledSystem system(setup.model);
-  const Watch watch(witness, setup, root, registry, system, {&setup.settings.start, nullptr});
-  blaming(setup, system, root, registry, setup.settings.start, [&] {
+  const Watch watch(witness, setup, system, {&setup.settings.start, nullptr});
+  blaming(setup, system, root, setup.settings.start, [&] {
     find_start(setup, system, root, problems);
     if (purpose == Purpose::motion && !root.find("integrator"))
       choose_integrator(setup, system, chosen_before, registry, problems);

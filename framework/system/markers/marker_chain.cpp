@@ -8,7 +8,8 @@
 
 namespace trammel::model {
 
-MarkerChain::MarkerChain(const Model& model) : model_(model), known_(model.bodies.size() + 1) {}
+MarkerChain::MarkerChain(const Model& model, CallSite& site)
+    : model_(model), site_(site), known_(model.bodies.size() + 1) {}
 
 int MarkerChain::slot(MarkerRef marker) {
   std::vector<int>& of_body = known_[std::size_t(marker.body + 1)];
@@ -68,15 +69,18 @@ const Motion& MarkerChain::nearest(int index, const Vec3& to, double t, const Ve
   const auto q_body = q.segment(entry.q0, entry.nq);
   Eigen::Vector2d parameters;
   Vec3 x, normal;
-  entry.surface->nearest(t, q_body, to, parameters, x, normal);
-  entry.surface->motion_at(parameters, t, q_body, v.segment(entry.v0, entry.nv), motion);
+  ask(slot.marker.body, "nearest", [&] { entry.surface->nearest(t, q_body, to, parameters, x, normal); });
+  ask(slot.marker.body, "motion_at",
+      [&] { entry.surface->motion_at(parameters, t, q_body, v.segment(entry.v0, entry.nv), motion); });
   if (still_) motion.V.setZero(), motion.bias.setZero();
   slot.point = point_;
   return motion;
 }
 
 void MarkerChain::evaluate(const Slot& slot, double t, const Vec& q, const Vec& v, Motion& motion) const {
-  slot.body->motion(slot.marker.marker, t, q.segment(slot.q0, slot.nq), v.segment(slot.v0, slot.nv), motion);
+  ask(slot.marker.body, "motion", [&] {
+    slot.body->motion(slot.marker.marker, t, q.segment(slot.q0, slot.nq), v.segment(slot.v0, slot.nv), motion);
+  });
   if (still_) motion.V.setZero(), motion.bias.setZero();
 }
 
@@ -132,7 +136,8 @@ Motion MarkerChain::motion_at_zero(int index) const {
   const Slot& slot = slots_[std::size_t(index)];
   if (!slot.body) return kept_[std::size_t(index)].motion;
   Motion motion;
-  slot.body->motion(slot.marker.marker, 0, Vec::Zero(slot.nq), Vec::Zero(slot.nv), motion);
+  ask(slot.marker.body, "motion",
+      [&] { slot.body->motion(slot.marker.marker, 0, Vec::Zero(slot.nq), Vec::Zero(slot.nv), motion); });
   return motion;
 }
 
@@ -188,8 +193,10 @@ void MarkerChain::add_reaction_derivative(int index, double t, const Vec& q, con
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
   if (!entry.reaction_derivative) return add_numeric_reaction_derivative(index, t, q, F, c, S);
   Matrix target = S.from(entry.v0, entry.v0);
-  entry.reaction_derivative->add_reaction_derivative(slot.marker.marker, t, q.segment(entry.q0, entry.nq), F, c,
-                                                     target);
+  ask(slot.marker.body, "add_reaction_derivative", [&] {
+    entry.reaction_derivative->add_reaction_derivative(slot.marker.marker, t, q.segment(entry.q0, entry.nq), F, c,
+                                                       target);
+  });
 }
 
 void MarkerChain::add_numeric_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c,
@@ -199,7 +206,7 @@ void MarkerChain::add_numeric_reaction_derivative(int index, double t, const Vec
   v_zero_.setZero(entry.nv);
   const auto generalised_force = [&](const Vec& q_body, Vec& out) {
     probe_.dofs = kept_[std::size_t(index)].motion.dofs;
-    entry.body->motion(slot.marker.marker, t, q_body, v_zero_, probe_);
+    ask(slot.marker.body, "motion", [&] { entry.body->motion(slot.marker.marker, t, q_body, v_zero_, probe_); });
     out.setZero(entry.nv);
     for (std::size_t j = 0; j < probe_.dofs.size(); ++j) out(probe_.dofs[j]) = probe_.J.col(Eigen::Index(j)).dot(F);
   };

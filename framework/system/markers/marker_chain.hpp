@@ -8,15 +8,17 @@
 #include <typeindex>
 #include <vector>
 
+#include "linear/dense/fetch.hpp"
+#include "model/call_site.hpp"
 #include "model/model.hpp"
 #include "system/markers/twist_rows.hpp"
-#include "linear/dense/fetch.hpp"
 
 namespace trammel::model {
 
 class MarkerChain {
  public:
-  explicit MarkerChain(const Model& model);
+  // Bodies that are asked for motions are named at `site` meanwhile.
+  MarkerChain(const Model& model, CallSite& site);
 
   // Slots stand for markers that are in use.
   int slot(MarkerRef marker);
@@ -77,7 +79,13 @@ class MarkerChain {
   void keep_linear(int slot);
   void add_numeric_reaction_derivative(int slot, double t, const Vec& q, const Wrench& F, double c, Matrix& S);
 
+  template <class Call>
+  void ask(int body, const char* name, Call call) const {
+    call_inside(site_, model_.bodies[std::size_t(body)].origin, name, [&] { return call(), true; });
+  }
+
   const Model& model_;
+  CallSite& site_;
   std::vector<Slot> slots_;
   std::deque<Kept> kept_;  // of each slot; references to motions stay valid
   // Of bodies with SharedMotion, class by class: for the markers of one joint at a time. Kept for 10,000 links they are 14 MB, which
