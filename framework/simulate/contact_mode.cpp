@@ -53,7 +53,7 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
       changes.locked ? complementarity::ContactSolution{LcpOutcome::no_solution, 0} : decide(state, changes, jumped);
   if (solution.outcome == LcpOutcome::no_solution && !jumped) {  // rule 8
     jumped = without_collision = true;
-    for (TouchingContact& c : touching_) c.without_collision = true;
+    for (TouchingContact& c : touching_) c.without_collision = true, c.raised = changes.raised;
     for (TouchingContact& c : bearings_) c.without_collision = true;
     system_.set_modes(before_);
     system_.move_to(state.t, state.q, state.v);
@@ -314,6 +314,18 @@ void ContactModes::take_rates(State& state, const std::vector<bool>& rests) {
   system_.impulse_response(held, jump, delassus);
   state.v -= jump * delassus.completeOrthogonalDecomposition().solve(rates);
   system_.move_to(state.t, state.q, state.v);
+}
+
+double ContactModes::distance_from_critical(const State& state) {
+  system_.move_to(state.t, state.q, state.v);
+  before_ = modes_ = system_.modes();
+  shared_before_.assign(modes_.contacts.size(), false);
+  candidates_.clear();
+  for (int i = 0; i < int(modes_.contacts.size()); ++i)
+    if (modes_.contacts[i].closed && system_.model().contacts[i].restitution) candidates_.push_back(i);
+  gather(state, {}, false);
+  problem_.prepare(system_);
+  return problem_.distance_from_critical(before_);
 }
 
 double ContactModes::step_limit(const State& state) {
