@@ -127,7 +127,7 @@ TEST(CompliantContact, ThatOnlyTouchesDoesNotHoldUpTheOthers) {
       };
       const char *floor = R"("point": [0, 0], "normal": [0, 1])",
                  *roof = R"("point": [0, 0], "normal": [0, -1], "on": "roof.middle")",
-                 *head = R"("point": [0, 0], "normal": ["=-cos(a)", "=sin(a)"], "on": "right.head")";
+                 *head = R"x("point": [0, 0], "normal": ["=-cos(a)", "=sin(a)"], "on": "right.head")x";
       const Finished run = run_file("contact/card_house.json",
                                     {{"contacts.left_foot", contact("left.foot", floor)},
                                      {"contacts.right_foot", contact("right.foot", floor)},

@@ -408,7 +408,7 @@ TEST(InThePlaneAndInSpace, AShakenBlockDoesTheSame) {
 struct SlidingBlock {
   double mass = 1, mu = 0.5, omega = 0;
   Eigen::Vector3d L = {1, 1, 1}, inertia = {1, 1, 1}, velocity = {0, 0, 0}, load = {0, 0, 0}, at = {0, 0, 0};
-  std::vector<Eigen::Vector2d> feet;
+  std::vector<Eigen::Vector2d> feet = {};
   double until = 0.3;
 };
 
@@ -447,8 +447,9 @@ void expect_trusted_and_quick(const Finished& run) {
   EXPECT_LT(run.result["counts"]["steps"], 20000);
 }
 
-// Friction couples both motions so that they end at one instant (Farkas et al., Phys. Rev. Lett. 90, 248302 (2003)).
-TEST(SlidingBlock, EndsItsSlidingAndItsSpinTogether) {
+// Friction couples both motions so that they end at one instant (Farkas et al., Phys. Rev. Lett. 90, 248302 (2003)), unless it turns
+// about one foot in the end, or one foot is passed by the centre of its turn.
+TEST(SlidingBlock, ComesToRestOnAllFeetButOneAtOnce) {
   std::mt19937 random(27);
   const auto u = [&random](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   for (int i = 0; i < 8; ++i) {
@@ -470,7 +471,7 @@ TEST(SlidingBlock, EndsItsSlidingAndItsSpinTogether) {
     EXPECT_NEAR(run.end("wz"), 0, 1e-12) << i;
     const std::vector<Event> sticks = run.of_kind("stick");
     ASSERT_GE(sticks.size(), b.feet.size()) << i;
-    for (std::size_t k = 1; k < b.feet.size(); ++k)
+    for (std::size_t k = 1; k + 1 < b.feet.size(); ++k)
       EXPECT_NEAR(sticks[sticks.size() - 1 - k].t, sticks.back().t, 1e-7) << i;
   }
 }
