@@ -5,6 +5,7 @@
 
 #include "complementarity/shares/admissible_forces.hpp"
 #include "complementarity/shares/carrying_equations.hpp"
+#include "complementarity/shares/independent_rows.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -151,6 +152,11 @@ class ExactModes {
   // projections leave of the accelerations: round-off of forces that may be many times those that accelerate.
   void share_admissibly(const CarryingEquations& equations) {
     if (springs_are_admissible()) return;
+    if (!share_beside_sliding(equations) && carrying_.sliding_shares) share_with_sliding();
+  }
+
+  // Those that slide keep springs' share. False: none is admissible.
+  bool share_beside_sliding(const CarryingEquations& equations) {
     std::vector<Index> columns;
     const std::vector<SharingContact> sharing = sharing_contacts(columns);
     const Mat E = carrying_.rows.resultants()(Eigen::all, columns);
@@ -159,11 +165,51 @@ class ExactModes {
     Vec resultants = E * forces;
     for (int corrections = 0; corrections < 3; ++corrections) {
       const double missed = admissible_forces(sharing, E, resultants, forces);
-      if (!(missed <= round_off * resultants.norm())) return;
+      if (!(missed <= round_off * resultants.norm())) return corrections > 0;
       for (std::size_t k = 0; k < columns.size(); ++k) F_[row_at(columns[k])] = forces[Index(k)];
       a_ = A_ * F_ + b_;
       resultants += equations.correction(a_);
     }
+    return true;
+  }
+
+  // Along self-stresses of the forces, n + p t of what slides: they leave all accelerations as they are.
+  void share_with_sliding() {
+    std::vector<Index> columns;
+    std::vector<SharingContact> sharing = sharing_contacts(columns);
+    std::vector<Index> rows;
+    for (const Index k : columns) rows.push_back(row_at(k));
+    std::vector<std::size_t> sliding;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (carrying_.indeterminate[i] && points_[i].normal >= 0 && roles_[i].closed &&
+          roles_[i].tangent == Tangent::slides)
+        sliding.push_back(i);
+    const Index n = Index(rows.size());
+    Mat moved(A_.rows(), n + Index(sliding.size()));
+    moved.leftCols(n) = A_(Eigen::all, rows);
+    Vec forces(moved.cols());
+    forces.head(n) = F_(rows);
+    for (std::size_t k = 0; k < sliding.size(); ++k) {
+      const ContactPoint& p = points_[sliding[k]];
+      const Index column = n + Index(k);
+      moved.col(column) =
+          A_.col(p.normal) + A_.middleCols(p.tangent, p.tangents) * roles_[sliding[k]].ratio.head(p.tangents);
+      forces[column] = F_[p.normal];
+      sharing.emplace_back().normal = column;
+    }
+    const Mat E = independent_rows(moved);
+    const Vec kept = E * forces;
+    if (!(admissible_forces(sharing, E, kept, forces) <= round_off * kept.norm())) return;
+    Vec F = F_;
+    F(rows) = forces.head(n);
+    for (std::size_t k = 0; k < sliding.size(); ++k) {
+      const ContactPoint& p = points_[sliding[k]];
+      const double N = F[p.normal] = forces[n + Index(k)];
+      F.segment(p.tangent, p.tangents) = N * roles_[sliding[k]].ratio.head(p.tangents);
+    }
+    const Vec a = A_ * F + b_;
+    if (!((a - a_).lpNorm<Eigen::Infinity>() <= largest_violation * acceleration_scale())) return;
+    F_ = F, a_ = a;
   }
 
   // The mode that is contradicted most, as an acceleration. False: none is.

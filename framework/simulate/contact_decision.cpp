@@ -120,16 +120,19 @@ void ContactModes::gather(const State& state, const ContactChanges& changes, boo
 }
 
 // Rule 7: contacts that slide while what rests, and what is closed, leaves them no slip. The steps leave some, so such slips, the
-// feet of one block, do not reach 0 at one instant. True if there are any, which are added to `changes`.
+// feet of one block, do not reach 0 at one instant. In space also those that have no direction then: a body that slides and spins
+// ends both at once. True if there are any, which are added to `changes`.
 bool ContactModes::stop_with_others(ContactChanges& changes) {
   if (changes.stopped.empty()) return false;
   const std::vector<bool> held = problem_.held_by_others();
   const std::size_t before = changes.stopped.size();
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     const int contact = problem_.who[i].contact;
-    if (!held[i] || !system_.model().contacts[contact].coulomb || contains(changes.stopped, contact)) continue;
-    if (before_.contacts[contact].closed && system_.slip(contact).norm() <= scale_.drift())
-      changes.stopped.push_back(contact);
+    const model::ContactMode& slid = before_.contacts[contact];
+    if (problem_.who[i].tangent != Tangent::sliding || !slid.closed || contains(changes.stopped, contact)) continue;
+    if (!system_.model().contacts[contact].coulomb) continue;
+    const double speed = system_.slip(contact).norm();
+    if (speed < slid.slow || (held[i] && speed <= scale_.drift())) changes.stopped.push_back(contact);
   }
   return changes.stopped.size() > before;
 }

@@ -22,6 +22,8 @@ namespace {
 // A contact that begins at rest has no approach speed for a damping law to scale with, and no such damping: 1/speed would hold
 // it by a viscosity without bound, which steps of no fixed length follow. Below this part of the scene's speed it is at rest.
 constexpr double least_approach = 1e-6;
+// Of the accelerations: one that has just let go departs as slowly as its force passes 0, up to the round-off of forces.
+constexpr double opened_by_error = 1e-6;
 
 }  // namespace
 
@@ -51,9 +53,25 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   find_candidates(changes);
   auto solution =
       changes.locked ? complementarity::ContactSolution{LcpOutcome::no_solution, 0} : decide(state, changes, jumped);
+  // A force that changes its sign at Painleve's critical state does so by way of infinity: without it the contact would approach.
+  const auto approaches_without_force = [&](int contact) {
+    return !modes_.contacts[contact].closed &&
+           system_.acceleration({contact, 0}, a_) < -opened_by_error * std::max(largest_, scale_.no_acceleration());
+  };
+  if (solution.outcome == LcpOutcome::solved && !changes.released.empty()) {
+    system_.set_modes(modes_);
+    system_.move_to(state.t, state.q, state.v);
+    system_.accelerate({}, a_, lambda_);
+    if (std::any_of(changes.released.begin(), changes.released.end(), approaches_without_force)) {
+      ContactChanges others = changes;
+      others.released.clear();
+      find_candidates(others);
+      solution = decide(state, others, jumped);
+    }
+  }
   if (solution.outcome == LcpOutcome::no_solution && !jumped) {  // rule 8
     jumped = without_collision = true;
-    for (TouchingContact& c : touching_) c.without_collision = true;
+    for (TouchingContact& c : touching_) c.without_collision = true, c.raised = changes.raised;
     for (TouchingContact& c : bearings_) c.without_collision = true;
     system_.set_modes(before_);
     system_.move_to(state.t, state.q, state.v);
@@ -314,6 +332,18 @@ void ContactModes::take_rates(State& state, const std::vector<bool>& rests) {
   system_.impulse_response(held, jump, delassus);
   state.v -= jump * delassus.completeOrthogonalDecomposition().solve(rates);
   system_.move_to(state.t, state.q, state.v);
+}
+
+double ContactModes::distance_from_critical(const State& state) {
+  system_.move_to(state.t, state.q, state.v);
+  before_ = modes_ = system_.modes();
+  shared_before_.assign(modes_.contacts.size(), false);
+  candidates_.clear();
+  for (int i = 0; i < int(modes_.contacts.size()); ++i)
+    if (modes_.contacts[i].closed && system_.model().contacts[i].restitution) candidates_.push_back(i);
+  gather(state, {}, false);
+  problem_.prepare(system_);
+  return problem_.distance_from_critical(before_);
 }
 
 double ContactModes::step_limit(const State& state) {

@@ -37,8 +37,8 @@
 //  7. What was left of the slip of those at rest by the steps (a drift) is ended by the least change of v. Others whose slip
 //     ends with it (the third foot of a table) are at rest as well, and so are those that what rests leaves no slip: from rule 5
 //     again.
-//  8. Where rigid contacts have no solution with finite forces (Painleve's rod), the slip stops in an impact without collision:
-//     rule 1 with nothing approaching. If that has none, the run ends with a message; so do modes that contradict each other
+//  8. Where rigid contacts have no solution with finite forces (Painleve's rod), or these grow beyond all bounds as that state is
+//     approached, the slip stops or turns in an impact without collision: rule 1 with nothing approaching. If that has none, the run ends with a message; so do modes that contradict each other
 //     at one instant (Simulator).
 // Degenerate cases: contact_forces.hpp. Where there are several solutions it is Lemke's, which looks first where no force is.
 #pragma once
@@ -64,11 +64,15 @@ struct ContactChanges {
   std::vector<int> toggled;   // ContactForce: force on or off
   std::vector<int> yielded;   // sticking contacts whose friction reached its bound
   std::vector<int> stopped;   // sliding contacts whose slip reached 0
-  bool locked = false;        // joints that slide have no finite forces from here on (rule 8)
+  bool locked = false;        // what slides has no finite forces from here on (rule 8)
+  double raised = 0;          // part by which friction then is taken as larger: how far from there the state may be
   bool empty() const {
     return struck.empty() && released.empty() && toggled.empty() && yielded.empty() && stopped.empty() && !locked;
   }
-  void clear() { struck.clear(), released.clear(), toggled.clear(), yielded.clear(), stopped.clear(), locked = false; }
+  void clear() {
+    struck.clear(), released.clear(), toggled.clear(), yielded.clear(), stopped.clear();
+    locked = false, raised = 0;
+  }
 };
 
 inline bool contains(const std::vector<int>& contacts, int i) {
@@ -92,7 +96,10 @@ class ContactModes {
   ImpactWarnings& impact_warnings() { return impact_warnings_; }
   const ImpactWarnings& impact_warnings() const { return impact_warnings_; }
 
-  double nothing() const;   // [m/s^2] less is no acceleration
+  double nothing() const;  // [m/s^2] less is no acceleration
+  // How near the forces of contacts that slide are to having no solution: the least pivot of their equations, of that without
+  // friction; 0 at Painleve's critical state, 1 far from it.
+  double distance_from_critical(const State& state);
   bool any_closed() const;  // but for the bearings of joints, which always are
 
   // [s] Of steps with error control, so that no double zero of a slip velocity is stepped over: 0.45 of the shortest

@@ -119,17 +119,20 @@ void EventLocation::restart(const State& now) {
   for (Watch& each : watches_) {
     if (each.kind == Kind::unload) each.little = little_force(each.group);
     if (each.kind == Kind::follow) each.little = 10 * modes_.nothing();
+    if (each.kind == Kind::hold) each.little = little_friction(each.contact);
   }
   next_.resize(watches_.size()), probe_.resize(watches_.size());
   evaluate(now, now_);
   choose_sides(before);
+  for (Watch& watch : watches_) measure_slow(0, now, watch);
   for (std::size_t w = 0; w < watches_.size(); ++w) watches_[w].steepest = std::abs(now_[w].slope);
   for (std::size_t w = 0; w < before.size() && before.size() == watches_.size(); ++w)
     wait_longer(before[w], now_[w], watches_[w]);
   // Sticking begins on its bound where the normal force begins at 0, and where mu = mu_0.
   for (int w = 0; w < int(watches_.size()); ++w)
-    if (watches_[w].kind == Kind::hold && !watches_[w].at_ends && now_[w].f <= 1e-9 * watches_[w].bound)
-      watches_[w].noise = modes_.friction_noise(watches_[w].contact);
+    if (watches_[w].kind == Kind::hold && !watches_[w].at_ends &&
+        now_[w].f <= std::max(1e-9 * watches_[w].bound, watches_[w].little))
+      watches_[w].noise = std::max(modes_.friction_noise(watches_[w].contact), watches_[w].little);
 }
 
 double EventLocation::longest_step(double swings) const {
@@ -152,13 +155,46 @@ double EventLocation::little_force(int group) {
   return modes_.force_noise(all);
 }
 
+// Of a compliant contact that is only touching: its depth, and its force with it, is round-off.
+double EventLocation::little_friction(int contact) {
+  const model::ContactEntry& entry = system_.model().contacts[std::size_t(contact)];
+  if (!entry.force || !entry.coulomb) return 0;
+  const double approach = system_.modes().contacts[std::size_t(contact)].approach_speed;
+  return entry.coulomb->static_coefficient() * entry.force->normal(-scale_.touching(), 0, approach);
+}
+
 EventLocation::Value EventLocation::slide(int contact, const Vec& a) {
   const model::Tangential& direction = system_.modes().contacts[contact].direction;
   return {direction.dot(system_.slip(contact)), direction.dot(system_.slip_acceleration(contact, a))};
 }
 
+// At the system's point.
+bool EventLocation::slow(const Watch& watch) {
+  return watch.kind == Kind::slide && system_.tangents(watch.contact) > 1 &&
+         system_.slip(watch.contact).norm() < system_.modes().contacts[std::size_t(watch.contact)].slow;
+}
+
+// What has been accelerated for ten times as long as that takes to pass `slow`, and has not, is held: friction whose direction is not
+// resolved there acts on it as a stiff damper, which other contacts that stick balance. At the system's point, the end of the step.
+bool EventLocation::stalls(double h, const State& next, int w) {
+  const Watch& watch = watches_[std::size_t(w)];
+  if (!slow(watch)) return false;
+  const double pushed = std::max(watch.pushed, system_.slip_acceleration(watch.contact, next.a).norm());
+  return (watch.slow_for + h) * pushed > 10 * system_.modes().contacts[std::size_t(watch.contact)].slow;
+}
+
+void EventLocation::measure_slow(double h, const State& next, Watch& watch) {
+  if (!slow(watch)) {
+    watch.slow_for = watch.pushed = 0;
+    return;
+  }
+  watch.slow_for += h;
+  watch.pushed = std::max(watch.pushed, system_.slip_acceleration(watch.contact, next.a).norm());
+}
+
 void EventLocation::accept(double h, const State& next) {
   system_.move_to(next.t, next.q, next.v);
+  for (Watch& watch : watches_) measure_slow(h, next, watch);
   system_.step_taken();
   if (system_.model().world.space == Space::spatial)  // along the directions they have now
     for (std::size_t w = 0; w < watches_.size(); ++w)
@@ -241,6 +277,9 @@ void EventLocation::find_suspects(const State& now, double h, const State& next)
       if (next_[w].f < 0 && (by_force(w) || next_[w].slope < -scale_.at_rest())) at_end_.push_back(w);
     } else if (happened(w, next_[w]) || dips(now, h, next, w, suspect) || returns(now, h, w, suspect)) {
       suspects_.push_back(suspect);
+    } else if (watches_[w].kind == Kind::slide) {
+      system_.move_to(next.t, next.q, next.v);
+      if (stalls(h, next, w)) at_end_.push_back(w);
     }
   }
 }
@@ -392,10 +431,10 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
 
 void EventLocation::archive(Archive& a) {
   const auto n = Eigen::Index(watches_.size());
-  Mat values(n, 7);
+  Mat values(n, 9);
   for (Eigen::Index w = 0; w < n; ++w)
     values.row(w) << now_[w].f, now_[w].slope, watches_[w].noise, watches_[w].force_before, watches_[w].steepest,
-        watches_[w].little, watches_[w].side;
+        watches_[w].little, watches_[w].side, watches_[w].slow_for, watches_[w].pushed;
   Vec flat = Eigen::Map<const Vec>(values.data(), values.size());
   a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_);
   if (watches_.empty() && flat.size() > 0) {  // reading: the modes are back, their watches not yet
@@ -404,11 +443,12 @@ void EventLocation::archive(Archive& a) {
   }
   modes_before_ = system_.modes().contacts;
   const auto m = Eigen::Index(watches_.size());
-  if (flat.size() != 7 * m) throw std::length_error("watched");
+  if (flat.size() != 9 * m) throw std::length_error("watched");
   for (Eigen::Index w = 0; w < m; ++w) {
     now_[w] = {flat[w], flat[m + w]};
     watches_[w].noise = flat[2 * m + w], watches_[w].force_before = flat[3 * m + w],
     watches_[w].steepest = flat[4 * m + w], watches_[w].little = flat[5 * m + w], watches_[w].side = flat[6 * m + w];
+    watches_[w].slow_for = flat[7 * m + w], watches_[w].pushed = flat[8 * m + w];
   }
 }
 

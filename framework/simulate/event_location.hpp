@@ -10,6 +10,7 @@
 //     follow     contacts that share rows        a little acceleration, less that of a direction that is implied by others
 //     slide      sliding contact                 slip velocity along its direction at the step's begin
 //     load       bearing of a joint that rubs    its load, on the side on which it presses (signed_loads.hpp)
+// In space a slip without a direction that other contacts hold back has stopped as well, though it crosses no zero (`stalls`).
 // An event shows in three ways: the function is negative at the step's end; it was positive at both ends but dipped between
 // them (the cubic through values and slopes of both ends tells where to look); or, just after an event that left it at
 // round-off of 0, the parabola of its start says that it came back within the step. It is located by repeating the step
@@ -77,9 +78,11 @@ class EventLocation {
     double steepest = 0;      // slide: the most that the slip has changed in a unit of time since it began [m/s^2]
     bool reported = false;    // it had an event, the last one
     int group = -1;           // unload, follow: in Modes::shared
-    double little = 0;        // no less is missed: [N] unload, [m/s^2] follow
+    double little = 0;        // no less is missed: [N] unload, hold, [m/s^2] follow
     int bearing = -1;         // load: among those with a sign
     double side = 1;          // load: 1 or -1
+    double slow_for = 0;      // [s] slide in space: it has been without a direction (system/slip.hpp) as long as that
+    double pushed = 0;        // [m/s^2] slide in space: the most that it was accelerated in that time
   };
   using Value = numerics::ValueAndSlope;  // slopes of forces and accelerations are not known
   struct Suspect {
@@ -102,8 +105,12 @@ class EventLocation {
            kind == Kind::load;
   }
   bool has_slope(int w) const { return !by_force(w) && watches_[w].kind != Kind::follow; }
+  bool slow(const Watch& watch);
+  bool stalls(double h, const State& next, int w);
+  void measure_slow(double h, const State& next, Watch& watch);
   double force(Watch& watch, double t, const Vec& lambda);
   double little_force(int group);
+  double little_friction(int contact);
   Value slide(int contact, const Vec& a);
   void evaluate(const State& state, std::vector<Value>& values);
   Value value(int w, const State& state, bool& accelerated);

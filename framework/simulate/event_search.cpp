@@ -114,7 +114,7 @@ bool EventLocation::hides_force(double h) {
     const double straight = h_before_ == 0 ? now_[w].f + inside * (next_[w].f - now_[w].f)
                                            : now_[w].f + (now_[w].f - watches_[w].force_before) * (h / h_before_);
     const double found = h_before_ == 0 ? probe_[w].f : next_[w].f;
-    if (std::abs(found - straight) > 0.5 * size) return true;
+    if (std::abs(found - straight) > std::max(0.5 * size, watches_[w].little)) return true;
   }
   return false;
 }

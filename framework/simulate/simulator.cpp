@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -198,11 +199,21 @@ bool Simulator::locks_here() {
   }
 }
 
-// Joints that lock themselves as they slide come to rest where they are.
+// Where forces of contacts that slide grow without end within a finite time (Painleve's critical state) steps become too short.
+// Friction a little larger is beyond that state, where an impact without collision ends the slip.
+bool Simulator::near_critical_state() {
+  constexpr double near = 1e-4, beyond = 10;
+  const double distance = modes_.distance_from_critical(now_);
+  raised_ = beyond * distance;
+  return distance < near;
+}
+
+// What locks itself as it slides comes to rest where it is.
 void Simulator::jam(Recorder& recorder, double h) {
   locked_ = false;
   ContactChanges changes;
   changes.locked = true;
+  changes.raised = std::exchange(raised_, 0.0);
   settle(changes);
   write_events(recorder);
   guard_against_standstill(0, h, -1);
@@ -239,7 +250,9 @@ bool Simulator::step_and_examine(const StepControl::Proposal& proposal, double& 
     if (!(error <= 1)) {
       ++statistics_.rejected;
       control().rejected_for_error(h, error);
-      if (control().too_small(now_.t))
+      if (!control().too_small(now_.t)) return false;
+      locked_ = near_critical_state();
+      if (!locked_)
         fail(h, fmt::format("the error cannot be kept below the tolerance with steps of at least {:.3g} s",
                             control().smallest(now_.t)));
       return false;
@@ -265,6 +278,8 @@ void Simulator::refuse(const StepControl::Proposal& proposal, const char* reason
     warnings_.push_back(
         fmt::format("t = {:.9g} s: a step of {:.3g} s was refused ({}) and halved", now_.t, proposal.h, reason));
   if (!steps.too_small(now_.t)) return;
+  locked_ = near_critical_state();
+  if (locked_) return;
   find_culprit(proposal.h);
   system_.move_to(now_.t, now_.q, now_.v);
   fail(proposal.h, reason);

@@ -87,6 +87,7 @@ class Simulator {
   bool try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
   bool step_and_examine(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
   bool locks_here();
+  bool near_critical_state();
   void jam(Recorder& recorder, double h);
   void look_at_theories();
   void refuse(const StepControl::Proposal& proposal, const char* reason);
@@ -136,7 +137,8 @@ class Simulator {
   double most_kinetic_ = 0;  // [J] at the start and at records
   double window_start_ = 0;
   long long window_events_ = 0;
-  bool locked_ = false;  // no step from here is short enough for joints that slide to have finite forces
+  bool locked_ = false;  // no step from here is short enough for what slides to have finite forces
+  double raised_ = 0;    // ContactChanges::raised
   int standing_ = 0;     // events in a row that hardly moved t
   std::vector<ContactEvent> events_;
   std::vector<std::string> warnings_;

@@ -170,6 +170,7 @@ struct AssembledSystem::Work {
   };
   Rate rate_by(ContactDirection d, const Vec& some);
   ContactLoads::Bounds bounds(int contact, const Vec& lambda);     // of its forces where it shares rows
+  Mat moved_with_sliding(int group);  // ContactLoads::solve_with_sliding
   const ContactLoads& shared_rows(int group, const Vec& lambda);   // with the resultants of a group
   const ContactLoads& shared_loads(int group, const Vec& lambda);  // and with its forces
   std::vector<int> judged;           // closed contacts at rest whose friction every evaluation finds anew

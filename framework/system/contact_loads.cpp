@@ -9,8 +9,7 @@
 namespace trammel::model {
 namespace {
 
-constexpr double round_off = 1e-12;  // of the forces
-constexpr double carried = 1e-9;     // of their resultants: what is missed where the last forces are about to be lost
+constexpr double carried = 1e-9;  // of their resultants: what is missed where the last forces are about to be lost
 
 }  // namespace
 
@@ -123,12 +122,43 @@ std::vector<complementarity::SharingContact> ContactLoads::sharing(const Group& 
   return contacts;
 }
 
-void ContactLoads::share_admissibly(Group& group) {
-  if (slack(group) >= -round_off * scale(group)) return;
-  // Where none have the resultants, springs' forces stay, until the event that follows from it.
+// Where none have the resultants, springs' forces stay, until the event that follows from it.
+bool ContactLoads::share_admissibly(Group& group, const Sharing& sharing) {
+  if (sharing.contacts.empty()) return true;
+  const Vec resultants = sharing.E * group.forces(sharing.directions);
   Vec shared;
-  const double missed = complementarity::admissible_forces(sharing(group), group.E, group.resultants, shared);
-  if (missed <= carried * group.resultants.norm()) group.forces(group.directions) = shared;
+  const double missed = complementarity::admissible_forces(sharing.contacts, sharing.E, resultants, shared);
+  if (!(missed <= carried * resultants.norm())) return false;
+  group.forces(sharing.directions) = shared;
+  return true;
+}
+
+std::vector<ContactDirection> ContactLoads::members(int group) const {
+  const SharedRows& rows = modes_->shared[std::size_t(group)];
+  const Eigen::Index n = basis_size(group);
+  std::vector<ContactDirection> all;
+  for (const Eigen::Index k : groups_[std::size_t(group)].directions)
+    all.push_back(k < n ? rows.basis[std::size_t(k)] : rows.implied[std::size_t(k - n)]);
+  return all;
+}
+
+ContactLoads::Sharing ContactLoads::with_sliding(int group, const Mat& E) const {
+  const Group& g = groups_[std::size_t(group)];
+  Sharing all{sharing(g), g.directions, E};
+  for (const int contact : modes_->shared[std::size_t(group)].sliding) {
+    all.contacts.emplace_back().normal = Eigen::Index(all.directions.size());
+    all.directions.push_back(place({contact, 0}).index);
+  }
+  return all;
+}
+
+void ContactLoads::solve_with_sliding(int group, const Mat& E) {
+  share_admissibly(groups_[std::size_t(group)], with_sliding(group, E));
+}
+
+double ContactLoads::spare_load_with_sliding(int group, const Mat& E) const {
+  const Sharing all = with_sliding(group, E);
+  return complementarity::spare_load(all.contacts, E, E * groups_[std::size_t(group)].forces(all.directions));
 }
 
 double ContactLoads::spare_load(int group) const {

@@ -4,7 +4,8 @@
 //
 // Where that pulls or leaves a friction cone, dependent contacts carry the same resultants by other forces
 // (complementarity/shares/admissible_forces.hpp), as long as there are some. Those that slide do not: their friction, and with it the motion,
-// follows from their share as springs. Nor do those that are idle. The others share what these leave of the resultants.
+// follows from their share as springs. Nor do those that are idle. The others share what these leave of the resultants. Where they
+// cannot, those that slide take part along the direction of their force, n + p t: only forces that leave the motion as it is.
 #pragma once
 
 #include <array>
@@ -51,17 +52,22 @@ class ContactLoads {
     begin(group, lambda);
     for (Member& member : groups_[std::size_t(group)].members) member.bounds = bounds(member.contact);
   }
-  // The forces of all contacts of a group.
+  // The forces of all contacts of a group. False: there are no admissible ones, springs' stay.
   template <class BoundsOf>
-  void solve(int group, const Vec& lambda, BoundsOf&& bounds) {
+  [[nodiscard]] bool solve(int group, const Vec& lambda, BoundsOf&& bounds) {
     prepare(group, lambda, bounds);
-    share_admissibly(groups_[std::size_t(group)]);
+    Group& g = groups_[std::size_t(group)];
+    return slack(g) >= -round_off * scale(g) || share_admissibly(g, {sharing(g), g.directions, g.E});
   }
+  // After that, with those that slide; E: what moves, by the forces of the members, then by each that slides along n + p t.
+  void solve_with_sliding(int group, const Mat& E);
   double load(const Place& place) const { return groups_[std::size_t(place.group)].forces[place.index]; }
   // It slides, or it is idle.
   bool shares_as_spring(int contact, int group) const;
   // [N] how much further each of the others could be unloaded, after `prepare`: complementarity/shares/spare_load.hpp.
   double spare_load(int group) const;
+  double spare_load_with_sliding(int group, const Mat& E) const;
+  std::vector<ContactDirection> members(int group) const;
   bool sliding_shares() const;      // some decide the motion
   void form_resultants(int group);  // once its K has changed
   double largest_load(int group) const { return scale(groups_[std::size_t(group)]); }
@@ -80,10 +86,18 @@ class ContactLoads {
     Vec resultants;                        // of the members [N]
     Vec shared() const { return forces(directions); }
   };
+  // Contacts whose forces may move, the places of these in (basis, implied), and what depends on them.
+  struct Sharing {
+    std::vector<complementarity::SharingContact> contacts;
+    std::vector<Eigen::Index> directions;
+    Mat E;
+  };
+  static constexpr double round_off = 1e-12;  // of the forces
   Eigen::Index basis_size(int group) const { return Eigen::Index(modes_->shared[std::size_t(group)].basis.size()); }
   void lay_out_group(int group);
   void begin(int group, const Vec& lambda);
-  void share_admissibly(Group& group);
+  bool share_admissibly(Group& group, const Sharing& sharing);
+  Sharing with_sliding(int group, const Mat& E) const;
   double slack(const Group& group) const;
   std::vector<complementarity::SharingContact> sharing(const Group& group) const;
   double scale(const Group& group) const;

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "complementarity/contact_forces.hpp"
+#include "complementarity/shares/independent_rows.hpp"
 #include "system/assembly.hpp"
 
 namespace trammel::model {
@@ -74,7 +75,11 @@ AssembledSystem::Sharing AssembledSystem::sharing(int contact) const {
 }
 
 double AssembledSystem::spare_load(int group, const Vec& lambda) {
-  return work_->shared_rows(group, lambda).spare_load(group);
+  Work& w = *work_;
+  const ContactLoads& loads = w.shared_rows(group, lambda);
+  const double spare = loads.spare_load(group);
+  if (spare >= 0 || w.modes.shared[std::size_t(group)].sliding.empty()) return spare;
+  return std::max(spare, loads.spare_load_with_sliding(group, w.moved_with_sliding(group)));
 }
 
 double AssembledSystem::largest_load(int group, const Vec& lambda) {
@@ -124,9 +129,31 @@ const ContactLoads& AssembledSystem::Work::shared_rows(int group, const Vec& lam
   return loads;
 }
 
+// As many combinations of velocities as are independent.
+Mat AssembledSystem::Work::moved_with_sliding(int group) {
+  std::vector<ContactDirection> all = loads.members(group);
+  const auto members = Eigen::Index(all.size());
+  const std::vector<int>& sliding = modes.shared[std::size_t(group)].sliding;
+  for (const int contact : sliding)
+    for (int k = 0; k <= tangents(contact); ++k) all.push_back({contact, k});
+  Mat jump, A;
+  impulse_response(all, jump, A);
+  Mat moved(jump.rows(), members + Eigen::Index(sliding.size()));
+  moved.leftCols(members) = jump.leftCols(members);
+  Eigen::Index column = members, from = members;
+  for (const int contact : sliding) {
+    const Eigen::Index n = tangents(contact);
+    moved.col(column++) = jump.col(from) + jump.middleCols(from + 1, n) * friction_ratio(contact).head(n);
+    from += 1 + n;
+  }
+  return complementarity::independent_rows(moved);
+}
+
 const ContactLoads& AssembledSystem::Work::shared_loads(int group, const Vec& lambda) {
   follow_shares();
-  loads.solve(group, lambda, [&](int contact) { return bounds(contact, lambda); });
+  const bool found = loads.solve(group, lambda, [&](int contact) { return bounds(contact, lambda); });
+  if (!found && !modes.shared[std::size_t(group)].sliding.empty())
+    loads.solve_with_sliding(group, moved_with_sliding(group));
   return loads;
 }
 

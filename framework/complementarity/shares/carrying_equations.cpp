@@ -47,9 +47,13 @@ Mat CarryingEquations::along_rows(const std::vector<ContactPoint>& points, const
   return W;
 }
 
-bool CarryingEquations::regular() const {
+double CarryingEquations::least_pivot() const {
   const Index n = Index(basis_.size());
-  return n == 0 || std::abs(lu_.matrixLU()(n - 1, n - 1)) > singular;
+  return n == 0 ? 1 : std::abs(lu_.matrixLU()(n - 1, n - 1));
+}
+
+bool CarryingEquations::regular() const {
+  return least_pivot() > singular;
 }
 
 Vec CarryingEquations::correction(const Vec& a) const {

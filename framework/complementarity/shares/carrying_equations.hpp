@@ -18,7 +18,8 @@ class CarryingEquations {
 
   // False: they have no or many solutions, as at Painleve's critical coefficient.
   bool regular() const;
-  Vec forces() const;  // F
+  double least_pivot() const;  // of rows in their own unit
+  Vec forces() const;          // F
   // The change of lambda that cancels what is left of these accelerations along the basis.
   Vec correction(const Vec& a) const;
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/QR>
 
+#include "complementarity/shares/carrying_equations.hpp"
 #include "complementarity/exact_modes.hpp"
 
 namespace trammel::simulate {
@@ -145,6 +146,19 @@ std::vector<model::SharedRows> ContactProblem::shared_rows(const model::Modes& m
     for (const std::size_t i : group.sliding) groups.back().sliding.push_back(who[i].contact);
   }
   return groups;
+}
+
+double ContactProblem::distance_from_critical(const model::Modes& modes) const {
+  std::vector<complementarity::ContactRole> role = roles(modes);
+  const complementarity::CarryingRows carrying = complementarity::carrying_rows(points_, delassus_, role);
+  const auto least_pivot = [&] {
+    const Vec none = Vec::Zero(delassus_.rows());
+    return complementarity::CarryingEquations(points_, delassus_, none, role, carrying).least_pivot();
+  };
+  const double without_friction = least_pivot();
+  for (std::size_t i = 0; i < who.size(); ++i)
+    if (role[i].tangent == complementarity::ContactRole::Tangent::slides) role[i].ratio = who[i].ratio;
+  return without_friction > 0 ? least_pivot() / without_friction : 1;
 }
 
 double ContactProblem::acceleration_without(std::size_t participant) const {

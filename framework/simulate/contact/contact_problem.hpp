@@ -53,6 +53,8 @@ class ContactProblem {
   void end_slip(Vec& dv) const;
   // Unilateral ones without a force that the others keep closed: their rows follow from those of contacts that press.
   std::vector<bool> kept_closed(double nothing) const;
+  // In these modes: the least pivot of the equations of their forces, of that which they have without friction of what slides.
+  double distance_from_critical(const model::Modes& modes) const;
   // Once their modes are decided: which of those that are closed depend on each other, and how they share.
   std::vector<model::SharedRows> shared_rows(const model::Modes& modes) const;
 

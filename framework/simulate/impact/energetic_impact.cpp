@@ -1,5 +1,6 @@
 #include "simulate/impact/energetic_impact.hpp"
 
+#include <Eigen/QR>
 #include "simulate/impact/spring_impact.hpp"
 
 namespace trammel::simulate {
@@ -7,6 +8,7 @@ namespace trammel::simulate {
 complementarity::ContactSolution EnergeticImpact::solve(model::AssembledSystem& system,
                                                         std::vector<TouchingContact>& touching, Vec& dv) {
   directions_.prepare(system, touching);
+  begin_without_collision(touching);
   std::vector<SpringContact> springs;
   for (std::size_t i = 0; i < touching.size(); ++i)
     springs.push_back({directions_.normal[i], directions_.tangent[i], touching[i].restitution,
@@ -15,8 +17,9 @@ complementarity::ContactSolution EnergeticImpact::solve(model::AssembledSystem& 
   const complementarity::ContactSolution solution = impact.run();
   cut_short_ = impact.cut_short();
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
-  const Vec &P = impact.admissible_impulses(), u = impact.rates();
+  Vec P = impact.admissible_impulses(), u = impact.rates();
   dv.noalias() = directions_.jump * impact.impulses();
+  let_approaches_vanish(touching, P, u, dv);
   for (std::size_t i = 0; i < touching.size(); ++i) {
     TouchingContact& c = touching[i];
     const int n = directions_.normal[i], t = directions_.tangent[i];
@@ -32,6 +35,39 @@ complementarity::ContactSolution EnergeticImpact::solve(model::AssembledSystem& 
     c.course = impact.lost_normal()[at] + impact.lost_friction()[at] - c.loss_at_mean_rates();
   }
   return solution;
+}
+
+void EnergeticImpact::begin_without_collision(const std::vector<TouchingContact>& touching) {
+  for (std::size_t i = 0; i < touching.size(); ++i) {
+    if (!touching[i].without_collision) continue;
+    directions_.rates[directions_.normal[i]] -= vanishing_approach * touching[i].slip_before.norm();
+    directions_.friction[i].mu_0 *= 1 + touching[i].raised;
+    directions_.friction[i].mu *= 1 + touching[i].raised;
+  }
+}
+
+void EnergeticImpact::let_approaches_vanish(const std::vector<TouchingContact>& touching, Vec& P, Vec& u,
+                                            Vec& dv) const {
+  const double at_rest = 1e-3 * vanishing_approach * directions_.rates.lpNorm<Eigen::Infinity>();
+  std::vector<Eigen::Index> held;
+  bool any = false;
+  for (std::size_t i = 0; i < touching.size(); ++i) {
+    any = any || touching[i].without_collision;
+    const int n = directions_.normal[i], t = directions_.tangent[i];
+    if (!(P[n] > 0 && u[n] <= at_rest)) continue;
+    held.push_back(n);
+    if (t < 0 || u.segment(t, directions_.tangents).norm() > at_rest) continue;
+    for (int k = 0; k < directions_.tangents; ++k) held.push_back(t + k);
+  }
+  if (!any) return;
+  for (std::size_t i = 0; i < touching.size(); ++i)
+    if (touching[i].without_collision) u[directions_.normal[i]] += vanishing_approach * touching[i].slip_before.norm();
+  if (held.empty()) return;
+  const Vec give_back = directions_.A(held, held).completeOrthogonalDecomposition().solve(-u(held));
+  P(held) += give_back;
+  dv.noalias() += directions_.jump(Eigen::all, held) * give_back;
+  u.noalias() += directions_.A(Eigen::all, held) * give_back;
+  u(held).setZero();
 }
 
 }  // namespace trammel::simulate

@@ -3,12 +3,6 @@
 #include <cmath>
 
 namespace trammel::simulate {
-namespace {
-
-constexpr double vanishing = 1e-6;  // beside a slip; more than what a solution may be off by
-
-}  // namespace
-
 complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, const State& state, double at_rest,
                                                std::vector<TouchingContact>& touching, Vec& dv) {
   problem_.who.clear();
@@ -23,12 +17,12 @@ complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, c
       p.unilateral = false;
       if (c.without_collision) from = BearingImpulses::From::held;
     } else if (c.without_collision) {
-      p.vanishing = vanishing * c.slip_before.norm();
+      p.vanishing = vanishing_approach * c.slip_before.norm();
     }
     if (entry.coulomb) {
       p.tangent = Participant::Tangent::resting;
-      p.mu_0 = entry.coulomb->static_coefficient();
-      p.mu = entry.coulomb->kinetic_coefficient(p.a_t.norm());
+      p.mu_0 = (1 + c.raised) * entry.coulomb->static_coefficient();
+      p.mu = (1 + c.raised) * entry.coulomb->kinetic_coefficient(p.a_t.norm());
     } else if (entry.smooth) {
       p.tangent = Participant::Tangent::sliding;
       const double speed = p.a_t.norm();

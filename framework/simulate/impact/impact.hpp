@@ -12,7 +12,7 @@
 // energy (Kane's paradox), which is told (impact_gains.hpp). With D the Delassus matrix it is the problem of contact_forces.hpp. Several
 // contacts at once are one problem; nature may answer otherwise (Pfeiffer, Glocker 1996), and a chain of equal balls does.
 // An impact without collision is asked for where sliding contacts have no finite forces (contact_mode.hpp, rule 8). No impulse at all
-// would solve it, too; the solution is taken that is left of an approach as it vanishes, which such contacts cannot end while they slide.
+// would solve it, too; the solution is taken that is left of an approach as it vanishes, which such contacts cannot end while they slide. Where the law has none, the course of the impact decides (energetic_impact.hpp).
 //
 // Energy lost through contact i is -L_i (u_i- + u_i+)/2 - T_i (s_i- + s_i+)/2; the sum is the loss of kinetic energy if no
 // row depends on time. Laws that follow the rates through the impact know each contact's share better: it differs by `course`.
@@ -25,11 +25,15 @@
 
 namespace trammel::simulate {
 
+// [1] Of the slip: the approach that stands for none in an impact without collision; more than what a solution may be off by.
+inline constexpr double vanishing_approach = 1e-6;
+
 // Or a joint that rubs (bearing_impulses.hpp): `impulse` is the load of its bearings, and its gap has no rate.
 struct TouchingContact {
   int contact = 0;
   bool was_closed = false;
   bool without_collision = false;            // its slip must end though nothing approaches
+  double raised = 0;                         // by this part of them its coefficients of friction count as larger
   double before = 0;                         // u- [m/s]
   double restitution = 0;                    // e
   double impulse = 0;                        // L [N s]

@@ -15,16 +15,29 @@ Law law_of(const model::Model& model, double at_rest, const std::vector<Touching
   return law;
 }
 
+// Beside what a slip of this size moves.
+bool has_impulse(const std::vector<TouchingContact>& touching) {
+  return std::any_of(touching.begin(), touching.end(), [](const TouchingContact& c) {
+    return c.impulse > 0 && (c.slip_after - c.slip_before).norm() > 100 * vanishing_approach * c.slip_before.norm();
+  });
+}
+
 }  // namespace
 
 complementarity::ContactSolution ImpactLaws::solve(model::AssembledSystem& system, const State& state, double at_rest,
                                                    std::vector<TouchingContact>& touching, Vec& dv) {
   cut_short_ = false;
   law_ = law_of(system.model(), at_rest, touching);
-  if (law_ == Law::newton) return newton_.solve(system, state, at_rest, touching, dv);
   const auto rubs = [&](const TouchingContact& c) {
     return system.model().contacts[std::size_t(c.contact)].joint.has_value();
   };
+  if (law_ == Law::newton) {
+    const complementarity::ContactSolution solution = newton_.solve(system, state, at_rest, touching, dv);
+    const auto without_collision = [&](const TouchingContact& c) { return c.without_collision && !rubs(c); };
+    if (std::none_of(touching.begin(), touching.end(), without_collision)) return solution;
+    if (solution.outcome == complementarity::LcpOutcome::solved && has_impulse(touching)) return solution;
+    return std::any_of(touching.begin(), touching.end(), rubs) ? solution : end_slip(system, touching, dv);
+  }
   const auto joints =
       std::stable_partition(touching.begin(), touching.end(), [&](const TouchingContact& c) { return !rubs(c); });
   std::vector<TouchingContact> bearings(joints, touching.end());
@@ -33,6 +46,15 @@ complementarity::ContactSolution ImpactLaws::solve(model::AssembledSystem& syste
   if (solution.outcome == complementarity::LcpOutcome::solved && !bearings.empty())
     solution = rubbing_after_.solve(system, state, at_rest, touching, bearings, dv);
   touching.insert(touching.end(), bearings.begin(), bearings.end());
+  return solution;
+}
+
+complementarity::ContactSolution ImpactLaws::end_slip(model::AssembledSystem& system,
+                                                      std::vector<TouchingContact>& touching, Vec& dv) {
+  complementarity::ContactSolution solution = energetic_.solve(system, touching, dv);
+  cut_short_ = energetic_.cut_short();
+  if (solution.outcome == complementarity::LcpOutcome::solved && !has_impulse(touching))
+    solution.outcome = complementarity::LcpOutcome::no_solution;
   return solution;
 }
 

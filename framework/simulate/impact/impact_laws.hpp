@@ -3,7 +3,8 @@
 // All contacts that touch share one impact, so they share one law: of those that approach and were open the one that comes last in the order
 // newton, poisson, energetic; each keeps its own e. So an energetic contact that strikes is never spoiled by another that
 // strikes with it. Joints that rub do so within Newton's impact, and right after one by the other laws, under the loads of all of it
-// (rubbing_after.hpp). An impact without collision (contact_mode.hpp, rule 8) has no restitution and follows Newton's law.
+// (rubbing_after.hpp). An impact without collision (contact_mode.hpp, rule 8) has no restitution and follows Newton's law; where
+// that gives no impulse, for it judges friction by the slip at the end, the course of springs.
 #pragma once
 
 #include <vector>
@@ -23,6 +24,8 @@ class ImpactLaws {
   bool cut_short() const { return cut_short_; }  // the last one: SpringImpact::cut_short
 
  private:
+  complementarity::ContactSolution end_slip(model::AssembledSystem& system, std::vector<TouchingContact>& touching,
+                                            Vec& dv);
   complementarity::ContactSolution strike(model::AssembledSystem& system, double at_rest,
                                           std::vector<TouchingContact>& touching, Vec& dv);
 

@@ -2,6 +2,7 @@
 // rolls, a turntable, tables on several feet. With rigid and compliant contacts.
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "support/run_in_pieces.hpp"
 #include "support/run_scene.hpp"
@@ -403,7 +404,115 @@ TEST(InThePlaneAndInSpace, AShakenBlockDoesTheSame) {
   }
 }
 
-// Cut after every third step, while it slides, turns, and rolls on a floor that turns.
+// A block of lengths L on feet at its lower corners, as many as `feet`, slides and spins; `load` [N] pushes it at `at`.
+struct SlidingBlock {
+  double mass = 1, mu = 0.5, omega = 0;
+  Eigen::Vector3d L = {1, 1, 1}, inertia = {1, 1, 1}, velocity = {0, 0, 0}, load = {0, 0, 0}, at = {0, 0, 0};
+  std::vector<Eigen::Vector2d> feet = {};
+  double until = 0.3;
+};
+
+nlohmann::json row(const Eigen::VectorXd& x) {
+  return std::vector<double>(x.begin(), x.end());
+}
+
+nlohmann::json scene(const SlidingBlock& b) {
+  nlohmann::json s = {{"trammel", 1}, {"space", "spatial"}, {"gravity", {0, 0, -g}}};
+  s["simulate"] = {{"until", b.until}},
+  s["record"] = {{"every", b.until / 10},
+                 {"observe", {{"vx", "b.com.vx"}, {"vy", "b.com.vy"}, {"wz", "b.com.omega_z"}}}};
+  s["bodies"]["b"] = {{"type", "rigid_body"},
+                      {"mass", b.mass},
+                      {"inertia", row(b.inertia)},
+                      {"position", {0, 0, b.L.z() / 2}},
+                      {"velocity", row(b.velocity)},
+                      {"angular_velocity", {0, 0, b.omega}},
+                      {"markers", {{"load", row(b.at)}}}};
+  if (!b.load.isZero())
+    s["forces"]["load"] = {
+        {"type", "load"}, {"on", "b.load"}, {"force", {{"x", b.load.x()}, {"y", b.load.y()}, {"z", b.load.z()}}}};
+  for (std::size_t k = 0; k < b.feet.size(); ++k) {
+    const std::string foot = fmt::format("f{}", k);
+    s["bodies"]["b"]["markers"][foot] = {b.feet[k].x(), b.feet[k].y(), -b.L.z() / 2};
+    s["contacts"][foot] = {{"type", "constraint_method"},
+                           {"between", {"b." + foot, {{"plane", {{"point", {0, 0, 0}}, {"normal", {0, 0, 1}}}}}}},
+                           {"friction", {{"type", "coulomb"}, {"static", b.mu}, {"kinetic", b.mu}}}};
+  }
+  return s;
+}
+
+void expect_trusted_and_quick(const Finished& run) {
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
+  EXPECT_LT(run.result["counts"]["steps"], 20000);
+}
+
+// Friction couples both motions so that they end at one instant (Farkas et al., Phys. Rev. Lett. 90, 248302 (2003)), unless it turns
+// about one foot in the end, or one foot is passed by the centre of its turn.
+TEST(SlidingBlock, ComesToRestOnAllFeetButOneAtOnce) {
+  std::mt19937 random(27);
+  const auto u = [&random](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int i = 0; i < 8; ++i) {
+    SlidingBlock b;
+    b.mass = std::exp(u(-3, 3)), b.mu = u(0.3, 1);
+    b.L = {u(0.5, 2), u(0.5, 2), 0.1};
+    b.inertia =
+        b.mass / 12 * Eigen::Vector3d(b.L.y() * b.L.y() + 0.01, b.L.x() * b.L.x() + 0.01, b.L.head<2>().squaredNorm());
+    b.velocity = {u(-0.4, 0.4), u(-0.4, 0.4), 0}, b.omega = u(-1, 1);
+    for (int k = 0; k < 3 + i % 3; ++k) {  // around the centre, so that it stands
+      const double turn = 2 * pi * k / (3 + i % 3) + u(-0.2, 0.2);
+      b.feet.emplace_back(0.5 * b.L.x() * std::cos(turn), 0.5 * b.L.y() * std::sin(turn));
+    }
+    b.until = 0.6;
+    const Finished run = run_text(scene(b).dump());
+    expect_trusted_and_quick(run);
+    EXPECT_NEAR(run.end("vx"), 0, 1e-12) << i;
+    EXPECT_NEAR(run.end("vy"), 0, 1e-12) << i;
+    EXPECT_NEAR(run.end("wz"), 0, 1e-12) << i;
+    const std::vector<Event> sticks = run.of_kind("stick");
+    ASSERT_GE(sticks.size(), b.feet.size()) << i;
+    for (std::size_t k = 1; k + 1 < b.feet.size(); ++k)
+      EXPECT_NEAR(sticks[sticks.size() - 1 - k].t, sticks.back().t, 1e-7) << i;
+  }
+}
+
+// Of two feet left of a block that tips the first that stops leaves the other one way to slip, across its former direction, and
+// friction without a direction holds it there.
+TEST(SlidingBlock, ThatTipsSticksOnBothFeetOfItsEdge) {
+  SlidingBlock b{0.20913593732469815, 1, -1.740548519981664};
+  b.L = {0.80959400472623296, 1.6105185531375256, 0.9606665440362001};
+  b.inertia = {0.061288161646521, 0.02750699909798212, 0.05662725782580801};
+  b.velocity = {-0.3515592351946222, -0.1809941925796974, 0};
+  b.load = {1.6330356477886805, 0.7340888739114869, 0.21095889980133006};
+  b.at = {0.1629601494821411, 0.057365069663296825, 0.3812101530875279};
+  for (const double x : {1, -1})
+    for (const double y : {-1, 1}) b.feet.emplace_back(x * b.L.x() / 2, y * b.L.y() / 2);
+  expect_trusted_and_quick(run_text(scene(b).dump()));
+}
+
+// A block that tips over an edge while it spins: the slips of its two feet turn until their forces, 1/sqrt of the time that is left,
+// grow beyond all bounds. There it stops in an impact without collision, and goes on.
+TEST(SlidingBlock, PassesPainlevesCriticalStateInAnImpactWithoutCollision) {
+  SlidingBlock b{61.74530821382734, 3, -0.5193688397786898};
+  b.L = {1.769179049572956, 0.2313661736663839, 0.37414534188668492};
+  b.inertia = {0.9957204987732714, 16.82548970131838, 16.380643413029212};
+  b.load = {490.88199177518476, -428.89097048287306, -22.048685835984514};
+  b.at = {0.5146054630771991, -0.032164208350491254, -0.04077604586742846};
+  b.feet = {{0.514615681939192, 0.017502572572224123},   {0.884589524786478, 0.11568308684333195},
+            {-0.884589524786478, 0.11568308684333195},   {0.884589524786478, -0.11568308684333195},
+            {-0.6837700671322304, 0.017078407774089657}, {-0.884589524786478, -0.11568308684333195}};
+  const Finished run = run_text(scene(b).dump());
+  expect_trusted_and_quick(run);
+  const std::vector<Event> impacts = run.of_kind("impact");
+  ASSERT_GE(impacts.size(), 2u);
+  for (const Event& impact : {impacts[0], impacts[1]}) {
+    EXPECT_NEAR(impact.t, 0.00602312745, 1e-10);
+    EXPECT_NEAR(impact.detail.at("approach"), 0, 1e-12);
+    EXPECT_GT(impact.detail.at("impulse"), 0.01);
+    EXPECT_GT(impact.detail.at("energy_lost"), 0);
+  }
+}
+
 // A point thrown obliquely: it strikes, rebounds where e > 0, slides and stops; in the plane, or in space 30 degrees off x.
 std::string thrown(bool in_space, const std::string& contact) {
   const double c = std::cos(pi / 6), s = std::sin(pi / 6);
@@ -443,6 +552,7 @@ INSTANTIATE_TEST_SUITE_P(Contacts, Thrown,
                                          std::pair(rigid, coulomb), std::pair(compliant, coulomb),
                                          std::pair(rigid, smooth), std::pair(compliant, smooth)));
 
+// Cut after every third step, while it slides, turns, and rolls on a floor that turns.
 TEST(InSpace, AResumedRunEndsWithTheSameBytes) {
   for (const char* integrator :
        {R"({"type": "dop853", "step": {"tolerance": 1e-9}})", R"({"type": "hht_alpha", "step": 5e-3})"}) {
