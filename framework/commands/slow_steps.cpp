@@ -11,8 +11,8 @@
 namespace trammel::simulate {
 namespace {
 
-constexpr double many = 50;           // steps between two records
-constexpr double long_wait = 20;      // [s] of wall-clock time to the end
+constexpr double many = 50;            // steps between two records
+constexpr double long_wait = 20;       // [s] of wall-clock time to the end
 constexpr double accounts_for = 0.01;  // radians of the fastest motion in a step: fewer are short for another reason
 
 std::string cause(const FastestMotion& fastest, const Setup& setup, const Simulator& simulator, double h) {
@@ -34,7 +34,7 @@ std::string cause(const FastestMotion& fastest, const Setup& setup, const Simula
         what);
   return fmt::format(
       "{}, and an explicit method follows it; \"integrator\": {{\"type\": \"hht_alpha\", \"step\": "
-      "{{\"tolerance\": 1e-6}}}} does not",
+      "{{\"tolerance\": 1e-5}}}} does not",
       what);
 }
 

@@ -9,6 +9,7 @@
 #include <Eigen/QR>
 
 #include "diagnose/redundancy.hpp"
+#include "run/row_tolerance.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -16,13 +17,13 @@ namespace {
 using model::RowGroup;
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-constexpr int most_rows = 1000;     // at a time: they are dense here, n^3 operations
-constexpr double tolerance = 1e-8;  // [m], [rad] and their rates: what counts as satisfied
+constexpr int most_rows = 1000;  // at a time: they are dense here, n^3 operations
 
 // Rows of chosen joints and bodies.
 class Chosen {
  public:
-  Chosen(model::AssembledSystem& system, std::vector<RowGroup> groups) : system_(system), groups_(std::move(groups)) {}
+  Chosen(model::AssembledSystem& system, const RowTolerance& allowed, std::vector<RowGroup> groups)
+      : system_(system), allowed_(allowed), groups_(std::move(groups)) {}
 
   // Positions, then velocities and accelerations, which are linear. What the velocities are beyond those that the rows ask for
   // must not count: where their rank is about to change no motion may go on from them.
@@ -41,7 +42,7 @@ class Chosen {
   bool find_positions(State& s) const {
     constexpr double least_step = 1e-2, least_gain = 0.1;
     double now = move_to(s, s.q);
-    for (int i = 0; i < 50 && now > 1e-3 * tolerance; ++i) {
+    for (int i = 0; i < 50 && now > 1e-3 * allowed_.length; ++i) {
       const Vec dq = -minimum_norm(rows_of(system_.g()));
       double step = 1, then = 0;
       Vec q;
@@ -55,7 +56,7 @@ class Chosen {
       now = then;
     }
     move_to(s, s.q);
-    return now < tolerance;
+    return now < allowed_.length;
   }
   double move_to(const State& s, const Vec& q) const {
     system_.move_to(s.t, q, s.v);
@@ -66,7 +67,7 @@ class Chosen {
     system_.move_to(s.t, s.q, s.v);
     s.v -= minimum_norm(rows_of(system_.g_dot()));
     system_.move_to(s.t, s.q, s.v);
-    return rows_of(system_.g_dot()).norm() < tolerance * std::max(1.0, s.v.norm());
+    return rows_of(system_.g_dot()).norm() < allowed_.speed;
   }
 
   bool has_accelerations() const {
@@ -117,12 +118,13 @@ class Chosen {
   }
 
   model::AssembledSystem& system_;
+  RowTolerance allowed_;
   std::vector<RowGroup> groups_;
 };
 
 // By how much each row is missed after steps of Newton's method over all of them: in positions, or else in velocities, or else in
 // accelerations. What was only off holds then, what conflicts does not. Empty: all hold.
-Vec missed_rows(model::AssembledSystem& system, State s) {
+Vec missed_rows(model::AssembledSystem& system, const RowTolerance& allowed, State s) {
   constexpr int steps = 20;
   const Vec no_force = Vec::Zero(system.sizes().nv);
   Vec change, mu, q;
@@ -131,15 +133,15 @@ Vec missed_rows(model::AssembledSystem& system, State s) {
     return system.correct(no_force, missed, change, mu, Factors::projection);
   };
   system.move_to(s.t, s.q, s.v);
-  for (int i = 0; i < steps && system.g().norm() > tolerance && nearest(system.g()); ++i) {
+  for (int i = 0; i < steps && system.g().norm() > allowed.length && nearest(system.g()); ++i) {
     system.retract(s.q, change, q);
     s.q = q;
     system.move_to(s.t, s.q, s.v);
   }
-  if (system.g().norm() > tolerance) return system.g();
+  if (system.g().norm() > allowed.length) return system.g();
   if (nearest(system.g_dot())) s.v += change;
   system.move_to(s.t, s.q, s.v);
-  if (system.g_dot().norm() > tolerance * std::max(1.0, s.v.norm())) return system.g_dot();
+  if (system.g_dot().norm() > allowed.speed) return system.g_dot();
   Vec missed;
   system.constraint_acceleration(no_force, missed);
   const double wanted = missed.norm();
@@ -175,20 +177,21 @@ std::vector<int> outwards(const SparseRows& G, const std::vector<RowGroup>& grou
   return order;
 }
 
-std::vector<RowGroup> conflicting(model::AssembledSystem& system, const State& start, std::vector<RowGroup> groups) {
-  return Chosen(system, groups).can_hold(start) ? std::vector<RowGroup>() : groups;
+std::vector<RowGroup> conflicting(model::AssembledSystem& system, const RowTolerance& allowed, const State& start,
+                                  std::vector<RowGroup> groups) {
+  return Chosen(system, allowed, groups).can_hold(start) ? std::vector<RowGroup>() : groups;
 }
 
 // More and more groups around `worst`, until they cannot hold. None: those of `most_rows` rows can.
-std::vector<RowGroup> conflict_around(int worst, model::AssembledSystem& system, const State& start,
-                                      const std::vector<RowGroup>& all) {
+std::vector<RowGroup> conflict_around(int worst, model::AssembledSystem& system, const RowTolerance& allowed,
+                                      const State& start, const std::vector<RowGroup>& all) {
   system.move_to(start.t, start.q, start.v);
   const std::vector<int> order = outwards(system.sparse_rows(), all, worst);
   std::vector<RowGroup> some;
   for (int enough = 16, taken = 0; some.size() < order.size() && taken < most_rows; enough *= 2) {
     while (some.size() < order.size() && taken < std::min(enough, most_rows))
       taken += some.emplace_back(all[std::size_t(order[some.size()])]).count;
-    std::vector<RowGroup> found = conflicting(system, start, some);
+    std::vector<RowGroup> found = conflicting(system, allowed, start, some);
     std::sort(found.begin(), found.end(), [](const RowGroup& a, const RowGroup& b) { return a.first < b.first; });
     if (!found.empty()) return found;
   }
@@ -198,14 +201,14 @@ std::vector<RowGroup> conflict_around(int worst, model::AssembledSystem& system,
 // Without any `apart` neighbours of them the rest can hold. Half of them are left out at a time, then fewer: of many rows few
 // conflict.
 std::vector<RowGroup> smallest_of(std::vector<RowGroup> conflict, std::size_t& apart, model::AssembledSystem& system,
-                                  const State& start) {
+                                  const RowTolerance& allowed, const State& start) {
   constexpr std::size_t most_tries = 100;
   for (std::size_t part = std::max<std::size_t>(1, conflict.size() / 2);; part /= 2) {
     for (std::size_t at = 0; at < conflict.size();) {
       std::vector<RowGroup> rest = conflict;
       const auto first = rest.begin() + std::ptrdiff_t(at);
       rest.erase(first, first + std::ptrdiff_t(std::min(part, rest.size() - at)));
-      if (Chosen(system, rest).can_hold(start))
+      if (Chosen(system, allowed, rest).can_hold(start))
         at += part;
       else
         conflict = std::move(rest);
@@ -219,22 +222,23 @@ std::vector<RowGroup> smallest_of(std::vector<RowGroup> conflict, std::size_t& a
 
 Conflict smallest_conflict(model::AssembledSystem& system, const State& start) {
   const std::vector<RowGroup> all = row_groups(system.model());
+  const RowTolerance allowed = row_tolerance(system, start);
   const int rows = all.empty() ? 0 : all.back().first + all.back().count;
   std::vector<RowGroup> found;
   if (rows <= most_rows) {
-    found = conflicting(system, start, all);
+    found = conflicting(system, allowed, start, all);
   } else {
-    const Vec missed = missed_rows(system, start);
+    const Vec missed = missed_rows(system, allowed, start);
     if (missed.size() == 0 || !missed.allFinite()) return {};
     Eigen::Index row = 0;
     missed.head(rows).cwiseAbs().maxCoeff(&row);
     const int worst = group_of(int(row), all);
-    found = conflict_around(worst, system, start, all);
+    found = conflict_around(worst, system, allowed, start, all);
     if (found.empty()) return {{all[std::size_t(worst)].path}, false};
   }
   Conflict conflict;
   std::size_t apart = 1;
-  for (const RowGroup& group : smallest_of(std::move(found), apart, system, start))
+  for (const RowGroup& group : smallest_of(std::move(found), apart, system, allowed, start))
     conflict.paths.push_back(group.path);
   conflict.smallest = apart == 1;
   return conflict;

@@ -72,7 +72,8 @@ Part step() {
        "bodies whose masses differ by more than 1e7 are tied by joints; and by hht_alpha with errors below 1e-7 a "
        "step, "
        "which damps what is fast beside the rest, where the fastest motion goes through more than a million radians in "
-       "the run. The summary, 'trammel explain' and \"integrator_choice\" in result.json tell which and why.",
+       "the run (of n > 10 coordinates 10/n million; of more than 100 the errors are below 1e-5). The summary, "
+       "'trammel explain' and \"integrator_choice\" in result.json tell which and why.",
        "A run whose error-controlled steps are far shorter than its records need says so after some seconds, with what "
        "makes them so short and what cures it. \"newton_iterations\" in result.json counts the points at which an "
        "implicit method solved for increments of the motion, rejected steps and those that locate events among them; "

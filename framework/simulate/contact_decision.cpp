@@ -30,8 +30,9 @@ void ContactModes::find_candidates(const ContactChanges& changes) {
   candidates_.clear();
   double scale = 0;
   for (const TouchingContact& c : touching_) scale = std::max(scale, std::abs(c.before));
-  const double at_rest = 1e-9 * scale + scale_.at_rest();  // [m/s] round-off of the jump
+  const double jump = 1e-9 * scale;  // [m/s] its round-off
   for (const TouchingContact& c : touching_) {
+    const double at_rest = jump + scale_.of(c.contact).at_rest();
     const bool constrained = c.impulse > 0 && treatment(c.contact).rebound == Restitution::Rebound::constrained;
     const bool rests = std::abs(c.was_closed ? c.after - c.before : c.after) <= at_rest;
     const bool released = contains(changes.released, c.contact) && c.impulse == 0 && !shared_before_[c.contact];
@@ -39,8 +40,8 @@ void ContactModes::find_candidates(const ContactChanges& changes) {
   }
 }
 
-double ContactModes::slow() const {
-  return system_.model().world.space == Space::spatial ? scale_.slow() : 0;
+double ContactModes::slow(int contact) const {
+  return system_.model().world.space == Space::spatial ? scale_.of(contact).slow() : 0;
 }
 
 // Slip across its former direction that is none [m/s]: with fixed steps also what a tenth of a step takes away.
@@ -51,7 +52,7 @@ double ContactModes::unresolved(int contact, const State& state) {
 }
 
 double ContactModes::nothing() const {
-  return std::max(scale_.no_acceleration(), 1e-12 * largest_);
+  return std::max(scale_.scene().no_acceleration(), 1e-12 * largest_);
 }
 
 // Rule 5: whether the contact is at rest in the tangent, and its coefficients.
@@ -70,7 +71,7 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
   if (p.mu_0 == 0) return;
   const model::ContactMode& before = before_.contacts[p.contact];
   const bool was_closed = before.closed && before.friction != Friction::none;
-  double at_rest = std::max(scale_.at_rest(), entry.coulomb->stick_speed());
+  double at_rest = std::max(scale_.of(p.contact).at_rest(), entry.coulomb->stick_speed());
   if (jumped)
     for (const TouchingContact& c : touching_) at_rest = std::max(at_rest, 1e-9 * std::abs(c.before));
   bool rests = speed <= at_rest;
@@ -114,7 +115,7 @@ void ContactModes::gather(const State& state, const ContactChanges& changes, boo
     add_friction(state, p, changes, jumped);
     mode.friction = p.tangent == Tangent::sliding ? Friction::slide : Friction::none;
     mode.direction = p.direction;
-    mode.slow = slow();
+    mode.slow = slow(i);
     if (p.tangent == Tangent::resting) problem_.who.push_back(p);
   }
 }
@@ -132,7 +133,7 @@ bool ContactModes::stop_with_others(ContactChanges& changes) {
     if (problem_.who[i].tangent != Tangent::sliding || !slid.closed || contains(changes.stopped, contact)) continue;
     if (!system_.model().contacts[contact].coulomb) continue;
     const double speed = system_.slip(contact).norm();
-    if (speed < slid.slow || (held[i] && speed <= scale_.drift())) changes.stopped.push_back(contact);
+    if (speed < slid.slow || (held[i] && speed <= scale_.of(int(contact)).drift())) changes.stopped.push_back(contact);
   }
   return changes.stopped.size() > before;
 }
@@ -144,8 +145,8 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes) {
     if (p.tangent != Tangent::resting) continue;
     p.a_t = system_.slip(p.contact);
     const double drift = p.a_t.norm();
-    drifted =
-        drifted || (drift > scale_.at_rest() && system_.model().contacts[p.contact].coulomb->stick_speed() < drift);
+    drifted = drifted || (drift > scale_.of(p.contact).at_rest() &&
+                          system_.model().contacts[p.contact].coulomb->stick_speed() < drift);
   }
   if (!drifted) return false;
   problem_.end_slip(dv_);
@@ -154,7 +155,7 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes) {
   bool more = false;
   for (int i = 0; i < int(before_.contacts.size()); ++i) {
     if (!before_.contacts[i].closed || before_.contacts[i].friction != Friction::slide) continue;
-    if (contains(changes.stopped, i) || system_.slip(i).norm() > scale_.at_rest()) continue;
+    if (contains(changes.stopped, i) || system_.slip(i).norm() > scale_.of(i).at_rest()) continue;
     changes.stopped.push_back(i);
     more = true;
   }
@@ -204,7 +205,7 @@ void ContactModes::take_verdict(const Participant& p, bool kept_closed) {
   if (!mode.closed || p.tangent == Tangent::none || !system_.model().contacts[p.contact].coulomb) return;
   mode.friction = Friction::slide;
   mode.direction = p.direction;
-  mode.slow = slow();
+  mode.slow = slow(p.contact);
   if (p.tangent == Tangent::sliding) return;
   if (p.a_t.norm() > nothing()) {
     mode.direction = direction_of(p.a_t);

@@ -42,7 +42,7 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   keep_forces(state);
   toggle(state, changes.toggled, events);
   find_touching(changes);
-  const auto approaches = [this](const TouchingContact& c) { return c.before < -scale_.at_rest(); };
+  const auto approaches = [this](const TouchingContact& c) { return c.before < -scale_.of(c.contact).at_rest(); };
   bool jumped = !changes.struck.empty() && std::any_of(touching_.begin(), touching_.end(), approaches);
   losses_.clear();
   lost_elsewhere_ = 0;
@@ -114,7 +114,7 @@ void ContactModes::toggle(const State& state, const std::vector<int>& contacts, 
     const double rate = system_.gap_rate(i);
     mode.closed = !mode.closed;
     mode.friction = Friction::none;
-    if (mode.closed) mode.approach_speed = -rate > least_approach * scale_.speed() ? -rate : 0;
+    if (mode.closed) mode.approach_speed = -rate > least_approach * scale_.of(i).speed ? -rate : 0;
     events.push_back({.t = state.t,
                       .kind = mode.closed ? Kind::close : Kind::open,
                       .contact = i,
@@ -130,7 +130,7 @@ void ContactModes::find_touching(const ContactChanges& changes) {
     if (!law) continue;
     const bool closed = before_.contacts[i].closed, struck = contains(changes.struck, i);
     if (closed && locks(i)) continue;
-    if (!closed && !struck && system_.gap(i) > scale_.touching()) continue;
+    if (!closed && !struck && system_.gap(i) > scale_.of(i).touching()) continue;
     TouchingContact c;
     c.contact = i;
     c.was_closed = closed;
@@ -154,7 +154,7 @@ void ContactModes::strike(State& state, const ContactChanges& changes) {
   for (;;) {
     all = touching_;
     all.insert(all.end(), bearings_.begin(), bearings_.end());
-    const auto solution = impact_.solve(system_, state, scale_.at_rest(), all, dv_);
+    const auto solution = impact_.solve(system_, state, at_rest(all), all, dv_);
     if (solution.outcome != LcpOutcome::solved) fail_without_solution("impact", state.t, solution);
     std::copy_n(all.begin(), touching_.size(), touching_.begin());
     std::copy_n(all.begin() + std::ptrdiff_t(touching_.size()), bearings_.size(), bearings_.begin());
@@ -186,7 +186,8 @@ void ContactModes::strike(State& state, const ContactChanges& changes) {
 void ContactModes::lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events) {
   model::Modes held = before_;
   const auto locked = [&](const TouchingContact& c) {
-    if (!locks(c.contact) || !(contains(changes.struck, c.contact) || c.impulse > 0) || c.after > scale_.at_rest())
+    if (!locks(c.contact) || !(contains(changes.struck, c.contact) || c.impulse > 0) ||
+        c.after > scale_.of(c.contact).at_rest())
       return false;
     held.contacts[c.contact].closed = modes_.contacts[c.contact].closed = true;
     modes_.contacts[c.contact].approach_speed = -c.before;
@@ -235,23 +236,29 @@ void ContactModes::fail_without_solution(const char* what, double t,
 // A law that names none leaves it to the scene.
 double ContactModes::capture_speed(int contact) const {
   const double named = treatment(contact).capture_speed;
-  return named > 0 ? named : scale_.slow();
+  return named > 0 ? named : scale_.of(contact).slow();
 }
 
-bool ContactModes::cannot_follow(double separation, double acceleration) const {
+bool ContactModes::cannot_follow(int contact, double separation, double acceleration) const {
   if (!(acceleration < 0)) return false;
   if (steps_.fixed) return 2 * separation < chatter_steps_ * *steps_.fixed * -acceleration;
-  return separation * separation < chatter_steps_ * scale_.error_of_position(steps_.tolerance) * 2 * -acceleration;
+  const double error = scale_.of(contact).error_of_position(steps_.tolerance);
+  return separation * separation < chatter_steps_ * error * 2 * -acceleration;
+}
+
+double ContactModes::at_rest(const std::vector<TouchingContact>& contacts) const {
+  double slow = 0;
+  for (const TouchingContact& c : contacts) slow = std::max(slow, scale_.of(c.contact).at_rest());
+  return slow;
 }
 
 // Of the touching contacts those that separate after the impact, but fall back before the steps can follow. All with so small a
 // separation are judged as one: in a pile each flies only as long as its neighbours do. Were they all at rest, those that would press
 // fall back, with the acceleration that their own force holds.
 std::vector<bool> ContactModes::falling_back(const State& state, const ContactChanges& changes) {
-  const double at_rest = scale_.at_rest();
-  const auto separates = [at_rest](const TouchingContact& c) {
+  const auto separates = [this](const TouchingContact& c) {
     const bool rebounds = c.restitution > 0 && c.restitution < 1 && c.impulse > 0;  // with e = 1 flights do not shrink
-    return rebounds || (c.was_closed && c.impulse == 0 && c.after > at_rest);
+    return rebounds || (c.was_closed && c.impulse == 0 && c.after > scale_.of(c.contact).at_rest());
   };
   std::vector<bool> falls(touching_.size(), false);
   if (chatter_steps_ <= 0 || std::none_of(touching_.begin(), touching_.end(), separates)) return falls;
@@ -264,7 +271,7 @@ std::vector<bool> ContactModes::falling_back(const State& state, const ContactCh
   system_.move_to(state.t, state.q, state.v);
   const double fastest = fastest_gap_acceleration();
   for (const TouchingContact& c : touching_)
-    if (separates(c) && !contains(candidates_, c.contact) && cannot_follow(c.after, -fastest))
+    if (separates(c) && !contains(candidates_, c.contact) && cannot_follow(c.contact, c.after, -fastest))
       candidates_.push_back(c.contact);
   if (candidates_.size() > at_rest_now) {
     gather(state, changes, true);
@@ -275,7 +282,7 @@ std::vector<bool> ContactModes::falling_back(const State& state, const ContactCh
         const auto c = std::find_if(touching_.begin(), touching_.end(),
                                     [&](const TouchingContact& each) { return each.contact == candidates_[i]; });
         falls[std::size_t(c - touching_.begin())] =
-            problem_.who[i].N > 0 && cannot_follow(c->after, problem_.acceleration_without(i));
+            problem_.who[i].N > 0 && cannot_follow(c->contact, c->after, problem_.acceleration_without(i));
       }
   }
   system_.set_modes(before_);
@@ -301,17 +308,17 @@ bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
 
 // Rule 2: takes the rates of those that opened, pushed by the impact of others, too little to follow.
 void ContactModes::end_rocking(State& state, const std::vector<bool>& falls) {
-  const double at_rest = scale_.at_rest();
+  const auto at_rest = [this](const TouchingContact& c) { return scale_.of(c.contact).at_rest(); };
   std::vector<bool> rests = falls;
   bool any = true;
-  for (std::size_t i = 0; i < touching_.size(); ++i) rests[i] = rests[i] || touching_[i].after <= at_rest;
+  for (std::size_t i = 0; i < touching_.size(); ++i) rests[i] = rests[i] || touching_[i].after <= at_rest(touching_[i]);
   while (any) {
     take_rates(state, rests);
     any = false;
     for (std::size_t i = 0; i < touching_.size(); ++i) {
       TouchingContact& c = touching_[i];
       c.after = rests[i] ? 0 : system_.gap_rate(c.contact);
-      if (c.after < -at_rest) rests[i] = any = true;
+      if (c.after < -at_rest(c)) rests[i] = any = true;
     }
   }
 }
@@ -323,7 +330,7 @@ void ContactModes::take_rates(State& state, const std::vector<bool>& rests) {
     const TouchingContact& c = touching_[i];
     if (!rests[i]) continue;
     held.push_back({c.contact, 0});
-    if (system_.model().contacts[c.contact].coulomb && c.slip_after.norm() <= scale_.at_rest())
+    if (system_.model().contacts[c.contact].coulomb && c.slip_after.norm() <= scale_.of(c.contact).at_rest())
       for (int k = 1; k <= system_.tangents(c.contact); ++k) held.push_back({c.contact, k});
   }
   Vec rates(Eigen::Index(held.size()));
@@ -363,14 +370,14 @@ double ContactModes::friction_noise(int contact) {
   Mat jump, delassus;
   system_.impulse_response(along, jump, delassus);
   const double least = delassus.diagonal().minCoeff();
-  return least > 0 ? scale_.no_acceleration() / least : 0;
+  return least > 0 ? scale_.of(contact).no_acceleration() / least : 0;
 }
 
 double ContactModes::force_noise(const std::vector<model::ContactDirection>& directions) {
   Mat jump, delassus;
   system_.impulse_response(directions, jump, delassus);
   const double most = delassus.cwiseAbs().rowwise().sum().maxCoeff();
-  return most > 0 ? scale_.no_acceleration() / most : 0;
+  return most > 0 ? scale_.scene().no_acceleration() / most : 0;
 }
 
 // For those whose `restart` carries them over.

@@ -50,7 +50,7 @@
 
 #include "simulate/results/contact_event.hpp"
 #include "simulate/contact/contact_problem.hpp"
-#include "simulate/contact/contact_scale.hpp"
+#include "run/contact_scale.hpp"
 #include "simulate/impact/impact_laws.hpp"
 #include "simulate/impact/impact_warnings.hpp"
 #include "run/settings.hpp"
@@ -125,7 +125,7 @@ class ContactModes {
   bool capture_chatter(const std::vector<bool>& falls);
   void end_rocking(State& state, const std::vector<bool>& falls);
   void take_rates(State& state, const std::vector<bool>& rests);
-  bool cannot_follow(double separation, double acceleration) const;
+  bool cannot_follow(int contact, double separation, double acceleration) const;
   void lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
   void find_candidates(const ContactChanges& changes);
   void open_all(model::Modes& modes) const;
@@ -146,7 +146,8 @@ class ContactModes {
   void finish(State& state, bool carry);
   void tell_normal(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
   void tell_friction(const State& state, std::vector<ContactEvent>& events);
-  double slow() const;
+  double slow(int contact) const;
+  double at_rest(const std::vector<TouchingContact>& contacts) const;  // [m/s] the largest of theirs
   double unresolved(int contact, const State& state);
   void keep_forces(const State& state);
   void carry_forces(Vec& lambda) const;

@@ -47,7 +47,8 @@ void EventLocation::watch(int contact) {
   }
   if (!mode.closed) {
     const bool at_ends = entry.restitution && entry.restitution->treatment().onset == Restitution::Onset::next_step;
-    watches_.push_back({.contact = contact, .kind = Kind::approach, .at_ends = at_ends, .noise = scale_.touching()});
+    watches_.push_back(
+        {.contact = contact, .kind = Kind::approach, .at_ends = at_ends, .noise = scale_.of(contact).touching()});
     return;
   }
   if (entry.restitution && entry.restitution->treatment().release == Restitution::Release::never) return;
@@ -56,7 +57,7 @@ void EventLocation::watch(int contact) {
   if (as_one && !watched_group(sharing.group))
     watches_.push_back({.contact = contact, .kind = Kind::unload, .group = sharing.group});
   if (entry.force)
-    watches_.push_back({.contact = contact, .kind = Kind::leave, .noise = scale_.touching()});
+    watches_.push_back({.contact = contact, .kind = Kind::leave, .noise = scale_.of(contact).touching()});
   else if (!as_one)
     watches_.push_back({.contact = contact, .kind = sharing.idle ? Kind::idle : Kind::press});
   watch_friction(contact, as_one);
@@ -67,7 +68,7 @@ void EventLocation::watch_friction(int contact, bool as_one) {
   const model::ContactEntry& entry = system_.model().contacts[contact];
   const model::ContactMode& mode = system_.modes().contacts[contact];
   if (mode.friction == Friction::slide)
-    watches_.push_back({.contact = contact, .kind = Kind::slide, .noise = scale_.at_rest()});
+    watches_.push_back({.contact = contact, .kind = Kind::slide, .noise = scale_.of(contact).at_rest()});
   else if (mode.friction == Friction::stick && !as_one)
     watches_.push_back({.contact = contact,
                         .kind = Kind::hold,
@@ -245,7 +246,7 @@ EventLocation::Value EventLocation::value(int w, const State& state, bool& accel
     return {sign * system_.gap(watch.contact), sign * system_.gap_rate(watch.contact)};
   }
   if (watch.kind == Kind::hold && watch.at_ends)
-    return {scale_.no_acceleration() - system_.slip_acceleration(watch.contact, state.a).norm(), 0};
+    return {scale_.of(watch.contact).no_acceleration() - system_.slip_acceleration(watch.contact, state.a).norm(), 0};
   if (!own_force_) accelerate();
   return {force(watch, state.t, own_force_ ? state.lambda : lambda_), 0};
 }
@@ -255,7 +256,7 @@ EventLocation::Value EventLocation::value(int w, const State& state, bool& accel
 bool EventLocation::happened(int w, const Value& end) const {
   if (!(end.f < 0)) return false;
   if (!just_handled(w) || end.f < std::min(now_[w].f, 0.0) - watches_[w].noise) return true;
-  return watches_[w].kind != Kind::slide && !by_force(w) && end.slope < -scale_.at_rest();
+  return watches_[w].kind != Kind::slide && !by_force(w) && end.slope < -scale_.of(watches_[w].contact).at_rest();
 }
 
 EventLocation::Value EventLocation::step_to(const State& now, double h, int w) {
@@ -274,7 +275,8 @@ void EventLocation::find_suspects(const State& now, double h, const State& next)
   for (int w = 0; w < int(watches_.size()); ++w) {
     Suspect suspect{w, h, next_[w]};
     if (watches_[w].at_ends) {
-      if (next_[w].f < 0 && (by_force(w) || next_[w].slope < -scale_.at_rest())) at_end_.push_back(w);
+      if (next_[w].f < 0 && (by_force(w) || next_[w].slope < -scale_.of(watches_[w].contact).at_rest()))
+        at_end_.push_back(w);
     } else if (happened(w, next_[w]) || dips(now, h, next, w, suspect) || returns(now, h, w, suspect)) {
       suspects_.push_back(suspect);
     } else if (watches_[w].kind == Kind::slide) {
@@ -383,18 +385,19 @@ void EventLocation::report(int w) {
 // those that are late would find that nothing can move.
 double EventLocation::same_instant(int contact) const {
   const bool by_double_root = system_.model().contacts[contact].limit && system_.redundant();
-  return by_double_root ? std::sqrt(eps) * scale_.length() : 4 * scale_.touching();
+  return by_double_root ? std::sqrt(eps) * scale_.of(contact).length() : 4 * scale_.of(contact).touching();
 }
 
 // All others that happen at the same instant as the one that was located.
 void EventLocation::collect() {
   for (int w = 0; w < int(watches_.size()); ++w) {
     const Value& end = next_[w];
-    const bool falls = end.slope < -scale_.at_rest();
+    const Scale scale = scale_.of(watches_[w].contact);
+    const bool falls = end.slope < -scale.at_rest();
     if (watches_[w].at_ends ? end.f < 0 && (by_force(w) || falls)
         : by_force(w)       ? end.f <= 1e-12 * watches_[w].bound && !just_handled(w)
         : watches_[w].kind == Kind::slide
-            ? end.f <= watches_[w].noise && !just_handled(w) && end.slope < -scale_.no_acceleration()
+            ? end.f <= watches_[w].noise && !just_handled(w) && end.slope < -scale.no_acceleration()
             : end.f <= same_instant(watches_[w].contact) && falls)
       report(w);
   }
@@ -425,7 +428,8 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
     return numerics::narrow(f, {bracket.low, bracket.high, bracket.at_low.f, bracket.at_high.f}, resolution).high;
   }
   // A thousandth of what counts as there.
-  const double round_off = 1e-3 * (watches_[w].kind == Kind::slide ? scale_.at_rest() : scale_.touching());
+  const Scale scale = scale_.of(watches_[w].contact);
+  const double round_off = 1e-3 * (watches_[w].kind == Kind::slide ? scale.at_rest() : scale.touching());
   return numerics::crossing([&](double h) { return step_to(now, h, w); }, bracket, resolution, round_off);
 }
 

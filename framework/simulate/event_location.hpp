@@ -41,7 +41,7 @@
 #include "simulate/root_bracket.hpp"
 #include "system/between_states.hpp"
 #include "simulate/contact_mode.hpp"
-#include "simulate/contact/contact_scale.hpp"
+#include "run/contact_scale.hpp"
 
 namespace trammel::simulate {
 

@@ -95,7 +95,9 @@ bool EventLocation::hides_gap(double h) {
     const Cubic cubic{0, h, begin.f, end.f, begin.slope, end.slope};
     const double there = (watches_[w].kind == Kind::leave ? -1 : 1) * system_.gap(watches_[w].contact);
     const double off = std::abs(there - cubic.value(inside)), size = std::max(std::abs(begin.f), std::abs(end.f));
-    if (off > 0.05 * size && 4 * off > std::min({begin.f, end.f, there}) && off > scale_.touching()) return true;
+    if (off > 0.05 * size && 4 * off > std::min({begin.f, end.f, there}) &&
+        off > scale_.of(watches_[w].contact).touching())
+      return true;
   }
   return false;
 }

@@ -41,6 +41,7 @@ Simulator::Simulator(std::shared_ptr<model::Model> model, Integrator& integrator
       corrections_(std::move(corrections)),
       free_control_(settings.step, settings.every, error_order(integrator), even_steps(integrator)),
       contact_control_(settings.contact_step, settings.every, error_order(integrator), even_steps(integrator)),
+      scale_(system_.model()),
       modes_(system_, scale_, settings_),
       location_(system_, integrator, modes_, scale_),
       ledger_(system_, integrator),
@@ -64,9 +65,10 @@ void Simulator::start(State initial) {
       bears = true;
       continue;
     }
-    const bool compliant = system_.model().contacts[i].force, pressed = system_.gap(i) < -scale_.touching();
-    if (system_.gap(i) > scale_.written_length()) continue;
-    if (system_.gap_rate(i) > scale_.written_speed() && !(compliant && pressed)) continue;
+    const Scale scale = scale_.of(i);
+    const bool compliant = system_.model().contacts[i].force, pressed = system_.gap(i) < -scale.touching();
+    if (system_.gap(i) > scale.written_length()) continue;
+    if (system_.gap_rate(i) > scale.written_speed() && !(compliant && pressed)) continue;
     compliant ? pressing.toggled.push_back(i) : striking.struck.push_back(i);
   }
   if (!pressing.empty()) settle(pressing);  // what they store is there from the first instant
@@ -111,7 +113,7 @@ double Simulator::little_energy() {
   constexpr double little = 1e-9;
   scratch_.setZero(now_.v.size());
   system_.add_mass_times(1, Vec::Ones(now_.v.size()), scratch_);
-  const double moving = scratch_.lpNorm<Eigen::Infinity>() * scale_.speed() * scale_.speed();
+  const double moving = scratch_.lpNorm<Eigen::Infinity>() * scale_.scene().speed * scale_.scene().speed;
   return little * (moving > 0 ? std::min(1.0, moving) : 1);
 }
 
@@ -245,7 +247,7 @@ bool Simulator::step_and_examine(const StepControl::Proposal& proposal, double& 
   };
   if (!next_.q.allFinite() || !next_.v.allFinite() || !next_.a.allFinite()) return refuse_not_finite();
   if (control().controlled()) {
-    const Tolerance tolerance = scale_.in_own_unit(control().tolerance(), settings_.every);
+    const Tolerance tolerance = scale_.scene().in_own_unit(control().tolerance(), settings_.every);
     error = estimate_->error(system_, now_, next_, tolerance);
     if (!(error <= 1)) {
       ++statistics_.rejected;

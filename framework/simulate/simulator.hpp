@@ -22,7 +22,7 @@
 #include "diagnose/conflict.hpp"
 #include "simulate/contact/contact_audit.hpp"
 #include "simulate/contact_mode.hpp"
-#include "simulate/contact/contact_scale.hpp"
+#include "run/contact_scale.hpp"
 #include "simulate/event_location.hpp"
 #include "simulate/results/ledger.hpp"
 #include "simulate/watch/open_joints.hpp"

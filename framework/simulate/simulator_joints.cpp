@@ -10,7 +10,7 @@ namespace trammel::simulate {
 
 void Simulator::measure_joints() {
   system_.move_to(now_.t, now_.q, now_.v);
-  open_joints_.measure(system_, scale_.length(), scale_.one_point());
+  open_joints_.measure(system_, scale_.scene().length(), scale_.scene().one_point());
 }
 
 void Simulator::judge_joints(const State& state) {
@@ -36,7 +36,7 @@ bool Simulator::contradictory(const ConstraintNorms& norms) {
 Conflict Simulator::conflict() {
   if (system_.sizes().nc == 0 || near_the_end_of_numbers()) return {};
   system_.move_to(now_.t, now_.q, now_.v);
-  if (!(system_.g().lpNorm<Eigen::Infinity>() < 1e3 * scale_.length())) return {};  // diverged
+  if (!(system_.g().lpNorm<Eigen::Infinity>() < 1e3 * scale_.scene().length())) return {};  // diverged
   const double step = statistics_.largest_step > 0 ? statistics_.largest_step : settings_.every;
   for (const double ahead : {0.0, step}) {
     State s = now_;

@@ -116,6 +116,24 @@ TEST(Scales, AScaledSceneHasTheSameImpacts) {
   }
 }
 
+// Whose gap sets no scale but its own, nor does the speed of a fall from there.
+TEST(Scales, APlaneFarOffLeavesTheOtherContactsAsTheyAre) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const std::string scene = bouncing(seed, {});
+    const std::vector<Event> here = impacts(scene);
+    ASSERT_GT(here.size(), 8u);
+    for (const double far : {1e3, 1e6, 1e9, 1e12}) {
+      std::string with_it = scene;
+      const std::string contacts = R"("contacts": {)";
+      with_it.insert(with_it.find(contacts) + contacts.size(),
+                     fmt::format(R"("sky": {{"type": "constraint_method", "restitution": 1,
+                        "between": ["ball.point", {{"plane": {{"point": [0, {:.17g}], "normal": [0, -1]}}}}]}}, )",
+                                 far));
+      expect_same(here, impacts(with_it), {}, of_steps, fmt::format("seed {}, plane at {} m", seed, far));
+    }
+  }
+}
+
 TEST(Scales, AMovedSceneHasTheSameImpacts) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const std::vector<Event> here = impacts(bouncing(seed, {}));
@@ -205,6 +223,56 @@ TEST(Scales, AJointHasNoSizeOfRoundOff) {
           near, place, place, near, x));
       ASSERT_TRUE(run.done()) << run.report.reason;
       EXPECT_NEAR(run.end("w"), 3, 1e-12);
+    }
+  }
+}
+
+// Two bars, the hinge of the first of them given `times`. What doubles hold of a place is what its rows hold to.
+std::string bars(double place, int times, const char* integrator) {
+  std::string hinges;
+  for (int i = 0; i < times; ++i)
+    hinges += fmt::format(R"("a{}": {{"type": "revolute", "between": [{{"point": [{:.17g}, {:.17g}]}}, "u.in"]}}, )", i,
+                          place, place);
+  return fmt::format(
+      R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+  "bodies": {{"u": {{"type": "rigid_body", "mass": 1, "inertia": 0.1, "position": [{:.17g}, {:.17g}],
+                   "markers": {{"in": [-0.5, 0], "out": [0.5, 0]}}}},
+             "l": {{"type": "rigid_body", "mass": 1, "inertia": 0.1, "position": [{:.17g}, {:.17g}],
+                   "markers": {{"in": [-0.5, 0]}}}}}},
+  "joints": {{{}"b": {{"type": "revolute", "between": ["u.out", "l.in"]}}}},
+  "integrator": {}, "simulate": {{"until": 1}},
+  "record": {{"every": 0.1, "observe": {{"u": "u.angle", "l": "l.angle"}}}}}})",
+      place + 0.5, place, place + 1.5, place, hinges, integrator);
+}
+
+TEST(Scales, MovedJointsHoldAndSwingAsAtTheOrigin) {
+  for (const char* integrator : {R"({"type": "dop853", "step": {"tolerance": 1e-9}})",
+                                 R"({"type": "dop853", "rows": "projected", "step": {"tolerance": 1e-9}})",
+                                 R"({"type": "hht_alpha", "step": 1e-3})"})
+    for (const int times : {1, 2}) {
+      const Finished here = run_text(bars(0, times, integrator));
+      ASSERT_TRUE(here.done()) << here.report.reason;
+      for (const double place : {1e5, 1e8}) {
+        const Finished there = run_text(bars(place, times, integrator));
+        ASSERT_TRUE(there.done()) << integrator << ", " << place << " m: " << there.report.reason;
+        // Joints open by the round-off of the place, which turns bars of 1 m by as much; a swing of 1 s amplifies it by some tens.
+        for (const char* angle : {"u", "l"})
+          EXPECT_NEAR(there.end(angle), here.end(angle), 1e-8 + 100 * eps * place) << integrator << ", " << place;
+      }
+    }
+}
+
+TEST(Scales, MovedJointsThatContradictEachOtherAreNamed) {
+  for (const double place : {0.0, 1e5, 1e8}) {
+    std::string scene = bars(place, 2, R"({"type": "dop853", "step": {"tolerance": 1e-9}})");
+    const std::string second = fmt::format(R"("a1": {{"type": "revolute", "between": [{{"point": [{:.17g}, )", place);
+    scene.replace(scene.find(second), second.size(),
+                  fmt::format(R"("a1": {{"type": "revolute", "between": [{{"point": [{:.17g}, )", place + 0.25));
+    try {
+      run_text(scene);
+      FAIL() << "it ran, at " << place << " m";
+    } catch (const scene::SceneError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("joints.a0, joints.a1 contradict each other")) << place;
     }
   }
 }

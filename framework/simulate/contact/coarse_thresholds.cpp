@@ -35,8 +35,9 @@ std::vector<std::string> CoarseThresholds::warnings(const model::Model& model, c
                                                     const ContactScale& scale) const {
   std::vector<std::string> all;
   for (const std::string& text :
-       {of_step("step", settings.step, scale.length()),
-        settings.own_contact_step ? of_step("contact_step", settings.contact_step, scale.length()) : std::string()})
+       {of_step("step", settings.step, scale.scene().length()),
+        settings.own_contact_step ? of_step("contact_step", settings.contact_step, scale.scene().length())
+                                  : std::string()})
     if (!text.empty()) all.push_back(text);
   for (Eigen::Index i = 0; i < fastest_.size(); ++i) {
     const model::ContactEntry& contact = model.contacts[std::size_t(i)];

@@ -10,7 +10,7 @@
 #include <trammel/archive.hpp>
 
 #include "simulate/results/contact_event.hpp"
-#include "simulate/contact/contact_scale.hpp"
+#include "run/contact_scale.hpp"
 #include "run/settings.hpp"
 
 namespace trammel::simulate {

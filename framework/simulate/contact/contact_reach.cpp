@@ -1,20 +1,23 @@
 #include "simulate/contact/contact_reach.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "run/contact_scale.hpp"
 #include "system/unrelated.hpp"
 
 namespace trammel::simulate {
 namespace {
 
-// Whether some acceleration changes the gap's, where the system is.
-bool moves(model::AssembledSystem& system, int contact) {
+// Whether some acceleration changes the gap's, where the system is; by levers of the scene's length, beyond what the place leaves of
+// them.
+bool moves(model::AssembledSystem& system, const Scale& scale, int contact) {
   const Vec rest = Vec::Zero(system.sizes().nv);
   const double by =
       system.acceleration({contact, 0}, unrelated(rest.size(), 1, 0)) - system.acceleration({contact, 0}, rest);
-  return std::abs(by) > 1e-12 * (1 + system.contact_marker(contact).x.norm());
+  return std::abs(by) > 1e-12 * std::min(1.0, scale.length()) + 16 * scale.resolution();
 }
 
 }  // namespace
@@ -23,15 +26,19 @@ void check_reach(model::AssembledSystem& system, const State& start, const scene
                  scene::Problems& problems) {
   const Vec still = Vec::Zero(start.v.size());
   Vec elsewhere;
+  ContactScale scale(system.model());
+  system.move_to(start.t, start.q, still);
+  scale.take_all(system);
   for (int i = 0; i < int(system.model().contacts.size()); ++i) {
     if (system.model().contacts[std::size_t(i)].joint) continue;
     system.move_to(start.t, start.q, still);
     const double gap = system.gap(i);
-    bool reaches = moves(system, i);
+    const Scale own = scale.of(i);
+    bool reaches = moves(system, own, i);
     for (double seed = 1; seed < 3 && !reaches; ++seed) {  // a dead centre, perhaps
       system.retract(start.q, unrelated(start.v.size(), 0.1, seed), elsewhere);
       system.move_to(start.t, elsewhere, still);
-      reaches = moves(system, i);
+      reaches = moves(system, own, i);
     }
     const model::ContactEntry& contact = system.model().contacts[std::size_t(i)];
     const scene::Value* at = root.at_path("contacts." + contact.name);

@@ -1,6 +1,6 @@
 #include "simulate/contact/resting_contacts.hpp"
 
-#include "simulate/contact/contact_scale.hpp"
+#include "run/contact_scale.hpp"
 
 namespace trammel::simulate {
 
@@ -17,11 +17,11 @@ RestingContacts::~RestingContacts() {
 }
 
 void RestingContacts::close_what_may_push() {
-  ContactScale scale;
+  ContactScale scale(system_.model());
   scale.take_all(system_);
-  const double touching = scale.written_length();
   for (std::size_t i = 0; i < modes_.contacts.size(); ++i)
-    modes_.contacts[i].closed = system_.model().contacts[i].force || system_.gap(int(i)) <= touching;
+    modes_.contacts[i].closed =
+        system_.model().contacts[i].force || system_.gap(int(i)) <= scale.of(int(i)).written_length();
   system_.set_modes(modes_);
 }
 

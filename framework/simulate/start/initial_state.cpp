@@ -8,38 +8,22 @@
 #include <fmt/ranges.h>
 
 #include "diagnose/conflict.hpp"
-#include "simulate/contact/contact_scale.hpp"
+#include "run/contact_scale.hpp"
 #include "simulate/start/equilibrium.hpp"
 #include "diagnose/row_offsets.hpp"
+#include "run/row_tolerance.hpp"
 
 namespace trammel::simulate {
 namespace {
-
-constexpr double tolerance = 1e-8;  // of the scene's length and speed, and 1 m, 1 rad, 1 m/s, 1 rad/s at most
 
 // What "nearest" weighs: masses, and with contacts what the bodies store at 1 rad/s too, so that a beam that reaches into a plane
 // is turned out of it and not bent.
 constexpr Blend by_mass = {1, 0, 0}, by_mass_and_stiffness = {1, 0, 1};
 
-// What rows may be off by at the start: digits of a scene. Angles take the lengths' measure too where those are below 1 m.
-struct Allowed {
-  double length, speed;  // [m], [m/s]
-  double round_off;      // [m] that an iteration may end with
-};
-Allowed allowed_at(model::AssembledSystem& system, const State& s) {
-  system.move_to(s.t, s.q, s.v);
-  ContactScale scale;
-  scale.take_all(system);
-  const double length = tolerance * std::min(1.0, scale.length() > 0 ? scale.length() : 1) + scale.resolution();
-  const double speed = s.v.size() > 0 ? s.v.norm() : 0;
-  const double unit = std::max(scale.length() > 0 ? std::min(1.0, scale.length()) : 1, speed);
-  return {length, tolerance * unit, 1e-3 * tolerance + 64 * scale.resolution()};
-}
-
 bool project_position(model::AssembledSystem& system, State& s, Blend nearest = by_mass) {
   Vec zero = Vec::Zero(system.sizes().nv), dq, mu, q;
   const Vec no_force = Vec::Zero(system.sizes().nc);
-  const Allowed allowed = allowed_at(system, s);
+  const RowTolerance allowed = row_tolerance(system, s);
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 50; ++i) {
     system.move_to(s.t, s.q, s.v);
@@ -66,19 +50,20 @@ bool project_velocity(model::AssembledSystem& system, State& s) {
     if (!system.correct(zero, g_dot, dv, mu)) return false;
     s.v += dv;
   }
+  const double allowed = row_tolerance(system, s).speed;
   system.move_to(s.t, s.q, s.v);
-  return system.g_dot().norm() < tolerance * std::max(1.0, s.v.norm());
+  return system.g_dot().norm() < allowed;
 }
 
 // Contacts with rows whose gap is below 0 by more than a scene's digits.
 std::vector<int> penetrated(model::AssembledSystem& system, const State& s) {
   system.move_to(s.t, s.q, s.v);
-  ContactScale scale;
+  ContactScale scale(system.model());
   scale.take_all(system);
   std::vector<int> all;
   for (int i = 0; i < int(system.model().contacts.size()); ++i) {
     if (system.model().contacts[i].force) continue;  // compliant: it starts under load
-    if (system.gap(i) < -scale.written_length()) all.push_back(i);
+    if (system.gap(i) < -scale.of(i).written_length()) all.push_back(i);
   }
   return all;
 }
@@ -157,7 +142,7 @@ void check_motion(model::AssembledSystem& system, const State& s, const scene::V
 void check_rows(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
   system.move_to(s.t, s.q, s.v);
   const Vec g = system.g(), g_dot = system.g_dot();
-  const Allowed allowed = allowed_at(system, s);
+  const RowTolerance allowed = row_tolerance(system, s);
   system.move_to(s.t, s.q, s.v);
   State nearest = s;
   bool wrong = false;

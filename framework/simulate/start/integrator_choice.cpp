@@ -11,8 +11,10 @@
 namespace trammel::simulate {
 namespace {
 
-// Of an explicit method, each about a radian of what is fastest.
-constexpr double most_steps = 1e6;
+// Of an explicit method, each about a radian of what is fastest, of a system of `few` coordinates at most; a step of more costs more.
+constexpr double most_steps = 1e6, few = 10;
+// Of elements: their fast waves are in motion, by loads and blows, and a tolerance that sees them follows them.
+constexpr int many = 100;
 
 struct Choice {
   const char* name;
@@ -21,7 +23,8 @@ struct Choice {
 };
 constexpr Choice explicit_steps = {"dop853", R"({"type": "dop853"})", 1e-9},
                  steps_on_rows = {"dop853 with projected rows", R"({"type": "dop853", "rows": "projected"})", 1e-9},
-                 damped_steps = {"hht_alpha", R"({"type": "hht_alpha"})", 1e-7};
+                 damped_steps = {"hht_alpha", R"({"type": "hht_alpha"})", 1e-7},
+                 damped_waves = {"hht_alpha for many coordinates", R"({"type": "hht_alpha"})", 1e-5};
 
 bool decides_friction_at_every_evaluation(const model::Model& model) {
   return std::any_of(model.contacts.begin(), model.contacts.end(), [](const model::ContactEntry& contact) {
@@ -31,16 +34,17 @@ bool decides_friction_at_every_evaluation(const model::Model& model) {
 
 bool exceeds_explicit_steps(const FastestMotion& fastest, const Setup& setup) {
   const double time = setup.settings.until - setup.settings.start;
-  return fastest.rate() * time > most_steps && !decides_friction_at_every_evaluation(*setup.model);
+  const double cost = std::max(1.0, setup.model->sizes.nv / few);
+  return fastest.rate() * time * cost > most_steps && !decides_friction_at_every_evaluation(*setup.model);
 }
 
 const Choice& fitting(const FastestMotion& fastest, const MassRatio& ratio, const Setup& setup) {
-  if (exceeds_explicit_steps(fastest, setup)) return damped_steps;
+  if (exceeds_explicit_steps(fastest, setup)) return setup.model->sizes.nv > many ? damped_waves : damped_steps;
   return ratio.is_large() ? steps_on_rows : explicit_steps;
 }
 
 const Choice& named(const std::string& name) {
-  for (const Choice* each : {&steps_on_rows, &damped_steps})
+  for (const Choice* each : {&steps_on_rows, &damped_steps, &damped_waves})
     if (name == each->name) return *each;
   return explicit_steps;
 }

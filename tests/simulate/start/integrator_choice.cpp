@@ -84,6 +84,21 @@ TEST(IntegratorChoice, DampsWhatIsTooFastToFollow) {
   }
 }
 
+// Steel takes a hundred times the steps of rubber, each of 326 coordinates: 13,381 of dop853, 1.9 ms each, for 0.3 s.
+TEST(IntegratorChoice, CountsWhatAStepOfManyCoordinatesCosts) {
+  std::string ball = read_text(TRAMMEL_SOURCE_DIR "/scenes/plate/ball.json");
+  const std::size_t line = ball.find("  \"integrator\"");
+  ball.erase(line, ball.find('\n', line) - line);
+  const auto chosen = [&](const char* E) {
+    const scene::Scene scene = scene::Scene::parse(ball, "ball.json", {{"bodies.plate.youngs_modulus", E}});
+    return simulate::set_up(scene, registry()).choice;
+  };
+  EXPECT_THAT(chosen("2e7"), StartsWith("dop853, tolerance 1e-09: "));
+  for (const char* steel : {"2.1e11", "7e12"})
+    EXPECT_THAT(chosen(steel), AllOf(StartsWith("hht_alpha for many coordinates, tolerance 1e-05: "),
+                                     HasSubstr("bodies.plate swings at")));
+}
+
 TEST(IntegratorChoice, IsKeptByAResumedRunWhoseEndHasMoved) {
   // 1 s of a spring of 1e11 N/m are 3e5 radians, 10 s are too many.
   const auto scene = [](const char* until) {

@@ -1,0 +1,76 @@
+// The size of a scene, in space and speed, which decides what of a contact is round-off. All grow only, so that what counts as
+// touching does not change back. A scene scaled by any factor behaves alike, and so does one that is moved: place counts only by its
+// round-off.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include <trammel/archive.hpp>
+#include <trammel/integrator.hpp>
+
+#include "system/assembled_system.hpp"
+
+namespace trammel::simulate {
+
+// What counts where sizes are these.
+struct Scale {
+  double gaps_and_bodies =
+      0;  // [m] the largest gap so far, extent of a body, or distance between the markers of a joint or force
+  double place =
+      0;  // [m] the largest coordinate of a marker or plane so far: gaps are differences of numbers of this size
+  double speed = 0;    // [m/s] the largest of a contact's marker so far, and sqrt(gravity length)
+  double gravity = 0;  // [m/s^2]
+
+  double length() const { return gaps_and_bodies > 0 ? gaps_and_bodies : place; }
+  // What the difference of two coordinates may be off by [m].
+  double resolution() const { return 4 * std::numeric_limits<double>::epsilon() * place; }
+  // No more than that apart is one point, computed in two ways; at the origin, by terms of the order of 1 m.
+  double one_point() const { return std::max(resolution(), 1e-14); }
+  // Nearer than this is touching [m], slower is at rest [m/s], less is no acceleration [m/s^2].
+  double touching() const { return 1e-12 * gaps_and_bodies + resolution(); }
+  double at_rest() const { return 1e-12 * speed; }
+  double no_acceleration() const;
+  // Slower than this may be what the steps leave of the rates of rows that they hold [m/s].
+  double drift() const { return 1e-6 * speed; }
+  // Slip in space that has no direction [m/s] (system/slip.hpp); impacts slower than that have no rebound unless the law says so.
+  double slow() const { return 1e-7 * speed; }
+  // The digits to which positions and velocities are written in a scene.
+  double written_length() const { return 1e-9 * length() + resolution(); }
+  double written_speed() const { return 1e-9 * speed; }
+
+  // A tolerance without `absolute` (0) is meant in the scene's own unit: `absolute` then is `relative` times the length, 1 at most.
+  // `every` [s] makes a length of a speed where the scene has none.
+  Tolerance in_own_unit(const Tolerance& tolerance, double every) const;
+  // What steps under this tolerance leave a position off by [m].
+  double error_of_position(const Tolerance& tolerance) const;
+
+  void take_length(double length);
+  void take_fall();  // the speed that gravity gives along the length
+  void raise_to(const Scale& other);
+};
+
+// Each contact's own scale, so that a plane far off decides nothing for the others: its gap and place, and the extents, distances of
+// joined markers and speeds at the start of all bodies, which may be tied to its own.
+class ContactScale {
+ public:
+  explicit ContactScale(const model::Model& model) : own_(model.contacts.size()) {}
+  void take_all(model::AssembledSystem& system);       // all markers, at the system's point
+  void take_contacts(model::AssembledSystem& system);  // those of contacts
+
+  Scale of(int contact) const;
+  const Scale& scene() const { return scene_; }  // the largest of all
+
+  void archive(Archive& a);
+
+ private:
+  void take_body(model::AssembledSystem& system, int body);
+  void take_distances(model::AssembledSystem& system, const std::vector<model::MarkerRef>& markers, double off);
+  void take_contact(model::AssembledSystem& system, int contact);
+  Scale bodies_;            // without gaps
+  std::vector<Scale> own_;  // by contact: its gap, and the places and speeds of its markers
+  Scale scene_;
+};
+
+}  // namespace trammel::simulate

@@ -1,0 +1,19 @@
+// What rows of joints and bodies may be off by before they count as violated: digits of a scene. Angles take the lengths' measure too
+// where those are below 1 m.
+//
+//     1e-8 of the scene's length and speed, of 1 m, 1 rad, 1 m/s, 1 rad/s at most, beside the round-off of its place
+#pragma once
+
+#include <trammel/integrator.hpp>
+
+#include "system/assembled_system.hpp"
+
+namespace trammel::simulate {
+
+struct RowTolerance {
+  double length, speed;  // [m], [m/s]
+  double round_off;      // [m] that an iteration may end with
+};
+RowTolerance row_tolerance(model::AssembledSystem& system, const State& s);  // leaves the system there
+
+}  // namespace trammel::simulate
