@@ -1,10 +1,16 @@
-// The saddle-point system of many coordinates and few rows,
+// The saddle-point system with a sparse S,
 //
 //     [S W^T] [x]   [b]
-//     [G  0 ] [y] = [c]        S sparse, nv x nv; G and W: nc x nv
+//     [G  0 ] [y] = [c]        S nv x nv; G and W: nc x nv
 //
-// front by front (frontal_factors.hpp): a plate of thousands of coordinates. Where rows depend on each other, or exchanges within fronts
-// do not serve, by the slower sparse LU of sparse_kkt.hpp: y is then of minimum norm, and what is singular beyond the rows is told.
+// front by front (frontal_factors.hpp): a plate of thousands of coordinates, a chain of thousands of links. The columns of S are scaled
+// to the size of one, and with them those of W, so that pivots tell dependent rows whatever the masses and units are:
+//
+//     [D S D    D W^T E] [D^-1 x]   [D b]        D, E diagonal, of powers of two: scaling does not round
+//     [E G D       0   ] [E^-1 y] = [E c]
+//
+// Where rows depend on each other, or exchanges within fronts do not serve, by the slower sparse LU of sparse_kkt.hpp, unscaled: y is
+// then of minimum norm, and what is singular beyond the rows is told.
 // The pattern is analysed when it widens: once per mesh, and as contacts reach what they have not touched.
 #pragma once
 
@@ -21,24 +27,37 @@ class FrontalIterationKkt {
  public:
   // The sum of S, W^T and G; what it is given before the first `factorise` to reserve stays.
   SparseSum& sum() { return full_; }
-  // `additions()` adds all of it to the sum; it may be run twice.
+  // `additions()` adds all of it to the sum; it may be run twice. `independent()`: whether the rows are, asked where small pivots
+  // make it doubtful.
+  template <class Independent, class Additions>
+  void factorise(int nv, int nc, Independent&& independent, Additions&& additions) {
+    full_.fill(nv + nc, additions);
+    nv_ = nv;
+    by_fronts_ = factorise_sum() && (pivots_are_safe() || independent());
+    if (!by_fronts_) fall_back();
+  }
   template <class Additions>
   void factorise(int nv, const Mat& G, double rank_tolerance, Additions&& additions) {
-    full_.fill(nv + int(G.rows()), additions);
-    factorise_sum(nv, G, rank_tolerance);
+    safe_pivot_ = 100 * rank_tolerance;
+    factorise(
+        nv, int(G.rows()), [&] { return rank_of_rows(G, rank_tolerance) == G.rows(); }, additions);
   }
   // False: not solvable (singular beyond redundant rows), or not finite.
   [[nodiscard]] bool solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
 
  private:
-  void factorise_sum(int nv, const Mat& G, double rank_tolerance);
-  bool rows_are_independent(const Mat& G, double rank_tolerance) const;
+  bool factorise_sum();
+  void find_scale();
+  bool pivots_are_safe() const;
+  void fall_back();
 
   SparseSum full_;
   FrontalFactors fronts_;
   SparseIterationKkt fallback_;
   bool by_fronts_ = false, finite_ = true;
   int nv_ = 0, analysed_ = 0;  // analysed_: patterns
+  double safe_pivot_ = 1e-5;   // beside its column
+  Vec scale_;                  // D and E
   Vec right_, solution_;
 };
 

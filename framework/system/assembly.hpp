@@ -192,7 +192,6 @@ struct AssembledSystem::Work {
 
   Mat M, G, W;
   numerics::SparseSum sparse_mass;  // in place of M, with sparse storage
-  Mat tangent;                      // of factorise_tangent with blocks
   Vec f, g, g_dot, gamma;
   std::array<Kept, 3> kept;
   std::optional<BodyBlocks> blocks;  // in place of M, G, W and their factors where bodies are many

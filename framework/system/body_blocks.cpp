@@ -19,20 +19,6 @@ BodyBlocks::BodyBlocks(const Model& model) : model_(model) {
     block.M.setZero(entry.nv, entry.nv);
     block.constant_mass = model.constant_mass;
   }
-  const auto tie = [this](const std::vector<MarkerRef>& markers) {
-    for (const MarkerRef& one : markers)
-      for (const MarkerRef& other : markers)
-        if (one.body >= 0 && other.body >= 0 && one.body != other.body) tied_.push_back({one.body, other.body});
-  };
-  for (const JointEntry& joint : model.joints) tie(joint.markers);
-  for (const ForceEntry& force : model.forces) tie({force.A, force.B});
-  for (const ContactEntry& contact : model.contacts)
-    if (contact.limit)
-      tie(contact.limit->markers);
-    else
-      tie({contact.A, contact.B});
-  std::sort(tied_.begin(), tied_.end());
-  tied_.erase(std::unique(tied_.begin(), tied_.end()), tied_.end());
 }
 
 void BodyBlocks::lay_out(std::span<const Tie> ties) {
@@ -138,13 +124,9 @@ bool BodyBlocks::factorise(Kept& store, const MassSystem& of, bool constant) {
 bool BodyBlocks::factorise_mass(Kept& store, const MassSystem& of, bool constant, bool sliding) {
   if (!factorise(store, of, constant)) return false;
   if (!sliding) return true;
-  const int nc = of.nc;
-  if (redundant(store)) return factorise_dense(store, nc, of.rank_tolerance);
-  store.by = Kept::By::iteration;
-  store.iteration.factorise(bodies_, model_.sizes.nv, nc, true, [this](auto&& add) {
-    for (const BodyBlock& block : bodies_)
-      for (Eigen::Index j = 0; j < block.M.cols(); ++j)
-        for (Eigen::Index i = 0; i < block.M.rows(); ++i) add(block.v0 + int(i), block.v0 + int(j), block.M(i, j));
+  if (redundant(store)) return factorise_dense(store, of.nc, of.rank_tolerance);
+  factorise_tangent(store, of.nc, true, [this](Matrix& S) {
+    for (const BodyBlock& block : bodies_) S.add(block.v0, block.v0, block.M);
   });
   return true;
 }
@@ -164,16 +146,15 @@ bool BodyBlocks::factorise_dense(Kept& store, int nc, double rank_tolerance) con
   return store.dense.factorise(M, G, W, rank_tolerance);
 }
 
-void BodyBlocks::factorise_tangent(Kept& store, int nc, const Mat& S, bool sliding) {
-  store.by = Kept::By::iteration;
-  store.iteration.factorise(bodies_, model_.sizes.nv, nc, sliding, [&](auto&& add) {
-    const auto add_block = [&](const BodyEntry& row, const BodyEntry& column) {
-      for (int j = column.v0; j < column.v0 + column.nv; ++j)
-        for (int i = row.v0; i < row.v0 + row.nv; ++i) add(i, j, S(i, j));
-    };
-    for (const BodyEntry& entry : model_.bodies) add_block(entry, entry);
-    for (const auto& [a, b] : tied_) add_block(model_.bodies[std::size_t(a)], model_.bodies[std::size_t(b)]);
-  });
+// W^T and G beside S.
+void BodyBlocks::add_rows_to(numerics::SparseSum& sum, bool sliding) {
+  for (const BodyBlock& block : bodies_) {
+    const numerics::SparseSum::Places velocities{nullptr, block.v0, int(block.M.rows())};
+    const numerics::SparseSum::Places rows{block.rows.data(), model_.sizes.nv, int(block.rows.size())};
+    G_ = block.Gt.transpose();
+    sum.add(velocities, rows, sliding ? block.Wt : block.Gt, 1);
+    sum.add(rows, velocities, G_, 1);
+  }
 }
 
 bool BodyBlocks::solve(Kept& store, const Vec& b, const Vec& c, Vec& x, Vec& y) {

@@ -10,6 +10,7 @@
 
 #include "model/model.hpp"
 #include "system/markers/twist_rows.hpp"
+#include "linear/frontal_iteration_kkt.hpp"
 #include "linear/kkt.hpp"
 #include "linear/sparse_kkt.hpp"
 
@@ -45,7 +46,7 @@ class BodyBlocks {
     enum class By { mass, iteration, dense } by = By::mass;
     std::size_t mass = 0;  // in mass_factors_
     bool passing = false;  // asked for only where they were made
-    numerics::SparseIterationKkt iteration;
+    numerics::FrontalIterationKkt iteration;
     numerics::MassKkt dense;
   };
   std::array<Kept, 3> kept;
@@ -61,8 +62,19 @@ class BodyBlocks {
   bool factorise_mass(Kept& store, const MassSystem& of, bool constant, bool sliding);
   void factorise_identity(Kept& store, const MassSystem& of) { factorise(store, of, false); }
   bool redundant(const Kept& store) const { return mass_factors_[store.mass].kkt.redundant(); }
-  // Of S the blocks of bodies, and of pairs that something ties, are taken.
-  void factorise_tangent(Kept& store, int nc, const Mat& S, bool sliding);
+  // `add_tangent(S)` adds all of S; it may be run twice. `sliding`: with W, else G alone.
+  template <class AddTangent>
+  void factorise_tangent(Kept& store, int nc, bool sliding, AddTangent&& add_tangent) {
+    store.by = Kept::By::iteration;
+    numerics::SparseSum& sum = store.iteration.sum();
+    Matrix S = Matrix::onto(sum);
+    store.iteration.factorise(
+        model_.sizes.nv, nc, [] { return false; },
+        [&] {
+          add_tangent(S);
+          add_rows_to(sum, sliding);
+        });
+  }
   [[nodiscard]] bool solve(Kept& store, const Vec& b, const Vec& c, Vec& x, Vec& y);  // false: not solvable
 
  private:
@@ -74,13 +86,14 @@ class BodyBlocks {
   bool factorise(Kept& store, const MassSystem& of, bool constant);
   void begin(MassFactors& factors) const;
   std::size_t factors_for(const Kept& store, const MassSystem& of) const;
+  void add_rows_to(numerics::SparseSum& sum, bool sliding);
   bool factorise_dense(Kept& store, int nc, double rank_tolerance) const;
 
   const Model& model_;
   std::vector<numerics::BodyBlock> bodies_;
   std::array<MassFactors, std::tuple_size_v<decltype(kept)>>
       mass_factors_;                      // one serves all stores that ask for the same
-  std::vector<std::array<int, 2>> tied_;  // pairs of bodies, both orders, each once
+  Mat G_;                                 // of one body, to be added
 };
 
 }  // namespace trammel::model

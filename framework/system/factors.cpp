@@ -116,14 +116,12 @@ void AssembledSystem::Work::factorise_tangent(Store store, Blend c, const Vec& a
   kept[store].symmetric = false;
   const bool sliding = with_friction && coupled;
   if (sparse) return factorise_sparse(kept[store], c, a, lambda, sliding, carried);
-  Mat& S = blocks ? tangent : kept[store].iteration.begin(sizes.nv, sizes.nc);
-  if (blocks) S.setZero(sizes.nv, sizes.nv);
-  Matrix target = Matrix::onto(S);
-  add_tangent(c, a, lambda, target, carried);
   if (blocks)
-    blocks->factorise_tangent(blocks->kept[store], sizes.nc, S, sliding);
-  else
-    kept[store].iteration.factorise(sliding ? W : G, G, rank_tolerance());
+    return blocks->factorise_tangent(blocks->kept[store], sizes.nc, sliding,
+                                     [&](Matrix& S) { add_tangent(c, a, lambda, S, carried); });
+  Matrix target = Matrix::onto(kept[store].iteration.begin(sizes.nv, sizes.nc));
+  add_tangent(c, a, lambda, target, carried);
+  kept[store].iteration.factorise(sliding ? W : G, G, rank_tolerance());
 }
 
 void AssembledSystem::Work::factorise_sparse(Kept& store, Blend c, const Vec& a, const Vec& lambda, bool sliding,

@@ -105,6 +105,13 @@ void SparseSum::add(const Places& rows, const Places& columns, Matrix::Block blo
   }
 }
 
+void SparseSum::scale(const Vec& d) {
+  const int *const starts = matrix_.outerIndexPtr(), *const rows = matrix_.innerIndexPtr();
+  double* const values = matrix_.valuePtr();
+  for (Eigen::Index j = 0; j < matrix_.cols(); ++j)
+    for (int k = starts[j]; k < starts[j + 1]; ++k) values[k] *= d(rows[k]) * d(j);
+}
+
 void SparseSum::reserve(const Places& rows, const Places& columns) {
   reserved_.push_back({rows.count, columns.count, 0, reserved_places_.size(), 0});
   for (int i = 0; i < rows.count; ++i) reserved_places_.push_back(rows[i]);

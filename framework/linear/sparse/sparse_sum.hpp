@@ -46,6 +46,9 @@ class SparseSum {
   // These have places from now on, whether a block comes to them or not.
   void reserve(const Places& rows, const Places& columns);
 
+  // entry(i, j) *= d_i d_j
+  void scale(const Vec& d);
+
   const Eigen::SparseMatrix<double>& matrix() const { return matrix_; }
   int patterns() const { return patterns_; }  // so far
 

@@ -174,17 +174,17 @@ void MarkerChain::add_rows(int index, const Motion& motion, int row, const RowsO
   });
 }
 
-void MarkerChain::add_pair(int index, int other, const Mat6& D, double c, Matrix& S) const {
+void MarkerChain::add_pair(int index, int other, const Mat6& D, double c, Matrix& S) {
   const Slot& a = slots_[std::size_t(index)];
   const Slot& b = slots_[std::size_t(other)];
   if (a.marker.body < 0 || b.marker.body < 0) return;
   const Motion &of_a = kept_[std::size_t(index)].motion, &of_b = kept_[std::size_t(other)].motion;
-  Matrix block = S.from(a.v0, b.v0);
-  for (std::size_t j = 0; j < of_b.dofs.size(); ++j) {
-    const Vec6 column = D * of_b.J.col(Eigen::Index(j));
-    for (std::size_t i = 0; i < of_a.dofs.size(); ++i)
-      block.add(of_a.dofs[i], of_b.dofs[j], c * of_a.J.col(Eigen::Index(i)).dot(column));
+  pair_.resize(of_a.J.cols(), of_b.J.cols());
+  for (Eigen::Index j = 0; j < pair_.cols(); ++j) {
+    const Vec6 column = D * of_b.J.col(j);
+    for (Eigen::Index i = 0; i < pair_.rows(); ++i) pair_(i, j) = of_a.J.col(i).dot(column);
   }
+  S.from(a.v0, b.v0).add(of_a.dofs, of_b.dofs, pair_, c);
 }
 
 void MarkerChain::add_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c, Matrix& S) {

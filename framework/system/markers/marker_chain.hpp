@@ -48,7 +48,7 @@ class MarkerChain {
   // G(row + i, :) += (H J)_i, J of this motion
   void add_rows(int slot, const Motion& motion, int row, const RowsOf& H, Mat& G) const;
   // S(dofs, dofs') += c J^T D J' for a twist x twist matrix D between two slots
-  void add_pair(int slot, int other, const Mat6& D, double c, Matrix& S) const;
+  void add_pair(int slot, int other, const Mat6& D, double c, Matrix& S);
   // S += c d(J^T F)/dq of the marker's body
   void add_reaction_derivative(int slot, double t, const Vec& q, const Wrench& F, double c, Matrix& S);
 
@@ -98,7 +98,7 @@ class MarkerChain {
   bool still_ = false;
   Motion probe_;  // for the differences
   Vec v_zero_;
-  Mat block_;
+  Mat block_, pair_;
 };
 
 }  // namespace trammel::model
