@@ -56,7 +56,7 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   // A force that changes its sign at Painleve's critical state does so by way of infinity: without it the contact would approach.
   const auto approaches_without_force = [&](int contact) {
     return !modes_.contacts[contact].closed &&
-           system_.acceleration({contact, 0}, a_) < -opened_by_error * std::max(largest_, scale_.no_acceleration());
+           system_.acceleration({contact, 0}, a_) < -opened_by_error * std::max(largest_, scale_.of(contact).no_acceleration());
   };
   if (solution.outcome == LcpOutcome::solved && !changes.released.empty()) {
     system_.set_modes(modes_);

@@ -161,7 +161,7 @@ double EventLocation::little_friction(int contact) {
   const model::ContactEntry& entry = system_.model().contacts[std::size_t(contact)];
   if (!entry.force || !entry.coulomb) return 0;
   const double approach = system_.modes().contacts[std::size_t(contact)].approach_speed;
-  return entry.coulomb->static_coefficient() * entry.force->normal(-scale_.touching(), 0, approach);
+  return entry.coulomb->static_coefficient() * entry.force->normal(-scale_.of(contact).touching(), 0, approach);
 }
 
 EventLocation::Value EventLocation::slide(int contact, const Vec& a) {
