@@ -167,6 +167,7 @@ class Builder {
     entry.origin = origin;
     entry.force = std::move(force);
     entry.A = *A, entry.B = *B;
+    entry.from_outside = value.find("on") != nullptr;
     model_->forces.push_back(std::move(entry));
   }
 

@@ -64,6 +64,7 @@ struct ForceEntry {
   plugin::Origin origin;
   std::unique_ptr<Force> force;
   MarkerRef A, B;
+  bool from_outside = false;  // "on": A is not a part of the scene, but the frame that the force is given in
 };
 
 // A point of A, or a disk or sphere around it, against a plane carried by B: gap = n . (x_A - p) - radius, p and n in B's axes;

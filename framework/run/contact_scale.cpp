@@ -7,11 +7,6 @@
 namespace trammel::simulate {
 namespace {
 
-// The origin stands for what a force from outside acts from; how far off it is says nothing.
-bool from_outside(const model::ForceEntry& force) {
-  return force.A.body < 0 && force.A.marker == 0;
-}
-
 void take_place(const Vec3& x, Scale& scale) {
   scale.place = std::max(scale.place, x.cwiseAbs().maxCoeff());
 }
@@ -108,8 +103,8 @@ void ContactScale::take_all(model::AssembledSystem& system) {
   for (int body = 0; body < int(model.bodies.size()); ++body) take_body(system, body);
   for (const model::JointEntry& joint : model.joints)
     take_distances(system, joint.markers, system.g().segment(joint.row, joint.rows).norm());
-  for (const model::ForceEntry& force : model.forces)
-    if (!from_outside(force)) take_distances(system, {force.A, force.B}, 0);
+  for (const model::ForceEntry& force : model.forces)  // where a force from outside acts from says nothing
+    if (!force.from_outside) take_distances(system, {force.A, force.B}, 0);
   bodies_.take_fall();
   scene_.raise_to(bodies_);
   take_contacts(system);

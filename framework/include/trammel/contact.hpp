@@ -27,7 +27,8 @@ class Restitution : public Component {
     Onset onset = Onset::located;
     Rebound rebound = Rebound::free;
     Restart restart = Restart::consistent;
-    double capture_speed = 1e-6;  // [m/s] slower impacts have restitution 0, which ends a sequence of bounces
+    // [m/s] Slower impacts have restitution 0, which ends a sequence of bounces. 0: 1e-7 of the scene's speed.
+    double capture_speed = 0;
     Release release = Release::when_pulled;
     ImpactLaw impact_law = ImpactLaw::newton;
   };

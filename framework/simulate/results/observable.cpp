@@ -125,11 +125,7 @@ Value derived(const std::string& name, const std::string& text, const scene::For
 // {"of": "block.com.x", "relative_to": "table.origin", "since_start": true}: a marker's motion seen from another one.
 class MotionReader {
  public:
-  MotionReader(const Model& model, scene::Problems& problems) : model_(model), problems_(problems) {
-    for (const std::string& marker : model::marker_names(model))
-      for (const auto& [component, what] : motion_components(model, *model::find_marker(model, marker)))
-        names_.push_back(marker + "." + component);
-  }
+  MotionReader(const Model& model, scene::Problems& problems) : model_(model), problems_(problems) {}
 
   std::optional<Column> read(const std::string& name, const scene::Value& value) {
     if (!model::check_keys(value, {"of", "relative_to", "since_start"}, problems_)) return {};
@@ -148,7 +144,7 @@ class MotionReader {
         if (text->substr(dot + 1) == component) what = candidate;
     if (!what) {
       problems_.error(
-          of->problem(fmt::format("no motion \"{}\" of a marker{}", *text, scene::did_you_mean(*text, names_))));
+          of->problem(fmt::format("no motion \"{}\" of a marker{}", *text, scene::did_you_mean(*text, all_motions()))));
       return {};
     }
     const auto B = observer(value.find("relative_to"));
@@ -162,6 +158,21 @@ class MotionReader {
   }
 
  private:
+  std::vector<std::string> all_motions() const {
+    std::vector<std::string> names;
+    const auto add = [&](const std::string& marker, MarkerRef ref) {
+      for (const auto& [component, what] : motion_components(model_, ref)) names.push_back(marker + "." + component);
+    };
+    add("ground", MarkerRef{});
+    for (int body = 0; body < int(model_.bodies.size()); ++body) {
+      const model::BodyEntry& entry = model_.bodies[std::size_t(body)];
+      const auto markers = entry.body->markers();
+      for (int marker = 0; marker < int(markers.size()); ++marker)
+        add(entry.name + "." + markers[std::size_t(marker)], {body, marker});
+    }
+    return names;
+  }
+
   std::optional<MarkerRef> observer(const scene::Value* value) {
     if (!value) return MarkerRef{};
     const auto text = value->read_text(problems_);
@@ -175,7 +186,6 @@ class MotionReader {
 
   const Model& model_;
   scene::Problems& problems_;
-  std::vector<std::string> names_;
 };
 
 }  // namespace

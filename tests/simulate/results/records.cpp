@@ -1,6 +1,10 @@
 // Rows are written at start + k every, exactly, whatever the steps and events do.
 #include <cmath>
+#include <ctime>
 
+#include "run_scene.hpp"
+#include "scenes.hpp"
+#include "simulate/start/setup.hpp"
 #include "support/run_scene.hpp"
 #include "support/scenes.hpp"
 
@@ -59,6 +63,23 @@ TEST(ResultsFolder, ThatCannotBeMadeIsNamedWithTheReason) {
   EXPECT_EQ(report.status, simulate::Status::failed);
   EXPECT_NE(report.reason.find((folder.path() / "file" / "results").string()), std::string::npos) << report.reason;
   EXPECT_NE(report.reason.find("Not a directory"), std::string::npos) << report.reason;
+}
+
+// All names are made for a message only: four times the markers take four times as long, not sixteen times.
+TEST(Observe, IsReadInTimeProportionalToTheMarkers) {
+  const auto seconds = [](int count) {
+    std::string markers;
+    for (int i = 0; i < count; ++i) markers += fmt::format("{}\"a_marker_of_number_{}\": [0, 0]", i ? ", " : "", i);
+    const scene::Scene scene = scene::Scene::parse(
+        R"({"trammel": 1, "space": "planar", "bodies": {"b": {"type": "rigid_body", "mass": 1, "inertia": 1, "markers": {)" +
+            markers + R"(}}}, "simulate": {"until": 1}, "record": {"observe": {"x": "b.com.x"}}})",
+        "test.json");
+    const std::clock_t begin = std::clock();
+    simulate::set_up(scene, registry());
+    return double(std::clock() - begin) / CLOCKS_PER_SEC;
+  };
+  const double few = seconds(10000);
+  EXPECT_LT(seconds(40000), 8 * few + 0.1);  // half way between in the exponent; a clock's tick
 }
 
 }  // namespace
