@@ -1,8 +1,8 @@
-// State that must survive a checkpoint: one function both writes and reads it.
+// State that must survive a checkpoint. One function both writes and reads it:
 //
 //     void archive(Archive& a) override { a("history", history_); a("filled", filled_); }
 //
-// Values come back bit for bit.
+// A value that is read equals bit for bit the value that was written.
 #pragma once
 
 #include <string>

@@ -1,10 +1,11 @@
-// The angle of one frame against another about an axis fixed in the first, with its exact gradient: what rotary springs,
-// drives and gears measure. In the plane, the difference of the markers' angles, which counts full turns.
+// The angle of frame B against frame A about an axis fixed in A, with its exact gradient. Rotary springs, drives and
+// gears measure it. In the plane it is the difference of the markers' angles, which counts full turns.
 //
-//     psi = atan2(y . w, x . w)        x, y, n a right-handed triad of A, w the direction of B that is x where R_A = R_B
-//     psi' = h . (omega_B - omega_A),  h = (n - s w)/(1 - s^2),  s = n . w       s = 0 while B turns about the axis alone
+//     psi = atan2(y . w, x . w)        x, y, n: right-handed triad of A;  w: fixed in B, equal to x where R_A = R_B
+//     psi' = h . (omega_B - omega_A),  h = (n - s w)/(1 - s^2),  s = n . w    s = 0 while B turns about the axis only
 //
-// In space psi [rad] lies in (-pi, pi] (counts_turns.hpp counts on), and means nothing where B's w points along the axis (OutsideDomain).
+// In space psi [rad] lies in (-pi, pi]; counts_turns.hpp adds full turns. psi is not defined where B's w is parallel to
+// the axis: OutsideDomain is thrown there.
 #pragma once
 
 #include <cmath>
@@ -27,7 +28,7 @@ class AxisAngle {
     return std::atan2(y_.dot(w), x_.dot(w));
   }
 
-  // h in world axes (1 or 3 entries): the moment of a generalised force 1 on psi; -h on A.
+  // h in world axes (1 or 3 entries): the moment on B of a unit generalised force on psi; the moment on A is -h.
   Vec3 gradient(const Motion& A, const Motion& B) const {
     if (planar(A)) return Vec3::Ones(1);
     const auto [n, w, s] = directions(A, B);
@@ -39,7 +40,7 @@ class AxisAngle {
     return gradient(A, B).dot(B.V.tail(3) - A.V.tail(3));
   }
 
-  // d h/d(turn of B) in space, A at rest.
+  // dh/d(rotation of B) in space, with A at rest.
   Eigen::Matrix3d gradient_by_turn(const Motion& A, const Motion& B) const {
     const auto [n, w, s] = directions(A, B);
     const double c2 = 1 - s * s;

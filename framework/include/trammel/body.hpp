@@ -1,4 +1,4 @@
-// A body: a block of coordinates with its mass, forces, energy and markers. It knows no joint, contact or integrator.
+// A body: a block of coordinates with its mass, forces, energy and markers. It sees no joint, contact or integrator.
 //
 //     M(q) a = f(t, q, v)       for the body alone, gravity included
 #pragma once
@@ -19,12 +19,12 @@
 
 namespace trammel {
 
-// The make-up of a body's configuration; it gives N(q), retraction, difference and normalisation.
+// The structure of a body's configuration. It defines N(q), retraction, difference and normalisation.
 class Coordinates {
  public:
   enum class Kind {
-    flat,      // n numbers with n rates
-    rotation,  // a unit quaternion (w, x, y, z) with the angular velocity in body axes: 4 numbers, 3 rates
+    flat,      // n numbers and their n rates
+    rotation,  // a unit quaternion (w, x, y, z) and the angular velocity in body axes: 4 numbers, 3 rates
   };
   struct Part {
     Kind kind;
@@ -52,23 +52,23 @@ class Body : public Component {
   virtual bool mass_is_constant() const { return false; }
   virtual void force(double t, In q, In v, Out f) const = 0;  // adds f (nv): elastic, gyroscopic, gravity, drives
   virtual Energy energy(double t, In q, In v) const = 0;
-  virtual Power power(double /*t*/, In /*q*/, In /*v*/) const { return {}; }  // of drives and dampers inside the body
+  virtual Power power(double /*t*/, In /*q*/, In /*v*/) const { return {}; }  // of the body's own drives and dampers
 
   virtual std::span<const std::string> markers() const = 0;
-  // Fills everything of `motion`; called with the same object again and again, so it may keep what does not change.
+  // Fills every member of `motion`. It is called many times with the same object, so constant members may be kept.
   virtual void motion(int marker, double t, In q, In v, Motion& motion) const = 0;
 };
 
-// Abilities. A missing one is replaced by differences within this one body, so the cost stays local.
+// Abilities. Where a derivative is missing, the framework takes differences within this body only.
 
-// One Motion may serve markers of all bodies of the class in turn, whatever their parameters: what motion() keeps in it, sizes and
-// dofs included, is the same for each of them.
+// Declares that one Motion object may serve the markers of all bodies of the class in turn, whatever their parameters:
+// the members that motion() keeps, sizes and dofs included, are the same for all of them.
 class SharedMotion {
  public:
   virtual ~SharedMotion();
 };
 
-// mass and force of one point together, for a body where both begin with the same work.
+// Mass and force at one point in one call, for a body whose mass and force share intermediate results.
 class MassAndForce {
  public:
   virtual ~MassAndForce();
@@ -82,10 +82,11 @@ class ExactTangent {
   virtual void add_tangent(double t, In q, In v, In a, Blend c, Matrix& S) const = 0;
 };
 
-// For statics of thin bodies. A sheet that an increment has bent is stretched by the square of its turn, and the stresses of
-// that stretch, which is to vanish, spoil the next tangent. S += c K at rest, but in the part of K that is due to stress with
-// stresses that follow the increment linearly, stress(from) + d(stress)/dq dq (mixed integration points; Magisano, Leonardi,
-// Garcea, Int. J. Numer. Meth. Engng. 109, 2017). With from = q and dq = 0 it is the exact tangent.
+// For statics of thin bodies. An increment that bends a sheet also stretches it by the square of the rotation. Newton's
+// iteration removes this stretch later, but its stresses spoil the next tangent. Adds S += c K at rest, where the part
+// of K that is due to stress uses stresses linear in the increment, stress(from) + d(stress)/dq dq (mixed integration
+// points; Magisano, Leonardi, Garcea, Int. J. Numer. Meth. Engng. 109, 2017). With from = q and dq = 0 it is the exact
+// tangent.
 class CarriedStress {
  public:
   virtual ~CarriedStress();
@@ -99,20 +100,21 @@ class ReactionDerivative {
   virtual void add_reaction_derivative(int marker, double t, In q, const Wrench& F, double c, Matrix& S) const = 0;
 };
 
-// Rows between a body's own coordinates, held like those of joints: a rod in natural coordinates keeps its length.
+// Constraint rows between a body's own coordinates, enforced like those of joints: for example, the constant length of
+// a rod in natural coordinates.
 //     g(t, q) = 0,      g_dot = G v + g_t,      G v' = gamma
 struct BodyRows {
-  Vec g, g_t, gamma;  // (n); g_t partial derivative by time
+  Vec g, g_t, gamma;  // (n); g_t: partial derivative by time
   Mat G;              // n x nv
 
-  // All zero, n rows.
+  // Sets n rows, all zero.
   void resize(int n, int nv);
 };
 class Constrained {
  public:
   virtual ~Constrained();
-  virtual int row_count() const = 0;  // constant but for a refinement
-  // `rows` comes in with row_count rows, all zero.
+  virtual int row_count() const = 0;  // constant except at a refinement
+  // On entry `rows` has row_count rows, all zero.
   virtual void own_rows(double t, In q, In v, BodyRows& rows) const = 0;
   // S += c d(G^T lambda)/dq
   virtual void add_own_rows_derivative(double t, In q, In lambda, double c, Matrix& S) const = 0;
@@ -126,7 +128,7 @@ class Observed {
   virtual double observe(int observable, double t, In q, In v) const = 0;
 };
 
-// The body's shape for plots and animation: a polyline in world axes, one column a point (2 or 3 rows).
+// The body's shape for plots and animation: a polyline in world axes, one column per point (2 or 3 rows).
 class Drawn {
  public:
   virtual ~Drawn();
@@ -135,11 +137,11 @@ class Drawn {
 
 // Why and where a body is asked to refine.
 struct RefineCause {
-  // Name in the scene of the contact that has just closed; empty: a step has ended, which is the time for triggers of the
-  // body's own (a moment, an indicator).
+  // Name in the scene of the contact that has just closed. Empty: a step has ended, and the body may apply its own
+  // criteria (a time, an error indicator).
   std::string_view contact;
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  // surface parameters (u, v) of the place; 0 for a body without Surface
-  // When a step has ended: the largest pressure of contacts on each patch of the body's SampledSurface [Pa]; empty: none presses.
+  // When a step has ended: the largest contact pressure on each patch of the body's SampledSurface [Pa]; empty: none.
   std::span<const double> pressure = {};
 };
 
@@ -147,17 +149,17 @@ struct RefineCause {
 class Refinable {
  public:
   virtual ~Refinable();
-  // Asked after every step and every closing of a contact of the body: cheap while there is nothing to do.
+  // Called after every step and every closing of a contact of the body; must be cheap while there is nothing to do.
   virtual bool due(double t, In q, In v, const RefineCause& cause) const = 0;
-  // Called when due; null: nothing could be refined. Afterwards coordinates(), mass, force and motion() are the new ones.
-  // Markers keep their names and indices; Motion objects are fresh, nothing kept in them is from before. The framework
-  // moves q and v by the transfer and solves a and lambda anew.
+  // Called when due; null: nothing could be refined. Afterwards coordinates(), mass, force and motion() refer to the
+  // refined body. Markers keep their names and indices; Motion objects are created anew. The framework maps q and v by
+  // the transfer and solves for a and lambda again.
   virtual std::unique_ptr<Transfer> refine(double t, In q, In v, const RefineCause& cause) = 0;
-  // What it takes to build the refined coordinates again when a run resumes; coordinates() is asked after reading.
+  // The data that rebuild the refined coordinates when a run resumes; coordinates() is called after reading.
   virtual void archive(Archive&) = 0;
 };
 
-// Mass and momentum, for the balance at a refinement.
+// Mass and momentum, for the balance before and after a refinement.
 struct Momentum {
   double mass = 0;  // [kg]
   Vec3 linear;      // [kg m/s], world axes
@@ -169,52 +171,52 @@ class HasMomentum {
   virtual Momentum momentum(double t, In q, In v) const = 0;
 };
 
-// Nearest point of a body's surface, for contact. The point is given by surface parameters (u, v).
+// Nearest point on a body's surface, for contact. The point is given by surface parameters (u, v).
 class Surface {
  public:
   virtual ~Surface();
   virtual void nearest(double t, In q, const Vec3& x, Eigen::Vector2d& parameters, Vec3& point, Vec3& normal) const = 0;
   virtual void motion_at(const Eigen::Vector2d& parameters, double t, In q, In v, Motion& motion) const = 0;
-  // The body's faces lie so far to both sides of that surface [m].
+  // Distance from this surface to the body's faces on both sides [m].
   virtual double half_thickness() const { return 0; }
 };
 
-// Material points of one part of a surface (a cell of a mesh), which follow its nodes: x_p = X_p + sum_I R_pI u_I with the
-// nodes' displacements u_I = B q[dofs].
+// Material points of one part of a surface (a cell of a mesh), interpolated from its nodes: x_p = X_p + sum_I R_pI u_I
+// with the nodal displacements u_I = B q[dofs].
 struct SurfacePatch {
   std::vector<int> dofs;  // coordinates of the body that move it
   Mat R;                  // points x nodes
   Mat X;                  // points x 3, positions at q = 0 [m]
   Mat B;                  // (3 nodes) x dofs, node by node; empty: the identity
-  Vec area;               // that each point stands for [m^2]
+  Vec area;               // of the surface that each point represents [m^2]
 };
-// Ability beside Surface of bodies in space with flat coordinates: what a pressure of contact acts on. Constant but for a
-// refinement.
+// Ability of spatial bodies that also have Surface and flat coordinates: the points that a contact pressure acts on.
+// They are constant except at a refinement.
 class SampledSurface {
  public:
   virtual ~SampledSurface();
   virtual int patches() const = 0;
   // A box in world axes that contains the patch.
   virtual void bounds(int patch, In q, Vec3& low, Vec3& high) const = 0;
-  // Points no further apart than `spacing` [m]; infinite: as few as integrate products of two of the patch's functions.
+  // Points at most `spacing` [m] apart. Infinite: the fewest that integrate products of two shape functions exactly.
   virtual void sample(int patch, double spacing, SurfacePatch& out) const = 0;
 };
 
-// A surface around one of its points: how that point moves with the coordinates, and along the parameters (u, v).
+// A surface near one of its points: derivatives of the point by the coordinates and by the parameters (u, v).
 struct SurfaceJet {
-  int patch = 0;                                  // that holds the point
-  std::array<int, 2> end = {0, 0};                // -1, 1: u or v is the least or largest there is
+  int patch = 0;                                  // the patch that contains the point
+  std::array<int, 2> end = {0, 0};                // per parameter: -1 at its minimum, 1 at its maximum, else 0
   std::vector<int> dofs;                          // coordinates of the body that move it
   Eigen::Vector3d r, r_u, r_v, r_uu, r_uv, r_vv;  // world axes [m]; by parameters
-  Mat J, J_u, J_v;                                // 3 x dofs: of r, r_u, r_v by the coordinates
+  Mat J, J_u, J_v;                                // 3 x dofs: derivatives of r, r_u, r_v by the coordinates
 };
-// Ability beside Surface and SampledSurface: points of other surfaces may slide on this one. That they do is how its nearest
-// point moves, which the tangent of such a contact needs.
+// Ability of bodies that also have Surface and SampledSurface: points of other surfaces may slide on this one. The
+// tangent of such a contact needs the motion of the nearest point.
 class SlidingSurface {
  public:
   virtual ~SlidingSurface();
   virtual void jet(const Eigen::Vector2d& parameters, In q, SurfaceJet& out) const = 0;
-  // As Surface::nearest, of points known to lie nearest to one of these patches: most of a large surface is then left out.
+  // Like Surface::nearest, but searches these patches only, for points known to be nearest to one of them.
   virtual void nearest_on(std::span<const int> patches, In q, const Vec3& x, Eigen::Vector2d& parameters,
                           Vec3& point) const = 0;
 };

@@ -1,4 +1,4 @@
-// What all components have in common: values from the scene, and a moment to look at them before the run.
+// The base of all components: parameters from the scene, and a call that checks them before the run.
 #pragma once
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
-// Turns in space beyond half of one: a pose tells an angle but for whole turns. They are counted on from state to state, as planar
-// bodies' own angles count them, by forces and joints that depend on such an angle.
+// Full turns in space. A pose determines an angle only up to whole turns. Forces and joints that depend on such an
+// angle count the turns from one accepted state to the next; planar bodies count them in their own coordinate.
 #pragma once
 
 #include <cmath>
@@ -10,11 +10,12 @@
 
 namespace trammel {
 
-// An angle [rad] known but for whole turns, counted on from where it was last: smooth as long as it is less than half a turn away.
+// Continues an angle [rad] that is known up to whole turns from its last value. The result is smooth if the angle
+// changes by less than half a turn between two values.
 class CountedAngle {
  public:
   explicit CountedAngle(double first = 0) : last_(first) {}
-  // `angle` and as many whole turns as take it nearest to the last one.
+  // `angle` plus the number of whole turns that brings it nearest to the last value.
   double near_last(double angle) const {
     constexpr double turn = 2 * std::numbers::pi;
     return angle + turn * std::round((last_ - angle) / turn);
@@ -26,12 +27,12 @@ class CountedAngle {
   double last_;
 };
 
-// Ability of forces and joints: to be told the states that became the solution, from the first one on; of more than two markers A and
-// B. Each instance counts for itself, and its count is part of a checkpoint.
+// Ability of forces and joints: `follow` is called with every accepted state, starting with the first (with the first
+// two markers if there are more). Each instance keeps its own count, which is part of a checkpoint.
 class CountsTurns {
  public:
   virtual ~CountsTurns();
-  // May throw OutsideDomain where what it depends on can be counted no further: the run then ends.
+  // May throw OutsideDomain if the angle can be counted no further; the run then ends.
   virtual void follow(const Motion& A, const Motion& B) = 0;
   virtual void archive(Archive&) = 0;
 };

@@ -1,7 +1,7 @@
-// What an integrator is: a rule that advances a System by one step.
+// An integrator: a rule that advances a System by one step.
 //
-// It sees no contact, no event and no scene; it is told that something changed (`restart`), never what. Step sizes are
-// chosen by the Simulator. A working method is about 60 lines: see plugins/integrators/newmark.
+// It sees no contact, no event and no scene. `restart` announces that the state jumped or that sizes changed, not why.
+// The Simulator chooses the step sizes. A working method takes about 60 lines: see plugins/integrators/newmark.
 #pragma once
 
 #include <trammel/archive.hpp>
@@ -12,45 +12,46 @@
 
 namespace trammel {
 
-// One point of a solution. Consistent (rows satisfied, a and lambda from the equations of motion) when handed over.
+// One point of a solution. The framework passes consistent states: rows satisfied, a and lambda from the equations of
+// motion.
 struct State {
   double t = 0;
   Vec q, v, a, lambda;
 };
 
-// Claims of a method; each is measured by its tests.
+// Claims of a method. Each of them is measured by tests.
 struct Traits {
   int order = 1;  // of q and v with constant steps, constraints included
   bool implicit = false;
-  int steps = 1;                // of memory: 1 for one-step methods, 4 for fourth-order Adams
+  int steps = 1;                // length of the history: 1 for one-step methods, 4 for fourth-order Adams
   bool holds_position = false;  // g = 0 at the end of each step, to the iteration's tolerance
   bool holds_velocity = false;  // G v + g_t = 0 likewise
-  bool rows = true;  // false: only for systems without rows (nc = 0); scenes that have or make some are refused
+  bool rows = true;  // false: only for systems without rows (nc = 0); scenes that have or create rows are refused
 };
 
 class Integrator : public Component {
  public:
   virtual Traits traits() const = 0;
 
-  // Something jumped, or sizes changed: forget the past, start from `now`. Always called before the first step.
+  // The state jumped, or sizes changed: discard the history and start from `now`. Always called before the first step.
   virtual void restart(System&, const State& now) = 0;
 
-  // A trial: from `now` to `next` over h > 0. Leaves no trace but `next`: the Simulator repeats it with other h to
-  // locate events. `next` comes in with any content of any size; reject instead of returning numbers that are not
-  // finite.
+  // A trial step from `now` to `next` with h > 0. It changes nothing that later trials depend on: the Simulator repeats
+  // it with other h to locate events. `next` may have any content and size on entry. Reject the step instead of
+  // returning numbers that are not finite.
   virtual Outcome step(System&, const State& now, double h, State& next) = 0;
 
-  // The trial from `now` became the solution: history moves here and only here. After a correction `next` is not what
-  // the trial gave; its a and lambda are solved anew.
+  // The trial from `now` became the solution. History is updated here and nowhere else. After a correction `next`
+  // differs from the trial's result, and its a and lambda were solved for again.
   virtual void accept(System&, const State& /*now*/, const State& /*next*/) {}
 
-  // History for resuming.
+  // Reads or writes the history, so that a run can resume.
   virtual void archive(Archive&) {}
 };
 
-// Abilities: an integrator that also derives from one of these offers it.
+// Abilities: an integrator offers one by deriving from its class as well.
 
-// Weights of the error norm: component i counts relative to absolute + relative |x_i|.
+// Weights of the error norm: the error of component i is divided by absolute + relative |x_i|.
 struct Tolerance {
   double relative = 1e-6;
   double absolute = 1e-6;
@@ -68,17 +69,18 @@ class ErrorEstimate {
 class DenseOutput {
  public:
   virtual ~DenseOutput();
-  // State inside the last trial, theta in [0, 1]; fills t, q, v. Numbers that are not finite: the method finds none there.
+  // State inside the last trial at theta in [0, 1]; fills t, q, v. Numbers that are not finite mean: no state found
+  // there.
   virtual void interpolate(System&, const State& now, const State& next, double theta, State& at) = 0;
 };
 
-// For a system whose coordinates were replaced by others (a refined mesh).
+// For systems whose coordinates are replaced during a run (a refined mesh).
 class Resizable {
  public:
   virtual ~Resizable();
-  // Carries the history through the transfer; called instead of `restart`. `now` is in the new coordinates already, its a
-  // and lambda solved anew. Of the history velocities, accelerations and increments go through Transfer::v; forces and
-  // multipliers do not transfer: evaluate them anew.
+  // Maps the history by the transfer; called instead of `restart`. `now` is already in the new coordinates, with a and
+  // lambda solved for again. Transfer::v maps velocities, accelerations and increments; forces and multipliers cannot
+  // be mapped and must be evaluated again.
   virtual void resize(System&, const Transfer&, const State& now) = 0;
 };
 

@@ -1,6 +1,7 @@
-// A joint: constraint rows between two markers, or more (Constraint). It never sees bodies or coordinates; assembly forms
+// A joint: constraint rows between two markers, or more (Constraint). It sees no bodies and no coordinates; assembly
+// forms
 //     G = H_A J_A + H_B J_B + ...      and moves the markers' bias into gamma.
-// Planar and spatial scenes use the same joint; the twists' size tells (3 or 6).
+// Planar and spatial scenes use the same joint; the size of the twists distinguishes them (3 or 6).
 #pragma once
 
 #include <span>
@@ -12,16 +13,16 @@ namespace trammel {
 
 using Motions = std::span<const Motion* const>;  // A, B, C, D in the scene's order
 
-// Rows between so many markers, 2 to Rows::most_markers of them.
+// Rows between marker_count() markers, 2 to Rows::most_markers.
 class Constraint : public Component {
  public:
   virtual int marker_count() const = 0;
   virtual int row_count(Space) const = 0;
-  // `rows` comes in with row_count rows, all zero.
+  // On entry `rows` has row_count rows, all zero.
   virtual void rows_between(double t, Motions markers, Rows& rows) const = 0;
 };
 
-// Between two, as nearly all are.
+// Rows between two markers: nearly all joints.
 class Joint : public Constraint {
  public:
   virtual void rows(double t, const Motion& A, const Motion& B, Rows& rows) const = 0;
@@ -30,17 +31,18 @@ class Joint : public Constraint {
   void rows_between(double t, Motions markers, Rows& r) const final { rows(t, *markers[0], *markers[1], r); }
 };
 
-// How the wrenches H^T lambda on both markers change with small twists of both (translation, then rotation about world axes):
-// d(wrench on A) = AA d(twist of A) + AB d(twist of B), and so on.
+// Derivatives of the wrenches H^T lambda on both markers by small twists of both (translation, then rotation about
+// world axes): d(wrench on A) = AA d(twist of A) + AB d(twist of B), and so on.
 struct PairTangent {
   Mat6 AA, AB, BA, BB;
 };
 
-// Ability of joints between two markers: that derivative exactly; by differences of the rows where it is missing.
+// Ability of joints between two markers: this derivative, exact. Without it the framework takes differences of the
+// rows.
 class ReactionTangent {
  public:
   virtual ~ReactionTangent();
-  // Adds to K, which comes in with the twists' size.
+  // Adds to K, whose blocks have the twists' size on entry.
   virtual void add_reaction_tangent(double t, const Motion& A, const Motion& B, const Vec6& lambda,
                                     PairTangent& K) const = 0;
 };

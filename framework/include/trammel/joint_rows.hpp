@@ -1,14 +1,16 @@
-// The rows that joints are made of, planar and spatial, exact in g, H, g_t, gamma and in the derivative of their reaction.
+// The rows that joints consist of, planar and spatial, exact in g, H, g_t, gamma and in the derivative of their
+// reaction.
 //
-//     same_point         g = x_B - x_A                                      2 or 3 rows, the first
+//     same_point         g = x_B - x_A                                      2 or 3 rows, always the first
 //     offset(n, p)       g = n . (x_B - x_A) - p(t)                         n fixed in A; p may be a law of time
 //     dot(a, b)          g = a . b                                          a fixed in A, b in B; spatial
-//     angle(n, Q, phi)   g = sin(angle of B against A about n - phi(t))     spatial, |g| < 1;   planar theta_B - theta_A - phi
-//     orientation        three such rows: R_B = R_A turn(n, phi(t)) Q;      planar the angle alone
+//     angle(n, Q, phi)   g = sin(angle of B against A about n - phi(t))     spatial, |g| < 1
+//                        g = theta_B - theta_A - phi(t)                     planar
+//     orientation        three such rows: R_B = R_A turn(n, phi(t)) Q;      planar: the angle row alone
 //
-// Vectors fixed in a marker are in its axes, here of unit length. `dot` rows can be turned by a law of time: a is then fixed
-// in A turned by phi(t) about n, whose angular velocity is omega_A + n phi' and whose angular acceleration has
-// n phi'' + omega_A x n phi' besides alpha_A.
+// Vectors fixed in a marker are unit vectors in its axes. A law of time can rotate `dot` rows: then a is fixed in a
+// frame that is rotated by phi(t) about n against A. Its angular velocity is omega_A + n phi', its angular acceleration
+// alpha_A + n phi'' + omega_A x n phi'.
 //
 //     struct Spherical : RowJoint {
 //       JointRows made_of(const World& w) const override { return JointRows(w.space).same_point(); }
@@ -34,10 +36,10 @@ class JointRows {
 
   JointRows& same_point();
   JointRows& offset(const Vec3& n, TimeFunction p = {});
-  JointRows& across(const Vec3& n);  // offset rows along all directions perpendicular to n: one planar, two spatial
+  JointRows& across(const Vec3& n);  // offset rows in the directions perpendicular to n: one planar, two spatial
   JointRows& dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
-  JointRows& parallel(const Eigen::Vector3d& n_A, const Eigen::Vector3d& n_B);  // two dot rows; planar: none are needed
-  // In the plane n and Q are not looked at.
+  JointRows& parallel(const Eigen::Vector3d& n_A, const Eigen::Vector3d& n_B);  // two dot rows; planar: no rows
+  // In the plane n and Q are not used.
   JointRows& angle(const Vec3& n, const Eigen::Quaterniond& Q, TimeFunction phi);
   JointRows& orientation(const Vec3& n, const Eigen::Quaterniond& Q, TimeFunction phi);
 
@@ -45,11 +47,11 @@ class JointRows {
   bool linear() const;                       // see LinearRows
   bool needs_orientation(int marker) const;  // see NeedsOrientation
   void rows(double t, const Motion& A, const Motion& B, Rows& rows) const;
-  // K += d(H^T lambda)/d(twists of the markers), see ReactionTangent.
+  // Adds d(H^T lambda)/d(twists of the markers) to K; see ReactionTangent.
   void add_reaction_tangent(double t, const Motion& A, const Motion& B, const Vec6& lambda, PairTangent& K) const;
 
  private:
-  // Most rows follow no law: theirs are kept apart (law: its place, or -1), so that those of many joints take less memory.
+  // Most rows have no law of time. Laws are stored separately (law: index into laws_, or -1) to save memory.
   struct Offset {
     Vec3 n;
     int law;
@@ -64,7 +66,7 @@ class JointRows {
   using Row = std::variant<Offset, Dot, Angle>;
   struct Law {
     TimeFunction p;
-    Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // of a dot row: what p turns A about
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // of a dot row: the axis of the rotation p
   };
 
   template <int D>
@@ -79,10 +81,10 @@ class JointRows {
   std::vector<Law> laws_;
 };
 
-// A joint that is such rows and nothing else: saying which makes it whole.
+// A joint that consists of such rows only; made_of() defines it completely.
 class RowJoint : public Joint, public ReactionTangent, public LinearRows, public NeedsOrientation {
  public:
-  virtual JointRows made_of(const World&) const = 0;  // from the parameters, which it may refuse
+  virtual JointRows made_of(const World&) const = 0;  // may refuse parameters with a ParameterError
 
   void prepare(const World& world) override { list_ = made_of(world); }
   int row_count(Space) const override { return list_.count(); }
@@ -98,10 +100,10 @@ class RowJoint : public Joint, public ReactionTangent, public LinearRows, public
   JointRows list_;
 };
 
-// A unit vector along `axis` of the scene's dimension; refuses the zero vector in the name of `parameter`.
+// The unit vector along `axis`; throws a ParameterError for `parameter` if `axis` is zero.
 Vec3 unit_axis(const Vec3& axis, const char* parameter);
-// Parameters that joints share, in space: an axis (`otherwise` if left out), refused in the plane where it means nothing;
-// and a unit quaternion from [w, x, y, z] (none: no turn).
+// Spatial parameters that joints share: an axis (`otherwise` if it is missing), refused in planar scenes; and a unit
+// quaternion from [w, x, y, z] (empty: the identity).
 Eigen::Vector3d spatial_axis(const World&, const std::optional<Vec3>& axis, const char* parameter,
                              const Eigen::Vector3d& otherwise = Eigen::Vector3d::UnitZ());
 Eigen::Quaterniond unit_quaternion(const World&, const std::vector<double>& wxyz, const char* parameter);

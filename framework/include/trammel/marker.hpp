@@ -1,4 +1,4 @@
-// Markers: the points and frames of bodies that joints, forces and contacts act between.
+// Markers: points and frames of bodies. Joints, forces and contacts act between them.
 #pragma once
 
 #include <vector>
@@ -13,14 +13,14 @@ namespace trammel {
 struct Motion {
   Vec3 x;                 // position, world axes [m]
   Mat3 R;                 // orientation: columns are the marker's axes in world axes
-  double angle = 0;       // planar: of the marker's x axis, counts full turns [rad]
+  double angle = 0;       // planar: angle of the marker's x axis, with full turns [rad]
   Vec6 V;                 // velocity [m/s; rad/s]
   Vec6 bias;              // acceleration at v' = 0 [m/s^2; rad/s^2]
   std::vector<int> dofs;  // local velocity indices of the body, set once per layout
   Jac J;                  // twist_size x dofs.size()
 };
 
-// Force over moment, world axes, at the marker [N; N m]. Generalised force on the body: J^T wrench.
+// Force, then moment, in world axes at the marker [N; N m]. Generalised force on the body: J^T wrench.
 using Wrench = Vec6;
 
 // Constraint rows between markers A and B, or up to four (n <= 6 rows).
@@ -29,14 +29,14 @@ struct Rows {
   static constexpr int most_markers = 4;
 
   Vec6 g;                   // (n)
-  Mat6 H_A, H_B, H_C, H_D;  // (n x twist); without rows for markers that are not there
+  Mat6 H_A, H_B, H_C, H_D;  // (n x twist); no rows for markers that do not exist
   Vec6 g_t;                 // (n) partial derivative by time
-  Vec6 gamma;               // (n) without the markers' bias, which assembly subtracts
+  Vec6 gamma;               // (n) without the markers' bias; assembly subtracts it
 
   Mat6& H(int marker) { return marker == 0 ? H_A : marker == 1 ? H_B : marker == 2 ? H_C : H_D; }
   const Mat6& H(int marker) const { return marker == 0 ? H_A : marker == 1 ? H_B : marker == 2 ? H_C : H_D; }
 
-  // All zero, n rows.
+  // Sets n rows, all zero.
   void resize(int n, Space space, int markers = 2);
 };
 

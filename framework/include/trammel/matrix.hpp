@@ -1,8 +1,9 @@
-// Where components add their blocks, without knowing where the entries live.
+// A matrix to which components add their blocks, dense or sparse.
 //
-// A component adds in its own indices; the framework has set the origin and owns the storage, dense or sparse. An addition is a
-// plain loop: no virtual call per entry. A body with many coordinates adds its blocks in the same order every time, and only entries
-// that may differ from 0: where entries are stored is then found once, and what is never added costs nothing.
+// A component uses its own indices; the framework has set the origin and owns the storage. An addition is a plain loop
+// without a virtual call per entry. A body with many coordinates must add its blocks in the same order every time, and
+// only entries that may differ from 0: then the positions of sparse entries are found once, and zero blocks cost
+// nothing.
 #pragma once
 
 #include <span>
@@ -29,7 +30,7 @@ class Matrix {
     origin_[j * stride_ + i] += value;
   }
 
-  // The same matrix, counted from entry (i, j): indices known when compiling then leave little to compute.
+  // The same matrix with indices relative to entry (i, j). Indices that are compile-time constants then cost little.
   Matrix from(int i, int j) const {
     Matrix shifted = *this;
     if (!sum_) shifted.origin_ += j * stride_ + i;
@@ -44,9 +45,9 @@ class Matrix {
  private:
   void add_to_sum(int i, int j, double value);
 
-  double* origin_ = nullptr;  // what a component calls (0, 0); column-major
+  double* origin_ = nullptr;  // entry (0, 0) in the component's indices; column-major
   Eigen::Index stride_ = 0;
-  numerics::SparseSum* sum_ = nullptr;  // in place of these, from (row_, column_) on
+  numerics::SparseSum* sum_ = nullptr;  // used instead if not null, with origin (row_, column_)
   int row_ = 0, column_ = 0;
 };
 

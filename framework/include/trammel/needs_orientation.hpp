@@ -1,6 +1,6 @@
-// Ability of joints and forces that hold, measure or turn the axes of their markers. A point in natural coordinates has a place and
-// no axes (LinearMarkers in linear_rows.hpp): on it such a row would be empty and such a moment without effect, which the framework
-// refuses in its place.
+// Ability of joints and forces that constrain, measure or turn the axes of their markers. A point in natural
+// coordinates has a position but no axes (LinearMarkers in linear_rows.hpp). On such a point the row would be empty and
+// the moment would have no effect; the framework refuses such scenes.
 #pragma once
 
 namespace trammel {
@@ -8,8 +8,8 @@ namespace trammel {
 class NeedsOrientation {
  public:
   virtual ~NeedsOrientation();
-  // Directions fixed in this marker (0: A, 1: B, ...), its angle or its angular velocity count, or a moment acts on it. Asked after
-  // `prepare`.
+  // True if the component uses axes fixed in this marker (0: A, 1: B, ...), its angle or its angular velocity, or
+  // applies a moment to it. Called after `prepare`.
   virtual bool needs_orientation(int marker) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// The answer of a step or a correction: an expected failure is a value, not an exception.
+// The result of a step or a correction. An expected failure is a value, not an exception.
 #pragma once
 
 namespace trammel {

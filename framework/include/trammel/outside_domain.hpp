@@ -1,11 +1,13 @@
-// Thrown by a component where the state that it is asked at has no answer: a spring whose ends coincide, an arm folded onto
-// another, a length that a law of time takes below 0.
+// Exception of a component that is not defined at the given state: a spring whose ends coincide, an arm folded onto
+// another, a length that a law of time makes negative.
 //
 //     if (length == 0) throw OutsideDomain("its markers coincide, so a spring of rest length > 0 has no direction");
 //
-// It is the scene's fault, not the component's. At the start it is an error of the scene at the component's line; a trial step
-// that meets it is refused, and tried shorter; a run that cannot pass it ends, with its time. The text begins with "its ..." or
-// names a thing of the component: "joints.rod: " is put before it. Any other exception blames the plugin. Answers to NaN are NaN.
+// It reports an error of the scene, not of the component. At the start the message names the component's line in the
+// scene. During a run the trial step is rejected and repeated with a smaller h; if no smaller step helps, the run ends
+// and the message states the time. The text begins with "its ..." or names a part of the component, because the
+// framework puts "joints.rod: " before it. Any other exception is reported as an error of the plugin. For NaN as input
+// return NaN.
 #pragma once
 
 #include <stdexcept>

@@ -1,11 +1,12 @@
-// A component's declaration: its name, where it comes from and its parameters, each declared once.
+// A component's declaration: its name, its source in the literature and its parameters, each declared once.
 //
 //     TRAMMEL_PLUGIN(trammel::integrator<HhtAlpha>("hht_alpha", "HHT-alpha with stabilised constraints")
 //                        .source("Negrut et al. 2007, J. Comput. Nonlinear Dynam. 2(1), 73-85")
-//                        .parameter("alpha", &HhtAlpha::alpha, {.min = -1.0 / 3, .max = 0, .doc = "0: trapezoidal rule"}))
+//                        .parameter("alpha", &HhtAlpha::alpha, {.min = -1.0 / 3, .max = 0, .doc = "0: trapezoidal"}))
 //
-// The type comes from the member, the default from its initialiser. From the declaration alone come parsing, range errors,
-// did-you-mean, `trammel describe`, the JSON Schema and the manual. A dotted name ("modes.axial") lives in a nested object.
+// The member gives the type, its initialiser the default. Parsing, range errors, suggestions of names, `trammel
+// describe`, the JSON Schema and the manual are derived from the declaration. A dotted name ("modes.axial") stands for
+// a member of a nested JSON object.
 #pragma once
 
 #include <functional>
@@ -30,18 +31,18 @@ const char* to_string(Kind);
 template <class T>
 using Named = std::vector<std::pair<std::string, T>>;
 
-// The types a parameter's member may have; std::optional<T> makes leaving it out distinguishable.
+// The types that a parameter's member may have; std::optional<T> distinguishes a missing parameter.
 //   double, int, bool, std::string    a number, a whole number, true/false, text
 //   Vec3                              a vector of the scene's dimension: 2 entries planar, 3 spatial
-//   std::vector<double>               any number of numbers; a single one may stand without brackets
+//   std::vector<double>               any number of numbers; a single one needs no brackets
 //   TimeFunction                      a number, an expression of t or a table
 //   Named<double>, Named<Vec3>        objects keyed by name
-//   Named<Part>                       the same of parts, objects with parameters of their own: declared by .parts(...)
+//   Named<Part>                       parts keyed by name, objects with their own parameters: declared by .parts(...)
 //   an enum                           one of the names given to .choice(...)
 using ParameterValue = std::variant<std::monostate, double, int, bool, std::string, Vec3, std::vector<double>,
                                     TimeFunction, Named<double>, Named<Vec3>, Named<std::shared_ptr<Component>>>;
 
-// What a declaration says about one parameter. Outside min..max is an error, outside usual_min..usual_max a warning.
+// Properties of one parameter. A value outside min..max is an error, outside usual_min..usual_max a warning.
 struct ParameterTraits {
   const char* unit = "1";
   double min = -std::numeric_limits<double>::infinity();
@@ -51,7 +52,7 @@ struct ParameterTraits {
   bool above_min = false;  // min itself is refused too ("greater than")
   bool required = false;
   const char* doc = "";
-  int derivatives = 0;  // of a law of time that the component asks for: the law and all but the last must not jump
+  int derivatives = 0;  // of a law of time: highest derivative that the component uses; all lower ones must not jump
 };
 
 struct Declaration;
@@ -77,7 +78,7 @@ struct Parameter {
   std::vector<std::string> choices;
   std::function<void(Component&, const ParameterValue&)> set;
   std::function<ParameterValue(const Component&)> get;  // monostate: an empty optional
-  std::shared_ptr<const Declaration> part = {};         // of named_parts: what each of them declares
+  std::shared_ptr<const Declaration> part = {};         // of named_parts: the declaration of each part
 };
 
 namespace detail {
@@ -130,7 +131,7 @@ struct Declaration {
   std::string source;   // paper, equations
   std::vector<Parameter> parameters;
   std::function<std::unique_ptr<Component>()> make;  // with every parameter at its default
-  // Of bodies, for the manual: the names of their markers and of the quantities that they offer beside the markers' motions.
+  // Of bodies, for the manual: the names of their markers and of their observables (Observed).
   std::string markers = {}, observables = {};
 };
 
@@ -150,7 +151,7 @@ class Declare {
     return *this;
   }
 
-  // "root, tip, and those of \"markers\"": names, comma-separated; what depends on parameters in words.
+  // Names, comma-separated, and words for those that depend on parameters: "root, tip, and those of \"markers\"".
   Declare& markers(std::string names) {
     declaration_.markers = std::move(names);
     return *this;
@@ -202,8 +203,8 @@ class Declare {
     return *this;
   }
 
-  // Named parts, each with the parameters that `part` declares: {"roof": {"length": 3}, "wall": {"length": 2}}. A Part derives
-  // from Component and can be copied; nobody calls its `prepare` but the component it belongs to.
+  // Named parts, each with the parameters that `part` declares: {"roof": {"length": 3}, "wall": {"length": 2}}. A Part
+  // derives from Component and must be copyable. The framework does not call its `prepare`; the owning component may.
   template <class Owner, class Part>
   Declare& parts(std::string name, Named<Part> Owner::*member, const Declaration& part, ParameterTraits traits = {}) {
     add(
@@ -224,7 +225,7 @@ class Declare {
     return *this;
   }
 
-  // One part whose parameters are the component's own: they stand in its object as if it had declared them itself.
+  // One part whose parameters appear in the component's own JSON object, as if the component had declared them.
   template <class Owner, class Part>
   Declare& own_part(Part Owner::*member, const Declaration& part) {
     for (Parameter p : part.parameters) {

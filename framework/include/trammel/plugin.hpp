@@ -1,4 +1,4 @@
-// What a plugin's source ends with: the one macro that exports its components.
+// The macro at the end of a plugin's source, which exports its components.
 //
 //     namespace { struct HhtAlpha : trammel::Integrator { double alpha = -0.1; ... }; }
 //
@@ -7,20 +7,21 @@
 //
 // Use it once per library, outside any anonymous namespace. It exports a byte section and one C function:
 //
-//   .trammel               magic line, then key=value lines: everything that must be equal in plugin and host before a
-//   C++
-//                          object crosses between them. The host reads it from the file, so nothing of a library that
-//                          does not fit is ever run. It survives strip and --gc-sections. Its last line has room for a checksum
-//                          of the library's code, which trammel_add_plugin and `trammel seal` write: a file that was damaged
-//                          afterwards is refused before it is loaded. Without one it is not compared.
-//   trammel_declarations   the declarations of the library's components; called once, after the comparison.
+//   .trammel               a magic line, then key=value lines: the properties that must be equal in plugin and host
+//                          before C++ objects may be exchanged. The host reads them from the file, so that no code of
+//                          an incompatible library is executed. The section survives strip and --gc-sections. Its last
+//                          line is reserved for a checksum of the library's code, written by trammel_add_plugin and
+//                          `trammel seal`: a file that was damaged afterwards is refused before it is loaded. A library
+//                          without a checksum is loaded without this check.
+//   trammel_declarations   returns the declarations of the library's components; called once, after these checks.
 #pragma once
 
 #include <vector>
 
 #include <trammel/parameters.hpp>
 
-// The SDK that these headers are. Major: a virtual function or a type's layout changed; minor: abilities were added (CHANGES.md).
+// Version of these headers. Major: a virtual function or a type's layout changed. Minor: abilities were added
+// (CHANGES.md).
 #define TRAMMEL_SDK_MAJOR 3
 #define TRAMMEL_SDK_MINOR 0
 
@@ -45,14 +46,14 @@ using Declarations = std::vector<Declaration>;
 #define TRAMMEL_STRING_ABI "cxx11=" TRAMMEL_TEXT(_GLIBCXX_USE_CXX11_ABI)
 #endif
 
-// Debug containers have other layouts.
+// Debug containers have a different layout.
 #if defined(_GLIBCXX_DEBUG) || defined(_LIBCPP_ENABLE_DEBUG_MODE)
 #define TRAMMEL_CONTAINERS "debug"
 #else
 #define TRAMMEL_CONTAINERS "plain"
 #endif
 
-// Layouts are the same, but a sanitised library ends an unsanitised program as soon as it is loaded.
+// A sanitised library has the same layouts, but terminates an unsanitised program when it is loaded.
 #if defined(__SANITIZE_ADDRESS__)
 #define TRAMMEL_SANITIZER "address"
 #elif defined(__SANITIZE_THREAD__)
@@ -76,7 +77,7 @@ using Declarations = std::vector<Declaration>;
 
 #define TRAMMEL_MAGIC "trammel plugin"
 
-// eigen_align and eigen_malloc say how a heap vector is allocated, which whoever frees it must know.
+// eigen_align and eigen_malloc determine how a heap vector is allocated; it must be freed in the same way.
 #define TRAMMEL_FINGERPRINT \
   TRAMMEL_MAGIC             \
   "\nsdk=" TRAMMEL_TEXT(TRAMMEL_SDK_MAJOR) "." TRAMMEL_TEXT(TRAMMEL_SDK_MINOR)                                       \

@@ -1,8 +1,8 @@
-// What every explicit integrator lets a scene choose about rows (trammel/runge_kutta.hpp), declared once:
+// The parameters of all explicit integrators that concern rows (trammel/methods/runge_kutta.hpp), declared once:
 //
 //     TRAMMEL_PLUGIN(trammel::row_parameters(trammel::integrator<RungeKutta4>("runge_kutta_4", "...").source("...")))
 //
-// The integrator has the members
+// The integrator must have the members
 //
 //     double delta, epsilon;  RungeKutta::Rows rows = RungeKutta::Rows::baumgarte;
 #pragma once

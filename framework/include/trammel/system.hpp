@@ -1,11 +1,11 @@
-// What an integrator sees: the whole mechanical system at one point (t, q, v).
+// The whole mechanical system at one point (t, q, v), as an integrator sees it.
 //
 //     q' = N(q) v                                  q configuration (nq), on a manifold; v velocity (nv)
 //     M(q) v' = f(t, q, v) - W(t, q, v)^T lambda   M mass matrix; f applied, elastic and gyroscopic forces
-//     g(t, q) = 0,   G = (dg/dq) N                 nc rows, may be redundant; W = G unless sliding friction couples them
+//     g(t, q) = 0,   G = (dg/dq) N                 nc rows, may be redundant; W = G without sliding friction
 //
-// and the levels derived from it, G v + g_t = 0 and G v' = gamma(t, q, v). Contacts, events, storage (dense or sparse),
-// redundancy and the meaning of the coordinates are the System's affair.
+// and the derivatives of the rows, G v + g_t = 0 and G v' = gamma(t, q, v). The System hides contacts, events, storage
+// (dense or sparse), redundancy and the meaning of the coordinates.
 #pragma once
 
 #include <trammel/types.hpp>
@@ -18,17 +18,17 @@ struct Stabilisation {
   double beta = 0;
 };
 
-// Weights of the iteration matrix S = c_m M + c_d D + c_k K + c_1 1 with D = d(M a - f + W^T lambda)/dv and K the same by q,
-// where q varies by increments in the tangent space (nv x nv).
+// Weights of the iteration matrix S = c_m M + c_d D + c_k K + c_1 1 (nv x nv) with D = d(M a - f + W^T lambda)/dv and K
+// the derivative by q, by increments in the tangent space.
 struct Blend {
   double c_m = 1;
   double c_d = 0;
   double c_k = 0;
-  double c_1 = 0;  // of the identity: with it alone, [1 G^T; G 0] gives solutions of minimum norm
+  double c_1 = 0;  // of the identity; if it is the only weight, [1 G^T; G 0] gives solutions of minimum norm
 };
 
-// Which of two kept factorisations: GGL needs the iteration matrix and the projection onto the position rows side by
-// side.
+// Selects one of two stored factorisations. The stabilisation of Gear, Gupta and Leimkuhler (GGL) needs both the
+// iteration matrix and the projection onto the position rows.
 enum class Factors { iteration, projection };
 
 class System {
@@ -44,8 +44,8 @@ class System {
   virtual void retract(const Vec& q, const Vec& dq, Vec& q_new) const = 0;
   virtual void difference(const Vec& q1, const Vec& q0, Vec& dq) const = 0;
 
-  // Everything below is at this point. Each part is evaluated when first asked for; references are valid until the next
-  // move_to. `t` may repeat, go back or lie between steps.
+  // All functions below refer to this point. Each part is evaluated at its first use; references are valid until the
+  // next move_to. `t` may repeat, decrease or lie between steps.
   virtual void move_to(double t, const Vec& q, const Vec& v) = 0;
 
   virtual const Vec& f() = 0;      // (nv)
@@ -54,25 +54,25 @@ class System {
 
   virtual void add_mass_times(double c, const Vec& a, Vec& r) = 0;     // r += c M a           (nv)
   virtual void add_reaction(double c, const Vec& lambda, Vec& r) = 0;  // r += c W^T lambda    (nv)
-  // The rows alone, without what friction adds to their reaction.
+  // G alone, without the contribution of friction to the reactions.
   virtual void add_rows_times(double c, const Vec& x, Vec& rc) = 0;  // rc += c G x      (nc)
   virtual void add_rows_force(double c, const Vec& mu, Vec& r) = 0;  // r += c G^T mu    (nv)
 
-  virtual Energy energy() = 0;  // of everything that stores some [J]
+  virtual Energy energy() = 0;  // of all bodies, forces and contacts that store energy [J]
 
-  // Solves M a + W^T lambda = f, G a = gamma - stabilisation. Redundant rows: lambda is the one of minimum norm. With
-  // W = G all choices give the same a and W^T lambda; with W != G they need not, and it is this one that decides.
-  // Throws when M is singular on the null space of G.
+  // Solves M a + W^T lambda = f, G a = gamma - stabilisation. If rows are redundant, lambda is the solution of minimum
+  // norm. With W = G every choice of lambda gives the same a and W^T lambda; with W != G a may depend on the choice.
+  // Throws if M is singular on the null space of G.
   virtual void accelerate(Stabilisation, Vec& a, Vec& lambda) = 0;
 
-  // Factorises [S W^T; G 0] at this point, or [S G^T; G 0] for Factors::projection, never with W: along friction's
-  // direction a correction of the rows would move a sliding body along its plane, or be singular where G W^T is.
+  // Factorises [S W^T; G 0] at this point, or [S G^T; G 0] for Factors::projection. The projection never uses W: a
+  // correction of the rows would move a sliding body along its plane, and would be singular where G W^T is.
   // a and lambda enter D and K through d(M a)/dq and d(W^T lambda)/dq.
-  // The factors stay valid over later move_to calls (a modified Newton iteration) until the next factorise of the same
-  // kind or a change of sizes.
+  // The factors remain valid after later move_to calls (modified Newton iteration) until the next `factorise` of the
+  // same kind or a change of sizes.
   virtual void factorise(Blend, const Vec& a, const Vec& lambda, Factors = Factors::iteration) = 0;
-  // Solves for (da, dlambda) with the right-hand side -(r, rc) and those factors; redundant rows as in `accelerate`.
-  // False: singular, reject the step.
+  // Solves for (da, dlambda) with the right-hand side -(r, rc) and these factors; redundant rows as in `accelerate`.
+  // Returns false if the matrix is singular: reject the step.
   [[nodiscard]] virtual bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda,
                                      Factors = Factors::iteration) = 0;
 

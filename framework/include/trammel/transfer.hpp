@@ -1,5 +1,5 @@
-// How a state moves from old coordinates to those that replaced them (a refined mesh). A body makes its own; the framework
-// joins them to one of the whole system, bodies that did not change passed through.
+// The map of a state from old coordinates to new ones (a refined mesh). A refined body creates its transfer; the
+// framework combines the transfers of all bodies, with the identity for bodies that did not change.
 #pragma once
 
 #include <trammel/types.hpp>
@@ -9,11 +9,11 @@ namespace trammel {
 class Transfer {
  public:
   virtual ~Transfer();
-  // Configuration. Rotations are passed through as they are; flat parts by an affine map, exact where the old shape can
-  // be said in the new coordinates. `fresh` comes in with its new size.
+  // Maps the configuration: rotations unchanged, flat parts by an affine map, which is exact if the new coordinates can
+  // represent the old shape. `fresh` has its new size on entry.
   virtual void q(In old, Out fresh) const = 0;
-  // What lives in the tangent space (velocities, accelerations, increments), by the linear part of the same map. Not for
-  // forces, which are dual to it: they are evaluated anew.
+  // Maps tangent vectors (velocities, accelerations, increments) by the linear part of the same map. Forces are dual to
+  // them and must be evaluated again.
   virtual void v(In old, Out fresh) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// The words every other header uses: vectors, sizes, space, world.
+// The types that every other header uses: vectors, sizes, space, world.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@ namespace trammel {
 
 using Vec = Eigen::VectorXd;
 using Mat = Eigen::MatrixXd;
-using In = const Eigen::Ref<const Vec>&;  // a component's own segment of a system vector, read
-using Out = Eigen::Ref<Vec>;              // the same, written; sized by the framework
+using In = const Eigen::Ref<const Vec>&;  // a component's own segment of a system vector, read only
+using Out = Eigen::Ref<Vec>;              // the same for writing; the framework sets its size
 
 // Lengths of the system's vectors: q configuration (nq), v velocity (nv), lambda multipliers (nc rows of G).
 struct Sizes {
@@ -22,7 +22,7 @@ struct Sizes {
   bool operator==(const Sizes&) const = default;
 };
 
-// A planar scene has planar coordinates throughout: vectors of 2, one rotation. Nothing spatial is carried along.
+// A planar scene has planar coordinates throughout: vectors with 2 entries, one rotation, no unused spatial entries.
 enum class Space { planar, spatial };
 constexpr int dimension(Space space) {
   return space == Space::planar ? 2 : 3;
@@ -34,14 +34,14 @@ constexpr int twist_size(Space space) {
   return dimension(space) + rotations(space);
 }
 
-// Small vectors and matrices with the scene's dimension and room for space: they never touch the heap.
+// Small vectors and matrices with the scene's dimension and storage for three dimensions: they need no heap memory.
 using Vec3 = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;                      // 2 or 3 entries
 using Vec6 = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;                      // 3 or 6: linear, then angular
 using Mat3 = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;         // 2x2 or 3x3
 using Mat6 = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;         // rows x twist
 using Jac = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // twist x dofs of one body
 
-// What a component may know of the scene around it.
+// The properties of the scene that a component can read.
 struct World {
   Space space = Space::planar;
   Vec3 gravity = Vec3::Zero(2);  // [m/s^2], world axes
@@ -55,7 +55,7 @@ struct Energy {
   double total() const { return kinetic + potential + elastic; }
 };
 
-// Power of what is not covered by Energy [W]. d(total energy)/dt = supplied - dissipated along the equations of motion.
+// Power of the effects that Energy does not include [W]. Along a motion d(total energy)/dt = supplied - dissipated.
 struct Power {
   double supplied = 0;    // by drives and loads, either sign
   double dissipated = 0;  // by dampers, >= 0

@@ -1,15 +1,16 @@
-// The alpha methods: Newmark's formulas with accelerations a of the method's own, which follow the true ones A = q'' by weights
-// (Arnold's and Bruls' form). HHT-alpha and generalised alpha are choices of the weights.
+// The alpha methods: Newmark's formulas with auxiliary accelerations a, which a weighted mean relates to the true ones
+// A = q'' (the form of Arnold and Bruls). HHT-alpha and generalised alpha are choices of the weights.
 //
 //     (M A + W^T lambda - f)_{n+1} = 0
 //     (1 - alpha_m) a_{n+1} + alpha_m a_n = (1 - alpha_f) A_{n+1} + alpha_f A_n
 //     q_{n+1} = q_n (+) (h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1}))
 //     v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1})
 //
-// with the rows of NewmarkStep. a_n stands for q'' at t_n + (alpha_m - alpha_f) h; the equation of motion is met at t_{n+1} by what
-// belongs there, M, f and A. So q, v and lambda are of second order for gamma = 1/2 + alpha_f - alpha_m, whether M varies or not.
-// (Weighing M a and f instead, the form these methods were first printed in, is the same while M is constant, and else puts M at
-// another instant than a: first order.) Arnold, Bruls, Multibody Syst. Dyn. 18, 185-202 (2007).
+// with the rows of NewmarkStep. a_n approximates q'' at t_n + (alpha_m - alpha_f) h. M, f and A of the equation of
+// motion are all evaluated at t_{n+1}, so that q, v and lambda are of second order for gamma = 1/2 + alpha_f - alpha_m,
+// also if M varies. (The original form takes weighted means of M a and of f. It is the same for constant M; if M
+// varies, it combines M and a of different instants and is of first order.) Arnold, Bruls, Multibody Syst. Dyn. 18,
+// 185-202 (2007).
 #pragma once
 
 #include <trammel/methods/newmark_error.hpp>

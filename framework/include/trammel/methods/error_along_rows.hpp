@@ -1,8 +1,9 @@
-// Which part of a local error counts where rows hold at the end of each step.
+// Selects the part of a local error that controls the step when the rows are satisfied at the end of each step.
 //
-// The whole while it falls as steps are shortened. If not, it is round-off: near a change of rank, an angle theta from it, rows that hold
-// to d leave velocities across them uncertain by d / theta^2 and accelerations by d / theta^3, and steps small enough for that would come
-// to no end. It does no harm, as steps end on the rows. From there to where the whole is small again what is along the rows counts.
+// The whole error counts as long as it decreases with the step size. If it does not, it is round-off: near a change of
+// rank, at an angle theta from it, rows that are satisfied to d leave the velocities across them uncertain by d /
+// theta^2 and the accelerations by d / theta^3, and no step size would be small enough. This error is harmless, because
+// steps end on the rows. From then on, only the part along the rows counts, until the whole error is small again.
 #pragma once
 
 #include <trammel/archive.hpp>
@@ -15,28 +16,29 @@ class ErrorAlongRows {
  public:
   enum class Part { whole, along_rows };
 
-  // `estimate`, a double(Part), tells the norm of the error of the trial from `now` to `next`.
+  // `estimate`, a double(Part), returns the norm of the error of the trial from `now` to `next`.
   template <class Estimate>
   double judge(const State& now, const State& next, Estimate&& estimate) {
     const double whole = estimate(Part::whole);
     rounding_ = whole > 1 && (rounding_ || !falls(now, next, whole));
     return rounding_ ? estimate(Part::along_rows) : whole;
   }
-  // e_v without its part across the rows at `at`: the change of least kinetic energy to G e_v = 0.
+  // Removes the part of e_v across the rows at `at`: the change of least kinetic energy that gives G e_v = 0.
   void project(System& s, const State& at, Vec& e_v);
-  // Where the system stands, by the factors of Factors::projection as they are.
+  // The same at the system's current point, with the existing factors of Factors::projection.
   void project(System& s, Vec& e_v);
 
-  void forget() { rounding_ = false, trial_ = {}; }  // where a motion begins
+  void forget() { rounding_ = false, trial_ = {}; }  // to be called where a motion begins
   void archive(Archive& archive) { archive("rounding", rounding_); }
 
  private:
-  // At least as of second order since the last trial from `now`, which was longer, if there was one.
+  // True if the error decreased at least with second order since the last, longer trial from `now`, or if there was
+  // none.
   bool falls(const State& now, const State& next, double error);
 
   struct Trial {
     double t = 0, h = 0, error = 0;
-  } trial_;  // the last whose error was too large
+  } trial_;  // the last trial whose error was too large
   bool rounding_ = false;
   Vec zero_, no_force_, right_, change_, mu_;
 };

@@ -1,9 +1,9 @@
-// What every integrator that takes Newmark steps (trammel/newmark_step.hpp) lets a scene choose, declared once:
+// The parameters of all integrators that use NewmarkStep (trammel/methods/newmark_step.hpp), declared once:
 //
 //     TRAMMEL_PLUGIN(trammel::newmark_parameters(
 //         trammel::integrator<HhtAlpha>("hht_alpha", "...").source("...").parameter("alpha", &HhtAlpha::alpha)))
 //
-// after the parameters of the method's own. The integrator has the members
+// They follow the method's own parameters. The integrator must have the members
 //
 //     Formulation formulation;  double tolerance = Newton().tolerance;  int max_iterations = Newton().max_iterations;
 #pragma once

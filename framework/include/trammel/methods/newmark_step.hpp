@@ -1,16 +1,16 @@
-// One implicit step of a Newmark-type method (Newmark, HHT-alpha, generalised alpha), whose unknowns are the
-// accelerations a and multipliers lambda at the step's end and which differ in their equation of motion only:
+// One implicit step of a Newmark-type method (Newmark, HHT-alpha, generalised alpha). The unknowns are the
+// accelerations a and multipliers lambda at the step's end; the methods differ only in their equation of motion:
 //
-//     q_{n+1} = q_n (+) (dq + c_q a_{n+1} + pi),   v_{n+1} = v + c_v a_{n+1}    dq, v: what Newmark's formulas know
-//     residual(t, q, v, a, lambda)_{n+1} = 0                                    the method's own, left to the caller
-//     stabilised (index 2):  G v + g_t = 0,   S pi + G^T mu = 0,   g = 0        both hold at the step's end
-//     index 3:               g = 0            (pi = 0)                          only the positions hold
+//     q_{n+1} = q_n (+) (dq + c_q a_{n+1} + pi),   v_{n+1} = v + c_v a_{n+1}    dq, v: explicit parts of the formulas
+//     residual(t, q, v, a, lambda)_{n+1} = 0                                    evaluated by the caller
+//     stabilised (index 2):  G v + g_t = 0,   S pi + G^T mu = 0,   g = 0        positions and velocities of the rows
+//     index 3:               g = 0            (pi = 0)                          positions only
 //
 // The stabilised form is that of Gear, Gupta and Leimkuhler (J. Comput. Appl. Math. 12, 77-90, 1985). Its position
-// correction pi, of the order h^3, is weighted by the iteration matrix S = M + O(h) D + O(h^2) K: by the masses, and by
-// the stiffness where a mode is too fast for the step. (Unweighted, by G G^T, it would bend the high modes; and with S
-// the factors of the iteration serve twice.) Where sliding friction tilts the reactions, W != G, pi takes factors of its own:
-// along W^T it would move what slides along its plane. A system without rows pays for nothing of this.
+// correction pi, of order h^3, is weighted by the iteration matrix S = M + O(h) D + O(h^2) K: by the masses, and by the
+// stiffness for modes that are too fast for the step. (Without weights, by G G^T, it would excite the high modes; with
+// S the factors of the iteration are used twice.) With sliding friction (W != G) pi needs its own factors: along W^T it
+// would move a sliding body along its plane. For a system without rows none of this is computed.
 //
 //     step.dq = h * now.v + ...;   step.v = now.v + ...;
 //     step.begin(s, now, h, c_q, c_v, next);
@@ -33,18 +33,20 @@ class NewmarkStep {
  public:
   Formulation formulation = Formulation::stabilised;
   Newton newton;
-  Vec dq, v;  // (nv) what the formulas know of the increment and the new velocity; filled before `begin`
+  Vec dq, v;  // (nv) explicit parts of the increment and of the new velocity; to be filled before `begin`
 
-  // Predicts lambda_{n+1} = lambda_n and a_{n+1} = a_n. c_q [s^2] >= 0, c_v [s] > 0: shares of a_{n+1} in dq and v.
+  // Predicts lambda_{n+1} = lambda_n and a_{n+1} = a_n. c_q [s^2] >= 0 and c_v [s] > 0 are the weights of a_{n+1}
+  // above.
   void begin(const System& s, const State& now, double h, double c_q, double c_v, State& next);
   bool iterating() const { return newton.iterating(); }
-  // next.q and next.v from next.a; the system to that point.
+  // Computes next.q and next.v from next.a and moves the system to that point.
   void move(System& s, const State& now, State& next);
-  // One Newton increment of a, lambda and pi. `blend` makes S the derivative of r by a; r holds + W^T lambda.
-  // Before the first one, where q would go further by a_n than by v_n and that changes forces by more than a_n itself is worth, modes
-  // swing that are too fast for the step (a refinement has made them, or an impact woken): a_{n+1} is then such that q goes along v_n.
+  // One Newton increment of a, lambda and pi. `blend` makes S the derivative of r by a; r includes + W^T lambda.
+  // The prediction a_{n+1} = a_n is useless if modes oscillate that are too fast for the step (after a refinement or an
+  // impact): if a_n moves q further than v_n and this changes the forces by more than M a_n. In that case the first
+  // call replaces a_{n+1} so that q moves along v_n.
   void correct(System& s, Blend blend, const Vec& r, State& next);
-  // Rows to round-off; next.q and next.v are those of the last a.
+  // Satisfies the rows to round-off; next.q and next.v belong to the last a.
   Outcome finish(System& s, const State& now, State& next);
 
  private:
@@ -52,17 +54,17 @@ class NewmarkStep {
   void factorise(System& s, Blend blend, const State& next);
   void update(const System& s, const State& now, State& next);
   bool correct_rows(System& s, const Vec& r, State& next);
-  bool misled(System& s, const Vec& r);  // by a_n
+  bool misled(System& s, const Vec& r);  // the prediction by a_n is useless
   bool at_round_off(System& s, const Vec& r);
 
   double c_q_ = 0, c_v_ = 0;
-  double size_q_ = 0, size_v_ = 0;      // of q and v
-  double change_q_ = 0, change_v_ = 0;  // by the last increment, relative to them
-  Vec sizes_q_;                         // of each coordinate, in its own unit
-  double change_each_ = 0;              // of the coordinate that changed most, relative to its own size
-  Factors of_pi_ = Factors::iteration;  // projection where they differ
-  bool leads_ = false;                  // a_n further than v_n, by lead_
-  Vec pi_, dpi_, zero_;                 // empty where there is no pi; zero_ where there are no rows
+  double size_q_ = 0, size_v_ = 0;      // scales of q and v
+  double change_q_ = 0, change_v_ = 0;  // changes by the last increment, relative to these
+  Vec sizes_q_;                         // scale of each coordinate, in its own unit
+  double change_each_ = 0;              // largest change of a coordinate, relative to its own scale
+  Factors of_pi_ = Factors::iteration;  // projection if W != G
+  bool leads_ = false;                  // a_n moves q further than v_n, by lead_
+  Vec pi_, dpi_, zero_;                 // empty if there is no pi; zero_ is empty if there are no rows
   Vec increment_, lead_, da_, dlambda_, rc_, mu_;
 };
 

@@ -1,15 +1,16 @@
-// Newton's iteration with kept factors: when to stop, when to factorise anew, when to give up.
+// Control of a modified Newton iteration: when to stop, when to factorise again, when to give up.
 //
-// The factors of the first iterate serve as long as the increments shrink fast. With theta the ratio of two successive
-// increments, the error left after the last one is about theta/(1 - theta) times it (Hairer, Wanner, Solving ODEs II,
-// IV.8); the iteration ends when that is below `tolerance`, or when the increments are round-off and shrink no further.
+// The factors of the first iterate are reused as long as the increments decrease fast. With theta the ratio of two
+// successive increments, the remaining error is about theta/(1 - theta) times the last increment (Hairer, Wanner,
+// Solving ODEs II, IV.8). The iteration ends when this is below `tolerance`, or when the increments have reached
+// round-off and decrease no further.
 //
 //     newton.start();
 //     while (newton.iterating()) {
 //       residual...
 //       if (newton.wants_factors()) factorise...
 //       solve for the increment and apply it
-//       newton.judge(increment relative to the unknowns' size, at round-off?)
+//       newton.judge(increment relative to the size of the unknowns, whether it is at round-off)
 //     }
 //     return newton.outcome();
 #pragma once
@@ -20,21 +21,22 @@ namespace trammel {
 
 class Newton {
  public:
-  double tolerance = 1e-11;  // of the error left, relative to the size of the unknowns
+  double tolerance = 1e-11;  // of the remaining error, relative to the size of the unknowns
   int max_iterations = 12;   // before the step is rejected
 
   void start();
   bool iterating() const { return state_ == State::iterating; }
   bool converged() const { return state_ == State::converged; }
   bool wants_factors() const { return wants_factors_; }
-  // Whether an increment of this size is one of a fast iteration that may go on, so that round-off need not be asked for.
+  // True if the iteration converges fast with an increment of this size and may continue: the caller need not test for
+  // round-off.
   bool fast(double change) const {
     return iterations_ == 0 || (change < 0.5 * last_change_ && iterations_ + 1 < max_iterations);
   }
-  // After an increment of relative size `change` was applied. `at_round_off`: a further one could not be more than
-  // noise.
+  // Call it after an increment of relative size `change` was applied. `at_round_off`: a further increment would be
+  // round-off only.
   void judge(double change, bool at_round_off);
-  double rate() const { return rate_; }  // theta of the last two increments; 1 if there was one only
+  double rate() const { return rate_; }  // theta of the last two increments; 1 after a single increment
   void fail(const char* reason);
   Outcome outcome() const { return converged() ? Outcome::accept() : Outcome::reject(reason_); }
 

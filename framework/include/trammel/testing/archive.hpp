@@ -1,4 +1,4 @@
-// An archive in memory: keeps what a component archives and gives it back.
+// An archive in memory, for tests of components that archive a history.
 #pragma once
 
 #include <map>

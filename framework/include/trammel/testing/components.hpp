@@ -1,11 +1,13 @@
-// Checks of bodies, joints, forces and contact laws: what each owes the assembly, tried at random states against differences
-// and balances. `register_suite` of testing_suites.hpp makes a test of each:
+// Checks of bodies, joints, forces and contact laws: the properties that assembly relies on, tested at random states by
+// differences and balances. `register_suite` of testing/suites.hpp makes one test of each check:
 //
-//     const bool registered = trammel::register_suite("RigidBody", trammel::body_checks(
-//         trammel::from_entry<trammel::Body>("build/lib/trammel", R"({"type": "rigid_body", "mass": 2, "inertia": 0.3})")));
+//     const auto make = trammel::from_entry<trammel::Body>("build/lib/trammel",
+//                                                          R"({"type": "rigid_body", "mass": 2, "inertia": 0.3})");
+//     const bool registered = trammel::register_suite("RigidBody", trammel::body_checks(make));
 //
-// Differences are extrapolated from ten step sizes (Ridders) and bring their own error; what is compared may be off by 20
-// times that and by round-off of the compared function over the step, nothing else. A relative error of 1e-6 is found.
+// Differences are extrapolated from ten step sizes with an error estimate (Ridders). The allowed deviation is 20 times
+// this estimate plus the function's round-off divided by the step. A relative error of 1e-6 in a derivative is
+// detected.
 #pragma once
 
 #include <functional>
@@ -25,8 +27,8 @@ namespace trammel {
 template <class T>
 using MakerOf = std::function<std::unique_ptr<T>()>;
 
-// As a run makes it: its entry in a scene, from the plugins in `folder` (a path to a library or a folder of them).
-// Throws what the user would read when the entry is refused.
+// Builds a component from its entry in a scene, as a run does, with the plugins in `folder` (the path of a library or
+// of a folder of libraries). If the entry is refused, the exception's text is the message that a user would see.
 std::unique_ptr<Component> make_component(const std::string& folder, Kind kind, const std::string& entry,
                                           const World& world);
 
@@ -44,8 +46,8 @@ MakerOf<T> from_entry(const std::string& folder, const std::string& entry, const
   };
 }
 
-// Where a body is tried: its initial state displaced at random by up to `q` (as increments), with rates up to `v`. The
-// derivatives' largest steps are a quarter of these: choose them so that the body's functions are smooth over them.
+// The test states of a body: its initial state with random displacements up to `q` (as increments) and rates up to `v`.
+// The largest difference steps are a quarter of these. Choose values over which the body's functions are smooth.
 struct BodyStates {
   double q = 0.3, v = 1;
   int count = 4;
@@ -53,18 +55,19 @@ struct BodyStates {
 };
 std::vector<Check> body_checks(const MakerOf<Body>& make, const BodyStates& states = {});
 
-// A load acts on B only and owes no reaction; the bearings of gears take part of theirs.
+// Whether the reaction acts on A. It does not for a load, which acts on B only, nor for gears, whose bearings carry
+// part of it.
 enum class Reaction { on_A, outside };
 std::vector<Check> joint_checks(const MakerOf<Constraint>& make, Space space = Space::planar,
                                 Reaction reaction = Reaction::on_A);
 std::vector<Check> force_checks(const MakerOf<Force>& make, Space space = Space::planar,
                                 Reaction reaction = Reaction::on_A);
 
-// The impact that a compliant law is tried in, and what the law says of the moment of touch.
+// The impact in which a compliant law is tested, and the law's claim about its force at first touch.
 struct ContactClaims {
   double mass = 1;               // [kg]
   double speed = 1;              // [m/s] of approach
-  bool starts_from_zero = true;  // false: a damper acts at once, as in Kelvin and Voigt's law
+  bool starts_from_zero = true;  // false: the force jumps at touch because of a damper, as in the Kelvin-Voigt law
 };
 std::vector<Check> contact_force_checks(const MakerOf<ContactForce>& make, const ContactClaims& claims = {});
 std::vector<Check> restitution_checks(const MakerOf<Restitution>& make);

@@ -1,6 +1,6 @@
-// Markers in known motions, with exact velocities and accelerations: what joints and forces are tried between.
+// Markers in known motions, with exact velocities and accelerations, for tests of joints and forces.
 //
-// A marker's coordinates are x, y, angle in the plane; x, y, z and three angles in space, R = R_x R_y R_z of them.
+// A marker's coordinates are x, y, angle in the plane; in space x, y, z and three angles with R = R_x R_y R_z.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace trammel {
 
-// At coordinates q with rates v; 3 or 6 of them tell the space.
+// The marker at coordinates q with rates v: 3 each in the plane, 6 in space.
 Motion marker_at(const Vec& q, const Vec& v);
-// The same marker with its pose moved by a twist: x by its linear part, R turned by its angular part in world axes.
+// The same marker with its pose displaced by a twist: x by the linear part, R by a rotation about world axes.
 Motion displaced(const Motion& m, const Vec6& by);
 // A wrench at x as force and moment about the world's origin.
 Vec about_origin(const Vec& wrench, const Vec3& x);
 
-// Each coordinate runs along p + u t + a sin(w t + phi).
+// Each coordinate follows p + u t + a sin(w t + phi).
 class MovingMarker {
  public:
   struct Law {
@@ -31,12 +31,12 @@ class MovingMarker {
   std::vector<Law> laws_;
 };
 
-// Two of them in general motion, about one metre apart, turning less than half a turn against each other.
+// Two such markers in general motion, about one metre apart; their relative rotation stays below half a turn.
 struct MovingPair {
   MovingMarker a, b;
 };
 MovingPair moving_pair(Space space);
-// These two, and more like them: up to four.
+// The same two markers and further ones, up to four.
 std::vector<MovingMarker> moving_markers(Space space, int count);
 
 }  // namespace trammel

@@ -1,6 +1,6 @@
-// Measuring what integrators claim: for tests of our own and of plugin authors. What is measured comes back as a value with
-// a table that tells the whole story; a check comes back as a Report that converts to bool. The ready GoogleTest suite is in
-// testing_suites.hpp, an example of a plugin author's test in framework/testing/README.md.
+// Measures the claims of integrators, for our tests and those of plugin authors. A measurement returns a value and a
+// table of the underlying figures; a check returns a Report that converts to bool. The GoogleTest suites are in
+// testing/suites.hpp, an example of a plugin author's test in framework/testing/README.md.
 #pragma once
 
 #include <complex>
@@ -16,13 +16,13 @@
 
 namespace trammel {
 
-// Gives a fresh, prepared integrator at each call.
+// Returns a fresh, prepared integrator at each call.
 using Maker = std::function<std::unique_ptr<Integrator>()>;
-// From the plugins in `folder` (a path to a library or a folder of them).
+// Makes it from the plugins in `folder` (the path of a library or of a folder of libraries).
 Maker from_plugin(const std::string& folder, const std::string& name,
                   const std::vector<std::pair<std::string, ParameterValue>>& settings = {});
 
-// `n` equal steps to `until`. Throws std::runtime_error with time and reason when one is rejected.
+// Takes `n` equal steps to `until`. Throws std::runtime_error with time and reason if one is rejected.
 State integrate(Integrator& method, System& system, const State& start, double until, int n,
                 const std::function<void(const State&)>& after_each_step = {});
 
@@ -33,14 +33,15 @@ struct Order {
 };
 Order fit_order(int n, int runs, const std::function<double(int n)>& error);
 
-// The same for a problem's closed form; errors of q and v are root mean squares over all steps of a run.
+// The same against a problem's closed form; errors of q and v are root mean squares over all steps of a run.
 struct Fit {
   double order_q = 0, order_v = 0, order_lambda = 0;  // lambda: NaN without rows
   std::string table;
 };
 Fit measure_order(const Maker& method, const Problem& problem, int n, int runs = 4);
 
-// Roots of the method's map, from its trajectories alone (matrix pencil of Hua and Sarkar); those they excite.
+// Roots of the method's amplification matrix that its trajectories excite, found from these trajectories (matrix pencil
+// of Hua and Sarkar).
 struct Amplification {
   double radius = 0;
   std::vector<std::complex<double>> roots;
@@ -48,7 +49,7 @@ struct Amplification {
 Amplification amplification(const Maker& method, double Omega);  // x'' = -Omega^2 x, h = 1
 
 enum class Axis { imaginary, negative_real };  // x'' = -z^2 x, and v' = -z v, h = 1
-// The smallest z, in a scan by 0.01 up to `most`, from which the radius exceeds 1 + 1e-6; `most` if none.
+// The smallest z up to `most`, in a scan by 0.01, above which the radius exceeds 1 + 1e-6; `most` if there is none.
 double stability_limit(const Maker& method, Axis axis, double most = 8);
 
 // The largest relative change of energy over `n` steps.
@@ -70,36 +71,37 @@ struct Report {
   explicit operator bool() const { return holds; }
   void claim(const std::string& sentence, bool true_, const std::string& found = "");
 };
-// A claim by name ("HasItsOrderOnThePendulum") and what finds out whether it holds. `register_suite` (testing_suites.hpp)
-// makes a test of each.
+// A claim by name ("HasItsOrderOnThePendulum") and the function that tests it. `register_suite` (testing/suites.hpp)
+// makes one test of each check.
 struct Check {
   std::string name;
   std::function<Report()> find_out;
-  // A component that throws has failed the check.
+  // An exception of the component counts as a failed check.
   Report operator()() const;
 };
 
 // All checks of an integrator, for `register_suite`.
 struct IntegratorClaims {
   double order = 1;
-  int steps = 64;              // per second, where convergence is asymptotic
-  double imaginary_limit = 0;  // of stability; 0: not claimed
+  int steps = 64;              // per second, so many that convergence is asymptotic
+  double imaginary_limit = 0;  // of stability; 0: no claim
   double real_limit = 0;       // likewise
   double energy = 0.05;        // largest relative change on the pendulum
-  double constraints = 1e-2;   // [m, m/s] largest violation where the method does not hold the rows
+  double constraints = 1e-2;   // [m, m/s] largest violation if the method does not satisfy the rows exactly
 };
 std::vector<Check> integrator_checks(const Maker& method, const IntegratorClaims& claims);
 
-// `order` is met by q and v from both sides to `tolerance`.
+// The orders of q and v equal `order` within +- `tolerance`.
 Report check_order(const Maker& method, const Problem& problem, double order, int n, double tolerance = 0.2);
-// The limit on the axis is `limit`, relatively to 1e-3.
+// The stability limit on the axis equals `limit` with a relative error of 1e-3.
 Report check_stability(const Maker& method, Axis axis, double limit);
 Report check_energy(const Maker& method, const Problem& problem, int n, double allowed);
-// Rows hold where the method's traits claim so, to 1e-9; all within `allowed` otherwise.
+// The rows are satisfied to 1e-9 where the method's traits claim so, otherwise within `allowed`.
 Report check_constraints(const Maker& method, const Problem& problem, int n, double allowed);
-// Trials of other lengths before each step change no bit of the run, nor `now`; `next` may hold anything.
+// Trials with other step sizes before each step change no bit of the run or of `now`, whatever `next` contains on
+// entry.
 Report trial_leaves_no_trace(const Maker& method, const Problem& problem);
-// A fresh integrator that reads the archive goes on bit for bit.
+// A fresh integrator that reads the archive continues the run bit for bit.
 Report resumes_bitwise(const Maker& method, const Problem& problem);
 
 }  // namespace trammel

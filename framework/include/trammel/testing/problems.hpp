@@ -1,7 +1,7 @@
-// Problems with known answers, for measuring integrators. Each lives in a file of its own under
-// framework/testing/problems, where its formulas are.
+// Problems with known solutions, for measuring integrators. Each has its own file with its formulas in
+// framework/testing/problems.
 //
-//     M(q) v' = f(t, q, v) - W^T lambda,   g(t, q) = 0,   q' = N(q) v;   W = G but with friction
+//     M(q) v' = f(t, q, v) - W^T lambda,   g(t, q) = 0,   q' = N(q) v;   W = G except with friction
 #pragma once
 
 #include <functional>
@@ -14,13 +14,13 @@
 
 namespace trammel {
 
-// Something constant along exact solutions; changes are divided by `scale`.
+// A quantity that is constant along exact solutions; changes are divided by `scale`.
 struct Invariant {
   double scale = 1;
   std::function<double(const State&)> value;
 };
 
-// Configurations that are no vectors; empty functions: q' = v, and increments add.
+// Functions of configurations that do not form a vector space. Empty functions: q' = v, and increments are added.
 struct Manifold {
   std::function<Vec(const Vec& q, const Vec& v)> rate = {};
   std::function<Vec(const Vec& q)> normalise = {};
@@ -32,15 +32,15 @@ struct Problem {
   struct Rows {
     Vec g, g_t, gamma;  // G v + g_t = 0, G v' = gamma
     Mat G;
-    Mat W = {};  // of the reactions -W^T lambda, where friction tilts them; empty: G
+    Mat W = {};  // of the reactions -W^T lambda with friction; empty: G
   };
 
   std::string name, equations, source;
-  double until = 1;  // [s] where solutions are compared; from t = 0
+  double until = 1;  // [s] solutions are compared from t = 0 to this time
   Mat M = {};        // constant, or at the start
   std::function<Vec(double t, const Vec& q, const Vec& v)> force = {};
   std::function<Rows(double t, const Vec& q, const Vec& v)> rows = {};  // empty: none
-  std::function<void(double t, Vec& q, Vec& v)> exact = {};  // without a closed form: fills the start only, whatever t
+  std::function<void(double t, Vec& q, Vec& v)> exact = {};  // without a closed form: the start for every t
   bool closed_form = true;
   Invariant energy = {};                       // without a value: not conserved
   std::function<Mat(const Vec& q)> mass = {};  // empty: M everywhere
@@ -48,32 +48,33 @@ struct Problem {
   std::function<Mat(const Blend& c, const Vec& q, const Vec& v)> tangent = {};
   Manifold manifold = {};
 
-  // Solved by a dense orthogonal decomposition, derivatives by differences: shares no code with the framework's assembly.
+  // A System with a dense orthogonal decomposition and derivatives by differences; it shares no code with the
+  // framework's assembly.
   std::unique_ptr<System> system() const;
-  State solution(double t) const;  // with the consistent a and lambda; rows that repeat: lambda of minimum norm
+  State solution(double t) const;  // with consistent a and lambda; redundant rows: lambda of minimum norm
 };
 
 namespace problems {
 
 // x'' = -omega^2 x - 2 zeta omega x', from x = 1, x' = 0; 0 <= zeta < 1.
 Problem oscillator(double omega = 2, double zeta = 0);
-// v' = lambda v, x' = v from x = 0, v = 1; lambda [1/s] other than 0.
+// v' = lambda v, x' = v from x = 0, v = 1; lambda [1/s] must not be 0.
 Problem first_order(double lambda = -1);
-// x'' = -omega^2 x - 2 zeta omega x' + F cos(drive t): the steady response.
+// x'' = -omega^2 x - 2 zeta omega x' + F cos(drive t), in its steady response.
 Problem forced_oscillator(double omega = 2, double zeta = 0.1, double F = 1, double drive = 3);
-// theta'' = -g sin theta (L = 1 m), from theta_0 > 0 at omega_0 >= 0, swinging and not turning over.
+// theta'' = -g sin theta (L = 1 m), from theta_0 > 0 and omega_0 >= 0; it swings and does not turn over.
 Problem pendulum(double theta_0 = 1, double omega_0 = 0.4);
-// The same in x and y with a row; with further rows that repeat it, each with its weight.
+// The same in x and y with one constraint row per weight: the same row times its weight.
 Problem pendulum_with_rod(double theta_0 = 1, double omega_0 = 0.4, std::vector<double> row_weights = {1});
-// The same by sinh(q) = theta: a mass that varies.
+// The same in the coordinate q with sinh(q) = theta, which makes the mass vary.
 Problem pendulum_of_varying_mass(double theta_0 = 1, double omega_0 = 0.4);
-// The rod as a spring of stiffness k [N/m]. No closed form: energy only.
+// The pendulum with a spring of stiffness k [N/m] as its rod. No closed form: energy only.
 Problem stiff_pendulum(double k = 1e4);
-// A bead on a straight wire turning at the given rate [rad/s], in gravity.
+// A bead on a straight wire that turns at the given rate [rad/s] under gravity.
 Problem bead_on_turning_wire(double turning = 2);
-// A heavy symmetric top on its tip, q a unit quaternion (w, x, y, z), v its angular velocity in body axes. The start only.
+// A heavy symmetric top on its tip; q: unit quaternion (w, x, y, z), v: angular velocity in body axes. No closed form.
 Problem heavy_top(double spin = 20);
-// Masses 1 kg and 1/ratio kg on a massless rod of 1 m, turning in free flight.
+// Masses of 1 kg and 1/ratio kg on a massless rod of 1 m that rotates in free flight.
 Problem dumbbell(double ratio = 1e9);
 
 // A ball of 0.1 kg dropped from `height` on the plane y = 0; g = 9.81 m/s^2.
@@ -84,7 +85,7 @@ struct BouncingBall {
   std::string scene(const std::string& integrator, double until) const;
 };
 
-// A uniform bar (2 m, 3 kg) moving flat-on, no gravity; its right end strikes a plane at `speed`.
+// A uniform bar (2 m, 3 kg) in translation without gravity; its right end strikes a plane at `speed`.
 struct StrikingBar {
   double speed = 2, e = 0.5;
   double impulse() const;           // [N s]

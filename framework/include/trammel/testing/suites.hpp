@@ -1,9 +1,9 @@
-// GoogleTest suites of checks, one test per claim; need no macro and no fixture:
+// GoogleTest suites of checks, one test per claim, without macros and fixtures:
 //
-//     const bool registered = trammel::register_suite("MyMethod", trammel::integrator_checks(make, {.order = 2, .steps = 64}));
+//     const bool registered = trammel::register_suite("MyMethod", trammel::integrator_checks(make, {.order = 2}));
 //     const bool registered = trammel::register_suite("MyBody", trammel::body_checks(make));
 //
-// With TRAMMEL_MEASURED=1 in the environment each test prints what it measured, also where its claim holds.
+// With TRAMMEL_MEASURED=1 in the environment each test prints its measurements, also when it passes.
 #pragma once
 
 #include <cstdlib>
