@@ -119,7 +119,7 @@ void freedom(Text& text, Setup& setup, const std::vector<RedundantRows>& redunda
 void redundant(Text& text, const std::vector<RedundantRows>& found) {
   if (found.empty()) return;
   text.section("Redundant rows at the initial state (accelerations are unique, multipliers those of minimum norm)");
-  for (const RedundantRows& rows : found) text.line("{}", told(rows));
+  for (const RedundantRows& rows : found) text.line("{}", description(rows));
 }
 
 // Contacts that are closed at the start with rows that depend on each other.

@@ -83,7 +83,7 @@ class Run {
   std::string contradiction() {
     try {
       const Conflict conflict = simulator_->conflict();
-      return conflict.empty() ? "" : "; " + told(conflict);
+      return conflict.empty() ? "" : "; " + description(conflict);
     } catch (const std::exception&) {
       return "";  // a component has no answer there; the failure itself is told
     }

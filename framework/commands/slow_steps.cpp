@@ -19,8 +19,8 @@ std::string cause(const FastestMotion& fastest, const Setup& setup, const Simula
   const bool implicit = setup.integrator->traits().implicit, on_rows = setup.integrator->traits().holds_position;
   if (const MassRatio ratio = mass_ratio(*setup.model, simulator.state()); ratio.is_large() && !on_rows)
     return fmt::format("{}; \"rows\": \"projected\" in the integrator takes long steps there",
-                       told(ratio, *setup.model));
-  const std::string what = told(fastest, *setup.model);
+                       description(ratio, *setup.model));
+  const std::string what = description(fastest, *setup.model);
   if (fastest.rate() * h < accounts_for)
     return fmt::format(
         "{}, which asks for none so short, with {} events so far; a looser tolerance takes longer ones, or fixed "

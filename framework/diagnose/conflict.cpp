@@ -20,9 +20,9 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 constexpr int most_rows = 1000;  // at a time: they are dense here, n^3 operations
 
 // Rows of chosen joints and bodies.
-class Chosen {
+class RowSelection {
  public:
-  Chosen(model::AssembledSystem& system, const RowTolerance& allowed, std::vector<RowGroup> groups)
+  RowSelection(model::AssembledSystem& system, const RowTolerance& allowed, std::vector<RowGroup> groups)
       : system_(system), allowed_(allowed), groups_(std::move(groups)) {}
 
   // Positions, then velocities and accelerations, which are linear. What the velocities are beyond those that the rows ask for
@@ -179,7 +179,7 @@ std::vector<int> outwards(const SparseRows& G, const std::vector<RowGroup>& grou
 
 std::vector<RowGroup> conflicting(model::AssembledSystem& system, const RowTolerance& allowed, const State& start,
                                   std::vector<RowGroup> groups) {
-  return Chosen(system, allowed, groups).can_hold(start) ? std::vector<RowGroup>() : groups;
+  return RowSelection(system, allowed, groups).can_hold(start) ? std::vector<RowGroup>() : groups;
 }
 
 // More and more groups around `worst`, until they cannot hold. None: those of `most_rows` rows can.
@@ -208,7 +208,7 @@ std::vector<RowGroup> smallest_of(std::vector<RowGroup> conflict, std::size_t& a
       std::vector<RowGroup> rest = conflict;
       const auto first = rest.begin() + std::ptrdiff_t(at);
       rest.erase(first, first + std::ptrdiff_t(std::min(part, rest.size() - at)));
-      if (Chosen(system, allowed, rest).can_hold(start))
+      if (RowSelection(system, allowed, rest).can_hold(start))
         at += part;
       else
         conflict = std::move(rest);
@@ -256,7 +256,7 @@ std::string remark(const Conflict& conflict) {
   return conflict.smallest ? "; without any one of them the rest can hold" : "; not all of them need be part of it";
 }
 
-std::string told(const Conflict& conflict) {
+std::string description(const Conflict& conflict) {
   if (conflict.paths.size() == 1)
     return conflict.paths[0] + (conflict.smallest ? " alone cannot hold from there" : " is missed most");
   return fmt::format("{} prescribe motions that contradict each other{}", names(conflict), remark(conflict));

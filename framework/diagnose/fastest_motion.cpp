@@ -98,7 +98,7 @@ FastestMotion fastest_motion(model::AssembledSystem& system, const State& state)
   return fastest;
 }
 
-std::string told(const FastestMotion& fastest, const model::Model& model) {
+std::string description(const FastestMotion& fastest, const model::Model& model) {
   if (fastest.body < 0) return "nothing swings or decays at its start";
   const std::string& who = model.bodies[std::size_t(fastest.body)].name;
   return fastest.frequency >= fastest.decay ? fmt::format("bodies.{} swings at {:.3g} rad/s", who, fastest.frequency)

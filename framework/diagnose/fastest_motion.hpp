@@ -26,6 +26,6 @@ struct FastestMotion {
 FastestMotion fastest_motion(model::AssembledSystem& system, const State& state);
 
 // "bodies.b swings at 1.4e+07 rad/s"
-std::string told(const FastestMotion& fastest, const model::Model& model);
+std::string description(const FastestMotion& fastest, const model::Model& model);
 
 }  // namespace trammel::simulate

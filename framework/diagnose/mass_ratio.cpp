@@ -52,7 +52,7 @@ MassRatio mass_ratio(const model::Model& model, const State& state) {
   return largest;
 }
 
-std::string told(const MassRatio& ratio, const model::Model& model) {
+std::string description(const MassRatio& ratio, const model::Model& model) {
   return fmt::format("bodies.{} of {:.3g} kg is tied to bodies.{} of {:.3g} kg, a mass ratio of {:.3g}",
                      model.bodies[std::size_t(ratio.light)].name, ratio.light_mass,
                      model.bodies[std::size_t(ratio.heavy)].name, ratio.heavy_mass,

@@ -20,6 +20,6 @@ struct MassRatio {
 MassRatio mass_ratio(const model::Model& model, const State& state);
 
 // "bodies.u of 1 kg is tied to bodies.l of 1e+12 kg, a mass ratio of 1e+12"
-std::string told(const MassRatio& ratio, const model::Model& model);
+std::string description(const MassRatio& ratio, const model::Model& model);
 
 }  // namespace trammel::simulate

@@ -25,7 +25,7 @@ std::vector<RedundantRows> redundant_rows(model::AssembledSystem& system, const 
   return found;
 }
 
-std::string told(const RedundantRows& here) {
+std::string description(const RedundantRows& here) {
   std::vector<int> numbers;
   for (const int row : here.rows) numbers.push_back(row + 1);
   return fmt::format("{}: row{} {} of {} follow{} from the rows before", here.path, numbers.size() > 1 ? "s" : "",

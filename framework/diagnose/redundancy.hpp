@@ -23,7 +23,7 @@ struct RedundantRows {
 // In the scene's order, at the state; its positions should hold.
 std::vector<RedundantRows> redundant_rows(model::AssembledSystem& system, const State& state);
 // "joints.hinge: rows 4, 5 of 5 follow from the rows before".
-std::string told(const RedundantRows& rows);
+std::string description(const RedundantRows& rows);
 // Warns of joints that rub and whose reactions, and so their friction, are one choice of many.
 void check_bearing_loads(model::AssembledSystem& system, const State& state, const scene::Value& root,
                          scene::Problems& problems);

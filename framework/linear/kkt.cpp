@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "linear/dense/few_rows.hpp"
+#include "linear/dense/products_of_few_rows.hpp"
 
 namespace trammel::numerics {
 

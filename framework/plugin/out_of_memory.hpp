@@ -21,7 +21,7 @@ class OutOfMemory final : public std::bad_alloc {
   char text_[80];  // nothing is allocated for it
 };
 
-inline const char* told(const std::bad_alloc& error) noexcept {
+inline const char* out_of_memory_message(const std::bad_alloc& error) noexcept {
   return dynamic_cast<const OutOfMemory*>(&error) ? error.what() : "out of memory";
 }
 

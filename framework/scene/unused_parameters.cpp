@@ -39,10 +39,10 @@ std::vector<Problem> set_in_vain(const Value& root, const std::vector<Override>&
   const Value* parameters = root.find("parameters");
   if (!parameters || overrides.empty()) return warnings;
   const auto used = used_parameters(root, *parameters);
-  std::set<std::string_view> told;
+  std::set<std::string_view> named;
   for (const Override& override : overrides)
     for (const auto& [name, value] : parameters->members())
-      if (override.path == "parameters." + name && !used.contains(name) && told.insert(name).second)
+      if (override.path == "parameters." + name && !used.contains(name) && named.insert(name).second)
         warnings.push_back(value.problem("has no effect: nothing in this scene uses it"));
   return warnings;
 }

@@ -93,7 +93,7 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
                         .approach = -c.before,
                         .separation = c.after,
                         .energy_lost = c.energy_lost(),
-                        .friction = system_.told(c.contact, c.friction)});
+                        .friction = system_.along_tangents(c.contact, c.friction)});
     if (struck || (!c.was_closed && c.impulse > 0)) modes_.contacts[c.contact].approach_speed = -c.before;
   }
   for (const TouchingContact& c : bearings_)
@@ -102,7 +102,7 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
                         .contact = c.contact,
                         .impulse = c.impulse,
                         .energy_lost = c.energy_lost(),
-                        .friction = system_.told(c.contact, c.friction)});
+                        .friction = system_.along_tangents(c.contact, c.friction)});
   finish(state, carry && state.a.size() == system_.sizes().nv);  // none yet at the start
   for (const TouchingContact& c : touching_) tell_normal(state, c, events);
   tell_friction(state, events);
@@ -450,8 +450,8 @@ void ContactModes::tell_friction(const State& state, std::vector<ContactEvent>& 
                               : slid ? Kind::reversal
                                      : Kind::slip,
                       .contact = i,
-                      .friction = system_.told(i, system_.friction_force(i, state.lambda)),
-                      .direction = system_.told(i, now.direction)});
+                      .friction = system_.along_tangents(i, system_.friction_force(i, state.lambda)),
+                      .direction = system_.along_tangents(i, now.direction)});
   }
 }
 

@@ -15,7 +15,7 @@ void Simulator::measure_joints() {
 
 void Simulator::judge_joints(const State& state) {
   system_.move_to(state.t, state.q, state.v);
-  if (const std::string open = open_joints_.told(system_, state); !open.empty())
+  if (const std::string open = open_joints_.description(system_, state); !open.empty())
     throw RunFailed(fmt::format(
         "at t = {:.9g} s, step {}: joints have come apart: {}. Shorter steps, \"corrections\" or a method that ends "
         "its steps on the rows keep them closed if they can be",

@@ -4,7 +4,7 @@
 
 #include <trammel/linear_rows.hpp>
 
-#include "linear/dense/fetch.hpp"
+#include "linear/dense/prefetch.hpp"
 
 namespace trammel::model {
 
@@ -110,12 +110,12 @@ void AssembledSystem::Work::move_to(double t_new, const Vec& q_new, const Vec& v
 }
 
 // Where a body's numbers begin, whose length only it knows, and its own rows go.
-void AssembledSystem::Work::fetch_body(std::size_t body) {
+void AssembledSystem::Work::prefetch_body(std::size_t body) {
   constexpr std::size_t as_a_rule = 192;
   const BodyEntry& entry = model->bodies[body];
-  numerics::fetch(entry.body.get(), as_a_rule);
+  numerics::prefetch(entry.body.get(), as_a_rule);
   const std::size_t own = std::size_t(entry.rows) * std::size_t(entry.nv);
-  if (blocks) numerics::fetch(blocks->bodies()[body].Gt.data(), own * sizeof(double));
+  if (blocks) numerics::prefetch(blocks->bodies()[body].Gt.data(), own * sizeof(double));
 }
 
 // M, unless it is constant and there already, and what the bodies add to f. Whoever asks for one needs the other soon.
@@ -125,7 +125,7 @@ void AssembledSystem::Work::evaluate_bodies() {
   if (!mass_fresh && !blocks) M.setZero(sizes.nv, sizes.nv);
   f.setZero(sizes.nv);
   for (std::size_t k = 0; k < model->bodies.size(); ++k) {
-    numerics::look_ahead(k, model->bodies.size(), [&](std::size_t next) { fetch_body(next); });
+    numerics::look_ahead(k, model->bodies.size(), [&](std::size_t next) { prefetch_body(next); });
     const BodyEntry& entry = model->bodies[k];
     const auto q_body = q.segment(entry.q0, entry.nq);
     const auto v_body = v.segment(entry.v0, entry.nv);
@@ -167,7 +167,7 @@ const Vec& AssembledSystem::Work::force() {
   const int twist = twist_size(model->world.space);
   for (std::size_t i = 0; i < force_slots.size(); ++i) {
     numerics::look_ahead(i, force_slots.size(),
-                         [&](std::size_t next) { chain.fetch(force_slots[next].A), chain.fetch(force_slots[next].B); });
+                         [&](std::size_t next) { chain.prefetch(force_slots[next].A), chain.prefetch(force_slots[next].B); });
     const int A = force_slots[i].A, B = force_slots[i].B;
     called(model->forces[i].origin, "wrench");
     on_A.setZero(twist);

@@ -14,7 +14,7 @@
 #include "system/constant_rows.hpp"
 #include "system/contact_geometry/surface_contact.hpp"
 #include "system/contact_loads.hpp"
-#include "system/markers/marker_chain.hpp"
+#include "system/markers/marker_motions.hpp"
 
 namespace trammel::model {
 
@@ -52,7 +52,7 @@ struct AssembledSystem::Work {
   void reserve_contacts();
   void lay_out_blocks();   // their rows, for the contacts' modes
   void evaluate_bodies();  // mass and what bodies add to f
-  void fetch_body(std::size_t body);
+  void prefetch_body(std::size_t body);
   void evaluate_mass();
   void sum_mass();  // with sparse storage
   // r += c M a; and, after evaluate_rows, rc += c G x, r += c G^T y, r += c W^T y.
@@ -140,7 +140,7 @@ struct AssembledSystem::Work {
   Storage storage;
   bool sparse = false;  // M and S
   CallSite site;        // before `chain`, which names bodies there
-  MarkerChain chain;
+  MarkerMotions chain;
   std::vector<Slots> joint_slots, force_slots, contact_slots;
   std::vector<std::size_t> joint_order;  // by their first bodies: of many bodies each is then fetched from memory once
   std::vector<std::size_t> constant_joints;  // not in joint_order: their rows are linear in the coordinates
@@ -227,7 +227,7 @@ class MarkerWrenches {
   virtual void operator()(Motions markers, std::span<Wrench> on) const = 0;
   virtual bool depends_on_velocity() const = 0;
 };
-void add_wrench_tangent(MarkerChain& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
+void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
                         const MarkerWrenches& wrenches, double c_k, double c_d, Matrix& S);
 
 // The wrench of a contact on one of its markers, whose rows are H: `normal` along its normal, `friction` along its tangents.

@@ -33,7 +33,7 @@ void displace(const Motion& from, int i, double s, Motion& to) {
 
 }  // namespace
 
-void add_wrench_tangent(MarkerChain& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
+void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
                         const MarkerWrenches& wrenches, double c_k, double c_d, Matrix& S) {
   const std::size_t n = slots.size();
   std::vector<Motion> now(n), probe;

@@ -1,5 +1,5 @@
 // Rows of bodies, joints and contacts at the point: g, g_dot, gamma, G and W.
-#include "linear/dense/fetch.hpp"
+#include "linear/dense/prefetch.hpp"
 #include "system/assembly.hpp"
 
 namespace trammel::model {
@@ -14,7 +14,7 @@ void AssembledSystem::Work::evaluate_rows() {
   else
     G.setZero(sizes.nc, sizes.nv);
   for (std::size_t k = 0; k < constrained.size(); ++k) {
-    numerics::look_ahead(k, constrained.size(), [&](std::size_t next) { fetch_body(constrained[next]); });
+    numerics::look_ahead(k, constrained.size(), [&](std::size_t next) { prefetch_body(constrained[next]); });
     evaluate_own_rows(model->bodies[constrained[k]]);
   }
   for (const std::size_t i : joint_order) {

@@ -21,14 +21,14 @@ constexpr double same = 1e-8;
 // Of the terms of a rate, where joints hold the direction.
 constexpr double round_off = 1e-12;
 
-Vec unrelated(Index n) {
+Vec pseudo_random(Index n) {
   return Vec::NullaryExpr(n, [](Index i) { return std::sin(1 + 1.618033988749895 * double(i * i + 1)); });
 }
 
 }  // namespace
 
 Vec AssembledSystem::Work::some_motion() {
-  const Vec weight = mass_diagonal().cwiseSqrt(), numbers = unrelated(sizes.nv);
+  const Vec weight = mass_diagonal().cwiseSqrt(), numbers = pseudo_random(sizes.nv);
   if (held_rows == 0) return numbers.cwiseQuotient(weight);
   Vec some;
   with_joints_held()(numbers.cwiseProduct(weight), some);

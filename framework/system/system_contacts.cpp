@@ -183,7 +183,7 @@ Tangential AssembledSystem::slip_acceleration(int contact, const Vec& a) {
   return s;
 }
 
-Vec3 AssembledSystem::told(int contact, const Tangential& x) {
+Vec3 AssembledSystem::along_tangents(int contact, const Tangential& x) {
   Work& w = *work_;
   if (tangents(contact) == 1) return x.head(1);
   const auto i = std::size_t(contact);

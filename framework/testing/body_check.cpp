@@ -11,7 +11,7 @@
 
 #include <trammel/fields.hpp>
 
-#include "testing/tried_body.hpp"
+#include "testing/body_under_test.hpp"
 
 namespace trammel {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <trammel/linear_rows.hpp>
 
-#include "testing/tried_body.hpp"
+#include "testing/body_under_test.hpp"
 
 namespace trammel {
 namespace {

@@ -26,7 +26,7 @@ void note_missing(const plugin::OutOfMemory& block) noexcept {
 
 void end_without_memory(const std::bad_alloc& error) {
   Line line;
-  line.add("{}", plugin::told(error));
+  line.add("{}", plugin::out_of_memory_message(error));
   line.add_time(witness().culprit());
   end_process(Exit::failed, "failed", line);
 }

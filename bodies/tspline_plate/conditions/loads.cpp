@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <trammel/quadrature.hpp>
 
-#include "tspline_plate/shell/packs.hpp"
+#include "tspline_plate/shell/simd_loops.hpp"
 
 namespace trammel::plate {
 

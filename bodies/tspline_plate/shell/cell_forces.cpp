@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tspline_plate/shell/packs.hpp"
+#include "tspline_plate/shell/simd_loops.hpp"
 #include "tspline_plate/shell/viscous_point.hpp"
 
 namespace trammel::plate {

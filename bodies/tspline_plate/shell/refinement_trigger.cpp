@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tspline_plate/shell/packs.hpp"
+#include "tspline_plate/shell/simd_loops.hpp"
 
 namespace trammel::plate {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "linear/dense/fetch.hpp"
-#include "linear/dense/few_rows.hpp"
+#include "linear/dense/prefetch.hpp"
+#include "linear/dense/products_of_few_rows.hpp"
 
 namespace trammel::numerics {
 
@@ -19,16 +19,16 @@ void with_size(Eigen::Index n, F&& f) {
 template <class F>
 void for_each(const std::vector<BodyBlock>& bodies, F&& f) {
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    look_ahead(k, bodies.size(), [&](std::size_t next) { fetch_rows(bodies[next]); });
+    look_ahead(k, bodies.size(), [&](std::size_t next) { prefetch_rows(bodies[next]); });
     f(bodies[k]);
   }
 }
 
 }  // namespace
 
-void fetch_rows(const BodyBlock& body) {
-  fetch(body.rows.data(), body.rows.size() * sizeof(int));
-  fetch(body.Gt.data(), std::size_t(body.Gt.size()) * sizeof(double));
+void prefetch_rows(const BodyBlock& body) {
+  prefetch(body.rows.data(), body.rows.size() * sizeof(int));
+  prefetch(body.Gt.data(), std::size_t(body.Gt.size()) * sizeof(double));
 }
 
 void add_rows_times(const std::vector<BodyBlock>& bodies, double c, const Vec& x, Vec& rc) {

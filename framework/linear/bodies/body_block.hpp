@@ -19,7 +19,7 @@ struct BodyBlock {
 };
 
 // G's part, for reading or writing soon (fetch.hpp).
-void fetch_rows(const BodyBlock& body);
+void prefetch_rows(const BodyBlock& body);
 
 // rc += c G x,  r += c G^T y,  r += c W^T y,  r += c M a. Rows beyond the length of rc or y are left out.
 void add_rows_times(const std::vector<BodyBlock>& bodies, double c, const Vec& x, Vec& rc);

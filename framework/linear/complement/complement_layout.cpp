@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "linear/order/elimination_tree.hpp"
-#include "linear/dense/fetch.hpp"
+#include "linear/dense/prefetch.hpp"
 
 namespace trammel::numerics {
 
@@ -82,7 +82,7 @@ bool ComplementLayout::holds(const std::vector<BodyBlock>& bodies, int nc) const
   if (nc != nc_ || bodies.size() != of_bodies_.size()) return false;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     look_ahead(k, bodies.size(),
-               [&](std::size_t next) { fetch(bodies[next].rows.data(), bodies[next].rows.size() * sizeof(int)); });
+               [&](std::size_t next) { prefetch(bodies[next].rows.data(), bodies[next].rows.size() * sizeof(int)); });
     const std::span<const int> known = part(rows_, of_bodies_[k]);
     const std::vector<int>& rows = bodies[k].rows;
     if (rows.size() < known.size() || !std::equal(known.begin(), known.end(), rows.begin())) return false;

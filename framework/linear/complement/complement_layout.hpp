@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "linear/bodies/body_block.hpp"
-#include "linear/dense/packs.hpp"
+#include "linear/dense/simd_columns.hpp"
 
 namespace trammel::numerics {
 

@@ -4,9 +4,9 @@
 #include <limits>
 #include <type_traits>
 
-#include "linear/dense/fetch.hpp"
-#include "linear/dense/few_rows.hpp"
-#include "linear/dense/packs.hpp"
+#include "linear/dense/prefetch.hpp"
+#include "linear/dense/products_of_few_rows.hpp"
+#include "linear/dense/simd_columns.hpp"
 
 namespace trammel::numerics {
 
@@ -60,7 +60,7 @@ void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const BodyMa
     look_ahead(i, fronts.size(), [&](std::size_t next) {
       for (const Share& share : layout_.bodies(fronts[next])) {
         const Mat& Gt = bodies[std::size_t(share.of)].Gt;
-        fetch(Gt.data(), std::size_t(Gt.size()) * sizeof(double));
+        prefetch(Gt.data(), std::size_t(Gt.size()) * sizeof(double));
       }
     });
     assemble(bodies, masses, fronts[i], eps);
@@ -163,7 +163,7 @@ void RowComplement::solve(const Vec& r, Vec& y) {
     const auto from_end = [&](std::size_t k) -> const Front& { return fronts[fronts.size() - 1 - k]; };
     look_ahead(i, fronts.size(), [&](std::size_t next) {
       const Front& front = from_end(next);
-      fetch(L_.data() + front.L, std::size_t(front.stride() * front.eliminated) * sizeof(double));
+      prefetch(L_.data() + front.L, std::size_t(front.stride() * front.eliminated) * sizeof(double));
     });
     solve_upper(from_end(i), y);
   }

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "linear/dense/packs.hpp"
+#include "linear/dense/simd_columns.hpp"
 
 namespace trammel::numerics {
 

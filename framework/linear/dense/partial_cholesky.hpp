@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "linear/dense/packs.hpp"
+#include "linear/dense/simd_columns.hpp"
 
 namespace trammel::numerics {
 

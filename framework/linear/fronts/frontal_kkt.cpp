@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
-#include "linear/dense/fetch.hpp"
+#include "linear/dense/prefetch.hpp"
 #include "linear/fronts/row_elimination.hpp"
-#include "linear/dense/small_loops.hpp"
+#include "linear/dense/short_sums.hpp"
 
 namespace trammel::numerics {
 
@@ -30,8 +30,8 @@ bool FrontalKkt::eliminate_fronts(const std::vector<BodyBlock>& bodies) {
   stored_ = 0;
   if (!identity_) pieces_.place_masses(layout_, bodies);
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    if (k + 1 < places_.size()) fetch_rows(k + 1, bodies);
-    if (k > 0) fetch_place_for_factors(k - 1);
+    if (k + 1 < places_.size()) prefetch_rows(k + 1, bodies);
+    if (k > 0) prefetch_place_for_factors(k - 1);
     if (!sum_rows(k, bodies)) {
       layout_.extend(bodies);
       place_store(bodies);
@@ -89,7 +89,7 @@ FrontalKkt::Parts FrontalKkt::parts(std::size_t k) {
   const FrontLayout::Front& front = layout_.fronts()[k];
   const Place& at = places_[k];
   Parts p{};
-  p.m = at.all_rows, p.n = front.unknowns, p.r = at.told, p.passed = at.passed;
+  p.m = at.all_rows, p.n = front.unknowns, p.r = at.pivots, p.passed = at.passed;
   p.rest = p.n - p.r, p.free = front.eliminated - p.r, p.nb = front.boundary();
   p.unknowns = layout_.unknowns(front), p.columns = columns_.data() + front.first_unknown;
   p.K = passed_on_.data() + at.K, p.up = p.K + p.nb * p.nb;
@@ -108,26 +108,26 @@ FrontalKkt::Below FrontalKkt::passed_by(const FrontLayout::Child& child) {
 }
 
 // Where the front's factors go, now that is known how many rows tell of what.
-FrontalKkt::Parts FrontalKkt::place_factors(std::size_t k, int told, int passed) {
+FrontalKkt::Parts FrontalKkt::place_factors(std::size_t k, int pivots, int passed) {
   Place& at = places_[k];
-  at.told = told, at.passed = passed, at.factors = stored_;
+  at.pivots = pivots, at.passed = passed, at.factors = stored_;
   const Parts p = parts(k);
-  stored_ = std::size_t(p.K11 + told * told - store_.data());
+  stored_ = std::size_t(p.K11 + pivots * pivots - store_.data());
   return p;
 }
 
 // What sum_rows will read of bodies.
-void FrontalKkt::fetch_rows(std::size_t k, const std::vector<BodyBlock>& bodies) const {
+void FrontalKkt::prefetch_rows(std::size_t k, const std::vector<BodyBlock>& bodies) const {
   for (const FrontLayout::Source& source : layout_.rows(layout_.fronts()[k]))
     if (!source.constant)
-      fetch(bodies[std::size_t(source.body)].Gt.data() + source.column * source.size, source.size * sizeof(double));
+      prefetch(bodies[std::size_t(source.body)].Gt.data() + source.column * source.size, source.size * sizeof(double));
 }
 
 // Where factors will be written, about as many as those of front k before: a step of 10,000 units of a prismatic mast takes 335 ms so
 // instead of 365.
-void FrontalKkt::fetch_place_for_factors(std::size_t k) const {
+void FrontalKkt::prefetch_place_for_factors(std::size_t k) const {
   const std::size_t left = std::size_t(store_.size()) - stored_;
-  fetch(store_.data() + stored_, std::min(stored_ - places_[k].factors, left) * sizeof(double));
+  prefetch(store_.data() + stored_, std::min(stored_ - places_[k].factors, left) * sizeof(double));
 }
 
 // C: the front's own rows at length one, then those of its children. False: a row is not of the pattern any more.
@@ -176,8 +176,8 @@ void FrontalKkt::eliminate_rows(std::size_t k) {
   const auto C = [&](int i) { return rows_.data() + i * width; };
   RowElimination rows(rows_.data(), m, front.unknowns);
   const auto rank = rows.run(F, rank_tolerance_, columns_.data() + front.first_unknown, scratch_.data());
-  dependent_ += m - rank.told - rank.passed;
-  const Parts p = place_factors(k, rank.told, rank.passed);
+  dependent_ += m - rank.pivots - rank.passed;
+  const Parts p = place_factors(k, rank.pivots, rank.passed);
   for (int i = 0; i < p.passed; ++i) {
     const double* const row = C(p.r + i) + F;
     const double scale = 1 / std::sqrt(dot(p.nb, row, row));

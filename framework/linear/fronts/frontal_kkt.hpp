@@ -28,7 +28,7 @@
 
 #include "linear/bodies/body_block.hpp"
 #include "linear/fronts/front_layout.hpp"
-#include "linear/fronts/source_pieces.hpp"
+#include "linear/fronts/front_contributions.hpp"
 
 namespace trammel::numerics {
 
@@ -54,9 +54,9 @@ class FrontalKkt {
   struct Place {
     std::size_t factors = 0;  // in store_, one front's behind the other's
     std::size_t K = 0;        // in passed_on_: the parent takes it, and its place is free again
-    int all_rows = 0, told = 0, passed = 0;
+    int all_rows = 0, pivots = 0, passed = 0;
   };
-  // A front by the names above: m rows, n unknowns, r told by rows and `rest` not, of those `free` and the nb of the boundary.
+  // A front by the names above: m rows, n unknowns, r pivots by rows and `rest` not, of those `free` and the nb of the boundary.
   struct Parts {
     int m, n, r, rest, free, nb, passed;
     const int *unknowns, *columns;     // columns: of the unknowns, those that rows tell first
@@ -68,7 +68,7 @@ class FrontalKkt {
     double* P(int i) const { return SP + i * (rest + m) + rest; }
   };
   Parts parts(std::size_t front);
-  Parts place_factors(std::size_t front, int told, int passed);
+  Parts place_factors(std::size_t front, int pivots, int passed);
   // What a child has for its parent, by the same names.
   struct Below {
     int nb, passed;
@@ -81,8 +81,8 @@ class FrontalKkt {
   bool eliminate_fronts(const std::vector<BodyBlock>& bodies);
   void place_store(const std::vector<BodyBlock>& bodies);
   void place_passed_on();
-  void fetch_rows(std::size_t front, const std::vector<BodyBlock>& bodies) const;
-  void fetch_place_for_factors(std::size_t front) const;
+  void prefetch_rows(std::size_t front, const std::vector<BodyBlock>& bodies) const;
+  void prefetch_place_for_factors(std::size_t front) const;
   bool sum_rows(std::size_t front, const std::vector<BodyBlock>& bodies);
   void eliminate_rows(std::size_t front);
   void sum_masses(std::size_t front, const std::vector<BodyBlock>& bodies);
@@ -104,7 +104,7 @@ class FrontalKkt {
   void subtract_rows_force(const Vec& Y, Vec& from);
   void solve_once(Vec& X, Vec& Y);
   enum class Way { up, down };
-  void fetch_factors(std::size_t front, Way way);
+  void prefetch_factors(std::size_t front, Way way);
   void forward(std::size_t front);
   void backward(std::size_t front, Vec& X, Vec& Y);
 
@@ -118,7 +118,7 @@ class FrontalKkt {
   std::size_t stored_ = 0;
   std::vector<int> columns_;   // of each front's unknowns
   std::vector<double> scale_;  // of own rows
-  SourcePieces pieces_;
+  FrontContributions pieces_;
   std::vector<int> place_of_;  // of each of a front's unknowns in its columns
   // Own rows at length one without their zeros, row after row; only with springs.
   struct Entry {

@@ -2,10 +2,10 @@
 // the fronts are, in merged unknowns and rows at length one.
 #include <algorithm>
 
-#include "linear/dense/fetch.hpp"
-#include "linear/dense/few_rows.hpp"
+#include "linear/dense/prefetch.hpp"
+#include "linear/dense/products_of_few_rows.hpp"
 #include "linear/fronts/frontal_kkt.hpp"
-#include "linear/dense/small_loops.hpp"
+#include "linear/dense/short_sums.hpp"
 
 namespace trammel::numerics {
 
@@ -66,22 +66,22 @@ void FrontalKkt::backward(std::size_t k, Vec& X, Vec& Y) {
   }
 }
 
-void FrontalKkt::fetch_factors(std::size_t k, Way way) {
+void FrontalKkt::prefetch_factors(std::size_t k, Way way) {
   const double* const begin = store_.data() + places_[k].factors;
   const Parts p = parts(k);
   const std::size_t bytes = std::size_t(p.K11 + p.r * p.r - begin) * sizeof(double);
-  way == Way::up ? fetch(begin, bytes) : fetch_down(begin, bytes);
+  way == Way::up ? prefetch(begin, bytes) : prefetch_down(begin, bytes);
 }
 
 // From b_ and c_; b_ is used up.
 void FrontalKkt::solve_once(Vec& X, Vec& Y) {
   X.resize(b_.size()), Y.resize(c_.size());
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    if (k + 1 < places_.size()) fetch_factors(k + 1, Way::up);
+    if (k + 1 < places_.size()) prefetch_factors(k + 1, Way::up);
     forward(k);
   }
   for (std::size_t k = places_.size(); k-- > 0;) {
-    if (k > 0) fetch_factors(k - 1, Way::down);
+    if (k > 0) prefetch_factors(k - 1, Way::down);
     backward(k, X, Y);
   }
 }
@@ -162,7 +162,7 @@ void FrontalKkt::subtract_masses_times(std::size_t k, const Vec& X, Vec& from) c
 void FrontalKkt::find_residuals() {
   b_ = B_, c_ = C_;
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    if (k + 1 < places_.size()) pieces_.fetch(k + 1);
+    if (k + 1 < places_.size()) pieces_.prefetch(k + 1);
     const FrontLayout::Front& front = layout_.fronts()[k];
     const int* const unknowns = layout_.unknowns(front);
     std::size_t piece_at = std::size_t(front.rows.begin);
@@ -209,7 +209,7 @@ void FrontalKkt::expand(const Vec& b, Vec& x, Vec& y) {
   for (Eigen::Index j = 0; j < x.size(); ++j) x(j) += X_(merged.of(int(j)));
   left_ = b;
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    if (k + 1 < places_.size()) pieces_.fetch(k + 1);
+    if (k + 1 < places_.size()) pieces_.prefetch(k + 1);
     const FrontLayout::Front& front = layout_.fronts()[k];
     for (int i = front.first_row; i < front.first_row + front.own_rows; ++i)
       y(layout_.own_row(std::size_t(i))) = Y_(i) * scale_[std::size_t(i)];

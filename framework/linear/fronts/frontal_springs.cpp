@@ -1,10 +1,10 @@
-// Rows as springs in the fronts of frontal_kkt.hpp. No row is told from others: a front eliminates all its unknowns by the masses,
+// Rows as springs in the fronts of frontal_kkt.hpp. No row is pivots from others: a front eliminates all its unknowns by the masses,
 // K + k C^T C of them, C its own rows.
 #include <algorithm>
 #include <numeric>
 
 #include "linear/fronts/frontal_kkt.hpp"
-#include "linear/dense/small_loops.hpp"
+#include "linear/dense/short_sums.hpp"
 
 namespace trammel::numerics {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "linear/dense/packs.hpp"
+#include "linear/dense/simd_columns.hpp"
 
 namespace trammel::numerics {
 
@@ -20,8 +20,8 @@ RowElimination::Rank RowElimination::run(int F, double tolerance, int* columns, 
   F_ = F;
   std::iota(columns, columns + n_, 0);
   for (int i = 0; i < m_; ++i) row(i)[n_ + i] = 1;
-  const int told = eliminate(0, F, 0, tolerance, columns, scratch);
-  return {told, eliminate(F, n_, told, tolerance, nullptr, scratch)};
+  const int pivots = eliminate(0, F, 0, tolerance, columns, scratch);
+  return {pivots, eliminate(F, n_, pivots, tolerance, nullptr, scratch)};
 }
 
 // Of columns first ... last - 1 on the rows from `begin` on, while one is longer than the tolerance; how many. `columns`: they come

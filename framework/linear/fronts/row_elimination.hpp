@@ -10,7 +10,7 @@
 
 #include <trammel/types.hpp>
 
-#include "linear/dense/packs.hpp"
+#include "linear/dense/simd_columns.hpp"
 
 namespace trammel::numerics {
 
@@ -21,7 +21,7 @@ class RowElimination {
   static int width(int m, int n) { return int(padded(n + m)); }  // whole packs
 
   struct Rank {
-    int told = 0, passed = 0;  // rows that tell of F, and of the others those that tell of B; the rest tell nothing
+    int pivots = 0, passed = 0;  // rows that tell of F, and of the others those that tell of B; the rest tell nothing
   };
   // The first F columns; `columns`: where each came from. `scratch`: 2 width numbers.
   Rank run(int F, double tolerance, int* columns, double* scratch);

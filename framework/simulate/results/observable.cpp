@@ -27,17 +27,17 @@ void add_marker(const std::string& name, MarkerRef marker, const Model& model, C
                          [marker, what = what](Moment& m) { return seen_from(m, marker, MarkerRef{}, what); });
 }
 
-using Told = std::function<Vec3(Moment&)>;
+using WorldVector = std::function<Vec3(Moment&)>;
 
 // In the plane its one number; in space its length, and the vector in world axes.
-void add_tangential(const std::string& name, Space space, const Told& told, Choices& choices) {
+void add_tangential(const std::string& name, Space space, const WorldVector& vector, Choices& choices) {
   if (space == Space::planar) {
-    choices.emplace_back(name, [=](Moment& m) { return told(m)[0]; });
+    choices.emplace_back(name, [=](Moment& m) { return vector(m)[0]; });
     return;
   }
-  choices.emplace_back(name, [=](Moment& m) { return told(m).norm(); });
+  choices.emplace_back(name, [=](Moment& m) { return vector(m).norm(); });
   for (int k = 0; k < 3; ++k)
-    choices.emplace_back(fmt::format("{}_{}", name, "xyz"[k]), [=](Moment& m) { return told(m)[k]; });
+    choices.emplace_back(fmt::format("{}_{}", name, "xyz"[k]), [=](Moment& m) { return vector(m)[k]; });
 }
 
 double normal_force(Moment& m, int i) {
@@ -49,13 +49,13 @@ double normal_force(Moment& m, int i) {
 // `space`: planar for a contact with one tangent.
 void add_friction(const std::string& name, int i, Space space, Choices& choices) {
   add_tangential(
-      name + ".slip", space, [=](Moment& m) { return m.system().told(i, m.system().slip(i)); }, choices);
+      name + ".slip", space, [=](Moment& m) { return m.system().along_tangents(i, m.system().slip(i)); }, choices);
   add_tangential(
       name + ".friction", space,
       [=](Moment& m) -> Vec3 {
         if (!m.system().modes().contacts[i].closed) return Vec3::Zero(space == Space::planar ? 1 : 3);
         const Vec& lambda = m.lambda();
-        return m.system().told(i, m.system().friction_force(i, lambda));
+        return m.system().along_tangents(i, m.system().friction_force(i, lambda));
       },
       choices);
   choices.emplace_back(name + ".sticks", [=](Moment& m) {

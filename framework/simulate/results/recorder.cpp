@@ -14,7 +14,7 @@ namespace trammel::simulate {
 namespace {
 
 // "name=1", or "name_x=1 name_y=0 name_z=0" in space.
-std::string told(const char* name, const Vec3& x) {
+std::string components(const char* name, const Vec3& x) {
   if (x.size() == 1) return fmt::format("{}={:.17g}", name, x[0]);
   return fmt::format("{0}_x={1:.17g} {0}_y={2:.17g} {0}_z={3:.17g}", name, x[0], x[1], x[2]);
 }
@@ -118,7 +118,7 @@ void Recorder::animate(const State& state) {
 
 void Recorder::event(const ContactEvent& event) {
   auto out = std::back_inserter(events_->buffer());
-  const std::string friction = told("friction", event.friction);
+  const std::string friction = components("friction", event.friction);
   fmt::format_to(out, "{:.17g},{},{},", event.t, to_string(event.kind), model_.contacts[event.contact].path());
   if (event.kind == ContactEvent::Kind::impact || event.kind == ContactEvent::Kind::latch)
     fmt::format_to(out, "impulse={:.17g} approach={:.17g} separation={:.17g} energy_lost={:.17g} {}", event.impulse,
@@ -126,7 +126,7 @@ void Recorder::event(const ContactEvent& event) {
   else if (event.kind == ContactEvent::Kind::stick)
     fmt::format_to(out, "{}", friction);
   else if (event.kind == ContactEvent::Kind::slip || event.kind == ContactEvent::Kind::reversal)
-    fmt::format_to(out, "{} {}", friction, told("direction", event.direction));
+    fmt::format_to(out, "{} {}", friction, components("direction", event.direction));
   else if (event.kind == ContactEvent::Kind::close)
     fmt::format_to(out, "approach={:.17g}", event.approach + 0.0);
   else

@@ -17,9 +17,9 @@ constexpr double tau_first = 1e-3, tau_last = 100;  // [s]
 // Round-off of coordinates of the order of 1 m.
 constexpr double settled = 1e-14;  // [m, rad]
 
-class Rest {
+class StaticEquilibrium {
  public:
-  Rest(model::AssembledSystem& system, State& state)
+  StaticEquilibrium(model::AssembledSystem& system, State& state)
       : system_(system),
         state_(state),
         nv_(system.sizes().nv),
@@ -229,7 +229,7 @@ class Rest {
 }  // namespace
 
 std::optional<std::string> find_equilibrium(model::AssembledSystem& system, State& state) {
-  Rest rest(system, state);
+  StaticEquilibrium rest(system, state);
   if (rest.settle()) return rest.follow();
   return fmt::format("no static equilibrium was found: {}", rest.culprit());
 }

@@ -115,7 +115,7 @@ scene::Problem contradiction(model::AssembledSystem& system, const State& start,
   const std::string either = "the joints contradict each other, or the bodies are far off";
   if (paths.empty()) return root.problem(none + either);
   if (paths.size() == 1)
-    return problem_at(paths, root, none + (conflict.smallest ? "" : either + "; ") + told(conflict));
+    return problem_at(paths, root, none + (conflict.smallest ? "" : either + "; ") + description(conflict));
   return problem_at(paths, root, fmt::format("{}{} contradict each other{}", none, names(conflict), remark(conflict)));
 }
 
@@ -133,7 +133,7 @@ void check_motion(model::AssembledSystem& system, const State& s, const scene::V
   const Conflict conflict = smallest_conflict(system, s);
   if (conflict.empty()) return;
   const std::string who = conflict.paths.size() > 1 ? names(conflict) : "joints",
-                    why = conflict.paths.size() > 1 ? remark(conflict) : "; " + told(conflict);
+                    why = conflict.paths.size() > 1 ? remark(conflict) : "; " + description(conflict);
   problems.error(
       problem_at(conflict.paths, root,
                  fmt::format("{} hold at the start but prescribe motions that contradict each other{}", who, why)));

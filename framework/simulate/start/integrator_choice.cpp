@@ -74,7 +74,7 @@ void choose_integrator(Setup& setup, model::AssembledSystem& system, const std::
   if (&choice != &explicit_steps) take(choice, setup, registry, problems);
   setup.chosen = choice.name;
   setup.choice = fmt::format("{}, tolerance {:.3g}: the scene names none, and {}", choice.name, choice.tolerance,
-                             &choice == &steps_on_rows ? told(ratio, *setup.model) : told(fastest, *setup.model));
+                             &choice == &steps_on_rows ? description(ratio, *setup.model) : description(fastest, *setup.model));
 }
 
 }  // namespace trammel::simulate

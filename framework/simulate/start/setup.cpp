@@ -14,7 +14,7 @@
 #include "simulate/start/initial_state.hpp"
 #include "simulate/start/integrator_choice.hpp"
 #include "simulate/start/latch_reach.hpp"
-#include "simulate/start/smooth_laws.hpp"
+#include "simulate/start/law_checks.hpp"
 #include "system/assembled_system.hpp"
 
 namespace trammel::simulate {

@@ -63,7 +63,7 @@ void OpenJoints::measure(model::AssembledSystem& system, double otherwise, doubl
     if (!(joint.size > round_off)) joint.size = otherwise > round_off ? otherwise : 1;
 }
 
-std::string OpenJoints::told(model::AssembledSystem& system, const State& state) const {
+std::string OpenJoints::description(model::AssembledSystem& system, const State& state) const {
   struct Open {
     const std::string* path;
     double part;  // of what is allowed

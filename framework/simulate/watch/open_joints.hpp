@@ -21,7 +21,7 @@ class OpenJoints {
   // bodies without extent in joints without a length, which is one of no more than `round_off` [m].
   void measure(model::AssembledSystem& system, double otherwise, double round_off);
   // "joints.crank by 0.25 m, joints.axis by 0.3 rad", the worst few; empty: none. At the state, where the system is.
-  std::string told(model::AssembledSystem& system, const State& state) const;
+  std::string description(model::AssembledSystem& system, const State& state) const;
 
  private:
   struct Joint {

@@ -3,7 +3,7 @@
 namespace trammel::model {
 
 std::unique_ptr<SurfaceContact> make_surface_contact(const Model& model, const ContactEntry& entry,
-                                                     MarkerChain& chain) {
+                                                     MarkerMotions& chain) {
   return entry.surface->against == SurfaceSide::Against::surface ? surface_on_surface(model, entry, chain)
                                                                  : surface_on_marker(model, entry, chain);
 }

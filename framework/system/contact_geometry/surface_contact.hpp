@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "system/markers/marker_chain.hpp"
+#include "system/markers/marker_motions.hpp"
 #include "system/contact_geometry/point_pressure.hpp"
 
 namespace trammel::model {
@@ -48,10 +48,10 @@ class SurfaceContact {
   virtual double all_behind(const Point& /*point*/) { return -1; }
 };
 
-std::unique_ptr<SurfaceContact> make_surface_contact(const Model& model, const ContactEntry& entry, MarkerChain& chain);
+std::unique_ptr<SurfaceContact> make_surface_contact(const Model& model, const ContactEntry& entry, MarkerMotions& chain);
 
 // The two kinds.
-std::unique_ptr<SurfaceContact> surface_on_marker(const Model& model, const ContactEntry& entry, MarkerChain& chain);
-std::unique_ptr<SurfaceContact> surface_on_surface(const Model& model, const ContactEntry& entry, MarkerChain& chain);
+std::unique_ptr<SurfaceContact> surface_on_marker(const Model& model, const ContactEntry& entry, MarkerMotions& chain);
+std::unique_ptr<SurfaceContact> surface_on_surface(const Model& model, const ContactEntry& entry, MarkerMotions& chain);
 
 }  // namespace trammel::model

@@ -23,7 +23,7 @@ using Change = MarkerPointChange;
 template <class Partner>
 class SurfaceOnMarker final : public SurfaceContact {
  public:
-  SurfaceOnMarker(const Model& model, const ContactEntry& entry, MarkerChain& chain)
+  SurfaceOnMarker(const Model& model, const ContactEntry& entry, MarkerMotions& chain)
       : entry_(entry),
         chain_(chain),
         points_(model.bodies[std::size_t(entry.surface->body)], *entry.surface->by_points,
@@ -189,7 +189,7 @@ class SurfaceOnMarker final : public SurfaceContact {
   }
 
   const ContactEntry& entry_;
-  MarkerChain& chain_;
+  MarkerMotions& chain_;
   SurfacePoints points_;
   PointPressure pressure_;
   int marker_, surface_;
@@ -201,7 +201,7 @@ class SurfaceOnMarker final : public SurfaceContact {
 
 }  // namespace
 
-std::unique_ptr<SurfaceContact> surface_on_marker(const Model& model, const ContactEntry& entry, MarkerChain& chain) {
+std::unique_ptr<SurfaceContact> surface_on_marker(const Model& model, const ContactEntry& entry, MarkerMotions& chain) {
   if (entry.surface->against == SurfaceSide::Against::sphere)
     return std::make_unique<SurfaceOnMarker<PressingSphere>>(model, entry, chain);
   return std::make_unique<SurfaceOnMarker<PressingPlane>>(model, entry, chain);

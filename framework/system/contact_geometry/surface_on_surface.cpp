@@ -64,7 +64,7 @@ Along slide(const SurfaceJet& y, const V3& d) {
 
 class SurfaceOnSurface final : public SurfaceContact {
  public:
-  SurfaceOnSurface(const Model& model, const ContactEntry& entry, MarkerChain& chain)
+  SurfaceOnSurface(const Model& model, const ContactEntry& entry, MarkerMotions& chain)
       : side_(*entry.surface),
         chain_(chain),
         points_(model.bodies[std::size_t(entry.surface->body)], *entry.surface->by_points,
@@ -266,7 +266,7 @@ class SurfaceOnSurface final : public SurfaceContact {
   }
 
   const SurfaceSide& side_;
-  MarkerChain& chain_;
+  MarkerMotions& chain_;
   SurfacePoints points_;
   const BodyEntry& other_;
   PointPressure pressure_;
@@ -283,7 +283,7 @@ class SurfaceOnSurface final : public SurfaceContact {
 
 }  // namespace
 
-std::unique_ptr<SurfaceContact> surface_on_surface(const Model& model, const ContactEntry& entry, MarkerChain& chain) {
+std::unique_ptr<SurfaceContact> surface_on_surface(const Model& model, const ContactEntry& entry, MarkerMotions& chain) {
   return std::make_unique<SurfaceOnSurface>(model, entry, chain);
 }
 

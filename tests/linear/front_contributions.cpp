@@ -1,4 +1,4 @@
-#include "linear/fronts/source_pieces.hpp"
+#include "linear/fronts/front_contributions.hpp"
 
 #include <cmath>
 #include <limits>
@@ -45,10 +45,10 @@ struct Pieces {
     return pieces.update(i, layout.sources()[i], bodies);
   }
   FrontLayout layout;
-  SourcePieces pieces;
+  FrontContributions pieces;
 };
 
-TEST(SourcePieces, KeepsConstantOnesOnceWhereAlike) {
+TEST(FrontContributions, KeepsConstantOnesOnceWhereAlike) {
   std::vector<BodyBlock> bodies = three_bodies();
   bodies[2].M(0, 0) = 4;
   const Pieces pieces(bodies);
@@ -58,13 +58,13 @@ TEST(SourcePieces, KeepsConstantOnesOnceWhereAlike) {
   EXPECT_EQ(pieces.of(2, -1)[0], 4);
 }
 
-TEST(SourcePieces, KeepsThoseThatChangeApartHoweverAlike) {
+TEST(FrontContributions, KeepsThoseThatChangeApartHoweverAlike) {
   const std::vector<BodyBlock> bodies = three_bodies();
   Pieces pieces(bodies);
   EXPECT_NE(pieces.update(1, 1, bodies), pieces.update(2, 0, bodies));
 }
 
-TEST(SourcePieces, TakesThoseThatChangeAnewAndConstantOnesOnce) {
+TEST(FrontContributions, TakesThoseThatChangeAnewAndConstantOnesOnce) {
   std::vector<BodyBlock> bodies = three_bodies();
   Pieces pieces(bodies);
   bodies[1].Gt *= 2, bodies[1].M *= 2;
@@ -75,7 +75,7 @@ TEST(SourcePieces, TakesThoseThatChangeAnewAndConstantOnesOnce) {
 }
 
 // An order by value would find it equal to any number, and hide it.
-TEST(SourcePieces, DoesNotTakeAnythingForNotANumber) {
+TEST(FrontContributions, DoesNotTakeAnythingForNotANumber) {
   std::vector<BodyBlock> bodies = three_bodies();
   bodies[0].Gt(0, 0) = std::numeric_limits<double>::quiet_NaN();
   const Pieces pieces(bodies);

@@ -3,7 +3,7 @@
 
 #include <trammel/types.hpp>
 
-#include "linear/dense/packs.hpp"
+#include "linear/dense/simd_columns.hpp"
 
 namespace trammel::numerics {
 

@@ -1,4 +1,4 @@
-#include "system/markers/marker_chain.hpp"
+#include "system/markers/marker_motions.hpp"
 
 #include <Eigen/Geometry>
 
@@ -8,10 +8,10 @@
 
 namespace trammel::model {
 
-MarkerChain::MarkerChain(const Model& model, CallSite& site)
+MarkerMotions::MarkerMotions(const Model& model, CallSite& site)
     : model_(model), site_(site), known_(model.bodies.size() + 1) {}
 
-int MarkerChain::slot(MarkerRef marker) {
+int MarkerMotions::slot(MarkerRef marker) {
   std::vector<int>& of_body = known_[std::size_t(marker.body + 1)];
   if (of_body.size() <= std::size_t(marker.marker)) of_body.resize(std::size_t(marker.marker) + 1, -1);
   int& known = of_body[std::size_t(marker.marker)];
@@ -32,7 +32,7 @@ int MarkerChain::slot(MarkerRef marker) {
   return known;
 }
 
-MarkerChain::Slot& MarkerChain::add_slot(MarkerRef marker) {
+MarkerMotions::Slot& MarkerMotions::add_slot(MarkerRef marker) {
   Slot& slot = slots_.emplace_back();
   kept_.emplace_back();
   slot.marker = marker;
@@ -50,18 +50,18 @@ MarkerChain::Slot& MarkerChain::add_slot(MarkerRef marker) {
   return slot;
 }
 
-int MarkerChain::surface_slot(int body) {
+int MarkerMotions::surface_slot(int body) {
   add_slot({.body = body}).surface = true;
   return int(slots_.size()) - 1;
 }
 
-Motion& MarkerChain::surface_motion(int index) {
+Motion& MarkerMotions::surface_motion(int index) {
   Slot& slot = slots_[std::size_t(index)];
   slot.point = point_;
   return kept_[std::size_t(index)].motion;
 }
 
-const Motion& MarkerChain::nearest(int index, const Vec3& to, double t, const Vec& q, const Vec& v) {
+const Motion& MarkerMotions::nearest(int index, const Vec3& to, double t, const Vec& q, const Vec& v) {
   Slot& slot = slots_[std::size_t(index)];
   Motion& motion = kept_[std::size_t(index)].motion;
   if (slot.point == point_) return motion;
@@ -77,7 +77,7 @@ const Motion& MarkerChain::nearest(int index, const Vec3& to, double t, const Ve
   return motion;
 }
 
-void MarkerChain::evaluate(const Slot& slot, double t, const Vec& q, const Vec& v, Motion& motion) const {
+void MarkerMotions::evaluate(const Slot& slot, double t, const Vec& q, const Vec& v, Motion& motion) const {
   ask(slot.marker.body, "motion", [&] {
     slot.body->motion(slot.marker.marker, t, q.segment(slot.q0, slot.nq), v.segment(slot.v0, slot.nv), motion);
   });
@@ -85,7 +85,7 @@ void MarkerChain::evaluate(const Slot& slot, double t, const Vec& q, const Vec& 
 }
 
 // x = x_0 + J q,  V = J v
-void MarkerChain::evaluate_linear(int index, const Vec& q, const Vec& v) {
+void MarkerMotions::evaluate_linear(int index, const Vec& q, const Vec& v) {
   const Slot& slot = slots_[std::size_t(index)];
   if (slot.begin < 0) keep_linear(index);
   Kept& kept = kept_[std::size_t(index)];
@@ -99,7 +99,7 @@ void MarkerChain::evaluate_linear(int index, const Vec& q, const Vec& v) {
   if (still_) kept.motion.V.setZero();
 }
 
-void MarkerChain::keep_linear(int index) {
+void MarkerMotions::keep_linear(int index) {
   Slot& slot = slots_[std::size_t(index)];
   Motion& m = kept_[std::size_t(index)].motion;
   m = motion_at_zero(index);
@@ -111,7 +111,7 @@ void MarkerChain::keep_linear(int index) {
   slot.end = int(entries_.size());
 }
 
-const Motion& MarkerChain::motion(int index, double t, const Vec& q, const Vec& v) {
+const Motion& MarkerMotions::motion(int index, double t, const Vec& q, const Vec& v) {
   Slot& slot = slots_[std::size_t(index)];
   Motion& motion = kept_[std::size_t(index)].motion;
   if (slot.point == point_) return motion;
@@ -124,7 +124,7 @@ const Motion& MarkerChain::motion(int index, double t, const Vec& q, const Vec& 
 }
 
 // What others ask for, too, is kept for them.
-const Motion& MarkerChain::motion_in_passing(int index, std::size_t k, double t, const Vec& q, const Vec& v) {
+const Motion& MarkerMotions::motion_in_passing(int index, std::size_t k, double t, const Vec& q, const Vec& v) {
   const Slot& slot = slots_[std::size_t(index)];
   if (slot.shared < 0 || slot.uses > 1) return motion(index, t, q, v);
   Motion& motion = shared_[std::size_t(slot.shared)][k];
@@ -132,7 +132,7 @@ const Motion& MarkerChain::motion_in_passing(int index, std::size_t k, double t,
   return motion;
 }
 
-Motion MarkerChain::motion_at_zero(int index) const {
+Motion MarkerMotions::motion_at_zero(int index) const {
   const Slot& slot = slots_[std::size_t(index)];
   if (!slot.body) return kept_[std::size_t(index)].motion;
   Motion motion;
@@ -141,7 +141,7 @@ Motion MarkerChain::motion_at_zero(int index) const {
   return motion;
 }
 
-void MarkerChain::add_wrench(int index, const Wrench& wrench, double c, Vec& f) const {
+void MarkerMotions::add_wrench(int index, const Wrench& wrench, double c, Vec& f) const {
   const Slot& slot = slots_[std::size_t(index)];
   if (slot.marker.body < 0) return;
   const int v0 = slot.v0;
@@ -164,7 +164,7 @@ void MarkerChain::add_wrench(int index, const Wrench& wrench, double c, Vec& f) 
   });
 }
 
-void MarkerChain::add_rows(int index, const Motion& motion, int row, const RowsOf& H, Mat& G) const {
+void MarkerMotions::add_rows(int index, const Motion& motion, int row, const RowsOf& H, Mat& G) const {
   const Slot& slot = slots_[std::size_t(index)];
   if (slot.marker.body < 0) return;
   const int v0 = slot.v0;
@@ -174,7 +174,7 @@ void MarkerChain::add_rows(int index, const Motion& motion, int row, const RowsO
   });
 }
 
-void MarkerChain::add_pair(int index, int other, const Mat6& D, double c, Matrix& S) {
+void MarkerMotions::add_pair(int index, int other, const Mat6& D, double c, Matrix& S) {
   const Slot& a = slots_[std::size_t(index)];
   const Slot& b = slots_[std::size_t(other)];
   if (a.marker.body < 0 || b.marker.body < 0) return;
@@ -187,7 +187,7 @@ void MarkerChain::add_pair(int index, int other, const Mat6& D, double c, Matrix
   S.from(a.v0, b.v0).add(of_a.dofs, of_b.dofs, pair_, c);
 }
 
-void MarkerChain::add_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c, Matrix& S) {
+void MarkerMotions::add_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c, Matrix& S) {
   const Slot& slot = slots_[std::size_t(index)];
   if (!slot.body) return;
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
@@ -199,7 +199,7 @@ void MarkerChain::add_reaction_derivative(int index, double t, const Vec& q, con
   });
 }
 
-void MarkerChain::add_numeric_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c,
+void MarkerMotions::add_numeric_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c,
                                                   Matrix& S) {
   const Slot& slot = slots_[std::size_t(index)];
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];

@@ -1,4 +1,4 @@
-#include "simulate/start/smooth_laws.hpp"
+#include "simulate/start/law_checks.hpp"
 
 #include <algorithm>
 #include <cmath>

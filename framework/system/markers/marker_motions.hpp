@@ -8,17 +8,17 @@
 #include <typeindex>
 #include <vector>
 
-#include "linear/dense/fetch.hpp"
+#include "linear/dense/prefetch.hpp"
 #include "model/call_site.hpp"
 #include "model/model.hpp"
 #include "system/markers/twist_rows.hpp"
 
 namespace trammel::model {
 
-class MarkerChain {
+class MarkerMotions {
  public:
   // Bodies that are asked for motions are named at `site` meanwhile.
-  MarkerChain(const Model& model, CallSite& site);
+  MarkerMotions(const Model& model, CallSite& site);
 
   // Slots stand for markers that are in use.
   int slot(MarkerRef marker);
@@ -36,7 +36,7 @@ class MarkerChain {
   const Motion& motion(int slot, double t, const Vec& q, const Vec& v);
   // The same for one look at it, as marker k of a joint: it may be another's on the next call.
   const Motion& motion_in_passing(int slot, std::size_t k, double t, const Vec& q, const Vec& v);
-  void fetch(int slot) const { numerics::fetch(&kept_[std::size_t(slot)], 256); }  // its place and velocity
+  void prefetch(int slot) const { numerics::prefetch(&kept_[std::size_t(slot)], 256); }  // its place and velocity
   Motion motion_at_zero(int slot) const;                                           // q = 0, v = 0, t = 0
   const Motion& last_motion(int slot) const { return kept_[std::size_t(slot)].motion; }
   int first_velocity(int slot) const { return slots_[std::size_t(slot)].v0; }

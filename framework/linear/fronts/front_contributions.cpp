@@ -1,8 +1,8 @@
-#include "linear/fronts/source_pieces.hpp"
+#include "linear/fronts/front_contributions.hpp"
 
 #include <algorithm>
 
-#include "linear/dense/fetch.hpp"
+#include "linear/dense/prefetch.hpp"
 
 namespace trammel::numerics {
 
@@ -25,7 +25,7 @@ const double* in_body(const Source& source, const std::vector<BodyBlock>& bodies
 
 }  // namespace
 
-void SourcePieces::build(const FrontLayout& layout, const std::vector<BodyBlock>& bodies) {
+void FrontContributions::build(const FrontLayout& layout, const std::vector<BodyBlock>& bodies) {
   places_.assign(layout.sources().size(), 0);
   fronts_.clear();
   std::size_t changing = 0, i = 0;
@@ -46,7 +46,7 @@ void SourcePieces::build(const FrontLayout& layout, const std::vector<BodyBlock>
   masses_placed_ = false;
 }
 
-void SourcePieces::place_masses(const FrontLayout& layout, const std::vector<BodyBlock>& bodies) {
+void FrontContributions::place_masses(const FrontLayout& layout, const std::vector<BodyBlock>& bodies) {
   if (masses_placed_) return;
   Known known;
   for (std::size_t i = 0; i < places_.size(); ++i)
@@ -55,20 +55,20 @@ void SourcePieces::place_masses(const FrontLayout& layout, const std::vector<Bod
   masses_placed_ = true;
 }
 
-int SourcePieces::place(const double* numbers, std::size_t count, Known& known) {
+int FrontContributions::place(const double* numbers, std::size_t count, Known& known) {
   const std::string bytes(reinterpret_cast<const char*>(numbers), count * sizeof(double));
   const auto [found, is_new] = known.try_emplace(bytes, int(numbers_.size()));
   if (is_new) numbers_.insert(numbers_.end(), numbers, numbers + count);
   return found->second;
 }
 
-const double* SourcePieces::update(std::size_t i, const Source& source, const std::vector<BodyBlock>& bodies) {
+const double* FrontContributions::update(std::size_t i, const Source& source, const std::vector<BodyBlock>& bodies) {
   if (!source.constant) std::copy_n(in_body(source, bodies), count(source), numbers_.data() + places_[i]);
   return of(i);
 }
 
-void SourcePieces::fetch(std::size_t front) const {
-  numerics::fetch(numbers_.data() + fronts_[front], (fronts_[front + 1] - fronts_[front]) * sizeof(double));
+void FrontContributions::prefetch(std::size_t front) const {
+  numerics::prefetch(numbers_.data() + fronts_[front], (fronts_[front + 1] - fronts_[front]) * sizeof(double));
 }
 
 }  // namespace trammel::numerics

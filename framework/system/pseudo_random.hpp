@@ -8,7 +8,7 @@
 
 namespace trammel::simulate {
 
-inline Vec unrelated(Eigen::Index n, double size, double seed) {
+inline Vec pseudo_random(Eigen::Index n, double size, double seed) {
   return Vec::NullaryExpr(
       n, [=](Eigen::Index i) { return size * std::sin(seed + 1.618033988749895 * double(i * i + 1)); });
 }

@@ -13,7 +13,7 @@
 
 namespace trammel::numerics {
 
-class SourcePieces {
+class FrontContributions {
  public:
   using Source = FrontLayout::Source;
   // Places for all sources of a layout, and constant rows as they are now.
@@ -25,7 +25,7 @@ class SourcePieces {
   // The same; if it changes, as the bodies have it now.
   const double* update(std::size_t i, const Source& source, const std::vector<BodyBlock>& bodies);
   // Those of a front that change, for reading soon.
-  void fetch(std::size_t front) const;
+  void prefetch(std::size_t front) const;
 
  private:
   using Known =
