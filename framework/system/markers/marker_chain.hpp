@@ -8,9 +8,9 @@
 #include <typeindex>
 #include <vector>
 
+#include "linear/dense/fetch.hpp"
 #include "model/model.hpp"
 #include "system/markers/twist_rows.hpp"
-#include "linear/dense/fetch.hpp"
 
 namespace trammel::model {
 

@@ -14,6 +14,7 @@
 //
 //     step.dq = h * now.v + ...;   step.v = now.v + ...;
 //     step.begin(s, now, h, c_q, c_v, next);
+//     step.extrapolate(now, a_before, h / h_before, next);          where there is a step before
 //     while (step.iterating()) {
 //       step.move(s, now, next);
 //       r = ...;
@@ -37,6 +38,10 @@ class NewmarkStep {
 
   // Predicts lambda_{n+1} = lambda_n and a_{n+1} = a_n. c_q [s^2] >= 0, c_v [s] > 0: shares of a_{n+1} in dq and v.
   void begin(const System& s, const State& now, double h, double c_q, double c_v, State& next);
+  // Predicts a_{n+1} by the line through a_{n-1} and a_n, `ratio` steps of then ahead, unless a changes too fast for that: a mode that
+  // rings from step to step would only be enlarged. By the second difference of a, which the first increment then is, the step's own
+  // error is measured (newmark_error.hpp); Newton's iteration ends at a small share of it.
+  void extrapolate(const State& now, const Vec& a_before, double ratio, State& next);
   bool iterating() const { return newton.iterating(); }
   // next.q and next.v from next.a; the system to that point.
   void move(System& s, const State& now, State& next);
@@ -49,6 +54,9 @@ class NewmarkStep {
 
  private:
   void measure(const State& now, double h);
+  void find_lead(const State& now, const Vec& a);
+  bool correct_rows_alone(System& s, State& next);
+  void measure_change(const State& next);
   void factorise(System& s, Blend blend, const State& next);
   void update(const System& s, const State& now, State& next);
   bool correct_rows(System& s, const Vec& r, State& next);
@@ -61,8 +69,10 @@ class NewmarkStep {
   Vec sizes_q_;                         // of each coordinate, in its own unit
   double change_each_ = 0;              // of the coordinate that changed most, relative to its own size
   Factors of_pi_ = Factors::iteration;  // projection where they differ
-  bool leads_ = false;                  // a_n further than v_n, by lead_
-  Vec pi_, dpi_, zero_;                 // empty where there is no pi; zero_ where there are no rows
+  double moved_ = 0;                    // of q since the factors were made, like change_each_
+  double h_ = 0;
+  bool leads_ = false;   // a_n further than v_n, by lead_
+  Vec pi_, dpi_, zero_;  // empty where there is no pi; zero_ where there are no rows
   Vec increment_, lead_, da_, dlambda_, rc_, mu_;
 };
 

@@ -3,8 +3,10 @@
 // The factors of the first iterate serve as long as the increments shrink fast. With theta the ratio of two successive
 // increments, the error left after the last one is about theta/(1 - theta) times it (Hairer, Wanner, Solving ODEs II,
 // IV.8); the iteration ends when that is below `tolerance`, or when the increments are round-off and shrink no further.
+// Where the first increment measures the step's own error, as from a prediction of the method's order, an error left of
+// `share_of_first` of it is enough, too: more would not make the step any better.
 //
-//     newton.start();
+//     newton.start(share_of_first);
 //     while (newton.iterating()) {
 //       residual...
 //       if (newton.wants_factors()) factorise...
@@ -23,7 +25,7 @@ class Newton {
   double tolerance = 1e-11;  // of the error left, relative to the size of the unknowns
   int max_iterations = 12;   // before the step is rejected
 
-  void start();
+  void start(double share_of_first = 0);
   bool iterating() const { return state_ == State::iterating; }
   bool converged() const { return state_ == State::converged; }
   bool wants_factors() const { return wants_factors_; }
@@ -43,7 +45,7 @@ class Newton {
   State state_ = State::failed;
   bool wants_factors_ = true;
   int iterations_ = 0;
-  double last_change_ = 0, rate_ = 1;
+  double last_change_ = 0, rate_ = 1, share_of_first_ = 0, enough_ = 0;
   const char* reason_ = "Newton's iteration was not run";
 };
 
