@@ -18,8 +18,8 @@
 
 #include "linear/fronts/frontal_factors.hpp"
 #include "linear/kkt.hpp"
-#include "linear/sparse_kkt.hpp"
 #include "linear/sparse/sparse_sum.hpp"
+#include "linear/sparse_kkt.hpp"
 
 namespace trammel::numerics {
 

@@ -22,6 +22,7 @@ Outcome AlphaMethod::step(System& s, const State& now, double h, State& next) {
   newmark.v = now.v + h * ((1 - w_.gamma) * a_ + w_.gamma * known_);
   const double c_q = w_.beta * h * h * share, c_v = w_.gamma * h * share;
   newmark.begin(s, now, h, c_q, c_v, next);
+  newmark.extrapolate(now, error_.a_before(), h / error_.h_before(), next);
   while (newmark.iterating()) {
     newmark.move(s, now, next);
     r_ = -s.f();

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <trammel/methods/newton.hpp>
@@ -11,7 +12,8 @@ constexpr double hopeless = 0.1;
 
 }  // namespace
 
-void Newton::start() {
+void Newton::start(double share_of_first) {
+  share_of_first_ = share_of_first;
   state_ = State::iterating;
   wants_factors_ = true;
   iterations_ = 0;
@@ -25,11 +27,12 @@ void Newton::judge(double change, bool at_round_off) {
   ++iterations_;
   // The first increment has no rate: it must be within the tolerance itself.
   const bool first = iterations_ == 1;
+  if (first) enough_ = std::max(tolerance, share_of_first_ * change);
   const double rate_before = rate_;
   rate_ = first ? 1 : change / last_change_;
   const double error = first ? change : rate_ / (1 - rate_) * change;
   const bool shrinking = first || rate_ < 1;
-  if (change == 0 || (shrinking && error <= tolerance) || (!first && at_round_off)) {
+  if (change == 0 || (shrinking && error <= enough_) || (!first && at_round_off)) {
     state_ = State::converged;
     return;
   }

@@ -8,11 +8,11 @@
 
 #include <trammel/system.hpp>
 
-#include "model/model.hpp"
-#include "system/markers/twist_rows.hpp"
 #include "linear/frontal_iteration_kkt.hpp"
 #include "linear/kkt.hpp"
 #include "linear/sparse_kkt.hpp"
+#include "model/model.hpp"
+#include "system/markers/twist_rows.hpp"
 
 namespace trammel::model {
 
@@ -92,8 +92,8 @@ class BodyBlocks {
   const Model& model_;
   std::vector<numerics::BodyBlock> bodies_;
   std::array<MassFactors, std::tuple_size_v<decltype(kept)>>
-      mass_factors_;                      // one serves all stores that ask for the same
-  Mat G_;                                 // of one body, to be added
+      mass_factors_;  // one serves all stores that ask for the same
+  Mat G_;             // of one body, to be added
 };
 
 }  // namespace trammel::model

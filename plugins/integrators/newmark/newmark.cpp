@@ -45,6 +45,7 @@ class Newmark final : public Integrator, public ErrorEstimate {
     step_.dq = h * now.v + h * h * (0.5 - beta) * now.a;
     step_.v = now.v + h * (1 - gamma) * now.a;
     step_.begin(s, now, h, beta * h * h, gamma * h, next);
+    step_.extrapolate(now, error_.a_before(), h / error_.h_before(), next);
     while (step_.iterating()) {
       step_.move(s, now, next);
       r_ = -s.f();

@@ -14,8 +14,8 @@
 // Near a change of rank, round-off of the position and velocity rows enters a divided by h: see error_along_rows.hpp.
 #pragma once
 
-#include <trammel/methods/error_along_rows.hpp>
 #include <trammel/integrator.hpp>
+#include <trammel/methods/error_along_rows.hpp>
 
 namespace trammel {
 
@@ -27,6 +27,9 @@ class NewmarkError {
   void restart(const State& now);
   void accept(const State& next);
   double operator()(System& s, const State& now, const State& next, const Tolerance& tolerance);
+  // Of the accepted point before the last, and the step from there; empty just after a restart.
+  const Vec& a_before() const { return a_before_; }
+  double h_before() const { return h_before_; }
   int order() const { return first_ == 0 || !of_velocities_ ? 3 : 2; }
   void archive(Archive& a);
 

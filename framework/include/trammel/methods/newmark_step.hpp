@@ -14,6 +14,7 @@
 //
 //     step.dq = h * now.v + ...;   step.v = now.v + ...;
 //     step.begin(s, now, h, c_q, c_v, next);
+//     step.extrapolate(now, a_before, h / h_before, next);          where there is a step before
 //     while (step.iterating()) {
 //       step.move(s, now, next);
 //       r = ...;
@@ -38,6 +39,10 @@ class NewmarkStep {
   // Predicts lambda_{n+1} = lambda_n and a_{n+1} = a_n. c_q [s^2] >= 0 and c_v [s] > 0 are the weights of a_{n+1}
   // above.
   void begin(const System& s, const State& now, double h, double c_q, double c_v, State& next);
+  // Predicts a_{n+1} by the line through a_{n-1} and a_n; `ratio` is this step over the last one. Keeps a_n if a changes too fast:
+  // extrapolation would enlarge a mode that rings from step to step. The first increment then is the second difference of a, which
+  // measures the step's own error (newmark_error.hpp); Newton's iteration ends at a small share of it.
+  void extrapolate(const State& now, const Vec& a_before, double ratio, State& next);
   bool iterating() const { return newton.iterating(); }
   // Computes next.q and next.v from next.a and moves the system to that point.
   void move(System& s, const State& now, State& next);
@@ -51,6 +56,9 @@ class NewmarkStep {
 
  private:
   void measure(const State& now, double h);
+  void find_lead(const State& now, const Vec& a);
+  bool correct_rows_alone(System& s, State& next);
+  void measure_change(const State& next);
   void factorise(System& s, Blend blend, const State& next);
   void update(const System& s, const State& now, State& next);
   bool correct_rows(System& s, const Vec& r, State& next);
@@ -63,8 +71,10 @@ class NewmarkStep {
   Vec sizes_q_;                         // scale of each coordinate, in its own unit
   double change_each_ = 0;              // largest change of a coordinate, relative to its own scale
   Factors of_pi_ = Factors::iteration;  // projection if W != G
-  bool leads_ = false;                  // a_n moves q further than v_n, by lead_
-  Vec pi_, dpi_, zero_;                 // empty if there is no pi; zero_ is empty if there are no rows
+  double moved_ = 0;                    // of q since the factors were made, like change_each_
+  double h_ = 0;
+  bool leads_ = false;   // a_n moves q further than v_n, by lead_
+  Vec pi_, dpi_, zero_;  // empty if there is no pi; zero_ is empty if there are no rows
   Vec increment_, lead_, da_, dlambda_, rc_, mu_;
 };
 

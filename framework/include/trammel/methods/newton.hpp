@@ -4,8 +4,10 @@
 // successive increments, the remaining error is about theta/(1 - theta) times the last increment (Hairer, Wanner,
 // Solving ODEs II, IV.8). The iteration ends when this is below `tolerance`, or when the increments have reached
 // round-off and decrease no further.
+// If the first increment measures the step's own error, as from a prediction of the method's order, a remaining error of
+// `share_of_first` of it is enough, too: more iterations do not improve the step.
 //
-//     newton.start();
+//     newton.start(share_of_first);
 //     while (newton.iterating()) {
 //       residual...
 //       if (newton.wants_factors()) factorise...
@@ -24,7 +26,7 @@ class Newton {
   double tolerance = 1e-11;  // of the remaining error, relative to the size of the unknowns
   int max_iterations = 12;   // before the step is rejected
 
-  void start();
+  void start(double share_of_first = 0);
   bool iterating() const { return state_ == State::iterating; }
   bool converged() const { return state_ == State::converged; }
   bool wants_factors() const { return wants_factors_; }
@@ -45,7 +47,7 @@ class Newton {
   State state_ = State::failed;
   bool wants_factors_ = true;
   int iterations_ = 0;
-  double last_change_ = 0, rate_ = 1;
+  double last_change_ = 0, rate_ = 1, share_of_first_ = 0, enough_ = 0;
   const char* reason_ = "Newton's iteration was not run";
 };
 
