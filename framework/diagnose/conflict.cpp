@@ -24,8 +24,8 @@ class Chosen {
  public:
   Chosen(model::AssembledSystem& system, std::vector<RowGroup> groups) : system_(system), groups_(std::move(groups)) {}
 
-  // Positions, then velocities and accelerations, which are linear. What the velocities are beyond those that the rows ask for
-  // must not count: where their rank is about to change no motion may go on from them.
+  // Positions, then velocities and accelerations, which are linear. The part of the velocities that the rows do not
+  // require must not count: where the rank is about to change, no motion may continue with it.
   bool can_hold(State s) const {
     if (!find_positions(s)) return false;
     const Vec v = s.v;
@@ -37,7 +37,7 @@ class Chosen {
   }
 
  private:
-  // Newton's method with steps of minimum norm, shorter ones where they do not help.
+  // Newton's method with steps of minimum norm, shortened where they do not reduce the residual.
   bool find_positions(State& s) const {
     constexpr double least_step = 1e-2, least_gain = 0.1;
     double now = move_to(s, s.q);
@@ -89,7 +89,7 @@ class Chosen {
   Vec minimum_norm(const Vec& r) const {
     Vec x = Vec::Zero(system_.sizes().nv);
     if (r.size() == 0) return x;
-    std::vector<int> columns;  // that these rows are about
+    std::vector<int> columns;  // with entries in these rows
     const Mat G = dense_rows(columns);
     Eigen::CompleteOrthogonalDecomposition<Mat> decomposition;
     decomposition.setThreshold(rank_tolerance);
@@ -120,8 +120,8 @@ class Chosen {
   std::vector<RowGroup> groups_;
 };
 
-// By how much each row is missed after steps of Newton's method over all of them: in positions, or else in velocities, or else in
-// accelerations. What was only off holds then, what conflicts does not. Empty: all hold.
+// The residual of each row after steps of Newton's method over all of them: in positions, else in velocities, else in
+// accelerations. Rows that were only violated hold then; conflicting ones do not. Empty: all hold.
 Vec missed_rows(model::AssembledSystem& system, State s) {
   constexpr int steps = 20;
   const Vec no_force = Vec::Zero(system.sizes().nv);
@@ -179,7 +179,7 @@ std::vector<RowGroup> conflicting(model::AssembledSystem& system, const State& s
   return Chosen(system, groups).can_hold(start) ? std::vector<RowGroup>() : groups;
 }
 
-// More and more groups around `worst`, until they cannot hold. None: those of `most_rows` rows can.
+// More and more groups around `worst`, until they contradict each other. None: those of `most_rows` rows do not.
 std::vector<RowGroup> conflict_around(int worst, model::AssembledSystem& system, const State& start,
                                       const std::vector<RowGroup>& all) {
   system.move_to(start.t, start.q, start.v);
@@ -195,8 +195,8 @@ std::vector<RowGroup> conflict_around(int worst, model::AssembledSystem& system,
   return {};
 }
 
-// Without any `apart` neighbours of them the rest can hold. Half of them are left out at a time, then fewer: of many rows few
-// conflict.
+// A subset such that without any `apart` neighbours of it the others can be satisfied. Half of the groups are left out
+// at a time, then fewer, because only few of many rows conflict.
 std::vector<RowGroup> smallest_of(std::vector<RowGroup> conflict, std::size_t& apart, model::AssembledSystem& system,
                                   const State& start) {
   constexpr std::size_t most_tries = 100;
