@@ -35,9 +35,10 @@ double cpu_now() {
 }
 
 constexpr double between_checkpoints = 2;      // [s] wall-clock
-constexpr double share_of_checkpoints = 0.05;  // of the time at most: a slow disk is asked less often
+constexpr double share_of_checkpoints = 0.05;  // of the time at most: checkpoints are rarer on a slow disk
 constexpr double between_progress = 0.1;       // [s]
-// Room held for the end of a run on a full disk [bytes]: three buffers of logs, the result, and the checkpoint's numbers.
+// Room held for the end of a run on a full disk [bytes]: three buffers of logs, the result, and the checkpoint's
+// numbers.
 constexpr long long room_for_logs = 1 << 19, room_per_number = 256;
 
 class Run {
@@ -93,7 +94,7 @@ class Run {
 
  private:
   // The integrator that the run was begun with, where Trammel chose it.
-  // Of the run that is resumed. What is wrong with its checkpoints resume() says.
+  // Of the run that is resumed. resume() reports faults of its checkpoints.
   std::string chosen_before() const {
     if (!options_.resume) return "";
     for (const char* name : {newest_checkpoint, checkpoint_before}) {
@@ -107,13 +108,13 @@ class Run {
   std::string where(const char* what) const {
     return fmt::format("at t = {:.9g} s, step {}: {}", simulator_->state().t, step(), what);
   }
-  // Whatever a method says of its steps: the reason may be rows that no motion satisfies.
+  // Whatever reason a method gives, the cause may be rows that no motion satisfies.
   std::string contradiction() {
     try {
       const Conflict conflict = simulator_->conflict();
       return conflict.empty() ? "" : "; " + told(conflict);
     } catch (const std::exception&) {
-      return "";  // a component has no answer there; the failure itself is told
+      return "";  // a component has no answer there; the failure itself is reported
     }
   }
   long long step() const { return simulator_->statistics().steps + 1; }
@@ -172,13 +173,13 @@ class Run {
     Clock::time_point checked = began, checkpointed = began, shown = began;
     double pause = between_checkpoints;
     SlowSteps slow_steps(simulator_->state().t, simulator_->statistics().steps);
-    long long stride = 1, since = 0;  // steps between looks at the clock, about 1 ms
+    long long stride = 1, since = 0;  // steps between readings of the clock, about 1 ms
     for (;;) {
       const bool more = simulator_->advance(*recorder_);
       require_arithmetic(settings_, setup_, simulator_->state().t, step());
       recorder_->check();  // between steps, where a checkpoint is possible
       if (!more) return;
-      // After a step at least: it writes what happened at the start.
+      // After at least one step, which writes the events of the start.
       if (options_.interrupt && options_.interrupt->heed()) {
         status_ = Status::interrupted;
         return;
@@ -236,7 +237,7 @@ class Run {
     archive("field_times", lengths.field_times);
   }
 
-  // Logs first: a checkpoint never tells of bytes that are not there.
+  // Logs first: a checkpoint never refers to bytes that are not on the disk.
   void write() {
     recorder_->sync();
     json data = json::object();
@@ -266,7 +267,7 @@ class Run {
     return found;
   }
 
-  // The one before it serves where the newest is damaged, or logs have lost what it tells of.
+  // The previous checkpoint serves if the newest is damaged, or if the logs are shorter than it states.
   Checkpoint read() {
     try {
       return read(newest_checkpoint);
@@ -299,7 +300,7 @@ class Run {
     return found.lengths;
   }
 
-  // Whatever a component says of what it reads: the checkpoint is not one that it wrote.
+  // Whatever error a component reports while reading, it did not write this checkpoint.
   template <class Read>
   static void fitting(Checkpoint& found, Read read) {
     try {
@@ -318,7 +319,7 @@ class Run {
     remove_results(options_.out);
   }
 
-  // The reserve's room goes to the last lines and a checkpoint. A limit on the length of one file may still stop a log.
+  // The reserve makes room for the last lines and a checkpoint. A limit on the length of one file may still stop a log.
   void out_of_room(const OutputError& e) {
     reserve_.reset();
     std::string reason = e.what();
@@ -337,7 +338,7 @@ class Run {
     end(Status::failed, reason);
   }
 
-  // Everything known is kept; what cannot be written any more is told in the reason.
+  // All results so far are kept; the reason names what can no longer be written.
   void end(Status status, const std::string& reason) {
     reserve_.reset();
     Outcomes outcomes{status, reason, cost(), options_.resume, options_.command};
@@ -356,7 +357,7 @@ class Run {
       outcomes.status = Status::failed;
       report_.summary = summary(scene_, setup_, *simulator_, outcomes, options_.out);
     }
-    if (options_.witness) options_.witness->leave();  // the result stands there: nobody replaces it any more
+    if (options_.witness) options_.witness->leave();  // the result is written and must not be replaced
     report_.status = outcomes.status;
     report_.reason = outcomes.reason;
   }

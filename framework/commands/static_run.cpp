@@ -1,4 +1,5 @@
-// `trammel static`: equilibria under growing loads from the first line to the last: set-up, load path, records, results.
+// `trammel static`: equilibria under growing loads from the first line to the last: set-up, load path, records,
+// results.
 #include <algorithm>
 #include <chrono>
 #include <ctime>
@@ -104,7 +105,7 @@ class StaticRun {
       outcomes.reason += (outcomes.reason.empty() ? "" : "; ") + std::string(e.what());
       report_.summary = text(outcomes);
     }
-    if (options_.witness) options_.witness->leave();  // the result stands there: nobody replaces it any more
+    if (options_.witness) options_.witness->leave();  // the result is written and must not be replaced
     report_.status = outcomes.status;
     report_.reason = outcomes.reason;
   }
