@@ -12,7 +12,7 @@
 namespace trammel::simulate {
 namespace {
 
-// Where a component of this name stands in the scene; `call` tells the kind.
+// The path in the scene of a component of this name, of the kind that `call` belongs to.
 struct Place {
   const char* group;
   Kind kind;
@@ -75,7 +75,7 @@ plugin::PluginError blame(const Setup& setup, const model::CallSite& site, const
   return step ? error.in_step(*step) : error;
 }
 
-// Which component did it is not known: asking after each call would cost as much as the cheapest of them.
+// The component is not known: a check after each call would cost as much as the cheapest calls.
 void require_arithmetic(plugin::ProcessSettings& settings, const Setup& setup, double t, long long step) {
   const std::string fault = plugin::arithmetic_fault();
   if (fault.empty()) return;

@@ -1,5 +1,6 @@
-// Who to name when the process crashes inside a plugin or does not come back from it, and what then becomes of the records: a signal
-// handler can build nothing and ask nobody, so all it may need stands ready here while plugins are called. The component being called is the breadcrumb that the assembled system leaves.
+// Which component to name when the process crashes or hangs inside a plugin, and how records are saved then. A signal
+// handler cannot allocate or call into the program, so everything that it may need is prepared here while plugins are
+// called. The component being called is the breadcrumb that the assembled system leaves.
 #pragma once
 
 #include <atomic>
@@ -22,8 +23,8 @@ class CrashWitness {
     const double* t = nullptr;         // [s]
     const long long* steps = nullptr;  // accepted so far; null: outside a run
   };
-  // From here to `leave` the arguments live, the recorder perhaps not yet. The call around the component's is what
-  // plugin::Breadcrumb says, and in a run without one the integrator's step.
+  // The arguments live until `leave`; the recorder may be created later. The call under way is that of
+  // plugin::Breadcrumb, and in a run without a breadcrumb the integrator's step.
   void follow(const Setup& setup, const scene::Value& root, plugin::Registry& registry,
               const model::AssembledSystem& system, Clock clock);
   void record_with(const Recorder& recorder, const LastResult& result) {
@@ -41,7 +42,7 @@ class CrashWitness {
     bool certain = true;  // false: the integrator's step, or the framework on its behalf
   };
   Culprit culprit() const noexcept;
-  // Records still in memory go out, and a result that says how the run ended.
+  // Writes the records still in memory, and a result that states how the run ended.
   void rescue(const char* status, std::string_view reason) const noexcept;
 
  private:

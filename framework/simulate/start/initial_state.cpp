@@ -17,11 +17,12 @@ namespace {
 
 constexpr double tolerance = 1e-8;  // of the scene's length and speed, and 1 m, 1 rad, 1 m/s, 1 rad/s at most
 
-// What "nearest" weighs: masses, and with contacts what the bodies store at 1 rad/s too, so that a beam that reaches into a plane
-// is turned out of it and not bent.
+// The metric of "nearest": masses, and with contacts also the elastic energy at 1 rad/s, so that a beam that penetrates
+// a plane is turned out of it and not bent.
 constexpr Blend by_mass = {1, 0, 0}, by_mass_and_stiffness = {1, 0, 1};
 
-// What rows may be off by at the start: digits of a scene. Angles take the lengths' measure too where those are below 1 m.
+// What rows may be off by at the start: digits of a scene. Angles take the lengths' measure too where those are below 1
+// m.
 struct Allowed {
   double length, speed;  // [m], [m/s]
   double round_off;      // [m] that an iteration may end with
@@ -83,8 +84,8 @@ std::vector<int> penetrated(model::AssembledSystem& system, const State& s) {
   return all;
 }
 
-// Moves the state to the nearest one in which those touch that penetrated; joints hold. Others that penetrate then join them, so
-// it ends. False: none was found.
+// Moves the state to the nearest one in which the penetrating contacts touch and the joints hold. Contacts that
+// penetrate then are added, so this ends. False: none was found.
 bool project_out_of_contacts(model::AssembledSystem& system, State& s) {
   const model::Modes before = system.modes();
   model::Modes touching = before;
@@ -134,7 +135,7 @@ scene::Problem contradiction(model::AssembledSystem& system, const State& start,
   return problem_at(paths, root, fmt::format("{}{} contradict each other{}", none, names(conflict), remark(conflict)));
 }
 
-// Rows that hold as they are, and still ask for accelerations that no motion has.
+// Rows that are satisfied and still require accelerations that no motion has.
 void check_motion(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
   Vec a, lambda, missed;
   system.move_to(s.t, s.q, s.v);

@@ -1,20 +1,20 @@
 // The integrator of a scene that names none.
 //
-//     dop853, tolerance 1e-9                        as a rule: no step need be chosen, and contacts and friction are located as events
-//     the same with "rows": "projected"             where light bodies are tied to heavy ones (mass_ratio.hpp)
-//     hht_alpha, tolerance 1e-7                     where explicit steps would be more than a million: it does not follow what is
-//                                                   fast beside the rest, and damps it
+//     dop853, tolerance 1e-9                  the usual choice: no step to choose; contacts and friction are events
+//     the same with "rows": "projected"       where light bodies are tied to heavy ones (mass_ratio.hpp)
+//     hht_alpha, tolerance 1e-7               where explicit methods need more than a million steps: it damps the
+//                                             fast motions instead of resolving them
 //
-// Decided from the model at its start (fastest_motion.hpp) against the time that the run spans, so the same scene has the same. A
-// resumed run, whose end may have moved, keeps what it had.
+// Decided from the model at its start (fastest_motion.hpp) and the duration of the run, so the same scene always has
+// the same integrator. A resumed run, whose end may have moved, keeps its integrator.
 #pragma once
 
 #include "simulate/start/setup.hpp"
 
 namespace trammel::simulate {
 
-// Replaces the first of these, which `setup` has, where another fits, or where setup.chosen was another `before` (empty: never), and
-// says in setup.choice what was chosen and why.
+// Replaces the first of these, which `setup` has, if another one fits better, or if a resumed run had another, `before`
+// (empty: not resumed); setup.choice states the choice and its reason.
 void choose_integrator(Setup& setup, model::AssembledSystem& system, const std::string& before,
                        plugin::Registry& registry, scene::Problems& problems);
 
