@@ -104,7 +104,7 @@ void built(Text& text, const scene::Scene& scene, const plugin::Registry& regist
   for (const std::string& file : registry.files()) text.line("{}", file);
 }
 
-// nv less the rank of G at the initial state. Contacts and latches that close later take more away.
+// nv minus the rank of G at the initial state. Contacts and latches that close later reduce it further.
 void freedom(Text& text, Setup& setup, const std::vector<RedundantRows>& redundant) {
   const Sizes& n = setup.model->sizes;
   int rank = n.nc;
@@ -122,7 +122,7 @@ void redundant(Text& text, const std::vector<RedundantRows>& found) {
   for (const RedundantRows& rows : found) text.line("{}", description(rows));
 }
 
-// Contacts that are closed at the start with rows that depend on each other.
+// Contacts that are closed at the start and whose rows depend on each other.
 void indeterminate(Text& text, Setup& setup) {
   if (setup.model->contacts.empty()) return;
   Simulator simulator(setup.model, *setup.integrator, setup.settings, {});
@@ -149,7 +149,7 @@ void costs(Text& text, Setup& setup, model::AssembledSystem& system) {
   open.contacts.resize(setup.model->contacts.size());
   system.set_modes(open);
   State now = setup.initial, next;
-  // To and fro between two points, so that nothing is taken from the one before.
+  // Alternates between two points, so that no result of the previous evaluation is reused.
   const Vec beside = now.v + Vec::Constant(now.v.size(), 1e-12);
   bool there = false;
   const auto move = [&] {

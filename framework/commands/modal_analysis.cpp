@@ -141,7 +141,7 @@ class Posed {
   State state_;
   SteadyMotion motion_;
   std::string what_;
-  std::optional<Watch> watch_;  // last: it looks at what stands above
+  std::optional<Watch> watch_;  // last: it refers to the members above
 };
 
 double hertz(double angular) {
@@ -244,7 +244,7 @@ class Report {
   const Spectrum& spectrum_;
 };
 
-// In a frame that the steady motion goes with.
+// In a frame that turns with the steady motion.
 Spectrum steady_spectrum(const Linearisation& l, int count) {
   Spectrum spectrum = dense_modes(l, count);
   spectrum.frame_rate = l.frame_rate;

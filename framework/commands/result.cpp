@@ -52,7 +52,8 @@ json dissipated(const model::Model& model, const Ledger& ledger, double drift) {
           {"numerical", -drift}};
 }
 
-// Contacts whose forces were one choice of many, and from when to when: [s] the first and the last record or event that showed it.
+// Contacts whose forces were not unique, with the first and the last time [s] of a record or event at which this was
+// seen.
 json indeterminate(const model::Model& model, const ContactAudit& audit) {
   json contacts = json::object();
   for (const auto& [contact, span] : audit.indeterminate())

@@ -30,8 +30,8 @@ nlohmann::ordered_json result_head(const scene::Scene& scene, const Setup& setup
 nlohmann::ordered_json to_json(const Energy& energy);
 std::string title_of(const scene::Scene& scene);  // its file, if it has none
 
-// As JSON text. energy_dissipated by cause, positive when energy was lost; numerical is what no cause explains and energy_drift
-// its negative: E - (E_start + supplied - dissipated by the named causes).
+// As JSON text. energy_dissipated by cause, positive when energy was lost; numerical is what no cause explains and
+// energy_drift its negative: E - (E_start + supplied - dissipated by the named causes).
 std::string result_json(const scene::Scene& scene, const Setup& setup, Simulator& simulator, const Outcomes& outcomes);
 
 // A few lines for a person.

@@ -13,7 +13,7 @@ struct Topic {
   std::string page;
 };
 
-// Lists in the pages (functions, kinds of events, markers of each body) are made from what the program does, so they are whole.
+// Lists in the pages (functions, kinds of events, markers of each body) are generated from the program's own tables.
 std::vector<Topic> scene_topics(const std::vector<const plugin::Entry*>& components);
 
 }  // namespace trammel::simulate

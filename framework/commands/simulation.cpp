@@ -34,7 +34,7 @@ double cpu_now() {
 }
 
 constexpr double between_checkpoints = 2;      // [s] wall-clock
-constexpr double share_of_checkpoints = 0.05;  // of the time at most: a slow disk is asked less often
+constexpr double share_of_checkpoints = 0.05;  // of the time at most: checkpoints are rarer on a slow disk
 constexpr double between_progress = 0.1;       // [s]
 
 class Run {
@@ -64,7 +64,7 @@ class Run {
 
  private:
   // The integrator that the run was begun with, where Trammel chose it.
-  // Of the run that is resumed. What is wrong with its checkpoints resume() says.
+  // Of the run that is resumed. resume() reports faults of its checkpoints.
   std::string chosen_before() const {
     if (!options_.resume) return "";
     for (const char* name : {newest_checkpoint, checkpoint_before}) {
@@ -79,13 +79,13 @@ class Run {
     const double t = simulator_->state().t;
     return {t, step(), fmt::format("at t = {:.9g} s, step {}: ", t, step()), simulator_->system().last_call()};
   }
-  // Whatever a method says of its steps: the reason may be rows that no motion satisfies.
+  // Whatever reason a method gives, the cause may be rows that no motion satisfies.
   std::string contradiction() {
     try {
       const Conflict conflict = simulator_->conflict();
       return conflict.empty() ? "" : "; " + description(conflict);
     } catch (const std::exception&) {
-      return "";  // a component has no answer there; the failure itself is told
+      return "";  // a component has no answer there; the failure itself is reported
     }
   }
   long long step() const { return simulator_->statistics().steps + 1; }
@@ -114,13 +114,13 @@ class Run {
     Clock::time_point checked = began, checkpointed = began, shown = began;
     double pause = between_checkpoints;
     SlowSteps slow_steps(simulator_->state().t, simulator_->statistics().steps);
-    long long stride = 1, since = 0;  // steps between looks at the clock, about 1 ms
+    long long stride = 1, since = 0;  // steps between readings of the clock, about 1 ms
     for (;;) {
       const bool more = simulator_->advance(*records_.recorder());
       require_arithmetic(settings_, setup_, simulator_->state().t, step());
       records_.recorder()->check();  // between steps, where a checkpoint is possible
       if (!more) return;
-      // After a step at least: it writes what happened at the start.
+      // After at least one step, which writes the events of the start.
       if (options_.interrupt && options_.interrupt->heed()) {
         status_ = Status::interrupted;
         return;
@@ -178,7 +178,7 @@ class Run {
     archive("field_times", lengths.field_times);
   }
 
-  // Logs first: a checkpoint never tells of bytes that are not there.
+  // Logs first: a checkpoint never refers to bytes that are not on the disk.
   void write() {
     records_.recorder()->sync();
     json data = json::object();
@@ -208,7 +208,7 @@ class Run {
     return found;
   }
 
-  // The one before it serves where the newest is damaged, or logs have lost what it tells of.
+  // The previous checkpoint serves if the newest is damaged, or if the logs are shorter than it states.
   Checkpoint read() {
     try {
       return read(newest_checkpoint);
@@ -241,7 +241,7 @@ class Run {
     return found.lengths;
   }
 
-  // Whatever a component says of what it reads: the checkpoint is not one that it wrote.
+  // Whatever error a component reports while reading, it did not write this checkpoint.
   template <class Read>
   static void fitting(Checkpoint& found, Read read) {
     try {

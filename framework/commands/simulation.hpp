@@ -26,7 +26,7 @@ struct RunOptions {
   std::vector<std::string> command;               // the words of the command line, for result.json
   CrashWitness* witness = nullptr;                // told what a handler of crashes needs
   std::function<void(const Progress&)> progress;  // called about ten times a second of wall-clock time
-  std::function<void(const std::string&)> warn;   // called at once with what is worth knowing before the run ends
+  std::function<void(const std::string&)> warn;   // called at once for warnings that matter before the run ends
 };
 
 enum class Status { done, failed, interrupted };
@@ -41,8 +41,8 @@ struct RunReport {
 // Throws scene::SceneError for bad input, plugin::PluginError for a plugin that misbehaves (results so far are kept).
 RunReport run(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options);
 
-// Equilibria under loads that follow t, from simulate.start to simulate.until, a record each (load_path.hpp); writes series.csv,
-// animation.ndjson, fields.ndjson and result.json. Throws like run.
+// Equilibria under loads that follow t, from simulate.start to simulate.until, a record each (load_path.hpp); writes
+// series.csv, animation.ndjson, fields.ndjson and result.json. Throws like run.
 RunReport run_static(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options);
 
 // Reads everything and builds the model without running; throws like run. Returns warnings, a line each.

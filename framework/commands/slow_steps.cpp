@@ -58,7 +58,7 @@ std::string SlowSteps::look(double seconds, const Setup& setup, Simulator& simul
     system.set_modes(simulator.system().modes());
     return slow + ": " + cause(fastest_motion(system, simulator.state()), setup, simulator, h);
   } catch (const std::exception&) {
-    return slow;  // a component has no answer beside the solution
+    return slow;  // a component has no answer away from the solution
   }
 }
 

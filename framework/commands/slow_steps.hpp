@@ -1,4 +1,4 @@
-// A run that crawls: controlled steps far shorter than its records need, and no end in sight.
+// Detects slow runs: controlled steps far shorter than the records need, with a long time left.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace trammel::simulate {
 
 class SlowSteps {
  public:
-  // Where the run stands before its first step here.
+  // The run's progress before its first step here.
   SlowSteps(double t, long long steps) : t_(t), steps_(steps) {}
 
-  // After `seconds` of wall-clock time: what makes the steps so short, and the setting that cures it. Empty: the run is not slow, it
-  // is too early to tell, or it was said.
+  // After `seconds` of wall-clock time: why the steps are so short, and the setting that cures it. Empty: the run is
+  // not slow, it is too early to decide, or the message was given before.
   std::string look(double seconds, const Setup& setup, Simulator& simulator);
 
  private:

@@ -1,4 +1,5 @@
-// `trammel static`: equilibria under growing loads from the first line to the last: set-up, load path, records, results.
+// `trammel static`: equilibria under growing loads from the first line to the last: set-up, load path, records,
+// results.
 #include <algorithm>
 #include <chrono>
 #include <ctime>

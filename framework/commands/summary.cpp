@@ -13,7 +13,7 @@ std::string counted(std::size_t n, const char* one, const char* many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-// Compliant contacts know none: they touch.
+// Compliant contacts have no impacts: they touch.
 std::string impacts_of(const model::Model& model, const Statistics& s) {
   const bool rigid = std::any_of(model.contacts.begin(), model.contacts.end(),
                                  [](const model::ContactEntry& contact) { return contact.restitution != nullptr; });

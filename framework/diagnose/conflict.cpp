@@ -25,8 +25,8 @@ class RowSelection {
   RowSelection(model::AssembledSystem& system, const RowTolerance& allowed, std::vector<RowGroup> groups)
       : system_(system), allowed_(allowed), groups_(std::move(groups)) {}
 
-  // Positions, then velocities and accelerations, which are linear. What the velocities are beyond those that the rows ask for
-  // must not count: where their rank is about to change no motion may go on from them.
+  // Positions, then velocities and accelerations, which are linear. The part of the velocities that the rows do not
+  // require must not count: where the rank is about to change, no motion may continue with it.
   bool can_hold(State s) const {
     if (!find_positions(s)) return false;
     const Vec v = s.v;
@@ -38,7 +38,7 @@ class RowSelection {
   }
 
  private:
-  // Newton's method with steps of minimum norm, shorter ones where they do not help.
+  // Newton's method with steps of minimum norm, shortened where they do not reduce the residual.
   bool find_positions(State& s) const {
     constexpr double least_step = 1e-2, least_gain = 0.1;
     double now = move_to(s, s.q);
@@ -90,7 +90,7 @@ class RowSelection {
   Vec minimum_norm(const Vec& r) const {
     Vec x = Vec::Zero(system_.sizes().nv);
     if (r.size() == 0) return x;
-    std::vector<int> columns;  // that these rows are about
+    std::vector<int> columns;  // with entries in these rows
     const Mat G = dense_rows(columns);
     Eigen::CompleteOrthogonalDecomposition<Mat> decomposition;
     decomposition.setThreshold(rank_tolerance);
@@ -198,8 +198,8 @@ std::vector<RowGroup> conflict_around(int worst, model::AssembledSystem& system,
   return {};
 }
 
-// Without any `apart` neighbours of them the rest can hold. Half of them are left out at a time, then fewer: of many rows few
-// conflict.
+// A subset such that without any `apart` neighbours of it the others can be satisfied. Half of the groups are left out
+// at a time, then fewer, because only few of many rows conflict.
 std::vector<RowGroup> smallest_of(std::vector<RowGroup> conflict, std::size_t& apart, model::AssembledSystem& system,
                                   const RowTolerance& allowed, const State& start) {
   constexpr std::size_t most_tries = 100;

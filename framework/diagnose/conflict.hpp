@@ -1,9 +1,10 @@
 // Which joints, and bodies with rows of their own, contradict each other.
 //
 // They do when no state near the given one satisfies them all: their positions, their velocities G v = -g_t, or their
-// accelerations G a = gamma; velocities that the rows do not ask for are given up where those then can be met. The conflicting set
-// named is a smallest one: without any of its members the rest can hold. Of more than 1000 rows it is looked for around the row
-// that is missed most; where it is not among 1000 rows there, that one alone is named.
+// accelerations G a = gamma. Velocities that the rows do not require are set to 0 if the accelerations can be met then.
+// The set of joints named is a smallest one: without any of its members the others can be satisfied. With more than
+// 1000 rows it is sought around the row with the largest residual; if it is not among 1000 rows there, that row alone
+// is named.
 #pragma once
 
 #include <string>
@@ -17,7 +18,7 @@ namespace trammel::simulate {
 
 struct Conflict {
   std::vector<std::string> paths;  // of joints and bodies in the order of their rows; empty: all can hold
-  bool smallest = true;            // false: some around it as well, or only the one that is missed most
+  bool smallest = true;            // false: with some neighbours, or only the row with the largest residual
   bool empty() const { return paths.empty(); }
 };
 Conflict smallest_conflict(model::AssembledSystem& system, const State& start);

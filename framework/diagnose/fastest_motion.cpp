@@ -59,7 +59,7 @@ class Operators {
   }
 
  private:
-  // No mode is perpendicular to it but by chance, and the same every time.
+  // The same vector every time; a mode is perpendicular to it only by chance.
   static Vec uneven(Eigen::Index n) {
     Vec x(n);
     for (Eigen::Index i = 0; i < n; ++i) x[i] = std::sin(1 + 1.7 * double(i) + 0.1 * double(i) * double(i));

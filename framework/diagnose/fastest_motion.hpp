@@ -1,10 +1,11 @@
-// How fast the equations of motion swing and decay about a configuration at rest: what bounds the steps of explicit methods. At rest,
-// because a fast spin is a motion to be followed, and neither stiff nor damped.
+// The highest frequency and decay rate of small motions about a configuration at rest, which bound the steps of
+// explicit methods. At rest, because a fast spin is a motion to be resolved; it is neither stiff nor damped.
 //
 //     omega^2 the largest of |P M^-1 K x| / |x|,   1/tau that of |P M^-1 D x| / |x|      x with G x = 0
 //
-// |x|^2 = x M x, P the projection onto G x = 0 of least kinetic energy; K, D the tangents, K with that of the reactions. Largest ones
-// by power iteration, so from below; without friction they are of a self-adjoint operator, and come near in some twenty products.
+// |x|^2 = x M x, P the projection onto G x = 0 of least kinetic energy; K, D the tangents, K with that of the
+// reactions. Power iteration gives lower bounds; without friction the operator is self-adjoint, and about twenty
+// products suffice.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace trammel::simulate {
 struct FastestMotion {
   double frequency = 0;  // omega [rad/s]
   double decay = 0;      // 1/tau [1/s]
-  int body = -1;         // that moves most in what is fastest, by kinetic energy; -1: nothing swings or decays
+  int body = -1;         // with most of the kinetic energy of the fastest motion; -1: nothing swings or decays
   double rate() const { return std::max(frequency, decay); }
 };
 

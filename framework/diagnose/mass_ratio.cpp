@@ -8,7 +8,7 @@
 namespace trammel::simulate {
 namespace {
 
-// Which bodies hang together: each points to another of its group, or is its first.
+// Which bodies are connected: each points to another of its group, or is its first.
 class Groups {
  public:
   explicit Groups(std::size_t bodies) : first_(bodies) { std::iota(first_.begin(), first_.end(), 0); }

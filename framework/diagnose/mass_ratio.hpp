@@ -1,6 +1,7 @@
-// Light bodies that rows tie to heavy ones. A force that holds the heavy one, lambda, is known to round-off only, so the light one's
-// acceleration is to eps lambda / m_light: a large part of it where the ratio is beyond 1e7. Error estimates of explicit methods see
-// that as an error and take steps so short that it does not count, unless they look at motions along the rows alone (`rows: projected`).
+// Light bodies that rows tie to heavy ones. The force on the heavy one, lambda, has a round-off of eps lambda, so the
+// light one's acceleration has an error of eps lambda / m_light: a large part of it if the ratio exceeds 1e7. Error
+// estimates of explicit methods then enforce very short steps, unless they measure motions along the rows alone (`rows:
+// projected`).
 #pragma once
 
 #include <string>
@@ -11,7 +12,7 @@
 
 namespace trammel::simulate {
 
-// The largest ratio among bodies that joints tie, directly or by others, of those that know their mass.
+// The largest ratio among bodies that joints tie, directly or through others; only bodies that state their mass count.
 struct MassRatio {
   int light = -1, heavy = -1;             // bodies; -1: there is none
   double light_mass = 0, heavy_mass = 0;  // [kg]

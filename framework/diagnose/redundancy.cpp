@@ -34,7 +34,7 @@ std::string description(const RedundantRows& here) {
 
 namespace {
 
-// By row: whether some multipliers that balance each other, G^T lambda = 0, have a part of it.
+// By row: whether some self-stress, G^T lambda = 0, has a component in it.
 std::vector<bool> in_self_stress(const Mat& G) {
   Eigen::ColPivHouseholderQR<Mat> qr;
   qr.setThreshold(rank_tolerance);

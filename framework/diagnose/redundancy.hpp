@@ -1,4 +1,4 @@
-// Which joints, and bodies with rows of their own, say the same twice.
+// Which joints, and bodies with rows of their own, have redundant rows.
 //
 // Rows are independent as long as each has a part perpendicular to all rows before it; a row without one is redundant.
 #pragma once
@@ -17,8 +17,8 @@ constexpr double rank_tolerance = 1e-7;  // sine of a row's angle to those befor
 
 struct RedundantRows {
   std::string path;       // in the scene: "joints.hinge", "bodies.rod"
-  std::vector<int> rows;  // those of its own that are redundant, counted from 0
-  int of = 0;             // so many
+  std::vector<int> rows;  // its redundant rows, counted from 0
+  int of = 0;             // number of its rows
 };
 // In the scene's order, at the state; its positions should hold.
 std::vector<RedundantRows> redundant_rows(model::AssembledSystem& system, const State& state);

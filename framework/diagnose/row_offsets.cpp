@@ -9,7 +9,7 @@ namespace trammel::simulate {
 namespace {
 
 RowOffset length(double g, double g_dot, double s) {
-  constexpr double least = 1e-3;  // where nothing is left of a rod, its rate has no direction
+  constexpr double least = 1e-3;  // a rod of length 0 has no direction for its rate
   return {2 * g / (1 + s), s > least ? g_dot / s : g_dot, false};
 }
 
@@ -49,7 +49,7 @@ BodyRows own_rows(const model::BodyEntry& body, double t, const Vec& q, const Ve
   return rows;
 }
 
-// Natural coordinates alone are taken onto their rows; of others they are told as they are.
+// Only natural coordinates are projected onto their rows; the rows of other bodies are given as they are.
 std::vector<RowOffset> own_row_offsets(const model::BodyEntry& body, const State& state) {
   const Vec v = state.v.segment(body.v0, body.nv);
   Vec q = state.q.segment(body.q0, body.nq);

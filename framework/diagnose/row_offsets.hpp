@@ -1,12 +1,12 @@
-// By how much rows are off, in metres and radians.
+// Violations of rows, in metres and radians.
 //
-// A row is scaled to be a length or an angle where it nearly holds: a rod's is (|d|^2/L - L)/2, an axis' sin(delta). Further off its
-// gradient by the motion of a marker tells, s, which is 1 where the row holds:
+// A row is scaled to be a length or an angle near g = 0: (|d|^2/L - L)/2 for a rod, sin(delta) for an axis. Further
+// away the violation follows from s, the row's gradient by the motion of a marker, which is 1 where the row holds:
 //
 //     |d| - L = 2 g/(1 + s),   s = |d|/L        delta = atan2(g, s),   s = cos(delta)        their rates: g_dot/s
 //
-// A body's own rows are told alike, s beside the gradient where they hold. Rows between more than two markers, whose scale is a
-// scene's own, are told as they are.
+// Rows of a body are treated alike, with s relative to the gradient where they hold. Rows between more than two
+// markers, whose scale depends on the scene, are given as they are.
 #pragma once
 
 #include <vector>

@@ -19,7 +19,7 @@ constexpr int block = 8;              // more than the six rigid motions of a fr
 constexpr int most_blocks = 60;       // beyond those that `count` fills
 constexpr double accuracy = 1e-9;     // of theta, by its residual
 constexpr double below_mean = 1e-7;   // sigma against omega^2 of a random motion, which is near that of the stiffest
-constexpr double independent = 1e-8;  // what a direction must have that the basis has not
+constexpr double independent = 1e-8;  // least part of a direction outside the basis
 
 // [K W^T; G 0] and its parts at the state.
 class Pencil {
@@ -85,7 +85,7 @@ class KrylovBasis {
     for (int j = 0; j < block; ++j) next_.col(j) = T_(random_vector(n, generator));  // within G x = 0
   }
 
-  // False: the space is exhausted, what is found is exact.
+  // False: the Krylov space is exhausted, so the modes found are exact.
   bool grow() {
     const Eigen::Index before = V_.cols();
     for (Eigen::Index j = 0; j < next_.cols(); ++j) {
@@ -131,7 +131,7 @@ struct Undamped {
   Vec inner(const Vec& x) const { return pencil.mass_times(x); }
 };
 
-// z = (x, w / s): s makes both of a size.
+// z = (x, w / s): s scales both parts alike.
 struct FirstOrder {
   Pencil& pencil;
   double sigma;
@@ -155,7 +155,7 @@ bool lower(const Pair& a, const Pair& b) {
   return std::abs(a.lambda) < std::abs(b.lambda);
 }
 
-// Grows the basis until the lowest `count` pairs that `pairs` makes of the projected operator have converged.
+// Extends the basis until the lowest `count` eigenpairs of the projected operator, given by `pairs`, have converged.
 template <class Operator, class Pairs>
 std::vector<Pair> converge(KrylovBasis<Operator>& basis, int count, Pairs&& pairs) {
   const int most = most_blocks + count / 2;

@@ -2,17 +2,18 @@
 //
 //     M_r y'' + D_r y' + K_r y = 0,     dq = Z y,   G Z = 0        Z: nv x m, orthonormal; redundant rows of G by rank
 //
-// About a state of rest these are Z^T M Z, Z^T D Z and Z^T K Z with the system's D and K; K holds d(W^T lambda)/dq, the
-// geometric stiffness of the constraints. About a state in motion Z moves along with it and its coefficients are frozen:
+// About a state of rest these are Z^T M Z, Z^T D Z and Z^T K Z with the system's D and K; K includes d(W^T lambda)/dq,
+// the geometric stiffness of the constraints. About a state in motion Z moves along with it and its coefficients are
+// frozen:
 //
 //     dv = Z y' + Y y,   Y = Z' + C Z      C: dv = (dq)' + C dq, omega x for turns in body axes, else 0
 //     G Z' = -d(G v + g_t)/dq Z - G C Z    of least kinetic energy: Z^T M Z' = 0, Z turns no more than the rows ask
 //     D_r = Z^T (M (Z' + Y) + D Z)
 //     K_r = Z^T (M Y' + D Y + K Z),        Z^T M Z'' = -Z'^T M Z' - Z^T M' Z'
 //
-// Without these terms a pendulum that passes its lowest point would be stiffer by the pull of its own rotation. A
-// steady motion has coefficients that need no freezing: steady_linearisation.hpp. A sliding contact's force lies beside
-// its row (W is not G): Z^T on the left is then the null space of W.
+// Without these terms the rotation of a pendulum that passes its lowest point would make it too stiff. The coefficients
+// of a steady motion are constant and need no freezing: steady_linearisation.hpp. With sliding contacts W differs from
+// G, and Z^T on the left is then the null space of W.
 #pragma once
 
 #include <trammel/integrator.hpp>
@@ -26,19 +27,20 @@ struct Linearisation {
   Mat Z;                // nv x m
   int redundant = 0;    // rows
   double noise = 1e-9;  // noise_of_stiffness
-  double speed = 0;  // of a steady motion, whose coefficients are constant: its largest velocity [m/s, rad/s]; else 0
-  // [rad/s] of the frame that y is seen from, in the plane about the third axis; 0: none turns.
+  double speed = 0;  // largest velocity of a steady motion (constant coefficients) [m/s, rad/s]; else 0
+  // [rad/s] of the frame in which y is measured, in the plane about the third axis; 0: the world.
   Eigen::Vector3d frame_rate = Eigen::Vector3d::Zero();
 };
 
-// `state` with the a and lambda of its equations of motion, and the system's contacts in its modes. Throws model::NotSolvable.
+// `state` with the a and lambda of its equations of motion, and the system's contacts in its modes. Throws
+// model::NotSolvable.
 Linearisation linearise(model::AssembledSystem& system, const State& state);
 
 // c_m M + c_d D + c_k K of all coordinates; the system is at the state.
 Mat tangent(model::AssembledSystem& system, Blend blend, const State& state);
 
-// What K may have of a stiffness that is 0, relative to the terms it is summed from: round-off, or differences where something
-// has no exact derivative.
+// Error of a stiffness that is exactly 0, relative to the terms that K is summed from: round-off, or differences where
+// a component has no exact derivative.
 double noise_of_stiffness(const model::Model& model);
 
 // turned += C x; false: C is 0. `rates` are v, or v' for C'.

@@ -7,7 +7,7 @@
 namespace trammel::simulate {
 namespace {
 
-// Step of the differences that move an outline; it is drawn, three digits do.
+// Step of the differences that move an outline. Three digits suffice for a drawing.
 constexpr double drawn = 1e-6;
 
 class Shapes {

@@ -1,12 +1,12 @@
 // The steady motion nearest to a state that is not quite one: a top in precession whose rate was written with a few
 // digits.
 //
-// Unknown are q and v within the rows and Omega. The accelerations must be those of what turns with the frame, not at
-// once only but some way on along the motion as well: else a rotor whose spin is off its axis would pass.
+// The unknowns are q and v within the rows, and Omega. The accelerations must be those of the turning frame at the
+// state and at two later times of the motion; otherwise a rotor that does not spin about its axis would be accepted.
 //
 //     M (E v - a) = 0 at tau = 0, tau_1, tau_2
 //
-// By Gauss and Newton's method with differences; of many solutions (a top has one for each tilt and spin) each step
+// Gauss-Newton method with differences. There may be many solutions (a top has one for each tilt and spin); each step
 // goes to the nearest.
 #pragma once
 
@@ -17,11 +17,11 @@
 
 namespace trammel::simulate {
 
-// None: the method does not converge, or only to a motion whose velocities are 10 % or more other ones.
+// None: the method does not converge, or the velocities of its result differ by 10 % or more.
 std::optional<State> nearest_steady(model::AssembledSystem& system, const FlatTurning& flat, const State& state,
                                     const Eigen::Vector3d& rate);
 
-// g = 0 and G v + g_t = 0 by the least change of q and v; `along`: how v goes with a change of q. False: not possible.
+// g = 0 and G v + g_t = 0 by the least change of q and v; `along`: dv/dq of this change. False: not possible.
 template <class Along>
 bool onto_rows(model::AssembledSystem& system, State& s, Along&& along) {
   const Sizes n = system.sizes();

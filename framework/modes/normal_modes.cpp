@@ -26,7 +26,7 @@ bool vanishes(const Mat& A, const CVec& x, double noise) {
 }
 
 // K x = omega^2 M x with columns y and ascending omega^2, both symmetric, M positive definite. The inverse problem
-// M x = omega^-2 K x gives the low ones all their digits beside stiff ones, where K is positive definite.
+// M x = omega^-2 K x gives the low frequencies full accuracy beside high ones, where K is positive definite.
 struct Undamped {
   Vec omega2;
   Mat y;
@@ -45,8 +45,9 @@ Undamped undamped(const Linearisation& l) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-// About a steady motion each direction that K leaves free may be moved along, and its rate may be another: lambda = 0
-// twice, which round-off parts to its root. Which of the lambda = s mu these are; K is M^-1 K [1/s^2].
+// Each direction in the null space of K shifts a steady motion to another steady motion, and so does its rate: a double
+// lambda = 0, which round-off eps splits into +-sqrt(eps). Returns which of the lambda = s mu these are; K is M^-1 K
+// [1/s^2].
 std::vector<bool> drifts_of(const Mat& K, double noise, double speed, double s, const Eigen::VectorXcd& mu) {
   std::vector<bool> drifts(std::size_t(mu.size()), false);
   if (speed == 0) return drifts;
@@ -62,8 +63,8 @@ std::vector<bool> drifts_of(const Mat& K, double noise, double speed, double s, 
   return drifts;
 }
 
-// What nothing holds stays where it is in the world, or drifts, and goes round as seen from the frame: lambda = i
-// Omega, twice, which round-off parts to its root.
+// A body that nothing restrains rests or drifts in the world, so it rotates as seen from the frame: a double lambda = i
+// Omega, which round-off eps splits by sqrt(eps).
 Complex without_drift(Complex lambda, double frame_rate) {
   const Complex round(0, frame_rate);
   return std::abs(lambda - round) <= 1e-6 * frame_rate ? round : lambda;
@@ -89,8 +90,8 @@ void first_order(const Linearisation& l, const Vec& scale, std::vector<Mode>& mo
     if (mu(i).imag() < 0) continue;
     const Complex lambda = s * mu(i);
     const CVec y = scale.asDiagonal() * vectors.col(i).head(m);
-    // Of a motion without stiffness: lambda = 0 (twice where it has no damping either, which round-off parts to its root),
-    // or that of its damping.
+    // A motion without stiffness has lambda = 0 (double without damping, which round-off eps splits by sqrt(eps)) and
+    // the lambda of its damping.
     const Vec size = y.cwiseAbs();
     const double damping = std::abs(y.dot(l.D * y)), terms = size.dot(l.D.cwiseAbs() * size);
     const bool undamped = damping <= l.noise * terms,

@@ -2,8 +2,8 @@
 //
 //     (lambda^2 M + lambda D + K) x = 0      on the null space of the constraints (linearisation.hpp)
 //
-// Undamped (D = 0, K symmetric): K x = omega^2 M x, a symmetric problem; lambda = i omega, or sqrt(-omega^2) where the system
-// leaves the state. Else the pencil of first order in (x, lambda x), eigenvalues in conjugate pairs or real.
+// Undamped (D = 0, K symmetric): K x = omega^2 M x, a symmetric problem; lambda = i omega, or sqrt(-omega^2) where the
+// system leaves the state. Else the pencil of first order in (x, lambda x), eigenvalues in conjugate pairs or real.
 #pragma once
 
 #include <complex>
@@ -16,7 +16,7 @@ namespace trammel::simulate {
 
 struct Mode {
   enum class Kind {
-    zero,         // lambda = 0: nothing holds it, nothing drives it; a rigid motion
+    zero,         // lambda = 0: neither restrained nor driven; a rigid motion
     oscillation,  // Im lambda > 0, Re lambda <= 0; one of its pair
     decay,        // real, < 0: overdamped
     growth,       // real, > 0: unstable
@@ -35,7 +35,7 @@ struct Spectrum {
   std::vector<Mode> modes;  // the lowest by |lambda|, ascending
   int degrees = -1;         // of freedom, m; -1: not counted
   int redundant = 0;        // rows
-  bool damped = false;      // or gyroscopic, or with forces that follow
+  bool damped = false;      // or gyroscopic, or with follower forces
   bool frozen = false;      // the state moves, and its coefficients are those of one instant
   Eigen::Vector3d frame_rate = Eigen::Vector3d::Zero();  // Linearisation's
 };
@@ -43,7 +43,7 @@ struct Spectrum {
 // The lowest `count` modes by dense matrices: the cost is m^3, all modes are found. Throws model::NotSolvable.
 Spectrum dense_modes(const Linearisation& linearisation, int count);
 
-// Completes lambda, x and kind. `growth` is taken for round-off below a part of |lambda| and of `fastest` [1/s].
+// Completes lambda, x and kind. `growth` counts as round-off below a fraction of |lambda| and of `fastest` [1/s].
 Mode made_mode(std::complex<double> lambda, Eigen::VectorXcd x, bool zero, double fastest);
 
 }  // namespace trammel::simulate

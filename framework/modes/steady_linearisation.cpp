@@ -10,11 +10,11 @@
 namespace trammel::simulate {
 namespace {
 
-// Coefficients may differ by this much of the rate of the motion [1/s], or its square, and by so many times the noise
-// of K.
+// Coefficients count as constant if they differ by at most this fraction of the rate of the motion [1/s], or of its
+// square, and by so many times the noise of K.
 constexpr double constant = 1e-7, noisy = 100;
 
-// Of rows against what stands in their null space.
+// Rows against a vector in their null space.
 constexpr double free_of_rows = 1e-7;
 
 double largest(const Mat& x) {

@@ -18,7 +18,8 @@ using Eigen::Vector3d;
 
 constexpr int most_iterations = 30;
 constexpr double settled = 1e-13;  // [m, rad] of coordinates of order 1
-// [1/s^2] of M in the iteration matrix: what nothing holds and nothing pushes, as the angle of a rotor, keeps its place.
+// [1/s^2] of M in the iteration matrix: what nothing holds and nothing pushes, as the angle of a rotor, keeps its
+// place.
 constexpr double damping = 1e-6;
 constexpr double far = 0.5;  // of velocities: another motion than the one that was meant
 // Forces that are left over, against those there are: of a state that is written with a few digits less than doubles

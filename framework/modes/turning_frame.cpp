@@ -13,7 +13,7 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr int most_coordinates = 200;  // of a body: the cost of asking it grows with their third power
+constexpr int most_coordinates = 200;  // of a body: the cost grows with their cube
 
 Quaterniond orientation(const double* q) {
   return Quaterniond(q[0], q[1], q[2], q[3]);
@@ -171,8 +171,8 @@ std::vector<Vector3d> body_rates(const model::Model& model, const State& at) {
   const bool planar = model.world.space == Space::planar;
   for_each_part(model, [&](std::size_t b, bool rotation, int q0, int v0, int nv) {
     if (rotation) add(orientation(at.q.data() + q0) * Vector3d(at.v.segment<3>(v0)));
-    // In the plane a turn is a coordinate like others: that which has angular momentum about the body's own centre. A
-    // rigid body's is its third.
+    // In the plane a turn is a flat coordinate: the one with angular momentum about the body's own centre, the third of
+    // a rigid body.
     if (planar && model.bodies[b].momentum && nv == 3) add({0, 0, at.v(v0 + 2)});
   });
   return all;

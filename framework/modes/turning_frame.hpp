@@ -1,7 +1,7 @@
-// How a system's numbers change while what they describe stands still in a frame that turns at a constant rate Omega.
+// Coordinates of a configuration that is fixed in a frame which turns at a constant rate Omega.
 //
 // Some coordinates are places in the world's axes, some are turns in a body's own axes, some are neither (angles of
-// hinges, amplitudes of modes). An increment x of the configuration that stands still in the frame has
+// hinges, amplitudes of modes). An increment x of the configuration that is fixed in the frame has
 //
 //     x' = B x          places: Omega x x;   turns in body axes: (R^T Omega - omega) x x;   others: 0
 //
@@ -21,8 +21,8 @@ namespace trammel::simulate {
 
 // x' of a body's flat coordinates for 1 rad/s about each of the world's axes; empty: they do not turn.
 using FlatTurning = std::vector<std::array<Mat, 3>>;
-// By the bodies' momentum, which tells how they move when the world turns. Bodies that do not tell it are taken for
-// coordinates that do not turn. Exact for coordinates that are places.
+// Derived from the bodies' momentum, which gives their velocities in a rotation of the world. Bodies without this
+// ability are treated as coordinates that do not turn. Exact for coordinates that are places.
 FlatTurning flat_turning(model::AssembledSystem& system, double t, const Vec& q);
 
 class TurningFrame {
@@ -32,7 +32,7 @@ class TurningFrame {
 
   Mat carried(const Mat& x) const;  // B x
   Mat turned(const Mat& x) const;   // E x
-  // What stands still in the frame, and the steady motion itself, tau [s] later.
+  // A vector fixed in the frame, and the steady motion itself, tau [s] later.
   Mat after(double tau, const Mat& x) const;
   State after(double tau) const;  // t, q, v
 

@@ -12,8 +12,8 @@ class RunFailed : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Because a component answered with numbers that are not finite. Simulation tells whose fault it is: the plugin's, or that of
-// a law of time in the scene, such as sqrt(1-t).
+// Because a component answered with numbers that are not finite. Simulation tells whose fault it is: the plugin's, or
+// that of a law of time in the scene, such as sqrt(1-t).
 class NotFinite : public RunFailed {
  public:
   NotFinite(const std::string& when, const model::CallSite& where) : RunFailed(when), site_(where) {}

@@ -1,5 +1,6 @@
-// The keys that the program itself reads of "integrator", "step", "simulate", "initial", "record" and "static": declared once, for
-// their reading (settings.cpp), `trammel describe simulate` and the schema. Their defaults are those of Settings.
+// The keys that the program itself reads of "integrator", "step", "simulate", "initial", "record" and "static":
+// declared once, for their reading (settings.cpp), `trammel describe simulate` and the schema. Their defaults are those
+// of Settings.
 #pragma once
 
 #include <vector>

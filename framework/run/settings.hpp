@@ -1,4 +1,4 @@
-// What a scene says about the run itself: steps, times, records, corrections.
+// A scene's settings of the run itself: steps, times, records, corrections.
 //
 //     "integrator": {..., "step": 1e-4, "contact_step": {"tolerance": 1e-9}}     contact_step: while a contact is closed
 //     "simulate":   {"start": 0, "until": 2, "contact_hold": 0, "chatter_steps": 3, "event_limit": 1000000}
@@ -35,7 +35,7 @@ struct Settings {
   double contact_hold = 0;          // [s] contact_step goes on so long after an event: the flights within a bounce
   double chatter_steps = 3;         // a rebound that lasts fewer fixed steps sticks; 0: never
   long long event_limit = 1000000;  // in a thousandth of the run
-  // What is done with the state that the bodies' parameters give: nothing, if it satisfies the joints; moved onto them; moved
+  // Treatment of the state that the bodies' parameters give: checked against the joints, projected onto them, or moved
   // to rest (equilibrium.hpp).
   enum class Initial { check, project, equilibrium };
   Initial initial = Initial::check;
@@ -46,12 +46,13 @@ struct Settings {
   bool arc_length = false;       // the path may turn back in t
 };
 
-// What the scene says of its integrator. Without a word: dop853 with errors below 1e-9, unless another fits (integrator_choice.hpp).
+// The scene's integrator. Without one: dop853 with errors below 1e-9, unless another fits better
+// (integrator_choice.hpp).
 const scene::Value& integrator_entry(const scene::Value& root);
 
 // A scene in motion, or equilibria one after another under loads that follow t (load_path.hpp).
 enum class Purpose { motion, statics };
-// What a scene that says nothing else is for: statics if it has "static" and no "integrator".
+// The default purpose of a scene: statics if it has "static" and no "integrator".
 Purpose purpose_of(const scene::Value& root);
 
 // Reads all but the integrator's own parameters and the observables; every problem goes to `problems`.

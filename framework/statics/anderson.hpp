@@ -1,9 +1,10 @@
-// Anderson acceleration: a solution of s(x) = 0, where s is the step that some approximate Newton's method would take at x.
+// Anderson acceleration: a solution of s(x) = 0, where s is the step that some approximate Newton's method would take
+// at x.
 //
 //     x <- x + s - (dX + dS) gamma,    gamma: the least |s - dS gamma|,    dX, dS: the last changes of x and s
 //
-// On linear equations it is GMRES preconditioned by what makes s of the residual (Walker, Ni 2011): as many steps as that is wrong in
-// directions, wherever they are, be it wrong by more than what there is.
+// On linear equations it is GMRES, preconditioned by the map from the residual to s (Walker, Ni 2011): it needs as many
+// steps as there are directions in which this map is wrong, by whatever amount.
 #pragma once
 
 #include <trammel/types.hpp>
@@ -12,7 +13,7 @@ namespace trammel::numerics {
 
 class Anderson {
  public:
-  // The change of x that follows the step `s`, found where the last changes have led.
+  // The change of x for the step `s` at the current x.
   Vec next(const Vec& s);
 
  private:

@@ -50,7 +50,7 @@ void LoadPath::advance() {
   steps_.push_back(now_);
 }
 
-// The bodies' parameters need not say an equilibrium: under weight, or over a spring.
+// The bodies' parameters need not be an equilibrium, for instance under weight or on a spring.
 void LoadPath::begin() {
   system_.move_to(settings_.start, start_, zero_);
   contacts_.close_what_may_push();
@@ -63,7 +63,7 @@ void LoadPath::begin() {
   keep(std::move(first));
 }
 
-// From where motion with friction in time would end.
+// Starts where a motion with friction would end.
 bool LoadPath::solve_from_rest(Point& first) {
   State rest = state_;
   rest.t = settings_.start, rest.q = start_;
@@ -141,7 +141,7 @@ void LoadPath::by_arc() {
   }
 }
 
-// A failed trial leaves no trace in what is large.
+// A failed trial leaves no trace in the large vectors.
 LoadPath::Failure LoadPath::solve(Point& trial, const Arc* arc) {
   const double load = load_, extent = extent_;
   const Failure failure = balance_with_contacts(trial, arc);
@@ -206,8 +206,8 @@ bool LoadPath::unbalance(const Point& at) {
   return now_.unbalanced <= settings_.load_tolerance && g <= std::max(1e-14, settled * extent_);
 }
 
-// One Newton step from where the system is, with r_ and stresses carried on from `from` by the last increment dq, which
-// becomes the new one.
+// One Newton step at the system's point with r_; stresses are extrapolated from `from` by the last increment dq, which
+// is replaced by the new one.
 bool LoadPath::correct(Point& at, const Arc* arc, const Vec& from, Vec& dq) {
   system_.factorise_with_stress({from, dq}, at.lambda);
   Vec dlambda, q;

@@ -5,21 +5,23 @@
 // Whatever in the scene depends on t is scaled by it: "pressure": "=1e5*t", a law of a joint, a table. Contacts push as
 // resting_contacts.hpp says, without friction.
 //
-// A load step starts where the polynomial through the last equilibria leads and goes on by Newton's method,
-// K dq + G^T dlambda = -r, G dq = -g, with stresses carried on linearly in bodies that can (CarriedStress). It has converged
-// when |r| <= tolerance * load and g is round-off, or when dq is; the load is the largest |f| at the start configuration, or
-// |G^T lambda|, so far. A step that fails is halved, again and again; the parts grow back while they are easy.
+// The polynomial through the last equilibria predicts a load step; Newton's method corrects it, K dq + G^T dlambda =
+// -r, G dq = -g, with stresses extrapolated linearly in bodies that offer it (CarriedStress). It has converged when |r|
+// <= tolerance * load and g is round-off, or when dq is; the load is the largest |f| at the start configuration, or
+// |G^T lambda|, so far. A step that fails is halved repeatedly; the parts grow again while they converge easily.
 //
-// What is softest may be lost in the round-off of what is stiffest: a strip 10^4 times as long as wide bends 10^16 times as
-// easily along it as across, and K has no digits for that. Forces have. So where all else fails and a motion without resistance
-// is found, each of Newton's increments is sought with differences of r along it, by Anderson's acceleration of steps with the
-// factors of K + shift M, which are good for all but the softest motions. The parts of a load step are halved as before. It has
-// converged when dq is small, or round-off that shrinks no further; what is then left of r is recorded, and a warning.
+// Soft motions may be lost in the round-off of stiff ones: a strip 10^4 times as long as wide is 10^16 times as soft in
+// bending along it as across, beyond the digits of K. Forces keep these digits. So where all else fails and a motion
+// without resistance is found, each of Newton's increments is computed with differences of r along it, by Anderson
+// acceleration of steps with the factors of K + shift M, which are accurate except for the softest motions. The parts
+// of a load step are halved as before. It has converged when dq is small, or round-off that shrinks no further; the
+// remaining r is recorded, and a warning is given.
 //
-// Past a limit point the load must fall. With arc length t is an unknown, and a step goes the length ds along the path's
+// Past a limit point the load must fall. With arc length t is an unknown, and a step goes the length ds along the
+// path's
 // tangent n (Riks 1979, normal plane):   n_q . (q - q_last) / nv + s^2 n_t (t - t_last) = ds, s^2 = |dq/dt|^2 / nv at the start.
-// The lengths are the load step's own at the start; near limit points they become shorter. Each is recorded, until t has
-// passed the end, where one load step leads back.
+// The length is that of the load step at the start and shrinks near limit points. Each step is recorded, until t has
+// passed the end; one load step then returns to it.
 #pragma once
 
 #include <deque>
@@ -35,7 +37,7 @@
 
 namespace trammel::simulate {
 
-// What one recorded equilibrium took.
+// The cost of one recorded equilibrium.
 struct LoadStep {
   double t = 0;
   int iterations = 0;     // of Newton's method, those of failed attempts included

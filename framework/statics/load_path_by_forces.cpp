@@ -1,4 +1,4 @@
-// Equilibria by what forces tell where the stiffness matrix has lost its softest motions; see load_path.hpp.
+// Equilibria from forces alone where the stiffness matrix has lost its softest motions; see load_path.hpp.
 #include <algorithm>
 #include <limits>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr double shift = 1e-14;
 // Of the largest displacement: increments that are small enough, and those that may be the round-off of forces.
 constexpr double small = 1e-10, nearly_small = 1e-6;
-constexpr double inexact = 1e-5;  // of an increment; Newton's method mends the rest
+constexpr double inexact = 1e-5;  // of an increment; Newton's next step corrects the rest
 // As many as there are motions softer than the shift, and some.
 constexpr int most_steps = 60;
 
@@ -26,7 +26,7 @@ double largest(const Vec& x) {
 
 }  // namespace
 
-// From now on they are the way to all equilibria, if that may lead further.
+// From now on all equilibria are computed this way, if it may succeed.
 bool LoadPath::turn_to_forces(const Point& from) {
   if (by_forces_ || !find_mechanism(system_, from.t, from.q)) return false;
   return by_forces_ = true;
@@ -59,7 +59,8 @@ LoadPath::Failure LoadPath::balance_by_forces(Point& trial) {
   return Failure::too_many_iterations;
 }
 
-// Newton's increment, r + (dr/dx) x = 0 and g + (dg/dx) x = 0 for x = (dq, dlambda), with differences of r and g along x.
+// Newton's increment, r + (dr/dx) x = 0 and g + (dg/dx) x = 0 for x = (dq, dlambda), with differences of r and g along
+// x.
 LoadPath::Failure LoadPath::correct_by_forces(const Point& at, Vec& dq, Vec& dlambda) {
   const Eigen::Index nv = zero_.size(), nc = at.lambda.size();
   const Vec r = r_, g = system_.g();

@@ -63,7 +63,7 @@ std::uint64_t checksum(const std::vector<std::uint8_t>& data) {
 constexpr std::uintmax_t largest = 1u << 30;  // [bytes]
 constexpr int nested = 8;                     // more than any component needs
 
-// Looks at every value of a CBOR text without keeping one; false: too deep, or no CBOR.
+// Parses every value of a CBOR text without storing it; false: too deep, or no CBOR.
 class Shallow : public nlohmann::json_sax<json> {
  public:
   bool null() override { return true; }
@@ -97,7 +97,7 @@ std::optional<json> decoded(const Bytes& bytes) {
   }
 }
 
-// Not every number is one of the type that is asked for, and JSON would cut it off in silence.
+// A number may not fit the requested type, and the JSON library would truncate it silently.
 template <class T>
 T number_in(const json& value) {
   if (!value.is_number_integer()) throw std::range_error("a whole number was expected");

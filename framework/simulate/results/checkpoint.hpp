@@ -1,5 +1,5 @@
-// A checkpoint: everything that decides how a run goes on, bit for bit, in one CBOR file that is renamed into place. One that was
-// damaged, or made by somebody, is refused: whoever reads it checks all types, ranges and lengths.
+// A checkpoint: everything that decides how a run continues, bit for bit, in one CBOR file that is renamed into place.
+// A damaged or forged one is refused: reading checks all types, ranges and lengths.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +32,8 @@ class JsonArchive final : public Archive {
 
   // An object of its own, for a component whose names might repeat ours.
   JsonArchive nested(std::string_view name);
-  // Vectors whose names end in _q, _v, _a or _lambda (a number may follow) have the system's lengths nq, nv, nv and nc, or none
-  // yet; those that also begin with now_ are never empty. Throws std::length_error.
+  // Vectors whose names end in _q, _v, _a or _lambda (a number may follow) have the system's lengths nq, nv, nv and nc,
+  // or none yet; those that also begin with now_ are never empty. Throws std::length_error.
   void require_lengths(const Sizes& sizes) const;
   bool reading() const { return direction_ == Direction::read; }
 
@@ -44,10 +44,10 @@ class JsonArchive final : public Archive {
   Direction direction_;
 };
 
-// Of everything in the scene but simulate.until: a run may be resumed with a later end.
+// Of everything in the scene except simulate.until: a run may be resumed with a later end.
 std::uint64_t resume_hash(const scene::Value& root);
 
-// The file that was there stays as checkpoint.previous.cbor beside it.
+// The previous file stays as checkpoint.previous.cbor beside it.
 void write_checkpoint(const std::filesystem::path& file, std::uint64_t scene_hash, const nlohmann::json& data);
 // Throws SceneError if the file is missing, damaged, or of another scene.
 nlohmann::json read_checkpoint(const std::filesystem::path& file, std::uint64_t scene_hash);

@@ -1,4 +1,4 @@
-// What happened to a contact, as events.csv tells it.
+// An event of a contact, as written to events.csv.
 #pragma once
 
 #include <trammel/types.hpp>

@@ -1,4 +1,4 @@
-// A line of fields.ndjson: what the bodies show at a moment.
+// A line of fields.ndjson: the fields of all bodies at one time.
 //
 //     {"t": 0.18, "bodies": {"plate": {"fields": ["von_mises_top", ...], "patches": [
 //         {"along": 5, "points": [[x, y, z], ...], "values": [[of the first field at each point], ...]}, ...]}}}

@@ -1,5 +1,5 @@
-// The result.json of a process that can build nothing any more: its memory is used up, it crashed, or a step does not return. Made
-// ready when the run starts; without figures, but with status and reason.
+// The result.json of a process that can no longer allocate: its memory is exhausted, it crashed, or a step does not
+// return. Prepared when the run starts; it has status and reason and no figures.
 #pragma once
 
 #include <filesystem>

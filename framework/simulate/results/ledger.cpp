@@ -102,8 +102,8 @@ void Ledger::integrate_by_dense_output(const State& now, const State& next) {
   }
 }
 
-// Fills middle_. Of lambda the mean of the ends, which is of second order and knows no swing within a step, serves only where it has
-// no power.
+// Fills middle_. The mean of lambda at the ends, of second order and without oscillations within the step, is used only
+// where lambda has no power.
 void Ledger::evaluate_inside(const State& now, const State& next, double theta) {
   const double power = size(now_) + size(end_);
   double work_of_reactions = std::abs(now_.constraints) + std::abs(end_.constraints);
@@ -122,7 +122,8 @@ void Ledger::evaluate_inside(const State& now, const State& next, double theta) 
   middle_.constraints += off_rows(lambda_, theta);
 }
 
-// The power of contacts' rows where the interpolation leaves them between two states that are on them; the motion does not.
+// The power of contacts' rows that the interpolated motion violates between two states on them; the true motion does
+// not.
 double Ledger::off_rows(const Vec& lambda, double theta) {
   const auto n = lambda.size() - system_.held_rows();
   if (n == 0) return 0;

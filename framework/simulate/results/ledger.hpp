@@ -1,15 +1,17 @@
-// Where the energy goes.
+// The energy balance of a run, by cause.
 //
 //     E_start + supplied + refinements = E + dissipated
 //     dissipated = impacts + contact damping + friction + dampers + numerical
 //
-// Impacts are exact (impact.hpp). Powers of drives, moving rows, dampers and compliant contacts are integrated along accepted
-// steps: by Simpson's rule with the state in the middle (between_states.hpp); where that would be less accurate than the integrator,
-// of an order above four with dense output of its own, by Lobatto's rule through five points of that; in steps that swing by the
-// integrator's own quadrature. Nothing is evaluated there while all powers are 0 but for round-off and nothing slides with friction:
-// from a reversal of a slip to the opening of its contact friction has no power at both ends. `numerical` is what remains: the
-// error of the integrator, of that rule, and of corrections. A row that is switched on while its contact moves
-// (`rebound: constrained`) does work too; it counts as supplied by constraints.
+// Impacts are exact (impact.hpp). Powers of drives, moving rows, dampers and compliant contacts are integrated along
+// accepted steps:
+//   - by Simpson's rule with the state in the middle (between_states.hpp);
+//   - by Lobatto's rule with five points for integrators of order above four with dense output;
+//   - by the integrator's own quadrature in steps longer than the oscillations in them.
+// Inside a step nothing is evaluated while all powers are round-off and nothing slides with friction (friction may have
+// no power at both ends of a step, such as from a reversal of the slip to the opening of the contact). `numerical` is
+// the remainder: the errors of the integrator, of the quadrature and of corrections. A row that is switched on while
+// its contact moves (`rebound: constrained`) does work too; it counts as supplied by constraints.
 #pragma once
 
 #include <vector>

@@ -30,7 +30,7 @@ int open_file(const std::filesystem::path& path, int how) {
   return file;
 }
 
-// Returns how much was written; less than all of it: errno tells why.
+// Returns the number of bytes written; if it is less than asked for, errno has the reason.
 std::size_t write_to(int file, std::string_view text) noexcept {
   std::size_t done = 0;
   while (done < text.size()) {
@@ -119,7 +119,7 @@ bool LogFile::flush() {
   }
   problem_ = problem_of("write to", path_, errno ? errno : EIO);
   std::size_t lines = whole_lines(std::string_view(buffer_).substr(0, written));
-  // The part of a line that stands there goes; if even that fails, it stays and is not written twice.
+  // Removes the part of a line that was written; if even that fails, it stays and is not written twice.
   if (::ftruncate(file_.number(), written_.bytes + static_cast<long long>(lines)) != 0) lines = written;
   written_ = extended(written_, std::string_view(buffer_).substr(0, lines));
   buffer_.erase(0, lines);

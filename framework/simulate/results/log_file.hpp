@@ -1,8 +1,9 @@
-// Files of the results folder: append-only logs that survive a kill, and files that are renamed into place when complete. No
-// symbolic link is followed: whoever can write into a folder does not decide which other files of the user are overwritten.
+// Files of the results folder: append-only logs that survive a kill, and files that are renamed into place when
+// complete. No symbolic link is followed: whoever can write into a folder does not decide which other files of the user
+// are overwritten.
 //
-// A disk that fills up costs the lines that are not yet written, never a half line nor what stands already: a log gives back
-// the line it could not finish, keeps what is left in memory, and may be tried again. A Reserve holds room for the end.
+// A full disk costs only lines that are not yet written, never half a line or lines already written: a log removes the
+// line that it could not finish, keeps the rest in memory, and may be tried again. A Reserve keeps room for the end.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +34,7 @@ class Descriptor {
   int number_;
 };
 
-// A log as far as it went when something was written about it.
+// The length of a log, and a checksum of it, at the time of a checkpoint.
 struct LogPart {
   long long bytes = 0;
   std::uint64_t checksum = scene::FnvHash().value();
@@ -41,14 +42,14 @@ struct LogPart {
 
 class LogFile {
  public:
-  // Starts a new file, or goes on after `keep` of it.
+  // Starts a new file, or continues after its part `keep`.
   explicit LogFile(const std::filesystem::path& path);
   LogFile(const std::filesystem::path& path, const LogPart& keep);
   ~LogFile();
 
   void append(std::string_view text);        // whole lines
   std::string& buffer() { return buffer_; }  // to format into; then `appended`
-  // Writes a full buffer. Throws nothing, so that a record is complete in memory at least; `problem` tells.
+  // Writes a full buffer. Throws nothing, so that a record is at least complete in memory; see `problem`.
   void appended();
   bool flush();  // false: `problem` tells, and what could not be written is kept for another try
   const std::string& problem() const { return problem_; }  // of the last try to write; empty: none
@@ -56,7 +57,7 @@ class LogFile {
   long long unwritten_lines() const;
   LogPart part() const;  // all of it, written or not
   bool sync();           // `flush`, and then what is written survives a loss of power, too
-  // What is left goes out as far as the last whole line. Calls nothing that a signal handler must not.
+  // Writes the buffer up to the last whole line. Safe in a signal handler.
   void rescue() const noexcept;
 
  private:
@@ -66,8 +67,8 @@ class LogFile {
   LogPart written_;
 };
 
-// Room on the disk, taken when a run starts and given back when the disk is full, so that the last lines, the checkpoint and
-// the result still find some. It has no name in the folder and vanishes with the process.
+// Room on the disk, taken when a run starts and given back when the disk is full, so that the last lines, the
+// checkpoint and the result still find some. It has no name in the folder and vanishes with the process.
 class Reserve {
  public:
   // Throws OutputError if there is less room; a file system that cannot promise room gives none and is no error.
@@ -80,8 +81,8 @@ class Reserve {
 // Why a log does not begin with this part any more, as after a loss of power; empty: it does.
 std::string damage_of(const std::filesystem::path& path, const LogPart& part);
 
-// Writes a temporary file beside `path` and renames it: readers see the old content or the new, nothing between, also after a loss
-// of power. With `before` the old content stays under that name.
+// Writes a temporary file beside `path` and renames it: readers see the old content or the new, nothing between, also
+// after a loss of power. With `before` the old content stays under that name.
 void write_whole(const std::filesystem::path& path, std::string_view content, const std::filesystem::path& before = {});
 
 }  // namespace trammel::simulate

@@ -1,4 +1,4 @@
-// What "record": {"observe": {"name": "what"}} may name, evaluated at a moment of the run.
+// The quantities that "record": {"observe": {"name": "what"}} may name, evaluated at a time of the run.
 //
 //     BODY.OBSERVABLE                 a body's own scalars: "beam.angle"
 //     BODY.MARKER.x y z vx vy vz ax ay az angle omega alpha      in world axes; angle, omega, alpha in planar scenes
@@ -6,8 +6,8 @@
 //     joints.NAME.reaction            2-norm of the joint's multipliers
 //     energy.kinetic potential elastic total                     [J]
 //
-// or {"of": "block.com.x", "relative_to": "table.origin", "since_start": true}: a marker's motion as seen from another one
-// (relative_motion.hpp), with "since_start" less its value at the start.
+// or {"of": "block.com.x", "relative_to": "table.origin", "since_start": true}: a marker's motion as seen from another
+// one (relative_motion.hpp), with "since_start" less its value at the start.
 #pragma once
 
 #include <functional>
@@ -21,8 +21,8 @@
 
 namespace trammel::simulate {
 
-// The system moved to one state of the solution; accelerations and multipliers are solved for when first asked for, from the
-// equations of motion, whatever the integrator keeps.
+// The system moved to one state of the solution; accelerations and multipliers are solved for when first asked for,
+// from the equations of motion, whatever the integrator keeps.
 class Moment {
  public:
   Moment(model::AssembledSystem& system, const State& state) : system_(system), state_(state) {
@@ -52,7 +52,7 @@ struct Column {
 // The columns "record" asks for, in scene order; unknown names are reported with the nearest.
 std::vector<Column> read_observables(const scene::Value& root, const model::Model& model, scene::Problems& problems);
 
-// Tells the columns the state that the run starts from, also when it resumes.
+// Passes the state that the run starts from to the columns, also when it resumes.
 void begin_columns(std::vector<Column>& columns, model::AssembledSystem& system, const State& start);
 
 }  // namespace trammel::simulate

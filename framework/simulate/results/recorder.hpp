@@ -29,8 +29,8 @@ class Recorder {
     LogPart series, events, animation, fields;
     long long field_times = 0;  // done with
   };
-  // A new folder's logs, or those of an interrupted run shortened to `keep`. The first row at or after each of `field_times`, which
-  // ascend, goes to fields.ndjson, too.
+  // A new folder's logs, or those of an interrupted run shortened to `keep`. The first row at or after each of
+  // `field_times`, which ascend, goes to fields.ndjson, too.
   Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns,
            std::optional<Lengths> keep, std::vector<double> field_times = {}, Books books = Books::kept);
 

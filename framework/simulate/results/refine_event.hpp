@@ -1,4 +1,4 @@
-// What a refinement changed, as events.csv tells it.
+// The changes by a refinement, as written to events.csv.
 #pragma once
 
 #include <optional>

@@ -23,8 +23,8 @@ struct MotionComponent {
   int component;  // as in a twist: linear, then angular
 };
 
-// The names that may follow a marker's: x y z vx vy vz ax ay az; of one with an orientation in the plane angle omega alpha too, in
-// space omega_x ... alpha_z.
+// The names that may follow a marker's: x y z vx vy vz ax ay az; of one with an orientation in the plane angle omega
+// alpha too, in space omega_x ... alpha_z.
 std::vector<std::pair<std::string, MotionComponent>> motion_components(Space space, bool orientation);
 std::vector<std::pair<std::string, MotionComponent>> motion_components(const model::Model& model,
                                                                        model::MarkerRef marker);

@@ -1,8 +1,9 @@
 // The folder of one command's results.
 //
-// While a command lives, the folder is locked: a second one is refused, or both would write one set of files. Nobody is led away
-// by a symbolic link. A new run removes what an older run of the same command left there, and nothing else: the default folder
-// is named by the scene, and to run it again is the common way of work. Another command's results are refused.
+// While a command runs, the folder is locked: a second one is refused, because both would write the same files.
+// Symbolic links are not followed. A new run removes the results of an older run of the same command and nothing else,
+// because the default folder is named after the scene and scenes are run repeatedly. Another command's results are
+// refused.
 #pragma once
 
 #include <filesystem>
@@ -28,7 +29,7 @@ class ResultsFolder {
  public:
   // Makes the folder if it is missing, and locks it until the end. Throws FolderRefused.
   ResultsFolder(const std::filesystem::path& folder, Analysis analysis);
-  // Folders that were made for nothing go: an invalid scene leaves none.
+  // Removes the folders that were made: an invalid scene leaves none.
   ~ResultsFolder();
   ResultsFolder(const ResultsFolder&) = delete;
   ResultsFolder& operator=(const ResultsFolder&) = delete;

@@ -1,4 +1,4 @@
-// The columns that series.csv has beside the observed ones.
+// The columns of series.csv other than the observed ones.
 //
 //     t, the observed, energies of the state, the books of the analysis, norms of the constraints
 #pragma once
@@ -12,7 +12,7 @@ namespace trammel::simulate {
 
 constexpr std::array<std::string_view, 4> energy_columns = {"energy_kinetic", "energy_potential", "energy_elastic",
                                                             "energy_total"};
-// Of a motion alone: E_start + supplied - dissipated is the energy due by now (ledger.hpp).
+// Only for motions: E_start + supplied - dissipated is the energy expected at t (ledger.hpp).
 constexpr std::array<std::string_view, 2> book_columns = {"energy_supplied", "energy_dissipated"};
 constexpr std::array<std::string_view, 3> norm_columns = {"constraint_position", "constraint_velocity",
                                                           "constraint_acceleration"};

@@ -40,7 +40,7 @@ plugin::PluginError blame(const Setup& setup, const model::CallSite& site, doubl
   return step ? error.in_step(*step) : error;
 }
 
-// Which component did it is not known: asking after each call would cost as much as the cheapest of them.
+// The component is not known: a check after each call would cost as much as the cheapest calls.
 void require_arithmetic(plugin::ProcessSettings& settings, const Setup& setup, double t, long long step) {
   const std::string fault = plugin::arithmetic_fault();
   if (fault.empty()) return;

@@ -19,8 +19,8 @@ namespace trammel::simulate {
 // Without a step outside a run.
 plugin::PluginError blame(const Setup& setup, const model::CallSite& site, double t, std::optional<long long> step);
 
-// Lets what the framework itself throws pass, errors of the scene and of plugins with a name among it; blames all else. For calls
-// into a model that is no run yet.
+// Lets the framework's own exceptions pass, among them named errors of scenes and plugins; blames all others.
+// For calls into a model that is no run yet.
 template <class Call>
 void blaming(const Setup& setup, const model::AssembledSystem& system, const scene::Value& root, double t, Call call) {
   try {
@@ -30,11 +30,13 @@ void blaming(const Setup& setup, const model::AssembledSystem& system, const sce
   }
 }
 
-// Inside a catch block of OutsideDomain: what it said, at the component that was being called. `said` alone: "forces.s: its ...".
+// Inside a catch block of OutsideDomain: its message, charged to the component that was being called. `said` alone:
+// "forces.s: its ...".
 std::string said(const OutsideDomain& outside, const model::CallSite& site);
 scene::Problem problem_of(const OutsideDomain& outside, const model::CallSite& site, const scene::Value& root,
                           double t);
-// Wrong numbers otherwise: throws PluginError if a component has left the arithmetic of the process changed, and puts it back.
+// Throws PluginError if a component has changed the arithmetic settings of the process, and restores them: otherwise
+// numbers would be wrong.
 void require_arithmetic(plugin::ProcessSettings& settings, const Setup& setup, double t, long long step);
 
 }  // namespace trammel::simulate

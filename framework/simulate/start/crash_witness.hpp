@@ -1,5 +1,6 @@
-// Who to name when the process crashes inside a plugin or does not come back from it, and what then becomes of the records: a signal
-// handler can build nothing and ask nobody, so all it may need stands ready here while plugins are called. The component being called is the breadcrumb that the assembled system leaves.
+// Which component to name when the process crashes or hangs inside a plugin, and how records are saved then. A signal
+// handler cannot allocate or call into the program, so everything that it may need is prepared here while plugins are
+// called. The component being called is the breadcrumb that the assembled system leaves.
 #pragma once
 
 #include <atomic>
@@ -37,7 +38,7 @@ class CrashWitness {
     bool certain = true;  // false: the integrator's step, or the framework on its behalf
   };
   Culprit culprit() const noexcept;
-  // Records still in memory go out, and a result that says how the run ended.
+  // Writes the records still in memory, and a result that states how the run ended.
   void rescue(const char* status, std::string_view reason) const noexcept;
 
  private:

@@ -49,7 +49,7 @@ class StaticEquilibrium {
         unbalanced = look(state_.q);
         continue;
       }
-      // What the linearised equations promise of the unbalanced acceleration along itself, and what the step really gives.
+      // The unbalanced acceleration along itself as predicted by the linearised equations, and after the step.
       const double noise = 1e-12 * scale_, with_forces = found ? a_.dot(mass_times(dq_)) : -1;
       const double promised = unbalanced > noise ? with_forces / (unbalanced * tau * tau) : 0;
       const double next = found ? look(q_next) : 0;
@@ -84,7 +84,7 @@ class StaticEquilibrium {
                : std::string("nothing can move");
   }
 
-  // q' of the equilibrium as time goes on; see the header. `state.q` is settled. A text: what direction has no rate.
+  // q' of the equilibrium; see the header. `state.q` is settled. A text: which direction has no rate.
   std::optional<std::string> follow() {
     look(state_.q);
     contacts_.carry_along();
@@ -112,7 +112,8 @@ class StaticEquilibrium {
       if (change <= settled * speed) return {};
       if (i == 0) before = change;
       if ((i + 1) % slow != 0) continue;
-      // Round-off; or what soft springs hold, which less damping finds. What nothing holds goes ever faster.
+      // Round-off; or a motion against soft springs, which less damping finds. Without stiffness it accelerates without
+      // end.
       if (change <= inexact * speed) return {};
       if (!(change < before)) return undetermined(dv);
       before = change, tau *= 10;
@@ -150,7 +151,7 @@ class StaticEquilibrium {
     return fmt::format("bodies.{} in {}", most->name, text);
   }
 
-  // By what it does to the body's first marker.
+  // Measured by the displacement of the body's first marker.
   std::string coordinate(const model::BodyEntry& body, Eigen::Index k) {
     const std::string number = fmt::format("its coordinate {} of {}", k + 1, body.nv);
     if (body.body->markers().empty()) return number;
@@ -180,7 +181,7 @@ class StaticEquilibrium {
     return unbalanced;
   }
 
-  // dq_ and where it leads, from where the system is.
+  // dq_ and the resulting state, from the system's point.
   bool step(double tau, Vec& q_next) {
     residual_ = -system_.f();
     system_.add_reaction(1, lambda_, residual_);
@@ -192,7 +193,7 @@ class StaticEquilibrium {
     return true;
   }
 
-  // The least change of q that satisfies the rows: what a turn leaves there would pass for a step against the forces.
+  // The least change of q that satisfies the rows: violations left by a turn would count as a step against the forces.
   void onto_rows(Vec& q) {
     const Vec no_force = Vec::Zero(system_.sizes().nc);
     Vec dq, mu, moved;
@@ -207,7 +208,7 @@ class StaticEquilibrium {
     }
   }
 
-  // f - G^T lambda with the other sign, at another time and place.
+  // The residual G^T lambda - f at another time and place.
   void unbalance(double t, const Vec& dq, const Vec& lambda, Vec& r) {
     Vec q;
     system_.retract(state_.q, dq, q);

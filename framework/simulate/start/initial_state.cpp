@@ -68,8 +68,8 @@ std::vector<int> penetrated(model::AssembledSystem& system, const State& s) {
   return all;
 }
 
-// Moves the state to the nearest one in which those touch that penetrated; joints hold. Others that penetrate then join them, so
-// it ends. False: none was found.
+// Moves the state to the nearest one in which the penetrating contacts touch and the joints hold. Contacts that
+// penetrate then are added, so this ends. False: none was found.
 bool project_out_of_contacts(model::AssembledSystem& system, State& s) {
   const model::Modes before = system.modes();
   model::Modes touching = before;
@@ -119,7 +119,7 @@ scene::Problem contradiction(model::AssembledSystem& system, const State& start,
   return problem_at(paths, root, fmt::format("{}{} contradict each other{}", none, names(conflict), remark(conflict)));
 }
 
-// Rows that hold as they are, and still ask for accelerations that no motion has.
+// Rows that are satisfied and still require accelerations that no motion has.
 void check_motion(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
   Vec a, lambda, missed;
   system.move_to(s.t, s.q, s.v);

@@ -12,10 +12,10 @@
 
 namespace trammel::simulate {
 
-// t, q and v of the start. Rows violated by more than 1e-8 (m, rad; m/s, rad/s) are an error that tells by how much and what
-// the nearest consistent state would change; with `project` that state is taken, with `equilibrium` one at rest near it. So it
-// is with a contact that penetrates: the nearest state in which it touches is offered, or taken. There elastic coordinates weigh
-// by what they store too,  min dq^T (M + K (1 s)^2) dq.
+// t, q and v of the start. Rows violated by more than 1e-8 (m, rad; m/s, rad/s) are an error that states the violation
+// and the change to the nearest consistent state; `project` takes that state, `equilibrium` one at rest near it. The
+// same applies to a contact that penetrates: the nearest state in which it touches is offered, or taken. There the
+// metric includes the elastic energy,  min dq^T (M + K (1 s)^2) dq.
 State initial_state(model::AssembledSystem& system, double t, Settings::Initial wanted, const scene::Value& root,
                     scene::Problems& problems);
 

@@ -7,16 +7,16 @@
 //     the same, tolerance 1e-5                      of more than 100 coordinates: waves through elements are always in motion, on a steel
 //                                                   plate of 326 under a ball with 1e-5 m, and at 1e-7 they would be followed
 //
-// Decided from the model at its start (fastest_motion.hpp) against the time that the run spans, so the same scene has the same. A
-// resumed run, whose end may have moved, keeps what it had.
+// Decided from the model at its start (fastest_motion.hpp) and the duration of the run, so the same scene always has
+// the same integrator. A resumed run, whose end may have moved, keeps its integrator.
 #pragma once
 
 #include "simulate/start/setup.hpp"
 
 namespace trammel::simulate {
 
-// Replaces the first of these, which `setup` has, where another fits, or where setup.chosen was another `before` (empty: never), and
-// says in setup.choice what was chosen and why.
+// Replaces the first of these, which `setup` has, if another one fits better, or if a resumed run had another, `before`
+// (empty: not resumed); setup.choice states the choice and its reason.
 void choose_integrator(Setup& setup, model::AssembledSystem& system, const std::string& before,
                        plugin::Registry& registry, scene::Problems& problems);
 

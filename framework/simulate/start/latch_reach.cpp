@@ -24,7 +24,7 @@ class Approach {
     open_.contacts.resize(system.model().contacts.size());
   }
 
-  // Where the gap gets to from q, which is near the rows.
+  // The gap that is reached from q, which is near the rows.
   End from(Vec q) {
     constexpr int most_steps = 200;
     constexpr double enough = 1e-5;       // of the first gap
@@ -77,8 +77,8 @@ class Approach {
     return false;
   }
 
-  // closing_: the change of least norm that keeps the rows and takes 1 off the gap. Returns the sine of the angle between the gap's
-  // gradient and the rows.
+  // closing_: the change of least norm that keeps the rows and reduces the gap by 1. Returns the sine of the angle
+  // between the gap's gradient and the rows.
   double closing_direction(const Vec& q) {
     model::Modes held = open_;
     held.contacts[std::size_t(contact_)].closed = true;
@@ -124,7 +124,7 @@ bool rows_depend_on_time(model::AssembledSystem& system, const State& start, dou
   return false;
 }
 
-// [m, rad] Empty: it can, or nobody knows.
+// [m, rad] Empty: it can lock, or this is not known.
 std::optional<double> nearest_if_never(model::AssembledSystem& system, const State& start, int contact) {
   double nearest = std::numeric_limits<double>::infinity();
   for (int attempt = 0; attempt < 4; ++attempt) {

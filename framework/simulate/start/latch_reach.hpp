@@ -1,13 +1,14 @@
-// Latches that can never lock, by kinematics: from the start, the gap is made smaller along the rows,
+// Latches that can never lock, by kinematics. From the start, the gap is reduced along the rows,
 //
 //     [1 G^T] [dq]     [0]
-//     [G  0 ] [mu] = - [b]       b = 0 in all rows but the latch's, which asks for a smaller gap;   then back onto the rows
+//     [G  0 ] [mu] = - [b]       b = 0 except in the latch's row, which requires a smaller gap;   then back onto the rows
 //
-// until it is 0, or stationary: no motion that the rows allow changes it. Stationary from the start and from states around it,
-// each time above 0, it is an error that tells the smallest gap found. Forces and other contacts are not asked.
+// until it is 0 or stationary, which means that no motion that the rows allow changes it. If it is stationary above 0
+// from the start and from states around it, this is an error that names the smallest gap found. Forces and other
+// contacts are ignored.
 //
-// Nothing is decided, and nothing said, where rows depend on time, for more than `most_rows` of them, and where the search does not
-// end: the run then simply never locks.
+// There is no verdict and no message if rows depend on time, if there are more than `most_rows` of them, or if the
+// search does not converge: the run then simply never locks.
 #pragma once
 
 #include <trammel/integrator.hpp>

@@ -49,7 +49,7 @@ void check(const Value& component, const plugin::Entry& entry, double begin, dou
   }
 }
 
-// A table ends where its records do. What follows is for the scene to say: a record of 30 s in a run of 40 s may be a
+// A table ends with its records. The scene must state the continuation: a record of 30 s in a run of 40 s may be a
 // mistake.
 void check_span(const Value& table, double begin, double end, Problems& problems) {
   Problems ignored;  // reported when the component was made
@@ -75,7 +75,7 @@ bool is_table(const Value& value) {
   return file && file->type() == Value::Type::text && !value.find("type");
 }
 
-// However deep they stand: in parts of a component, or in a list.
+// At any depth: in parts of a component, or in a list.
 void check_tables(const Value& value, double begin, double end, Problems& problems) {
   if (is_table(value)) return check_span(value, begin, end, problems);
   if (value.type() == Value::Type::object)

@@ -1,5 +1,5 @@
-// Laws of time must say what they are throughout the run, and those whose derivatives enter the equations of motion
-// must have them: the length of a rod, the place of a base.
+// Laws of time must be defined throughout the run, and those whose derivatives enter the equations of motion must be
+// differentiable: the length of a rod, the place of a base.
 #pragma once
 
 #include "plugin/parameters.hpp"

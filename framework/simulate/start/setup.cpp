@@ -23,7 +23,7 @@ namespace {
 using scene::Problems;
 using scene::Value;
 
-// Names of integrators that can do it, of those that can be found.
+// Names of the installed integrators that accept rows.
 template <class Can>
 std::string integrators_that(plugin::Registry& registry, Can can) {
   std::string names;
@@ -36,7 +36,7 @@ std::string integrators_that(plugin::Registry& registry, Can can) {
   return names.empty() ? "none found" : names;
 }
 
-// What of a model has rows, or makes some during the run; empty: nothing.
+// The component of a model that has rows or makes some during the run; empty: none.
 std::string source_of_rows(const model::Model& model) {
   if (const std::vector<model::RowGroup> groups = model::row_groups(model); !groups.empty())
     return fmt::format("{} has {}", groups.front().path, groups.front().count == 1 ? "a row" : "rows");
@@ -142,7 +142,8 @@ void read_corrections(const Value& root, plugin::Registry& registry, Setup& setu
   }
 }
 
-// The start must be inside of every component's domain. What else goes wrong there the run tells, with its time and results.
+// The start must be inside every component's domain. Other failures there are reported by the run, with time and
+// results.
 void check_domain(model::AssembledSystem& system, const State& start) {
   try {
     system.move_to(start.t, start.q, start.v);
@@ -153,7 +154,7 @@ void check_domain(model::AssembledSystem& system, const State& start) {
   }
 }
 
-// Reaches out for a state to start from: the first calls of bodies, joints, forces and contacts.
+// Finds the state to start from: the first calls of bodies, joints, forces and contacts.
 void find_start(Setup& setup, model::AssembledSystem& system, const Value& root, Problems& problems) {
   State start;
   start.t = setup.settings.start;

@@ -1,4 +1,5 @@
-// A scene made ready to run: model, integrator, corrections, settings and columns, with every problem of the scene reported.
+// A scene made ready to run: model, integrator, corrections, settings and columns, with every problem of the scene
+// reported.
 #pragma once
 
 #include <memory>
@@ -40,8 +41,8 @@ struct Setup {
 };
 
 // Throws SceneError, PluginError. Statics needs no integrator, makes none and no corrections.
-// The witness, if any, is told of the model while it is asked for its first state. `chosen_before` is the Setup::chosen of the run that
-// is resumed.
+// The witness, if any, is told of the model while it is asked for its first state. `chosen_before` is the Setup::chosen
+// of the run that is resumed.
 Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purpose = Purpose::motion,
              CrashWitness* witness = nullptr, const std::string& chosen_before = "");
 

@@ -57,7 +57,7 @@ void OpenJoints::measure(model::AssembledSystem& system, double otherwise, doubl
       if (marker.body >= 0) size = std::max(size, extent[std::size_t(marker.body)]);
     joints_.push_back({{"joints." + joint.name, joint.row, joint.rows}, joint.markers, size});
   }
-  // A point that was computed in two ways has no length, but the round-off of its place. Where all there is stands in one point
+  // A point that is computed in two ways has no length, only the round-off of its place. If everything is in one point,
   // nothing has a length; then 1 m.
   for (Joint& joint : joints_)
     if (!(joint.size > round_off)) joint.size = otherwise > round_off ? otherwise : 1;
@@ -72,7 +72,7 @@ std::string OpenJoints::description(model::AssembledSystem& system, const State&
   std::vector<Open> open;
   const Vec& g = system.g();
   for (const Joint& joint : joints_) {
-    // Most are far from it. A row says at least half of what it is off by.
+    // Most are far from it. A row's g is at least half of its violation.
     const double said = g.segment(joint.rows.first, joint.rows.count).lpNorm<Eigen::Infinity>();
     if (!(said > 0.5 * apart * std::min(1.0, joint.size))) continue;
     Open worst{&joint.rows.path, 0, {}};

@@ -1,9 +1,9 @@
-// Joints that have come apart: rows that are off by more than a tenth of what they hold together.
+// Joints that have come apart: rows violated by more than a tenth of the size of what they connect.
 //
-// A method that does not end its steps on the rows leaves them off by its error, and drifts if nothing stabilises them; that is for its
-// user to judge, who sees the norms. But where a rod is a tenth too long, or a hinge open by a tenth of its bodies' length, what runs
-// is not the mechanism of the scene. Lengths are compared with the larger of the joint's bodies, as far as their markers reach, or
-// with the distance of the joint's markers if that is more; angles with 1 rad.
+// A method that does not end its steps on the rows violates them by its error, and drifts without stabilisation; the
+// user judges that by the norms. But if a rod is a tenth too long, or a hinge open by a tenth of its bodies' length,
+// the run no longer simulates the mechanism of the scene. Lengths are compared with the larger of the joint's bodies
+// (the extent of its markers), or with the distance of the joint's markers if that is more; angles with 1 rad.
 #pragma once
 
 #include <string>
@@ -17,8 +17,8 @@ namespace trammel::simulate {
 
 class OpenJoints {
  public:
-  // At the system's point, where the rows hold; once, and again where the model was laid out anew. `otherwise` [m] is the size of
-  // bodies without extent in joints without a length, which is one of no more than `round_off` [m].
+  // At the system's point, where the rows hold; once, and again after each new layout. `otherwise` [m] is the size of
+  // bodies without extent in joints without a length, that is, of at most `round_off` [m].
   void measure(model::AssembledSystem& system, double otherwise, double round_off);
   // "joints.crank by 0.25 m, joints.axis by 0.3 rad", the worst few; empty: none. At the state, where the system is.
   std::string description(model::AssembledSystem& system, const State& state) const;

@@ -1,5 +1,5 @@
-// Whether bodies stay within their theory (TheoryLimit), looked at in each accepted state: a warning where its error
-// passes 1 %, an end where no body could have that shape.
+// Checks in each accepted state whether bodies stay within their theory (TheoryLimit): warns if its error exceeds 1 %,
+// and ends the run if no body could have that shape.
 #pragma once
 
 #include <string>

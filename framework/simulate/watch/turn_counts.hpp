@@ -1,4 +1,4 @@
-// Forces and joints that count turns in space (CountsTurns), told the states that became the solution.
+// Passes accepted states to forces and joints that count turns in space (CountsTurns).
 #pragma once
 
 #include <string>
@@ -14,7 +14,8 @@ namespace trammel::simulate {
 class TurnCounts {
  public:
   explicit TurnCounts(model::AssembledSystem& system);
-  // Moves the system there if any component asks for it. Throws RunFailed in the name of one that can follow no further.
+  // Moves the system to the state if any component counts turns. Throws RunFailed, naming the component that cannot
+  // follow.
   void follow(double t, const Vec& q, const Vec& v);
   void archive(JsonArchive& a);
 
