@@ -2,8 +2,8 @@
 #include <cmath>
 #include <ctime>
 
-#include "run_scene.hpp"
-#include "scenes.hpp"
+#include "support/run_scene.hpp"
+#include "support/scenes.hpp"
 #include "simulate/start/setup.hpp"
 #include "support/run_scene.hpp"
 #include "support/scenes.hpp"
