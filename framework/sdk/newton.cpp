@@ -6,7 +6,7 @@ namespace trammel {
 
 namespace {
 
-// An increment of this relative size, larger than the one before, which was larger too, will not come to an end soon.
+// If the increments have grown twice and are larger than this, the iteration diverges.
 constexpr double hopeless = 0.1;
 
 }  // namespace
@@ -23,7 +23,7 @@ void Newton::start() {
 void Newton::judge(double change, bool at_round_off) {
   if (!std::isfinite(change)) return fail("Newton's iteration left the finite numbers");
   ++iterations_;
-  // The first increment has no rate: it must be within the tolerance itself.
+  // The first increment has no rate; it must itself be within the tolerance.
   const bool first = iterations_ == 1;
   const double rate_before = rate_;
   rate_ = first ? 1 : change / last_change_;

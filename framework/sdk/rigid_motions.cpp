@@ -1,5 +1,5 @@
-// A body's momentum is p = R^T M v with its velocities R as part of one rigid body, so R = M^-1 (dp/dv)^T: body by body, and exact
-// for bodies whose coordinates hold those motions.
+// A body's momentum is p = R^T M v, where R are its velocities in the rigid motions. Hence R = M^-1 (dp/dv)^T for each
+// body, which is exact if the body's coordinates can represent these motions.
 #include <trammel/rigid_motions.hpp>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace trammel {
 namespace {
 
-// Column j: what M makes of the j-th velocity of all bodies at once.
+// Column j: M times the vector whose j-th velocity of every body is 1.
 Mat columns_of_mass(model::AssembledSystem& system) {
   int most = 0;
   for (const model::BodyEntry& body : system.model().bodies) most = std::max(most, body.nv);
