@@ -10,7 +10,7 @@ namespace trammel::model {
 namespace {
 
 constexpr double round_off = 1e-12;  // of the forces
-constexpr double carried = 1e-9;     // of their resultants: what is missed where the last forces are about to be lost
+constexpr double carried = 1e-9;     // of their resultants: their error when admissible forces cease to exist
 
 }  // namespace
 
@@ -94,7 +94,7 @@ double ContactLoads::scale(const Group& group) const {
   return largest;
 }
 
-// The least distance of a contact's force from pulling and from the side of its cone.
+// The smaller distance of a contact's force from tension and from the side of its friction cone.
 double ContactLoads::slack(const Group& group) const {
   const Vec forces = group.shared();
   double least = std::numeric_limits<double>::infinity();
@@ -109,7 +109,7 @@ double ContactLoads::slack(const Group& group) const {
   return least;
 }
 
-// The contacts as complementarity/shares/admissible_forces.hpp knows them.
+// The contacts in the form of complementarity/shares/admissible_forces.hpp.
 std::vector<complementarity::SharingContact> ContactLoads::sharing(const Group& group) const {
   std::vector<complementarity::SharingContact> contacts;
   for (const Member& m : group.members) {
@@ -125,7 +125,7 @@ std::vector<complementarity::SharingContact> ContactLoads::sharing(const Group& 
 
 void ContactLoads::share_admissibly(Group& group) {
   if (slack(group) >= -round_off * scale(group)) return;
-  // Where none have the resultants, springs' forces stay, until the event that follows from it.
+  // If no admissible forces have these resultants, the spring forces remain until the event that follows.
   Vec shared;
   const double missed = complementarity::admissible_forces(sharing(group), group.E, group.resultants, shared);
   if (missed <= carried * group.resultants.norm()) group.forces(group.directions) = shared;

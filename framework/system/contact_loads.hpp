@@ -1,10 +1,12 @@
-// Forces of closed contacts from the multipliers: where the rows of each are in g, and how those that depend on each other share.
+// Forces of closed contacts from the multipliers: the positions of their rows in g, and how dependent contacts share
+// forces.
 //
 //     F = -lambda of its row;   of shared rows F = share (-lambda of the basis)
 //
-// Where that pulls or leaves a friction cone, dependent contacts carry the same resultants by other forces
-// (complementarity/shares/admissible_forces.hpp), as long as there are some. Those that slide do not: their friction, and with it the motion,
-// follows from their share as springs. Nor do those that are idle. The others share what these leave of the resultants.
+// If this gives tension or leaves a friction cone, dependent contacts carry the same resultants by other, admissible
+// forces (complementarity/shares/admissible_forces.hpp), if there are any. Exceptions are sliding contacts, whose
+// friction and motion follow from their share as springs, and idle ones. The other contacts share the remaining
+// resultants.
 #pragma once
 
 #include <array>
@@ -19,11 +21,11 @@ namespace trammel::model {
 
 class ContactLoads {
  public:
-  // Of one direction of a contact.
+  // The position of one direction of a contact.
   struct Place {
     int row = -1;    // in g
     int group = -1;  // in Modes::shared
-    int index = -1;  // in (basis, implied) of it
+    int index = -1;  // in (basis, implied) of the group
   };
   void lay_out(const Modes& modes);
   void set_row(ContactDirection d, int row) { places_[std::size_t(d.contact)][std::size_t(d.row)].row = row; }
@@ -32,20 +34,20 @@ class ContactLoads {
     return place(d).group >= 0 && place(d).index >= basis_size(place(d).group);
   }
 
-  // Along a direction, as equal springs share [N].
+  // The force along a direction if contacts share like equal springs [N].
   double spring(ContactDirection d, const Vec& lambda) const;
-  // d(spring)/d(resultant of each of the basis), and their rows.
+  // The derivatives of `spring` by the resultants of the basis, and the rows of the basis.
   auto shares(const Place& place) const { return modes_->shared[std::size_t(place.group)].share.row(place.index); }
   int row_of_basis(int group, int k) const {
     return place(modes_->shared[std::size_t(group)].basis[std::size_t(k)]).row;
   }
 
-  // What decides whether forces are admissible: of a contact at the current point.
+  // Data of a contact at the current point that determine whether forces are admissible.
   struct Bounds {
     double coefficient = 0;  // of static friction
-    double given = 0;        // [N] normal force, where no row holds it
+    double given = 0;        // [N] normal force if it is not a multiplier
   };
-  // Resultants of a group, and its forces as springs share them; `bounds(contact)` gives the Bounds.
+  // Computes the resultants of a group and its spring forces; `bounds(contact)` gives the Bounds.
   template <class BoundsOf>
   void prepare(int group, const Vec& lambda, BoundsOf&& bounds) {
     begin(group, lambda);
@@ -58,24 +60,24 @@ class ContactLoads {
     share_admissibly(groups_[std::size_t(group)]);
   }
   double load(const Place& place) const { return groups_[std::size_t(place.group)].forces[place.index]; }
-  // It slides, or it is idle.
+  // True if it slides or is idle.
   bool shares_as_spring(int contact, int group) const;
-  // [N] how much further each of the others could be unloaded, after `prepare`: complementarity/shares/spare_load.hpp.
+  // [N] by how much each other contact can be unloaded, after `prepare`: complementarity/shares/spare_load.hpp.
   double spare_load(int group) const;
-  bool sliding_shares() const;      // some decide the motion
-  void form_resultants(int group);  // once its K has changed
+  bool sliding_shares() const;      // true if shares of sliding contacts affect the motion
+  void form_resultants(int group);  // to be called after a change of its K
   double largest_load(int group) const { return scale(groups_[std::size_t(group)]); }
 
  private:
   struct Member {
     int contact = 0;
-    std::array<Eigen::Index, 3> columns = {-1, -1, -1};  // in Group::directions, of its directions
+    std::array<Eigen::Index, 3> columns = {-1, -1, -1};  // of its directions in Group::directions
     Bounds bounds;
   };
   struct Group {
-    std::vector<Member> members;           // those that do not share as springs
-    std::vector<Eigen::Index> directions;  // theirs, in (basis, implied)
-    Mat E;                                 // their resultants, as many as are independent, by their forces
+    std::vector<Member> members;           // contacts that do not share as springs
+    std::vector<Eigen::Index> directions;  // of the members, in (basis, implied)
+    Mat E;                                 // maps the members' forces to their independent resultants
     Vec forces;                            // of all [N]
     Vec resultants;                        // of the members [N]
     Vec shared() const { return forces(directions); }

@@ -101,7 +101,7 @@ void MarkerChain::keep_linear(int index) {
   m = motion_at_zero(index);
   kept_[std::size_t(index)].x_0 = m.x;
   slot.begin = int(entries_.size());
-  for (Eigen::Index i = 0; i < m.x.size(); ++i)  // axes do not turn
+  for (Eigen::Index i = 0; i < m.x.size(); ++i)  // the axes do not turn
     for (Eigen::Index j = 0; j < m.J.cols(); ++j)
       if (m.J(i, j) != 0) entries_.push_back({int(i), m.dofs[std::size_t(j)], m.J(i, j)});
   slot.end = int(entries_.size());
@@ -119,7 +119,7 @@ const Motion& MarkerChain::motion(int index, double t, const Vec& q, const Vec& 
   return motion;
 }
 
-// What others ask for, too, is kept for them.
+// Motions that several users share are stored.
 const Motion& MarkerChain::motion_in_passing(int index, std::size_t k, double t, const Vec& q, const Vec& v) {
   const Slot& slot = slots_[std::size_t(index)];
   if (slot.shared < 0 || slot.uses > 1) return motion(index, t, q, v);
