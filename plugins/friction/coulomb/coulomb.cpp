@@ -4,8 +4,8 @@
 //
 // method: events           stick and slide change at located events; between them stick is a row, slide a force
 //         lcp_every_step   as published by Zhang and Wang: contacts slower than `stick_speed` form a complementarity
-//                          problem that is solved in each evaluation; they start to slide at the ends of steps, and only
-//                          the stop of a sliding contact is located. For fixed steps of an explicit method with
+//                          problem that is solved in each evaluation; they start to slide at the ends of steps, and
+//                          only the stop of a sliding contact is located. For fixed steps of an explicit method with
 //                          Baumgarte's terms.
 #include <sstream>
 
