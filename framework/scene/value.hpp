@@ -109,7 +109,7 @@ class Value {
   Position position_;
   std::string path_;
   std::shared_ptr<const Parameters> parameters_;  // of the whole scene
-  std::vector<int> by_name_;  // indices of the members sorted by name, of a large finished object
+  std::vector<int> by_name_;                      // indices of the members sorted by name, of a large finished object
 };
 
 struct Override {

@@ -139,7 +139,7 @@ struct AssembledSystem::Work {
   bool sparse = false;  // M and S
   MarkerChain chain;
   std::vector<Slots> joint_slots, force_slots, contact_slots;
-  std::vector<std::size_t> joint_order;  // sorted by their first bodies, for cache locality
+  std::vector<std::size_t> joint_order;      // sorted by their first bodies, for cache locality
   std::vector<std::size_t> constant_joints;  // not in joint_order: their rows are linear in the coordinates
   std::vector<std::size_t> constrained;      // bodies with their own rows
   Modes modes;
