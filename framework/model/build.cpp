@@ -92,7 +92,7 @@ class Builder {
     }
   }
 
-  // Part of paths, "beam.tip.y", like the names of bodies.
+  // A part of paths such as "beam.tip.y", like the names of bodies.
   void check_marker_names(const Body& body, const Value& value) {
     const Value* given = value.find("markers");
     for (const std::string& marker : body.markers())

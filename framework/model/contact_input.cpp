@@ -76,7 +76,7 @@ class ContactInput {
     return true;
   }
 
-  // {"surface": "plate"}: of a body that has one; -1: reported.
+  // {"surface": "plate"}: index of a body with a surface; -1: a problem was reported.
   int surface_body(const Value& value) {
     check_keys(value, {"surface"}, problems_);
     const auto name = value.find("surface")->read_text(problems_);
@@ -189,7 +189,7 @@ class ContactInput {
                         "as continuous_force"));
   }
 
-  // "reaches": a joint of one row, "between": its markers.
+  // "reaches": a joint with one row; "between": its markers.
   bool read_limit(const Value& value, ContactEntry& entry) {
     const Value& reaches = *value.find("reaches");
     auto [joint, origin] = plugin::make<Constraint>(registry_, Kind::joint, reaches, model_.world, problems_);
@@ -254,7 +254,7 @@ class ContactInput {
                 "against "
                 "a sphere [\"BODY.MARKER\", \"SPHERE.CENTRE\"] with \"reaches\": {\"type\": \"distance\", \"length\": "
                 "radius}"));
-    // Points that the surface chooses stand for unequal areas; a law that does not weigh them by area cannot use them.
+    // Points that the surface chooses represent unequal areas; only a law with the area as weight can use them.
     constexpr double no_sphere = std::numeric_limits<double>::infinity();
     if (on_surface && entry.surface->against != SurfaceSide::Against::sphere &&
         std::isinf(points_law->spacing(no_sphere)) && points_law->weight(1) == points_law->weight(2))

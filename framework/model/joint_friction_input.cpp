@@ -10,7 +10,7 @@ namespace {
 using scene::Problems;
 using scene::Value;
 
-// Whether the joint can rub as the scene asks; what it lacks is reported.
+// True if the joint supports the friction of the scene; otherwise reports what it lacks.
 bool can_rub(const BearingJoint* bearing, const ContactEntry& entry, const World& world, const Value& joint,
              const Value& friction, Problems& problems) {
   if (!bearing) {

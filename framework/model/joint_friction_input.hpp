@@ -7,7 +7,7 @@
 
 namespace trammel::model {
 
-// Of the joint that was added last, which `joint` describes.
+// Adds the friction of the joint that was added last; `joint` is its object in the scene.
 void add_joint_friction(const scene::Value& joint, const scene::Value& friction, Model& model,
                         plugin::Registry& registry, scene::Problems& problems);
 

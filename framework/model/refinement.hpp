@@ -1,5 +1,5 @@
-// Bodies replace their coordinates during a run (a mesh that refines): each is asked, the model is laid out anew, and the
-// bodies' transfers are joined to one of the whole system.
+// Refinement: bodies replace their coordinates during a run. The model gets a new layout, and the bodies' transfers are
+// combined to one of the whole system.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace trammel::model {
 
-// The system's transfer: each body's own on its segments, the others' passed through.
+// The system's transfer: the transfer of each refined body on its segments, the identity for the others.
 class JoinedTransfer final : public Transfer {
  public:
   struct Segment {
@@ -27,9 +27,9 @@ class JoinedTransfer final : public Transfer {
   std::vector<Part> parts_;
 };
 
-// Asks the bodies of `asked` (indices) to refine, each for its cause, with q and v of the whole system. Null: none did and
-// nothing changed. Else the model has its new layout, `refined` names the bodies that did, and every AssembledSystem of the model
-// must be told (lay_out).
+// Calls `refine` of the bodies in `asked` (indices), each with its cause; q and v belong to the whole system. Null: no
+// body refined and nothing changed. Otherwise the model has a new layout, `refined` lists the refined bodies, and
+// lay_out() must be called for every AssembledSystem of the model.
 std::unique_ptr<JoinedTransfer> refine(Model& model, double t, const Vec& q, const Vec& v,
                                        const std::vector<int>& asked, const std::vector<RefineCause>& causes,
                                        std::vector<int>& refined);

@@ -49,7 +49,7 @@ std::vector<std::string> marker_names(const Model& model) {
 
 std::optional<MarkerRef> find_marker(const Model& model, std::string_view name) {
   if (name == "ground") return MarkerRef{};
-  const auto dot = name.find('.');  // bodies' names have none
+  const auto dot = name.find('.');  // names of bodies have no dot
   if (dot == name.npos) return {};
   const auto body = model.body_named.find(name.substr(0, dot));
   if (body == model.body_named.end()) return {};

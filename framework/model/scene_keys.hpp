@@ -1,4 +1,4 @@
-// Reading a scene's objects and marker names into a Model: what is shared by bodies, joints, forces, contacts and observables.
+// Reads objects and marker names of a scene; shared by bodies, joints, forces, contacts and observables.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace trammel::model {
 
-// Reports every member of `object` that is not in `keys`, with the nearest that is. False: not an object (reported).
+// Reports every member of `object` that is not in `keys`, with the nearest valid key. False: not an object (reported).
 bool check_keys(const scene::Value& object, const std::vector<std::string>& keys, scene::Problems& problems);
 
 // A vector of the scene's dimension.
@@ -20,7 +20,7 @@ std::optional<Vec3> read_vector(const scene::Value& value, Space space, scene::P
 // Every marker of the model: "ground", "beam.root", "beam.tip".
 std::vector<std::string> marker_names(const Model& model);
 std::optional<MarkerRef> find_marker(const Model& model, std::string_view name);
-// Its axes turn with a body or stand on the ground: it is no point in natural coordinates.
+// True if the marker has axes: it is on the ground or on a body, but not a point in natural coordinates.
 bool has_orientation(const Model& model, MarkerRef marker);
 
 // A marker's name, or a fixed frame {"point": [x, y], "angle": a}, which is added to the model.

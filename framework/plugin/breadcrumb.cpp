@@ -3,7 +3,7 @@
 namespace trammel::plugin {
 
 namespace {
-// A handler of signals has no other way to learn what goes on.
+// A global variable, because a signal handler has no other access.
 thread_local PresentCall present;
 }  // namespace
 

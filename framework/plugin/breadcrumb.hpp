@@ -1,4 +1,4 @@
-// Which plugin is being called: for who must name it when the process ends there, by a crash or by exit().
+// The plugin call in progress, so that its name can be reported if the process ends there, by a crash or by exit().
 #pragma once
 
 #include "plugin/plugin_error.hpp"
@@ -6,12 +6,12 @@
 namespace trammel::plugin {
 
 struct PresentCall {
-  const Origin* origin = nullptr;  // null: none is known
+  const Origin* origin = nullptr;  // null: no call in progress
   const char* call = "";
 };
 PresentCall present_call() noexcept;
 
-// Says that a call goes on, while it lives; the one around it goes on afterwards.
+// Marks a call in progress during its lifetime; its destructor restores the enclosing call.
 class Breadcrumb {
  public:
   Breadcrumb(const Origin& origin, const char* call) noexcept;

@@ -84,7 +84,7 @@ std::string text_of(const Named<T>& named) {
   return "{" + text + "}";
 }
 
-// A text broken at blanks into lines of at most 96 characters.
+// Breaks a text at blanks into lines of at most 96 characters.
 std::string wrapped(std::string_view text, const std::string& indent) {
   std::string lines, line;
   while (!text.empty()) {
@@ -122,7 +122,7 @@ std::string describe(const Parameter& parameter, const ParameterValue& fallback,
   return line;
 }
 
-// What the framework reads beside its parameters, but for "type".
+// The keys that the framework reads beside the component's parameters, except "type".
 std::string describe_keys(Kind kind) {
   const auto keys = framework_keys(kind).subspan(1);
   if (keys.empty()) return "";
@@ -133,7 +133,7 @@ std::string describe_keys(Kind kind) {
   return page;
 }
 
-// The JSON object a scene would hold: required parameters, to be filled in.
+// A JSON object as an example for a scene: the required parameters, to be filled in.
 std::string example(const Declaration& declaration) {
   std::string text = fmt::format("{{\"type\": \"{}\"", declaration.name);
   if (declaration.kind == Kind::joint || declaration.kind == Kind::contact) text += ", \"between\": [...]";

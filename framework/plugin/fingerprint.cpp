@@ -30,7 +30,7 @@ std::string_view value_of(const Lines& lines, std::string_view key) {
   return "nothing";
 }
 
-// "0.1" as {0, 1}; {-1, -1} if it is no version.
+// Converts "0.1" to {0, 1}; returns {-1, -1} for anything that is not a version.
 std::pair<int, int> version(std::string_view text) {
   int major = -1, minor = -1;
   const char* end = text.data() + text.size();

@@ -15,11 +15,11 @@ void rethrow_as_plugin_error(const Origin& origin, const char* call, std::option
   try {
     throw;
   } catch (const PluginError&) {
-    throw;  // from a component that this one called through the System
+    throw;  // from another component, called through the System
   } catch (const PassesThroughPlugins&) {
     throw;
   } catch (const OutsideDomain&) {
-    throw;  // the scene's fault
+    throw;  // an error of the scene
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {

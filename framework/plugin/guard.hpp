@@ -1,5 +1,5 @@
-// The guard around calls into plugins: whatever is thrown becomes one PluginError that names library, call and time,
-// and what comes back is checked for size and finiteness. Rounding mode and locale are put back.
+// The guard around calls into plugins: it converts exceptions to a PluginError that names library, call and time, and
+// restores rounding mode and locale. require_* checks the size and finiteness of results.
 //
 //     guard(origin, "force", t, [&] { body.force(t, q, v, f); });
 //     require_finite(origin, "force", t, "f", f);
@@ -16,14 +16,15 @@
 
 namespace trammel::plugin {
 
-// Errors of the framework that may pass through a plugin's frames, such as a singular mass matrix found while an
-// integrator asks for accelerations. They are not the plugin's fault, so the guard lets them pass.
+// Errors of the framework that may pass through a plugin's stack frames, such as a singular mass matrix while an
+// integrator calls `accelerate`. They are not caused by the plugin, and the guard does not convert them.
 class PassesThroughPlugins {
  public:
   virtual ~PassesThroughPlugins();
 };
 
-// Inside a catch block: rethrows what must pass (PluginError, PassesThroughPlugins, a lack of memory), the rest as a PluginError.
+// To be called in a catch block: rethrows PluginError, PassesThroughPlugins and a lack of memory unchanged, any other
+// exception as a PluginError.
 [[noreturn]] void rethrow_as_plugin_error(const Origin& origin, const char* call, std::optional<double> t);
 
 template <class Call>
@@ -49,7 +50,7 @@ inline void require_finite(const Origin& origin, const char* call, double t, con
 template <class Derived>
 void require_finite(const Origin& origin, const char* call, double t, const char* what,
                     const Eigen::DenseBase<Derived>& x) {
-  // x - x is 0 for finite numbers and NaN for all others; a sum of such terms vectorises.
+  // x - x is 0 for finite numbers and NaN otherwise; the compiler vectorises the sum of these terms.
   if (const auto& d = x.derived(); d.size() != 0 && !((d.array() - d.array()).sum() == 0))
     for (Eigen::Index j = 0, entry = 0; j < d.cols(); ++j)
       for (Eigen::Index i = 0; i < d.rows(); ++i, ++entry)

@@ -25,7 +25,7 @@ std::string sdk_of(const std::filesystem::path& library) try {
   if (begin == std::string::npos) return "";
   return section.substr(begin + key.size(), section.find('\n', begin + 1) - begin - key.size());
 } catch (const PluginError&) {
-  return "";  // replaced by something else since it was loaded
+  return "";  // the file was replaced after it was loaded
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Which library was used: what a result must say to be made again.
+// Identity of a library: what a result must record to be reproducible.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace trammel::plugin {
 struct Identity {
   std::string file;
   std::string sdk;         // version of the SDK that it was built against, "2.0"
-  std::uint64_t hash = 0;  // of the whole file (fnv_hash.hpp); 0: it could not be read any more
+  std::uint64_t hash = 0;  // of the whole file (fnv_hash.hpp); 0: no longer readable
 };
 
 Identity identify(const std::filesystem::path& library);

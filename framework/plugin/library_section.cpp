@@ -19,7 +19,7 @@ namespace trammel::plugin {
 
 namespace {
 
-constexpr std::uint64_t longest_section = 1 << 20;  // ours has some hundred bytes
+constexpr std::uint64_t longest_section = 1 << 20;  // our section has a few hundred bytes
 
 #if defined(__x86_64__)
 constexpr Elf64_Half this_machine = EM_X86_64;
@@ -80,7 +80,7 @@ class LibraryFile {
   }
 
  private:
-  // The search paths stand in the dynamic section and its strings. Notes say how a library was built and are not used.
+  // Excluded: search paths, which are in the dynamic section and its strings, and notes, which only describe the build.
   static bool is_checked(const Elf64_Shdr& section) {
     if (!(section.sh_flags & SHF_ALLOC)) return false;
     return section.sh_type != SHT_NOBITS && section.sh_type != SHT_DYNAMIC && section.sh_type != SHT_STRTAB &&
@@ -119,14 +119,14 @@ class LibraryFile {
   void read_sections() {
     if (header_.e_shoff == 0) return;
     std::uint64_t count = header_.e_shnum;
-    if (count == 0) {  // more than fit in 16 bits: the number stands in the first section header
+    if (count == 0) {  // does not fit in 16 bits: the first section header has the number
       const auto first = table<Elf64_Shdr>(header_.e_shoff, 1, header_.e_shentsize, "section headers");
       count = first.front().sh_size;
     }
     sections_ = table<Elf64_Shdr>(header_.e_shoff, count, header_.e_shentsize, "section headers");
   }
 
-  // Written so that no sum of two 64-bit numbers of a hostile file can overflow.
+  // Compared by subtraction, because a sum of two 64-bit numbers of a hostile file may overflow.
   void require_inside(std::uint64_t offset, std::uint64_t size, const char* what) const {
     if (size > size_ || offset > size_ - size)
       refuse(fmt::format("truncated: {} should reach to byte {}, the file has {}", what, offset + size, size_));

@@ -1,4 +1,4 @@
-// What can be learnt from the file of a shared library, without loading it.
+// Reads sections of a shared library's file without loading the library.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,16 @@
 
 namespace trammel::plugin {
 
-// The pre-flight: a 64-bit ELF shared library of this machine, whole: every segment and section lies inside the file.
-// (The loader maps what the headers promise; the missing pages of a truncated file would end the process with SIGBUS.)
-// Returns the section's bytes, nothing if there is no such section. Throws PluginError naming file and cause.
+// The check before loading: the file must be a 64-bit ELF shared library for this machine, with all segments and
+// sections inside the file. (The loader maps what the headers state; missing pages of a truncated file would end the
+// process with SIGBUS.) Returns the section's bytes, or nothing if there is no such section. Throws PluginError with
+// file and cause.
 std::optional<std::string> library_section(const std::filesystem::path& file, const std::string& name);
-// Where it begins in the file [bytes].
+// Offset of the section in the file [bytes].
 std::optional<std::uint64_t> library_section_offset(const std::filesystem::path& file, const std::string& name);
 
-// A checksum of what is loaded: code, constants, initial data, relocations and symbols, without the section `except`. strip changes
-// none of it. Run-time search paths, which an installation writes anew, are no part of it.
+// A checksum of the loaded contents: code, constants, initial data, relocations and symbols, without the section
+// `except`. strip does not change it. Run-time search paths, which an installation rewrites, are not included.
 std::uint64_t library_checksum(const std::filesystem::path& file, const std::string& except);
 
 }  // namespace trammel::plugin

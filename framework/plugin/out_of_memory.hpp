@@ -1,4 +1,5 @@
-// Lack of memory, with the size that was asked for. The program's operator new throws it; Eigen throws std::bad_alloc, which knows none.
+// Lack of memory, with the requested size. The program's operator new throws it; Eigen throws std::bad_alloc without a
+// size.
 #pragma once
 
 #include <cstdio>
@@ -18,7 +19,7 @@ class OutOfMemory final : public std::bad_alloc {
   const char* what() const noexcept override { return text_; }
 
  private:
-  char text_[80];  // nothing is allocated for it
+  char text_[80];  // needs no allocation
 };
 
 inline const char* out_of_memory_message(const std::bad_alloc& error) noexcept {

@@ -17,7 +17,7 @@ namespace {
 using scene::Problems;
 using scene::Value;
 
-// The first dot splits a dotted name into a key and what is inside its object.
+// The first dot splits a dotted name into a key and a name inside its object.
 std::pair<std::string_view, std::string_view> split(std::string_view dotted) {
   const auto dot = dotted.find('.');
   if (dot == dotted.npos) return {dotted, {}};
@@ -30,7 +30,7 @@ const Value* find(const Value& object, std::string_view dotted) {
   return !member || rest.empty() ? member : find(*member, rest);
 }
 
-// Keys that may stand in the object at `prefix` ("" or "modes."), each once.
+// The valid keys of the object at `prefix` ("" or "modes."), each once.
 std::vector<std::string> keys_at(const std::vector<Parameter>& parameters, std::string_view prefix) {
   std::vector<std::string> keys;
   for (const Parameter& parameter : parameters) {
@@ -67,7 +67,7 @@ void check_keys(const Declaration& declaration, const Value& object, const std::
 void set_parameters(Component& component, const Declaration& declaration, const Value& object,
                     std::span<const FrameworkKey> framework_keys, Space space, Problems& problems);
 
-// One parameter's value from the scene: type, range, choices. Nothing if a problem was reported.
+// Reads one parameter's value from the scene and checks type, range and choices. Nothing if a problem was reported.
 class ValueReader {
  public:
   ValueReader(const Parameter& parameter, Space space, Problems& problems)
@@ -144,7 +144,7 @@ class ValueReader {
     return {};
   }
 
-  // One number stands for a list of one.
+  // A single number is read as a list of one.
   std::optional<std::vector<double>> numbers(const Value& value) const {
     if (value.type() == Value::Type::array) return value.read_numbers(problems_);
     const auto number = value.read_number(problems_);
@@ -199,7 +199,7 @@ class ValueReader {
   Problems& problems_;
 };
 
-// A vector's default knows no dimension: zero, or none, becomes zero of the scene's; any other must fit.
+// Gives a vector's default the scene's dimension: an empty or zero default becomes a zero vector; any other must fit.
 void fit_default(Component& component, const Parameter& parameter, const Value& object, Space space,
                  Problems& problems) {
   if (parameter.type != Parameter::Type::vector) return;

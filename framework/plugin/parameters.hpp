@@ -1,5 +1,4 @@
-// From a declaration and an object of the scene to a component: every key known, every value of the right type and
-// range.
+// Makes components from declarations and objects of the scene; checks keys, types and ranges.
 #pragma once
 
 #include <memory>
@@ -14,26 +13,26 @@
 
 namespace trammel::plugin {
 
-// Keys of a component's object that the framework reads itself, "type" first: what is read, and what manual and schema say.
+// Keys of a component's object that the framework reads itself, "type" first; used for reading, manual and schema.
 struct FrameworkKey {
   std::string name, doc;
 };
 std::span<const FrameworkKey> framework_keys(Kind kind);
 
-// Makes the component and sets its parameters from `object`, then lets it look at the world. Problems (unknown keys
-// with the nearest name, types, ranges, missing values, what `prepare` refuses) go to `problems`, all of them at once;
-// then nullptr is returned. Throws PluginError when the component's constructor or `prepare` throws anything else.
+// Makes the component, sets its parameters from `object` and calls `prepare`. Adds all problems (unknown keys with the
+// nearest name, types, ranges, missing values, parameters that `prepare` refuses) to `problems` and then returns
+// nullptr. Throws PluginError if the component's constructor or `prepare` throws anything else.
 std::unique_ptr<Component> make(const Entry& entry, const scene::Value& object,
                                 std::span<const FrameworkKey> framework_keys, const World& world,
                                 scene::Problems& problems);
 
-// What a component refuses, said at the value of the parameter or, where it is missing, at the object it would stand in.
+// Reports a ParameterError at the parameter's value or, if it is missing, at the object that should contain it.
 scene::Problem refused(const scene::Value& object, const ParameterError& e);
 
-// A component of interface T, and where it comes from.
+// A component of interface T and its origin.
 template <class T>
 struct Made {
-  std::unique_ptr<T> component;  // null: reported to `problems`
+  std::unique_ptr<T> component;  // null: a problem was reported
   Origin origin;
 };
 
@@ -43,7 +42,7 @@ struct Made {
 template <class T>
 Made<T> make(Registry& registry, Kind kind, const scene::Value& object, const World& world, scene::Problems& problems);
 
-// Likewise, the type given by `type`, which need not stand in `object` ("corrections": {"position": "minimum_norm"}).
+// The same with an explicit `type`, which `object` need not contain ("corrections": {"position": "minimum_norm"}).
 template <class T>
 Made<T> make(const Entry& entry, const scene::Value& object, const World& world, scene::Problems& problems) {
   Made<T> made{nullptr, entry.origin(object.path())};
@@ -56,7 +55,7 @@ Made<T> make(const Entry& entry, const scene::Value& object, const World& world,
   return made;
 }
 
-// The entry that `object` names by its "type"; nullptr: reported to `problems`.
+// The entry that `object` names by its "type"; nullptr: a problem was reported.
 const Entry* entry_of(Registry& registry, Kind kind, const scene::Value& object, scene::Problems& problems);
 
 template <class T>

@@ -1,4 +1,4 @@
-// A plugin that misbehaves: which library, which component, in which call, when, and why. Exit code 3.
+// An error of a plugin: library, component, call, time and cause. Exit code 3.
 #pragma once
 
 #include <optional>
@@ -7,21 +7,21 @@
 
 namespace trammel::plugin {
 
-// Where a component comes from, for messages.
+// The origin of a component, for messages.
 struct Origin {
   std::string file;       // the shared library
   std::string component;  // kind and name: "body rigid_body"
-  std::string path;       // of the object in the scene: "bodies.rod"
+  std::string path;       // path of its object in the scene: "bodies.rod"
 };
 
 class PluginError : public std::runtime_error {
  public:
-  // The library itself: not found, truncated, of another build, ...
+  // Error of the library: not found, truncated, of another build, ...
   PluginError(std::string file, std::string cause);
-  // A call into one of its components; without t for calls outside the run.
+  // Error in a call into one of its components; without t for calls outside the run.
   PluginError(Origin origin, std::string call, std::string cause, std::optional<double> t = {});
 
-  // The same error with the number of the step it happened in, which only the Simulator knows.
+  // The same error with the number of the step, which the Simulator adds.
   PluginError in_step(long long step) const;
 
   const Origin& origin() const { return origin_; }

@@ -7,13 +7,13 @@
 
 namespace trammel::plugin {
 
-// By what it does, so that every control register of every processor counts. Sums of denormals cost no more than others.
+// Tests the arithmetic itself, not control registers, so that it works on every processor. Sums of denormals are fast.
 const char* arithmetic_fault() noexcept {
-  // Below half of the distance from 1 to its neighbours: to nearest, sum and difference are 1.
+  // Less than half of the distance from 1 to its neighbours: with rounding to nearest, sum and difference are 1.
   const volatile double one = 1, little = 0x1p-55, least = std::numeric_limits<double>::denorm_min();
   const volatile double above = one + little, below = one - little, twice = least + least;
   if (above != 1 || below != 1) return "numbers are no longer rounded to nearest";
-  // As integers: a comparison of denormals that are read as 0 finds them equal to 0.
+  // Compared as integers: if denormals are read as 0, a comparison of numbers finds them equal to 0.
   const double read = twice;
   std::uint64_t bits;
   std::memcpy(&bits, &read, sizeof bits);

@@ -1,5 +1,5 @@
-// What a library may leave changed in the process that it is loaded into: the rounding of floating-point numbers, denormals
-// flushed to 0 (a library linked with -ffast-math does that), the C locale. Results rely on the IEEE rules.
+// Process settings that a library may change: the rounding mode, flushing of denormals to 0 (by a library linked with
+// -ffast-math), the C locale. Results depend on the IEEE rules.
 #pragma once
 
 #include <cfenv>
@@ -7,10 +7,10 @@
 
 namespace trammel::plugin {
 
-// In what floating-point arithmetic differs from the IEEE default; "" if it does not. Some nanoseconds.
+// Describes how floating-point arithmetic differs from the IEEE default; "" if it does not. Takes some nanoseconds.
 const char* arithmetic_fault() noexcept;
 
-// The settings at its making, put back at its end or before.
+// Saves the settings in its constructor and restores them in its destructor or earlier.
 class ProcessSettings {
  public:
   ProcessSettings();

@@ -40,28 +40,28 @@ fs::path installed_folder() {
   return fs::path(boost::dll::this_line_location().parent_path().string()) / "trammel";
 }
 
-// Empty: there is none.
+// Empty if there is none.
 fs::path users_folder() {
   const char *data = std::getenv("XDG_DATA_HOME"), *home = std::getenv("HOME");
   if (data && fs::path(data).is_absolute()) return fs::path(data) / "trammel/plugins";
   return home && fs::path(home).is_absolute() ? fs::path(home) / ".local/share/trammel/plugins" : fs::path();
 }
 
-// Runs the library's own code.
+// Executes the library's code.
 const Declarations& open(const std::string& file) {
   namespace dll = boost::dll;
   const Origin origin{file, "", ""};
-  const Breadcrumb goes_on(origin, "loading it");  // what went well in the rehearsal may still end the process here
+  const Breadcrumb goes_on(origin, "loading it");  // may still end the process here, in spite of the rehearsal
   const ProcessSettings settings;
   dll::shared_library library;
   boost::dll::fs::error_code failed;
   library.load(file, dll::load_mode::rtld_now | dll::load_mode::rtld_local, failed);
   if (failed) {
-    const char* text = ::dlerror();  // Boost.DLL's own text is an unrelated errno
+    const char* text = ::dlerror();  // Boost.DLL's text is an unrelated errno
     if (text && tells_of_no_memory(text)) throw std::bad_alloc();
     throw PluginError(file, text ? text : "cannot be loaded");
   }
-  // From here on it stays: objects, exceptions and texts of it may outlive every handle.
+  // The library is never unloaded: its objects, exceptions and texts may outlive every handle.
   ::dlopen(file.c_str(), RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
   if (!library.has(entry_point))
     throw PluginError(file, fmt::format("it exports no function {}; is it hidden by a linker script?", entry_point));
@@ -86,7 +86,7 @@ const char* article(std::string_view kind) {
   return kind.starts_with('i') ? "an" : "a";
 }
 
-// What the builder's types cannot rule out.
+// Checks errors in declarations that the builder's types cannot exclude.
 void require_sound(const Declaration& declaration, const std::string& file) {
   const auto refuse = [&](const std::string& cause) {
     throw PluginError(file, fmt::format("{} \"{}\": {}", to_string(declaration.kind), declaration.name, cause));
@@ -203,7 +203,7 @@ const Entry* Registry::loaded(Kind kind, std::string_view name) const {
   return nullptr;
 }
 
-// NAME.so of every folder, not of the first alone: two libraries with one name are an error, not a matter of order.
+// NAME.so of every folder, not only of the first: two libraries with the same name are an error.
 void Registry::look_for(std::string_view name) {
   if (!is_name(name) || !names_looked_for_.emplace(name).second) return;
   for (const fs::path& folder : folders_)
@@ -216,7 +216,7 @@ void Registry::load_folders() {
   failures_.clear();
   for (const fs::path& folder : folders_)
     for (const fs::path& file : libraries_in(folder)) try {
-        if (library_section(file, ".trammel")) load(file);  // a folder may hold other libraries too
+        if (library_section(file, ".trammel")) load(file);  // a folder may contain other libraries, too
       } catch (const PluginError& e) {
         failures_.push_back(e);
       }

@@ -1,11 +1,11 @@
-// Which component comes from which shared library.
+// Finds components in shared libraries.
 //
-// Libraries are looked for in the search path: what `search` was given, TRAMMEL_PLUGIN_PATH, the user's own folder
-// ($XDG_DATA_HOME/trammel/plugins, by default ~/.local/share/trammel/plugins) and the installed folder; never in the current one.
-// A library of the search path is loaded at once; a folder is looked into when a name is asked for: the component NAME
-// is expected in NAME.so, and only if it is not there are the folder's other libraries loaded to look for it. So a run
-// loads the libraries its scene names and no others. Loaded libraries stay: objects, exceptions and texts may outlive
-// the Registry.
+// The search path consists of the arguments of `search`, TRAMMEL_PLUGIN_PATH, the user's folder
+// ($XDG_DATA_HOME/trammel/plugins, by default ~/.local/share/trammel/plugins) and the installed folder; never of the
+// current folder. A library in the search path is loaded immediately. A folder is searched when a component is
+// requested: component NAME is expected in NAME.so; the folder's other libraries are loaded only if it is not found
+// there. Thus a run loads only the libraries that its scene names. Libraries are never unloaded, because objects,
+// exceptions and texts may outlive the Registry.
 #pragma once
 
 #include <filesystem>
@@ -23,14 +23,14 @@
 
 namespace trammel::plugin {
 
-// A component and the library it comes from.
+// A component and its library.
 struct Entry {
   const Declaration& declaration;
   std::string file;
   Origin origin(std::string scene_path) const;
 };
 
-// No component has this name. what() names the nearest.
+// No component has this name. what() suggests the nearest name.
 class UnknownComponent : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -44,18 +44,16 @@ class Registry {
 
   // Adds a library or a folder of libraries. Throws PluginError if it is neither, or if the library cannot be used.
   void search(const std::filesystem::path& path);
-  // The scene's own "plugins": ["my_method.so", "../plugins"], relative to the scene file. Their code runs even when a scene is only
-  // checked, so whoever wrote the scene does not decide that: they must lie in a folder that is searched anyway, or the user
-  // has allowed them.
+  // The scene's "plugins": ["my_method.so", "../plugins"], relative to the scene file. Their code is executed even if a
+  // scene is only validated. Therefore they must be in a folder of the search path, or the user must have allowed them.
   void search_scene(const scene::Value& root, scene::Problems& problems);
   void allow_scene_plugins() { scene_plugins_allowed_ = true; }
 
-  // Loads one library: pre-flight of the file, comparison of the fingerprint and of the seal, then its code, in a child process
-  // first. Throws PluginError.
-  // Loading a file again does nothing.
+  // Loads one library: checks the file, compares fingerprint and seal, then executes its code, first in a child
+  // process. Throws PluginError. Loading a file again does nothing.
   void load(const std::filesystem::path& library);
 
-  // Throws UnknownComponent, or PluginError if the library that should hold it cannot be used.
+  // Throws UnknownComponent, or PluginError if the library NAME.so cannot be used.
   const Entry& find(Kind kind, std::string_view name);
   // The same for a name in a scene: reports an unknown one to `problems` and returns nullptr.
   const Entry* find(Kind kind, const scene::Value& name, scene::Problems& problems);

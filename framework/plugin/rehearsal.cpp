@@ -31,10 +31,10 @@ using Clock = std::chrono::steady_clock;
 
 // --- the child ---
 
-// What the child writes: a letter and a text, ended by '\0'.
+// The child writes a letter and a text, terminated by '\0'.
 enum Message : char { stage = 's', sound = '.', refused = 'r', no_memory = 'm' };
 
-// Functions without arguments, called by the run-time library, have no other way to learn it.
+// A global variable, because the run-time library calls these functions without arguments.
 int report_to = -1;
 
 void report(Message message, const char* text) {
@@ -52,7 +52,7 @@ void report(Message message, const char* text) {
   report_and_end(no_memory, "");
 }
 
-// Instead of std::terminate's message and abort.
+// Replaces the message and abort of std::terminate.
 [[noreturn]] void report_exception() {
   try {
     if (std::current_exception()) throw;
@@ -90,7 +90,7 @@ void make_each(const Declarations& declarations) {
              fmt::format("in the constructor of {} \"{}\"", to_string(declaration.kind), declaration.name).c_str());
       declaration.make();
     } catch (...) {
-      // It is caught again, and named, where a scene asks for the component.
+      // The same exception is caught and reported when a scene uses the component.
     }
 }
 
@@ -99,7 +99,8 @@ void prepare_child(int pipe_end) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const rlimit none{0, 0};
   ::setrlimit(RLIMIT_CORE, &none);
-  // Out of reach of a library that writes to low numbers, and inherited by the programs it starts: they show that they still run.
+  // A high descriptor, which a library is unlikely to use. Programs that the library starts inherit it, which shows
+  // that they are still running.
   report_to = ::fcntl(pipe_end, F_DUPFD, 200);
   if (report_to < 0) report_to = ::dup(pipe_end);
   ::close(pipe_end);
@@ -111,8 +112,8 @@ void prepare_child(int pipe_end) {
   std::set_new_handler(report_no_memory);
 }
 
-// Never returns: whatever happens here, the parent reads it from the pipe or from the way the child ended. An exception may
-// come through the loader's frames or end there; noexcept makes both end in report_exception.
+// Never returns: the parent reads the result from the pipe or from the child's exit status. An exception may or may not
+// pass the loader's stack frames; with noexcept both cases end in report_exception.
 [[noreturn]] void child(const char* file, int pipe_end) noexcept {
   prepare_child(pipe_end);
   void* const library = ::dlopen(file, RTLD_NOW | RTLD_LOCAL);
@@ -123,7 +124,7 @@ void prepare_child(int pipe_end) {
 
 // --- the parent ---
 
-// Reads what the child reports, for as long as it runs and the time allows.
+// Reads the child's report until it ends or the time is over.
 class Listener {
  public:
   Listener(int pipe_end, pid_t child, Clock::time_point deadline)
@@ -135,13 +136,14 @@ class Listener {
     for (;;) {
       drain();
       if (verdict_) return;
-      if (ended()) return drain();  // what it wrote last
+      if (ended()) return drain();  // read the rest
       if (Clock::now() >= deadline_) return void(in_time_ = false);
       wait(10);
     }
   }
 
-  // Others hold the pipe's other end after the child is gone: it started them. They may be about to end.
+  // If the pipe's other end is still open after the child has ended, the child started other processes. They may end
+  // soon.
   bool left_a_process() {
     const auto soon = Clock::now() + std::chrono::milliseconds(200);
     for (drain(); open_ && Clock::now() < soon; drain()) wait(10);
@@ -149,7 +151,7 @@ class Listener {
   }
 
   bool in_time() const { return in_time_; }
-  char verdict() const { return verdict_; }  // 0: none came
+  char verdict() const { return verdict_; }  // 0: none received
   const std::string& cause() const { return text_; }
   const std::string& stage() const { return stage_; }
 
@@ -203,7 +205,7 @@ int wait_for(pid_t process) {
   return status;
 }
 
-// Not the library's fault: the system gives no process, no pipe.
+// The system cannot create a process or pipe, which is not an error of the library.
 [[noreturn]] void fail(const std::string& file) {
   scene::require_memory(errno);
   throw std::system_error(errno, std::generic_category(), fmt::format("cannot try out the plugin {}", file));
@@ -217,7 +219,7 @@ std::string refusal(const Listener& heard, int status, std::chrono::milliseconds
   return fmt::format("it ends the program with code {} {}", WEXITSTATUS(status), heard.stage());
 }
 
-// The loader says "cannot allocate memory", or "out of memory" where it had none for its own message.
+// The loader's message is "cannot allocate memory", or "out of memory" if it had none for the message itself.
 bool lacks_memory(const Listener& heard) {
   if (heard.verdict() == no_memory) return true;
   return heard.verdict() == refused && tells_of_no_memory(heard.cause());
@@ -241,7 +243,7 @@ void rehearse(const std::filesystem::path& file, std::chrono::milliseconds limit
     ::close(pipe_ends[0]);
     fail(name);
   }
-  ::setpgid(process, process);  // the child does so, too: whoever comes first
+  ::setpgid(process, process);  // the child does this, too, because either may run first
   Listener heard(pipe_ends[0], process, Clock::now() + limit);
   heard.listen();
   if (heard.verdict() || !heard.in_time()) ::kill(process, SIGKILL);

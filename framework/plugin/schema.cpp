@@ -1,5 +1,5 @@
-// JSON Schema of scenes: the frame of DESIGN.md section 4, filled with what the declarations say. Editors complete and
-// check scenes with it as they are written; `trammel validate` knows more (names of markers, dimensions, expressions).
+// JSON Schema of scenes: the structure of a scene, filled from the declarations. Editors use it for completion and
+// checks; `trammel validate` checks more (names of markers, dimensions, expressions).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ Json with(Json schema, const std::string& description) {
   return schema;
 }
 
-// A literal number within the range, or an expression, whose value only the program knows.
+// A number within the range, or an expression, which only the program can evaluate.
 Json number(const char* type, const ParameterTraits& traits) {
   Json literal = {{"type", type}};
   if (std::isfinite(traits.min)) literal[traits.above_min ? "exclusiveMinimum" : "minimum"] = traits.min;
@@ -84,11 +84,11 @@ Json type_of(const Parameter& parameter) {
 }
 
 Json default_value(const ParameterValue& value) {
-  const Json json = Json::parse(text(value), nullptr, false);  // infinity and the like have no JSON
+  const Json json = Json::parse(text(value), nullptr, false);  // infinity cannot be written in JSON
   return json.is_discarded() ? Json() : json;
 }
 
-// The fallback is asked for only where there is one.
+// `fallback` is called only if there is one.
 template <class Fallback>
 Json schema_of(const Parameter& parameter, Fallback fallback) {
   Json schema = type_of(parameter);
@@ -104,7 +104,7 @@ Json schema_of(const Parameter& parameter, Fallback fallback) {
   return schema;
 }
 
-// Of a part that the program reads; of one that was not given any object.
+// Schemas of a part that the program reads: of its object, and of the part if an object is optional.
 Json schema_of(const std::vector<Part>& parts, const char* name) {
   for (const Part& part : parts) {
     if (part.name != name) continue;
@@ -116,7 +116,7 @@ Json schema_of(const std::vector<Part>& parts, const char* name) {
   return {{"type", "object"}};
 }
 
-// Puts a parameter's schema into the nested object that its dotted name says.
+// Adds a parameter's schema to the nested object given by its dotted name.
 void place(Json& object_schema, const std::string& dotted, Json schema) {
   const auto dot = dotted.find('.');
   Json& member = object_schema["properties"][dotted.substr(0, dot)];
@@ -154,7 +154,7 @@ std::string definition(const Declaration& declaration) {
   return fmt::format("{}.{}", to_string(declaration.kind), declaration.name);
 }
 
-// Objects of one kind: "type" is one of the names, and the rest is what that name declares.
+// Objects of one kind: "type" is one of the names; the other members are declared by that component.
 Json choice_of(Kind kind, const std::vector<const Entry*>& entries) {
   Json names = Json::array(), cases = Json::array();
   for (const Entry* entry : entries) {
@@ -179,7 +179,7 @@ Json correction(const std::vector<const Entry*>& entries) {
   return any_of({{"enum", std::move(names)}}, reference("correction"));
 }
 
-// What several places of a scene share.
+// Definitions that several places of a scene share.
 void define_common(Json& definitions, const std::vector<Part>& parts) {
   const Json number = reference("number");
   definitions["expression"] =
@@ -214,7 +214,8 @@ void define_common(Json& definitions, const std::vector<Part>& parts) {
   definitions["contact_step"] = reference("step");
 }
 
-// What a scene must say that is not a part of another one: an editor asks for it where nothing is included.
+// The members that a scene requires unless it is included by another one; an editor requires them if "include" is
+// missing.
 Json complete(const std::vector<const Entry*>& entries) {
   Json groups = Json::object();
   for (const auto& [group, kind] : {std::pair{"bodies", Kind::body},

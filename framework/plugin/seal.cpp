@@ -16,7 +16,7 @@ namespace {
 constexpr const char* section_name = ".trammel";
 constexpr std::string_view key = "\ncode=", unsealed = "----------------";
 
-// Where the checksum stands in the section; npos: this library has no room for one.
+// Offset of the checksum in the section; npos: this library has no space for one.
 std::size_t place_in(std::string_view section) {
   const std::size_t begin = section.find(key);
   return begin == section.npos || begin + key.size() + unsealed.size() > section.size() ? section.npos

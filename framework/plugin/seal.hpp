@@ -1,8 +1,8 @@
-// The seal of a library: a checksum of its code in its own .trammel section, written when it was built. A file that was damaged
-// since, or cut and pasted together, is refused before any of it runs.
+// The seal of a library: a checksum of its code in its .trammel section, written when it was built. A file that was
+// damaged or modified afterwards is refused before any of its code is executed.
 //
-// TRAMMEL_PLUGIN leaves room for it; a library that was never sealed, one from a single line of a compiler for instance, has none
-// and is taken as it is. A seal tells of accidents; it is no protection against forgery.
+// TRAMMEL_PLUGIN reserves the space. A library without a seal, for example from a single compiler command, is accepted
+// without this check. A seal detects accidents; it does not protect against forgery.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace trammel::plugin {
 
-// Throws PluginError if the library is no plugin, has no room for a seal, or cannot be written.
+// Throws PluginError if the library is not a plugin, has no space for a seal, or cannot be written.
 void seal(const std::filesystem::path& library);
 
 // `section`: its .trammel. Throws PluginError naming both checksums if they differ.

@@ -1,4 +1,4 @@
-// How the files of this folder make and change Values; nobody else does.
+// Creation and modification of Values, for the files of this folder only.
 #pragma once
 
 #include "scene/value.hpp"
@@ -10,7 +10,7 @@ class Builder {
   using Content = std::variant<Null, bool, double, std::string, Items, Members>;
 
   static Value make(Content content, Position at);
-  static Value like(const Value& other, Content content);  // at its place, with its path and parameters
+  static Value like(const Value& other, Content content);  // with the position, path and parameters of `other`
   static Items& items(Value& value) { return std::get<Items>(value.content_); }
   static Members& members(Value& value) {
     value.by_name_.clear();
@@ -18,11 +18,11 @@ class Builder {
   }
   static void place(Value& value, Position at) { value.position_ = std::move(at); }
   static Value* find(Value& object, std::string_view key);
-  // Dotted paths, the scene's parameters and ways to find members, for the whole tree. Throws SceneError where it grows beyond
-  // limits::values.
+  // Sets the dotted paths, the scene's parameters and the indices of members in the whole tree. Throws SceneError if
+  // the tree exceeds limits::values.
   static void finish(Value& value, const std::string& path, const std::shared_ptr<const Value::Parameters>& parameters);
   static std::uint64_t hash(const Value& value);  // independent of the order of members
-  // How many values it has, itself among them; long texts and many {...} count as more (limits.hpp).
+  // Number of values in the tree, the root included; long texts and many {...} count as more (limits.hpp).
   static std::size_t size(const Value& value);
 
  private:
@@ -31,33 +31,35 @@ class Builder {
   static void order_by_name(Value& object);
 };
 
-// A text as it stands. Throws SceneError.
+// Parses a text without includes and overrides. Throws SceneError.
 Value parse_text(const std::string& text, const std::string& file);
 
-// `over` onto `base`: objects merge member by member, null removes one, all else replaces. An object with another "type" replaces the
-// whole one: parameters of one component mean nothing to another.
+// Merges `over` into `base`: objects member by member; null removes a member; everything else replaces. An object with
+// a different "type" replaces the whole object, because the parameters belong to another component.
 void merge(Value& base, Value&& over);
 
-// The root with all its "include" files merged under it, depth first.
+// The root merged over all its "include" files, depth first.
 Value resolve_includes(Value&& root, const std::string& file);
 
 void apply(const Override& override, Value& root);
 
-// The "parameters" block, evaluated, in the order of their names; expressions in it may use one another.
+// Evaluates the "parameters" block; its expressions may use each other. The result is sorted by name.
 std::shared_ptr<const Value::Parameters> evaluate_parameters(const Value& root);
 
-// Whether a unit has "for".
+// True if a unit has "for".
 bool repeats_units(const Value& root);
-// nullptr: there is none of this name.
+// nullptr if there is no parameter of this name.
 const Value::Parameter* find_parameter(const Value::Parameters& parameters, std::string_view name);
 
-// Puts copies in place of bodies, joints, forces and contacts with "for" (repeat.cpp). Throws SceneError.
+// Replaces bodies, joints, forces and contacts with "for" by their copies (repeat.cpp). Throws SceneError.
 void repeat_units(Value& root, const Value::Parameters& parameters);
 
-// The tree as a JSON text that Scene reads back. Files beside the scene that it names (tables, plugins) become absolute paths.
+// The tree as a JSON text that Scene reads back. Files beside the scene that it names (tables, plugins) become absolute
+// paths.
 std::string written(const Value& root);
 
-// A warning for each parameter that was set and that nothing in the scene uses, directly or through another parameter.
+// Returns a warning for each parameter that was set but is not used in the scene, directly or through another
+// parameter.
 std::vector<Problem> set_in_vain(const Value& root, const std::vector<Override>& overrides);
 
 }  // namespace trammel::scene

@@ -41,10 +41,11 @@ bool continues_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
 }
 
-// Recursive descent. sum: product {+- product}; product: unary {*/ unary}; unary: -unary | power; power: atom [^ unary].
+// Recursive descent. sum: product {+- product}; product: unary {*/ unary}; unary: -unary | power; power: atom [^
+// unary].
 class Compiler {
  public:
-  // Called with a dotted name; true: it is a quantity, whose number is to be put in before each evaluation.
+  // Called with a dotted name. True: it is a quantity, whose value is inserted before each evaluation.
   using Quantity = std::function<bool(std::string_view name, std::size_t instruction)>;
 
   Compiler(std::string_view text, const Lookup& lookup, bool with_time, Quantity quantity = {})
@@ -259,7 +260,7 @@ std::vector<std::string_view> names_in(std::string_view text) {
       while (at < text.size() && (continues_name(text[at]) || text[at] == '.')) ++at;
       names.push_back(text.substr(start, at - start));
     } else if (std::isdigit(static_cast<unsigned char>(text[at]))) {
-      double number = 0;  // 1e5 holds no name
+      double number = 0;  // 1e5 contains no name
       at = std::size_t(std::from_chars(text.data() + at, text.data() + text.size(), number).ptr - text.data());
     } else {
       ++at;

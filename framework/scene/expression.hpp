@@ -1,9 +1,9 @@
 // Expressions in scenes: "2*pi*E*I/L" over named parameters, and laws of time such as "0.2*sin(2*pi*5*t)".
 //
-// Compiled once to a postfix code that works on jets (value, first and second derivative by t), so that a law of time has
-// exact rates. Operators + - * / ^ with the usual precedence (^ binds tighter than a leading minus, and to the right),
-// parentheses, numbers, `pi`, parameters by name, `t` where a law of time is expected, and the functions listed in
-// expression.cpp.
+// An expression is compiled once to postfix code that operates on jets (value, first and second derivative by t), so
+// that laws of time have exact rates. The language has the operators + - * / ^ with the usual precedence (^ binds
+// tighter than a leading minus and is right-associative), parentheses, numbers, `pi`, parameters by name, `t` where a
+// law of time is expected, and the functions listed in expression.cpp.
 #pragma once
 
 #include <functional>
@@ -40,13 +40,13 @@ using Lookup = std::function<double(std::string_view name, int column)>;
 TimeFunction compile_time_function(std::string_view text, const Lookup& lookup);
 double evaluate(std::string_view text, const Lookup& lookup);  // finite, free of t
 
-// A value of quantities that change from call to call: "atan2(bob.point.x, -bob.point.y)" over dotted names.
+// An expression of quantities that change from call to call, with dotted names: "atan2(bob.point.x, -bob.point.y)".
 class Formula {
  public:
-  // `names`: the quantities there are; what is none of them is looked up once. Throws ExpressionError.
+  // `names`: the available quantities; other names are looked up once. Throws ExpressionError.
   Formula(std::string_view text, const std::vector<std::string>& names, const Lookup& lookup);
 
-  // Those it uses, as indices into `names`, each once; `values` in the same order.
+  // The quantities that the expression uses, each once, as indices into `names`; `values` have the same order.
   const std::vector<int>& uses() const { return uses_; }
   double operator()(const std::vector<double>& values) const;
 
@@ -56,13 +56,13 @@ class Formula {
   std::vector<int> uses_;
 };
 
-// "sin(x)", "atan2(x, y)", ...: all functions there are.
+// All functions: "sin(x)", "atan2(x, y)", ...
 std::vector<std::string> function_signatures();
 
-// True when the whole text is one name.
+// True if the whole text is one name.
 bool is_name(std::string_view text);
 
-// All names in it, of parameters and functions and dotted ones; what is no expression may hold some too.
+// All names in a text: parameters, functions and dotted names. The text need not be a valid expression.
 std::vector<std::string_view> names_in(std::string_view text);
 
 }  // namespace trammel::scene

@@ -28,7 +28,7 @@ struct Opened {
 };
 
 std::string read(const std::string& file, bool regular) {
-  // Without waiting for the other end of a pipe.
+  // Do not wait for the other end of a pipe.
   const Opened opened{::open(file.c_str(), O_RDONLY | O_CLOEXEC | (regular ? O_NONBLOCK : 0))};
   if (opened.number < 0) require_memory(errno);
   if (opened.number < 0) fail(file, errno == ENOENT ? "no such file" : "cannot be opened for reading");

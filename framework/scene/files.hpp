@@ -1,4 +1,4 @@
-// Reading the files that a scene consists of.
+// Reads the files of a scene.
 #pragma once
 
 #include <filesystem>
@@ -6,13 +6,14 @@
 
 namespace trammel::scene {
 
-// The scene itself: a pipe may do. Throws SceneError.
+// Reads the scene itself, which may be a pipe. Throws SceneError.
 std::string read_file(const std::string& file);
 
-// What a scene names, an include or a table: a regular file alone, for a pipe may hang and a device never end. Throws SceneError.
+// Reads a file that a scene names, an include or a table. It must be a regular file, because a pipe may hang and a
+// device may never end. Throws SceneError.
 std::string read_named_file(const std::string& file);
 
-// Links are followed first: a link that leads out of the folder is outside.
+// Symbolic links are resolved first: a link to a target outside the folder counts as outside.
 bool is_within(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 }  // namespace trammel::scene

@@ -21,7 +21,7 @@ bool another_type(const Value& base, const Value& over) {
   return a && b && a->type() == Value::Type::text && b->type() == Value::Type::text && a->text() != b->text();
 }
 
-// What stands outside the scene's folder may be anything that this user can read: only a scene is taken from there.
+// A file outside the scene's folder may be any file that this user can read: it is accepted only if it is a scene.
 bool is_scene(const Value& root) {
   for (const char* key : {"trammel", "parameters", "bodies", "joints", "forces", "contacts", "integrator", "simulate"})
     if (root.find(key)) return true;
@@ -97,7 +97,7 @@ class Includes {
     return root;
   }
 
-  // Of a file outside the scene's folder nothing is quoted: it may hold what the author of the scene is not to see.
+  // Nothing is quoted from a file outside the scene's folder: the author of the scene may not be allowed to read it.
   Value parsed(const Value& entry, const std::string& text, const std::string& file) {
     if (is_within(folder_, file)) return parse_text(text, file);
     Position at;

@@ -16,7 +16,7 @@
 namespace trammel::scene {
 namespace {
 
-constexpr std::size_t fewest_rows = 4;  // of a table worth the name
+constexpr std::size_t fewest_rows = 4;  // of a table
 
 using Cells = std::vector<std::string_view>;
 
@@ -27,7 +27,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
-// Where one of these characters stands outside of double quotes, from `at` on.
+// Position of the first of these characters outside double quotes, from `at` on.
 std::size_t find_unquoted(std::string_view line, std::string_view characters, std::size_t at = 0) {
   for (bool quoted = false; at < line.size(); ++at) {
     if (line[at] == '"') quoted = !quoted;
@@ -41,7 +41,7 @@ std::string_view unquoted(std::string_view cell) {
   return quoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
 }
 
-// By commas if there are any, else by semicolons, else by blanks. A cell may stand in double quotes.
+// Splits at commas if there are any, else at semicolons, else at blanks. A cell may be in double quotes.
 Cells cells_of(std::string_view line) {
   const char separator = find_unquoted(line, ",") != line.npos   ? ','
                          : find_unquoted(line, ";") != line.npos ? ';'
@@ -219,7 +219,7 @@ class Table {
   const Value& object_;
   Problems& problems_;
   std::string file_, text_;
-  bool quotable_ = true;  // the table lies in the folder of the file that names it; nothing of others is shown
+  bool quotable_ = true;  // true for a table in the folder of the file that names it; other tables are not quoted
   bool accelerations_ = false;
   double scale_ = 1;
   TabulatedLaw::Beyond beyond_ = TabulatedLaw::Beyond::unsaid;

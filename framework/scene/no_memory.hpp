@@ -1,4 +1,4 @@
-// The system's "Cannot allocate memory" as std::bad_alloc: a lack of memory is the fault of nobody whose file is being read.
+// Converts the system error "Cannot allocate memory" to std::bad_alloc: the file that is being read is not the cause.
 #pragma once
 
 #include <cerrno>

@@ -22,26 +22,26 @@ void place_everywhere(Value& value, const Position& at) {
   Builder::place(value, at);
 }
 
-// nan, 1e999: numbers of C, none of a scene.
+// nan, 1e999: numbers in C, but not in a scene.
 bool not_finite(const std::string& text) {
   char* end = nullptr;
   const double x = std::strtod(text.c_str(), &end);
   return !text.empty() && end == text.c_str() + text.size() && !std::isfinite(x);
 }
 
-// Objects of these are keyed by names of the scene's own: one that is not there is misspelt.
+// The keys of these objects are names that the scene defines: an unknown key is a spelling mistake.
 bool keyed_by_name(std::string_view path) {
   return path == "bodies" || path == "joints" || path == "forces" || path == "contacts" || path == "parameters";
 }
 
-// May become an object where the path goes on into it: "step": 1e-3 and integrator.step.tolerance. Whether something may have
-// such a member its reader says.
+// Settings that become an object if the path continues into them: "step": 1e-3 and integrator.step.tolerance. Their
+// readers check the member.
 bool scalar(const Value& value) {
   using Type = Value::Type;
   return value.type() == Type::number || value.type() == Type::text || value.type() == Type::boolean;
 }
 
-// JSON where it reads as JSON, else the bare text.
+// The value as JSON if it is valid JSON, else as a text.
 Value parse_value(const std::string& text, const Position& at) {
   const std::string wrapped = "{\"value\":" + text + "\n}";
   if (!nlohmann::json::accept(text, true)) return Builder::make(text, at);
@@ -82,7 +82,7 @@ void apply(const Override& override, Value& root) {
       fail(walked, fmt::format("is {}, it has no member \"{}\"", value->type_name(), key));
     const bool last = dot == std::string::npos;
     Value* next = Builder::find(*value, key);
-    // A parameter that the scene does not declare would act on nothing.
+    // A parameter that the scene does not declare would have no effect.
     if (!next && (index || walked == "parameters" || (!last && keyed_by_name(walked)))) {
       std::vector<std::string> names;
       for (const auto& [name, member] : value->members()) names.push_back(name);

@@ -16,7 +16,7 @@ namespace {
 
 using Result = Value::Parameter;
 
-// Evaluates parameters in the order they need one another.
+// Evaluates parameters in the order of their dependencies.
 class Evaluation {
  public:
   Evaluation(const Value& block, Problems& problems) : block_(block), problems_(problems) {}
@@ -43,7 +43,8 @@ class Evaluation {
     return expression(value);
   }
 
-  // {"by": "=mesh", "values": {"coarse": 4, "fine": 16}, "otherwise": 8}: by the value of another parameter, a text.
+  // {"by": "=mesh", "values": {"coarse": 4, "fine": 16}, "otherwise": 8}: selects by the value of another
+  // parameter, a text.
   std::optional<Result> choice(const Value& value) {
     const Value *by = value.find("by"), *values = value.find("values"), *otherwise = value.find("otherwise");
     if (!by || !values || values->type() != Value::Type::object) {
@@ -76,7 +77,7 @@ class Evaluation {
           if (!result) return std::nullopt;
           return *result;
         }
-      if (!prepare(text)) return std::nullopt;  // told already
+      if (!prepare(text)) return std::nullopt;  // reported already
       return evaluate(text, [this](std::string_view name, int column) { return number(name, column); });
     } catch (const ExpressionError& error) {
       problems_.error(value.problem(fmt::format("in the expression \"{}\", column {}: {}", shortened(value.text()),
@@ -85,8 +86,8 @@ class Evaluation {
     }
   }
 
-  // Those that it uses come first, one after another: while it is compiled itself, nothing is evaluated within. False: one of
-  // them has no value.
+  // Evaluates the parameters that the text uses, so that compiling it evaluates no others. False: one of them has no
+  // value.
   bool prepare(std::string_view text) {
     for (const std::string_view name : names_in(text)) {
       const auto end = std::size_t(name.data() - text.data()) + name.size();

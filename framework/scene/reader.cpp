@@ -1,5 +1,6 @@
-// Reads JSON with comments by nlohmann-json's event parser, over an iterator that counts bytes: each value learns where it
-// starts. What that parser lets pass is refused here: duplicate keys, numbers that vanish or overflow, deep nesting.
+// Reads JSON with comments by the event parser of nlohmann-json. An iterator counts bytes and gives each value its
+// position. This reader also refuses input that the parser accepts: duplicate keys, numbers that underflow or overflow,
+// deep nesting.
 #include <algorithm>
 #include <unordered_set>
 
@@ -17,7 +18,7 @@ namespace {
 
 constexpr std::string_view number_characters = "0123456789.+-eE";
 
-// Walks a text and tells how far it got, also to those who hold no copy of it.
+// An iterator over a text whose copies share one counter of the position.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -113,7 +114,8 @@ class Tree {
       problems_.error({lines_.at(found->at), here(), "not valid JSON: " + std::move(found->message)});
       return false;
     }
-    // "[json.exception...] parse error at line 1, column 2: syntax error while parsing value - invalid literal; last read..."
+    // "[json.exception...] parse error at line 1, column 2: syntax error while parsing value - invalid literal; last
+    // read..."
     if (const auto colon = what.find(": "); colon != std::string::npos) what = what.substr(colon + 2);
     const std::size_t at = std::min(consumed() ? consumed() - 1 : 0, text_.size());
     problems_.error({lines_.at(at), here(), "not valid JSON: " + what});
@@ -137,7 +139,7 @@ class Tree {
     while (i > 0 && part(text_[i - 1])) --i;
     return i;
   }
-  // Inside a string a quote stands behind an odd number of backslashes.
+  // Inside a string, a quote follows an odd number of backslashes.
   std::size_t string_start() const {
     std::size_t i = consumed() - 1;
     for (;;) {

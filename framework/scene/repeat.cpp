@@ -1,11 +1,12 @@
-// Units that a scene repeats: a body, joint, force or contact with "for" stands for one copy a value.
+// Repeated units: a body, joint, force or contact with "for" is replaced by one copy per value.
 //
 //     "bodies": {"strut_{i}": {"for": {"i": "=n"}, "type": "bar", "from": ["={i}*a", 0], "to": ["=({i}+1)*a", 0], ...}}
-//     "joints": {"pin_{i}": {"for": {"i": "=n-1"}, "type": "revolute", "between": ["strut_{i}.to", "strut_{i+1}.from"]}}
+//     "joints": {"pin_{i}": {"for": {"i": "=n-1"}, "type": "revolute",
+//                            "between": ["strut_{i}.to", "strut_{i+1}.from"]}}
 //
-// "i": N counts 0 ... N - 1, "i": [a, b] counts a ... b; several names count all combinations. In the copies' names and texts
-// {...}, an expression of these names and of the scene's parameters, is replaced by its value, a whole number; in other members
-// of these groups and under "record" too: "strut_{n-1}.to.x".
+// "i": N counts 0 ... N - 1, "i": [a, b] counts a ... b; several names give all combinations. In the names and texts of
+// the copies, {...} is an expression of these names and the scene's parameters and is replaced by its value, a whole
+// number. The same holds in other members of these groups and under "record": "strut_{n-1}.to.x".
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +33,7 @@ class Repetition {
  public:
   Repetition(const Value::Parameters& parameters, Problems& problems) : parameters_(parameters), problems_(problems) {}
 
-  // The members of one group, repeated ones in place of their units.
+  // The members of one group, with the units replaced by their copies.
   Members all(Members&& units) {
     Members members;
     for (auto& [name, value] : units) {
@@ -47,7 +48,7 @@ class Repetition {
     return members;
   }
 
-  // Every text of a value.
+  // Visits every text of a value.
   void fill(Value& value, const Counters& at) {
     if (value.type() == Value::Type::text) {
       if (value.text().find('{') != std::string::npos) value = Builder::like(value, filled(value.text(), at, value));
@@ -69,7 +70,7 @@ class Repetition {
     int first = 0, last = -1;
   };
 
-  // "a{i}" and "a0" may become one.
+  // "a{i}" and "a0" may give the same name.
   void require_single_names(const Members& members) {
     std::set<std::string_view> known;
     for (const auto& [name, value] : members)
@@ -100,9 +101,9 @@ class Repetition {
       Value copy = unit;
       fill(copy, at);
       std::string own_name = filled(name, at, unit);
-      if (problems_.errors().size() > before) return;  // the other copies would repeat them
+      if (problems_.errors().size() > before) return;  // the other copies have the same problems
       members.emplace_back(std::move(own_name), std::move(copy));
-      std::size_t k = ranges.size();  // the last counts fastest
+      std::size_t k = ranges.size();  // the last varies fastest
       while (k > 0 && at[k - 1].second == ranges[k - 1].last) --k, at[k].second = ranges[k].first;
       if (k == 0) return;
       at[k - 1].second += 1;

@@ -6,7 +6,7 @@ namespace trammel::scene {
 Scene::Scene(const std::string& text, const std::string& file, const std::vector<Override>& overrides)
     : root_(resolve_includes(parse_text(text, file), file)), file_(file), overrides_(overrides) {
   for (const Override& override : overrides) apply(override, root_);
-  // Parameters first: their values decide nothing about the tree, but every other value may use them.
+  // Parameters first: every other value may use them.
   Builder::finish(root_, "", nullptr);
   const auto parameters = evaluate_parameters(root_);
   Builder::finish(root_, "", parameters);

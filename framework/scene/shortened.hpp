@@ -1,4 +1,4 @@
-// Quoting what was found, which a machine may have written without end.
+// Shortens quoted input, which may be very long.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace trammel::scene {
 
-// At most so many bytes of it; "..." at the end says that there is more.
+// The first bytes of the text, with "..." at the end if it was cut.
 std::string shortened(std::string_view text, std::size_t longest = 80);
 
 }  // namespace trammel::scene

@@ -12,7 +12,7 @@ namespace trammel::scene {
 
 namespace {
 
-// Nobody mistypes longer words, nor looks through more names; both keep the cost of hostile input bounded.
+// Suggestions are limited to shorter words and fewer names, which bounds the cost of hostile input.
 constexpr std::size_t longest = 200, most = 1000;
 
 std::span<const std::string> compared(const std::vector<std::string>& candidates) {
@@ -45,7 +45,7 @@ double distance(std::string_view a, std::string_view b) {
   return previous[n];
 }
 
-// All of a list that can be read at a glance, the nearest of a longer one.
+// The whole list if it is short, else the nearest names.
 std::vector<std::string> worth_showing(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr std::size_t glance = 24, few = 12;
   if (candidates.size() <= glance) return candidates;
@@ -58,7 +58,7 @@ std::vector<std::string> worth_showing(std::string_view word, const std::vector<
   return shown;
 }
 
-// The shortest of those that the word begins: "hht" for "hht_alpha".
+// The shortest candidate that starts with the word: "hht_alpha" for "hht".
 std::string begun_with(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr std::size_t least = 2;
   if (word.size() < least) return {};
@@ -81,7 +81,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
     const double d = distance(word, candidate);
     if (d < best) best = d, found = candidate;
   }
-  // Less than half of a short word, a third of a long one: "foo" is no "cos".
+  // At most half of a short word or a third of a long one may differ: "foo" does not suggest "cos".
   const double size = double(std::max(word.size(), found.size()));
   const double near = std::min(std::max(2.0, size / 3), size / 2);
   if (best <= near && best < double(word.size())) return found;

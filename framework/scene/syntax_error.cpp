@@ -16,7 +16,7 @@ bool is_word(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '$';
 }
 
-// Bytes of the UTF-8 character that begins `text`; 0: it is none.
+// Number of bytes of the UTF-8 character at the start of `text`; 0: invalid.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned lead = byte(0);
@@ -28,7 +28,7 @@ std::size_t utf8_length(std::string_view text) {
                                            : 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((byte(i) & 0xC0) != 0x80) return 0;
-  // Overlong forms, surrogates, and beyond U+10FFFF.
+  // Overlong forms, surrogates, and codes above U+10FFFF.
   if ((lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xED && byte(1) >= 0xA0)) return 0;
   if ((lead == 0xF0 && byte(1) < 0x90) || (lead == 0xF4 && byte(1) >= 0x90)) return 0;
   return length;
@@ -60,7 +60,7 @@ class Scanner {
     return fmt::format("line {}", 1 + std::count(text_.begin(), text_.begin() + std::ptrdiff_t(at), '\n'));
   }
 
-  // What stands here, quoted for a message.
+  // The text at this position, quoted for a message.
   std::string found() const {
     if (at_end()) return "the end of the text";
     std::size_t end = i_;
@@ -90,7 +90,7 @@ class Scanner {
     }
   }
 
-  // A character that begins nothing in JSON, with the remedy where it is a well-known one.
+  // A character that cannot start a JSON value, with a remedy for common mistakes.
   bool stray(const char* expected) {
     switch (here()) {
       case '\'':
@@ -283,7 +283,7 @@ class Scanner {
     return stray("a comma");
   }
 
-  // The string or word that follows, as it stands.
+  // The following string or word, verbatim.
   std::string next_text() const {
     if (here() != '"') return found();
     const std::size_t end = text_.find_first_of("\"\n", i_ + 1);
@@ -302,7 +302,7 @@ class Scanner {
 
   std::string_view text_;
   std::size_t i_ = 0;
-  std::size_t bracket_ = std::string_view::npos;  // the innermost bracket that is open
+  std::size_t bracket_ = std::string_view::npos;  // the innermost open bracket
   int depth_ = 0;
   std::optional<SyntaxError> error_;
 };

@@ -1,4 +1,4 @@
-// Where and why a text is not JSON, in the words of someone who wants to repair it.
+// Finds where and why a text is not JSON and how to repair it.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 namespace trammel::scene {
 
 struct SyntaxError {
-  std::size_t at = 0;   // [bytes] from the start of the text: the comma too much, the place of the missing one, ...
+  std::size_t at = 0;   // [bytes] from the start: an extra comma, the place of a missing one, ...
   std::string message;  // what was found, what was expected, what to write instead
 };
 
-// The first fault of a JSON text with comments (// and /* */); nothing if it has none. Called for texts that the parser
-// has refused: the parser decides what is valid, this says how to repair it.
+// The first error in a JSON text with comments (// and /* */); empty if there is none. It is called for texts that the
+// parser has refused: the parser decides what is valid, this function explains the error.
 std::optional<SyntaxError> find_syntax_error(std::string_view text);
 
 }  // namespace trammel::scene

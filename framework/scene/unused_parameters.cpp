@@ -1,4 +1,4 @@
-// A parameter that was set on the command line and acts on nothing is most likely one of another scene.
+// A parameter that was set on the command line and is not used most likely belongs to another scene.
 #include <set>
 
 #include "scene/builder.hpp"
@@ -19,7 +19,7 @@ void add_names(const Value& value, std::set<std::string_view>& names) {
   }
 }
 
-// Directly, or through other parameters.
+// Names used directly or through other parameters.
 std::set<std::string_view> used_parameters(const Value& root, const Value& parameters) {
   std::set<std::string_view> used;
   for (const auto& [key, value] : root.members())

@@ -31,7 +31,7 @@ std::string all_texts(const std::vector<Problem>& problems) {
   return text;
 }
 
-// What names and texts of the scene have made long.
+// Shortens a message that contains long names or texts of the scene.
 Problem bounded(Problem problem) {
   problem.at.file = shortened(problem.at.file, limits::message);
   problem.path = shortened(problem.path, limits::path);
@@ -289,7 +289,7 @@ void Builder::finish(Value& value, const std::string& path, const std::shared_pt
 }
 
 void Builder::order_by_name(Value& object) {
-  constexpr std::size_t large = 64;  // smaller objects are searched as fast without
+  constexpr std::size_t large = 64;  // the index does not speed up smaller objects
   const Members& members = object.members();
   if (members.size() < large) return;
   object.by_name_.resize(members.size());

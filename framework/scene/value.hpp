@@ -1,7 +1,7 @@
-// A scene as a tree of values, each of which knows where it stands: file, line, column and dotted JSON path.
+// A scene as a tree of values. Each value has its position: file, line, column and dotted JSON path.
 //
-// Values are read through typed readers that report what was found and what was expected, and go on, so that all problems
-// of a file are reported at once (`Problems`).
+// Typed readers report what was found and what was expected and then continue, so that all problems of a file are
+// reported at once (`Problems`).
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct Problem {
   std::string text() const;  // "beam_impact.json:14:21: contacts.tip.between[0]: no marker ..."
 };
 
-// Bad input: one or more problems. what() is all their texts, a line each. Exit code 2.
+// Bad input: one or more problems. what() contains all their texts, one line each. Exit code 2.
 class SceneError : public std::runtime_error {
  public:
   explicit SceneError(std::vector<Problem> problems);
@@ -61,8 +61,8 @@ using Items = std::vector<Value>;
 
 class Formula;
 
-// JSON's null. Copying one is no memcpy, which keeps libstdc++ from taking a variant of texts, vectors and plain numbers for one that
-// always holds something: it then destroys a copy that ran out of memory half way as if it were whole, and jumps anywhere.
+// JSON's null. Its copy constructor is not trivial: otherwise libstdc++ assumes that the variant can never be
+// valueless, and destroys a copy that ran out of memory as if it were complete, which is undefined behaviour.
 struct Null {
   Null() = default;
   Null(const Null&) noexcept {}
@@ -79,7 +79,7 @@ class Value {
   const std::string& path() const { return path_; }
   Problem problem(std::string message) const { return {position_, path_, std::move(message)}; }
 
-  // The raw content; the caller has asked type().
+  // The raw content; check type() first.
   bool boolean() const { return std::get<bool>(content_); }
   double number() const { return std::get<double>(content_); }
   const std::string& text() const { return std::get<std::string>(content_); }  // also the source text of an expression
@@ -88,8 +88,8 @@ class Value {
   const Value* find(std::string_view key) const;  // nullptr: no such member, or not an object
   const Value* at_path(std::string_view dotted) const;
 
-  // Typed readers. An expression string ("=2*pi*E") is evaluated in the scene's parameters. On a mismatch they report to
-  // `problems` and return nothing.
+  // Typed readers. An expression string ("=2*pi*E") is evaluated in the scene's parameters. On a mismatch they report
+  // to `problems` and return nothing.
   std::optional<double> read_number(Problems&) const;  // finite
   std::optional<int> read_integer(Problems&) const;    // 3 or 3.0, not 3.7
   std::optional<bool> read_boolean(Problems&) const;
@@ -109,7 +109,7 @@ class Value {
   Position position_;
   std::string path_;
   std::shared_ptr<const Parameters> parameters_;  // of the whole scene
-  std::vector<int> by_name_;  // members in the order of their names: of a large object that is finished
+  std::vector<int> by_name_;                      // indices of the members sorted by name, of a large finished object
 };
 
 struct Override {
@@ -127,16 +127,16 @@ class Scene {
   const Value& root() const { return root_; }
   const std::string& file() const { return file_; }
   const std::vector<Problem>& warnings() const { return warnings_; }
-  std::uint64_t hash() const { return hash_; }  // of the resolved content: the same for a scene that means the same
+  std::uint64_t hash() const { return hash_; }  // of the resolved content: equal for scenes of the same meaning
   const std::vector<Override>& overrides() const { return overrides_; }
-  // One file that means the same: includes and overrides applied, files that it names by absolute paths; "for" is kept.
+  // The text of one file with the same meaning: includes and overrides applied, file names absolute, "for" kept.
   std::string resolved() const;
 
  private:
   Scene(const std::string& text, const std::string& file, const std::vector<Override>& overrides);
 
   Value root_;
-  std::optional<Value> before_repetition_;  // where something is repeated
+  std::optional<Value> before_repetition_;  // if something is repeated
   std::string file_;
   std::vector<Override> overrides_;
   std::vector<Problem> warnings_;

@@ -1,4 +1,4 @@
-// A tree of values as the text of one scene file, which needs no other scene file.
+// Writes a tree of values as one scene file that needs no other scene file.
 #include <cmath>
 #include <filesystem>
 
@@ -27,7 +27,7 @@ bool is_plain_text(const Value& value) {
   return value.type() == Value::Type::text && !value.text().starts_with("=");
 }
 
-// "table": FILE of a law of time, and not a parameter or a column of that name.
+// True for "table": FILE of a law of time, not for a parameter or column of that name.
 bool names_a_table(const Value& value, const std::string& key) {
   const std::string& path = value.path();
   return key == "table" && is_plain_text(value) && !path.starts_with("record.") && !path.starts_with("parameters.");

@@ -8,8 +8,8 @@ namespace trammel {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-// The longest steps that keep errors of 1e-9 or so, of methods of order 8, go half the size of a motion (0.6 of the amplitude of a
-// swing); shorter ones are measured more strictly.
+// Methods of order 8 that keep errors of about 1e-9 have the longest steps: half the amplitude of an oscillation.
+// Shorter steps are judged more strictly.
 constexpr double steps_in_a_motion = 2;
 
 double largest(const Vec& a, const Vec& b) {
@@ -29,7 +29,7 @@ double error_norm(const Vec& e_q, const Vec& e_v, const State& now, const State&
   for (Eigen::Index i = 0; i < n; ++i) {
     const double size_v = std::max(std::abs(now.v[i]), std::abs(next.v[i]));
     const double entry = flat ? std::max(std::abs(now.q[i]), std::abs(next.q[i])) : all_q;
-    const double size_q = std::min(entry, ahead * size_v);  // a step may be many swings of a coordinate long
+    const double size_q = std::min(entry, ahead * size_v);  // a step may be many oscillations long
     const double allowed_q = tolerance.absolute + tolerance.relative * size_q + round_off_q;
     const double allowed_v = tolerance.absolute + tolerance.relative * size_v + round_off_v;
     if (e_q[i] != 0) sum += e_q[i] / allowed_q * (e_q[i] / allowed_q);

@@ -1,5 +1,5 @@
-// Out-of-line destructors of the public interfaces: each interface's vtable and type_info live here, in libtrammel,
-// once. So dynamic_cast and exceptions work between program and plugins, also when a plugin hides its own symbols.
+// Out-of-line destructors of the public interfaces. They place each interface's vtable and type_info once, in
+// libtrammel, so that dynamic_cast and exceptions work between program and plugins, even if a plugin hides its symbols.
 #include <algorithm>
 #include <stdexcept>
 
@@ -60,7 +60,7 @@ SlidingSurface::~SlidingSurface() = default;
 ForceBySurfacePoints::~ForceBySurfacePoints() = default;
 Surface::~Surface() = default;
 
-// Of joints and forces.
+// Abilities of joints and forces.
 LinearRows::~LinearRows() = default;
 NeedsOrientation::~NeedsOrientation() = default;
 CountsTurns::~CountsTurns() = default;
@@ -71,7 +71,7 @@ void Archive::operator()(std::string_view name, std::vector<Vec>& values) {
   (*this)(stem + ".count", count);
   if (count < 0) throw std::length_error(stem + ".count");
   values.resize(std::min(values.size(), static_cast<std::size_t>(count)));
-  // One after another: what is read may claim more than there is.
+  // Grow one by one: a damaged archive may state a count that is too large.
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     if (i == values.size()) values.emplace_back();
     (*this)(stem + "." + std::to_string(i), values[i]);

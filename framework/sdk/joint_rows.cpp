@@ -35,7 +35,7 @@ Matrix3d tilde(const Vector3d& a) {
   return Spatial<3>::C(a).transpose();
 }
 
-// Any right-handed triad with n first.
+// A right-handed triad whose first vector is n.
 Matrix3d triad(const Vector3d& n) {
   Matrix3d e;
   e.col(0) = n;
@@ -74,7 +74,7 @@ Quaterniond unit_quaternion(const World& world, const std::vector<double>& wxyz,
   return {unit(0), unit(1), unit(2), unit(3)};
 }
 
-// -1: the constant 0
+// Index of a new law in laws_; -1 for the constant 0.
 int JointRows::follow(TimeFunction p, const Vector3d& axis) {
   if (p.is_constant() && p(0) == 0) return -1;
   laws_.push_back({std::move(p), axis});
@@ -135,7 +135,7 @@ int JointRows::count() const {
   return int(rows_.size()) + (same_point_ ? dimension(space_) : 0);
 }
 
-// Between axes that do not turn, but for laws of time.
+// Linear if the axes do not turn and no law of time acts.
 bool JointRows::linear() const {
   return std::all_of(laws_.begin(), laws_.end(), [](const Law& law) { return law.p.is_constant(); });
 }
@@ -146,7 +146,7 @@ bool JointRows::needs_orientation(int marker) const {
   });
 }
 
-// One joint at one instant.
+// The rows of one joint at one instant.
 template <int D>
 struct JointRows::Evaluation {
   static constexpr int turns = Of<D>::rotations;
@@ -239,7 +239,7 @@ struct JointRows::Evaluation {
     }
   }
 
-  // a of A turned by a law phi(t) about n: its angular velocity and acceleration are omega = phi' n and alpha besides A's.
+  // a of A rotated by a law phi(t) about n. omega = phi' n and alpha: angular velocity and acceleration relative to A.
   struct Turned {
     Vector3d a, omega, alpha;
   };

@@ -26,7 +26,7 @@ void Matrix::add(int i0, int j0, Block block, double c) {
     const int rows = int(block.rows()), columns = int(block.cols());
     return sum_->add({nullptr, row_ + i0, rows}, {nullptr, column_ + j0, columns}, block, c);
   }
-  // Plain loops: for blocks of a few columns an expression of Eigen's costs four times as much.
+  // Plain loops: faster than Eigen's expressions for blocks with few columns.
   Eigen::Index rows = block.rows(), columns = block.cols();
   if (rows == stride_ && rows == block.outerStride()) rows *= columns, columns = 1;  // a body alone: one long column
   for (Eigen::Index j = 0; j < columns; ++j) {

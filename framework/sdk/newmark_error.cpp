@@ -35,7 +35,7 @@ double NewmarkError::operator()(System& s, const State& now, const State& next, 
     e_v_.setZero(e_q_.size());
     return error_norm(e_q_, e_v_, now, next, tolerance);
   }
-  // rate_: a' at the step's start (from the step before, or measured).
+  // rate_: a' at the step's start, from the previous step or by a difference.
   if (a_before_.size() == now.a.size() && h_before_ > 0) {
     rate_ = (now.a - a_before_) / h_before_;
     e_v_ = 2 * h * h / (h + h_before_) * ((next.a - now.a) / h - rate_);

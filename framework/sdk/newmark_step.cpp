@@ -20,16 +20,16 @@ constexpr double turns = 10;
 double largest(const Vec& x) {
   return x.size() ? x.lpNorm<Eigen::Infinity>() : 0;
 }
-// Near the smallest normal numbers (a motion damped out) nothing is left to be relative to.
+// The offset avoids a division by numbers near underflow (a motion that is damped out).
 double relative(double change, double size) {
   return change / (size + 1e-280);
 }
 
 }  // namespace
 
-// Metres and radians do not compare: an angle of a rod a kilometre long is not known to 1e-11 where 1e-8 rad are left. A coordinate is
-// measured by its own way in the step, or by 1 where that is less, but never by more than the largest. Below its round-off nothing is
-// asked for.
+// Metres and radians are not comparable: 1e-8 m is accurate to 1e-11 for a rod a kilometre long, 1e-8 rad is not. The
+// scale of a coordinate is its own change in the step, but at least 1, and at most the scale of all coordinates
+// together. Tolerances below a coordinate's round-off are avoided.
 void NewmarkStep::measure(const State& now, double h) {
   sizes_q_ = h * now.v.cwiseAbs() + h * h * now.a.cwiseAbs() + dq.cwiseAbs();
   const double noise = 64 * eps / newton.tolerance;
@@ -90,7 +90,7 @@ void NewmarkStep::factorise(System& s, Blend blend, const State& next) {
   s.factorise(blend, next.a, next.lambda);
   of_pi_ = Factors::iteration;
   if (s.sizes().nc == 0 || formulation == Formulation::index3) return;
-  // W = G gives the same force for any multipliers, to the last bit. The vectors are free until rows are corrected.
+  // If W = G, both products agree to the last bit for any multipliers. These vectors are scratch until correct_rows.
   rc_.setLinSpaced(s.sizes().nc, 1, 2);
   da_ = dpi_ = zero_;
   s.add_reaction(1, rc_, da_);
@@ -110,7 +110,7 @@ bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
   } else {
     rc_ = s.g_dot() / c_v_;
     if (!s.correct(r, rc_, da_, dlambda_)) return false;
-    // g after that increment, which moves q by c_q da with G da = -rc.
+    // g after this increment, which moves q by c_q da with G da = -rc.
     rc_ = s.g() - c_q_ * rc_;
     if (!s.correct(zero_, rc_, dpi_, mu_, of_pi_)) return false;
     pi_ += dpi_;
@@ -148,7 +148,8 @@ void NewmarkStep::measure_change(const State& next) {
   moved_ += change_each_;
 }
 
-// c_q a of a mode changes its force by omega^2 c_q M a: by more than M a where the step is too long for it, whatever its phase.
+// c_q a of a mode changes its force by omega^2 c_q M a: by more than M a if the step is too long for the mode, whatever
+// its phase.
 bool NewmarkStep::misled(System& s, const Vec& r) {
   if (!leads_) return false;
   leads_ = false;
@@ -158,10 +159,10 @@ bool NewmarkStep::misled(System& s, const Vec& r) {
   return largest(r) > largest(da_);
 }
 
-// Near a change of rank, an angle theta from it, rows that hold to their round-off d leave q uncertain by d / theta and v by
-// d / theta^2; likewise a rod's angle beside a body a million million times as long, whose coordinates take no increment below
-// their own spacing. Then q moves at every increment, and r with it. What r alone asks for tells whether the iteration has come to
-// its end: it is within the tolerance, or moves q in a step by little beside what the rows' round-off does.
+// Near a change of rank, at an angle theta from it, rows that are satisfied to their round-off d leave q uncertain by d
+// / theta and v by d / theta^2; so does a rod beside a body 1e12 times as long, whose coordinates cannot change by less
+// than their spacing. Then every increment moves q, and r with it. The iteration has converged if the increment due to
+// r alone is within the tolerance, or moves q much less than the round-off of the rows does.
 bool NewmarkStep::at_round_off(System& s, const Vec& r) {
   if (change_q_ <= 64 * eps || largest(r) <= 64 * eps * largest(s.f())) return true;
   if (s.sizes().nc == 0 || largest(s.g()) > 4 * eps * size_q_) return false;
@@ -196,7 +197,7 @@ Outcome NewmarkStep::finish(System& s, const State& now, State& next) {
       change = formulation == Formulation::index3 ? change_each_ : std::max(change_each_, change_v_);
     } while (change * std::min(newton.rate(), turns * moved_) > eps && ++passes < 4);
     if (missed > std::max(1e-8, 1e-6 * size_q_)) return Outcome::reject("the joints' rows contradict each other");
-    // Rows of position divide their round-off by h^2. Where that is no longer small beside the velocity, say so.
+    // Position rows divide their round-off by h^2. Reject the step if that is not small compared with the velocity.
     const double noise = eps * size_q_ * c_v_ / std::max(c_q_, std::numeric_limits<double>::min());
     if (formulation == Formulation::index3 && noise > 1e-3 * size_v_)
       return Outcome::reject(

@@ -7,7 +7,7 @@ namespace trammel {
 
 namespace {
 
-// An increment of this relative size, larger than the one before, which was larger too, will not come to an end soon.
+// If the increments have grown twice and are larger than this, the iteration diverges.
 constexpr double hopeless = 0.1;
 
 }  // namespace
@@ -25,7 +25,7 @@ void Newton::start(double share_of_first) {
 void Newton::judge(double change, bool at_round_off) {
   if (!std::isfinite(change)) return fail("Newton's iteration left the finite numbers");
   ++iterations_;
-  // The first increment has no rate: it must be within the tolerance itself.
+  // The first increment has no rate; it must itself be within the tolerance.
   const bool first = iterations_ == 1;
   if (first) enough_ = std::max(tolerance, share_of_first_ * change);
   const double rate_before = rate_;

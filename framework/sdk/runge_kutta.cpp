@@ -9,11 +9,12 @@ namespace trammel {
 
 namespace {
 
-// How far off the rows a slope may be taken [m, rad; relative to the speed]: to round-off inside a step as at its end. Near a change of
-// rank accelerations are wrong by it over the square of the angle between rows, which are told apart down to 1e-7.
+// Largest violation of the rows where a slope may be evaluated [m, rad; relative to the speed], inside a step and at
+// its end. Near a change of rank the error of the accelerations is this violation divided by the square of the angle
+// between rows. Rows are independent down to an angle of 1e-7.
 constexpr double round_off = 1e-15;
 
-// Far beyond any model's range, and small enough for a model to square and square again.
+// Far beyond the range of any model, and small enough that a model may form fourth powers.
 bool within_range(const Vec& x) {
   return x.squaredNorm() < 1e120;  // false for NaN too
 }
@@ -50,8 +51,9 @@ bool RungeKutta::keep_null_space(System& s, const State& now) {
   return true;
 }
 
-// Projected: the first factors are off by the violation itself; the second, nearly in place, serve to the end. With kept factors
-// violations shrink by h with each solution; beyond their reach it fails.
+// Projection onto the rows by a modified Newton iteration. `projected`: the first factors have an error of the order of
+// the violation; the second ones, near the solution, are used until the end. With the factors of the step's start each
+// iteration reduces the violation by a factor of order h; the projection fails if it converges too slowly.
 bool RungeKutta::onto_rows(System& s, double t) {
   constexpr int most_iterations = 20;
   constexpr double in_place = 1e-3, well = 0.1, reach = 0.25;
@@ -62,7 +64,7 @@ bool RungeKutta::onto_rows(System& s, double t) {
   zero_.setZero(s.sizes().nv);
   no_force_.setZero(s.sizes().nc);
   double factorised_at = std::numeric_limits<double>::infinity(), before = 0, violation = 0;
-  // False: settled, or down to round-off.
+  // False: converged, or at round-off.
   const auto remains = [&](int i, const Vec& off, double size) {
     right_ = off;
     before = violation;
@@ -154,7 +156,7 @@ bool RungeKutta::add_stage(System& s, const State& now, double c, const double* 
   q_ = now.q + dq_;
   v_ = now.v + dv_;
   if (k_.size() == std::size_t(filled_)) k_.emplace_back();
-  // Others may have used the factors since the step.
+  // Other code may have replaced the factors since the step.
   const bool later = by_null_space_ && filled_ > tableau_.stages;
   if (later && !keep_null_space(s, now)) return false;
   const bool known = evaluate(s, now.t + c * h_, q_, v_, k_[std::size_t(filled_)]);
@@ -164,7 +166,8 @@ bool RungeKutta::add_stage(System& s, const State& now, double c, const double* 
 }
 
 bool RungeKutta::recall(System& s, const State& now, const State& next) {
-  // By its length, as t is rounded, and its end's acceleration: either alone may be that of another step.
+  // Compare the step size, up to round-off of t, and the final acceleration: one alone may agree with that of another
+  // step.
   const double h = next.t - now.t;
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(now.t), std::abs(next.t));
   const Vec& a = k_[std::size_t(tableau_.stages)].v;

@@ -93,7 +93,7 @@ void AssembledSystem::initial(Vec& q, Vec& v) const {
 void AssembledSystem::hold_still(bool still) {
   Work& w = *work_;
   w.chain.hold_still(still);
-  if (w.point > 0) ++w.point;  // else there is no point yet
+  if (w.point > 0) ++w.point;  // otherwise there is no point yet
   w.bodies_fresh = w.force_fresh = w.rows_fresh = false;
   ++w.configuration;
 }
@@ -191,7 +191,7 @@ void AssembledSystem::add_rows_force(double c, const Vec& mu, Vec& r) {
 }
 
 namespace {
-constexpr int most_loads = 50;  // of bearings, tried by Newton's method: it takes 1 to 4
+constexpr int most_loads = 50;  // iterations of Newton's method for the bearings' loads; it takes 1 to 4
 }
 
 void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
@@ -199,14 +199,14 @@ void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
   w.evaluate_rows();
   const bool stabilised = s.alpha != 0 || s.beta != 0;
   if (stabilised) w.right_rows = w.gamma - 2 * s.alpha * w.g_dot - s.beta * s.beta * w.g;
-  // From bearings without load on, whatever was asked before: the same point has the same answer.
+  // Always start from bearings without load, so that the result at a point does not depend on earlier calls.
   w.bear_nothing();
   for (int tries = 0;; ++tries) {
     if (!w.factorise_mass(Work::at_point, true, w.rank_tolerance()))
       throw NotSolvable("the mass matrix is not positive definite");
     if (!w.solve(Work::at_point, w.force(), stabilised ? w.right_rows : w.gamma, a, lambda)) {
       a.setConstant(w.sizes.nv, std::numeric_limits<double>::quiet_NaN());
-      break;  // who asked looks for the component whose answer is not finite
+      break;  // the caller finds the component whose result is not finite
     }
     if (!w.bear(lambda)) break;
     if (tries == most_loads) w.fail_without_loads();

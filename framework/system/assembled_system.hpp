@@ -18,17 +18,18 @@
 
 namespace trammel::model {
 
-// How often the expensive things were done.
+// Counts of the expensive operations.
 struct Counts {
   long long residual_evaluations = 0;  // evaluations of f
   long long jacobian_evaluations = 0;  // of the iteration matrix
   long long factorizations = 0;
-  // Of implicit methods: points at which increments were solved for by the iteration matrix. Several solutions at one point (rows
-  // of velocity and of position, a look at the round-off) are one iteration; solutions for rows alone, without a residual, are none.
+  // Newton iterations of implicit methods: points with a solution by the iteration matrix. Several solutions at one
+  // point (velocity rows, position rows, a test for round-off) count once; solutions for rows without a residual do not
+  // count.
   long long newton_iterations = 0;
 };
 
-// The equations of motion have no solution at a point: a fault of the scene, not of a plugin that asked for it.
+// The equations of motion have no solution at a point: an error of the scene, not of the plugin that called.
 class NotSolvable : public std::runtime_error, public plugin::PassesThroughPlugins {
  public:
   using std::runtime_error::runtime_error;
@@ -39,7 +40,7 @@ class NotSolvable : public std::runtime_error, public plugin::PassesThroughPlugi
 enum class Storage { automatic, dense, sparse, blocks };
 Storage storage_for(const Model& model);
 
-// Where the stresses of a CarriedStress tangent come from: those at `from`, carried on linearly by the increment dq.
+// The stresses of a CarriedStress tangent: those at `from` plus their linear change by the increment dq.
 struct CarriedFrom {
   const Vec& from;
   const Vec& dq;
@@ -73,20 +74,21 @@ class AssembledSystem final : public System, public HasRigidMotions {
 
   // --- for the Simulator ---
   const Model& model() const;
-  // Which contacts are closed and stick; changes sizes().nc. Rows: the bodies' and joints', those of contacts that have
-  // locked, then contact by contact that of the gap (closed Restitution contacts) and those of the tangents (sticking ones),
-  // without those that are implied by others.
+  // Sets which contacts are closed and which stick; changes sizes().nc. The rows are those of bodies and joints, those
+  // of contacts that have locked, then for each contact the row of the gap (closed Restitution contacts) and those of
+  // the tangents (sticking ones), except rows that are implied by others.
   void set_modes(const Modes& modes);
-  void lay_out();  // the model was laid out anew: forgets all that was evaluated, keeps the modes and counts
+  void lay_out();  // after a new layout of the model: discards all results, keeps modes and counts
   const Modes& modes() const;
   int row(ContactDirection direction) const;  // in g; -1: open, sliding, implied by other rows, or compliant
-  int held_rows() const;                      // the first of g: of bodies, joints and contacts that have locked
+  int held_rows() const;                      // number of first rows in g: bodies, joints, locked contacts
   void initial(Vec& q, Vec& v) const;         // from the bodies' parameters
-  // For statics: points have v = 0, markers that a law of time moves stand still where they are, and contacts stick by rows,
-  // however their friction decides. Modes are to be set anew afterwards.
+  // For statics: v = 0 at all points, markers that follow a law of time are at rest at their position, and contacts
+  // stick by rows whatever their friction law. Set the modes again afterwards.
   void hold_still(bool still);
-  // For statics: factorise({0, 0, 1}, 0, lambda), but in bodies with CarriedStress K has the stresses at `carried.from`
-  // carried on linearly by `carried.dq`. It is a part of this call alone: every other K is exact.
+  // For statics: factorise({0, 0, 1}, 0, lambda), except that bodies with CarriedStress use the stresses at
+  // `carried.from` plus their linear change by `carried.dq` in K. This applies to this call only; every other K is
+  // exact.
   void factorise_with_stress(const CarriedFrom& carried, const Vec& lambda);
 
   // At the point of the last move_to. Each evaluates only what it needs.
@@ -94,26 +96,27 @@ class AssembledSystem final : public System, public HasRigidMotions {
   double gap_rate(int contact);
   double rate(ContactDirection direction);                        // [m/s] of the gap, or slip velocity
   double acceleration(ContactDirection direction, const Vec& a);  // [m/s^2] for an acceleration of the system
-  double coordinate(ContactDirection direction);                  // [m] gap, or place along the tangent
-  // Where rows are shared: as equal springs would share, or if those would pull or leave a friction cone, the least forces that do
-  // not, if there are any.
-  double normal_force(int contact, const Vec& lambda);        // [N] >= 0 pushes; of a joint the load of its bearings
+  double coordinate(ContactDirection direction);                  // [m] gap, or position along the tangent
+  // Dependent contacts share their resultants like equal springs. If these forces would be tensile or outside a
+  // friction cone, they share by the least admissible forces, if there are any.
+  double normal_force(int contact, const Vec& lambda);        // [N] >= 0 compressive; for a joint: load of its bearings
   Tangential friction_force(int contact, const Vec& lambda);  // [N] on A
-  // How contacts share rows at the current modes.
+  // How a contact shares rows in the current modes.
   struct Sharing {
     bool shared = false;     // its normal, or a tangent that sticks
-    bool as_spring = false;  // it slides or is idle: its share decides the motion
-    bool idle = false;       // closed, but it carries nothing while those it shares with carry as they do
+    bool as_spring = false;  // it slides or is idle: its share affects the motion
+    bool idle = false;       // closed, but without load in the present distribution of forces
     int group = -1;          // in modes().shared
   };
   Sharing sharing(int contact) const;
-  // [N] how much further each contact of a group could be unloaded before no forces that they can exert carry what they carry;
-  // negative where none do.
+  // [N] for each contact of a group: by how much it can be unloaded until no admissible forces give the same
+  // resultants; negative if there are none already.
   double spare_load(int group, const Vec& lambda);
   double largest_load(int group, const Vec& lambda);  // of their forces [N]
-  // [m/s^2] the largest acceleration along a direction that is implied, by an acceleration of the system: 0 while it is.
+  // [m/s^2] the largest acceleration along the implied directions for an acceleration of the system: 0 as long as they
+  // are implied.
   double departure(int group, const Vec& a);
-  // [N] of an idle contact: what it would carry as a spring among those that carry; it begins to where this rises through 0.
+  // [N] of an idle contact: its force if it shared as a spring; it starts to carry when this rises through 0.
   double spring_force(int contact, const Vec& lambda);
   Tangential slip(int contact);                             // [m/s]; of contacts with friction
   Tangential slip_acceleration(int contact, const Vec& a);  // [m/s^2]
@@ -124,17 +127,18 @@ class AssembledSystem final : public System, public HasRigidMotions {
   // what a round body rolls from its place there. Rolling in space is no function of the configuration; within a step the
   // rotation stands for it to the second order, and joins the rates exactly.
   void step_taken();
-  // Velocity jump by impulses on contacts, bilateral rows held (M dv + G_b^T L_b = sum_i n_i L_i): column i of `jump`
-  // is dv for a unit impulse along directions[i], and delassus(i, j) the change of the rate of directions[i] by a unit
-  // along directions[j].
+  // Velocity jump by impulses on contacts with active bilateral rows (M dv + G_b^T L_b = sum_i n_i L_i): column i of
+  // `jump` is dv for a unit impulse along directions[i], and delassus(i, j) the change of the rate of directions[i] by
+  // a unit impulse along directions[j].
   void impulse_response(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus);
-  // Rows depended on each other at the last `accelerate`: lambda is one choice of many.
+  // True if rows were redundant at the last `accelerate`: lambda is not unique.
   bool redundant() const;
-  // [rad/s] What an impulse along a direction sets in motion, x = response, swings back with omega^2 = x K x / x M x at
-  // first (Rayleigh's quotient; K the stiffness, bilateral rows held): the highest of them. 0: none swings back.
+  // [rad/s] The highest initial frequency after impulses along the given directions: with the response x to one of
+  // them, omega^2 = x K x / x M x (Rayleigh's quotient; K: stiffness, with active bilateral rows). 0: no restoring
+  // force.
   double highest_frequency(const std::vector<ContactDirection>& directions);
 
-  struct Balance {           // power of what energy() does not hold, by cause [W]
+  struct Balance {           // power that energy() does not include, by cause [W]
     double drives = 0;       // supplied by bodies' drives and loads
     double dampers = 0;      // dissipated in bodies and forces
     double contacts = 0;     // dissipated in compliant contacts
@@ -143,24 +147,25 @@ class AssembledSystem final : public System, public HasRigidMotions {
     Vec friction;            // dissipated in sliding, contact by contact
   };
   const Balance& balance(const Vec& lambda);  // valid until the next call
-  // Whether something slides with friction, however slowly now: its power may be 0 at both ends of a step and not between.
+  // True if something slides with friction, at any speed: its power may be 0 at both ends of a step and not in between.
   bool rubs() const;
-  bool rubs_by_reactions() const;                              // by a normal force that is a multiplier
+  bool rubs_by_reactions() const;                              // with a multiplier as normal force
   void constraint_acceleration(const Vec& a, Vec& r);          // G a - gamma
   Eigen::SparseMatrix<double, Eigen::RowMajor> sparse_rows();  // G, without entries that are 0
-  // S += c_m M + c_d D + c_k K + c_1 1, the matrix that `factorise` takes (nv x nv).
+  // S += c_m M + c_d D + c_k K + c_1 1, the matrix of `factorise` (nv x nv).
   void add_tangent(Blend c, const Vec& a, const Vec& lambda, Mat& S);
   Eigen::SparseMatrix<double> sparse_tangent(Blend c, const Vec& a, const Vec& lambda);
 
   const Motion& motion(MarkerRef marker);     // at the current point
-  const Motion& contact_marker(int contact);  // of its A; of a surface the deepest point
-  // Largest pressure of the closed contacts of a body on each patch of its surface [Pa]; empty: none has closed.
+  const Motion& contact_marker(int contact);  // marker A; for a surface its deepest point
+  // Largest pressure of a body's closed contacts on each patch of its surface [Pa]; empty: none is closed.
   std::vector<double> surface_pressure(int body);
-  bool has_surface_contact(int body) const;  // which has closed
-  // How far a surface in contact with a plane lies behind it, all of it [m]; negative: it does not, or there is none.
+  bool has_surface_contact(int body) const;  // a closed one
+  // Distance by which the whole surface lies behind the plane that it touches [m]; negative: not the whole surface, or
+  // no such contact.
   double all_behind_plane(int contact);
   const CallSite& last_call() const;
-  // Finds the first component whose answer at the current point is not finite; component is null if all are.
+  // Finds the first component whose result at the current point is not finite; component is null if all are finite.
   CallSite find_not_finite();
   const Counts& counts() const;
   Counts& counts();

@@ -19,7 +19,7 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
     for (std::size_t k = 0; k < markers.size(); ++k) *each[k] = chain.slot(markers[k]);
     return at;
   };
-  // Those of forces lie next to each other in memory: of many bodies most joints' markers may not be asked for.
+  // The markers of forces are contiguous in memory, because those of most joints may not be needed at a point.
   for (const ForceEntry& entry : model->forces) force_slots.push_back(slots_of({entry.A, entry.B}));
   for (const JointEntry& entry : model->joints) joint_slots.push_back(slots_of(entry.markers));
   order_joints();
@@ -46,7 +46,7 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
   lay_out_blocks();
 }
 
-// Those whose rows never change are kept where bodies are many.
+// With many bodies, constant rows are stored.
 void AssembledSystem::Work::order_joints() {
   const auto stands = [this](const JointEntry& joint) {
     const auto* linear = dynamic_cast<const LinearRows*>(joint.joint.get());
@@ -118,7 +118,7 @@ void AssembledSystem::Work::prefetch_body(std::size_t body) {
   if (blocks) numerics::prefetch(blocks->bodies()[body].Gt.data(), own * sizeof(double));
 }
 
-// M, unless it is constant and there already, and what the bodies add to f. Whoever asks for one needs the other soon.
+// Evaluates M, unless it is constant and available, and the bodies' part of f together: callers usually need both.
 void AssembledSystem::Work::evaluate_bodies() {
   ++counts.residual_evaluations;
   if (!mass_fresh && sparse) sum_mass(), mass_fresh = true;

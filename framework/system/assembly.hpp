@@ -1,4 +1,4 @@
-// What an AssembledSystem keeps between calls: the current point, what was evaluated there, and the factors.
+// The data of an AssembledSystem between calls: the current point, the results there, and the factors.
 #pragma once
 
 #include <array>
@@ -29,24 +29,24 @@ struct AssembledSystem::Work {
   struct ContactRows {
     long long point = -1;
     Rows rows;
-    Vec6 rate, free;  // of each: g_dot, and gamma less the markers' bias
+    Vec6 rate, free;  // for each row: g_dot, and gamma minus the markers' bias
   };
-  // The kept factorisations: those of System::Factors, and that of the point's accelerations.
+  // The stored factorisations: those of System::Factors, and that for accelerations at the point.
   enum Store : std::size_t { iteration, projection, at_point };
-  // M or the identity alone has the cheaper, symmetric one.
+  // M or the identity alone has a cheaper, symmetric factorisation.
   struct Kept {
     bool symmetric = false;  // of M or the identity alone
     numerics::MassKkt mass;
     bool mass_factorised = false;  // for constant mass matrices: once
     numerics::IterationKkt iteration;
-    numerics::FrontalIterationKkt sparse;  // in its place, with sparse storage
+    numerics::FrontalIterationKkt sparse;  // used instead with sparse storage
   };
 
   void move_to(double t_new, const Vec& q_new, const Vec& v_new);
   const Motion& motion(int slot) { return chain.motion(slot, t, q, v); }
   using Seen = std::array<const Motion*, Rows::most_markers>;  // null: no such marker
   Seen motions(const Slots& at);
-  Seen motions_in_passing(const Slots& at);  // until the next of these calls
+  Seen motions_in_passing(const Slots& at);  // valid until the next such call
 
   void order_joints();
   void reserve_contacts();
@@ -67,20 +67,20 @@ struct AssembledSystem::Work {
   void evaluate_constant_rows();
   void place_constant_rows();
   void evaluate_own_rows(const BodyEntry& entry);
-  // n rows between the first `count` of these, sized and filled
+  // adds n rows between the first `count` of these markers
   void evaluate_constraint(const Constraint& constraint, int n, const Seen& motions, int count, Rows& into) const;
-  // Rows first .. first + n - 1 of r, between these, become rows `row` and on of g, g_dot, gamma and G.
+  // Rows first .. first + n - 1 of r between these markers become the rows from `row` on of g, g_dot, gamma and G.
   void place_rows(const Rows& r, const Slots& at, const Seen& motions, Eigen::Index first, Eigen::Index n, int row);
   void add_row_force(const Slots& at, const Rows& r, int row, double c, Vec& f) const;  // f += c J^T H^T
   void couple_reactions();
 
-  // Joints that rub (joint_friction.cpp).
+  // Joints with friction (joint_friction.cpp).
   struct Bearing {
     int contact = 0;
     long long point = -1;
     Bearings at = {};
-    Mat6 loads = {};        // of all bearings by the joint's multipliers [1]
-    Vec6 load_by_row = {};  // dN/dlambda at those multipliers that W is for
+    Mat6 loads = {};        // derivatives of the bearings' loads by the joint's multipliers [1]
+    Vec6 load_by_row = {};  // dN/dlambda at the multipliers for which W is formed
   };
   void reserve_bearings();
   const JointEntry& joint_of(int contact) const;
@@ -88,20 +88,20 @@ struct AssembledSystem::Work {
   Bearing& bearing(int contact);                        // at this point
   double bearing_load(int contact, const Vec& lambda);  // N [N]
   bool slides_in_bearing(int contact);                  // with friction
-  void bear_nothing();                                  // W as if the bearings had no load
-  bool bear(const Vec& lambda);                         // W at these multipliers; false: W^T lambda was right before
+  void bear_nothing();                                  // W with unloaded bearings
+  bool bear(const Vec& lambda);                         // W at these multipliers; false: W^T lambda did not change
   [[noreturn]] void fail_without_loads();
   void add_slip_tangent(int contact, Blend c, const Vec& lambda, Matrix& S);
 
   const Rows& contact(int i);
   void evaluate_contact(int i, ContactRows& into);
   bool on_surface(std::size_t i) const { return surfaces[i].contact != nullptr; }
-  SurfaceContact& surface(std::size_t i);  // at this point, of a contact that has one
+  SurfaceContact& surface(std::size_t i);  // at this point; the contact must have a surface
   bool presses_surface(std::size_t i, int body) const;
   SurfaceContact::Point here() const { return {t, q, v, point}; }
   double contact_rate(int i, int row);
   double contact_acceleration(int i, int row, const Vec& a);
-  void judge_friction(Vec& a, Vec& lambda);  // adds that of `judged`
+  void judge_friction(Vec& a, Vec& lambda);  // adds the friction of the contacts in `judged`
   int tangents(int i) const { return model->contacts[std::size_t(i)].joint ? 1 : dimension(model->world.space) - 1; }
   Tangential slip(int i);
   SlipDirection slip_direction(int i);
@@ -109,10 +109,10 @@ struct AssembledSystem::Work {
   double ask_friction(int contact, const char* name, Call call);
   Tangential friction_ratio(int i);         // F_t / F_n while sliding; 0 where rows or nothing hold it
   Eigen::Matrix2d friction_damping(int i);  // -d(F_t / F_n)/d(slip velocity) [s/m]
-  bool rolls(int i) const;                  // it is round, in space: the coordinates of its tangents follow from steps
-  Eigen::Matrix3d seen_from_B(int i);       // A's orientation
+  bool rolls(int i) const;                  // round, in space: its tangential coordinates are accumulated over steps
+  Eigen::Matrix3d seen_from_B(int i);       // A's orientation in B's axes
   Tangential displacement(int i);           // g along the tangents, from the mode's anchor
-  // S += c_m M + c_d D + c_k K + c_1 1. `carried`: K with stresses from there (CarriedStress); null: exact.
+  // S += c_m M + c_d D + c_k K + c_1 1. `carried`: K with those stresses (CarriedStress); null: exact.
   void add_tangent(Blend c, const Vec& a, const Vec& lambda, Matrix& S, const CarriedFrom* carried = nullptr);
   bool factorise_mass(Store store, bool with_friction, double rank_tolerance);
   void factorise_identity(Store store);
@@ -121,12 +121,12 @@ struct AssembledSystem::Work {
   void factorise_sparse(Kept& store, Blend c, const Vec& a, const Vec& lambda, bool sliding,
                         const CarriedFrom* carried);
   void add_rows_to(numerics::SparseSum& sum, bool sliding);  // W^T and G beside S
-  bool redundant(Store store) const;                         // rows, at its last factorise_mass
+  bool redundant(Store store) const;                         // true if rows were redundant at the last factorise_mass
   [[nodiscard]] bool solve(Store store, const Vec& b, const Vec& c, Vec& x, Vec& y);
-  // A solver for the change of v by impulses, the joints' rows held.
+  // A solver for the change of v by impulses, with the joints' rows active.
   std::function<void(const Vec& impulse, Vec& dv)> with_joints_held();
 
-  // S += c d(G^T lambda)/dq, lambda of its rows alone.
+  // S += c d(G^T lambda)/dq; lambda: multipliers of these rows only.
   void add_reaction_of(const Constraint& constraint, const ReactionTangent* exact, const Slots& at, const Vec6& lambda,
                        double c, Matrix& S);
   // Of rows, by what solves with them; after evaluate_rows.
@@ -142,14 +142,15 @@ struct AssembledSystem::Work {
   CallSite site;        // before `chain`, which names bodies there
   MarkerMotions chain;
   std::vector<Slots> joint_slots, force_slots, contact_slots;
-  std::vector<std::size_t> joint_order;  // by their first bodies: of many bodies each is then fetched from memory once
+  std::vector<std::size_t> joint_order;      // sorted by their first bodies, for cache locality
   std::vector<std::size_t> constant_joints;  // not in joint_order: their rows are linear in the coordinates
-  std::vector<std::size_t> constrained;      // bodies with rows of their own
+  std::vector<std::size_t> constrained;      // bodies with their own rows
   Modes modes;
-  ContactLoads loads;  // their rows in g, and their forces
-  // Those a multiplier of this row acts at: its own, and those that share with it and slide, by their friction.
+  ContactLoads loads;  // the contacts' rows in g, and their forces
+  // The contacts on which a multiplier of this row acts: its own, and sliding ones that share with it, by their
+  // friction.
   std::vector<int> contacts_of_row(ContactDirection d) const;
-  // use(direction, row in g), in the order of rows but for contacts that have locked.
+  // Calls use(direction, row in g) in the order of rows, except for contacts that have locked.
   template <class Use>
   void for_each_contact_row(Use&& use) {
     for (int i = 0; i < int(modes.contacts.size()); ++i)
@@ -157,46 +158,46 @@ struct AssembledSystem::Work {
         if (const int row = loads.place({i, k}).row; row >= 0) use(ContactDirection{i, k}, row);
   }
   double force_along(ContactDirection d,
-                     const Vec& lambda);  // [N] of a closed contact, where its friction does not slide
+                     const Vec& lambda);  // [N] of a closed contact that does not slide
   void impulse_response(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus);
   void clear_held(const Mat& N, Mat& jump, Mat& delassus);
-  // K and the shares of shared rows at this point (shared_rows.cpp); true if some have changed.
+  // Updates K and the shares of shared rows at this point (shared_rows.cpp); true if some have changed.
   bool follow_shares();
   bool still_implied(const SharedRows& group, const Vec& some);
   void renew_shares(int group);
   Vec some_motion();
   struct Rate {
-    double sum = 0, terms = 0;  // terms: of their sizes
+    double sum = 0, terms = 0;  // terms: sum of the terms' absolute values
   };
   Rate rate_by(ContactDirection d, const Vec& some);
   ContactLoads::Bounds bounds(int contact, const Vec& lambda);     // of its forces where it shares rows
   Mat moved_with_sliding(int group);  // ContactLoads::solve_with_sliding
   const ContactLoads& shared_rows(int group, const Vec& lambda);   // with the resultants of a group
   const ContactLoads& shared_loads(int group, const Vec& lambda);  // and with its forces
-  std::vector<int> judged;           // closed contacts at rest whose friction every evaluation finds anew
+  std::vector<int> judged;           // closed contacts at rest whose friction is decided in every evaluation
   Eigen::Matrix2Xd judged_friction;  // [N] by contact, at the last accelerate
-  bool coupled = false;              // a row's force has a sliding friction beside it: W != G
-  std::vector<Bearing> bearings;     // of joints that rub
-  std::vector<int> bearing_of;       // by contact: index into them; empty where there are none
+  bool coupled = false;              // sliding friction depends on a row's force: W != G
+  std::vector<Bearing> bearings;     // of joints with friction
+  std::vector<int> bearing_of;       // by contact: index into `bearings`; empty if there are none
   Sizes sizes;
-  int held_rows = 0;  // the first rows of g, that hold through impacts: of bodies, joints and contacts that have locked
+  int held_rows = 0;  // the first rows of g, bilateral in impacts: of bodies, joints and locked contacts
 
   double t = 0;
   Vec q, v;
   long long point = 0;
   long long iterated_at = -1;   // the point of the last Newton iteration
-  long long shares_at = -1;     // the configuration that K and the shares were last looked at
-  long long configuration = 0;  // counts changes of what M and G depend on: t, q, modes
+  long long shares_at = -1;     // the configuration where K and the shares were last updated
+  long long configuration = 0;  // counts changes of t, q and modes, on which M and G depend
   bool mass_fresh = false, rows_fresh = false;
-  bool bodies_fresh = false, force_fresh = false;  // f holds what the bodies add; all of it
+  bool bodies_fresh = false, force_fresh = false;  // f contains the bodies' part; f is complete
 
   Mat M, G, W;
   numerics::SparseSum sparse_mass;  // in place of M, with sparse storage
   Vec f, g, g_dot, gamma;
   std::array<Kept, 3> kept;
-  std::optional<BodyBlocks> blocks;  // in place of M, G, W and their factors where bodies are many
+  std::optional<BodyBlocks> blocks;  // instead of M, G, W and their factors with many bodies
   ConstantRows constant_rows;
-  bool constant_rows_placed = false;  // in it and in `blocks`
+  bool constant_rows_placed = false;  // in G and in `blocks`
   Counts counts;
 
   // scratch
@@ -206,31 +207,32 @@ struct AssembledSystem::Work {
   PairTangent wrench_by;
   std::vector<ContactRows> contact_rows;
   struct Pressed {
-    std::unique_ptr<SurfaceContact> contact;  // null: no surface takes part
+    std::unique_ptr<SurfaceContact> contact;  // null: contact without surfaces
     long long point = -1;
   };
   std::vector<Pressed> surfaces;  // by contact
   Wrench on_A, on_B;
   Vec right, right_rows;
-  std::vector<int> row_places;  // columns of a few rows, and their numbers
+  std::vector<int> row_places;  // column indices and values of a few rows
   std::vector<double> row_numbers;
 };
 
-// d of the generalised force of a few markers, whose wrenches are a function of their motions, by differences of the
-// poses and velocities: S += c_k d(J^T w)/dq + c_d d(J^T w)/dv. Of the markers' own motion only J^T's change with q is
-// included beside; that V depends on q at fixed v is left out (it is of the order damping x speed / length beside the
-// stiffness, and Newton's iteration corrects for it).
+// Derivative of the generalised force of a few markers whose wrenches are functions of their motions, by differences of
+// poses and velocities: S += c_k d(J^T w)/dq + c_d d(J^T w)/dv. It includes the change of J^T with q. It neglects the
+// dependence of V on q at fixed v: this term is of the order damping x speed / length compared with the stiffness, and
+// Newton's iteration compensates for it.
 class MarkerWrenches {
  public:
   virtual ~MarkerWrenches() = default;
-  // `on` comes in with as many wrenches as markers, all zero.
+  // On entry `on` has one wrench per marker, all zero.
   virtual void operator()(Motions markers, std::span<Wrench> on) const = 0;
   virtual bool depends_on_velocity() const = 0;
 };
 void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
                         const MarkerWrenches& wrenches, double c_k, double c_d, Matrix& S);
 
-// The wrench of a contact on one of its markers, whose rows are H: `normal` along its normal, `friction` along its tangents.
+// The wrench of a contact on one of its markers with the rows H: `normal` along the normal, `friction` along the
+// tangents.
 Wrench pressed_by(const Mat6& H, double normal, const Tangential& friction);
 
 }  // namespace trammel::model

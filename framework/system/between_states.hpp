@@ -1,6 +1,6 @@
-// The state at a part theta of a step, between two states of a solution: the cubic through v and a of both ends (Hermite), and
-// the one through q and v, on the manifold of configurations; or, of an integrator whose steps are not like that
-// (oscillating_steps.hpp), its own where it finds one.
+// The state at theta in [0, 1] between the two ends of a step: cubic Hermite polynomials through v and a, and through q
+// and v on the manifold of configurations. For an integrator with OscillatingSteps it is the integrator's dense output,
+// if it finds a state.
 #pragma once
 
 #include <limits>
@@ -16,9 +16,9 @@ class BetweenStates {
   BetweenStates(model::AssembledSystem& system, Integrator& integrator)
       : system_(system), own_(dynamic_cast<OscillatingSteps*>(&integrator)) {}
 
-  OscillatingSteps* oscillating() { return own_; }  // none: steps are smooth
+  OscillatingSteps* oscillating() { return own_; }  // null: steps are smooth
   bool swings() const { return own_ != nullptr; }
-  // [s] of steps that are as smooth as the cubic through their ends supposes.
+  // [s] largest size of a step for which the cubic polynomial is adequate.
   double longest_resolved() const {
     constexpr double radians = 2;
     const double swing = own_ ? own_->swing() : 0;

@@ -64,7 +64,7 @@ void BodyBlocks::add_rows(int body, int row, const Motion& marker, const RowsOf&
   add(block, row, marker, H, block.Gt);
 }
 
-// They come before those of joints and contacts.
+// The bodies' own rows precede those of joints and contacts.
 void BodyBlocks::set_own_rows(std::size_t body, const Mat& G) {
   Mat& Gt = bodies_[body].Gt;
   for (Eigen::Index i = 0; i < G.rows(); ++i)
@@ -81,7 +81,7 @@ void BodyBlocks::add_reaction(int body, int row, const Motion& marker, const Row
   add(block, row, marker, H, block.Wt);
 }
 
-// A corrected step asks for the same factors twice: to put velocities onto the rows, and for the accelerations there.
+// A corrected step uses the same factors twice: for the projection of velocities and for the accelerations.
 std::size_t BodyBlocks::factors_for(const Kept& store, const MassSystem& of) const {
   for (std::size_t k = 0; k < mass_factors_.size(); ++k)
     if (mass_factors_[k].made && mass_factors_[k].of == of) return k;
@@ -96,7 +96,7 @@ std::size_t BodyBlocks::factors_for(const Kept& store, const MassSystem& of) con
   return k;
 }
 
-// With the layout that others have found, which takes a hundred times as long to find as to copy.
+// Copies the symbolic analysis of another instance, because computing it is a hundred times as expensive.
 void BodyBlocks::begin(MassFactors& factors) const {
   const auto other =
       std::find_if(mass_factors_.begin(), mass_factors_.end(), [](const auto& some) { return some.used; });
@@ -120,7 +120,7 @@ bool BodyBlocks::factorise(Kept& store, const MassSystem& of, bool constant) {
   return factors.made;
 }
 
-// With sliding friction the whole is not symmetric; the symmetric factors still tell which rows are redundant.
+// With sliding friction the matrix is not symmetric; the symmetric factors still determine which rows are redundant.
 bool BodyBlocks::factorise_mass(Kept& store, const MassSystem& of, bool constant, bool sliding) {
   if (!factorise(store, of, constant)) return false;
   if (!sliding) return true;

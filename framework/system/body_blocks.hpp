@@ -1,5 +1,5 @@
-// The equations of many bodies kept body by body: masses and rows of G as dense blocks, solved by the sparse factorisations
-// of linear/sparse_kkt.hpp. In place of the dense matrices where bodies are many.
+// The equations of many bodies in dense blocks: one mass per body and blocks of G, solved by sparse factorisations.
+// They replace dense matrices for systems of many bodies.
 #pragma once
 
 #include <array>
@@ -18,12 +18,13 @@ namespace trammel::model {
 
 class BodyBlocks {
  public:
-  // So many bodies and unknowns that blocks are the faster way (measured on the spatial chain).
+  // True if blocks are faster for these numbers of bodies and unknowns (measured on the spatial chain).
   static bool worthwhile(const Model& model);
 
   explicit BodyBlocks(const Model& model);
 
-  // Rows first .. first + count - 1 of g are between these bodies (-1: the ground). Given in ascending order; the masses stay.
+  // Rows first .. first + count - 1 of g are between these bodies (-1: the ground). Call in ascending order; masses are
+  // kept.
   struct Tie {
     int first, count;
     bool constant;
@@ -33,15 +34,15 @@ class BodyBlocks {
 
   std::vector<numerics::BodyBlock>& bodies() { return bodies_; }
   Mat& mass(std::size_t body) { return bodies_[body].M; }
-  // Rows of G are set, or cleared and then added to; they stay.
+  // Rows of G are set, or cleared and then added to; they persist.
   void clear_rows(int body, int row, Eigen::Index n);
   void add_rows(int body, int row, const Motion& marker, const RowsOf& H);  // G(row + i, :) += (H J)_i
-  void set_own_rows(std::size_t body, const Mat& G);                        // of a body alone
-  void couple();                                                            // W = G, for more to be added to W:
+  void set_own_rows(std::size_t body, const Mat& G);                        // of one body
+  void couple();                                                            // W = G, to which terms can be added:
   void add_reaction(int body, int row, const Motion& marker, const RowsOf& H);
 
-  // One kept factorisation, as AssembledSystem's: of M or the identity with W = G, or of any S and W. Redundant rows with sliding
-  // friction beside them are left to the dense one, which finds the least squares that the sparse LU cannot.
+  // One stored factorisation: of M or the identity with W = G, or of any S and W. Redundant rows together with sliding
+  // friction use a dense factorisation, because the sparse LU cannot solve least-squares problems.
   struct Kept {
     enum class By { mass, iteration, dense } by = By::mass;
     std::size_t mass = 0;  // in mass_factors_
@@ -50,7 +51,7 @@ class BodyBlocks {
     numerics::MassKkt dense;
   };
   std::array<Kept, 3> kept;
-  // Of M or the identity and G: `at` counts the changes of configuration, on which they depend alone.
+  // Factors of M or the identity and G; `at` is the count of changes of the configuration, on which they depend.
   struct MassSystem {
     long long at = -1;
     int nc = 0;
@@ -58,7 +59,8 @@ class BodyBlocks {
     double rank_tolerance = 0;
     bool operator==(const MassSystem&) const = default;
   };
-  // False: a body's mass is not positive definite. `constant`: the masses are always the same. `sliding`: with W, else G alone.
+  // False: a body's mass is not positive definite. `constant`: the masses never change. `sliding`: with W, otherwise G
+  // alone.
   bool factorise_mass(Kept& store, const MassSystem& of, bool constant, bool sliding);
   void factorise_identity(Kept& store, const MassSystem& of) { factorise(store, of, false); }
   bool redundant(const Kept& store) const { return mass_factors_[store.mass].kkt.redundant(); }
@@ -80,7 +82,7 @@ class BodyBlocks {
  private:
   struct MassFactors {
     MassSystem of;
-    bool used = false, made = false, masses_made = false;  // masses_made: those of the bodies are kept in it
+    bool used = false, made = false, masses_made = false;  // masses_made: it contains the bodies' mass factors
     numerics::SparseMassKkt kkt;
   };
   bool factorise(Kept& store, const MassSystem& of, bool constant);

@@ -1,5 +1,5 @@
-// Rows of joints that are linear in the coordinates (LinearRows): g = G q + g_0 with constant G, of which only what differs from 0 is
-// kept. In a truss of bars these are the rows of all pins.
+// Rows of joints that are linear in the coordinates (LinearRows): g = G q + g_0 with constant G, of which only non-zero
+// entries are stored. In a truss of bars these are the rows of all pins.
 #pragma once
 
 #include <vector>
@@ -11,15 +11,15 @@ namespace trammel::model {
 class ConstantRows {
  public:
   void clear();
-  void add_row(int row, double g_0);                                // those that follow are of it
-  void add_marker();                                                // and those of one of its markers
-  void add_entry(int coordinate, int velocity, double derivative);  // 0 leaves no trace
-  // Into their places. Summed marker by marker: points that coincide to the last digit leave no rounding.
+  void add_row(int row, double g_0);                                // the following markers and entries belong to it
+  void add_marker();                                                // the following entries belong to it
+  void add_entry(int coordinate, int velocity, double derivative);  // 0 is not stored
+  // Writes the rows to their positions. Sums are formed marker by marker, so that coinciding points give exactly 0.
   void evaluate(const Vec& q, const Vec& v, Vec& g, Vec& g_dot, Vec& gamma) const;
 
  private:
   struct Row {
-    int row, end;  // of its markers
+    int row, end;  // end of its markers
     double g_0;
   };
   struct Entry {

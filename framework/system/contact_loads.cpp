@@ -93,7 +93,7 @@ double ContactLoads::scale(const Group& group) const {
   return largest;
 }
 
-// The least distance of a contact's force from pulling and from the side of its cone.
+// The smaller distance of a contact's force from tension and from the side of its friction cone.
 double ContactLoads::slack(const Group& group) const {
   const Vec forces = group.shared();
   double least = std::numeric_limits<double>::infinity();
@@ -108,7 +108,7 @@ double ContactLoads::slack(const Group& group) const {
   return least;
 }
 
-// The contacts as complementarity/shares/admissible_forces.hpp knows them.
+// The contacts in the form of complementarity/shares/admissible_forces.hpp.
 std::vector<complementarity::SharingContact> ContactLoads::sharing(const Group& group) const {
   std::vector<complementarity::SharingContact> contacts;
   for (const Member& m : group.members) {

@@ -1,4 +1,5 @@
-// Forces of closed contacts from the multipliers: where the rows of each are in g, and how those that depend on each other share.
+// Forces of closed contacts from the multipliers: the positions of their rows in g, and how dependent contacts share
+// forces.
 //
 //     F = -lambda of its row;   of shared rows F = share (-lambda of the basis)
 //
@@ -20,11 +21,11 @@ namespace trammel::model {
 
 class ContactLoads {
  public:
-  // Of one direction of a contact.
+  // The position of one direction of a contact.
   struct Place {
     int row = -1;    // in g
     int group = -1;  // in Modes::shared
-    int index = -1;  // in (basis, implied) of it
+    int index = -1;  // in (basis, implied) of the group
   };
   void lay_out(const Modes& modes);
   void set_row(ContactDirection d, int row) { places_[std::size_t(d.contact)][std::size_t(d.row)].row = row; }
@@ -33,20 +34,20 @@ class ContactLoads {
     return place(d).group >= 0 && place(d).index >= basis_size(place(d).group);
   }
 
-  // Along a direction, as equal springs share [N].
+  // The force along a direction if contacts share like equal springs [N].
   double spring(ContactDirection d, const Vec& lambda) const;
-  // d(spring)/d(resultant of each of the basis), and their rows.
+  // The derivatives of `spring` by the resultants of the basis, and the rows of the basis.
   auto shares(const Place& place) const { return modes_->shared[std::size_t(place.group)].share.row(place.index); }
   int row_of_basis(int group, int k) const {
     return place(modes_->shared[std::size_t(group)].basis[std::size_t(k)]).row;
   }
 
-  // What decides whether forces are admissible: of a contact at the current point.
+  // Data of a contact at the current point that determine whether forces are admissible.
   struct Bounds {
     double coefficient = 0;  // of static friction
-    double given = 0;        // [N] normal force, where no row holds it
+    double given = 0;        // [N] normal force if it is not a multiplier
   };
-  // Resultants of a group, and its forces as springs share them; `bounds(contact)` gives the Bounds.
+  // Computes the resultants of a group and its spring forces; `bounds(contact)` gives the Bounds.
   template <class BoundsOf>
   void prepare(int group, const Vec& lambda, BoundsOf&& bounds) {
     begin(group, lambda);
@@ -62,9 +63,9 @@ class ContactLoads {
   // After that, with those that slide; E: what moves, by the forces of the members, then by each that slides along n + p t.
   void solve_with_sliding(int group, const Mat& E);
   double load(const Place& place) const { return groups_[std::size_t(place.group)].forces[place.index]; }
-  // It slides, or it is idle.
+  // True if it slides or is idle.
   bool shares_as_spring(int contact, int group) const;
-  // [N] how much further each of the others could be unloaded, after `prepare`: complementarity/shares/spare_load.hpp.
+  // [N] by how much each other contact can be unloaded, after `prepare`: complementarity/shares/spare_load.hpp.
   double spare_load(int group) const;
   double spare_load_with_sliding(int group, const Mat& E) const;
   std::vector<ContactDirection> members(int group) const;
@@ -75,13 +76,13 @@ class ContactLoads {
  private:
   struct Member {
     int contact = 0;
-    std::array<Eigen::Index, 3> columns = {-1, -1, -1};  // in Group::directions, of its directions
+    std::array<Eigen::Index, 3> columns = {-1, -1, -1};  // of its directions in Group::directions
     Bounds bounds;
   };
   struct Group {
-    std::vector<Member> members;           // those that do not share as springs
-    std::vector<Eigen::Index> directions;  // theirs, in (basis, implied)
-    Mat E;                                 // their resultants, as many as are independent, by their forces
+    std::vector<Member> members;           // contacts that do not share as springs
+    std::vector<Eigen::Index> directions;  // of the members, in (basis, implied)
+    Mat E;                                 // maps the members' forces to their independent resultants
     Vec forces;                            // of all [N]
     Vec resultants;                        // of the members [N]
     Vec shared() const { return forces(directions); }

@@ -1,4 +1,4 @@
-// A contact at the point: the rows of its geometry, how fast its marks approach and slip, and what its friction is to its pressure.
+// A contact at the point: the rows of its geometry, its gap rate and slip, and the ratio of friction to normal force.
 #include <cmath>
 
 #include "system/assembly.hpp"

@@ -111,7 +111,7 @@ void AssembledSystem::Work::factorise_identity(Store store) {
 void AssembledSystem::Work::factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda, bool with_friction,
                                               const CarriedFrom* carried) {
   evaluate_rows();
-  ++counts.jacobian_evaluations;  // once, though a sparse sum may be filled twice until its places are known
+  ++counts.jacobian_evaluations;  // once, although a sparse sum is filled twice the first time
   ++counts.factorizations;
   kept[store].symmetric = false;
   const bool sliding = with_friction && coupled;

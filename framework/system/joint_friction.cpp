@@ -1,10 +1,11 @@
-// Joints that rub at the point: their slip, the loads of their bearings, and W for given multipliers.
+// Joints with friction at the point: their slip, the loads of their bearings, and W for given multipliers.
 //
 //     N(lambda) = sum_k |L_k lambda|,  L_k = C_k H_B^T      homogeneous of degree 1, so with n = dN/dlambda at lambda
-//     W^T lambda = (G^T - r h^T n) lambda                   r = T/N of what slides, h the row of the slip
+//     W^T lambda = (G^T - r h^T n) lambda                   r = T/N while sliding, h: the row of the slip
 //
-// is the reaction at lambda itself, and W is its derivative there: the solution with W of the last lambda is Newton's next. Where
-// loads are numbers (a planar guide) n changes with their signs alone, so that the second is final.
+// W^T lambda is the reaction at lambda, and W^T its derivative there. Hence solving with W of the last lambda is a
+// Newton iteration. If the loads are scalars (a planar guide), n depends only on their signs, and the second iterate is
+// exact.
 #include <cmath>
 #include <limits>
 
@@ -65,7 +66,7 @@ const JointEntry& AssembledSystem::Work::joint_of(int contact) const {
   return model->joints[std::size_t(model->contacts[std::size_t(contact)].joint->joint)];
 }
 
-// Row 0 stays 0: what would be the normal follows from the joint's own rows.
+// Row 0 remains 0, because the normal force follows from the joint's own rows.
 void AssembledSystem::Work::slip_row(int contact, Rows& into) {
   const JointBearing& joint = *model->contacts[std::size_t(contact)].joint;
   const Slots& at = contact_slots[std::size_t(contact)];
@@ -114,7 +115,7 @@ void AssembledSystem::Work::bear_nothing() {
 
 bool AssembledSystem::Work::bear(const Vec& lambda) {
   if (bearings.empty()) return false;
-  // A joint that carries little among others that carry much has no more digits than these leave it.
+  // The load of a lightly loaded joint is limited by the round-off of larger loads in other joints.
   const double largest = lambda.size() > 0 ? lambda.lpNorm<Eigen::Infinity>() : 0;
   bool changed = false, far = false;
   for (Bearing& b : bearings) {
@@ -150,7 +151,8 @@ void AssembledSystem::Work::fail_without_loads() {
 
 namespace {
 
-// The force along the slip, on both markers: of a row that holds it, or friction under the loads of the joint's multipliers.
+// The force along the slip on both markers: of a sticking row, or sliding friction from the loads by the joint's
+// multipliers.
 class SlipForce final : public MarkerWrenches {
  public:
   SlipForce(const JointEntry& joint, const BearingJoint& bearing, double t, const Vec6& lambda, double ratio,

@@ -1,4 +1,4 @@
-// A joint that slides, whose load and friction raise each other without bound.
+// Self-locking: load and friction of a sliding joint increase each other without bound.
 #pragma once
 
 #include "system/assembled_system.hpp"

@@ -7,7 +7,7 @@ namespace trammel::model {
 
 namespace {
 
-// The marker's pose moved by the small twist component i (linear first, then rotation about a world axis).
+// Displaces the marker's pose by the small twist component i (linear first, then rotation about a world axis).
 void displace(const Motion& from, int i, double s, Motion& to) {
   const auto dim = from.x.size();
   to.x = from.x;

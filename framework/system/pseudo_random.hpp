@@ -1,5 +1,5 @@
-// Numbers without a relation between them, the same in every run: a direction or a place that no symmetry of a model singles out.
-// No row but 0 is orthogonal to them all.
+// Pseudo-random numbers, the same in every run: a direction or position in general position, not special by a symmetry
+// of the model. In practice no non-zero row is orthogonal to them.
 #pragma once
 
 #include <cmath>

@@ -31,7 +31,7 @@ void AssembledSystem::Work::evaluate_rows() {
     const auto row_of = [&](int direction) { return loads.place({int(i), direction}).row; };
     coupled = coupled || (!model->contacts[i].force && friction_ratio(int(i)) != Tangential::Zero());
     if (row_of(0) < 0 && row_of(1) < 0 && row_of(2) < 0) continue;
-    const Rows& of_contact = contact(int(i));  // before its motions: on a surface it finds where they are
+    const Rows& of_contact = contact(int(i));  // before its motions, which it determines on surfaces
     const Seen seen = motions(contact_slots[i]);
     if (const int row = row_of(0); row >= 0) {
       place_rows(of_contact, contact_slots[i], seen, 0, 1, row);
@@ -55,7 +55,7 @@ void AssembledSystem::Work::evaluate_constant_rows() {
   constant_rows.evaluate(q, v, g, g_dot, gamma);
 }
 
-// Linear markers are at x_0 there, and linear rows are g_0.
+// At q = 0 linear markers are at x_0, and linear rows have the value g_0.
 void AssembledSystem::Work::place_constant_rows() {
   constant_rows.clear();
   for (const std::size_t i : constant_joints) {
@@ -146,7 +146,7 @@ void AssembledSystem::Work::add_row_force(const Slots& at, const Rows& r, int ro
   for (int k = 0; k < at.count; ++k) chain.add_wrench(at[k], r.H(k).row(row).transpose(), c, sum);
 }
 
-// W: where a contact or a joint slides, the friction beside the force of its rows.
+// W: G plus the friction of sliding contacts and joints that depends on the force of a row.
 void AssembledSystem::Work::couple_reactions() {
   const auto add_friction = [this](int slot, int row, const Mat6& H) {
     if (blocks)

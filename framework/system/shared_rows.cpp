@@ -1,10 +1,10 @@
-// Rows that are implied by others, at the point:
+// Rows that are implied by others at the point:
 //
 //     g_implied = K g_basis + a combination of the joints' rows
 //
-// K is a property of the place. It stays as it is where contacts share because of what they are, the feet of a table; it changes where
-// bodies turn against each other that touch at one point. Whether it still holds is asked of one motion without a relation to
-// anything, of those that the joints allow.
+// K depends on the configuration. It is constant if the dependence follows from the geometry of one body, such as the
+// feet of a table; it changes if bodies that touch at one point turn against each other. K is tested with one
+// pseudo-random motion that the joints permit.
 #include <cmath>
 #include <utility>
 
@@ -16,9 +16,10 @@ namespace {
 
 using Eigen::Index;
 
-// Of the rates of the motion: entries of K below 1e-9 are left out (complementarity/shares/row_basis.cpp), so it holds no better.
+// Relative to the rates of the motion. Entries of K below 1e-9 are neglected (complementarity/shares/row_basis.cpp),
+// which limits its accuracy.
 constexpr double same = 1e-8;
-// Of the terms of a rate, where joints hold the direction.
+// Relative to the terms of a rate, if joints fix the direction.
 constexpr double round_off = 1e-12;
 
 Vec pseudo_random(Index n) {
@@ -69,7 +70,7 @@ bool AssembledSystem::Work::still_implied(const SharedRows& group, const Vec& so
 
 bool AssembledSystem::Work::follow_shares() {
   if (modes.shared.empty()) return false;
-  evaluate_rows();  // which has followed them where shares decide the motion
+  evaluate_rows();  // which updates the shares if they affect the motion
   if (std::exchange(shares_at, configuration) == configuration) return false;
   const Vec some = some_motion();
   bool changed = false;
@@ -90,7 +91,7 @@ void AssembledSystem::Work::renew_shares(int group) {
   Mat jump, A;
   impulse_response(all, jump, A);
   const Mat K = complementarity::implied_by(A, basis, implied);
-  if (!K.allFinite()) return;  // the basis has become dependent: the solver of the accelerations deals with that
+  if (!K.allFinite()) return;  // the basis has become dependent: handled by the solver for accelerations
   Mat shares = K;
   for (Index i = 0; i < K.rows(); ++i)
     if (shared.share.row(Index(basis.size()) + i).isZero(0)) shares.row(i).setZero();  // idle

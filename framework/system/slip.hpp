@@ -7,9 +7,10 @@
 //
 //     e = (X d + y p) / |X d + y p|,   X = max(|x|, slow)
 //
-// is s/|s| as long as the slip turns by less than a right angle in the step, x > slow. Where the step goes too far it pushes on
-// against d, as in the plane, so that x falls through 0 and its zero can be located. There s is either at rest, |y| <= slow,
-// or has turned, and d is taken anew (contact_mode.hpp). `slow` also bounds the stiffness mu F_n / |s| across the slip.
+// e equals s/|s| while the slip turns by less than a right angle in the step, x > slow. If the step goes beyond that,
+// friction still acts against d, as in the plane, so that x decreases through 0 and its zero can be located. There the
+// contact either is at rest, |y| <= slow, or the slip has turned and d is set again (contact_mode.hpp). `slow` also
+// bounds the stiffness mu F_n / |s| across the slip.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,7 @@
 
 namespace trammel::model {
 
-// What a contact does along its tangents, which are fixed in B; in the plane the second is 0.
+// Components along the tangents of a contact, which are fixed in B; in the plane the second is 0.
 using Tangential = Eigen::Vector2d;
 
 class SlipDirection {

@@ -1,4 +1,5 @@
-// How a system's matrices are kept, and what of a sparse S is known beforehand: the rows beside it, and what contacts may reach.
+// The storage of a system's matrices, and the parts of a sparse pattern of S that are known in advance: rows and
+// contacts.
 #include <algorithm>
 
 #include "system/assembly.hpp"
@@ -8,7 +9,7 @@ namespace trammel::model {
 
 namespace {
 
-// Bodies of fewer coordinates are tied to all of what they touch.
+// Bodies with fewer coordinates are coupled by all of them.
 constexpr int few_coordinates = 30;
 
 Eigen::SparseMatrix<double> first_mass(const Model& model) {
@@ -27,9 +28,9 @@ Eigen::SparseMatrix<double> first_mass(const Model& model) {
 
 }  // namespace
 
-// Bodies tell by their masses which coordinates have to do with which.
+// The pattern of the mass shows which coordinates of a body are coupled.
 Storage storage_for(const Model& model) {
-  constexpr int least_unknowns = 150;  // measured on plates
+  constexpr int least_unknowns = 150;  // for sparse storage to be faster, measured on plates
   constexpr double filled = 0.2;
   if (BodyBlocks::worthwhile(model)) return Storage::blocks;
   const double n = model.sizes.nv;
@@ -37,7 +38,7 @@ Storage storage_for(const Model& model) {
   return double(first_mass(model).nonZeros()) < filled * n * n ? Storage::sparse : Storage::dense;
 }
 
-// A sphere wanders over a surface: what it may touch is known from the start, so that the pattern stays the same.
+// A sphere moves over a surface: the pattern includes all patches from the start, so that it does not change.
 void AssembledSystem::Work::reserve_contacts() {
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
     const auto& side = model->contacts[i].surface;
@@ -53,7 +54,7 @@ void AssembledSystem::Work::reserve_contacts() {
   }
 }
 
-// By the coordinates that move their markers, whether their numbers are 0 or not.
+// The coordinates that move the rows' markers, including entries that are 0 at present.
 void AssembledSystem::Work::add_rows_to(numerics::SparseSum& sum, bool sliding) {
   const auto add = [&](int row, int count) {
     std::sort(row_places.begin(), row_places.end());

@@ -1,4 +1,4 @@
-// What the Simulator asks of contacts: gaps, rates, accelerations, forces, and the answer to impulses.
+// Contact quantities for the Simulator: gaps, rates, accelerations, forces, and the response to impulses.
 #include <algorithm>
 #include <cmath>
 
@@ -199,8 +199,8 @@ Eigen::Matrix3d AssembledSystem::Work::seen_from_B(int i) {
   return motion(at.B).R.transpose() * motion(at.A).R;
 }
 
-// In space a round body's slip is s . u + (omega_A - omega_B) . (r x s): the part of the spin is counted by the rotation of A
-// against B from `rolled_from` on.
+// In space a round body's slip is s . u + (omega_A - omega_B) . (r x s). The part of the spin is integrated by the
+// rotation of A against B since `rolled_from`.
 Tangential AssembledSystem::Work::displacement(int i) {
   const ContactMode& mode = modes.contacts[std::size_t(i)];
   const Rows& r = contact(i);
@@ -268,7 +268,7 @@ void AssembledSystem::Work::impulse_response(const std::vector<ContactDirection>
   clear_held(N, jump, delassus);
 }
 
-// Directions that the joints hold: what is left of them is round-off.
+// Directions that the joints fix: their remaining response is round-off.
 void AssembledSystem::Work::clear_held(const Mat& N, Mat& jump, Mat& delassus) {
   constexpr double round_off = 1e-12;
   const Vec masses = mass_diagonal();
@@ -307,8 +307,8 @@ double AssembledSystem::highest_frequency(const std::vector<ContactDirection>& d
   return highest;
 }
 
-// Method lcp_every_step: friction of the feet at rest from the problem of Zhang and Wang 2017, (32)-(39), with
-// A = W_T^T P W_T, P the inverse of the mass on the rows' null space.
+// Method lcp_every_step: friction of the contacts at rest from the problem of Zhang and Wang 2017, (32)-(39), with
+// A = W_T^T P W_T; P: inverse of the mass on the null space of the rows.
 void AssembledSystem::Work::judge_friction(Vec& a, Vec& lambda) {
   const Eigen::Index m = tangents(judged.front()), n = m * Eigen::Index(judged.size());
   Mat response(sizes.nv, n), reaction(sizes.nc, n), columns = Mat::Zero(sizes.nv, n);
@@ -344,7 +344,7 @@ void AssembledSystem::Work::judge_friction(Vec& a, Vec& lambda) {
 const Motion& AssembledSystem::contact_marker(int contact) {
   Work& w = *work_;
   const int slot = w.contact_slots[std::size_t(contact)].A;
-  if (w.chain.on_surface(slot)) w.contact(contact);  // finds it
+  if (w.chain.on_surface(slot)) w.contact(contact);  // computes the nearest point
   return w.motion(slot);
 }
 

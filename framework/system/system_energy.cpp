@@ -31,8 +31,8 @@ Energy AssembledSystem::energy() {
 
 namespace {
 
-// w . V_t: the power of a wrench on a marker in the motion V_t = V - J v that a law of time gives it; it is no power on
-// coordinates. What is left of V by round-off alone is no such motion.
+// w . V_t: the power of a wrench on a marker with the motion V_t = V - J v prescribed by a law of time, which is no
+// power on coordinates. A remainder of V at round-off counts as 0.
 double power_of_law(const Motion& marker, const Vec& v, int v0, const Wrench& wrench) {
   double power = 0;
   const Eigen::Index columns = marker.J.cols();
@@ -51,8 +51,8 @@ double power_of_law(const Motion& marker, const Vec& v, int v0, const Wrench& wr
 
 }  // namespace
 
-// Along the motion d(energy)/dt is the power of all wrenches on coordinates, so what they do on markers in V_t (a base that
-// moves by a law) leaves the system there: it counts as supplied with the other sign.
+// Along the motion d(energy)/dt equals the power of all wrenches on coordinates. Their power on markers with V_t (a
+// base that follows a law) leaves the system there and counts as supplied with the opposite sign.
 const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
   Work& w = *work_;
   Balance& sum = w.power;
@@ -99,7 +99,7 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     const Tangential ratio = w.friction_ratio(int(i));
     const Tangential slip = w.model->contacts[i].friction ? w.slip(int(i)) : Tangential(Tangential::Zero());
     if (w.model->contacts[i].restitution) {
-      // Its rows' power, below, is all of it but for the friction that slides beside them.
+      // The power of its rows, below, is its whole power except for sliding friction.
       sum.friction(Eigen::Index(i)) = -w.loads.spring({int(i), 0}, lambda) * ratio.dot(slip);
       continue;
     }
@@ -126,7 +126,8 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     reaction.setZero(w.sizes.nv);
     w.add_reaction(1, lambda, reaction);
     sum.constraints = -reaction.dot(w.v);
-    // Rows of joints and bodies supply lambda . g_t; what they do on velocities that leave them is the method's error.
+    // Rows of joints and bodies supply lambda . g_t; their power on velocities that violate them is an error of the
+    // method.
     sum.constraints += lambda.head(w.held_rows).dot(w.g_dot.head(w.held_rows));
     for (std::size_t i = 0; i < w.contact_slots.size(); ++i)
       if (!w.model->contacts[i].force) sum.constraints += sum.friction(Eigen::Index(i));

@@ -1,4 +1,5 @@
-// S = c_m M + c_d D + c_k K + c_1 1, D and K of M a - f + W^T lambda: what bodies, forces, joints and contacts add to it.
+// The contributions of bodies, forces, joints and contacts to S = c_m M + c_d D + c_k K + c_1 1; D, K: derivatives of
+// M a - f + W^T lambda.
 #include "system/assembly.hpp"
 #include "system/markers/numeric_derivative.hpp"
 
@@ -127,7 +128,7 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
       for (int k = 0; k < at.count; ++k)
         for (int l = 0; l < at.count; ++l) chain.add_pair(at[k], at[l], along(k) * r.H(l).row(row), weight, S);
     };
-    // W^T lambda: of the row, or -f of the law; and beside it by what slides
+    // W^T lambda: the force of the row, or -f of the law, plus sliding friction
     double pull = 0, pull_beside = 0;
     if (model->contacts[i].restitution) {
       const int row = loads.place({int(i), 0}).row;

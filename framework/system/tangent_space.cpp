@@ -20,7 +20,7 @@ Mat transposed(const Sizes& n, Add&& add) {
   return all;
 }
 
-// An orthonormal basis of what is perpendicular to the columns.
+// An orthonormal basis of the orthogonal complement of the columns.
 Mat complement(Mat columns, double rank_tolerance) {
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
     if (const double length = columns.col(i).norm(); length > 0) columns.col(i) /= length;

@@ -1,4 +1,4 @@
-// What the rows leave free at the system's point, and what their forces do not push.
+// The null spaces of the rows G and of the reactions W at the system's point.
 #pragma once
 
 #include "system/assembled_system.hpp"
@@ -9,7 +9,7 @@ struct TangentSpace {
   Mat Z;                 // G Z = 0: nv x m, orthonormal
   Mat left;              // W left = 0; Z itself unless sliding friction couples rows
   bool sliding = false;  // W is not G
-  int redundant = 0;     // rows
+  int redundant = 0;     // number of redundant rows
 };
 TangentSpace tangent_space(model::AssembledSystem& system);  // throws model::NotSolvable
 

@@ -1,9 +1,9 @@
-// Position and velocity rows restored by the smallest change, in the metric of a matrix S (the identity or M):
+// Restores position and velocity rows by the least change in the metric of a matrix S (the identity or M):
 //
 //     q <- q (+) dq,   [S G^T; G 0] (dq, mu) = -(0, g)            repeated (Newton) until g is at round-off
-//     v <- v + dv,     [S G^T; G 0] (dv, mu) = -(0, G v + g_t)    at the new q; once, and once more for its round-off
+//     v <- v + dv,     [S G^T; G 0] (dv, mu) = -(0, G v + g_t)    at the new q; twice, to reduce round-off
 //
-// The factors of the first q serve the positions as long as they take off nine tenths of g each time: a step's violation is small.
+// The positions use the factors of the first q as long as each iteration reduces g by a factor of ten.
 //
 // With S = 1 this is dq = -G^+ g (Moore-Penrose), with S = M dq = -M^-1 G^T (G M^-1 G^T)^+ g. Both are the step-wise
 // corrections of Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), after Taylor's series of g about q.
@@ -30,10 +30,10 @@ class RowProjection final : public Correction {
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       s.move_to(state.t, state.q, state.v);
       const double violation = s.sizes().nc > 0 ? s.g().lpNorm<Eigen::Infinity>() : 0;
-      // A coordinate that is to be 0 would go on falling by all its digits a step.
+      // A coordinate whose exact value is 0 would decrease by all its digits in every iteration.
       if (!(violation > round_off * state.q.lpNorm<Eigen::Infinity>())) return Outcome::accept();
-      // Where a step no longer halves it the rest is round-off, if it is small at all. Where redundant rows contradict each other by
-      // that, a step may even make it larger, and is taken back.
+      // If an iteration does not halve a small residual, the rest is round-off. If redundant rows contradict each other
+      // at this level, an iteration may increase it and is undone.
       if (iteration > 0 && violation > 0.5 * before) {
         if (violation > before && violation <= settled) state.q = start_of_step_;
         if (violation <= settled) return Outcome::accept();

@@ -1,6 +1,6 @@
-// How bearings on an axis s share the force F and the moment M across it:
+// The loads p of bearings on an axis s by the force F and the moment M across it:
 //
-//     one bearing    p = F across s                              it aligns itself, and M rubs nowhere
+//     one bearing    p = F across s                              self-aligning: M causes no friction
 //     two, L apart   p = F across s / 2 +- M x s / L             at the ends of a guide or a journal of length L
 //
 // in the directions e across s: (M x s) . e = M . (s x e).
@@ -14,7 +14,7 @@
 
 namespace trammel {
 
-// By the wrench (F; M), one row for each direction across: F . e, and M . (s x e).
+// Rows that multiply the wrench (F; M), one for each direction across: F . e, and M . (s x e).
 struct AcrossAxis {
   Mat6 force, couple;
 

@@ -1,9 +1,9 @@
-// A row that is a quadratic form of the places of three or four markers, planar or spatial.
+// A row that is a quadratic form of the positions of three or four markers, planar or spatial.
 //
-//     g = (sum_kl Q_kl y_k . y_l) / (2 L),    y_k = x_k - x_A        Q symmetric, its rows sum to 0: only differences count
+//     g = (sum_kl Q_kl y_k . y_l) / (2 L),    y_k = x_k - x_A        Q symmetric; its rows sum to 0
 //     H_k = (sum_l Q_kl y_l)^T / L,   gamma = -(sum_kl Q_kl y_k' . y_l') / L
 //
-// L [m] makes g a length; a row says which, so that its gradient is about 1 there.
+// L [m] makes g a length; it is chosen such that the gradient is about 1.
 #pragma once
 
 #include <trammel/joint.hpp>
@@ -32,7 +32,7 @@ class QuadraticRow : public Constraint {
 
  protected:
   using Form = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Rows::most_markers, Rows::most_markers>;
-  // e_i . e_j of two combinations e = sum_k c_k x_k of the markers' places.
+  // e_i . e_j of two combinations e = sum_k c_k x_k of the markers' positions.
   static Form product(const Eigen::VectorXd& e_i, const Eigen::VectorXd& e_j) {
     return e_i * e_j.transpose() + e_j * e_i.transpose();
   }

@@ -12,8 +12,8 @@ namespace trammel {
 // One element: its points, row by row, and the fields' values there. The outermost points lie on the element's outline.
 struct FieldPatch {
   int along = 0;  // points per row
-  Mat points;  // 3 x points, world axes [m]
-  Mat values;  // fields x points
+  Mat points;     // 3 x points, world axes [m]
+  Mat values;     // fields x points
 };
 
 // Ability of a body; called at the times that "record": {"fields": [...]} lists.

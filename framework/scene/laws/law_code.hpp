@@ -1,4 +1,4 @@
-// What stands behind a TimeFunction that is no constant: an expression (JetCode) or a table (TabulatedLaw).
+// The implementation of a TimeFunction that is not constant: an expression (JetCode) or a table (TabulatedLaw).
 #pragma once
 
 #include <limits>
@@ -12,10 +12,10 @@ class TimeFunction::Code {
  public:
   virtual ~Code() = default;
   virtual Jet jet(double t) const = 0;
-  // Which way each switch of the law (step, abs, max, ...) is thrown at t. Where the list is the same at two times, no
-  // switch was seen between them.
+  // The branch of each switch of the law (step, abs, max, ...) at t. If the list is equal at two times, no switching
+  // between them is detected.
   virtual void branches(double /*t*/, std::vector<double>& way) const { way.clear(); }
-  // [s] Where the law says what it is. Outside it may be asked for nothing but differences at an end.
+  // [s] The interval where the law is defined. Outside it is evaluated only for differences at an end.
   struct Span {
     double begin = -std::numeric_limits<double>::infinity(), end = std::numeric_limits<double>::infinity();
   };

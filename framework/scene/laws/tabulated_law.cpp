@@ -24,8 +24,7 @@ Bend bend_at_end(double rise) {
   return {rise * Vector2d(60, 360), Matrix2d{{-24, -3}, {-168, -24}}, Matrix2d{{-36, 9}, {-192, 36}}};
 }
 
-// The bends of two pieces that meet, in units of the piece before: its third derivative times h^2, the fourth times
-// h^3.
+// Third and fourth derivatives of two adjacent pieces, in units of the first piece: times h^2 and times h^3.
 struct Meeting {
   double h, k;  // lengths before and after
   Bend before, after;
@@ -70,8 +69,8 @@ std::vector<Vector2d> slopes_of_spline(const std::vector<double>& t, const std::
   return u;
 }
 
-// The same where the last row is the first of the next period: the ends are such that the bends agree there, too. They
-// enter linearly, so three splines tell.
+// The same if the last row is the first one of the next period: the end values are chosen such that these derivatives
+// agree there, too. The end values enter linearly, so that three splines determine them.
 std::vector<Vector2d> slopes_of_periodic_spline(const std::vector<double>& t, const std::vector<double>& x) {
   const std::size_t n = t.size();
   const Meeting at(x[n - 2], x[n - 1], x[1], t[n - 1] - t[n - 2], t[1] - t[0]);
@@ -145,7 +144,8 @@ TimeFunction::Jet TabulatedLaw::jet(double t) const {
   return held(t < t_.front() ? 0 : t_.size() - 1, t);
 }
 
-// With its value, or its acceleration, of that row, or without acceleration from its velocity there.
+// Continues the law beyond an end: with the value or the acceleration of that row, or with the velocity there and no
+// acceleration.
 TimeFunction::Jet TabulatedLaw::held(std::size_t row, double t) const {
   const double s = t - t_[row], v = v_[row], a = of_accelerations_ && beyond_ == Beyond::hold ? a_[row] : 0;
   return {x_[row] + s * (v + s * a / 2), v + s * a, a};
@@ -160,13 +160,13 @@ TimeFunction::Jet TabulatedLaw::repeated(double t) const {
   const double s = std::clamp(t - t_.front() - n * length, 0.0, length);
   TimeFunction::Jet at = between_rows(t_.front() + s);
   if (!of_accelerations_) return at;
-  const double gained = v_.back();  // of velocity, in each period
+  const double gained = v_.back();  // velocity gained in each period
   at.value += n * x_.back() + gained * (n * (n - 1) / 2 * length + n * s);
   at.rate += n * gained;
   return at;
 }
 
-// Values may jump where a piece of the law ends; the place and velocity that accelerations lead to do not.
+// Values may jump where a piece of the law ends; position and velocity integrated from accelerations do not.
 void TabulatedLaw::branches(double t, std::vector<double>& way) const {
   way.clear();
   if (of_accelerations_) return;
@@ -183,7 +183,7 @@ TimeFunction::Jet TabulatedLaw::between_rows(double t) const {
   const auto above = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
   const auto j = std::size_t(above - t_.begin()), i = j - 1;
   const double h = t_[j] - t_[i], s = (t - t_[i]) / h;
-  // Differences of value, rate and second derivative to what the quadratic of the left end says at the right end.
+  // Value, rate and second derivative at the right end minus those of the left end's quadratic there.
   const double dx = x_[j] - x_[i] - h * v_[i] - h * h / 2 * a_[i], dv = h * (v_[j] - v_[i] - h * a_[i]),
                da = h * h * (a_[j] - a_[i]);
   const double c3 = 10 * dx - 4 * dv + da / 2, c4 = -15 * dx + 7 * dv - da, c5 = 6 * dx - 3 * dv + da / 2;

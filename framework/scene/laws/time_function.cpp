@@ -29,7 +29,7 @@ bool constant(const Jet& u) {
   return u.rate == 0 && u.second == 0;
 }
 
-// u^w. A constant exponent keeps u = 0 and u < 0 usable; a varying one goes by exp(w log u).
+// u^w. A constant exponent permits u <= 0; a varying one is evaluated as exp(w log u).
 Jet power(const Jet& u, const Jet& w) {
   const double p = w.value, y = std::pow(u.value, p);
   if (constant(w)) {
@@ -129,7 +129,7 @@ Jet apply(Code::Op op, const Jet& a, const Jet& b) {
   }
 }
 
-// Which way a switch is thrown: of one argument, or of two.
+// The branch of a switch with one argument or two.
 double way_of(Code::Op op, const Jet& u) {
   switch (op) {
     case Code::Op::floor:
@@ -159,7 +159,7 @@ void JetCode::branches(double t, std::vector<double>& way) const {
 
 namespace {
 
-// As it comes: to set all of it to 0 would cost more than most laws do.
+// Not initialised, because clearing it would cost more than most laws.
 union Stack {
   Stack() {}
   std::array<Jet, JetCode::stack_size> jets;

@@ -7,7 +7,7 @@ namespace trammel::model {
 
 namespace {
 
-// A vector in the plane or in space, of a size the compiler knows.
+// A vector in the plane or in space, with a compile-time size.
 template <int dim>
 using Point = Eigen::Matrix<double, dim, 1>;
 
@@ -20,7 +20,7 @@ Point<dim> cross(const Vec6& twist, const Point<dim>& r) {
     return twist.tail<3>().cross(r);
 }
 
-// The row of a unit force d through the point r away from the marker's origin: (d, r x d).
+// The row of a unit force d at the point r from the marker's origin: (d, r x d).
 template <int dim>
 void set_row(Mat6& H, int row, const Point<dim>& d, const Point<dim>& r, double sign) {
   for (int k = 0; k < dim; ++k) H(row, k) = sign * d(k);
@@ -44,15 +44,15 @@ PointOnPlane::PointOnPlane(const Vec3& p, const Vec3& n) : point(p), normal(n) {
   }
 }
 
-// gap = n . (x_A - p_B) - radius. With d = x_A - x_B the point of B under A moves like a point at d, so
+// gap = n . (x_A - p_B) - radius. With d = x_A - x_B, the point of B under A has the velocity of a point of B at d:
 //     gap_rate = n . (V_A - V_B - omega_B x d)
 //     gap_acceleration = n . (A_A - A_B - alpha_B x d) - n . omega_B x (omega_B x d) + n' . (V_A - V_B - omega_B x d)
 //     ...
 // collected in gamma with the relative velocity u in B's turning frame: gamma = n.(w x (w x d)) + 2 n.(w x u).
 //
-// A round body touches at r = -radius n from its centre, whichever of its points that is, and slips with
+// A round body touches at r = -radius n from its centre, with changing material points, and slips with
 //     s . u + (omega_A - omega_B) . (r x s),
-// where r x s turns with B. The coordinate of which this is the rate, in the plane, counts the angle that A has rolled.
+// where r x s turns with B. In the plane the slip coordinate, whose rate this is, includes the angle that A has rolled.
 template <int dim>
 void contact_rows_in(const PointOnPlane& plane, const Motion& A, const Motion& B, bool tangents, Rows& rows) {
   const Eigen::Matrix<double, dim, dim> R = B.R.topLeftCorner<dim, dim>();
@@ -60,7 +60,7 @@ void contact_rows_in(const PointOnPlane& plane, const Motion& A, const Motion& B
   const Point<dim> d = A.x.head<dim>() - B.x.head<dim>();
   const Point<dim> r = -plane.radius * n;
   const Point<dim> swept = cross<dim>(B.V, d);
-  // Relative velocity, seen in B's frame, world axes.
+  // Velocity relative to B's frame, in world axes.
   const Point<dim> u = A.V.head<dim>() - B.V.head<dim>() - swept;
   const Point<dim> transport = cross<dim>(B.V, swept) + 2 * cross<dim>(B.V, u);
 
@@ -93,7 +93,7 @@ void contact_rows(const PointOnPlane& plane, const Motion& A, const Motion& B, b
     contact_rows_in<3>(plane, A, B, tangents, rows);
 }
 
-// gamma is left 0: it would be the curvature of the surface, and only laws with rows use it.
+// gamma remains 0: it would contain the curvature of the surface, and only laws with rows use it.
 void surface_row(double reach, const Motion& A, const Motion& B, Rows& rows) {
   const Vec3 d = A.x - B.x;
   const double length = d.norm();

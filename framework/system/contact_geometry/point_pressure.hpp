@@ -1,9 +1,10 @@
-// What a contact law and its friction give at one point of a surface, and how that changes.
+// The force of a contact law and its friction at one point of a surface, with its derivatives.
 //
 //     F = w (N n - ratio(|s|) N s/|s|)                       on A; n of length 1 from B to A, s slip of A over B
-//     dF = w (n - ratio e)(N_gap dgap + N_rate drate) + w N dn - w N (ratio/|s| (1 - e e^T) + ratio' e e^T) ds,   e = s/|s|
+//     dF = w (n - ratio e)(N_gap dgap + N_rate drate) + w N dn - w N (ratio/|s| (1 - e e^T) + ratio' e e^T) ds
+//     e = s/|s|
 //
-// w the law's weight of the point [m^2], N its answer there [Pa]; or [1] and [N].
+// w: the law's weight of the point [m^2], N: its normal pressure there [Pa]; or [1] and [N].
 #pragma once
 
 #include "model/model.hpp"
@@ -16,7 +17,7 @@ struct PressedPoint {
   V3 n = V3::Zero(), slip = V3::Zero(), F = V3::Zero();
 };
 
-// Over all points of a contact.
+// Sums over all points of a contact.
 struct PressureSums {
   double normal = 0;     // [N]
   double potential = 0;  // [J]
@@ -24,14 +25,14 @@ struct PressureSums {
   double friction = 0;   // [W] lost in sliding
 };
 
-// Changes of a point's gap, gap rate, normal and slip with some variables, one a column.
+// Derivatives of a point's gap, gap rate, normal and slip by some variables, one column each.
 template <int variables>
 struct PointChange {
   Eigen::Matrix<double, 1, variables> gap, rate;
   Eigen::Matrix<double, 3, variables> n, slip;
 };
 
-// By the point, the marker that presses on it and that marker's turn, three columns each.
+// Derivatives by the point's position, the marker's position and the marker's rotation, three columns each.
 using MarkerPointChange = PointChange<9>;
 using M39 = Eigen::Matrix<double, 3, 9>;
 using M69 = Eigen::Matrix<double, 6, 9>;
@@ -41,7 +42,7 @@ class PointPressure {
   explicit PointPressure(const ContactEntry& entry)
       : force_(entry.force), by_points_(entry.surface->by_points), friction_(entry.surface->friction) {}
 
-  // Fills weight, N and F of a point that stands for `area`, and adds it to the sums.
+  // Fills weight, N and F of a point that represents `area`, and adds it to the sums.
   void ask(PressedPoint& at, double area, double approach_speed, PressureSums& sums) const {
     at.weight = by_points_->weight(area);
     at.N = force_->normal(at.gap, at.rate, approach_speed);

@@ -1,13 +1,15 @@
-// A plane that a marker B carries, on which points p of a surface press.
+// A plane fixed to a marker B, pressed by points p of a surface.
 //
 //     r = x_p - x_m:   n = R_m n_0,   gap = n . (r - R_m p_0) - h/2,   gap_rate = n . u,   u = v_p - v_m - omega x r
 //     s = u - (n . u) n;              F on the point; on the marker -F, -r x F
 //
-// n_0, p_0 normal and point in the marker's axes, h/2 half the thickness of the sheet. With the marker's small turn theta
+// n_0, p_0: normal and point in the marker's axes; h/2: half the thickness of the sheet. With a small rotation theta of
+// the marker
 //
 //     dn = theta x n,   dgap = n . (dr - theta x r),   drate = dn . u + n . du,   ds = du - drate n - (n . u) dn
 //
-// Changes are by the point's position, the marker's and its turn, three columns each, or by the three velocities.
+// Derivatives are by the point's position, the marker's position and its rotation, three columns each, or by the three
+// velocities.
 #pragma once
 
 #include "system/markers/marker_motions.hpp"

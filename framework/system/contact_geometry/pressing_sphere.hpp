@@ -1,13 +1,14 @@
 // A sphere around a marker A that presses on points p of a surface.
 //
 //     d = x_m - x_p, l = |d|:   n = d/l,   gap = l - R - h/2,   gap_rate = n . u,   u = v_m - v_p
-//     s = u - (n . u) n - R omega x n      slip of its skin;    on the marker F, -R n x F; -F on the point
+//     s = u - (n . u) n - R omega x n      slip of its surface;    on the marker F, -R n x F; -F on the point
 //
-// R radius, h/2 half the thickness of the sheet. With the marker's small turn theta and P = 1 - n n^T
+// R: radius; h/2: half the thickness of the sheet. With a small rotation theta of the marker and P = 1 - n n^T
 //
 //     dn = P dd/l,   drate = dn . u + n . du,   ds = du - drate n - (n . u) dn - R (domega x n + omega x dn)
 //
-// Changes are by the point's position, the marker's and its turn, three columns each, or by the three velocities.
+// Derivatives are by the point's position, the marker's position and its rotation, three columns each, or by the three
+// velocities.
 #pragma once
 
 #include "system/markers/marker_motions.hpp"
@@ -31,7 +32,7 @@ struct PressingSphere {
         reach(radius + half_thickness) {}
 
   double gap(const V3& x) const { return (centre - x).norm() - reach; }
-  double gap_to_box(const V3& low, const V3& high) const {  // at least
+  double gap_to_box(const V3& low, const V3& high) const {  // lower bound
     return (low - centre).cwiseMax(centre - high).cwiseMax(0.0).norm() - reach;
   }
   void look(const V3& x, const V3& v, PressedPoint& at) const {

@@ -1,10 +1,10 @@
-// The points of a surface against a sphere around a marker (pressing_sphere.hpp), or against the plane that a marker carries
-// (pressing_plane.hpp): F = F(x_p, v_p, marker) at each point that is reached,
+// The points of a surface against a sphere around a marker (pressing_sphere.hpp), or against the plane that a marker
+// carries (pressing_plane.hpp): F = F(x_p, v_p, marker) at each point with a negative gap,
 //
 //     Q = sum R_p^T (+-F_p),   wrench on the marker = sum w(F_p),   S += c_k K + c_d D,   K = -dQ/dq, D = -dQ/dv
 //
-// R_p functions of the surface's nodes at p; the sign is - under a sphere, whose F is its own, + on a plane. In K velocities
-// stay, and the change of the marker's J^T is the marker's own affair.
+// R_p: shape functions of the surface's nodes at p. The sign is - under a sphere, where F acts on the sphere, and + on
+// a plane. K is the derivative at constant velocities; the change of the marker's J^T is added elsewhere.
 #include <algorithm>
 #include <limits>
 
@@ -160,7 +160,7 @@ class SurfaceOnMarker final : public SurfaceContact {
     return {entry_.geometry, chain_.motion(marker_, point.t, point.q, point.v), points_.half_thickness()};
   }
 
-  // f(patch, first touch, behind the last) for each patch with touches.
+  // Calls f(patch, first touch, one past the last) for each patch with touches.
   template <class F>
   void by_patch(F&& f) const {
     for (auto first = touches_.begin(); first != touches_.end();) {

@@ -3,14 +3,14 @@
 //     d = x - y(xi),  d . y_a = 0 (a = u, v),  l = |d|,  n = d/l,   gap = l - h_A/2 - h_B/2
 //     u = v_x - J v_B,   s = u - (n . u) n,    F on x, -F on y: Q_A = R^T F,  Q_B = -J^T F
 //
-// so both faces of either sheet are touched, and all forces of the pair sum to 0. The nearest point moves along B; on B's
-// edge it stays in u or v, as long as it would leave. With dx and the change z of B's coordinates
+// so that contact acts on both faces of either sheet, and all forces of a pair sum to 0. The nearest point moves along
+// B; at B's edge its u or v is constant. With dx and the change z of B's coordinates
 //
 //     H dxi = [y_a . (dx - J z) + d . J_a z],  H_ab = y_a . y_b - d . y_ab
 //     dgap = n . (dx - J z),   dn = P/l (dx - J z - y_a dxi_a),   du = -J_a v_B dxi_a
 //     drate = dn . u + n . du,  ds = du - drate n - (n . u) dn,   dQ_B = -J^T dF - J_a^T F dxi_a
 //
-// Angular momentum is kept where F is along n; friction acts at two points that are apart by h_A/2 + h_B/2.
+// Angular momentum is conserved if F is along n; friction acts at two points with the distance h_A/2 + h_B/2.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,7 +32,7 @@ using Along = Eigen::Matrix<double, 2, Eigen::Dynamic>;  // dxi by some variable
 struct Box {
   V3 low, high;
 };
-// Of a point of one from the nearest of the other, at least and at most.
+// Lower and upper bound of the distance between a point of one box and the nearest point of the other.
 double apart(const Box& a, const Box& b) {
   return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm();
 }
@@ -40,7 +40,8 @@ double farthest(const Box& a, const Box& b) {
   return (a.high - b.low).cwiseMax(b.high - a.low).norm();
 }
 
-// How the nearest point of B slides along B: by x in the first three columns, by B's coordinates in the others.
+// The motion of the nearest point along B: derivatives by x in the first three columns, by B's coordinates in the
+// others.
 Along slide(const SurfaceJet& y, const V3& d) {
   const auto m = y.J.cols();
   Eigen::Matrix2d H;
@@ -121,7 +122,7 @@ class SurfaceOnSurface final : public SurfaceContact {
       const SurfacePatch& patch = points_.sampled(touch.patch);
       const SurfaceJet& y = touch.y;
       const auto m = y.J.cols();
-      SurfacePoints::OnNodes F = SurfacePoints::OnNodes::Zero(3, 3 + m);  // of c_k, c_d and by x and B's coordinates
+      SurfacePoints::OnNodes F = SurfacePoints::OnNodes::Zero(3, 3 + m);  // with c_k and c_d, by x and B's coordinates
       Mat on_B = Mat::Zero(m, 3 + m);
       Change by;
       if (c_k != 0) {
@@ -166,7 +167,7 @@ class SurfaceOnSurface final : public SurfaceContact {
     Eigen::Index point = 0;
     V3 x = V3::Zero();
     Eigen::Vector2d at_B = Eigen::Vector2d::Zero();
-    // Once it is pressed:
+    // Filled if it is pressed:
     SurfaceJet y;
     V3 u = V3::Zero();
     Vec v_B;
@@ -175,7 +176,7 @@ class SurfaceOnSurface final : public SurfaceContact {
 
   Vec q_of_other(const Point& point) const { return point.q.segment(other_.q0, other_.nq); }
 
-  // The deepest of A's points, and all that have reached B; once per point of the system.
+  // Finds the deepest of A's points and all with a negative gap; once per point of the system.
   void look(const Point& point) {
     if (number_ == point.number) return;
     number_ = point.number;
@@ -210,7 +211,7 @@ class SurfaceOnSurface final : public SurfaceContact {
       boxes_[i] = {low, high};
     }
   }
-  // B's patches that may hold the point nearest to one of this box, if it is less than `within` away.
+  // B's patches that may contain the nearest point to a point in this box, if its distance is less than `within`.
   void choose_candidates(const Box& of_A, double within) {
     for (const Box& box : boxes_) within = std::min(within, farthest(of_A, box));
     candidates_.clear();
@@ -237,7 +238,7 @@ class SurfaceOnSurface final : public SurfaceContact {
       m.V.head(3) += y.J.col(Eigen::Index(k)) * point.v(other_.v0 + y.dofs[k]);
   }
 
-  // By x in the first three columns, by B's coordinates in the others; dxi comes back.
+  // Derivatives by x in the first three columns, by B's coordinates in the others; also returns dxi.
   Along by_position(const Touch& touch, Change& by) const {
     const SurfaceJet& y = touch.y;
     const PressedPoint& at = touch.at;

@@ -23,7 +23,7 @@ Mat SurfacePoints::of_nodes(const SurfacePatch& p, const Vec& of_body) const {
   return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(local.data(), p.R.cols(), 3);
 }
 
-// Three columns: too few for a product that arranges its factors in blocks first.
+// Three columns are too few for Eigen's blocked product.
 SurfacePoints::Points SurfacePoints::positions(const SurfacePatch& p, const Vec& q) const {
   const Mat u = of_nodes(p, q.segment(body_.q0, body_.nq));
   return p.X + p.R.lazyProduct(u);

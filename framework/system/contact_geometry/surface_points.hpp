@@ -1,4 +1,4 @@
-// The material points of a body's surface as one contact uses them: sampled patch by patch when first needed, once per mesh.
+// The material points of a body's surface for one contact, sampled patch by patch at first use, once per mesh.
 //
 //     x_p = X_p + R B q,    v_p = R B v,    Q = sum (R B)^T F_p
 #pragma once
@@ -12,8 +12,8 @@ namespace trammel::model {
 
 class SurfacePoints {
  public:
-  using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;   // one a row
-  using OnNodes = Eigen::Matrix<double, 3, Eigen::Dynamic>;  // one a column
+  using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;   // one per row
+  using OnNodes = Eigen::Matrix<double, 3, Eigen::Dynamic>;  // one per column
   using V3 = Eigen::Vector3d;
 
   // `sphere_radius`: infinite without a sphere.
@@ -27,10 +27,11 @@ class SurfacePoints {
 
   Points positions(const SurfacePatch& patch, const Vec& q) const;
   Points velocities(const SurfacePatch& patch, const Vec& v) const;
-  // As a marker without rotation.
+  // The point as a marker without rotation.
   void motion(const SurfacePatch& patch, Eigen::Index point, const Vec& q, const Vec& v, Motion& motion) const;
 
-  // f += of forces on a patch's nodes; S += of a matrix between nodes, and between nodes and anything else at `first` + `dofs`.
+  // Adds to f the forces on a patch's nodes; adds to S a matrix between nodes, and one between nodes and `first` +
+  // `dofs`.
   void add_force(const SurfacePatch& patch, const OnNodes& forces, Vec& f) const;
   void add_square(const SurfacePatch& patch, const Mat& nodes, Matrix& S) const;
   void add_rows(const SurfacePatch& patch, const Mat& nodes, int first, const std::vector<int>& dofs, Matrix& S) const;

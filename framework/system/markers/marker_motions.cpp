@@ -105,7 +105,7 @@ void MarkerMotions::keep_linear(int index) {
   m = motion_at_zero(index);
   kept_[std::size_t(index)].x_0 = m.x;
   slot.begin = int(entries_.size());
-  for (Eigen::Index i = 0; i < m.x.size(); ++i)  // axes do not turn
+  for (Eigen::Index i = 0; i < m.x.size(); ++i)  // the axes do not turn
     for (Eigen::Index j = 0; j < m.J.cols(); ++j)
       if (m.J(i, j) != 0) entries_.push_back({int(i), m.dofs[std::size_t(j)], m.J(i, j)});
   slot.end = int(entries_.size());

@@ -1,5 +1,5 @@
-// Markers on their way into the system: each body marker that several things use is evaluated once per point, one that a single joint
-// uses whenever that asks, and wrenches and rows at markers become entries of the system's vectors and matrices through its Jacobian.
+// Evaluates the markers and maps wrenches and rows at markers to entries of the system's vectors and matrices by their
+// Jacobians. A marker with several users is evaluated once per point, one with a single joint at each use.
 #pragma once
 
 #include <array>
@@ -20,21 +20,21 @@ class MarkerMotions {
   // Bodies that are asked for motions are named at `site` meanwhile.
   MarkerMotions(const Model& model, CallSite& site);
 
-  // Slots stand for markers that are in use.
+  // A slot is the index of a marker in use.
   int slot(MarkerRef marker);
-  // A point of a body's surface: the one nearest to some other point, which `nearest` finds once per point of the system, or one
-  // whose motion is filled in from outside.
+  // A slot for a point of a body's surface: the nearest one to another point, which `nearest` finds once per point of
+  // the system, or one whose motion the caller fills.
   int surface_slot(int body);
   Motion& surface_motion(int slot);
   const Motion& nearest(int slot, const Vec3& to, double t, const Vec& q, const Vec& v);
   bool on_surface(int slot) const { return slots_[std::size_t(slot)].surface; }
   int slots() const { return int(slots_.size()); }
   void new_point() { ++point_; }
-  // Markers keep their places, and what a law of time gives them of velocity and acceleration counts as 0; for v = 0 only.
+  // Markers keep their positions; velocities and accelerations from laws of time count as 0. For v = 0 only.
   void hold_still(bool still) { still_ = still, ++point_; }
   bool held_still() const { return still_; }
   const Motion& motion(int slot, double t, const Vec& q, const Vec& v);
-  // The same for one look at it, as marker k of a joint: it may be another's on the next call.
+  // The same for temporary use as marker k of a joint: the next call may overwrite it.
   const Motion& motion_in_passing(int slot, std::size_t k, double t, const Vec& q, const Vec& v);
   void prefetch(int slot) const { numerics::prefetch(&kept_[std::size_t(slot)], 256); }  // its place and velocity
   Motion motion_at_zero(int slot) const;                                           // q = 0, v = 0, t = 0
@@ -53,13 +53,13 @@ class MarkerMotions {
   void add_reaction_derivative(int slot, double t, const Vec& q, const Wrench& F, double c, Matrix& S);
 
  private:
-  // 56 bytes each, next to each other: what many of them are asked for at each point.
+  // 56 bytes each, contiguous: the data that are used at each point.
   struct Slot {
     const Body* body = nullptr;  // null: the ground
     MarkerRef marker;
     int q0 = 0, v0 = 0, nq = 0, nv = 0;  // of the body
-    int begin = -1, end = -1;            // linear: of J in entries_; not known yet
-    long long point = -1;                // of the motion kept
+    int begin = -1, end = -1;            // linear: range of J in entries_; -1: not computed
+    long long point = -1;                // of the stored motion
     int uses = 0;
     short shared = -1;  // in shared_
     bool surface = false, linear = false;
@@ -68,7 +68,7 @@ class MarkerMotions {
     Vec3 x_0;  // linear: x at q = 0
     Motion motion;
   };
-  // Of a constant J what is not 0: next to each other for all markers, in the order in which they were first asked for.
+  // The non-zero entries of constant J, contiguous for all markers in the order of their first use.
   struct Entry {
     int row, dof;
     double value;
@@ -87,9 +87,9 @@ class MarkerMotions {
   const Model& model_;
   CallSite& site_;
   std::vector<Slot> slots_;
-  std::deque<Kept> kept_;  // of each slot; references to motions stay valid
-  // Of bodies with SharedMotion, class by class: for the markers of one joint at a time. Kept for 10,000 links they are 14 MB, which
-  // pass through the cache with every evaluation.
+  std::deque<Kept> kept_;  // by slot; references to motions remain valid
+  // Motions of bodies with SharedMotion, by class, for the markers of one joint at a time: one motion per marker would
+  // exceed the cache for many bodies.
   std::map<std::type_index, short> class_;
   std::deque<std::array<Motion, Rows::most_markers>> shared_;
   std::vector<Entry> entries_;

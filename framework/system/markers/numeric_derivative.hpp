@@ -1,4 +1,4 @@
-// Central differences in the tangent space of one body: the fallback where a component offers no exact derivative.
+// Central differences in the tangent space of one body, for components without an exact derivative.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ inline void retract_body(const BodyEntry& entry, const Vec& q, const Vec& dq, Ve
   }
 }
 
-// eps^(1/3): where round-off and truncation of a central difference balance, for arguments of size one.
+// eps^(1/3): balances round-off and truncation error of a central difference for arguments of order 1.
 inline double difference_step(double size) {
   return 6e-6 * std::max(1.0, std::abs(size));
 }

@@ -1,5 +1,5 @@
-// Rows of joints and contacts times what markers do. The numbers of rows, 1 to 6, and of a twist's parts, 3 or 6, are known to the
-// compiler in these loops: else they cost more than the products.
+// Products of the rows of joints and contacts with twists. The numbers of rows (1 to 6) and of a twist's entries (3 or
+// 6) are compile-time constants, because the overhead of variable sizes exceeds the cost of the products.
 #pragma once
 
 #include <type_traits>
@@ -10,7 +10,7 @@
 
 namespace trammel::model {
 
-// f(3) in the plane, f(6) in space.
+// Calls f(3) in the plane, f(6) in space.
 template <class F>
 void with_twist(Eigen::Index size, F&& f) {
   if (size == 3)

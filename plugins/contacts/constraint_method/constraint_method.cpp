@@ -1,18 +1,19 @@
-// The constraint method: an impact with restitution when the gap closes, then a constraint row while the contact pushes.
+// The constraint method: an impact with restitution when the gap closes, then a constraint row while the contact force
+// is compressive.
 //
-//     newton      u+ = -e u-           u gap rate [m/s];  e = restitution, or 0 for an impact slower than the capture speed
-//     poisson     N_E = e N_C          N normal impulses [N s] of compression and expansion
-//     energetic   W_E = -e^2 W_C       W works of the normal force [J] in them
+//     newton      u+ = -e u-           u: gap rate [m/s];  e: restitution, 0 for impacts below the capture speed
+//     poisson     N_E = e N_C          N: normal impulses [N s] of expansion and compression
+//     energetic   W_E = -e^2 W_C       W: works of the normal force [J] in expansion and compression
 //
-// One contact without friction does the same under all three. With friction, or several contacts, the first two may create energy
-// (which is told), the third never does.
+// The three laws agree for one contact without friction. With friction or several contacts, the first two may create
+// energy (which is reported); the third never does.
 //
-// The capture speed ends a sequence of bounces, whose speeds fall geometrically; results do not change for 1e-3 to 1e-7
-// m/s. onset, rebound and restart are exact by default; their second choices are simplifications found in papers (Guo,
-// Zhang, Chen, Acta Phys. Sin. 66, 164501 (2017)), there to be shown and priced:
-//     onset: next_step      the impact happens at the end of the step that passed the surface, which overshoots it
-//     rebound: constrained  the row is switched on while the contact separates with e u, so its force does work
-//     restart: carry        acceleration and multipliers of before the impact are kept
+// The capture speed ends a sequence of bounces, whose speeds decrease geometrically; results do not change between 1e-3
+// and 1e-7 m/s. The defaults of onset, rebound and restart are exact. Their second choices reproduce simplifications in
+// papers (Guo, Zhang, Chen, Acta Phys. Sin. 66, 164501 (2017)), for comparison:
+//     onset: next_step      the impact happens at the end of the step that passed the surface
+//     rebound: constrained  the row is active while the contact separates with e u, so that its force does work
+//     restart: carry        acceleration and multipliers before the impact are kept
 #include <trammel/contact.hpp>
 #include <trammel/plugin.hpp>
 

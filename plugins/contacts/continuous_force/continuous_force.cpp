@@ -5,14 +5,14 @@
 //     hunt_crossley        3 (1 - e) / 2       Hunt, Crossley, J. Appl. Mech. 42, 440 (1975)
 //     lankarani_nikravesh  3 (1 - e^2) / 4     Lankarani, Nikravesh, J. Mech. Des. 112, 369 (1990)
 //     paper                the same; Guo, Zhang, Chen 2017 write it K |eta|^1.5 (1 - c eta') with eta the gap
-//     flores               8 (1 - e) / (5 e)   Flores, Machado, Silva, Martins, Multibody Syst. Dyn. 25, 357 (2011); e > 0
+//     flores               8 (1 - e) / (5 e)   e > 0; Flores, Machado et al., Multibody Syst. Dyn. 25, 357 (2011)
 //     none                 0                   Hertz
 //     coefficient          instead             F = K delta^n + c2 delta^p delta' with c2 and p given; p = n is Hunt and
-//                                              Crossley's form, p = 0 a damper that jumps at the touch
+//                                              Crossley's form, p = 0 a damper whose force jumps at touch
 //
-// v0 is the approach speed at the last onset; a contact that was closed at rest (v0 = 0) has no damping. F is cut at 0
-// when it would pull. The restitution e is nominal: a mass that strikes a wall leaves it with e* of its speed, whatever
-// K, n and v0, where factor (1 + e*) = log((1 + factor) / (1 - factor e*)). It is near e for flores, and above 0.66 for
+// v0 is the approach speed at the last onset; a contact that was closed at rest (v0 = 0) has no damping. F is limited
+// to F >= 0. The restitution e is nominal: a mass that strikes a wall rebounds with e* times its speed, for all K, n
+// and v0, where factor (1 + e*) = log((1 + factor) / (1 - factor e*)). e* is close to e for flores, and above 0.66 for
 // lankarani_nikravesh. U = K delta^(n+1) / (n + 1).
 #include <cmath>
 
@@ -23,7 +23,7 @@ namespace {
 
 using namespace trammel;
 
-// Hertz's power by a root: a twentieth of the time of std::pow.
+// Hertz's exponent 3/2 by a square root, which is much faster than std::pow.
 double power(double depth, double n) {
   return n == 1.5 ? depth * std::sqrt(depth) : std::pow(depth, n);
 }

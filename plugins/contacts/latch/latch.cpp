@@ -1,8 +1,8 @@
-// A latch: it locks for good when its gap closes, in a perfectly inelastic impact.
+// A latch: when its gap closes, it locks permanently in a perfectly inelastic impact.
 //
 //     M (v+ - v-) + G^T L = 0,   G v+ = 0 with the gap's row in G;   energy lost |v+ - v-|_M^2 / 2 (Carnot)
 //
-// Most often the gap is a joint's row, "reaches": the distance of two hubs, the bend of a hinge.
+// The gap is usually a joint's row ("reaches"): the distance of two hubs, the bend of a hinge.
 #include <trammel/contact.hpp>
 #include <trammel/plugin.hpp>
 

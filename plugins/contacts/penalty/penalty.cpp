@@ -1,10 +1,10 @@
-// Penalty contact of a surface with a sphere, a plane or another surface, asked at each of its points.
+// Penalty contact of a surface with a sphere, a plane or another surface, evaluated at each of its points.
 //
 //     p = k delta + c delta'  >= 0,     delta = -gap [m],  delta' = -gap_rate [m/s]
 //
-// By area (default) p is a pressure, k [N/m^3], c [N s/m^3], and a point's force p times the area it stands for: the contact is
-// the same on every mesh. By points p is the force of a point, k [N/m], c [N s/m], as in Wang et al. 2021: twice as many points
-// make it twice as stiff. U = k delta^2 / 2 times the same weight.
+// By area (default), p is a pressure, k [N/m^3], c [N s/m^3], and the force on a point is p times the area that it
+// represents: the contact does not depend on the mesh. By points, p is the force on a point, k [N/m], c [N s/m], as in
+// Wang et al. 2021: the stiffness is proportional to the number of points. U = k delta^2 / 2 times the same weight.
 #include <algorithm>
 
 #include <trammel/contact.hpp>

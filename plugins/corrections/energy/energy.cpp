@@ -1,19 +1,20 @@
-// The kinetic energy made what the balance asks for, T* = E_start + supplied - dissipated - U(q), by the change of least kinetic
-// energy that keeps the velocity rows, and if asked to the momenta too:
+// Corrects the kinetic energy to the value of the balance, T* = E_start + supplied - dissipated - U(q), by the change
+// of least kinetic energy that preserves the velocity rows and, on request, the momenta:
 //
-//     v = v_t + v_r + n     v_t: of least T with G v_t = G v, that is -g_t where v satisfies the rows;   v_r + n in null(G)
+//     v = v_t + v_r + n     v_t: of least T with G v_t = G v (= -g_t if v satisfies the rows);   v_r + n in null(G)
 //     v' = v_t + v_r + s n,   s^2 = (T* - T(v_t) - T(v_r))/T(n)
 //
-// Where nothing corrects the velocities, v_t is what moving rows ask for and what v violates them by: scaled with the rest, a
-// violation would grow by a factor at every turning point, where s is not near 1, and hence exponentially.
+// Without a velocity correction, v_t contains the velocity of moving rows and the violation of the rows. If it were
+// scaled with the rest, a violation would grow exponentially, by a factor at every turning point, where s is not close
+// to 1.
 //
-// v_r is 0 ("keeps": "direction"), or the part of v in the motions as one rigid body that the rows leave free ("momentum"). The
-// parts are orthogonal in M, so the sum of energies is exact, and n has no momentum. Without rows that v moves nor kept
-// momenta v' = s v. This is the special non-holonomic constraint of Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), eq. 8, in its
-// M-weighted form.
+// v_r is 0 ("keeps": "direction"), or the part of v in rigid-body motions of the whole system that the rows permit
+// ("momentum"). The parts are orthogonal in M, so that the sum of energies is exact and n has no momentum. If v_t = 0
+// and v_r = 0, v' = s v. This is the special non-holonomic constraint of Chen Xiangyang, Chinese J. Comput. Mech. 19,
+// 74-77 (2002), eq. 8, in its M-weighted form.
 //
-// Near a turning point n has little to scale: relative noise of T becomes a kick. Below `least` of the largest kinetic energy
-// of the run, and where T* < T(v_t) + T(v_r), the correction waits.
+// Near a turning point T(n) is small, and the noise of T would give a large change. The correction is skipped if T(n)
+// is below `least` times the largest kinetic energy of the run, and if T* < T(v_t) + T(v_r).
 #include <algorithm>
 #include <cmath>
 
@@ -56,7 +57,7 @@ class EnergyCorrection final : public Correction {
       n_ -= v_r_;
       carried += kinetic(s, v_r_);
     }
-    constexpr double round_off = 1e-20;  // of T, in what is left of v beside v_r
+    constexpr double round_off = 1e-20;  // relative to T, of the part of v beside v_r
     const double free = kinetic(s, n_), enough = std::max(least * largest_, round_off * energy.kinetic);
     if (!(free > enough) || !(due - carried > enough)) return Outcome::accept();
     state.v += (std::sqrt((due - carried) / free) - 1) * n_;
@@ -98,7 +99,7 @@ class EnergyCorrection final : public Correction {
     free_ = (free_ * svd.matrixV().rightCols(free_.cols() - rank)).eval();
     return true;
   }
-  // Gram and Schmidt, twice; rotations that move nothing (of a single point) fall out.
+  // Gram-Schmidt, twice; rotations without effect (of a single point) are dropped.
   void orthonormalise(System& s) {
     Eigen::Index found = 0;
     for (Eigen::Index j = 0; j < free_.cols(); ++j) {

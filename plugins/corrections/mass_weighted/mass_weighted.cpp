@@ -1,5 +1,5 @@
-// The change of least kinetic energy, as ideal internal forces would make it: see row_projection.hpp. Positions keep their centre of
-// mass, velocities their linear and angular momentum; kinetic energy never grows.
+// The change of least kinetic energy, equivalent to ideal internal forces: see row_projection.hpp. It preserves the
+// centre of mass and the linear and angular momentum; the kinetic energy never increases.
 #include <trammel/plugin.hpp>
 
 #include "../row_projection.hpp"

@@ -1,5 +1,5 @@
-// The smallest change of the coordinates themselves, by the Moore-Penrose inverse of G: see row_projection.hpp. It does not know
-// masses, so centre of mass and momentum move with it.
+// The change of least norm of the coordinates, by the Moore-Penrose inverse of G: see row_projection.hpp. It does not
+// use the masses and therefore changes the centre of mass and the momentum.
 #include <trammel/plugin.hpp>
 
 #include "../row_projection.hpp"

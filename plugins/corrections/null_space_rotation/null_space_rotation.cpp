@@ -1,12 +1,13 @@
-// Velocities carried from the null space of the rows where the step ended into that of the corrected place:
+// Maps velocities from the null space of the rows at the step's end to that at the corrected position:
 //
 //     V = null(G(q)),   V' = null(G(q')),   v = V Z + v_rows      V'^T V = X S Y^T  (singular values)
-//     v' = V' X Y^T Z + v_t                 v_t: what moving rows ask for, G v_t = -g_t, of least norm
+//     v' = V' X Y^T Z + v_t                 v_t: least norm with G v_t = -g_t
 //
-// Where the rows leave no motion free, as of a truss that has locked, v' = v_t.
-// X Y^T is the rotation that brings V nearest to V' (Procrustes), so the coefficients Z stay and with them the norm of v; with
-// bases orthonormal in M the kinetic energy stays. Momenta change by the second order of the correction.
-// Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), section 4. Dense: the cost grows with the cube of the sizes.
+// If the rows permit no motion, as in a truss that has locked, v' = v_t.
+// X Y^T is the rotation that brings V nearest to V' (Procrustes). It preserves the coefficients Z and hence the norm of
+// v, or the kinetic energy if the bases are orthonormal in M. Momenta change by a term of second order in the
+// correction. Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), section 4. Dense: the cost grows with the cube
+// of the sizes.
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -63,14 +64,14 @@ class NullSpaceRotation final : public Correction {
   }
 
   Mat null_space(const Mat& B) {
-    cod_.setThreshold(1e-9);  // redundant rows differ by the square of what is violated
+    cod_.setThreshold(1e-9);  // redundant rows differ by the square of the violation
     cod_.compute(B);
     const Mat Z = cod_.matrixZ();  // B = Q [T 0; 0 0] Z
     const auto rank = cod_.rank();
     return (cod_.colsPermutation() * Z.transpose()).rightCols(B.cols() - rank);
   }
 
-  // X Y^T of A = X S Y^T; of a matrix without entries itself, which JacobiSVD does not take.
+  // X Y^T of A = X S Y^T. An empty matrix, which JacobiSVD does not accept, is returned unchanged.
   static Mat nearest_rotation(const Mat& A) {
     if (A.size() == 0) return A;
     const Eigen::JacobiSVD<Mat> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);

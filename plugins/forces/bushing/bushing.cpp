@@ -1,13 +1,13 @@
-// An elastic mounting: B is held to A's frame by springs and dampers along and about A's axes.
+// An elastic mounting: springs and dampers along and about A's axes connect B to A's frame.
 //
 //     s = R_A^T (x_B - x_A) [m],     F = -K s - C s'                          on B, in A's axes
 //     phi = log(R_A^T R_B) [rad],    M = -J^-T K_r phi - C_r omega_r          planar phi = theta_B - theta_A, J = 1
 //     U = (s . K s + phi . K_r phi)/2,    dissipated s' . C s' + omega_r . C_r omega_r
 //
 // K, C, K_r, C_r diagonal; omega_r = R_A^T (omega_B - omega_A) and phi' = J^-1 omega_r with J the left Jacobian of the
-// exponential, so that M is exactly minus the gradient of U. A takes -F at B's place. phi is counted on from half a turn to a full
-// one, where its direction means nothing and the run ends: what turns further is a hinge with a torsional spring.
-// Source of J^-1: Barfoot, State Estimation for Robotics, 2017, section 7.1.
+// exponential, so that M is exactly minus the gradient of U. A receives -F at B's position. phi is continued beyond
+// half a turn up to a full turn, where its direction is undefined and the run ends; use a hinge with a torsional spring
+// for larger angles. Source of J^-1: Barfoot, State Estimation for Robotics, 2017, section 7.1.
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -46,7 +46,7 @@ struct Bushing : Force, NeedsOrientation, CountsTurns {
 
   bool needs_orientation(int marker) const override { return marker == 0 || !K_r_.isZero(0) || !C_r_.isZero(0); }
 
-  // Any angle will do while no spring asks for it.
+  // Without a torsional spring the angle is not used.
   void follow(const Motion& A, const Motion& B) override {
     if (A.x.size() == 2 || K_r_.isZero(0)) return;
     last_phi_ = Offset(A, B, last_phi_).phi;

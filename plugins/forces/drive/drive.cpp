@@ -1,10 +1,10 @@
-// A motor between two markers, by its straight torque-speed line.
+// A motor between two markers with a linear torque-speed characteristic.
 //
 //     M = stall (command(t) - phi' / free)       phi' [rad/s]: rate of B against A about the axis, see axis_angle.hpp
 //
-// stall [N m] is the moment at rest and free [rad/s] the speed without load, both at command 1; -1 is full reverse. B is
-// turned with +M h and A with -M h, h the gradient of phi. All of its power M phi' counts as supplied, of either sign.
-// Source: armature equation of a direct-current motor without inductance.
+// stall [N m] is the moment at rest and free [rad/s] the speed without load, both at command 1; -1 is full reverse. The
+// moment is +M h on B and -M h on A, with h the gradient of phi. The whole power M phi', of either sign, counts as
+// supplied. Source: armature equation of a direct-current motor without inductance.
 #include <trammel/axis_angle.hpp>
 #include <trammel/force.hpp>
 #include <trammel/joint_rows.hpp>

@@ -1,11 +1,12 @@
-// A torsion spring in the hinge of two arms, at rest where they are straight, seen from the arms' far ends A and B.
+// A torsion spring in the hinge of two arms, unloaded when they are straight, as a force between the arms' far ends A
+// and B.
 //
 //     e = |x_B - x_A|,   e^2 = a^2 + b^2 + 2 a b cos(psi)          psi [rad] the bend: 0 straight, pi folded
 //     U = kappa psi^2 / 2,   force along AB  -dU/de = kappa (psi / sin(psi)) e / (a b)       pushes the ends apart
 //
-// psi/sin(psi) is an even function of psi: nothing singular at the straight position, where e = a + b, nor beyond it, where the
-// arms are stretched. Arms in natural coordinates have no axes that a torsional spring could act on. psi = pi, arms of equal length
-// folded onto each other, is a dead point, where the force has no bound.
+// psi/sin(psi) is an even function of psi and regular at the straight position, where e = a + b, and beyond it, where
+// the arms are stretched. (Arms in natural coordinates have no axes for a torsional spring.) psi = pi, arms of equal
+// length folded onto each other, is a dead point, where the force is unbounded.
 #include <algorithm>
 #include <cmath>
 
@@ -49,7 +50,7 @@ struct HingeSpring : Force {
     if (std::abs(w) < 1e-3)
       return {1 - w, w * (2 + w * (1.0 / 3 + w * (4.0 / 45 + w * (1.0 / 35 + w * (16.0 / 1575))))),
               1 + w * (1.0 / 3 + w * (2.0 / 15 + w * (2.0 / 35 + w * (8.0 / 315))))};
-    if (w < 0) {  // stretched: psi is imaginary, its even functions go on
+    if (w < 0) {  // stretched: psi is imaginary, even functions of it are real
       const double size = std::acosh(1 - w);
       return {1 - w, -size * size, size / std::sinh(size)};
     }

@@ -1,9 +1,9 @@
 // A force and a moment on one marker, as laws of time; "on" in the scene names the marker.
 //
-//     wrench = (F(t), M(t)) in world axes, or turned with the marker ("frame": "body")
-//     supplied power  F . V + M omega        there is no potential: even a constant load counts as supplied
+//     wrench = (F(t), M(t)) in world axes, or in the marker's axes ("frame": "body")
+//     supplied power  F . V + M omega        no potential: even the work of a constant load counts as supplied
 //
-// The marker is B; what A, the ground, receives has no effect and is left at zero.
+// The marker is B. A is the ground; the wrench on it has no effect and remains zero.
 #include <trammel/force.hpp>
 #include <trammel/needs_orientation.hpp>
 #include <trammel/plugin.hpp>

@@ -3,8 +3,8 @@
 //     F = k (l - L) + c l'        tension [N] along u = d / l,  d = x_B - x_A,  l = |d|,  l' = u . d'
 //     U = k (l - L)^2 / 2         dissipated power c l'^2
 //
-// A is pulled with +F u and B with -F u. Where the markers meet (l = 0) there is no direction: a spring of rest length
-// 0 exerts no force there, any other is refused.
+// The force is +F u on A and -F u on B. If the markers coincide (l = 0), u is undefined: a spring of rest length 0
+// exerts no force there, any other throws OutsideDomain.
 #include <trammel/force.hpp>
 #include <trammel/outside_domain.hpp>
 #include <trammel/plugin.hpp>

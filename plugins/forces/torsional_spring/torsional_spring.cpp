@@ -3,9 +3,9 @@
 //     M = k (phi - angle) + c phi'        phi: angle of B against A about the axis, see axis_angle.hpp
 //     U = k (phi - angle)^2 / 2           dissipated power c phi'^2
 //
-// A is turned with +M h and B with -M h [N m], h the gradient of phi: the axis itself while a hinge holds it. Full turns count:
-// in the plane phi = theta_B - theta_A; in space they are counted from the start, where phi is within half a turn of rest, or
-// of 0 where the spring is preloaded by more (|angle| > pi).
+// The moment is +M h on A and -M h on B [N m], with h the gradient of phi, which is the axis itself in a hinge. phi
+// includes full turns: in the plane phi = theta_B - theta_A; in space turns are counted from the start, where phi is
+// within half a turn of the rest angle, or of 0 if the spring is preloaded by more (|angle| > pi).
 #include <cmath>
 #include <numbers>
 

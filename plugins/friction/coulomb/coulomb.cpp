@@ -1,11 +1,12 @@
-// Coulomb's dry friction with separate coefficients of rest and of sliding, as a set-valued law.
+// Coulomb's dry friction with different coefficients for sticking and sliding, as a set-valued law.
 //
-//     |T| <= mu_0 N while it rests,   T = -mu N sgn(slip) while it slides,   mu <= mu_0
+//     |T| <= mu_0 N while sticking,   T = -mu N sgn(slip) while sliding,   mu <= mu_0
 //
 // method: events           stick and slide change at located events; between them stick is a row, slide a force
-//         lcp_every_step   as Zhang and Wang print it: feet slower than `stick_speed` form a complementarity problem that is
-//                          solved at each evaluation; they let go at the ends of steps, and only the stop of a sliding foot
-//                          is located. For fixed steps of an explicit method with Baumgarte's terms.
+//         lcp_every_step   as published by Zhang and Wang: contacts slower than `stick_speed` form a complementarity
+//                          problem that is solved in each evaluation; they start to slide at the ends of steps, and
+//                          only the stop of a sliding contact is located. For fixed steps of an explicit method with
+//                          Baumgarte's terms.
 #include <sstream>
 
 #include <trammel/friction.hpp>

@@ -1,4 +1,4 @@
-// Coulomb's friction made smooth. It sticks nowhere, it creeps with up to v_c.
+// Regularised Coulomb friction. The contact never sticks; it creeps with speeds up to about v_c.
 //
 //     tanh        T = -mu N tanh(y),       y = slip / v_c
 //     quadratic   T = -mu N y (2 - y) up to y = 1, -mu N beyond

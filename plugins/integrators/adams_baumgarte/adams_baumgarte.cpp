@@ -1,13 +1,13 @@
-// Adams-Bashforth-Moulton of fourth order in PECE form with Baumgarte's stabilisation, on the first-order form y = (q,
-// v), y' = F(t, y) of RungeKutta:
+// The Adams-Bashforth-Moulton method of fourth order in PECE form with Baumgarte's stabilisation, for the first-order
+// form y = (q, v), y' = F(t, y) of RungeKutta:
 //
 //     P  y* = y_n + h/24 (55 F_n - 59 F_{n-1} + 37 F_{n-2} - 9 F_{n-3})    "ab4", as published
 //        y* = y_n + h/12 (23 F_n - 16 F_{n-1} + 5 F_{n-2})                 "ab3", stable to omega h = 1.178
 //     C  y_{n+1} = y_n + h/24 (9 F(t_{n+1}, y*) + 19 F_n - 5 F_{n-1} + F_{n-2})
 //
-// started by the classical Runge-Kutta method of the same order, after a restart and whenever h changes. With the AB4
-// predictor the method is unstable on the whole imaginary axis (weakly: growth 1.6e-7 a step at omega h = 0.1), so
-// undamped modes need omega h well below 1. Error estimate: predictor less corrector, by Milne -19/270 of it for AB4.
+// The classical Runge-Kutta method of the same order starts it, after a restart and whenever h changes. With the AB4
+// predictor the method is unstable on the whole imaginary axis (weakly: growth of 1.6e-7 per step at omega h = 0.1), so
+// that undamped modes need omega h well below 1. Error estimate (Milne): -19/270 of predictor minus corrector for AB4.
 // Baumgarte, CMAME 1, 1-16 (1972); Hairer, Norsett, Wanner, Solving ODEs I, III.1.
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ constexpr double starter_less_embedded[] = {0, 0, 0, 1.0 / 6, -1.0 / 6};  // as 
 
 constexpr double bashforth_4[] = {55.0 / 24, -59.0 / 24, 37.0 / 24, -9.0 / 24};
 constexpr double bashforth_3[] = {23.0 / 12, -16.0 / 12, 5.0 / 12, 0};
-constexpr double moulton_4[] = {19.0 / 24, -5.0 / 24, 1.0 / 24, 0};  // of the past; 9/24 of the prediction
+constexpr double moulton_4[] = {19.0 / 24, -5.0 / 24, 1.0 / 24, 0};  // of past slopes; the prediction has 9/24
 
 class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
  public:
@@ -62,7 +62,7 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
 
   void accept(System& s, const State& now, const State& next) override {
     const double h = step_to(now.t, next.t);
-    if (!same_step(h)) filled_ = 1;  // only the step's start lies one h back
+    if (!same_step(h)) filled_ = 1;  // only the slope at the step's start remains usable
     h_ = h;
     for (std::size_t i = past_.size() - 1; i > 0; --i) {
       past_[i].q.swap(past_[i - 1].q), past_[i].v.swap(past_[i - 1].v);
@@ -95,7 +95,7 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
     archive("h", h_);
     if (filled_ < 0 || std::size_t(filled_) > past_.size()) throw std::out_of_range("filled");
     for (std::size_t i = 0; i < past_.size(); ++i) {
-      if (i >= std::size_t(filled_)) past_[i] = {};  // of before a restart, perhaps of another size
+      if (i >= std::size_t(filled_)) past_[i] = {};  // from before a restart, possibly of another size
       const std::string name = "past_" + std::to_string(i);
       archive(name + "_q", past_[i].q);
       archive(name + "_v", past_[i].v);
@@ -126,7 +126,7 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
   int past_wanted() const { return predictor == Predictor::ab4 ? 4 : 3; }
   bool same_step(double h) const { return std::abs(h - h_) <= 1e-9 * h; }
 
-  // The step accepted last, exactly: t is rounded, and another step may have been tried since.
+  // Compare exactly with the last accepted step: t is rounded, and another step may have been tried since.
   double step_to(double from, double to) const {
     const double h = to - from;
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(from), std::abs(to));
@@ -141,7 +141,7 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
     const auto three = [&](const Vec& y, Vec Slope::*F) {
       return y + w[0] * past_[0].*F + w[1] * past_[1].*F + w[2] * past_[2].*F;
     };
-    if (weights[3] == 0) {  // nor need there be a fourth
+    if (weights[3] == 0) {  // the fourth slope may not exist
       q = three(now.q, &Slope::q), v = three(now.v, &Slope::v);
     } else {
       q = three(now.q, &Slope::q) + w[3] * past_[3].q, v = three(now.v, &Slope::v) + w[3] * past_[3].v;
@@ -150,9 +150,9 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
 
   RungeKutta starter_{{4, c, a, b}};
   std::array<Slope, 4> past_;  // at the last accepted point, one h before, ...
-  int filled_ = 0;             // so many of them are valid
-  double h_ = 0;               // their distance
-  // Of the last trial.
+  int filled_ = 0;             // number of valid slopes
+  double h_ = 0;               // their distance in time
+  // Data of the last trial.
   bool multistep_ = false;
   double trial_h_ = 0;
   Slope predicted_, corrected_;

@@ -1,8 +1,9 @@
-// The embedded Runge-Kutta method 8(5,3) of Dormand and Prince in Hairer's form, on the first-order form of RungeKutta
-// with Baumgarte's stabilisation: twelve stages, one at the step's end that is the first of the next step, the result
-// of order eight kept. Dense output of order seven takes three further stages, evaluated when first asked for.
+// The embedded Runge-Kutta method 8(5,3) of Dormand and Prince in Hairer's form, for the first-order form of RungeKutta
+// with Baumgarte's stabilisation. It has twelve stages and one at the step's end, which is the first of the next step;
+// the result is of order eight. Dense output of order seven needs three further stages, which are evaluated at first
+// use.
 //
-//     error = |e_5|^2 / sqrt(|e_5|^2 + 0.01 |e_3|^2)     shrinks with h^8; e_5, e_3: differences to the embedded methods
+//     error = |e_5|^2 / sqrt(|e_5|^2 + 0.01 |e_3|^2)     O(h^8); e_5, e_3: differences to the embedded methods
 //
 // Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I (2nd ed. 1993), II.5 and II.6; coefficients as in
 // the authors' code DOP853.
@@ -45,7 +46,7 @@ constexpr double b[] = {
     5.42937341165687622380535766363e-2, 0, 0, 0, 0, 4.45031289275240888144113950566,
       1.89151789931450038304281599044, -5.8012039600105847814672114227, 3.1116436695781989408891606237e-1,
       -1.52160949662516078556178806805e-1, 2.01365400804030348374776537501e-1, 4.47106157277725905176885569043e-2};
-// b less the weights of the embedded method of order 5, and of order 3.
+// b minus the weights of the embedded methods of order 5 and of order 3.
 constexpr double less_fifth[] = {
     0.1312004499419488073250102996e-1, 0, 0, 0, 0, -0.1225156446376204440720569753e1,
       -0.4957589496572501915214079952, 0.1664377182454986536961530415e1, -0.350328848749973681688648729,
@@ -55,7 +56,7 @@ constexpr double less_third[] = {
       4.45031289275240888144113950566, 1.89151789931450038304281599044, -5.8012039600105847814672114227,
       3.1116436695781989408891606237e-1 - 0.733846688281611857341361741547, -1.52160949662516078556178806805e-1,
       2.01365400804030348374776537501e-1, 4.47106157277725905176885569043e-2 - 0.220588235294117647058823529412e-1};
-// Further stages for the dense output, over the twelve, the step's end and one another.
+// Further stages for the dense output, from the twelve stages, the step's end and each other.
 constexpr double c_dense[] = {0.1, 0.2, 7.0 / 9};
 constexpr double a_dense_1[] = {
     5.61675022830479523392909219681e-2, 0, 0, 0, 0, 0, 2.53500210216624811088794765333e-1,
@@ -147,7 +148,7 @@ class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput
   }
 
  private:
-  // Of the last step, evaluated when first asked for. False: one of them has no slope.
+  // Evaluates the further stages of the last step at first use. False: one of them has no slope.
   [[nodiscard]] bool has_dense_stages(System& s, const State& now) {
     constexpr const double* weights[] = {a_dense_1, a_dense_2, a_dense_3};
     constexpr int first = 13;

@@ -1,7 +1,7 @@
-// The embedded Runge-Kutta pair 5(4) of Dormand and Prince, on the first-order form of RungeKutta with Baumgarte's
-// stabilisation: six stages, a seventh at the step's end that is the first of the next step, the fifth-order result
-// kept. Dense output of fourth order after Hairer. Dormand, Prince, J. Comput. Appl. Math. 6(1), 19-26 (1980); Hairer,
-// Norsett, Wanner, Solving ODEs I, II.5 and II.6.
+// The embedded Runge-Kutta pair 5(4) of Dormand and Prince, for the first-order form of RungeKutta with Baumgarte's
+// stabilisation. It has six stages and a seventh at the step's end, which is the first of the next step; the result is
+// of fifth order. Dense output of fourth order after Hairer. Dormand, Prince, J. Comput. Appl. Math. 6(1), 19-26
+// (1980); Hairer, Norsett, Wanner, Solving ODEs I, II.5 and II.6.
 #include <trammel/plugin.hpp>
 #include <trammel/row_parameters.hpp>
 #include <trammel/methods/runge_kutta.hpp>
@@ -19,7 +19,7 @@ constexpr double a[] = {
     19372.0 / 6561,  -25360.0 / 2187,  64448.0 / 6561,  -212.0 / 729,
     9017.0 / 3168,   -355.0 / 33,      46732.0 / 5247,   49.0 / 176,  -5103.0 / 18656};
 constexpr double b[] = {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84};
-// b less the weights of the embedded fourth-order method.
+// b minus the weights of the embedded fourth-order method.
 constexpr double less_embedded[] = {71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 constexpr double dense[] = {
     -12715105075.0 / 11282082432, 0, 87487479700.0 / 32700410799, -10690763975.0 / 1880347072,

@@ -15,7 +15,7 @@ Points powers_of(double theta) {
   return powers;
 }
 
-// Column j: of l_j, constant first.
+// Column j: coefficients of l_j, the constant first.
 const Eigen::Matrix<double, points, points>& lagrange_coefficients() {
   static const Eigen::Matrix<double, points, points> coefficients = [] {
     Eigen::Matrix<double, points, points> powers;

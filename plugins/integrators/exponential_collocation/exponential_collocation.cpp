@@ -1,15 +1,16 @@
-// Collocation at Lobatto's seven points by variation of constants: the system's small oscillations (small_oscillations.hpp),
-// linearised now and then, are followed exactly, and what is left of the acceleration is a polynomial in time.
+// Collocation at Lobatto's seven points by variation of constants. The system's small oscillations
+// (small_oscillations.hpp), linearised from time to time, are integrated exactly; the remaining acceleration is
+// approximated by a polynomial in time.
 //
-//     x = Phi xi, xi' = eta, eta' = -omega^2 xi + nu,   nu = Psi a + omega^2 xi        x: increment since the step's start, v = Phi eta
+//     x = Phi xi, xi' = eta, eta' = -omega^2 xi + nu,   nu = Psi a + omega^2 xi    x: increment, v = Phi eta
 //     eta_i = cos(omega t_i) eta_0 + sum_j (int_0^{t_i} cos(omega (t_i - tau)) l_j(tau) dtau) nu_j      l_j: Lagrange's
 //
-// and xi likewise by sin/omega; what hardly swings has omega = 0. On manifolds q' = N(q) v: q_i = q_0 + N(q_0) x_i + the integral of
-// r = (N(q) - N(q_0)) v, a polynomial too. nu_j and r_j are guessed from the last step's polynomials and put right by sweeps
-// over the points; a sweep's error shrinks by h times what nu depends on eta.
+// and xi likewise with sin/omega; slow modes have omega = 0. On manifolds q' = N(q) v: q_i = q_0 + N(q_0) x_i + the
+// integral of r = (N(q) - N(q_0)) v, also a polynomial. The polynomials of the last step predict nu_j and r_j; sweeps
+// over the points correct them. A sweep reduces the error by h times the derivative of nu by eta.
 //
-// Steps are as long as nu allows, not as the fastest mode does. With all omega = 0 this is collocation at Lobatto's points for
-// x'' = a, of order 12, iterated.
+// The step size is limited by nu, not by the fastest mode. With all omega = 0 this is iterated collocation at Lobatto's
+// points for x'' = a, of order 12.
 //
 // Hochbruck, Ostermann, Exponential integrators, Acta Numerica 19, 209-286 (2010); Wang, Iserles, Wu, Arbitrary-order
 // trigonometric Fourier collocation methods, Found. Comput. Math. 16, 151-181 (2016).
@@ -71,14 +72,15 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     past_nu_ = nu_, past_v_ = v_, past_q_dot_ = q_dot_;
     past_nu_.col(last) = end_nu_, past_v_.col(last) = end_v_, past_q_dot_.col(last) = slope_end_;
     convergence_.accept();
-    // Perhaps as modes have turned; a linearisation costs about ten steps. At the next step: others may still look into this one.
+    // Modes may have changed; a linearisation costs about ten steps. Do it at the next step, because dense output of
+    // this one may still be needed.
     constexpr int pays_after = 10;
     linearise_ = ++steps_ >= pays_after && convergence_.slow(sweeps);
   }
 
   double error(System& s, const State& now, const State& next, const Tolerance& tolerance) override {
     if (!recall(s, now, next)) return std::numeric_limits<double>::infinity();
-    // Near its limit, as if of the order of the others, so that the step is shortened by what it must.
+    // Near its limit, scaled to the order of the other errors, so that the step is reduced by the right factor.
     const double growth = convergence_.growth(sweeps);
     const double growing = growth > 0.25 ? std::pow(growth, double(points) / sweeps) : 0;
     const double sweep = convergence_.contraction() * last_sweep_norm(s, now, next, tolerance);
@@ -158,7 +160,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     const bool guessed = guess(s, now, h);
     const auto [rounding, unseen] = round_off(now, h);
     convergence_.begin(h, guessed ? h / past_h_ : 0, rounding, unseen);
-    // From constants each sweep wins one order, until nothing changes.
+    // Starting from constants, each sweep raises the order by one, until nothing changes.
     const int most = guessed ? std::max(sweeps, convergence_.known() ? 1 : 2) : std::max(sweeps, 2 * last - 1);
     for (int i = 0; i < most && !convergence_.settled(); ++i)
       if (!sweep(s, now)) return Outcome::reject(RungeKutta::diverged);
@@ -174,7 +176,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     return Outcome::accept();
   }
 
-  // Multipliers are wanted as they are at the end.
+  // The multipliers must belong to the step's end.
   [[nodiscard]] bool evaluate_end(System& s, State& next) {
     if (!field_.evaluate(s, next.t, next.q, next.v, slope_)) return false;
     end_nu_ = rest(), end_v_ = next.v, slope_end_ = slope_.q;
@@ -183,7 +185,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     return true;
   }
 
-  // Without rows: by the last sweep's nu, where the increment is Phi xi_. One evaluation of seven saved.
+  // Without rows: from nu of the last sweep, with the increment Phi xi_. It saves one evaluation of seven.
   void take_end(System& s, State& next) {
     end_nu_ = nu_.col(last), end_v_ = next.v;
     s.rate(next.q, next.v, slope_end_);
@@ -192,7 +194,8 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     next.lambda.resize(0);
   }
 
-  // Of nu, as elastic forces are differences of terms as large as omega^2 q; and what of it q does not show after a step.
+  // Round-off of nu, because elastic forces are differences of terms as large as omega^2 q; and its effect on q in a
+  // step.
   std::pair<double, double> round_off(const State& now, double h) {
     constexpr double eps = std::numeric_limits<double>::epsilon();
     if (now.q.size() != now.v.size())
@@ -223,21 +226,21 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     return true;
   }
 
-  // What the sweep changed of nu_i.
+  // The change of nu_i by the sweep.
   void put_along_rows(System& s, int i) {
     e_v_.noalias() = modes_.shapes() * swept_nu_.col(i);
     field_.put_along_rows(s, e_v_);
     swept_nu_.col(i).noalias() = modes_.amplitudes() * e_v_;
   }
 
-  // nu from the slope where the increment is Phi xi.
+  // nu from the slope at the increment Phi xi.
   const Vec& rest() {
     rest_.noalias() = modes_.amplitudes() * slope_.v;
     rest_ += modes_.omega_2().cwiseProduct(xi_);
     return rest_;
   }
 
-  // nu, v, q' and r at point i from the slope there; xi_ is the increment.
+  // nu, v, q' and r at point i from the slope there; the increment is Phi xi_.
   void take_slope(System& s, const State& now, int i, const Vec& v) {
     nu_.col(i) = rest();
     v_.col(i) = v, q_dot_.col(i) = slope_.q;
@@ -245,7 +248,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     r_.col(i) = slope_.q - rate_;
   }
 
-  // nu and r at the step's points; false: constant, there is no last step or it was much shorter.
+  // Predicts nu and r at the step's points. False: constant, because there is no last step or it was much shorter.
   bool guess(System& s, const State& now, double h) {
     constexpr double reach = 2.5;
     slope_.v = a_0_ = now.a;
@@ -271,20 +274,20 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     return past;
   }
 
-  // What the last step's polynomials are at the points of one `ratio` times as long.
+  // Extrapolates the last step's polynomials to the points of a step that is `ratio` times as long.
   void look_ahead(double ratio) {
     for (int i = 1; i < points; ++i) ahead_.col(i) = lagrange(1 + c[i] * ratio);
     ahead_by_ = ratio;
   }
 
-  // eta or xi by their weights; one expression of all points, as each loop over a few modes costs more than its products.
+  // eta or xi by their weights, as one expression over all points to reduce the overhead of loops.
   void oscillate(const Vec& w_0, const Mat& w, Vec& sum) const {
     static_assert(points == 7);
     const auto part = [&](int j) { return w.col(j).cwiseProduct(nu_.col(j)); };
     sum = w_0.cwiseProduct(eta_0_) + part(0) + part(1) + part(2) + part(3) + part(4) + part(5) + part(6);
   }
 
-  // And the increment x_ = Phi xi_.
+  // The same and the increment x_ = Phi xi_.
   void solution_at(const System& s, const State& now, const Weights& w, Vec& q, Vec& v) {
     oscillate(w.v_0, w.v, eta_);
     oscillate(w.x_0, w.x, xi_);
@@ -297,8 +300,8 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     s.normalise(q);
   }
 
-  // The result less that of the polynomials through the other six points, O(h^7): the error of steps that hold many swings, and
-  // more than that of others.
+  // The result minus that of the polynomials through the other six points, O(h^7). It estimates the error of steps with
+  // many oscillations and overestimates that of others.
   double without_middle_norm(System& s, const State& now, const State& next, const Tolerance& tolerance, Part part) {
     const Weights& w = weights_[last];
     rest_.noalias() = nu_ * beyond_others();
@@ -309,7 +312,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     return norm(s, now, next, tolerance, part);
   }
 
-  // What the last sweep changed of the result.
+  // The change of the result by the last sweep.
   double last_sweep_norm(System& s, const State& now, const State& next, const Tolerance& tolerance) {
     const Weights& w = weights_[last];
     eta_ = w.v.cwiseProduct(swept_nu_).rowwise().sum();
@@ -318,7 +321,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     return norm(s, now, next, tolerance, Part::whole);
   }
 
-  // Of an error Phi eta_ of the velocity, Phi xi_ of the increment and beyond_ of the rest of q.
+  // The norm of an error: Phi eta_ of the velocity, Phi xi_ of the increment, beyond_ of the rest of q.
   double norm(System& s, const State& now, const State& next, const Tolerance& tolerance, Part part) {
     e_v_.noalias() = modes_.shapes() * eta_;
     x_.noalias() = modes_.shapes() * xi_;
@@ -333,7 +336,8 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     at.v.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
 
-  // Makes the step from `now` to `next` the last one: repeats it if another was tried since. False: it was refused.
+  // Makes the step from `now` to `next` the last step: repeats it if another one was tried since. False: it was
+  // rejected.
   [[nodiscard]] bool recall(System& s, const State& now, const State& next) {
     const double h = next.t - now.t;
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(now.t), std::abs(next.t));
@@ -349,16 +353,16 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
 
   static constexpr int most_coordinates = 1000;
   static constexpr double none = 0;
-  RungeKutta field_{{1, &none, &none, &none}};  // of whose steps none is made
+  RungeKutta field_{{1, &none, &none, &none}};  // only its slopes are used
   SmallOscillations modes_;
-  int rows_ = 0;            // when last linearised
+  int rows_ = 0;            // at the last linearisation
   int steps_ = 0;           // since then
   bool linearise_ = false;  // at the next step
   SweepConvergence convergence_;
-  // At the points of the step accepted last, whose length is past_h_; 0: forgotten.
+  // At the points of the last accepted step of size past_h_; 0: none.
   double past_h_ = 0;
   Mat past_nu_, past_v_, past_q_dot_;
-  // Of the last trial.
+  // Data of the last trial.
   double trial_h_ = 0;
   Mat nu_, v_, q_dot_, r_, swept_nu_, swept_r_;  // swept: changed by the last sweep
   Mat q_, lambda_;                               // where it evaluated, beyond the start

@@ -1,10 +1,12 @@
-// What a force u^k, u from 0 to 1 over a time T, does to an oscillator omega by the end of that time: with z = omega T
+// The response of an oscillator omega to a force u^k, with u from 0 to 1 in a time T, at the end of this time. With z =
+// omega T
 //
 //     c_k = int_0^1 cos(z (1 - u)) u^k du          velocity T c_k
-//     s_k = int_0^1 sin(z (1 - u))/z u^k du        place    T^2 s_k       (z = 0: 1/(k + 1) and 1/((k + 1)(k + 2)))
+//     s_k = int_0^1 sin(z (1 - u))/z u^k du        position T^2 s_k       (z = 0: 1/(k + 1) and 1/((k + 1)(k + 2)))
 //
-// By parts: c_0 = sin(z)/z, c_k = k s_{k-1}; z^2 s_0 = 1 - cos(z), z^2 s_k = 1 - k c_{k-1}. These are the phi functions of
-// exponential integrators for the matrix [0 1; -omega^2 0] (Hochbruck, Ostermann, Acta Numerica 19 (2010), section 2).
+// By parts: c_0 = sin(z)/z, c_k = k s_{k-1}; z^2 s_0 = 1 - cos(z), z^2 s_k = 1 - k c_{k-1}. These are the phi functions
+// of exponential integrators for the matrix [0 1; -omega^2 0] (Hochbruck, Ostermann, Acta Numerica 19 (2010), section
+// 2).
 #pragma once
 
 #include <array>
@@ -36,7 +38,7 @@ double oscillator_series(double z_2) {
 template <int n>
 OscillatorMoments<n> oscillator_moments(double z) {
   static_assert(n >= 2);
-  constexpr double cancels = 2;  // below, z^2 s_k = 1 - ... loses its digits
+  constexpr double cancels = 2;  // below this, z^2 s_k = 1 - ... suffers from cancellation
   OscillatorMoments<n> m;
   auto& [c, s, cosine, sine] = m;
   const double z_2 = z * z;

@@ -8,7 +8,7 @@ namespace trammel {
 
 namespace {
 
-// Relative to the fastest: below it a mode is as well left to the rest of the force.
+// Relative to the fastest mode. Slower modes are treated as part of the remaining force.
 constexpr double slow = 1e-4;
 
 void archive_matrix(Archive& archive, const std::string& name, Mat& m) {
@@ -30,7 +30,7 @@ void SmallOscillations::residual(System& s, double t, const Vec& q, const State&
 }
 
 void SmallOscillations::differentiate(System& s, const State& state) {
-  // Of the size of q: round-off and curvature of the force then matter alike.
+  // Relative to the size of q: balances round-off and curvature of the force.
   const double size = state.q.lpNorm<Eigen::Infinity>(), dq = 0x1p-24 * (size > 0 ? size : 1);
   const Eigen::Index n = state.v.size();
   K_.resize(n, n);
@@ -44,7 +44,7 @@ void SmallOscillations::differentiate(System& s, const State& state) {
   }
 }
 
-// M, and P^T K P in place of K. False: the rows are singular.
+// Computes M and replaces K by P^T K P. False: the rows are singular.
 bool SmallOscillations::put_on_rows(System& s, const State& state) {
   const Eigen::Index n = state.v.size();
   const bool rows = s.sizes().nc > 0;

@@ -1,11 +1,11 @@
 // Undamped small oscillations of a system about a state, on the null space of its rows:
 //
-//     P^T K P phi = omega^2 M phi,  phi^T M phi = 1,    K = d(M a - f + W^T lambda)/dq with a and lambda held,
+//     P^T K P phi = omega^2 M phi,  phi^T M phi = 1,    K = d(M a - f + W^T lambda)/dq at constant a, lambda,
 //     P = 1 - M^-1 G^T (G M^-1 G^T)^-1 G
 //
-// All of them, a basis: an increment x has the amplitudes Psi x, Psi = Phi^-1 = Phi^T M; what hardly swings has omega = 0. K is taken by
-// differences and by its symmetric part: an integrator that leaves to the rest of its force what these oscillations are not
-// needs it no better. Dense: nv^3.
+// The modes form a basis: an increment x has the amplitudes Psi x, Psi = Phi^-1 = Phi^T M; slow modes have omega = 0. K
+// is computed by differences and made symmetric. This is accurate enough for an integrator that treats the difference
+// to the true acceleration as a remaining force. The cost is O(nv^3).
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -17,7 +17,8 @@ namespace trammel {
 
 class SmallOscillations {
  public:
-  // About `state`, with the a and lambda of its equations of motion. Of a system whose mass matrix is singular: all omega = 0.
+  // Linearises about `state` with a and lambda of its equations of motion. If the mass matrix is singular, all omega =
+  // 0.
   void linearise(System& s, const State& state);
 
   const Vec& omega() const { return omega_; }      // (nv) [1/s]
@@ -34,7 +35,7 @@ class SmallOscillations {
 
   Vec omega_, omega_2_;
   Mat phi_, psi_;
-  // Of the linearisation.
+  // Scratch of the linearisation.
   Eigen::LLT<Mat> cholesky_;
   Eigen::SelfAdjointEigenSolver<Mat> solver_;
   Mat M_, K_, KP_, P_;

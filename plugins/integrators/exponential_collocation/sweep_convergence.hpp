@@ -1,9 +1,10 @@
-// Whether the sweeps of a step converge, and what they leave of the guess they begin with.
+// The convergence of the sweeps of a step, and the error that they leave of the prediction.
 //
-// A sweep shrinks what the sweep before it changed by a factor r: with dampers like h, with springs like h^2. It is seen where a step
-// takes two sweeps; with one, every twentieth step takes a second to see it. What is left, r^sweeps of the guess's error, goes into
-// the next guess, polynomials carried a step ahead, which multiply it by up to 3000 (h / last h)^4 (measured on a damped mass
-// for one to three sweeps: 940, 2900, 2300): a step after which errors would grow is refused.
+// The change by a sweep is r times the change by the sweep before; r is O(h) with dampers, O(h^2) with springs. It is
+// observed in steps with two sweeps; if steps take one sweep, every twentieth step takes a second one to observe it.
+// The remaining error, r^sweeps times the prediction's error, enters the next prediction. Extrapolating the polynomials
+// amplifies it by up to 3000 (h / last h)^4 (measured on a damped mass for one to three sweeps: 940, 2900, 2300). A
+// step after which errors would grow is rejected.
 #pragma once
 
 #include <algorithm>
@@ -16,18 +17,18 @@ namespace trammel::collocation {
 
 class SweepConvergence {
  public:
-  // A step of length h, `longer` times the last one, whose polynomials are its guess; 0: the guess is constant. What sweeps change
-  // has this `rounding`; no more than `unseen` of it does not matter.
+  // Begins a step of size h, `longer` times the last one, whose polynomials predict it; longer = 0: constant
+  // prediction. `rounding`: round-off of the changes by sweeps; changes below `unseen` do not matter.
   void begin(double h, double longer, double rounding, double unseen) {
     h_ = h, longer_ = longer, rounding_ = rounding, unseen_ = unseen;
     change_ = before_ = {};
   }
-  // By how much a sweep changed the whole, and what of it is along rows that points are put onto. Across them it may be nothing but
-  // round-off (error_along_rows.hpp), which no sweep makes smaller.
+  // The change by a sweep, whole and along the rows onto which points are projected. The part across the rows may be
+  // pure round-off (error_along_rows.hpp), which sweeps do not reduce.
   struct Change {
     double whole = std::numeric_limits<double>::infinity(), along_rows = whole;
   };
-  // A sweep has changed what is of this size by so much.
+  // Records a sweep's change of values of this size.
   void swept(const Change& change, double size) { before_ = change_, change_ = change, size_ = size; }
 
   bool settled() const { return change_.along_rows <= 1e-12 * size_ + 4 * rounding_; }
@@ -38,13 +39,13 @@ class SweepConvergence {
     const double by = seen_h_ > 0 ? h_ / seen_h_ : 0;
     return seen_ * std::max(by, by * by);
   }
-  // Of errors from step to step; at most 1.
+  // Amplification of errors from step to step; must not exceed 1.
   double growth(int sweeps) const { return 3000 * std::pow(longer_, 4) * std::pow(contraction(), sweeps); }
   bool diverges(int sweeps) const { return longer_ > 0 ? growth(sweeps) > 1 : contraction() > 0.5; }
-  // Not twice as fast as it must be, or a sweep wins no digit.
+  // True if convergence is less than twice as fast as required, or if a sweep gains no digit.
   bool slow(int sweeps) const { return growth(sweeps) > std::pow(0.5, sweeps) || contraction() > 0.1; }
 
-  // The step has become the solution.
+  // The step was accepted.
   void accept() {
     constexpr int serves = 20;
     if (seen())
@@ -52,7 +53,7 @@ class SweepConvergence {
     else if (trusted_ > 0)
       --trusted_;
   }
-  // What was seen so far serves no more.
+  // Discards the observations.
   void distrust() { trusted_ = 0; }
 
   void archive(Archive& archive) {
@@ -69,8 +70,8 @@ class SweepConvergence {
 
   double h_ = 0, longer_ = 0, rounding_ = 0, unseen_ = 0, size_ = 0;
   Change change_, before_;
-  double seen_ = 0, seen_h_ = 0;  // r, and the length of the step that showed it
-  int trusted_ = 0;               // for so many steps
+  double seen_ = 0, seen_h_ = 0;  // r, and the size of the step where it was observed
+  int trusted_ = 0;               // number of steps until the next observation
 };
 
 }  // namespace trammel::collocation

@@ -1,4 +1,4 @@
-// The generalised-alpha method for constrained mechanical systems: the alpha method (trammel/alpha_method.hpp) with
+// The generalised-alpha method for constrained mechanical systems: the alpha method (methods/alpha_method.hpp) with
 //
 //     alpha_m = (2 rho - 1)/(rho + 1),   alpha_f = rho/(rho + 1)
 //     gamma = 1/2 + alpha_f - alpha_m,   beta = (gamma + 1/2)^2 / 4

@@ -1,8 +1,9 @@
-// The alpha method of Hilber, Hughes and Taylor for constrained mechanical systems: the alpha method (trammel/alpha_method.hpp) with
+// The method of Hilber, Hughes and Taylor for constrained mechanical systems: the alpha method
+// (methods/alpha_method.hpp) with
 //
 //     alpha_m = 0,   alpha_f = -alpha,   gamma = 1/2 - alpha,   beta = (1 - alpha)^2 / 4,   alpha in [-1/3, 0]
 //
-// Some texts write alpha for our -alpha. While M is constant this is the printed
+// Some texts write alpha for our -alpha. For constant M this is the original form
 //     1/(1+alpha) M a_{n+1} - (f - W^T lambda)_{n+1} + alpha/(1+alpha) (f - W^T lambda)_n = 0
 // Negrut, Rampalli, Ottarsson, Sajdak, J. Comput. Nonlinear Dynam. 2(1), 73-85 (2007); Jay, Negrut, ETNA 26, 190-208
 // (2007).

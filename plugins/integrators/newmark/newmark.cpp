@@ -4,8 +4,8 @@
 //     q_{n+1} = q_n (+) (h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1}))
 //     v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1})
 //
-// with the rows of NewmarkStep (stabilised or index 3). Second order for gamma = 1/2, else first order with damping;
-// stable for every step if 2 beta >= gamma >= 1/2. Newmark, J. Eng. Mech. Div. ASCE 85(3), 67-94 (1959).
+// with the rows of NewmarkStep (stabilised or index 3). Second order for gamma = 1/2, otherwise first order with
+// damping; stable for every step if 2 beta >= gamma >= 1/2. Newmark, J. Eng. Mech. Div. ASCE 85(3), 67-94 (1959).
 #include <trammel/methods/newmark_error.hpp>
 #include <trammel/methods/newmark_parameters.hpp>
 #include <trammel/methods/newmark_step.hpp>

@@ -1,11 +1,11 @@
-// The classical Runge-Kutta method of fourth order, on the first-order form of RungeKutta with Baumgarte's
+// The classical Runge-Kutta method of fourth order, for the first-order form of RungeKutta with Baumgarte's
 // stabilisation.
 //
 //     k_1 = F(t, y), k_2 = F(t + h/2, y + h/2 k_1), k_3 = F(t + h/2, y + h/2 k_2), k_4 = F(t + h, y + h k_3)
 //     y_{n+1} = y_n + h/6 (k_1 + 2 k_2 + 2 k_3 + k_4),       y = (q, v)
 //
-// Error estimate: with k_5 = F(t + h, y_{n+1}) in place of k_4 the formula is of third order; the difference h/6 (k_4 -
-// k_5) shrinks with h^4. Kutta, Z. Math. Phys. 46, 435-453 (1901).
+// Error estimate: with k_5 = F(t + h, y_{n+1}) instead of k_4 the formula is of third order; the difference h/6 (k_4 -
+// k_5) is O(h^4). Kutta, Z. Math. Phys. 46, 435-453 (1901).
 #include <trammel/plugin.hpp>
 #include <trammel/row_parameters.hpp>
 #include <trammel/methods/runge_kutta.hpp>

@@ -1,8 +1,8 @@
-// Four points in one plane of space, such as a folding edge, its hinge and the apex that it folds towards.
+// Four points stay in one plane, such as a folding edge, its hinge and the apex towards which it folds.
 //
-//     g = det(y_B, y_C, y_D) / L^2 = 0,   y_k = x_k - x_A        1 row; L the usual distance of the points
+//     g = det(y_B, y_C, y_D) / L^2 = 0,   y_k = x_k - x_A        1 row; L: typical distance of the points
 //
-//     H_B = (y_C x y_D)^T / L^2 and so on in a circle, H_A = -(H_B + H_C + H_D)
+//     H_B = (y_C x y_D)^T / L^2 and cyclically, H_A = -(H_B + H_C + H_D)
 //     gamma = -2 (det(u_B, u_C, y_D) + det(u_B, y_C, u_D) + det(y_B, u_C, u_D)) / L^2,   u = y'
 #include <array>
 

@@ -1,4 +1,4 @@
-// A sleeve on a shaft: marker B moves along a line of A and turns about it; either may be held to a law of time.
+// A sleeve on a shaft: marker B moves along a line of A and turns about it; either motion may follow a law of time.
 //
 //     e_2 . d, e_3 . d             d = x_B - x_A; e_2, e_3 directions of A perpendicular to its axis n_A
 //     e_2 . n_B, e_3 . n_B         the axes stay parallel

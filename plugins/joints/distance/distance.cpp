@@ -3,8 +3,8 @@
 //     g = (d . d / L - L) / 2 = 0   (1 row),   d = x_B - x_A        ~ |d| - L near the constraint, and smooth at d = 0
 //
 //     g'  = d . d' / L + g_t,       g_t = -(|d|^2 / L^2 + 1) L' / 2
-//     g'' = d . d'' / L - gamma,    gamma = -|d'|^2 / L + 2 d . d' L' / L^2 + (|d|^2 / L^2 + 1) L'' / 2 - |d|^2 L'^2 /
-//     L^3
+//     g'' = d . d'' / L - gamma,    gamma = -|d'|^2 / L + 2 d . d' L' / L^2 + (|d|^2 / L^2 + 1) L'' / 2
+//                                 - |d|^2 L'^2 / L^3
 //
 // lambda [N] > 0: the rod is in tension. Source: Garcia de Jalon, Bayo 1994, rigid-body conditions in natural
 // coordinates, here divided by 2 L so that g is a length and lambda a force.

@@ -1,6 +1,6 @@
-// Two distances stay equal: of A and B, and of C and D.
+// The distance of A and B equals that of C and D.
 //
-//     g = (|x_B - x_A|^2 - |x_D - x_C|^2) / (2 L) = 0        1 row; L the distance for which its gradient is 1
+//     g = (|x_B - x_A|^2 - |x_D - x_C|^2) / (2 L) = 0        1 row; L: distance at which its gradient is 1
 //
 // It synchronises the folding edges around the hub of a truss. C may be A.
 #include <trammel/plugin.hpp>

@@ -1,4 +1,5 @@
-// A weld: the two markers keep one place and one relative orientation, which may turn by a law of time (a rotary drive).
+// A weld: the two markers coincide and have a fixed relative orientation, which may follow a law of time (a rotary
+// drive).
 //
 //     g = (x_B - x_A, orientation of B against A) = 0        3 rows planar, 6 spatial
 //

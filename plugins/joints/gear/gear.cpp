@@ -1,9 +1,9 @@
-// Two gears that mesh, by their numbers of teeth; their bodies turn about axes fixed in the world, which other joints hold.
+// Two gears in mesh, given by their numbers of teeth. Their bodies turn about axes fixed in the world, in other joints.
 //
 //     g = wrap(z_A theta_A +- z_B theta_B - phase) / z_B = 0   (1 row)       + external, - internal mesh
 //
-// theta [rad] is the angle of the marker's frame about the axis n, from where the world's axes and the marker's agree; whole
-// teeth count as none (wrap into [-pi, pi]), so that no turns need be counted. With h of axis_angle.hpp
+// theta [rad] is the angle of the marker's frame about the axis n against the world's axes. Multiples of a tooth are
+// removed (wrap into [-pi, pi]), so that turns need not be counted. With h of axis_angle.hpp
 //     theta' = h . omega,    theta'' = h . alpha + h' . omega
 // lambda [N m] on B. In the plane theta is the marker's angle and n the plane's normal.
 #include <cmath>

@@ -1,17 +1,17 @@
 // A slider: marker B moves along a line fixed in marker A's frame and does not turn against A.
 //
-//     e . d                              d = x_B - x_A; e the directions of A across its axis s: one planar, two spatial
+//     e . d                              d = x_B - x_A; e: directions of A across its axis s (1 planar, 2 spatial)
 //     orientation of B against A         planar theta_B - theta_A - angle; spatial R_B = R_A turn(s, angle) orientation
 //     s . d - position(t)                with "position": an ideal linear drive
 //
-// The offset angle may be a law of time too. lambda of the first rows [N] presses across the guide.
+// The offset angle may be a law of time, too. lambda of the first rows [N] is the force across the guide.
 //
-// With friction it rubs where it is guided (joint_friction.hpp). F, M: its force on B, and moment on B about marker B;
-// L: length of the guide, which is centred at marker B and moves with it; b: width between its two rails
+// Friction acts at the guide (joint_friction.hpp). F, M: force and moment of the joint on B, about marker B; L: length
+// of the guide, which is centred at marker B and moves with it; b: width between its two rails
 //
 //     without L    |F across s|
 //     with L       |p_1| + |p_2|,   p = F across s / 2 +- M x s / L            at both ends of the guide
-//     with b       2 |M . s| / b                                               in space: at both rails; without b none
+//     with b       2 |M . s| / b                                               in space: at both rails
 #include <trammel/joint_friction.hpp>
 #include <trammel/joint_rows.hpp>
 #include <trammel/plugin.hpp>

@@ -1,17 +1,17 @@
-// A hinge: the two markers stay in one place, and in space share an axis; the angle is free, or a law of time.
+// A hinge: the two markers coincide and, in space, have a common axis; the angle is free or follows a law of time.
 //
 //     g = x_B - x_A                                     2 rows planar, 3 spatial
-//     e_2 . n_B, e_3 . n_B                              spatial: n_B across two directions of A perpendicular to its axis
+//     e_2 . n_B, e_3 . n_B                              spatial: n_B perpendicular to two directions of A
 //     the angle of B against A minus angle(t)           with "angle": an ideal rotary drive
 //
 // lambda [N] of the first rows: the joint pushes B with -lambda and A with +lambda, world axes.
 //
-// With friction it is a journal bearing of radius r (joint_friction.hpp): the slip is r x turning. F, M: its force and moment on B;
-// n: its axis, L: its length in space
+// With friction it is a journal bearing of radius r (joint_friction.hpp); the slip is r times the relative rotation. F,
+// M: its force and moment on B; n: its axis, L: its length in space
 //
-//     without L    |F across n|                                              in the plane |F|: the torque is mu r |F|
+//     without L    |F across n|                                              in the plane |F|: torque mu r |F|
 //     with L       |p_1| + |p_2|,   p = F across n / 2 +- M x n / L          at both ends of the journal
-//     in space     and |F . n|: thrust rubs on a shoulder at the same radius
+//     in space     plus |F . n|: thrust on a shoulder with the same radius
 #include <cmath>
 #include <numbers>
 
@@ -70,7 +70,7 @@ struct Revolute : RowJoint, BearingJoint {
     row.gamma(0) = -r * omega_A.cross(n).dot(omega_B - omega_A);
   }
 
-  // In space the angle is known up to full turns.
+  // In space the angle is determined up to full turns.
   double slid(double from, double to) const override {
     return planar_ ? to - from : std::remainder(to - from, 2 * std::numbers::pi * *radius);
   }

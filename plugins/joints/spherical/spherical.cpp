@@ -1,6 +1,6 @@
-// A ball joint: the two markers stay in one place and turn freely. In the plane it is a hinge.
+// A ball joint: the two markers coincide and turn freely. In the plane it is a hinge.
 //
-//     g = x_B - x_A = 0   (3 rows, planar 2)      lambda [N]: the joint pushes B with -lambda and A with +lambda, world axes
+//     g = x_B - x_A = 0   (3 rows, planar 2)      lambda [N]: the force on B is -lambda, on A +lambda, in world axes
 #include <trammel/joint_rows.hpp>
 #include <trammel/plugin.hpp>
 

@@ -1,9 +1,10 @@
-// The hinge B of two equal arms AB, BC lies on the line AC, seen along the direction to D.
+// The hinge B of two equal arms AB, BC lies on the line AC in the direction towards D.
 //
 //     g = (x_B - x_M) . (x_D - x_M) / L = 0,   x_M = (x_A + x_C)/2        1 row; L the distance of D from the line
 //
-// Positive where the hinge is bent towards D. Where it is straight, the lengths of the two arms and of AC are three rows of one
-// direction, which hold nothing across it; this row does, it does not pull at D there, and it changes its sign.
+// g > 0 if the hinge is bent towards D. In the straight position, the lengths of the two arms and of AC give three rows
+// in the same direction and do not constrain B across it. This row does; it exerts no force on D there, and it changes
+// its sign.
 #include <trammel/plugin.hpp>
 
 #include "../quadratic_row.hpp"

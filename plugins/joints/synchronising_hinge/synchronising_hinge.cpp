@@ -2,7 +2,7 @@
 //
 //     g = (S_1 . S_2 - cos(angle) S_1 . S_1) / L = 0,   S_1 = x_B - x_A, S_2 = x_C - x_B      1 row
 //
-// All around a hoop of n sides, angle 2 pi/n, it makes the polygon regular whatever the sides' length.
+// In every corner of a hoop of n sides, with angle 2 pi/n, it makes the polygon regular for any length of the sides.
 #include <cmath>
 
 #include <trammel/plugin.hpp>

@@ -1,4 +1,4 @@
-// A universal (Cardan) joint: the two markers stay in one place, and an axis of A stays perpendicular to an axis of B.
+// A universal (Cardan) joint: the two markers coincide, and an axis of A remains perpendicular to an axis of B.
 //
 //     g = (x_B - x_A, n_A . n_B) = 0   (4 rows), spatial
 #include <trammel/joint_rows.hpp>

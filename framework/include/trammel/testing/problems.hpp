@@ -40,7 +40,7 @@ struct Problem {
   Mat M = {};        // constant, or at the start
   std::function<Vec(double t, const Vec& q, const Vec& v)> force = {};
   std::function<Rows(double t, const Vec& q, const Vec& v)> rows = {};  // empty: none
-  std::function<void(double t, Vec& q, Vec& v)> exact = {};  // without a closed form: the start for every t
+  std::function<void(double t, Vec& q, Vec& v)> exact = {};             // without a closed form: the start for every t
   bool closed_form = true;
   Invariant energy = {};                       // without a value: not conserved
   std::function<Mat(const Vec& q)> mass = {};  // empty: M everywhere
