@@ -5,7 +5,8 @@
 //
 //     m x'' = f_x,      I omega' + omega x I omega = m_b          I [kg m^2] about the centre of mass, constant
 //
-// A marker at r in body axes sits at x + rho, rho = R r; with a the world axes of the rates omega (1, or the columns of R)
+// A marker at r in body axes sits at x + rho, rho = R r; with a the world axes of the rates omega (1, or the columns of
+// R)
 //     V = (x' + (a omega) x rho, a omega),    bias = ((a omega) x ((a omega) x rho), 0),    J = [I  a x rho; 0  a]
 // since a' omega = 0. Sources: Shabana, Dynamics of Multibody Systems (plane); Featherstone, Rigid Body Dynamics
 // Algorithms, section 2 (space).
@@ -24,7 +25,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// What turning is. omega x r, r x F and the cross product as a matrix have the dimension's own sizes.
+// Rotation in D dimensions: omega x r, r x F and the cross product as a matrix have the sizes of the dimension.
 template <int D>
 struct Turning;
 
