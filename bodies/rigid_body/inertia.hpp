@@ -6,7 +6,7 @@
 //
 // I [kg m^2] about the centre of mass in body axes, m [kg], lengths [m], density [kg/m^3]. A planar body takes I_zz
 // alone.
-// Refused: anything no distribution of mass can have, which is lambda_3 > lambda_1 + lambda_2 among the principal
+// Refused: inertia that no distribution of mass has, which is lambda_3 > lambda_1 + lambda_2 among the principal
 // moments.
 #pragma once
 
@@ -24,7 +24,7 @@ struct Inertia {
   Eigen::Matrix3d about_com = Eigen::Matrix3d::Zero();
 };
 
-// What the scene may say.
+// The scene's parameters.
 struct InertiaInput {
   enum class Axis { x, y, z };
   std::optional<double> mass_, density_;

@@ -101,7 +101,8 @@ void watch_for_crashes() {
 
 }  // namespace trammel::tool
 
-// In place of the C library's: a plugin that calls it ends no run as if all were well. The C library itself calls its own.
+// In place of the C library's: a plugin that calls it ends no run as if all were well. The C library itself calls its
+// own.
 extern "C" [[noreturn, gnu::visibility("default")]] void _exit(int code) {
   trammel::tool::on_exit();
   trammel::tool::leave(code);

@@ -1,6 +1,6 @@
-// A crash inside a plugin (a bad address, an illegal instruction, abort), or a plugin that ends the program by exit() or _exit(), ends
-// the process with a message that names the component being called, time and step, and exit code 3; the records still in memory are
-// written.
+// A crash inside a plugin (a bad address, an illegal instruction, abort), or a plugin that ends the program by exit()
+// or _exit(), ends the process with a message that names the component being called, time and step, and exit code 3;
+// the records still in memory are written.
 #pragma once
 
 namespace trammel::tool {

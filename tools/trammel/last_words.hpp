@@ -1,4 +1,5 @@
-// What a process says that cannot go on, and its end: for handlers of signals and of failed allocations. Nothing here allocates.
+// What a process says that cannot go on, and its end: for handlers of signals and of failed allocations. Nothing here
+// allocates.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// A lack of memory is nobody's fault and leaves nothing to build a message from: the process ends with one that stands ready, exit
-// code 1, and the records so far; result.json says "failed".
+// A lack of memory is nobody's fault and leaves nothing to build a message from: the process ends with one that stands
+// ready, exit code 1, and the records so far; result.json says "failed".
 #pragma once
 
 #include <new>
