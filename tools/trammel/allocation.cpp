@@ -1,6 +1,6 @@
-// operator new that says how much was asked for when there is no memory; the program's libraries and plugins use it,
+// operator new that reports the size requested when there is no memory; the program's libraries and plugins use it,
 // too. A large block that is missing leaves room for small ones, and its exception takes the usual way. Where a small
-// one is missing, nothing can be built any more: the process ends with a message that stands ready.
+// one is missing, nothing can be allocated any more: the process ends with a message that was prepared.
 #include <cstdlib>
 #include <new>
 

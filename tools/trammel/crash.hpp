@@ -7,7 +7,7 @@ namespace trammel::tool {
 
 // Installs the handlers, those of crashes unless somebody watches already (a sanitizer).
 void watch_for_crashes();
-// The program ends as it should from here on: exit() is no longer a plugin's.
+// From here on the program ends normally: exit() is no longer charged to a plugin.
 void ends_by_itself();
 
 }  // namespace trammel::tool

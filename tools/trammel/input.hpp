@@ -1,4 +1,4 @@
-// What every command reads and writes alike: the scene, plugins, JSON, errors.
+// Input and output common to all commands: the scene, plugins, JSON, errors.
 #pragma once
 
 #include <string>
