@@ -1,6 +1,6 @@
 // The equations of a rigid body in the coordinates of its centre of mass, in the plane (D = 2) and in space (D = 3).
 //
-//     q = (x, theta) or (x, p)     x [m] world axes; theta [rad] counting full turns; p the unit quaternion (w, x, y, z)
+//     q = (x, theta) or (x, p)     x [m] world axes; theta [rad] counting full turns; p unit quaternion (w, x, y, z)
 //     v = (x', omega)              omega [rad/s]: theta', or the angular velocity in body axes
 //
 //     m x'' = f_x,      I omega' + omega x I omega = m_b          I [kg m^2] about the centre of mass, constant

@@ -4,7 +4,7 @@
 //     M symmetric, v^T M v >= 0, T(q, v) = v^T M v/2 + what time alone drives
 //     dE/ds = P + v^T (M a - f)                                 the last term is 0 along M a = f
 //     c_m M - c_d df/dv + c_k d(M a - f)/dq = the exact tangent, where it is offered
-//     of rows of its own: G = dg/dq, dg/dt = G v + g_t and d(that)/dt = G a - gamma along the path, K = d(G^T lambda)/dq
+//     own rows: G = dg/dq, dg/dt = G v + g_t, d(G v + g_t)/dt = G a - gamma along the path, K = d(G^T lambda)/dq
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <set>

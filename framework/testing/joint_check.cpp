@@ -1,7 +1,7 @@
 // The contract of a joint, checked along known motions of its two to four markers, in general away from g = 0:
 //
 //     dg/dt = H_A V_A + H_B V_B + ... + g_t,    d(that)/dt = H_A A_A + H_B A_B + ... - gamma
-//     H_A, H_B, ...: gradients of g by the twists of the markers at fixed time, g_t: derivative by time at fixed markers
+//     H_A, H_B, ...: gradients of g by the markers' twists at fixed time, g_t: derivative by time at fixed markers
 //     reactions -H_A^T lambda and -H_B^T lambda balance: in force everywhere, in moment where g = 0
 //
 // and axes of markers count only where NeedsOrientation says so. Rows that repeat each other are no fault.
