@@ -1,5 +1,5 @@
-// A slender beam by assumed modes: a floating frame at the root that turns by theta, axial and transverse cantilever modes,
-// and the foreshortening that bending brings with it.
+// A slender beam by assumed modes: a floating frame at the root that turns by theta, axial and transverse cantilever
+// modes, and the foreshortening caused by bending.
 //
 //     r = o + R(theta) (r_h + x + u_x, u_y),    u_x = Phi_x A - 1/2 B^T H(x) B,    u_y = Phi_y B
 //     q = ([o_x, o_y,] [theta,] A_1..A_n, B_1..B_N)        o only for mount "free", theta not for mount "clamped"
@@ -8,15 +8,15 @@
 //
 //     M = int rho S J^T J dx,    f = -int rho S J^T (alpha - gravity) dx - (0, 0, K1 A, K2 B),
 //
-// J = (d r / d q) and alpha the acceleration at v' = 0, both in the beam's axes. Euler-Bernoulli; no rotary inertia of the
-// cross section; axial strain is that of Phi_x A alone.
+// J = (d r / d q) and alpha the acceleration at v' = 0, both in the beam's axes. Euler-Bernoulli; no rotary inertia of
+// the cross section; axial strain is that of Phi_x A alone.
 //
-// `coupling` says what deformation and overall motion know of each other:
+// `coupling` selects how deformation and overall motion are coupled:
 //     full     the above
 //     linear   without foreshortening (H = 0): wrong beyond slow rotation, where it misses the geometric stiffening
 //     none     the inertia of the undeformed beam: a constant mass matrix, no gyroscopic or centrifugal terms
-// Each is the Lagrangian system of its own kinetic energy, so each conserves energy. That is why `none` needs a held root:
-// with a free one, its kinetic energy would feel the uniform motion of the whole.
+// Each is the Lagrangian system of its own kinetic energy, so each conserves energy. `none` needs a root that is held:
+// with a free one, its kinetic energy would depend on a uniform motion of the whole.
 #pragma once
 
 #include <optional>
@@ -80,8 +80,8 @@ class AssumedModeBeam final : public Body,
 
  private:
   // Coefficients in the inertia basis of L = X0 + Phi_x A, F = 1/2 B^T H B, X = L - F, Y = Phi_y B, and the rows
-  // p_i = (H B)_i; behind those of F and p their integrals with Phi_x, as in the rows of H. On the stack: no allocation,
-  // and several threads may use one beam.
+  // p_i = (H B)_i; behind those of F and p their integrals with Phi_x, as in the rows of H. On the stack: no
+  // allocation, and several threads may use one beam.
   struct Deformation {
     alignas(64) double L[InertiaBasis::most], X[InertiaBasis::most], Y[InertiaBasis::most];
     alignas(64) double F[InertiaBasis::most_row], p[most_functions * InertiaBasis::most_row];
@@ -142,7 +142,7 @@ class AssumedModeBeam final : public Body,
   };
   Point point(const PointShape& shape, In q) const;
 
-  // Where things stand in q and v; -1: not there.
+  // Places in q and v; -1: none.
   int i_o_ = -1, i_theta_ = -1, i_A_ = 0, i_B_ = 0, n_ = 0;
   int n_axial_ = 0, N_ = 0;  // functions of each kind: modes and static ones
   Eigen::Vector2d gravity_ = Eigen::Vector2d::Zero();

@@ -4,8 +4,8 @@
 //     o: R^T,   theta: (-Y, X),   A_i: (Phi_x,i, 0),   B_i: (-p_i, Phi_y,i)
 // With L = X0 + Phi_x A, F = 1/2 B^T H B and P = p Bd,
 //     X = L - F,   Y = Phi_y B,   ud_x = Phi_x Ad - P,   ud_y = Phi_y Bd.
-// Integrals of modes with modes are constants (the modes of a kind are orthogonal), those with F, P or p_i are products of
-// coefficients in the InertiaBasis; below, (f g) stands for int f g dm.
+// Integrals of modes with modes are constants (the modes of a kind are orthogonal), those with F, P or p_i are products
+// of coefficients in the InertiaBasis; below, (f g) stands for int f g dm.
 #include <Eigen/Geometry>
 
 #include "deformation.hpp"
@@ -22,7 +22,7 @@ void AssumedModeBeam::add_mass(const Sizes& s, In q, const Deformation& at, Matr
   const InertiaBasis& b = *basis_;
   const double *A = q.data() + i_A_, *B = q.data() + i_B_;
   Matrix M = whole.from(i_A_, i_A_);
-  // Column j from row `first` on, and row j as well: in two loops, or the compiler doubts whether they meet.
+  // Column j from row `first` on, and row j as well: in two loops, otherwise the compiler assumes that they overlap.
   const auto symmetric = [&](auto count, int first, int j, const double* values) {
     for (int i = 0; i < count; ++i) M.add(first + i, j, values[i]);
     for (int i = 0; i < count; ++i) M.add(j, first + i, values[i]);

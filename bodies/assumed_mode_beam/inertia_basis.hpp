@@ -1,13 +1,14 @@
 // The functions of x that the beam's inertia is made of, and the integrals of their products over the mass.
 //
-// Products of 1, X0 = hub radius + x and the modes Phi_x and Phi_y with one another are numbers, integrated once. Products
-// with the foreshortening's functions H_ij = int_0^x Phi_y,i' Phi_y,j' are sums over a basis orthonormal in the mass:
+// Products of 1, X0 = hub radius + x and the modes Phi_x and Phi_y with one another are numbers, integrated once.
+// Products with the foreshortening's functions H_ij = int_0^x Phi_y,i' Phi_y,j' are sums over a basis orthonormal in
+// the mass:
 //
 //     f(x) = sum_k f_k psi_k(x),   int psi_k psi_l dm = delta_kl,   so   int f g dm = sum_k f_k g_k
 //
-// which holds for any f as long as g is in the span of the H_ij. These N (N + 1) / 2 functions span far fewer dimensions to
-// round-off: 6, 15, 22, 29, 76 for N = 3, 5, 7, 9, 30. Against Gauss quadrature (5.5 N stations) this saves a factor of 2 to
-// 3, against the tensor int H_ij H_lm dm (N^4 numbers) more, and it grows as N^2 times that dimension.
+// which holds for any f as long as g is in the span of the H_ij. These N (N + 1) / 2 functions span far fewer
+// dimensions to round-off: 6, 15, 22, 29, 76 for N = 3, 5, 7, 9, 30. The cost grows as N^2 times that dimension,
+// instead of N^4 with the tensor int H_ij H_lm dm.
 #pragma once
 
 #include <vector>
@@ -20,8 +21,8 @@ namespace trammel::beam {
 
 inline constexpr int most_modes = 40;  // of each kind
 inline constexpr int most_functions = most_modes + most_static;
-// Stations for functions with up to N modes a factor: integrals of four slopes have 4 N half waves, and 5.5 N points give
-// them to round-off.
+// Stations for functions with up to N modes a factor: integrals of four slopes have 4 N half waves, and 5.5 N points
+// give them to round-off.
 constexpr int stations_for(int N) {
   return (11 * N + 1) / 2 + 4;
 }
@@ -44,8 +45,8 @@ class InertiaBasis {
   const double* phi_x() const { return functions_.data() + 2 * size_; }
   const double* phi_y() const { return functions_.data() + (2 + axial_) * size_; }
 
-  // Rows H_ij of length row(): the coefficients, up to size(), and from there on the integrals int Phi_x,a H_ij dm. Only
-  // j <= i is kept (N = 9 so fits the first cache): row j of these starts at H(i) + j row(), and H(i + 1) follows.
+  // Rows H_ij of length row(): the coefficients, up to size(), and from there on the integrals int Phi_x,a H_ij dm.
+  // Only j <= i is kept (N = 9 so fits the first cache): row j of these starts at H(i) + j row(), and H(i + 1) follows.
   int row() const { return row_; }
   const double* H(int i) const { return half_H_.data() + std::ptrdiff_t(i) * (i + 1) / 2 * row_; }
   // All rows H_i1 to H_iN.

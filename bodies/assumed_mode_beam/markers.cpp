@@ -20,7 +20,7 @@ AssumedModeBeam::Point AssumedModeBeam::point(const PointShape& shape, In q) con
   return at;
 }
 
-// With the coupling none the kinetic energy knows only the undeformed beam, but a marker is where the material is.
+// With the coupling none the kinetic energy is that of the undeformed beam, but a marker follows the deformed one.
 void AssumedModeBeam::motion(int marker, double, In q, In v, Motion& motion) const {
   const PointShape& shape = marker_shapes_[std::size_t(marker)];
   const int N = N_;

@@ -1,7 +1,7 @@
 // The shape functions of the beam, on 0 <= x <= L.
 //
-// Transverse: the bending modes of a cantilever, cosh bx - cos bx - sigma (sinh bx - sin bx) with cos(bL) cosh(bL) = -1,
-// scaled so that their square integrates to L; at the tip they are 2, -2, 2, ...
+// Transverse: the bending modes of a cantilever, cosh bx - cos bx - sigma (sinh bx - sin bx) with cos(bL) cosh(bL) =
+// -1, scaled so that their square integrates to L; at the tip they are 2, -2, 2, ...
 // Axial: those of a rod fixed at x = 0, sin((2i - 1) pi x / 2L).
 //
 // Written with decaying exponentials: the textbook form cosh - sigma sinh loses five digits at the ninth mode.

@@ -1,6 +1,5 @@
-// The numbers that the beam's loops run over. Each is an int, or known when compiling: for the usual few modes the loops
-// are so short that running them costs as much as what they do: known sizes halve the time of M and f for 3 and 5 modes, and
-// save a seventh at 9 (tools/bench/README.md).
+// Lengths of the beam's loops: each is an int, or known to the compiler, because for the usual few modes the overhead
+// of a loop costs as much as its body (tools/bench/README.md).
 #pragma once
 
 #include "vector_loops.hpp"
@@ -22,7 +21,7 @@ using AnySizes = Sizes<int, int, int>;
 template <int modes, int size>
 using KnownSizes = Sizes<Fixed<modes>, Fixed<size>, Fixed<size + padded(modes)>>;
 
-// f(sizes), known ones where there are such.
+// Calls f(sizes) with compile-time sizes where there are such.
 template <class F>
 void with_known(const AnySizes& any, F&& f) {
   const auto are = [&](const auto& known) {

@@ -73,7 +73,7 @@ std::vector<Bending> static_bending(double L, const std::vector<BendingMode>& mo
     mass += w * at * at.transpose();
     stiffness += w * bent * bent.transpose();
   }
-  // Of one size, or the smaller one's digits are lost.
+  // Scaled alike, otherwise the smaller one loses digits.
   const Eigen::Vector2d scale = mass.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::Matrix2d K = scale.asDiagonal() * stiffness * scale.asDiagonal(),
                         M = scale.asDiagonal() * mass * scale.asDiagonal();

@@ -1,4 +1,4 @@
-// What the modes of a cantilever lack: the shapes of a beam that is loaded at its tip.
+// Static functions, which complete the modes of a cantilever: the shapes of a beam that is loaded at its tip.
 //
 // All modes have no moment, no shear force and no normal force at x = L. Where a joint holds the tip or a load acts
 // there, their sum goes towards the true shape slowly: with N modes the error of a frequency falls as 1/N under a

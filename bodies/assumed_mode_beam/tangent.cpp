@@ -1,4 +1,5 @@
-// The derivative of int J^T alpha dm + K by a, v and q, blended, alpha being the acceleration of the material less gravity:
+// The derivative of int J^T alpha dm + K by a, v and q, blended, alpha being the acceleration of the material less
+// gravity:
 //
 //     alpha_1 = Phi_x A'' - p B'' - w' Y - Bd^T H Bd - 2 w ud_y - w^2 X + b_1,    b = R^T (o'' - gravity)
 //     alpha_2 = Phi_y B'' + w' X + 2 w ud_x - w^2 Y + b_2
@@ -117,7 +118,8 @@ void AssumedModeBeam::add_turning_tangent(const Sizes& z, const TangentPoint& t,
     S.add(z.theta, z.A(i), -c.c_m * Y_x[i] + c_a * X_x + c.c_k * (ydd_x[i] + 2 * w * xd_x + t.b(1) * Sx_(i)));
   }
 
-  // With (p U1), (s Y) - (e X) - c_k (p alpha_2), and the share of F and its rates in (X Phi_y), (ud_x Phi_y), (alpha_1 Phi_y)
+  // With (p U1), (s Y) - (e X) - c_k (p alpha_2), and the share of F and its rates in (X Phi_y), (ud_x Phi_y), (alpha_1
+  // Phi_y)
   double A_y[padded(most_functions)], Ad_y[padded(most_functions)], Add_y[padded(most_functions)];
   double column[padded(most_functions)] = {}, row[padded(most_functions)] = {};
   bending_by(t.A, A_y), bending_by(t.Ad, Ad_y), bending_by(t.Add, Add_y);

@@ -4,7 +4,8 @@
 // cos psi - 1, and the curvature is psi'. The beam takes u_x' = -u_y'^2/2 (coupling full; 0 in the others), psi = atan
 // u_y' and psi' = u_y''. With s the slope at the tip, what is off first against the elastica is:
 //
-//     full           the displacement: by 16/35 s^2 of it under a force across the tip, 11/12 s^2 under a moment; the angle: 4/3 s^2
+//     full           the displacement: by 16/35 s^2 of it under a force across the tip, 11/12 s^2 under a moment;
+//                    the angle: 4/3 s^2
 //     linear, none   the foreshortening: 2/5 s of the displacement under a force, 1/3 s under a moment
 //
 // No angle has a sine larger than 1.

@@ -1,4 +1,4 @@
-// Coupling none: the inertia of the undeformed beam. M is constant, and only gravity and stiffness are left of f.
+// Coupling none: the inertia of the undeformed beam. M is constant, and f has only gravity and stiffness.
 #include <Eigen/Geometry>
 
 #include "beam.hpp"

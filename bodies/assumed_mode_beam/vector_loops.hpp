@@ -1,9 +1,9 @@
 // The two inner loops of the beam: linear combinations of rows, and products of rows with a vector.
 //
-// Row j is rows[j]: at even distances (Rows) or anywhere (ScatteredRows). Lengths n are multiples of 4 (rows are padded with
-// zeros), so each loop works on packs of four numbers with several sums in flight, which a compiler may not arrange by itself
-// without reordering everything else. Lengths and numbers of rows are int, or Fixed where they are known when compiling: then
-// the loops leave no trace.
+// Row j is rows[j]: at even distances (Rows) or anywhere (ScatteredRows). Lengths n are multiples of 4 (rows are padded
+// with zeros), so each loop works on packs of four numbers with several sums in flight, which a compiler may not
+// arrange by itself without reordering other operations. Lengths and numbers of rows are int, or Fixed where they are
+// known to the compiler, which then unrolls the loops.
 #pragma once
 
 #include <algorithm>
@@ -63,8 +63,8 @@ inline Pack totals(const Pack& s0, const Pack& s1, const Pack& s2, const Pack& s
   return __builtin_shufflevector(low, high, 0, 1, 4, 5) + __builtin_shufflevector(low, high, 2, 3, 6, 7);
 }
 
-// `packs` packs of y from the k-th number on, from all rows, added to those of `start`. Few packs take two rows at a time, so
-// that enough sums are in flight.
+// `packs` packs of y from the k-th number on, from all rows, added to those of `start`. Few packs take two rows at a
+// time, so that enough sums are in flight.
 template <int packs, class Start, class Count, class Table>
 inline void combine_packs(Count m, const Table& rows, int k, const double* c, Start start, double* y) {
   constexpr bool two_rows = packs <= 4;

@@ -4,12 +4,15 @@
 //     g = (d . d / L - L) / 2 = 0,   d = x_2 - x_1        its own row [m]: |d| - L near 0, of unit gradient
 //     g_dot = d . (v_2 - v_1) / L,   gamma = -|v_2 - v_1|^2 / L
 //
-// m [kg] uniform along the rod, m_1, m_2 [kg] points at its ends, L [m]. A marker at the fraction s is x = (1 - s) x_1 + s x_2.
-// The row's multiplier [N] is the mean tension. No term depends on velocity: this is what natural coordinates are for.
+// m [kg] uniform along the rod, m_1, m_2 [kg] points at its ends, L [m]. A marker at the fraction s is x = (1 - s) x_1
+// + s x_2. The row's multiplier [N] is the mean tension. No term depends on velocity, which is the advantage of natural
+// coordinates.
 //
-// Two points know no rotation: markers have the world's axes, which do not turn with the bar. Moments on them, and joints and forces
-// that hold or measure their axes, are refused (NeedsOrientation). Forces at points off the ends turn it as they should.
-// Source: J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, sections 2.1.3 and 4.2.
+// Two points have no orientation: markers have the world's axes, which do not turn with the bar. Moments on them, and
+// joints and forces that hold or measure their axes, are refused (NeedsOrientation). Forces at points off the ends do
+// turn the bar.
+// Source: J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, sections 2.1.3 and
+// 4.2.
 #include <array>
 #include <cmath>
 
@@ -91,7 +94,8 @@ struct Bar : Body, ExactTangent, ReactionDerivative, Constrained, LinearMarkers,
       S.add(i, i, k), S.add(i, n + i, -k), S.add(n + i, i, -k), S.add(n + i, n + i, k);
   }
 
-  // Gravity is uniform and nothing turns: only the mass is left, and a wrench's generalised force does not depend on q.
+  // Gravity is uniform and nothing turns: the tangent is the mass alone; the generalised force of a wrench is
+  // independent of q.
   void add_tangent(double, In, In, In, Blend c, Matrix& S) const override { add_mass(c.c_m, S); }
   void add_reaction_derivative(int, double, In, const Wrench&, double, Matrix&) const override {}
 
@@ -120,7 +124,7 @@ struct Bar : Body, ExactTangent, ReactionDerivative, Constrained, LinearMarkers,
   }
 
  private:
-  // What does not change at a marker.
+  // The constant data of a marker.
   void prepare_motion(double s, Motion& motion) const {
     const int n = dim(), twist = twist_size(space_);
     motion.R = Mat3::Identity(n, n);

@@ -1,10 +1,12 @@
-// A body that moves by a given law: a shaken table, a vehicle's frame, the ground in an earthquake. It has no coordinates and
-// no mass; its markers carry the motion to what stands on it.
+// A body that moves by a given law: a shaken table, a vehicle's frame, the ground in an earthquake. It has no
+// coordinates and no mass; joints, forces and contacts at its markers transmit the motion.
 //
-//     x = r_0(t) + R(t) r,     V_t = (r_0' + omega x rho, omega),   bias = (r_0'' + alpha x rho + omega x (omega x rho), alpha)
+//     x = r_0(t) + R(t) r,     V_t = (r_0' + omega x rho, omega)
+//     bias = (r_0'' + alpha x rho + omega x (omega x rho), alpha)
 //
-// r_0 = (x, y[, z]) [m] and the angle phi [rad], counter-clockwise (in space: about the fixed axis e), are laws of t with exact
-// first and second derivatives; r is a marker's place in the base's axes, rho = R r, omega = phi' e, alpha = phi'' e.
+// r_0 = (x, y[, z]) [m] and the angle phi [rad], counter-clockwise (in space: about the fixed axis e), are laws of t
+// with exact first and second derivatives; r is a marker's place in the base's axes, rho = R r, omega = phi' e, alpha =
+// phi'' e.
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -81,7 +83,7 @@ struct MovingBase : Body, Drawn {
   }
 
  private:
-  // What of it a scene in D dimensions sees; the plane turns about z.
+  // Its components in a scene of D dimensions; the plane turns about z.
   template <int D>
   static void tell(const Vector3d& place, const Matrix3d& R, const Vector3d& velocity, const Vector3d& omega,
                    const Vector3d& acceleration, const Vector3d& alpha, Motion& motion) {

@@ -2,8 +2,9 @@
 //
 //     q = x,   m x'' = f        x [m] world axes, m [kg]
 //
-// It has no orientation: moments on it, and what holds or measures axes of its marker, are refused (NeedsOrientation). Bodies in
-// natural coordinates are point masses held together by `distance` joints (Garcia de Jalon, Bayo 1994).
+// It has no orientation: moments on it, and joints and forces that hold or measure axes of its marker, are refused
+// (NeedsOrientation). Point masses tied by `distance` joints are a body in natural coordinates (Garcia de Jalon, Bayo
+// 1994).
 #include <array>
 
 #include <trammel/body.hpp>
@@ -52,7 +53,8 @@ struct PointMass : Body, ExactTangent, ReactionDerivative, LinearMarkers, Drawn,
     motion.J.setIdentity(twist_size(space_), dim());
   }
 
-  // Gravity is uniform and nothing turns: only the mass is left, and a wrench's generalised force does not depend on q.
+  // Gravity is uniform and nothing turns: the tangent is the mass alone; the generalised force of a wrench is
+  // independent of q.
   void add_tangent(double, In, In, In, Blend c, Matrix& S) const override { add_mass(c.c_m, S); }
   void add_reaction_derivative(int, double, In, const Wrench&, double, Matrix&) const override {}
 

@@ -4,8 +4,10 @@
 //     cylinder r, l      I = m/12 (3 r^2 + l^2) across, m r^2/2 about its axis   V = pi r^2 l
 //     sphere r           I = 2/5 m r^2                                           V = 4/3 pi r^3
 //
-// I [kg m^2] about the centre of mass in body axes, m [kg], lengths [m], density [kg/m^3]. A planar body takes I_zz alone.
-// Refused: anything no distribution of mass can have, which is lambda_3 > lambda_1 + lambda_2 among the principal moments.
+// I [kg m^2] about the centre of mass in body axes, m [kg], lengths [m], density [kg/m^3]. A planar body takes I_zz
+// alone.
+// Refused: inertia that no distribution of mass has, which is lambda_3 > lambda_1 + lambda_2 among the principal
+// moments.
 #pragma once
 
 #include <optional>
@@ -22,7 +24,7 @@ struct Inertia {
   Eigen::Matrix3d about_com = Eigen::Matrix3d::Zero();
 };
 
-// What the scene may say.
+// The scene's parameters.
 struct InertiaInput {
   enum class Axis { x, y, z };
   std::optional<double> mass_, density_;

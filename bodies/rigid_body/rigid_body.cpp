@@ -21,7 +21,7 @@ struct Placed {
   std::vector<Eigen::Matrix<double, D, 1>> points;  // of the markers, body axes, in the order of the names
 };
 
-// What every evaluation reads: right behind the interfaces' pointers in memory, before the parameters.
+// Data that every evaluation reads, directly behind the interfaces' pointers in memory, before the parameters.
 struct InItsSpace {
   std::variant<Placed<2>, Placed<3>> body_;
 };

@@ -1,11 +1,12 @@
 // The equations of a rigid body in the coordinates of its centre of mass, in the plane (D = 2) and in space (D = 3).
 //
-//     q = (x, theta) or (x, p)     x [m] world axes; theta [rad] counting full turns; p the unit quaternion (w, x, y, z)
+//     q = (x, theta) or (x, p)     x [m] world axes; theta [rad] counting full turns; p unit quaternion (w, x, y, z)
 //     v = (x', omega)              omega [rad/s]: theta', or the angular velocity in body axes
 //
 //     m x'' = f_x,      I omega' + omega x I omega = m_b          I [kg m^2] about the centre of mass, constant
 //
-// A marker at r in body axes sits at x + rho, rho = R r; with a the world axes of the rates omega (1, or the columns of R)
+// A marker at r in body axes sits at x + rho, rho = R r; with a the world axes of the rates omega (1, or the columns of
+// R)
 //     V = (x' + (a omega) x rho, a omega),    bias = ((a omega) x ((a omega) x rho), 0),    J = [I  a x rho; 0  a]
 // since a' omega = 0. Sources: Shabana, Dynamics of Multibody Systems (plane); Featherstone, Rigid Body Dynamics
 // Algorithms, section 2 (space).
@@ -24,7 +25,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// What turning is. omega x r, r x F and the cross product as a matrix have the dimension's own sizes.
+// Rotation in D dimensions: omega x r, r x F and the cross product as a matrix have the sizes of the dimension.
 template <int D>
 struct Turning;
 

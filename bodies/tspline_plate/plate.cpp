@@ -20,7 +20,7 @@ std::string TsplinePlate::in_patch(int k) const {
 
 namespace {
 
-// What a patch refuses, by the name of the parameter in the plate.
+// Rethrows a patch's ParameterError with the name of the parameter in the plate.
 template <class Call>
 auto of_patch(const std::string& prefix, Call call) {
   try {
@@ -64,7 +64,7 @@ void TsplinePlate::check_parameters(const World& world) const {
   check_refinement();
 }
 
-// Every patch hangs together with the first, and an edge goes on smoothly in one other at most.
+// Every patch is connected to the first, and an edge continues smoothly in one other edge at most.
 void TsplinePlate::check_joined() const {
   std::vector<int> group;
   for (int k = 0; k < patch_count(); ++k) group.push_back(k);

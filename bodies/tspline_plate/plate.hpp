@@ -1,10 +1,10 @@
-// A thin plate or shell without rotational coordinates: Kirchhoff-Love on rational bicubic T-splines, St Venant-Kirchhoff
-// material, any displacements. It may replace its mesh by a finer one during the run.
+// A thin plate or shell without rotational coordinates: Kirchhoff-Love on rational bicubic T-splines, St
+// Venant-Kirchhoff material, any displacements. It may replace its mesh by a finer one during the run.
 //
 //     r(u, v, t) = sum R_i (P_i + u_i),   M q'' = -dU/dq - damping + loads,   u = B q
 //     U = 1/2 int (h eps^T C^ eps + h^3/12 kappa^T C^ kappa) dA,    M = rho h int R_i R_j dA (constant)
 //
-// q are displacements of control points, 0 in the reference, less what the edges hold (elimination.hpp).
+// q are displacements of control points, 0 in the reference, without those that the edges hold (elimination.hpp).
 // Kiendl, Bletzinger, Linhard, Wuechner, CMAME 198, 2009; Wang, Cui, Yu, Lan, Lu, Chinese Journal of Theoretical and
 // Applied Mechanics 53(8), 2021. The paper's formulas are lost in the copy at hand; these are Kiendl's.
 #pragma once
@@ -109,8 +109,8 @@ class TsplinePlate final : public Body,
   void archive(Archive& archive) override;
   Momentum momentum(double t, In q, In v) const override;
 
-  // Crosses these elements, and at seams those behind them as far as both sides must be divided alike, closes the mesh and takes
-  // it over; the transfer of q and v comes back.
+  // Crosses these elements, and the elements across seams where both sides must be divided alike, closes the mesh and
+  // adopts it; returns the transfer of q and v.
   std::unique_ptr<Transfer> refine_elements_in(const std::vector<Box<double>>& boxes);
   const Discretisation& mesh() const { return *mesh_; }
   CellEnergy strain_energy(In q) const;

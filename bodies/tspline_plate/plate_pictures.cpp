@@ -1,4 +1,4 @@
-// What the plate shows of itself: observables, outline, stresses over its elements.
+// Output of the plate: observables, outline, stresses over its elements.
 #include <algorithm>
 
 #include "tspline_plate/plate.hpp"
@@ -22,7 +22,8 @@ double TsplinePlate::observe(int observable, double, In q, In) const {
 
 namespace {
 
-// Corners are numbered through, four a patch, as in `corners`. The way over edges and seams from one to another, both included.
+// Corners are numbered through, four a patch, as in `corners`. The way over edges and seams from one to another, both
+// included.
 std::vector<int> way(const Multipatch& basis, const std::vector<Seam>& seams, int from, int to) {
   const auto place_of = [&](int corner) {
     const Box<double> range = basis.range(corner / 4);
@@ -54,8 +55,8 @@ std::vector<int> way(const Multipatch& basis, const std::vector<Seam>& seams, in
 
 }  // namespace
 
-// A grid drawn in one go: of each patch lines v = const to and fro, then lines u = const back to where it began; along edges to
-// the next patch.
+// A grid as one polyline: of each patch the lines v = const in alternating directions, then the lines u = const back to
+// the start; along edges to the next patch.
 void TsplinePlate::shape(double, In q, Mat& points) const {
   constexpr int lines = 9, steps = 16;
   std::vector<Vector3> drawn;

@@ -42,9 +42,9 @@ struct Looked {  // at a point of the surface
   Place place;
 };
 
-// Newton's method for (r - x) . r_u = (r - x) . r_v = 0 within the patch; where the full matrix is not positive the part
-// without curvature, which always leads down. On an edge the parameter across it is held while it would lead outside. Ends early
-// where it runs into what is `known`.
+// Newton's method for (r - x) . r_u = (r - x) . r_v = 0 within the patch; where the full matrix is not positive
+// definite, the part without curvature, which always descends. On an edge the parameter across it is fixed while it
+// would leave the patch. Ends early at a point that is `known`.
 Candidate descend(const Discretisation& mesh, In q, const Vector3& x, const Eigen::Vector2d& start,
                   const Candidate& known) {
   const Box<double> range = mesh.basis.range(mesh.basis.patch_at(start.x()));
@@ -136,7 +136,8 @@ std::vector<Eigen::Vector2d> ways_on(const Discretisation& mesh, const std::vect
   return result;
 }
 
-// Where the way to the nearest point ends at a seam or a pole, on from there as long as that leads nearer.
+// If the search for the nearest point ends at a seam or a pole, it continues from there as long as the distance
+// decreases.
 Candidate onwards(const Discretisation& mesh, const std::vector<Seam>& seams, In q, const Vector3& x, Candidate best) {
   for (bool nearer = true; nearer;) {
     nearer = false;
@@ -211,9 +212,10 @@ void TsplinePlate::bounds(int patch, In q, Vec3& low, Vec3& high) const {
 
 namespace {
 
-// The points along one side of a cell, from 0 to 1. Middles of equal parts weigh what is no polynomial, such as the rim of what a
-// sphere presses, as well as anything; where nothing limits their spacing four Gauss points are exact for the products of two
-// cubics, so an even pressure sinks in evenly.
+// The points along one side of a cell, from 0 to 1. If their spacing is limited, midpoints of equal parts, which
+// integrate functions that are no polynomials (the rim of the area that a sphere touches) as well as any rule; else
+// four Gauss points, which are exact for products of two cubics, so that a uniform pressure gives a uniform
+// displacement.
 Quadrature along_side(double length, double spacing) {
   if (!std::isfinite(spacing)) return gauss_legendre(4, 0, 1);
   const int n = std::max(1, int(std::ceil(length / spacing - 1e-6)));  // a spacing that fits up to round-off is taken

@@ -1,6 +1,6 @@
-// The plate takes over a finer mesh: control points, displacements and velocities by one and the same operator, so that the
-// surface, its motion and with them momentum and energies stay what they were. Accelerations do not (they satisfy the
-// equations tested with the old functions only); whoever integrates solves for them anew.
+// The plate adopts a finer mesh. One operator transfers control points, displacements and velocities, so that the
+// surface, its motion, momentum and energies do not change. Accelerations do (the old ones satisfy the equations tested
+// with the old functions only); the integrator solves for them again.
 #include <algorithm>
 #include <limits>
 
@@ -47,8 +47,8 @@ void cross(std::vector<TMesh>& meshes, const std::vector<Box<double>>& boxes, co
   }
 }
 
-// An element that is split at a seam gives the edge a knot that the other side must get too, and may hand on. Lines that were not
-// in the middle of an element may keep the sides apart; the seam then refuses the mesh.
+// An element that is split at a seam adds a knot to the edge, which the other side must add too and may pass on. Lines
+// that were not in the middle of an element may keep the sides different; the seam then refuses the mesh.
 void divide_alike(std::vector<TMesh>& meshes, const std::vector<Seam>& seams, const std::vector<Closure>& closures) {
   for (std::size_t round = 0; round < 2 * meshes.size() + 8; ++round) {
     std::vector<Box<double>> more;
@@ -109,7 +109,8 @@ std::unique_ptr<Transfer> TsplinePlate::refine_elements_in(const std::vector<Box
   return std::make_unique<MeshTransfer>(std::move(before), mesh_->coordinates, in_blocks(operators));
 }
 
-// In the reference: to the nearest parameters of an element of the same patch; of another to the nearest of a grid of points.
+// In the reference: to the nearest parameters of an element of the same patch; of another to the nearest of a grid of
+// points.
 double TsplinePlate::distance(const Eigen::Vector2d& from, const Box<double>& element) const {
   const Vec rest = Vec::Zero(mesh_->coordinates.coordinates());
   const auto reference = [&](double u, double v) { return place(*mesh_, surface_point(*mesh_, u, v), rest).r; };

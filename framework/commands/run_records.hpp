@@ -1,4 +1,5 @@
-// The files of a run from its start to its end: an emptied folder, room for the end on a full disk, logs, and result.json.
+// The files of a run from its start to its end: an emptied folder, room for the end on a full disk, logs, and
+// result.json.
 #pragma once
 
 #include <optional>
@@ -24,8 +25,8 @@ class RunRecords {
   void give_room() { reserve_.reset(); }                              // for the last lines and a checkpoint
   void remove();                                                      // all of it: the scene was wrong
 
-  // Everything known is kept; what cannot be written any more is said in the reason. `json` and `text` give result.json and the
-  // summary of outcomes.
+  // Everything known is kept; what cannot be written any more is said in the reason. `json` and `text` give result.json
+  // and the summary of outcomes.
   template <class Json, class Text>
   RunReport end(Outcomes outcomes, Json json, Text text) {
     flush(outcomes);

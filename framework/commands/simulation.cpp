@@ -254,7 +254,8 @@ class Run {
     }
   }
 
-  // The room that is held goes to the last lines and a checkpoint. A limit on the length of one file may still stop a log.
+  // The room that is held goes to the last lines and a checkpoint. A limit on the length of one file may still stop a
+  // log.
   void out_of_room(std::string reason) {
     records_.give_room();
     if (Recorder* const recorder = records_.recorder()) {

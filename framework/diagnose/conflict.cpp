@@ -122,8 +122,8 @@ class RowSelection {
   std::vector<RowGroup> groups_;
 };
 
-// By how much each row is missed after steps of Newton's method over all of them: in positions, or else in velocities, or else in
-// accelerations. What was only off holds then, what conflicts does not. Empty: all hold.
+// By how much each row is missed after steps of Newton's method over all of them: in positions, or else in velocities,
+// or else in accelerations. What was only off holds then, what conflicts does not. Empty: all hold.
 Vec missed_rows(model::AssembledSystem& system, const RowTolerance& allowed, State s) {
   constexpr int steps = 20;
   const Vec no_force = Vec::Zero(system.sizes().nv);

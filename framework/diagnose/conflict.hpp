@@ -22,7 +22,8 @@ struct Conflict {
   bool empty() const { return paths.empty(); }
 };
 Conflict smallest_conflict(model::AssembledSystem& system, const State& start);
-// What to say of it, if there is one: "joints.a, joints.b prescribe motions that contradict each other; without ...", and its parts.
+// What to say of it, if there is one: "joints.a, joints.b prescribe motions that contradict each other; without ...",
+// and its parts.
 std::string description(const Conflict& conflict);
 std::string names(const Conflict& conflict);   // of many the first and last
 std::string remark(const Conflict& conflict);  // "; without any one of them the rest can hold"

@@ -1,6 +1,6 @@
-// The size of a scene, in space and speed, which decides what of a contact is round-off. All grow only, so that what counts as
-// touching does not change back. A scene scaled by any factor behaves alike, and so does one that is moved: place counts only by its
-// round-off.
+// The size of a scene, in space and speed, which decides what of a contact is round-off. All grow only, so that what
+// counts as touching does not change back. A scene scaled by any factor behaves alike, and so does one that is moved:
+// place counts only by its round-off.
 #pragma once
 
 #include <algorithm>
@@ -34,14 +34,15 @@ struct Scale {
   double no_acceleration() const;
   // Slower than this may be what the steps leave of the rates of rows that they hold [m/s].
   double drift() const { return 1e-6 * speed; }
-  // Slip in space that has no direction [m/s] (system/slip.hpp); impacts slower than that have no rebound unless the law says so.
+  // Slip in space that has no direction [m/s] (system/slip.hpp); impacts slower than that have no rebound unless the
+  // law says so.
   double slow() const { return 1e-7 * speed; }
   // The digits to which positions and velocities are written in a scene.
   double written_length() const { return 1e-9 * length() + resolution(); }
   double written_speed() const { return 1e-9 * speed; }
 
-  // A tolerance without `absolute` (0) is meant in the scene's own unit: `absolute` then is `relative` times the length, 1 at most.
-  // `every` [s] makes a length of a speed where the scene has none.
+  // A tolerance without `absolute` (0) is meant in the scene's own unit: `absolute` then is `relative` times the
+  // length, 1 at most. `every` [s] makes a length of a speed where the scene has none.
   Tolerance in_own_unit(const Tolerance& tolerance, double every) const;
   // What steps under this tolerance leave a position off by [m].
   double error_of_position(const Tolerance& tolerance) const;
@@ -51,8 +52,8 @@ struct Scale {
   void raise_to(const Scale& other);
 };
 
-// Each contact's own scale, so that a plane far off decides nothing for the others: its gap and place, and the extents, distances of
-// joined markers and speeds at the start of all bodies, which may be tied to its own.
+// Each contact's own scale, so that a plane far off decides nothing for the others: its gap and place, and the extents,
+// distances of joined markers and speeds at the start of all bodies, which may be tied to its own.
 class ContactScale {
  public:
   explicit ContactScale(const model::Model& model) : own_(model.contacts.size()) {}

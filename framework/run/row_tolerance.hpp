@@ -1,5 +1,5 @@
-// What rows of joints and bodies may be off by before they count as violated: digits of a scene. Angles take the lengths' measure too
-// where those are below 1 m.
+// What rows of joints and bodies may be off by before they count as violated: digits of a scene. Angles take the
+// lengths' measure too where those are below 1 m.
 //
 //     1e-8 of the scene's length and speed, of 1 m, 1 rad, 1 m/s, 1 rad/s at most, beside the round-off of its place
 #pragma once

@@ -17,9 +17,9 @@
 // of a load step are halved as before. It has converged when dq is small, or round-off that shrinks no further; the
 // remaining r is recorded, and a warning is given.
 //
-// Past a limit point the load must fall. With arc length t is an unknown, and a step goes the length ds along the
-// path's
-// tangent n (Riks 1979, normal plane):   n_q . (q - q_last) / nv + s^2 n_t (t - t_last) = ds, s^2 = |dq/dt|^2 / nv at the start.
+// Past a limit point the load must fall. With arc length t is an unknown, and a step has the length ds along the path's
+// tangent n (Riks 1979, normal plane):
+//     n_q . (q - q_last) / nv + s^2 n_t (t - t_last) = ds,   s^2 = |dq/dt|^2 / nv at the start.
 // The length is that of the load step at the start and shrinks near limit points. Each step is recorded, until t has
 // passed the end; one load step then returns to it.
 #pragma once

@@ -1,10 +1,10 @@
-// What a body owes the assembly, at random states near its start. With E its energy, P = supplied - dissipated, and s the
-// parameter of the path t + s, q (+) (s v + s^2/2 a), v + s a:
+// The contract of a body, checked at random states near its start. With E its energy, P = supplied - dissipated, and s
+// the parameter of the path t + s, q (+) (s v + s^2/2 a), v + s a:
 //
 //     M symmetric, v^T M v >= 0, T(q, v) = v^T M v/2 + what time alone drives
 //     dE/ds = P + v^T (M a - f)                                 the last term is 0 along M a = f
 //     c_m M - c_d df/dv + c_k d(M a - f)/dq = the exact tangent, where it is offered
-//     of rows of its own: G = dg/dq, dg/dt = G v + g_t and d(that)/dt = G a - gamma along the path, K = d(G^T lambda)/dq
+//     own rows: G = dg/dq, dg/dt = G v + g_t, d(G v + g_t)/dt = G a - gamma along the path, K = d(G^T lambda)/dq
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <set>
@@ -45,7 +45,8 @@ Report mass_is_symmetric(const TriedBody& b) {
   });
 }
 
-// Scaled to a diagonal of 1, so that units and small masses do not matter; a coordinate without mass has a row of zeros.
+// Scaled to a diagonal of 1, so that units and small masses do not matter; a coordinate without mass has a row of
+// zeros.
 Report mass_is_positive(const TriedBody& b) {
   return compare("M is positive semidefinite", [&](Comparison& c) {
     for (const BodyAt& at : b.at()) {
@@ -161,7 +162,7 @@ bool keep_their_sizes(const TriedBody& b, const BodyRows& rows) {
   return rows.g.size() == n && rows.g_t.size() == n && rows.gamma.size() == n && rows.G.rows() == n &&
          rows.G.cols() == b.nv;
 }
-// Of rows of wrong sizes nothing more can be said than that.
+// Rows of wrong sizes allow no further check.
 bool has_own_rows(const TriedBody& b) {
   return constrained(b) && keep_their_sizes(b, own_rows(b, b.start()));
 }

@@ -115,7 +115,7 @@ struct TriedBody {
   }
 };
 
-// What is owed by markers (marker_check.cpp); part of body_checks.
+// The contract of markers (marker_check.cpp); part of body_checks.
 std::vector<std::pair<const char*, Report (*)(const TriedBody&)>> marker_looks();
 
 }  // namespace trammel

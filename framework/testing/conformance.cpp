@@ -1,4 +1,4 @@
-// What the Simulator relies on when it repeats steps to locate events, and when it resumes a run: bit for bit.
+// Properties that the Simulator needs when it repeats steps to locate events or resumes a run: equal bit for bit.
 #include <fmt/format.h>
 
 #include <cmath>

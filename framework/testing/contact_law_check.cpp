@@ -1,10 +1,12 @@
-// What a contact law owes. A compliant law F(gap, gap_rate, approach speed) with stored energy V(gap), tried in the impact of
-// a mass m at the claimed speed, whose depth d follows from V(-d) = m v^2/2:
+// The contract of a contact law. A compliant law F(gap, gap_rate, approach speed) with stored energy V(gap), tried in
+// the impact of a mass m at the claimed speed, whose depth d follows from V(-d) = m v^2/2:
 //
-//     F >= 0; F = V = 0 apart;  F -> 0 as the gap closes, if claimed;  F(gap, 0) = -dV/dgap;  slope = dF/d(gap, gap_rate)
+//     F >= 0;  F = V = 0 apart;  F -> 0 as the gap closes, if claimed
+//     F(gap, 0) = -dV/dgap;  slope = dF/d(gap, gap_rate)
 //     m v^2/2 + V never grows along m x'' = F
 //
-// A set-valued law: restitution in [0, 1] at any speed, and 0 below a capture speed above 0, which ends a sequence of bounces.
+// A set-valued law: restitution in [0, 1] at any speed, and 0 below a capture speed above 0, which ends a sequence of
+// bounces.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Orders: the slope of log(error) over log(h) by least squares, from halvings of h. The error is the root mean square over
-// all steps of a run: at one time alone its leading term may happen to vanish.
+// Orders: the slope of log(error) over log(h) by least squares, from halvings of h. The error is the root mean square
+// over all steps of a run: at one time alone its leading term may happen to vanish.
 #include <fmt/format.h>
 
 #include <cmath>

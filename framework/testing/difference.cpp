@@ -47,7 +47,7 @@ void Comparison::derivative(const Vec& claimed, const Difference& d, const std::
   if (claimed.size() != d.value.size())
     return holds(false, fmt::format("{}: {} entries, expected {}", where, claimed.size(), d.value.size()));
   if (!claimed.size()) return;
-  // How fast the function changes: the scale of what can be asked of the extrapolation.
+  // The change of the function: the scale of the accuracy that the extrapolation can reach.
   const double scale = d.value.cwiseAbs().maxCoeff() + claimed.cwiseAbs().maxCoeff() + d.size / d.h;
   for (Eigen::Index k = 0; k < claimed.size(); ++k) {
     if (!(d.error(k) <= 1e-5 * scale + 1e-300))

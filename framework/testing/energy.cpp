@@ -1,4 +1,4 @@
-// How far the energy of a conservative problem wanders over a run, relative to its scale.
+// The largest change of the energy of a conservative problem over a run, relative to its scale.
 #include <fmt/format.h>
 
 #include <cmath>

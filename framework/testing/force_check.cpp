@@ -1,7 +1,7 @@
-// What a force owes the assembly, along known motions of its two markers, with V the stored energy:
+// The contract of a force, checked along known motions of its two markers, with V the stored energy:
 //
 //     dV/dt + F_A . V_A + F_B . V_B = supplied - dissipated,  dissipated >= 0
-//     F_A + F_B = 0, moments about the origin too (but for loads from outside)
+//     F_A + F_B = 0, moments about the origin too (except external loads)
 //     Q F(A, B) = F(Q A, Q B) for a turn Q of the scene (likewise)
 //     F has a derivative by pose and velocity, which the framework takes by differences
 //     axes of a marker count, and moments act on it, only where NeedsOrientation says so

@@ -1,4 +1,4 @@
-// The claims of an integrator that a suite of tests looks into.
+// The claims of an integrator that a suite of tests checks.
 #include <trammel/testing/measurements.hpp>
 
 namespace trammel {
@@ -9,7 +9,7 @@ bool takes_rows(const Maker& make) {
   return make()->traits().rows;
 }
 
-// What is asked of methods that take rows.
+// Checks of methods that accept rows.
 Check on_rows(const char* name, const Maker& make, const std::function<Report()>& find_out) {
   return {name, [=] {
             if (takes_rows(make)) return find_out();

@@ -1,7 +1,7 @@
-// What a joint owes the assembly, along known motions of its two to four markers, in general away from g = 0:
+// The contract of a joint, checked along known motions of its two to four markers, in general away from g = 0:
 //
 //     dg/dt = H_A V_A + H_B V_B + ... + g_t,    d(that)/dt = H_A A_A + H_B A_B + ... - gamma
-//     H_A, H_B, ...: gradients of g by the twists of the markers at fixed time, g_t: derivative by time at fixed markers
+//     H_A, H_B, ...: gradients of g by the markers' twists at fixed time, g_t: derivative by time at fixed markers
 //     reactions -H_A^T lambda and -H_B^T lambda balance: in force everywhere, in moment where g = 0
 //
 // and axes of markers count only where NeedsOrientation says so. Rows that repeat each other are no fault.
@@ -102,7 +102,7 @@ Report g_t_is_the_time_derivative(const Tried& j) {
   });
 }
 
-// By the joint's own H and g_t, so that gamma alone is judged.
+// With the joint's own H and g_t, so that only gamma is checked.
 Report gamma_is_the_rest_of_the_acceleration(const Tried& j) {
   return compare("d(g_dot)/dt = H_A A_A + H_B A_B + ... - gamma", [&](Comparison& c) {
     for (const double t : times) {
@@ -132,7 +132,7 @@ Report reactions_balance(const Tried& j) {
       for (Eigen::Index i = 0; i < r.g.size(); ++i) {
         Vec sum = Vec::Zero(markers[0].V.size());
         for (int k = 0; k < j.count(); ++k) sum += about_origin(r.H(k).row(i).transpose(), markers[std::size_t(k)].x);
-        // What is left of g has an arm of its size; the rest is round-off.
+        // The remaining g is a lever arm of its size; the rest is round-off.
         c.within(sum, Vec::Zero(sum.size()), 1e-10 * (1 + r.H_B.norm()), fmt::format("row {} at t = {}", i, t));
       }
     }

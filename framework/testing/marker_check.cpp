@@ -1,6 +1,7 @@
-// What a body's markers owe joints, forces and contacts, along the path t + s, q (+) s v, where v' = 0:
+// The contract of a body's markers, checked along the path t + s, q (+) s v, where v' = 0:
 //
-//     dx/ds = V, dR/ds R^T = (omega x);   V = J v + V_t;   dV/ds = bias;   d(J^T F)/dq = the reaction's exact derivative
+//     dx/ds = V, dR/ds R^T = (omega x);   V = J v + V_t;   dV/ds = bias
+//     d(J^T F)/dq = the reaction's exact derivative
 #include <Eigen/Geometry>
 #include <set>
 

@@ -1,9 +1,9 @@
 // A Problem as a System: dense, by a complete orthogonal decomposition of the whole saddle-point matrix
 //
-//     [S W^T; G 0] (x, y) = (b, c)        y of minimum norm where rows repeat; W = G but with friction
+//     [S W^T; G 0] (x, y) = (b, c)        y of minimum norm where rows repeat; W = G without friction
 //
-// (Golub and Van Loan, section 5.5), derivatives by central differences. It shares no code with the framework's assembly, so
-// that an integrator fails for its own reasons only.
+// (Golub and Van Loan, section 5.5), derivatives by central differences. It shares no code with the framework's
+// assembly, so that an integrator fails for its own reasons only.
 #include <Eigen/Dense>
 #include <cmath>
 
@@ -20,8 +20,8 @@ class ProblemSystem final : public System {
     n_ = v.size();
     nq_ = int(q.size());
     m_ = rows(0, q, v).g.size();
-    // Masses differ by 1e9: the saddle-point matrix is scaled to entries about 1 before it is decomposed. One factor for all
-    // multipliers keeps their minimum norm.
+    // Masses differ by 1e9: the saddle-point matrix is scaled to entries about 1 before it is decomposed. One factor
+    // for all multipliers keeps their minimum norm.
     scale_.resize(n_ + m_);
     scale_.head(n_) = p_.M.diagonal().cwiseSqrt().cwiseInverse();
     const double largest = m_ ? (rows(0, q, v).G * scale_.head(n_).asDiagonal()).cwiseAbs().sum() : 1;
@@ -66,7 +66,7 @@ class ProblemSystem final : public System {
     kept_[int(which)] = factored(S, which == Factors::iteration ? W() : rows_.G);
   }
   bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda, Factors which) override {
-    // A decomposition by rank takes what is not a number for nothing.
+    // A rank-revealing decomposition treats NaN as 0.
     if (!finite_[int(which)] || !r.allFinite() || !rc.allFinite()) return false;
     solve(kept_[int(which)], -r, -rc, da, dlambda);
     return da.allFinite() && dlambda.allFinite();

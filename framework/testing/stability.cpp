@@ -3,8 +3,8 @@
 //
 //     U^T Y_1 V Sigma^-1,      Y_0 = U Sigma V^T cut at 1e-11 of the largest
 //
-// Source: Hua and Sarkar, IEEE Trans. ASSP 38 (1990) 814 (the matrix pencil). The first four steps, where a multistep method
-// may start by another, are left out.
+// Source: Hua and Sarkar, IEEE Trans. ASSP 38 (1990) 814 (the matrix pencil). The first four steps, where a multistep
+// method may start by another, are left out.
 #include <fmt/format.h>
 
 #include <Eigen/Dense>

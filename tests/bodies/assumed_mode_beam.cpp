@@ -141,7 +141,7 @@ TEST(BendingMode, AreOrthogonalAndScaledUpToThirty) {
 }
 
 // To modes and to one another, in the mass (here of weight 1) and in the stiffness; scaled as the modes are. Their
-// values are differences of functions of order 1, 1e-6 of them at 40 modes: round-off is some 1e-9 of what is left.
+// values are differences of functions of order 1, 1e-6 of them at 40 modes: round-off is some 1e-9 of the difference.
 TEST(StaticFunctions, AreOrthogonalToModesAndToOneAnother) {
   const double L = 0.7;
   for (const int N : {0, 1, 5, 20, 40}) {

@@ -1,4 +1,5 @@
-// The bar in natural coordinates, beyond the checks of tests/plugins/shipped_components.cpp: it moves as a rigid rod does.
+// The bar in natural coordinates, beyond the checks of tests/plugins/shipped_components.cpp: it moves as a rigid rod
+// does.
 #include <cmath>
 
 #include "support/run_scene.hpp"
@@ -18,7 +19,8 @@ std::string pendulum(const std::string& body, const std::string& end, const std:
 }
 
 TEST(Bar, SwingsAsARigidRodWithAPointAtItsEnd) {
-  // Both 1.2 m, 2 kg, with 0.5 kg at the free end: centre of mass and inertia of the rigid body put together from these.
+  // Both 1.2 m, 2 kg, with 0.5 kg at the free end: centre of mass and inertia of the rigid body put together from
+  // these.
   const Finished bar = run_text(
       pendulum(R"({"type": "bar", "mass": 2, "from": [0, 0], "to": [1.2, 0], "end_masses": [0, 0.5]})", "from"));
   const Finished rigid = run_text(pendulum(
@@ -39,7 +41,8 @@ TEST(Bar, SwingsAlikeWithAnImplicitMethodAndOwnRowsInItsIteration) {
                                   {{"integrator", R"({"type": "hht_alpha", "alpha": 0, "step": 1e-3})"}});
   ASSERT_TRUE(alpha.done()) << alpha.report.reason;
   EXPECT_NEAR(alpha.end("angle"), exact.end("angle"), 2e-5);  // second order: the phase of 6 rad/s over 2 s
-  // Newton's method with the exact tangent: as many iterations as a rigid body takes, 6 with those of the velocity rows, or one more.
+  // Newton's method with the exact tangent: as many iterations as a rigid body takes, 6 with those of the velocity
+  // rows, or one more.
   const auto& counts = alpha.result["counts"];
   EXPECT_LT(counts["newton_iterations"].get<double>(), 7 * counts["steps"].get<double>());
 }

@@ -154,7 +154,7 @@ TEST_F(SpatialRigidBody, StartsAsTheSceneSays) {
 }
 
 TEST_F(SpatialRigidBody, MomentaAreThoseOfItsForces) {
-  // Free but for gravity: p' = m g, L' = x x m g about the origin.
+  // Free except for gravity: p' = m g, L' = x x m g about the origin.
   const auto& observed = dynamic_cast<const Observed&>(*body);
   const auto names = observed.observables();
   const auto momentum = [&](double t, const char* name) {

@@ -309,7 +309,7 @@ TEST(Run, OverwritesAnEarlierResultWithNothingLeftBehind) {
     ASSERT_EQ(
         trammel({"run", cli::bounce, "--out", out, "--set", "simulate.until=0.3"}, {.folder = folder.path()}).exit_code,
         0);
-  // The other files tell of CPU time.
+  // The other files contain CPU time.
   for (const char* file : {"series.csv", "events.csv", "animation.ndjson"})
     EXPECT_EQ(cli::read_file(folder.path() / "twice" / file), cli::read_file(folder.path() / "once" / file)) << file;
   const auto count = [&](const char* out) {

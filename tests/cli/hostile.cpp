@@ -1,4 +1,5 @@
-// Scenes made to exhaust the machine or to reach what is not theirs: each ends soon, in little memory, with exit code 2.
+// Scenes made to exhaust the machine or to reach what is not theirs: each ends soon, in little memory, with exit code
+// 2.
 #include <functional>
 
 #include <gmock/gmock.h>

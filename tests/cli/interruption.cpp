@@ -1,5 +1,5 @@
-// Ctrl-C, SIGTERM, SIGHUP, limits of time, kill -9: results are kept, and the resumed run ends with the same bytes as one that was never
-// stopped.
+// Ctrl-C, SIGTERM, SIGHUP, limits of time, kill -9: results are kept, and the resumed run ends with the same bytes as
+// one that was never stopped.
 #include <chrono>
 #include <cmath>
 

@@ -1,5 +1,5 @@
-// Too little memory: exit code 1 with a message that tells the size that was asked for, wherever it ends; never a signal, nor a blamed
-// plugin.
+// Too little memory: exit code 1 with a message that gives the size requested, wherever it ends; never a signal, nor a
+// blamed plugin.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -24,7 +24,8 @@ class OutOfMemory : public testing::TestWithParam<const char*> {};
 TEST_P(OutOfMemory, IsAnErrorWithASize) {
   const cli::TemporaryFolder folder;
   int ended = 0;
-  // From what the program itself takes to a few times as much: reading, set-up and the run meet the limit, each somewhere.
+  // From what the program itself takes to a few times as much: reading, set-up and the run meet the limit, each
+  // somewhere.
   for (const long limit : {200000L, 250000L, 300000L, 400000L}) {
     const cli::Result result =
         within(limit, std::string(GetParam()) + " --out out" + std::to_string(limit), folder.path());

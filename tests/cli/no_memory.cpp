@@ -1,5 +1,5 @@
-// A lack of memory at any place of a run: exit code 1 and one message that blames nobody, or no harm at all; never an abort, and no
-// result that claims success.
+// A lack of memory at any place of a run: exit code 1 and one message that blames nobody, or no harm at all; never an
+// abort, and no result that claims success.
 #include <random>
 
 #include <gmock/gmock.h>

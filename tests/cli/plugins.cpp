@@ -183,7 +183,8 @@ TEST_F(Plugin, ThatChangesTheRoundingWhileItIsLoadedChangesNoResult) {
             cli::read_file(folder.path() / "plain/series.csv"));
 }
 
-// What goes well when it is tried out may still end the process when it counts, by a crash or past all functions of atexit.
+// What goes well when it is tried out may still end the process when it counts, by a crash or past all functions of
+// atexit.
 TEST_F(Plugin, ThatFailsTheSecondTimeItIsLoadedIsNamed) {
   for (const auto& [name, how] : {std::pair{"ends_the_second_time.so", "it ended the program (exit)"},
                                   {"crashes_the_second_time.so", "SIGSEGV"}}) {

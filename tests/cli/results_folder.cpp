@@ -1,4 +1,5 @@
-// The results folder belongs to one run: locked, without links, without files of an older one; checkpoints are not trusted.
+// The results folder belongs to one run: locked, without links, without files of an older one; checkpoints are not
+// trusted.
 #include <sys/file.h>
 #include <unistd.h>
 

@@ -38,7 +38,7 @@ class StepTimesOmega : public testing::TestWithParam<double> {};
 
 TEST_P(StepTimesOmega, OfHhtEndsInAResultOrAClearError) {
   const double h = GetParam() / omega_max;
-  // Twenty steps, or 0.1 s and fewer steps of what is left.
+  // Twenty steps, or fewer over the last 0.1 s.
   const Finished run =
       swing({{"integrator.step", number(h)}, {"simulate.until", number(20 * h)}, {"record.every", number(5 * h)}});
   expect_result_or_clear_failure(run);
@@ -49,7 +49,8 @@ TEST_P(StepTimesOmega, OfHhtEndsInAResultOrAClearError) {
   }
 }
 
-// HHT-alpha overshoots once in velocity where h omega is huge, 5e4 times the energy here, and then damps: no divergence.
+// HHT-alpha overshoots once in velocity where h omega is huge, 5e4 times the energy here, and then damps: no
+// divergence.
 TEST(AModeFarTooFastForTheStep, OvershootsAndIsDampedOut) {
   const Finished run =
       run_file("beam_impact.json", {{"contacts", "{}"},

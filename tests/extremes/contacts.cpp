@@ -140,7 +140,8 @@ TEST(MillionImpacts, AreCountedAndKeepTheEnergy) {
   ASSERT_TRUE(run.done()) << run.report.reason;
   EXPECT_EQ(run.result["counts"]["impacts"], 1000000);
   EXPECT_EQ(run.end("energy_kinetic"), 5e5);
-  // Each impact is located at most 2 eps t after its time, at 1000 m/s: 2 eps 1000 m/s times the sum of their times, 5e8 s.
+  // Each impact is located at most 2 eps t after its time, at 1000 m/s: 2 eps 1000 m/s times the sum of their times,
+  // 5e8 s.
   EXPECT_NEAR(run.end("x"), 0.5, 2.3e-4);
 }
 

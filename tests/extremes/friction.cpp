@@ -1,6 +1,6 @@
-// Set-valued friction at the edge: coefficients, stiffness, damping laws, starts, bases that jump or buzz, grazing touches, many
-// feet at once, Painleve, Zeno. A block is a body of 1 kg whose feet, at
-// the height of its centre of mass so that friction does not turn it, stand on a table; g = 9.81.
+// Set-valued friction at the edge: coefficients, stiffness, damping laws, starts, bases that jump or buzz, grazing
+// touches, many feet at once, Painleve, Zeno. A block is a body of 1 kg whose feet, at the height of its centre of mass
+// so that friction does not turn it, stand on a table; g = 9.81.
 #include <cmath>
 #include <numbers>
 
@@ -81,7 +81,8 @@ TEST_P(FootStiffness, DoesNotChangeWhereABlockStops) {
       Block{.law = compliant(GetParam()), .x_rate = 1, .height = -std::pow(g / GetParam(), 1 / 1.5)}.run();
   ASSERT_TRUE(run.done()) << run.report.reason;
   ASSERT_EQ(run.of_kind("stick").size(), 1u);
-  // The integrator may let the foot ring by its tolerance, 1e-10 m, with the frequency of K: an impulse of omega 1e-10 N s.
+  // The integrator may let the foot ring by its tolerance, 1e-10 m, with the frequency of K: an impulse of omega 1e-10
+  // N s.
   const double depth = std::pow(g / GetParam(), 1 / 1.5), omega = std::sqrt(1.5 * GetParam() * std::sqrt(depth));
   const double bound = std::max(1e-9, 1e-10 * omega / g);
   EXPECT_NEAR(run.of_kind("stick")[0].t, 1 / (0.48 * g), bound);

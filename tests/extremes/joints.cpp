@@ -68,7 +68,7 @@ std::array<double, 2> rods_at_2_s(double m_1, double m_2) {
   return {y[0], y[1]};
 }
 
-// Multipliers of 1e7 N cancel in the light rod's accelerations: 1e3 m/s^2 of round-off, but for a correction.
+// Multipliers of 1e7 N cancel in the light rod's accelerations: 1e3 m/s^2 of round-off without a correction.
 TEST(MassRatio, OfATrillionTakesRodsNoMoreStepsThanEqualMasses) {
   const Finished run = run_text(R"json({
     "trammel": 1, "space": "planar", "gravity": [0, -9.81],
@@ -89,9 +89,10 @@ TEST(MassRatio, OfATrillionTakesRodsNoMoreStepsThanEqualMasses) {
   EXPECT_LT(run.result["counts"]["steps"], 100);  // 7400 without the correction
 }
 
-// Coordinates of 5e5 m are known to 1e-10 m, which is 1e-4 of the short rod's length, at each of 2000 steps: no method that puts
-// its steps onto the rows knows its angle better than that, but none may stop or halve its steps for it. The exact one is -0.44836
-// (RK4, dop853). Whether an iteration ends must not hang on how coordinates happen to round: so the step is varied a little.
+// Coordinates of 5e5 m are known to 1e-10 m, which is 1e-4 of the short rod's length, at each of 2000 steps: no method
+// that puts its steps onto the rows knows its angle better than that, but none may stop or halve its steps for it. The
+// exact one is -0.44836 (RK4, dop853). Whether an iteration ends must not hang on how coordinates happen to round: so
+// the step is varied a little.
 TEST(LengthRatio, OfATrillionIsNoReasonToStop) {
   for (const char* method : {"hht_alpha", "generalized_alpha"})
     for (const double step : {1e-5, 1.01e-5, 1.03e-5, 1.04e-5, 1.06e-5, 1.09e-5}) {

@@ -14,7 +14,7 @@ inline void expect_finite(const Finished& run) {
     for (const double x : values) ASSERT_TRUE(std::isfinite(x)) << name;
 }
 
-// A failure tells when, in which step and why; what is kept is finite.
+// A failure states time, step and reason; the results kept are finite.
 inline void expect_clear_failure(const Finished& run) {
   EXPECT_EQ(run.report.status, simulate::Status::failed);
   EXPECT_THAT(run.report.reason, testing::ContainsRegex("at t = [-+.e0-9]+ s, step [0-9]+"));

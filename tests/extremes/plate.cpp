@@ -1,5 +1,6 @@
-// Plates at the edge: thin and thick, incompressible, slender and repeated lines, one element, eight levels at one point, refined
-// in every phase, struck at a corner or too fast, by any stiffness, and past the load under which they buckle.
+// Plates at the edge: thin and thick, incompressible, slender and repeated lines, one element, eight levels at one
+// point, refined in every phase, struck at a corner or too fast, by any stiffness, and past the load under which they
+// buckle.
 #include <algorithm>
 #include <cmath>
 
@@ -58,8 +59,9 @@ TEST(SlenderElements, OfAspectTenThousandLeaveAPlateAsGood) {
   EXPECT_LE(std::abs(deflection(square, slender, 1e-6) - exactly), std::abs(on_8x4 - exactly) * (1 + 1e-6));
 }
 
-// A cantilever 1000 to 1e5 times as long as wide: its end is that of beam theory, q L^4/(8 D). Bending along it is (L/b)^4 times as
-// soft as across, 1e12 to 1e20: from 1e16 the stiffness matrix has no digits left for it, but forces have.
+// A cantilever 1000 to 1e5 times as long as wide: its end is that of beam theory, q L^4/(8 D). Bending along it is
+// (L/b)^4 times as soft as across, 1e12 to 1e20: from 1e16 the stiffness matrix has no digits left for it, but forces
+// have.
 class Strip : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
 TEST_P(Strip, IsTheCantileverOfBeamTheory) {
@@ -81,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(OfAspect, Strip,
                            return fmt::format("{}_of_{}", strip.param.first, strip.param.second);
                          });
 
-// The load comes with time: no equilibrium at the start tells that K is not to be trusted.
+// The load grows with time: no equilibrium at the start shows that K is inaccurate.
 TEST(SlenderStrip, OfAspectTenThousandBendsStepByStep) {
   const Finished run = run_static(square, {{"parameters.nu", "0"},
                                            {"bodies.plate.mesh.elements", "1x1"},
@@ -163,7 +165,8 @@ void expect_energy(const Finished& run, double share, double of = energy_of_ball
   EXPECT_LT(std::abs(double(run.result["energy_drift"])), share * of);
 }
 
-// A light ball bounces on one place and splits the elements there each time: from 250 mm to 1 mm, of a plate 20 mm thick.
+// A light ball bounces on one place and splits the elements there each time: from 250 mm to 1 mm, of a plate 20 mm
+// thick.
 TEST(RefinementLevels, EightAtOnePointKeepMassMomentumAndKineticEnergy) {
   const Finished run = run_text(struck(R"(, "refine": {"on_contact": "ball", "near": 1e-6, "levels": 8})"),
                                 {{"bodies.plate.quadrature", "3"},
@@ -181,8 +184,8 @@ TEST(RefinementLevels, EightAtOnePointKeepMassMomentumAndKineticEnergy) {
   EXPECT_LT(std::abs(double(run.result["energy_of_refinements"])), 1e-3 * 0.3);  // 3 Gauss points, of 0.3 J
 }
 
-// Elements far smaller than what flies by in a step: their accelerations are large, to and fro, and no guide to where they go. With
-// them as Newton's first guess 23 of 51 steps were rejected, in 611 iterations.
+// Elements far smaller than what flies by in a step: their accelerations are large, to and fro, and no guide to where
+// they go. With them as Newton's first guess 23 of 51 steps were rejected, in 611 iterations.
 TEST(RefinementLevels, ByThePressureOfAContactLeaveTheStepItsLength) {
   const Finished run =
       run_text(struck(R"(, "refine": {"indicator": "contact_pressure", "threshold": 1e4, "levels": 5})"),

@@ -1,5 +1,5 @@
-// The reader of checkpoints: any bytes are read, or refused with an error. The second reading has a checksum that fits, as somebody
-// who forges a checkpoint would make it.
+// The reader of checkpoints: any bytes are read, or refused with an error. The second reading has a checksum that fits,
+// as somebody who forges a checkpoint would make it.
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>

@@ -147,7 +147,7 @@ TEST_P(EveryIntegrator, RejectsAForceThatIsNotANumber) {
 }
 
 TEST_P(EveryIntegrator, ReturnsTheSameInMillimetres) {
-  // 2^10 units to the metre: powers of two change no rounding, so only thresholds could tell.
+  // 2^10 units to the metre: powers of two change no rounding, so only thresholds could make a difference.
   const auto end = [&](double unit) {
     Problem falling = particle(
         [unit](double, const Vec& q, const Vec&) -> Vec { return -9.81 * unit * (q / unit).array().sin(); }, unit);
@@ -214,7 +214,7 @@ TEST_P(NewmarkFamily, DampsOrKeepsAModeOfAnySpeed) {
     auto method = make(GetParam().name, GetParam().settings);
     const State start = s.start();
     const State end = integrate(*method, s, start, 100, 100);  // h = 1
-    // Energy norm of an unconditionally stable method: no growth, but for a transient of the method's own acceleration.
+    // Energy norm of an unconditionally stable method: no growth, except a transient of the method's own acceleration.
     EXPECT_LE(std::abs(end.q[0]), 3) << "omega h = 1e" << e;
   }
 }

@@ -76,12 +76,13 @@ TEST(ExponentialCollocation, TakesStepsOfManyRadiansWhereTheStiffOnlyRings) {
     const State x = integrate(*method, s, start, 2, n);
     return std::abs(x.q[0] - end.q[0]) + std::abs(x.v[0] - end.v[0]) + std::abs(x.v[1] - end.v[1]);
   };
-  // 100 radians a step: the ringing is not resolved where it enters the soft force, by 3 N/m of its amplitude of 5e-9 m.
+  // 100 radians a step: the ringing is not resolved where it enters the soft force, by 3 N/m of its amplitude of 5e-9
+  // m.
   EXPECT_LE(error(40), 3 * 5e-9 * 2);
 }
 
-// Steps of 10 radians, in each of which the direction of the fast mode turns by a few thousandths: about the modes of the start
-// alone sweeps would not converge once it has turned by some tenths.
+// Steps of 10 radians, in each of which the direction of the fast mode turns by a few thousandths: about the modes of
+// the start alone sweeps would not converge once it has turned by some tenths.
 TEST(ExponentialCollocation, LinearisesAgainWhereModesTurn) {
   const Problem p = problems::stiff_pendulum(1e8);
   Posed s(p);

@@ -1,5 +1,5 @@
-// Every integrator in every form on systems that fail at the n-th evaluation, for every n: a step is accepted with finite numbers or
-// rejected, and leaves no trace; what lies inside a step is a state, or not finite.
+// Every integrator in every form on systems that fail at the n-th evaluation, for every n: a step is accepted with
+// finite numbers or rejected, and leaves no trace; what lies inside a step is a state, or not finite.
 #include <cmath>
 #include <limits>
 
@@ -66,7 +66,8 @@ class FailingSystem : public testing::TestWithParam<Form> {
  protected:
   static constexpr double h = 5e-3;
 
-  // A restart, three steps with all that may be asked about each, the n-th evaluation failing. False: there are no n of them.
+  // A restart, three steps with all that may be asked about each, the n-th evaluation failing. False: there are no n of
+  // them.
   bool run(Failing::How how, int n) {
     Posed sound(problems::pendulum_with_rod());
     Failing system(sound, how);

@@ -1,5 +1,5 @@
-// Orders of convergence, from both sides. Orders are fitted over four halvings in the asymptotic range; the second-order
-// methods' next term is of relative size h, hence the tolerance 0.1.
+// Orders of convergence, from both sides. Orders are fitted over four halvings in the asymptotic range; the
+// second-order methods' next term is of relative size h, hence the tolerance 0.1.
 #include "support.hpp"
 
 namespace trammel::test {
@@ -121,7 +121,8 @@ TEST_P(ExplicitOrder, OnThePendulumInRedundantCoordinates) {
   const State start = s.start();
   auto fine = make("dop853", {{"delta", 0.0}, {"epsilon", 0.0}});
   const std::vector<State> exact = tenths(*fine, s, start, 2, 400);
-  // Of order 8 three runs fit between 1e-7 and round-off, where slopes still vary by half an order: that is not 7, nor 9.
+  // Of order 8 three runs fit between 1e-7 and round-off, where slopes still vary by half an order: that is not 7, nor
+  // 9.
   const bool eighth = GetParam().order == 8;
   const Order f = fit_order(GetParam().n_pendulum, eighth ? 3 : 4, [&](int n) {
     auto method = make(GetParam().form.name, GetParam().form.settings);

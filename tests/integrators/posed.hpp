@@ -72,8 +72,8 @@ inline Problem pendulum_in_wind(double wind = 0.2) {
   return p;
 }
 
-// 1 kg sliding to the right at 1 m/s on the plane y = 0 with friction mu and nothing that presses it, `above` the plane. The
-// start only.
+// 1 kg sliding to the right at 1 m/s on the plane y = 0 with friction mu and nothing that presses it, `above` the
+// plane. The start only.
 inline Problem sliding(double mu, double above) {
   Problem p;
   p.name = "sliding";

@@ -23,8 +23,8 @@ double spectral_radius(const Mat& A) {
   return Eigen::EigenSolver<Mat>(A, false).eigenvalues().cwiseAbs().maxCoeff();
 }
 
-// The amplification of (d, h v, h^2 a) over one step of h = 1, column by column. Methods with accelerations of their own
-// beside the true ones ("now_algorithmic_a" in their archive) get the column's there.
+// The amplification of (d, h v, h^2 a) over one step of h = 1, column by column. Methods with accelerations of their
+// own beside the true ones ("now_algorithmic_a" in their archive) get the column's there.
 Mat newmark_amplification(const std::string& name, const Settings& settings, double Omega) {
   Posed s(oscillators({Omega}));
   Mat A(3, 3);
@@ -112,8 +112,9 @@ Problem held() {
   return p;
 }
 
-// The amplification over one step of h = 1 of (q, v) and of whatever vectors the method remembers, on a linear system of one
-// coordinate: each is set to 1 in turn. What it remembers follows from (q, v), so the eigenvalues are the method's own and 0.
+// The amplification over one step of h = 1 of (q, v) and of whatever vectors the method remembers, on a linear system
+// of one coordinate: each is set to 1 in turn. What it remembers follows from (q, v), so the eigenvalues are the
+// method's own and 0.
 double remembered_radius(Posed& s, const std::string& name, const Settings& settings) {
   auto method = make(name, settings);
   const int nc = s->sizes().nc;
@@ -170,9 +171,9 @@ TEST_P(StabilityLimit, OnBothAxesIsThatOfTheTable) {
     Posed s(oscillators({0}, z / 2));  // v' = -z v
     return remembered_radius(s, GetParam().name, GetParam().settings);
   });
-  // Eight digits are given; near Dormand-Prince's limit the radius leaves 1 with a slope of 1e-3 only. On the imaginary axis ABM-PECE
-  // grows everywhere: where that passes 1e-9 a step depends on the grid the table was scanned with (1 %); its growth itself is
-  // compared below.
+  // Eight digits are given; near Dormand-Prince's limit the radius leaves 1 with a slope of 1e-3 only. On the imaginary
+  // axis ABM-PECE grows everywhere: where that passes 1e-9 a step depends on the grid the table was scanned with (1 %);
+  // its growth itself is compared below.
   EXPECT_NEAR(imaginary / table.at("imag_axis").get<double>(), 1, GetParam().row == "ABM_PECE4" ? 1e-2 : 3e-6);
   EXPECT_NEAR(real / table.at("neg_real_axis").get<double>(), 1, 1e-6);
 }

@@ -178,8 +178,8 @@ TEST(Modes, OfARotatingCantilever) {
       const auto& flapwise = data["reference"]["flapwise"][fmt::format("delta={}", delta)][fmt::format("eta={}", eta)];
       EXPECT_EQ(modes.kind(0), "zero");  // the hub
       for (std::size_t i = 0; i < 3; ++i) {
-        // The data's own tolerances are 5e-4 of the value. Ritz' method comes from above, with the third power of the number of modes:
-        // 20 of them leave 3.5e-5 of the third frequency at eta = 10, delta = 5, 30 leave 6e-6.
+        // The data's own tolerances are 5e-4 of the value. Ritz' method comes from above, with the third power of the
+        // number of modes: 20 of them leave 3.5e-5 of the third frequency at eta = 10, delta = 5, 30 leave 6e-6.
         const double mu = std::stod(flapwise[i].get<std::string>()), chordwise = std::sqrt(mu * mu - eta * eta);
         EXPECT_NEAR(modes.oscillations().at(i), chordwise, 5e-5 * chordwise) << delta << " " << eta << " " << i;
       }
@@ -194,7 +194,7 @@ TEST(Modes, OfAClampedAndAFreePlateAreTheReferenceMeshs) {
   const Modes clamped = modes_of_file("plate/classical/clamped_square.json", {}, options);
   const Modes free = modes_of_file("plate/classical/free_square.json", {}, options);
   for (std::size_t i = 0; i < 6; ++i) {
-    // The same discrete problem but for the quadrature's order.
+    // The same discrete problem except for the quadrature's order.
     EXPECT_NEAR(clamped.oscillations().at(i) / data["clamped"][i].get<double>(), 1, 1e-6) << i;
     EXPECT_NEAR(free.oscillations().at(i) / data["free"][i].get<double>(), 1, 1e-6) << i;
     EXPECT_EQ(free.kind(i), "zero");

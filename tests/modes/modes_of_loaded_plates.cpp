@@ -57,7 +57,7 @@ double frequency_of_column(double h, double share) {
   return std::sqrt(low * E * h * h / 12 / rho);
 }
 
-// The load path only says where the equilibrium is; what is asked there knows nothing of how it was reached.
+// The load path only finds the equilibrium; the modes there do not depend on how it was reached.
 TEST(ModesOfLoadedPlates, DoNotDependOnTheLoadSteps) {
   std::mt19937 random(7);
   for (int i = 0; i < 6; ++i) {

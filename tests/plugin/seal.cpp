@@ -60,7 +60,8 @@ TEST_F(Seal, IsTheSameWhenItIsWrittenAgain) {
   EXPECT_EQ(content(sealed), once);
 }
 
-// Each bit of code, constants and data that may be damaged is seen: FNV-1a never maps two texts that differ in one byte to one sum.
+// Each bit of code, constants and data that may be damaged is seen: FNV-1a never maps two texts that differ in one byte
+// to one sum.
 TEST_F(Seal, BreaksWithAnyBitOfTheCode) {
   const std::string whole = content(sealed);
   const std::uint64_t code = *library_section_offset(sealed, ".text"),

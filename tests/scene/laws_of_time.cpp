@@ -47,8 +47,8 @@ TEST(TabulatedLaw, PassesThroughItsRows) {
   for (std::size_t i = 0; i < samples.t.size(); ++i) EXPECT_NEAR(law.jet(samples.t[i]).value, samples.x[i], 1e-15);
 }
 
-// The quintic spline is of order 6, each derivative of one less; rows at half the distance divide the errors by 64, 32, 16.
-// Ratios are within 15 % of that between these tables.
+// The quintic spline is of order 6, each derivative of one less; rows at half the distance divide the errors by 64, 32,
+// 16. Ratios are within 15 % of that between these tables.
 TEST(TabulatedLaw, OfValuesIsOfOrderSix) {
   const auto law = [](int rows) {
     const Samples samples = sampled(rows, [](double t) { return pulse(t).value; });
@@ -65,8 +65,8 @@ TEST(TabulatedLaw, OfAccelerationsIsTheirSecondIntegral) {
     const Samples samples = sampled(rows, [](double t) { return pulse(t).second; });
     return largest_error(TabulatedLaw::of_accelerations(samples.t, samples.x), &Jet::value);
   };
-  // The natural ends of the cubic spline (its bend is 0 there, that of sin^4'' is 24) leave order 2 in the acceleration of
-  // the outermost pieces, whose part in the displacement is of order 3.
+  // The natural ends of the cubic spline (its bend is 0 there, that of sin^4'' is 24) leave order 2 in the acceleration
+  // of the outermost pieces, whose part in the displacement is of order 3.
   EXPECT_LT(error(257), 1e-5);
   EXPECT_NEAR(std::log2(error(129) / error(257)), 3, 0.2);
 }

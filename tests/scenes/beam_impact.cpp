@@ -1,4 +1,5 @@
-// The beam strikes the plane as the reference says: tests/data/beam.json, by two independent codes in long double and double.
+// The beam strikes the plane as the reference says: tests/data/beam.json, by two independent codes in long double and
+// double.
 //
 // Tolerances are the tiers of that file: what an error-controlled method must reach, and what HHT with its steps can.
 #include <cmath>
@@ -107,7 +108,8 @@ TEST_P(FirstCluster, HasTheReferencesImpactsAndContactPhases) {
   EXPECT_NEAR(run.result["energy_drift"], 0, 1e-10);
 }
 
-// 1e-8 J is what the scene promises, at a fifth of the evaluations that dop853 needs for it (tools/bench/README.md) or less.
+// 1e-8 J is what the scene promises, at a fifth of the evaluations that dop853 needs for it (tools/bench/README.md) or
+// less.
 TEST_P(FirstCluster, IsMetByExponentialCollocation) {
   const Finished run = run_file("beam_impact/exponential.json",
                                 {{"parameters.N", "5"}, {"parameters.e", GetParam()}, {"simulate.until", "0.39"}});
@@ -179,7 +181,8 @@ TEST(FirstClusterByHht, ConvergesToTheReferenceWithSecondOrder) {
   EXPECT_LT(std::abs(fine), 5e-6);
 }
 
-// Velocities of index 3 ripple; its errors are those of the positions. They were taken into the estimate, and contact ended the run.
+// Velocities of index 3 ripple; its errors are those of the positions. They were taken into the estimate, and contact
+// ended the run.
 TEST(Index3, PassesImpactsWithControlledSteps) {
   for (const char* method : {"newmark", "hht_alpha", "generalized_alpha"}) {
     const Finished run = run_file(

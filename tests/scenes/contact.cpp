@@ -1,4 +1,5 @@
-// The scenes of scenes/contact against what statics says of them, and at sizes that try the search for events and forces.
+// The scenes of scenes/contact against what statics says of them, and at sizes that try the search for events and
+// forces.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -35,7 +36,8 @@ TEST(DominoRow, FallsOneByOneAndComesToRest) {
     ASSERT_NE(first, run.events.end()) << i;
     struck.push_back(first->t);
   }
-  // One after the other, soon at the same intervals (Stronge 1987: the speed of the wave settles within some five dominoes).
+  // One after the other, soon at the same intervals (Stronge 1987: the speed of the wave settles within some five
+  // dominoes).
   EXPECT_TRUE(std::is_sorted(struck.begin(), struck.end()));
   const double late = struck[18] - struck[17], before = struck[12] - struck[11];
   EXPECT_NEAR(late / before, 1, 0.02);

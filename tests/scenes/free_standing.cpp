@@ -1,7 +1,8 @@
-// The free-standing body on a moving base against tests/data/free_standing.json, by an independent code with 80-bit numbers.
+// The free-standing body on a moving base against tests/data/free_standing.json, by an independent code with 80-bit
+// numbers.
 //
-// Tolerances are the event-driven ones of that file. Cases 2a and 3h are not in it; the digits here are those on which two
-// methods and tolerances a hundred times apart agree (tools/reproduce free_standing shows them).
+// Tolerances are the event-driven ones of that file. Cases 2a and 3h are not in it; the digits here are those on which
+// two methods and tolerances a hundred times apart agree (tools/reproduce free_standing shows them).
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,5 @@
-// The classic scenes of dry friction, scenes/friction, against their closed forms (tests/data/free_standing.json, unit_cases).
+// The classic scenes of dry friction, scenes/friction, against their closed forms (tests/data/free_standing.json,
+// unit_cases).
 #include <cmath>
 #include <numbers>
 

@@ -1,4 +1,5 @@
-// A contact that lifts at its impact and falls back within the same step: the run once stood still here, by steps of 1e-15 s.
+// A contact that lifts at its impact and falls back within the same step: the run once stood still here, by steps of
+// 1e-15 s.
 #include <filesystem>
 
 #include <gtest/gtest.h>

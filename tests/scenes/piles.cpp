@@ -113,7 +113,8 @@ TEST(Tower, ComesToRestWhereItIsDropped) {
 }
 
 TEST(Tower, TipsAsOneAboutItsEdgeWhereItIsPushed) {
-  // 10 t at the height of 5.5 blocks against the weight of ten at half their width, before any joint slides (24.5 N under block 5).
+  // 10 t at the height of 5.5 blocks against the weight of ten at half their width, before any joint slides (24.5 N
+  // under block 5).
   json s = tower(10, 1, 0.5, 0.5, 0, "", 2);
   s["forces"]["push"] = {{"type", "load"}, {"on", "b5.side"}, {"force", {{"x", "=10*t"}, {"y", 0}}}};
   const Finished run = run_text(s.dump());
@@ -188,9 +189,9 @@ struct Arch {
            std::sin(half) / half;
   }
 
-  // Whether a line of thrust lies within (Heyman 1969): some horizontal thrust x and moment y of the left springing about the centre,
-  // in weights of a voussoir, for which the resultant at each joint passes between intrados and extrados. Linear inequalities
-  // p x + q y + r >= 0: if there are solutions, one is a corner.
+  // Whether a line of thrust lies within (Heyman 1969): some horizontal thrust x and moment y of the left springing
+  // about the centre, in weights of a voussoir, for which the resultant at each joint passes between intrados and
+  // extrados. Linear inequalities p x + q y + r >= 0: if there are solutions, one is a corner.
   bool can_stand() const {
     struct Line {
       double p, q, r;

@@ -122,7 +122,7 @@ TEST(PlateScenes, ClosedHemisphereGivesWayAsTheReferenceOfItsMesh) {
   }
 }
 
-// 0.0940 in MacNeal and Harder's table; this theory 0.0935, of which 16x16 lacks 1e-4.
+// 0.0940 in MacNeal and Harder's table; this theory 0.0935; 16x16 is 1e-4 below it.
 TEST(PlateScenes, HemisphereWithAHoleGivesWayAsTheLiteratureSaysLinearly) {
   const Finished run = load_file("classical/hemisphere.json", {{"parameters.F", "2e-4"}, {"static.steps", "1"}});
   ASSERT_TRUE(run.done()) << run.report.reason;
@@ -146,8 +146,8 @@ TEST(PlateScenes, SlitAnnulusIsLiftedAsTheReferenceOfItsMesh) {
   }
 }
 
-// The elastica (it cannot stretch) by Runge-Kutta and bisection; this strip stretches by up to P L/(E A) = 3e-4. Sze, Liu, Lo
-// 2004 give 0.563, 1.604, 2.541, 3.286 and 3.015, 4.933, 6.031, 6.698 with shear.
+// The elastica (it cannot stretch) by Runge-Kutta and bisection; this strip stretches by up to P L/(E A) = 3e-4. Sze,
+// Liu, Lo 2004 give 0.563, 1.604, 2.541, 3.286 and 3.015, 4.933, 6.031, 6.698 with shear.
 TEST(PlateScenes, CantileverUnderEndShearIsTheElastica) {
   const Finished run = load_file("classical/end_shear.json");
   ASSERT_TRUE(run.done()) << run.report.reason;
@@ -174,8 +174,9 @@ TEST(PlateScenes, PendulumFallsAsTheReferenceOfItsMesh) {
   }
 }
 
-// On 8x8 in the limit of short steps, by steps of 5e-4 and 2.5e-4 s. The reference gives no figures but will compare to 5e-4.
-// Two panels of 2x4 elements joined smoothly: the functions of 4x4 and a few more, whose z differs by 3e-4 m from the limit.
+// On 8x8 in the limit of short steps, by steps of 5e-4 and 2.5e-4 s. The reference gives no figures but will compare to
+// 5e-4. Two panels of 2x4 elements joined smoothly: the functions of 4x4 and a few more, whose z differs by 3e-4 m from
+// the limit.
 TEST(PlateScenes, PanelsJoinedSmoothlyFallAsOneSheet) {
   const Finished run = run_file("plate/panels.json", {{"parameters.joint", "C1"}, {"simulate.until", "0.1"}});
   ASSERT_TRUE(run.done()) << run.report.reason;
@@ -199,8 +200,8 @@ TEST(PlateScenes, PendulumOnACornerFallsAsWithShorterSteps) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(run.series.at("corner_z").at(10 * (k + 1)), expected[k], 1e-4) << k;
 }
 
-// Against the table of case A; the reference steps explicitly with 1e-4 s, generalized_alpha with 1e-3 differs from it by
-// 0.4 mm at 0.4 s (statement, 3.4), less before.
+// Against the table of case A; the reference steps explicitly with 1e-4 s, generalized_alpha with 1e-3 differs from it
+// by 0.4 mm at 0.4 s (statement, 3.4), less before.
 void expect_ball(const Finished& run, const char* mesh, double until) {
   const auto &t = run.series.at("t"), &ball = run.series.at("ball_z"), &centre = run.series.at("centre_z");
   const auto& table = reference()["ex44_ball"]["cases"]["A"][mesh]["table"];
@@ -229,9 +230,9 @@ TEST(PlateScenes, BallMeetsThePlateAsInTheReference) {
 }
 
 TEST(PlateScenes, BallFirstTouchesThePlateWhenTheReferenceSays) {
-  // The reference's points lie 4.7 mm off the centre at best, 4.7e-3^2 / (2 R) = 5.5e-5 m farther from the ball, which meets
-  // them later by that over 2.58 m/s. The gap here is that of the point right under it. Second order in the step: 0.215852,
-  // 0.215863, 0.215864 s by halves of 1e-3 s.
+  // The reference's points lie 4.7 mm off the centre at best, 4.7e-3^2 / (2 R) = 5.5e-5 m farther from the ball, which
+  // meets them later by that over 2.58 m/s. The gap here is that of the point right under it. Second order in the step:
+  // 0.215852, 0.215863, 0.215864 s by halves of 1e-3 s.
   const Finished run = run_file("plate/ball.json", {{"simulate.until", "0.22"}, {"integrator.step", "5e-4"}});
   ASSERT_TRUE(run.done()) << run.report.reason;
   EXPECT_NEAR(first_contact(run), 0.21588238906475177 - 5.5e-5 / 2.58, 5e-6);

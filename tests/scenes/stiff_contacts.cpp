@@ -1,5 +1,6 @@
-// Rigid contacts are the limit of compliant ones: whole scenes of scenes/contact, in which many contacts act at once, with linear springs
-// for contacts, of growing stiffness, each damped at its static depth, and the same set-valued friction.
+// Rigid contacts are the limit of compliant ones: whole scenes of scenes/contact, in which many contacts act at once,
+// with linear springs for contacts, of growing stiffness, each damped at its static depth, and the same set-valued
+// friction.
 #include <cmath>
 #include <functional>
 
@@ -31,9 +32,10 @@ json softened(json scene, double K, double mass) {
   return scene;
 }
 
-// `falls`: what of the error is left at ten times the stiffness. The compliant contacts start without depth, sink by m g/K and come to rest;
-// where the motion depends on it smoothly the error is of the order 1/K, and a tenth is left, a fifth at most. Where it begins with a fall
-// from the state itself, the blow at its end has the speed sqrt(g m g/K): the error is of the order K^-1/2, and a third is left.
+// `falls`: what of the error is left at ten times the stiffness. The compliant contacts start without depth, sink by m
+// g/K and come to rest; where the motion depends on it smoothly the error is of the order 1/K, and a tenth is left, a
+// fifth at most. Where it begins with a fall from the state itself, the blow at its end has the speed sqrt(g m g/K):
+// the error is of the order K^-1/2, and a third is left.
 void expect_limit(const json& scene, const std::string& column, double mass, double first_stiffness, double falls) {
   const Finished rigid = run_text(scene.dump());
   ASSERT_TRUE(rigid.done()) << rigid.report.reason;
@@ -64,8 +66,8 @@ TEST(StiffContacts, LetAHouseOfCardsSlideDownAsRigidOnesDo) {
   s["parameters"]["mu"] = 0.2;
   s["simulate"]["until"] = 0.12;
   expect_limit(s, "head", 0.002, 1e3, 0.2);
-  // The left card bears on a face that is turned to it: its contact slides there, and three contacts in one point share their forces
-  // in other ways at every instant.
+  // The left card bears on a face that is turned to it: its contact slides there, and three contacts in one point share
+  // their forces in other ways at every instant.
   s["contacts"]["apex"]["between"][1]["plane"]["normal"] = {"=-cos(a)", "=-sin(a)"};
   expect_limit(s, "head", 0.002, 1e3, 0.2);
 }

@@ -64,7 +64,7 @@ TEST(Tour, PendulumHasThePeriodOfTheEllipticIntegral) {
   };
   const double coarse = error("1e-3"), fine = error("5e-4");
   EXPECT_LT(std::abs(coarse), 2e-5);    // (h omega)^2 at the 5.4 rad/s it has there
-  EXPECT_NEAR(coarse / fine, 4, 0.02);  // second order: what is left vanishes with h^2
+  EXPECT_NEAR(coarse / fine, 4, 0.02);  // second order: the error vanishes with h^2
 }
 
 TEST(Tour, BouncesOfTheBallEndWhereTheGeometricSeriesDoes) {

@@ -52,7 +52,8 @@ TEST(TrussScenes, MastWithDampersAndAForceLocksAtTheExactTime) {
   EXPECT_NEAR(run.result["energy_supplied"]["drives"].get<double>(), number(exact["W_external_J"]), 1e-9);
 }
 
-// What the energy correction aims at has to be as accurate as the method: dampers' and the force's work by its dense output.
+// What the energy correction aims at has to be as accurate as the method: dampers' and the force's work by its dense
+// output.
 TEST(TrussScenes, EnergyCorrectionLeavesAMethodOfHighOrderItsLockTime) {
   for (const auto& [tolerance, within] : {std::pair("1e-8", 1e-9), {"1e-12", 3e-13}}) {
     const Finished run = run_file("truss/S1d.json", {{"integrator.type", "dop853"},
@@ -133,7 +134,8 @@ TEST(TrussScenes, CellLocksStraightAndLosesAllItsEnergy) {
   EXPECT_LT(run.end("energy_kinetic"), 1e-15);
 }
 
-// In the lock's singular position the rows that keep edges equal vanish, as double roots: no method may follow their round-off there.
+// In the lock's singular position the rows that keep edges equal vanish, as double roots: no method may follow their
+// round-off there.
 TEST(TrussScenes, CellLocksByImplicitMethodsToo) {
   const json& exact = reference()["exact"]["S4c"];
   const auto locks = [&](const char* type, const char* step, double error) {
@@ -176,7 +178,8 @@ TEST(TrussScenes, UnsynchronisedCellLocksOneEdgeAfterTheOther) {
   EXPECT_NEAR(lost, run.result["energy_start"].get<double>(), 1e-12 * lost);
 }
 
-// RK4 with coordinate and velocity correction, weighted by mass: 4.6e-10, 2.9e-11, 1.9e-12 s at h = 8, 4, 2 ms in the reference.
+// RK4 with coordinate and velocity correction, weighted by mass: 4.6e-10, 2.9e-11, 1.9e-12 s at h = 8, 4, 2 ms in the
+// reference.
 TEST(TrussScenes, LockTimeIsOfFourthOrder) {
   const double exact = number(reference()["exact"]["S1c"]["t_lock"]);
   std::vector<double> error;
@@ -248,7 +251,7 @@ TEST(TrussScenes, FreeMastKeepsItsMomentum) {
   const Event lock = lock_of(run);
   EXPECT_NEAR(lock.t, 1.10909049471, 5e-10);  // converged: h = 1, 0.5, 0.25 ms agree
   EXPECT_NEAR(run.end("theta"), pi / 6, 1e-14);
-  // Locked it is one rigid body: what is left is the kinetic energy of its spin.
+  // Once locked it is one rigid body with the kinetic energy of its spin.
   EXPECT_NEAR(run.end("energy_kinetic"), 0.0201474059824, 1e-11);
 }
 

@@ -51,7 +51,8 @@ std::set<std::string> words(const std::string& text) {
   return all;
 }
 
-// As a manual page writes it: "transverse_3" is one of "transverse_1 ...", "von_mises_top_tip" one of "von_mises_top_MARKER".
+// As a manual page writes it: "transverse_3" is one of "transverse_1 ...", "von_mises_top_tip" one of
+// "von_mises_top_MARKER".
 std::string as_declared(std::string name, const std::vector<std::string>& markers) {
   for (const std::string& marker : markers)
     if (name.ends_with("_" + marker)) name.replace(name.size() - marker.size(), marker.size(), "MARKER");

@@ -1,4 +1,4 @@
-// What a correction may rely on, told by one that writes down what it is given and turns v aside.
+// The contract that a correction may rely on, checked by one that records its arguments and changes v.
 #include <cmath>
 
 #include <trammel/correction.hpp>

@@ -53,7 +53,8 @@ TEST(DivergingRun, IsNotBlamedOnAComponent) {
   EXPECT_THAT(run.report.reason, testing::Not(HasSubstr("spring")));
 }
 
-// The step that a run of 2 s can resolve, 16 units in the last place of t, is far below the steps of the extremes (1e-12 s).
+// The step that a run of 2 s can resolve, 16 units in the last place of t, is far below the steps of the extremes
+// (1e-12 s).
 TEST(TinyStep, ThatCannotBeResolvedIsRefusedWithTheSmallestSensibleOne) {
   for (const char* key : {"integrator.step", "integrator.contact_step"})
     for (const char* h : {"1e-300", "1e-22"}) {
@@ -121,7 +122,7 @@ TEST(InconsistentStart, IsRefusedForItsVelocityToo) {
   EXPECT_THAT(refusal(struck_bar, {{"bodies.bar.velocity", "[0.25, 0]"}}), HasSubstr("0.25 (m/s, rad/s) in velocity"));
 }
 
-// A rod's row is (|d|^2/L - L)/2, an angle's in space sin(delta); what is told is |d| - L, delta and their rates.
+// A rod's row is (|d|^2/L - L)/2, an angle's in space sin(delta); messages give |d| - L, delta and their rates.
 TEST(InconsistentStart, IsToldInMetresAndRadiansWhateverTheScaleOfTheRows) {
   const std::string rod = R"({"trammel": 1, "gravity": [0, 0],
     "bodies": {"bob": {"type": "point_mass", "mass": 1, "position": [2, 0], "velocity": [0.5, 0]}},
@@ -176,8 +177,8 @@ TEST(InconsistentStart, InsideAPlaneIsMovedOutWhenAskedFor) {
   EXPECT_NEAR(run.series.at("y").front(), 0, 1e-15);  // round-off of 0.25
 }
 
-// Modes that bend weigh by what they store: all but a thousandth of the way is a turn about the hinge. The angle that puts a
-// straight beam's tip onto the plane is 0.
+// Modes that bend weigh by what they store: all but a thousandth of the way is a turn about the hinge. The angle that
+// puts a straight beam's tip onto the plane is 0.
 TEST(InconsistentStart, OfABeamInsideAPlaneIsTurnedOutAndNotBent) {
   const Finished run =
       run_file("beam_impact.json", {{"bodies.beam.angle", "-0.1"}, {"initial", "project"}, {"simulate.until", "0"}});

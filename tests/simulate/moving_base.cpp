@@ -1,4 +1,5 @@
-// Systems on a base that moves by a law: joints, forces and contacts take its velocity and acceleration, the ledger its work.
+// Systems on a base that moves by a law: joints, forces and contacts take its velocity and acceleration, the ledger its
+// work.
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -25,8 +26,8 @@ const std::string carried_pendulum = R"json({
     "moved": {"of": "rod.com.x", "relative_to": "base.origin", "since_start": true}}}
 })json";
 
-// The relative angle by the equation of motion in the base's frame, (I + m l^2) phi'' = -m l ((g + y'') sin phi + x'' cos phi),
-// with RK4 in small steps.
+// The relative angle by the equation of motion in the base's frame, (I + m l^2) phi'' = -m l ((g + y'') sin phi + x''
+// cos phi), with RK4 in small steps.
 double angle_in_the_bases_frame(double until) {
   const auto acceleration = [](double t, double phi) {
     const double x_second = -2.7 * std::sin(3 * t), y_second = 0.2;

@@ -1,4 +1,5 @@
-// Bodies that replace their coordinates during a run: with every integrator, at a time or at a contact, cut and resumed.
+// Bodies that replace their coordinates during a run: with every integrator, at a time or at a contact, cut and
+// resumed.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -53,8 +54,8 @@ TEST_P(Refined, BarKeepsItsMassMomentumAndEnergy) {
 TEST_P(Refined, CentreFliesOnAsIfNothingHadHappened) {
   const Finished run = run_text(flying(GetParam().json));
   ASSERT_TRUE(run.done()) << run.report.reason;
-  // No force acts on the whole bar and its vibration is symmetric, so the middle between the ends moves uniformly. Every
-  // method is exact for that; 1e-11 is the implicit ones' iteration over 300 steps.
+  // No force acts on the whole bar and its vibration is symmetric, so the middle between the ends moves uniformly.
+  // Every method is exact for that; 1e-11 is the implicit ones' iteration over 300 steps.
   EXPECT_NEAR(0.5 * (run.end("left") + run.end("right")), 1 + 0.55 + 0.5 * 0.3, 1e-11);
 }
 
@@ -87,7 +88,8 @@ TEST(Refinement, IsReportedWithTheSizesInTheResult) {
   EXPECT_NEAR(run.result.at("energy_of_refinements").get<double>(), 0, 1e-14);
 }
 
-// Until it touches the bar moves without strain, which any mesh holds exactly: from the touch on it must be the finer bar.
+// Until it touches the bar moves without strain, which any mesh holds exactly: from the touch on it must be the finer
+// bar.
 TEST(Refinement, AtATouchGivesTheMotionOfABarThatWasFineFromTheStart) {
   const std::string soft_wall = R"("contacts": {"wall": {"type": "continuous_force", "stiffness": 1e4, "exponent": 1.5,
     "restitution": 0.8, "between": ["bar.left", {"plane": {"point": [0.9, 0], "normal": [1, 0]}}]}},)";

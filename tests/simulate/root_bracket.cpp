@@ -81,7 +81,7 @@ TEST(Crossing, TakesAFewEvaluationsForASmoothFunction) {
   const auto f = [&](double x) { return ++evaluations, ValueAndSlope{1e-2 - 3 * x - 4.9 * x * x, -3 - 9.8 * x}; };
   const double found = crossing(f, {0, 1e-2, f(0), f(1e-2)}, 1e-17, 1e-17);
   EXPECT_NEAR(found, (std::sqrt(9 + 4 * 4.9e-2) - 3) / 9.8, 1e-16);
-  EXPECT_LE(evaluations, 2 + 3);  // both ends; a parabola is a cubic, so the first is the zero but for round-off
+  EXPECT_LE(evaluations, 2 + 3);  // both ends; a parabola is a cubic, so the first is the zero up to round-off
 }
 
 TEST(Crossing, IsContentWithRoundOffOfTheFunction) {

@@ -2,8 +2,8 @@
 //
 //     u' = a N + b T,  s' = b N + c T     rates of gap and slip by the impulses N and T
 //
-// Rates are linear in N while the slip keeps its direction or stays 0. Compression ends where u is 0, expansion where the normal force has
-// done e^2 times its work.
+// Rates are linear in N while the slip keeps its direction or stays 0. Compression ends where u is 0, expansion where
+// the normal force has done e^2 times its work.
 #pragma once
 
 #include <algorithm>

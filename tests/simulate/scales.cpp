@@ -32,8 +32,9 @@ struct Draw {
   std::mt19937 random;
 };
 
-// A ball that falls on a rough floor and bounces to rest, beside a spring that swings against a wall. Coordinates that a shift
-// rounds are written after it: what is drawn are multiples of 2^-20, which a shift of up to 2^32 leaves as they are.
+// A ball that falls on a rough floor and bounces to rest, beside a spring that swings against a wall. Coordinates that
+// a shift rounds are written after it: what is drawn are multiples of 2^-20, which a shift of up to 2^32 leaves as they
+// are.
 double digits(double x) {
   return std::ldexp(std::round(std::ldexp(x, 20)), -20);
 }
@@ -92,7 +93,7 @@ std::vector<Event> impacts(const std::string& scene) {
   return run.of_kind("impact");
 }
 
-// The same contacts in the same order, at the same times but for `off` in units of the scene's.
+// The same contacts in the same order, at the same times up to `off`, in units of the scene's.
 void expect_same(const std::vector<Event>& here, const std::vector<Event>& there, const Place& at, double off,
                  const std::string& what) {
   ASSERT_EQ(there.size(), here.size()) << what;
@@ -139,7 +140,8 @@ TEST(Scales, AMovedSceneHasTheSameImpacts) {
     const std::vector<Event> here = impacts(bouncing(seed, {}));
     for (const double far : {1e3, 1e5, 5e6}) {
       const Place at{.x = far, .y = -2 * far};
-      // Bounces whose flight doubles do not hold there end; of the rest, times to the rounding of a gap over the speed of impact.
+      // Bounces whose flight doubles do not hold there end; of the rest, times to the rounding of a gap over the speed
+      // of impact.
       std::vector<Event> there = impacts(bouncing(seed, at));
       std::vector<Event> held;
       for (const Event& event : here) {
@@ -187,8 +189,8 @@ TEST(Scales, ASpringOfAnySizeAnywhereSwingsAsAccurately) {
     }
 }
 
-// A pendulum's quarter swing does not know how long its metre is; steps are a hundredth of the period, index 2 methods of second
-// order.
+// A pendulum's quarter swing does not know how long its metre is; steps are a hundredth of the period, index 2 methods
+// of second order.
 TEST(Scales, APendulumOfAnyLengthSwingsAlikeByImplicitMethods) {
   for (const char* type : {"hht_alpha", "newmark", "generalized_alpha"}) {
     double angle_of_a_metre = 0;

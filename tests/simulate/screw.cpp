@@ -32,8 +32,9 @@ TEST_P(Screw, TurnsManyTimesAsItFallsAndAlsoWhenResumed) {
   const Finished run = run_scene(scene);
   ASSERT_TRUE(run.done()) << run.report.reason;
   for (std::size_t i = 0; i < run.series.at("t").size(); ++i)
-    // Constant acceleration is exact for every method; steps that take the quaternion as numbers err in the angle by (h omega)^4 of
-    // fourth order, h omega = 0.28 at the end, and g with Baumgarte's terms follows: p/(2 pi) times 6e-3 rad, less than a tenth of it.
+    // Constant acceleration is exact for every method; steps that take the quaternion as numbers err in the angle by (h
+    // omega)^4 of fourth order, h omega = 0.28 at the end, and g with Baumgarte's terms follows: p/(2 pi) times 6e-3
+    // rad, less than a tenth of it.
     EXPECT_NEAR(run.series.at("z")[i], place(run.series.at("t")[i]), 2e-6);
   const Logs whole = run_in_pieces(scene, 1LL << 60), pieces = run_in_pieces(scene, 61);
   EXPECT_GT(pieces.steps, 61);

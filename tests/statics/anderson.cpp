@@ -5,7 +5,8 @@
 namespace trammel::numerics {
 namespace {
 
-// s = P^-1 (b - A x) with a P that is A but for three directions, in which it is wrong by 1e4, by a half, and has the wrong sign.
+// s = P^-1 (b - A x) with a P that is A except in three directions, in which it is wrong by 1e4, by a half, and has the
+// wrong sign.
 TEST(Anderson, NeedsOneStepMoreThanDirectionsAreWrong) {
   const Eigen::Index n = 20;
   const Mat Q = Eigen::HouseholderQR<Mat>(Mat(Mat::NullaryExpr(n, n, [](Eigen::Index i, Eigen::Index j) {

@@ -92,7 +92,7 @@ TEST(AssembledSystem, RedundantRowsLeaveAccelerationsUniqueAndMultipliersOfMinim
   Vec a1, a2, lambda1, lambda2;
   once.system.accelerate({}, a1, lambda1);
   twice.system.accelerate({}, a2, lambda2);
-  // The rank decision works at sqrt(eps); what is left of it in a is round-off times the condition of the rows.
+  // The rank decision works at sqrt(eps); its effect on a is round-off times the condition of the rows.
   EXPECT_LT((a1 - a2).norm(), 1e-11);
   EXPECT_NEAR(lambda2(0), lambda1(0) / 2, 1e-10);
   EXPECT_NEAR(lambda2(2), lambda1(0) / 2, 1e-10);

@@ -13,8 +13,8 @@
 namespace trammel::test {
 namespace {
 
-// A scene of scenes/benchmarks; "mast": one of trusses, whose pins' rows never change; "sliding": a pendulum that rubs along a
-// plane; "redundant": A02 with a point that rubs along a plane, and one that sticks to it.
+// A scene of scenes/benchmarks; "mast": one of trusses, whose pins' rows never change; "sliding": a pendulum that rubs
+// along a plane; "redundant": A02 with a point that rubs along a plane, and one that sticks to it.
 scene::Scene read_scene(const std::string& name) {
   const std::string folder = TRAMMEL_SOURCE_DIR "/scenes/benchmarks/";
   const auto contact = [](const char* point) {

@@ -1,4 +1,4 @@
-// A body for trying the checks: a point of mass m on a damped spring from the origin, right unless told otherwise.
+// A body for tests of the checks: a point of mass m on a damped spring from the origin, correct unless a fault is set.
 //
 //     q = (r, theta), x = r (sin theta, -cos theta), e = x/r, M = diag(m, m r^2)
 //     f_r = m r theta'^2 + m g cos(theta) - k (r - L) - c r',   f_theta = -2 m r r' theta' - m g r sin(theta)

@@ -1,4 +1,4 @@
-// A spatial rigid body about its fixed centre, for trying the checks on rotations, right unless told otherwise.
+// A spatial rigid body about its fixed centre, for tests of the checks on rotations, correct unless a fault is set.
 //
 //     J omega' = -omega x J omega + r x R^T F,   F a weight of 3 N along -z at r in body axes; omega in body axes
 #pragma once

@@ -1,4 +1,5 @@
-// A body with a row of its own for trying the checks: a point of mass m on a circle that grows, right unless told otherwise.
+// A body with a row of its own for tests of the checks: a point of mass m on a growing circle, correct unless a fault
+// is set.
 //
 //     q = (x, y), M = m 1, f = m g;   g_1 = (q . q - r(t)^2)/2,   G = q^T,   g_t = -r r',   gamma = -v . v + r'^2,   r = 1 + t/5
 #pragma once

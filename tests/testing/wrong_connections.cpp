@@ -1,4 +1,5 @@
-// The checks accept a right joint, force and contact law, and refuse wrong ones by the very checks that should find them.
+// The checks accept a right joint, force and contact law, and refuse wrong ones by the very checks that should find
+// them.
 #include <cmath>
 
 #include <trammel/linear_rows.hpp>

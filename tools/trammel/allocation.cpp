@@ -1,6 +1,6 @@
-// operator new that says how much was asked for when there is no memory; the program's libraries and plugins use it, too. A large
-// block that is missing leaves room for small ones, and its exception takes the usual way. Where a small one is missing, nothing can
-// be built any more: the process ends with a message that stands ready.
+// operator new that reports the size requested when there is no memory; the program's libraries and plugins use it,
+// too. A large block that is missing leaves room for small ones, and its exception takes the usual way. Where a small
+// one is missing, nothing can be allocated any more: the process ends with a message that was prepared.
 #include <cstdlib>
 #include <new>
 
@@ -15,7 +15,7 @@ void* operator new(std::size_t size) {
   if (void* p = std::malloc(size > 0 ? size : 1)) return p;
   if (size >= large) throw trammel::plugin::OutOfMemory(size);
   const trammel::plugin::OutOfMemory missing(size);
-  // A child process that tries out a library has another handler, which tells its parent.
+  // A child process that rehearses a library has another handler, which reports to its parent.
   if (const std::new_handler handler = std::get_new_handler()) trammel::tool::note_missing(missing), handler();
   trammel::tool::end_without_memory(missing);
 }

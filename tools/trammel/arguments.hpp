@@ -1,4 +1,4 @@
-// The command line: commands, their options, and what the user gave.
+// The command line: commands, their options, and the user's arguments.
 //
 //     trammel COMMAND [OPERAND]... [--option VALUE | --option=VALUE | --flag]...
 #pragma once
@@ -22,7 +22,7 @@ struct UsageError : std::runtime_error {
 
 struct Option {
   std::string_view name;   // "--out"
-  std::string_view value;  // what the value is called in the help, "DIR"; empty: a flag
+  std::string_view value;  // name of the value in the help, "DIR"; empty: a flag
   std::string_view help;
 };
 
@@ -56,7 +56,7 @@ class Arguments {
   std::map<std::string, std::vector<std::string>, std::less<>> values_;
 };
 
-// A word as a POSIX shell takes it back: quoted if it holds more than letters, digits and harmless signs.
+// A word as a POSIX shell reads it: quoted if it contains more than letters, digits and harmless signs.
 std::string shell_quoted(const std::string& word);
 
 // Options that several commands share.

@@ -19,7 +19,7 @@ namespace {
 
 // Handlers of signals and of the program's end have no other way to learn it.
 std::atomic<bool> in_the_midst = false;
-pid_t this_process = 0;                   // not a child that tries out a library
+pid_t this_process = 0;                   // not a child that rehearses a library
 std::array<char, 1 << 16> handler_stack;  // a run that overflowed its own stack leaves none
 
 const char* what_happened(int signal) {
@@ -37,7 +37,7 @@ const char* what_happened(int signal) {
   }
 }
 
-// Says who ended the process and how; ends it.
+// Reports which component ended the process and how, and ends it.
 [[noreturn]] void tell_and_end(std::string_view how) {
   const simulate::CrashWitness::Culprit who = witness().culprit();
   Line line;
@@ -101,7 +101,8 @@ void watch_for_crashes() {
 
 }  // namespace trammel::tool
 
-// In place of the C library's: a plugin that calls it ends no run as if all were well. The C library itself calls its own.
+// Replaces the C library's exit(): a plugin that calls it must not end a run as a success. The C library itself calls
+// its own.
 extern "C" [[noreturn, gnu::visibility("default")]] void _exit(int code) {
   trammel::tool::on_exit();
   trammel::tool::leave(code);

@@ -1,13 +1,13 @@
-// A crash inside a plugin (a bad address, an illegal instruction, abort), or a plugin that ends the program by exit() or _exit(), ends
-// the process with a message that names the component being called, time and step, and exit code 3; the records still in memory are
-// written.
+// A crash inside a plugin (a bad address, an illegal instruction, abort), or a plugin that ends the program by exit()
+// or _exit(), ends the process with a message that names the component being called, time and step, and exit code 3;
+// the records still in memory are written.
 #pragma once
 
 namespace trammel::tool {
 
 // Installs the handlers, those of crashes unless somebody watches already (a sanitizer).
 void watch_for_crashes();
-// The program ends as it should from here on: exit() is no longer a plugin's.
+// From here on the program ends normally: exit() is no longer charged to a plugin.
 void ends_by_itself();
 
 }  // namespace trammel::tool

@@ -1,4 +1,4 @@
-// What every command reads and writes alike: the scene, plugins, JSON, errors.
+// Input and output common to all commands: the scene, plugins, JSON, errors.
 #pragma once
 
 #include <string>
@@ -15,7 +15,8 @@ namespace trammel::tool {
 // The operand with its --set overrides, then `more`. Throws scene::SceneError.
 scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override> more = {});
 
-// Adds the libraries and folders given by --plugin; --allow-scene-plugins lets the scene name its own. Throws plugin::PluginError.
+// Adds the libraries and folders given by --plugin; --allow-scene-plugins lets the scene name its own. Throws
+// plugin::PluginError.
 void load_plugins(const Arguments& arguments, plugin::Registry& registry);
 
 void print_json(const nlohmann::ordered_json& object);

@@ -39,7 +39,7 @@ double now() {
   end_process(Exit::interrupted, "interrupted", line);
 }
 
-// After the limit of CPU time SIGXCPU comes every second, so it insists on nothing.
+// After the limit of CPU time SIGXCPU comes every second, so it does not force an end.
 bool insists(int signal) {
   return (signal == SIGINT || signal == SIGTERM) && now() - requested_at > same_request;
 }

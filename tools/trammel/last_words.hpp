@@ -1,4 +1,5 @@
-// What a process says that cannot go on, and its end: for handlers of signals and of failed allocations. Nothing here allocates.
+// The last message of a process, and its end: for handlers of signals and of failed allocations. Nothing here
+// allocates.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@
 
 namespace trammel::tool {
 
-// Whom the handlers ask where the run stands.
+// The witness that handlers ask for the state of the run.
 simulate::CrashWitness& witness();
 
 // From here on the last words are a JSON object on standard output.
@@ -34,7 +35,7 @@ class Line {
   std::size_t size_ = 0;
 };
 
-// Records go out, result.json gets `status` with the line as its reason, and the line is printed.
+// Writes the records, and result.json with `status` and the line as its reason; prints the line.
 [[noreturn]] void end_process(Exit code, const char* status, const Line& line);
 
 // Ends the process without destructors of globals and functions of atexit.

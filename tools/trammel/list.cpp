@@ -14,7 +14,7 @@ namespace {
 
 constexpr Option kAll{"--all", "", "also the parts of a scene and the pages on its language, for 'trammel describe'"};
 
-// What 'trammel describe' explains beside components.
+// Topics of 'trammel describe' other than components.
 std::string pages(const std::vector<const plugin::Entry*>& entries) {
   std::string text = "part of a scene\n";
   for (const plugin::Part& part : simulate::setting_parts())

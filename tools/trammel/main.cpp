@@ -1,4 +1,4 @@
-// trammel: the command-line program. Finds the command, and turns whatever went wrong into one exit code and one
+// trammel: the command-line program. Finds the command, and turns every failure into one exit code and one
 // message.
 //
 // Exit codes: 0 done, 1 the run failed (results kept), 2 bad input, 3 bad plugin, 130 interrupted (resumable).
@@ -143,8 +143,8 @@ int main(int argc, char** argv) {
     code = code == 0 ? 1 : code;
   }
 #if defined(__SANITIZE_ADDRESS__)
-  return code;  // looks for leaks
+  return code;  // the sanitizer checks for leaks
 #else
-  leave(code);  // a plugin's globals are never destroyed: what is done stays done whatever they would do
+  leave(code);  // a plugin's globals are never destroyed: their destructors cannot spoil the results
 #endif
 }

@@ -1,5 +1,5 @@
-// A lack of memory is nobody's fault and leaves nothing to build a message from: the process ends with one that stands ready, exit
-// code 1, and the records so far; result.json says "failed".
+// A lack of memory is charged to no component, and no message can be built then: the process ends with one that is
+// ready, exit code 1, and the records so far; result.json says "failed".
 #pragma once
 
 #include <new>
@@ -11,7 +11,7 @@ namespace trammel::tool {
 // Sets the handler that operator new calls.
 void watch_for_lack_of_memory();
 
-void note_missing(const plugin::OutOfMemory& block) noexcept;  // what the handler will tell of
+void note_missing(const plugin::OutOfMemory& block) noexcept;  // the block that the handler will name
 
 [[noreturn]] void end_without_memory(const std::bad_alloc& error);
 

@@ -39,7 +39,7 @@ void ProgressBar::draw(const simulate::Progress& progress) {
   const double advanced = progress.t - t_began_;
   const double elapsed = std::chrono::duration<double>(Clock::now() - began_).count();
   std::string left;
-  // An estimate from the first second would jump about.
+  // An estimate from the first second would be erratic.
   if (elapsed > 1 && advanced > 0) left = ", " + duration(elapsed * (progress.until - progress.t) / advanced) + " left";
 
   constexpr int kWidth = 20;

@@ -1,4 +1,4 @@
-// Where a command's results go.
+// The folder of a command's results.
 #pragma once
 
 #include <filesystem>

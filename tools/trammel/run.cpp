@@ -32,7 +32,7 @@ fs::path folder_of_run(const Arguments& arguments) {
   return folder;
 }
 
-// The command that goes on with this run: with all that says what the scene is.
+// The command that resumes this run, with all arguments that define the scene.
 std::string continuation(const Arguments& arguments, const fs::path& folder) {
   std::string command = shell_quoted(arguments.program()) + " run";
   const auto add = [&command](const std::string& word) { command += " " + shell_quoted(word); };

@@ -1,7 +1,7 @@
-// The four edges and corners of a patch and what holds them.
+// The conditions at the four edges and corners of a patch.
 //
-// The border of a T-mesh has its control points in rows: the edge row, which is the edge curve, and the second row, which
-// with it gives the slope there. Every point of the second row has its partner in the edge row.
+// The border of a T-mesh has its control points in rows: the edge row, which is the edge curve, and the second row,
+// which with it gives the slope there. Every point of the second row has its partner in the edge row.
 //     hinged     edge row
 //     clamped    edge row, and of the second row the component along the surface normal
 //     symmetric  edge row along the normal of the plane of symmetry; second row tied to it in the two directions within
@@ -52,7 +52,7 @@ struct Tangents {
 };
 Tangents tangents(const PatchNet& net, const Eigen::Vector2d& at);
 
-// Throw std::invalid_argument: a condition nobody knows, an edge that lies in no plane of symmetry.
+// Throw std::invalid_argument: an unknown condition, an edge that lies in no plane of symmetry.
 void hold_edge(const PatchNet& net, const Edge& edge, const std::string& condition, Elimination& elimination);
 void hold_corner(const PatchNet& net, const Corner& corner, const std::string& condition, Elimination& elimination);
 

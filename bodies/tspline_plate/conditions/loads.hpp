@@ -1,6 +1,7 @@
 // Loads that follow the surface: moments on edges, and pressure.
 //
-// An edge moment m [N m per m of the reference] turns the edge towards the normal n and keeps doing so as the edge moves:
+// An edge moment m [N m per m of the reference] turns the edge towards the normal n and keeps doing so as the edge
+// moves:
 //     f_I = int m (R_u,I a^1 . nu + R_v,I a^2 . nu) n ds,     nu: in the surface, across the edge, outwards
 // Pressure p [N/m^2] acts along n on the deformed area:
 //     f_I = int p R_I a_1 x a_2 du dv

@@ -1,11 +1,11 @@
-// An edge that is one point, about which the surface goes on smoothly: the pole of a sphere, the top of a dome.
+// An edge that is one point, with a smooth surface about it: the pole of a sphere, the top of a dome.
 //
 //     u_e = u_0,   u_s = u_0 + B (P_s - P_0)        e: edge row, s: second row, B: 3 x 2 in the plane of the second row
 //
-// r_across = 3 sum N_j w_e f (P_s - P_e) / W along the edge, f as in seam.hpp; with u added it is that of the reference under
-// one linear map, so the tangents at the point stay in one plane. B is told by two points of the second row that lie across each
-// other, and the others follow. Round a full turn these are C1 polar splines (Toshniwal, Speleers, Hiemstra, Hughes, CMAME 316,
-// 2017).
+// r_across = 3 sum N_j w_e f (P_s - P_e) / W along the edge, f as in seam.hpp; with u added it is that of the reference
+// under one linear map, so the tangents at the point stay in one plane. Two points of the second row in different
+// directions determine B and with it the others. Round a full turn these are C1 polar splines (Toshniwal, Speleers,
+// Hiemstra, Hughes, CMAME 316, 2017).
 #pragma once
 
 #include "tspline_plate/conditions/edge.hpp"

@@ -175,7 +175,8 @@ void join(const Multipatch& basis, const Points& points, const Seam& seam, Elimi
   const double ratio = speed_ratio(a, b, seam);
   for (std::size_t j = 0; j < n; ++j) {
     const double to_a = a.f(j), to_b = ratio * b.f(j);
-    // Round corners where four patches meet one such condition follows from the others, up to the round-off of the reference.
+    // Round corners where four patches meet one such condition follows from the others, up to the round-off of the
+    // reference.
     for (int axis = 0; axis < 3; ++axis)
       e.hold({{a.net.component(a.rows.edge[j], axis), to_a + to_b},
               {a.net.component(a.rows.second[j], axis), -to_a},

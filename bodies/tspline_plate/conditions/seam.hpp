@@ -1,12 +1,12 @@
-// Where two edges meet and the surface goes on: between two patches, or round a tube from one edge of a patch to another.
+// A joint of two edges across which the surface continues: between two patches, or of two edges of one patch in a tube.
 //
 //     C0   u_e = u_e'                               one edge row: a line about which the patches turn freely (a hinge)
 //     C1   (f + b f') u_e = f u_s + b f' u_s'       and every point of it stays between those of the second rows
 //
-// e: edge row, s: second row, ' the other side; f = w_s / (w_e tau) with the first knot span tau: for weights of a product of
-// curves, however refined, r_across = 3 sum N_j w_e f (P_s - P_e) / W. b, how much faster the parameter across runs on this
-// side, comes from the reference, which must be C1 with one b all along. Conditions of this kind keep the functions of both sides
-// that fit each other, all of them, so refinements stay nested.
+// e: edge row, s: second row, ' the other side; f = w_s / (w_e tau) with the first knot span tau: for weights of a
+// product of curves, however refined, r_across = 3 sum N_j w_e f (P_s - P_e) / W. b, how much faster the parameter
+// across runs on this side, comes from the reference, which must be C1 with a constant b. Such conditions keep every
+// pair of functions of both sides that match, so refinements stay nested.
 #pragma once
 
 #include <optional>

@@ -1,9 +1,9 @@
-// Coordinates that are left when linear conditions hold some displacements: u = B q.
+// Coordinates q that remain under linear conditions on the displacements: u = B q.
 //
-// u are the three displacements of every control point (3 n). Each condition  sum c_k u_k = 0  removes the component with
-// the largest coefficient (of equals the last) by the others, so conditions along the axes just delete columns, and q are
-// always components of u themselves. A condition that follows from those before it, as far as its coefficients are known, is
-// ignored.
+// u are the three displacements of every control point (3 n). Each condition  sum c_k u_k = 0  removes the component
+// with the largest coefficient (of equals the last) by the others, so conditions along the axes just delete columns,
+// and q are always components of u themselves. A condition that follows from those before it, as far as its
+// coefficients are known, is ignored.
 #pragma once
 
 #include <vector>

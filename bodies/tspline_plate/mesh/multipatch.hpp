@@ -1,7 +1,7 @@
 // The functions of several patches as one set.
 //
-// Patches lie side by side in the plane of parameters, each in a range of u of its own, so that (u, v) alone tells the patch.
-// Functions, cells and elements are numbered patch by patch.
+// Patches lie side by side in the plane of parameters, each in a range of u of its own, so that (u, v) alone tells the
+// patch. Functions, cells and elements are numbered patch by patch.
 #pragma once
 
 #include "tspline_plate/mesh/tspline_basis.hpp"

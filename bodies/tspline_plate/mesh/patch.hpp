@@ -1,4 +1,4 @@
-// What a scene says of one patch: its surface, its first mesh, and what holds and loads its edges.
+// The description of one patch in a scene: its surface, its first mesh, and the conditions and loads at its edges.
 #pragma once
 
 #include <optional>

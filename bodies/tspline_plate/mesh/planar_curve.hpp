@@ -1,9 +1,9 @@
 // Curves that shapes are made of: control points in a plane, with weights and knots.
 //
 // An arc of at most `largest_arc` is one rational cubic (degree-elevated from the quadratic whose middle weight is
-// cos(angle / 2)), exact. A longer one in rational cubics would have joints where only the curve, not its functions, is C1;
-// it is a cubic spline instead, C2, through the circle at the knots, tangent to it at both ends (the complete spline). Its
-// distance from the circle is of fourth order: 1e-6 of the radius with 48 pieces in the full circle.
+// cos(angle / 2)), exact. A longer one in rational cubics would have joints where only the curve, not its functions, is
+// C1; it is a cubic spline instead, C2, through the circle at the knots, tangent to it at both ends (the complete
+// spline). Its distance from the circle is of fourth order: 1e-6 of the radius with 48 pieces in the full circle.
 // Piegl, Tiller, The NURBS Book, chapters 7 and 9.
 #pragma once
 

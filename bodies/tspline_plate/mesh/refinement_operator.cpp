@@ -20,7 +20,7 @@ Sparse by_dual_functionals(const TsplineBasis& coarse, const TsplineBasis& fine)
   entries.reserve(std::size_t(fine.size()) * 4);
   for (int j = 0; j < fine.size(); ++j) {
     const auto& dual = fine.anchors()[std::size_t(j)].knots;
-    // Whatever has the whole support of j in its own is not zero at any inner point of it.
+    // A function whose support contains that of j is positive at every inner point of it.
     std::array<double, 2> inside{};
     for (std::size_t d : {0, 1}) inside[d] = dual[d][0] + (dual[d][4] - dual[d][0]) / 2;
     const int cell = coarse.cell_at(inside[0], inside[1]);

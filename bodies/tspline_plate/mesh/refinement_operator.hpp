@@ -1,10 +1,10 @@
-// How the functions of a T-mesh are said by those of a mesh that refines it, and with them points, weights and velocities.
+// The functions of a T-mesh as combinations of those of a refined mesh, and with them points, weights and velocities.
 //
 //     B_i = sum_j M_ji B~_j,    w~ = M w,    P~ = diag(1 / w~) M diag(w) P
 //
-// M by dual functionals: M_ji = lambda_{u_j}(N[u_i]) lambda_{v_j}(N[v_i]), exact when both meshes are analysis-suitable. On
-// others the Gram system G22 M = G21 is solved instead. Either way the identity is checked at 16 points of every Bezier
-// cell, which decides it for bicubics; a mesh that is not nested is refused.
+// M by dual functionals: M_ji = lambda_{u_j}(N[u_i]) lambda_{v_j}(N[v_i]), exact when both meshes are
+// analysis-suitable. On others the Gram system G22 M = G21 is solved instead. Either way the identity is checked at 16
+// points of every Bezier cell, which decides it for bicubics; a mesh that is not nested is refused.
 #pragma once
 
 #include <Eigen/SparseCore>

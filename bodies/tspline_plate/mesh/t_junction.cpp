@@ -66,8 +66,8 @@ void prolong(TMesh& mesh, const TJunction& t) {
   mesh.draw(1 - t.axis, t.at[1 - a], std::min(t.at[a], end), std::max(t.at[a], end));
 }
 
-// Where the line of `t` ends by now: it may have been prolonged. A gap of one bay does not end it, the functions are those of
-// the line drawn through: no line in between at which their knots could differ.
+// The present end of the line of `t`, which may have been prolonged. A gap of one bay does not end it, because no line
+// in between could change the knots of the functions: they are those of the continuous line.
 TJunction line_end(const EdgeMap& edges, TJunction t) {
   const auto a = std::size_t(t.axis);
   const auto goes_on = [&](const Index2& at) {

@@ -2,9 +2,10 @@
 //
 //     B_i(u, v) = N[u_i](u) N[v_i](v),    R_i = w_i B_i / W,    W = sum w_j B_j,    r(u, v) = sum R_i P_i
 //
-// One function per anchor: a vertex of the T-mesh with line numbers 2 to m - 2 in both directions (m: the last line). Its
-// knots u_i, v_i are its own lines and the next two that touch a ray to either side. On a Bezier cell, a face of the mesh
-// with all face extensions drawn, each function is one polynomial; it is kept by its Bernstein coefficients there.
+// One function per anchor: a vertex of the T-mesh with line numbers 2 to m - 2 in both directions (m: the last line).
+// Its knots u_i, v_i are its own lines and the next two that touch a ray to either side. On a Bezier cell, a face of
+// the mesh with all face extensions drawn, each function is one polynomial; it is kept by its Bernstein coefficients
+// there.
 #pragma once
 
 #include <Eigen/Core>

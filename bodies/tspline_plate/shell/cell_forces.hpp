@@ -2,8 +2,8 @@
 //
 //     f_I = -int sum_k R_I^k g_k dA,     K_IJ = int sum_kl R_I^k R_J^l H_kl dA,     R^k = R_u, R_v, R_uu, R_vv, R_uv
 //
-// g and H are those of the material point. Damping is of Kelvin and Voigt: stresses C^ (strain + tau strain rate), which
-// does no work in rigid motion; tau [s] is the stiffness factor of Rayleigh's damping.
+// g and H are those of the material point. Damping is of Kelvin and Voigt: stresses C^ (strain + tau strain rate),
+// which does no work in rigid motion; tau [s] is the stiffness factor of Rayleigh's damping.
 #pragma once
 
 #include <trammel/system.hpp>

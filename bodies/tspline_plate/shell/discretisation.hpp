@@ -1,8 +1,9 @@
-// Everything of a plate that its mesh fixes: shape functions at the quadrature points, mass, the coordinates that are free.
+// All data of a plate that depend on its mesh alone: shape functions at the quadrature points, mass, the free
+// coordinates.
 //
-// Total Lagrangian: shape data are evaluated once per mesh and kept. u are the displacements of all control points, q the
-// coordinates that the edge conditions leave (elimination.hpp). Integration is over Bezier cells, with `quadrature` points
-// a direction for the elastic part and 4, which is exact on a flat plate, for the mass.
+// Total Lagrangian: shape data are evaluated once per mesh and kept. u are the displacements of all control points, q
+// the coordinates that the edge conditions leave (elimination.hpp). Integration is over Bezier cells, with `quadrature`
+// points a direction for the elastic part and 4, which is exact on a flat plate, for the mass.
 #pragma once
 
 #include "tspline_plate/mesh/control_net.hpp"
@@ -40,8 +41,8 @@ struct PlateData {
 
 class Discretisation {
  public:
-  // `hold` adds the conditions of edges and seams. Throws std::invalid_argument: a surface that is degenerate at a quadrature
-  // point.
+  // `hold` adds the conditions of edges and seams. Throws std::invalid_argument: a surface that is degenerate at a
+  // quadrature point.
   template <class Hold>
   Discretisation(const std::vector<ControlNet>& patches, const PlateData& data, Hold hold)
       : basis(functions_of(patches)), points(points_of(patches)), coordinates(3 * basis.size()) {

@@ -36,7 +36,7 @@ void deform(const ReferencePoint& reference, const Vectors5& d, DeformedPoint& a
   const Vector3 A1 = reference.Y.row(0), A2 = reference.Y.row(1), d1 = d.row(0), d2 = d.row(1);
   const Vector3 a1 = at.y.row(0), a2 = at.y.row(1);
 
-  // |a_1 x a_2| - |A_1 x A_2| and n - N without the loss of digits of a difference.
+  // |a_1 x a_2| - |A_1 x A_2| and n - N without cancellation.
   const Vector3 change = A1.cross(d2) + d1.cross(a2);
   const double area0 = reference.area;
   at.area = (area0 * reference.N + change).norm();

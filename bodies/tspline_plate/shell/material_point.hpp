@@ -4,10 +4,10 @@
 //     eps = ((a_11 - A_11) / 2, (a_22 - A_22) / 2, a_12 - A_12),   kappa = (B_11 - b_11, B_22 - b_22, 2 (B_12 - b_12))
 //     density of energy  h/2 eps^T C^ eps + h^3/24 kappa^T C^ kappa   per reference area [J/m^2]
 //
-// Capitals are the reference. C^ = T^T C T is the plane stress stiffness C in the local Cartesian frame e_1 = A_1 / |A_1|,
-// brought to the curvilinear components by T. Everything acts on the five vectors y = (a_1, a_2, c_1, c_2, c_3): the
-// gradient is one 5 x 3 array, the Hessian one 15 x 15 matrix. Strains are taken from displacements d = y - Y, which keeps
-// their digits when they are small.
+// Capitals are the reference. C^ = T^T C T is the plane stress stiffness C in the local Cartesian frame e_1 = A_1 /
+// |A_1|, brought to the curvilinear components by T. Everything acts on the five vectors y = (a_1, a_2, c_1, c_2, c_3):
+// the gradient is one 5 x 3 array, the Hessian one 15 x 15 matrix. Strains are taken from displacements d = y - Y,
+// which keeps their digits when they are small.
 // Kiendl, Bletzinger, Linhard, Wuechner, CMAME 198, 2009; curvature change B - b with the unit normal (Koiter).
 #pragma once
 

@@ -1,5 +1,5 @@
-// A pole among the points of a surface: where an edge of the reference is one point, one tangent vanishes, and with it what is
-// told by tangents. Beside it there is a plane to tell.
+// A pole of a surface: where an edge of the reference is one point, one tangent vanishes, so that no normal is defined.
+// A point close to the pole has a tangent plane.
 #pragma once
 
 #include <optional>

@@ -1,12 +1,12 @@
-// Which elements a refinement is to split: where the mesh is too coarse for what happens, or near a place.
+// Which elements a refinement splits: those where the mesh is too coarse for the motion, or those near a place.
 //
 //     energy_density   (1/A) int (h/2 eps^T C^ eps + h^3/24 kappa^T C^ kappa) dA over a Bezier cell [J/m^2]
 //     curvature_jump   the largest |T kappa(a) - T kappa(b)| between quadrature points of a cell [1/m]
-//     contact_pressure the largest pressure of contacts on a point of the cell [Pa], which the framework tells
+//     contact_pressure the largest pressure of contacts on a point of the cell [Pa], passed by the framework
 //
-// T kappa are the changes of curvature in the local Cartesian frame, with twice the twist. An element's indicator is the
-// largest of its cells'. How often an element was split is told by its size: the level is the number of halvings from the
-// element of the first mesh that holds it, in the direction that was halved more often.
+// T kappa are the changes of curvature in the local Cartesian frame, with twice the twist. An element's indicator is
+// the largest of its cells'. An element's size gives its level, the number of halvings from the element of the first
+// mesh that contains it, in the direction that was halved more often.
 #pragma once
 
 #include "tspline_plate/shell/cell_forces.hpp"

@@ -1,4 +1,5 @@
-// The three inner loops of a cell, on packs of four functions: values at a point, forces of a point, products of all points.
+// The three inner loops of a cell, on packs of four functions: values at a point, forces of a point, products of all
+// points.
 #pragma once
 
 namespace trammel::plate {

@@ -4,7 +4,7 @@
 
 namespace trammel::plate {
 
-// At a pole one tangent vanishes; those a little beside it tell the plane that they both lie in.
+// At a pole one tangent vanishes; the tangents at a point close to it span the tangent plane.
 SurfacePoint surface_point(const Discretisation& mesh, double u, double v, double height) {
   SurfacePoint point;
   point.cell = mesh.basis.cell_at(u, v);

@@ -33,8 +33,8 @@ void motion(const Discretisation& mesh, const SurfacePoint& point, In q, In v, M
 void add_reaction_derivative(const Discretisation& mesh, const SurfacePoint& point, In q, const Wrench& F, double c,
                              Matrix& S);
 
-// S(dofs, dofs) += c sum over pairs of R_u, R_v with the 6 x 6 matrix D of the rows (a_1, a_2): the tangent of generalised
-// forces that depend on the two tangents at one point.
+// S(dofs, dofs) += c sum over pairs of R_u, R_v with the 6 x 6 matrix D of the rows (a_1, a_2): the tangent of
+// generalised forces that depend on the two tangents at one point.
 void add_tangent_of_tangents(const Cell& cell, const ShapeValues& shape, const Eigen::Matrix<double, 6, 6>& D, double c,
                              Matrix& S);
 

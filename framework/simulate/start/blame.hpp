@@ -15,8 +15,8 @@ namespace trammel::simulate {
 // Inside a catch block; see `blaming`.
 [[noreturn]] void rethrow_blamed(const Setup& setup, const model::CallSite& site, const scene::Value& root, double t);
 
-// Inside a catch block: what was thrown, as the fault of the component that was being called, or of the integrator if none was.
-// Without a step outside a run.
+// Inside a catch block: what was thrown, as the fault of the component that was being called, or of the integrator if
+// none was. Without a step outside a run.
 plugin::PluginError blame(const Setup& setup, const model::CallSite& site, double t, std::optional<long long> step);
 
 // Lets the framework's own exceptions pass, among them named errors of scenes and plugins; blames all others.

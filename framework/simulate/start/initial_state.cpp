@@ -16,8 +16,8 @@
 namespace trammel::simulate {
 namespace {
 
-// What "nearest" weighs: masses, and with contacts what the bodies store at 1 rad/s too, so that a beam that reaches into a plane
-// is turned out of it and not bent.
+// What "nearest" weighs: masses, and with contacts what the bodies store at 1 rad/s too, so that a beam that reaches
+// into a plane is turned out of it and not bent.
 constexpr Blend by_mass = {1, 0, 0}, by_mass_and_stiffness = {1, 0, 1};
 
 bool project_position(model::AssembledSystem& system, State& s, Blend nearest = by_mass) {

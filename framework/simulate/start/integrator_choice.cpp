@@ -11,7 +11,8 @@
 namespace trammel::simulate {
 namespace {
 
-// Of an explicit method, each about a radian of what is fastest, of a system of `few` coordinates at most; a step of more costs more.
+// Of an explicit method, each about a radian of what is fastest, of a system of `few` coordinates at most; a step of
+// more costs more.
 constexpr double most_steps = 1e6, few = 10;
 // Of elements: their fast waves are in motion, by loads and blows, and a tolerance that sees them follows them.
 constexpr int many = 100;

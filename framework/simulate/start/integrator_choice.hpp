@@ -1,11 +1,11 @@
 // The integrator of a scene that names none.
 //
-//     dop853, tolerance 1e-9                        as a rule: no step need be chosen, and contacts and friction are located as events
-//     the same with "rows": "projected"             where light bodies are tied to heavy ones (mass_ratio.hpp)
-//     hht_alpha, tolerance 1e-7                     where explicit steps would be more than a million, or of n > 10 coordinates more
-//                                                   than 10/n million: it does not follow what is fast beside the rest, and damps it
-//     the same, tolerance 1e-5                      of more than 100 coordinates: waves through elements are always in motion, on a steel
-//                                                   plate of 326 under a ball with 1e-5 m, and at 1e-7 they would be followed
+//     dop853, tolerance 1e-9               the usual choice: no step to choose; contacts and friction are events
+//     the same with "rows": "projected"    where light bodies are tied to heavy ones (mass_ratio.hpp)
+//     hht_alpha, tolerance 1e-7            where explicit methods need more than a million steps, or with n > 10
+//                                          coordinates more than 10/n million: it damps the fast motions
+//     the same, tolerance 1e-5             with more than 100 coordinates: waves through elements are always in motion
+//                                          (1e-5 m on a steel plate of 326 under a ball) and would be resolved at 1e-7
 //
 // Decided from the model at its start (fastest_motion.hpp) and the duration of the run, so the same scene always has
 // the same integrator. A resumed run, whose end may have moved, keeps its integrator.

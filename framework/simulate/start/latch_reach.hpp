@@ -1,7 +1,7 @@
 // Latches that can never lock, by kinematics. From the start, the gap is reduced along the rows,
 //
 //     [1 G^T] [dq]     [0]
-//     [G  0 ] [mu] = - [b]       b = 0 except in the latch's row, which requires a smaller gap;   then back onto the rows
+//     [G  0 ] [mu] = - [b]       b = 0 except in the latch's row, which requires a smaller gap; then back onto the rows
 //
 // until it is 0 or stationary, which means that no motion that the rows allow changes it. If it is stationary above 0
 // from the start and from states around it, this is an error that names the smallest gap found. Forces and other

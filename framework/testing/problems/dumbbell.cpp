@@ -1,5 +1,5 @@
-// Masses m1 = 1 and m2 = 1/ratio at the ends of a massless rod of 1 m, in free flight: the centre moves straight on, the
-// rod turns at a constant rate. Elementary; the masses make the saddle-point matrix as badly scaled as one likes.
+// Masses m1 = 1 and m2 = 1/ratio at the ends of a massless rod of 1 m, in free flight: the centre moves straight on,
+// the rod turns at a constant rate. Elementary; the masses make the saddle-point matrix as badly scaled as one likes.
 #include <cmath>
 
 #include <trammel/testing/problems.hpp>

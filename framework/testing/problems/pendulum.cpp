@@ -1,4 +1,5 @@
-// A point of 1 kg on a rod of 1 m: theta'' = -g sin(theta), in one coordinate, in one of varying mass, and in two with a row.
+// A point of 1 kg on a rod of 1 m: theta'' = -g sin(theta), in one coordinate, in one of varying mass, and in two with
+// a row.
 //
 //     sin(theta/2) = k sn(w t + u_0; k),  theta' = 2 k w cn,  w^2 = g,  k^2 = sin^2(theta_0/2) + omega_0^2/(4 g)
 //

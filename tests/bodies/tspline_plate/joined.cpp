@@ -144,7 +144,8 @@ TEST(JoinedPatches, HaveTheTangentOfTheirForce) {
   EXPECT_LT((S * d - by_difference).norm(), 1e-9 * by_difference.norm());
 }
 
-// A strip that is clamped at both ends and cut in the middle: two cantilevers, w = q l^4 / (8 D), no moment at the hinge.
+// A strip that is clamped at both ends and cut in the middle: two cantilevers, w = q l^4 / (8 D), no moment at the
+// hinge.
 TEST(JoinedPatches, AreAHingeWhereTheyAreC0) {
   auto plate = section(0.01, 12e6, 0);
   Patch a = rectangle({0, 0, 0}, {0.5, 0, 0}, {0, 0.1, 0}, "8x1"),
@@ -262,13 +263,14 @@ TEST(JoinedPatches, NameTheirMarkersAndAreDrawnAllOver) {
   plate->shape(0, rest(*plate), drawn);
   for (const Vector3d& corner : {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(1, 1, 0)})
     EXPECT_LT((drawn.colwise() - Vec(corner)).colwise().norm().minCoeff(), 1e-12);
-  // In one go: never further than between two neighbouring points of a patch's edge, 1/16 of it, or from line to line, 1/8.
+  // In one go: never further than between two neighbouring points of a patch's edge, 1/16 of it, or from line to line,
+  // 1/8.
   const Mat steps = drawn.rightCols(drawn.cols() - 1) - drawn.leftCols(drawn.cols() - 1);
   EXPECT_LT(steps.colwise().norm().maxCoeff(), 0.5 / 8 + 1e-12);
 }
 
-// Element 1 of the lower left patch touches the joint with the one on its right, element 3 the corner of all four. A joint takes
-// only edges that are divided alike.
+// Element 1 of the lower left patch touches the joint with the one on its right, element 3 the corner of all four. A
+// joint takes only edges that are divided alike.
 TEST(JoinedPatches, AreDividedAlikeWhenOneIsRefinedAtAJoint) {
   for (const std::size_t element : {1, 3}) {
     auto plate = quarters();

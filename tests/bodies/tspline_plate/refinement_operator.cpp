@@ -83,8 +83,8 @@ bool nested(const TMesh& old, const TMesh& fresh) {
   }
 }
 
-// The rule that closure goes by, against the functions themselves, on meshes that are analysis-suitable but need not contain
-// the old one.
+// The rule that closure goes by, against the functions themselves, on meshes that are analysis-suitable but need not
+// contain the old one.
 TEST(RefinementOperator, ContainsTheOldFunctionsExactlyWhereNoExtensionBecameTooShort) {
   int contained = 0, not_contained = 0;
   for (unsigned seed = 1; seed <= 12; ++seed) {

@@ -43,7 +43,8 @@ std::unique_ptr<TsplinePlate> of_octants() {
   return plate;
 }
 
-// Two hemispheres, each closed by joining its meridians; round them splines through the circle at the ends of the elements.
+// Two hemispheres, each closed by joining its meridians; round them splines through the circle at the ends of the
+// elements.
 std::unique_ptr<TsplinePlate> of_halves(const std::string& elements = "8x3") {
   auto plate = shell();
   Patch north = part_of_sphere(0, 2 * M_PI, 0, M_PI / 2, elements),
@@ -78,7 +79,8 @@ TEST(Sphere, OfEightPatchesWidensEvenlyUnderPressure) {
     if (!modes.free(k))
       q += modes.of.eigenvectors().col(k).dot(f) / modes.of.eigenvalues()(k) * modes.of.eigenvectors().col(k);
   const double widening = 1e-5 * radius * radius * (1 - 0.3) / (2 * 1e6 * thickness);
-  // Between opposite points, as nothing holds the sphere at its place. Patches lie 2 apart in u, northern and southern by turns.
+  // Between opposite points, as nothing holds the sphere at its place. Patches lie 2 apart in u, northern and southern
+  // by turns.
   for (double u : {0.0, 0.3, 0.9, 4.4, 5.0})
     for (double v : {0.0, 0.4, 0.9, 1.0}) {
       const double across = (point_of(*plate, u, v, q) - point_of(*plate, u + 10, 1 - v, q)).norm();

@@ -1,5 +1,5 @@
-// Preloaded, it makes one allocation of a process fail, the TRAMMEL_TEST_ALLOCATION-th, and all later ones if TRAMMEL_TEST_FOR_GOOD is
-// set. Child processes go on counting. glibc's own functions stand behind it.
+// Preloaded, it makes one allocation of a process fail, the TRAMMEL_TEST_ALLOCATION-th, and all later ones if
+// TRAMMEL_TEST_FOR_GOOD is set. Child processes go on counting. glibc's own functions stand behind it.
 #include <unistd.h>
 
 #include <atomic>

@@ -1,4 +1,5 @@
-// A global's constructor rounds all numbers of the process upwards, flushes denormals to 0, and asks for another locale.
+// A global's constructor rounds all numbers of the process upwards, flushes denormals to 0, and asks for another
+// locale.
 #include <cfenv>
 #include <clocale>
 #if defined(__SSE2__)

@@ -1,5 +1,5 @@
-// A global's constructor crashes when the library is loaded once more: the file that the environment names says that it was before.
-// HOW is what it does then.
+// A global's constructor crashes when the library is loaded once more: the file that the environment names says that it
+// was before. HOW is what it does then.
 #include <unistd.h>
 
 #include <csignal>

@@ -1,4 +1,5 @@
-// A global's constructor starts a process that outlives this one. Its number goes to the file that the environment names.
+// A global's constructor starts a process that outlives this one. Its number goes to the file that the environment
+// names.
 #include <unistd.h>
 
 #include <cstdio>

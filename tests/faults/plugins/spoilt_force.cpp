@@ -1,4 +1,5 @@
-// A falling point mass whose force, from a given time on, is not a number, reads from address 0, overflows the stack, or aborts.
+// A falling point mass whose force, from a given time on, is not a number, reads from address 0, overflows the stack,
+// or aborts.
 #include <array>
 #include <cstdlib>
 #include <limits>

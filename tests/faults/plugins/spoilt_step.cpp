@@ -1,6 +1,6 @@
 // An integrator (semi-implicit Euler) whose step goes wrong after a number of steps: it throws, or throws what is no
-// std::exception, gives vectors of a wrong size or numbers that are not finite, rounds otherwise from then on, ends the program, or
-// reads from address 0.
+// std::exception, gives vectors of a wrong size or numbers that are not finite, rounds otherwise from then on, ends the
+// program, or reads from address 0.
 #include <unistd.h>
 
 #include <cfenv>

@@ -98,7 +98,8 @@ TEST(ContinuousForceOfThePaper, RealisesTheSameRestitutionForAnyExponent) {
 }
 
 TEST(ContinuousForceOfFlores, RealisesNearlyTheNominalRestitution) {
-  // The factor 8 (1 - e) / (5 e) comes from an approximate energy balance; its closed form is off by 0.0455 at most (e = 0.24).
+  // The factor 8 (1 - e) / (5 e) comes from an approximate energy balance; its closed form is off by 0.0455 at most (e
+  // = 0.24).
   for (double e : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0})
     EXPECT_NEAR(strike(*contact("flores", e)), e, 0.046) << "nominal " << e;
 }

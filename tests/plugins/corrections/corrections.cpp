@@ -255,7 +255,8 @@ TEST(EnergyCorrection, LeavesLinearAndAngularMomentumOfAFreeMastAloneFor10000Ste
   const Eigen::Vector3d start = mast.momentum(mast.simulator->state());
   ASSERT_GT(start(2), 0.1);
   for (int i = 0; i < 10000; ++i) mast.simulator->advance(*mast.recorder);
-  // Round-off of 1e4 steps, adding up like a random walk: 1e2 eps of speeds and masses of order 1, ten times that for luck.
+  // Round-off of 1e4 steps, adding up like a random walk: 1e2 eps of speeds and masses of order 1, ten times that for
+  // luck.
   EXPECT_LT((mast.momentum(mast.simulator->state()) - start).norm(), 2e-13);
   EXPECT_LT(std::abs(mast.simulator->energy_drift()), 1e-13);
 }

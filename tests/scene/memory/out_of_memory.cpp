@@ -1,4 +1,5 @@
-// The n-th allocation fails, for every n: a scene is read, or std::bad_alloc comes out; and what was made till then is freed.
+// The n-th allocation fails, for every n: a scene is read, or std::bad_alloc comes out; and what was made till then is
+// freed.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -49,7 +50,8 @@ void operator delete[](void* p, std::size_t) noexcept {
 namespace trammel::scene {
 namespace {
 
-// Texts longer than what a string holds in place, numbers, nothing, arrays, objects, parameters of both kinds, repeated units.
+// Texts longer than what a string holds in place, numbers, nothing, arrays, objects, parameters of both kinds, repeated
+// units.
 const std::string text = R"({"trammel": 1, "title": "a title that is longer than a short string",
   "parameters": {"n": 3, "length": "=2*pi*n", "name": "a parameter that is longer than a short string"},
   "bodies": {"bar_{i}_with_a_long_name": {"for": {"i": "=n"}, "type": "bar", "from": ["={i}*length", 0], "to": [1, 2.5],

@@ -93,8 +93,8 @@ TEST(BenchmarkTimoshenko, FirstCaseMeetsItsReference) {
   }
 }
 
-// The sphere and the odd modes sin(j pi x / L) of the simply supported beam, by fixed steps of Runge-Kutta: nothing in common
-// with the scene but the equations.
+// The sphere and the odd modes sin(j pi x / L) of the simply supported beam, by fixed steps of Runge-Kutta: nothing in
+// common with the scene but the equations.
 struct Touches {
   std::vector<double> close, open;
   double speed = 0;  // of the sphere at the end, away from the beam

@@ -66,8 +66,8 @@ TEST(BenchmarkA02, PassesItsSingularPositionsAtAnyTolerance) {
   }
 }
 
-// Round-off of the rows, over the square of the angle from a singular position, neither keeps Newton's iteration from its end nor steps
-// from being taken. B0 is off by order 1 m on another branch.
+// Round-off of the rows, over the square of the angle from a singular position, neither keeps Newton's iteration from
+// its end nor steps from being taken. B0 is off by order 1 m on another branch.
 TEST(BenchmarkA02, PassesItsSingularPositionsByNewmarksMethodsAtTightTolerances) {
   const auto data = reference("iftomm_a02_n_four_bar");
   const auto by_n = data["reference"]["by_N"]["2"]["t=10_B0_x_y_vx_vy"];
@@ -81,7 +81,7 @@ TEST(BenchmarkA02, PassesItsSingularPositionsByNewmarksMethodsAtTightTolerances)
     }
 }
 
-// In blocks of bodies, whose soft rows are told otherwise.
+// In blocks of bodies, where nearly dependent rows are detected in another way.
 TEST(BenchmarkA02, WithTenWindowsPassesItsSingularPositionsByGeneralizedAlpha) {
   const auto by_n = reference("iftomm_a02_n_four_bar")["reference"]["by_N"]["10"]["t=10_B0_x_y_vx_vy"];
   for (const std::string tolerance : {"1e-7", "1e-9"}) {
@@ -104,7 +104,8 @@ TEST(BenchmarkA02, PassesItsSingularPositionsInQuasiVelocities) {
   }
 }
 
-// Sweeps that change nothing but round-off across the rows have converged. Errors as above: the upright positions multiply them.
+// Sweeps that change nothing but round-off across the rows have converged. Errors as above: the upright positions
+// multiply them.
 TEST(BenchmarkA02, PassesItsSingularPositionsByExponentialCollocation) {
   const auto by_n = reference("iftomm_a02_n_four_bar")["reference"]["by_N"];
   const auto x = [&](const char* n) { return std::stod(by_n[n]["t=10_B0_x_y_vx_vy"][0].get<std::string>()); };
@@ -168,8 +169,8 @@ TEST(BenchmarkA04, ExplainNamesItsRedundantRow) {
             std::string::npos);
 }
 
-// Steps of 1e-3 s at rates omega up to 3.5 rad/s, in lengths of 1 m: the trapezoidal rule's (h omega)^2 / 12 for methods of
-// second order, (h omega)^4 for the others.
+// Steps of 1e-3 s at rates omega up to 3.5 rad/s, in lengths of 1 m: the trapezoidal rule's (h omega)^2 / 12 for
+// methods of second order, (h omega)^4 for the others.
 struct Expected {
   const char* method;
   double within;
@@ -234,7 +235,7 @@ class ContradictoryRows : public testing::TestWithParam<const char*> {
   }
 };
 
-// Two rods between the same points, one of which begins to grow at 0.5 s.
+// Two rods between the same points; one begins to grow at 0.5 s.
 TEST_P(ContradictoryRows, OfLengthsAreNamedWhereTheyPart) {
   const Finished run = this->run(R"({
     "trammel": 1, "gravity": [0, -9.81], "bodies": {"bob": {"type": "point_mass", "mass": 1, "position": [1, 0]}},
@@ -248,7 +249,8 @@ TEST_P(ContradictoryRows, OfLengthsAreNamedWhereTheyPart) {
   EXPECT_GE(run.series.at("t").back(), 0.4);
 }
 
-// Both drives hold at the start, with their first and second derivatives; the other mechanism has nothing to do with it.
+// Both drives hold at the start, with their first and second derivatives; the other mechanism has nothing to do with
+// it.
 TEST_P(ContradictoryRows, OfDrivesAreNamedWithoutTheInnocent) {
   const Finished run = this->run(R"({
     "trammel": 1, "bodies": {"bar": {"type": "rigid_body", "mass": 1, "inertia": 1},
@@ -263,7 +265,8 @@ TEST_P(ContradictoryRows, OfDrivesAreNamedWithoutTheInnocent) {
       << run.report.reason;
 }
 
-// A crank driven on where the rod is too short to follow: a method that only damps what is off would go on with open joints.
+// A crank driven on where the rod is too short to follow: a method that only damps what is off would go on with open
+// joints.
 TEST_P(ContradictoryRows, OfACrankBeyondItsReachAreNamed) {
   const Finished run = this->run(R"({
     "trammel": 1, "gravity": [0, 0], "parameters": {"h": 0.56},

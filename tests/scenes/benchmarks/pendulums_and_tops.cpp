@@ -56,7 +56,7 @@ TEST(BenchmarkHeavyTop, MeetsItsReferenceThroughTheDownwardVertical) {
 }
 
 // Every method: the same top from the same scene. Second order at these steps, 0.1 rad of spin each: phases of the
-// nutation are off by (0.1)^2 / 12 per radian of 150; 2e-3 m is what is left of it at 0.1 s.
+// nutation are off by (0.1)^2 / 12 per radian of 150; at 0.1 s this is 2e-3 m.
 class HeavyTop : public testing::TestWithParam<const char*> {};
 
 TEST_P(HeavyTop, KeepsItsQuaternionOfLengthOneWithoutAConstraint) {

@@ -4,8 +4,9 @@
 namespace trammel::test {
 namespace {
 
-// The beam's foreshortening is of second order, so its deflection is off by (v/L)^2 = 0.3 % of itself: the data's own note gives
-// such models one per cent. It is that model, not the step or the modes: 8 modes and 5e-4 s change v by 4e-5 m.
+// The beam's foreshortening is of second order, so its deflection is off by (v/L)^2 = 0.3 % of itself: the data's own
+// note gives such models one per cent. It is that model, not the step or the modes: 8 modes and 5e-4 s change v by 4e-5
+// m.
 TEST(BenchmarkSpinup, BendsAndStretchesAsItsReferenceDoes) {
   const auto data = reference("spinup_beam");
   const Finished run = run_benchmark("spinup_simo");
@@ -23,7 +24,8 @@ TEST(BenchmarkSpinup, BendsAndStretchesAsItsReferenceDoes) {
 }
 
 TEST(BenchmarkSpinup, WithoutForeshorteningTheBeamRunsAwayAndIsStopped) {
-  // The linear beam loses all stiffness at its first bending frequency, 3.516 sqrt(EI/(rho A L^4)) = 3.8 rad/s, reached at 9 s.
+  // The linear beam loses all stiffness at its first bending frequency, 3.516 sqrt(EI/(rho A L^4)) = 3.8 rad/s, reached
+  // at 9 s.
   const Finished run =
       run_file("benchmarks/spinup_simo.json", {{"bodies.beam.coupling", "linear"}, {"simulate.until", "10"}});
   ASSERT_FALSE(run.done());

@@ -156,8 +156,8 @@ TEST(OscillatorAgainstAWall, IsStruckInItsFirstSwingThoughAStepMayHoldManySwings
     }
 }
 
-// Pressed on the wall by a stretched spring, y'' = -y - 1 (y from the wall): each flight of speed u lasts 2 atan(u). At the
-// end of a step of a period and a bit the mass would be back above the wall, or rising below it.
+// Pressed on the wall by a stretched spring, y'' = -y - 1 (y from the wall): each flight of speed u lasts 2 atan(u). At
+// the end of a step of a period and a bit the mass would be back above the wall, or rising below it.
 TEST(ReboundWithinAStep, IsFoundHoweverFarTheFreeStepGoes) {
   for (const char* step : {"0.5", "2", "5.2", "6.2", "6.4", "7"}) {
     const Finished run =
@@ -176,8 +176,8 @@ TEST(ReboundWithinAStep, IsFoundHoweverFarTheFreeStepGoes) {
     while (t + 2 * std::atan(u) < 7) {
       t += 2 * std::atan(u);
       ASSERT_LT(n, impacts.size()) << step;
-      // One step a flight, of pi/2 at most: eighth order leaves d = 3e-6 of the first, whose rate, off by as much, moves all
-      // that follow by 2 d (0.8 + 0.64 + ...).
+      // One step a flight, of pi/2 at most: eighth order leaves d = 3e-6 of the first, whose rate, off by as much,
+      // moves all that follow by 2 d (0.8 + 0.64 + ...).
       EXPECT_NEAR(impacts[n].t, t, 9 * 3e-6) << step;
       u *= 0.8, ++n;
     }

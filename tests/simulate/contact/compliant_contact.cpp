@@ -94,8 +94,9 @@ TEST(CompliantContact, DissipatesWhatItsLedgerSays) {
   }
 }
 
-// Hysteresis damping is over the approach speed, so a contact that begins at rest has none: with next to no speed in its place
-// it would be a viscosity that makes a spring of 2 kHz a matter of nanoseconds, and fixed steps of 1e-4 s blow up.
+// Hysteresis damping is over the approach speed, so a contact that begins at rest has none: with next to no speed in
+// its place it would be a viscosity that makes a spring of 2 kHz a matter of nanoseconds, and fixed steps of 1e-4 s
+// blow up.
 TEST(CompliantContact, BegunAtRestKeepsItsEnergy) {
   for (const char* position : {"[0, 0]", "[0, -1e-4]", "[0, -4.5819e-4]"}) {
     const Finished run = run_text(linear_buffer, {{"gravity", "[0, -9.81]"},

@@ -44,8 +44,8 @@ TEST(TwoContacts, CloseTogetherAndShareTheWeight) {
 }
 
 TEST(TwoContacts, TheSecondImpactHoldsTheFirstContactDown) {
-  // Tilted by 0.1 rad the left end arrives first; hinged on it the bar falls flat with rate w. A blow on the right end of
-  // the free bar, p = w/4, would turn the left end down with w/2: it is pressed too, so both stay and nothing moves.
+  // Tilted by 0.1 rad the left end arrives first; hinged on it the bar falls flat with rate w. A blow on the right end
+  // of the free bar, p = w/4, would turn the left end down with w/2: it is pressed too, so both stay and nothing moves.
   const Finished run = run_text(bar, {{"bodies.bar.angle", "0.1"}});
   const std::vector<Event> closed = run.of_kind("contact_close"), impacts = run.of_kind("impact");
   ASSERT_TRUE(run.done()) << run.report.reason;
@@ -93,8 +93,9 @@ Overrides with(Overrides overrides, const Overrides& more) {
 }
 
 TEST(ThreeContacts, StayClosedAndPushWhereForcesOfMinimumNormWouldPull) {
-  // Weight 10 at 0 and a push of 90 at -0.5 have their resultant at -0.45: minimum norm pulls at one, two feet carry it. Of all
-  // that push, N = (l, m, r) with l + m + r = 100 and -0.5 l + 0.4 m + 0.5 r = -45, the least is m = 5/0.9, r = 0.
+  // Weight 10 at 0 and a push of 90 at -0.5 have their resultant at -0.45: minimum norm pulls at one, two feet carry
+  // it. Of all that push, N = (l, m, r) with l + m + r = 100 and -0.5 l + 0.4 m + 0.5 r = -45, the least is m = 5/0.9,
+  // r = 0.
   const Finished run = run_text(
       bar,
       with(third_foot, {{"forces.push", R"({"type": "load", "on": "bar.left", "force": {"x": 0, "y": "=-90*t"}})"},
@@ -110,8 +111,8 @@ TEST(ThreeContacts, StayClosedAndPushWhereForcesOfMinimumNormWouldPull) {
 }
 
 TEST(ThreeContacts, OpenWhenTheResultantLeavesTheirBase) {
-  // Pulled up by 10 t at the left end, 1 m from the right one, against the weight at 0.5 m: 10 t = 5 at 0.5 s. It then turns
-  // by (1/12 + cos^2/4) angle'' - sin cos angle'^2/4 = (10 t - 5) cos, here by Runge-Kutta steps of 1e-4 s.
+  // Pulled up by 10 t at the left end, 1 m from the right one, against the weight at 0.5 m: 10 t = 5 at 0.5 s. It then
+  // turns by (1/12 + cos^2/4) angle'' - sin cos angle'^2/4 = (10 t - 5) cos, here by Runge-Kutta steps of 1e-4 s.
   const Finished run = run_text(
       bar,
       with(third_foot, {{"forces.pull", R"({"type": "load", "on": "bar.left", "force": {"x": 0, "y": "=10*t"}})"}}));

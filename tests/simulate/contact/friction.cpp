@@ -1,5 +1,5 @@
-// Set-valued friction against closed forms: a block on an incline, on a shaken table, rods and rocking blocks, with rigid and
-// compliant contacts. Reference values: tests/data/free_standing.json, "unit_cases".
+// Set-valued friction against closed forms: a block on an incline, on a shaken table, rods and rocking blocks, with
+// rigid and compliant contacts. Reference values: tests/data/free_standing.json, "unit_cases".
 #include <cmath>
 #include <numbers>
 
@@ -105,7 +105,7 @@ TEST_P(EveryIntegrator, StopsTheBlockOnTheIncline) {
     ASSERT_TRUE(run.done()) << law << run.report.reason;
     ASSERT_EQ(run.of_kind("stick").size(), 1u) << law;
     EXPECT_NEAR(run.of_kind("stick")[0].t, number(row["time"]), 1e-9)
-        << law;  // polynomial motion: exact but for the iteration
+        << law;  // polynomial motion: exact up to the iteration
     EXPECT_NEAR(run.end("x"), number(row["distance"]), 1e-9) << law;
   }
 }
@@ -130,7 +130,7 @@ TEST(ShakenTable, MovesTheBlockInItsThreeRegimes) {
     const Finished run = shaken(row, rigid);
     ASSERT_TRUE(run.done()) << run.report.reason;
     for (int k = 1; k <= 8; ++k)
-      // Where sticking begins slowly (1.001 x the threshold) the slip speed is 1e-6 and tells its zero less sharply.
+      // Where sticking begins slowly (1.001 x the threshold) the slip speed is 1e-6 and its zero less sharp.
       EXPECT_NEAR(run.series.at("x")[k], number(row["rel_at_periods"][k - 1]), 1e-9) << row["label"];
     std::vector<Event> changes;
     for (const Event& event : run.events)
@@ -204,8 +204,8 @@ TEST(RockingBlock, FallsBackInHousnersTimeAndKeepsHisShareOfItsRate) {
 }
 
 TEST(RockingBlock, ComesToRestAfterImpactsWithoutEnd) {
-  // Each impact leaves 1 - 1.5 sin(alpha)^2 = 0.876 of the rate, so all are over in a finite time; what is left of the last ones
-  // is too little to follow.
+  // Each impact leaves 1 - 1.5 sin(alpha)^2 = 0.876 of the rate, so all end in a finite time; the remainder of the last
+  // ones is too little to follow.
   const Finished run = run_text(rocking(0.3, 1, 0.02, 2), {{"simulate.until", "5"}, {"record.every", "0.1"}});
   ASSERT_TRUE(run.done()) << run.report.reason;
   EXPECT_GT(run.of_kind("impact").size(), 20u);
@@ -228,8 +228,8 @@ TEST(RigidBlockOnTwoFeet, SticksWithADeterminedSumAndEqualShares) {
 }
 
 TEST(RigidBlockOnTwoFeet, SticksThoughAFootsShareOfMinimumNormIsOutOfItsBound) {
-  // A pull down at the right foot's side leaves the left one 0.2 N: its share of the 3 N is far over 0.6 N_left, but the right
-  // foot holds all. Of the sum 0.6 (0.2 + N_right) only what exceeds it moves the block.
+  // A pull down at the right foot's side leaves the left one 0.2 N: its share of the 3 N is far over 0.6 N_left, but
+  // the right foot holds all. Of the sum 0.6 (0.2 + N_right) only what exceeds it moves the block.
   const Finished run =
       run_text(rocking(0.25, 1, 0, 0.6),
                {{"forces.pull", R"({"type": "load", "on": "block.left", "force": {"x": 3, "y": 4.705}})"},

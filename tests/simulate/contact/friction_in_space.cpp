@@ -1,5 +1,5 @@
-// Coulomb's friction in space, |T| <= mu_0 N a cone, against closed forms: paths on an incline, a ball that slides until it
-// rolls, a turntable, tables on several feet. With rigid and compliant contacts.
+// Coulomb's friction in space, |T| <= mu_0 N a cone, against closed forms: paths on an incline, a ball that slides
+// until it rolls, a turntable, tables on several feet. With rigid and compliant contacts.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -44,8 +44,9 @@ std::string scene(const Point& p) {
                      p.law, p.mu_0, p.mu, p.more_friction, p.integrator);
 }
 
-// A point that slides on an incline: with phi the angle of its velocity against the slope's direction and w = tan(phi/2),
-// k = mu/tan(alpha), the equations v' = g (sin(alpha) cos(phi) - mu cos(alpha)), v phi' = -g sin(alpha) sin(phi) give
+// A point that slides on an incline: with phi the angle of its velocity against the slope's direction and w =
+// tan(phi/2), k = mu/tan(alpha), the equations v' = g (sin(alpha) cos(phi) - mu cos(alpha)), v phi' = -g sin(alpha)
+// sin(phi) give
 //     v = C/2 w^(k-1) (1 + w^2),  dt = -C/(2 g sin(alpha)) w^(k-2) (1 + w^2) dw.
 struct Descent {
   double alpha, mu, v0;  // launched across, phi = pi/2
@@ -82,8 +83,8 @@ TEST_P(OnTheIncline, APointLaunchedAcrossFollowsTheCurvedPath) {
   }
 }
 
-// With more friction than slope it stops, its last direction downhill. Near the stop phi falls like |v|^(1/(k-1)): at k = 4 a
-// cube root, which no method follows with its full order.
+// With more friction than slope it stops, its last direction downhill. Near the stop phi falls like |v|^(1/(k-1)): at k
+// = 4 a cube root, which no method follows with its full order.
 TEST_P(OnTheIncline, APointLaunchedAcrossStopsAtTheClosedFormsTimeAndPlace) {
   for (const auto& [k, error] : {std::pair{1.4, 1e-9}, std::pair{2.0, 1e-9}, std::pair{4.0, 1e-8}}) {
     const double alpha = 10 * pi / 180, mu = k * std::tan(alpha);
@@ -147,8 +148,9 @@ TEST_P(OnTheIncline, ADipThatHasNoDirectionIsTakenThroughRest) {
 INSTANTIATE_TEST_SUITE_P(Contacts, OnTheIncline, testing::Values(rigid, compliant),
                          [](const auto& law) { return law.param == rigid ? "rigid" : "compliant"; });
 
-// A ball of 1 kg and radius R on the floor, slipping with s0 = v0 + omega x (-R e_z): its slip keeps its direction and falls
-// at 7/2 mu g, so after T = 2 |s0|/(7 mu g) it rolls with v0 - 2/7 s0; until then its centre runs along a parabola.
+// A ball of 1 kg and radius R on the floor, slipping with s0 = v0 + omega x (-R e_z): its slip keeps its direction and
+// falls at 7/2 mu g, so after T = 2 |s0|/(7 mu g) it rolls with v0 - 2/7 s0; until then its centre runs along a
+// parabola.
 class Ball : public testing::TestWithParam<std::tuple<const char*, std::string>> {
  protected:
   static constexpr double R = 0.1, mu = 0.2;
@@ -182,8 +184,8 @@ TEST_P(Ball, SlidesOnAParabolaUntilItRolls) {
       "[20, 30, 5]"));
   ASSERT_TRUE(run.done()) << run.report.reason;
   ASSERT_EQ(run.of_kind("stick").size(), 1u);
-  // With fixed steps the last slip that a tenth of a step takes away counts as rest. Those of second order turn the ball, by
-  // 0.036 rad a step, with an error of its square over 12.
+  // With fixed steps the last slip that a tenth of a step takes away counts as rest. Those of second order turn the
+  // ball, by 0.036 rad a step, with an error of its square over 12.
   const bool second = std::string(integrator) == "hht_alpha" || std::string(integrator) == "newmark" ||
                       std::string(integrator) == "generalized_alpha";
   const double error = controlled ? 1e-10 : second ? 1e-4 : 1e-7;
@@ -210,7 +212,8 @@ TEST_P(Ball, RollsInCirclesOnATurntable) {
       {{"contacts.foot.friction.static", "1"}});
   ASSERT_TRUE(run.done()) << run.report.reason;
   EXPECT_EQ(run.of_kind("slip").size(), 0u);
-  // Of second order or more: (omega_ball h)^2 = 1e-4 of the turn within a step, which the ball's symmetry makes harmless.
+  // Of second order or more: (omega_ball h)^2 = 1e-4 of the turn within a step, which the ball's symmetry makes
+  // harmless.
   const double error = controlled ? 1e-8 : 2e-5;
   EXPECT_NEAR(run.end("x"), radius * std::sin(omega), error);
   EXPECT_NEAR(run.end("y"), radius * (1 - std::cos(omega)), error);
@@ -227,8 +230,8 @@ INSTANTIATE_TEST_SUITE_P(All, Ball,
                                   (std::get<1>(of.param) == rigid ? "_rigid" : "_compliant");
                          });
 
-// A point at r on a table whose angle is alpha t^2/2: it lets go where r sqrt(alpha^2 + alpha^4 t^4) = mu_0 g, and slides
-// against the acceleration it had, (alpha^2 t^2, -alpha) of r in the table's radial and circular directions.
+// A point at r on a table whose angle is alpha t^2/2: it lets go where r sqrt(alpha^2 + alpha^4 t^4) = mu_0 g, and
+// slides against the acceleration it had, (alpha^2 t^2, -alpha) of r in the table's radial and circular directions.
 TEST(Turntable, LetsGoAtItsInstantInItsDirection) {
   const double r = 0.5, alpha = 3, mu_0 = 0.5;
   const double t = std::pow((std::pow(mu_0 * g / r, 2) - alpha * alpha) / std::pow(alpha, 4), 0.25);
@@ -285,7 +288,8 @@ TEST(Table, SlidesAndStopsAsAPointDoesWithoutTurning) {
     EXPECT_NEAR(run.end("x"), 0.8 * 1.5 * 1.5 / (2 * 0.3 * g), 1e-10);
     EXPECT_NEAR(run.end("y"), 0.6 * 1.5 * 1.5 / (2 * 0.3 * g), 1e-10);
     EXPECT_NEAR(run.end("spin"), 0, 1e-10);
-    // Sliding without turning is unstable: the last of it turns by round-off, which the ledger's Simpson rule follows less well.
+    // Sliding without turning is unstable: the last of it turns by round-off, which the ledger's Simpson rule follows
+    // less well.
     EXPECT_NEAR(run.result["energy_dissipated"]["friction_total"], 0.5 * 2 * 1.5 * 1.5, 1e-7);
   }
 }
@@ -322,7 +326,8 @@ TEST(Table, ThatSlidesAndSpinsEndsOnOneFoot) {
   EXPECT_NEAR(other.end("x"), run.end("x"), 1e-7);
   EXPECT_NEAR(run.result["energy_dissipated"]["friction_total"], 0.5 * 2 * 1.09 + 0.5 * 0.08 * 36,
               3e-4);  // by Simpson's rule
-  // What fixed steps miss of a slip that turns while it ends depends on where they fall: 4e-7 to 1.1e-5 J for steps of 2.5e-5 to 4e-4 s.
+  // What fixed steps miss of a slip that turns while it ends depends on where they fall: 4e-7 to 1.1e-5 J for steps of
+  // 2.5e-5 to 4e-4 s.
   EXPECT_NEAR(other.result["energy_dissipated"]["friction_total"], 0.5 * 2 * 1.09 + 0.5 * 0.08 * 36, 2e-5);
 }
 
@@ -371,8 +376,8 @@ TEST(EveryStep, StopsThePointOnTheInclineInSpaceToo) {
   EXPECT_NEAR(run.end("y"), d.y(0), 1e-6);
 }
 
-// The same block as in the plane, its plane at any angle about the normal: bitwise the same is not to be had, the same to
-// round-off is.
+// The same block as in the plane, its plane at any angle about the normal: bitwise the same is not to be had, the same
+// to round-off is.
 TEST(InThePlaneAndInSpace, AShakenBlockDoesTheSame) {
   const auto in_space = [&](double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
@@ -447,8 +452,8 @@ void expect_trusted_and_quick(const Finished& run) {
   EXPECT_LT(run.result["counts"]["steps"], 20000);
 }
 
-// Friction couples both motions so that they end at one instant (Farkas et al., Phys. Rev. Lett. 90, 248302 (2003)), unless it turns
-// about one foot in the end, or one foot is passed by the centre of its turn.
+// Friction couples both motions so that they end at one instant (Farkas et al., Phys. Rev. Lett. 90, 248302 (2003)),
+// unless it turns about one foot in the end, or one foot is passed by the centre of its turn.
 TEST(SlidingBlock, ComesToRestOnAllFeetButOneAtOnce) {
   std::mt19937 random(27);
   const auto u = [&random](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
@@ -476,8 +481,8 @@ TEST(SlidingBlock, ComesToRestOnAllFeetButOneAtOnce) {
   }
 }
 
-// Of two feet left of a block that tips the first that stops leaves the other one way to slip, across its former direction, and
-// friction without a direction holds it there.
+// Of two feet left of a block that tips the first that stops leaves the other one way to slip, across its former
+// direction, and friction without a direction holds it there.
 TEST(SlidingBlock, ThatTipsSticksOnBothFeetOfItsEdge) {
   SlidingBlock b{0.20913593732469815, 1, -1.740548519981664};
   b.L = {0.80959400472623296, 1.6105185531375256, 0.9606665440362001};
@@ -490,8 +495,8 @@ TEST(SlidingBlock, ThatTipsSticksOnBothFeetOfItsEdge) {
   expect_trusted_and_quick(run_text(scene(b).dump()));
 }
 
-// A block that tips over an edge while it spins: the slips of its two feet turn until their forces, 1/sqrt of the time that is left,
-// grow beyond all bounds. There it stops in an impact without collision, and goes on.
+// A block that tips over an edge while it spins: the slips of its two feet turn until their forces, 1/sqrt of the time
+// that is left, grow beyond all bounds. There it stops in an impact without collision, and goes on.
 TEST(SlidingBlock, PassesPainlevesCriticalStateInAnImpactWithoutCollision) {
   SlidingBlock b{61.74530821382734, 3, -0.5193688397786898};
   b.L = {1.769179049572956, 0.2313661736663839, 0.37414534188668492};
@@ -513,7 +518,8 @@ TEST(SlidingBlock, PassesPainlevesCriticalStateInAnImpactWithoutCollision) {
   }
 }
 
-// A point thrown obliquely: it strikes, rebounds where e > 0, slides and stops; in the plane, or in space 30 degrees off x.
+// A point thrown obliquely: it strikes, rebounds where e > 0, slides and stops; in the plane, or in space 30 degrees
+// off x.
 std::string thrown(bool in_space, const std::string& contact) {
   const double c = std::cos(pi / 6), s = std::sin(pi / 6);
   return fmt::format(

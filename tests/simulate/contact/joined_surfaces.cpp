@@ -1,4 +1,4 @@
-// Contact, stresses and refinement of plates of several patches: nothing tells that there is a joint.
+// Contact, stresses and refinement of plates of several patches: a joint has no effect.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ const std::string right_half =
     R"({"geometry": {"origin": [0.5, 0, 0], "along_u": [0.5, 0, 0], "along_v": [0, 1, 0]}, "mesh": {"elements": "2x4"},
         "edges": {"u1": "clamped", "v0": "clamped", "v1": "hinged"}, "markers": {"middle": [0, 0.5, 0.01]}})";
 
-// The same plate with its right half told in three ways.
+// The same plate with its right half described in three ways.
 struct Joint {
   std::string name, surface;
 };

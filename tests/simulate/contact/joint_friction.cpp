@@ -96,7 +96,7 @@ TEST_P(OnEveryIntegrator, TheDrawerStopsInTheSameTime) {
   ASSERT_TRUE(run.done()) << run.report.reason;
   const double until = d.v / (0.5 * d.F / d.mass);
   ASSERT_EQ(run.of_kind("stick").size(), 1u);
-  EXPECT_NEAR(run.of_kind("stick")[0].t, until, 1e-9);  // polynomial motion: exact but for the iteration
+  EXPECT_NEAR(run.of_kind("stick")[0].t, until, 1e-9);  // polynomial motion: exact up to the iteration
   EXPECT_NEAR(run.end("x"), d.v * until / 2, 1e-9);
 }
 
@@ -166,7 +166,8 @@ TEST(StickSlip, OfAGuideIsTheClosedFormOfABlockOnABelt) {
 
 // --- journals
 
-// A wheel of 3 kg on a journal of radius r, loaded by the force W at the distance d beside its axis, and driven by a moment.
+// A wheel of 3 kg on a journal of radius r, loaded by the force W at the distance d beside its axis, and driven by a
+// moment.
 std::string wheel(double r, double mu, double W, double d, double spin, double moment = 0,
                   const std::string& integrator = exact) {
   return fmt::format(R"({{
@@ -229,7 +230,8 @@ std::string pendulum(double angle, double until, const std::string& integrator =
                      until, until / 10);
 }
 
-// angle'' of that pendulum while it turns the way `sign` says: (J + l^2) angle'' = -g l sin - sign mu r |R|, R with angle''.
+// angle'' of that pendulum while it turns the way `sign` says: (J + l^2) angle'' = -g l sin - sign mu r |R|, R with
+// angle''.
 double angular_acceleration(double angle, double rate, double sign) {
   double alpha = 0;
   for (int i = 0; i < 200; ++i) {

@@ -121,7 +121,7 @@ TEST(RowLimit, TakesACompliantLawToo) {
       points(at_distance("continuous_force", R"(, "stiffness": 1e6, "exponent": 1, "damping": "none")", 1, "above")),
       {{"integrator", R"({"type": "runge_kutta_4", "step": 1e-4})"}, {"simulate.until", "1.1"}});
   ASSERT_TRUE(run.done()) << run.report.reason;
-  EXPECT_NEAR(run.end("v_left"), -1, 2e-6);  // elastic, but for the method over 27 steps of contact
+  EXPECT_NEAR(run.end("v_left"), -1, 2e-6);  // elastic, up to the method's error in 27 steps of contact
   EXPECT_NEAR(run.end("v_right"), 1, 2e-6);
 }
 

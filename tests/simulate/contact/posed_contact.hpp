@@ -1,4 +1,5 @@
-// A scene with its first contacts closed, at a state off its start: forces there, and how well the tangent tells their change.
+// A scene with its first contacts closed, at another state than its start: forces there, and the tangent against their
+// change.
 #pragma once
 
 #include <cmath>

@@ -88,9 +88,9 @@ TEST(BarOnThreeSupports, LeavesNoGapBehindItWhereAnOuterOneMoves) {
   }
 }
 
-// Two cards lean on each other at one point and carry a roof there: three contacts of which each pair holds what the third does. The
-// feet slip, the cards turn, and how the normal of one follows from the others turns with them.
-// Two cards of mass 1 and length 1 that lean against each other, a roof on their tips; `push` along x at their centres.
+// Two cards lean on each other at one point and carry a roof there: three contacts, of which each pair implies the
+// third. The feet slip, the cards turn, and how the normal of one follows from the others turns with them. Two cards of
+// mass 1 and length 1 that lean against each other, a roof on their tips; `push` along x at their centres.
 struct Cards {
   double angle = 1.3, mu = 0.1, roof = 5, roof_inertia = 1, push_l = 0, push_r = 0, until = 0.24;
   double turned() const { return angle - std::numbers::pi; }  // (-1, 0) in the axes of the right card
@@ -161,8 +161,9 @@ TEST(CardsUnderARoof, HaveForcesThatAccelerateThem) {
   expect_forces_to_accelerate(run, cards);
 }
 
-// Where the roof slides over both tips its two forces are parallel. Moved from one tip to the other, and back between the tips, they
-// change what sticks there and no motion: springs' share may leave the cone there, and another one does not.
+// Where the roof slides over both tips its two forces are parallel. Moved from one tip to the other, and back between
+// the tips, they change what sticks there and no motion: springs' share may leave the cone there, and another one does
+// not.
 TEST(CardsUnderARoof, StayInTheirConesWhereTheRoofSlides) {
   std::vector<Cards> houses = {
       {1.1193117950742884, 0.1, 3.1705766252473397, 0.5971252644215822, -0.5660261175337253},

@@ -62,8 +62,8 @@ TEST(SurfaceContact, FrictionSlowsASlidingBallByMuG) {
   const auto &t = run.series.at("t"), &v = run.series.at("vx"), &force = run.series.at("force");
   double impulse = 0;  // trapezoidal, of the recorded force
   for (std::size_t i = 1; i < t.size(); ++i) impulse += (t[i] - t[i - 1]) * (force[i] + force[i - 1]) / 2;
-  // Undamped: damping presses more on the points in front than behind, which slows it too. The normals of the points are
-  // tilted by some per cent, and their tangents with them.
+  // Undamped: damping presses more on the points in front than behind, which slows it too. The normals of the points
+  // are tilted by some per cent, and their tangents with them.
   EXPECT_NEAR(3 * (1 - v.back()) / (0.2 * impulse), 1, 0.02);
 }
 

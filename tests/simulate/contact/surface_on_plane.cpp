@@ -1,4 +1,5 @@
-// A whole sheet against a plane: closed forms of a sheet at rest, sliding and bouncing, the exact tangent, what is refused.
+// A whole sheet against a plane: closed forms of a sheet at rest, sliding and bouncing, the exact tangent, what is
+// refused.
 #include <gmock/gmock.h>
 
 #include "posed_contact.hpp"

@@ -55,7 +55,8 @@ TEST(SurfaceOnSurface, FrictionlessForcesHaveNoMoment) {
   EXPECT_LT(std::abs(f.dot(posed.v)), 1e-12 * f.norm() * posed.v.norm());
 }
 
-// Two equal sheets, face to face: elastic they swap their velocities after half a period of the reduced mass on the spring.
+// Two equal sheets, face to face: elastic they swap their velocities after half a period of the reduced mass on the
+// spring.
 TEST(SurfaceOnSurface, EqualSheetsSwapTheirVelocities) {
   const Finished run = run_text(sheets(R"("lower": )" + sheet("[0, 0, 0]") + R"(, "upper": )" +
                                            sheet("[0, 0, 0.02]", R"(, "velocity": [0, 0, -0.1])"),

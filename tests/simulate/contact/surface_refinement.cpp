@@ -114,7 +114,8 @@ Finished strike(const std::string& lower, const std::string& upper, double until
       {{"integrator.step", "5e-4"}, {"record.every", "1e-3"}});
 }
 
-// The lower sheet learns of the pressure though the upper one's points are asked; a third of it lies under the upper one.
+// The lower sheet learns of the pressure though the upper one's points are asked; a third of it lies under the upper
+// one.
 TEST(ContactPressure, IsToldToBothOfTwoSurfaces) {
   const std::string refine = R"(, "refine": {"indicator": "contact_pressure", "threshold": 1e3})";
   const Finished run =

@@ -12,7 +12,8 @@ namespace {
 
 using testing::HasSubstr;
 
-// Kane's paradox: a rod of mass 2 and inertia 1/6 strikes with its end, at 1 rad, 0.5 m/s along and 1 m/s down. Issue 27's scene.
+// Kane's paradox: a rod of mass 2 and inertia 1/6 strikes with its end, at 1 rad, 0.5 m/s along and 1 m/s down. Issue
+// 27's scene.
 const std::string rod = R"({
   "trammel": 1, "space": "planar", "gravity": [0, 0],
   "bodies": {"rod": {"type": "rigid_body", "mass": 2, "inertia": "=1/6", "position": [0, "=0.5*sin(1)+1e-4"], "angle": 1,

@@ -1,4 +1,5 @@
-// Joints that rub, where something happens at an instant: blows on their bodies, loads that pass through 0, joints that lock themselves.
+// Joints that rub, where something happens at an instant: blows on their bodies, loads that pass through 0, joints that
+// lock themselves.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -107,7 +108,8 @@ TEST(ABlowAlongAGuide, NeverGainsEnergyWhateverTheLaw) {
     const Finished run = run_blow(blow);
     ASSERT_TRUE(run.done()) << i << ": " << run.report.reason;
     EXPECT_GE(run.result["energy_dissipated"]["joint_friction"]["guide"], 0) << i;
-    // Newton's law judges friction by the slip at the end alone; where the blow turns the slip its share may be negative.
+    // Newton's law judges friction by the slip at the end alone; where the blow turns the slip its share may be
+    // negative.
     if (i % 3 != 0) {
       EXPECT_GE(run.result["energy_dissipated"]["impact"]["joints.guide"], -round_off) << i;
     }
@@ -137,7 +139,8 @@ TEST(ABlowOnAJournal, BrakesTheRotorByItsFrictionCircle) {
 
 // --- loads that pass through 0
 
-// A block of 2 kg is pulled along its guide with f, pressed across it with c (t - 0.503): where that is less than f/mu it slips.
+// A block of 2 kg is pulled along its guide with f, pressed across it with c (t - 0.503): where that is less than f/mu
+// it slips.
 std::string relieved(double f, double c, double mu, const std::string& integrator) {
   return fmt::format(R"({{
     "trammel": 1, "gravity": [0, 0],
@@ -176,9 +179,9 @@ TEST(ALoadThatPassesThroughZero, ResumesToTheSameBits) {
 
 // --- joints that lock themselves as they slide
 
-// A drawer of 2 kg, its centre of mass d beside its guide of length L, pulled along it at the distance h: friction holds the drawer
-// back beside its centre, which loads the guide by kappa = 2 mu d / L times itself. With kappa > 1 and a pull that turns the
-// same way there are no finite forces.
+// A drawer of 2 kg, its centre of mass d beside its guide of length L, pulled along it at the distance h: friction
+// holds the drawer back beside its centre, which loads the guide by kappa = 2 mu d / L times itself. With kappa > 1 and
+// a pull that turns the same way there are no finite forces.
 std::string leaning(const std::string& pull, const std::string& integrator, double d = 0.6) {
   return fmt::format(R"({{
     "trammel": 1, "gravity": [0, 0],

@@ -6,8 +6,8 @@
 namespace trammel::test {
 namespace {
 
-// Of the kinetic energy before. Steps are followed to 2e-13 and events to 1e-13 of the largest rate (spring_impact.hpp); an impact of
-// 1,000 phases between bodies of ratios 1e4 leaves ten times as much.
+// Of the kinetic energy before. Steps are followed to 2e-13 and events to 1e-13 of the largest rate
+// (spring_impact.hpp); an impact of 1,000 phases between bodies of ratios 1e4 leaves ten times as much.
 constexpr double round_off = 1e-11;
 
 struct Books {
@@ -83,7 +83,8 @@ TEST(EnergeticLaw, GivesBackOfEachContactsCompressionThePartThatItAsks) {
   EXPECT_GT(judged, 350);
 }
 
-// Without friction the normal's work is the change of energy, by Newton's u+ = -e u-; and e^2 of compression comes back.
+// Without friction the normal's work is the change of energy, by Newton's u+ = -e u-; and e^2 of compression comes
+// back.
 TEST(EnergeticLaw, IsNewtonsLawOfOneContactWithoutFriction) {
   std::mt19937 random(3);
   for (int i = 0; i < 200; ++i) {

@@ -2,8 +2,8 @@
 //
 //     M x'' = -K (x - X),   M, K of linear elements with consistent mass;  x_i [m] node positions, X_i unstressed ones
 //
-// Linear elements nest: the middle of an element lies on the straight line between its nodes, so the transfer changes neither
-// the shape nor the velocity field, and mass, momentum and energies stay to round-off.
+// Linear elements nest: the middle of an element lies on the straight line between its nodes, so the transfer changes
+// neither the shape nor the velocity field, and mass, momentum and energies stay to round-off.
 #include <array>
 #include <limits>
 

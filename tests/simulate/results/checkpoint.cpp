@@ -1,6 +1,7 @@
 // A run that is cut and resumed gives the bytes of one that was not.
 //
-// The program's side of it, signals and files, is in tests/cli/interruption.cpp; here runs are cut after exact numbers of steps.
+// The program's side of it, signals and files, is in tests/cli/interruption.cpp; here runs are cut after exact numbers
+// of steps.
 #include <atomic>
 #include <cmath>
 
@@ -61,8 +62,9 @@ TEST(ResumedRun, InsideACompliantContactEndsWithTheSameBytes) {
   EXPECT_TRUE(pieces.events == whole.events);
 }
 
-// A block that rocks on two feet, each a body of its own: one contact opens as the other closes, as many rows in another pattern.
-// The chain on it makes the bodies many, whose rows are eliminated in an order found from their pattern.
+// A block that rocks on two feet, each a body of its own: one contact opens as the other closes, as many rows in
+// another pattern. The chain on it makes the bodies many, whose rows are eliminated in an order found from their
+// pattern.
 nlohmann::json rocking_block_with_a_chain() {
   using nlohmann::json;
   constexpr double b = 0.1, h = 0.5, link = 0.03, tilt = -0.0987, foot = 0.05;

@@ -1,5 +1,5 @@
-// Checkpoints that no run has written, with checksums that fit: whatever is missing, of another type or of another length is
-// refused as bad input before anything is read beyond its end.
+// Checkpoints that no run has written, with checksums that fit: whatever is missing, of another type or of another
+// length is refused as bad input before anything is read beyond its end.
 #include <functional>
 #include <string>
 #include <vector>
@@ -29,7 +29,7 @@ class ForgedCheckpoint : public testing::TestWithParam<Method> {
   std::filesystem::path file() const { return folder.path() / simulate::newest_checkpoint; }
   std::uint64_t hash() const { return simulate::resume_hash(scene("0.7").root()); }
 
-  // What a user is told of the forged checkpoint; "accepted" if it is taken for one.
+  // The message for the forged checkpoint; "accepted" if it is not refused.
   std::string refusal(const json& forged) {
     simulate::write_checkpoint(file(), hash(), forged);
     std::filesystem::remove(folder.path() / simulate::checkpoint_before);

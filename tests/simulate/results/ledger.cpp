@@ -30,12 +30,14 @@ TEST(EnergyLedger, GivesADamperWhatItTook) {
   EXPECT_NEAR(drift(run), 0, 1e-11);
 }
 
-// E(t) = E(0) + supplied(t) - dissipated(t) at each record: of fixed steps at their ends, of controlled ones within them.
+// E(t) = E(0) + supplied(t) - dissipated(t) at each record: of fixed steps at their ends, of controlled ones within
+// them.
 TEST(EnergyLedger, ClosesAtEveryRecordOfTheSeries) {
   const char* spring_and_push = R"json({
     "spring": {"type": "spring_damper", "between": ["ground", "mass.point"], "stiffness": 40, "damping": 0.6, "length": 1},
     "push": {"type": "load", "on": "mass.point", "force": {"x": "=3*cos(5*t)"}}})json";
-  // The cubic within a step errs by h^4/384 of the work's fourth derivative: P omega^3 = 6 W (11 rad/s)^3, so 2e-7 J at 0.01 s.
+  // The cubic within a step errs by h^4/384 of the work's fourth derivative: P omega^3 = 6 W (11 rad/s)^3, so 2e-7 J at
+  // 0.01 s.
   const std::pair<const char*, double> methods[] = {
       {R"({"type": "runge_kutta_4", "step": 1e-3})", 1e-9},  // Simpson and RK4: (omega h)^4
       {R"({"type": "dormand_prince", "step": {"tolerance": 1e-9, "max": 0.01}})", 3e-7},

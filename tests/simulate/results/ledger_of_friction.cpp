@@ -1,5 +1,5 @@
-// Friction in the ledger: closed to the method's error over contacts that slide, turn, open and close, whatever the power of friction is
-// at the ends of steps.
+// Friction in the ledger: closed to the method's error over contacts that slide, turn, open and close, whatever the
+// power of friction is at the ends of steps.
 #include <cmath>
 #include <random>
 
@@ -103,7 +103,7 @@ TEST(LedgerOfFriction, ClosesOverBlocksThatAreLiftedAsTheySlide) {
   }
 }
 
-// Fixed steps of fourth order: what is left falls with h^4, not with the h^2 of a mean multiplier.
+// Fixed steps of fourth order: the remainder falls with h^4, not with the h^2 of a mean multiplier.
 TEST(LedgerOfFriction, IsOfTheMethodsOrderWhereAContactSlides) {
   const auto left = [](const char* step) {
     std::mt19937 random(3);
@@ -119,7 +119,8 @@ TEST(LedgerOfFriction, IsOfTheMethodsOrderWhereAContactSlides) {
 
 // From one turn of a slip to the next in a single long step: no power at either end, all of the loss between.
 TEST(LedgerOfFriction, GivesWhatASlipLosesBetweenItsTurns) {
-  // 1 kg on a spring of 100 N/m from x = 1, mu N = 5 N: each half swing loses 5 N times its way, 2 (1 - (2 k + 1) 0.05).
+  // 1 kg on a spring of 100 N/m from x = 1, mu N = 5 N: each half swing loses 5 N times its way, 2 (1 - (2 k + 1)
+  // 0.05).
   const Finished run = run_text(R"({"trammel": 1, "space": "planar", "gravity": [0, -10],
     "bodies": {"block": {"type": "point_mass", "mass": 1, "position": [1, 0]}},
     "forces": {"spring": {"type": "spring_damper", "between": ["ground", "block.point"], "stiffness": 100, "length": 0}},

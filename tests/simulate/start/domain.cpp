@@ -1,5 +1,5 @@
-// States outside of a component's domain (OutsideDomain): the scene is told at the start, with the component's line, and during a
-// run its time; a step that only tries such a state is taken shorter. The plugin is never blamed.
+// States outside of a component's domain (OutsideDomain): an error of the scene at the start, with the component's
+// line, and during a run its time; a step that only tries such a state is taken shorter. The plugin is never blamed.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -94,8 +94,8 @@ TEST(OutsideDuringTheRun, EndsItWithComponentAndTime) {
 }
 
 TEST(OutsideDuringTheRun, IsPassedByShorterStepsWhereOnlyATrialWentThere) {
-  // Arms of 1 m and 0.6 m that 18 J fold, less than the 5 pi^2/2 J of folding them flat: the end turns back before e = 0.4 m, but
-  // long steps at 6 m/s try states beyond.
+  // Arms of 1 m and 0.6 m that 18 J fold, less than the 5 pi^2/2 J of folding them flat: the end turns back before e =
+  // 0.4 m, but long steps at 6 m/s try states beyond.
   const Outside arms = {
       "", "planar",
       R"("bodies": {"b": {"type": "point_mass", "mass": 1, "position": [1.5, 0], "velocity": [-6, 0]}})"

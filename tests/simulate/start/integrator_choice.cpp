@@ -50,7 +50,8 @@ TEST(IntegratorChoice, IsDop853AsARule) {
   EXPECT_EQ(choice(run_text(spring_pendulum(100, R"("integrator": {"type": "runge_kutta_4", "step": 1e-2},)"))), "");
 }
 
-// A massless upper rod turns with the lower one's end: the ratio no longer plays a part, and the solution tends to that of 1e6.
+// A massless upper rod turns with the lower one's end: the ratio no longer plays a part, and the solution tends to that
+// of 1e6.
 TEST(IntegratorChoice, PutsRowsOnTheirPlaceWhereLightBodiesHoldHeavyOnes) {
   for (const double ratio : {1e8, 1e10, 1e12, 1e14}) {
     const Finished run = run_text(double_pendulum(1, ratio));
@@ -58,7 +59,8 @@ TEST(IntegratorChoice, PutsRowsOnTheirPlaceWhereLightBodiesHoldHeavyOnes) {
     EXPECT_THAT(choice(run), AllOf(StartsWith("dop853 with projected rows, tolerance 1e-09: "),
                                    HasSubstr(fmt::format("a mass ratio of {:.3g}", ratio))));
     EXPECT_LT(run.result["counts"]["steps"], 1000);
-    // At rest from the horizontal only the lower rod's end of 1e-8 of the mass differs; both fall as one chain of known start.
+    // At rest from the horizontal only the lower rod's end of 1e-8 of the mass differs; both fall as one chain of known
+    // start.
     const Finished other =
         run_text(double_pendulum(1, ratio), {{"integrator", R"({"type": "hht_alpha", "alpha": 0, "step": 1e-4})"}});
     ASSERT_TRUE(other.done()) << other.report.reason;
