@@ -1,0 +1,13 @@
+# cmake -D BUILD=... -P: every name in names.txt is that of a test.
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/names.txt names)
+execute_process(COMMAND ${CMAKE_CTEST_COMMAND} --test-dir ${BUILD} -N -L "^slow$" OUTPUT_VARIABLE known)
+foreach(name ${names})
+  string(FIND "${known}" ": ${name}\n" at)
+  if(at EQUAL -1)
+    list(APPEND unknown ${name})
+  endif()
+endforeach()
+if(unknown)
+  list(JOIN unknown "\n  " unknown)
+  message(FATAL_ERROR "tests/slow/names.txt names tests that are not there:\n  ${unknown}")
+endif()
