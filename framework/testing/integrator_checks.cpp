@@ -19,6 +19,8 @@ Check on_rows(const char* name, const Maker& make, const std::function<Report()>
           }};
 }
 
+constexpr double pendulum_omega = 3.132;  // [rad/s] sqrt(9.81 / 1 m)
+
 // With rows where the method takes them.
 Problem any_pendulum(const Maker& make) {
   return takes_rows(make) ? problems::pendulum_with_rod() : problems::pendulum();
@@ -43,6 +45,15 @@ std::vector<Check> integrator_checks(const Maker& make, const IntegratorClaims& 
               [=] {
                 return check_constraints(make, pendulum_with_rod(1, 0.4, {1, 2}), fine, c.constraints);
               }),
+      // Slow and fast: the error is that of the positions, or that of the velocities.
+      {"EstimatesItsErrorOnASlowOscillator",
+       [=] { return check_estimate(make, oscillator(0.2, 0.1), 0.2, 2 / (0.2 * c.steps)); }},
+      {"EstimatesItsErrorOnAFastOscillator",
+       [=] { return check_estimate(make, oscillator(20, 0.1), 20, 2 / (20.0 * c.steps)); }},
+      {"EstimatesItsErrorOnThePendulum",
+       [=] { return check_estimate(make, pendulum(), pendulum_omega, 1.0 / c.steps); }},
+      on_rows("EstimatesItsErrorOnThePendulumWithRod", make,
+              [=] { return check_estimate(make, pendulum_with_rod(), pendulum_omega, 1.0 / fine); }),
       {"LeavesNoTraceOfATrial", [=] { return trial_leaves_no_trace(make, any_pendulum(make)); }},
       {"ResumesBitForBit", [=] { return resumes_bitwise(make, any_pendulum(make)); }},
   };

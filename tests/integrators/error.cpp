@@ -1,4 +1,5 @@
-// Error estimates shrink with the order claimed and are near the true local error; dense output has its order.
+// Error estimates shrink with the order claimed and are near the true local error (trammel/testing/measurements.hpp says how near);
+// dense output has its order.
 #include "support.hpp"
 
 namespace trammel::test {
@@ -28,24 +29,6 @@ TEST_P(ErrorEstimated, ShrinksWithItsOrder) {
   EXPECT_NEAR(f.value, claimed, 0.35) << f.table;
 }
 
-TEST_P(ErrorEstimated, IsTheTrueLocalErrorWithinAFactorOfTen) {
-  // Embedded pairs estimate the error of the lower order: an upper bound.
-  Posed s(oscillators({1, 2}, 0.1));
-  auto method = make(GetParam().form.name, GetParam().form.settings);
-  auto& estimate = dynamic_cast<ErrorEstimate&>(*method);
-  const State start = s.start();
-  method->restart(s, start);
-  const double h = GetParam().h;
-  State now = advance(*method, s, start, h, 5), next;
-  ASSERT_TRUE(method->step(s, now, h, next));
-  const double estimated = estimate.error(s, now, next, {.relative = 0, .absolute = 1});
-  // The exact flow from `now`: by dop853 in 50 steps.
-  auto fine = make("dop853");
-  const State exact = integrate(*fine, s, now, now.t + h, 50);
-  const double error = std::sqrt(((next.q - exact.q).squaredNorm() + (next.v - exact.v).squaredNorm()) / 4);
-  EXPECT_GE(estimated, error / 10 - 1e-15);  // some roundings of numbers near 1
-}
-
 INSTANTIATE_TEST_SUITE_P(
     Integrators, ErrorEstimated,
     testing::Values(Estimated{{"hht_alpha", {{"alpha", -0.1}}}, 0.02}, Estimated{{"hht_alpha", {{"alpha", 0.0}}}, 0.02},
@@ -59,6 +42,62 @@ INSTANTIATE_TEST_SUITE_P(
     [](const testing::TestParamInfo<Estimated>& tested) {
       return tested.param.form.name + "_" + std::to_string(tested.index);
     });
+
+// In every form, on motions whose error is that of the positions (slow) or that of the velocities (fast), and on rows.
+class EveryEstimate : public testing::TestWithParam<Form> {
+ protected:
+  void expect(const Problem& problem, double omega) {
+    const Maker maker = [] { return make(GetParam().name, GetParam().settings); };
+    const int order = maker()->traits().order;
+    // Long enough for errors above round-off, short enough for the next term to be a few hundredths.
+    const double step = order <= 2 ? 0.02 : order == 4 ? 0.04 : order == 5 ? 0.06 : 0.2;
+    const Report report = check_estimate(maker, problem, omega, step / omega);
+    EXPECT_TRUE(report) << report.table;
+  }
+  static constexpr double pendulum_omega = 3.132;
+};
+TEST_P(EveryEstimate, IsNearTheErrorOfASlowOscillator) {
+  expect(problems::oscillator(0.2, 0.1), 0.2);
+}
+TEST_P(EveryEstimate, IsNearTheErrorOfAFastOscillator) {
+  expect(problems::oscillator(20, 0.1), 20);
+}
+TEST_P(EveryEstimate, IsNearTheErrorOfThePendulum) {
+  expect(problems::pendulum(), pendulum_omega);
+}
+TEST_P(EveryEstimate, IsNearTheErrorWhereTheMassVaries) {
+  expect(problems::pendulum_of_varying_mass(), pendulum_omega);
+}
+TEST_P(EveryEstimate, IsNearTheErrorOnRows) {
+  if (GetParam().name == "exponential_collocation" && GetParam().settings.empty())
+    GTEST_SKIP() << "its sweeps do not converge with the default terms of Baumgarte at this step, and it says so";
+  expect(problems::pendulum_with_rod(), pendulum_omega);
+}
+INSTANTIATE_TEST_SUITE_P(All, EveryEstimate, testing::ValuesIn(all_forms()),
+                         [](const testing::TestParamInfo<Form>& tested) {
+                           return tested.param.name + "_" + std::to_string(tested.index);
+                         });
+
+// Newmark's own accelerations are those of the motion, so that what it remembers serves whatever the steps were. From a step of h/2 to
+// one of h: the leading term of the error is that of h alone; the next one, of relative size omega h = 0.02, is not counted.
+TEST(NewmarkError, IsTheTrueErrorWhereStepsChange) {
+  for (const double omega : {0.2, 20.0}) {
+    Posed s(problems::oscillator(omega));
+    auto method = make("newmark");
+    auto& estimate = dynamic_cast<ErrorEstimate&>(*method);
+    const double h = 0.02 / omega;
+    State next;
+    const State start = s.exact(0.7 / omega);
+    method->restart(s, start);
+    const State now = advance(*method, s, start, h / 2, 4);
+    ASSERT_TRUE(method->step(s, now, h, next));
+    const double estimated = estimate.error(s, now, next, {.relative = 0, .absolute = 1});
+    auto fine = make("dop853");
+    const State exact = integrate(*fine, s, now, now.t + h, 1);  // of an error of (omega h)^9
+    const double error = std::sqrt(((next.q - exact.q).squaredNorm() + (next.v - exact.v).squaredNorm()) / 2);
+    EXPECT_NEAR(estimated / error, 1, 0.05) << omega;
+  }
+}
 
 TEST(NewmarkError, AlsoMeasuresTheFirstStepAfterARestart) {
   Posed s(oscillators({2}));

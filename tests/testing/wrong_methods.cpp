@@ -1,6 +1,7 @@
 // The checks refuse methods that are wrong on purpose: each of these is explicit Euler with one defect.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include <trammel/testing/measurements.hpp>
@@ -79,6 +80,51 @@ TEST(IntegratorChecks, RefuseRowsThatAMethodCannotTakeAndDoesNotSaySo) {
   int refused = 0;
   for (const Check& check : integrator_checks(silent, {.order = 1, .steps = 256, .energy = 0.1})) refused += !check();
   EXPECT_EQ(refused, 5);  // three with rows, and the trial and the archive, asked on the pendulum with its rod
+}
+// Newmark's method whose estimate is factor h^bend times its own.
+Maker misjudging(double factor, double bend = 0) {
+  class Misjudging final : public Integrator, public ErrorEstimate {
+   public:
+    Misjudging(double factor, double bend)
+        : factor_(factor),
+          bend_(bend),
+          method_(from_plugin(TRAMMEL_BUILD_DIR "/lib/trammel", "newmark")()),
+          estimate_(dynamic_cast<ErrorEstimate&>(*method_)) {}
+    Traits traits() const override { return method_->traits(); }
+    void restart(System& s, const State& now) override { method_->restart(s, now); }
+    Outcome step(System& s, const State& now, double h, State& next) override { return method_->step(s, now, h, next); }
+    void accept(System& s, const State& now, const State& next) override { method_->accept(s, now, next); }
+    double error(System& s, const State& now, const State& next, const Tolerance& t) override {
+      return factor_ * std::pow(next.t - now.t, bend_) * estimate_.error(s, now, next, t);
+    }
+    int error_order() const override { return estimate_.error_order(); }
+
+   private:
+    double factor_, bend_;
+    std::unique_ptr<Integrator> method_;
+    ErrorEstimate& estimate_;
+  };
+  return [=] { return std::make_unique<Misjudging>(factor, bend); };
+}
+TEST(CheckEstimate, AcceptsNewmarks) {
+  const Report r = check_estimate(misjudging(1), problems::pendulum(), 3.132, 5e-3);
+  EXPECT_TRUE(r) << r.table;
+}
+TEST(CheckEstimate, RefusesOneThatIsAFifthTooSmallOrTooLarge) {
+  for (const double factor : {0.8, 1.25})
+    EXPECT_FALSE(check_estimate(misjudging(factor), problems::pendulum(), 3.132, 5e-3)) << factor;
+}
+TEST(CheckEstimate, RefusesOneOfAnotherOrder) {
+  for (const double bend : {-1.0, 0.5}) {
+    // As large as the error at the smallest step.
+    const double factor = std::pow(5e-3 / 4, -bend);
+    EXPECT_FALSE(check_estimate(misjudging(factor, bend), problems::pendulum(), 3.132, 5e-3)) << bend;
+  }
+}
+TEST(CheckEstimate, AsksAMethodWithoutOneForNone) {
+  const Report r = check_estimate(euler(Defect::none), problems::pendulum(), 3.132, 5e-3);
+  EXPECT_TRUE(r);
+  EXPECT_NE(r.table.find("not asked"), std::string::npos);
 }
 TEST(CheckStability, RefusesEulerOnTheImaginaryAxis) {
   EXPECT_FALSE(check_stability(euler(Defect::none), Axis::imaginary, 2));

@@ -9,9 +9,8 @@
 // the authors' code DOP853.
 #include <cmath>
 
+#include <trammel/methods/runge_kutta_integrator.hpp>
 #include <trammel/plugin.hpp>
-#include <trammel/row_parameters.hpp>
-#include <trammel/methods/runge_kutta.hpp>
 
 namespace {
 
@@ -98,73 +97,32 @@ constexpr double dense_7[] = {
       -0.14972683625798562581422125276e3};
 // clang-format on
 
-class Dop853 final : public Integrator, public ErrorEstimate, public DenseOutput {
- public:
-  double delta = 10, epsilon = 10;
-  RungeKutta::Rows rows = RungeKutta::Rows::baumgarte;
+struct Dop853 {
+  static constexpr Tableau tableau{12, c, a, b};
+  static constexpr int order = 8, error_order = 8;
+  static constexpr Stabilisation baumgarte{10, 10};
 
-  void prepare(const World&) override { method_.baumgarte = {delta, epsilon}, method_.rows = rows; }
-  Traits traits() const override {
-    return {.order = 8, .holds_position = method_.projects(), .holds_velocity = method_.projects()};
+  template <class Norm>
+  static double error(Norm&& norm) {
+    const double fifth = norm(less_fifth), third = norm(less_third);
+    return fifth == 0 ? 0 : fifth * fifth / std::sqrt(fifth * fifth + 0.01 * third * third);
   }
 
-  void restart(System& s, const State& now) override { method_.begin(s, now, slope_); }
-
-  Outcome step(System& s, const State& now, double h, State& next) override {
-    return method_.step(s, now, slope_, h, next);
-  }
-
-  // The slope at the step's end is the first one of the next.
-  void accept(System& s, const State& /*now*/, const State& next) override {
-    s.rate(next.q, next.v, slope_.q);
-    slope_.v = next.a;
-    slope_.lambda = next.lambda;
-  }
-
-  double error(System& s, const State& now, const State& next, const Tolerance& tolerance) override {
-    const auto norm = [&](const double* weights, RungeKutta::Part part) {
-      method_.combine(weights, 12, e_, e_v_);
-      return method_.norm(s, now, next, e_, e_v_, part, tolerance);
-    };
-    return method_.error(now, next, [&](RungeKutta::Part part) {
-      const double fifth = norm(less_fifth, part), third = norm(less_third, part);
-      return fifth == 0 ? 0 : fifth * fifth / std::sqrt(fifth * fifth + 0.01 * third * third);
-    });
-  }
-  int error_order() const override { return 8; }
-
-  void interpolate(System& s, const State& now, const State& next, double theta, State& at) override {
-    if (method_.recall(s, now, next) && has_dense_stages(s, now))
-      method_.interpolate(s, now, next, theta, {dense_4, dense_5, dense_6, dense_7}, at);
-    else
-      method_.step_inside(s, now, next, theta, at);
-  }
-
-  void archive(Archive& archive) override {
-    method_.archive(archive);
-    archive("now_slope_q", slope_.q);
-    archive("now_slope_v", slope_.v);
-    archive("now_slope_lambda", slope_.lambda);
-  }
-
- private:
-  // Evaluates the further stages of the last step at first use. False: one of them has no slope.
-  [[nodiscard]] bool has_dense_stages(System& s, const State& now) {
+  static bool interpolate(RungeKutta& method, System& s, const State& now, const State& next, double theta, State& at) {
+    // Further stages of the last step, evaluated when first asked for.
     constexpr const double* weights[] = {a_dense_1, a_dense_2, a_dense_3};
     constexpr int first = 13;
-    for (int i = method_.slopes() - first; i < 3; ++i)
-      if (!method_.add_stage(s, now, c_dense[i], weights[i])) return false;
+    for (int i = method.slopes() - first; i < 3; ++i)
+      if (!method.add_stage(s, now, c_dense[i], weights[i])) return false;
+    method.interpolate(s, now, next, theta, {dense_4, dense_5, dense_6, dense_7}, at);
     return true;
   }
-
-  RungeKutta method_{{12, c, a, b}};
-  Slope slope_;  // at the last accepted point
-  Vec e_, e_v_;
 };
 
 }  // namespace
 
-TRAMMEL_PLUGIN(trammel::row_parameters(
-    trammel::integrator<Dop853>("dop853", "Dormand-Prince 8(5,3): for accurate runs; error estimate, dense output")
+TRAMMEL_PLUGIN(
+    trammel::runge_kutta_integrator<Dop853>("dop853",
+                                            "Dormand-Prince 8(5,3): for accurate runs; error estimate, dense output")
         .source(
-            "Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.5; Baumgarte 1972, CMAME 1, 1-16")))
+            "Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.5; Baumgarte 1972, CMAME 1, 1-16"))

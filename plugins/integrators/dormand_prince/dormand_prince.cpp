@@ -1,10 +1,9 @@
-// The embedded Runge-Kutta pair 5(4) of Dormand and Prince, for the first-order form of RungeKutta with Baumgarte's
-// stabilisation. It has six stages and a seventh at the step's end, which is the first of the next step; the result is
-// of fifth order. Dense output of fourth order after Hairer. Dormand, Prince, J. Comput. Appl. Math. 6(1), 19-26
-// (1980); Hairer, Norsett, Wanner, Solving ODEs I, II.5 and II.6.
+// The embedded Runge-Kutta pair 5(4) of Dormand and Prince, on the first-order form of RungeKutta with Baumgarte's
+// stabilisation: six stages, a seventh at the step's end that is the first of the next step, the fifth-order result
+// kept. Dense output of fourth order after Hairer. Dormand, Prince, J. Comput. Appl. Math. 6(1), 19-26 (1980); Hairer,
+// Norsett, Wanner, Solving ODEs I, II.5 and II.6.
+#include <trammel/methods/runge_kutta_integrator.hpp>
 #include <trammel/plugin.hpp>
-#include <trammel/row_parameters.hpp>
-#include <trammel/methods/runge_kutta.hpp>
 
 namespace {
 
@@ -26,59 +25,23 @@ constexpr double dense[] = {
     701980252875.0 / 199316789632, -1453857185.0 / 822651844, 69997945.0 / 29380423};
 // clang-format on
 
-class DormandPrince final : public Integrator, public ErrorEstimate, public DenseOutput {
- public:
-  double delta = 10, epsilon = 10;
-  RungeKutta::Rows rows = RungeKutta::Rows::baumgarte;
+struct DormandPrince {
+  static constexpr Tableau tableau{6, c, a, b};
+  static constexpr int order = 5, error_order = 5;
+  static constexpr Stabilisation baumgarte{10, 10};
 
-  void prepare(const World&) override { method_.baumgarte = {delta, epsilon}, method_.rows = rows; }
-  Traits traits() const override {
-    return {.order = 5, .holds_position = method_.projects(), .holds_velocity = method_.projects()};
+  template <class Norm>
+  static double error(Norm&& norm) {
+    return norm(less_embedded);
   }
-
-  void restart(System& s, const State& now) override { method_.begin(s, now, slope_); }
-
-  Outcome step(System& s, const State& now, double h, State& next) override {
-    return method_.step(s, now, slope_, h, next);
+  static bool interpolate(RungeKutta& method, System& s, const State& now, const State& next, double theta, State& at) {
+    method.interpolate(s, now, next, theta, {dense}, at);
+    return true;
   }
-
-  // The slope at the step's end is the first one of the next.
-  void accept(System& s, const State& /*now*/, const State& next) override {
-    s.rate(next.q, next.v, slope_.q);
-    slope_.v = next.a;
-    slope_.lambda = next.lambda;
-  }
-
-  double error(System& s, const State& now, const State& next, const Tolerance& tolerance) override {
-    return method_.error(now, next, [&](RungeKutta::Part part) {
-      method_.combine(less_embedded, 7, e_, e_v_);
-      return method_.norm(s, now, next, e_, e_v_, part, tolerance);
-    });
-  }
-  int error_order() const override { return 5; }
-
-  void interpolate(System& s, const State& now, const State& next, double theta, State& at) override {
-    if (method_.recall(s, now, next))
-      method_.interpolate(s, now, next, theta, {dense}, at);
-    else
-      method_.step_inside(s, now, next, theta, at);
-  }
-
-  void archive(Archive& archive) override {
-    method_.archive(archive);
-    archive("now_slope_q", slope_.q);
-    archive("now_slope_v", slope_.v);
-    archive("now_slope_lambda", slope_.lambda);
-  }
-
- private:
-  RungeKutta method_{{6, c, a, b}};
-  Slope slope_;  // at the last accepted point
-  Vec e_, e_v_;
 };
 
 }  // namespace
 
-TRAMMEL_PLUGIN(trammel::row_parameters(
-    trammel::integrator<DormandPrince>("dormand_prince", "Dormand-Prince 5(4): error estimate and dense output")
-        .source("Dormand, Prince 1980, J. Comput. Appl. Math. 6(1), 19-26; Baumgarte 1972, CMAME 1, 1-16")))
+TRAMMEL_PLUGIN(trammel::runge_kutta_integrator<DormandPrince>("dormand_prince",
+                                                              "Dormand-Prince 5(4): error estimate and dense output")
+                   .source("Dormand, Prince 1980, J. Comput. Appl. Math. 6(1), 19-26; Baumgarte 1972, CMAME 1, 1-16"))
