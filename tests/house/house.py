@@ -118,12 +118,15 @@ def the_readme_names_every_command(source, program):
 
 
 def lines_fit_the_formatter(source, _):
-    limit = 120  # ColumnLimit of .clang-format; strings that must stay whole are the exception
+    limit = 120  # ColumnLimit of .clang-format; texts, which must stay whole, are the exception
     for top in ("framework", "bodies", "plugins", "tools", "tests"):
         for file in code_files(source / top):
+            raw = False  # inside R"(...)"
             for number, line in enumerate(file.read_text().splitlines(), 1):
-                if len(line) > limit and '"' not in line:
+                raw = 'R"(' in line or raw
+                if len(line) > limit and '"' not in line and not raw:
                     yield f"{file.relative_to(source)}:{number} is longer than {limit} columns"
+                raw = raw and ')"' not in line
 
 
 def main():
