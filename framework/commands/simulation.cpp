@@ -134,7 +134,7 @@ class Run {
       else if (passed > 4e-3 && stride > 1)
         stride /= 2;
       checked = now;
-      if (const std::string slow = slow_steps.look(seconds(now - began), setup_, *simulator_); !slow.empty())
+      if (const std::string slow = slow_steps.look(cpu_now() - cpu_start_, setup_, *simulator_); !slow.empty())
         warn(slow);
       if (options_.progress && seconds(now - shown) >= between_progress) show(), shown = now;
       if (seconds(now - checkpointed) < pause) continue;

@@ -12,7 +12,7 @@ namespace trammel::simulate {
 namespace {
 
 constexpr double many = 50;            // steps between two records
-constexpr double long_wait = 20;       // [s] of wall-clock time to the end
+constexpr double long_wait = 20;       // [s] of CPU time to the end
 constexpr double accounts_for = 0.01;  // radians of the fastest motion in a step: fewer are short for another reason
 
 std::string cause(const FastestMotion& fastest, const Setup& setup, const Simulator& simulator, double h) {
@@ -51,7 +51,7 @@ std::string SlowSteps::look(double seconds, const Setup& setup, Simulator& simul
   next_look_ = std::numeric_limits<double>::infinity();
   const double h = passed / std::max(1.0, steps);
   const std::string slow = fmt::format(
-      "t = {:.6g} s: steps of {:.2g} s, {:.3g} of them between two records, leave {:.2g} s of wall-clock time to go",
+      "t = {:.6g} s: steps of {:.2g} s, {:.3g} of them between two records, leave {:.2g} s of CPU time to go",
       simulator.state().t, h, passed > 0 ? setup.settings.every / h : steps, wait);
   try {
     model::AssembledSystem system(setup.model);

@@ -118,6 +118,8 @@ void ContactScale::take_contacts(model::AssembledSystem& system) {
 Scale ContactScale::of(int contact) const {
   Scale scale = bodies_;
   scale.raise_to(own_[std::size_t(contact)]);
+  // Where joints rub, a scene may have no length but the gaps of others.
+  if (scale.gaps_and_bodies == 0) scale.gaps_and_bodies = scene_.gaps_and_bodies;
   return scale;
 }
 

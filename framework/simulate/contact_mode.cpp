@@ -58,7 +58,9 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
     return !modes_.contacts[contact].closed &&
            system_.acceleration({contact, 0}, a_) < -opened_by_error * std::max(largest_, scale_.of(contact).no_acceleration());
   };
-  if (solution.outcome == LcpOutcome::solved && !changes.released.empty()) {
+  const bool slides = std::any_of(problem_.who.begin(), problem_.who.end(),
+                                  [](const Participant& p) { return p.tangent == Participant::Tangent::sliding; });
+  if (solution.outcome == LcpOutcome::solved && !changes.released.empty() && slides) {
     system_.set_modes(modes_);
     system_.move_to(state.t, state.q, state.v);
     system_.accelerate({}, a_, lambda_);

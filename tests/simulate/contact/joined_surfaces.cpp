@@ -161,7 +161,7 @@ TEST_P(AcrossAJoint, ASheetLandsAsOnOnePlate) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(WorldVector, AcrossAJoint, testing::ValuesIn(joints),
+INSTANTIATE_TEST_SUITE_P(Joined, AcrossAJoint, testing::ValuesIn(joints),
                          [](const auto& joint) { return joint.param.name; });
 
 // On a hinge, which bends into a groove under the ball, nothing is lost either.
