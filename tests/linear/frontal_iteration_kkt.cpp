@@ -66,6 +66,25 @@ TEST(FrontalIterationKkt, SolvesWithReactionsOtherThanTheRows) {
   EXPECT_LE(residual(stiffness(), W, rows(4), b, c, s), 1e-13);
 }
 
+// Bodies of 1e-9 to 1e9 kg, rows in nanometres or megametres.
+TEST(FrontalIterationKkt, SolvesToRoundOffWhateverMassesAndUnitsAre) {
+  const Vec b = Vec::LinSpaced(n, -1, 2), c = Vec::LinSpaced(5, 0.5, -1);
+  for (const double mass : {1e-9, 1.0, 1e9})
+    for (const double unit : {1e-6, 1.0, 1e9}) {
+      SCOPED_TRACE(testing::Message() << mass << " kg, " << unit << " m");
+      const Mat S = mass * stiffness(), G = unit * rows(5);
+      FrontalIterationKkt kkt;
+      factorise(kkt, S, G, G);
+      Solution s;
+      ASSERT_TRUE(kkt.solve(b, c, s.x, s.y));
+      // Each equation to the round-off of its own terms.
+      const double forces =
+          (S.cwiseAbs() * s.x.cwiseAbs() + G.cwiseAbs().transpose() * s.y.cwiseAbs() + b.cwiseAbs()).norm();
+      EXPECT_LE((S * s.x + G.transpose() * s.y - b).norm(), 1e-13 * forces);
+      EXPECT_LE((G * s.x - c).norm(), 1e-13 * ((G.cwiseAbs() * s.x.cwiseAbs()).norm() + c.norm()));
+    }
+}
+
 TEST(FrontalIterationKkt, SharesOutTheForcesOfRowsThatRepeat) {
   Mat G = rows(4);
   G.row(3) = G.row(1);

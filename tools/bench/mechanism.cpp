@@ -4,9 +4,13 @@
 //
 // "evaluation": M, f, the joints' rows and the solution at a point that is new each time. "run": from the scene's start to its end with
 // events, ledger and records, without reading the scene; columns: 10 over the exponent of the tolerance, counters: evaluations, steps.
+// "implicit steps": 100 of 1e-3 s of a spatial chain in such a run; counters: Newton iterations and tangents
+// a step, and the resident memory's peak so far [MB] (start one row alone for its own: --benchmark_filter='implicit.*/640$').
 #include <cmath>
 #include <string>
 #include <vector>
+
+#include <sys/resource.h>
 
 #include <benchmark/benchmark.h>
 
@@ -14,8 +18,8 @@
 
 #include "main.hpp"
 #include "records_folder.hpp"
-#include "simulate/start/setup.hpp"
 #include "simulate/simulator.hpp"
+#include "simulate/start/setup.hpp"
 
 namespace trammel::bench {
 namespace {
@@ -65,6 +69,40 @@ void whole_run(benchmark::State& report, const std::string& name, const std::str
   report.counters["steps"] = steps;
 }
 
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return double(usage.ru_maxrss) / 1024;
+}
+
+void implicit_steps(benchmark::State& report) {
+  constexpr int steps = 100;
+  plugin::Registry registry;
+  const scene::Scene scene = load("chain", {{"parameters.links", std::to_string(report.range(0))},
+                                            {"integrator", R"({"type": "hht_alpha", "step": 1e-3})"}});
+  model::Counts counts;
+  for (auto _ : report) {
+    report.PauseTiming();
+    const simulate::Setup setup = simulate::set_up(scene, registry);
+    const RecordsFolder folder;
+    simulate::Recorder recorder(folder.path, *setup.model, setup.columns, {});
+    simulate::Simulator simulator(setup.model, *setup.integrator, setup.settings, {});
+    simulator.start(setup.initial);
+    const model::Counts before = simulator.system().counts();
+    report.ResumeTiming();
+    while (simulator.statistics().steps < steps && simulator.advance(recorder))
+      ;
+    report.PauseTiming();
+    counts = simulator.system().counts();
+    counts.newton_iterations -= before.newton_iterations;
+    counts.jacobian_evaluations -= before.jacobian_evaluations;
+    report.ResumeTiming();
+  }
+  report.counters["iterations_a_step"] = double(counts.newton_iterations) / steps;
+  report.counters["tangents_a_step"] = double(counts.jacobian_evaluations) / steps;
+  report.counters["MB"] = peak_memory();
+}
+
 }  // namespace
 
 void register_all() {
@@ -80,6 +118,9 @@ void register_all() {
       ->RangeMultiplier(10)
       ->Range(10, 10000)
       ->Unit(benchmark::kMicrosecond);
+  auto* const implicit = benchmark::RegisterBenchmark("implicit steps, chain", implicit_steps);
+  for (const int links : {40, 160, 640, 2560, 10000}) implicit->Arg(links);
+  implicit->Unit(benchmark::kMillisecond);
   const auto run = [](const char* title, const char* name, const char* integrator, std::vector<int> exponents) {
     auto* b = benchmark::RegisterBenchmark(
         fmt::format("run, {}", title).c_str(),

@@ -24,6 +24,7 @@ class FrontalLu {
  private:
   using Front = FrontalPattern::Front;
   void assemble(const FrontalPattern& pattern, const Front& front, const double* values, Eigen::Map<Mat>& F);
+  void eliminate_in_blocks(int k, int* rows, Eigen::Map<Mat>& F);
   bool eliminate(const FrontalPattern& pattern, const Front& front, const Vec& largest, Eigen::Map<Mat>& F);
 
   // Aligned as Eigen's own: sums over pieces of them then round alike in every run. store_: of each front L_F and U_F over L_BF,
