@@ -85,9 +85,9 @@ TEST(IntegratorChecks, RefuseRowsThatAMethodCannotTakeAndDoesNotSaySo) {
 Maker misjudging(double factor, double bend = 0) {
   class Misjudging final : public Integrator, public ErrorEstimate {
    public:
-    Misjudging(double factor, double bend)
-        : factor_(factor),
-          bend_(bend),
+    Misjudging(double times, double power)
+        : factor_(times),
+          bend_(power),
           method_(from_plugin(TRAMMEL_BUILD_DIR "/lib/trammel", "newmark")()),
           estimate_(dynamic_cast<ErrorEstimate&>(*method_)) {}
     Traits traits() const override { return method_->traits(); }
