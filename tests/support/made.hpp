@@ -9,22 +9,10 @@
 
 namespace trammel::test {
 
-inline World planar() {
-  return {Space::planar, Eigen::Vector2d(0, -9.81)};
-}
-inline World spatial() {
-  return {Space::spatial, Eigen::Vector3d(0, 0, -9.81)};
-}
+World planar();
+World spatial();
 
-inline plugin::Registry& registry() {
-  static plugin::Registry built = [] {
-    plugin::Registry r(plugin::Registry::Start::empty);
-    r.search(TRAMMEL_BUILD_DIR "/lib/trammel");
-    r.allow_scene_plugins();  // the scenes are ours
-    return r;
-  }();
-  return built;
-}
+plugin::Registry& registry();
 
 // Throws scene::SceneError with every problem if the entry is refused.
 template <class T>
@@ -37,13 +25,6 @@ std::unique_ptr<T> made(Kind kind, const std::string& entry, const World& world 
 }
 
 // What the user reads when the entry is refused; empty: it was accepted.
-inline std::string refusal(Kind kind, const std::string& entry, const World& world = planar()) {
-  try {
-    made<Component>(kind, entry, world);
-  } catch (const scene::SceneError& error) {
-    return error.what();
-  }
-  return "";
-}
+std::string refusal(Kind kind, const std::string& entry, const World& world = planar());
 
 }  // namespace trammel::test
