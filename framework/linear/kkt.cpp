@@ -130,11 +130,18 @@ void MassKkt::complement(const Mat& W, double rank_tolerance) {
   cod_.compute(schur_);
 }
 
-// x is z = L^T x before the last line:  z = L^-1 b - B^T y,  B z = c;  or with C for the first B.
-void MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
+bool MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   x = b;
   y.resize(B_.rows());
-  if (B_.rows() == 0) return with_mass([&](auto& mass) { mass.solve(x); });
+  if (B_.rows() == 0)
+    with_mass([&](auto& mass) { mass.solve(x); });
+  else
+    solve_with_rows(c, x, y);
+  return x.allFinite() && y.allFinite();
+}
+
+// From x = b. x is z = L^T x before the last line:  z = L^-1 b - B^T y,  B z = c;  or with C for the first B.
+void MassKkt::solve_with_rows(const Vec& c, Vec& x, Vec& y) {
   with_mass([&](auto& mass) { mass.solve_lower(x); });
   if (coupled_) {
     w_ = -c;
@@ -186,7 +193,7 @@ bool has_small_pivot(const Lu& lu, const Mat& matrix, Eigen::Index first, double
 
 }  // namespace
 
-void IterationKkt::factorise(const Mat& W, const Mat& G, double rank_tolerance) {
+bool IterationKkt::factorise(const Mat& W, const Mat& G, double rank_tolerance) {
   const auto nc = G.rows();
   if (nc > 0) {
     full_.topRightCorner(nv_, nc) = W.transpose();
@@ -194,12 +201,12 @@ void IterationKkt::factorise(const Mat& W, const Mat& G, double rank_tolerance) 
   }
   redundant_ = singular_ = false;
   finite_ = true;
-  if (full_.rows() == 0) return;
+  if (full_.rows() == 0) return true;
   lu_.compute(full_);
   // Dependent rows show in the columns of W. Only a warning, given early; the rows' own decomposition decides.
   if (has_small_pivot(lu_, full_, nv_, 100 * rank_tolerance)) {
     finite_ = full_.allFinite();
-    if (!finite_) return;
+    if (!finite_) return false;
     redundant_ = merge_rows(W, G, rank_tolerance);
     if (redundant_) lu_.compute(full_);
   }
@@ -209,6 +216,7 @@ void IterationKkt::factorise(const Mat& W, const Mat& G, double rank_tolerance) 
     cod_.setThreshold(Eigen::Default);
     cod_.compute(full_);
   }
+  return finite_;
 }
 
 // False: they are independent.

@@ -46,10 +46,12 @@ class MassKkt {
   // Keeps the factors of M, takes new rows. W may be the same object as G.
   void change_rows(const Mat& G, const Mat& W, double rank_tolerance = rank_tolerance_at(0));
   void change_rows(const Mat& G) { change_rows(G, G); }
-  void solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
+  // False: x or y is not finite.
+  bool solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
   bool redundant() const { return redundant_; }
 
  private:
+  void solve_with_rows(const Vec& c, Vec& x, Vec& y);
   void complement(const Mat& W, double rank_tolerance);
   void merge_rows(const Mat& G, double rank_tolerance);
 
@@ -76,9 +78,11 @@ class IterationKkt {
  public:
   // The caller fills S() (nv x nv, zero on entry) after `begin` and then calls `factorise`.
   Mat& begin(Eigen::Index nv, Eigen::Index nc);
-  void factorise(const Mat& W, const Mat& G, double rank_tolerance = rank_tolerance_at(0));
+  // False: not finite.
+  bool factorise(const Mat& W, const Mat& G, double rank_tolerance = rank_tolerance_at(0));
   // False: not solvable (singular beyond redundant rows), or not finite.
   [[nodiscard]] bool solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
+  bool redundant() const { return redundant_; }
 
  private:
   bool merge_rows(const Mat& W, const Mat& G, double rank_tolerance);

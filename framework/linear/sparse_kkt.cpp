@@ -1,5 +1,6 @@
 #include "linear/sparse_kkt.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -105,13 +106,37 @@ bool SparseMassKkt::factorise_springs(const std::vector<BodyBlock>& bodies) {
   return eps_ > 0;
 }
 
-// eps (S + eps)^-1 keeps the part of r in the null space of S and shrinks the rest by eps/sigma^2; applied twice it leaves
-// nothing else. Round-off asks for more passes.
+// eps (S + eps)^-1 keeps the part of r in the null space of S and shrinks the rest by eps/sigma^2; twice.
+void SparseMassKkt::find_null_part(const Vec& r) {
+  complement_.solve(r, dy_);
+  complement_.solve(dy_, null_part_);
+  null_part_ *= eps_ * eps_;
+}
+
+// Round-off asks for more than one pass. What the rows can balance loses a little, which the next correction restores.
 void SparseMassKkt::remove_null_part(Vec& r) {
   for (int pass = 0; pass < 3; ++pass) {
-    complement_.solve(r, dy_);
-    complement_.solve(dy_, null_part_);
-    r -= eps_ * eps_ * null_part_;
+    find_null_part(r);
+    r -= null_part_;
+  }
+}
+
+// y must lose nothing else: of rows of heavy bodies sigma^2 is not large beside eps. The null part of the null part is
+// taken until that does not change it any more.
+void SparseMassKkt::minimise_norm(Vec& y) {
+  constexpr int passes = 3, most = 8;
+  for (int pass = 0; pass < passes; ++pass) {
+    const double nothing = eps * y.lpNorm<Eigen::Infinity>();
+    left_ = y;
+    for (int i = 0; i < most; ++i) {
+      find_null_part(left_);
+      left_ -= null_part_;
+      const double lost = left_.lpNorm<Eigen::Infinity>();
+      left_.swap(null_part_);
+      if (lost <= nothing) break;
+    }
+    y -= left_;
+    if (left_.lpNorm<Eigen::Infinity>() <= nothing) break;
   }
 }
 
@@ -141,12 +166,15 @@ bool SparseMassKkt::springs_are_better(const std::vector<BodyBlock>& bodies, con
   return !fronts_.factorise(bodies, nc_, identity_, rank_tolerance_) && factorise_springs(bodies);
 }
 
-void SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
-  if (!by_fronts_) {
-    if (solve_by_complement(bodies, b, c, x, y)) return;
-    if (!leave_to_fronts(bodies)) return x.setConstant(std::numeric_limits<double>::quiet_NaN()), void();
+bool SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
+  if (by_fronts_ || !solve_by_complement(bodies, b, c, x, y)) {
+    if (!by_fronts_ && !leave_to_fronts(bodies)) {
+      x.setConstant(std::numeric_limits<double>::quiet_NaN());  // for callers that look at x alone
+      return false;
+    }
+    solve_by_fronts(bodies, b, c, x, y);
   }
-  solve_by_fronts(bodies, b, c, x, y);
+  return x.allFinite() && y.allFinite();
 }
 
 // False: a long chain is too soft for it, which may leave no trace in any single pivot. The second correction tells: it answers to
@@ -185,7 +213,7 @@ bool SparseMassKkt::solve_by_complement(const std::vector<BodyBlock>& bodies, co
   double of_forces = 0;
   const auto round_off = [&] { return of_forces = redundant_ ? 0 : 4 * eps * complement_.largest_share(y); };
   const double left = refine(residual, correct, enough, round_off, redundant_ ? 40 : 4, residual_);
-  if (redundant_) remove_null_part(y);  // round-off over eps
+  if (redundant_) minimise_norm(y);  // round-off over eps has moved it along the null space
   const bool astray =
       is_long && left > 1e3 * of_forces && left > 1e3 * (round_off() + 4 * eps * x.lpNorm<Eigen::Infinity>());
   return !soft && !astray;
@@ -197,41 +225,35 @@ bool SparseMassKkt::is_soft(double softness, const Vec& x) const {
   return softness < soft_chain || change > trusted_change * x.lpNorm<Eigen::Infinity>();
 }
 
-void SparseIterationKkt::add_rows(const std::vector<BodyBlock>& bodies, int nv, int nc, bool coupled,
-                                  RecordedMatrix& m) {
-  for (const BodyBlock& body : bodies) {
-    const Mat& Wt = coupled ? body.Wt : body.Gt;
-    for (std::size_t i = 0; i < body.rows.size(); ++i)
-      for (int j = 0; j < int(body.Gt.rows()); ++j) {
-        m.add(nv + body.rows[i], body.v0 + j, body.Gt(j, Eigen::Index(i)));
-        m.add(body.v0 + j, nv + body.rows[i], Wt(j, Eigen::Index(i)));
-      }
-  }
-  for (int i = 0; i < nc; ++i) m.add(nv + i, nv + i, 0);
+namespace {
+
+bool have_one_pattern(const Eigen::SparseMatrix<double>& A, const Eigen::SparseMatrix<double>& B) {
+  return A.rows() == B.rows() && A.nonZeros() == B.nonZeros() &&
+         std::equal(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1, B.outerIndexPtr()) &&
+         std::equal(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros(), B.innerIndexPtr());
 }
 
-void SparseIterationKkt::factorise(const Eigen::SparseMatrix<double>& full, int nv) {
-  const int n = int(full.rows());
-  const bool fresh = full_.fill(n, n, [&full, n](RecordedMatrix& m) {
-    for (int j = 0; j < n; ++j)
-      for (Eigen::SparseMatrix<double>::InnerIterator it(full, j); it; ++it) m.add(int(it.row()), j, it.value());
-  });
-  factorise_full(nv, n - nv, fresh);
-}
+}  // namespace
 
-void SparseIterationKkt::factorise_full(int nv, int nc, bool fresh) {
+bool SparseIterationKkt::factorise(const Eigen::SparseMatrix<double>& full, int nv) {
+  const bool same_pattern = nv == nv_ && have_one_pattern(full, full_);
+  const int nc = int(full.rows()) - nv;
+  full_ = full;
+  regular_ = full;
   nv_ = nv;
-  regular_ = full_.matrix();
   double S = 0, G = 0;
   for (int j = 0; j < nv; ++j)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(regular_, j); it; ++it)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(full, j); it; ++it)
       (it.row() < nv ? S : G) = std::max(it.row() < nv ? S : G, std::abs(it.value()));
   eps_ = S > 0 ? regularisation(nc) * G * G / S : 0;
   for (int i = 0; i < nc; ++i) regular_.coeffRef(nv + i, nv + i) -= eps_;
-  if (fresh) lu_.analyzePattern(regular_);
+  regular_.makeCompressed();
+  if (!same_pattern) lu_.analyzePattern(regular_);
   lu_.factorize(regular_);
   failed_ = lu_.info() != Eigen::Success;
-  soft_ = nc < long_from && !failed_ && eps_ > 0 && find_soft_rows(nc);
+  redundant_ = soft_ = false;
+  if (nc > 0 && nc < long_from && !failed_ && eps_ > 0) judge_rows(nc);
+  return !failed_;
 }
 
 // eps^2 (C + eps)^-2 y, C = G S^-1 W^T, keeps of y what lies in the rows' null space, and little else. The matrix takes
@@ -246,16 +268,27 @@ void SparseIterationKkt::find_null_part(const Eigen::Ref<const Vec>& y) {
 }
 
 // Whether that part, of entries in no order, changes when it is taken again. It does not where rows are redundant or independent.
-bool SparseIterationKkt::find_soft_rows(int nc) {
+void SparseIterationKkt::judge_rows(int nc) {
   constexpr double golden = 0.61803398874989485, noticed = 1e-5;
   residual_.resize(nc);
   for (int i = 0; i < nc; ++i) residual_[i] = 1 + std::fmod(i * golden, 1.0);
   const double least = noticed * residual_.norm();
   find_null_part(residual_);
-  if (!(null_part_.tail(nc).norm() > least)) return false;
+  if (!(null_part_.tail(nc).norm() > least)) return;
+  redundant_ = true;
   residual_ = null_part_.tail(nc);
   find_null_part(residual_);
-  return (null_part_.tail(nc) - residual_).norm() > least;
+  soft_ = (null_part_.tail(nc) - residual_).norm() > least;
+}
+
+// Solutions leave their round-off over eps along the rows' null space, and so do the passes themselves.
+// Forces stay balanced where rows depend on others but for a little: x follows.
+void SparseIterationKkt::minimise_norm(int nc) {
+  constexpr int passes = 2;
+  for (int pass = 0; pass < passes; ++pass) {
+    find_null_part(solution_.tail(nc));
+    solution_ -= null_part_;
+  }
 }
 
 double SparseIterationKkt::solve_and_refine() {
@@ -263,7 +296,7 @@ double SparseIterationKkt::solve_and_refine() {
   solves_ = 1;
   const auto residual = [&](Vec& r) {
     r = right_;
-    r.noalias() -= full_.matrix() * solution_;
+    r.noalias() -= full_ * solution_;
     return r.norm();
   };
   const auto correct = [&](const Vec& r) { solution_ += lu_.solve(r), ++solves_; };
@@ -291,19 +324,21 @@ bool SparseIterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   right_.resize(b.size() + c.size());
   right_ << b, c;
   const double left = soft_ ? solve_without_soft_rows(int(c.size())) : solve_and_refine();
+  const bool reached = left <= 1e-6 * right_.norm();
+  if (reached && redundant_ && !soft_) minimise_norm(int(c.size()));
   x = solution_.head(nv_);
   y = solution_.tail(c.size());
   if (!solution_.allFinite()) return false;
-  if (left <= 1e-6 * right_.norm()) return true;
+  if (reached) return true;
   // What no x reaches is left: where redundant rows differ, by round-off or as far as Newton's iteration still has to go. Each solution
   // has added it to y, along the rows' null space.
   if (!soft_ && eps_ > 0) y += solves_ / eps_ * residual_.tail(c.size());
   const double of_rows = residual_.tail(c.size()).norm();
   const double of_forces = residual_.head(nv_).norm();
   residual_.head(nv_).setZero();
-  right_.noalias() = full_.matrix().transpose() * residual_;
+  right_.noalias() = full_.transpose() * residual_;
   // Reactions larger than what they balance, as near a singular position, leave their round-off.
-  const double size = full_.matrix().norm(), round_off = 1e-13 * size + 16 * eps * size * y.norm();
+  const double size = full_.norm(), round_off = 1e-13 * size + 16 * eps * size * y.norm();
   return of_forces <= 1e-6 * b.norm() + round_off && right_.head(nv_).norm() <= parting * of_rows;
 }
 

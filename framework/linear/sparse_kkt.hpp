@@ -29,9 +29,8 @@
 
 #include "linear/bodies/body_block.hpp"
 #include "linear/bodies/body_masses.hpp"
-#include "linear/fronts/frontal_kkt.hpp"
-#include "linear/sparse/recorded_matrix.hpp"
 #include "linear/complement/row_complement.hpp"
+#include "linear/fronts/frontal_kkt.hpp"
 
 namespace trammel::numerics {
 
@@ -42,14 +41,17 @@ class SparseMassKkt {
   // Of the first nc rows. False: a body's mass is not positive definite. `rank_tolerance` as in kkt.hpp.
   bool factorise(const std::vector<BodyBlock>& bodies, int nc, Metric metric, double rank_tolerance = 1e-7);
   // The bodies are those of `factorise`, or have moved on a little: of long chains, fronts of theirs take over where that is too far.
-  void solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
+  // False: x or y is not finite.
+  bool solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
   bool redundant() const { return redundant_; }
 
  private:
   bool factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric);
   bool leave_to_fronts(const std::vector<BodyBlock>& bodies);
   bool is_soft(double softness, const Vec& x) const;
+  void find_null_part(const Vec& r);
   void remove_null_part(Vec& r);
+  void minimise_norm(Vec& y);
   bool factorise_fronts(const std::vector<BodyBlock>& bodies);
   bool factorise_springs(const std::vector<BodyBlock>& bodies);
   bool springs_are_better(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, const Vec& x);
@@ -65,42 +67,32 @@ class SparseMassKkt {
   BodyMasses masses_;
   RowComplement complement_;
   FrontalKkt fronts_;
-  Vec residual_, dy_, null_part_, x_before_;
+  Vec residual_, dy_, null_part_, left_, x_before_;
 };
 
 class SparseIterationKkt {
  public:
-  // `tangent(add)` calls add(i, j, value) for every entry of S (nv x nv). Coupled: the bodies' Wt count, else W = G.
-  template <class Tangent>
-  void factorise(const std::vector<BodyBlock>& bodies, int nv, int nc, bool coupled, Tangent&& tangent) {
-    const bool fresh = full_.fill(nv + nc, nv + nc, [&](RecordedMatrix& m) {
-      tangent([&m](int i, int j, double value) { m.add(i, j, value); });
-      add_rows(bodies, nv, nc, coupled, m);
-    });
-    factorise_full(nv, nc, fresh);
-  }
-  // The same of [S W^T; G 0], given as a whole.
-  void factorise(const Eigen::SparseMatrix<double>& full, int nv);
+  // Of [S W^T; G 0], given as a whole. False: singular beyond redundant rows, or not finite.
+  bool factorise(const Eigen::SparseMatrix<double>& full, int nv);
   // False: not solvable, or not finite.
   [[nodiscard]] bool solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
 
  private:
-  void add_rows(const std::vector<BodyBlock>& bodies, int nv, int nc, bool coupled, RecordedMatrix& m);
-  void factorise_full(int nv, int nc, bool fresh);
   void find_null_part(const Eigen::Ref<const Vec>& y);
-  bool find_soft_rows(int nc);
+  void judge_rows(int nc);
+  void minimise_norm(int nc);
   // With right_, filling solution_ and residual_, whose norm is returned.
   double solve_and_refine();
   double solve_without_soft_rows(int nc);
 
-  RecordedMatrix full_;
-  Eigen::SparseMatrix<double> regular_;
+  Eigen::SparseMatrix<double> full_, regular_;
   Eigen::SparseLU<Eigen::SparseMatrix<double>> lu_;
   int nv_ = 0;
   double eps_ = 0;  // in the corner
   bool failed_ = false;
-  bool soft_ = false;  // some rows are dependent on others but for a little
-  int solves_ = 0;     // that solution_ is a sum of
+  bool redundant_ = false;  // some of few rows are
+  bool soft_ = false;       // some are but for a little
+  int solves_ = 0;          // that solution_ is a sum of
   Vec right_, solution_, residual_;
   Vec null_part_;  // of multipliers, and less what they do to x
 };

@@ -51,22 +51,6 @@ Vec right_hand(const Chain& chain) {
 
 class SparseMass : public testing::TestWithParam<int> {};
 
-TEST_P(SparseMass, SolvesAsTheDenseOne) {
-  const Chain chain(12, GetParam());
-  const Vec b = Vec::LinSpaced(chain.M.rows(), 1, -3), c = right_hand(chain);
-  MassKkt dense;
-  SparseMassKkt sparse;
-  ASSERT_TRUE(dense.factorise(chain.M, chain.G));
-  ASSERT_TRUE(sparse.factorise(chain.bodies, int(chain.G.rows()), SparseMassKkt::Metric::mass));
-  EXPECT_EQ(sparse.redundant(), GetParam() > 0);
-  Vec x, y, x_sparse, y_sparse;
-  dense.solve(b, c, x, y);
-  sparse.solve(chain.bodies, b, c, x_sparse, y_sparse);
-  // Round-off times the condition of the random chain, of order 1e4; of the complement's for y, its square.
-  EXPECT_LT((x_sparse - x).norm(), 1e-11 * x.norm());
-  EXPECT_LT((y_sparse - y).norm(), 1e-9 * y.norm()) << "also of minimum norm";
-}
-
 TEST_P(SparseMass, TakesTheIdentityForAMetric) {
   const Chain chain(12, GetParam());
   const Vec b = Vec::Zero(chain.M.rows()), c = right_hand(chain);
@@ -104,54 +88,7 @@ TEST(SparseIteration, DoesNotFollowTheRoundOffOfRowsThatAreNearlyDependent) {
   }
 }
 
-TEST_P(SparseMass, IterationMatrixSolvesTheWholeSystem) {
-  Chain chain(12, GetParam());
-  const auto nv = int(chain.M.rows()), nc = int(chain.G.rows());
-  SparseIterationKkt sparse;
-  const auto tangent = [&](auto&& add) {  // unsymmetric: M and a coupling of neighbours
-    for (const BodyBlock& body : chain.bodies)
-      for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i) add(body.v0 + i, body.v0 + j, body.M(i, j));
-    for (int i = 0; i + 3 < nv; ++i) add(i, i + 3, 0.2);
-  };
-  Mat S = chain.M, Wt = chain.G.transpose();
-  for (int i = 0; i + 3 < nv; ++i) S(i, i + 3) += 0.2;
-  // Friction: rows push aside as well, in proportion. The same for rows that are said twice.
-  for (BodyBlock& body : chain.bodies) {
-    body.Wt = body.Gt;
-    body.Wt.row(1) += 0.3 * body.Gt.row(0);
-    for (std::size_t i = 0; i < body.rows.size(); ++i)
-      Wt.col(body.rows[i]).segment(body.v0, 3) = body.Wt.col(Eigen::Index(i));
-  }
-  for (const bool coupled : {false, false, true, true}) {  // recorded, then replayed
-    sparse.factorise(chain.bodies, nv, nc, coupled, tangent);
-    Vec x, y;
-    const Vec b = Vec::LinSpaced(nv, 1, -3), c = right_hand(chain);
-    ASSERT_TRUE(sparse.solve(b, c, x, y));
-    const Vec force = coupled ? Vec(Wt * y) : Vec(chain.G.transpose() * y);
-    EXPECT_LT((S * x + force - b).norm(), 1e-11 * b.norm());
-    EXPECT_LT((chain.G * x - c).norm(), 1e-11 * c.norm());
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Redundant, SparseMass, testing::Values(0, 1, 5));
-
-TEST(RecordedMatrix, FollowsAnotherSequenceOfAdditions) {
-  RecordedMatrix matrix;
-  const auto fill = [&](std::vector<std::array<int, 2>> places) {
-    return matrix.fill(3, 3, [&](RecordedMatrix& m) {
-      for (const auto& [i, j] : places) m.add(i, j, 10 * i + j + 1);
-    });
-  };
-  EXPECT_TRUE(fill({{0, 0}, {1, 2}, {0, 0}}));
-  EXPECT_FALSE(fill({{0, 0}, {1, 2}, {0, 0}}));
-  EXPECT_EQ(matrix.matrix().coeff(0, 0), 2);
-  EXPECT_TRUE(fill({{0, 0}, {2, 1}}));
-  EXPECT_EQ(matrix.matrix().coeff(2, 1), 22);
-  EXPECT_EQ(matrix.matrix().coeff(1, 2), 0);
-  EXPECT_TRUE(fill({{0, 0}})) << "a shorter one";
-  EXPECT_EQ(matrix.matrix().nonZeros(), 1);
-}
 
 }  // namespace
 }  // namespace trammel::numerics

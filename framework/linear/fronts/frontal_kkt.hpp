@@ -44,6 +44,7 @@ class FrontalKkt {
   [[nodiscard]] double factorise_springs(const std::vector<BodyBlock>& bodies, int nc, bool identity, double softness);
   void solve_springs(const std::vector<BodyBlock>& bodies, double eps, const Vec& b, const Vec& c, Vec& x, Vec& y);
   int dependent() const { return dependent_; }  // rows
+  bool redundant() const { return dependent_ > 0; }
   // By what the last solution misses rows, of length one, that depend on others, relative to x; round-off of a row's own products is 0.
   double missed() const { return missed_; }
   // Was factorised before, in these rows' places.

@@ -1,0 +1,49 @@
+// The interface of all solvers of the saddle-point systems of constrained dynamics,
+//
+//     [S W^T] [x]   [b]        S: nv x nv, the mass or an iteration matrix;  G, W: nc x nv
+//     [G  0 ] [y] = [c]        W = G unless friction couples rows
+//
+//     solver                S                  rows         method
+//     MassKkt               mass, any storage  dense        Schur complement G M^-1 G^T (kkt.hpp)
+//     IterationKkt          any, dense         dense        LU of the whole (kkt.hpp)
+//     SparseMassKkt         mass, by bodies    by bodies    Schur complement, or fronts (sparse_kkt.hpp)
+//     FrontalKkt            mass, by bodies    by bodies    elimination of the rows (fronts/frontal_kkt.hpp)
+//     SparseIterationKkt    any, sparse        sparse       LU of the whole (sparse_kkt.hpp)
+//     FrontalIterationKkt   any, sparse        sparse       LU of the whole in fronts (frontal_iteration_kkt.hpp)
+//
+// A solver analyses the pattern within `factorise`, when it differs from the one before: contacts change it, and no
+// caller has to know when. tests/linear/saddle_point.cpp tests these promises on every solver:
+//  - x and y solve both equations to round-off, whatever the units of masses and rows (SparseIterationKkt: rows of
+//    similar length).
+//  - Rows may be redundant: x and W^T y are unique. Which rows are, and their rank nc - |those rows|, is a question
+//    about G alone: `dependent_rows` (sparse/dependent_rows.hpp) answers it for all solvers.
+//  - Multipliers of redundant rows are those of minimum norm, except of FrontalKkt.
+//  - Solving twice, or factorising again after another system of the same pattern, gives the same bits. After other
+//    patterns, too, except of FrontalIterationKkt, which keeps their places.
+//  - What cannot be solved is reported: `factorise` or `solve` returns false, never true with a NaN in x or y.
+#pragma once
+
+#include <concepts>
+
+#include <trammel/types.hpp>
+
+namespace trammel::numerics {
+
+// `Matrices`: what S, G and W are given as. False: singular, or not finite.
+template <class Solver, class... Matrices>
+concept FactorisesSaddlePoints = requires(Solver solver, const Matrices&... matrices) {
+  { solver.factorise(matrices...) } -> std::same_as<bool>;
+};
+
+// `Matrices`: those that a solver reads again to refine its solution; often none.
+template <class Solver, class... Matrices>
+concept SolvesSaddlePoints = requires(Solver solver, const Matrices&... matrices, const Vec& right, Vec& solution) {
+  { solver.solve(matrices..., right, right, solution, solution) } -> std::same_as<bool>;
+};
+
+template <class Solver>
+concept KnowsRedundantRows = requires(const Solver& factors) {
+  { factors.redundant() } -> std::same_as<bool>;
+};
+
+}  // namespace trammel::numerics
