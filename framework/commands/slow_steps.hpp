@@ -13,7 +13,8 @@ class SlowSteps {
   // The run's progress before its first step here.
   SlowSteps(double t, long long steps) : t_(t), steps_(steps) {}
 
-  // After `seconds` of CPU time, which a busy machine does not change: why the steps are so short, and the setting that cures it. Empty: the run is
+  // After `seconds` of CPU time, which a busy machine does not change: why the steps are so short, and the setting that
+  // cures it. Empty: the run is
   // not slow, it is too early to decide, or the message was given before.
   std::string look(double seconds, const Setup& setup, Simulator& simulator);
 

@@ -18,7 +18,8 @@
 namespace trammel::complementarity {
 namespace {
 
-// Of the largest entry of A: what a contact yields per unit of its force where several solutions are to be told apart. Where rows
+// Of the largest entry of A: what a contact yields per unit of its force where several solutions are to be told apart.
+// Where rows
 // depend on each other the first are larger than what Lemke's method perturbs, so that it ends where springs do.
 constexpr double compliances[] = {1e-10, 0.0}, dependent_compliances[] = {1e-6, 1e-8, 1e-10, 0.0};
 // A violation that is round-off of A F, of 1e-4 of its shares: nothing better is looked for.
@@ -92,7 +93,8 @@ class Cascade {
     return A_ + yields * A_.diagonal().maxCoeff() * Mat::Identity(A_.rows(), A_.cols());
   }
 
-  // Newton's method on the cones. With contacts that yield it comes to the one of several solutions that springs have, from which
+  // Newton's method on the cones. With contacts that yield it comes to the one of several solutions that springs have,
+  // from which
   // the way to the rigid ones is short.
   bool try_cones(double yields, const Vec& start, int rounds = 40) {
     Vec F = start;
@@ -104,7 +106,8 @@ class Cascade {
     return accept(F) && found;
   }
 
-  // With the share of equal springs, exactly: where the rows that carry also resist forces along their self-stress, these are 0.
+  // With the share of equal springs, exactly: where the rows that carry also resist forces along their self-stress,
+  // these are 0.
   bool try_springs(double yields, const Vec& nearby) {
     const Vec a = compliant(yields) * nearby + b_;
     const CarryingRows carrying =
@@ -119,7 +122,8 @@ class Cascade {
     return solve_cones(points_, springs, b_, F) && accept(F);
   }
 
-  // Keeps it if it is the best so far, once it is exact or else, where that fails, as it is. In space directions of slip are
+  // Keeps it if it is the best so far, once it is exact or else, where that fails, as it is. In space directions of
+  // slip are
   // better known before: the better one. True: no better one is needed.
   bool accept(const Vec& nearby) { return accept(nearby, A_ * nearby + b_); }
   bool accept(const Vec& nearby, const Vec& a) {

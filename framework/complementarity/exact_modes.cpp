@@ -69,7 +69,8 @@ class ExactModes {
     return false;
   }
 
-  // How contacts share must not depend on the modes that were tried on the way: once more from those that the accelerations show,
+  // How contacts share must not depend on the modes that were tried on the way: once more from those that the
+  // accelerations show,
   // with all contacts closed that do not part and all tangents sticking that do not move.
   void share_by_accelerations() {
     const std::vector<ContactRole> on_the_way = roles_;
@@ -116,7 +117,8 @@ class ExactModes {
     return A_(p.tangent, p.tangent) * (part(F_, p).norm() - p.coefficient * std::max(0.0, normal_force(i)));
   }
 
-  // Contacts that may share otherwise, for they do not slide and their resultants alone matter, and the columns of their forces.
+  // Contacts that may share otherwise, for they do not slide and their resultants alone matter, and the columns of
+  // their forces.
   std::vector<SharingContact> sharing_contacts(std::vector<Index>& columns) const {
     const auto column_of = [&](int row) {
       Index k = 0;
@@ -148,7 +150,8 @@ class ExactModes {
     return true;
   }
 
-  // By the least admissible forces, where springs would pull or leave a cone. Resultants are corrected for what K and the
+  // By the least admissible forces, where springs would pull or leave a cone. Resultants are corrected for what K and
+  // the
   // projections leave of the accelerations: round-off of forces that may be many times those that accelerate.
   void share_admissibly(const CarryingEquations& equations) {
     if (springs_are_admissible()) return;

@@ -3,13 +3,15 @@
 //     [S W^T] [x]   [b]
 //     [G  0 ] [y] = [c]        S nv x nv; G and W: nc x nv
 //
-// front by front (frontal_factors.hpp): a plate of thousands of coordinates, a chain of thousands of links. The columns of S are scaled
+// front by front (frontal_factors.hpp): a plate of thousands of coordinates, a chain of thousands of links. The columns
+// of S are scaled
 // to the size of one, and with them those of W, so that pivots tell dependent rows whatever the masses and units are:
 //
 //     [D S D    D W^T E] [D^-1 x]   [D b]        D, E diagonal, of powers of two: scaling does not round
 //     [E G D       0   ] [E^-1 y] = [E c]
 //
-// Where rows depend on each other, or exchanges within fronts do not serve, by the slower sparse LU of sparse_kkt.hpp, unscaled: y is
+// Where rows depend on each other, or exchanges within fronts do not serve, by the slower sparse LU of sparse_kkt.hpp,
+// unscaled: y is
 // then of minimum norm, and what is singular beyond the rows is told.
 // The pattern is analysed when it widens: once per mesh, and as contacts reach what they have not touched.
 #pragma once
@@ -27,7 +29,8 @@ class FrontalIterationKkt {
  public:
   // The sum of S, W^T and G; what it is given before the first `factorise` to reserve stays.
   SparseSum& sum() { return full_; }
-  // `additions()` adds all of it to the sum; it may be run twice. `independent()`: whether the rows are, asked where small pivots
+  // `additions()` adds all of it to the sum; it may be run twice. `independent()`: whether the rows are, asked where
+  // small pivots
   // make it doubtful.
   template <class Independent, class Additions>
   void factorise(int nv, int nc, Independent&& independent, Additions&& additions) {

@@ -11,11 +11,13 @@ namespace trammel::numerics {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-// Shares of multipliers in the rows' accelerations that are so many times what is left of them take their digits with them: of a
+// Shares of multipliers in the rows' accelerations that are so many times what is left of them take their digits with
+// them: of a
 // light body between heavy ones.
 constexpr double cancelling = 1e6;
 
-// The pivots of G M^-1 G^T over its diagonal are squares of those sines, row by row against the rows before. They are only
+// The pivots of G M^-1 G^T over its diagonal are squares of those sines, row by row against the rows before. They are
+// only
 // a warning, given early; the decomposition decides.
 bool pivots_are_safe(const Cholesky& factors, const Mat& matrix, double tolerance) {
   const double safe = 100 * tolerance * tolerance;
@@ -24,7 +26,8 @@ bool pivots_are_safe(const Cholesky& factors, const Mat& matrix, double toleranc
   return true;
 }
 
-// What a row has of an angle is a lever [m]. Where levers are long, rows in metres look alike by them, and what the rows are off by
+// What a row has of an angle is a lever [m]. Where levers are long, rows in metres look alike by them, and what the
+// rows are off by
 // is less of a length: both are measured by the longest. The rows reach the same.
 struct WithoutLevers {
   Mat G;
@@ -41,7 +44,8 @@ struct WithoutLevers {
   double tolerance(double of_rows) const { return std::max(rank_tolerance_at(0), of_rows / longest); }
 };
 
-// Of the rows at length one, whose pivots are sines of angles to the rows before: masses and units, and the lengths of rows near a
+// Of the rows at length one, whose pivots are sines of angles to the rows before: masses and units, and the lengths of
+// rows near a
 // singular position, must not make independent rows look alike.
 Eigen::ColPivHouseholderQR<Mat> decomposed(const WithoutLevers& rows, const Vec& lengths, double tolerance) {
   Mat unit = rows.G;
@@ -104,7 +108,8 @@ void MassKkt::change_rows(const Mat& G, const Mat& W, double rank_tolerance) {
   if (redundant_) merge_rows(G, rank_tolerance);
 }
 
-// A decomposition with pivoting alone would leave U uncertain by what the rows part by, differently from call to call: then
+// A decomposition with pivoting alone would leave U uncertain by what the rows part by, differently from call to call:
+// then
 // the accelerations were no smooth function of the state, and a Runge-Kutta method of second order. A step of the power
 // method, with the square of that, takes it to round-off.
 void MassKkt::merge_rows(const Mat& G, double rank_tolerance) {
@@ -181,7 +186,8 @@ Mat& IterationKkt::begin(Eigen::Index nv, Eigen::Index nc) {
 
 namespace {
 
-// In the columns from `first` on. A pivot is compared with its own column, so unlike scales of S and G make none small; the
+// In the columns from `first` on. A pivot is compared with its own column, so unlike scales of S and G make none small;
+// the
 // largest entry of all is asked first, which is cheaper and nearly always enough.
 bool has_small_pivot(const Lu& lu, const Mat& matrix, Eigen::Index first, double smallest) {
   const double largest = matrix.cwiseAbs().maxCoeff();
@@ -254,7 +260,8 @@ bool IterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   } else {
     if (!right_.allFinite()) return false;
     solution_ = cod_.solve(right_);
-    // A least-squares answer that leaves a residual is no solution; unless it is round-off of positions of the order of 1.
+    // A least-squares answer that leaves a residual is no solution; unless it is round-off of positions of the order of
+    // 1.
     const Vec residual = full_ * solution_ - right_;
     const double noise = 1e-13, S = full_.topLeftCorner(nv_, nv_).lpNorm<Eigen::Infinity>();
     const double G = std::max(1.0, full_.bottomLeftCorner(rows, nv_).lpNorm<Eigen::Infinity>());

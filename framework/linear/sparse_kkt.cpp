@@ -9,32 +9,41 @@ namespace trammel::numerics {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-// Of S's and G's scales. Large beside its round-off, so that corrections converge; its square root is the singular value, relative to
-// the largest, below which rows count as redundant. A chain's own rows must not, whose softest falls with the square of their number:
+// Of S's and G's scales. Large beside its round-off, so that corrections converge; its square root is the singular
+// value, relative to
+// the largest, below which rows count as redundant. A chain's own rows must not, whose softest falls with the square of
+// their number:
 // among few rows alone soft ones are those of a singular position.
 constexpr int long_from = 200;
 constexpr double regularisation(int nc) {
   return nc < long_from ? 1e-10 : 1e-12;
 }
-// Of a long chain the complement serves as it is down to this sine of a row's angle to others: its square above round-off by 1e10.
+// Of a long chain the complement serves as it is down to this sine of a row's angle to others: its square above
+// round-off by 1e10.
 constexpr double safe_sine = 1e-3;
-// And down to this eigenvalue of the whole, S's diagonal scaled to 1: round-off of its rows, 1e-13, over the root is 2e-9 of
+// And down to this eigenvalue of the whole, S's diagonal scaled to 1: round-off of its rows, 1e-13, over the root is
+// 2e-9 of
 // accelerations.
 constexpr double soft_chain = 2e-9;
-// Forces on a few bodies, or masses of many sizes, leave other round-off, which tells less of the softest direction. Below this,
-// accelerations that the second correction still changes by more than this part of them are not trusted: of 594 loads on masts
+// Forces on a few bodies, or masses of many sizes, leave other round-off, which tells less of the softest direction.
+// Below this,
+// accelerations that the second correction still changes by more than this part of them are not trusted: of 594 loads
+// on masts
 // and 48 beams of graded masses it was 100 times their error at least.
 constexpr double may_be_soft = 1e-6, trusted_change = 1e-7;
 // Of redundant rows.
 constexpr double of_redundant = 1e-10;
-// Of rows as springs, where fronts contradict each other. Less leaves more rounding of the elimination, more leaves more directions
-// free, which follow the rounding of rows and forces. Accelerations of a hoop of 10,000 bays from 30 to 88 degrees are exact to
+// Of rows as springs, where fronts contradict each other. Less leaves more rounding of the elimination, more leaves
+// more directions
+// free, which follow the rounding of rows and forces. Accelerations of a hoop of 10,000 bays from 30 to 88 degrees are
+// exact to
 // 7e-10 by 1e-9, 1.3e-10 by 1e-10, 4e-11 by 1e-11, 4e-10 by 1e-12.
 constexpr double of_springs = 1e-10;
 // Redundant rows part by no more than this where they are violated, the largest rank tolerance of kkt.hpp.
 constexpr double parting = 1e-2;
 
-// Corrects until the residual is `enough` or stops to fall: `residual(r)` fills r and returns its norm, `correct(r)` uses it.
+// Corrects until the residual is `enough` or stops to fall: `residual(r)` fills r and returns its norm, `correct(r)`
+// uses it.
 // Of a residual that is no more than round_off() one correction is left to be made.
 template <class Residual, class Correct, class RoundOff>
 double refine(Residual&& residual, Correct&& correct, double enough, RoundOff&& round_off, int most, Vec& r) {
@@ -95,7 +104,8 @@ bool SparseMassKkt::factorise_fronts(const std::vector<BodyBlock>& bodies) {
     redundant_ = fronts_.dependent() > 0;
     return true;
   }
-  // Either a mass is not positive definite, which springs find, too, or what contradicting rows leave of the masses is not.
+  // Either a mass is not positive definite, which springs find, too, or what contradicting rows leave of the masses is
+  // not.
   fronts_failed_ = true;
   return factorise_springs(bodies);
 }
@@ -150,9 +160,12 @@ void SparseMassKkt::solve_by_fronts(const std::vector<BodyBlock>& bodies, const 
   fronts_.solve_springs(bodies, eps_, b, c, x, y);
 }
 
-// Where accelerations miss dependent rows by more than round-off of those rows alone, round-off from far around a ring is between
-// them (hoops of 400 bays: 1e-13, of 1000 1e-11 to 1e-9; masts of any length 3e-16), and moves x some thousand times as much. If
-// springs differ by no more than that, it is what the fronts have lost; by more, as of long masts, it is what springs leave free.
+// Where accelerations miss dependent rows by more than round-off of those rows alone, round-off from far around a ring
+// is between
+// them (hoops of 400 bays: 1e-13, of 1000 1e-11 to 1e-9; masts of any length 3e-16), and moves x some thousand times as
+// much. If
+// springs differ by no more than that, it is what the fronts have lost; by more, as of long masts, it is what springs
+// leave free.
 // Rows that miss more contradict each other by drift. Found out once for these rows.
 bool SparseMassKkt::springs_are_better(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, const Vec& x) {
   constexpr double round_off = 1e-13, drift = 5e-8, moves = 1e4;
@@ -177,9 +190,12 @@ bool SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, co
   return x.allFinite() && y.allFinite();
 }
 
-// False: a long chain is too soft for it, which may leave no trace in any single pivot. The second correction tells: it answers to
-// what the first has left, round-off, which S^-1 enlarges most in the softest direction. Of chains and masts of 1000 to 80,000
-// rows under their own weight and springs that is within 5 % of their least eigenvalue. Or the factors are of other rows, too far
+// False: a long chain is too soft for it, which may leave no trace in any single pivot. The second correction tells: it
+// answers to
+// what the first has left, round-off, which S^-1 enlarges most in the softest direction. Of chains and masts of 1000 to
+// 80,000
+// rows under their own weight and springs that is within 5 % of their least eigenvalue. Or the factors are of other
+// rows, too far
 // off for corrections to come closer.
 bool SparseMassKkt::solve_by_complement(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x,
                                         Vec& y) {
@@ -208,8 +224,10 @@ bool SparseMassKkt::solve_by_complement(const std::vector<BodyBlock>& bodies, co
     masses_.solve(x);
     if (tells) soft = is_soft(complement_.softness(r, dy_), x);
   };
-  // Multipliers along a chain add up to accelerations a million times those that are left. Their round-off does not fall by
-  // corrections, but the first one takes away what is smooth of it, to which a soft mechanism yields: 1e-9 of a mast's accelerations.
+  // Multipliers along a chain add up to accelerations a million times those that are left. Their round-off does not
+  // fall by
+  // corrections, but the first one takes away what is smooth of it, to which a soft mechanism yields: 1e-9 of a mast's
+  // accelerations.
   double of_forces = 0;
   const auto round_off = [&] { return of_forces = redundant_ ? 0 : 4 * eps * complement_.largest_share(y); };
   const double left = refine(residual, correct, enough, round_off, redundant_ ? 40 : 4, residual_);
@@ -267,7 +285,8 @@ void SparseIterationKkt::find_null_part(const Eigen::Ref<const Vec>& y) {
   }
 }
 
-// Whether that part, of entries in no order, changes when it is taken again. It does not where rows are redundant or independent.
+// Whether that part, of entries in no order, changes when it is taken again. It does not where rows are redundant or
+// independent.
 void SparseIterationKkt::judge_rows(int nc) {
   constexpr double golden = 0.61803398874989485, noticed = 1e-5;
   residual_.resize(nc);
@@ -304,7 +323,8 @@ double SparseIterationKkt::solve_and_refine() {
       residual, correct, 1e-15 * right_.norm(), [] { return 0.0; }, 40, residual_);
 }
 
-// Soft rows are taken for redundant, all the more the softer they are: c does not ask for them, and y does nothing along them.
+// Soft rows are taken for redundant, all the more the softer they are: c does not ask for them, and y does nothing
+// along them.
 double SparseIterationKkt::solve_without_soft_rows(int nc) {
   constexpr int passes = 3;  // each leaves of rows with sigma^2 < eps/10 a fifth at most
   for (int i = 0; i < passes; ++i) {
@@ -330,7 +350,8 @@ bool SparseIterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   y = solution_.tail(c.size());
   if (!solution_.allFinite()) return false;
   if (reached) return true;
-  // What no x reaches is left: where redundant rows differ, by round-off or as far as Newton's iteration still has to go. Each solution
+  // What no x reaches is left: where redundant rows differ, by round-off or as far as Newton's iteration still has to
+  // go. Each solution
   // has added it to y, along the rows' null space.
   if (!soft_ && eps_ > 0) y += solves_ / eps_ * residual_.tail(c.size());
   const double of_rows = residual_.tail(c.size()).norm();

@@ -1,6 +1,7 @@
 // A scene's settings of the run itself: steps, times, records, corrections.
 //
-//     "integrator": {..., "step": 1e-4, "contact_step": {"tolerance": 1e-9}}     contact_step: while a contact is closed
+//     "integrator": {..., "step": 1e-4, "contact_step": {"tolerance": 1e-9}}     contact_step: while a contact is
+//     closed
 //     "simulate":   {"start": 0, "until": 2, "contact_hold": 0, "chatter_steps": 3, "event_limit": 1000000}
 //     "initial":    "check" | "project" | "equilibrium", or {"consistent": "check" | "project"}
 //     "static":     {"steps": 10, "tolerance": 1e-9, "iterations": 20, "arc_length": false}     for `trammel static`

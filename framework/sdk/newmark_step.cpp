@@ -9,10 +9,12 @@ namespace trammel {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-// Of the first increment from an extrapolated prediction. Methods of second order have a local error of v of 0.1 to 0.25 of that
+// Of the first increment from an extrapolated prediction. Methods of second order have a local error of v of 0.1 to
+// 0.25 of that
 // increment, so that what Newton's iteration leaves is within a hundredth of it.
 constexpr double share_of_first = 1e-3;
-// An acceleration that changes by more than this part of itself in a step is not extrapolated; nor from a step so much shorter.
+// An acceleration that changes by more than this part of itself in a step is not extrapolated; nor from a step so much
+// shorter.
 constexpr double smooth = 0.5, longest_ahead = 4;
 // Levers are shorter than the unit of length: rows turn by so much more than their coordinates move.
 constexpr double turns = 10;
@@ -121,8 +123,10 @@ bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
   return true;
 }
 
-// Stabilised, of rows that hold but for the iteration's last increment. q takes nothing of what v takes, for then G stays, and with
-// it the velocity rows are linear: one pass meets them, where increments of a turn them by h times the angular velocity.
+// Stabilised, of rows that hold but for the iteration's last increment. q takes nothing of what v takes, for then G
+// stays, and with
+// it the velocity rows are linear: one pass meets them, where increments of a turn them by h times the angular
+// velocity.
 bool NewmarkStep::correct_rows_alone(System& s, State& next) {
   if (formulation == Formulation::index3) return correct_rows(s, zero_, next);
   rc_ = s.g();

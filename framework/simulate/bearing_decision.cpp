@@ -1,13 +1,16 @@
 // Rule 10 of contact_mode.hpp: which joints that rub stick and slide.
 //
-// Their loads, which bound the friction, follow from the reactions, and these from the friction and from all contacts. Rounds find
+// Their loads, which bound the friction, follow from the reactions, and these from the friction and from all contacts.
+// Rounds find
 // modes that agree with their own loads:
 //
-//     loads of the modes of the last round, exactly (AssembledSystem::accelerate)  ->  problem with these loads given  ->  modes
+//     loads of the modes of the last round, exactly (AssembledSystem::accelerate)  ->  problem with these loads given
+//     ->  modes
 //
 // A joint that locks itself while it slides has none: it jams (rule 8).
 //
-// The round that gives the same modes again is the check: it solves the whole problem with the loads of its own solution. The first
+// The round that gives the same modes again is the check: it solves the whole problem with the loads of its own
+// solution. The first
 // round has the loads with which all that may rest rests, so where a joint could stay or go, it stays.
 #include <algorithm>
 

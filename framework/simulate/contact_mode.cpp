@@ -19,10 +19,13 @@ using complementarity::LcpOutcome;
 
 namespace {
 
-// A contact that begins at rest has no approach speed for a damping law to scale with, and no such damping: 1/speed would hold
-// it by a viscosity without bound, which steps of no fixed length follow. Below this part of the scene's speed it is at rest.
+// A contact that begins at rest has no approach speed for a damping law to scale with, and no such damping: 1/speed
+// would hold
+// it by a viscosity without bound, which steps of no fixed length follow. Below this part of the scene's speed it is at
+// rest.
 constexpr double least_approach = 1e-6;
-// Of the accelerations: one that has just let go departs as slowly as its force passes 0, up to the round-off of forces.
+// Of the accelerations: one that has just let go departs as slowly as its force passes 0, up to the round-off of
+// forces.
 constexpr double opened_by_error = 1e-6;
 
 }  // namespace
@@ -53,7 +56,8 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   find_candidates(changes);
   auto solution =
       changes.locked ? complementarity::ContactSolution{LcpOutcome::no_solution, 0} : decide(state, changes, jumped);
-  // A force that changes its sign at Painleve's critical state does so by way of infinity: without it the contact would approach.
+  // A force that changes its sign at Painleve's critical state does so by way of infinity: without it the contact would
+  // approach.
   const auto approaches_without_force = [&](int contact) {
     return !modes_.contacts[contact].closed &&
            system_.acceleration({contact, 0}, a_) < -opened_by_error * std::max(largest_, scale_.of(contact).no_acceleration());
@@ -254,8 +258,10 @@ double ContactModes::at_rest(const std::vector<TouchingContact>& contacts) const
   return slow;
 }
 
-// Of the touching contacts those that separate after the impact, but fall back before the steps can follow. All with so small a
-// separation are judged as one: in a pile each flies only as long as its neighbours do. Were they all at rest, those that would press
+// Of the touching contacts those that separate after the impact, but fall back before the steps can follow. All with so
+// small a
+// separation are judged as one: in a pile each flies only as long as its neighbours do. Were they all at rest, those
+// that would press
 // fall back, with the acceleration that their own force holds.
 std::vector<bool> ContactModes::falling_back(const State& state, const ContactChanges& changes) {
   const auto separates = [this](const TouchingContact& c) {

@@ -175,8 +175,10 @@ bool EventLocation::slow(const Watch& watch) {
          system_.slip(watch.contact).norm() < system_.modes().contacts[std::size_t(watch.contact)].slow;
 }
 
-// What has been accelerated for ten times as long as that takes to pass `slow`, and has not, is held: friction whose direction is not
-// resolved there acts on it as a stiff damper, which other contacts that stick balance. At the system's point, the end of the step.
+// What has been accelerated for ten times as long as that takes to pass `slow`, and has not, is held: friction whose
+// direction is not
+// resolved there acts on it as a stiff damper, which other contacts that stick balance. At the system's point, the end
+// of the step.
 bool EventLocation::stalls(double h, const State& next, int w) {
   const Watch& watch = watches_[std::size_t(w)];
   if (!slow(watch)) return false;
@@ -251,7 +253,8 @@ EventLocation::Value EventLocation::value(int w, const State& state, bool& accel
   return {force(watch, state.t, own_force_ ? state.lambda : lambda_), 0};
 }
 
-// Just after an event a function at round-off of 0 tells nothing, unless it goes on falling; nor does one that began below
+// Just after an event a function at round-off of 0 tells nothing, unless it goes on falling; nor does one that began
+// below
 // it (a row that had drifted, an onset that was not located), unless it falls further.
 bool EventLocation::happened(int w, const Value& end) const {
   if (!(end.f < 0)) return false;
@@ -286,7 +289,8 @@ void EventLocation::find_suspects(const State& now, double h, const State& next)
   }
 }
 
-// By what values and slopes at the ends tell, so that of many the first one is located and the others are seen to come later.
+// By what values and slopes at the ends tell, so that of many the first one is located and the others are seen to come
+// later.
 void EventLocation::earliest_first(std::vector<Suspect>& suspects) const {
   const auto crossing = [this](const Suspect& s) {
     const Value& begin = now_[s.watch];
@@ -346,7 +350,8 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
   return Found::event;
 }
 
-// An event that changed nothing was round-off, or what was missed moves nothing yet. It is one again where several times as much is
+// An event that changed nothing was round-off, or what was missed moves nothing yet. It is one again where several
+// times as much is
 // missed.
 void EventLocation::wait_longer(const Watch& before, const Value& now, Watch& watch) const {
   if (watch.kind == Kind::load) return;
@@ -380,8 +385,10 @@ void EventLocation::report(int w) {
   }
 }
 
-// How near to 0 a gap counts as there. Where a truss unfolds into its singular position, the rows that keep its cells alike are
-// double roots: their round-off tells how far cells have unfolded to half of the digits. Latches that such rows tie lock as one; else
+// How near to 0 a gap counts as there. Where a truss unfolds into its singular position, the rows that keep its cells
+// alike are
+// double roots: their round-off tells how far cells have unfolded to half of the digits. Latches that such rows tie
+// lock as one; else
 // those that are late would find that nothing can move.
 double EventLocation::same_instant(int contact) const {
   const bool by_double_root = system_.model().contacts[contact].limit && system_.redundant();

@@ -10,7 +10,8 @@ namespace {
 // Where in a step `hides` looks: an irrational part of it, the golden section's, meets no law's period again and again.
 constexpr double inside = 0.3819660112501051;
 
-// In space a slip comes to its end by steps that leave a fifth of it: over its zero the stiffness mu N/|s| across it is more than
+// In space a slip comes to its end by steps that leave a fifth of it: over its zero the stiffness mu N/|s| across it is
+// more than
 // an explicit method bears, which makes of round-off there a turn.
 bool overshoots(double begin, double end, double slow) {
   return begin > 10 * slow && end < 0.2 * begin;
@@ -38,8 +39,10 @@ struct EventLocation::Cubic {
     minimum = value(x);
     return true;
   }
-  // A distance of bodies that pass each other bends upwards alone, and so does the load of a joint's bearings, a sum of lengths: it
-  // goes as low as its tangents at the ends meet, where it may have a kink that the cubic rounds off. Whether that is below 0.
+  // A distance of bodies that pass each other bends upwards alone, and so does the load of a joint's bearings, a sum of
+  // lengths: it
+  // goes as low as its tangents at the ends meet, where it may have a kink that the cubic rounds off. Whether that is
+  // below 0.
   bool tangents_cross() {
     if (!(S_low < 0 && S_high > 0)) return false;
     const double x = (F_low - F_high + S_high * (high - low)) / (S_high - S_low);
@@ -76,7 +79,8 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
   return (gaps && hides_gap(h)) || (forces && hides_force(h));
 }
 
-// Whether swings of steps of length h could lead to an event unseen: of a force, or of a gap that is small for its rate.
+// Whether swings of steps of length h could lead to an event unseen: of a force, or of a gap that is small for its
+// rate.
 bool EventLocation::swings_matter(const std::vector<Value>& values, double h) const {
   constexpr double far = 20;
   for (int w = 0; w < int(watches_.size()); ++w) {
@@ -164,7 +168,8 @@ bool EventLocation::returns(const State& now, double h, int w, Suspect& suspect)
   return true;
 }
 
-// Slopes of the force cost a solution of the equations of motion each; they are asked for when the force is so small, compared
+// Slopes of the force cost a solution of the equations of motion each; they are asked for when the force is so small,
+// compared
 // with its change and the bend of its last three values, that it could have crossed 0 and come back.
 bool EventLocation::worth_slopes(int w, double h) const {
   const double least = std::min(now_[w].f, next_[w].f), change = next_[w].f - now_[w].f;
@@ -195,7 +200,8 @@ double EventLocation::slope_at_end(const State& state, double dt, int w, double 
   return slopes[w];
 }
 
-// Calls each(-1, t, lambda) at the state, then each(1, t + dt, lambda) a time dt later, as far as its accelerations tell.
+// Calls each(-1, t, lambda) at the state, then each(1, t + dt, lambda) a time dt later, as far as its accelerations
+// tell.
 template <class Each>
 void EventLocation::force_slopes(const State& state, double dt, Each&& each) {
   system_.move_to(state.t, state.q, state.v);

@@ -1,9 +1,12 @@
-// Refinement in the time loop: bodies are asked after every step, when they are told the pressures of contacts on their surface,
-// and when one of their contacts has closed; the state is carried over and what the new coordinates changed is reported.
+// Refinement in the time loop: bodies are asked after every step, when they are told the pressures of contacts on their
+// surface,
+// and when one of their contacts has closed; the state is carried over and what the new coordinates changed is
+// reported.
 //
 //     q, v by the bodies' transfers;   a, lambda from the equations of motion in the new coordinates
 //
-// A nested refinement changes neither shape nor velocity, so mass, momentum and energies stay; the event tells them before
+// A nested refinement changes neither shape nor velocity, so mass, momentum and energies stay; the event tells them
+// before
 // and after, and what the energy did change is a cause of its own in the ledger.
 #pragma once
 
@@ -24,7 +27,8 @@ class Refinement {
 
   void lay_out();  // bodies were read from an archive
   bool possible() const { return !refinable_.empty(); }
-  // Null: nothing was refined. Else `state` is in the new coordinates, its a and lambda solved, and the energy changed by
+  // Null: nothing was refined. Else `state` is in the new coordinates, its a and lambda solved, and the energy changed
+  // by
   // `gained()`. `contact`: index of the one that has just closed, -1 after a step.
   const Transfer* refine(State& state, int contact);
   const std::vector<RefineEvent>& events() const { return events_; }

@@ -117,7 +117,8 @@ double Simulator::little_energy() {
   return little * (moving > 0 ? std::min(1.0, moving) : 1);
 }
 
-// Energy without a cause, relative to what moved most, fell or rose, came in and went out. A little more keeps round-off of a
+// Energy without a cause, relative to what moved most, fell or rose, came in and went out. A little more keeps
+// round-off of a
 // system at rest from counting.
 double Simulator::relative_drift() {
   const Energy energy = energy_at_state();
@@ -128,7 +129,8 @@ double Simulator::relative_drift() {
   return std::abs(energy_drift()) / (moved + little_energy() + 1e-9 * std::abs(ledger_.energy_start()));
 }
 
-// A method that is unstable with its step may give finite nonsense for long. Its energy tells: it goes on growing, where that of
+// A method that is unstable with its step may give finite nonsense for long. Its energy tells: it goes on growing,
+// where that of
 // a damping method overshoots once and falls (HHT-alpha at h omega = 1e5: by 5e4).
 void Simulator::judge_energy() {
   const double drift = relative_drift();
@@ -201,7 +203,8 @@ bool Simulator::locks_here() {
   }
 }
 
-// Where forces of contacts that slide grow without end within a finite time (Painleve's critical state) steps become too short.
+// Where forces of contacts that slide grow without end within a finite time (Painleve's critical state) steps become
+// too short.
 // Friction a little larger is beyond that state, where an impact without collision ends the slip.
 bool Simulator::near_critical_state() {
   constexpr double near = 1e-4, beyond = 10;
@@ -299,7 +302,8 @@ bool Simulator::near_the_end_of_numbers() const {
   return !(std::max(now_.q.lpNorm<Eigen::Infinity>(), now_.v.lpNorm<Eigen::Infinity>()) < 1e30);
 }
 
-// Throws if a component answers with numbers that are not finite where the step began, or at the times it went to. Not when
+// Throws if a component answers with numbers that are not finite where the step began, or at the times it went to. Not
+// when
 // the state itself is near the end of the numbers: then any component's answer may overflow.
 void Simulator::find_culprit(double h) {
   if (near_the_end_of_numbers()) return;

@@ -54,7 +54,8 @@ void Simulator::restart_all_but_integrator() {
   statistics_.note_sizes(now_.t, system_.sizes());
 }
 
-// Events that hardly move t, one after the other, are no motion but a contradiction in the model: its modes exclude each other.
+// Events that hardly move t, one after the other, are no motion but a contradiction in the model: its modes exclude
+// each other.
 void Simulator::guard_against_standstill(double h, double wanted, int contact) {
   standing_ = h <= 64 * eps * (std::abs(now_.t) + wanted) ? standing_ + 1 : 0;
   const int contacts = int(system_.model().contacts.size());

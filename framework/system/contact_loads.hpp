@@ -4,9 +4,12 @@
 //     F = -lambda of its row;   of shared rows F = share (-lambda of the basis)
 //
 // Where that pulls or leaves a friction cone, dependent contacts carry the same resultants by other forces
-// (complementarity/shares/admissible_forces.hpp), as long as there are some. Those that slide do not: their friction, and with it the motion,
-// follows from their share as springs. Nor do those that are idle. The others share what these leave of the resultants. Where they
-// cannot, those that slide take part along the direction of their force, n + p t: only forces that leave the motion as it is.
+// (complementarity/shares/admissible_forces.hpp), as long as there are some. Those that slide do not: their friction,
+// and with it the motion,
+// follows from their share as springs. Nor do those that are idle. The others share what these leave of the resultants.
+// Where they
+// cannot, those that slide take part along the direction of their force, n + p t: only forces that leave the motion as
+// it is.
 #pragma once
 
 #include <array>
@@ -60,7 +63,8 @@ class ContactLoads {
     Group& g = groups_[std::size_t(group)];
     return slack(g) >= -round_off * scale(g) || share_admissibly(g, {sharing(g), g.directions, g.E});
   }
-  // After that, with those that slide; E: what moves, by the forces of the members, then by each that slides along n + p t.
+  // After that, with those that slide; E: what moves, by the forces of the members, then by each that slides along n +
+  // p t.
   void solve_with_sliding(int group, const Mat& E);
   double load(const Place& place) const { return groups_[std::size_t(place.group)].forces[place.index]; }
   // True if it slides or is idle.

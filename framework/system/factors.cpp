@@ -1,4 +1,5 @@
-// The system's matrices at the point, times vectors and factorised: dense, sparse, or by BodyBlocks where bodies are many.
+// The system's matrices at the point, times vectors and factorised: dense, sparse, or by BodyBlocks where bodies are
+// many.
 #include "linear/dense/products_of_few_rows.hpp"
 #include "linear/dense/simd_columns.hpp"
 #include "system/assembly.hpp"

@@ -1,10 +1,13 @@
 // Whether the error estimate of a method estimates: beside the true local error, over runs with steps h, h/2, h/4.
 //
-//     ratio = rms over the steps of the estimate / rms of the error          order p of the method, p_e = error_order() of the estimate
+//     ratio = rms over the steps of the estimate / rms of the error          order p of the method, p_e = error_order()
+//     of the estimate
 //
 // p_e > p: the estimate is the leading term of the error, so the ratio tends to 1 and is off by O(omega h).
-// p_e <= p: it is the error of an embedded method of lower order, so the ratio grows by 1/(omega h)^(p + 1 - p_e) and is at least 1.
-// Rows: what lies across them is estimated, and then removed by methods that hold rows: there the ratio may be larger, not less.
+// p_e <= p: it is the error of an embedded method of lower order, so the ratio grows by 1/(omega h)^(p + 1 - p_e) and
+// is at least 1.
+// Rows: what lies across them is estimated, and then removed by methods that hold rows: there the ratio may be larger,
+// not less.
 #include <fmt/format.h>
 
 #include <cmath>

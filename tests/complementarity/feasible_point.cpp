@@ -17,7 +17,8 @@ constexpr Real no_pivot = 1e-11L, no_slope = 1e-15L, negligible = 1e-13L;
 // Then Bland's rule.
 constexpr int pivots_of_steepest_slope = 200;
 
-// Columns: x, then one artificial variable a row (not stored: never enters again), then the right side. Last row: the slopes of
+// Columns: x, then one artificial variable a row (not stored: never enters again), then the right side. Last row: the
+// slopes of
 // the sum of the artificial variables.
 class FirstPhase {
  public:
@@ -65,7 +66,8 @@ class FirstPhase {
     return best;
   }
 
-  // Of rows that reach zero first but for what is negligible (Harris) the largest pivot, or by Bland's rule the variable of the
+  // Of rows that reach zero first but for what is negligible (Harris) the largest pivot, or by Bland's rule the
+  // variable of the
   // least number.
   Index leaving(Index column, bool largest_pivot) const {
     const auto ratio = [&](Index i, Real slack) {

@@ -1,4 +1,5 @@
-// Contacts with friction in space: the cone's own conditions, whatever the number of contacts and however redundant they are.
+// Contacts with friction in space: the cone's own conditions, whatever the number of contacts and however redundant
+// they are.
 #include <cmath>
 #include <random>
 
@@ -63,7 +64,8 @@ TEST(FrictionCone, HoldsForRandomFeet) {
   }
 }
 
-// Four feet of a rigid body of 1 kg, gyration radius 0.5 m, and any forces on it: twelve rows, six velocities, F is one of many.
+// Four feet of a rigid body of 1 kg, gyration radius 0.5 m, and any forces on it: twelve rows, six velocities, F is one
+// of many.
 Scene random_table(std::mt19937& random) {
   std::normal_distribution<double> normal;
   Mat G(12, 6);

@@ -1,4 +1,5 @@
-// Without friction: a convex program, solved for any number of contacts, dependent or not, or proved to have no solution.
+// Without friction: a convex program, solved for any number of contacts, dependent or not, or proved to have no
+// solution.
 #include <gtest/gtest.h>
 
 #include "complementarity/programs/nonnegative_least_squares.hpp"

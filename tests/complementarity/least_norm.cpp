@@ -15,7 +15,8 @@ bool closed(const ContactPoint& p, const Vec& a, double nothing) {
   return p.normal < 0 || a[p.normal] <= nothing;
 }
 
-// The rows along which a closed contact that does not slide may exert forces, and the normals of its cone that are active at F.
+// The rows along which a closed contact that does not slide may exert forces, and the normals of its cone that are
+// active at F.
 class ActiveCones {
  public:
   ActiveCones(const Problem& problem, const Vec& F, const Vec& a, double nothing) : m_(F.size()) {

@@ -43,7 +43,8 @@ class PlanarBodies {
   std::vector<Touch> touches_;
 };
 
-// One of the structured kinds, of some random measures, with no more contacts than this: stacks, arches, channels, piles of discs,
+// One of the structured kinds, of some random measures, with no more contacts than this: stacks, arches, channels,
+// piles of discs,
 // tables of many feet, wedges, feet that nearly coincide.
 Problem any_structure(std::mt19937& random, int most_contacts);
 

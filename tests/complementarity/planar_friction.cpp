@@ -1,4 +1,5 @@
-// Friction in the plane, against the enumeration of all modes: forces are found wherever there are some, and only there.
+// Friction in the plane, against the enumeration of all modes: forces are found wherever there are some, and only
+// there.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,4 +1,5 @@
-// A box on four feet that turns about one of them: how the feet share decides its motion. They share as equal springs do.
+// A box on four feet that turns about one of them: how the feet share decides its motion. They share as equal springs
+// do.
 #include <cmath>
 #include <random>
 

@@ -1,4 +1,5 @@
-// Friction in space, up to four contacts: found, or proved not to exist; against a dense polyhedral cone and a compliant law.
+// Friction in space, up to four contacts: found, or proved not to exist; against a dense polyhedral cone and a
+// compliant law.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Error estimates shrink with the order claimed and are near the true local error (trammel/testing/measurements.hpp says how near);
+// Error estimates shrink with the order claimed and are near the true local error (trammel/testing/measurements.hpp
+// says how near);
 // dense output has its order.
 #include "support.hpp"
 
@@ -78,8 +79,10 @@ INSTANTIATE_TEST_SUITE_P(All, EveryEstimate, testing::ValuesIn(all_forms()),
                            return tested.param.name + "_" + std::to_string(tested.index);
                          });
 
-// Newmark's own accelerations are those of the motion, so that what it remembers serves whatever the steps were. From a step of h/2 to
-// one of h: the leading term of the error is that of h alone; the next one, of relative size omega h = 0.02, is not counted.
+// Newmark's own accelerations are those of the motion, so that what it remembers serves whatever the steps were. From a
+// step of h/2 to
+// one of h: the leading term of the error is that of h alone; the next one, of relative size omega h = 0.02, is not
+// counted.
 TEST(NewmarkError, IsTheTrueErrorWhereStepsChange) {
   for (const double omega : {0.2, 20.0}) {
     Posed s(problems::oscillator(omega));

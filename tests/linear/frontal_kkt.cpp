@@ -33,7 +33,8 @@ int dependent_rows(const Truss& truss) {
   return kkt.dependent();
 }
 
-// The softest singular value falls with n^-2, its square, which a complement of masses would see, with n^-4: 1e-13 here.
+// The softest singular value falls with n^-2, its square, which a complement of masses would see, with n^-4: 1e-13
+// here.
 TEST(LongMast, HasTheAccelerationsOfItsExactModel) {
   for (const Pose& pose : poses) EXPECT_LT(error_of(Truss::mast(1000, pose.theta, pose.theta_dot)), 1e-10);
 }
@@ -46,7 +47,8 @@ Vec accelerations_by_fronts(const Truss& truss, const Vec& b, const Vec& c) {
   return x;
 }
 
-// A force on one point, 1e4 to 1e6 times as much as its accelerations ask for: they are lost in the complement's round-off, of which
+// A force on one point, 1e4 to 1e6 times as much as its accelerations ask for: they are lost in the complement's
+// round-off, of which
 // a mean of eigenvalues alone does not tell.
 TEST(LongMast, HasTheAccelerationsOfFrontsUnderASingleForce) {
   for (const int units : {126, 130, 200, 250})
@@ -86,7 +88,8 @@ TEST(LargeHoop, HasTheAccelerationsOfItsExactModel) {
   for (const Pose& pose : poses) EXPECT_LT(error_of(Truss::hoop(150, pose.theta, pose.theta_dot)), 1e-9);
 }
 
-// Fronts contradict each other, and springs take the rows' place. Rounding of the coordinates, 5e-14, turns a side by a few times that
+// Fronts contradict each other, and springs take the rows' place. Rounding of the coordinates, 5e-14, turns a side by a
+// few times that
 // of the 2e-3 between neighbours.
 TEST(VeryLargeHoop, HasTheAccelerationsOfItsExactModelByRowsAsSprings) {
   for (const Pose& pose : poses) EXPECT_LT(error_of(Truss::hoop(3000, pose.theta, pose.theta_dot)), 5e-11);
@@ -102,7 +105,8 @@ TEST(VeryLargeHoop, HasTheAccelerationsOfItsExactModelWhereItIsFolded) {
   EXPECT_LT(error_of(Truss::hoop(10'000, 85 * test::pi / 180, 0)), 2e-10);
 }
 
-// Between those that fronts hold and those whose fronts contradict each other for all to see, springs take over by what rows miss. A
+// Between those that fronts hold and those whose fronts contradict each other for all to see, springs take over by what
+// rows miss. A
 // mast's rows are missed by nothing but their own round-off, and springs would leave its softest directions free.
 TEST(Hoops, OfAnySizeHaveTheAccelerationsOfTheirExactModel) {
   for (const int bays : {200, 400, 600, 850, 1000, 1200})
@@ -218,7 +222,8 @@ TEST(FrontalKkt, FollowsARowThatMovesToTheNextBody) {
   }
 }
 
-// Points on a line whose second differences vanish, each row said twice: the softest of their singular values is (pi/n)^2, 1e-5, its
+// Points on a line whose second differences vanish, each row said twice: the softest of their singular values is
+// (pi/n)^2, 1e-5, its
 // square as small as the regularisation of shorter systems. Translation and rotation are left.
 struct Line {
   static constexpr int n = 1000;

@@ -181,7 +181,8 @@ INSTANTIATE_TEST_SUITE_P(Mechanisms, RowComplementOf,
                                          Case{"ChainOfMembranes", chain, 4, 60, 20}, Case{"OneBody", chain, 1, 6, 5}),
                          [](const auto& of) { return of.param.name; });
 
-// Unit masses along a line, each row a second difference of three of them: the softest direction, half a wave, falls with n^-4.
+// Unit masses along a line, each row a second difference of three of them: the softest direction, half a wave, falls
+// with n^-4.
 Mechanism beam_of_masses(int n) {
   Mechanism m(n + 2, 1, {}, 0);
   for (int row = 0; row < n; ++row)
@@ -195,7 +196,8 @@ Mechanism beam_of_masses(int n) {
   return m;
 }
 
-// Noise has of each direction about as much; the solution has of the k-th softest k^-4 times as much as of the softest. Where it
+// Noise has of each direction about as much; the solution has of the k-th softest k^-4 times as much as of the softest.
+// Where it
 // happens to have hardly any of that one, the next tell, the fourth by 256 times its eigenvalue.
 TEST(RowComplement, SoftnessOfNoiseIsThatOfTheSoftestDirections) {
   std::mt19937 random(3);

@@ -9,7 +9,8 @@
 namespace trammel::numerics {
 namespace {
 
-// Bodies of three velocities in a chain, two rows between neighbours, the first tied to the ground; `twice`: so many of the
+// Bodies of three velocities in a chain, two rows between neighbours, the first tied to the ground; `twice`: so many of
+// the
 // joints are said twice.
 struct Chain {
   std::vector<BodyBlock> bodies;
@@ -79,7 +80,8 @@ TEST(SparseIteration, DoesNotFollowTheRoundOffOfRowsThatAreNearlyDependent) {
     if (sine > 1e-3) {
       EXPECT_NEAR(x(1), delta / sine, 1e-4 * delta / sine) << sine;
     }
-    // A force along what the second row tells: held, or free, or between; the equation of motion holds by what y then is.
+    // A force along what the second row tells: held, or free, or between; the equation of motion holds by what y then
+    // is.
     const Eigen::Vector2d b(0, 1);
     ASSERT_TRUE(kkt.solve(b, Eigen::Vector2d(0, 0), x, y)) << sine;
     EXPECT_LT((x + G.transpose() * y - b).norm(), 1e-9) << sine;

@@ -1,4 +1,5 @@
-// Long trusses of bars by their end points, as scenes/truss has them, with the exact accelerations of their one degree of freedom:
+// Long trusses of bars by their end points, as scenes/truss has them, with the exact accelerations of their one degree
+// of freedom:
 //
 //     I(theta) theta'' + I'(theta)/2 theta'^2 + U'(theta) = 0,    x'' = dx/dtheta theta'' + d2x/dtheta2 theta'^2
 //

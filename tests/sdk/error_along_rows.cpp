@@ -8,7 +8,8 @@
 namespace trammel {
 namespace {
 
-// Trials from t = 1, each half as long as the one before, whose errors fall by 2^order a trial from far above 1: which part counts
+// Trials from t = 1, each half as long as the one before, whose errors fall by 2^order a trial from far above 1: which
+// part counts
 // of the last of them.
 ErrorAlongRows::Part counted(double order) {
   ErrorAlongRows along;
@@ -54,7 +55,8 @@ TEST(ErrorAlongRows, ComparesALongerTrialWithNone) {
   }
 }
 
-// Of the pendulum's rod: what is left is along the circle, and as it was; with unit masses the projection is orthogonal.
+// Of the pendulum's rod: what is left is along the circle, and as it was; with unit masses the projection is
+// orthogonal.
 TEST(ErrorAlongRows, LeavesWhatIsAlongTheRows) {
   const Problem problem = problems::pendulum_with_rod();
   const auto system = problem.system();

@@ -33,7 +33,8 @@ double error_left(double theta, double tolerance) {
   return error;
 }
 
-// theta/(1 - theta) times the last increment is the error left, exactly where increments shrink by the same factor each time.
+// theta/(1 - theta) times the last increment is the error left, exactly where increments shrink by the same factor each
+// time.
 TEST(Newton, EndsWithAnErrorBelowItsToleranceAndNoIterationLater) {
   for (const double theta : {0.01, 0.1, 0.5, 0.9, 0.99}) {
     const double error = error_left(theta, 1e-6);

@@ -257,7 +257,8 @@ TEST(Scales, MovedJointsHoldAndSwingAsAtTheOrigin) {
       for (const double place : {1e5, 1e8}) {
         const Finished there = run_text(bars(place, times, integrator));
         ASSERT_TRUE(there.done()) << integrator << ", " << place << " m: " << there.report.reason;
-        // Joints open by the round-off of the place, which turns bars of 1 m by as much; a swing of 1 s amplifies it by some tens.
+        // Joints open by the round-off of the place, which turns bars of 1 m by as much; a swing of 1 s amplifies it by
+        // some tens.
         for (const char* angle : {"u", "l"})
           EXPECT_NEAR(there.end(angle), here.end(angle), 1e-8 + 100 * eps * place) << integrator << ", " << place;
       }

@@ -1,7 +1,8 @@
 // A body with a row of its own for tests of the checks: a point of mass m on a growing circle, correct unless a fault
 // is set.
 //
-//     q = (x, y), M = m 1, f = m g;   g_1 = (q . q - r(t)^2)/2,   G = q^T,   g_t = -r r',   gamma = -v . v + r'^2,   r = 1 + t/5
+//     q = (x, y), M = m 1, f = m g;   g_1 = (q . q - r(t)^2)/2,   G = q^T,   g_t = -r r',   gamma = -v . v + r'^2,   r
+//     = 1 + t/5
 #pragma once
 
 #include <trammel/body.hpp>

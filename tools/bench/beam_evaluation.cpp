@@ -1,4 +1,5 @@
-// What one evaluation of the flexible beam costs: M and f, the tangent, a marker. Per number of modes (axial = transverse).
+// What one evaluation of the flexible beam costs: M and f, the tangent, a marker. Per number of modes (axial =
+// transverse).
 //
 //     tools/bench/run beam_evaluation --benchmark_filter=full
 //

@@ -1,8 +1,10 @@
-// What one step of each method costs on the beam: through the plugins and the assembled system, without events and records.
+// What one step of each method costs on the beam: through the plugins and the assembled system, without events and
+// records.
 //
 //     tools/bench/run integrator_step --benchmark_filter=hht_alpha
 //
-// Every benchmark repeats the same thousand steps from the same state: the beam straight on the plane just after it struck
+// Every benchmark repeats the same thousand steps from the same state: the beam straight on the plane just after it
+// struck
 // it with e = 0, all modes excited as in a run. "free" steps go on without the contact's row, "closed" ones with it;
 // "no contact" is the free beam in a scene without contacts. Rows: method, phase, coupling, step [s]; columns: modes.
 #include <vector>

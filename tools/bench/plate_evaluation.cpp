@@ -1,8 +1,10 @@
-// What one evaluation of the T-spline plate costs, in all and per quadrature point: force, tangent of the cells, a refinement.
+// What one evaluation of the T-spline plate costs, in all and per quadrature point: force, tangent of the cells, a
+// refinement.
 //
 //     tools/bench/run plate_evaluation
 //
-// The target is a tangent under 2 us per quadrature point; a plain loop over the same formulas takes 2.5 to 4.3 us, force
+// The target is a tangent under 2 us per quadrature point; a plain loop over the same formulas takes 2.5 to 4.3 us,
+// force
 // 0.17 to 0.25 us (Xeon 2.5 GHz, 3 x 3 points a cell).
 #include <string>
 

@@ -1,8 +1,10 @@
-// Trusses of n units: one evaluation of the accelerations, and one corrected step of RK4 (four evaluations, positions and velocities).
+// Trusses of n units: one evaluation of the accelerations, and one corrected step of RK4 (four evaluations, positions
+// and velocities).
 //
 //     tools/bench/run truss_step
 //
-// Scissor mast, prismatic mast and hoop of scenes/truss, n = 100 to 10,000. "growth" is p of time ~ n^p. Setting up a scene is not
+// Scissor mast, prismatic mast and hoop of scenes/truss, n = 100 to 10,000. "growth" is p of time ~ n^p. Setting up a
+// scene is not
 // counted; its seconds are a counter of its own.
 #include <chrono>
 #include <string>

@@ -1,4 +1,5 @@
-// Contacts at one instant, unilateral and with Coulomb's friction, in the plane and in space: what their forces must satisfy.
+// Contacts at one instant, unilateral and with Coulomb's friction, in the plane and in space: what their forces must
+// satisfy.
 //
 //     a = A F + b        F: N along the normals, T along the tangents [N]; a: accelerations along the same [m/s^2]
 //
@@ -6,7 +7,8 @@
 //     resting tangents:   |T| <= c N,  T = -c N a_t/|a_t| where a_t is not 0
 //     sliding tangents:   T = p N                                    (with a given N it is in b already: leave it out)
 //
-// A is the Delassus matrix: symmetric, positive semi-definite, singular where contacts are dependent. In an impact F are impulses
+// A is the Delassus matrix: symmetric, positive semi-definite, singular where contacts are dependent. In an impact F
+// are impulses
 // [N s] and a velocities [m/s].
 #pragma once
 
@@ -31,8 +33,10 @@ struct ContactPoint {
   bool slides() const { return kind == Tangent::sliding && normal >= 0 && tangent >= 0; }
 };
 
-// The largest violation of these conditions by F: the natural map |min(A_nn N, a_n)| of the normals, |T - Pi(T - a_t / A_tt)| A_tt of
-// the tangents, Pi onto the disk |T| <= c N. Relative to b and to 1e-4 of the shares of F in A F, whose round-off it has.
+// The largest violation of these conditions by F: the natural map |min(A_nn N, a_n)| of the normals, |T - Pi(T - a_t /
+// A_tt)| A_tt of
+// the tangents, Pi onto the disk |T| <= c N. Relative to b and to 1e-4 of the shares of F in A F, whose round-off it
+// has.
 // `nothing`: a violation as large is 1e-9, however small b is.
 double violation(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, const Vec& F, double nothing = 0);
 // What counts as a solution.

@@ -40,7 +40,8 @@ class Tableau {
   int complement(int column) const { return column < n_ ? column + n_ : column - n_; }
   const std::vector<int>& basis() const { return basis_; }
 
-  // The row that leaves when `column` enters: of the least ratio, of equal ones that with the largest pivot; the covering variable
+  // The row that leaves when `column` enters: of the least ratio, of equal ones that with the largest pivot; the
+  // covering variable
   // before all others, for that ends the method. -1: none, a ray.
   int leaving_row(int column) const {
     const double least_pivot = no_pivot * std::max(1.0, rows_.col(column).lpNorm<Eigen::Infinity>());
@@ -99,7 +100,8 @@ class Tableau {
   std::vector<int> basis_;
 };
 
-// Solves again on the set found, M_BB z_B = -q_B, which removes the round-off of the pivots; kept only if it is a solution.
+// Solves again on the set found, M_BB z_B = -q_B, which removes the round-off of the pivots; kept only if it is a
+// solution.
 void polish(const Mat& M, const Vec& q, Vec& z) {
   std::vector<int> active;
   for (int i = 0; i < q.size(); ++i)

@@ -31,7 +31,8 @@ class DualNewton {
   }
 
  private:
-  // A step of Newton's method, shortened until the function falls; where the piece is flat, along what is missed, as far as it falls.
+  // A step of Newton's method, shortened until the function falls; where the piece is flat, along what is missed, as
+  // far as it falls.
   // False: it does not fall.
   bool step() {
     const Mat H = E_ * slope() * E_.transpose();

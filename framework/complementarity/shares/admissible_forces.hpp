@@ -2,10 +2,14 @@
 //
 //     minimise |F|^2 / 2,    E F = lambda,    F in the friction cones: N >= 0,  |T| <= c N
 //
-// Its dual has no constraint: F = Pi(E^T y) with Pi the projection onto the cones, and y minimises |Pi(E^T y)|^2 / 2 - lambda . y,
-// a convex function with a continuous gradient, E F - lambda, by Newton's method with the derivative of the piece that y is in.
-// As springs of the same compliance, pushed by y, dependent contacts share this way. Where cones are thin, or no force is inside of
-// them, y is far away or has no end, and Newton's method gets stuck: then an interior point method (cone_program.hpp) finds F.
+// Its dual has no constraint: F = Pi(E^T y) with Pi the projection onto the cones, and y minimises |Pi(E^T y)|^2 / 2 -
+// lambda . y,
+// a convex function with a continuous gradient, E F - lambda, by Newton's method with the derivative of the piece that
+// y is in.
+// As springs of the same compliance, pushed by y, dependent contacts share this way. Where cones are thin, or no force
+// is inside of
+// them, y is far away or has no end, and Newton's method gets stuck: then an interior point method (cone_program.hpp)
+// finds F.
 #pragma once
 
 #include <vector>
@@ -24,7 +28,8 @@ struct SharingContact {
   double given = 0;                    // N, where `normal` is -1
 };
 
-// E F = lambda and the cones, of x = (N, T/c) of one contact after the other; G's last rows are what is given. Minimises |F|^2 / 2.
+// E F = lambda and the cones, of x = (N, T/c) of one contact after the other; G's last rows are what is given.
+// Minimises |F|^2 / 2.
 ConeProgram sharing_program(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda);
 
 // Fills F; returns |E F - lambda|, round-off where there are such forces.

@@ -1,12 +1,15 @@
 // S = G M^-1 G^T + eps 1 of many bodies, the Schur complement of the rows, and its factors L D L^T.
 //
-// A sum over bodies, each giving a block on the rows that touch it. It is never formed as a whole: bodies' shares go right to the
-// fronts (complement_layout.hpp) that eliminate their rows (F) and leave a matrix on their boundary (B) to the front above:
+// A sum over bodies, each giving a block on the rows that touch it. It is never formed as a whole: bodies' shares go
+// right to the
+// fronts (complement_layout.hpp) that eliminate their rows (F) and leave a matrix on their boundary (B) to the front
+// above:
 //
 //     [S_FF S_BF^T]  =  [L_FF  ] [D  ] [L_FF^T L_BF^T]
 //     [S_BF S_BB  ]     [L_BF 1] [  R] [            1]
 //
-// Of a chain of 100 links with five rows each this takes half of the time of Eigen's simplicial factors (22 instead of 46 us; a
+// Of a chain of 100 links with five rows each this takes half of the time of Eigen's simplicial factors (22 instead of
+// 46 us; a
 // solve 6.1 instead of 7.8).
 #pragma once
 
@@ -27,7 +30,8 @@ class RowComplement {
   void factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc, double eps);
   // Each pivot is more than the square of `least_sine` beside its diagonal: its row's angle to those eliminated before.
   bool is_safe(double least_sine) const { return least_square_sine_ > least_sine * least_sine; }
-  // Of y = S^-1 r: a mean of the eigenvalues of S with its diagonal scaled to 1 (a Rayleigh quotient), so no less than the least.
+  // Of y = S^-1 r: a mean of the eigenvalues of S with its diagonal scaled to 1 (a Rayleigh quotient), so no less than
+  // the least.
   // Close to it where r has some of its direction: inverse iteration brings that out.
   double softness(const Vec& r, const Vec& y) const { return r.dot(y) / y.cwiseAbs2().dot(diagonal_); }
   double largest() const { return diagonal_.maxCoeff(); }

@@ -39,7 +39,8 @@ inline void subtract_tile(Index depth, Index stride, const double* A, const doub
     for (int i = 0; i < packs; ++i) four(C + j * stride + pack * i) -= sum[i][j];
 }
 
-// The lower triangle of A, whose columns are `stride` apart. Loops over rows begin with the pack that holds the diagonal.
+// The lower triangle of A, whose columns are `stride` apart. Loops over rows begin with the pack that holds the
+// diagonal.
 struct Lower {
   double* A;
   Index n, stride;

@@ -1,4 +1,5 @@
-// Sums along a few numbers, as fronts have them: 4 to 30, where the calls around a general product would cost more than its work.
+// Sums along a few numbers, as fronts have them: 4 to 30, where the calls around a general product would cost more than
+// its work.
 #pragma once
 
 #include <trammel/types.hpp>

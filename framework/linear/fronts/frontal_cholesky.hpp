@@ -1,4 +1,5 @@
-// P A P^T = L L^T of a large symmetric positive definite matrix most of whose entries are 0, front by front, and the solves with it.
+// P A P^T = L L^T of a large symmetric positive definite matrix most of whose entries are 0, front by front, and the
+// solves with it.
 //
 // A front's unknowns (frontal_pattern.hpp; F), with its boundary (B):
 //
@@ -24,7 +25,8 @@ class FrontalCholesky {
   void assemble(const FrontalPattern& pattern, const Front& front, const double* values);
   void keep(const Front& front);
 
-  // Aligned as Eigen's own: sums over pieces of them then round alike in every run. stack_: the S that are still to be taken.
+  // Aligned as Eigen's own: sums over pieces of them then round alike in every run. stack_: the S that are still to be
+  // taken.
   Vec store_, work_, stack_, y_;
   std::size_t stored_ = 0, top_ = 0;
 };

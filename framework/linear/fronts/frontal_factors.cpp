@@ -21,7 +21,8 @@ void FrontalFactors::measure(const Sparse& A) {
       largest_(j) = std::max(largest_(j), std::abs(A.valuePtr()[k]));
 }
 
-// Symmetric, with a positive diagonal. As the columns are gone through, they meet the upper entries of each later column in order.
+// Symmetric, with a positive diagonal. As the columns are gone through, they meet the upper entries of each later
+// column in order.
 bool FrontalFactors::may_be_definite(const Sparse& A) {
   constexpr double rounding = 64 * eps;
   const int *const starts = A.outerIndexPtr(), *const rows = A.innerIndexPtr();

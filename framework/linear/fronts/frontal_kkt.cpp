@@ -123,7 +123,8 @@ void FrontalKkt::prefetch_rows(std::size_t k, const std::vector<BodyBlock>& bodi
       prefetch(bodies[std::size_t(source.body)].Gt.data() + source.column * source.size, source.size * sizeof(double));
 }
 
-// Where factors will be written, about as many as those of front k before: a step of 10,000 units of a prismatic mast takes 335 ms so
+// Where factors will be written, about as many as those of front k before: a step of 10,000 units of a prismatic mast
+// takes 335 ms so
 // instead of 365.
 void FrontalKkt::prefetch_place_for_factors(std::size_t k) const {
   const std::size_t left = std::size_t(store_.size()) - stored_;
@@ -168,7 +169,8 @@ bool FrontalKkt::sum_rows(std::size_t k, const std::vector<BodyBlock>& bodies) {
   return true;
 }
 
-// Rows that tell nothing of the front's unknowns go up, as far as they are independent. Then S = R^-1 (R_12 R_1B) in their place, and
+// Rows that tell nothing of the front's unknowns go up, as far as they are independent. Then S = R^-1 (R_12 R_1B) in
+// their place, and
 // P beside it.
 void FrontalKkt::eliminate_rows(std::size_t k) {
   const FrontLayout::Front& front = layout_.fronts()[k];
@@ -221,7 +223,8 @@ void FrontalKkt::sum_masses(std::size_t k, const std::vector<BodyBlock>& bodies)
   }
 }
 
-// W = K_1r - K_11 S,  K' = K_rr - K_r1 S - S^T W, its lower triangle;  K'_22 = L L^T, V^T = K'_B2 L^-T, K'' = K'_BB - V^T V.
+// W = K_1r - K_11 S,  K' = K_rr - K_r1 S - S^T W, its lower triangle;  K'_22 = L L^T, V^T = K'_B2 L^-T, K'' = K'_BB -
+// V^T V.
 bool FrontalKkt::reduce_masses(std::size_t k) {
   const Parts p = parts(k);
   const int r = p.r, rest = p.rest;

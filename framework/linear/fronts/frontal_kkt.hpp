@@ -1,27 +1,37 @@
-// The saddle-point system of many bodies by elimination of its rows, which are not squared against round-off and may be redundant:
+// The saddle-point system of many bodies by elimination of its rows, which are not squared against round-off and may be
+// redundant:
 //
 //     [M G^T] [x]   [b]        x: least (x - M^-1 b) in the norm of M, of those that keep the rows
 //     [G  0 ] [y] = [c]
 //
-// Rows between equal coordinates merge unknowns (merged_unknowns.hpp); the others and the masses are summed up front by front
-// (elimination_tree.hpp). In a front, F the unknowns it eliminates and B its boundary, C the rows and K the masses known there:
+// Rows between equal coordinates merge unknowns (merged_unknowns.hpp); the others and the masses are summed up front by
+// front
+// (elimination_tree.hpp). In a front, F the unknowns it eliminates and B its boundary, C the rows and K the masses
+// known there:
 //
-//     Q^T [C_F C_B] = [R  *   *]      Householder with column pivoting, rows at length one: r rows tell r unknowns of F,
-//                     [0  0  C'']     the rest tell something of B alone and go to the parent, or nothing: they depend on others
+//     Q^T [C_F C_B] = [R  *   *]      Householder with column pivoting, rows at length one: r rows tell r unknowns of
+//     F,
+//                     [0  0  C'']     the rest tell something of B alone and go to the parent, or nothing: they depend
+//                     on others
 //     x_1 = P c - S (x_2, x_B)        the r unknowns, by R: P = R^-1 Q_1^T;  K' = K restricted to that
 //     K'' = K'_BB - K'_B2 K'_22^-1 K'_2B      the free unknowns x_2, by Cholesky;  to the parent
 //
-// front_layout.hpp has which fronts there are, row_elimination.hpp a front's rows, frontal_solve.cpp the solutions. The rank is
-// decided in each front, among rows of nearby units, where independent rows of a long chain differ clearly: singular values of the
+// front_layout.hpp has which fronts there are, row_elimination.hpp a front's rows, frontal_solve.cpp the solutions. The
+// rank is
+// decided in each front, among rows of nearby units, where independent rows of a long chain differ clearly: singular
+// values of the
 // whole, which fall with n^-2 or n^-3, decide nothing. Only what goes on from front to front is rounded.
 // y: of dependent rows the combinations found get 0; it is a solution, not the one of minimum norm.
 //
-// Where round-off has come between rows that depend on each other, on a long way around, rows are springs (frontal_springs.cpp):
+// Where round-off has come between rows that depend on each other, on a long way around, rows are springs
+// (frontal_springs.cpp):
 //
 //     (M + k G^T G) dx = r_b + k G^T r_c,   dy = k (G dx - r_c)        r: what is left of b and c
 //
-// repeated, which is the method of multipliers. Its steps lie in the range of the rows, contradictions are balanced in least
-// squares, and what rows tell by less than 1/sqrt(k) of M comes slowly or not at all. y is of minimum norm, but for b = 0.
+// repeated, which is the method of multipliers. Its steps lie in the range of the rows, contradictions are balanced in
+// least
+// squares, and what rows tell by less than 1/sqrt(k) of M comes slowly or not at all. y is of minimum norm, but for b =
+// 0.
 #pragma once
 
 #include <vector>
@@ -34,18 +44,22 @@ namespace trammel::numerics {
 
 class FrontalKkt {
  public:
-  // Of the first nc rows; `identity`: in place of M. False: a mass is not positive definite. `rank_tolerance` as in kkt.hpp.
+  // Of the first nc rows; `identity`: in place of M. False: a mass is not positive definite. `rank_tolerance` as in
+  // kkt.hpp.
   [[nodiscard]] bool factorise(const std::vector<BodyBlock>& bodies, int nc, bool identity, double rank_tolerance);
-  // Refined with the residuals of the equations until x does not change any more. False: it does not come to that. Then rows that
+  // Refined with the residuals of the equations until x does not change any more. False: it does not come to that. Then
+  // rows that
   // depend on others were taken for independent ones: round-off has come between them on a long way around.
   [[nodiscard]] bool solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
-  // The same with rows as springs: eps = 1/k, or 0 if a mass is not positive definite; and the solution with it. `softness` is
+  // The same with rows as springs: eps = 1/k, or 0 if a mass is not positive definite; and the solution with it.
+  // `softness` is
   // eps in the unit of the least mass's inverse.
   [[nodiscard]] double factorise_springs(const std::vector<BodyBlock>& bodies, int nc, bool identity, double softness);
   void solve_springs(const std::vector<BodyBlock>& bodies, double eps, const Vec& b, const Vec& c, Vec& x, Vec& y);
   int dependent() const { return dependent_; }  // rows
   bool redundant() const { return dependent_ > 0; }
-  // By what the last solution misses rows, of length one, that depend on others, relative to x; round-off of a row's own products is 0.
+  // By what the last solution misses rows, of length one, that depend on others, relative to x; round-off of a row's
+  // own products is 0.
   double missed() const { return missed_; }
   // Was factorised before, in these rows' places.
   bool know(const std::vector<BodyBlock>& bodies, int nc) const { return layout_.know(bodies, nc); }
@@ -57,7 +71,8 @@ class FrontalKkt {
     std::size_t K = 0;        // in passed_on_: the parent takes it, and its place is free again
     int all_rows = 0, pivots = 0, passed = 0;
   };
-  // A front by the names above: m rows, n unknowns, r pivots by rows and `rest` not, of those `free` and the nb of the boundary.
+  // A front by the names above: m rows, n unknowns, r pivots by rows and `rest` not, of those `free` and the nb of the
+  // boundary.
   struct Parts {
     int m, n, r, rest, free, nb, passed;
     const int *unknowns, *columns;     // columns: of the unknowns, those that rows tell first

@@ -18,7 +18,8 @@ Eigen::Map<Mat> matrix(double* at, int rows, int columns) {
   return Eigen::Map<Mat>(at, rows, columns);
 }
 
-// In fronts of so many unknowns a column's loop is quicker than an expression of Eigen's (11 to 44 unknowns, of chains: half the time).
+// In fronts of so many unknowns a column's loop is quicker than an expression of Eigen's (11 to 44 unknowns, of chains:
+// half the time).
 constexpr int small_front = 64;
 
 // to[i] -= c from[i]
@@ -26,7 +27,8 @@ void subtract(double c, const double* from, int n, double* to) {
   for (int i = 0; i < n; ++i) to[i] -= c * from[i];
 }
 
-// P F_FF = L U with rows exchanged within F, L_BF and U_FB beside them, S in the corner; `rows` comes to the order of the rows.
+// P F_FF = L U with rows exchanged within F, L_BF and U_FB beside them, S in the corner; `rows` comes to the order of
+// the rows.
 void eliminate_columns(double* F, int n, int k, int* rows) {
   for (int j = 0; j < k; ++j) {
     double* const column = F + std::ptrdiff_t(j) * n;

@@ -5,7 +5,8 @@
 //     [A_FF A_FB]  =  [L_F      ] [U_F  U_FB]       rows are exchanged within F;  S goes to the front above
 //     [A_BF A_BB]     [L_BF   1 ] [      S  ]
 //
-// Exchanges within F alone may meet a small pivot where A is regular, or come close to it: solutions want to be corrected by their
+// Exchanges within F alone may meet a small pivot where A is regular, or come close to it: solutions want to be
+// corrected by their
 // residuals (frontal_factors.hpp).
 #pragma once
 
@@ -16,7 +17,8 @@ namespace trammel::numerics {
 class FrontalLu {
  public:
   using Sparse = FrontalPattern::Sparse;
-  // `largest`: |entry| of each column of A. False: a pivot of a front is round-off beside its column of A, or not finite.
+  // `largest`: |entry| of each column of A. False: a pivot of a front is round-off beside its column of A, or not
+  // finite.
   [[nodiscard]] bool factorise(const FrontalPattern& pattern, const Sparse& A, const Vec& largest);
   double pivot(Eigen::Index j) const { return pivots_(j); }  // of A's column j
   void substitute(const FrontalPattern& pattern, Vec& x);    // x := A^-1 x
@@ -27,7 +29,8 @@ class FrontalLu {
   void eliminate_in_blocks(int k, int* rows, Eigen::Map<Mat>& F);
   bool eliminate(const FrontalPattern& pattern, const Front& front, const Vec& largest, Eigen::Map<Mat>& F);
 
-  // Aligned as Eigen's own: sums over pieces of them then round alike in every run. store_: of each front L_F and U_F over L_BF,
+  // Aligned as Eigen's own: sums over pieces of them then round alike in every run. store_: of each front L_F and U_F
+  // over L_BF,
   // then U_FB. stack_: the S that are still to be taken.
   Vec store_, work_, stack_;
   std::size_t stored_ = 0, top_ = 0;

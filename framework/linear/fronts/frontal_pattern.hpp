@@ -1,9 +1,12 @@
 // Which fronts a matrix most of whose entries are 0 is eliminated in, and where each of its numbers goes.
 //
-// The unknowns that a front eliminates (elimination_tree.hpp; F), with its boundary (B), make a dense matrix: their entries of A and
+// The unknowns that a front eliminates (elimination_tree.hpp; F), with its boundary (B), make a dense matrix: their
+// entries of A and
 // what the fronts below leave. It leaves another, on B, to the front above.
-// Order and places follow from the pattern alone and are kept while it lasts: once per mesh of a plate. Unknowns with the same
-// neighbours make one node of the tree. One without a diagonal entry, a multiplier of a row, shares the node of an unknown in its
+// Order and places follow from the pattern alone and are kept while it lasts: once per mesh of a plate. Unknowns with
+// the same
+// neighbours make one node of the tree. One without a diagonal entry, a multiplier of a row, shares the node of an
+// unknown in its
 // row, so that their front has a pivot for both.
 // Duff, Reid, ACM Trans. Math. Softw. 9 (1983), 302; 10 (1984), 633 (unsymmetric).
 #pragma once
@@ -38,7 +41,8 @@ class FrontalPattern {
     int boundary() const { return size - eliminated; }
   };
 
-  // The pattern is symmetric and has the diagonal; some entries may be 0. Numbers decide only which unknown's node takes one that
+  // The pattern is symmetric and has the diagonal; some entries may be 0. Numbers decide only which unknown's node
+  // takes one that
   // has 0 there. To be called again when the pattern has changed.
   void analyse(const Sparse& A);
 

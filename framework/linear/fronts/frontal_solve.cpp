@@ -1,4 +1,5 @@
-// The solutions of frontal_kkt.hpp: right sides go up from front to front, unknowns and multipliers come down. They are refined where
+// The solutions of frontal_kkt.hpp: right sides go up from front to front, unknowns and multipliers come down. They are
+// refined where
 // the fronts are, in merged unknowns and rows at length one.
 #include <algorithm>
 

@@ -1,4 +1,5 @@
-// Rows as springs in the fronts of frontal_kkt.hpp. No row is pivots from others: a front eliminates all its unknowns by the masses,
+// Rows as springs in the fronts of frontal_kkt.hpp. No row is pivots from others: a front eliminates all its unknowns
+// by the masses,
 // K + k C^T C of them, C its own rows.
 #include <algorithm>
 #include <numeric>
@@ -55,10 +56,13 @@ void FrontalKkt::add_springs(std::size_t f) {
       if (row[j] != 0) add(n - j, stiffness_ * row[j], row + j, K_.data() + j * n + j);
 }
 
-// With each solution x comes to satisfy the rows better and y to push as hard as that takes. It ends where what is left, if it
-// shrinks on as the rows' violation does, is nothing: what would still change, ever more slowly, is rounding of the rows in
+// With each solution x comes to satisfy the rows better and y to push as hard as that takes. It ends where what is
+// left, if it
+// shrinks on as the rows' violation does, is nothing: what would still change, ever more slowly, is rounding of the
+// rows in
 // directions they hardly tell.
-// The second solution refines the first one, y as it was: rounded k times as large as the masses, that would push in directions that
+// The second solution refines the first one, y as it was: rounded k times as large as the masses, that would push in
+// directions that
 // rows hardly tell and forget it slowly. Later ones are small.
 void FrontalKkt::approach(double k) {
   constexpr int most = 40;
@@ -96,7 +100,8 @@ void FrontalKkt::push_by_rows(double k, bool taken) {
   subtract_masses_times(X_, b_);
 }
 
-// 1 - k G (M + k G^T G)^-1 G^T keeps the null part of Y and shrinks the rest; applied twice it leaves nothing else. Round-off asks
+// 1 - k G (M + k G^T G)^-1 G^T keeps the null part of Y and shrinks the rest; applied twice it leaves nothing else.
+// Round-off asks
 // for more passes.
 void FrontalKkt::remove_null_part(double k, Vec& Y) {
   for (int pass = 0; pass < 3; ++pass) {

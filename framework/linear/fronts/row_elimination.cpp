@@ -10,7 +10,8 @@ namespace trammel::numerics {
 
 namespace {
 
-// Columns' squares lose digits as the shares of rows above are taken from them: below this part of the longest that was measured they
+// Columns' squares lose digits as the shares of rows above are taken from them: below this part of the longest that was
+// measured they
 // are measured anew.
 constexpr double digits_left = 1e-4;
 
@@ -24,7 +25,8 @@ RowElimination::Rank RowElimination::run(int F, double tolerance, int* columns, 
   return {pivots, eliminate(F, n_, pivots, tolerance, nullptr, scratch)};
 }
 
-// Of columns first ... last - 1 on the rows from `begin` on, while one is longer than the tolerance; how many. `columns`: they come
+// Of columns first ... last - 1 on the rows from `begin` on, while one is longer than the tolerance; how many.
+// `columns`: they come
 // first.
 int RowElimination::eliminate(int first, int last, int begin, double tolerance, int* columns, double* scratch) {
   double* const squares = scratch;
@@ -70,7 +72,8 @@ void RowElimination::bring_forward(int j, int first, int* columns) {
   std::swap(columns[j], columns[first]);
 }
 
-// Column j on rows begin ... m - 1 becomes (beta, 0 ... 0). v stays in it until all others have been reflected. Rows that column j does
+// Column j on rows begin ... m - 1 becomes (beta, 0 ... 0). v stays in it until all others have been reflected. Rows
+// that column j does
 // not meet stay as they are: of masts a quarter.
 void RowElimination::reflect(int j, int begin, double norm, double* scratch) {
   double* const along = scratch + padded(n_);

@@ -1,10 +1,13 @@
 // The rows of a front, eliminated by Householder reflections with column pivoting:
 //
-//     Q^T [C_F C_B 1] P = [R  *   *   Q_1^T]      columns of F first, the longest first; then those of B, in the rest of the rows,
+//     Q^T [C_F C_B 1] P = [R  *   *   Q_1^T]      columns of F first, the longest first; then those of B, in the rest
+//     of the rows,
 //                         [0  0  C''  Q_2^T]      where they are: not permuted
 //
-// A column counts while it is longer than the tolerance; rows have length one. C is kept by rows: a reflection then combines rows
-// as long as the front is wide, which the processor does by several numbers at once. Q^T is kept as such, since a product with it
+// A column counts while it is longer than the tolerance; rows have length one. C is kept by rows: a reflection then
+// combines rows
+// as long as the front is wide, which the processor does by several numbers at once. Q^T is kept as such, since a
+// product with it
 // waits for nothing, where one reflection waits for the other.
 #pragma once
 

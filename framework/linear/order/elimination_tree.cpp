@@ -8,7 +8,8 @@ namespace trammel::numerics {
 
 namespace {
 
-// Where the order along the graph takes no more than so many times the work by degrees, halves would not save any, but take long
+// Where the order along the graph takes no more than so many times the work by degrees, halves would not save any, but
+// take long
 // to find (4 s of a mast with 10,000 units).
 constexpr double wide = 3;
 

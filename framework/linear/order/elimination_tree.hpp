@@ -1,9 +1,13 @@
 // In which order the nodes of a graph are eliminated from a sparse system, and in which fronts.
 //
-// A front eliminates some nodes and leaves a dense matrix on their neighbours, its boundary, to its parent (multifrontal method: Duff
-// and Reid 1983). Three orders are tried (elimination_order.hpp): along the graph, where each front has the next unit's own equations to
-// lean on and rounding grows with the distance alone; approximate minimum degree, which leaves less to do where the graph is wide; and
-// dissection, which does where it is large both ways (and is tried only there). Fronts too small to be worth their overhead are
+// A front eliminates some nodes and leaves a dense matrix on their neighbours, its boundary, to its parent
+// (multifrontal method: Duff
+// and Reid 1983). Three orders are tried (elimination_order.hpp): along the graph, where each front has the next unit's
+// own equations to
+// lean on and rounding grows with the distance alone; approximate minimum degree, which leaves less to do where the
+// graph is wide; and
+// dissection, which does where it is large both ways (and is tried only there). Fronts too small to be worth their
+// overhead are
 // united with their parents.
 #pragma once
 
@@ -17,7 +21,8 @@ class EliminationTree {
     std::vector<int> eliminated, boundary;  // nodes, in the order of elimination
     std::vector<int> children;              // fronts, all of them earlier ones
   };
-  // What decides between orders and sizes of fronts, in the unit of k (k + b)^2, k unknowns eliminated and b of the boundary.
+  // What decides between orders and sizes of fronts, in the unit of k (k + b)^2, k unknowns eliminated and b of the
+  // boundary.
   struct Costs {
     double along = 3;     // how many times the other's work the order along the graph may take
     double front = 2000;  // of a front as such

@@ -1,5 +1,7 @@
-// Halves of a graph with few edges between them are found on coarser and coarser graphs, whose vertices stand for pairs of the finer
-// one's, and improved on the way back (Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998), 359). Nothing is drawn at random.
+// Halves of a graph with few edges between them are found on coarser and coarser graphs, whose vertices stand for pairs
+// of the finer
+// one's, and improved on the way back (Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998), 359). Nothing is drawn at
+// random.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -69,7 +71,8 @@ int cut(const Ties& graph, const Sides& side) {
   return twice / 2;
 }
 
-// Vertices change sides one by one, best first, also where that is a loss at first; what was best is kept (Fiduccia, Mattheyses,
+// Vertices change sides one by one, best first, also where that is a loss at first; what was best is kept (Fiduccia,
+// Mattheyses,
 // Design Automation Conf. 1982). False: nothing was gained.
 bool improve(const Ties& graph, Sides& side) {
   constexpr std::size_t patience = 60;  // moves without a gain

@@ -10,7 +10,8 @@ namespace trammel::numerics {
 
 namespace {
 
-// Beside a row's length 1. Entries of round-off are left out. R's diagonal where no row has come to yet is below it: a row that is
+// Beside a row's length 1. Entries of round-off are left out. R's diagonal where no row has come to yet is below it: a
+// row that is
 // a sum of others times large numbers, as in long hoops, would seem new by eps times these.
 constexpr double round_off = 1e-15, eps = 1e-17;
 
@@ -74,7 +75,8 @@ class Triangle {
     is_active_[std::size_t(k)] = 0;
     return k;
   }
-  // Row k of R and what is left of the row, so that the latter has no part at k any more. Returns how many times as long the
+  // Row k of R and what is left of the row, so that the latter has no part at k any more. Returns how many times as
+  // long the
   // diagonal is then.
   double rotate(int k, Row& row) {
     if (row.empty()) row.push_back({k, eps});

@@ -120,7 +120,8 @@ void SparseSum::reserve(const Places& rows, const Places& columns) {
 
 namespace {
 
-// The symmetric pattern of all blocks and of what was there before. `each(f)` calls f(rows, how many, columns, how many).
+// The symmetric pattern of all blocks and of what was there before. `each(f)` calls f(rows, how many, columns, how
+// many).
 template <class Each>
 Eigen::SparseMatrix<double> pattern_of(const Eigen::SparseMatrix<double>& before, Each&& each) {
   const auto n = std::size_t(before.rows());

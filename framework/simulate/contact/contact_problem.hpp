@@ -1,7 +1,10 @@
-// The contacts that take part in one instant, and their forces or impulses: complementarity/contact_forces.hpp for a System.
+// The contacts that take part in one instant, and their forces or impulses: complementarity/contact_forces.hpp for a
+// System.
 //
-// Static and kinetic coefficients: every tangent at rest is first held with mu_0; those that it cannot hold get mu, and the
-// problem is solved again, so that the others are checked against what is left. Each repetition lets at least one more go, so
+// Static and kinetic coefficients: every tangent at rest is first held with mu_0; those that it cannot hold get mu, and
+// the
+// problem is solved again, so that the others are checked against what is left. Each repetition lets at least one more
+// go, so
 // this ends; a tangent that mu holds after all stays at rest.
 #pragma once
 
@@ -53,7 +56,8 @@ class ContactProblem {
   void end_slip(Vec& dv) const;
   // Unilateral ones without a force that the others keep closed: their rows follow from those of contacts that press.
   std::vector<bool> kept_closed(double nothing) const;
-  // In these modes: the least pivot of the equations of their forces, of that which they have without friction of what slides.
+  // In these modes: the least pivot of the equations of their forces, of that which they have without friction of what
+  // slides.
   double distance_from_critical(const model::Modes& modes) const;
   // Once their modes are decided: which of those that are closed depend on each other, and how they share.
   std::vector<model::SharedRows> shared_rows(const model::Modes& modes) const;

@@ -11,7 +11,8 @@
 namespace trammel::simulate {
 namespace {
 
-// Whether some acceleration changes the gap's, where the system is; by levers of the scene's length, beyond what the place leaves of
+// Whether some acceleration changes the gap's, where the system is; by levers of the scene's length, beyond what the
+// place leaves of
 // them.
 bool moves(model::AssembledSystem& system, const Scale& scale, int contact) {
   const Vec rest = Vec::Zero(system.sizes().nv);

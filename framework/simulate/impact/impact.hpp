@@ -1,21 +1,31 @@
 // Newton's impact law with Coulomb's friction for all contacts that touch, solved together.
 //
-//     M (v+ - v-) + G_b^T L_b = sum_i n_i L_i + t_i T_i,    u_i = gap rate [m/s], negative when closing; s_i slip velocity;
+//     M (v+ - v-) + G_b^T L_b = sum_i n_i L_i + t_i T_i,    u_i = gap rate [m/s], negative when closing; s_i slip
+//     velocity;
 //                                                         bilateral rows keep their rates
 //     0 <= L_i  complementary to  u_i+ + e_i u_i- >= 0     for contacts that were open
-//     0 <= L_i  complementary to  u_i+ - u_i-     >= 0     for contacts that were closed (they keep u-, 0 but for round-off)
+//     0 <= L_i  complementary to  u_i+ - u_i-     >= 0     for contacts that were closed (they keep u-, 0 but for
+//     round-off)
 //     |T_i| <= mu_0 L_i where s_i+ = 0 (it sticks),  T_i = -mu L_i s_i+/|s_i+| elsewhere
 //
-// L_i, T_i [N s] are the impulses, e_i the restitution of the contact's law at approach speed -u_i-; slower than the law's
-// capture_speed e_i = 0. The friction impulse is one Coulomb decision over the whole impact, judged by the slip at its end
+// L_i, T_i [N s] are the impulses, e_i the restitution of the contact's law at approach speed -u_i-; slower than the
+// law's
+// capture_speed e_i = 0. The friction impulse is one Coulomb decision over the whole impact, judged by the slip at its
+// end
 // (Moreau): a slip that stops and turns within the impact is not followed, and with e > 0 an eccentric impact may gain
-// energy (Kane's paradox), which is told (impact_gains.hpp). With D the Delassus matrix it is the problem of contact_forces.hpp. Several
-// contacts at once are one problem; nature may answer otherwise (Pfeiffer, Glocker 1996), and a chain of equal balls does.
-// An impact without collision is asked for where sliding contacts have no finite forces (contact_mode.hpp, rule 8). No impulse at all
-// would solve it, too; the solution is taken that is left of an approach as it vanishes, which such contacts cannot end while they slide. Where the law has none, the course of the impact decides (energetic_impact.hpp).
+// energy (Kane's paradox), which is told (impact_gains.hpp). With D the Delassus matrix it is the problem of
+// contact_forces.hpp. Several
+// contacts at once are one problem; nature may answer otherwise (Pfeiffer, Glocker 1996), and a chain of equal balls
+// does.
+// An impact without collision is asked for where sliding contacts have no finite forces (contact_mode.hpp, rule 8). No
+// impulse at all
+// would solve it, too; the solution is taken that is left of an approach as it vanishes, which such contacts cannot end
+// while they slide. Where the law has none, the course of the impact decides (energetic_impact.hpp).
 //
-// Energy lost through contact i is -L_i (u_i- + u_i+)/2 - T_i (s_i- + s_i+)/2; the sum is the loss of kinetic energy if no
-// row depends on time. Laws that follow the rates through the impact know each contact's share better: it differs by `course`.
+// Energy lost through contact i is -L_i (u_i- + u_i+)/2 - T_i (s_i- + s_i+)/2; the sum is the loss of kinetic energy if
+// no
+// row depends on time. Laws that follow the rates through the impact know each contact's share better: it differs by
+// `course`.
 #pragma once
 
 #include <vector>
@@ -25,7 +35,8 @@
 
 namespace trammel::simulate {
 
-// [1] Of the slip: the approach that stands for none in an impact without collision; more than what a solution may be off by.
+// [1] Of the slip: the approach that stands for none in an impact without collision; more than what a solution may be
+// off by.
 inline constexpr double vanishing_approach = 1e-6;
 
 // Or a joint that rubs (bearing_impulses.hpp): `impulse` is the load of its bearings, and its gap has no rate.

@@ -1,8 +1,10 @@
 // The directions in which the contacts of an impact strike and rub, and how the system answers impulses along them.
 //
-//     dv = jump P,   change of the rates = A P        P [N s] along the normals, then the tangents of contacts with friction
+//     dv = jump P,   change of the rates = A P        P [N s] along the normals, then the tangents of contacts with
+//     friction
 //
-// A is the Delassus matrix, with bilateral rows held. Closed contacts have the rate 0: what theirs is beside it is round-off.
+// A is the Delassus matrix, with bilateral rows held. Closed contacts have the rate 0: what theirs is beside it is
+// round-off.
 #pragma once
 
 #include <vector>
@@ -14,7 +16,8 @@ namespace trammel::simulate {
 
 class ImpactDirections {
  public:
-  // Friction that an impact meets: Coulomb's law; a smooth law counts with its ratio at the slip that there is, so that within the
+  // Friction that an impact meets: Coulomb's law; a smooth law counts with its ratio at the slip that there is, so that
+  // within the
   // impact it may end a slip and never reverse it.
   struct Friction {
     double mu_0 = 0, mu = 0;

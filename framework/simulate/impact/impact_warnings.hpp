@@ -1,7 +1,10 @@
-// What a run has to say about its impacts: those that created energy, and those that were ended before their law had ended them.
+// What a run has to say about its impacts: those that created energy, and those that were ended before their law had
+// ended them.
 //
-// Contacts take sum_i -L_i (u_i- + u_i+)/2 - T_i (s_i- + s_i+)/2 out of the kinetic energy, whatever moving rows and bases supply; where
-// that is negative beyond round-off, the impact created energy. The gain in per cent is that of the kinetic energy before.
+// Contacts take sum_i -L_i (u_i- + u_i+)/2 - T_i (s_i- + s_i+)/2 out of the kinetic energy, whatever moving rows and
+// bases supply; where
+// that is negative beyond round-off, the impact created energy. The gain in per cent is that of the kinetic energy
+// before.
 #pragma once
 
 #include <string>

@@ -1,9 +1,11 @@
-// Why energy never grows without friction, whatever the e_i <= 1. The compression takes N_C . A N_C/2, since N_C . u_C = 0. With
+// Why energy never grows without friction, whatever the e_i <= 1. The compression takes N_C . A N_C/2, since N_C . u_C
+// = 0. With
 // N_E = e N_C + dN, dN . u+ = 0 and u+ = u_C + A N_E the expansion gives
 //
 //     N_E . (u_C + u+)/2 = N_E . u+ - N_E . A N_E/2     and     N_E . u+ = e N_C . u+ <= N_C . u+ = N_C . A N_E,
 //
-// so at most N_C . A N_E - N_E . A N_E/2 <= N_C . A N_C/2. With friction no such bound is known; a gain is a warning (impact_warnings.hpp).
+// so at most N_C . A N_E - N_E . A N_E/2 <= N_C . A N_C/2. With friction no such bound is known; a gain is a warning
+// (impact_warnings.hpp).
 #include "simulate/impact/poisson_impact.hpp"
 
 namespace trammel::simulate {

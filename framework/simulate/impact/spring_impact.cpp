@@ -10,7 +10,8 @@ using complementarity::LcpOutcome;
 
 namespace {
 
-// Of the largest rate: slips that are none, in the plane and in space, where the direction of a slip turns the faster the slower it is.
+// Of the largest rate: slips that are none, in the plane and in space, where the direction of a slip turns the faster
+// the slower it is.
 constexpr double no_slip = 1e-11, no_slip_in_space = 1e-9;
 // Of the largest rate: what may be left of an impact that had not ended without a report.
 constexpr double worth_reporting = 1e-3;

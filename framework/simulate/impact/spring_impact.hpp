@@ -1,25 +1,37 @@
-// Energetic restitution for any number of contacts with friction: each contact is a spring, and nothing else moves while they push.
+// Energetic restitution for any number of contacts with friction: each contact is a spring, and nothing else moves
+// while they push.
 //
-//     u = u- + A P       rates of gaps and slips [m/s], P impulses [N s], A the Delassus matrix at the frozen configuration
+//     u = u- + A P       rates of gaps and slips [m/s], P impulses [N s], A the Delassus matrix at the frozen
+//     configuration
 //     dP_n/dtau = F = k x,   dx/dtau = -u_n     where x > 0 or u_n < 0 (it presses);   F = 0 elsewhere
 //     dP_t/dtau = T          |T| <= mu_0 F where s = 0 (it sticks),  T = -mu F s/|s| elsewhere
 //
-// Where a compression ends (u_n reaches 0) a part 1 - e^2 of the work that this compression has stored is lost, and the spring
-// keeps the rest: k x^2/2 becomes k x_0^2/2 + e^2 k (x^2 - x_0^2)/2, with x_0 from before this compression. A contact that is
+// Where a compression ends (u_n reaches 0) a part 1 - e^2 of the work that this compression has stored is lost, and the
+// spring
+// keeps the rest: k x^2/2 becomes k x_0^2/2 + e^2 k (x^2 - x_0^2)/2, with x_0 from before this compression. A contact
+// that is
 // pressed again compresses again. It ends where no spring pushes and no gap closes.
 //
-// All springs have the same stiffness k; P does not depend on how large it is. Of a single contact it is Stronge's hypothesis
-// (Proc. R. Soc. A 431, 169 (1990)), since the rates follow from P_n alone: Routh's construction in the plane, in space the hodograph of
-// Keller (J. Appl. Mech. 53, 1 (1986)). Of several, the distributing law of Liu, Zhao, Brogliato (Proc. R. Soc. A 464, 3193 (2008)) for
-// equal linear springs, but that the loss happens at the end of compression: so springs do not stiffen as e becomes small.
+// All springs have the same stiffness k; P does not depend on how large it is. Of a single contact it is Stronge's
+// hypothesis
+// (Proc. R. Soc. A 431, 169 (1990)), since the rates follow from P_n alone: Routh's construction in the plane, in space
+// the hodograph of
+// Keller (J. Appl. Mech. 53, 1 (1986)). Of several, the distributing law of Liu, Zhao, Brogliato (Proc. R. Soc. A 464,
+// 3193 (2008)) for
+// equal linear springs, but that the loss happens at the end of compression: so springs do not stiffen as e becomes
+// small.
 //
-// Guarantee, whatever the contacts' number, friction and dependence: each normal's work is -(1 - e^2) times the work of its
-// compressions, friction takes energy only, so the energy never grows. Forces along normals are given at each instant, so friction always
-// has a solution (Painleve's paradox does not arise). Springs that friction or other contacts keep compressed when all has come to rest
+// Guarantee, whatever the contacts' number, friction and dependence: each normal's work is -(1 - e^2) times the work of
+// its
+// compressions, friction takes energy only, so the energy never grows. Forces along normals are given at each instant,
+// so friction always
+// has a solution (Painleve's paradox does not arise). Springs that friction or other contacts keep compressed when all
+// has come to rest
 // give nothing back. What is left at the end, as where walls without clearance return a body for
 // ever, is ended by an impact without restitution, which takes energy only.
 //
-// Between events (a rate, slip or spring reaches 0, friction its bound) it is a smooth differential equation; midpoint steps
+// Between events (a rate, slip or spring reaches 0, friction its bound) it is a smooth differential equation; midpoint
+// steps
 // extrapolated to order 12 (Gragg, Bulirsch, Stoer) follow it to round-off.
 #pragma once
 
@@ -48,18 +60,21 @@ class SpringImpact {
   // The same, except for the shares of contacts that stick together, which here are in their cones.
   const Vec& admissible_impulses() const { return admissible_; }
   Vec rates() const { return u_before_ + A_ * P_; }
-  // By contact [J]: what its spring took in all compressions; what was lost there, in the normal direction and in friction.
+  // By contact [J]: what its spring took in all compressions; what was lost there, in the normal direction and in
+  // friction.
   const Vec& compressed() const { return compressed_; }
   const Vec& lost_normal() const { return lost_normal_; }
   const Vec& lost_friction() const { return lost_friction_; }
-  // Work of normal forces that the end took [J], counted as lost: what springs still held, of contacts that friction or others keep
+  // Work of normal forces that the end took [J], counted as lost: what springs still held, of contacts that friction or
+  // others keep
   // wedged, and what ended the last approaches.
   double taken_at_end() const { return taken_at_end_; }
   bool cut_short() const { return cut_short_; }  // ended without restitution, after `most_phases`
   static constexpr int most_phases = 1000;
 
  private:
-  // Of the largest rate: what an event's margin may be below 0, what is left at the end, and what moves wedged contacts no more.
+  // Of the largest rate: what an event's margin may be below 0, what is left at the end, and what moves wedged contacts
+  // no more.
   static constexpr double tolerance = 1e-13, negligible = 1e-12, still = 1e-9;
   enum class Tangent { none, sticks, slides };
   struct Contact : SpringContact {

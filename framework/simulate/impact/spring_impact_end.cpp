@@ -43,7 +43,8 @@ double SpringImpact::fastest_approach() const {
   return fastest;
 }
 
-// An impact without restitution, if possible with friction. `yields`: what a contact gives way, of the largest entry of A, so that round-off
+// An impact without restitution, if possible with friction. `yields`: what a contact gives way, of the largest entry of
+// A, so that round-off
 // in the rates of dependent contacts is no contradiction.
 ContactSolution SpringImpact::end_approaches(double yields) {
   const Vec u = rates();
@@ -74,7 +75,8 @@ ContactSolution SpringImpact::end_approaches(double yields) {
   return solution;
 }
 
-// The friction impulses of contacts that stick together are one choice of many: where it leaves a cone, the least one that does not.
+// The friction impulses of contacts that stick together are one choice of many: where it leaves a cone, the least one
+// that does not.
 void SpringImpact::share_sticking_forces() {
   admissible_ = P_;
   for (const Contact& c : contacts_) admissible_[c.normal] = std::max(0.0, P_[c.normal]);  // but for round-off it is

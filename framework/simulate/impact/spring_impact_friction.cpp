@@ -110,7 +110,8 @@ void SpringImpact::choose_tangents() {
   }
 }
 
-// Friction at its bound that no look ahead tells to slide: the contact whose bound is exceeded most slides against its friction.
+// Friction at its bound that no look ahead tells to slide: the contact whose bound is exceeded most slides against its
+// friction.
 void SpringImpact::force_slip() {
   hold_sticking();
   derivative(state(), dy_);

@@ -114,7 +114,8 @@ TEST(CompliantContact, BegunAtRestKeepsItsEnergy) {
   }
 }
 
-// The heads of the cards move alike, so the apex that sticks between them has no depth, and its force is round-off: it neither has
+// The heads of the cards move alike, so the apex that sticks between them has no depth, and its force is round-off: it
+// neither has
 // events nor shortens steps.
 TEST(CompliantContact, ThatOnlyTouchesDoesNotHoldUpTheOthers) {
   for (const double mu : {0.1, 0.2})

@@ -2,7 +2,8 @@
 //
 //   a' = v,   M(a) v' = f(a, v) - G^T lambda,   0 = G v
 //
-// Each point is a sum of arms that turn with one angle each, so M couples three pairs of angles only, and derivatives of
+// Each point is a sum of arms that turn with one angle each, so M couples three pairs of angles only, and derivatives
+// of
 // G^T lambda by a are diagonal.
 //
 //   ida_andrews TOLERANCE        observes beta, theta, gamma, phi, delta, Omega, epsilon

@@ -2,7 +2,8 @@
 //
 //   p' = v,   M(p) v' = f(p, v) - G^T lambda,   0 = G v + g_t
 //
-// The rod's relative motion in its frame: s = s_0 + S q its first moment, J = J_0 + 2 c.q + q.M_q q its inertia about the pin,
+// The rod's relative motion in its frame: s = s_0 + S q its first moment, J = J_0 + 2 c.q + q.M_q q its inertia about
+// the pin,
 // E the turn by 90 degrees; b + B^T q couples turn and modes, B = -B^T.
 //
 //   ida_slider_crank TOLERANCE        relative; a hundredth of it is absolute. Observes p

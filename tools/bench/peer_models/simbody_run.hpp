@@ -26,7 +26,8 @@ inline std::string reason(const std::exception& e) {
   return text;
 }
 
-/// From `start` to `until` at `accuracy` (its tolerance for constraints follows: a tenth of it), observed every `every` seconds.
+// / From `start` to `until` at `accuracy` (its tolerance for constraints follows: a tenth of it), observed every
+// `every` seconds.
 inline Measured run(const SimTK::MultibodySystem& system, const SimTK::State& start, double accuracy, double until,
                     double every, const std::function<std::vector<double>(const SimTK::State&)>& observe) {
   Measured m;

@@ -1,4 +1,5 @@
-// An alpha method (trammel/methods/alpha_method.hpp) as an integrator. Its author writes the weights, as a part with parameters:
+// An alpha method (trammel/methods/alpha_method.hpp) as an integrator. Its author writes the weights, as a part with
+// parameters:
 //
 //     struct HhtAlpha : Component {
 //       double alpha = -0.1;

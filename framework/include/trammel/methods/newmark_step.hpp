@@ -39,8 +39,10 @@ class NewmarkStep {
   // Predicts lambda_{n+1} = lambda_n and a_{n+1} = a_n. c_q [s^2] >= 0 and c_v [s] > 0 are the weights of a_{n+1}
   // above.
   void begin(const System& s, const State& now, double h, double c_q, double c_v, State& next);
-  // Predicts a_{n+1} by the line through a_{n-1} and a_n; `ratio` is this step over the last one. Keeps a_n if a changes too fast:
-  // extrapolation would enlarge a mode that rings from step to step. The first increment then is the second difference of a, which
+  // Predicts a_{n+1} by the line through a_{n-1} and a_n; `ratio` is this step over the last one. Keeps a_n if a
+  // changes too fast:
+  // extrapolation would enlarge a mode that rings from step to step. The first increment then is the second difference
+  // of a, which
   // measures the step's own error (newmark_error.hpp); Newton's iteration ends at a small share of it.
   void extrapolate(const State& now, const Vec& a_before, double ratio, State& next);
   bool iterating() const { return newton.iterating(); }

@@ -1,4 +1,5 @@
-// An explicit Runge-Kutta method (trammel/methods/runge_kutta.hpp) as an integrator. Its author writes the coefficients:
+// An explicit Runge-Kutta method (trammel/methods/runge_kutta.hpp) as an integrator. Its author writes the
+// coefficients:
 //
 //     struct Heun {
 //       static constexpr Tableau tableau{2, c, a, b};
