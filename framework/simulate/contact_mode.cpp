@@ -60,7 +60,8 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   // approach.
   const auto approaches_without_force = [&](int contact) {
     return !modes_.contacts[contact].closed &&
-           system_.acceleration({contact, 0}, a_) < -opened_by_error * std::max(largest_, scale_.of(contact).no_acceleration());
+           system_.acceleration({contact, 0}, a_) <
+               -opened_by_error * std::max(largest_, scale_.of(contact).no_acceleration());
   };
   const bool slides = std::any_of(problem_.who.begin(), problem_.who.end(),
                                   [](const Participant& p) { return p.tangent == Participant::Tangent::sliding; });

@@ -166,8 +166,9 @@ const Vec& AssembledSystem::Work::force() {
   if (!bodies_fresh) evaluate_bodies();
   const int twist = twist_size(model->world.space);
   for (std::size_t i = 0; i < force_slots.size(); ++i) {
-    numerics::look_ahead(i, force_slots.size(),
-                         [&](std::size_t next) { chain.prefetch(force_slots[next].A), chain.prefetch(force_slots[next].B); });
+    numerics::look_ahead(i, force_slots.size(), [&](std::size_t next) {
+      chain.prefetch(force_slots[next].A), chain.prefetch(force_slots[next].B);
+    });
     const int A = force_slots[i].A, B = force_slots[i].B;
     called(model->forces[i].origin, "wrench");
     on_A.setZero(twist);

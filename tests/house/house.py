@@ -121,12 +121,12 @@ def lines_fit_the_formatter(source, _):
     limit = 120  # ColumnLimit of .clang-format; texts, which must stay whole, are the exception
     for top in ("framework", "bodies", "plugins", "tools", "tests"):
         for file in code_files(source / top):
-            raw = False  # inside R"(...)"
+            raw = False  # inside R"page(...)page"
             for number, line in enumerate(file.read_text().splitlines(), 1):
-                raw = 'R"(' in line or raw
+                raw = bool(re.search(r'R"\w*\(', line)) or raw
                 if len(line) > limit and '"' not in line and not raw:
                     yield f"{file.relative_to(source)}:{number} is longer than {limit} columns"
-                raw = raw and ')"' not in line
+                raw = raw and not re.search(r'\)\w*"', line)
 
 
 def main():

@@ -3,8 +3,8 @@
 
 #include <trammel/correction.hpp>
 
-#include "simulate/start/setup.hpp"
 #include "simulate/simulator.hpp"
+#include "simulate/start/setup.hpp"
 
 #include "support/run_scene.hpp"
 
@@ -54,7 +54,8 @@ const std::string swinging = R"({
 struct OneStep {
   OneStep(const std::string& text, Correction& correction)
       : setup(simulate::set_up(scene::Scene::parse(text, "test.json"), registry())),
-        simulator(setup.model, *setup.integrator, setup.settings, {{Correction::Level::velocity, &correction, nullptr}}),
+        simulator(setup.model, *setup.integrator, setup.settings,
+                  {{Correction::Level::velocity, &correction, nullptr}}),
         recorder(made(folder.path()), *setup.model, setup.columns, std::nullopt) {
     simulator.start(setup.initial);
     simulator.advance(recorder);

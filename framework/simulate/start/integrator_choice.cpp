@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "plugin/parameters.hpp"
 #include "diagnose/fastest_motion.hpp"
 #include "diagnose/mass_ratio.hpp"
+#include "plugin/parameters.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -74,8 +74,9 @@ void choose_integrator(Setup& setup, model::AssembledSystem& system, const std::
   const Choice& choice = before.empty() ? fitting(fastest, ratio, setup) : named(before);
   if (&choice != &explicit_steps) take(choice, setup, registry, problems);
   setup.chosen = choice.name;
-  setup.choice = fmt::format("{}, tolerance {:.3g}: the scene names none, and {}", choice.name, choice.tolerance,
-                             &choice == &steps_on_rows ? description(ratio, *setup.model) : description(fastest, *setup.model));
+  setup.choice =
+      fmt::format("{}, tolerance {:.3g}: the scene names none, and {}", choice.name, choice.tolerance,
+                  &choice == &steps_on_rows ? description(ratio, *setup.model) : description(fastest, *setup.model));
 }
 
 }  // namespace trammel::simulate

@@ -11,8 +11,8 @@
 #include <optional>
 #include <vector>
 
-#include "system/markers/marker_motions.hpp"
 #include "system/contact_geometry/point_pressure.hpp"
+#include "system/markers/marker_motions.hpp"
 
 namespace trammel::model {
 
@@ -48,7 +48,8 @@ class SurfaceContact {
   virtual double all_behind(const Point& /*point*/) { return -1; }
 };
 
-std::unique_ptr<SurfaceContact> make_surface_contact(const Model& model, const ContactEntry& entry, MarkerMotions& chain);
+std::unique_ptr<SurfaceContact> make_surface_contact(const Model& model, const ContactEntry& entry,
+                                                     MarkerMotions& chain);
 
 // The two kinds.
 std::unique_ptr<SurfaceContact> surface_on_marker(const Model& model, const ContactEntry& entry, MarkerMotions& chain);

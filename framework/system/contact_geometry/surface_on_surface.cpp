@@ -284,7 +284,8 @@ class SurfaceOnSurface final : public SurfaceContact {
 
 }  // namespace
 
-std::unique_ptr<SurfaceContact> surface_on_surface(const Model& model, const ContactEntry& entry, MarkerMotions& chain) {
+std::unique_ptr<SurfaceContact> surface_on_surface(const Model& model, const ContactEntry& entry,
+                                                   MarkerMotions& chain) {
   return std::make_unique<SurfaceOnSurface>(model, entry, chain);
 }
 
