@@ -10,8 +10,8 @@
 // Changes are by the point's position, the marker's and its turn, three columns each, or by the three velocities.
 #pragma once
 
-#include "system/markers/marker_motions.hpp"
 #include "system/contact_geometry/point_pressure.hpp"
+#include "system/markers/marker_motions.hpp"
 
 namespace trammel::model {
 

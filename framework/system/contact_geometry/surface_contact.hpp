@@ -6,29 +6,17 @@
 // times F_t, is left out.
 #pragma once
 
-#include <array>
-#include <memory>
 #include <optional>
 #include <vector>
 
-#include "system/markers/marker_motions.hpp"
+#include "system/contact_geometry/contact_geometry.hpp"
 #include "system/contact_geometry/point_pressure.hpp"
 
 namespace trammel::model {
 
-class SurfaceContact {
+// Its one row is that of the gap, and `rows` finds the motions in the slots of surfaces.
+class SurfaceContact : public ContactGeometry {
  public:
-  // Where the system is; `number` differs from point to point.
-  struct Point {
-    double t;
-    const Vec &q, &v;
-    long long number;
-  };
-  virtual ~SurfaceContact() = default;
-
-  virtual std::array<int, 2> slots() const = 0;  // of A and B in the chain
-  // The one row, all zero before, and the motions in the slots.
-  virtual void gap_row(const Point& point, Rows& rows) = 0;
   // Everything below is there.
   virtual void press(const Point& point, double approach_speed) = 0;
 
@@ -46,12 +34,16 @@ class SurfaceContact {
   virtual void raise_pressure(int body, std::vector<double>& by_patch) const = 0;
   // How far all of the surface lies behind the plane [m]; negative: some of it does not, or there is no plane.
   virtual double all_behind(const Point& /*point*/) { return -1; }
+
+  CallSite call() const final { return {&entry_.origin, "normal"}; }
+  int tangents() const final { return 2; }  // a surface is in space
+  // It has no forces along rows: add_tangent has all of its derivatives.
+  void add_reaction_tangent(const Point&, const Rows&, const Eigen::Vector3d&, double, Matrix&) final {}
+
+ protected:
+  explicit SurfaceContact(const ContactEntry& entry) : entry_(entry) {}
+
+  const ContactEntry& entry_;
 };
-
-std::unique_ptr<SurfaceContact> make_surface_contact(const Model& model, const ContactEntry& entry, MarkerMotions& chain);
-
-// The two kinds.
-std::unique_ptr<SurfaceContact> surface_on_marker(const Model& model, const ContactEntry& entry, MarkerMotions& chain);
-std::unique_ptr<SurfaceContact> surface_on_surface(const Model& model, const ContactEntry& entry, MarkerMotions& chain);
 
 }  // namespace trammel::model
