@@ -13,28 +13,27 @@ AssembledSystem::Work::Work(std::shared_ptr<const Model> m, Storage how)
   const Storage chosen = storage == Storage::automatic ? storage_for(*model) : storage;
   sparse = chosen == Storage::sparse;
   if (chosen == Storage::blocks) blocks.emplace(*model), blocks->kept[at_point].passing = true;
-  const auto slots_of = [this](const std::vector<MarkerRef>& markers) {
-    Slots at{.count = int(markers.size())};
-    int* const each[] = {&at.A, &at.B, &at.C, &at.D};
-    for (std::size_t k = 0; k < markers.size(); ++k) *each[k] = chain.slot(markers[k]);
+  const auto slots = [](const std::vector<int>& each) {
+    Slots at{.count = int(each.size())};
+    int* const places[] = {&at.A, &at.B, &at.C, &at.D};
+    for (std::size_t k = 0; k < each.size(); ++k) *places[k] = each[k];
     return at;
   };
-  // The markers of forces are contiguous in memory, because those of most joints may not be needed at a point.
+  const auto slots_of = [&](const std::vector<MarkerRef>& markers) {
+    std::vector<int> each;
+    for (const MarkerRef& marker : markers) each.push_back(chain.slot(marker));
+    return slots(each);
+  };
+  // Those of forces lie next to each other in memory: of many bodies most joints' markers may not be asked for.
   for (const ForceEntry& entry : model->forces) force_slots.push_back(slots_of({entry.A, entry.B}));
   for (const JointEntry& entry : model->joints) joint_slots.push_back(slots_of(entry.markers));
   order_joints();
   for (std::size_t k = 0; k < model->bodies.size(); ++k)
     if (model->bodies[k].rows > 0) constrained.push_back(k);
   for (const ContactEntry& entry : model->contacts) {
-    if (entry.limit)
-      contact_slots.push_back(slots_of(entry.limit->markers));
-    else if (!entry.surface)
-      contact_slots.push_back(slots_of({entry.A, entry.B}));
-    surfaces.emplace_back();
-    if (!entry.surface) continue;
-    surfaces.back().contact = make_surface_contact(*model, entry, chain);
-    const auto [A, B] = surfaces.back().contact->slots();
-    contact_slots.push_back({.A = A, .B = B});
+    const auto& geometry = geometries.emplace_back(make_contact_geometry(*model, entry, chain));
+    contact_slots.push_back(slots(geometry->slots()));
+    surfaces.push_back({dynamic_cast<SurfaceContact*>(geometry.get())});
   }
   contact_rows.resize(model->contacts.size());
   modes.contacts.resize(model->contacts.size());
@@ -81,15 +80,11 @@ void AssembledSystem::Work::lay_out_blocks() {
     tie(joint.row, joint.rows, joint.markers, std::binary_search(constant_joints.begin(), constant_joints.end(), i));
   }
   for_each_contact_row([&](ContactDirection d, int row) {
-    std::vector<MarkerRef> markers;
+    BodyBlocks::Tie& one = ties.emplace_back(BodyBlocks::Tie{row, 1, false, {}});
     for (const int i : contacts_of_row(d)) {
-      const ContactEntry& contact = model->contacts[std::size_t(i)];
-      if (contact.limit)
-        markers.insert(markers.end(), contact.limit->markers.begin(), contact.limit->markers.end());
-      else
-        markers.insert(markers.end(), {contact.A, contact.B});
+      const Slots& at = contact_slots[std::size_t(i)];
+      for (int k = 0; k < at.count; ++k) one.bodies.push_back(chain.body(at[k]));
     }
-    tie(row, 1, markers);
   });
   std::sort(ties.begin(), ties.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   blocks->lay_out(ties);

@@ -15,6 +15,8 @@
 #include "system/contact_geometry/surface_contact.hpp"
 #include "system/contact_loads.hpp"
 #include "system/markers/marker_motions.hpp"
+#include "system/markers/pair_tangent.hpp"
+#include "system/markers/reaction_tangent.hpp"
 
 namespace trammel::model {
 
@@ -25,6 +27,7 @@ struct AssembledSystem::Work {
   struct Slots {
     int A = 0, B = 0, C = 0, D = 0, count = 2;
     int operator[](int k) const { return k == 0 ? A : k == 1 ? B : k == 2 ? C : D; }
+    std::array<int, Rows::most_markers> all() const { return {A, B, C, D}; }
   };
   struct ContactRows {
     long long point = -1;
@@ -84,7 +87,6 @@ struct AssembledSystem::Work {
   };
   void reserve_bearings();
   const JointEntry& joint_of(int contact) const;
-  void slip_row(int contact, Rows& into);
   Bearing& bearing(int contact);                        // at this point
   double bearing_load(int contact, const Vec& lambda);  // N [N]
   bool slides_in_bearing(int contact);                  // with friction
@@ -96,21 +98,21 @@ struct AssembledSystem::Work {
   const Rows& contact(int i);
   void evaluate_contact(int i, ContactRows& into);
   bool on_surface(std::size_t i) const { return surfaces[i].contact != nullptr; }
-  SurfaceContact& surface(std::size_t i);  // at this point; the contact must have a surface
+  bool in_joint(int i) const { return !bearing_of.empty() && bearing_of[std::size_t(i)] >= 0; }
+  SurfaceContact& surface(std::size_t i);  // at this point, of a contact that has one
   bool presses_surface(std::size_t i, int body) const;
-  SurfaceContact::Point here() const { return {t, q, v, point}; }
+  ContactGeometry::Point here() const { return {t, q, v, point}; }
   double contact_rate(int i, int row);
   double contact_acceleration(int i, int row, const Vec& a);
-  void judge_friction(Vec& a, Vec& lambda);  // adds the friction of the contacts in `judged`
-  int tangents(int i) const { return model->contacts[std::size_t(i)].joint ? 1 : dimension(model->world.space) - 1; }
+  void judge_friction(Vec& a, Vec& lambda);  // adds that of `judged`
+  int tangents(int i) const { return geometries[std::size_t(i)]->tangents(); }
   Tangential slip(int i);
   SlipDirection slip_direction(int i);
   template <class Call>
   double ask_friction(int contact, const char* name, Call call);
   Tangential friction_ratio(int i);         // F_t / F_n while sliding; 0 where rows or nothing hold it
   Eigen::Matrix2d friction_damping(int i);  // -d(F_t / F_n)/d(slip velocity) [s/m]
-  bool rolls(int i) const;                  // round, in space: its tangential coordinates are accumulated over steps
-  Eigen::Matrix3d seen_from_B(int i);       // A's orientation in B's axes
+  Eigen::Matrix3d seen_from_B(int i);       // A's orientation
   Tangential displacement(int i);           // g along the tangents, from the mode's anchor
   // S += c_m M + c_d D + c_k K + c_1 1. `carried`: K with those stresses (CarriedStress); null: exact.
   void add_tangent(Blend c, const Vec& a, const Vec& lambda, Matrix& S, const CarriedFrom* carried = nullptr);
@@ -126,9 +128,6 @@ struct AssembledSystem::Work {
   // A solver for the change of v by impulses, with the joints' rows active.
   std::function<void(const Vec& impulse, Vec& dv)> with_joints_held();
 
-  // S += c d(G^T lambda)/dq; lambda: multipliers of these rows only.
-  void add_reaction_of(const Constraint& constraint, const ReactionTangent* exact, const Slots& at, const Vec6& lambda,
-                       double c, Matrix& S);
   // Of rows, by what solves with them; after evaluate_rows.
   double violation() const { return g.size() ? g.lpNorm<Eigen::Infinity>() : 0; }
   double rank_tolerance() const { return numerics::rank_tolerance_at(violation()); }
@@ -141,6 +140,7 @@ struct AssembledSystem::Work {
   bool sparse = false;  // M and S
   CallSite site;        // before `chain`, which names bodies there
   MarkerMotions chain;
+  std::vector<std::unique_ptr<ContactGeometry>> geometries;  // by contact
   std::vector<Slots> joint_slots, force_slots, contact_slots;
   std::vector<std::size_t> joint_order;      // sorted by their first bodies, for cache locality
   std::vector<std::size_t> constant_joints;  // not in joint_order: their rows are linear in the coordinates
@@ -171,7 +171,7 @@ struct AssembledSystem::Work {
   };
   Rate rate_by(ContactDirection d, const Vec& some);
   ContactLoads::Bounds bounds(int contact, const Vec& lambda);     // of its forces where it shares rows
-  Mat moved_with_sliding(int group);  // ContactLoads::solve_with_sliding
+  Mat moved_with_sliding(int group);                               // ContactLoads::solve_with_sliding
   const ContactLoads& shared_rows(int group, const Vec& lambda);   // with the resultants of a group
   const ContactLoads& shared_loads(int group, const Vec& lambda);  // and with its forces
   std::vector<int> judged;           // closed contacts at rest whose friction is decided in every evaluation
@@ -204,10 +204,9 @@ struct AssembledSystem::Work {
   Balance power;
   Rows rows;
   BodyRows own_rows;
-  PairTangent wrench_by;
   std::vector<ContactRows> contact_rows;
   struct Pressed {
-    std::unique_ptr<SurfaceContact> contact;  // null: contact without surfaces
+    SurfaceContact* contact = nullptr;  // null: it acts at one point
     long long point = -1;
   };
   std::vector<Pressed> surfaces;  // by contact
@@ -216,23 +215,5 @@ struct AssembledSystem::Work {
   std::vector<int> row_places;  // column indices and values of a few rows
   std::vector<double> row_numbers;
 };
-
-// Derivative of the generalised force of a few markers whose wrenches are functions of their motions, by differences of
-// poses and velocities: S += c_k d(J^T w)/dq + c_d d(J^T w)/dv. It includes the change of J^T with q. It neglects the
-// dependence of V on q at fixed v: this term is of the order damping x speed / length compared with the stiffness, and
-// Newton's iteration compensates for it.
-class MarkerWrenches {
- public:
-  virtual ~MarkerWrenches() = default;
-  // On entry `on` has one wrench per marker, all zero.
-  virtual void operator()(Motions markers, std::span<Wrench> on) const = 0;
-  virtual bool depends_on_velocity() const = 0;
-};
-void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
-                        const MarkerWrenches& wrenches, double c_k, double c_d, Matrix& S);
-
-// The wrench of a contact on one of its markers with the rows H: `normal` along the normal, `friction` along the
-// tangents.
-Wrench pressed_by(const Mat6& H, double normal, const Tangential& friction);
 
 }  // namespace trammel::model

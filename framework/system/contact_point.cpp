@@ -1,20 +1,10 @@
 // A contact at the point: the rows of its geometry, its gap rate and slip, and the ratio of friction to normal force.
 #include <cmath>
+#include <utility>
 
 #include "system/assembly.hpp"
 
 namespace trammel::model {
-
-Wrench pressed_by(const Mat6& H, double normal, const Tangential& friction) {
-  Wrench wrench(H.cols());
-  with_twist(H.cols(), [&](auto twist) {
-    for (int j = 0; j < twist; ++j) {
-      wrench(j) = normal * H(0, j);
-      for (Eigen::Index k = 0; k + 1 < H.rows(); ++k) wrench(j) += friction[k] * H(k + 1, j);
-    }
-  });
-  return wrench;
-}
 
 const Rows& AssembledSystem::Work::contact(int i) {
   ContactRows& cache = contact_rows[std::size_t(i)];
@@ -27,26 +17,11 @@ const Rows& AssembledSystem::Work::contact(int i) {
 
 void AssembledSystem::Work::evaluate_contact(int i, ContactRows& cache) {
   const Slots& at = contact_slots[std::size_t(i)];
-  const int A = at.A, B = at.B;
-  const ContactEntry& entry = model->contacts[std::size_t(i)];
-  const CallSite around = site;
-  called(entry.limit ? entry.limit->origin : entry.origin, entry.limit ? "rows" : "normal");
-  const bool tangents = entry.friction != nullptr;
+  ContactGeometry& geometry = *geometries[std::size_t(i)];
+  const bool tangents = model->contacts[std::size_t(i)].friction != nullptr;
+  const CallSite around = std::exchange(site, geometry.call());
   cache.rows.resize(tangents ? dimension(model->world.space) : 1, model->world.space);
-  if (entry.joint) {
-    slip_row(i, cache.rows);
-  } else if (entry.limit) {
-    evaluate_constraint(*entry.limit->joint, entry.limit->joint->row_count(model->world.space), motions(at), at.count,
-                        cache.rows);
-    if (const double side = entry.limit->side; side != 1) {
-      for (Vec6* each : {&cache.rows.g, &cache.rows.g_t, &cache.rows.gamma}) *each *= side;
-      for (int k = 0; k < at.count; ++k) cache.rows.H(k) *= side;
-    }
-  } else if (entry.surface) {
-    surfaces[std::size_t(i)].contact->gap_row(here(), cache.rows);
-  } else {
-    model::contact_rows(entry.geometry, motion(A), motion(B), tangents, cache.rows);
-  }
+  geometry.rows(here(), cache.rows);
   site = around;
   cache.rate = cache.rows.g_t;
   cache.free = cache.rows.gamma;

@@ -66,17 +66,6 @@ const JointEntry& AssembledSystem::Work::joint_of(int contact) const {
   return model->joints[std::size_t(model->contacts[std::size_t(contact)].joint->joint)];
 }
 
-// Row 0 remains 0, because the normal force follows from the joint's own rows.
-void AssembledSystem::Work::slip_row(int contact, Rows& into) {
-  const JointBearing& joint = *model->contacts[std::size_t(contact)].joint;
-  const Slots& at = contact_slots[std::size_t(contact)];
-  called(joint_of(contact).origin, "slip_row");
-  rows.resize(1, model->world.space);
-  joint.bearing->slip_row(t, motion(at.A), motion(at.B), rows);
-  into.g(1) = rows.g(0), into.g_t(1) = rows.g_t(0), into.gamma(1) = rows.gamma(0);
-  for (int k = 0; k < at.count; ++k) into.H(k).row(1) = rows.H(k).row(0);
-}
-
 AssembledSystem::Work::Bearing& AssembledSystem::Work::bearing(int contact) {
   Bearing& b = bearings[std::size_t(bearing_of[std::size_t(contact)])];
   if (b.point == point) return b;

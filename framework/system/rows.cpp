@@ -168,7 +168,7 @@ void AssembledSystem::Work::couple_reactions() {
       add_friction(contact_slots[i].A, row, share * pressed_by(r.H_A, 0, ratio).transpose());
       add_friction(contact_slots[i].B, row, share * pressed_by(r.H_B, 0, ratio).transpose());
     };
-    if (model->contacts[i].joint) {
+    if (in_joint(int(i))) {
       const JointEntry& joint = model->joints[std::size_t(model->contacts[i].joint->joint)];
       const Vec6& by = bearing(int(i)).load_by_row;
       for (int k = 0; k < joint.rows; ++k)

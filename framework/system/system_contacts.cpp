@@ -159,7 +159,7 @@ const ContactLoads& AssembledSystem::Work::shared_loads(int group, const Vec& la
 
 double AssembledSystem::Work::force_along(ContactDirection d, const Vec& lambda) {
   const ContactLoads::Place& place = loads.place(d);
-  if (d.row == 0 && model->contacts[std::size_t(d.contact)].joint) return bearing_load(d.contact, lambda);
+  if (d.row == 0 && in_joint(d.contact)) return bearing_load(d.contact, lambda);
   if (place.group >= 0) return shared_loads(place.group, lambda).load(place);
   if (place.row >= 0) return -lambda(place.row);
   const auto i = std::size_t(d.contact);
@@ -185,13 +185,8 @@ Tangential AssembledSystem::slip_acceleration(int contact, const Vec& a) {
 
 Vec3 AssembledSystem::along_tangents(int contact, const Tangential& x) {
   Work& w = *work_;
-  if (tangents(contact) == 1) return x.head(1);
   const auto i = std::size_t(contact);
-  return w.motion(w.contact_slots[i].B).R * (w.model->contacts[i].geometry.tangents * x);
-}
-
-bool AssembledSystem::Work::rolls(int i) const {
-  return tangents(i) == 2 && model->contacts[std::size_t(i)].geometry.radius > 0;
+  return w.geometries[i]->along_tangents(x, w.motion(w.contact_slots[i].B));
 }
 
 Eigen::Matrix3d AssembledSystem::Work::seen_from_B(int i) {
@@ -199,21 +194,11 @@ Eigen::Matrix3d AssembledSystem::Work::seen_from_B(int i) {
   return motion(at.B).R.transpose() * motion(at.A).R;
 }
 
-// In space a round body's slip is s . u + (omega_A - omega_B) . (r x s). The part of the spin is integrated by the
-// rotation of A against B since `rolled_from`.
 Tangential AssembledSystem::Work::displacement(int i) {
   const ContactMode& mode = modes.contacts[std::size_t(i)];
-  const Rows& r = contact(i);
-  if (const auto& joint = model->contacts[std::size_t(i)].joint)
-    return {joint->bearing->slid(mode.anchor[0], r.g(1)), 0};
-  Tangential x = -mode.anchor;
-  for (int k = 0; k < tangents(i); ++k) x[k] += r.g(1 + k);
-  if (!rolls(i)) return x;
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(seen_from_B(i) * mode.rolled_from.transpose()));
-  const PointOnPlane& plane = model->contacts[std::size_t(i)].geometry;
-  const Eigen::Vector3d to_contact = -plane.radius * plane.normal;
-  for (int k = 0; k < 2; ++k)
-    x[k] += turn.angle() * turn.axis().dot(to_contact.cross(Eigen::Vector3d(plane.tangents.col(k))));
+  const ContactGeometry& geometry = *geometries[std::size_t(i)];
+  Tangential x = geometry.coordinates_from(mode.anchor, contact(i));
+  if (geometry.rolls()) x += geometry.rolled(seen_from_B(i) * mode.rolled_from.transpose());
   return x;
 }
 
@@ -221,7 +206,7 @@ void AssembledSystem::anchor(int contact, ContactMode& mode) {
   Work& w = *work_;
   const Rows& r = w.contact(contact);
   for (int k = 0; k < w.tangents(contact); ++k) mode.anchor[k] = r.g(1 + k);
-  if (w.rolls(contact)) mode.rolled_from = w.seen_from_B(contact);
+  if (w.geometries[std::size_t(contact)]->rolls()) mode.rolled_from = w.seen_from_B(contact);
 }
 
 void AssembledSystem::step_taken() {
@@ -233,7 +218,7 @@ void AssembledSystem::step_taken() {
     if (mode.friction == ContactMode::Friction::slide) {
       const Tangential s = w.slip(int(i));
       if (s.dot(mode.direction) > mode.slow) mode.direction = s.normalized();
-    } else if (w.rolls(int(i))) {
+    } else if (w.geometries[i]->rolls()) {
       anchor(int(i), mode);
       w.rows_fresh = false;
       ++w.configuration;
@@ -372,7 +357,7 @@ std::vector<double> AssembledSystem::surface_pressure(int body) {
 
 double AssembledSystem::all_behind_plane(int contact) {
   Work& w = *work_;
-  SurfaceContact* surface = w.surfaces[std::size_t(contact)].contact.get();
+  SurfaceContact* surface = w.surfaces[std::size_t(contact)].contact;
   return surface ? surface->all_behind(w.here()) : -1;
 }
 

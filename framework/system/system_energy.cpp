@@ -103,7 +103,7 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
       sum.friction(Eigen::Index(i)) = -w.loads.spring({int(i), 0}, lambda) * ratio.dot(slip);
       continue;
     }
-    if (w.model->contacts[i].joint) {  // likewise
+    if (w.in_joint(int(i))) {  // likewise
       sum.friction(Eigen::Index(i)) = -w.bearing_load(int(i), lambda) * ratio.dot(slip);
       continue;
     }

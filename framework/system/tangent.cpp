@@ -7,26 +7,6 @@ namespace trammel::model {
 
 namespace {
 
-// H^T lambda as wrenches on the markers.
-class Reaction final : public MarkerWrenches {
- public:
-  Reaction(const Constraint& constraint, double t, const Vec6& lambda, Space space)
-      : constraint_(constraint), t_(t), lambda_(lambda), space_(space) {}
-  void operator()(Motions markers, std::span<Wrench> on) const override {
-    Rows rows;
-    rows.resize(int(lambda_.size()), space_, int(markers.size()));
-    constraint_.rows_between(t_, markers, rows);
-    for (std::size_t k = 0; k < on.size(); ++k) on[k] = rows.H(int(k)).transpose() * lambda_;
-  }
-  bool depends_on_velocity() const override { return false; }
-
- private:
-  const Constraint& constraint_;
-  double t_;
-  const Vec6& lambda_;
-  Space space_;
-};
-
 class ForceWrench final : public MarkerWrenches {
  public:
   ForceWrench(const Force& force, double t) : force_(force), t_(t) {}
@@ -109,7 +89,10 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
   for (std::size_t i = 0; i < joint_slots.size() && c.c_k != 0; ++i) {
     const JointEntry& entry = model->joints[i];
     called(entry.origin, "rows");
-    add_reaction_of(*entry.joint, entry.tangent, joint_slots[i], lambda.segment(entry.row, entry.rows), c.c_k, S);
+    const auto slots = joint_slots[i].all();
+    const Vec6 own = lambda.segment(entry.row, entry.rows);
+    const auto used = std::span(slots).first(std::size_t(joint_slots[i].count));
+    add_reaction_tangent({*entry.joint, entry.tangent, used, own}, chain, t, q, v, c.c_k, S);
   }
   for (std::size_t i = 0; i < contact_slots.size(); ++i) {
     if (!modes.contacts[i].closed) continue;
@@ -117,7 +100,7 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
       surface(i).add_tangent(here(), c.c_k, c.c_d, S);
       continue;
     }
-    if (model->contacts[i].joint) {
+    if (in_joint(int(i))) {
       add_slip_tangent(int(i), c, lambda, S);
       continue;
     }
@@ -147,38 +130,13 @@ void AssembledSystem::Work::add_tangent(Blend c, const Vec& a, const Vec& lambda
       for (int n = 0; n < tangents(int(i)); ++n)
         if (damping(m, n) != 0) add(1 + n, damping(m, n), [&](int k) -> Wrench { return r.H(k).row(1 + m); });
     if (c.c_k == 0) continue;
-    if (const auto& limit = model->contacts[i].limit) {
-      add_reaction_of(*limit->joint, limit->tangent, at, Vec6::Constant(1, limit->side * pull), c.c_k, S);
-      continue;
-    }
-    for (int k = 0; k < at.count; ++k) {
-      Wrench w = pressed_by(r.H(k), pull, pull_beside * ratio);
-      for (int m = 1; m <= tangents(int(i)); ++m)
-        if (const int row = loads.place({int(i), m}).row; row >= 0) w += lambda(row) * r.H(k).row(m).transpose();
-      chain.add_reaction_derivative(at[k], t, q, w, c.c_k, S);
-    }
+    Eigen::Vector3d F;  // one of friction's two parts is 0: what slides has no rows
+    F << pull, pull_beside * ratio;
+    for (int m = 1; m <= tangents(int(i)); ++m)
+      if (const int row = loads.place({int(i), m}).row; row >= 0) F[m] += lambda(row);
+    geometries[i]->add_reaction_tangent(here(), r, F, c.c_k, S);
   }
   returned();
-}
-
-void AssembledSystem::Work::add_reaction_of(const Constraint& constraint, const ReactionTangent* exact, const Slots& at,
-                                            const Vec6& lambda, double c, Matrix& S) {
-  if (!exact) {
-    const std::array<int, Rows::most_markers> slots = {at.A, at.B, at.C, at.D};
-    const Reaction reaction(constraint, t, lambda, model->world.space);
-    return add_wrench_tangent(chain, std::span(slots).first(std::size_t(at.count)), t, q, v, reaction, c, 0, S);
-  }
-  const Motion &A = motion(at.A), &B = motion(at.B);
-  const auto twist = A.V.size();
-  for (Mat6* block : {&wrench_by.AA, &wrench_by.AB, &wrench_by.BA, &wrench_by.BB}) block->setZero(twist, twist);
-  exact->add_reaction_tangent(t, A, B, lambda, wrench_by);
-  chain.add_pair(at.A, at.A, wrench_by.AA, c, S);
-  chain.add_pair(at.A, at.B, wrench_by.AB, c, S);
-  chain.add_pair(at.B, at.A, wrench_by.BA, c, S);
-  chain.add_pair(at.B, at.B, wrench_by.BB, c, S);
-  evaluate_constraint(constraint, constraint.row_count(model->world.space), {&A, &B}, 2, rows);
-  chain.add_reaction_derivative(at.A, t, q, rows.H_A.transpose() * lambda, c, S);
-  chain.add_reaction_derivative(at.B, t, q, rows.H_B.transpose() * lambda, c, S);
 }
 
 }  // namespace trammel::model

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 
 #include "model/model.hpp"
+#include "particle.hpp"
+#include "system/contact_geometry/contact_geometry.hpp"
 
 namespace trammel::model {
 namespace {
@@ -140,6 +142,88 @@ TEST(PointOnPlane, GammaMakesTheAccelerationsOfGapAndSlipInSpace) {
   const Rows rows = rows_in_space(0.7);
   const Vec acceleration = rows.H_A * point_in_space(0.7).bias + rows.H_B * tumbling_frame(0.7).bias - rows.gamma;
   EXPECT_LT((acceleration - (rates_in_space(0.7 + s) - rates_in_space(0.7 - s)) / (2 * s)).norm(), 1e-7);
+}
+
+// What every pairing with rows owes: two particles at q, which move with v, and forces F along the rows.
+class Pairing : public testing::Test {
+ protected:
+  Pairing() {
+    test::add_particle(model, "one", 1, {0.7, 1.3}, {0.4, -1.1});
+    test::add_particle(model, "two", 2, {-0.2, 0.5}, {1.7, 0.6});
+    model.lay_out();
+    markers = std::make_unique<MarkerMotions>(model, site);
+    q = Vec{{0.7, 1.3, -0.2, 0.5}}, v = Vec{{0.4, -1.1, 1.7, 0.6}};
+    entry.A = {0, 0}, entry.B = {1, 0};
+  }
+  void limit_from(double side) {
+    entry.limit.emplace();
+    entry.limit->joint = std::make_unique<test::Rod>(0.9);
+    entry.limit->markers = {entry.A, entry.B};
+    entry.limit->side = side;
+  }
+  Rows rows_at(const Vec& q_at) {
+    Rows rows;
+    rows.resize(n, Space::planar);
+    markers->new_point();
+    geometry->rows({0, q_at, v, ++number}, rows);
+    return rows;
+  }
+  Vec force_at(const Vec& q_at) {
+    const Rows rows = rows_at(q_at);
+    Vec Q = Vec::Zero(4);
+    for (int k = 0; k < 2; ++k)
+      markers->add_wrench(geometry->slots()[std::size_t(k)], rows.H(k).transpose() * F.head(n), 1, Q);
+    return Q;
+  }
+  void expect_exact_derivatives() {
+    geometry = make_contact_geometry(model, entry, *markers);
+    const Rows rows = rows_at(q);
+    const Vec change = (rows_at(q + s * v).g - rows_at(q - s * v).g) / (2 * s);
+    Vec rate = rows.g_t;
+    for (int k = 0; k < 2; ++k) rate += rows.H(k) * markers->motion(geometry->slots()[std::size_t(k)], 0, q, v).V;
+    EXPECT_LT((rate - change).norm(), 1e-8);
+    Mat by_differences(4, 4), S = Mat::Zero(4, 4);
+    for (int j = 0; j < 4; ++j) {
+      const Vec dq = s * Vec::Unit(4, j);
+      by_differences.col(j) = (force_at(q + dq) - force_at(q - dq)) / (2 * s);
+    }
+    const Rows again = rows_at(q);
+    Matrix onto = Matrix::onto(S);
+    geometry->add_reaction_tangent({0, q, v, number}, again, F, 3, onto);
+    EXPECT_LT((S - 3 * by_differences).norm(), 1e-7);
+    tangent = S;
+  }
+
+  Model model;
+  CallSite site;
+  std::unique_ptr<MarkerMotions> markers;
+  ContactEntry entry;
+  std::unique_ptr<ContactGeometry> geometry;
+  Vec q, v;
+  Eigen::Vector3d F{2.3, -0.8, 0};
+  int n = 1;
+  long long number = 0;
+  Mat tangent;
+};
+
+TEST_F(Pairing, OfALimitHasExactDerivativesFromBothSides) {
+  limit_from(1);
+  expect_exact_derivatives();
+  const Mat above = tangent;
+  const double gap = rows_at(q).g(0);
+  entry.limit->side = -1;
+  expect_exact_derivatives();
+  EXPECT_EQ(rows_at(q).g(0), -gap);
+  EXPECT_GT(above.norm(), 1);  // the row turns with the rod: 3 F / L in size
+  EXPECT_LT((tangent + above).norm(), 1e-14 * above.norm());
+}
+
+TEST_F(Pairing, OfAMarkerAndAPlaneHasExactDerivativesAlongTheTangentToo) {
+  entry.geometry = PointOnPlane(Eigen::Vector2d(0.1, -0.3), Eigen::Vector2d(0.6, 0.8));
+  n = 2;
+  expect_exact_derivatives();
+  EXPECT_EQ(geometry->tangents(), 1);
+  EXPECT_FALSE(geometry->rolls());
 }
 
 }  // namespace

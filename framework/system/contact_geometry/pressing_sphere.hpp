@@ -11,8 +11,8 @@
 // velocities.
 #pragma once
 
-#include "system/markers/marker_motions.hpp"
 #include "system/contact_geometry/point_pressure.hpp"
+#include "system/markers/marker_motions.hpp"
 
 namespace trammel::model {
 

@@ -6,30 +6,19 @@
 // thickness times F_t, is neglected.
 #pragma once
 
-#include <array>
-#include <memory>
 #include <optional>
 #include <vector>
 
+#include "system/contact_geometry/contact_geometry.hpp"
 #include "system/contact_geometry/point_pressure.hpp"
 #include "system/markers/marker_motions.hpp"
 
 namespace trammel::model {
 
-class SurfaceContact {
+// Its one row is that of the gap, and `rows` finds the motions in the slots of surfaces.
+class SurfaceContact : public ContactGeometry {
  public:
-  // The system's point; `number` differs for each point.
-  struct Point {
-    double t;
-    const Vec &q, &v;
-    long long number;
-  };
-  virtual ~SurfaceContact() = default;
-
-  virtual std::array<int, 2> slots() const = 0;  // of A and B in the chain
-  // Fills the row of the gap, all zero on entry, and the motions in the slots.
-  virtual void gap_row(const Point& point, Rows& rows) = 0;
-  // All functions below refer to this point.
+  // Everything below is there.
   virtual void press(const Point& point, double approach_speed) = 0;
 
   virtual const PressureSums& sums() const = 0;
@@ -46,13 +35,16 @@ class SurfaceContact {
   virtual void raise_pressure(int body, std::vector<double>& by_patch) const = 0;
   // Distance by which the whole surface lies behind the plane [m]; negative: not the whole surface, or no plane.
   virtual double all_behind(const Point& /*point*/) { return -1; }
+
+  CallSite call() const final { return {&entry_.origin, "normal"}; }
+  int tangents() const final { return 2; }  // a surface is in space
+  // It has no forces along rows: add_tangent has all of its derivatives.
+  void add_reaction_tangent(const Point&, const Rows&, const Eigen::Vector3d&, double, Matrix&) final {}
+
+ protected:
+  explicit SurfaceContact(const ContactEntry& entry) : entry_(entry) {}
+
+  const ContactEntry& entry_;
 };
-
-std::unique_ptr<SurfaceContact> make_surface_contact(const Model& model, const ContactEntry& entry,
-                                                     MarkerMotions& chain);
-
-// The two kinds.
-std::unique_ptr<SurfaceContact> surface_on_marker(const Model& model, const ContactEntry& entry, MarkerMotions& chain);
-std::unique_ptr<SurfaceContact> surface_on_surface(const Model& model, const ContactEntry& entry, MarkerMotions& chain);
 
 }  // namespace trammel::model

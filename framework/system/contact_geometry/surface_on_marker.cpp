@@ -24,7 +24,7 @@ template <class Partner>
 class SurfaceOnMarker final : public SurfaceContact {
  public:
   SurfaceOnMarker(const Model& model, const ContactEntry& entry, MarkerMotions& chain)
-      : entry_(entry),
+      : SurfaceContact(entry),
         chain_(chain),
         points_(model.bodies[std::size_t(entry.surface->body)], *entry.surface->by_points,
                 Partner::marker_is_A ? entry.geometry.radius : std::numeric_limits<double>::infinity()),
@@ -32,11 +32,11 @@ class SurfaceOnMarker final : public SurfaceContact {
         marker_(chain.slot(Partner::marker_is_A ? entry.A : entry.B)),
         surface_(chain.surface_slot(entry.surface->body)) {}
 
-  std::array<int, 2> slots() const override {
-    return Partner::marker_is_A ? std::array{marker_, surface_} : std::array{surface_, marker_};
+  std::vector<int> slots() const override {
+    return Partner::marker_is_A ? std::vector{marker_, surface_} : std::vector{surface_, marker_};
   }
 
-  void gap_row(const Point& point, Rows& rows) override {
+  void rows(const Point& point, Rows& rows) override {
     const Motion& marker = chain_.motion(marker_, point.t, point.q, point.v);
     if constexpr (Partner::marker_is_A) {
       surface_row(entry_.geometry.radius + points_.half_thickness(), marker,
@@ -188,7 +188,6 @@ class SurfaceOnMarker final : public SurfaceContact {
     return motion;
   }
 
-  const ContactEntry& entry_;
   MarkerMotions& chain_;
   SurfacePoints points_;
   PointPressure pressure_;
@@ -201,7 +200,8 @@ class SurfaceOnMarker final : public SurfaceContact {
 
 }  // namespace
 
-std::unique_ptr<SurfaceContact> surface_on_marker(const Model& model, const ContactEntry& entry, MarkerMotions& chain) {
+std::unique_ptr<ContactGeometry> surface_on_marker(const Model& model, const ContactEntry& entry,
+                                                   MarkerMotions& chain) {
   if (entry.surface->against == SurfaceSide::Against::sphere)
     return std::make_unique<SurfaceOnMarker<PressingSphere>>(model, entry, chain);
   return std::make_unique<SurfaceOnMarker<PressingPlane>>(model, entry, chain);

@@ -66,7 +66,8 @@ Along slide(const SurfaceJet& y, const V3& d) {
 class SurfaceOnSurface final : public SurfaceContact {
  public:
   SurfaceOnSurface(const Model& model, const ContactEntry& entry, MarkerMotions& chain)
-      : side_(*entry.surface),
+      : SurfaceContact(entry),
+        side_(*entry.surface),
         chain_(chain),
         points_(model.bodies[std::size_t(entry.surface->body)], *entry.surface->by_points,
                 std::numeric_limits<double>::infinity()),
@@ -76,9 +77,9 @@ class SurfaceOnSurface final : public SurfaceContact {
         slot_A_(chain.surface_slot(entry.surface->body)),
         slot_B_(chain.surface_slot(entry.surface->other)) {}
 
-  std::array<int, 2> slots() const override { return {slot_A_, slot_B_}; }
+  std::vector<int> slots() const override { return {slot_A_, slot_B_}; }
 
-  void gap_row(const Point& point, Rows& rows) override {
+  void rows(const Point& point, Rows& rows) override {
     look(point);
     Motion &A = chain_.surface_motion(slot_A_), &B = chain_.surface_motion(slot_B_);
     points_.motion(points_.patch(deepest_.patch), deepest_.point, point.q, point.v, A);
@@ -284,8 +285,8 @@ class SurfaceOnSurface final : public SurfaceContact {
 
 }  // namespace
 
-std::unique_ptr<SurfaceContact> surface_on_surface(const Model& model, const ContactEntry& entry,
-                                                   MarkerMotions& chain) {
+std::unique_ptr<ContactGeometry> surface_on_surface(const Model& model, const ContactEntry& entry,
+                                                    MarkerMotions& chain) {
   return std::make_unique<SurfaceOnSurface>(model, entry, chain);
 }
 

@@ -200,7 +200,7 @@ void MarkerMotions::add_reaction_derivative(int index, double t, const Vec& q, c
 }
 
 void MarkerMotions::add_numeric_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c,
-                                                  Matrix& S) {
+                                                    Matrix& S) {
   const Slot& slot = slots_[std::size_t(index)];
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
   v_zero_.setZero(entry.nv);

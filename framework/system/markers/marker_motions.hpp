@@ -37,7 +37,7 @@ class MarkerMotions {
   // The same for temporary use as marker k of a joint: the next call may overwrite it.
   const Motion& motion_in_passing(int slot, std::size_t k, double t, const Vec& q, const Vec& v);
   void prefetch(int slot) const { numerics::prefetch(&kept_[std::size_t(slot)], 256); }  // its place and velocity
-  Motion motion_at_zero(int slot) const;                                           // q = 0, v = 0, t = 0
+  Motion motion_at_zero(int slot) const;                                                 // q = 0, v = 0, t = 0
   const Motion& last_motion(int slot) const { return kept_[std::size_t(slot)].motion; }
   int first_velocity(int slot) const { return slots_[std::size_t(slot)].v0; }
   int body(int slot) const { return slots_[std::size_t(slot)].marker.body; }  // -1: ground

@@ -25,6 +25,18 @@ struct RowsOf {
   Eigen::Index first, n;
 };
 
+// The wrench on a marker of forces along rows H: `normal` along the first, `friction` along those that follow.
+inline Wrench pressed_by(const Mat6& H, double normal, const Eigen::Vector2d& friction) {
+  Wrench wrench(H.cols());
+  with_twist(H.cols(), [&](auto twist) {
+    for (int j = 0; j < twist; ++j) {
+      wrench(j) = normal * H(0, j);
+      for (Eigen::Index k = 0; k + 1 < H.rows(); ++k) wrench(j) += friction[k] * H(k + 1, j);
+    }
+  });
+  return wrench;
+}
+
 // rate_i += (H V)_i and free_i -= (H bias)_i
 inline void add_motion(const RowsOf& rows, const Motion& marker, double* rate, double* free) {
   const double *const H = rows.H.data() + rows.first, *const V = marker.V.data(), *const bias = marker.bias.data();

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "system/assembly.hpp"
 #include "system/markers/numeric_derivative.hpp"
+#include "system/markers/pair_tangent.hpp"
 
 namespace trammel::model {
 

@@ -1,0 +1,20 @@
+#include "system/contact_geometry/contact_geometry.hpp"
+
+namespace trammel::model {
+
+Eigen::Vector2d ContactGeometry::coordinates_from(const Eigen::Vector2d& anchor, const Rows& rows) const {
+  Eigen::Vector2d x = -anchor;
+  for (int k = 0; k < tangents(); ++k) x[k] += rows.g(1 + k);
+  return x;
+}
+
+std::unique_ptr<ContactGeometry> make_contact_geometry(const Model& model, const ContactEntry& entry,
+                                                       MarkerMotions& chain) {
+  if (entry.joint) return joint_bearing(model, entry, chain);
+  if (entry.limit) return row_limit(model, entry, chain);
+  if (!entry.surface) return marker_on_plane(model, entry, chain);
+  return entry.surface->against == SurfaceSide::Against::surface ? surface_on_surface(model, entry, chain)
+                                                                 : surface_on_marker(model, entry, chain);
+}
+
+}  // namespace trammel::model

@@ -1,0 +1,23 @@
+// d of the generalised force of a few markers, whose wrenches are a function of their motions, by differences of the
+// poses and velocities: S += c_k d(J^T w)/dq + c_d d(J^T w)/dv. Of the markers' own motion only J^T's change with q is
+// included beside; that V depends on q at fixed v is left out (it is of the order damping x speed / length beside the
+// stiffness, and Newton's iteration corrects for it).
+#pragma once
+
+#include <span>
+
+#include "system/markers/marker_motions.hpp"
+
+namespace trammel::model {
+
+class MarkerWrenches {
+ public:
+  virtual ~MarkerWrenches() = default;
+  // `on` comes in with as many wrenches as markers, all zero.
+  virtual void operator()(Motions markers, std::span<Wrench> on) const = 0;
+  virtual bool depends_on_velocity() const = 0;
+};
+void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
+                        const MarkerWrenches& wrenches, double c_k, double c_d, Matrix& S);
+
+}  // namespace trammel::model
