@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <clocale>
 #include <cstdlib>
@@ -287,6 +288,20 @@ TEST(BadPlugin, EndingTheProgramAtLoad) {
 
 TEST(BadPlugin, CrashingAtLoad) {
   EXPECT_EQ(refusal(library("crashes_at_load")), "it crashes while it is loaded: Killed");
+}
+
+// It writes to every descriptor that it finds: a pipe of the program's whose reader has gone would end it by a signal.
+TEST(BadPlugin, FindsNoFilesOfTheProgram) {
+  std::array<int, 2> ends;
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  ::close(ends[0]);
+  try {
+    rehearse(library("writes_for_ever"), std::chrono::milliseconds(500));
+    FAIL() << "it finishes";
+  } catch (const PluginError& e) {
+    EXPECT_EQ(e.cause(), "it did not finish within 500 ms while it is loaded");
+  }
+  ::close(ends[1]);
 }
 
 // Each waits for ever, or writes for ever. The limit is one on the whole, so that signs of life do not prolong it.
