@@ -10,8 +10,8 @@
 //
 // Two points have no orientation: markers have the world's axes, which do not turn with the bar. Moments on them, and
 // joints and forces that hold or measure their axes, are refused (NeedsOrientation). Forces at points off the ends do
-// turn the bar.
-// Source: J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, sections 2.1.3 and
+// turn the bar. Source: J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994,
+// sections 2.1.3 and
 // 4.2.
 #include <array>
 #include <cmath>

@@ -5,8 +5,7 @@
 //     sphere r           I = 2/5 m r^2                                           V = 4/3 pi r^3
 //
 // I [kg m^2] about the centre of mass in body axes, m [kg], lengths [m], density [kg/m^3]. A planar body takes I_zz
-// alone.
-// Refused: inertia that no distribution of mass has, which is lambda_3 > lambda_1 + lambda_2 among the principal
+// alone. Refused: inertia that no distribution of mass has, which is lambda_3 > lambda_1 + lambda_2 among the principal
 // moments.
 #pragma once
 

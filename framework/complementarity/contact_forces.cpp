@@ -19,8 +19,8 @@ namespace trammel::complementarity {
 namespace {
 
 // Of the largest entry of A: what a contact yields per unit of its force where several solutions are to be told apart.
-// Where rows
-// depend on each other the first are larger than what Lemke's method perturbs, so that it ends where springs do.
+// Where rows depend on each other the first are larger than what Lemke's method perturbs, so that it ends where springs
+// do.
 constexpr double compliances[] = {1e-10, 0.0}, dependent_compliances[] = {1e-6, 1e-8, 1e-10, 0.0};
 // A violation that is round-off of A F, of 1e-4 of its shares: nothing better is looked for.
 constexpr double round_off = 1e-11;

@@ -15,19 +15,16 @@
 //     and is none, and after 20,000 sets of modes.
 //
 // Every answer is made exact (exact_modes.hpp), then it is checked: its violation of the conditions is returned with
-// it. Degenerate
-// problems end in a defined way: c N = 0 (a contact that just touches) leaves T = 0 and a_t as it is; a force exactly
-// on its bound
+// it. Degenerate problems end in a defined way: c N = 0 (a contact that just touches) leaves T = 0 and a_t as it is; a
+// force exactly on its bound
 // gives a_t = 0.
 //
 // Which one of several. Forces with the same accelerations: where no contact of a self-stress slides those of least
-// norm, which are
-// unique; else those of equal springs. Accelerations are unique without friction. With friction they may not be, and no
-// rule is
+// norm, which are unique; else those of equal springs. Accelerations are unique without friction. With friction they
+// may not be, and no rule is
 // known that finds a particular solution; the first one found counts, of contacts in an order of their own
-// (contact_order.hpp).
-// So the answer does not depend on the order they are named in, except where contacts look alike; but it is not
-// continuous:
+// (contact_order.hpp). So the answer does not depend on the order they are named in, except where contacts look alike;
+// but it is not continuous:
 // where two solutions come equally near to where the search begins, round-off may choose.
 #pragma once
 
@@ -44,8 +41,8 @@ struct ContactSolution {
 };
 
 // Fills F and a, in the order of A and b, each row of which belongs to one contact; a is exactly 0 where the conditions
-// say so. On anything but `solved` both are zero.
-// `nothing`: accelerations that are 0, as those by which dependent contacts disagree.
+// say so. On anything but `solved` both are zero. `nothing`: accelerations that are 0, as those by which dependent
+// contacts disagree.
 ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
                                double nothing = 0);
 

@@ -70,8 +70,7 @@ class ExactModes {
   }
 
   // How contacts share must not depend on the modes that were tried on the way: once more from those that the
-  // accelerations show,
-  // with all contacts closed that do not part and all tangents sticking that do not move.
+  // accelerations show, with all contacts closed that do not part and all tangents sticking that do not move.
   void share_by_accelerations() {
     const std::vector<ContactRole> on_the_way = roles_;
     roles_ = roles_of(points_, F_, a_, round_off * acceleration_scale());
@@ -151,8 +150,7 @@ class ExactModes {
   }
 
   // By the least admissible forces, where springs would pull or leave a cone. Resultants are corrected for what K and
-  // the
-  // projections leave of the accelerations: round-off of forces that may be many times those that accelerate.
+  // the projections leave of the accelerations: round-off of forces that may be many times those that accelerate.
   void share_admissibly(const CarryingEquations& equations) {
     if (springs_are_admissible()) return;
     if (!share_beside_sliding(equations) && carrying_.sliding_shares) share_with_sliding();

@@ -5,8 +5,8 @@
 // Where rows are independent these equations have one solution; of dependent ones it is that of carrying_rows.hpp.
 //
 // A mode that its own forces contradict is changed, one at a time: a pull opens a contact, what approaches closes, a
-// force beyond its
-// cone slides, one that would drive the slip sticks. The nearby solution may be off by any small error.
+// force beyond its cone slides, one that would drive the slip sticks. The nearby solution may be off by any small
+// error.
 #pragma once
 
 #include <vector>

@@ -8,9 +8,8 @@
 //     sliding     a_n = 0, T on the cone's side and a_t against it, both in directions between two angles
 //
 // In the plane a direction is one of two, and the cone has two edges: nothing is lost. In space the disk becomes the
-// octagon around
-// it, and the arc between two angles the triangle around it, so that what has no solution here has none there. All
-// unknowns are
+// octagon around it, and the arc between two angles the triangle around it, so that what has no solution here has none
+// there. All unknowns are
 // >= 0, along edges of cones; a non-negative least squares problem finds them or shows that there are none.
 #pragma once
 

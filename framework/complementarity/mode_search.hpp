@@ -3,9 +3,8 @@
 // wherever there are some, and "none" is a proof.
 //
 // A contact without a mode yet is relaxed (mode_relaxation.hpp). Where what is left has no forces, no completion of
-// these modes
-// has, and none is looked at. In space the directions that a contact slides in are quarters of the circle first, then
-// halves of
+// these modes has, and none is looked at. In space the directions that a contact slides in are quarters of the circle
+// first, then halves of
 // those, down to a degree; the round cone's own Newton method goes on from what is found there.
 #pragma once
 
@@ -18,8 +17,7 @@
 namespace trammel::complementarity {
 
 // `accept(F)` judges what is found; the search goes on where it says no. no_solution: proved, as nothing comes nearer
-// than 1e-8 of
-// the size of b. gave_up: after `most_nodes`, or where something came so near and was not accepted.
+// than 1e-8 of the size of b. gave_up: after `most_nodes`, or where something came so near and was not accepted.
 LcpOutcome search_modes(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, int most_nodes,
                         const std::function<bool(const Vec&)>& accept);
 

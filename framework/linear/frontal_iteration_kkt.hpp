@@ -4,8 +4,8 @@
 //     [G  0 ] [y] = [c]        S nv x nv; G and W: nc x nv
 //
 // front by front (frontal_factors.hpp): a plate of thousands of coordinates, a chain of thousands of links. The columns
-// of S are scaled
-// to the size of one, and with them those of W, so that pivots tell dependent rows whatever the masses and units are:
+// of S are scaled to the size of one, and with them those of W, so that pivots tell dependent rows whatever the masses
+// and units are:
 //
 //     [D S D    D W^T E] [D^-1 x]   [D b]        D, E diagonal, of powers of two: scaling does not round
 //     [E G D       0   ] [E^-1 y] = [E c]

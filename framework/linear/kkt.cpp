@@ -109,9 +109,8 @@ void MassKkt::change_rows(const Mat& G, const Mat& W, double rank_tolerance) {
 }
 
 // A decomposition with pivoting alone would leave U uncertain by what the rows part by, differently from call to call:
-// then
-// the accelerations were no smooth function of the state, and a Runge-Kutta method of second order. A step of the power
-// method, with the square of that, takes it to round-off.
+// then the accelerations were no smooth function of the state, and a Runge-Kutta method of second order. A step of the
+// power method, with the square of that, takes it to round-off.
 void MassKkt::merge_rows(const Mat& G, double rank_tolerance) {
   merged_ = orthonormal(schur_ * range_of(G, rank_tolerance));
   cod_.setThreshold(Eigen::Default);

@@ -32,13 +32,11 @@
 namespace trammel::numerics {
 
 // Below which sine of the angle to the others a row counts as dependent on them, for rows that are off by `violation`
-// (max norm
-// of g, of lengths of order one). Redundant rows are dependent only where they hold: otherwise they part by the
-// violation, and
+// (max norm of g, of lengths of order one). Redundant rows are dependent only where they hold: otherwise they part by
+// the violation, and
 // must not pass for new ones. Not more than ten times that: a long chain's own rows are dependent but for n^-2. (Where
-// branches of
-// motion cross, rows part by the distance from the crossing, over which a violation shifts the state by itself; slopes
-// on the rows
+// branches of motion cross, rows part by the distance from the crossing, over which a violation shifts the state by
+// itself; slopes on the rows
 // pass there, RungeKutta::Rows.)
 double rank_tolerance_at(double violation);
 // Of the rows at length one: masses and units must not make independent rows look alike.

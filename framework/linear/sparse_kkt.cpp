@@ -10,9 +10,8 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 // Of S's and G's scales. Large beside its round-off, so that corrections converge; its square root is the singular
-// value, relative to
-// the largest, below which rows count as redundant. A chain's own rows must not, whose softest falls with the square of
-// their number:
+// value, relative to the largest, below which rows count as redundant. A chain's own rows must not, whose softest falls
+// with the square of their number:
 // among few rows alone soft ones are those of a singular position.
 constexpr int long_from = 200;
 constexpr double regularisation(int nc) {
@@ -26,17 +25,15 @@ constexpr double safe_sine = 1e-3;
 // accelerations.
 constexpr double soft_chain = 2e-9;
 // Forces on a few bodies, or masses of many sizes, leave other round-off, which tells less of the softest direction.
-// Below this,
-// accelerations that the second correction still changes by more than this part of them are not trusted: of 594 loads
-// on masts
+// Below this, accelerations that the second correction still changes by more than this part of them are not trusted: of
+// 594 loads on masts
 // and 48 beams of graded masses it was 100 times their error at least.
 constexpr double may_be_soft = 1e-6, trusted_change = 1e-7;
 // Of redundant rows.
 constexpr double of_redundant = 1e-10;
 // Of rows as springs, where fronts contradict each other. Less leaves more rounding of the elimination, more leaves
-// more directions
-// free, which follow the rounding of rows and forces. Accelerations of a hoop of 10,000 bays from 30 to 88 degrees are
-// exact to
+// more directions free, which follow the rounding of rows and forces. Accelerations of a hoop of 10,000 bays from 30 to
+// 88 degrees are exact to
 // 7e-10 by 1e-9, 1.3e-10 by 1e-10, 4e-11 by 1e-11, 4e-10 by 1e-12.
 constexpr double of_springs = 1e-10;
 // Redundant rows part by no more than this where they are violated, the largest rank tolerance of kkt.hpp.
@@ -161,12 +158,10 @@ void SparseMassKkt::solve_by_fronts(const std::vector<BodyBlock>& bodies, const 
 }
 
 // Where accelerations miss dependent rows by more than round-off of those rows alone, round-off from far around a ring
-// is between
-// them (hoops of 400 bays: 1e-13, of 1000 1e-11 to 1e-9; masts of any length 3e-16), and moves x some thousand times as
-// much. If
+// is between them (hoops of 400 bays: 1e-13, of 1000 1e-11 to 1e-9; masts of any length 3e-16), and moves x some
+// thousand times as much. If
 // springs differ by no more than that, it is what the fronts have lost; by more, as of long masts, it is what springs
-// leave free.
-// Rows that miss more contradict each other by drift. Found out once for these rows.
+// leave free. Rows that miss more contradict each other by drift. Found out once for these rows.
 bool SparseMassKkt::springs_are_better(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, const Vec& x) {
   constexpr double round_off = 1e-13, drift = 5e-8, moves = 1e4;
   const double missed = fronts_.missed();
@@ -191,9 +186,8 @@ bool SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, co
 }
 
 // False: a long chain is too soft for it, which may leave no trace in any single pivot. The second correction tells: it
-// answers to
-// what the first has left, round-off, which S^-1 enlarges most in the softest direction. Of chains and masts of 1000 to
-// 80,000
+// answers to what the first has left, round-off, which S^-1 enlarges most in the softest direction. Of chains and masts
+// of 1000 to 80,000
 // rows under their own weight and springs that is within 5 % of their least eigenvalue. Or the factors are of other
 // rows, too far
 // off for corrections to come closer.
@@ -225,9 +219,8 @@ bool SparseMassKkt::solve_by_complement(const std::vector<BodyBlock>& bodies, co
     if (tells) soft = is_soft(complement_.softness(r, dy_), x);
   };
   // Multipliers along a chain add up to accelerations a million times those that are left. Their round-off does not
-  // fall by
-  // corrections, but the first one takes away what is smooth of it, to which a soft mechanism yields: 1e-9 of a mast's
-  // accelerations.
+  // fall by corrections, but the first one takes away what is smooth of it, to which a soft mechanism yields: 1e-9 of a
+  // mast's accelerations.
   double of_forces = 0;
   const auto round_off = [&] { return of_forces = redundant_ ? 0 : 4 * eps * complement_.largest_share(y); };
   const double left = refine(residual, correct, enough, round_off, redundant_ ? 40 : 4, residual_);

@@ -7,29 +7,24 @@
 //  - Iteration: S any sparse matrix, W any. Sparse LU with partial pivoting of the whole.
 //
 // Redundant rows: the factorised matrix is the complement plus eps I (Iteration: -eps I in the corner), and residuals
-// of the
-// unchanged equations are corrected with it. This is a proximal point iteration: its steps lie in the range of the
-// rows, so
+// of the unchanged equations are corrected with it. This is a proximal point iteration: its steps lie in the range of
+// the rows, so
 // y comes out as the one of minimum norm, and directions of the rows with sigma^2 < eps count as redundant. x is
 // unique.
 //
 // Soft rows, few and independent of the others by no more than about the square root of eps: a truss on its way through
-// a singular position.
-// Their round-off, over that little, would move x by more than it is worth, differently each time, so that Newton's
-// iteration finds no
+// a singular position. Their round-off, over that little, would move x by more than it is worth, differently each time,
+// so that Newton's iteration finds no
 // end. They are taken for redundant too: x does not satisfy them, and y does not act along them.
 //
 // Long chains have such directions that are not redundant: their softest sigma falls with n^-2 (masts) or n^-3 (hoops),
-// and its square
-// is lost. From `long_chain` rows on, where the complement's pivots tell of redundant rows or a solution's second
-// correction of such
+// and its square is lost. From `long_chain` rows on, where the complement's pivots tell of redundant rows or a
+// solution's second correction of such
 // directions, the rows are eliminated front by front (frontal_kkt.hpp), refined once or twice with the residuals of the
-// equations.
-// Then y is a solution of few entries on redundant rows, not the one of minimum norm.
+// equations. Then y is a solution of few entries on redundant rows, not the one of minimum norm.
 // Where round-off comes between redundant rows on the way around a large ring (a hoop of 400 bays and more), fronts
-// contradict each
-// other: their solution misses dependent rows by more than these rows' own round-off, or does not settle at all. That
-// is measured, and
+// contradict each other: their solution misses dependent rows by more than these rows' own round-off, or does not
+// settle at all. That is measured, and
 // springs take the rows' place in them. Of such a hoop they leave free what its rows tell by less than their round-off.
 #pragma once
 

@@ -124,9 +124,8 @@ bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
 }
 
 // Stabilised, of rows that hold but for the iteration's last increment. q takes nothing of what v takes, for then G
-// stays, and with
-// it the velocity rows are linear: one pass meets them, where increments of a turn them by h times the angular
-// velocity.
+// stays, and with it the velocity rows are linear: one pass meets them, where increments of a turn them by h times the
+// angular velocity.
 bool NewmarkStep::correct_rows_alone(System& s, State& next) {
   if (formulation == Formulation::index3) return correct_rows(s, zero_, next);
   rc_ = s.g();

@@ -10,8 +10,8 @@
 // A joint that locks itself while it slides has none: it jams (rule 8).
 //
 // The round that gives the same modes again is the check: it solves the whole problem with the loads of its own
-// solution. The first
-// round has the loads with which all that may rest rests, so where a joint could stay or go, it stays.
+// solution. The first round has the loads with which all that may rest rests, so where a joint could stay or go, it
+// stays.
 #include <algorithm>
 
 #include <fmt/format.h>

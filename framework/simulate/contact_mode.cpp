@@ -20,9 +20,8 @@ using complementarity::LcpOutcome;
 namespace {
 
 // A contact that begins at rest has no approach speed for a damping law to scale with, and no such damping: 1/speed
-// would hold
-// it by a viscosity without bound, which steps of no fixed length follow. Below this part of the scene's speed it is at
-// rest.
+// would hold it by a viscosity without bound, which steps of no fixed length follow. Below this part of the scene's
+// speed it is at rest.
 constexpr double least_approach = 1e-6;
 // Of the accelerations: one that has just let go departs as slowly as its force passes 0, up to the round-off of
 // forces.
@@ -260,9 +259,8 @@ double ContactModes::at_rest(const std::vector<TouchingContact>& contacts) const
 }
 
 // Of the touching contacts those that separate after the impact, but fall back before the steps can follow. All with so
-// small a
-// separation are judged as one: in a pile each flies only as long as its neighbours do. Were they all at rest, those
-// that would press
+// small a separation are judged as one: in a pile each flies only as long as its neighbours do. Were they all at rest,
+// those that would press
 // fall back, with the acceleration that their own force holds.
 std::vector<bool> ContactModes::falling_back(const State& state, const ContactChanges& changes) {
   const auto separates = [this](const TouchingContact& c) {

@@ -31,8 +31,7 @@
 //     reactions (bearing_impulses.hpp). A joint that locks itself while it slides has no finite forces: it jams by rule
 //     8.
 // `rebound: constrained` makes candidates of contacts that separate at e u-, `restart: carry` leaves a as it was and
-// starts
-// the multipliers of new rows from 0, `onset: next_step` only changes when an event is seen.
+// starts the multipliers of new rows from 0, `onset: next_step` only changes when an event is seen.
 //
 // Compliant contacts (ContactForce) switch their force on when the gap falls through 0 and off when it rises through 0.
 //
@@ -131,9 +130,8 @@ class ContactModes {
 
   // [s] Of steps with error control, so that no double zero of a slip velocity is stepped over: 0.45 of the shortest
   // period in which a blow on a closed contact with set-valued friction swings back. Below half of it a swing turns at
-  // most
-  // once within a step, so two zeros in it show in the slopes at its ends (EventLocation::dips finds those of c + cos
-  // in every
+  // most once within a step, so two zeros in it show in the slopes at its ends (EventLocation::dips finds those of c +
+  // cos in every
   // phase up to 0.45, and misses the shallowest from 0.5 on).
   double step_limit(const State& state);
   // Less than this is no friction force [N]: it moves the contact less than `no_acceleration`.

@@ -176,9 +176,8 @@ bool EventLocation::slow(const Watch& watch) {
 }
 
 // What has been accelerated for ten times as long as that takes to pass `slow`, and has not, is held: friction whose
-// direction is not
-// resolved there acts on it as a stiff damper, which other contacts that stick balance. At the system's point, the end
-// of the step.
+// direction is not resolved there acts on it as a stiff damper, which other contacts that stick balance. At the
+// system's point, the end of the step.
 bool EventLocation::stalls(double h, const State& next, int w) {
   const Watch& watch = watches_[std::size_t(w)];
   if (!slow(watch)) return false;
@@ -254,8 +253,7 @@ EventLocation::Value EventLocation::value(int w, const State& state, bool& accel
 }
 
 // Just after an event a function at round-off of 0 tells nothing, unless it goes on falling; nor does one that began
-// below
-// it (a row that had drifted, an onset that was not located), unless it falls further.
+// below it (a row that had drifted, an onset that was not located), unless it falls further.
 bool EventLocation::happened(int w, const Value& end) const {
   if (!(end.f < 0)) return false;
   if (!just_handled(w) || end.f < std::min(now_[w].f, 0.0) - watches_[w].noise) return true;
@@ -386,9 +384,8 @@ void EventLocation::report(int w) {
 }
 
 // How near to 0 a gap counts as there. Where a truss unfolds into its singular position, the rows that keep its cells
-// alike are
-// double roots: their round-off tells how far cells have unfolded to half of the digits. Latches that such rows tie
-// lock as one; else
+// alike are double roots: their round-off tells how far cells have unfolded to half of the digits. Latches that such
+// rows tie lock as one; else
 // those that are late would find that nothing can move.
 double EventLocation::same_instant(int contact) const {
   const bool by_double_root = system_.model().contacts[contact].limit && system_.redundant();

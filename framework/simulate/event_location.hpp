@@ -12,36 +12,30 @@
 //     slide      sliding contact                 slip velocity along its direction at the step's begin
 //     load       bearing of a joint that rubs    its load, on the side on which it presses (signed_loads.hpp)
 // In space a slip without a direction that other contacts hold back has stopped as well, though it crosses no zero
-// (`stalls`).
-// An event shows in three ways: the function is negative at the step's end; it was positive at both ends but dipped
-// between
+// (`stalls`). An event shows in three ways: the function is negative at the step's end; it was positive at both ends
+// but dipped between
 // them (the cubic through values and slopes of both ends tells where to look); or, just after an event that left it at
 // round-off of 0, the parabola of its start says that it came back within the step. It is located by repeating the step
 // with other lengths, so to the accuracy of the method itself, down to the rounding of t; the earliest event counts.
 // Of an event that was just handled only round-off is ignored (ContactScale).
 //
 // An integrator with error control sees what time alone does to these functions only through the motion: not at all
-// where
-// everything is held, and a table that shakes under a ball in flight moves nothing. So a controlled step is too long if
-// a
+// where everything is held, and a table that shakes under a ball in flight moves nothing. So a controlled step is too
+// long if a
 // function departs from the form assumed here by so much that it could have crossed 0 unseen: gaps, at an irrational
-// part of
-// the step, from their cubic; forces, one step ahead, from their tangent. What a jump of a law leaves is taken by steps
-// too
+// part of the step, from their cubic; forces, one step ahead, from their tangent. What a jump of a law leaves is taken
+// by steps too
 // short to matter.
 //
 // A shortened step still has a length of at least 4 units in the last place of t, so every event advances time.
 //
 // Forces come from the equations of motion at the step's end; methods that satisfy neither position nor velocity rows
-// work on
-// the level of accelerations, there lambda itself is that force, with their stabilisation. Where rows are redundant
-// lambda is
+// work on the level of accelerations, there lambda itself is that force, with their stabilisation. Where rows are
+// redundant lambda is
 // one choice of many: contacts that share rows are watched together, by how much further each of them could be unloaded
-// until
-// they cannot carry what they carry (AssembledSystem::spare_load); which of them then lets go is decided by the
-// complementarity
-// problem (contact_mode.hpp). Where one of them slides its share decides the motion, and each is watched for itself.
-// What is implied
+// until they cannot carry what they carry (AssembledSystem::spare_load); which of them then lets go is decided by the
+// complementarity problem (contact_mode.hpp). Where one of them slides its share decides the motion, and each is
+// watched for itself. What is implied
 // by others has no row in g, so nothing holds it once it no longer follows from them: a support that moves by a law of
 // its own, or
 // bodies that turn out of a singular place. Its acceleration shows that first.

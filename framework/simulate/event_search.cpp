@@ -40,9 +40,8 @@ struct EventLocation::Cubic {
     return true;
   }
   // A distance of bodies that pass each other bends upwards alone, and so does the load of a joint's bearings, a sum of
-  // lengths: it
-  // goes as low as its tangents at the ends meet, where it may have a kink that the cubic rounds off. Whether that is
-  // below 0.
+  // lengths: it goes as low as its tangents at the ends meet, where it may have a kink that the cubic rounds off.
+  // Whether that is below 0.
   bool tangents_cross() {
     if (!(S_low < 0 && S_high > 0)) return false;
     const double x = (F_low - F_high + S_high * (high - low)) / (S_high - S_low);
@@ -169,8 +168,7 @@ bool EventLocation::returns(const State& now, double h, int w, Suspect& suspect)
 }
 
 // Slopes of the force cost a solution of the equations of motion each; they are asked for when the force is so small,
-// compared
-// with its change and the bend of its last three values, that it could have crossed 0 and come back.
+// compared with its change and the bend of its last three values, that it could have crossed 0 and come back.
 bool EventLocation::worth_slopes(int w, double h) const {
   const double least = std::min(now_[w].f, next_[w].f), change = next_[w].f - now_[w].f;
   if (h_before_ == 0 && !probed_) return true;

@@ -1,6 +1,5 @@
 // Refinement in the time loop: bodies are asked after every step, when they are told the pressures of contacts on their
-// surface,
-// and when one of their contacts has closed; the state is carried over and what the new coordinates changed is
+// surface, and when one of their contacts has closed; the state is carried over and what the new coordinates changed is
 // reported.
 //
 //     q, v by the bodies' transfers;   a, lambda from the equations of motion in the new coordinates

@@ -204,8 +204,7 @@ bool Simulator::locks_here() {
 }
 
 // Where forces of contacts that slide grow without end within a finite time (Painleve's critical state) steps become
-// too short.
-// Friction a little larger is beyond that state, where an impact without collision ends the slip.
+// too short. Friction a little larger is beyond that state, where an impact without collision ends the slip.
 bool Simulator::near_critical_state() {
   constexpr double near = 1e-4, beyond = 10;
   const double distance = modes_.distance_from_critical(now_);
@@ -303,8 +302,7 @@ bool Simulator::near_the_end_of_numbers() const {
 }
 
 // Throws if a component answers with numbers that are not finite where the step began, or at the times it went to. Not
-// when
-// the state itself is near the end of the numbers: then any component's answer may overflow.
+// when the state itself is near the end of the numbers: then any component's answer may overflow.
 void Simulator::find_culprit(double h) {
   if (near_the_end_of_numbers()) return;
   for (const double part : {0.0, 0.5, 1.0, 2.0}) {

@@ -23,8 +23,8 @@ void Simulator::judge_joints(const State& state) {
 }
 
 // Rows that begin to contradict each other have accelerations of least squares, which an explicit method would follow.
-// The error of
-// Baumgarte's terms is less; and what looks like it is examined. At the end of the step, where the system is.
+// The error of Baumgarte's terms is less; and what looks like it is examined. At the end of the step, where the system
+// is.
 bool Simulator::contradictory(const ConstraintNorms& norms) {
   constexpr double suspicious = 0.01;
   if (!(norms.acceleration > suspicious * std::max(1.0, next_.a.lpNorm<Eigen::Infinity>())) || !system_.redundant())

@@ -14,8 +14,7 @@ Outcome trial_step(Integrator& integrator, System& system, const State& now, dou
 std::string not_finite_in(const State& next);
 
 // Whether the integrator gives finite numbers (or refuses) with some far shorter step from `now`: then its step was too
-// long for
-// it; else it is to blame whatever the step. By the contract such trials leave no trace.
+// long for it; else it is to blame whatever the step. By the contract such trials leave no trace.
 bool finite_with_shorter_steps(Integrator& integrator, System& system, const State& now, double h, State& scratch);
 
 }  // namespace trammel::simulate

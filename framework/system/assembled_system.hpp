@@ -36,8 +36,7 @@ class NotSolvable : public std::runtime_error, public plugin::PassesThroughPlugi
 };
 
 // Dense matrices; sparse M and S with dense rows, for bodies of many coordinates; or blocks by bodies with sparse
-// factorisations, for
-// many bodies tied by rows. automatic: by what is measured to be quicker (storage_for).
+// factorisations, for many bodies tied by rows. automatic: by what is measured to be quicker (storage_for).
 enum class Storage { automatic, dense, sparse, blocks };
 Storage storage_for(const Model& model);
 
@@ -125,9 +124,8 @@ class AssembledSystem final : public System, public HasRigidMotions {
   int tangents(int contact) const;                          // 1, or 2 in space but for a joint's
   void anchor(int contact, ContactMode& mode);              // what holds it at this place
   // A step has become the solution, and the system is at its end: slip is measured from its direction there, in space,
-  // and
-  // what a round body rolls from its place there. Rolling in space is no function of the configuration; within a step
-  // the
+  // and what a round body rolls from its place there. Rolling in space is no function of the configuration; within a
+  // step the
   // rotation stands for it to the second order, and joins the rates exactly.
   void step_taken();
   // Velocity jump by impulses on contacts with active bilateral rows (M dv + G_b^T L_b = sum_i n_i L_i): column i of

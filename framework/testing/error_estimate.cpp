@@ -5,9 +5,8 @@
 //
 // p_e > p: the estimate is the leading term of the error, so the ratio tends to 1 and is off by O(omega h).
 // p_e <= p: it is the error of an embedded method of lower order, so the ratio grows by 1/(omega h)^(p + 1 - p_e) and
-// is at least 1.
-// Rows: what lies across them is estimated, and then removed by methods that hold rows: there the ratio may be larger,
-// not less.
+// is at least 1. Rows: what lies across them is estimated, and then removed by methods that hold rows: there the ratio
+// may be larger, not less.
 #include <fmt/format.h>
 
 #include <cmath>

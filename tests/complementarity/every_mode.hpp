@@ -1,7 +1,6 @@
 // All modes of planar contacts, one after the other: open, or closed and sticking, or sliding to and fro. Of each mode
-// the forces
-// are >= 0 along the edges of its cone and the accelerations that it allows are >= 0: linear equations with a solution
-// or none
+// the forces are >= 0 along the edges of its cone and the accelerations that it allows are >= 0: linear equations with
+// a solution or none
 // (feasible_point.hpp). Costs 4^n of them. Complete and simple, and independent of the code that it judges.
 #pragma once
 

@@ -37,9 +37,8 @@ TEST(Limits, AContactThatJustTouchesLeavesItsTangentAlone) {
 }
 
 // Forces in newtons or micronewtons, accelerations in m/s^2 or nm/s^2: the same answer. Of several solutions with
-// friction and
-// different accelerations round-off may choose another, about one problem in a thousand of these; then it is one as
-// well.
+// friction and different accelerations round-off may choose another, about one problem in a thousand of these; then it
+// is one as well.
 TEST(Limits, UnitsDoNotMatter) {
   std::mt19937 random(52);
   int others = 0;

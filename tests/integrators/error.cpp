@@ -80,9 +80,8 @@ INSTANTIATE_TEST_SUITE_P(All, EveryEstimate, testing::ValuesIn(all_forms()),
                          });
 
 // Newmark's own accelerations are those of the motion, so that what it remembers serves whatever the steps were. From a
-// step of h/2 to
-// one of h: the leading term of the error is that of h alone; the next one, of relative size omega h = 0.02, is not
-// counted.
+// step of h/2 to one of h: the leading term of the error is that of h alone; the next one, of relative size omega h =
+// 0.02, is not counted.
 TEST(NewmarkError, IsTheTrueErrorWhereStepsChange) {
   for (const double omega : {0.2, 20.0}) {
     Posed s(problems::oscillator(omega));

@@ -106,8 +106,8 @@ TEST(VeryLargeHoop, HasTheAccelerationsOfItsExactModelWhereItIsFolded) {
 }
 
 // Between those that fronts hold and those whose fronts contradict each other for all to see, springs take over by what
-// rows miss. A
-// mast's rows are missed by nothing but their own round-off, and springs would leave its softest directions free.
+// rows miss. A mast's rows are missed by nothing but their own round-off, and springs would leave its softest
+// directions free.
 TEST(Hoops, OfAnySizeHaveTheAccelerationsOfTheirExactModel) {
   for (const int bays : {200, 400, 600, 850, 1000, 1200})
     for (const double degrees : {85, 80, 70, 50, 26})
@@ -223,8 +223,7 @@ TEST(FrontalKkt, FollowsARowThatMovesToTheNextBody) {
 }
 
 // Points on a line whose second differences vanish, each row said twice: the softest of their singular values is
-// (pi/n)^2, 1e-5, its
-// square as small as the regularisation of shorter systems. Translation and rotation are left.
+// (pi/n)^2, 1e-5, its square as small as the regularisation of shorter systems. Translation and rotation are left.
 struct Line {
   static constexpr int n = 1000;
   std::vector<BodyBlock> bodies;

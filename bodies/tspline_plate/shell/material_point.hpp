@@ -7,8 +7,8 @@
 // Capitals are the reference. C^ = T^T C T is the plane stress stiffness C in the local Cartesian frame e_1 = A_1 /
 // |A_1|, brought to the curvilinear components by T. Everything acts on the five vectors y = (a_1, a_2, c_1, c_2, c_3):
 // the gradient is one 5 x 3 array, the Hessian one 15 x 15 matrix. Strains are taken from displacements d = y - Y,
-// which keeps their digits when they are small.
-// Kiendl, Bletzinger, Linhard, Wuechner, CMAME 198, 2009; curvature change B - b with the unit normal (Koiter).
+// which keeps their digits when they are small. Kiendl, Bletzinger, Linhard, Wuechner, CMAME 198, 2009; curvature
+// change B - b with the unit normal (Koiter).
 #pragma once
 
 #include <Eigen/Core>

@@ -34,9 +34,8 @@ struct ContactPoint {
 };
 
 // The largest violation of these conditions by F: the natural map |min(A_nn N, a_n)| of the normals, |T - Pi(T - a_t /
-// A_tt)| A_tt of
-// the tangents, Pi onto the disk |T| <= c N. Relative to b and to 1e-4 of the shares of F in A F, whose round-off it
-// has.
+// A_tt)| A_tt of the tangents, Pi onto the disk |T| <= c N. Relative to b and to 1e-4 of the shares of F in A F, whose
+// round-off it has.
 // `nothing`: a violation as large is 1e-9, however small b is.
 double violation(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, const Vec& F, double nothing = 0);
 // What counts as a solution.

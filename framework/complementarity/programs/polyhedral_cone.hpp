@@ -11,14 +11,12 @@
 //
 // (Stewart, Trinkle, Int. J. Numer. Methods Eng. 39, 2673 (1996)). Where all tangents rest the matrix is copositive,
 // z.M z = F.A F + c N lambda, and Lemke's method ends in a solution unless some forces in balance, F.A F = 0, push
-// contacts that
-// still approach, b.F < 0 (Anitescu, Potra, Nonlinear Dyn. 14, 231 (1997)). Sliding contacts, T = p N, lose this: there
-// may be no
+// contacts that still approach, b.F < 0 (Anitescu, Potra, Nonlinear Dyn. 14, 231 (1997)). Sliding contacts, T = p N,
+// lose this: there may be no
 // solution (Painleve), and Lemke's method may miss one.
 //
 // Several solutions: contacts as springs of the same small compliance, a + compliance F in place of a, relative to A,
-// choose. Then dependent contacts
-// share as equal springs do, and no forces arise that only press against each other.
+// choose. Then dependent contacts share as equal springs do, and no forces arise that only press against each other.
 #pragma once
 
 #include <vector>

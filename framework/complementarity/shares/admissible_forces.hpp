@@ -3,13 +3,11 @@
 //     minimise |F|^2 / 2,    E F = lambda,    F in the friction cones: N >= 0,  |T| <= c N
 //
 // Its dual has no constraint: F = Pi(E^T y) with Pi the projection onto the cones, and y minimises |Pi(E^T y)|^2 / 2 -
-// lambda . y,
-// a convex function with a continuous gradient, E F - lambda, by Newton's method with the derivative of the piece that
-// y is in.
+// lambda . y, a convex function with a continuous gradient, E F - lambda, by Newton's method with the derivative of the
+// piece that y is in.
 // As springs of the same compliance, pushed by y, dependent contacts share this way. Where cones are thin, or no force
-// is inside of
-// them, y is far away or has no end, and Newton's method gets stuck: then an interior point method (cone_program.hpp)
-// finds F.
+// is inside of them, y is far away or has no end, and Newton's method gets stuck: then an interior point method
+// (cone_program.hpp) finds F.
 #pragma once
 
 #include <vector>

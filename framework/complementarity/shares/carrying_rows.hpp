@@ -1,11 +1,9 @@
 // How closed contacts carry: the rows R of what they hold, normals that are closed and tangents that stick.
 //
 // Where rows depend on each other only the resultants of their forces are determined (row_basis.hpp). They share those
-// as equal
-// springs do, F_R of least norm; where that pulls or leaves a cone, by the admissible forces of least norm
-// (admissible_forces.hpp).
-// A contact that slides makes a difference by how it shares, since its friction follows: those that would pull are
-// idle, closed
+// as equal springs do, F_R of least norm; where that pulls or leaves a cone, by the admissible forces of least norm
+// (admissible_forces.hpp). A contact that slides makes a difference by how it shares, since its friction follows: those
+// that would pull are idle, closed
 // without a force, until their spring would press.
 #pragma once
 

@@ -3,11 +3,9 @@
 //     minimise  N.A N / 2 + b.N,   N >= 0,        whose conditions are   0 <= N complementary to a = A N + b >= 0
 //
 // A symmetric positive semi-definite, of any rank. By principal pivoting (Dantzig, Cottle; Cottle, Pang, Stone, The
-// Linear
-// Complementarity Problem, 1992, section 4.2): one force after the other is raised until its contact no longer
-// approaches, and a
-// force that falls to 0 meanwhile leaves. Only independent contacts carry, so N is one solution of many where contacts
-// are
+// Linear Complementarity Problem, 1992, section 4.2): one force after the other is raised until its contact no longer
+// approaches, and a force that falls to 0 meanwhile leaves. Only independent contacts carry, so N is one solution of
+// many where contacts are
 // dependent; a is unique.
 //
 // There is no solution exactly where the program has no least value: some forces in balance with each other, d >= 0

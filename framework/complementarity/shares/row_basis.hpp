@@ -3,9 +3,8 @@
 //     g_implied = K g_basis + a combination of the joints' rows
 //
 // from the Delassus matrix A = G P G^T, where P holds the joints: a row follows from others where the pivot that is
-// left of it in
-// a Cholesky factorisation, the square of the sine of its angle to them, is round-off. Forces along rows act alike
-// where their
+// left of it in a Cholesky factorisation, the square of the sine of its angle to them, is round-off. Forces along rows
+// act alike where their
 // resultants on the basis are the same,
 //
 //     lambda = E F,   E = [1 K^T]

@@ -1,9 +1,8 @@
 // In which fronts the rows of bodies are eliminated from G M^-1 G^T, and where each number of a body's share goes.
 //
 // A body couples all rows that touch it: its share goes to the front (elimination_tree.hpp) that eliminates the first
-// of them.
-// Rows between the same bodies, as those of a joint, make one node of the tree. Follows from which rows touch which
-// bodies alone.
+// of them. Rows between the same bodies, as those of a joint, make one node of the tree. Follows from which rows touch
+// which bodies alone.
 //
 // What fronts need lies in memory in the order of use: long chains are read from end to end.
 #pragma once
@@ -29,8 +28,7 @@ class ComplementLayout {
     List places;  // which of the front's
   };
   // A front's matrix has a column for each row of G it eliminates, L, and then for each of its boundary, R; all in
-  // whole packs
-  // (packs.hpp). R's place serves other fronts once the parent has taken it: it stays in the cache.
+  // whole packs (packs.hpp). R's place serves other fronts once the parent has taken it: it stays in the cache.
   struct Front {
     int eliminated = 0, size = 0;
     List rows, bodies, children;

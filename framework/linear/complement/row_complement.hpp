@@ -1,9 +1,8 @@
 // S = G M^-1 G^T + eps 1 of many bodies, the Schur complement of the rows, and its factors L D L^T.
 //
 // A sum over bodies, each giving a block on the rows that touch it. It is never formed as a whole: bodies' shares go
-// right to the
-// fronts (complement_layout.hpp) that eliminate their rows (F) and leave a matrix on their boundary (B) to the front
-// above:
+// right to the fronts (complement_layout.hpp) that eliminate their rows (F) and leave a matrix on their boundary (B) to
+// the front above:
 //
 //     [S_FF S_BF^T]  =  [L_FF  ] [D  ] [L_FF^T L_BF^T]
 //     [S_BF S_BB  ]     [L_BF 1] [  R] [            1]

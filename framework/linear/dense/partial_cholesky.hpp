@@ -5,9 +5,8 @@
 //     [A_21 A_22  ]     [L_21 1] [         S   ]
 //
 // In place, lower triangles alone; what stands above them is lost. Columns are halved again and again, so that nearly
-// all of the
-// work is products of tiles that fit into registers (Andersen, Wasniewski, Gustavson, ACM Trans. Math. Softw. 27
-// (2001), 214).
+// all of the work is products of tiles that fit into registers (Andersen, Wasniewski, Gustavson, ACM Trans. Math.
+// Softw. 27 (2001), 214).
 #pragma once
 
 #include <Eigen/Core>

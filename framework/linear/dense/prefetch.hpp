@@ -1,6 +1,6 @@
 // Loops over many bodies whose numbers lie apart in memory: from there they come in 80 to 100 ns, which is longer than
-// the work on them
-// takes. Asked for a few bodies ahead they come meanwhile; of 10,000 units of a truss a step takes 80 ms so instead of
+// the work on them takes. Asked for a few bodies ahead they come meanwhile; of 10,000 units of a truss a step takes 80
+// ms so instead of
 // 112.
 #pragma once
 

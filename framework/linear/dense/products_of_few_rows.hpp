@@ -1,7 +1,6 @@
 // Products with matrices X of few rows and any number of columns, as the rows of constraints are: loops over the
-// columns, with what
-// belongs to one of them in registers. For more rows Eigen's products are as fast, unless each touches few of the
-// columns.
+// columns, with what belongs to one of them in registers. For more rows Eigen's products are as fast, unless each
+// touches few of the columns.
 #pragma once
 
 #include <type_traits>
@@ -48,8 +47,8 @@ inline void add_transposed_product(double c, const Mat& X, const Vec& y, Vec& x)
 }
 
 // Calls f(number, first) for parts of m that follow one another: eights, then at most one of 4, 2 and 1, their numbers
-// known to the
-// compiler. What a part needs stays in registers, where loops over all m rows at once would be kept in memory.
+// known to the compiler. What a part needs stays in registers, where loops over all m rows at once would be kept in
+// memory.
 template <Eigen::Index part = few, class F>
 void in_parts(Eigen::Index m, F&& f, Eigen::Index first = 0) {
   for (; first + part <= m; first += part) f(std::integral_constant<Eigen::Index, part>(), first);

@@ -3,9 +3,8 @@
 // where they lie apart.
 //
 // Those known never to change are copied once, and kept once where they are alike. In a truss all pins and masses are a
-// few kinds: of
-// a prismatic mast 0.3 of 2.9 kB a unit are left, which a solution reads three times; 10,000 units take a tenth less
-// time a step.
+// few kinds: of a prismatic mast 0.3 of 2.9 kB a unit are left, which a solution reads three times; 10,000 units take a
+// tenth less time a step.
 #pragma once
 
 #include <string>

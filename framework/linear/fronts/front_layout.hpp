@@ -2,9 +2,8 @@
 // equations).
 //
 // Rows between equal coordinates merge unknowns (merged_unknowns.hpp). Merged unknowns of the same bodies are one
-// point; bodies and
-// the other rows are the cliques of points that the tree is built of (elimination_tree.hpp). A row or a body's mass
-// belongs to the
+// point; bodies and the other rows are the cliques of points that the tree is built of (elimination_tree.hpp). A row or
+// a body's mass belongs to the
 // first front that eliminates one of its points. Rows may begin to tell of points that they did not before: then all is
 // laid out anew.
 #pragma once

@@ -5,9 +5,8 @@
 //     [G  0 ] [y] = [c]
 //
 // Rows between equal coordinates merge unknowns (merged_unknowns.hpp); the others and the masses are summed up front by
-// front
-// (elimination_tree.hpp). In a front, F the unknowns it eliminates and B its boundary, C the rows and K the masses
-// known there:
+// front (elimination_tree.hpp). In a front, F the unknowns it eliminates and B its boundary, C the rows and K the
+// masses known there:
 //
 //     Q^T [C_F C_B] = [R  *   *]      Householder with column pivoting, rows at length one: r rows tell r unknowns of
 //     F,
@@ -17,9 +16,8 @@
 //     K'' = K'_BB - K'_B2 K'_22^-1 K'_2B      the free unknowns x_2, by Cholesky;  to the parent
 //
 // front_layout.hpp has which fronts there are, row_elimination.hpp a front's rows, frontal_solve.cpp the solutions. The
-// rank is
-// decided in each front, among rows of nearby units, where independent rows of a long chain differ clearly: singular
-// values of the
+// rank is decided in each front, among rows of nearby units, where independent rows of a long chain differ clearly:
+// singular values of the
 // whole, which fall with n^-2 or n^-3, decide nothing. Only what goes on from front to front is rounded.
 // y: of dependent rows the combinations found get 0; it is a solution, not the one of minimum norm.
 //
@@ -29,8 +27,8 @@
 //     (M + k G^T G) dx = r_b + k G^T r_c,   dy = k (G dx - r_c)        r: what is left of b and c
 //
 // repeated, which is the method of multipliers. Its steps lie in the range of the rows, contradictions are balanced in
-// least
-// squares, and what rows tell by less than 1/sqrt(k) of M comes slowly or not at all. y is of minimum norm, but for b =
+// least squares, and what rows tell by less than 1/sqrt(k) of M comes slowly or not at all. y is of minimum norm, but
+// for b =
 // 0.
 #pragma once
 
@@ -48,8 +46,7 @@ class FrontalKkt {
   // kkt.hpp.
   [[nodiscard]] bool factorise(const std::vector<BodyBlock>& bodies, int nc, bool identity, double rank_tolerance);
   // Refined with the residuals of the equations until x does not change any more. False: it does not come to that. Then
-  // rows that
-  // depend on others were taken for independent ones: round-off has come between them on a long way around.
+  // rows that depend on others were taken for independent ones: round-off has come between them on a long way around.
   [[nodiscard]] bool solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
   // The same with rows as springs: eps = 1/k, or 0 if a mass is not positive definite; and the solution with it.
   // `softness` is

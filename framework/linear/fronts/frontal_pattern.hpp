@@ -4,9 +4,8 @@
 // entries of A and
 // what the fronts below leave. It leaves another, on B, to the front above.
 // Order and places follow from the pattern alone and are kept while it lasts: once per mesh of a plate. Unknowns with
-// the same
-// neighbours make one node of the tree. One without a diagonal entry, a multiplier of a row, shares the node of an
-// unknown in its
+// the same neighbours make one node of the tree. One without a diagonal entry, a multiplier of a row, shares the node
+// of an unknown in its
 // row, so that their front has a pivot for both.
 // Duff, Reid, ACM Trans. Math. Softw. 9 (1983), 302; 10 (1984), 633 (unsymmetric).
 #pragma once

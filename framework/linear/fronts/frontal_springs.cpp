@@ -57,9 +57,8 @@ void FrontalKkt::add_springs(std::size_t f) {
 }
 
 // With each solution x comes to satisfy the rows better and y to push as hard as that takes. It ends where what is
-// left, if it
-// shrinks on as the rows' violation does, is nothing: what would still change, ever more slowly, is rounding of the
-// rows in
+// left, if it shrinks on as the rows' violation does, is nothing: what would still change, ever more slowly, is
+// rounding of the rows in
 // directions they hardly tell.
 // The second solution refines the first one, y as it was: rounded k times as large as the masses, that would push in
 // directions that

@@ -1,7 +1,6 @@
 // Halves of a graph with few edges between them are found on coarser and coarser graphs, whose vertices stand for pairs
-// of the finer
-// one's, and improved on the way back (Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998), 359). Nothing is drawn at
-// random.
+// of the finer one's, and improved on the way back (Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998), 359). Nothing is
+// drawn at random.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -11,8 +11,7 @@ namespace trammel::numerics {
 namespace {
 
 // Beside a row's length 1. Entries of round-off are left out. R's diagonal where no row has come to yet is below it: a
-// row that is
-// a sum of others times large numbers, as in long hoops, would seem new by eps times these.
+// row that is a sum of others times large numbers, as in long hoops, would seem new by eps times these.
 constexpr double round_off = 1e-15, eps = 1e-17;
 
 std::vector<std::vector<int>> columns_of_rows(const SparseRows& G) {

@@ -3,12 +3,10 @@
 //     A = sum_e P_e^T B_e Q_e       B_e: dense, on some rows and columns of A
 //
 // Each block's places are noted the first time, with where its entries are stored: neighbouring rows together, so that
-// a cell of
-// 16 nodes needs 192 places for 2304 entries. Later sums only compare the rows and columns. From the first block on
-// that is another
+// a cell of 16 nodes needs 192 places for 2304 entries. Later sums only compare the rows and columns. From the first
+// block on that is another
 // than last time, all are looked up; an entry that has no place yet widens the pattern by those of all blocks (contacts
-// wander).
-// The pattern is symmetric and has the diagonal; it is forgotten with the size alone.
+// wander). The pattern is symmetric and has the diagonal; it is forgotten with the size alone.
 #pragma once
 
 #include <cstddef>

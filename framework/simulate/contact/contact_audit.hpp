@@ -4,8 +4,7 @@
 //
 // and whether those that share rows can carry what they carry (AssembledSystem::spare_load).
 // What does not is told in a warning: the run cannot be trusted there. It also keeps when contacts were statically
-// indeterminate,
-// closed with rows that depend on each other, so that their forces are one choice of many
+// indeterminate, closed with rows that depend on each other, so that their forces are one choice of many
 // (complementarity/shares/carrying_rows.hpp).
 #pragma once
 

@@ -11,8 +11,7 @@
 // What is sought is N = Phi(N). There is one wherever that problem has a continuous solution, since large loads hold
 // all joints, which
 // bounds Phi (Brouwer). Rounds N <- Phi(N) end at the least where Phi grows; those that come to no end are continued by
-// Newton's
-// method. A joint that locks itself while it slides, Phi > N on the way, so comes to rest.
+// Newton's method. A joint that locks itself while it slides, Phi > N on the way, so comes to rest.
 //
 // `held`: from loads so large that all joints are held. Without an impact from outside N = 0 solves it, too; this finds
 // the impulse by

@@ -5,9 +5,8 @@
 // compressions stored times 1 - e^2, and what friction took.
 //
 // An impact without collision begins with an approach that is nothing beside the slip: where sliding friction drives
-// contacts on into
-// each other the springs are compressed until the slip has ended or turned, however small that was. Elsewhere nothing
-// happens.
+// contacts on into each other the springs are compressed until the slip has ended or turned, however small that was.
+// Elsewhere nothing happens.
 #pragma once
 
 #include <vector>

@@ -2,9 +2,8 @@
 // ended them.
 //
 // Contacts take sum_i -L_i (u_i- + u_i+)/2 - T_i (s_i- + s_i+)/2 out of the kinetic energy, whatever moving rows and
-// bases supply; where
-// that is negative beyond round-off, the impact created energy. The gain in per cent is that of the kinetic energy
-// before.
+// bases supply; where that is negative beyond round-off, the impact created energy. The gain in per cent is that of the
+// kinetic energy before.
 #pragma once
 
 #include <string>

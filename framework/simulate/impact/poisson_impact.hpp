@@ -12,9 +12,8 @@
 // to the cone of N_E. Closed contacts have e = 0.
 //
 // Without friction and with one contact it is Newton's law, u+ = -e u-. Energy may grow where friction reverses a slip;
-// without
-// friction it never does (poisson_impact.cpp). F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts,
-// 1996;
+// without friction it never does (poisson_impact.cpp). F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral
+// Contacts, 1996;
 // there a part of the tangential impulse is given back as well, here none.
 #pragma once
 

@@ -2,9 +2,8 @@
 // leave to it.
 //
 // The loads are those of both impacts together (bearing_impulses.hpp). Contacts that friction presses again give way
-// without restitution,
-// so this takes energy only: with F its impulses, u its rates at the end, the change is F . u - F . A F/2, where N u_n
-// = 0 and T . u_t <= 0.
+// without restitution, so this takes energy only: with F its impulses, u its rates at the end, the change is F . u - F
+// . A F/2, where N u_n = 0 and T . u_t <= 0.
 #pragma once
 
 #include <vector>

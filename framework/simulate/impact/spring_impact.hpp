@@ -7,27 +7,22 @@
 //     dP_t/dtau = T          |T| <= mu_0 F where s = 0 (it sticks),  T = -mu F s/|s| elsewhere
 //
 // Where a compression ends (u_n reaches 0) a part 1 - e^2 of the work that this compression has stored is lost, and the
-// spring
-// keeps the rest: k x^2/2 becomes k x_0^2/2 + e^2 k (x^2 - x_0^2)/2, with x_0 from before this compression. A contact
-// that is
+// spring keeps the rest: k x^2/2 becomes k x_0^2/2 + e^2 k (x^2 - x_0^2)/2, with x_0 from before this compression. A
+// contact that is
 // pressed again compresses again. It ends where no spring pushes and no gap closes.
 //
 // All springs have the same stiffness k; P does not depend on how large it is. Of a single contact it is Stronge's
-// hypothesis
-// (Proc. R. Soc. A 431, 169 (1990)), since the rates follow from P_n alone: Routh's construction in the plane, in space
-// the hodograph of
+// hypothesis (Proc. R. Soc. A 431, 169 (1990)), since the rates follow from P_n alone: Routh's construction in the
+// plane, in space the hodograph of
 // Keller (J. Appl. Mech. 53, 1 (1986)). Of several, the distributing law of Liu, Zhao, Brogliato (Proc. R. Soc. A 464,
-// 3193 (2008)) for
-// equal linear springs, but that the loss happens at the end of compression: so springs do not stiffen as e becomes
-// small.
+// 3193 (2008)) for equal linear springs, but that the loss happens at the end of compression: so springs do not stiffen
+// as e becomes small.
 //
 // Guarantee, whatever the contacts' number, friction and dependence: each normal's work is -(1 - e^2) times the work of
-// its
-// compressions, friction takes energy only, so the energy never grows. Forces along normals are given at each instant,
-// so friction always
+// its compressions, friction takes energy only, so the energy never grows. Forces along normals are given at each
+// instant, so friction always
 // has a solution (Painleve's paradox does not arise). Springs that friction or other contacts keep compressed when all
-// has come to rest
-// give nothing back. What is left at the end, as where walls without clearance return a body for
+// has come to rest give nothing back. What is left at the end, as where walls without clearance return a body for
 // ever, is ended by an impact without restitution, which takes energy only.
 //
 // Between events (a rate, slip or spring reaches 0, friction its bound) it is a smooth differential equation; midpoint

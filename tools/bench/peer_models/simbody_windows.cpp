@@ -1,6 +1,5 @@
 // IFToMM A02 in Simbody: N four-bar windows. The tree is every upright link on its pin to the ground and every top link
-// on its
-// left pin; the right pins close the loops: two rows each in the plane, a point on a line along z.
+// on its left pin; the right pins close the loops: two rows each in the plane, a point on a line along z.
 //
 //   simbody_windows N ACCURACY
 

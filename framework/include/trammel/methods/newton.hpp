@@ -3,9 +3,8 @@
 // The factors of the first iterate are reused as long as the increments decrease fast. With theta the ratio of two
 // successive increments, the remaining error is about theta/(1 - theta) times the last increment (Hairer, Wanner,
 // Solving ODEs II, IV.8). The iteration ends when this is below `tolerance`, or when the increments have reached
-// round-off and decrease no further.
-// If the first increment measures the step's own error, as from a prediction of the method's order, a remaining error
-// of
+// round-off and decrease no further. If the first increment measures the step's own error, as from a prediction of the
+// method's order, a remaining error of
 // `share_of_first` of it is enough, too: more iterations do not improve the step.
 //
 //     newton.start(share_of_first);

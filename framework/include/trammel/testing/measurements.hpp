@@ -62,8 +62,8 @@ struct ConstraintDrift {
 ConstraintDrift constraint_drift(const Maker& method, const Problem& problem, int n);
 
 // The estimate of the error of each step beside the true one, both as root mean squares over q and v and over the steps
-// of a run with
-// steps h, and again with h/2, h/4, ... over the same time. Of methods that hold rows by positions alone over q.
+// of a run with steps h, and again with h/2, h/4, ... over the same time. Of methods that hold rows by positions alone
+// over q.
 struct EstimateFit {
   struct Run {
     double h, estimate, error;
@@ -111,9 +111,8 @@ Report check_order(const Maker& method, const Problem& problem, double order, in
 // The stability limit on the axis equals `limit` with a relative error of 1e-3.
 Report check_stability(const Maker& method, Axis axis, double limit);
 // The estimate of the local error, where there is one, has its error_order() and is near the true error on a motion of
-// `omega` [rad/s]
-// with steps h to h/4: 0.9 to 1.1 times it, if it is of higher order than the method (with rows up to 4 times, as what
-// lies across
+// `omega` [rad/s] with steps h to h/4: 0.9 to 1.1 times it, if it is of higher order than the method (with rows up to 4
+// times, as what lies across
 // them is estimated and then removed); else, the error of an embedded method of lower order, 1 to 100/(omega h)^(order
 // + 1 -
 // error_order) times it.
