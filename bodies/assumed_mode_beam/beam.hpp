@@ -22,6 +22,7 @@
 #include <optional>
 
 #include <trammel/body.hpp>
+#include <trammel/observed_units.hpp>
 #include <trammel/parameters.hpp>
 #include <trammel/theory_limit.hpp>
 #include <trammel/time_function.hpp>
@@ -38,6 +39,7 @@ class AssumedModeBeam final : public Body,
                               public ExactTangent,
                               public ReactionDerivative,
                               public Observed,
+                              public ObservedUnits,
                               public Drawn,
                               public TheoryLimit {
  public:
@@ -73,6 +75,7 @@ class AssumedModeBeam final : public Body,
 
   std::span<const std::string> observables() const override { return observable_names_; }
   double observe(int observable, double t, In q, In v) const override;
+  std::string_view unit(int observable) const override;
   void shape(double t, In q, Mat& points) const override;
 
   Bounds bounds() const override;

@@ -110,6 +110,13 @@ double AssumedModeBeam::observe(int observable, double, In q, In v) const {
   return i < modes ? q(i_A_ + i) : v(i_A_ + i - modes);
 }
 
+std::string_view AssumedModeBeam::unit(int observable) const {
+  const std::string& name = observable_names_[std::size_t(observable)];
+  if (name == "angle") return "rad";
+  if (name == "angular_velocity") return "rad/s";
+  return name.find("rate") != name.npos ? "m/s" : "m";
+}
+
 void AssumedModeBeam::shape(double, In q, Mat& points) const {
   const Eigen::Vector2d o = origin(q);
   const double c = std::cos(theta(q)), s = std::sin(theta(q));

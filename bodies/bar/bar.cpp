@@ -18,13 +18,22 @@
 
 #include <trammel/body.hpp>
 #include <trammel/linear_rows.hpp>
+#include <trammel/observed_units.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
 
 using namespace trammel;
 
-struct Bar : Body, ExactTangent, ReactionDerivative, Constrained, LinearMarkers, Observed, Drawn, HasMomentum {
+struct Bar : Body,
+             ExactTangent,
+             ReactionDerivative,
+             Constrained,
+             LinearMarkers,
+             Observed,
+             ObservedUnits,
+             Drawn,
+             HasMomentum {
   // Of every evaluation, next to each other in memory.
   Space space_ = Space::planar;
   double L_ = 0;
@@ -100,6 +109,7 @@ struct Bar : Body, ExactTangent, ReactionDerivative, Constrained, LinearMarkers,
   void add_reaction_derivative(int, double, In, const Wrench&, double, Matrix&) const override {}
 
   std::span<const std::string> observables() const override { return observables_; }
+  std::string_view unit(int observable) const override { return observable == 0 ? "m" : "rad"; }
   double observe(int observable, double, In q, In) const override {
     const Vec3 d = q.tail(dim()) - q.head(dim());
     return observable == 0 ? d.norm() : std::atan2(d(1), d(0));

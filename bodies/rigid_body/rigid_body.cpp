@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <trammel/body.hpp>
+#include <trammel/observed_units.hpp>
 #include <trammel/plugin.hpp>
 
 #include "inertia.hpp"
@@ -31,6 +32,7 @@ struct RigidBody : Body,
                    ExactTangent,
                    ReactionDerivative,
                    Observed,
+                   ObservedUnits,
                    Drawn,
                    HasMomentum,
                    InItsSpace,
@@ -118,6 +120,14 @@ struct RigidBody : Body,
         },
         body_);
     return all(observable);
+  }
+
+  std::string_view unit(int observable) const override {
+    const std::string& name = observables_[std::size_t(observable)];
+    if (name == "angle") return "rad";
+    if (name.starts_with("angular_momentum")) return "kg m^2/s";
+    if (name.starts_with("momentum")) return "kg m/s";
+    return name.starts_with("quaternion") ? "1" : "rad/s";
   }
 
   Momentum momentum(double, In q, In v) const override {

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 
 #include <trammel/body.hpp>
+#include <trammel/observed_units.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
@@ -26,7 +27,7 @@ using Eigen::Vector2d;
 using Eigen::Vector4d;
 using std::numbers::pi;
 
-struct SliderCrankRod : Body, Observed {
+struct SliderCrankRod : Body, Observed, ObservedUnits, Drawn {
   double length = 0.3, width = 0.008, height = 0.008, density = 7870, youngs_modulus = 2e11, inertia = 0.0045339259;
   Vec3 position = Vec3::Zero(2), velocity = Vec3::Zero(2);
   double angle = 0, angular_velocity = 0;
@@ -112,6 +113,23 @@ struct SliderCrankRod : Body, Observed {
 
   std::span<const std::string> observables() const override { return observables_; }
   double observe(int i, double, In z, In v) const override { return i < 5 ? z(2 + i) : v(i - 3); }
+  std::string_view unit(int i) const override {
+    if (i == 0) return "rad";
+    if (i == 5) return "rad/s";
+    return i < 5 ? "m" : "m/s";
+  }
+
+  void shape(double, In z, Mat& points) const override {
+    constexpr int steps = 20;
+    const At at(*this, z);
+    points.resize(2, steps + 1);
+    for (int k = 0; k <= steps; ++k) {
+      const double x = double(k) / steps;
+      const double u = 4 * x * (1 - x) * z(5) + x * (2 * x - 1) * z(6);
+      const double w = std::sin(pi * x) * z(3) + std::sin(2 * pi * x) * z(4);
+      points.col(k) = z.head<2>() + at.R * Vector2d(x * length + u, w);
+    }
+  }
 
  private:
   struct At {

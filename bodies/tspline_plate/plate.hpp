@@ -13,15 +13,17 @@
 
 #include <trammel/awaits_contact.hpp>
 #include <trammel/body.hpp>
+#include <trammel/faces.hpp>
 #include <trammel/fields.hpp>
+#include <trammel/observed_units.hpp>
 #include <trammel/parameters.hpp>
 
-#include "tspline_plate/shell/discretisation.hpp"
 #include "tspline_plate/conditions/edge.hpp"
 #include "tspline_plate/conditions/loads.hpp"
-#include "tspline_plate/mesh/patch.hpp"
-#include "tspline_plate/shell/refinement_trigger.hpp"
 #include "tspline_plate/conditions/seam.hpp"
+#include "tspline_plate/mesh/patch.hpp"
+#include "tspline_plate/shell/discretisation.hpp"
+#include "tspline_plate/shell/refinement_trigger.hpp"
 #include "tspline_plate/shell/stress.hpp"
 #include "tspline_plate/shell/surface_point.hpp"
 
@@ -41,6 +43,8 @@ class TsplinePlate final : public Body,
                            public Observed,
                            public Drawn,
                            public HasFields,
+                           public HasFaces,
+                           public ObservedUnits,
                            public Surface,
                            public SampledSurface,
                            public SlidingSurface,
@@ -87,9 +91,12 @@ class TsplinePlate final : public Body,
 
   std::span<const std::string> observables() const override { return observable_names_; }
   double observe(int observable, double t, In q, In v) const override;
+  std::string_view unit(int observable) const override;
   void shape(double t, In q, Mat& points) const override;
   std::span<const std::string> fields() const override { return std::span(observable_names_).first(3); }
   void fields_at(double t, In q, In v, std::vector<FieldPatch>& patches) const override;
+  std::string face_values() const override { return "von Mises stress on the top [Pa]"; }
+  void faces(double t, In q, FaceMesh& mesh) const override;
 
   void nearest(double t, In q, const Vec3& x, Eigen::Vector2d& parameters, Vec3& point, Vec3& normal) const override;
   void motion_at(const Eigen::Vector2d& parameters, double t, In q, In v, Motion& motion) const override;

@@ -1,5 +1,8 @@
 // Output of the plate: observables, outline, stresses over its elements.
 #include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
 
 #include "tspline_plate/plate.hpp"
 
@@ -18,6 +21,11 @@ double TsplinePlate::observe(int observable, double, In q, In) const {
   if (observable == 5) return double(mesh_->basis.elements().size());
   const auto marker = std::size_t(observable - 6) / 3;
   return von_mises(face(stress(*mesh_, section, marker_points_[marker].point, q), (observable - 6) % 3));
+}
+
+std::string_view TsplinePlate::unit(int observable) const {
+  if (observable == 3 || observable == 4) return "J";
+  return observable == 5 ? "1" : "Pa";
 }
 
 namespace {
@@ -110,6 +118,53 @@ void TsplinePlate::fields_at(double, In q, In, std::vector<FieldPatch>& patches)
       patch.points.col(k) = place(*mesh_, point, q).r;
       patch.values.col(k) << von_mises(s.top), von_mises(s.middle), von_mises(s.bottom);
     }
+  }
+}
+
+namespace {
+
+// Points of a mesh of faces, each once: neighbouring elements share those of their common edge.
+class FacePoints {
+ public:
+  int at(double u, double v) {
+    const auto [found, added] = index_.try_emplace({u, v}, int(places_.size()));
+    if (added) places_.emplace_back(u, v);
+    return found->second;
+  }
+  const std::vector<Eigen::Vector2d>& places() const { return places_; }
+
+ private:
+  std::map<std::pair<double, double>, int> index_;
+  std::vector<Eigen::Vector2d> places_;
+};
+
+}  // namespace
+
+// Two faces along each side of an element; in fine meshes an element is a face.
+void TsplinePlate::faces(double, In q, FaceMesh& mesh) const {
+  constexpr std::size_t fine = 200;  // elements
+  const std::vector<Box<double>> boxes = mesh_->basis.elements();
+  const int cuts = boxes.size() < fine ? 2 : 1;
+  FacePoints points;
+  mesh.quads.clear();
+  for (const auto& [low, high] : boxes)
+    for (int i = 0; i < cuts; ++i)
+      for (int j = 0; j < cuts; ++j) {
+        const auto at = [&](int di, int dj) {
+          return points.at(low[0] + (high[0] - low[0]) * (i + di) / cuts,
+                           low[1] + (high[1] - low[1]) * (j + dj) / cuts);
+        };
+        const int outline = (j == 0) | (i + 1 == cuts) << 1 | (j + 1 == cuts) << 2 | (i == 0) << 3;
+        mesh.quads.push_back({{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, outline});
+      }
+  const Section section{thickness, youngs_modulus, poissons_ratio};
+  const auto count = Eigen::Index(points.places().size());
+  mesh.points.resize(3, count), mesh.values.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::Vector2d& uv = points.places()[std::size_t(k)];
+    const SurfacePoint point = surface_point(*mesh_, uv.x(), uv.y());
+    mesh.points.col(k) = place(*mesh_, point, q).r;
+    mesh.values(k) = von_mises(stress(*mesh_, section, point, q).top);
   }
 }
 

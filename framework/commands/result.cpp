@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulate/results/provenance.hpp"
+#include "simulate/results/series_columns.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -65,6 +66,33 @@ json indeterminate(const model::Model& model, const ContactAudit& audit) {
 
 json to_json(const Energy& e) {
   return {{"kinetic", e.kinetic}, {"potential", e.potential}, {"elastic", e.elastic}, {"total", e.total()}};
+}
+
+json columns_json(const Setup& setup, Recorder::Books books) {
+  const auto entry = [](std::string_view name, const Quantity& quantity) {
+    return json{{"name", name}, {"unit", quantity.unit}, {"meaning", quantity.meaning}, {"path", quantity.path}};
+  };
+  json series = json::array(), events = json::array();
+  const auto add = [&](const auto& names) {
+    for (const std::string_view name : names) series.push_back(entry(name, fixed_quantity(name)));
+  };
+  series.push_back(entry("t", fixed_quantity("t")));
+  for (const Column& column : setup.columns) series.push_back(entry(column.name, column.quantity));
+  add(energy_columns);
+  if (books == Recorder::Books::kept) add(book_columns);
+  add(norm_columns);
+  if (books == Recorder::Books::kept) add(step_columns);
+  for (const std::string& name : EventLine(*setup.model).columns()) events.push_back(entry(name, event_quantity(name)));
+  return {{"series", std::move(series)}, {"events", std::move(events)}};
+}
+
+json drawing_json(model::AssembledSystem& system, const State& state) {
+  try {
+    system.move_to(state.t, state.q, state.v);
+    return still_picture(system);
+  } catch (const std::exception&) {
+    return json::object();
+  }
 }
 
 std::string title_of(const scene::Scene& scene) {
@@ -134,7 +162,9 @@ std::string result_json(const scene::Scene& scene, const Setup& setup, Simulator
                        {"velocity", statistics.largest.velocity},
                        {"acceleration", statistics.largest.acceleration}}},
                      {"sizes", sizes(statistics)},
-                     {"sizes_left_out", statistics.sizes_left_out}});
+                     {"sizes_left_out", statistics.sizes_left_out},
+                     {"columns", columns_json(setup, Recorder::Books::kept)},
+                     {"drawing", drawing_json(simulator.system(), state)}});
   return result.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "commands/simulation.hpp"
-#include "simulate/start/setup.hpp"
 #include "simulate/simulator.hpp"
+#include "simulate/start/setup.hpp"
 
 namespace trammel::simulate {
 
@@ -28,6 +28,11 @@ const char* to_string(Status status);
 // What every result.json begins with: status, reason, scene, and how it was made (provenance.hpp).
 nlohmann::ordered_json result_head(const scene::Scene& scene, const Setup& setup, const Outcomes& outcomes);
 nlohmann::ordered_json to_json(const Energy& energy);
+// The columns of series.csv and events.csv: {"series": [{"name", "unit", "meaning", "path"}, ...], "events": [...]}.
+nlohmann::ordered_json columns_json(const Setup& setup, Recorder::Books books);
+// What does not move, for the report (animation_line.hpp); empty if a component has no answer at the state that a run has
+// failed at.
+nlohmann::ordered_json drawing_json(model::AssembledSystem& system, const State& state);
 std::string title_of(const scene::Scene& scene);  // its file, if it has none
 
 // As JSON text. energy_dissipated by cause, positive when energy was lost; numerical is what no cause explains and

@@ -143,6 +143,7 @@ Topic observables(const Entries& entries) {
   std::vector<std::string_view> always(energy_columns.begin(), energy_columns.end());
   always.insert(always.end(), book_columns.begin(), book_columns.end());
   always.insert(always.end(), norm_columns.begin(), norm_columns.end());
+  always.insert(always.end(), step_columns.begin(), step_columns.end());
   return {"observables", "what \"record\": {\"observe\": {\"column\": ...}} may name",
           fmt::format(R"page(observables
   "record": {{"observe": {{"tip_y": "beam.tip.y", "force": "contacts.tip.force", "twice": "=2*beam.angle"}}}}

@@ -103,7 +103,9 @@ class StaticRun {
                     {"energy_start", to_json(energy_start_)},
                     {"energy_end", to_json(energy_)},
                     {"sizes", {{"nq", system_.sizes().nq}, {"nv", system_.sizes().nv}, {"nc", system_.sizes().nc}}},
-                    {"warnings", warnings()}});
+                    {"warnings", warnings()},
+                    {"columns", columns_json(setup_, Recorder::Books::none)},
+                    {"drawing", drawing_json(system_, path_.state())}});
     return all;
   }
 

@@ -9,11 +9,13 @@
 #include <trammel/component.hpp>
 #include <trammel/contact.hpp>
 #include <trammel/counts_turns.hpp>
+#include <trammel/faces.hpp>
 #include <trammel/fields.hpp>
 #include <trammel/integrator.hpp>
 #include <trammel/linear_rows.hpp>
 #include <trammel/methods/oscillating_steps.hpp>
 #include <trammel/needs_orientation.hpp>
+#include <trammel/observed_units.hpp>
 #include <trammel/outside_domain.hpp>
 #include <trammel/parameters.hpp>
 #include <trammel/rigid_motions.hpp>
@@ -51,6 +53,8 @@ Drawn::~Drawn() = default;
 Refinable::~Refinable() = default;
 HasMomentum::~HasMomentum() = default;
 HasFields::~HasFields() = default;
+HasFaces::~HasFaces() = default;
+ObservedUnits::~ObservedUnits() = default;
 TheoryLimit::~TheoryLimit() = default;
 AwaitsContact::~AwaitsContact() = default;
 LinearMarkers::~LinearMarkers() = default;

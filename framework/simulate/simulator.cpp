@@ -99,7 +99,7 @@ double Simulator::record_time(long long k) const {
 // The rows that are due at the state itself.
 void Simulator::record_due(Recorder& recorder) {
   while (!last_row_ && record_time(records_) <= now_.t) {
-    recorder.row(system_, now_, ledger_.totals());
+    recorder.row(system_, now_, ledger_.totals(), statistics_.steps);
     audit_.look(system_, now_);
     last_row_ = record_time(records_) >= settings_.until;
     ++records_;
@@ -392,7 +392,7 @@ void Simulator::record_inside(Recorder& recorder) {
                           t));
     system_.move_to(t, inside_.q, inside_.v);
     system_.accelerate({}, inside_.a, inside_.lambda);
-    recorder.row(system_, inside_, ledger_.totals_inside((t - next_.t) / h));
+    recorder.row(system_, inside_, ledger_.totals_inside((t - next_.t) / h), statistics_.steps);
     audit_.look(system_, inside_);
     most_kinetic_ = std::max(most_kinetic_, system_.energy().kinetic);
     judge_joints(inside_);

@@ -270,8 +270,9 @@ TEST(Run, HasTheColumnsOfTheContract) {
   ASSERT_EQ(trammel({"run", cli::bounce, "--out", "r"}, {.folder = folder.path()}).exit_code, 0);
   EXPECT_EQ(lines(cli::read_file(folder.path() / "r/series.csv")).front(),
             "t,height,energy_kinetic,energy_potential,energy_elastic,energy_total,energy_supplied,"
-            "energy_dissipated,constraint_position,constraint_velocity,constraint_acceleration");
-  EXPECT_EQ(lines(cli::read_file(folder.path() / "r/events.csv")).front(), "t,kind,component,detail");
+            "energy_dissipated,constraint_position,constraint_velocity,constraint_acceleration,steps");
+  EXPECT_EQ(lines(cli::read_file(folder.path() / "r/events.csv")).front(),
+            "t,kind,component,impulse,approach,separation,energy_lost,friction,direction");
 }
 
 TEST(Run, DrawsNoProgressBarIntoAFile) {

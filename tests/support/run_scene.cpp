@@ -54,13 +54,12 @@ std::vector<Event> read_events(const std::filesystem::path& file) {
   std::istringstream in(read_text(file));
   std::string line;
   std::getline(in, line);
+  const std::vector<std::string> names = split(line, ',');
   while (std::getline(in, line)) {
     const std::vector<std::string> cells = split(line, ',');
     Event event{std::strtod(cells.at(0).c_str(), nullptr), cells.at(1), cells.at(2), {}};
-    for (const std::string& word : split(cells.at(3), ' ')) {
-      const std::vector<std::string> pair = split(word, '=');
-      event.detail[pair.at(0)] = std::strtod(pair.at(1).c_str(), nullptr);
-    }
+    for (std::size_t i = 3; i < cells.size(); ++i)
+      if (!cells[i].empty()) event.detail[names.at(i)] = std::strtod(cells[i].c_str(), nullptr);
     events.push_back(std::move(event));
   }
   return events;

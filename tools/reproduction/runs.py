@@ -86,7 +86,7 @@ class Result:
         self.columns = dict(zip(names, table.T))
         with open(folder / "events.csv") as file:
             self.events = [
-                (float(row["t"]), row["kind"], dict(item.split("=", 1) for item in row["detail"].split() if "=" in item))
+                (float(row["t"]), row["kind"], {name: figure for name, figure in row.items() if figure and name not in ("t", "kind", "component")})
                 for row in csv.DictReader(file)
             ]
 

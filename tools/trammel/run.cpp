@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 
 #include "arguments.hpp"
+#include "commands/simulation.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "last_words.hpp"
 #include "progress.hpp"
+#include "report/report.hpp"
 #include "results_folder.hpp"
-#include "commands/simulation.hpp"
+#include "simulate/results/log_file.hpp"
 
 namespace trammel::tool {
 
@@ -18,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr Option kReport{"--report", "", "write report.html beside the results, to look at: animation, plots, events"};
 constexpr Option kResume{"--resume", "DIR", "continue the interrupted run whose results are in DIR"};
 
 fs::path folder_of_run(const Arguments& arguments) {
@@ -43,6 +46,17 @@ std::string continuation(const Arguments& arguments, const fs::path& folder) {
   if (arguments.operand().starts_with("-")) add("--");
   add(arguments.operand());
   return command;
+}
+
+// The results stand, whatever becomes of their report.
+void write_report(const fs::path& folder, bool quiet) {
+  const fs::path file = folder / "report.html";
+  try {
+    simulate::write_whole(file, report::report({folder}));
+    if (!quiet) print_line(fmt::format("To look at it, open {}", file.string()));
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "trammel: no report was written: {}\n", e.what());
+  }
 }
 
 Exit run(const Arguments& arguments) {
@@ -73,6 +87,7 @@ Exit run(const Arguments& arguments) {
 
   if (json) print_line(report.result_json);
   if (!json && !quiet) print_line(report.summary);
+  if (arguments.has(kReport.name)) write_report(options.out, json || quiet);
   switch (report.status) {
     case simulate::Status::done:
       return Exit::done;
@@ -93,7 +108,7 @@ Command run_command() {
   return {"run",
           "SCENE",
           "Simulate a scene and write its results.",
-          {kOut, kSet, kPlugin, kAllowScenePlugins, kResume, kJson, kQuiet},
+          {kOut, kSet, kPlugin, kAllowScenePlugins, kReport, kResume, kJson, kQuiet},
           run};
 }
 

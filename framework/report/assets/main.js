@@ -22,7 +22,10 @@ function main() {
   guarded(root, () => {
     const data = JSON.parse(document.getElementById("data").textContent);
     const views = { page: (d) => show_page(d.page, root) };
-    if (typeof show_runs === "function") views.runs = (d) => show_runs(d, root);
+    if (typeof show_runs === "function") {
+      views.runs = (d) => show_runs(d, root);
+      views.modes = (d) => show_modes(d, root);
+    }
     if (!views[data.kind]) throw new Error(`The report's data are of an unknown kind: ${data.kind}`);
     views[data.kind](data);
     document.documentElement.dataset.ready = "yes";

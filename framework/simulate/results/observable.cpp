@@ -150,6 +150,9 @@ class MotionReader {
     const auto B = observer(value.find("relative_to"));
     if (!B) return {};
     Column column{name, [A = *A, B = *B, what = *what](Moment& m) { return seen_from(m, A, B, what); }, false};
+    column.quantity = observable_quantity(*text, model_);
+    if (const scene::Value* seen_by = value.find("relative_to"))
+      column.quantity.meaning += fmt::format(", seen from {}", seen_by->text());
     if (const scene::Value* since = value.find("since_start"))
       column.since_start = since->read_boolean(problems_).value_or(false);
     if (column.since_start && what->order > 0)
@@ -230,7 +233,7 @@ std::vector<Column> read_observables(const scene::Value& root, const Model& mode
     }
     if (value.type() == scene::Value::Type::text && value.text().starts_with("=")) {
       if (const auto formula = value.read_formula(names, problems))
-        columns.push_back({name, derived(name, value.text(), *formula, choices), false});
+        columns.push_back({name, derived(name, value.text(), *formula, choices), false, {"", value.text(), ""}});
       continue;
     }
     const auto what = value.read_text(problems);
@@ -239,7 +242,8 @@ std::vector<Column> read_observables(const scene::Value& root, const Model& mode
     if (found == names.end())
       problems.error(value.problem(fmt::format("no observable \"{}\"{}", *what, scene::did_you_mean(*what, names))));
     else
-      columns.push_back({name, choices[std::size_t(found - names.begin())].second, false});
+      columns.push_back(
+          {name, choices[std::size_t(found - names.begin())].second, false, observable_quantity(*what, model)});
   }
   return columns;
 }

@@ -16,8 +16,9 @@
 
 #include <trammel/integrator.hpp>
 
-#include "system/assembled_system.hpp"
 #include "scene/value.hpp"
+#include "simulate/results/quantity.hpp"
+#include "system/assembled_system.hpp"
 
 namespace trammel::simulate {
 
@@ -47,6 +48,7 @@ struct Column {
   std::string name;  // in the header
   std::function<double(Moment&)> value;
   bool since_start = false;  // less the value at the start; so from begin_columns on
+  Quantity quantity = {};
 };
 
 // The columns "record" asks for, in scene order; unknown names are reported with the nearest.

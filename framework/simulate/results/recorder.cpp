@@ -1,26 +1,14 @@
 #include "simulate/results/recorder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "simulate/results/series_columns.hpp"
 
 namespace trammel::simulate {
-namespace {
-
-// "name=1", or "name_x=1 name_y=0 name_z=0" in space.
-std::string components(const char* name, const Vec3& x) {
-  if (x.size() == 1) return fmt::format("{}={:.17g}", name, x[0]);
-  return fmt::format("{0}_x={1:.17g} {0}_y={2:.17g} {0}_z={3:.17g}", name, x[0], x[1], x[2]);
-}
-
-}  // namespace
-
 void ConstraintNorms::raise_to(const ConstraintNorms& other) {
   position = std::max(position, other.position);
   velocity = std::max(velocity, other.velocity);
@@ -39,26 +27,25 @@ ConstraintNorms constraint_norms(model::AssembledSystem& system, const State& st
 
 Recorder::Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns,
                    std::optional<Lengths> keep, std::vector<double> field_times, Books books)
-    : model_(model),
-      columns_(std::move(columns)),
+    : columns_(std::move(columns)),
       books_(books),
+      event_line_(model),
+      animation_line_(model),
       field_line_(model),
       field_times_(std::move(field_times)) {
-  const bool drawn =
-      std::any_of(model.bodies.begin(), model.bodies.end(), [](const auto& entry) { return entry.drawn != nullptr; });
   const auto open = [&](std::optional<LogFile>& log, const char* name, LogPart Lengths::*part) {
     keep ? log.emplace(folder / name, (*keep).*part) : log.emplace(folder / name);
   };
   open(series_, "series.csv", &Lengths::series);
   open(events_, "events.csv", &Lengths::events);
-  if (drawn) open(animation_, "animation.ndjson", &Lengths::animation);
+  if (animation_line_.possible()) open(animation_, "animation.ndjson", &Lengths::animation);
   if (!field_times_.empty()) open(fields_, "fields.ndjson", &Lengths::fields);
   if (keep) {
     next_field_time_ = std::size_t(keep->field_times);
     return;
   }
   series_->append(header());
-  events_->append("t,kind,component,detail\n");
+  events_->append(event_line_.header());
 }
 
 std::string Recorder::header() const {
@@ -68,10 +55,11 @@ std::string Recorder::header() const {
   std::for_each(energy_columns.begin(), energy_columns.end(), add);
   if (books_ == Books::kept) std::for_each(book_columns.begin(), book_columns.end(), add);
   std::for_each(norm_columns.begin(), norm_columns.end(), add);
+  if (books_ == Books::kept) std::for_each(step_columns.begin(), step_columns.end(), add);
   return line + "\n";
 }
 
-void Recorder::row(model::AssembledSystem& system, const State& state, const Ledger::Totals& books) {
+void Recorder::row(model::AssembledSystem& system, const State& state, const Ledger::Totals& books, long long steps) {
   Moment moment(system, state);
   const auto number = [out = std::back_inserter(series_->buffer())](double x) { fmt::format_to(out, ",{:.17g}", x); };
   fmt::format_to(std::back_inserter(series_->buffer()), "{:.17g}", state.t);
@@ -81,9 +69,13 @@ void Recorder::row(model::AssembledSystem& system, const State& state, const Led
   if (books_ == Books::kept) number(books.supplied), number(books.dissipated);
   const ConstraintNorms norms = constraint_norms(system, state, scratch_);
   number(norms.position), number(norms.velocity), number(norms.acceleration);
+  if (books_ == Books::kept) number(double(steps));
   series_->buffer() += '\n';
   series_->appended();
-  if (animation_) animate(state);
+  if (animation_) {
+    animation_line_.append(system, state, animation_->buffer());
+    animation_->appended();
+  }
   if (fields_) show_fields(state);
 }
 
@@ -95,71 +87,18 @@ void Recorder::show_fields(const State& state) {
   fields_->appended();
 }
 
-void Recorder::animate(const State& state) {
-  std::string& line = animation_->buffer();
-  fmt::format_to(std::back_inserter(line), "{{\"t\":{:.9g},\"shapes\":{{", state.t);
-  const char* separator = "";
-  for (const model::BodyEntry& entry : model_.bodies) {
-    if (!entry.drawn) continue;
-    entry.drawn->shape(state.t, state.q.segment(entry.q0, entry.nq), shape_);
-    fmt::format_to(std::back_inserter(line), "{}{}:[", separator, nlohmann::json(entry.name).dump());
-    separator = ",";
-    for (Eigen::Index j = 0; j < shape_.cols(); ++j) {
-      line += j ? ",[" : "[";
-      for (Eigen::Index i = 0; i < shape_.rows(); ++i)
-        fmt::format_to(std::back_inserter(line), "{}{:.5g}", i ? "," : "", shape_(i, j));
-      line += ']';
-    }
-    line += ']';
-  }
-  line += "}}\n";
-  animation_->appended();
+template <class Event>
+void Recorder::log(const Event& event) {
+  event_line_.append(event, events_->buffer());
+  events_->appended();
 }
 
 void Recorder::event(const ContactEvent& event) {
-  auto out = std::back_inserter(events_->buffer());
-  const std::string friction = components("friction", event.friction);
-  fmt::format_to(out, "{:.17g},{},{},", event.t, to_string(event.kind), model_.contacts[event.contact].path());
-  if (event.kind == ContactEvent::Kind::impact || event.kind == ContactEvent::Kind::latch)
-    fmt::format_to(out, "impulse={:.17g} approach={:.17g} separation={:.17g} energy_lost={:.17g} {}", event.impulse,
-                   event.approach + 0.0, event.separation + 0.0, event.energy_lost + 0.0, friction);  // no -0
-  else if (event.kind == ContactEvent::Kind::stick)
-    fmt::format_to(out, "{}", friction);
-  else if (event.kind == ContactEvent::Kind::slip || event.kind == ContactEvent::Kind::reversal)
-    fmt::format_to(out, "{} {}", friction, components("direction", event.direction));
-  else if (event.kind == ContactEvent::Kind::close)
-    fmt::format_to(out, "approach={:.17g}", event.approach + 0.0);
-  else
-    fmt::format_to(out, "separation={:.17g}", event.separation + 0.0);
-  events_->buffer() += '\n';
-  events_->appended();
+  log(event);
 }
 
 void Recorder::event(const RefineEvent& event) {
-  auto out = std::back_inserter(events_->buffer());
-  fmt::format_to(out, "{:.17g},refine,bodies.{},cause={}", event.t, model_.bodies[std::size_t(event.body)].name,
-                 event.cause);
-  const auto pair = [&out](const char* what, auto before, auto after) {
-    fmt::format_to(out, " {0}_before={1:.17g} {0}_after={2:.17g}", what, before, after);
-  };
-  const RefineEvent::Side &before = event.before, &after = event.after;
-  pair("coordinates", double(before.sizes.nq), double(after.sizes.nq));
-  pair("kinetic", before.energy.kinetic, after.energy.kinetic);
-  pair("potential", before.energy.potential, after.energy.potential);
-  pair("elastic", before.energy.elastic, after.energy.elastic);
-  if (before.momentum && after.momentum) {
-    static constexpr std::array axes = {"x", "y", "z"};
-    pair("mass", before.momentum->mass, after.momentum->mass);
-    for (Eigen::Index i = 0; i < before.momentum->linear.size(); ++i)
-      pair(fmt::format("momentum_{}", axes[std::size_t(i)]).c_str(), before.momentum->linear(i),
-           after.momentum->linear(i));
-    const auto spins = before.momentum->angular.size();
-    for (Eigen::Index i = 0; i < spins; ++i)
-      pair(fmt::format("spin_{}", axes[std::size_t(spins == 1 ? 2 : i)]).c_str(), before.momentum->angular(i),
-           after.momentum->angular(i));
-  }
-  events_->buffer() += '\n';
-  events_->appended();
+  log(event);
 }
 
 Recorder::Lengths Recorder::lengths() const {

@@ -3,12 +3,12 @@
 
 #include <optional>
 
-#include "simulate/results/contact_event.hpp"
+#include "simulate/results/animation_line.hpp"
+#include "simulate/results/event_line.hpp"
 #include "simulate/results/field_line.hpp"
 #include "simulate/results/ledger.hpp"
 #include "simulate/results/log_file.hpp"
 #include "simulate/results/observable.hpp"
-#include "simulate/results/refine_event.hpp"
 
 namespace trammel::simulate {
 
@@ -34,7 +34,8 @@ class Recorder {
   Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns,
            std::optional<Lengths> keep, std::vector<double> field_times = {}, Books books = Books::kept);
 
-  void row(model::AssembledSystem& system, const State& state, const Ledger::Totals& books = {});
+  // `steps`: accepted so far.
+  void row(model::AssembledSystem& system, const State& state, const Ledger::Totals& books = {}, long long steps = 0);
   void event(const ContactEvent& event);
   void event(const RefineEvent& event);
   void flush();                  // throws OutputError once all files were tried
@@ -48,17 +49,18 @@ class Recorder {
 
  private:
   std::string header() const;
-  void animate(const State& state);
   void show_fields(const State& state);
+  template <class Event>
+  void log(const Event& event);
   std::vector<LogFile*> files();
-  const model::Model& model_;
   std::vector<Column> columns_;
   Books books_;
   std::optional<LogFile> series_, events_, animation_, fields_;
+  EventLine event_line_;
+  AnimationLine animation_line_;
   FieldLine field_line_;
   std::vector<double> field_times_;
   std::size_t next_field_time_ = 0;
-  Mat shape_;
   Vec scratch_;
 };
 

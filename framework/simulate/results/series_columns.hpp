@@ -1,6 +1,6 @@
 // The columns of series.csv other than the observed ones.
 //
-//     t, the observed, energies of the state, the books of the analysis, norms of the constraints
+//     t, the observed, energies of the state, the books of the analysis, norms of the constraints, steps
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,15 @@ constexpr std::array<std::string_view, 4> energy_columns = {"energy_kinetic", "e
 constexpr std::array<std::string_view, 2> book_columns = {"energy_supplied", "energy_dissipated"};
 constexpr std::array<std::string_view, 3> norm_columns = {"constraint_position", "constraint_velocity",
                                                           "constraint_acceleration"};
+// Only for motions: accepted steps so far.
+constexpr std::array<std::string_view, 1> step_columns = {"steps"};
 
 // No observed column may have such a name.
 constexpr bool is_fixed_column(std::string_view name) {
   const auto holds = [name](const auto& columns) {
     return std::find(columns.begin(), columns.end(), name) != columns.end();
   };
-  return name == "t" || holds(energy_columns) || holds(book_columns) || holds(norm_columns);
+  return name == "t" || holds(energy_columns) || holds(book_columns) || holds(norm_columns) || holds(step_columns);
 }
 
 }  // namespace trammel::simulate

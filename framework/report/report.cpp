@@ -1,0 +1,89 @@
+#include "report/report.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "report/html.hpp"
+#include "report/json_file.hpp"
+#include "report/run_data.hpp"
+
+namespace trammel::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+bool has(const fs::path& folder, const char* file) {
+  std::error_code error;
+  return fs::exists(folder / file, error);
+}
+
+// Of a folder's JSON files the first with a "page"; null: there is none.
+Json page_in(const fs::path& what) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  if (fs::is_directory(what, error)) {
+    for (const auto& entry : fs::directory_iterator(what))
+      if (entry.path().extension() == ".json") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+  } else {
+    files = {what};
+  }
+  for (const fs::path& file : files) {
+    const Json json = json_file(file);
+    if (const Json* page = find(json, {"page"})) return *page;
+  }
+  return nullptr;
+}
+
+std::string title_of(const Json& run) {
+  const std::string title = run["result"].value("title", "");
+  return title.empty() ? run["name"].get<std::string>() : title;
+}
+
+void require_there(const fs::path& what) {
+  std::error_code error;
+  if (!fs::exists(what, error)) throw ReportRefused(fmt::format("there is no {}", what.string()));
+}
+
+std::string of_runs(const std::vector<fs::path>& folders) {
+  Json runs = Json::array();
+  for (const fs::path& folder : folders) runs.push_back(run_data(folder, Room().shared_by(folders.size())));
+  std::string title = title_of(runs.front());
+  if (folders.size() > 1) title += fmt::format(" and {} more", folders.size() - 1);
+  return html_file(title, {{"kind", "runs"}, {"runs", std::move(runs)}}, Needs::runs);
+}
+
+}  // namespace
+
+std::string report(const std::vector<fs::path>& what) {
+  for (const fs::path& one : what) require_there(one);
+  if (std::all_of(what.begin(), what.end(), [](const fs::path& one) { return has(one, "series.csv"); }))
+    return of_runs(what);
+  if (what.size() > 1) {
+    const auto other =
+        std::find_if(what.begin(), what.end(), [](const fs::path& one) { return !has(one, "series.csv"); });
+    throw ReportRefused(
+        fmt::format("only runs are compared in one report, and {} is none (it has no series.csv): report it alone",
+                    other->string()));
+  }
+  if (has(what.front(), "modes.json")) {
+    Json data = modes_data(what.front());
+    const std::string title = title_of(data);
+    return html_file(title, {{"kind", "modes"}, {"modes", std::move(data)}}, Needs::runs);
+  }
+  Json page = page_in(what.front());
+  if (page.is_null())
+    throw ReportRefused(
+        fmt::format("{} holds no results: expected a folder of 'trammel run', 'static' or 'modes', or a JSON file with "
+                    "a \"page\", as "
+                    "'trammel check', 'trade', 'study' and 'stability' write it",
+                    what.front().string()));
+  const std::string title = page.value("title", "Trammel");
+  return html_file(title, {{"kind", "page"}, {"page", std::move(page)}}, Needs::page);
+}
+
+}  // namespace trammel::report
