@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "commands/component_cost.hpp"
 #include "simulate/results/provenance.hpp"
 #include "simulate/results/series_columns.hpp"
 
@@ -82,7 +83,8 @@ json columns_json(const Setup& setup, Recorder::Books books) {
   if (books == Recorder::Books::kept) add(book_columns);
   add(norm_columns);
   if (books == Recorder::Books::kept) add(step_columns);
-  for (const std::string& name : EventLine(*setup.model).columns()) events.push_back(entry(name, event_quantity(name)));
+  const EventLine event_line(*setup.model);
+  for (const std::string& name : event_line.columns()) events.push_back(entry(name, event_quantity(name)));
   return {{"series", std::move(series)}, {"events", std::move(events)}};
 }
 
@@ -163,6 +165,9 @@ std::string result_json(const scene::Scene& scene, const Setup& setup, Simulator
                        {"acceleration", statistics.largest.acceleration}}},
                      {"sizes", sizes(statistics)},
                      {"sizes_left_out", statistics.sizes_left_out},
+                     {"cost_by_component", outcomes.status == Status::done
+                                               ? component_costs(simulator.system(), state)
+                                               : json::array()},
                      {"columns", columns_json(setup, Recorder::Books::kept)},
                      {"drawing", drawing_json(simulator.system(), state)}});
   return result.dump(2, ' ', false, json::error_handler_t::replace) + "\n";

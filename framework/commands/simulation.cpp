@@ -111,6 +111,7 @@ class Run {
 
   void loop() {
     const Clock::time_point began = Clock::now();
+    shown_t_ = simulator_->state().t, shown_steps_ = simulator_->statistics().steps;
     Clock::time_point checked = began, checkpointed = began, shown = began;
     double pause = between_checkpoints;
     SlowSteps slow_steps(simulator_->state().t, simulator_->statistics().steps);
@@ -151,7 +152,10 @@ class Run {
 
   void show() {
     const Statistics& s = simulator_->statistics();
-    options_.progress({simulator_->state().t, setup_.settings.until, s.steps, int(s.impacts)});
+    const double t = simulator_->state().t;
+    const double step = s.steps > shown_steps_ ? (t - shown_t_) / double(s.steps - shown_steps_) : 0;
+    options_.progress({t, setup_.settings.until, s.steps, int(s.impacts), s.events, step});
+    shown_t_ = t, shown_steps_ = s.steps;
   }
 
   void finish() {
@@ -291,6 +295,8 @@ class Run {
   RunReport report_;
   Clock::time_point wall_start_;
   double cpu_start_ = 0;
+  double shown_t_ = 0;  // at the last progress
+  long long shown_steps_ = 0;
   Cost before_;
 };
 

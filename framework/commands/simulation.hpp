@@ -15,6 +15,8 @@ struct Progress {
   double t = 0, until = 0;  // [s] simulated
   long long steps = 0;
   int impacts = 0;
+  long long events = 0;
+  double step = 0;  // [s] mean since the last call; 0: unknown
 };
 
 class CrashWitness;

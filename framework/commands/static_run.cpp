@@ -65,7 +65,7 @@ class StaticRun {
       system_.move_to(path_.state().t, path_.state().q, path_.state().v);
       energy_ = system_.energy();
       if (path_.steps().size() == 1) energy_start_ = energy_;
-      if (options_.progress) options_.progress({path_.state().t, setup_.settings.until, step() - 1, 0});
+      if (options_.progress) options_.progress({path_.state().t, setup_.settings.until, step() - 1, 0, 0, 0});
     }
     end(Status::done, "");
   }

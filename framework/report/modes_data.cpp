@@ -21,7 +21,11 @@ using Json = nlohmann::ordered_json;
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
-  for (const char c : line) c == ',' ? cells.emplace_back() : void(cells.back() += c);
+  for (const char c : line)
+    if (c == ',')
+      cells.emplace_back();
+    else
+      cells.back() += c;
   return cells;
 }
 

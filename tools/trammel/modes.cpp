@@ -24,6 +24,9 @@ constexpr Option kFrom{"--from", "DIR", "the state of the checkpoint in a result
 constexpr Option kSteady{"--steady", "",
                          "the steady motion near that state, seen from the world or from a frame that turns with it"};
 constexpr Option kCount{"--count", "N", "so many of the lowest modes; default 10"};
+constexpr Option kMatrices{"--matrices", "FILE",
+                           "write M, D, K, G and the state-space matrix to FILE.npz and FILE_*.mtx, with the names of "
+                           "their rows"};
 
 double number(const Arguments& arguments, const Option& option, const char* expected) {
   const std::string& text = arguments.last(option.name);
@@ -54,6 +57,7 @@ simulate::ModesOptions read(const Arguments& arguments) {
     options.from = folder;
   }
   options.steady = arguments.has("--steady");
+  if (arguments.has(kMatrices.name)) options.matrices = arguments.last(kMatrices.name);
   return options;
 }
 
@@ -86,7 +90,7 @@ Command modes_command() {
   return {"modes",
           "SCENE",
           "Find frequencies, damping and shapes of small motions about a state.",
-          {kFolder, kAt, kFrom, kSteady, kCount, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
+          {kFolder, kAt, kFrom, kSteady, kCount, kMatrices, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
           run};
 }
 

@@ -1,5 +1,6 @@
 // trammel report DIR...: one HTML file to look at.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "arguments.hpp"
 #include "input.hpp"

@@ -10,7 +10,9 @@
 #include "interrupt.hpp"
 #include "last_words.hpp"
 #include "progress.hpp"
+#include "formats/run_formats.hpp"
 #include "report/report.hpp"
+#include "scene/suggestion.hpp"
 #include "results_folder.hpp"
 #include "simulate/results/log_file.hpp"
 
@@ -21,6 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Option kReport{"--report", "", "write report.html beside the results, to look at: animation, plots, events"};
+constexpr Option kFormat{"--format", "NAME",
+                         "write the results also as npz (NumPy) or vtu (ParaView), beside the others (repeatable)"};
 constexpr Option kResume{"--resume", "DIR", "continue the interrupted run whose results are in DIR"};
 
 fs::path folder_of_run(const Arguments& arguments) {
@@ -48,6 +52,27 @@ std::string continuation(const Arguments& arguments, const fs::path& folder) {
   return command;
 }
 
+std::vector<const formats::RunFormat*> chosen_formats(const Arguments& arguments) {
+  std::vector<std::string> names;
+  for (const formats::RunFormat& format : formats::run_formats()) names.emplace_back(format.name);
+  std::vector<const formats::RunFormat*> chosen;
+  for (const std::string& name : arguments.all(kFormat.name)) {
+    chosen.push_back(formats::find_run_format(name));
+    if (!chosen.back())
+      throw UsageError(fmt::format("--format {}: there is no such format{}", name, scene::did_you_mean(name, names)));
+  }
+  return chosen;
+}
+
+void write_format(const formats::RunFormat& format, const fs::path& folder, bool quiet) {
+  try {
+    const fs::path file = format.write(folder);
+    if (!quiet) print_line(fmt::format("As {}: {}", format.name, file.string()));
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "trammel: no {} was written: {}\n", format.name, e.what());
+  }
+}
+
 // The results stand, whatever becomes of their report.
 void write_report(const fs::path& folder, bool quiet) {
   const fs::path file = folder / "report.html";
@@ -65,6 +90,7 @@ Exit run(const Arguments& arguments) {
   simulate::RunOptions options;
   options.out = folder_of_run(arguments);
   options.resume = arguments.has("--resume");
+  const std::vector<const formats::RunFormat*> formats = chosen_formats(arguments);
   const scene::Scene scene = load_scene(arguments);
   plugin::Registry registry;
   load_plugins(arguments, registry);
@@ -81,12 +107,13 @@ Exit run(const Arguments& arguments) {
         bar.clear();
         fmt::print(stderr, "trammel: warning: {}\n", warning);
       };
-    if (bar.visible()) options.progress = [&bar](const simulate::Progress& progress) { bar.draw(progress); };
+    if (bar.wanted()) options.progress = [&bar](const simulate::Progress& progress) { bar.draw(progress); };
     report = simulate::run(scene, registry, options);
   }
 
   if (json) print_line(report.result_json);
   if (!json && !quiet) print_line(report.summary);
+  for (const formats::RunFormat* format : formats) write_format(*format, options.out, json || quiet);
   if (arguments.has(kReport.name)) write_report(options.out, json || quiet);
   switch (report.status) {
     case simulate::Status::done:
@@ -108,7 +135,7 @@ Command run_command() {
   return {"run",
           "SCENE",
           "Simulate a scene and write its results.",
-          {kOut, kSet, kPlugin, kAllowScenePlugins, kReport, kResume, kJson, kQuiet},
+          {kOut, kSet, kPlugin, kAllowScenePlugins, kReport, kFormat, kResume, kJson, kQuiet},
           run};
 }
 

@@ -29,7 +29,7 @@ Exit run(const Arguments& arguments) {
   simulate::RunReport report;
   {
     ProgressBar bar(!json && !quiet);
-    if (bar.visible()) options.progress = [&bar](const simulate::Progress& progress) { bar.draw(progress); };
+    if (bar.wanted()) options.progress = [&bar](const simulate::Progress& progress) { bar.draw(progress); };
     report = simulate::run_static(scene, registry, options);
   }
   if (json) print_line(report.result_json);

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr std::array written = {"series.csv",  "events.csv",          "animation.ndjson", "fields.ndjson",
                                 "result.json", "scene.resolved.json", "modes.json",       "modes.csv",
-                                "shapes.csv",  newest_checkpoint,     checkpoint_before, "report.html"};
+                                "shapes.csv",  newest_checkpoint,     checkpoint_before, "report.html",
+                                "series.npz",  "events.npz",          "animation.pvd",    "fields.pvd"};
 
 constexpr std::array commands = {"trammel run", "trammel static", "trammel modes"};
 
