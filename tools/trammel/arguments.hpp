@@ -77,5 +77,6 @@ Command list_command();
 Command describe_command();
 Command schema_command();
 Command seal_command();
+Command check_command();
 
 }  // namespace trammel::tool
