@@ -65,10 +65,11 @@ Arguments::Arguments(const Command& command, std::span<const std::string> words,
   if (!command.operand.empty() && operands.empty())
     throw UsageError(fmt::format("'trammel {}' needs a {}: trammel {} {}", command.name, command.operand, command.name,
                                  command.operand));
-  if (operands.size() > 1)
+  if (operands.size() > 1 && !command.operand.ends_with("..."))
     throw UsageError(
         fmt::format("'trammel {}' takes one {}, found also '{}'", command.name, command.operand, operands[1]));
   if (!operands.empty()) operand_ = operands.front();
+  operands_ = std::move(operands);
 }
 
 std::string shell_quoted(const std::string& word) {

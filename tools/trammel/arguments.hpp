@@ -30,7 +30,7 @@ class Arguments;
 
 struct Command {
   std::string_view name;
-  std::string_view operand;  // "SCENE"; empty: takes none
+  std::string_view operand;  // "SCENE"; "DIR...": one or more; empty: takes none
   std::string_view summary;
   std::vector<Option> options;
   Exit (*run)(const Arguments&);
@@ -45,13 +45,15 @@ class Arguments {
 
   const std::string& program() const { return program_; }  // as it was called
   std::vector<std::string> command_line() const;           // all words
-  const std::string& operand() const { return operand_; }
+  const std::string& operand() const { return operand_; }  // the first
+  const std::vector<std::string>& operands() const { return operands_; }
   bool has(std::string_view option) const { return values_.contains(option); }
   const std::string& last(std::string_view option) const;       // of an option that was given
   std::vector<std::string> all(std::string_view option) const;  // in the order given
 
  private:
   std::string program_, operand_;
+  std::vector<std::string> operands_;
   std::vector<std::string> words_;  // from the command's name on
   std::map<std::string, std::vector<std::string>, std::less<>> values_;
 };
@@ -63,8 +65,8 @@ std::string shell_quoted(const std::string& word);
 inline constexpr Option kSet{"--set", "PATH=VALUE",
                              "change a value of the scene, e.g. contacts.tip.restitution=0.3 (repeatable)"};
 inline constexpr Option kPlugin{"--plugin", "LIB", "a plugin library, or a folder of them (repeatable)"};
-inline constexpr Option kAllowScenePlugins{"--allow-scene-plugins", "",
-                                           "load the libraries that the scene names under \"plugins\": their code runs"};
+inline constexpr Option kAllowScenePlugins{
+    "--allow-scene-plugins", "", "load the libraries that the scene names under \"plugins\": their code runs"};
 inline constexpr Option kJson{"--json", "", "print one JSON object on standard output and nothing else"};
 
 // One function per file of the same name.
@@ -78,5 +80,6 @@ Command describe_command();
 Command schema_command();
 Command seal_command();
 Command check_command();
+Command new_command();
 
 }  // namespace trammel::tool

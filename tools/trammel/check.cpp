@@ -27,6 +27,9 @@ constexpr Option kWith{"--with", "JSON",
                        "the component's parameters, an object as in a scene (repeatable: forms checked in turn); "
                        "\"space\": \"spatial\" for one in space"};
 constexpr Option kExpect{"--expect", "CHECK=REASON", "this check may fail, for this reason (repeatable)"};
+constexpr Option kComponent{"--component", "NAME", "one component of a library with several; all of them if left out"};
+constexpr Option kLimit{"--limit", "SECONDS",
+                        "of one check, then it counts as timed out; 30 if left out, 4 times as long at level full"};
 constexpr Option kInProcess{"--in-process", "",
                             "in this process, for a debugger; else each check runs in one of its own"};
 constexpr Option kList{"--list", "", "the checks and their claims, without running them"};
@@ -59,6 +62,8 @@ kit::Request request_of(const Arguments& a) {
   if (a.has("--level")) request.level = level_of(a.last("--level"));
   if (a.has("--seed")) request.seed = number_of("--seed", a.last("--seed"));
   if (a.has("--only")) request.only = a.last("--only");
+  if (a.has("--component")) request.component = a.last("--component");
+  if (a.has("--limit")) request.limit = std::chrono::seconds(number_of("--limit", a.last("--limit")));
   for (const std::string& text : a.all("--expect")) {
     const auto equals = text.find('=');
     if (equals == text.npos || equals + 1 == text.size())
@@ -82,7 +87,7 @@ std::vector<std::string> with_type(std::vector<std::string> objects, const std::
 
 std::string alone(const Arguments& a, const std::string& check) {
   std::string text = fmt::format("trammel check {} --only {} --in-process", shell_quoted(a.operand()), check);
-  for (const char* option : {"--plugin", "--with", "--level", "--seed"})
+  for (const char* option : {"--component", "--plugin", "--with", "--level", "--seed"})
     for (const std::string& value : a.all(option)) text += fmt::format(" {} {}", option, shell_quoted(value));
   return text;
 }
@@ -197,7 +202,7 @@ Command check_command() {
   return {"check",
           "LIB|COMPONENT",
           "Measure whether a plugin keeps its contract and its claims, each check in a process of its own.",
-          {kLevel, kOnly, kSeed, kWith, kExpect, kPlugin, kInProcess, kList, kJson},
+          {kLevel, kOnly, kComponent, kSeed, kLimit, kWith, kExpect, kPlugin, kInProcess, kList, kJson},
           check};
 }
 

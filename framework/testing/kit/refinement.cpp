@@ -83,9 +83,7 @@ Report keeps_its_momentum(const Subject& s) {
     const Refined r(s, 1e-3);
     const auto *a = dynamic_cast<const HasMomentum*>(r.coarse.get()),
                *b = dynamic_cast<const HasMomentum*>(r.fine.get());
-    if (!a || !b) return;
-    const Momentum p = a->momentum(r.before.t, r.before.q, r.before.v),
-                   n = b->momentum(r.after.t, r.after.q, r.after.v);
+    const Momentum p = a.momentum(r.before.t, r.before.q, r.before.v), n = b.momentum(r.after.t, r.after.q, r.after.v);
     c.within(n.mass, p.mass, 1e-12 * p.mass, "mass");
     c.within(Vec(n.linear), Vec(p.linear), 1e-9 * (p.linear.norm() + p.mass * 1e-3), "linear momentum");
     c.within(Vec(n.angular), Vec(p.angular), 1e-9 * (p.angular.norm() + p.mass * 1e-3), "angular momentum");
@@ -103,6 +101,11 @@ Report keeps_its_markers(const Subject& s) {
       c.within(Vec(b.V), Vec(a.V), 1e-9 * (1 + a.V.norm()), "velocity of " + name);
     }
   });
+}
+
+std::string tells_no_momentum(const Subject& s) {
+  const std::string no = never_due(s);
+  return !no.empty() || s.offers<HasMomentum>() ? no : "it does not offer HasMomentum";
 }
 
 Report becomes_larger(const Subject& s) {
@@ -147,7 +150,7 @@ Checks refinable_checks() {
        Level::quick, keeps_its_energies, never_due},
       {words("keeps-the-momentum", "A refinement changes no mass and no momentum.", "P(q', v') = P(q, v)",
              "Mass and momentum, for the balance before and after a refinement."),
-       Level::quick, keeps_its_momentum, never_due},
+       Level::quick, keeps_its_momentum, tells_no_momentum},
       {words("keeps-the-markers", "Markers keep their names, places and velocities.",
              "x(q') = x(q), V(q', v') = V(q, v)",
              "Markers keep their names and indices; Motion objects are created anew."),

@@ -60,11 +60,18 @@ Json look_around(const Request& request) {
   plugin::Registry registry(is_file(request.operand) ? plugin::Registry::Start::empty
                                                      : plugin::Registry::Start::installed);
   Json found = Json::array();
-  for (const plugin::Entry* entry : entries_of(request, registry))
+  std::vector<std::string> names;
+  for (const plugin::Entry* entry : entries_of(request, registry)) {
+    names.push_back(entry->declaration.name);
+    if (!request.component.empty() && entry->declaration.name != request.component) continue;
     found.push_back({{"kind", to_string(entry->declaration.kind)},
                      {"name", entry->declaration.name},
                      {"file", entry->file},
                      {"interface", interface_of_entry(request, *entry)}});
+  }
+  if (found.empty())
+    return {{"nothing", fmt::format("{} has no component \"{}\"{}", request.operand, request.component,
+                                    scene::did_you_mean(request.component, names))}};
   return {{"components", found}};
 }
 

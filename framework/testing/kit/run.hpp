@@ -17,6 +17,7 @@ namespace trammel::kit {
 
 struct Request {
   std::string operand;                    // a library's file, or a component's name
+  std::string component = {};             // of a library with several; "": all of them
   std::vector<std::string> plugins = {};  // further libraries and folders to look for it
   Level level = Level::quick;
   unsigned seed = 1;
