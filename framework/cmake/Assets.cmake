@@ -1,0 +1,10 @@
+# Writes the files of a report, FILES, into one C++ source OUTPUT: cmake -DOUTPUT=... -DFILES=... -P Assets.cmake
+set(text "// Generated from framework/report/assets and Debian's dygraphs.\n#include \"report/assets.hpp\"\n\n")
+string(APPEND text "namespace trammel::report {\n\nstd::string_view asset(std::string_view name) {\n")
+foreach(file ${FILES})
+  get_filename_component(name ${file} NAME)
+  file(READ ${file} content)
+  string(APPEND text "  if (name == \"${name}\") return R\"asset(${content})asset\";\n")
+endforeach()
+string(APPEND text "  return {};\n}\n\n}  // namespace trammel::report\n")
+file(WRITE ${OUTPUT} "${text}")
