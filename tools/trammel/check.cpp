@@ -9,7 +9,10 @@
 
 #include "arguments.hpp"
 #include "input.hpp"
+#include "report/page.hpp"
 #include "testing/kit/catalogue.hpp"
+#include "testing/kit/child.hpp"
+#include "testing/kit/page.hpp"
 #include "testing/kit/run.hpp"
 
 namespace trammel::tool {
@@ -27,6 +30,8 @@ constexpr Option kWith{"--with", "JSON",
                        "the component's parameters, an object as in a scene (repeatable: forms checked in turn); "
                        "\"space\": \"spatial\" for one in space"};
 constexpr Option kExpect{"--expect", "CHECK=REASON", "this check may fail, for this reason (repeatable)"};
+constexpr Option kReport{"--report", "FILE",
+                         "write an HTML page: verdicts, order plots, spectral radius, drifts, work against precision"};
 constexpr Option kComponent{"--component", "NAME", "one component of a library with several; all of them if left out"};
 constexpr Option kLimit{"--limit", "SECONDS",
                         "of one check, then it counts as timed out; 30 if left out, 4 times as long at level full"};
@@ -173,12 +178,46 @@ kit::Verdicts verdicts_of(const Arguments& a, kit::Request request, const kit::S
   }
 }
 
+// The measured page costs minutes and executes the plugin's code: in a child, too.
+report::Page page_of(const kit::Request& request, const kit::Surveyed& component, const kit::Verdicts& verdicts) {
+  report::Page page = kit::verdict_page(verdicts);
+  const kit::Ending ending = kit::run_in_child({[&] {
+                                                  try {
+                                                    return kit::text_of(kit::measured_page(request, component, page));
+                                                  } catch (const std::exception& e) {
+                                                    return std::string("!") + e.what();
+                                                  }
+                                                },
+                                                std::chrono::minutes(10)});
+  if (ending.how == kit::Ending::How::answered && !ending.answer.starts_with('!'))
+    return kit::page_of_text(ending.answer);
+  page.sentences.push_back(
+      fmt::format("The figures could not be measured: {}.",
+                  ending.how == kit::Ending::How::answered ? ending.answer.substr(1) : ending.cause));
+  return page;
+}
+
+void write_report(const std::string& file, const report::Page& page) {
+  std::ofstream out(file);
+  out << report::html(page);
+  out.close();
+  if (!out) throw UsageError(fmt::format("--report {}: the file cannot be written", file));
+}
+
+// my.html for the only component, my_NAME.html for one of several.
+std::string report_file(std::string file, const std::string& name, bool several) {
+  if (!several) return file;
+  const auto dot = file.rfind('.');
+  return file.insert(dot == file.npos ? file.size() : dot, "_" + name);
+}
+
 Exit check(const Arguments& a) {
   const kit::Request request = request_of(a);
   const bool json = a.has("--json");
   Json components = Json::array();
   int failed = 0;
-  for (const kit::Surveyed& component : components_of(request)) {
+  const auto found = components_of(request);
+  for (const kit::Surveyed& component : found) {
     if (a.has("--list")) {
       print_list(component);
       continue;
@@ -187,6 +226,12 @@ Exit check(const Arguments& a) {
     failed += verdicts.failed();
     components.push_back(kit::to_json(verdicts));
     if (!json) print_summary(a, verdicts);
+    if (!a.has("--report")) continue;
+    const std::string file = report_file(a.last("--report"), component.name, found.size() > 1);
+    const report::Page page = page_of(request, component, verdicts);
+    write_report(file, page);
+    components.back()["page"] = report::to_json(page);
+    if (!json) fmt::print("report: {}\n", file);
   }
   if (json)
     print_json({{"status", failed ? "failed" : "done"},
@@ -202,7 +247,7 @@ Command check_command() {
   return {"check",
           "LIB|COMPONENT",
           "Measure whether a plugin keeps its contract and its claims, each check in a process of its own.",
-          {kLevel, kOnly, kComponent, kSeed, kLimit, kWith, kExpect, kPlugin, kInProcess, kList, kJson},
+          {kLevel, kOnly, kComponent, kSeed, kLimit, kWith, kExpect, kReport, kPlugin, kInProcess, kList, kJson},
           check};
 }
 

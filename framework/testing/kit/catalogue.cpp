@@ -5,9 +5,9 @@
 #include <trammel/correction.hpp>
 #include <trammel/friction.hpp>
 
-#include "testing/kit/common.hpp"
-#include "testing/kit/components.hpp"
-#include "testing/kit/integrators.hpp"
+#include "testing/kit/components/common.hpp"
+#include "testing/kit/components/components.hpp"
+#include "testing/kit/integrators/integrators.hpp"
 
 namespace trammel::kit {
 

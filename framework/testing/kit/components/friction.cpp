@@ -7,7 +7,7 @@
 #include <trammel/friction.hpp>
 
 #include "testing/difference.hpp"
-#include "testing/kit/components.hpp"
+#include "testing/kit/components/components.hpp"
 
 namespace trammel::kit {
 

@@ -1,4 +1,4 @@
-#include "testing/kit/integrator_problems.hpp"
+#include "testing/kit/integrators/problems.hpp"
 
 #include <cmath>
 
@@ -103,6 +103,7 @@ void Failing::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
 }
 
 void Failing::factorise(Blend b, const Vec& a, const Vec& lambda, Factors kept) {
+  ++evaluations;
   iterations_factorised += kept == Factors::iteration && (b.c_d != 0 || b.c_k != 0);
   sound_.factorise(b, a, lambda, kept);
 }

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "testing/flow.hpp"
-#include "testing/kit/integrator_problems.hpp"
+#include "testing/kit/integrators/problems.hpp"
 #include "testing/kit/subject.hpp"
 
 namespace trammel::kit {
 
 Checks integrator_checks();
 
-// integrator_contract.cpp
+// contract.cpp
 Report trial_leaves_no_trace(const Subject& s);
 Report reads_nothing_from_next(const Subject& s);
 Report takes_an_earlier_trial(const Subject& s);
@@ -24,7 +24,7 @@ Report does_not_depend_on_the_order_of_coordinates(const Subject& s);
 Report does_not_depend_on_the_unit_of_length(const Subject& s);
 Report iterates_only_if_implicit(const Subject& s);
 
-// integrator_extremes.cpp
+// extremes.cpp
 Report any_step_is_finite_or_rejected(const Subject& s);
 Report rejects_what_is_not_a_number(const Subject& s);
 Report survives_any_failure(const Subject& s);
@@ -32,7 +32,7 @@ Report takes_any_mass_ratio(const Subject& s);
 Report takes_any_time(const Subject& s);
 Report allocates_nothing(const Subject& s);
 
-// integrator_abilities.cpp
+// abilities.cpp
 Report energy_error_shrinks(const Subject& s);
 Report holds_its_rows(const Subject& s, const Problem& problem);
 Report is_stable_for_small_steps(const Subject& s);

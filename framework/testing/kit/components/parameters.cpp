@@ -7,7 +7,7 @@
 
 #include "plugin/describe.hpp"
 #include "plugin/plugin_error.hpp"
-#include "testing/kit/common.hpp"
+#include "testing/kit/components/common.hpp"
 #include "testing/kit/exercise.hpp"
 #include "testing/kit/sample.hpp"
 

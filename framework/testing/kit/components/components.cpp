@@ -1,4 +1,4 @@
-#include "testing/kit/components.hpp"
+#include "testing/kit/components/components.hpp"
 
 #include <algorithm>
 #include <cctype>

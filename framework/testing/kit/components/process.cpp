@@ -13,7 +13,7 @@
 #include <iostream>
 
 #include "plugin/process_settings.hpp"
-#include "testing/kit/common.hpp"
+#include "testing/kit/components/common.hpp"
 #include "testing/kit/exercise.hpp"
 
 namespace trammel::kit {

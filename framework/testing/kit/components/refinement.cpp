@@ -6,7 +6,7 @@
 #include <trammel/testing/archive.hpp>
 
 #include "testing/body_under_test.hpp"
-#include "testing/kit/components.hpp"
+#include "testing/kit/components/components.hpp"
 
 namespace trammel::kit {
 

@@ -1,4 +1,4 @@
-#include "testing/kit/order.hpp"
+#include "testing/kit/integrators/order.hpp"
 
 #include <fmt/format.h>
 

@@ -31,7 +31,7 @@ Problem nothing();  // nv = 0
 // The same motion, t_0 later.
 Problem shifted(Problem problem, double t_0);
 
-// Forwards to a system, and answers the n-th request for forces, accelerations or corrections with what no method can
+// Forwards to a system, counts what is asked, and answers the n-th request for forces, accelerations or corrections with what no method can
 // use.
 class Failing final : public System {
  public:
@@ -45,7 +45,10 @@ class Failing final : public System {
   void normalise(Vec& q) const override { sound_.normalise(q); }
   void retract(const Vec& q, const Vec& dq, Vec& q_new) const override { sound_.retract(q, dq, q_new); }
   void difference(const Vec& q1, const Vec& q0, Vec& dq) const override { sound_.difference(q1, q0, dq); }
-  void move_to(double t, const Vec& q, const Vec& v) override { sound_.move_to(t, q, v); }
+  void move_to(double t, const Vec& q, const Vec& v) override {
+    ++evaluations;
+    sound_.move_to(t, q, v);
+  }
   const Vec& f() override;
   const Vec& g() override { return sound_.g(); }
   const Vec& g_dot() override { return sound_.g_dot(); }
@@ -58,6 +61,7 @@ class Failing final : public System {
   void factorise(Blend b, const Vec& a, const Vec& lambda, Factors kept) override;
   [[nodiscard]] bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda, Factors kept) override;
 
+  long long evaluations = 0;      // at a point, and factorisations
   int iterations_factorised = 0;  // with c_d or c_k: what only an implicit method asks for
 
  private:

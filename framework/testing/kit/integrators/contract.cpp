@@ -6,8 +6,8 @@
 
 #include <trammel/testing/archive.hpp>
 
-#include "testing/kit/integrators.hpp"
-#include "testing/kit/order.hpp"
+#include "testing/kit/integrators/integrators.hpp"
+#include "testing/kit/integrators/order.hpp"
 
 namespace trammel::kit {
 

@@ -6,8 +6,8 @@
 #include <trammel/correction.hpp>
 
 #include "testing/difference.hpp"
-#include "testing/kit/components.hpp"
-#include "testing/kit/integrator_problems.hpp"
+#include "testing/kit/components/components.hpp"
+#include "testing/kit/integrators/problems.hpp"
 
 namespace trammel::kit {
 

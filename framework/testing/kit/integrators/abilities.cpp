@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "testing/kit/integrators.hpp"
-#include "testing/kit/order.hpp"
+#include "testing/kit/integrators/integrators.hpp"
+#include "testing/kit/integrators/order.hpp"
 
 namespace trammel::kit {
 

@@ -1,6 +1,6 @@
-#include "testing/kit/integrators.hpp"
+#include "testing/kit/integrators/integrators.hpp"
 
-#include "testing/kit/order.hpp"
+#include "testing/kit/integrators/order.hpp"
 
 namespace trammel::kit {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "testing/kit/allocation_count.hpp"
-#include "testing/kit/integrators.hpp"
+#include "testing/kit/integrators/integrators.hpp"
 
 namespace trammel::kit {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "testing/body_under_test.hpp"
-#include "testing/kit/components.hpp"
+#include "testing/kit/components/components.hpp"
 
 namespace trammel::kit {
 
