@@ -80,5 +80,7 @@ Command list_command();
 Command describe_command();
 Command schema_command();
 Command seal_command();
+Command check_command();
+Command new_command();
 
 }  // namespace trammel::tool

@@ -1,0 +1,12 @@
+# cmake -D FOLDER=templates -D TO=plugin_templates.hpp -P embed.cmake: the files of all templates as constants.
+set(text "#pragma once\n#include <string_view>\nnamespace trammel::tool {\n")
+string(APPEND text "struct PluginTemplate {\n  std::string_view folder, name, text;\n};\ninline constexpr PluginTemplate plugin_templates[] = {\n")
+file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/*/*)
+foreach(file ${files})
+  get_filename_component(folder ${file} DIRECTORY)
+  get_filename_component(name ${file} NAME)
+  file(READ ${FOLDER}/${file} content)
+  string(APPEND text "    {\"${folder}\", \"${name}\", R\"text(${content})text\"},\n")
+endforeach()
+string(APPEND text "};\n}\n")
+file(WRITE ${TO} "${text}")
