@@ -11,6 +11,7 @@
 #include <trammel/counts_turns.hpp>
 #include <trammel/fields.hpp>
 #include <trammel/integrator.hpp>
+#include <trammel/linear_theory.hpp>
 #include <trammel/linear_rows.hpp>
 #include <trammel/methods/oscillating_steps.hpp>
 #include <trammel/needs_orientation.hpp>
@@ -37,6 +38,7 @@ HasRigidMotions::~HasRigidMotions() = default;
 ErrorEstimate::~ErrorEstimate() = default;
 DenseOutput::~DenseOutput() = default;
 OscillatingSteps::~OscillatingSteps() = default;
+LinearTheory::~LinearTheory() = default;
 Resizable::~Resizable() = default;
 Transfer::~Transfer() = default;
 

@@ -39,7 +39,7 @@ def rooms_include_only_lower_rooms(source, _):
 
 
 def every_folder_is_a_room(source, _):
-    order = set(rooms(source)) | {"testing", "testing/problems"}
+    order = set(rooms(source)) | {"testing", "testing/problems", "stability"}
     for folder in folders_with_code(source):
         name = str(folder.relative_to(source / "framework")) if "framework" in folder.parts else ""
         if name and not name.startswith("include") and name not in order:

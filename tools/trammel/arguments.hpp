@@ -63,8 +63,8 @@ std::string shell_quoted(const std::string& word);
 inline constexpr Option kSet{"--set", "PATH=VALUE",
                              "change a value of the scene, e.g. contacts.tip.restitution=0.3 (repeatable)"};
 inline constexpr Option kPlugin{"--plugin", "LIB", "a plugin library, or a folder of them (repeatable)"};
-inline constexpr Option kAllowScenePlugins{"--allow-scene-plugins", "",
-                                           "load the libraries that the scene names under \"plugins\": their code runs"};
+inline constexpr Option kAllowScenePlugins{
+    "--allow-scene-plugins", "", "load the libraries that the scene names under \"plugins\": their code runs"};
 inline constexpr Option kJson{"--json", "", "print one JSON object on standard output and nothing else"};
 
 // One function per file of the same name.
@@ -77,5 +77,6 @@ Command list_command();
 Command describe_command();
 Command schema_command();
 Command seal_command();
+Command stability_command();
 
 }  // namespace trammel::tool
