@@ -46,7 +46,7 @@ Amplification roots(const Maker& make, Problem p, double v_scale) {
   }
   const Eigen::JacobiSVD<Mat> svd(Y0, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Vec sigma = svd.singularValues();
-  // The force of a stiff spring is v_scale^2 times the position: its round-off returns to the positions of the next step.
+  // The force of a stiff spring is v_scale^2 times the position: its round-off returns to the next step's positions.
   const double round_off = std::max(1e-11, 16 * std::numeric_limits<double>::epsilon() * v_scale * v_scale);
   const Eigen::Index rank = (sigma.array() > round_off * sigma[0]).count();
   const Mat A = svd.matrixU().leftCols(rank).transpose() * Y1 * svd.matrixV().leftCols(rank) *

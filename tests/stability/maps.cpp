@@ -49,8 +49,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryTheory,
                                          Case{"adams_baumgarte", {{"predictor", "ab3"}}}),
                          [](const auto& one) { return one.param.name + "_" + std::to_string(one.index); });
 
-// rho_inf of generalised alpha is the radius at infinity, a triple root there (Chung, Hulbert 1993): known to the cube root
-// of the round-off 1e-16 Omega^0.5.
+// rho_inf of generalised alpha is the radius at infinity (Chung, Hulbert 1993), a triple root there, which is known to
+// the cube root of the round-off.
 TEST(SpectralMap, OfGeneralisedAlphaEndsAtRhoInf) {
   const auto method = subject("generalized_alpha", {{"rho_inf", "0.6"}}).maker()();
   EXPECT_NEAR(oscillation(theory_of(method).roots(1e6, 0), 1e6, 0).radius, 0.6, 1e-3);

@@ -11,8 +11,8 @@ class LinearTheory {
  public:
   virtual ~LinearTheory();
   // Eigenvalues of the matrix that takes the history of one step to that of the next, with constant steps h and
-  // Omega = omega h > 0, zeta >= 0; called after `prepare`. Its spectral radius is the largest of their moduli. Roots of
-  // modulus 0 may be left out.
+  // Omega = omega h > 0, zeta >= 0; called after `prepare`. Its spectral radius is the largest of their moduli. Roots
+  // of modulus 0 may be left out.
   virtual std::vector<std::complex<double>> roots(double Omega, double zeta) const = 0;
 };
 
