@@ -54,6 +54,8 @@ struct Page {
 };
 
 nlohmann::ordered_json to_json(const Page& page);
+// Sentences and tables for a terminal; figures are left out.
+std::string text(const Page& page);
 // One HTML file that asks for nothing else.
 std::string html(const Page& page);
 

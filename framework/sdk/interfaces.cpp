@@ -12,6 +12,7 @@
 #include <trammel/faces.hpp>
 #include <trammel/fields.hpp>
 #include <trammel/integrator.hpp>
+#include <trammel/linear_theory.hpp>
 #include <trammel/linear_rows.hpp>
 #include <trammel/methods/oscillating_steps.hpp>
 #include <trammel/needs_orientation.hpp>
@@ -39,6 +40,7 @@ HasRigidMotions::~HasRigidMotions() = default;
 ErrorEstimate::~ErrorEstimate() = default;
 DenseOutput::~DenseOutput() = default;
 OscillatingSteps::~OscillatingSteps() = default;
+LinearTheory::~LinearTheory() = default;
 Resizable::~Resizable() = default;
 Transfer::~Transfer() = default;
 

@@ -1,7 +1,7 @@
 // Roots of a method's map on linear problems, from two trajectories with h = 1: states y_k obey y_(k+1) = A y_k on the
 // excited modes, so with blocks Y_0, Y_1 of states shifted by one step the roots are the eigenvalues of
 //
-//     U^T Y_1 V Sigma^-1,      Y_0 = U Sigma V^T cut at 1e-11 of the largest
+//     U^T Y_1 V Sigma^-1,      Y_0 = U Sigma V^T cut where round-off begins
 //
 // Source: Hua and Sarkar, IEEE Trans. ASSP 38 (1990) 814 (the matrix pencil). The first four steps, where a multistep
 // method may start by another, are left out.
@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <trammel/testing/measurements.hpp>
 
@@ -29,12 +30,8 @@ Mat trajectory(Integrator& method, System& s, const State& start, double v_scale
   return y;
 }
 
-Amplification roots(const Maker& make, double stiffness, double damping) {
-  Problem p;
-  p.name = "linear";
-  p.M = Mat::Ones(1, 1);
-  p.force = [=](double, const Vec& q, const Vec& v) -> Vec { return -stiffness * q - damping * v; };
-  const double v_scale = std::max(1e-3, std::max(std::sqrt(stiffness), damping));
+// Of a problem of one coordinate; v_scale: its speeds per length [1/s].
+Amplification roots(const Maker& make, Problem p, double v_scale) {
   Mat Y0(2 * deep, 2 * wide), Y1 = Y0;
   for (int j = 0; j < 2; ++j) {
     p.exact = [=](double, Vec& q, Vec& v) { q = Vec::Constant(1, j == 0), v = Vec::Constant(1, j == 1 ? v_scale : 0); };
@@ -49,7 +46,9 @@ Amplification roots(const Maker& make, double stiffness, double damping) {
   }
   const Eigen::JacobiSVD<Mat> svd(Y0, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Vec sigma = svd.singularValues();
-  const Eigen::Index rank = (sigma.array() > 1e-11 * sigma[0]).count();
+  // The force of a stiff spring is v_scale^2 times the position: its round-off returns to the next step's positions.
+  const double round_off = std::max(1e-11, 16 * std::numeric_limits<double>::epsilon() * v_scale * v_scale);
+  const Eigen::Index rank = (sigma.array() > round_off * sigma[0]).count();
   const Mat A = svd.matrixU().leftCols(rank).transpose() * Y1 * svd.matrixV().leftCols(rank) *
                 sigma.head(rank).cwiseInverse().asDiagonal();
   Amplification found;
@@ -60,10 +59,33 @@ Amplification roots(const Maker& make, double stiffness, double damping) {
   return found;
 }
 
+Amplification roots(const Maker& make, double stiffness, double damping) {
+  Problem p;
+  p.name = "linear";
+  p.M = Mat::Ones(1, 1);
+  p.force = [=](double, const Vec& q, const Vec& v) -> Vec { return -stiffness * q - damping * v; };
+  return roots(make, p, std::max(1e-3, std::max(std::sqrt(stiffness), damping)));
+}
+
 }  // namespace
+
+Amplification row_amplification(const Maker& make) {
+  Problem p;
+  p.name = "row";
+  p.M = Mat::Ones(1, 1);
+  p.force = [](double, const Vec&, const Vec&) -> Vec { return Vec::Zero(1); };
+  p.rows = [](double, const Vec& q, const Vec& /*v*/) -> Problem::Rows {
+    return {.g = q, .g_t = Vec::Zero(1), .gamma = Vec::Zero(1), .G = Mat::Ones(1, 1)};
+  };
+  return roots(make, p, 1);
+}
 
 Amplification amplification(const Maker& make, double Omega) {
   return roots(make, Omega * Omega, 0);
+}
+
+Amplification amplification(const Maker& make, double Omega, double zeta) {
+  return roots(make, Omega * Omega, 2 * zeta * Omega);
 }
 
 double stability_limit(const Maker& make, Axis axis, double most) {

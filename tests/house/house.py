@@ -40,7 +40,7 @@ def rooms_include_only_lower_rooms(source, _):
 
 def every_folder_is_a_room(source, _):
     order = set(rooms(source)) | {"testing", "testing/problems", "testing/kit", "testing/kit/components",
-                                 "testing/kit/integrators"}
+                                 "testing/kit/integrators", "stability"}
     for folder in folders_with_code(source):
         name = str(folder.relative_to(source / "framework")) if "framework" in folder.parts else ""
         if name and not name.startswith("include") and name not in order:

@@ -82,5 +82,6 @@ Command schema_command();
 Command seal_command();
 Command check_command();
 Command new_command();
+Command stability_command();
 
 }  // namespace trammel::tool

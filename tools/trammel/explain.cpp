@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "arguments.hpp"
+#include "commands/simulation.hpp"
 #include "input.hpp"
 #include "last_words.hpp"
-#include "commands/simulation.hpp"
 
 namespace trammel::tool {
 

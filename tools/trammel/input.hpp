@@ -12,6 +12,8 @@
 
 namespace trammel::tool {
 
+// The --set options. Throws UsageError.
+std::vector<scene::Override> overrides(const Arguments& arguments);
 // The operand with its --set overrides, then `more`. Throws scene::SceneError.
 scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override> more = {});
 

@@ -31,7 +31,7 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> all = {run_command(),      static_command(),  modes_command(),    report_command(),
                                            validate_command(), explain_command(), list_command(),
                                            describe_command(), schema_command(),  seal_command(),
-                                           check_command(),    new_command()};
+                                           new_command(), check_command(), stability_command()};
   return all;
 }
 

@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include "arguments.hpp"
+#include "commands/modal_analysis.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "last_words.hpp"
 #include "results_folder.hpp"
-#include "commands/modal_analysis.hpp"
 
 namespace trammel::tool {
 

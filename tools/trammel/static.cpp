@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include "arguments.hpp"
+#include "commands/simulation.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "last_words.hpp"
 #include "progress.hpp"
 #include "results_folder.hpp"
-#include "commands/simulation.hpp"
 
 namespace trammel::tool {
 

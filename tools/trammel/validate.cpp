@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "arguments.hpp"
+#include "commands/simulation.hpp"
 #include "input.hpp"
 #include "last_words.hpp"
-#include "commands/simulation.hpp"
 
 namespace trammel::tool {
 

@@ -15,9 +15,11 @@
 #include <limits>
 #include <string>
 
+#include <trammel/linear_theory.hpp>
+#include <trammel/methods/linear_roots.hpp>
+#include <trammel/methods/runge_kutta.hpp>
 #include <trammel/plugin.hpp>
 #include <trammel/row_parameters.hpp>
-#include <trammel/methods/runge_kutta.hpp>
 
 namespace {
 
@@ -32,7 +34,7 @@ constexpr double bashforth_4[] = {55.0 / 24, -59.0 / 24, 37.0 / 24, -9.0 / 24};
 constexpr double bashforth_3[] = {23.0 / 12, -16.0 / 12, 5.0 / 12, 0};
 constexpr double moulton_4[] = {19.0 / 24, -5.0 / 24, 1.0 / 24, 0};  // of past slopes; the prediction has 9/24
 
-class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
+class AdamsBaumgarte final : public Integrator, public ErrorEstimate, public LinearTheory {
  public:
   enum class Predictor { ab4, ab3 };
   double delta = 10, epsilon = 50;
@@ -88,6 +90,20 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate {
     });
   }
   int error_order() const override { return multistep_ && predictor == Predictor::ab4 ? 5 : 4; }
+
+  // y_{n+1} = y_n + z sum_i moulton_i y_{n-i} + 9/24 z (y_n + z sum_i bashforth_i y_{n-i})
+  Roots roots(double Omega, double zeta) const override {
+    const double* bashforth = predictor == Predictor::ab4 ? bashforth_4 : bashforth_3;
+    Roots all;
+    for (const std::complex<double> z : oscillator_eigenvalues(Omega, zeta)) {
+      Eigen::VectorXcd powers(4);
+      for (int i = 0; i < 4; ++i) powers[i] = z * moulton_4[i] + 9.0 / 24 * z * z * bashforth[i];
+      powers[0] += 1.0 + 9.0 / 24 * z;
+      const Roots of_one = polynomial_roots(powers);
+      all.insert(all.end(), of_one.begin(), of_one.end());
+    }
+    return all;
+  }
 
   void archive(Archive& archive) override {
     starter_.archive(archive);

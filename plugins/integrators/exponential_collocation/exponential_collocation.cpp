@@ -23,9 +23,9 @@
 
 #include <trammel/methods/error_norm.hpp>
 #include <trammel/methods/oscillating_steps.hpp>
+#include <trammel/methods/runge_kutta.hpp>
 #include <trammel/plugin.hpp>
 #include <trammel/row_parameters.hpp>
-#include <trammel/methods/runge_kutta.hpp>
 
 #include "collocation_weights.hpp"
 #include "small_oscillations.hpp"

@@ -6,6 +6,8 @@
 //
 // with the rows of NewmarkStep (stabilised or index 3). Second order for gamma = 1/2, otherwise first order with
 // damping; stable for every step if 2 beta >= gamma >= 1/2. Newmark, J. Eng. Mech. Div. ASCE 85(3), 67-94 (1959).
+#include <trammel/linear_theory.hpp>
+#include <trammel/methods/linear_roots.hpp>
 #include <trammel/methods/newmark_error.hpp>
 #include <trammel/methods/newmark_parameters.hpp>
 #include <trammel/methods/newmark_step.hpp>
@@ -15,7 +17,7 @@ namespace {
 
 using namespace trammel;
 
-class Newmark final : public Integrator, public ErrorEstimate {
+class Newmark final : public Integrator, public ErrorEstimate, public LinearTheory {
  public:
   double beta = 0.25, gamma = 0.5;
   Formulation formulation = Formulation::stabilised;
@@ -62,6 +64,9 @@ class Newmark final : public Integrator, public ErrorEstimate {
   }
   int error_order() const override { return error_.order(); }
   void archive(Archive& a) override { error_.archive(a); }
+  Roots roots(double Omega, double zeta) const override {
+    return alpha_roots({.alpha_m = 0, .alpha_f = 0, .beta = beta, .gamma = gamma}, Omega, zeta);
+  }
 
  private:
   NewmarkStep step_;

@@ -9,13 +9,15 @@
 //         trammel::part<HhtAlpha>("hht_alpha", "...").source("...").parameter("alpha", &HhtAlpha::alpha, {.max = 0})))
 #pragma once
 
+#include <trammel/linear_theory.hpp>
 #include <trammel/methods/alpha_method.hpp>
+#include <trammel/methods/linear_roots.hpp>
 #include <trammel/methods/newmark_parameters.hpp>
 
 namespace trammel {
 
 template <class Method>
-class AlphaIntegrator final : public Integrator, public ErrorEstimate {
+class AlphaIntegrator final : public Integrator, public ErrorEstimate, public LinearTheory {
  public:
   Method weighted;
   Formulation formulation = Formulation::stabilised;
@@ -41,6 +43,7 @@ class AlphaIntegrator final : public Integrator, public ErrorEstimate {
   }
   int error_order() const override { return method_.error_order(); }
   void archive(Archive& a) override { method_.archive(a); }
+  Roots roots(double Omega, double zeta) const override { return alpha_roots(weighted.weights(), Omega, zeta); }
 
  private:
   AlphaMethod method_;

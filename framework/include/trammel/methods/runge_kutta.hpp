@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include <trammel/methods/error_along_rows.hpp>
 #include <trammel/integrator.hpp>
+#include <trammel/methods/error_along_rows.hpp>
 
 namespace trammel {
 

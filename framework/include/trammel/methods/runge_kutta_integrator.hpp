@@ -18,6 +18,8 @@
 
 #include <type_traits>
 
+#include <trammel/linear_theory.hpp>
+#include <trammel/methods/linear_roots.hpp>
 #include <trammel/methods/runge_kutta.hpp>
 #include <trammel/row_parameters.hpp>
 
@@ -42,6 +44,7 @@ template <class Method>
 class RungeKuttaIntegrator final
     : public Integrator,
       public ErrorEstimate,
+      public LinearTheory,
       public std::conditional_t<detail::Interpolated<Method>, DenseOutput, detail::NotInterpolated> {
  public:
   double delta = Method::baumgarte.alpha, epsilon = Method::baumgarte.beta;
@@ -80,6 +83,8 @@ class RungeKuttaIntegrator final
       if (!method_.recall(s, now, next) || !Method::interpolate(method_, s, now, next, theta, at))
         method_.step_inside(s, now, next, theta, at);
   }
+
+  Roots roots(double Omega, double zeta) const override { return runge_kutta_roots(Method::tableau, Omega, zeta); }
 
   void archive(Archive& archive) override {
     method_.archive(archive);

@@ -47,6 +47,10 @@ struct Amplification {
   std::vector<std::complex<double>> roots;
 };
 Amplification amplification(const Maker& method, double Omega);  // x'' = -Omega^2 x, h = 1
+// x'' + 2 zeta Omega x' + Omega^2 x = 0, h = 1
+Amplification amplification(const Maker& method, double Omega, double zeta);
+// Of a particle under the row q = 0, from positions and velocities off the row, h = 1: how its violation shrinks.
+Amplification row_amplification(const Maker& method);
 
 enum class Axis { imaginary, negative_real };  // x'' = -z^2 x, and v' = -z v, h = 1
 // The smallest z up to `most`, in a scan by 0.01, above which the radius exceeds 1 + 1e-6; `most` if there is none.
