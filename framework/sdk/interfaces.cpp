@@ -8,6 +8,7 @@
 #include <trammel/body.hpp>
 #include <trammel/component.hpp>
 #include <trammel/contact.hpp>
+#include <trammel/correction.hpp>
 #include <trammel/counts_turns.hpp>
 #include <trammel/fields.hpp>
 #include <trammel/integrator.hpp>
@@ -39,6 +40,9 @@ DenseOutput::~DenseOutput() = default;
 OscillatingSteps::~OscillatingSteps() = default;
 Resizable::~Resizable() = default;
 Transfer::~Transfer() = default;
+
+// Of corrections.
+NeedsMomentum::~NeedsMomentum() = default;
 
 // Abilities of bodies.
 SharedMotion::~SharedMotion() = default;
