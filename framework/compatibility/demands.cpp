@@ -39,8 +39,7 @@ bool turns_in_space(const model::BodyEntry& body) {
 std::vector<Demand> demands(const model::Model& model) {
   std::vector<Demand> all;
   if (const std::vector<model::RowGroup> groups = model::row_groups(model); !groups.empty())
-    add(all, Need::rows,
-        fmt::format("{} has {}", groups.front().path, groups.front().count == 1 ? "a row" : "rows"));
+    add(all, Need::rows, fmt::format("{} has {}", groups.front().path, groups.front().count == 1 ? "a row" : "rows"));
   for (const model::ContactEntry& contact : model.contacts)
     for (const Need need : ContactLaws(contact).needs()) add(all, need, cause_of(need, contact));
   for (const model::BodyEntry& body : model.bodies)

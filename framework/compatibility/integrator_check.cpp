@@ -11,8 +11,7 @@ namespace trammel::compatibility {
 namespace {
 
 std::string those_that_take(Need need, plugin::Registry& registry) {
-  return names_that<Integrator>(registry, Kind::integrator,
-                                [need](const Integrator& one) { return takes(one, need); });
+  return names_that<Integrator>(registry, Kind::integrator, [need](const Integrator& one) { return takes(one, need); });
 }
 
 // The choice of the scene without which the same method takes it; empty: there is none.
@@ -22,8 +21,8 @@ std::string refusing_choice(const ChosenIntegrator& chosen, Need need, plugin::R
   if (!taken(all.front())) return "";
   for (const Form& form : all) {
     const scene::Value* value = chosen.value.at_path(form.parameter);
-    if (!form.parameter.empty() && value && value->type() == scene::Value::Type::text &&
-        value->text() == form.choice && !taken(form))
+    if (!form.parameter.empty() && value && value->type() == scene::Value::Type::text && value->text() == form.choice &&
+        !taken(form))
       return fmt::format(" with \"{}\": \"{}\"", form.parameter, form.choice);
   }
   return "";
@@ -31,9 +30,9 @@ std::string refusing_choice(const ChosenIntegrator& chosen, Need need, plugin::R
 
 void refuse(const ChosenIntegrator& chosen, Need need, const std::string& cause, plugin::Registry& registry,
             scene::Problems& problems) {
-  problems.error(chosen.value.problem(fmt::format(
-      "\"{}\"{} takes no {}, but {}; integrators that take them: {}", chosen.type,
-      refusing_choice(chosen, need, registry), noun(need), cause, those_that_take(need, registry))));
+  problems.error(chosen.value.problem(fmt::format("\"{}\"{} takes no {}, but {}; integrators that take them: {}",
+                                                  chosen.type, refusing_choice(chosen, need, registry), noun(need),
+                                                  cause, those_that_take(need, registry))));
 }
 
 void check_error_estimate(const ChosenIntegrator& chosen, const simulate::Settings& settings,
@@ -43,8 +42,8 @@ void check_error_estimate(const ChosenIntegrator& chosen, const simulate::Settin
        {std::pair{"step", &settings.step}, std::pair{"contact_step", &settings.contact_step}})
     if (const scene::Value* step = chosen.value.find(key); step && !choice->fixed)
       problems.error(step->problem(
-          fmt::format("\"{}\" cannot estimate its error, so it takes fixed steps only; those that can: {}",
-                      chosen.type, those_that_take(Need::error_estimate, registry))));
+          fmt::format("\"{}\" cannot estimate its error, so it takes fixed steps only; those that can: {}", chosen.type,
+                      those_that_take(Need::error_estimate, registry))));
 }
 
 }  // namespace
@@ -60,8 +59,7 @@ void check_redundant_rows(const ChosenIntegrator& chosen, model::AssembledSystem
                           plugin::Registry& registry, scene::Problems& problems) {
   if (takes(chosen.method, Need::redundant_rows)) return;
   const std::vector<simulate::RedundantRows> found = simulate::redundant_rows(system, start);
-  if (!found.empty())
-    refuse(chosen, Need::redundant_rows, simulate::description(found.front()), registry, problems);
+  if (!found.empty()) refuse(chosen, Need::redundant_rows, simulate::description(found.front()), registry, problems);
 }
 
 }  // namespace trammel::compatibility

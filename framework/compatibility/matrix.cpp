@@ -61,13 +61,19 @@ LawPair pair(const std::optional<Form>& contact, const std::optional<Form>& fric
   const Component* const normal = contact ? contact->component.get() : nullptr;
   const Component* const tangential = friction ? friction->component.get() : nullptr;
   const ContactLaws laws(normal, tangential);
-  LawPair one{contact, friction, "", laws.needs(), laws.needs_fixed_steps(),
-              text_or_empty(laws.why_not_in_statics()), text_or_empty(laws.why_not_in_modes())};
+  LawPair one{contact,
+              friction,
+              "",
+              laws.needs(),
+              laws.needs_fixed_steps(),
+              text_or_empty(laws.why_not_in_statics()),
+              text_or_empty(laws.why_not_in_modes())};
   if (normal && tangential) one.why_not = text_or_empty(model::why_apart(*normal, *tangential));
   // The friction of a joint follows from the joint's reaction (joint_friction_input.cpp).
   if (!normal && laws.sticking && laws.sticking->decide() == SetValuedFriction::Decide::every_evaluation)
-    one.why_not = "friction that is decided at every evaluation takes the normal force as given; that of a joint's "
-                  "bearing follows from its reaction";
+    one.why_not =
+        "friction that is decided at every evaluation takes the normal force as given; that of a joint's "
+        "bearing follows from its reaction";
   return one;
 }
 

@@ -26,9 +26,9 @@ struct IntegratorForm {
 // A contact law alone, with a friction law, or a friction law in a joint (no contact).
 struct LawPair {
   std::optional<Form> contact, friction;
-  std::string why_not;        // why they do not go together; empty: they do
-  std::vector<Need> needs;    // of the integrator
-  bool fixed_steps = false;   // and nothing else
+  std::string why_not;       // why they do not go together; empty: they do
+  std::vector<Need> needs;   // of the integrator
+  bool fixed_steps = false;  // and nothing else
   std::string why_no_statics, why_no_modes;
 };
 
@@ -40,8 +40,8 @@ struct CorrectionForm {
 
 struct BodyKind {
   std::string type;
-  bool rows = false, refines = false;         // needs them of the integrator
-  bool rotations = false;                     // in a spatial scene
+  bool rows = false, refines = false;  // needs them of the integrator
+  bool rotations = false;              // in a spatial scene
   bool momentum = false, exact_tangent = false, surface = false, fields = false, theory_limit = false;
 };
 

@@ -135,8 +135,11 @@ std::string text(const Matrix& matrix) {
 }
 
 json to_json(const Matrix& matrix) {
-  json all = {{"needs", json::array()},     {"integrators", json::array()}, {"laws", json::array()},
-              {"corrections", json::array()}, {"bodies", json::array()}};
+  json all = {{"needs", json::array()},
+              {"integrators", json::array()},
+              {"laws", json::array()},
+              {"corrections", json::array()},
+              {"bodies", json::array()}};
   for (const Need need : every_need) all["needs"].push_back({{"name", name(need)}, {"what", noun(need)}});
   for (const IntegratorForm& one : matrix.integrators) {
     json entry = form_json(one.form);

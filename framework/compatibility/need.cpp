@@ -3,8 +3,7 @@
 namespace trammel::compatibility {
 
 const char* name(Need need) {
-  constexpr std::array names = {"rows",      "redundant_rows", "friction",      "jumps",
-                                "rotations", "events",         "error_estimate"};
+  constexpr std::array names = {"rows", "redundant_rows", "friction", "jumps", "rotations", "events", "error_estimate"};
   return names[std::size_t(need)];
 }
 

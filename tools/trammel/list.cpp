@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "arguments.hpp"
-#include "input.hpp"
 #include "commands/scene_topics.hpp"
 #include "compatibility/matrix.hpp"
+#include "input.hpp"
 #include "plugin/describe.hpp"
 #include "run/setting_parts.hpp"
 

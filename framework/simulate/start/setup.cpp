@@ -43,9 +43,9 @@ void read_integrator(const Value& root, plugin::Registry& registry, Setup& setup
 void check_fields(const Value& root, const model::Model& model, plugin::Registry& registry, Problems& problems) {
   const Value* asked = root.at_path("record.fields");
   if (!asked || FieldLine(model).possible()) return;
-  problems.error(asked->problem(fmt::format(
-      "no body of this scene has fields; those that do: {}",
-      compatibility::names_that<HasFields>(registry, Kind::body, [](const HasFields&) { return true; }))));
+  problems.error(asked->problem(
+      fmt::format("no body of this scene has fields; those that do: {}",
+                  compatibility::names_that<HasFields>(registry, Kind::body, [](const HasFields&) { return true; }))));
 }
 
 std::string that_correct(Correction::Level level, plugin::Registry& registry) {
