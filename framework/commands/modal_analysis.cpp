@@ -10,6 +10,7 @@
 
 #include "commands/result.hpp"
 #include "formats/matrices.hpp"
+#include "compatibility/scene_check.hpp"
 #include "modes/krylov_modes.hpp"
 #include "modes/mode_shapes.hpp"
 #include "modes/normal_modes.hpp"
@@ -39,6 +40,9 @@ class Posed {
  public:
   Posed(const scene::Scene& scene, plugin::Registry& registry, const ModesOptions& options)
       : setup_(set_up(scene, registry, purpose_of(scene.root()), options.witness)) {
+    scene::Problems problems;
+    compatibility::check_modes(*setup_.model, scene.root(), registry, problems);
+    problems.throw_if_any();
     try {
       pose(scene, options);
     } catch (...) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/law_pairs.hpp"
 #include "model/scene_keys.hpp"
 #include "plugin/parameters.hpp"
 #include "scene/suggestion.hpp"
@@ -161,32 +162,23 @@ class ContactInput {
     return true;
   }
 
-  void add_surface_friction(const Value& value, ContactEntry& entry) {
+  void add_friction(const Value& value, const Component& contact_law, ContactEntry& entry) {
     auto [law, origin] = plugin::make<Component>(registry_, Kind::friction, value, model_.world, problems_);
     if (!law) return;
-    entry.surface->friction = dynamic_cast<const SmoothFriction*>(law.get());
-    if (!entry.surface->friction)
-      problems_.error(value.problem(
-          "on a surface friction is a force at each point: it takes a smooth law such as regularized_coulomb"));
-    entry.surface->friction_law = std::move(law);
-  }
-
-  void add_friction(const Value& value, ContactEntry& entry) {
-    if (entry.surface) return add_surface_friction(value, entry);
-    auto [law, origin] = plugin::make<Component>(registry_, Kind::friction, value, model_.world, problems_);
-    if (!law) return;
-    entry.coulomb = dynamic_cast<const SetValuedFriction*>(law.get());
-    entry.smooth = dynamic_cast<const SmoothFriction*>(law.get());
-    if (!entry.coulomb == !entry.smooth)
+    const auto* coulomb = dynamic_cast<const SetValuedFriction*>(law.get());
+    const auto* smooth = dynamic_cast<const SmoothFriction*>(law.get());
+    if (!coulomb == !smooth)
       throw plugin::PluginError(origin, "load",
                                 "a friction law is either a SetValuedFriction or a SmoothFriction, exactly one");
+    if (const char* const why = why_apart(contact_law, *law)) problems_.error(value.problem(why));
+    if (entry.surface) {
+      entry.surface->friction = smooth;
+      entry.surface->friction_law = std::move(law);
+      return;
+    }
+    entry.coulomb = coulomb, entry.smooth = smooth;
     entry.friction = std::move(law);
     entry.friction_origin = origin;
-    if (entry.restitution && entry.coulomb && entry.coulomb->decide() == SetValuedFriction::Decide::every_evaluation)
-      problems_.error(
-          value.problem("friction that is decided at every evaluation takes the normal force as given: it needs a "
-                        "compliant contact, such "
-                        "as continuous_force"));
   }
 
   // "reaches": a joint with one row; "between": its markers.
@@ -261,7 +253,7 @@ class ContactInput {
       return problems_.error(value.problem(
           "each point bears a force of its own here, not one by its area: say how far the points are apart, "
           "\"spacing\": ... [m]"));
-    if (const Value* friction = value.find("friction")) add_friction(*friction, entry);
+    if (const Value* friction = value.find("friction")) add_friction(*friction, *law, entry);
     entry.law = std::move(law);
     entry.origin = origin;
     model_.contacts.push_back(std::move(entry));

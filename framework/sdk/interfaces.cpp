@@ -8,6 +8,7 @@
 #include <trammel/body.hpp>
 #include <trammel/component.hpp>
 #include <trammel/contact.hpp>
+#include <trammel/correction.hpp>
 #include <trammel/counts_turns.hpp>
 #include <trammel/faces.hpp>
 #include <trammel/fields.hpp>
@@ -43,6 +44,9 @@ OscillatingSteps::~OscillatingSteps() = default;
 LinearTheory::~LinearTheory() = default;
 Resizable::~Resizable() = default;
 Transfer::~Transfer() = default;
+
+// Of corrections.
+NeedsMomentum::~NeedsMomentum() = default;
 
 // Abilities of bodies.
 SharedMotion::~SharedMotion() = default;

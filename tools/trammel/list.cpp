@@ -4,6 +4,7 @@
 
 #include "arguments.hpp"
 #include "commands/scene_topics.hpp"
+#include "compatibility/matrix.hpp"
 #include "input.hpp"
 #include "plugin/describe.hpp"
 #include "run/setting_parts.hpp"
@@ -13,6 +14,8 @@ namespace trammel::tool {
 namespace {
 
 constexpr Option kAll{"--all", "", "also the parts of a scene and the pages on its language, for 'trammel describe'"};
+
+constexpr Option kMatrix{"--matrix", "", "what goes with what: integrators, laws, corrections and bodies"};
 
 // Topics of 'trammel describe' other than components.
 std::string pages(const std::vector<const plugin::Entry*>& entries) {
@@ -25,9 +28,27 @@ std::string pages(const std::vector<const plugin::Entry*>& entries) {
   return text;
 }
 
+void warn_of_unusable(const plugin::Registry& registry) {
+  for (const plugin::PluginError& error : registry.failures()) fmt::print(stderr, "warning: {}\n", error.what());
+}
+
+Exit print_matrix(plugin::Registry& registry, bool as_json) {
+  const compatibility::Matrix matrix = compatibility::matrix(registry);
+  if (as_json) {
+    nlohmann::ordered_json all = {{"status", "done"}};
+    all.update(compatibility::to_json(matrix));
+    print_json(all);
+    return Exit::done;
+  }
+  fmt::print("{}", compatibility::text(matrix));
+  warn_of_unusable(registry);
+  return Exit::done;
+}
+
 Exit list(const Arguments& arguments) {
   plugin::Registry registry;
   load_plugins(arguments, registry);
+  if (arguments.has(kMatrix.name)) return print_matrix(registry, arguments.has("--json"));
   const auto entries = registry.all();
   if (arguments.has("--json")) {
     nlohmann::ordered_json components = nlohmann::ordered_json::array(), unusable = nlohmann::ordered_json::array();
@@ -46,7 +67,7 @@ Exit list(const Arguments& arguments) {
   }
   fmt::print("{}", plugin::list(entries));
   if (arguments.has(kAll.name)) fmt::print("\n{}", pages(entries));
-  for (const plugin::PluginError& error : registry.failures()) fmt::print(stderr, "warning: {}\n", error.what());
+  warn_of_unusable(registry);
   return Exit::done;
 }
 
@@ -56,7 +77,7 @@ Command list_command() {
   return {"list",
           "",
           "List all components: integrators, bodies, joints, forces, contacts, friction, corrections.",
-          {kAll, kPlugin, kJson},
+          {kAll, kMatrix, kPlugin, kJson},
           list};
 }
 

@@ -31,4 +31,12 @@ class Correction : public Component {
   virtual void archive(Archive&) {}
 };
 
+// Ability of corrections that need the momentum of every body (HasMomentum in body.hpp): scenes with a body that does not
+// tell its own are refused.
+class NeedsMomentum {
+ public:
+  virtual ~NeedsMomentum();
+  virtual bool needs_momentum() const = 0;  // called after `prepare`
+};
+
 }  // namespace trammel

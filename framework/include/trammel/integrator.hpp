@@ -19,14 +19,25 @@ struct State {
   Vec q, v, a, lambda;
 };
 
-// Claims of a method. Each of them is measured by tests.
+// Claims of a method. Each of them is measured by tests. What a method does not take is refused before the run, by the
+// scene's line and with the names of the methods that take it; `trammel list --matrix` shows all of them. What follows
+// from abilities (error control, dense output, a history that survives new coordinates) is not claimed again.
 struct Traits {
-  int order = 1;  // of q and v with constant steps, constraints included
+  // Of q and v with constant steps, constraints included. 0: the error does not depend on h, because the method takes
+  // steps of its own inside each step, to tolerances that are its parameters.
+  int order = 1;
   bool implicit = false;
   int steps = 1;                // length of the history: 1 for one-step methods, 4 for fourth-order Adams
   bool holds_position = false;  // g = 0 at the end of each step, to the iteration's tolerance
   bool holds_velocity = false;  // G v + g_t = 0 likewise
-  bool rows = true;  // false: only for systems without rows (nc = 0); scenes that have or create rows are refused
+
+  // The systems that the method takes; false where it does not.
+  bool rows = true;            // nc > 0
+  bool redundant_rows = true;  // rows that depend on each other
+  bool friction = true;        // that sticks: W != G while it slides, and very short steps to where a slip ends
+  bool jumps = !implicit;      // f that jumps with v: friction decided at every evaluation
+  bool rotations = true;       // q' = N(q) v with N != 1: unit quaternions
+  bool events = true;          // `restart` during a run, after a step of any length: contacts, friction, refinement
 };
 
 class Integrator : public Component {

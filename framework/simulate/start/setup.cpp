@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "compatibility/integrator_check.hpp"
+#include "compatibility/scene_check.hpp"
 #include "diagnose/redundancy.hpp"
 #include "model/build.hpp"
 #include "model/scene_keys.hpp"
@@ -23,40 +25,6 @@ namespace {
 using scene::Problems;
 using scene::Value;
 
-// Names of the installed integrators that accept rows.
-template <class Can>
-std::string integrators_that(plugin::Registry& registry, Can can) {
-  std::string names;
-  for (const plugin::Entry* entry : registry.all()) {
-    if (entry->declaration.kind != Kind::integrator) continue;
-    const std::unique_ptr<Component> candidate = plugin::new_component(*entry);
-    const auto* integrator = dynamic_cast<const Integrator*>(candidate.get());
-    if (integrator && can(*integrator)) names += (names.empty() ? "" : ", ") + entry->declaration.name;
-  }
-  return names.empty() ? "none found" : names;
-}
-
-// The component of a model that has rows or makes some during the run; empty: none.
-std::string source_of_rows(const model::Model& model) {
-  if (const std::vector<model::RowGroup> groups = model::row_groups(model); !groups.empty())
-    return fmt::format("{} has {}", groups.front().path, groups.front().count == 1 ? "a row" : "rows");
-  for (const model::ContactEntry& contact : model.contacts) {
-    if (contact.restitution) return fmt::format("{} is a row while it is closed", contact.path());
-    if (contact.coulomb && contact.coulomb->decide() == SetValuedFriction::Decide::at_events)
-      return fmt::format("the friction of {} sticks in a row", contact.path());
-  }
-  return "";
-}
-
-void check_takes_rows(const Value& value, plugin::Registry& registry, const Setup& setup, Problems& problems) {
-  if (setup.integrator->traits().rows) return;
-  const std::string source = source_of_rows(*setup.model);
-  if (source.empty()) return;
-  problems.error(value.problem(
-      fmt::format("\"{}\" takes no rows, but {}; integrators that take them: {}", setup.integrator_type, source,
-                  integrators_that(registry, [](const Integrator& one) { return one.traits().rows; }))));
-}
-
 void read_integrator(const Value& root, plugin::Registry& registry, Setup& setup, Problems& problems) {
   if (const Value* statics = root.find("static"); statics && !root.find("integrator"))
     return problems.error(
@@ -67,47 +35,22 @@ void read_integrator(const Value& root, plugin::Registry& registry, Setup& setup
   setup.integrator = std::move(made.component);
   setup.integrator_origin = std::move(made.origin);
   if (const Value* type = value.find("type")) setup.integrator_type = type->read_text(problems).value_or("");
-  for (const model::ContactEntry& contact : setup.model->contacts)
-    if (contact.coulomb && contact.coulomb->decide() == SetValuedFriction::Decide::every_evaluation &&
-        setup.integrator->traits().implicit)
-      problems.error(
-          value.problem(fmt::format("the friction of contacts.{} is decided at every evaluation, which takes an "
-                                    "explicit method such as runge_kutta_4",
-                                    contact.name)));
-  check_takes_rows(value, registry, setup, problems);
-  if (dynamic_cast<const ErrorEstimate*>(setup.integrator.get())) return;
-  const auto estimates = [](const Integrator& one) { return dynamic_cast<const ErrorEstimate*>(&one) != nullptr; };
-  for (const auto& [key, choice] :
-       {std::pair{"step", &setup.settings.step}, std::pair{"contact_step", &setup.settings.contact_step}})
-    if (const Value* step = value.find(key); step && !choice->fixed)
-      problems.error(step->problem(
-          fmt::format("\"{}\" cannot estimate its error, so it takes fixed steps only; those that can: {}",
-                      setup.integrator_type, integrators_that(registry, estimates))));
+  compatibility::check_integrator({*setup.integrator, value, setup.integrator_type}, *setup.model, setup.settings,
+                                  registry, problems);
 }
 
 // Pictures are asked for: some body must have fields.
 void check_fields(const Value& root, const model::Model& model, plugin::Registry& registry, Problems& problems) {
   const Value* asked = root.at_path("record.fields");
   if (!asked || FieldLine(model).possible()) return;
-  std::string names;
-  for (const plugin::Entry* entry : registry.all()) {
-    if (entry->declaration.kind != Kind::body) continue;
-    const std::unique_ptr<Component> candidate = plugin::new_component(*entry);
-    if (dynamic_cast<const HasFields*>(candidate.get())) names += (names.empty() ? "" : ", ") + entry->declaration.name;
-  }
   problems.error(asked->problem(
-      fmt::format("no body of this scene has fields; those that do: {}", names.empty() ? "none found" : names)));
+      fmt::format("no body of this scene has fields; those that do: {}",
+                  compatibility::names_that<HasFields>(registry, Kind::body, [](const HasFields&) { return true; }))));
 }
 
 std::string that_correct(Correction::Level level, plugin::Registry& registry) {
-  std::string names;
-  for (const plugin::Entry* entry : registry.all()) {
-    if (entry->declaration.kind != Kind::correction) continue;
-    const std::unique_ptr<Component> candidate = plugin::new_component(*entry);
-    const auto* correction = dynamic_cast<const Correction*>(candidate.get());
-    if (correction && correction->corrects(level)) names += (names.empty() ? "" : ", ") + entry->declaration.name;
-  }
-  return names.empty() ? "none found" : names;
+  return compatibility::names_that<Correction>(registry, Kind::correction,
+                                               [level](const Correction& one) { return one.corrects(level); });
 }
 
 // "corrections": {"position": "minimum_norm", "velocity": {"type": "minimum_norm", ...}, "energy": true}
@@ -138,6 +81,7 @@ void read_corrections(const Value& root, plugin::Registry& registry, Setup& setu
     if (!made.component->corrects(level))
       problems.error(value->problem(fmt::format("\"{}\" does not correct the {}; those that do: {}",
                                                 entry->declaration.name, part, that_correct(level, registry))));
+    compatibility::check_momentum(*made.component, *value, *setup.model, registry, problems);
     setup.corrections.push_back({level, std::move(made.component), std::move(made.origin)});
   }
 }
@@ -188,6 +132,9 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purp
   if (purpose == Purpose::motion) {
     read_integrator(root, registry, setup, problems);
     read_corrections(root, registry, setup, problems);
+    compatibility::check_steps(*setup.model, setup.settings, root, problems);
+  } else {
+    compatibility::check_statics(*setup.model, root, registry, problems);
   }
   if (problems.empty()) setup.columns = read_observables(root, *setup.model, problems);
   if (problems.empty()) check_fields(root, *setup.model, registry, problems);
@@ -198,6 +145,9 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purp
   const Watch watch(witness, setup, system, {&setup.settings.start, nullptr});
   blaming(setup, system, root, setup.settings.start, [&] {
     find_start(setup, system, root, problems);
+    if (setup.integrator)
+      compatibility::check_redundant_rows({*setup.integrator, integrator_entry(root), setup.integrator_type}, system,
+                                          setup.initial, registry, problems);
     if (purpose == Purpose::motion && !root.find("integrator"))
       choose_integrator(setup, system, chosen_before, registry, problems);
   });

@@ -28,13 +28,14 @@ namespace {
 
 using namespace trammel;
 
-class EnergyCorrection final : public Correction {
+class EnergyCorrection final : public Correction, public NeedsMomentum {
  public:
   enum class Keeps { direction, momentum };
   double least = 1e-4;
   Keeps keeps = Keeps::direction;
 
   bool corrects(Level level) const override { return level == Level::energy; }
+  bool needs_momentum() const override { return keeps == Keeps::momentum; }
 
   Outcome apply(Level, System& s, const Step& step, State& state) override {
     s.move_to(state.t, state.q, state.v);
@@ -50,9 +51,7 @@ class EnergyCorrection final : public Correction {
     }
     if (keeps == Keeps::momentum) {
       if (!find_free_motions(s, state))
-        return Outcome::reject(
-            "the energy's correction keeps momentum, and a body does not tell its own; those that do: point_mass, bar, "
-            "rigid_body, tspline_plate. Expected \"keeps\": \"direction\"");
+        return Outcome::reject("the energy's correction keeps momentum, and the system cannot tell its own");
       v_r_ = free_ * (free_.transpose() * mass_times(s, n_));
       n_ -= v_r_;
       carried += kinetic(s, v_r_);

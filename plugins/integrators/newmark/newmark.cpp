@@ -35,10 +35,12 @@ class Newmark final : public Integrator, public ErrorEstimate, public LinearTheo
   }
 
   Traits traits() const override {
+    const bool stabilised = formulation == Formulation::stabilised;
     return {.order = gamma == 0.5 ? 2 : 1,
             .implicit = true,
             .holds_position = true,
-            .holds_velocity = formulation == Formulation::stabilised};
+            .holds_velocity = stabilised,
+            .friction = stabilised};  // index 3 divides round-off of the positions by h
   }
 
   void restart(System&, const State& now) override { error_.restart(now); }
