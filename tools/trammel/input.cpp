@@ -8,7 +8,7 @@
 
 namespace trammel::tool {
 
-scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override> more) {
+std::vector<scene::Override> overrides_of(const Arguments& arguments) {
   std::vector<scene::Override> overrides;
   for (const std::string& text : arguments.all("--set")) {
     const auto equals = text.find('=');
@@ -16,6 +16,11 @@ scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override>
       throw UsageError(fmt::format("--set {}: expected PATH=VALUE, e.g. --set contacts.tip.restitution=0.3", text));
     overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
+  return overrides;
+}
+
+scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override> more) {
+  std::vector<scene::Override> overrides = overrides_of(arguments);
   overrides.insert(overrides.end(), more.begin(), more.end());
   return scene::Scene::load(arguments.operand(), overrides);
 }
