@@ -197,6 +197,11 @@ void Registry::add(const Declarations& declarations, const std::string& file) {
     entries_.push_back(std::make_unique<Entry>(Entry{declaration, file}));
 }
 
+const std::vector<Identity>& Registry::identities() {
+  while (identities_.size() < files_.size()) identities_.push_back(identify(files_[identities_.size()]));
+  return identities_;
+}
+
 const Entry* Registry::loaded(Kind kind, std::string_view name) const {
   for (const auto& entry : entries_)
     if (entry->declaration.kind == kind && entry->declaration.name == name) return entry.get();

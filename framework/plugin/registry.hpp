@@ -18,6 +18,7 @@
 
 #include <trammel/plugin.hpp>
 
+#include "plugin/identity.hpp"
 #include "plugin/plugin_error.hpp"
 #include "scene/value.hpp"
 
@@ -66,6 +67,8 @@ class Registry {
   const std::vector<PluginError>& failures() const { return failures_; }
   // The libraries loaded so far, in order.
   const std::vector<std::string>& files() const { return files_; }
+  // Of these, each as its file was when first asked for: many scenes of one process do not read it again.
+  const std::vector<Identity>& identities();
 
  private:
   const Entry* loaded(Kind kind, std::string_view name) const;
@@ -78,6 +81,7 @@ class Registry {
   std::vector<std::filesystem::path> folders_;
   std::vector<std::unique_ptr<Entry>> entries_;
   std::vector<std::string> files_;  // canonical
+  std::vector<Identity> identities_;  // of the first of files_
   std::set<std::string, std::less<>> names_looked_for_;
   bool folders_loaded_ = false, scene_plugins_allowed_ = false;
   std::vector<PluginError> failures_;

@@ -97,7 +97,7 @@ double Simulator::record_time(long long k) const {
 }
 
 // The rows that are due at the state itself.
-void Simulator::record_due(Recorder& recorder) {
+void Simulator::record_due(RecordSink& recorder) {
   while (!last_row_ && record_time(records_) <= now_.t) {
     recorder.row(system_, now_, ledger_.totals(), statistics_.steps);
     audit_.look(system_, now_);
@@ -153,7 +153,7 @@ void Simulator::look_at_theories() {
     throw RunFailed(fmt::format("at t = {:.9g} s, step {}: {}", now_.t, statistics_.steps, impossible));
 }
 
-bool Simulator::advance(Recorder& recorder) {
+bool Simulator::advance(RecordSink& recorder) {
   write_events(recorder);
   if (record_time(records_) <= now_.t && locks_here()) {
     jam(recorder, 0);
@@ -213,7 +213,7 @@ bool Simulator::near_critical_state() {
 }
 
 // What locks itself as it slides comes to rest where it is.
-void Simulator::jam(Recorder& recorder, double h) {
+void Simulator::jam(RecordSink& recorder, double h) {
   locked_ = false;
   ContactChanges changes;
   changes.locked = true;
@@ -380,7 +380,7 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
 }
 
 // Rows due inside the last step (next_ -> now_), by the method's own interpolation.
-void Simulator::record_inside(Recorder& recorder) {
+void Simulator::record_inside(RecordSink& recorder) {
   if (!dense_ || !control().controlled()) return;
   const double h = now_.t - next_.t;
   for (double t = record_time(records_); !last_row_ && t < now_.t; t = record_time(records_)) {

@@ -54,7 +54,7 @@ class Simulator {
 
   // One accepted step, with what it ends in; false: the end is reached and recorded. Throws RunFailed, PluginError,
   // OutputError; the state then is the last accepted one.
-  bool advance(Recorder& recorder);
+  bool advance(RecordSink& recorder);
 
   const State& state() const { return now_; }
   const Settings& settings() const { return settings_; }
@@ -78,7 +78,7 @@ class Simulator {
   void archive_state(Archive& a);
   void require_state_fits() const;  // throws std::out_of_range
   double record_time(long long k) const;
-  void record_due(Recorder& recorder);
+  void record_due(RecordSink& recorder);
   double relative_drift();
   double little_energy();
   void judge_energy();
@@ -90,7 +90,7 @@ class Simulator {
   bool step_and_examine(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
   bool locks_here();
   bool near_critical_state();
-  void jam(Recorder& recorder, double h);
+  void jam(RecordSink& recorder, double h);
   void look_at_theories();
   void refuse(const StepControl::Proposal& proposal, const char* reason);
   std::string when(double h) const;
@@ -100,12 +100,12 @@ class Simulator {
   void step_ledger_and_correct();
   Outcome corrected(const LevelCorrection& entry, const Correction::Step& step);
   void accept(double h, bool shortened, const StepControl::Proposal& proposal, double error);
-  void record_inside(Recorder& recorder);
+  void record_inside(RecordSink& recorder);
   void settle(const ContactChanges& changes);
   void guard_against_standstill(double h, double wanted, int contact);
   void guard_against_storm(int contact);  // the last one; -1: unknown
-  void write_events(Recorder& recorder);
-  void refine(Recorder& recorder, int contact);
+  void write_events(RecordSink& recorder);
+  void refine(RecordSink& recorder, int contact);
   void at_new_modes();
   void restart_all_but_integrator();
 

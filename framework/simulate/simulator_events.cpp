@@ -82,7 +82,7 @@ void Simulator::guard_against_storm(int contact) {
 }
 
 // An impact after which the contact stays closed is two events, and strikes once.
-void Simulator::write_events(Recorder& recorder) {
+void Simulator::write_events(RecordSink& recorder) {
   for (const ContactEvent& event : events_) recorder.event(event);
   if (refinement_.possible()) {
     std::vector<int> struck;
@@ -95,7 +95,7 @@ void Simulator::write_events(Recorder& recorder) {
 }
 
 // `contact`: the one that has just closed, -1 after a step.
-void Simulator::refine(Recorder& recorder, int contact) {
+void Simulator::refine(RecordSink& recorder, int contact) {
   const Transfer* transfer = refinement_.refine(now_, contact);
   if (!transfer) return;
   for (const RefineEvent& event : refinement_.events()) recorder.event(event);

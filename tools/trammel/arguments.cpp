@@ -33,12 +33,11 @@ std::string Command::help() const {
 Arguments::Arguments(const Command& command, std::span<const std::string> words, std::string program)
     : program_(std::move(program)), words_{std::string(command.name)} {
   words_.insert(words_.end(), words.begin(), words.end());
-  std::vector<std::string> operands;
   bool options_ended = false;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     if (options_ended || word.size() < 2 || word[0] != '-') {
-      operands.push_back(word);
+      operands_.push_back(word);
       continue;
     }
     if (word == "--") {
@@ -60,16 +59,15 @@ Arguments::Arguments(const Command& command, std::span<const std::string> words,
     }
   }
 
-  if (command.operand.empty() && !operands.empty())
-    throw UsageError(fmt::format("'trammel {}' takes no argument, found '{}'", command.name, operands.front()));
-  if (!command.operand.empty() && operands.empty())
+  if (command.operand.empty() && !operands_.empty())
+    throw UsageError(fmt::format("'trammel {}' takes no argument, found '{}'", command.name, operands_.front()));
+  if (!command.operand.empty() && operands_.empty())
     throw UsageError(fmt::format("'trammel {}' needs a {}: trammel {} {}", command.name, command.operand, command.name,
                                  command.operand));
-  if (operands.size() > 1 && !command.operand.ends_with("..."))
-    throw UsageError(
-        fmt::format("'trammel {}' takes one {}, found also '{}'", command.name, command.operand, operands[1]));
-  if (!operands.empty()) operand_ = operands.front();
-  operands_ = std::move(operands);
+  if (operands_.size() > std::max<std::size_t>(1, command.most_operands))
+    throw UsageError(fmt::format("'trammel {}' takes {} {}, found also '{}'", command.name,
+                                 command.most_operands == 1 ? "one" : "no more than", command.operand,
+                                 operands_[command.most_operands]));
 }
 
 std::string shell_quoted(const std::string& word) {

@@ -13,7 +13,8 @@
 namespace trammel::tool {
 
 // Process exit codes, a contract with scripts.
-enum Exit { done = 0, failed = 1, bad_input = 2, bad_plugin = 3, interrupted = 130 };
+// requeue: ended by a batch system's SIGTERM, to be started again (EX_TEMPFAIL of sysexits.h).
+enum Exit { done = 0, failed = 1, bad_input = 2, bad_plugin = 3, requeue = 75, interrupted = 130 };
 
 // The command line itself is wrong. Exit code 2.
 struct UsageError : std::runtime_error {
@@ -34,6 +35,7 @@ struct Command {
   std::string_view summary;
   std::vector<Option> options;
   Exit (*run)(const Arguments&);
+  std::size_t most_operands = 1;
 
   std::string help() const;
 };
@@ -43,16 +45,16 @@ class Arguments {
   // Throws UsageError naming what was found and the nearest option.
   Arguments(const Command& command, std::span<const std::string> words, std::string program);
 
-  const std::string& program() const { return program_; }  // as it was called
-  std::vector<std::string> command_line() const;           // all words
-  const std::string& operand() const { return operand_; }  // the first
+  const std::string& program() const { return program_; }           // as it was called
+  std::vector<std::string> command_line() const;                    // all words
+  const std::string& operand() const { return operands_.front(); }  // of a command that has one
   const std::vector<std::string>& operands() const { return operands_; }
   bool has(std::string_view option) const { return values_.contains(option); }
   const std::string& last(std::string_view option) const;       // of an option that was given
   std::vector<std::string> all(std::string_view option) const;  // in the order given
 
  private:
-  std::string program_, operand_;
+  std::string program_;
   std::vector<std::string> operands_;
   std::vector<std::string> words_;  // from the command's name on
   std::map<std::string, std::vector<std::string>, std::less<>> values_;
@@ -76,6 +78,9 @@ Command modes_command();
 Command report_command();
 Command validate_command();
 Command explain_command();
+Command study_command();
+Command trade_command();
+Command compare_command();
 Command list_command();
 Command describe_command();
 Command schema_command();

@@ -8,21 +8,21 @@
 
 namespace trammel::tool {
 
-std::vector<scene::Override> overrides(const Arguments& arguments) {
-  std::vector<scene::Override> all;
+std::vector<scene::Override> overrides_of(const Arguments& arguments) {
+  std::vector<scene::Override> overrides;
   for (const std::string& text : arguments.all("--set")) {
     const auto equals = text.find('=');
     if (equals == text.npos || equals == 0)
       throw UsageError(fmt::format("--set {}: expected PATH=VALUE, e.g. --set contacts.tip.restitution=0.3", text));
-    all.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
-  return all;
+  return overrides;
 }
 
 scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override> more) {
-  std::vector<scene::Override> all = overrides(arguments);
-  all.insert(all.end(), more.begin(), more.end());
-  return scene::Scene::load(arguments.operand(), all);
+  std::vector<scene::Override> overrides = overrides_of(arguments);
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return scene::Scene::load(arguments.operand(), overrides);
 }
 
 void load_plugins(const Arguments& arguments, plugin::Registry& registry) {

@@ -12,8 +12,9 @@
 
 namespace trammel::tool {
 
-// The --set options. Throws UsageError.
-std::vector<scene::Override> overrides(const Arguments& arguments);
+// Those of --set. Throws UsageError.
+std::vector<scene::Override> overrides_of(const Arguments& arguments);
+
 // The operand with its --set overrides, then `more`. Throws scene::SceneError.
 scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override> more = {});
 

@@ -18,6 +18,7 @@ constexpr double same_request = 0.25;  // [s] `timeout` and a terminal that clos
 // A signal handler has no other way to reach the run.
 simulate::Interrupt interrupt;
 double requested_at = 0;  // [s]
+volatile std::sig_atomic_t first_signal = 0;
 
 double now() {
   timespec t{};
@@ -48,6 +49,7 @@ void on_request(int signal) {
   const int error = errno;
   if (!interrupt.requested()) {
     requested_at = now();
+    first_signal = signal;
     interrupt.request();
     ::alarm(patience);
   } else if (insists(signal)) {
@@ -76,6 +78,10 @@ simulate::Interrupt& watch_for_interrupts() {
   action.sa_handler = on_alarm;
   sigaction(SIGALRM, &action, nullptr);
   return interrupt;
+}
+
+int interrupting_signal() {
+  return first_signal;
 }
 
 }  // namespace trammel::tool

@@ -10,5 +10,7 @@ namespace trammel::tool {
 // Installs the handlers, and returns what they request. Signals that are ignored (nohup, a shell's background) stay
 // ignored.
 simulate::Interrupt& watch_for_interrupts();
+// The first of these signals that came; 0: none.
+int interrupting_signal();
 
 }  // namespace trammel::tool

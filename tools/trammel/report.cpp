@@ -1,4 +1,5 @@
 // trammel report DIR...: one HTML file to look at.
+#include <limits>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -45,7 +46,8 @@ Command report_command() {
           "DIR...",
           "Write one HTML file to look at: animation, plots, events. Several runs are overlaid.",
           {kFile, kJson},
-          run};
+          run,
+          std::numeric_limits<std::size_t>::max()};
 }
 
 }  // namespace trammel::tool

@@ -17,7 +17,7 @@ Exit stability(const Arguments& arguments) {
   plugin::Registry registry;
   load_plugins(arguments, registry);
   const report::Page page =
-      stability::measure(stability::IntegratorUnderTest(registry, arguments.operand(), overrides(arguments)));
+      stability::measure(stability::IntegratorUnderTest(registry, arguments.operand(), overrides_of(arguments)));
   if (arguments.has("--json")) {
     print_json({{"page", report::to_json(page)}});
     return Exit::done;

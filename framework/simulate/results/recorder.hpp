@@ -6,9 +6,9 @@
 #include "simulate/results/animation_line.hpp"
 #include "simulate/results/event_line.hpp"
 #include "simulate/results/field_line.hpp"
-#include "simulate/results/ledger.hpp"
 #include "simulate/results/log_file.hpp"
 #include "simulate/results/observable.hpp"
+#include "simulate/results/record_sink.hpp"
 
 namespace trammel::simulate {
 
@@ -22,7 +22,7 @@ struct ConstraintNorms {
 // The system has been moved to the state.
 ConstraintNorms constraint_norms(model::AssembledSystem& system, const State& state, Vec& scratch);
 
-class Recorder {
+class Recorder final : public RecordSink {
  public:
   enum class Books { kept, none };  // kept: rows tell the energy supplied and dissipated
   struct Lengths {
@@ -34,10 +34,10 @@ class Recorder {
   Recorder(const std::filesystem::path& folder, const model::Model& model, std::vector<Column> columns,
            std::optional<Lengths> keep, std::vector<double> field_times = {}, Books books = Books::kept);
 
-  // `steps`: accepted so far.
-  void row(model::AssembledSystem& system, const State& state, const Ledger::Totals& books = {}, long long steps = 0);
-  void event(const ContactEvent& event);
-  void event(const RefineEvent& event);
+  void row(model::AssembledSystem& system, const State& state, const Ledger::Totals& books = {},
+           long long steps = 0) override;
+  void event(const ContactEvent& event) override;
+  void event(const RefineEvent& event) override;
   void flush();                  // throws OutputError once all files were tried
   void sync();                   // the same, and to the disk itself
   void check() const;            // throws OutputError if a file could not take what it was given; nothing is lost yet

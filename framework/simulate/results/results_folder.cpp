@@ -24,7 +24,7 @@ constexpr std::array written = {"series.csv",  "events.csv",          "animation
                                 "shapes.csv",  newest_checkpoint,     checkpoint_before, "report.html",
                                 "series.npz",  "events.npz",          "animation.pvd",    "fields.pvd"};
 
-constexpr std::array commands = {"trammel run", "trammel static", "trammel modes"};
+constexpr std::array commands = {"trammel run", "trammel static", "trammel modes", "trammel study", "trammel trade"};
 
 [[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
   throw FolderRefused(fmt::format("cannot write results to {}: {}; --out names another folder", folder.string(), why));
@@ -68,7 +68,10 @@ int open_locked(const fs::path& folder) {
 
 std::optional<Analysis> analysis_in(const fs::path& folder) {
   std::error_code error;
-  if (fs::exists(folder / "modes.json", error)) return Analysis::modes;
+  for (const auto& [name, analysis] :
+       {std::pair("modes.json", Analysis::modes), std::pair("study.json", Analysis::study),
+        std::pair("trade.json", Analysis::trade)})
+    if (fs::exists(folder / name, error)) return analysis;
   const fs::path file = folder / "result.json";
   if (!fs::is_regular_file(fs::symlink_status(file, error))) return std::nullopt;
   std::ifstream in(file);

@@ -23,7 +23,7 @@ class FolderRefused : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class Analysis { motion, statics, modes };
+enum class Analysis { motion, statics, modes, study, trade };
 
 class ResultsFolder {
  public:

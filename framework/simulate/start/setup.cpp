@@ -140,7 +140,7 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purp
   if (problems.empty()) check_fields(root, *setup.model, registry, problems);
   if (problems.empty()) check_laws(root, registry, setup.settings.start, setup.settings.until, problems);
   problems.throw_if_any();
-  for (const std::string& file : registry.files()) setup.plugins.push_back(plugin::identify(file));
+  setup.plugins = registry.identities();
   model::AssembledSystem system(setup.model);
   const Watch watch(witness, setup, system, {&setup.settings.start, nullptr});
   blaming(setup, system, root, setup.settings.start, [&] {

@@ -1,0 +1,182 @@
+#include "study/reduction.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "model/scene_keys.hpp"
+#include "scene/files.hpp"
+#include "scene/suggestion.hpp"
+
+namespace trammel::study {
+namespace {
+
+using scene::Problems;
+using scene::Value;
+using As = Reduction::As;
+using Direction = Reduction::Direction;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+const std::vector<std::pair<std::string, As>> ways = {
+    {"final", As::final},     {"initial", As::initial}, {"max", As::max}, {"min", As::min},
+    {"max_abs", As::max_abs}, {"mean", As::mean},       {"rms", As::rms}, {"first_crossing", As::first_crossing}};
+const std::vector<std::pair<std::string, Direction>> directions = {
+    {"up", Direction::up}, {"down", Direction::down}, {"any", Direction::any}};
+
+template <class T>
+std::optional<T> choice(const Value& value, const std::vector<std::pair<std::string, T>>& all, Problems& problems) {
+  const auto text = value.read_text(problems);
+  if (!text) return std::nullopt;
+  std::vector<std::string> names;
+  for (const auto& [name, meant] : all) {
+    if (name == *text) return meant;
+    names.push_back(name);
+  }
+  problems.error(value.problem(fmt::format("found \"{}\"{}", *text, scene::did_you_mean(*text, names))));
+  return std::nullopt;
+}
+
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> all;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) all.push_back(cell);
+  return all;
+}
+
+void read_table(const Value& value, const std::string& file, const std::string& column, Reference& reference,
+                Problems& problems) {
+  const auto path = std::filesystem::path(value.position().file).parent_path() / file;
+  std::istringstream in(scene::read_named_file(path.string()));
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> header = cells(line);
+  const auto found = std::find(header.begin(), header.end(), column);
+  if (found == header.end() || header.front() != "t")
+    return problems.error(value.problem(
+        header.front() != "t"
+            ? fmt::format("the first column of {} is \"{}\", expected \"t\"", file, header.front())
+            : fmt::format("{} has no column \"{}\"{}", file, column, scene::did_you_mean(column, header))));
+  const std::size_t at = std::size_t(found - header.begin());
+  while (std::getline(in, line)) {
+    const std::vector<std::string> row = cells(line);
+    if (row.size() <= at) continue;
+    reference.t.push_back(std::strtod(row[0].c_str(), nullptr));
+    reference.x.push_back(std::strtod(row[at].c_str(), nullptr));
+  }
+  if (reference.t.empty()) problems.error(value.problem(fmt::format("{} has no rows", file)));
+}
+
+void read_reference(const Value& value, Reference& reference, Problems& problems) {
+  if (value.type() != Value::Type::object) {
+    if (const auto x = value.read_number(problems)) reference.constant = *x;
+    return;
+  }
+  if (!model::check_keys(value, {"file", "column"}, problems)) return;
+  const Value *file = value.find("file"), *column = value.find("column");
+  if (!file || !column) return problems.error(value.problem("expected \"file\" and \"column\""));
+  const auto name = file->read_text(problems), which = column->read_text(problems);
+  if (!name || !which) return;
+  try {
+    read_table(value, *name, *which, reference, problems);
+  } catch (const scene::SceneError& e) {
+    problems.error(file->problem(e.what()));
+  }
+}
+
+void read_one(const std::string& name, const Value& value, std::vector<Reduction>& all, Problems& problems) {
+  if (!model::check_keys(value, {"observe", "as", "level", "direction", "reference"}, problems)) return;
+  Reduction one;
+  one.name = name;
+  const Value *observe = value.find("observe"), *as = value.find("as");
+  if (!observe || !as)
+    return problems.error(value.problem(fmt::format("expected \"observe\" (a column of the records) and \"as\"")));
+  one.observe = observe->read_text(problems).value_or("");
+  one.as = choice(*as, ways, problems).value_or(As::final);
+  if (const Value* level = value.find("level")) one.level = level->read_number(problems).value_or(0);
+  if (const Value* way = value.find("direction"))
+    one.direction = choice(*way, directions, problems).value_or(Direction::any);
+  if (const Value* reference = value.find("reference")) read_reference(*reference, one.reference, problems);
+  for (const char* key : {"level", "direction"})
+    if (const Value* given = value.find(key); given && one.as != As::first_crossing)
+      problems.error(given->problem("only \"first_crossing\" has one"));
+  if (const Value* given = value.find("reference"); given && one.as != As::rms)
+    problems.error(given->problem("only \"rms\" has one"));
+  all.push_back(std::move(one));
+}
+
+bool crosses(double before, double after, Direction way) {
+  const bool up = before < 0 && after >= 0, down = before > 0 && after <= 0;
+  return (up && way != Direction::down) || (down && way != Direction::up);
+}
+
+}  // namespace
+
+double Reference::at(double time) const {
+  if (t.empty()) return constant;
+  const auto after = std::upper_bound(t.begin(), t.end(), time);
+  if (after == t.begin()) return x.front();
+  if (after == t.end()) return x.back();
+  const std::size_t k = std::size_t(after - t.begin());
+  return x[k - 1] + (x[k] - x[k - 1]) * (time - t[k - 1]) / (t[k] - t[k - 1]);
+}
+
+double Reduction::of(const Series& s) const {
+  const auto column = observe == "t" ? std::optional<std::size_t>() : s.column(observe);
+  if (s.rows() == 0 || (!column && observe != "t")) return unknown;
+  const auto x = [&](std::size_t i) { return column ? s.at(i, *column) : s.t[i]; };
+  const std::size_t last = s.rows() - 1;
+  double result = as == As::max || as == As::min ? x(0) : 0, whole = 0;
+  switch (as) {
+    case As::final:
+      return x(last);
+    case As::initial:
+      return x(0);
+    case As::max:
+      for (std::size_t i = 0; i <= last; ++i) result = std::max(result, x(i));
+      return result;
+    case As::min:
+      for (std::size_t i = 0; i <= last; ++i) result = std::min(result, x(i));
+      return result;
+    case As::max_abs:
+      for (std::size_t i = 0; i <= last; ++i) result = std::max(result, std::abs(x(i)));
+      return result;
+    case As::mean:
+    case As::rms: {
+      const auto y = [&](std::size_t i) {
+        const double off = x(i) - (as == As::rms ? reference.at(s.t[i]) : 0);
+        return as == As::rms ? off * off : off;
+      };
+      for (std::size_t i = 1; i <= last; ++i)
+        result += (y(i) + y(i - 1)) / 2 * (s.t[i] - s.t[i - 1]), whole += s.t[i] - s.t[i - 1];
+      result = whole > 0 ? result / whole : y(0);
+      return as == As::rms ? std::sqrt(result) : result;
+    }
+    case As::first_crossing:
+      for (std::size_t i = 1; i <= last; ++i) {
+        const double before = x(i - 1) - level, after = x(i) - level;
+        if (crosses(before, after, direction)) return s.t[i - 1] + (s.t[i] - s.t[i - 1]) * before / (before - after);
+      }
+      return unknown;
+  }
+  return unknown;
+}
+
+std::vector<Reduction> read_reductions(const Value& reduce, Problems& problems) {
+  std::vector<Reduction> all;
+  if (reduce.type() != Value::Type::object) {
+    problems.error(
+        reduce.problem(fmt::format("found {}, expected an object of reductions by name", reduce.type_name())));
+    return all;
+  }
+  for (const auto& [name, value] : reduce.members()) read_one(name, value, all, problems);
+  return all;
+}
+
+}  // namespace trammel::study

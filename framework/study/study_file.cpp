@@ -1,0 +1,307 @@
+#include "study/study_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "model/scene_keys.hpp"
+#include "scene/fnv_hash.hpp"
+#include "scene/suggestion.hpp"
+#include "simulate/results/provenance.hpp"
+#include "study/samples.hpp"
+
+namespace trammel::study {
+namespace {
+
+using scene::Problems;
+using scene::Value;
+using Type = Value::Type;
+
+constexpr std::size_t most_cases = 10'000'000, most_dimensions = 3000;  // of Boost's table of Sobol's numbers: 3667
+
+std::string json_text(const Value& value) {
+  std::string text;
+  switch (value.type()) {
+    case Type::null:
+      return "null";
+    case Type::boolean:
+      return value.boolean() ? "true" : "false";
+    case Type::number:
+      return fmt::format("{}", value.number());
+    case Type::text:
+      return nlohmann::json(value.text()).dump();
+    case Type::array:
+      for (const Value& item : value.items()) text += (text.empty() ? "" : ",") + json_text(item);
+      return "[" + text + "]";
+    case Type::object:
+      for (const auto& [name, member] : value.members())
+        text += (text.empty() ? "" : ",") + nlohmann::json(name).dump() + ":" + json_text(member);
+      return "{" + text + "}";
+  }
+  return text;
+}
+
+const std::vector<std::string>& modes() {
+  static const std::vector<std::string> all = {"grid", "zip", "random", "sobol", "list"};
+  return all;
+}
+
+std::optional<std::size_t> read_count(const Value& value, Problems& problems) {
+  const auto n = value.read_integer(problems);
+  if (!n) return std::nullopt;
+  if (*n >= 1 && std::size_t(*n) <= most_cases) return std::size_t(*n);
+  problems.error(value.problem(fmt::format("found {}, expected 1 to {}", *n, most_cases)));
+  return std::nullopt;
+}
+
+// {"from": 0.1, "to": 10, "count": 5, "scale": "log"}; `counted`: "count" is expected.
+std::optional<std::pair<Range, std::size_t>> read_range(const Value& value, bool counted, Problems& problems) {
+  const std::vector<std::string> keys = counted ? std::vector<std::string>{"from", "to", "count", "scale"}
+                                                : std::vector<std::string>{"from", "to", "scale"};
+  if (!model::check_keys(value, keys, problems)) return std::nullopt;
+  std::pair<Range, std::size_t> range{{}, 0};
+  bool complete = true;
+  const auto number = [&](const char* key, double& x) {
+    const Value* given = value.find(key);
+    const auto read = given ? given->read_number(problems) : std::nullopt;
+    if (!given) problems.error(value.problem(fmt::format("has no \"{}\"", key)));
+    complete = complete && read;
+    x = read.value_or(0);
+  };
+  number("from", range.first.from), number("to", range.first.to);
+  if (counted) {
+    const Value* count = value.find("count");
+    if (!count) problems.error(value.problem("has no \"count\""));
+    const auto n = count ? read_count(*count, problems) : std::nullopt;
+    complete = complete && n;
+    range.second = n.value_or(0);
+  }
+  if (const Value* scale = value.find("scale")) {
+    const std::string name = scale->read_text(problems).value_or("");
+    range.first.logarithmic = name == "log";
+    if (name != "log" && name != "linear")
+      problems.error(scale->problem(fmt::format("found \"{}\", expected \"linear\" or \"log\"{}", name,
+                                                scene::did_you_mean(name, {"linear", "log"})))),
+          complete = false;
+    if (complete && range.first.logarithmic && !(range.first.from > 0 && range.first.to > 0))
+      problems.error(value.problem("a logarithmic scale needs \"from\" and \"to\" above 0")), complete = false;
+  }
+  return complete ? std::optional(range) : std::nullopt;
+}
+
+std::vector<std::string> read_values(const Value& value, Problems& problems) {
+  std::vector<std::string> texts;
+  if (value.type() == Type::array) {
+    for (const Value& item : value.items()) texts.push_back(json_text(item));
+    if (texts.empty()) problems.error(value.problem("found an empty list, expected values"));
+  } else if (value.type() == Type::object) {
+    if (const auto range = read_range(value, true, problems))
+      for (std::size_t k = 0; k < range->second; ++k)
+        texts.push_back(
+            fmt::format("{}", range->first.at(range->second == 1 ? 0 : double(k) / double(range->second - 1))));
+  } else {
+    problems.error(value.problem(fmt::format("found {}, expected a list of values or a range", value.type_name())));
+  }
+  return texts;
+}
+
+}  // namespace
+
+Study::Study(scene::Scene definition) : definition_(std::move(definition)) {}
+
+Study Study::load(const std::string& file, const std::vector<scene::Override>& overrides) {
+  Study study(scene::Scene::load(file, overrides));
+  Problems problems;
+  study.read(problems);
+  if (problems.empty()) study.check_against_scene(problems);
+  problems.throw_if_any();
+  return study;
+}
+
+Study Study::restore(const std::string& text, const std::string& file) {
+  Study study(scene::Scene::parse(text, file));
+  Problems problems;
+  study.read(problems);
+  problems.throw_if_any();
+  return study;
+}
+
+void Study::read(Problems& problems) {
+  const Value& root = definition_.root();
+  if (root.type() != Type::object) return problems.error(root.problem("expected a study: an object"));
+  model::check_keys(
+      root, {"study", "title", "scene", "set", "mode", "vary", "count", "seed", "reduce", "parameters", "include"},
+      problems);
+  const Value *version = root.find("study"), *scene = root.find("scene");
+  if (!version || version->type() != Type::number || version->number() != 1)
+    problems.error((version ? *version : root).problem("expected \"study\": 1, the version of this format"));
+  if (!scene) {
+    problems.error(root.problem("has no \"scene\": the file that it runs"));
+  } else if (const auto name = scene->read_text(problems)) {
+    const std::filesystem::path file = std::filesystem::path(scene->position().file).parent_path() / *name;
+    scene_file_ = file.string();
+  }
+  if (const Value* set = root.find("set")) {
+    if (set->type() != Type::object) problems.error(set->problem("expected an object of values by dotted path"));
+    if (set->type() == Type::object)
+      for (const auto& [path, value] : set->members()) set_.push_back({path, json_text(value)});
+  }
+  if (!root.find("vary"))
+    problems.error(root.problem("has no \"vary\": values by dotted path, or a list of cases"));
+  else
+    read_vary(root, problems);
+  if (const Value* reduce = root.find("reduce")) {
+    reductions_ = read_reductions(*reduce, problems);
+    scene::FnvHash hash;
+    hash.text(json_text(*reduce));
+    reductions_hash_ = hash.value();
+  }
+}
+
+void Study::read_list(const Value& list, Problems& problems) {
+  for (const Value& one : list.items()) {
+    if (one.type() != Type::object) {
+      problems.error(one.problem(fmt::format("found {}, expected values by dotted path", one.type_name())));
+      continue;
+    }
+    for (const auto& [path, value] : one.members())
+      if (std::find(paths_.begin(), paths_.end(), path) == paths_.end()) paths_.push_back(path);
+  }
+  for (const Value& one : list.items()) {
+    std::vector<std::string>& values = cases_.emplace_back();
+    for (const std::string& path : paths_) {
+      const Value* value = one.find(path);
+      values.push_back(value ? json_text(*value) : "");
+    }
+  }
+  if (list.items().empty()) problems.error(list.problem("found an empty list, expected cases"));
+}
+
+void Study::read_vary(const Value& root, Problems& problems) {
+  const Value &vary = *root.find("vary"), *mode = root.find("mode");
+  std::string name = vary.type() == Type::array ? "list" : "grid";
+  if (mode) name = mode->read_text(problems).value_or(name);
+  if (std::find(modes().begin(), modes().end(), name) == modes().end())
+    return problems.error(mode->problem(fmt::format("found \"{}\"{}", name, scene::did_you_mean(name, modes()))));
+  const bool sampled = name == "random" || name == "sobol";
+  for (const char* key : {"count", "seed"})
+    if (const Value* given = root.find(key); given && !sampled)
+      problems.error(given->problem("only \"random\" and \"sobol\" have one"));
+  if (name == "list") {
+    if (vary.type() != Type::array) return problems.error(vary.problem("expected a list of cases"));
+    return read_list(vary, problems);
+  }
+  if (vary.type() != Type::object)
+    return problems.error(vary.problem(fmt::format("found {}, expected values by dotted path", vary.type_name())));
+  if (vary.members().empty()) return problems.error(vary.problem("found nothing that varies"));
+  std::vector<std::vector<std::string>> lists;
+  std::vector<Range> ranges;
+  for (const auto& [path, value] : vary.members()) {
+    paths_.push_back(path);
+    if (!sampled) {
+      lists.push_back(read_values(value, problems));
+    } else if (const auto range = read_range(value, false, problems)) {
+      ranges.push_back(range->first);
+    }
+  }
+  if (!problems.empty()) return;
+  if (sampled) {
+    const Value *count = root.find("count"), *seed = root.find("seed");
+    if (!count) return problems.error(root.problem("has no \"count\": the number of samples"));
+    const auto n = read_count(*count, problems);
+    const auto start = seed ? seed->read_integer(problems) : std::optional<int>();
+    if (paths_.size() > most_dimensions) problems.error(vary.problem("has too many paths to sample"));
+    if (!n || !problems.empty()) return;
+    const auto points =
+        name == "random" ? random_points(*n, ranges.size(), std::uint64_t(start.value_or(1)))
+                         : sobol_points(*n, ranges.size(), start ? std::optional(std::uint64_t(*start)) : std::nullopt);
+    for (const auto& point : points) {
+      auto& values = cases_.emplace_back();
+      for (std::size_t k = 0; k < ranges.size(); ++k) values.push_back(fmt::format("{}", ranges[k].at(point[k])));
+    }
+    return;
+  }
+  std::vector<std::size_t> lengths;
+  double product = 1;
+  for (const auto& list : lists) lengths.push_back(list.size()), product *= double(list.size());
+  if (product > double(most_cases))
+    return problems.error(vary.problem(fmt::format("a grid of {} cases; {} are the most", product, most_cases)));
+  if (name == "zip") {
+    for (std::size_t k = 1; k < lists.size(); ++k)
+      if (lengths[k] != lengths[0])
+        problems.error(vary.members()[k].second.problem(
+            fmt::format("has {} values, \"{}\" has {}: \"zip\" takes one of each", lengths[k], paths_[0], lengths[0])));
+    if (!problems.empty()) return;
+    for (std::size_t i = 0; i < lengths[0]; ++i) {
+      auto& values = cases_.emplace_back();
+      for (const auto& list : lists) values.push_back(list[i]);
+    }
+    return;
+  }
+  for (const auto& tuple : grid(lengths)) {
+    auto& values = cases_.emplace_back();
+    for (std::size_t k = 0; k < lists.size(); ++k) values.push_back(lists[k][tuple[k]]);
+  }
+}
+
+// Each path by itself, so that all that are wrong are told at their places.
+void Study::check_against_scene(Problems& problems) const {
+  const Value& root = definition_.root();
+  if (std::error_code error; !std::filesystem::exists(scene_file_, error))
+    return problems.error(root.find("scene")->problem(fmt::format("no such file: {}", scene_file_)));
+  const SceneSource source(scene_file_);
+  const scene::Scene base = source.with();  // a scene that is wrong by itself is told as by `trammel validate`
+  const auto check = [&](const Value& at, const std::string& path, const std::string& value) {
+    try {
+      source.with({{path, value}});
+    } catch (const scene::SceneError& e) {
+      for (const scene::Problem& p : e.problems())
+        problems.error(at.problem(p.path.empty() ? p.message : p.path + ": " + p.message));
+    }
+  };
+  if (const Value* set = root.find("set"))
+    for (const auto& [path, value] : set->members()) check(value, path, json_text(value));
+  const Value& vary = *root.find("vary");
+  for (std::size_t k = 0; k < paths_.size(); ++k)
+    for (const auto& values : cases_) {
+      if (values[k].empty()) continue;
+      const Value* at = vary.find(paths_[k]);
+      check(at ? *at : vary, paths_[k], values[k]);
+      break;
+    }
+  const Value* observe = base.root().at_path("record.observe");
+  std::vector<std::string> columns = {"t",
+                                      "energy_kinetic",
+                                      "energy_potential",
+                                      "energy_elastic",
+                                      "energy_total",
+                                      "energy_supplied",
+                                      "energy_dissipated"};
+  if (observe && observe->type() == Type::object)
+    for (const auto& [name, what] : observe->members()) columns.push_back(name);
+  const auto is_set = [&](const std::string& name) {
+    return std::any_of(set_.begin(), set_.end(), [&](const auto& o) { return o.path == "record.observe." + name; });
+  };
+  for (const Reduction& one : reductions_)
+    if (std::find(columns.begin(), columns.end(), one.observe) == columns.end() && !is_set(one.observe))
+      problems.error(root.find("reduce")->find(one.name)->find("observe")->problem(
+          fmt::format("the scene observes no \"{}\"{}", one.observe, scene::did_you_mean(one.observe, columns))));
+}
+
+std::vector<scene::Override> Study::overrides(std::size_t i) const {
+  std::vector<scene::Override> all;
+  for (std::size_t k = 0; k < paths_.size(); ++k)
+    if (!cases_[i][k].empty()) all.push_back({paths_[k], cases_[i][k]});
+  return all;
+}
+
+std::uint64_t Study::key(std::size_t i, std::uint64_t scene_hash) const {
+  scene::FnvHash hash;
+  hash.number(scene_hash), hash.number(reductions_hash_), hash.text(simulate::build_info().commit);
+  for (std::size_t k = 0; k < paths_.size(); ++k) hash.text(paths_[k]), hash.text(cases_[i][k]);
+  return hash.value();
+}
+
+}  // namespace trammel::study

@@ -1,0 +1,67 @@
+// A study: one scene, the values that vary, and the scalars that are kept of each run.
+//
+//     {
+//       "study": 1,
+//       "scene": "pendulum.json",                            relative to the study
+//       "set": {"simulate.until": 5},                        of every case
+//       "mode": "grid",                                      grid | zip | random | sobol; with a list of cases: list
+//       "vary": {
+//         "bodies.rod.length": [0.5, 1, 2],
+//         "bodies.rod.mass": {"from": 0.1, "to": 10, "count": 5, "scale": "log"}
+//       },
+//       "count": 100, "seed": 1,                             of random and sobol, whose entries are ranges
+//       "reduce": {"swing": {"observe": "theta", "as": "max"}}
+//     }
+//
+// or "vary": [{"a.b": 1}, {"a.b": 2, "a.c": 3}], a list of cases. In a grid the last path varies fastest. Random samples
+// are of std::mt19937_64, Sobol points of Joe and Kuo's table in Boost, shifted modulo 1 by numbers of the seed if one is
+// given: the cases of one file are the same on every machine.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/value.hpp"
+#include "study/reduction.hpp"
+#include "study/scene_source.hpp"
+
+namespace trammel::study {
+
+class Study {
+ public:
+  // Throws SceneError with all problems of the file, among them paths that its scene does not have.
+  static Study load(const std::string& file, const std::vector<scene::Override>& overrides = {});
+  // `text` as of `resolved`, for `study merge`: the scene is not read.
+  static Study restore(const std::string& text, const std::string& file);
+
+  std::size_t size() const { return cases_.size(); }
+  const std::vector<std::string>& paths() const { return paths_; }
+  // In the order of paths(); of a list of cases, "" where a case leaves a path as it is.
+  const std::vector<std::string>& values(std::size_t i) const { return cases_[i]; }
+  std::vector<scene::Override> overrides(std::size_t i) const;
+  const std::vector<Reduction>& reductions() const { return reductions_; }
+  const std::string& scene_file() const { return scene_file_; }
+  const std::vector<scene::Override>& set() const { return set_; }
+  std::string resolved() const { return definition_.resolved(); }
+  // Of what decides the outcome of a case: the scene, the program's commit, values and reductions.
+  std::uint64_t key(std::size_t i, std::uint64_t scene_hash) const;
+
+ private:
+  explicit Study(scene::Scene definition);
+  void read(scene::Problems& problems);
+  void read_vary(const scene::Value& root, scene::Problems& problems);
+  void read_list(const scene::Value& list, scene::Problems& problems);
+  void check_against_scene(scene::Problems& problems) const;
+
+  scene::Scene definition_;
+  std::string scene_file_;
+  std::vector<scene::Override> set_;
+  std::vector<std::string> paths_;
+  std::vector<std::vector<std::string>> cases_;  // JSON texts
+  std::vector<Reduction> reductions_;
+  std::uint64_t reductions_hash_ = 0;
+};
+
+}  // namespace trammel::study
