@@ -41,7 +41,7 @@ bool FrontalIterationKkt::factorise_sum() {
   find_scale();
   full_.scale(scale_);
   const Eigen::SparseMatrix<double>& A = full_.matrix();
-  if (analysed_ != full_.patterns()) {
+  if (analysed_ != full_.patterns() || !fronts_.fits(A)) {
     fronts_.analyse(A);
     analysed_ = full_.patterns();
   }

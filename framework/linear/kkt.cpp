@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "linear/dense/products_of_few_rows.hpp"
+#include "linear/refinement.hpp"
 
 namespace trammel::numerics {
 
@@ -144,6 +145,36 @@ bool MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   return x.allFinite() && y.allFinite();
 }
 
+// From z = L^-1 b:  z := z - B^T y,  B z = c. A second correction where the first one took the digits with it.
+void MassKkt::hold_rows(const Vec& c, Vec& z, Vec& y) {
+  struct Equations {
+    MassKkt& kkt;
+    const Vec& c;
+    Vec &z, &y;
+    double missed = 0;
+    int corrections = 0;
+    double residual() {
+      kkt.w_ = -c;
+      add_rows_product(1, kkt.B_, z, kkt.w_);
+      return missed = kkt.w_.lpNorm<Eigen::Infinity>();
+    }
+    double correction() {
+      kkt.schur_cholesky_.solve(kkt.w_);
+      const bool cancels = kkt.schur_.diagonal().cwiseProduct(kkt.w_).lpNorm<Eigen::Infinity>() > cancelling * missed;
+      return ++corrections == 1 && cancels ? 1 : 0;
+    }
+    void apply() {
+      y += kkt.w_;
+      add_transposed_product(-1, kkt.B_, kkt.w_, z);
+    }
+  };
+  y.setZero();
+  const double left =
+      refine(Equations{*this, c, z, y}, {.most = 2, .enough = 0, .falls = std::numeric_limits<double>::infinity()})
+          .residual;
+  if (!std::isfinite(left)) y.setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
 // From x = b. x is z = L^T x before the last line:  z = L^-1 b - B^T y,  B z = c;  or with C for the first B.
 void MassKkt::solve_with_rows(const Vec& c, Vec& x, Vec& y) {
   with_mass([&](auto& mass) { mass.solve_lower(x); });
@@ -160,19 +191,7 @@ void MassKkt::solve_with_rows(const Vec& c, Vec& x, Vec& y) {
     y = merged_ * cod_.solve(x - particular);
     add_transposed_product(-1, B_, y, x);
   } else {
-    const auto hold_rows = [&](Vec& dy) {
-      dy = -c;
-      add_rows_product(1, B_, x, dy);
-      const double missed = dy.lpNorm<Eigen::Infinity>();
-      schur_cholesky_.solve(dy);
-      add_transposed_product(-1, B_, dy, x);
-      return missed;
-    };
-    const double missed = hold_rows(y);
-    if (schur_.diagonal().cwiseProduct(y).lpNorm<Eigen::Infinity>() > cancelling * missed) {
-      hold_rows(w_);
-      y += w_;
-    }
+    hold_rows(c, x, y);
   }
   with_mass([&](auto& mass) { mass.solve_transposed(x); });
 }

@@ -58,6 +58,7 @@ class MassKkt {
 
  private:
   void solve_with_rows(const Vec& c, Vec& x, Vec& y);
+  void hold_rows(const Vec& c, Vec& z, Vec& y);
   void complement(const Mat& W, double rank_tolerance);
   void merge_rows(const Mat& G, double rank_tolerance);
 

@@ -6,9 +6,9 @@
 //     solver                S                  rows         method
 //     MassKkt               mass, any storage  dense        Schur complement G M^-1 G^T (kkt.hpp)
 //     IterationKkt          any, dense         dense        LU of the whole (kkt.hpp)
-//     SparseMassKkt         mass, by bodies    by bodies    Schur complement, or fronts (sparse_kkt.hpp)
+//     SparseMassKkt         mass, by bodies    by bodies    Schur complement, or fronts (sparse_mass_kkt.hpp)
 //     FrontalKkt            mass, by bodies    by bodies    elimination of the rows (fronts/frontal_kkt.hpp)
-//     SparseIterationKkt    any, sparse        sparse       LU of the whole (sparse_kkt.hpp)
+//     SparseIterationKkt    any, sparse        sparse       LU of the whole (sparse_iteration_kkt.hpp)
 //     FrontalIterationKkt   any, sparse        sparse       LU of the whole in fronts (frontal_iteration_kkt.hpp)
 //
 // A solver analyses the pattern within `factorise`, when it differs from the one before: contacts change it, and no

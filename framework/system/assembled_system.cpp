@@ -3,8 +3,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "system/assembly.hpp"
 #include "model/coordinates.hpp"
+#include "system/assembly.hpp"
 
 namespace trammel::model {
 
@@ -208,6 +208,7 @@ void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
       a.setConstant(w.sizes.nv, std::numeric_limits<double>::quiet_NaN());
       break;  // the caller finds the component whose result is not finite
     }
+    if (w.blocks && !w.bearings.empty()) w.blocks->minimise_norm(w.blocks->kept[Work::at_point], lambda);
     if (!w.bear(lambda)) break;
     if (tries == most_loads) w.fail_without_loads();
   }

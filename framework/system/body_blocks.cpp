@@ -166,4 +166,8 @@ bool BodyBlocks::solve(Kept& store, const Vec& b, const Vec& c, Vec& x, Vec& y) 
   return x.allFinite() && y.allFinite();
 }
 
+void BodyBlocks::minimise_norm(Kept& store, Vec& y) {
+  if (store.by == Kept::By::mass) mass_factors_[store.mass].kkt.minimise_norm(bodies_, y);
+}
+
 }  // namespace trammel::model

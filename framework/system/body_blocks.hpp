@@ -10,7 +10,7 @@
 
 #include "linear/frontal_iteration_kkt.hpp"
 #include "linear/kkt.hpp"
-#include "linear/sparse_kkt.hpp"
+#include "linear/sparse_mass_kkt.hpp"
 #include "model/model.hpp"
 #include "system/markers/twist_rows.hpp"
 
@@ -78,6 +78,8 @@ class BodyBlocks {
         });
   }
   [[nodiscard]] bool solve(Kept& store, const Vec& b, const Vec& c, Vec& x, Vec& y);  // false: not solvable
+  // Multipliers of redundant rows become those of minimum norm, where `solve` has left others.
+  void minimise_norm(Kept& store, Vec& y);
 
  private:
   struct MassFactors {

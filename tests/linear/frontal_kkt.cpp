@@ -5,7 +5,7 @@
 
 #include "linear/fronts/frontal_kkt.hpp"
 #include "linear/kkt.hpp"
-#include "linear/sparse_kkt.hpp"
+#include "linear/sparse_mass_kkt.hpp"
 #include "trusses.hpp"
 
 namespace trammel::numerics {

@@ -13,7 +13,8 @@
 #include "linear/fronts/frontal_kkt.hpp"
 #include "linear/kkt.hpp"
 #include "linear/sparse/dependent_rows.hpp"
-#include "linear/sparse_kkt.hpp"
+#include "linear/sparse_iteration_kkt.hpp"
+#include "linear/sparse_mass_kkt.hpp"
 #include "trusses.hpp"
 
 namespace trammel::numerics {
@@ -222,13 +223,25 @@ struct ByBodies {
   static constexpr bool minimum_norm = true, forms_complement = true, scales_rows = true;
   SparseMassKkt kkt;
   bool factorise(const Problem& p) { return kkt.factorise(p.bodies, p.nc(), SparseMassKkt::Metric::mass); }
-  bool solve(const Problem& p, Solution& s) { return kkt.solve(p.bodies, p.b, p.c, s.x, s.y); }
+  bool solve(const Problem& p, Solution& s) {
+    if (!kkt.solve(p.bodies, p.b, p.c, s.x, s.y)) return false;
+    kkt.minimise_norm(p.bodies, s.y);
+    return true;
+  }
 };
 struct ByFronts {
-  static constexpr bool minimum_norm = false, forms_complement = false, scales_rows = true;
+  static constexpr bool minimum_norm = true, forms_complement = false, scales_rows = true;
   FrontalKkt kkt;
-  bool factorise(const Problem& p) { return kkt.factorise(p.bodies, p.nc(), false, rank_tolerance_at(0)); }
-  bool solve(const Problem& p, Solution& s) { return kkt.solve(p.bodies, p.b, p.c, s.x, s.y); }
+  LeastMultipliers least;
+  bool factorise(const Problem& p) {
+    least.factorise(p.bodies, p.nc(), rank_tolerance_at(0));
+    return kkt.factorise(p.bodies, p.nc(), false, rank_tolerance_at(0));
+  }
+  bool solve(const Problem& p, Solution& s) {
+    if (!kkt.solve(p.bodies, p.b, p.c, s.x, s.y)) return false;
+    least.minimise(s.y);
+    return true;
+  }
 };
 struct DenseIteration {
   static constexpr bool minimum_norm = true, forms_complement = true, scales_rows = true;

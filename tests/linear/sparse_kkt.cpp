@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "linear/kkt.hpp"
-#include "linear/sparse_kkt.hpp"
+#include "linear/sparse_iteration_kkt.hpp"
+#include "linear/sparse_mass_kkt.hpp"
 
 namespace trammel::numerics {
 namespace {

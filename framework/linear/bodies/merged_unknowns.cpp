@@ -1,5 +1,6 @@
 #include "linear/bodies/merged_unknowns.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace trammel::numerics {
@@ -20,7 +21,7 @@ void MergedUnknowns::Difference::add(const Place& place, double value) {
   ++entries;
 }
 
-void MergedUnknowns::find(const std::vector<BodyBlock>& bodies, int nv, int nc) {
+std::vector<MergedUnknowns::Difference> MergedUnknowns::differences(const std::vector<BodyBlock>& bodies, int nc) {
   std::vector<Difference> rows(static_cast<std::size_t>(nc));
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (std::size_t i = 0; i < bodies[b].rows.size() && bodies[b].rows[i] < nc; ++i) {
@@ -29,8 +30,26 @@ void MergedUnknowns::find(const std::vector<BodyBlock>& bodies, int nv, int nc) 
       for (Eigen::Index k = 0; k < bodies[b].Gt.rows(); ++k)
         row.add({b, Eigen::Index(i), k}, bodies[b].Gt(k, Eigen::Index(i)));
     }
+  return rows;
+}
+
+void MergedUnknowns::find(const std::vector<BodyBlock>& bodies, int nv, int nc) {
   merged_.assign(std::size_t(nv), -1);
-  join(bodies, rows);
+  join(bodies, differences(bodies, nc));
+}
+
+int MergedUnknowns::count_constant_rows(const std::vector<BodyBlock>& bodies, int nc) {
+  const std::vector<Difference> rows = differences(bodies, nc);
+  return int(
+      std::count_if(rows.begin(), rows.end(), [](const Difference& row) { return row.constant && row.merges(); }));
+}
+
+void MergedUnknowns::take_none(int nv, int nc) {
+  merged_.resize(std::size_t(nv));
+  std::iota(merged_.begin(), merged_.end(), 0);
+  takes_.assign(std::size_t(nc), 0);
+  links_.clear(), places_.clear();
+  count_ = nv, idle_ = 0;
 }
 
 // A forest of rows that merge; what closes a circle is idle.

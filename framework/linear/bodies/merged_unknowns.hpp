@@ -17,7 +17,10 @@ namespace trammel::numerics {
 class MergedUnknowns {
  public:
   void find(const std::vector<BodyBlock>& bodies, int nv, int nc);  // among the first nc rows
-  bool hold(const std::vector<BodyBlock>& bodies) const;            // the rows found are of that form still
+  // Rows of that form that are known to keep it.
+  static int count_constant_rows(const std::vector<BodyBlock>& bodies, int nc);
+  void take_none(int nv, int nc);                         // each unknown stays by itself
+  bool hold(const std::vector<BodyBlock>& bodies) const;  // the rows found are of that form still
 
   int count() const { return count_; }
   int of(int j) const { return merged_[std::size_t(j)]; }
@@ -46,6 +49,7 @@ class MergedUnknowns {
     void add(const Place& place, double value);
     bool merges() const { return entries == 2 && a[0] == -a[1] && places[0].body != places[1].body; }
   };
+  static std::vector<Difference> differences(const std::vector<BodyBlock>& bodies, int nc);
   void join(const std::vector<BodyBlock>& bodies, const std::vector<Difference>& rows);
   void number(const std::vector<std::vector<Link>>& at);
 

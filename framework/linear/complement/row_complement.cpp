@@ -49,12 +49,13 @@ void with_sizes(const ComplementLayout::Front& front, F&& f) {
 
 }  // namespace
 
-void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc, double eps) {
+bool RowComplement::factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc,
+                              double least_sine) {
   if (!layout_.holds(bodies, nc)) {
     layout_.find(bodies, nc);
     resize(nc);
   }
-  diagonal_.setConstant(eps);
+  diagonal_.setZero();
   least_square_sine_ = std::numeric_limits<double>::infinity();
   const std::vector<Front>& fronts = layout_.fronts();
   for (std::size_t i = 0; i < fronts.size(); ++i) {
@@ -64,9 +65,11 @@ void RowComplement::factorise(const std::vector<BodyBlock>& bodies, const BodyMa
         prefetch(Gt.data(), std::size_t(Gt.size()) * sizeof(double));
       }
     });
-    assemble(bodies, masses, fronts[i], eps);
+    assemble(bodies, masses, fronts[i]);
     eliminate(fronts[i]);
+    if (!(least_square_sine_ > least_sine * least_sine)) return false;
   }
+  return true;
 }
 
 void RowComplement::resize(int nc) {
@@ -77,11 +80,9 @@ void RowComplement::resize(int nc) {
   work_.resize(largest), product_.resize(largest * largest);
 }
 
-void RowComplement::assemble(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, const Front& front,
-                             double eps) {
+void RowComplement::assemble(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, const Front& front) {
   std::fill_n(L_.data() + front.L, front.stride() * front.eliminated, 0.0);
   std::fill_n(R_.data() + front.R, front.stride() * (front.size - front.eliminated), 0.0);
-  for (int j = 0; j < front.eliminated; ++j) column(front, j)[j] = eps;
   for (const Share& share : layout_.bodies(front)) {
     const std::span<const int> places = layout_.places(share), rows = layout_.rows(front);
     const Eigen::Map<Mat> Y = form_Y(bodies, masses, share);

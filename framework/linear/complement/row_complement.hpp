@@ -1,4 +1,4 @@
-// S = G M^-1 G^T + eps 1 of many bodies, the Schur complement of the rows, and its factors L D L^T.
+// S = G M^-1 G^T of many bodies, the Schur complement of the rows, and its factors L D L^T.
 //
 // A sum over bodies, each giving a block on the rows that touch it. It is never formed as a whole: bodies' shares go
 // right to the fronts (complement_layout.hpp) that eliminate their rows (F) and leave a matrix on their boundary (B) to
@@ -25,15 +25,14 @@ namespace trammel::numerics {
 
 class RowComplement {
  public:
-  // Of the first nc rows.
-  void factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc, double eps);
-  // Each pivot is more than the square of `least_sine` beside its diagonal: its row's angle to those eliminated before.
-  bool is_safe(double least_sine) const { return least_square_sine_ > least_sine * least_sine; }
+  // Of the first nc rows. False: a pivot is no more than the square of `least_sine` beside its diagonal, the sine of its
+  // row's angle to those eliminated before; the factors are not complete then.
+  [[nodiscard]] bool factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc,
+                               double least_sine = 0);
   // Of y = S^-1 r: a mean of the eigenvalues of S with its diagonal scaled to 1 (a Rayleigh quotient), so no less than
   // the least.
   // Close to it where r has some of its direction: inverse iteration brings that out.
   double softness(const Vec& r, const Vec& y) const { return r.dot(y) / y.cwiseAbs2().dot(diagonal_); }
-  double largest() const { return diagonal_.maxCoeff(); }
   // |S_ii y_i|
   double largest_share(const Vec& y) const { return diagonal_.cwiseProduct(y).lpNorm<Eigen::Infinity>(); }
   void solve(const Vec& r, Vec& y);  // y = S^-1 r, not in place
@@ -42,7 +41,7 @@ class RowComplement {
   using Front = ComplementLayout::Front;
   using Share = ComplementLayout::Share;
   void resize(int nc);
-  void assemble(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, const Front& front, double eps);
+  void assemble(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, const Front& front);
   Eigen::Map<Mat> form_Y(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, const Share& share);
   void add_at(std::span<const int> places, const double* A, Eigen::Index stride, const Front& front);
   void eliminate(const Front& front);

@@ -10,8 +10,6 @@ namespace {
 // Measured on trusses: of masts a unit a front, of hoops two.
 constexpr EliminationTree::Costs costs{.front = 400, .entry = 2};
 
-constexpr int border = -1;  // behind the rows of each body
-
 void make_set(std::vector<int>& x) {
   std::sort(x.begin(), x.end());
   x.erase(std::unique(x.begin(), x.end()), x.end());
@@ -23,28 +21,13 @@ int end_of(const BodyBlock& body) {
 
 }  // namespace
 
-void FrontLayout::build(const std::vector<BodyBlock>& bodies, int nc) {
+void FrontLayout::build(const std::vector<BodyBlock>& bodies, int nc, Unknowns unknowns) {
   nc_ = nc;
-  rows_of_bodies_.clear();
-  for (const BodyBlock& body : bodies) {
-    rows_of_bodies_.insert(rows_of_bodies_.end(), body.rows.begin(), body.rows.end());
-    rows_of_bodies_.push_back(border);
-  }
-  merged_.find(bodies, bodies.empty() ? 0 : end_of(bodies.back()), nc);
+  rows_of_bodies_.take(bodies, nc);
+  const int nv = bodies.empty() ? 0 : end_of(bodies.back());
+  unknowns == Unknowns::merged ? merged_.find(bodies, nv, nc) : merged_.take_none(nv, nc);
   points_of_row_.assign(std::size_t(nc), {});
   extend(bodies);
-}
-
-bool FrontLayout::know(const std::vector<BodyBlock>& bodies, int nc) const {
-  if (nc != nc_) return false;
-  auto at = rows_of_bodies_.begin();
-  for (const BodyBlock& body : bodies) {
-    const auto rows = std::ptrdiff_t(body.rows.size());
-    if (rows >= rows_of_bodies_.end() - at || at[rows] != border || !std::equal(body.rows.begin(), body.rows.end(), at))
-      return false;
-    at += rows + 1;
-  }
-  return at == rows_of_bodies_.end();
 }
 
 void FrontLayout::extend(const std::vector<BodyBlock>& bodies) {

@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "linear/bodies/body_block.hpp"
-#include "linear/order/elimination_tree.hpp"
 #include "linear/bodies/merged_unknowns.hpp"
+#include "linear/bodies/row_places.hpp"
+#include "linear/order/elimination_tree.hpp"
 
 namespace trammel::numerics {
 
@@ -41,11 +42,14 @@ class FrontLayout {
     int boundary() const { return unknowns - eliminated; }
   };
 
+  // Whether rows between equal coordinates merge unknowns, or are rows like the others.
+  enum class Unknowns { merged, apart };
   // Of the first nc rows, where they do not vanish now.
-  void build(const std::vector<BodyBlock>& bodies, int nc);
+  void build(const std::vector<BodyBlock>& bodies, int nc, Unknowns = Unknowns::merged);
   // And where they did not before.
   void extend(const std::vector<BodyBlock>& bodies);
-  bool know(const std::vector<BodyBlock>& bodies, int nc) const;  // was built before, of these rows' places
+  // Was built before, of these rows' places.
+  bool know(const std::vector<BodyBlock>& bodies, int nc) const { return rows_of_bodies_.are_of(bodies, nc); }
   bool holds(const std::vector<BodyBlock>& bodies) const { return merged_.hold(bodies); }
 
   const MergedUnknowns& merged() const { return merged_; }
@@ -82,7 +86,7 @@ class FrontLayout {
                      const std::vector<int>& column, KnownMaps& known);
 
   int nc_ = -1;
-  std::vector<int> rows_of_bodies_;  // body by body, with a border behind each
+  RowPlaces rows_of_bodies_;
   MergedUnknowns merged_;
   std::vector<std::vector<int>> points_of_row_;  // where it was ever found not to vanish
   EliminationTree tree_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "linear/refinement.hpp"
+
 namespace trammel::numerics {
 
 namespace {
@@ -53,22 +55,27 @@ void FrontalFactors::substitute(Vec& x) {
 }
 
 bool FrontalFactors::solve(const Sparse& A, const Vec& b, Vec& x) {
-  constexpr int most_corrections = 10;
+  struct Equations {
+    FrontalFactors& factors;
+    const Sparse& A;
+    const Vec& b;
+    Vec& x;
+    // Of the largest sum that could have been rounded.
+    double residual() {
+      Vec& r = factors.residual_;
+      r = b;
+      r.noalias() -= A * x;
+      const double left = r.lpNorm<Eigen::Infinity>();
+      if (!(left > 0)) return left;
+      return left / (factors.largest_.cwiseProduct(x).lpNorm<Eigen::Infinity>() + b.lpNorm<Eigen::Infinity>());
+    }
+    double correction() { return factors.substitute(factors.residual_), 1; }
+    void apply() { x += factors.residual_; }
+  };
   constexpr double round_off = 64 * eps, good = 1e-10;  // of the equations
   x = b;
   substitute(x);
-  double before = std::numeric_limits<double>::infinity();
-  for (int i = 0;; ++i) {
-    residual_ = b;
-    residual_.noalias() -= A * x;
-    const double size = largest_.cwiseProduct(x).lpNorm<Eigen::Infinity>() + b.lpNorm<Eigen::Infinity>();
-    const double left = residual_.lpNorm<Eigen::Infinity>();
-    if (left <= round_off * size) return true;
-    if (i == most_corrections || !(left < before / 2)) return left <= good * size;
-    before = left;
-    substitute(residual_);
-    x += residual_;
-  }
+  return refine(Equations{*this, A, b, x}, {.most = 10, .enough = round_off}).residual <= good;
 }
 
 }  // namespace trammel::numerics

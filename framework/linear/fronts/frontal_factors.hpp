@@ -17,6 +17,7 @@ class FrontalFactors {
   using Sparse = FrontalPattern::Sparse;
   // To be called again when the pattern has changed (see FrontalPattern::analyse).
   void analyse(const Sparse& A) { pattern_.analyse(A); }
+  bool fits(const Sparse& A) const { return pattern_.fits(A); }
   // False: a pivot of a front is round-off beside its column of A, or not finite.
   [[nodiscard]] bool factorise(const Sparse& A);
   // Not in place; A is the one that was factorised. False: x does not satisfy the equations.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 namespace trammel::numerics {
 
@@ -33,17 +35,18 @@ std::vector<int> post_order(const EliminationTree& tree) {
   return order;
 }
 
-// The node of each unknown, which is one of its unknowns.
+std::pair<const int*, const int*> neighbours(const FrontalPattern::Sparse& A, int j) {
+  return {A.innerIndexPtr() + A.outerIndexPtr()[j], A.innerIndexPtr() + A.outerIndexPtr()[j + 1]};
+}
+
+// The node of each unknown, which is one of its unknowns: those with the same neighbours.
 std::vector<int> find_nodes(const FrontalPattern::Sparse& A) {
   const auto n = std::size_t(A.cols());
-  const auto neighbours = [&](int j) {
-    return std::pair(A.innerIndexPtr() + A.outerIndexPtr()[j], A.innerIndexPtr() + A.outerIndexPtr()[j + 1]);
-  };
   std::vector<int> order(n), node(n);
   std::iota(order.begin(), order.end(), 0);
   const auto compare = [&](int i, int j) {
-    const auto [a, a_end] = neighbours(i);
-    const auto [b, b_end] = neighbours(j);
+    const auto [a, a_end] = neighbours(A, i);
+    const auto [b, b_end] = neighbours(A, j);
     return std::lexicographical_compare_three_way(a, a_end, b, b_end);
   };
   std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return compare(i, j) < 0; });
@@ -51,30 +54,57 @@ std::vector<int> find_nodes(const FrontalPattern::Sparse& A) {
     const bool same = k > 0 && compare(order[k - 1], order[k]) == 0;
     node[std::size_t(order[k])] = same ? node[std::size_t(order[k - 1])] : order[k];
   }
-  std::vector<char> taken(n, 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (A.coeff(Index(i), Index(i)) != 0) continue;
-    int partner = -1;
-    const auto [first, last] = neighbours(int(i));
-    for (const int* j = first; j != last; ++j) {
-      if (A.coeff(*j, *j) == 0) continue;
-      const auto is_better = [&](int one, int other) {
-        if (taken[std::size_t(one)] != taken[std::size_t(other)]) return !taken[std::size_t(one)];
-        return std::abs(A.coeff(Index(i), one)) > std::abs(A.coeff(Index(i), other));
-      };
-      if (partner < 0 || is_better(*j, partner)) partner = *j;
-    }
-    if (partner < 0) continue;
-    taken[std::size_t(partner)] = 1;
-    node[i] = node[std::size_t(partner)];
-  }
   return node;
+}
+
+// The power of two below the size of a row's entries in a node. Its steps are not where sizes usually are, at 1 and at
+// powers of two: round-off shall not decide.
+int size_class(double square) {
+  return square > 0 ? std::ilogb(1.7 * square) : std::numeric_limits<int>::min();
 }
 
 }  // namespace
 
+// Of each unknown with a 0 on the diagonal the node that takes it in: one with room left, in which its row is largest.
+// -1: it stays by itself.
+std::vector<int> FrontalPattern::find_partners(const Sparse& A) const {
+  std::vector<char> has_diagonal(nodes_.size(), 0);
+  std::vector<int> room(nodes_.size(), 0), partners;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    has_diagonal[i] = A.coeff(Index(i), Index(i)) != 0;
+    if (has_diagonal[i]) ++room[std::size_t(nodes_[i])];
+  }
+  std::vector<std::pair<int, double>> sizes;  // of the row's entries in each node
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (has_diagonal[i]) continue;
+    sizes.clear();
+    for (auto k = A.outerIndexPtr()[i]; k < A.outerIndexPtr()[i + 1]; ++k) {
+      const auto j = std::size_t(A.innerIndexPtr()[k]);
+      if (!has_diagonal[j]) continue;
+      const auto known =
+          std::find_if(sizes.begin(), sizes.end(), [&](const auto& of) { return of.first == nodes_[j]; });
+      const double square = A.valuePtr()[k] * A.valuePtr()[k];
+      known == sizes.end() ? void(sizes.emplace_back(nodes_[j], square)) : void(known->second += square);
+    }
+    const auto is_worse = [&](const auto& one, const auto& other) {
+      const bool one_full = room[std::size_t(one.first)] <= 0, other_full = room[std::size_t(other.first)] <= 0;
+      return one_full != other_full ? one_full : size_class(one.second) < size_class(other.second);
+    };
+    const auto best = std::max_element(sizes.begin(), sizes.end(), is_worse);
+    partners.push_back(best == sizes.end() ? -1 : best->first);
+    if (best != sizes.end()) --room[std::size_t(best->first)];
+  }
+  return partners;
+}
+
 void FrontalPattern::analyse(const Sparse& A) {
-  const std::vector<int> name = find_nodes(A);
+  nodes_ = find_nodes(A);
+  partners_ = find_partners(A);
+  std::vector<int> name = nodes_;
+  auto partner = partners_.begin();
+  for (std::size_t i = 0; i < name.size(); ++i)
+    if (A.coeff(Index(i), Index(i)) == 0)
+      if (const int with = *partner++; with >= 0) name[i] = with;
   std::vector<int> number(name.size(), -1), node(name.size());
   std::vector<std::vector<int>> members;
   for (std::size_t i = 0; i < name.size(); ++i) {

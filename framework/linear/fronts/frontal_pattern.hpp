@@ -3,10 +3,10 @@
 // The unknowns that a front eliminates (elimination_tree.hpp; F), with its boundary (B), make a dense matrix: their
 // entries of A and
 // what the fronts below leave. It leaves another, on B, to the front above.
-// Order and places follow from the pattern alone and are kept while it lasts: once per mesh of a plate. Unknowns with
-// the same neighbours make one node of the tree. One without a diagonal entry, a multiplier of a row, shares the node
-// of an unknown in its
-// row, so that their front has a pivot for both.
+// Order and places are kept while the pattern lasts: once per mesh of a plate. Unknowns with the same neighbours make
+// one node of the tree. One without a diagonal entry, a multiplier of a row, joins a node in which its row is large, so
+// that their front has a pivot for both. That is asked anew for each matrix: the order follows from the matrix at hand
+// alone, and a run that is resumed rounds as one that goes on.
 // Duff, Reid, ACM Trans. Math. Softw. 9 (1983), 302; 10 (1984), 633 (unsymmetric).
 #pragma once
 
@@ -40,10 +40,11 @@ class FrontalPattern {
     int boundary() const { return size - eliminated; }
   };
 
-  // The pattern is symmetric and has the diagonal; some entries may be 0. Numbers decide only which unknown's node
-  // takes one that
-  // has 0 there. To be called again when the pattern has changed.
+  // The pattern is symmetric and has the diagonal; some entries may be 0. To be called again when the pattern has
+  // changed, or does not fit any more.
   void analyse(const Sparse& A);
+  // Of a matrix of the pattern that was analysed: whether its multipliers are large in the same nodes.
+  bool fits(const Sparse& A) const { return find_partners(A) == partners_; }
 
   const std::vector<Front>& fronts() const { return fronts_; }  // children first, each right after its last child
   std::size_t all_unknowns() const { return unknowns_.size(); }
@@ -58,9 +59,12 @@ class FrontalPattern {
   }
 
  private:
+  std::vector<int> find_partners(const Sparse& A) const;
   void lay_out(const EliminationTree& tree, const std::vector<std::vector<int>>& members, Eigen::Index n);
   void place_entries(const Sparse& A);
 
+  std::vector<int> nodes_;     // of each unknown, named by one of its unknowns
+  std::vector<int> partners_;  // of each unknown with a 0 on the diagonal
   std::vector<Front> fronts_;
   std::vector<int> unknowns_;
   std::vector<Entry> entries_;

@@ -2,11 +2,13 @@
 // refined where
 // the fronts are, in merged unknowns and rows at length one.
 #include <algorithm>
+#include <limits>
 
 #include "linear/dense/prefetch.hpp"
 #include "linear/dense/products_of_few_rows.hpp"
-#include "linear/fronts/frontal_kkt.hpp"
 #include "linear/dense/short_sums.hpp"
+#include "linear/fronts/frontal_kkt.hpp"
+#include "linear/refinement.hpp"
 
 namespace trammel::numerics {
 
@@ -96,22 +98,28 @@ bool FrontalKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, const
 }
 
 bool FrontalKkt::refine() {
-  constexpr int most = 4;
+  struct Equations {
+    FrontalKkt& kkt;
+    double apart, size = 0;
+    // Judged by its corrections alone: what is left of soft directions does not show in the equations.
+    double residual() { return kkt.find_residuals(), 1; }
+    double correction() {
+      kkt.solve_once(kkt.dX_, kkt.dY_);
+      const double change = kkt.dX_.lpNorm<Eigen::Infinity>();
+      size = std::max(apart, kkt.X_.lpNorm<Eigen::Infinity>());
+      return change > 0 ? change / size : change;
+    }
+    void apply() { kkt.X_ += kkt.dX_, kkt.Y_ += kkt.dY_; }
+  };
   constexpr double good = 1e-7, lost = 1e-6;  // corrections: leave their square; too large to count on
-  const double apart = offset_.lpNorm<Eigen::Infinity>();
-  double change = 0, size = 0;
+  constexpr Refinement by_corrections{
+      .most = 4, .enough = 0, .falls = std::numeric_limits<double>::infinity(), .settled = good, .contracts = 0.1};
   b_ = B_, c_ = C_;
   solve_once(X_, Y_);
-  for (int i = 0; i < most; ++i) {
-    find_residuals();
-    solve_once(dX_, dY_);
-    change = dX_.lpNorm<Eigen::Infinity>(), size = std::max(apart, X_.lpNorm<Eigen::Infinity>());
-    if (!(change < 0.1 * size)) break;
-    X_ += dX_, Y_ += dY_;
-    if (change <= good * size) break;
-  }
-  missed_ = find_missed(size);
-  return change <= lost * size;
+  Equations equations{*this, offset_.lpNorm<Eigen::Infinity>()};
+  const Refined refined = numerics::refine(equations, by_corrections);
+  missed_ = find_missed(equations.size);
+  return refined.correction <= lost;
 }
 
 // What was left before the last correction is more, and often little enough.

@@ -4,6 +4,12 @@
 
 namespace trammel::numerics {
 
+bool have_one_pattern(const Eigen::SparseMatrix<double>& A, const Eigen::SparseMatrix<double>& B) {
+  return A.rows() == B.rows() && A.nonZeros() == B.nonZeros() &&
+         std::equal(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1, B.outerIndexPtr()) &&
+         std::equal(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros(), B.innerIndexPtr());
+}
+
 void SparseSum::begin(int n) {
   if (matrix_.rows() != n) {
     matrix_.resize(n, n);
@@ -12,14 +18,14 @@ void SparseSum::begin(int n) {
   values_ = matrix_.valuePtr();
   std::fill_n(values_, matrix_.nonZeros(), 0.0);
   next_single_ = next_piece_ = 0;
-  missing_ = false;
+  missing_ = other_ = false;
 }
 
-// False: entries were left out.
 bool SparseSum::finished() {
+  const bool fewer = next_single_ < singles_.size() || next_piece_ < pieces_.size();
   singles_.resize(next_single_);
   pieces_.resize(next_piece_);
-  return !missing_;
+  return other_ || fewer;
 }
 
 Eigen::Index SparseSum::find(int i, int j) const {
@@ -32,6 +38,7 @@ Eigen::Index SparseSum::find(int i, int j) const {
 
 void SparseSum::add_new(int i, int j, double value) {
   singles_.resize(next_single_);
+  other_ = true;
   const Eigen::Index at = find(i, j);
   singles_.push_back({i, j, at});
   ++next_single_;
@@ -52,6 +59,7 @@ bool SparseSum::is(const Piece& piece, const Places& rows, const Places& columns
 
 // As the next piece, and last.
 void SparseSum::note(const Places& rows, const Places& columns) {
+  other_ = true;
   if (next_piece_ < pieces_.size()) {
     places_.resize(pieces_[next_piece_].places), at_.resize(pieces_[next_piece_].at);
     pieces_.resize(next_piece_);
@@ -120,11 +128,9 @@ void SparseSum::reserve(const Places& rows, const Places& columns) {
 
 namespace {
 
-// The symmetric pattern of all blocks and of what was there before. `each(f)` calls f(rows, how many, columns, how
-// many).
+// The symmetric n x n pattern of all blocks. `each(f)` calls f(rows, how many, columns, how many).
 template <class Each>
-Eigen::SparseMatrix<double> pattern_of(const Eigen::SparseMatrix<double>& before, Each&& each) {
-  const auto n = std::size_t(before.rows());
+Eigen::SparseMatrix<double> pattern_of(std::size_t n, Each&& each) {
   // By column, what each block that touches it ties to it.
   struct Tied {
     const int* with;
@@ -150,15 +156,14 @@ Eigen::SparseMatrix<double> pattern_of(const Eigen::SparseMatrix<double>& before
       if (seen[std::size_t(i)] != int(j)) seen[std::size_t(i)] = int(j), column.push_back(i);
     };
     take(int(j));
-    if (before.nonZeros() > 0)
-      for (int k = before.outerIndexPtr()[j]; k < before.outerIndexPtr()[j + 1]; ++k) take(before.innerIndexPtr()[k]);
     for (std::size_t b = heads[j]; b < heads[j + 1]; ++b)
       for (int i = 0; i < ties[b].count; ++i) take(ties[b].with[i]);
     std::sort(column.begin(), column.end());
     all.insert(all.end(), column.begin(), column.end());
     starts.push_back(int(all.size()));
   }
-  Eigen::SparseMatrix<double> pattern(before.rows(), before.rows());
+  const auto size = Eigen::Index(n);
+  Eigen::SparseMatrix<double> pattern(size, size);
   pattern.resizeNonZeros(Eigen::Index(all.size()));
   std::copy(starts.begin(), starts.end(), pattern.outerIndexPtr());
   std::copy(all.begin(), all.end(), pattern.innerIndexPtr());
@@ -168,18 +173,20 @@ Eigen::SparseMatrix<double> pattern_of(const Eigen::SparseMatrix<double>& before
 
 }  // namespace
 
-void SparseSum::widen() {
-  ++patterns_;
+bool SparseSum::fit_pattern() {
   const auto each = [&](auto&& f) {
     for (const Single& single : singles_) f(&single.i, 1, &single.j, 1);
     for (const Piece& p : pieces_) f(places_.data() + p.places, p.rows, places_.data() + p.places + p.rows, p.columns);
     for (const Piece& p : reserved_)
       f(reserved_places_.data() + p.places, p.rows, reserved_places_.data() + p.places + p.rows, p.columns);
   };
-  Eigen::SparseMatrix<double> wider = pattern_of(matrix_, each);
-  matrix_.swap(wider);
+  Eigen::SparseMatrix<double> pattern = pattern_of(std::size_t(matrix_.rows()), each);
+  if (!missing_ && have_one_pattern(pattern, matrix_)) return false;
+  ++patterns_;
+  matrix_.swap(pattern);
   for (Single& single : singles_) single.at = find(single.i, single.j);
   for (const Piece& piece : pieces_) look_up(piece);
+  return true;
 }
 
 }  // namespace trammel::numerics

@@ -4,9 +4,9 @@
 //
 // Each block's places are noted the first time, with where its entries are stored: neighbouring rows together, so that
 // a cell of 16 nodes needs 192 places for 2304 entries. Later sums only compare the rows and columns. From the first
-// block on that is another
-// than last time, all are looked up; an entry that has no place yet widens the pattern by those of all blocks (contacts
-// wander). The pattern is symmetric and has the diagonal; it is forgotten with the size alone.
+// block on that is another than last time (contacts wander), all are looked up, and the pattern becomes that of the
+// blocks that there are now, beside what is reserved: it depends on this sum and not on earlier ones, so that a run that
+// is resumed eliminates in the same order. The pattern is symmetric and has the diagonal.
 #pragma once
 
 #include <cstddef>
@@ -18,6 +18,8 @@
 
 namespace trammel::numerics {
 
+bool have_one_pattern(const Eigen::SparseMatrix<double>& A, const Eigen::SparseMatrix<double>& B);
+
 class SparseSum {
  public:
   // `additions()` calls the functions below, of this object; it may be run twice. n x n.
@@ -25,8 +27,7 @@ class SparseSum {
   void fill(int n, Additions&& additions) {
     begin(n);
     additions();
-    if (finished()) return;
-    widen();
+    if (!finished() || !fit_pattern()) return;
     begin(n);
     additions();
   }
@@ -68,8 +69,8 @@ class SparseSum {
   };
 
   void begin(int n);
-  bool finished();
-  void widen();
+  bool finished();     // false: the same blocks as last time
+  bool fit_pattern();  // to these blocks; false: it does already
   void add_new(int i, int j, double value);
   void note(const Places& rows, const Places& columns);
   bool look_up(const Piece& piece);
@@ -83,6 +84,7 @@ class SparseSum {
   std::vector<int> places_, reserved_places_, at_;
   std::size_t next_single_ = 0, next_piece_ = 0;
   bool missing_ = false;  // an entry has no place
+  bool other_ = false;    // a block is not that of last time
   int patterns_ = 0;
 };
 

@@ -12,6 +12,7 @@
 #include "scene/suggestion.hpp"
 #include "simulate/results/relative_motion.hpp"
 #include "simulate/results/series_columns.hpp"
+#include "system/least_multipliers.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -199,7 +200,9 @@ const Energy& Moment::energy() {
 }
 
 void Moment::solve() {
-  if (!std::exchange(solved_, true)) system_.accelerate({}, a_, lambda_);
+  if (std::exchange(solved_, true)) return;
+  system_.accelerate({}, a_, lambda_);
+  model::minimise_norm(system_, lambda_);
 }
 
 void begin_columns(std::vector<Column>& columns, model::AssembledSystem& system, const State& start) {
