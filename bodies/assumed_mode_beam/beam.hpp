@@ -22,6 +22,7 @@
 #include <optional>
 
 #include <trammel/body.hpp>
+#include <trammel/fidelity.hpp>
 #include <trammel/parameters.hpp>
 #include <trammel/theory_limit.hpp>
 #include <trammel/time_function.hpp>
@@ -37,6 +38,7 @@ class AssumedModeBeam final : public Body,
                               public MassAndForce,
                               public ExactTangent,
                               public ReactionDerivative,
+                              public HasFidelity,
                               public Observed,
                               public Drawn,
                               public TheoryLimit {
@@ -70,6 +72,10 @@ class AssumedModeBeam final : public Body,
 
   void add_tangent(double t, In q, In v, In a, Blend c, Matrix& S) const override;
   void add_reaction_derivative(int marker, double t, In q, const Wrench& F, double c, Matrix& S) const override;
+
+  std::vector<FidelityParameter> fidelity() const override {
+    return {{"modes.axial"}, {"modes.transverse"}, {"coupling", {}, {"none", "linear", "full"}}};
+  }
 
   std::span<const std::string> observables() const override { return observable_names_; }
   double observe(int observable, double t, In q, In v) const override;

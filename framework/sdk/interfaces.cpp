@@ -9,6 +9,7 @@
 #include <trammel/component.hpp>
 #include <trammel/contact.hpp>
 #include <trammel/counts_turns.hpp>
+#include <trammel/fidelity.hpp>
 #include <trammel/fields.hpp>
 #include <trammel/integrator.hpp>
 #include <trammel/linear_rows.hpp>
@@ -51,6 +52,7 @@ Drawn::~Drawn() = default;
 Refinable::~Refinable() = default;
 HasMomentum::~HasMomentum() = default;
 HasFields::~HasFields() = default;
+HasFidelity::~HasFidelity() = default;
 TheoryLimit::~TheoryLimit() = default;
 AwaitsContact::~AwaitsContact() = default;
 LinearMarkers::~LinearMarkers() = default;
