@@ -23,6 +23,7 @@
 
 #include <trammel/body.hpp>
 #include <trammel/observed_units.hpp>
+#include <trammel/fidelity.hpp>
 #include <trammel/parameters.hpp>
 #include <trammel/theory_limit.hpp>
 #include <trammel/time_function.hpp>
@@ -38,6 +39,7 @@ class AssumedModeBeam final : public Body,
                               public MassAndForce,
                               public ExactTangent,
                               public ReactionDerivative,
+                              public HasFidelity,
                               public Observed,
                               public ObservedUnits,
                               public Drawn,
@@ -72,6 +74,10 @@ class AssumedModeBeam final : public Body,
 
   void add_tangent(double t, In q, In v, In a, Blend c, Matrix& S) const override;
   void add_reaction_derivative(int marker, double t, In q, const Wrench& F, double c, Matrix& S) const override;
+
+  std::vector<FidelityParameter> fidelity() const override {
+    return {{"modes.axial"}, {"modes.transverse"}, {"coupling", {}, {"none", "linear", "full"}}};
+  }
 
   std::span<const std::string> observables() const override { return observable_names_; }
   double observe(int observable, double t, In q, In v) const override;

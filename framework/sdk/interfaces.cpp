@@ -11,6 +11,7 @@
 #include <trammel/correction.hpp>
 #include <trammel/counts_turns.hpp>
 #include <trammel/faces.hpp>
+#include <trammel/fidelity.hpp>
 #include <trammel/fields.hpp>
 #include <trammel/integrator.hpp>
 #include <trammel/linear_theory.hpp>
@@ -61,6 +62,7 @@ HasMomentum::~HasMomentum() = default;
 HasFields::~HasFields() = default;
 HasFaces::~HasFaces() = default;
 ObservedUnits::~ObservedUnits() = default;
+HasFidelity::~HasFidelity() = default;
 TheoryLimit::~TheoryLimit() = default;
 AwaitsContact::~AwaitsContact() = default;
 LinearMarkers::~LinearMarkers() = default;

@@ -48,6 +48,7 @@ class CaseRun {
     const simulate::Watch watch(options_.witness, setup_, simulator.system(),
                                 {&simulator.state().t, &simulator.statistics().steps});
     try {
+      if (options_.perturbation != 0) perturb(simulator.system());
       simulator.start(setup_.initial);
       while (simulator.advance(sink)) {
         require_arithmetic(settings_, setup_, simulator.state().t, simulator.statistics().steps + 1);
@@ -60,6 +61,18 @@ class CaseRun {
       fail({t, step, fmt::format("at t = {:.9g} s, step {}: ", t, step), simulator.system().last_call()});
     }
     collect(simulator);
+  }
+
+  void perturb(model::AssembledSystem& system) {
+    State& start = setup_.initial;
+    if (start.v.size() == 0) return;
+    Vec a, lambda;
+    system.move_to(start.t, start.q, start.v);
+    system.accelerate({}, a, lambda);
+    const double most = a.lpNorm<Eigen::Infinity>(), speed = start.v.lpNorm<Eigen::Infinity>();
+    if (!(most > 0)) return;
+    const double by = speed > 0 ? speed : most * (setup_.settings.until - setup_.settings.start);
+    start.v += options_.perturbation * by / most * a;
   }
 
   void load(SeriesSink& sink) {

@@ -23,6 +23,9 @@ namespace trammel::study {
 struct CaseOptions {
   double cpu_limit = std::numeric_limits<double>::infinity();  // [s] of the simulation; then `too_long`
   SeriesSink::Keep keep = SeriesSink::Keep::observed;
+  // Relative to the largest speed at the start, or that of the start's acceleration over the run: v is moved by that
+  // part of it along the acceleration there, which rows at rest allow.
+  double perturbation = 0;
   simulate::Interrupt* interrupt = nullptr;
   simulate::CrashWitness* witness = nullptr;
 };

@@ -10,6 +10,7 @@
 #include "scene/fnv_hash.hpp"
 #include "scene/suggestion.hpp"
 #include "simulate/results/provenance.hpp"
+#include "study/json_text.hpp"
 #include "study/samples.hpp"
 
 namespace trammel::study {
@@ -20,28 +21,6 @@ using scene::Value;
 using Type = Value::Type;
 
 constexpr std::size_t most_cases = 10'000'000, most_dimensions = 3000;  // of Boost's table of Sobol's numbers: 3667
-
-std::string json_text(const Value& value) {
-  std::string text;
-  switch (value.type()) {
-    case Type::null:
-      return "null";
-    case Type::boolean:
-      return value.boolean() ? "true" : "false";
-    case Type::number:
-      return fmt::format("{}", value.number());
-    case Type::text:
-      return nlohmann::json(value.text()).dump();
-    case Type::array:
-      for (const Value& item : value.items()) text += (text.empty() ? "" : ",") + json_text(item);
-      return "[" + text + "]";
-    case Type::object:
-      for (const auto& [name, member] : value.members())
-        text += (text.empty() ? "" : ",") + nlohmann::json(name).dump() + ":" + json_text(member);
-      return "{" + text + "}";
-  }
-  return text;
-}
 
 const std::vector<std::string>& modes() {
   static const std::vector<std::string> all = {"grid", "zip", "random", "sobol", "list"};

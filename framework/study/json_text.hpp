@@ -1,0 +1,12 @@
+// A value of a scene as JSON text, its expressions unevaluated: what `--set` takes.
+#pragma once
+
+#include <string>
+
+#include "scene/value.hpp"
+
+namespace trammel::study {
+
+std::string json_text(const scene::Value& value);
+
+}  // namespace trammel::study

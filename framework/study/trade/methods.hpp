@@ -1,0 +1,46 @@
+// The integrators that a scene can be run with, and the settings by which each is made more accurate.
+//
+// A level is one setting: a tolerance of 10^(-2 - level/2), or a fixed step of 4 h 2^(-level), h the scene's own.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plugin/registry.hpp"
+#include "scene/value.hpp"
+#include "study/batch.hpp"
+
+namespace trammel::study {
+
+struct Method {
+  enum class Dial { tolerance, step };
+  std::string name;  // "dop853"; the scene's own with fixed steps: "hht_alpha, fixed steps"
+  std::string type;
+  std::string family;  // methods of different families share no formula: what two of them agree on is trusted
+  int order = 1;
+  Dial dial = Dial::tolerance;
+  bool own = false;                   // with the parameters that the scene gives it
+  std::string integrator;             // its JSON object without steps
+  double step = 0, contact_step = 0;  // [s] of the scene, for fixed steps; contact_step 0: none
+
+  int levels() const { return dial == Dial::tolerance ? 19 : 10; }
+  double asked(int level) const;            // tolerance, or step [s]
+  std::string setting(int level) const;     // "tolerance 3.2e-06", for a person
+  std::string with_level(int level) const;  // the JSON object with steps
+  std::string with_tolerance(double tolerance) const;
+  Overrides overrides(int level) const { return {{"integrator", with_level(level)}}; }
+};
+
+struct Refusal {
+  std::string type, reason;
+};
+
+struct Methods {
+  std::vector<Method> capable;
+  std::vector<Refusal> refused;
+};
+
+// Asks each integrator that is installed whether it takes the scene.
+Methods methods_for(const SceneSource& source, plugin::Registry& registry);
+
+}  // namespace trammel::study

@@ -1,0 +1,34 @@
+// A reference that finds itself: two methods of unrelated families, tightened until they agree.
+//
+// What they share is trusted, and no error below ten times their disagreement is claimed. The search takes a third of
+// the budget at most.
+#pragma once
+
+#include <optional>
+
+#include "study/trade/errors.hpp"
+#include "study/trade/methods.hpp"
+#include "study/trade/runner.hpp"
+
+namespace trammel::study {
+
+struct ReferenceRun {
+  Method method;
+  double tolerance = 0;
+  CaseResult result;
+};
+
+struct TradeReference {
+  ReferenceRun first, second;  // errors are measured against the first
+  double disagreement = 0;     // largest scaled difference until trusted_until
+  double parts_at = 0;         // [s] from there on they differ by more than the target; the end: never
+  double trusted_until = 0;    // [s] the last record before they differ by more than a tenth of the target
+  bool chaotic = false;        // they part before the end
+  double floor() const { return 10 * disagreement; }
+};
+
+// Nothing: no two families came through; `why` tells.
+std::optional<TradeReference> find_reference(const Methods& methods, Runner& run, double target,
+                                             const std::vector<std::string>& observed, std::string& why);
+
+}  // namespace trammel::study

@@ -1,0 +1,179 @@
+#include "study/trade/work_precision.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trammel::study {
+namespace {
+
+constexpr int most_runs = 6;  // of one method
+constexpr double dear = 3;    // times the cheapest so far
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Of log10 of the error a level: a tolerance falls by 10^0.5, and so does an error that is proportional to it; a step is
+// halved.
+double expected_slope(const Method& method) {
+  return method.dial == Method::Dial::tolerance ? -0.5 : -method.order * std::log10(2.0);
+}
+// Of log10 of the cost a level: steps of a method of order p grow with the tolerance to the power -1/(p + 1).
+double cost_slope(const Method& method) {
+  return method.dial == Method::Dial::tolerance ? 0.5 / (method.order + 1) : std::log10(2.0);
+}
+
+double logarithm(double error) {
+  return std::log10(std::max(error, 1e-17));
+}
+
+}  // namespace
+
+int Course::deceived() const {
+  return int(std::count_if(samples.begin(), samples.end(), [](const auto& s) { return s.second.deceived; }));
+}
+
+WorkPrecision::WorkPrecision(const Methods& methods, const TradeReference& reference, const Measure& measure,
+                             Runner& run)
+    : reference_(reference), measure_(measure), run_(run) {
+  for (const Method& method : methods.capable) courses_.push_back({method, {}, ""});
+}
+
+int WorkPrecision::full_grid() const {
+  int all = 0;
+  for (const Course& course : courses_) all += course.method.levels();
+  return all;
+}
+
+Sample WorkPrecision::sample_of(const Method& method, int level, const CaseResult& r) const {
+  Sample s{level, r.status, r.reason, {}, r.counts, {r.cpu, r.cpu, 1}};
+  if (!s.done()) return s;
+  s.error = measure_.error(r.series, reference_.trusted_until);
+  const bool asks = method.dial == Method::Dial::tolerance;
+  s.deceived = asks && s.error.max > std::max(10 * method.asked(level), reference_.floor());
+  return s;
+}
+
+void WorkPrecision::run(const std::vector<std::pair<std::size_t, int>>& which, double limit) {
+  std::vector<Overrides> cases;
+  for (const auto& [course, level] : which) cases.push_back(courses_[course].method.overrides(level));
+  const std::vector<CaseResult> results = run_(cases, limit);
+  runs_ += int(which.size());
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    Course& course = courses_[which[i].first];
+    course.samples[which[i].second] = sample_of(course.method, which[i].second, results[i]);
+  }
+}
+
+std::optional<std::pair<std::size_t, int>> WorkPrecision::best(double target) const {
+  std::optional<std::pair<std::size_t, int>> found;
+  double least = infinity;
+  for (std::size_t i = 0; i < courses_.size(); ++i)
+    for (const auto& [level, s] : courses_[i].samples)
+      if (s.done() && s.error.max <= target && s.cpu.least < least) least = s.cpu.least, found = {i, level};
+  return found;
+}
+
+bool WorkPrecision::too_dear(const Course& course, int level, double target) const {
+  const auto found = best(target);
+  if (!found || course.samples.empty()) return false;
+  const double least = sample(*found).cpu.least;
+  // From the nearest level that came to the end, or was stopped as too long.
+  const auto near = std::min_element(
+      course.samples.begin(), course.samples.end(),
+      [level](const auto& a, const auto& b) { return std::abs(a.first - level) < std::abs(b.first - level); });
+  const double cost = near->second.cpu.least * std::pow(10.0, cost_slope(course.method) * (level - near->first));
+  return cost > dear * least;
+}
+
+std::optional<int> WorkPrecision::next_level(const Course& course, double target) const {
+  const int last = course.method.levels() - 1;
+  if (course.samples.empty()) {
+    // Local errors add up: a little tighter than the target.
+    if (course.method.dial == Method::Dial::step) return 2;
+    return std::clamp(int(std::ceil(2 * (-std::log10(target) - 2))) + 1, 0, last);
+  }
+  if (int(course.samples.size()) >= most_runs) return std::nullopt;
+  // Levels below `fails` do not meet the target, `meets` does.
+  int fails = -1, meets = last + 1;
+  for (const auto& [level, s] : course.samples) {
+    const bool good = s.done() && s.error.max <= target;
+    if (good) meets = std::min(meets, level);
+  }
+  for (const auto& [level, s] : course.samples)
+    if (level < meets) fails = std::max(fails, level);
+  if (meets - fails <= 1) return std::nullopt;
+  // A line through the two nearest known errors, or one with the slope of the method's order.
+  const auto known = [&](int level) -> const Sample* {
+    const auto found = course.samples.find(level);
+    return found != course.samples.end() && found->second.done() ? &found->second : nullptr;
+  };
+  const Sample *a = known(fails), *b = known(meets);
+  double slope = expected_slope(course.method), guess = 0;
+  if (a && b && logarithm(b->error.max) < logarithm(a->error.max))
+    slope = (logarithm(b->error.max) - logarithm(a->error.max)) / (meets - fails);
+  if (const Sample* from = b ? b : a; from) {
+    const int at = b ? meets : fails;
+    guess = at + (std::log10(target) - logarithm(from->error.max)) / slope;
+  } else {
+    guess = fails + 3;  // it failed: tighter
+  }
+  return std::clamp(int(std::ceil(guess)), fails + 1, meets - 1);
+}
+
+void WorkPrecision::search(double target) {
+  for (;;) {
+    std::vector<std::pair<std::size_t, int>> which;
+    for (std::size_t i = 0; i < courses_.size(); ++i) {
+      Course& course = courses_[i];
+      if (!course.ended.empty()) continue;
+      const auto level = next_level(course, target);
+      if (!level)
+        course.ended = "the loosest setting that meets the target is known, or none does";
+      else if (too_dear(course, *level, target))
+        course.ended = "it would cost more than three times the cheapest";
+      else
+        which.emplace_back(i, *level);
+    }
+    if (which.empty() || run_.left() <= 0 || run_.interrupted()) return;
+    const auto found = best(target);
+    const double share = run_.left() / double(2 * which.size());
+    run(which, found ? std::min(share, 2 * dear * sample(*found).cpu.least + 0.02) : share);
+  }
+}
+
+void WorkPrecision::scan() {
+  for (int level = 0; level < 19; level += 2) {
+    std::vector<std::pair<std::size_t, int>> which;
+    for (std::size_t i = 0; i < courses_.size(); ++i)
+      if (level < courses_[i].method.levels() && courses_[i].ended.empty()) which.emplace_back(i, level);
+    if (which.empty() || run_.left() <= 0 || run_.interrupted()) return;
+    const double limit = run_.left() / double(2 * which.size());
+    run(which, limit);
+    for (const auto& [i, at] : which)
+      if (courses_[i].samples.at(at).status == CaseResult::Status::too_long)
+        courses_[i].ended = "it took longer than its share of the budget";
+  }
+}
+
+void WorkPrecision::repeat(double target, double factor) {
+  constexpr int times = 5;
+  const auto found = best(target);
+  if (!found) return;
+  const double least = sample(*found).cpu.least;
+  std::vector<std::pair<std::size_t, int>> front;
+  std::vector<Overrides> cases;
+  double each = 0;
+  for (std::size_t i = 0; i < courses_.size(); ++i)
+    for (const auto& [level, s] : courses_[i].samples)
+      if (s.done() && s.error.max <= target && s.cpu.least <= factor * least)
+        front.emplace_back(i, level), cases.push_back(courses_[i].method.overrides(level)), each += s.cpu.least;
+  for (int k = 1; k < times && run_.left() > each && !run_.interrupted(); ++k) {
+    const std::vector<CaseResult> results = run_(cases, run_.left());
+    for (std::size_t n = 0; n < front.size(); ++n) {
+      if (!results[n].done()) continue;
+      Timing& t = courses_[front[n].first].samples.at(front[n].second).cpu;
+      t.least = std::min(t.least, results[n].cpu), t.most = std::max(t.most, results[n].cpu), ++t.repetitions;
+    }
+  }
+}
+
+}  // namespace trammel::study

@@ -1,0 +1,137 @@
+// Studies as a user runs them: shards, resuming, failures, errors of the file; comparing folders.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace {
+
+using cli::read_file;
+using cli::trammel;
+using nlohmann::json;
+using testing::HasSubstr;
+
+// Ten pendulums; the last two have no length, which their scene refuses.
+const char* const study = R"({
+  "study": 1, "scene": "pendulum.json",
+  "vary": {"parameters.L": [0.5, 1, 1.5, 2, 0], "parameters.m": [1, 2]},
+  "reduce": {"lowest": {"observe": "tip_y", "as": "min"},
+             "down": {"observe": "tip_x", "as": "first_crossing", "direction": "down"}}
+})";
+
+struct Folder : cli::TemporaryFolder {
+  explicit Folder(const std::string& text = study) {
+    cli::write_file(path() / "pendulum.json",
+                    read_file(std::filesystem::path(TRAMMEL_SOURCE_DIR) / "scenes/tour/01_pendulum.json"));
+    cli::write_file(path() / "study.json", text);
+  }
+  cli::Result run(std::vector<std::string> words) const {
+    words.insert(words.begin(), "study");
+    return trammel(words, {.folder = path()});
+  }
+  std::string file(const std::string& name) const { return read_file(path() / name); }
+};
+
+TEST(Study, WritesARowForEachCaseAndGoesOnAfterFailures) {
+  const Folder folder;
+  const auto result = folder.run({"study.json", "--out", "a", "--set", "set={\"simulate.until\": 0.8}"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const json all = json::parse(folder.file("a/study.json"));
+  EXPECT_EQ(all["done"], 8);
+  EXPECT_EQ(all["failed"], 2);
+  EXPECT_THAT(all["failures"][0]["reason"].get<std::string>(), HasSubstr("inertia"));
+}
+
+TEST(Study, OfShardsJoinsToTheBytesOfOneRun) {
+  const Folder folder;
+  ASSERT_EQ(folder.run({"study.json", "--out", "whole", "--jobs", "1"}).exit_code, 0);
+  for (const char* shard : {"1/3", "2/3", "3/3"})
+    ASSERT_EQ(folder.run({"study.json", "--out", std::string("s") + shard[0], "--shard", shard}).exit_code, 0);
+  ASSERT_EQ(folder.run({"merge", "s1", "s2", "s3", "--out", "merged"}).exit_code, 0);
+  EXPECT_EQ(folder.file("merged/study.csv"), folder.file("whole/study.csv"));
+  EXPECT_EQ(folder.file("merged/study.npz"), folder.file("whole/study.npz"));
+}
+
+TEST(Study, NamesCasesThatAreMissing) {
+  const Folder folder;
+  ASSERT_EQ(folder.run({"study.json", "--out", "s1", "--shard", "1/3"}).exit_code, 0);
+  ASSERT_EQ(folder.run({"study.json", "--out", "s3", "--shard", "3/3"}).exit_code, 0);
+  const auto merged = folder.run({"merge", "s1", "s3", "--out", "merged"});
+  EXPECT_EQ(merged.exit_code, 1);
+  EXPECT_THAT(merged.out, HasSubstr("missing: 1, 4, 7"));
+}
+
+TEST(Study, RunsOnlyTheCasesThatAreMissing) {
+  const Folder folder;
+  ASSERT_EQ(folder.run({"study.json", "--out", "a"}).exit_code, 0);
+  const std::string csv = folder.file("a/study.csv"), journal = folder.file("a/cases.ndjson");
+  // Half of a line is lost, as after a kill, and one case.
+  cli::write_file(folder.path() / "a/cases.ndjson", journal.substr(0, journal.size() - 40));
+  ASSERT_EQ(folder.run({"study.json", "--out", "a"}).exit_code, 0);
+  EXPECT_EQ(folder.file("a/study.csv"), csv);
+  EXPECT_EQ(std::ranges::count(folder.file("a/cases.ndjson"), '\n'), 10);
+}
+
+TEST(Study, FailsWhenEveryCaseFailed) {
+  const Folder folder(R"({"study": 1, "scene": "pendulum.json", "vary": {"parameters.L": [0]}})");
+  EXPECT_EQ(folder.run({"study.json"}).exit_code, 1);
+}
+
+TEST(Study, AsksForARequeueWhenItIsTerminated) {
+  const Folder folder(R"({"study": 1, "scene": "pendulum.json", "set": {"integrator.step": 1e-5},
+                          "vary": {"parameters.m": {"from": 1, "to": 2, "count": 1000}}})");
+  const auto result =
+      trammel({"study", "study.json", "--out", "a"},
+              {.folder = folder.path(),
+               .send_signal_when = [&] { return read_file(folder.path() / "a/cases.ndjson").size() > 100; },
+               .signal = SIGTERM});
+  EXPECT_EQ(result.exit_code, 75) << result.err;
+  EXPECT_EQ(json::parse(folder.file("a/study.json"))["status"], "interrupted");
+}
+
+TEST(Study, TellsAllErrorsOfItsFileAtOnce) {
+  const Folder folder(R"({"study": 1, "scene": "pendulum.json", "seed": 3,
+  "vary": {"parameters.L": {"from": 0.1, "to": 1, "counts": 3}},
+  "reduce": {"lowest": {"observe": "tip_y", "as": "minimum"}}
+})");
+  const auto result = folder.run({"study.json"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("study.json:1:52: seed"));
+  EXPECT_THAT(result.err, HasSubstr("Did you mean \"count\"?"));
+  EXPECT_THAT(result.err, HasSubstr("Did you mean \"min\"?"));
+}
+
+TEST(Study, NamesThePathThatItsSceneDoesNotHave) {
+  const Folder folder(R"({"study": 1, "scene": "pendulum.json", "vary": {"parameters.l": [1]},
+  "reduce": {"a": {"observe": "angel", "as": "max"}}})");
+  const auto result = folder.run({"study.json"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("study.json:1:49: vary.parameters.l"));
+  EXPECT_THAT(result.err, HasSubstr("Did you mean \"angle\"?"));
+}
+
+TEST(Study, ProposesShardsOfAMinuteEach) {
+  const Folder folder;
+  const auto result = folder.run({"study.json", "--estimate", "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json::parse(result.out)["shards"], 1);
+}
+
+TEST(Compare, TellsTheFirstRowAndColumnThatDifferAndByHowManyDigits) {
+  const Folder folder;
+  const auto run = [&](const char* out, const char* set) {
+    ASSERT_EQ(
+        trammel({"run", "pendulum.json", "--out", out, "--quiet", "--set", set}, {.folder = folder.path()}).exit_code,
+        0);
+  };
+  run("a", "integrator.step=0.001"), run("b", "integrator.step=0.001"), run("c", "integrator.step=0.0005");
+  EXPECT_EQ(trammel({"compare", "a", "b"}, {.folder = folder.path()}).exit_code, 0);
+  const auto differs = trammel({"compare", "a", "c"}, {.folder = folder.path()});
+  EXPECT_EQ(differs.exit_code, 1);
+  EXPECT_THAT(differs.out, HasSubstr("series.csv: first at row 2 (t = 0.01"));
+  EXPECT_THAT(differs.out, HasSubstr("digits agree"));
+  EXPECT_THAT(differs.out, HasSubstr("made with another scene"));
+}
+
+}  // namespace

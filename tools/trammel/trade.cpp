@@ -1,0 +1,73 @@
+// trammel trade SCENE: speed against accuracy on this scene.
+#include <unistd.h>
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "arguments.hpp"
+#include "input.hpp"
+#include "interrupt.hpp"
+#include "results_folder.hpp"
+#include "study/trade/trade.hpp"
+#include "study/workers.hpp"
+
+namespace trammel::tool {
+
+namespace {
+
+constexpr Option kFolder{"--out", "DIR", "results folder; default out/<scene name>_trade"};
+constexpr Option kTarget{"--target", "E",
+                         "largest scaled error: the cheapest choice that meets it is found and verified"};
+constexpr Option kObserve{"--observe", "NAME", "an observed column that counts (repeatable); default: all"};
+constexpr Option kBudget{"--budget", "S", "CPU time to spend [s]; default 45 for each core"};
+constexpr Option kJobs{"--jobs", "N", "processes; default: one for each core that this process may use"};
+
+double positive(const Option& option, const std::string& text) {
+  char* end = nullptr;
+  const double x = std::strtod(text.c_str(), &end);
+  if (text.empty() || end != text.c_str() + text.size() || !(x > 0) || !std::isfinite(x))
+    throw UsageError(fmt::format("{} {}: expected a number above 0", option.name, text));
+  return x;
+}
+
+Exit run(const Arguments& arguments) {
+  study::TradeOptions options;
+  options.out = results_folder(arguments, "_trade");
+  if (arguments.has(kTarget.name)) options.target = positive(kTarget, arguments.last(kTarget.name));
+  if (arguments.has(kJobs.name)) options.jobs = int(positive(kJobs, arguments.last(kJobs.name)));
+  constexpr double a_core = 45;  // [s]
+  const int cores = options.jobs > 0 ? options.jobs : study::cores_at_hand();
+  options.budget = arguments.has(kBudget.name) ? positive(kBudget, arguments.last(kBudget.name)) : a_core * cores;
+  options.observe = arguments.all(kObserve.name);
+  options.command = arguments.command_line();
+  const study::SceneSource source(arguments.operand(), overrides_of(arguments));
+  plugin::Registry registry;
+  load_plugins(arguments, registry);
+  study::require_observed(source, registry, options.observe);
+  const simulate::ResultsFolder folder(options.out, simulate::Analysis::trade);
+  options.interrupt = &watch_for_interrupts();
+  const bool quiet = arguments.has(kJson.name) || arguments.has(kQuiet.name);
+  if (!quiet && ::isatty(STDERR_FILENO))
+    options.progress = [](const std::string& what) { fmt::print(stderr, "\r\033[K{} ...", what), std::fflush(stderr); };
+  const study::TradeReport report = study::trade(source, registry, options);
+  if (options.progress) fmt::print(stderr, "\r\033[K");
+  if (arguments.has(kJson.name))
+    print_line(report.json);
+  else if (!quiet)
+    print_line(report.summary);
+  if (options.interrupt->requested()) return Exit::interrupted;
+  return report.done && (!options.target || report.choice) ? Exit::done : Exit::failed;
+}
+
+}  // namespace
+
+Command trade_command() {
+  return {"trade",
+          "SCENE",
+          "Measure speed against accuracy on this scene, and name the cheapest choice that meets a target.",
+          {kFolder, kTarget, kObserve, kBudget, kJobs, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
+          run};
+}
+
+}  // namespace trammel::tool
