@@ -36,6 +36,7 @@ enum class Status { done, failed, interrupted };
 struct RunReport {
   Status status = Status::done;
   std::string reason;       // why it failed: time, step and cause
+  double t = 0, cpu = 0;    // [s] reached; of CPU time
   std::string result_json;  // as written to out/result.json
   std::string summary;  // a few lines for a person: what was simulated, impacts, energy by cause, norms, cost, where
 };

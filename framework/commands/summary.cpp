@@ -51,7 +51,10 @@ std::string summary(const scene::Scene& scene, const Setup& setup, Simulator& si
   const auto line = [&text](const char* what, const std::string& value) {
     text += fmt::format("  {:<12}{}\n", what, value);
   };
+  // First of all what limits the trust in the rest.
   for (const std::string& warning : simulator.doubts()) line("warning", warning);
+  for (const std::string& warning : simulator.warnings()) line("warning", warning);
+  for (const std::string& warning : setup.warnings) line("warning", warning);
   line("simulated",
        fmt::format("{:.6g} s to {:.6g} s with {}; {}, {}, {}", setup.settings.start, state.t, setup.integrator_type,
                    counted(model.bodies.size(), "body", "bodies"), counted(model.joints.size(), "joint", "joints"),
@@ -70,8 +73,6 @@ std::string summary(const scene::Scene& scene, const Setup& setup, Simulator& si
   const double per_step = s.steps > 0 ? 1e6 * outcomes.cost.cpu / double(s.steps) : 0;
   line("cost", fmt::format("{} steps, {} rejected, {} to locate events; {:.3g} s of CPU time, {:.3g} us per step",
                            s.steps, s.rejected, s.locating_steps, outcomes.cost.cpu, per_step));
-  for (const std::string& warning : setup.warnings) line("warning", warning);
-  for (const std::string& warning : simulator.warnings()) line("warning", warning);
   line("results", folder.string());
   if (!outcomes.reason.empty()) line(to_string(outcomes.status), outcomes.reason);
   return text;

@@ -5,15 +5,30 @@
 #include "commands/simulation.hpp"
 #include "input.hpp"
 #include "last_words.hpp"
+#include "report/page.hpp"
+#include "study/evidence/ablation.hpp"
 
 namespace trammel::tool {
 
 namespace {
 
+constexpr Option kAblate{"--ablate", "",
+                         "leave out each optional part in turn, and find the smallest scene that keeps the target"};
+constexpr Option kTarget{"--target", "X",
+                         "of --ablate: the change allowed, in parts of what the observables change; 1e-3"};
+
+Exit ablate(const Arguments& arguments, plugin::Registry& registry) {
+  const double target = arguments.has(kTarget.name) ? positive(arguments, kTarget) : 1e-3;
+  const study::SceneSource source(arguments.operand(), overrides_of(arguments));
+  fmt::print("{}", report::text(study::page_of(study::ablate(source, registry, target), arguments.operand())));
+  return Exit::done;
+}
+
 Exit explain(const Arguments& arguments) {
   const scene::Scene scene = load_scene(arguments);
   plugin::Registry registry;
   load_plugins(arguments, registry);
+  if (arguments.has(kAblate.name)) return ablate(arguments, registry);
   fmt::print("{}", simulate::explain(scene, registry, &witness()));
   return Exit::done;
 }
@@ -24,7 +39,7 @@ Command explain_command() {
   return {"explain",
           "SCENE",
           "Show what is built from a scene, which rows are redundant, what each part costs, what is left out.",
-          {kSet, kPlugin, kAllowScenePlugins},
+          {kSet, kPlugin, kAllowScenePlugins, kAblate, kTarget},
           explain};
 }
 

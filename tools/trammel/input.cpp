@@ -1,5 +1,7 @@
 #include "input.hpp"
 
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
@@ -28,6 +30,15 @@ scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override>
 void load_plugins(const Arguments& arguments, plugin::Registry& registry) {
   if (arguments.has(kAllowScenePlugins.name)) registry.allow_scene_plugins();
   for (const std::string& library : arguments.all("--plugin")) registry.search(library);
+}
+
+double positive(const Arguments& arguments, const Option& option) {
+  const std::string& text = arguments.last(option.name);
+  double x = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(x) || x <= 0)
+    throw UsageError(fmt::format("{} {}: expected a number > 0, e.g. 1e-4", option.name, text));
+  return x;
 }
 
 void print_json(const nlohmann::ordered_json& object) {

@@ -22,6 +22,9 @@ scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override>
 // plugin::PluginError.
 void load_plugins(const Arguments& arguments, plugin::Registry& registry);
 
+// The option's value, a number > 0. Throws UsageError.
+double positive(const Arguments& arguments, const Option& option);
+
 void print_json(const nlohmann::ordered_json& object);
 void print_line(const std::string& text);  // takes no memory: results are complete by then
 

@@ -1,5 +1,7 @@
 // trammel run SCENE: simulate and write the results folder.
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -15,6 +17,8 @@
 #include "scene/suggestion.hpp"
 #include "results_folder.hpp"
 #include "simulate/results/log_file.hpp"
+#include "study/evidence/remedy.hpp"
+#include "study/evidence/verification.hpp"
 
 namespace trammel::tool {
 
@@ -25,6 +29,9 @@ namespace fs = std::filesystem;
 constexpr Option kReport{"--report", "", "write report.html beside the results, to look at: animation, plots, events"};
 constexpr Option kFormat{"--format", "NAME",
                          "write the results also as npz (NumPy) or vtu (ParaView), beside the others (repeatable)"};
+constexpr Option kVerify{"--verify", "",
+                         "run again with finer steps and by another method: an error for every observable"};
+constexpr Option kTarget{"--target", "X", "of --verify: the error wanted, in parts of what an observable changes"};
 constexpr Option kResume{"--resume", "DIR", "continue the interrupted run whose results are in DIR"};
 
 fs::path folder_of_run(const Arguments& arguments) {
@@ -84,6 +91,31 @@ void write_report(const fs::path& folder, bool quiet) {
   }
 }
 
+study::SceneSource source_of(const Arguments& arguments) {
+  return study::SceneSource(arguments.operand(), overrides_of(arguments));
+}
+
+void verify(const Arguments& arguments, plugin::Registry& registry, const scene::Scene& scene, const fs::path& folder,
+            bool quiet) {
+  std::optional<double> target;
+  if (arguments.has(kTarget.name)) target = positive(arguments, kTarget);
+  const study::CaseResult done = study::read_run(folder, scene);
+  const study::Verification verification = study::verify(source_of(arguments), registry, done, target);
+  study::record(verification, folder);
+  if (quiet) return;
+  print_line(fmt::format("Verified at {:.2g} times the run's own cost:", verification.price));
+  for (const std::string& sentence : verification.sentences()) print_line("  " + sentence);
+}
+
+// What to change after a failure at t. Trying costs no more than the run did.
+void say_remedy(const Arguments& arguments, plugin::Registry& registry, const simulate::RunReport& report) {
+  const auto remedy = study::find_remedy(source_of(arguments), registry, report.t, std::max(1.0, report.cpu));
+  if (!remedy) return;
+  std::string sets;
+  for (const scene::Override& o : remedy->overrides) sets += " --set " + shell_quoted(o.path + "=" + o.value);
+  fmt::print(stderr, "It gets past there with {}:{}\n", remedy->what, sets);
+}
+
 Exit run(const Arguments& arguments) {
   const bool json = arguments.has("--json");
   const bool quiet = arguments.has("--quiet");
@@ -113,6 +145,8 @@ Exit run(const Arguments& arguments) {
 
   if (json) print_line(report.result_json);
   if (!json && !quiet) print_line(report.summary);
+  if (arguments.has(kVerify.name) && report.status == simulate::Status::done)
+    verify(arguments, registry, scene, options.out, json || quiet);
   for (const formats::RunFormat* format : formats) write_format(*format, options.out, json || quiet);
   if (arguments.has(kReport.name)) write_report(options.out, json || quiet);
   switch (report.status) {
@@ -120,6 +154,7 @@ Exit run(const Arguments& arguments) {
       return Exit::done;
     case simulate::Status::failed:
       fmt::print(stderr, "trammel: {}\nResults up to there are in {}\n", report.reason, options.out.string());
+      if (!quiet) say_remedy(arguments, registry, report);
       return Exit::failed;
     case simulate::Status::interrupted:
       fmt::print(stderr, "trammel: interrupted; results are in {}, continue with: {}\n", options.out.string(),
@@ -135,7 +170,7 @@ Command run_command() {
   return {"run",
           "SCENE",
           "Simulate a scene and write its results.",
-          {kOut, kSet, kPlugin, kAllowScenePlugins, kReport, kFormat, kResume, kJson, kQuiet},
+          {kOut, kSet, kPlugin, kAllowScenePlugins, kReport, kFormat, kVerify, kTarget, kResume, kJson, kQuiet},
           run};
 }
 

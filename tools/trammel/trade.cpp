@@ -23,22 +23,14 @@ constexpr Option kObserve{"--observe", "NAME", "an observed column that counts (
 constexpr Option kBudget{"--budget", "S", "CPU time to spend [s]; default 45 for each core"};
 constexpr Option kJobs{"--jobs", "N", "processes; default: one for each core that this process may use"};
 
-double positive(const Option& option, const std::string& text) {
-  char* end = nullptr;
-  const double x = std::strtod(text.c_str(), &end);
-  if (text.empty() || end != text.c_str() + text.size() || !(x > 0) || !std::isfinite(x))
-    throw UsageError(fmt::format("{} {}: expected a number above 0", option.name, text));
-  return x;
-}
-
 Exit run(const Arguments& arguments) {
   study::TradeOptions options;
   options.out = results_folder(arguments, "_trade");
-  if (arguments.has(kTarget.name)) options.target = positive(kTarget, arguments.last(kTarget.name));
-  if (arguments.has(kJobs.name)) options.jobs = int(positive(kJobs, arguments.last(kJobs.name)));
+  if (arguments.has(kTarget.name)) options.target = positive(arguments, kTarget);
+  if (arguments.has(kJobs.name)) options.jobs = int(positive(arguments, kJobs));
   constexpr double a_core = 45;  // [s]
   const int cores = options.jobs > 0 ? options.jobs : study::cores_at_hand();
-  options.budget = arguments.has(kBudget.name) ? positive(kBudget, arguments.last(kBudget.name)) : a_core * cores;
+  options.budget = arguments.has(kBudget.name) ? positive(arguments, kBudget) : a_core * cores;
   options.observe = arguments.all(kObserve.name);
   options.command = arguments.command_line();
   const study::SceneSource source(arguments.operand(), overrides_of(arguments));

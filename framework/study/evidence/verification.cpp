@@ -19,9 +19,9 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr double parted = 0.1;          // of a scale: the two motions have nothing more to say of each other
+constexpr double parted = 0.1;             // of a scale: the two motions have nothing more to say of each other
 constexpr double second_tolerance = 1e-8;  // of the other method: below what a run is usually asked for
-constexpr double least_cpu = 0.2;       // [s] of a repetition: below it the price of one does not matter
+constexpr double least_cpu = 0.2;          // [s] of a repetition: below it the price of one does not matter
 
 struct Repeated {
   Repetition as_told;
@@ -78,8 +78,7 @@ class Verifier {
     for (const Repeated& r : repeated_) {
       v.repetitions.push_back(r.as_told);
       if (r.result.done())
-        v.repetitions.back().difference =
-            Measure(r.result, {}, scene).error(run_.series, v.trusted_until).max;
+        v.repetitions.back().difference = Measure(r.result, {}, scene).error(run_.series, v.trusted_until).max;
       v.price += r.as_told.cpu / std::max(run_.cpu, 1e-9);
     }
     return v;
@@ -87,15 +86,15 @@ class Verifier {
 
  private:
   ObservableError error_of(const std::string& name, const scene::Scene& scene, double until) const {
-    ObservableError all{.name = name, .error = std::nan(""), .scale = 0, .t = 0, .reason = "no repetition came to the end"};
+    ObservableError all{
+        .name = name, .error = std::nan(""), .scale = 0, .t = 0, .reason = "no repetition came to the end"};
     for (const Repeated& r : repeated_) {
       if (!r.result.done()) continue;
       const Measure measure(r.result, {name}, scene);
       const Error e = measure.error(run_.series, until);
       all.scale = std::max(all.scale, measure.scale(*r.result.series.column(name)));
       const double error = std::max(e.max, e.multipliers) * measure.scale(*r.result.series.column(name)) / r.share;
-      if (!(error <= all.error))
-        all.error = error, all.t = e.t, all.reason = "differs so much from " + r.as_told.what;
+      if (!(error <= all.error)) all.error = error, all.t = e.t, all.reason = "differs so much from " + r.as_told.what;
     }
     return all;
   }
@@ -121,9 +120,10 @@ std::vector<std::string> Verification::sentences() const {
   if (std::none_of(repetitions.begin(), repetitions.end(), came)) {
     all.push_back("not verified: no repetition came to the end");
   } else if (trusted_until < end) {
-    all.push_back(fmt::format("trust ends at t = {:.6g} s: from there repetitions differ by more than {:g} % of what the "
-                              "observables change",
-                              trusted_until, 100 * parted));
+    all.push_back(
+        fmt::format("trust ends at t = {:.6g} s: from there repetitions differ by more than {:g} % of what the "
+                    "observables change",
+                    trusted_until, 100 * parted));
   }
   if (target)
     all.push_back(met() ? fmt::format("every observable meets the target {:g}", *target)
@@ -141,8 +141,7 @@ json Verification::to_json() const {
   json of_observables = json::object(), of_repetitions = json::array();
   const auto number = [](double x) { return std::isfinite(x) ? json(x) : json(); };
   for (const ObservableError& o : observables)
-    of_observables[o.name] = {
-        {"error", number(o.error)}, {"scale", number(o.scale)}, {"t", o.t}, {"reason", o.reason}};
+    of_observables[o.name] = {{"error", number(o.error)}, {"scale", number(o.scale)}, {"t", o.t}, {"reason", o.reason}};
   for (const Repetition& r : repetitions)
     of_repetitions.push_back(
         {{"what", r.what}, {"failure", r.failure}, {"cpu_time", r.cpu}, {"difference", number(r.difference)}});

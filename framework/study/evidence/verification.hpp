@@ -19,10 +19,10 @@
 namespace trammel::study {
 
 struct Repetition {
-  std::string what;  // "hht_alpha with step 5e-05 s"
-  std::string failure;  // empty: it came to the end
-  double cpu = 0;       // [s]
-  double difference = 0;     // largest, divided by scales, until trusted_until
+  std::string what;       // "hht_alpha with step 5e-05 s"
+  std::string failure;    // empty: it came to the end
+  double cpu = 0;         // [s]
+  double difference = 0;  // largest, divided by scales, until trusted_until
 };
 
 struct ObservableError {
@@ -36,11 +36,11 @@ struct ObservableError {
 struct Verification {
   std::vector<Repetition> repetitions;
   std::vector<ObservableError> observables;
-  double trusted_until = 0;  // [s] from there on the repetitions part by more than a tenth of a scale
-  double end = 0;            // [s] of the run
-  double price = 0;          // CPU time of all repetitions, in times that of the run
+  double trusted_until = 0;      // [s] from there on the repetitions part by more than a tenth of a scale
+  double end = 0;                // [s] of the run
+  double price = 0;              // CPU time of all repetitions, in times that of the run
   std::optional<double> target;  // of error/scale
-  bool met() const;  // every estimate meets the target, to the end
+  bool met() const;              // every estimate meets the target, to the end
 
   std::vector<std::string> sentences() const;  // for a person, the verdict first
   nlohmann::ordered_json to_json() const;
