@@ -26,6 +26,11 @@ std::string IntegratorUnderTest::described() const {
   return text.empty() ? name_ : fmt::format("{} ({})", name_, text);
 }
 
+std::string IntegratorUnderTest::object() const {
+  const std::string bare = nlohmann::json{{"type", name_}}.dump();
+  return nlohmann::json::parse(scene::Scene::parse(bare, "--set", settings_).resolved()).dump();
+}
+
 const std::vector<std::string>& IntegratorUnderTest::choices(const std::string& parameter) const {
   static const std::vector<std::string> none;
   for (const Parameter& p : entry_->declaration.parameters)

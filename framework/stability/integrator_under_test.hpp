@@ -18,6 +18,7 @@ class IntegratorUnderTest {
 
   const std::string& name() const { return name_; }
   std::string described() const;  // "hht_alpha (alpha = -0.3)"
+  std::string object() const;     // as a scene writes it, JSON without steps
   bool has_parameter(const std::string& name) const;
   const std::vector<std::string>& choices(const std::string& parameter) const;  // empty: it has none of this name
   // Makes prepared instances; `more` settings come after the user's.

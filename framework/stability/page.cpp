@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "stability/region.hpp"
+#include "stability/scene_step.hpp"
 #include "stability/small_steps.hpp"
 #include "stability/spectral_map.hpp"
 
@@ -201,6 +202,36 @@ Page measure(const IntegratorUnderTest& subject) {
   if (!method->traits().implicit) add_motion_region(page, subject, theory);
   if (subject.has_parameter("delta") && subject.has_parameter("epsilon")) add_row_region(page, subject, theory);
   add_small_steps(page, subject);
+  return page;
+}
+
+Page measure_on_scene(const IntegratorUnderTest& subject, const study::SceneSource& source, plugin::Registry& registry,
+                      const std::string& path, const std::vector<std::string>& values) {
+  Page page{.title = fmt::format("Largest bounded step of {} on {}", subject.described(), source.file()),
+            .sentences = {},
+            .figures = {},
+            .tables = {}};
+  const double limit = stability_limit(subject.maker(), trammel::Axis::imaginary, most);
+  const std::optional<double> ends = limit < most ? std::optional<double>(limit) : std::nullopt;
+  Table table{.title = path.empty() ? "The scene as it is" : "Over " + path,
+              .columns = {{path.empty() ? "value" : path, ""}, {"largest bounded step", "s"}, {"linear theory", "s"}},
+              .rows = {}};
+  for (const std::string& value : values) {
+    const study::Overrides change = path.empty() ? study::Overrides{} : study::Overrides{{path, value}};
+    const LargestStep found = largest_step(source, registry, subject.object(), ends, change);
+    table.rows.push_back({value.empty() ? "-" : value,
+                          !found.failure.empty() ? found.failure
+                          : found.at_limit       ? fmt::format("{:.4g} or more", found.h)
+                          : found.h > 0          ? fmt::format("{:.4g}", found.h)
+                                                 : "none",
+                          number(found.predicted)});
+  }
+  page.sentences.push_back(
+      ends ? fmt::format("Without damping the method is stable up to omega h = {}; linear theory divides "
+                         "it by the highest frequency of small motions about the start.",
+                         number(*ends))
+           : "The method has no limit of stability that linear theory could predict.");
+  page.tables.push_back(std::move(table));
   return page;
 }
 

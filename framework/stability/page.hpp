@@ -3,11 +3,17 @@
 
 #include "report/page.hpp"
 #include "stability/integrator_under_test.hpp"
+#include "study/scene_source.hpp"
 
 namespace trammel::stability {
 
 // Maps over omega h, regions of explicit methods, Baumgarte's region, formulations at small steps: what applies to the
 // method; the sentences say what does not.
 report::Page measure(const IntegratorUnderTest& subject);
+
+// The largest bounded step on a scene, for each value of a parameter: path "" and one value "": the scene as it is.
+report::Page measure_on_scene(const IntegratorUnderTest& subject, const study::SceneSource& source,
+                              plugin::Registry& registry, const std::string& path,
+                              const std::vector<std::string>& values);
 
 }  // namespace trammel::stability

@@ -1,10 +1,13 @@
 // trammel stability INTEGRATOR: measured maps of stability and damping, beside theory.
+#include <sstream>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "arguments.hpp"
 #include "input.hpp"
 #include "report/page.hpp"
+#include "simulate/results/log_file.hpp"
 #include "stability/page.hpp"
 
 namespace trammel::tool {
@@ -13,15 +16,41 @@ namespace {
 
 constexpr Option kOfMethod{"--set", "NAME=VALUE", "a parameter of the integrator, e.g. alpha=-0.3 (repeatable)"};
 
+constexpr Option kReport{"--report", "FILE", "write the figures as one HTML file to look at"};
+constexpr Option kScene{"--scene", "SCENE", "the largest step with which this scene stays bounded"};
+constexpr Option kOver{"--over", "PATH=A,B,...", "of --scene: for each of these values of the scene"};
+
+// "bodies.b.mass=1,2,3"
+std::pair<std::string, std::vector<std::string>> values_over(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == text.npos || equals == 0 || equals + 1 == text.size())
+    throw UsageError(fmt::format("--over {}: expected PATH=A,B,..., e.g. --over parameters.k=1e2,1e4,1e6", text));
+  std::vector<std::string> values;
+  std::istringstream in(text.substr(equals + 1));
+  for (std::string value; std::getline(in, value, ',');) values.push_back(value);
+  return {text.substr(0, equals), values};
+}
+
+report::Page page_of(const Arguments& arguments, plugin::Registry& registry) {
+  const stability::IntegratorUnderTest subject(registry, arguments.operand(), overrides_of(arguments));
+  if (!arguments.has(kScene.name)) {
+    if (arguments.has(kOver.name)) throw UsageError("--over needs --scene: its values are of a scene");
+    return stability::measure(subject);
+  }
+  const auto [path, values] = arguments.has(kOver.name) ? values_over(arguments.last(kOver.name))
+                                                        : std::pair<std::string, std::vector<std::string>>("", {""});
+  return stability::measure_on_scene(subject, study::SceneSource(arguments.last(kScene.name)), registry, path, values);
+}
+
 Exit stability(const Arguments& arguments) {
   plugin::Registry registry;
   load_plugins(arguments, registry);
-  const report::Page page =
-      stability::measure(stability::IntegratorUnderTest(registry, arguments.operand(), overrides_of(arguments)));
+  const report::Page page = page_of(arguments, registry);
   if (arguments.has("--json")) {
     print_json({{"page", report::to_json(page)}});
     return Exit::done;
   }
+  if (arguments.has(kReport.name)) simulate::write_whole(arguments.last(kReport.name), report::html(page));
   fmt::print("{}\n", report::text(page));
   fmt::print("\nTry: trammel check {}\n", arguments.operand());
   return Exit::done;
@@ -33,7 +62,7 @@ Command stability_command() {
   return {"stability",
           "INTEGRATOR",
           "Measure where a method is stable, what it damps, and how it holds rows at small steps, beside theory.",
-          {kOfMethod, kPlugin, kJson},
+          {kOfMethod, kScene, kOver, kReport, kPlugin, kJson},
           stability};
 }
 
