@@ -42,7 +42,7 @@ TEST_P(IntegratorThatIsLimited, IsRefusedWithTheCauseAndThoseThatTakeIt) {
   EXPECT_THAT(without(ability, need),
               AllOf(HasSubstr("test.json:1:"), HasSubstr("integrator: \"limited\" with \"without\""),
                     HasSubstr(std::string("takes no ") + noun), HasSubstr(cause), HasSubstr("dop853"),
-                    HasSubstr("integrators that take them: ")));
+                    HasSubstr("integrators that do: ")));
 }
 
 INSTANTIATE_TEST_SUITE_P(
