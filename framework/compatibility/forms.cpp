@@ -32,7 +32,8 @@ std::vector<Form> forms(const plugin::Entry& entry) {
   std::vector<Form> others;
   for (const Parameter& parameter : declaration.parameters)
     for (const std::string& choice : parameter.choices) {
-      if (ParameterValue(choice) == parameter.get(*usual)) continue;
+      const ParameterValue value = parameter.get(*usual);
+      if (const auto* at_default = std::get_if<std::string>(&value); at_default && *at_default == choice) continue;
       std::unique_ptr<Component> other = plugin::new_component(entry);
       parameter.set(*other, choice);
       if (prepared(entry, *other)) others.push_back({declaration.name, parameter.name, choice, std::move(other)});

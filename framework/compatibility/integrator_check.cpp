@@ -30,9 +30,9 @@ std::string refusing_choice(const ChosenIntegrator& chosen, Need need, plugin::R
 
 void refuse(const ChosenIntegrator& chosen, Need need, const std::string& cause, plugin::Registry& registry,
             scene::Problems& problems) {
-  problems.error(chosen.value.problem(fmt::format("\"{}\"{} takes no {}, but {}; integrators that take them: {}",
-                                                  chosen.type, refusing_choice(chosen, need, registry), noun(need),
-                                                  cause, those_that_take(need, registry))));
+  problems.error(chosen.value.problem(fmt::format("\"{}\"{} takes no {}, but {}; integrators that do: {}", chosen.type,
+                                                  refusing_choice(chosen, need, registry), noun(need), cause,
+                                                  those_that_take(need, registry))));
 }
 
 void check_error_estimate(const ChosenIntegrator& chosen, const simulate::Settings& settings,

@@ -1,5 +1,8 @@
 #include "compatibility/matrix.hpp"
 
+#include <algorithm>
+#include <tuple>
+
 #include <trammel/fields.hpp>
 #include <trammel/theory_limit.hpp>
 
@@ -98,18 +101,47 @@ std::vector<LawPair> all_pairs(plugin::Registry& registry) {
   return all;
 }
 
-// With the parameters that a spatial scene must give, a body may have coordinates of other kinds: asked only where its
-// defaults suffice.
-bool turns_in_space(const plugin::Entry& entry) {
-  std::unique_ptr<Component> body = plugin::new_component(entry);
-  try {
-    body->prepare(World{.space = Space::spatial, .gravity = Vec3::Zero(3)});
-    const Coordinates coordinates = dynamic_cast<const Body&>(*body).coordinates();
-    for (const Coordinates::Part& part : coordinates.parts())
-      if (part.kind == Coordinates::Kind::rotation) return true;
-  } catch (const ParameterError&) {
+// A value for a parameter that has none: ones.
+ParameterValue plausible(const Parameter& parameter) {
+  switch (parameter.type) {
+    case Parameter::Type::number:
+      return 1.0;
+    case Parameter::Type::numbers:
+      return std::vector<double>{1, 1, 1};
+    case Parameter::Type::vector:
+      return Vec3(Vec3::Ones(3));
+    default:
+      return {};
   }
-  return false;
+}
+
+// In a spatial scene. What `prepare` asks for by name it gets; null if that does not help.
+std::unique_ptr<Component> prepared_in_space(const plugin::Entry& entry) {
+  const World world{.space = Space::spatial, .gravity = Vec3::Zero(3)};
+  std::vector<std::pair<const Parameter*, ParameterValue>> given;
+  const auto& parameters = entry.declaration.parameters;
+  while (given.size() <= parameters.size()) {
+    std::unique_ptr<Component> component = plugin::new_component(entry);
+    for (const auto& [parameter, value] : given) parameter->set(*component, value);
+    try {
+      component->prepare(world);
+      return component;
+    } catch (const ParameterError& e) {
+      const auto asked = std::find_if(parameters.begin(), parameters.end(),
+                                      [&e](const Parameter& one) { return one.name == e.parameter(); });
+      if (asked == parameters.end() || plausible(*asked).index() == 0) return nullptr;
+      given.emplace_back(&*asked, plausible(*asked));
+    }
+  }
+  return nullptr;
+}
+
+bool turns_in_space(const plugin::Entry& entry) {
+  const std::unique_ptr<Component> body = prepared_in_space(entry);
+  if (!body) return false;
+  const Coordinates coordinates = dynamic_cast<const Body&>(*body).coordinates();
+  return std::any_of(coordinates.parts().begin(), coordinates.parts().end(),
+                     [](const Coordinates::Part& part) { return part.kind == Coordinates::Kind::rotation; });
 }
 
 BodyKind body(const plugin::Entry& entry) {

@@ -16,8 +16,8 @@ enum class Need {
   events,          // contacts, friction that sticks, refinement
   error_estimate,  // a tolerance instead of a step's length
 };
-constexpr std::array every_need = {Need::rows,      Need::redundant_rows, Need::friction,      Need::jumps,
-                                   Need::rotations, Need::events,         Need::error_estimate};
+inline constexpr std::array every_need = {Need::rows,      Need::redundant_rows, Need::friction,      Need::jumps,
+                                          Need::rotations, Need::events,         Need::error_estimate};
 
 const char* name(Need need);  // "redundant_rows": as in the matrix
 const char* noun(Need need);  // "redundant rows": as in "takes no ..."

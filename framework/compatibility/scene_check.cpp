@@ -26,9 +26,10 @@ void check(const model::Model& model, Why why, const scene::Value& root, plugin:
       return !(of_friction ? (ContactLaws(nullptr, &one).*why)() : (ContactLaws(&one, nullptr).*why)());
     };
     const Kind kind = of_friction ? Kind::friction : Kind::contact;
-    problems.error(place(contact, of_friction, root)
-                       .problem(fmt::format("{}; {} laws that do: {}", reason, of_friction ? "friction" : "contact",
-                                            names_that(registry, kind, allowed))));
+    problems.error(
+        place(contact, of_friction, root)
+            .problem(fmt::format("{}; {} laws that work there: {}", reason, of_friction ? "friction" : "contact",
+                                 names_that(registry, kind, allowed))));
   }
 }
 

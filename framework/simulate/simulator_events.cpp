@@ -98,6 +98,7 @@ void Simulator::write_events(RecordSink& recorder) {
 void Simulator::refine(RecordSink& recorder, int contact) {
   const Transfer* transfer = refinement_.refine(now_, contact);
   if (!transfer) return;
+  if (!integrator_.traits().events) fail(0, "a body refined, and this integrator takes no events");
   for (const RefineEvent& event : refinement_.events()) recorder.event(event);
   ledger_.refinement(refinement_.gained());
   if (auto* resizable = dynamic_cast<Resizable*>(&integrator_))

@@ -41,7 +41,7 @@ TEST(IntegratorWithoutRows, RunsWhatHasNone) {
 
 TEST(IntegratorWithoutRows, IsRefusedByNameWhereAJointOrAContactHasRows) {
   EXPECT_THAT(refusal(R"("joints": {"pin": {"type": "revolute", "between": ["ground", "ball.top"]}},)"),
-              AllOf(HasSubstr("joints.pin has rows"), HasSubstr("integrators that take them: "), HasSubstr("dop853")));
+              AllOf(HasSubstr("joints.pin has rows"), HasSubstr("integrators that do: "), HasSubstr("dop853")));
   EXPECT_THAT(refusal(R"("contacts": {"floor": {"type": "constraint_method", )" + plane + "}},"),
               AllOf(HasSubstr("contacts.floor is a row while it is closed"), HasSubstr("generalized_alpha")));
   EXPECT_THAT(refusal(R"("contacts": {"floor": {"type": "continuous_force", "stiffness": 1e5, "friction":

@@ -18,6 +18,10 @@ double size(const Balance& p) {
 double supply(const Balance& p) {
   return p.drives + p.constraints + p.markers;
 }
+// Steps that the cubic through their ends does not follow: of high order, or with steps of the method's own in them.
+bool resolves_long_steps(const Traits& traits) {
+  return traits.order > 4 || traits.order == 0;
+}
 double dissipation(const Balance& p) {
   return p.contacts + p.friction.sum() + p.dampers;
 }
@@ -27,7 +31,7 @@ double dissipation(const Balance& p) {
 Ledger::Ledger(model::AssembledSystem& system, Integrator& integrator)
     : system_(system),
       between_(system, integrator),
-      dense_(integrator.traits().order > 4 ? dynamic_cast<DenseOutput*>(&integrator) : nullptr),
+      dense_(resolves_long_steps(integrator.traits()) ? dynamic_cast<DenseOutput*>(&integrator) : nullptr),
       impacts_(system.model().contacts.size()) {
   friction_.setZero(Eigen::Index(impacts_.size()));
   now_.friction = friction_;
