@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "study/batch.hpp"
+#include "support/made.hpp"
 #include "support/run_scene.hpp"
 #include "support/scenes.hpp"
 
@@ -16,7 +17,7 @@ scene::Scene with(const std::string& text, const std::vector<scene::Override>& o
 
 TEST(CaseRun, GivesTheNumbersThatARunWrites) {
   const test::Finished written = test::run_text(test::ball);
-  plugin::Registry registry;
+  plugin::Registry& registry = test::registry();
   const CaseResult r = run_case(with(test::ball), registry);
   ASSERT_TRUE(r.done()) << r.reason;
   for (const char* name : {"x", "y", "force"}) {
@@ -29,14 +30,14 @@ TEST(CaseRun, GivesTheNumbersThatARunWrites) {
 }
 
 TEST(CaseRun, OfAWrongSceneIsAResultWithItsReason) {
-  plugin::Registry registry;
+  plugin::Registry& registry = test::registry();
   const CaseResult r = run_case(with(test::ball, {{"bodies.ball.mass", "-1"}}), registry);
   EXPECT_EQ(r.status, CaseResult::Status::refused);
   EXPECT_THAT(r.reason, testing::HasSubstr("bodies.ball.mass"));
 }
 
 TEST(CaseRun, EndsAtItsLimitOfTime) {
-  plugin::Registry registry;
+  plugin::Registry& registry = test::registry();
   CaseOptions options;
   options.cpu_limit = 0.02;
   const CaseResult r = run_case(with(test::oscillator, {{"integrator.step", "1e-6"}}), registry, options);
@@ -46,7 +47,7 @@ TEST(CaseRun, EndsAtItsLimitOfTime) {
 }
 
 TEST(CaseRun, ComesThroughAPipeAsItWas) {
-  plugin::Registry registry;
+  plugin::Registry& registry = test::registry();
   const CaseResult r = run_case(with(test::ball), registry), back = unpacked(packed(r));
   EXPECT_EQ(back.series.t, r.series.t);
   EXPECT_EQ(back.series.values, r.series.values);
@@ -56,7 +57,7 @@ TEST(CaseRun, ComesThroughAPipeAsItWas) {
 }
 
 TEST(CaseRun, OfAPerturbedStartDiffersByAsMuch) {
-  plugin::Registry registry;
+  plugin::Registry& registry = test::registry();
   CaseOptions perturbed;
   perturbed.perturbation = 1e-6;
   const scene::Scene scene = with(test::ball, {{"simulate.until", "0.4"}});

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "support/made.hpp"
 #include "support/run_scene.hpp"
 
 namespace trammel::study {
@@ -31,7 +32,7 @@ struct Traded {
   explicit Traded(double target) {
     std::filesystem::create_directories(folder.path());
     std::ofstream(scene) << swing;
-    plugin::Registry registry;
+    plugin::Registry& registry = test::registry();
     TradeOptions options;
     options.out = folder.path(), options.target = target, options.budget = 20;
     const SceneSource source(scene);
@@ -49,7 +50,7 @@ double largest_error(const CaseResult& r) {
 TEST(Trade, NamesAChoiceWhoseErrorIsTrulyBelowTheTarget) {
   const Traded traded(1e-6);
   ASSERT_TRUE(traded.report.choice) << traded.report.summary;
-  plugin::Registry registry;
+  plugin::Registry& registry = test::registry();
   const SceneSource source(traded.scene);
   const CaseResult chosen = run_case(source.with(traded.report.choice->overrides), registry);
   ASSERT_TRUE(chosen.done()) << chosen.reason;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -29,14 +29,27 @@ class ReferenceSearch {
   }
 
  private:
-  // The two methods of highest order of each family, at a moderate tolerance.
+  // The method of highest order of each family, at a moderate tolerance: first the families of high order, the others
+  // if two of those do not come through.
   void begin() {
-    std::map<std::string, int> taken;
+    constexpr int high = 4;
+    try_families([](const Method& method) { return method.order >= high; });
+    const auto came = std::count_if(tried_.begin(), tried_.end(), [](const auto& r) { return r.result.done(); });
+    if (came < 2) try_families([](const Method& method) { return method.order < high; });
+  }
+
+  template <class Which>
+  void try_families(Which which) {
+    std::set<std::string> taken;
+    for (const ReferenceRun& one : tried_)
+      if (one.result.done()) taken.insert(one.method.family);
     std::vector<Overrides> cases;
+    const std::size_t before = tried_.size();
     for (const Method& method : candidates_)
-      if (++taken[method.family] <= 2) tried_.push_back({method, loosest, {}}), cases.push_back(at(method, loosest));
+      if (which(method) && taken.insert(method.family).second)
+        tried_.push_back({method, loosest, {}}), cases.push_back(at(method, loosest));
     std::vector<CaseResult> results = run_(cases, run_.budget() / 12);
-    for (std::size_t i = 0; i < tried_.size(); ++i) tried_[i].result = std::move(results[i]);
+    for (std::size_t i = 0; i < results.size(); ++i) tried_[before + i].result = std::move(results[i]);
   }
 
   static Overrides at(const Method& method, double tolerance) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -70,8 +71,9 @@ class Trade {
       if (error > content_.target) continue;
       content_.choice = Choice{
           method.name + ", " + method.setting(which.second), method.overrides(which.second), error, cpu, 0, 0, false};
+      std::set<std::size_t> named;
       for (const auto& [other, there] : meeting)
-        if (there != which && other <= wp.sample(which).cpu.most)
+        if (there.first != which.first && named.insert(there.first).second && other <= wp.sample(which).cpu.most)
           content_.equal.push_back(wp.courses()[there.first].method.name + ", " +
                                    wp.courses()[there.first].method.setting(there.second));
       judge(method, which.second, again[0], measure);
@@ -134,7 +136,8 @@ class Trade {
       cases.push_back(content_.choice->overrides);
       cases.back().push_back(rung.change);
     }
-    const std::vector<CaseResult> results = run_(cases, std::max(1.0, run_.left() / double(2 * cases.size())));
+    const std::vector<CaseResult> results =
+        run_(cases, std::max(4 * result.cpu, run_.left() / double(2 * cases.size())));
     for (std::size_t i = 0; i < rungs.size(); ++i) {
       const double difference = results[i].done() ? measure.error(results[i].series, result.series, until).max : 0;
       content_.rungs.push_back({rungs[i], results[i].status, results[i].reason, difference, results[i].cpu});

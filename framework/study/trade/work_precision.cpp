@@ -72,16 +72,26 @@ std::optional<std::pair<std::size_t, int>> WorkPrecision::best(double target) co
   return found;
 }
 
-bool WorkPrecision::too_dear(const Course& course, int level, double target) const {
-  const auto found = best(target);
-  if (!found || course.samples.empty()) return false;
-  const double least = sample(*found).cpu.least;
-  // From the nearest level that came to the end, or was stopped as too long.
+// From the nearest level that was run, also if it was stopped as too long.
+double WorkPrecision::expected_cost(const Course& course, int level) const {
+  if (course.samples.empty()) return 0;
   const auto near = std::min_element(
       course.samples.begin(), course.samples.end(),
       [level](const auto& a, const auto& b) { return std::abs(a.first - level) < std::abs(b.first - level); });
-  const double cost = near->second.cpu.least * std::pow(10.0, cost_slope(course.method) * (level - near->first));
-  return cost > dear * least;
+  return near->second.cpu.least * std::pow(10.0, cost_slope(course.method) * (level - near->first));
+}
+
+void WorkPrecision::drop_dear(std::vector<std::pair<std::size_t, int>>& which, double target) {
+  const auto found = best(target);
+  double least = found ? sample(*found).cpu.least : infinity;
+  for (const auto& [i, level] : which)
+    if (const double cost = expected_cost(courses_[i], level); cost > 0) least = std::min(least, cost);
+  std::erase_if(which, [&](const auto& one) {
+    Course& course = courses_[one.first];
+    if (!(expected_cost(course, one.second) > dear * least)) return false;
+    course.ended = "it is expected to cost more than three times the cheapest";
+    return true;
+  });
 }
 
 std::optional<int> WorkPrecision::next_level(const Course& course, double target) const {
@@ -92,6 +102,8 @@ std::optional<int> WorkPrecision::next_level(const Course& course, double target
     return std::clamp(int(std::ceil(2 * (-std::log10(target) - 2))) + 1, 0, last);
   }
   if (int(course.samples.size()) >= most_runs) return std::nullopt;
+  const auto is_long = [](const auto& s) { return s.second.status == CaseResult::Status::too_long; };
+  if (std::any_of(course.samples.begin(), course.samples.end(), is_long)) return std::nullopt;
   // Levels below `fails` do not meet the target, `meets` does.
   int fails = -1, meets = last + 1;
   for (const auto& [level, s] : course.samples) {
@@ -128,11 +140,10 @@ void WorkPrecision::search(double target) {
       const auto level = next_level(course, target);
       if (!level)
         course.ended = "the loosest setting that meets the target is known, or none does";
-      else if (too_dear(course, *level, target))
-        course.ended = "it would cost more than three times the cheapest";
       else
         which.emplace_back(i, *level);
     }
+    drop_dear(which, target);
     if (which.empty() || run_.left() <= 0 || run_.interrupted()) return;
     const auto found = best(target);
     const double share = run_.left() / double(2 * which.size());
@@ -166,7 +177,8 @@ void WorkPrecision::repeat(double target, double factor) {
     for (const auto& [level, s] : courses_[i].samples)
       if (s.done() && s.error.max <= target && s.cpu.least <= factor * least)
         front.emplace_back(i, level), cases.push_back(courses_[i].method.overrides(level)), each += s.cpu.least;
-  for (int k = 1; k < times && run_.left() > each && !run_.interrupted(); ++k) {
+  const double enough = run_.spent() + run_.budget() / 8;
+  for (int k = 1; k < times && run_.spent() + each < enough && !run_.interrupted(); ++k) {
     const std::vector<CaseResult> results = run_(cases, run_.left());
     for (std::size_t n = 0; n < front.size(); ++n) {
       if (!results[n].done()) continue;
