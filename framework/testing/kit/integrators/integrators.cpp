@@ -140,8 +140,7 @@ void add_extremes(Checks& checks) {
                     Level::quick, takes_any_time});
   checks.push_back({words("allocates-nothing-when-warm", "A step asks for no memory once its vectors have their sizes.",
                           "allocations in steps 11 to 30 = 0",
-                          "Vectors keep their sizes between two calls of `restart`: a step that is repeated allocates "
-                          "nothing."),
+                          "Once its vectors have their sizes, a step allocates no memory."),
                     Level::quick, allocates_nothing});
 }
 
