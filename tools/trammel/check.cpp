@@ -121,7 +121,7 @@ void print_result(const Arguments& a, const kit::Result& r) {
   const std::string note = r.finding.verdict == Verdict::skipped  ? lines(r.finding.text + "\n").front()
                            : r.finding.verdict == Verdict::passed ? r.words.claim
                                                                   : "";
-  fmt::print("  {:<9}{:<46}{}\n", verdict, r.words.name, note);
+  fmt::print("  {:<9}{:<52}{}\n", verdict, r.words.name, note);
   if (!good) print_failure(a, r);
   std::fflush(stdout);
 }
@@ -145,13 +145,15 @@ void print_summary(const Arguments& a, const kit::Verdicts& v) {
   const std::string with = v.component.file == a.operand() || a.operand().find('/') != std::string::npos
                                ? fmt::format(" --plugin {}", shell_quoted(a.operand()))
                                : "";
-  if (v.failed() == 0) fmt::print("next: trammel describe {}{}\n", v.component.name, with);
+  const auto failed = std::ranges::find_if(v.results, &kit::Result::counts_as_failed);
+  fmt::print("next: {}\n", failed == v.results.end() ? fmt::format("trammel describe {}{}", v.component.name, with)
+                                                     : alone(a, failed->words.name));
 }
 
 void print_list(const kit::Surveyed& component) {
   const kit::Checks checks = kit::catalogue(component.interface);
   fmt::print("{} {}: {} checks\n\n", component.kind, component.name, checks.size());
-  for (const kit::Check& check : checks) fmt::print("  {:<46}{}\n", check.words.name, check.words.claim);
+  for (const kit::Check& check : checks) fmt::print("  {:<52}{}\n", check.words.name, check.words.claim);
 }
 
 std::vector<kit::Surveyed> components_of(const kit::Request& request) {
@@ -160,7 +162,7 @@ std::vector<kit::Surveyed> components_of(const kit::Request& request) {
   } catch (const kit::NothingToCheck& e) {
     throw UsageError(e.what());
   } catch (const kit::CannotBeLoaded& e) {
-    throw plugin::PluginError(request.operand, e.what());
+    throw plugin::PluginError(e.file, e.what());
   }
 }
 

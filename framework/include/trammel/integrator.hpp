@@ -49,7 +49,7 @@ class Integrator : public Component {
 
   // A trial step from `now` to `next` with h > 0. It changes nothing that later trials depend on: the Simulator repeats
   // it with other h to locate events. `next` may have any content and size on entry. Reject the step instead of
-  // returning numbers that are not finite.
+  // returning numbers that are not finite. Once its vectors have their sizes, a step allocates no memory.
   virtual Outcome step(System&, const State& now, double h, State& next) = 0;
 
   // The trial from `now` became the solution. History is updated here and nowhere else. After a correction `next`

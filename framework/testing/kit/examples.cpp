@@ -14,13 +14,14 @@ Example example_of(const std::string& kind, const std::string& name) {
   if (of_kind == all.end()) return example;
   const auto found = of_kind->find(name);
   if (found == of_kind->end()) return example;
-  for (const Json& entry : found->value("entries", Json::array())) {
+  const Json entries = found->value("entries", Json::array());
+  for (const Json& entry : entries) {
     Json object = {{"type", name}};
     object.update(entry);
     example.entries.push_back(object.dump());
   }
-  for (const auto& [check, reason] : found->value("expected", Json::object()).items())
-    example.expected[check] = reason.get<std::string>();
+  const Json expected = found->value("expected", Json::object());
+  for (const auto& [check, reason] : expected.items()) example.expected[check] = reason.get<std::string>();
   return example;
 }
 

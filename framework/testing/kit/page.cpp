@@ -41,8 +41,8 @@ Curve slope_line(const Convergence& c, double p, const std::string& name) {
 Figure order_figure(const Convergence& c, int claimed) {
   Figure figure{"Order on " + c.problem,
                 fmt::format("The root mean square of q and v at four times against the step. Claimed slope {}, fitted "
-                            "slope {:.3f} +- {:.3f} over {} runs.",
-                            claimed, c.order, c.uncertainty, c.last - c.first),
+                            "slope {:.3f} over {} runs; extrapolated to h = 0 {:.3f}.",
+                            claimed, c.order, c.last - c.first, c.limit),
                 step_axis,
                 {"error of q and v", Scale::logarithmic},
                 {}};
@@ -83,7 +83,7 @@ void add_orders(Page& page, const Subject& s) {
   const Traits traits = s.traits();
   std::vector<Problem> problems = {some_oscillator(s), some_pendulum(s), some_pendulum_of_varying_mass(s), some_top(s)};
   if (traits.rows)
-    for (Problem& more : std::vector{some_rod(s), some_turning_wire(s)}) problems.push_back(std::move(more));
+    for (Problem& more : std::vector{some_rod(s), some_wind(s)}) problems.push_back(std::move(more));
   for (const Problem& problem : problems)
     page.figures.push_back(order_figure(converge(s.maker<Integrator>(), problem, 4096), traits.order));
 }

@@ -80,8 +80,10 @@ std::string survey_as_text(const Request& request) {
     return look_around(request).dump();
   } catch (const plugin::UnknownComponent& e) {
     return Json{{"nothing", e.what()}}.dump();
-  } catch (const std::exception& e) {
-    return Json{{"refused", e.what()}}.dump();
+  } catch (const plugin::PluginError& e) {
+    return Json{{"refused", e.cause()}, {"file", e.origin().file}}.dump();
+  } catch (const std::exception& e) {  // no parameters that it accepts
+    return Json{{"nothing", e.what()}}.dump();
   }
 }
 
@@ -183,10 +185,11 @@ int Verdicts::failed() const {
 std::vector<Surveyed> survey(const Request& request) {
   const Ending ending = run_in_child({[&] { return survey_as_text(request); }, std::chrono::seconds(60)});
   if (ending.how != Ending::How::answered)
-    throw CannotBeLoaded(fmt::format("plugin {}: {} while its components were made", request.operand, ending.cause));
+    throw CannotBeLoaded(request.operand, fmt::format("{} while its components were made", ending.cause));
   const Json json = Json::parse(ending.answer);
   if (json.contains("nothing")) throw NothingToCheck(json["nothing"].get<std::string>());
-  if (json.contains("refused")) throw CannotBeLoaded(json["refused"].get<std::string>());
+  if (json.contains("refused"))
+    throw CannotBeLoaded(json["file"].get<std::string>(), json["refused"].get<std::string>());
   std::vector<Surveyed> found;
   for (const Json& c : json.at("components"))
     found.push_back({c.at("kind"), c.at("name"), c.at("file"), c.at("interface")});

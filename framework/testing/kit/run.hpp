@@ -29,13 +29,15 @@ struct Request {
   bool in_process = false;
 };
 
-// The operand names nothing, or a check that does not exist.
+// The operand names nothing, a check that does not exist, or a component that accepts none of the parameters made up
+// for it.
 struct NothingToCheck : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-// The library cannot be loaded, or its component refuses every set of parameters.
+// The library cannot be loaded.
 struct CannotBeLoaded : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  CannotBeLoaded(std::string f, const std::string& cause) : std::runtime_error(cause), file(std::move(f)) {}
+  std::string file;
 };
 
 // A component as the survey found it, in a child process: this process never loads a library of a stranger.

@@ -79,7 +79,7 @@ class Heun final : public Integrator {
     s.normalise(next.q);
     next.v = (now.v + length / 2 * (now.a + a_)) * (1 + 1e-10 * count_ + more);
     if (fault == Fault::grows) next.v *= 1 + 0.1 * h;
-    if (fault == Fault::measures_in_metres) next.v = (next.v.array().abs() > 1e-3).select(next.v, 0);
+    if (fault == Fault::measures_in_metres) next.v = (next.v.array().abs() > 0.03).select(next.v, 0);
     next.t = now.t + (fault == Fault::takes_another_time ? h * (1 + 1e-9) : h);
     s.move_to(next.t, next.q, next.v);
     s.accelerate({}, next.a, next.lambda);
@@ -138,7 +138,7 @@ TRAMMEL_PLUGIN(
     newmark<NewmarkFault::estimate_ten_times_too_large>("estimate_ten_times_too_large"),
     newmark<NewmarkFault::estimate_ten_times_too_small>("estimate_ten_times_too_small"),
     newmark<NewmarkFault::estimate_of_another_order>("estimate_of_another_order"),
-    newmark<NewmarkFault::inside_is_a_line>("inside_is_a_line"),
+    newmark<NewmarkFault::inside_is_the_start>("inside_is_the_start"),
     newmark<NewmarkFault::inside_misses_the_end>("inside_misses_the_end"),
     newmark<NewmarkFault::inside_is_of_the_last_trial>("inside_is_of_the_last_trial"),
     newmark<NewmarkFault::wrong_damping_is_accepted>("wrong_damping_is_accepted"))

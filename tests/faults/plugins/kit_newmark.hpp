@@ -16,7 +16,7 @@ enum class NewmarkFault {
   estimate_ten_times_too_large,
   estimate_ten_times_too_small,
   estimate_of_another_order,
-  inside_is_a_line,
+  inside_is_the_start,
   inside_misses_the_end,
   inside_is_of_the_last_trial,
   wrong_damping_is_accepted,
@@ -44,9 +44,10 @@ class Newmark final : public Integrator, public ErrorEstimate, public DenseOutpu
       step_.correct(s, {1, gamma * h, 0.25 * h * h}, r_, next);
     }
     h_ = h;
-    // A singular square root at a value that the range allows.
+    const Outcome outcome = step_.finish(s, now, next);
+    // A square root of a negative number at values that the range allows.
     if (fault == NewmarkFault::wrong_damping_is_accepted) next.v *= std::sqrt(0.9 - gamma) / std::sqrt(0.9 - gamma);
-    return step_.finish(s, now, next);
+    return outcome;
   }
   void accept(System&, const State&, const State& next) override { error_.accept(next); }
   void archive(Archive& a) override { error_.archive(a); }
@@ -63,8 +64,8 @@ class Newmark final : public Integrator, public ErrorEstimate, public DenseOutpu
   void interpolate(System&, const State& now, const State& next, double x, State& at) override {
     const double h = fault == NewmarkFault::inside_is_of_the_last_trial ? h_ : next.t - now.t;
     at.t = now.t + x * (next.t - now.t);
-    if (fault == NewmarkFault::inside_is_a_line) {
-      at.q = (1 - x) * now.q + x * next.q, at.v = (1 - x) * now.v + x * next.v;
+    if (fault == NewmarkFault::inside_is_the_start) {
+      at.q = now.q, at.v = now.v;
       return;
     }
     const double end = fault == NewmarkFault::inside_misses_the_end ? 1e-6 : 0;

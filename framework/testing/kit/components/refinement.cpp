@@ -81,8 +81,8 @@ Report keeps_its_energies(const Subject& s) {
 Report keeps_its_momentum(const Subject& s) {
   return compare("mass and momentum stay", [&](Comparison& c) {
     const Refined r(s, 1e-3);
-    const auto *a = dynamic_cast<const HasMomentum*>(r.coarse.get()),
-               *b = dynamic_cast<const HasMomentum*>(r.fine.get());
+    const auto& a = dynamic_cast<const HasMomentum&>(*r.coarse);
+    const auto& b = dynamic_cast<const HasMomentum&>(*r.fine);
     const Momentum p = a.momentum(r.before.t, r.before.q, r.before.v), n = b.momentum(r.after.t, r.after.q, r.after.v);
     c.within(n.mass, p.mass, 1e-12 * p.mass, "mass");
     c.within(Vec(n.linear), Vec(p.linear), 1e-9 * (p.linear.norm() + p.mass * 1e-3), "linear momentum");

@@ -179,7 +179,7 @@ Report keeps_its_order_when_rows_come_and_go(const Subject& s) {
   State end = rod.solution(0.4);
   const auto held = rod.system();
   for (int i = 0; i < 40; ++i) end = exact_flow(*held, end, 0.01);
-  return has_order(converge("the pendulum whose rod comes off and on again", 1, 8, 4096,
+  return has_order(converge("the pendulum whose rod comes off and on again", 1, step_numbers(8, 4096, s.traits().order),
                             [&](int n) { return distance(with_the_rod_off(*s.maker<Integrator>()(), rod, n), end); }),
                    s.traits().order);
 }
@@ -223,7 +223,9 @@ Report keeps_its_order_when_coordinates_change(const Subject& s) {
     for (int i = 0; i < 2; ++i) off += std::hypot(fresh.q(i) - std::cos(omega), fresh.v(i) + omega * std::sin(omega));
     return off;
   };
-  return has_order(converge("a spring whose coordinate becomes two", 0.5, 2, 4096, error), s.traits().order);
+  return has_order(
+      converge("a spring whose coordinate becomes two", 0.5, step_numbers(2, 4096, s.traits().order), error),
+      s.traits().order);
 }
 
 Report stands_still_with_nothing_to_move(const Subject& s) {

@@ -54,7 +54,7 @@ void add_orders(Checks& checks) {
       "order-on-the-pendulum-with-rod", "On constrained motion the method has the order it claims.",
       [](const Subject& s) { return some_rod(s); }, true));
   checks.push_back(order_on("order-where-rows-depend-on-time",
-                            "Where the rows depend on time the method has the order it claims.", some_turning_wire,
+                            "Where the rows depend on time the method has the order it claims.", some_wind,
                             true));
   checks.push_back(
       {words("order-when-rows-come-and-go", "After a restart with rows 1, 0, 1 the method keeps its order.", slope,
@@ -138,11 +138,10 @@ void add_extremes(Checks& checks) {
                     Level::quick, takes_any_mass_ratio, takes_no_rows});
   checks.push_back({words("takes-any-time", "At t = 1e9 s the method moves as at 0.", "y(t + 1e9 s) = y(t)", of_order),
                     Level::quick, takes_any_time});
-  checks.push_back({words("allocates-nothing-when-warm", "A step asks for no memory once its vectors have their sizes.",
-                          "allocations in steps 11 to 30 = 0",
-                          "Vectors keep their sizes between two calls of `restart`: a step that is repeated allocates "
-                          "nothing."),
-                    Level::quick, allocates_nothing});
+  checks.push_back(
+      {words("allocates-nothing-when-warm", "A step asks for no memory once its vectors have their sizes.",
+             "allocations in steps 11 to 30 = 0", "Once its vectors have their sizes, a step allocates no memory."),
+       Level::quick, allocates_nothing});
 }
 
 void add_accuracy(Checks& checks) {

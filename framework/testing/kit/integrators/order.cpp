@@ -11,9 +11,10 @@ namespace trammel::kit {
 
 namespace {
 
-// Errors of some thousand steps of numbers about 1 carry round-off of 1e-13; a fit needs ten times more.
-constexpr double round_off = 1e-12;
-constexpr std::size_t fitted = 4, fewest = 3;
+constexpr std::size_t fitted = 4;
+
+// The references carry a few 1e-13, and so do errors of some thousand steps of numbers about 1.
+constexpr double round_off = 2e-12;
 
 double slope(const std::vector<Convergence::Run>& runs, std::size_t first, std::size_t last) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
@@ -25,20 +26,30 @@ double slope(const std::vector<Convergence::Run>& runs, std::size_t first, std::
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
+// s = p + c h through the last two slopes, each at the middle of its steps.
+double limit_of_slopes(const Convergence& c) {
+  const auto h = [&](std::size_t i) { return 1 / std::sqrt(double(c.runs[i].steps) * c.runs[i - 1].steps); };
+  const double h_1 = h(c.last - 2), h_2 = h(c.last - 1);
+  const double s_1 = slope(c.runs, c.last - 3, c.last - 1);
+  return (c.slope * h_1 - s_1 * h_2) / (h_1 - h_2);
+}
+
 void fit(Convergence& c) {
   const auto useful = [](const Convergence::Run& r) { return std::isfinite(r.error) && r.error > round_off; };
   c.last = c.runs.size();
   while (c.last > 0 && !useful(c.runs[c.last - 1])) --c.last;
   c.first = c.last;
   while (c.first > 0 && useful(c.runs[c.first - 1]) && c.last - c.first < fitted) --c.first;
-  c.exact = std::all_of(c.runs.begin(), c.runs.end(), [](const auto& r) { return r.error <= 1e-10; }) &&
-            c.last - c.first < fewest;
-  if (c.last - c.first < fewest) {
-    c.order = std::nan("");
-    return;
-  }
+  c.order = c.slope = c.limit = std::nan("");
+  if (!c.measured()) return;
   c.order = slope(c.runs, c.first, c.last);
-  c.uncertainty = std::abs(slope(c.runs, c.last - 2, c.last) - slope(c.runs, c.last - 3, c.last - 1)) / 2;
+  c.slope = slope(c.runs, c.last - 2, c.last);
+  c.limit = limit_of_slopes(c);
+}
+
+// Every run that was not rejected is near round-off.
+bool reaches_round_off(const Convergence& c) {
+  return !c.runs.empty() && c.runs.back().error <= 1e-9;
 }
 
 constexpr int quarters = 4;
@@ -69,14 +80,24 @@ std::string Convergence::table() const {
     text += std::isfinite(runs[i].error) ? fmt::format("{:12.4e} {:12.4e}{}\n", until / runs[i].steps, runs[i].error,
                                                        first <= i && i < last ? "  fitted" : "")
                                          : fmt::format("{:12.4e} {:>12}\n", until / runs[i].steps, "rejected");
-  return text + fmt::format("order {:.3f} +- {:.3f}\n", order, uncertainty);
+  return text + fmt::format("order {:.3f}; slope of the last two runs {:.3f}, extrapolated to h = 0 {:.3f}\n", order,
+                            slope, limit);
 }
 
-Convergence converge(const std::string& problem, double until, int n_0, int most,
+std::vector<int> step_numbers(int n_0, int most, int order) {
+  std::vector<int> all;
+  for (int n = n_0; n <= most; n *= 2) {
+    all.push_back(n);
+    if (order > 4 && n > n_0 && 3 * n / 2 <= most) all.push_back(3 * n / 2);
+  }
+  return all;
+}
+
+Convergence converge(const std::string& problem, double until, const std::vector<int>& steps,
                      const std::function<double(int n)>& error) {
   Convergence c{problem, until};
   int below = 0;
-  for (int n = n_0; n <= most && below < 2; n *= 2) {
+  for (const int n : steps) {
     double e = std::nan("");
     try {
       e = error(n);
@@ -84,6 +105,7 @@ Convergence converge(const std::string& problem, double until, int n_0, int most
     }
     c.runs.push_back({n, e});
     below += e <= round_off;
+    if (below == 2) break;
   }
   fit(c);
   return c;
@@ -94,7 +116,8 @@ Convergence converge(const Maker& make, const Problem& problem, int most) {
   const State start = problem.solution(0);
   const auto system = problem.system();
   Vec off;
-  return converge(problem.name, problem.until, quarters, most, [&](int n) {
+  const int order = make()->traits().order;
+  return converge(problem.name, problem.until, step_numbers(quarters, most, order), [&](int n) {
     const auto method = make();
     double square = 0;
     int step = 0;
@@ -108,16 +131,30 @@ Convergence converge(const Maker& make, const Problem& problem, int most) {
   });
 }
 
-Report has_order(const Convergence& c, double order) {
+Report has_order(const Convergence& c, int order) {
   Report report;
-  if (c.exact) {
-    report.claim(fmt::format("of order {} on {}", order, c.problem), true, "exact to round-off at every step size");
+  if (!c.measured()) {
+    report.claim(fmt::format("of order {} on {}", order, c.problem), order >= 5 && reaches_round_off(c),
+                 fmt::format("too few runs between the first step that is accepted and round-off\n{}", c.table()));
     return report;
   }
-  const double allowed = std::min(0.45, 0.2 + c.uncertainty);
-  report.claim(fmt::format("of order {} within {:.2f} on {}", order, allowed, c.problem),
-               std::abs(c.order - order) <= allowed, fmt::format("found {:.3f}\n{}", c.order, c.table()));
+  const bool from_below = order > 6;
+  const double tolerance = from_below ? 0.4 : 0.2;
+  const double low = std::min(c.slope, c.limit) - tolerance, high = std::max(c.slope, c.limit) + tolerance;
+  // Slopes that change by more than a half do not tell one order from the next.
+  const bool settled = std::abs(c.slope - c.limit) <= 0.55;
+  const bool holds = from_below ? c.slope >= order - tolerance : settled && low <= order && order <= high;
+  report.claim(
+      fmt::format("of order {} on {}", order, c.problem), holds,
+      fmt::format("{}{:.2f} to {:.2f}\n{}", settled ? "found " : "slopes do not settle: ", low, high, c.table()));
   return report;
+}
+
+void claim_shrinks(Report& report, const Convergence& c, int order) {
+  const bool round_off_at_once = !c.measured() && reaches_round_off(c);
+  const double slope = std::max(c.slope, std::max(c.limit, c.order));
+  report.claim(fmt::format("{} shrinks with order {} or higher", c.problem, order),
+               round_off_at_once || slope >= order - 0.3, fmt::format("found {:.2f}\n{}", slope, c.table()));
 }
 
 }  // namespace trammel::kit

@@ -1,5 +1,7 @@
-// The order of a method about which only the claimed order is known: steps are halved until the errors meet round-off,
-// and the slope is taken over the last halvings above it.
+// The order of a method about which only the claimed order is known: steps are shortened until the errors meet
+// round-off, and the slope log(e_1/e_2)/log(h_1/h_2) of the last two runs above it is extrapolated to h = 0:
+//
+//     s(h) = p + c h     from the last two slopes
 #pragma once
 
 #include <functional>
@@ -19,21 +21,29 @@ struct Convergence {
   double until = 1;                 // [s] the runs' time: h = until/steps
   std::vector<Run> runs = {};       // the largest step first
   std::size_t first = 0, last = 0;  // the runs of the fit: [first, last)
-  double order = 0;                 // their slope by least squares; NaN: there are fewer than three
-  double uncertainty = 0;           // half of the slope's change over the last two halvings
-  bool exact = false;               // every run is at round-off: nothing to fit
+  double order = 0;                 // slope of the last four of them by least squares; NaN: fewer than three
+  double slope = 0, limit = 0;      // of the last two runs; extrapolated to h = 0
+  bool measured() const { return last - first >= 3; }
   std::string table() const;
 };
 
-// `error(n)` of a run with n steps, relative to a size of 1; n = n_0, 2 n_0, ... up to `most`.
-Convergence converge(const std::string& problem, double until, int n_0, int most,
+// Step numbers n_0, 2 n_0, 4 n_0, ... up to `most`; with 3 n_0, 6 n_0, ... between them for orders above 4, whose errors
+// leave room for few halvings only.
+std::vector<int> step_numbers(int n_0, int most, int order);
+
+// `error(n)` of a run with n steps, relative to a size of 1.
+Convergence converge(const std::string& problem, double until, const std::vector<int>& steps,
                      const std::function<double(int n)>& error);
 
 // Against the problem's closed form, else against its own motion to round-off (flow.hpp), at quarters of its time.
 Convergence converge(const Maker& method, const Problem& problem, int most);
 
-// The claimed order, from both sides. Within 0.2, and what the slope still changes; never as much as 0.5, which would
-// take one order for another.
-Report has_order(const Convergence& c, double order);
+// The claimed order, from both sides: it lies between the last slope and its limit, within 0.2. Above order 6 slopes do
+// not settle before errors meet round-off: then from below only, within 0.4. A method of order 5 or higher may be at
+// round-off from the first steps on; that is said and holds.
+Report has_order(const Convergence& c, int order);
+
+// At least this order: what shrinks may do so faster where errors cancel.
+void claim_shrinks(Report& report, const Convergence& c, int order);
 
 }  // namespace trammel::kit

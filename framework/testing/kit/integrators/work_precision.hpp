@@ -18,7 +18,7 @@ struct Work {
   double setting = 0;      // h [s], or the tolerance
   double error = 0;        // root mean square of q and v at four times; NaN: the run failed
   double evaluations = 0;  // of the system at a point, and factorisations
-  std::string failure;
+  std::string failure = {};
 };
 std::vector<Work> with_fixed_steps(const Maker& method, const Problem& problem, int most);
 // Empty if the method offers no estimate. Tolerances 1e-3 to 1e-9, absolute and relative.
