@@ -63,7 +63,8 @@ function animation_section(runs, clock) {
 
 function forces_text(stage) {
   if (!(stage.largest > 0)) return null;
-  return element("p", { class: "soft" }, `The longest arrow is ${number_text(stage.largest, 3)} N: `,
-    element("span", { class: "swatch", style: `background:${colour_of(1)}` }), " contacts, on their first side; ",
-    element("span", { class: "swatch", style: `background:${colour_of(3)}` }), " force elements.");
+  const kinds = [["contact_names", 1, " contacts, on their first side"], ["force_names", 3, " force elements"]];
+  const swatches = kinds.filter(([names]) => stage.actors.some(({ animation }) => animation[names].length > 0))
+    .map(([, colour, text]) => [" ", element("span", { class: "swatch", style: `background:${colour_of(colour)}` }), text]);
+  return element("p", { class: "soft" }, `Arrows: forces, the longest ${number_text(stage.largest, 3)} N;`, swatches);
 }
