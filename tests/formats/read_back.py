@@ -61,7 +61,7 @@ class numpy(InAFolder):
         trammel("run", self.scene, "--out", self.out, "--format", "npz", "--quiet")
         events = np.load(self.out / "events.npz")
         impacts = events["kind"] == "impact"
-        self.assertGreater(impacts.sum(), 2)
+        self.assertGreaterEqual(impacts.sum(), 2)
         np.testing.assert_allclose(events["separation"][impacts][:2], 0.5 * events["approach"][impacts][:2])
         self.assertTrue(np.isnan(events["impulse"][~impacts]).all())
 
