@@ -13,7 +13,8 @@ std::filesystem::path written(const Folder& folder, int lines, const std::string
   std::filesystem::create_directories(folder.path());
   std::ofstream out(folder.path() / "animation.ndjson");
   for (int k = 0; k < lines; ++k)
-    out << fmt::format(R"({{"t":{},"shapes":{{"bar":[[0,0],[1,{}]]}},"contacts":{{"tip":[[1,0],[0,{}]]}}}})", 0.1 * k, k, k)
+    out << fmt::format(R"({{"t":{},"shapes":{{"bar":[[0,0],[1,{}]]}},"contacts":{{"tip":[[1,0],[0,{}]]}}}})", 0.1 * k,
+                       k, k)
         << "\n";
   out << end;
   return folder.path() / "animation.ndjson";

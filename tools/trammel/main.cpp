@@ -28,9 +28,9 @@ namespace trammel::tool {
 namespace {
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {run_command(),      static_command(),  modes_command(),    report_command(),
-                                           validate_command(), explain_command(), list_command(),
-                                           describe_command(), schema_command(),  seal_command()};
+  static const std::vector<Command> all = {run_command(),      static_command(),  modes_command(), report_command(),
+                                           validate_command(), explain_command(), list_command(),  describe_command(),
+                                           schema_command(),   seal_command()};
   return all;
 }
 

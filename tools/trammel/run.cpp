@@ -6,14 +6,14 @@
 
 #include "arguments.hpp"
 #include "commands/simulation.hpp"
+#include "formats/run_formats.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "last_words.hpp"
 #include "progress.hpp"
-#include "formats/run_formats.hpp"
 #include "report/report.hpp"
-#include "scene/suggestion.hpp"
 #include "results_folder.hpp"
+#include "scene/suggestion.hpp"
 #include "simulate/results/log_file.hpp"
 
 namespace trammel::tool {
