@@ -15,7 +15,7 @@ constexpr const char* oscillator = R"({
   "trammel": 1, "space": "planar",
   "bodies": {"block": {"type": "rigid_body", "mass": 2, "inertia": 1}},
   "joints": {"guide": {"type": "prismatic", "between": ["ground", "block.com"]}},
-  "forces": {"spring": {"type": "spring_damper", "between": [{"ground": [-1, 0]}, "block.com"],
+  "forces": {"spring": {"type": "spring_damper", "between": [{"point": [-1, 0]}, "block.com"],
                         "stiffness": 50, "damping": 3, "length": 1}},
   "simulate": {"until": 1}})";
 
