@@ -141,6 +141,29 @@ class Reports(unittest.TestCase):
             self.assertEqual(len(titles), 2)
             self.assertIn("difference from pendulum", titles[0])
 
+    def test_draws_a_page_whose_points_tell_their_notes(self):
+        curve = {"name": "hht_alpha", "mark": "line and points", "points": [[1e-4, 1e-6, "fine"], [1e-3, 1e-4, "coarse"]],
+                 "failures": [[1e-2, 0, "diverged at t = 0.3 s"]]}
+        page = {"title": "Trade", "sentences": ["hht_alpha is the cheapest."], "tables": [
+                    {"title": "Runs", "columns": [{"name": "step", "unit": "s"}], "rows": [["1e-4"]]}],
+                "figures": [{"title": "Error", "caption": "", "x": {"label": "step [s]", "scale": "logarithmic"},
+                             "y": {"label": "error [m]", "scale": "logarithmic"}, "curves": [curve]}]}
+        (self.path / "trade.json").write_text(json.dumps({"page": page}))
+        trammel("report", self.path / "trade.json")
+        with Browser() as browser:
+            browser.open(self.path / "trade.html")
+            browser.wait("while (!document.querySelector('svg.plot')) await new Promise((r) => setTimeout(r, 10))")
+            notes = []
+            for _ in range(3):
+                browser.keys("svg.plot", "ArrowRight")
+                notes.append(browser.text(".note"))
+            self.assertIn("fine", notes[0])
+            self.assertIn("1e-6", notes[0])
+            self.assertIn("coarse", notes[1])
+            self.assertIn("diverged at t = 0.3 s", notes[2])
+            self.assertIn("1 run without a value", browser.text("figcaption"))
+            self.assertEqual(browser.log(), [])
+
     def test_moves_the_shapes_of_modes(self):
         modes = self.path / "modes"
         trammel("modes", SCENES / "tour/04_spring_damper.json", "--out", modes, "--quiet")
