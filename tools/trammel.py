@@ -24,6 +24,7 @@ import shutil
 import struct
 import subprocess
 import tempfile
+import weakref
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -118,8 +119,8 @@ def _scene_file(scene, folder):
 def _run(command, scene, out, values):
     kept = None
     if out is None:
-        kept = tempfile.TemporaryDirectory(prefix="trammel_")  # lives as long as the result
-        out = Path(kept.name) / "results"
+        kept = tempfile.mkdtemp(prefix="trammel_")
+        out = Path(kept) / "results"
     out = Path(out)
     with tempfile.TemporaryDirectory(prefix="trammel_") as folder:
         words = [command, _scene_file(scene, folder), "--out", out, *_overrides(values)]
@@ -128,7 +129,8 @@ def _run(command, scene, out, values):
         raise RunFailed(answer.get("reason") or "the run failed before its first record",
                         [Problem(**problem) for problem in answer.get("problems", [])])
     result = Result.load(out)
-    result._kept = kept
+    if kept:
+        weakref.finalize(result, shutil.rmtree, kept, ignore_errors=True)  # the files live as long as the result
     if code != 0:
         raise RunFailed(answer.get("reason", "the run failed"), result=result)
     return result

@@ -83,8 +83,9 @@ class Costs {
 
   Json json() const {
     std::vector<std::pair<std::string, Kind>> all(kinds_.begin(), kinds_.end());
-    std::sort(all.begin(), all.end(),
-              [](const auto& a, const auto& b) { return a.second.count * a.second.once > b.second.count * b.second.once; });
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+      return a.second.count * a.second.once > b.second.count * b.second.once;
+    });
     Json list = Json::array();
     for (const auto& [component, kind] : all) {
       const auto space = component.find(' ');  // "body rigid_body"

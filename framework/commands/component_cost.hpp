@@ -3,6 +3,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <trammel/integrator.hpp>
+
 #include "system/assembled_system.hpp"
 
 namespace trammel::simulate {

@@ -165,9 +165,8 @@ std::string result_json(const scene::Scene& scene, const Setup& setup, Simulator
                        {"acceleration", statistics.largest.acceleration}}},
                      {"sizes", sizes(statistics)},
                      {"sizes_left_out", statistics.sizes_left_out},
-                     {"cost_by_component", outcomes.status == Status::done
-                                               ? component_costs(simulator.system(), state)
-                                               : json::array()},
+                     {"cost_by_component",
+                      outcomes.status == Status::done ? component_costs(simulator.system(), state) : json::array()},
                      {"columns", columns_json(setup, Recorder::Books::kept)},
                      {"drawing", drawing_json(simulator.system(), state)}});
   return result.dump(2, ' ', false, json::error_handler_t::replace) + "\n";

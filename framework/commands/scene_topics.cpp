@@ -185,7 +185,8 @@ Topic events() {
   return {
       "events", "what events.csv tells: impacts, openings, sticking, latches, refinements",
       fmt::format(R"page(events
-  events.csv has a line an event: t [s], kind, component (its path in the scene), detail (name=value, in SI units).
+  events.csv has a line an event: t [s], kind, component (its path in the scene), and a column for each figure,
+  in SI units, empty where an event has none.
 
 {}{}
   Found within a step and located to round-off of t, as far as doubles can hold it. How contacts decide: trammel describe

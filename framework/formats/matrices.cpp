@@ -43,8 +43,8 @@ std::string matrix_market(const Mat& A, const std::string& what) {
   for (Eigen::Index j = 0; j < A.cols(); ++j)
     for (Eigen::Index i = 0; i < A.rows(); ++i)
       if (A(i, j) != 0) fmt::format_to(std::back_inserter(entries), "{} {} {:.17g}\n", i + 1, j + 1, A(i, j)), ++count;
-  return fmt::format("%%MatrixMarket matrix coordinate real general\n% {}\n{} {} {}\n{}", what, A.rows(), A.cols(), count,
-                     entries);
+  return fmt::format("%%MatrixMarket matrix coordinate real general\n% {}\n{} {} {}\n{}", what, A.rows(), A.cols(),
+                     count, entries);
 }
 
 struct Named {

@@ -53,7 +53,8 @@ class Grid {
     }
   }
   std::string xml() {
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n";
+    std::string text =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n";
     text += fmt::format("<UnstructuredGrid><Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", n_points_, n_cells_);
     text += "<Points>" + array("Float64", "", points_, 3) + "</Points>\n<Cells>";
     text += array("Int64", "connectivity", connectivity_) + array("Int64", "offsets", offsets_) +
@@ -106,8 +107,8 @@ void add_faces(Grid& grid, const Json& faces, int body) {
 std::string animation_grid(const Json& line) {
   Grid grid;
   int body = 0;
-  const Json faces = line.value("faces", Json::object());
-  for (const auto& [name, shape] : line.value("shapes", Json::object()).items()) {
+  const Json faces = line.value("faces", Json::object()), shapes = line.value("shapes", Json::object());
+  for (const auto& [name, shape] : shapes.items()) {
     if (const auto own = faces.find(name); own != faces.end())
       add_faces(grid, *own, body++);
     else

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_frames = 2000;
+constexpr std::size_t most_frames = 4000;
 
 // Where the lines of a file begin, its last end included.
 std::vector<long long> line_ends(const std::filesystem::path& file) {

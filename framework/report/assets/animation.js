@@ -10,6 +10,7 @@ class Animation {
     this.values = u16_of(data.values);
     this.low_value = data.low_value;
     this.high_value = data.high_value;
+    this.top_colour = this.value_exceeded_by(0.01);
     this.contact_names = data.contacts;
     this.force_names = data.forces;
     this.layouts = data.layouts.map((layout) => this.with_sizes(layout));
@@ -17,6 +18,15 @@ class Animation {
     this.read_arrows(data.arrows);
     this.place = new Float32Array(3 * Math.max(...this.layouts.map((l) => l.points)));
     this.value = new Float32Array(Math.max(1, ...this.layouts.map((l) => l.values)));
+  }
+
+  // The value that a part of all values exceeds: colours are not spent on a few peaks.
+  value_exceeded_by(part) {
+    const sample = [], stride = Math.max(1, Math.floor(this.values.length / 20000));
+    for (let k = 0; k < this.values.length; k += stride) sample.push(this.values[k]);
+    sample.sort((a, b) => a - b);
+    const value = sample[Math.floor((1 - part) * (sample.length - 1))] || 65535;
+    return this.low_value + (value / 65535) * (this.high_value - this.low_value);
   }
 
   with_sizes(layout) {

@@ -6,6 +6,7 @@ class Camera {
     this.spatial = dimension === 3;
     this.box = box;
     this.reset();
+    this.size = this.extent();
   }
 
   reset() {
@@ -16,25 +17,30 @@ class Camera {
     this.tilt = 0.42;
   }
 
-  // The size that is to fit into the picture [m].
+  // The size that is to fit into the picture [m], from where the view begins.
   extent() {
-    const [low, high] = this.box;
-    const side = low.map((x, i) => high[i] - x);
+    const side = this.box[0].map((x, i) => this.box[1][i] - x);
     if (!this.spatial) return [side[0], side[1]];
-    const diagonal = Math.hypot(side[0], side[1], side[2]);
-    return [diagonal, diagonal * 0.85];
+    this.look();
+    const seen = (axis) => side.reduce((sum, x, i) => sum + x * Math.abs(axis[i]), 0);
+    return [seen(this.right), seen(this.up)];
   }
 
-  aim(width, height) {
-    const [w, h] = this.extent();
-    const least = Math.max(w, h, 1e-12) * 1e-3;
-    this.scale = 0.82 * this.zoom * Math.min(width / Math.max(w, least), height / Math.max(h, least));
-    if (!Number.isFinite(this.scale)) this.scale = 100;
-    [this.middle_x, this.middle_y] = [width / 2, height / 2];
+  // The axes of the picture in the world.
+  look() {
     const [c, s, ct, st] = [Math.cos(this.yaw), Math.sin(this.yaw), Math.cos(this.tilt), Math.sin(this.tilt)];
     this.right = this.spatial ? [c, s, 0] : [1, 0, 0];
     this.up = this.spatial ? [-s * st, c * st, ct] : [0, 1, 0];
     this.ahead = this.spatial ? [-s * ct, c * ct, -st] : [0, 0, -1]; // into the picture
+  }
+
+  aim(width, height) {
+    const [w, h] = this.size;
+    const least = Math.max(w, h, 1e-12) * 1e-3;
+    this.scale = 0.82 * this.zoom * Math.min(width / Math.max(w, least), height / Math.max(h, least));
+    if (!Number.isFinite(this.scale)) this.scale = 100;
+    [this.middle_x, this.middle_y] = [width / 2, height / 2];
+    this.look();
   }
 
   // Writes x, y [px] and depth [m] of the point at from[3 k].

@@ -25,8 +25,13 @@ class ModeShape {
   usual_amplitude() {
     let most = 0;
     this.each((at, re, im) => (most = Math.max(most, Math.hypot(...re, ...im))));
+    return most > 0 ? this.size() / 6 / most : 1;
+  }
+
+  // Of the mechanism at rest [m]; of a single point 1, so that it is seen to move.
+  size() {
     const [low, high] = this.still_box();
-    return most > 0 ? Math.max(...high.map((x, i) => x - low[i])) / 6 / most : 1;
+    return Math.max(...high.map((x, i) => x - low[i])) || 1;
   }
 
   still_box() {
@@ -40,7 +45,7 @@ class ModeShape {
   }
 
   box() {
-    const [low, high] = this.still_box(), margin = Math.max(...high.map((x, i) => x - low[i])) / 6;
+    const [low, high] = this.still_box(), margin = this.size() / 6;
     const wide = (i) => (i < this.dimension ? margin : 0);
     return [low.map((x, i) => x - wide(i)), high.map((x, i) => x + wide(i))];
   }

@@ -208,7 +208,7 @@ class Painter {
 
   add_quads(face, animation, parts) {
     const { quads } = face, { place, value } = animation, light = [0.35, -0.5, 0.8];
-    const span = animation.high_value - animation.low_value || 1;
+    const span = animation.top_colour - animation.low_value || 1;
     for (let q = 0; q < quads.length; q += 5) {
       const [a, b, d, e] = [quads[q], quads[q + 1], quads[q + 2], quads[q + 3]].map((k) => face.first + k);
       const side = (from, to, i) => place[3 * to + i] - place[3 * from + i];

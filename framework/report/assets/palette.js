@@ -5,7 +5,14 @@ const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9
 const DASHES = ["", "7 3", "2 3", "9 3 2 3", "4 2", "12 4", "1 2"];
 const MARKS = ["circle", "square", "triangle", "diamond", "cross", "plus", "wedge"];
 
-const colour_of = (k) => COLOURS[k % COLOURS.length];
+// On dark paper blue and grey are lighter.
+const IN_THE_DARK = { "#0072b2": "#2f8fdc", "#7f7f7f": "#a6a6a6" };
+const dark_paper = matchMedia("(prefers-color-scheme: dark)");
+
+function colour_of(k) {
+  const colour = COLOURS[k % COLOURS.length];
+  return (dark_paper.matches && IN_THE_DARK[colour]) || colour;
+}
 const dash_of = (k) => DASHES[Math.floor(k / COLOURS.length) % DASHES.length];
 const mark_of = (k) => MARKS[k % MARKS.length];
 

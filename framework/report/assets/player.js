@@ -101,6 +101,8 @@ class Player {
     const stops = Array.from({ length: 9 }, (_, k) => shade(k / 8, 1)).join(",");
     return element("div", { class: "colours" }, element("span", {}, texts[0] || "values"), number_text(animation.low_value, 3),
       element("span", { class: "bar", style: `background:linear-gradient(90deg,${stops})` }),
-      number_text(animation.high_value, 3));
+      animation.top_colour < 0.98 * animation.high_value
+        ? `${number_text(animation.top_colour, 3)} and above, to ${number_text(animation.high_value, 3)}`
+        : number_text(animation.high_value, 3));
   }
 }

@@ -132,10 +132,9 @@ function event_marks(run) {
 function plots_section(runs, clock) {
   const window_of_time = new TimeWindow(clock.begin, clock.end), marks = event_marks(runs[0]);
   const cards = (plots) => plots.map((plot) => new TimePlot(plot, clock, window_of_time, marks).root);
-  const observed = element("div", { class: "columns" }, cards(observed_plots(runs)));
-  const section = element("section", {}, differences_switch(runs, observed, cards), observed,
-    element("div", { class: "columns" }, cards([...energy_plots(runs), ...contact_plots(runs), ...constraint_plots(runs),
-      ...step_plots(runs)])));
+  const plots = element("div", { class: "columns" }, cards([...observed_plots(runs), ...energy_plots(runs),
+    ...contact_plots(runs), ...constraint_plots(runs), ...step_plots(runs)]));
+  const section = element("section", {}, differences_switch(runs, plots, cards), plots);
   section.time_window = window_of_time;
   return section;
 }
@@ -145,7 +144,7 @@ function differences_switch(runs, place, cards) {
   let differences = null;
   return element("p", { class: "switch" }, element("label", {}, element("input", { type: "checkbox", id: "differences",
     onchange: (event) => {
-      if (!differences) place.after((differences = element("div", { class: "columns", id: "difference-plots" },
+      if (!differences) place.before((differences = element("div", { class: "columns", id: "difference-plots" },
         cards(difference_plots(runs)))));
       differences.hidden = !event.target.checked;
     } }), ` Show differences from ${runs[0].name}`));

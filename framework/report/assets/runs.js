@@ -5,7 +5,12 @@ class RunView {
     Object.assign(this, data);
     this.several = several;
     this.series = new Series(data.series);
-    this.animation = data.animation ? new Animation(data.animation) : null;
+    try {
+      this.animation = data.animation ? new Animation(data.animation) : null;
+    } catch (error) {
+      this.animation = null; // plots and tables remain
+      this.error = error;
+    }
     this.title = data.result.title || data.name;
   }
 
@@ -42,7 +47,11 @@ function show_runs(data, root) {
   const titles = [...new Set(runs.map((run) => run.title))];
   root.append(element("h1", {}, titles.length === 1 ? titles[0] : titles.join(" and ")));
   if (several) root.append(element("p", { class: "soft" }, `Runs: ${runs.map((run) => run.name).join(", ")}`));
-  for (const run of runs) root.append(...[status_line(run), ...warnings_of(run)].filter(Boolean));
+  for (const run of runs) {
+    root.append(...[status_line(run), ...warnings_of(run)].filter(Boolean));
+    if (run.error) show_error(root, run.error);
+  }
+  root.append(kept_text(runs) || "");
   const clock = new Clock(Math.min(...runs.map((r) => r.series.t[0])), Math.max(...runs.map((r) => r.series.t[r.series.t.length - 1])));
   const part = (draw) => guarded(root, () => root.append(...[draw()].flat().filter(Boolean)));
   part(() => animation_section(runs, clock));
@@ -56,14 +65,15 @@ function animation_section(runs, clock) {
   if (drawn_runs.length === 0) return element("p", { class: "soft" }, "No body of this scene is drawn: there is no animation.");
   const stage = new Stage(drawn_runs.map((run, k) => ({ animation: run.animation, still: run.result.drawing || {},
     tint: colour_of(k), name: run.name })));
-  const player = new Player(stage, clock, [forces_text(stage), kept_text(runs)]);
+  const player = new Player(stage, clock, [forces_text(stage)]);
   window.trammel_report = { clock, stage };
   return player.root;
 }
 
 function forces_text(stage) {
   if (!(stage.largest > 0)) return null;
-  return element("p", { class: "soft" }, `The longest arrow is ${number_text(stage.largest, 3)} N: `,
-    element("span", { class: "swatch", style: `background:${colour_of(1)}` }), " contacts, on their first side; ",
-    element("span", { class: "swatch", style: `background:${colour_of(3)}` }), " force elements.");
+  const kinds = [["contact_names", 1, " contacts, on their first side"], ["force_names", 3, " force elements"]];
+  const swatches = kinds.filter(([names]) => stage.actors.some(({ animation }) => animation[names].length > 0))
+    .map(([, colour, text]) => [" ", element("span", { class: "swatch", style: `background:${colour_of(colour)}` }), text]);
+  return element("p", { class: "soft" }, `Arrows: forces, the longest ${number_text(stage.largest, 3)} N;`, swatches);
 }

@@ -14,10 +14,13 @@ class TimeWindow {
   }
 }
 
+const plot_ticks = (ticks) => ticks.map(({ at, text }) => ({ v: at, label: text }));
+
 class TimePlot {
   // curves: [{name, t, values, colour, dash}]; `marks`: [{t, colour}] of events.
   constructor({ title, unit, curves, logarithmic, note }, clock, window_of_time, marks) {
     Object.assign(this, { curves, clock, window_of_time, marks, logarithmic });
+    this.shared = curves.every((c) => c.t === curves[0].t);
     this.place = element("div", { class: "time-plot", role: "img",
       "aria-label": `${title} over time: ${curves.map((c) => c.name).join(", ")}` });
     this.cursor = element("div", { class: "cursor" });
@@ -44,12 +47,12 @@ class TimePlot {
 
   // One table for all curves; curves on times of their own leave gaps in each other's rows, over which lines go on.
   rows([low, high]) {
-    const pixels = Math.max(100, this.place.clientWidth), shared = this.curves.every((c) => c.t === this.curves[0].t);
+    const pixels = Math.max(100, this.place.clientWidth);
     const positive = (rows) => {
       if (this.logarithmic) for (const row of rows) for (let k = 1; k < row.length; ++k) if (!(row[k] > 0)) row[k] = null;
       return rows;
     };
-    if (shared) return positive(decimated(this.curves[0].t, this.curves.map((c) => c.values), low, high, pixels));
+    if (this.shared) return positive(decimated(this.curves[0].t, this.curves.map((c) => c.values), low, high, pixels));
     const all = this.curves.flatMap((curve, k) => decimated(curve.t, [curve.values], low, high, pixels).map(([t, value]) => {
       const row = [t, ...this.curves.map(() => null)];
       row[k + 1] = value;
@@ -65,11 +68,12 @@ class TimePlot {
       labels: ["t", ...this.curves.map((c, k) => `${k} ${c.name}`)],
       colors: this.curves.map((c) => c.colour),
       series: Object.fromEntries(this.curves.map((c, k) => [`${k} ${c.name}`, { strokePattern: c.dash.length ? c.dash : null }])),
-      strokeWidth: 1.6, connectSeparatedPoints: true, legend: "never", logscale: !!this.logarithmic,
+      strokeWidth: 1.6, connectSeparatedPoints: !this.shared, legend: "never", logscale: !!this.logarithmic,
       dateWindow: [low, high], highlightCircleSize: 3, animatedZooms: false, yRangePad: 8, xRangePad: 0,
       gridLineColor: colour("--grid"), axisLineColor: colour("--rule"), gridLineWidth: 1, axisLabelFontSize: 12,
-      axes: { x: { axisLabelFormatter: (x) => number_text(x, 5), pixelsPerLabel: 70 },
-              y: { axisLabelFormatter: (y) => number_text(y, 4), axisLabelWidth: 62, pixelsPerLabel: 32 } },
+      axes: { x: { ticker: (a, b, pixels) => plot_ticks(linear_ticks(a, b, pixels / 80)) },
+              y: { ticker: (a, b, pixels) => plot_ticks(this.y_ticks(a, b, pixels / 40)), axisLabelWidth: 62 } },
+      valueRange: this.logarithmic ? this.wide_range() : null,
       underlayCallback: (context, area, graph) => this.draw_marks(context, area, graph),
       drawCallback: (graph, initial) => !initial && this.moved(graph),
       clickCallback: (_, t) => { this.clock.play(false); this.clock.set(t); },
@@ -77,6 +81,20 @@ class TimePlot {
     this.window_of_time.plots.push(this);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.recolour());
     this.at(this.clock.t);
+  }
+
+  y_ticks(low, high, wanted) {
+    return this.logarithmic ? logarithmic_ticks(low, high, Math.max(2, wanted)).filter((t) => t.text) : linear_ticks(low, high, wanted);
+  }
+
+  // On a logarithmic axis at least a decade, so that what hardly changes looks so; null: what the values take.
+  wide_range() {
+    let low = Infinity, high = 0;
+    for (const { values } of this.curves)
+      for (const x of values) if (x > 0 && x < Infinity) [low, high] = [Math.min(low, x), Math.max(high, x)];
+    if (!(high > 0) || high / low > 10) return null;
+    const middle = Math.sqrt(low * high);
+    return [middle / 5, middle * 5];
   }
 
   recolour() {
