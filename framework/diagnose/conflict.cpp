@@ -10,6 +10,7 @@
 
 #include "diagnose/redundancy.hpp"
 #include "run/row_tolerance.hpp"
+#include "system/onto_rows.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -125,27 +126,16 @@ class RowSelection {
 // By how much each row is missed after steps of Newton's method over all of them: in positions, or else in velocities,
 // or else in accelerations. What was only off holds then, what conflicts does not. Empty: all hold.
 Vec missed_rows(model::AssembledSystem& system, const RowTolerance& allowed, State s) {
-  constexpr int steps = 20;
-  const Vec no_force = Vec::Zero(system.sizes().nv);
-  Vec change, mu, q;
-  const auto nearest = [&](const Vec& missed) {
-    system.factorise({.c_m = 0, .c_1 = 1}, no_force, missed, Factors::projection);
-    return system.correct(no_force, missed, change, mu, Factors::projection);
-  };
-  system.move_to(s.t, s.q, s.v);
-  for (int i = 0; i < steps && system.g().norm() > allowed.length && nearest(system.g()); ++i) {
-    system.retract(s.q, change, q);
-    s.q = q;
-    system.move_to(s.t, s.q, s.v);
-  }
+  model::positions_onto_rows(system, s, {.metric = model::by_coordinates, .allowed = allowed.length, .most = 20});
   if (system.g().norm() > allowed.length) return system.g();
-  if (nearest(system.g_dot())) s.v += change;
-  system.move_to(s.t, s.q, s.v);
+  model::velocities_onto_rows(system, s, model::by_coordinates);
   if (system.g_dot().norm() > allowed.speed) return system.g_dot();
-  Vec missed;
+  const Vec no_force = Vec::Zero(system.sizes().nv);
+  Vec missed, a, mu;
   system.constraint_acceleration(no_force, missed);
   const double wanted = missed.norm();
-  if (nearest(missed)) system.constraint_acceleration(change, missed);
+  system.factorise(model::by_coordinates, no_force, missed, Factors::projection);
+  if (system.correct(no_force, missed, a, mu, Factors::projection)) system.constraint_acceleration(a, missed);
   return missed.norm() > 1e-6 * std::max(1.0, wanted) ? missed : Vec();
 }
 

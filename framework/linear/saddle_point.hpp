@@ -17,9 +17,10 @@
 //    similar length).
 //  - Rows may be redundant: x and W^T y are unique. Which rows are, and their rank nc - |those rows|, is a question
 //    about G alone: `dependent_rows` (sparse/dependent_rows.hpp) answers it for all solvers.
-//  - Multipliers of redundant rows are those of minimum norm, except of FrontalKkt.
-//  - Solving twice, or factorising again after another system of the same pattern, gives the same bits. After other
-//    patterns, too, except of FrontalIterationKkt, which keeps their places.
+//  - Multipliers of redundant rows are those of minimum norm, sum_i y_i^2, rows in the units in which they are given;
+//    of SparseMassKkt once `minimise_norm`, of FrontalKkt once LeastMultipliers has made them so.
+//  - Solving twice, or factorising again after another system, also of another pattern, gives the same bits: a run that
+//    is resumed goes on as one that was not cut.
 //  - What cannot be solved is reported: `factorise` or `solve` returns false, never true with a NaN in x or y.
 #pragma once
 

@@ -14,10 +14,8 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 // The complement serves as it is down to this sine of a row's angle to others: its square above round-off by 1e10.
 constexpr double safe_sine = 1e-3;
 // And down to this eigenvalue of the whole, S's diagonal scaled to 1: round-off of its rows, 1e-13, over the root is
-// 2e-9 of accelerations. The softest eigenvalue falls with n^-4 at most in chains (of masts of n units with half a dozen
-// rows each), so that fewer rows than `soft_from` need not be asked.
+// 2e-9 of accelerations.
 constexpr double soft_chain = 2e-9;
-constexpr int soft_from = 1000;
 // Forces on a few bodies, or masses of many sizes, leave other round-off, which tells less of the softest direction.
 // Below this, accelerations that the second correction still changes by more than this part of them are not trusted: of
 // 594 loads on masts and 48 beams of graded masses it was 100 times their error at least.
@@ -117,56 +115,53 @@ bool SparseMassKkt::solve(const std::vector<BodyBlock>& bodies, const Vec& b, co
   return x.allFinite() && y.allFinite();
 }
 
-// False: a long chain is too soft for it, which may leave no trace in any single pivot. The second correction tells: it
+struct SparseMassKkt::ByComplement {
+  SparseMassKkt& kkt;
+  const std::vector<BodyBlock>& bodies;
+  const Vec &b, &c;
+  Vec &x, &y;
+  int corrections = 0;
+  bool soft = false;
+  double left = 0, of_forces = 0;
+
+  double residual() {
+    kkt.residual_ = -c;
+    add_rows_times(bodies, 1, x, kkt.residual_);
+    return left = kkt.residual_.lpNorm<Eigen::Infinity>();
+  }
+  // Multipliers along a chain add up to accelerations a million times those that are left. Their round-off does not fall
+  // by corrections, but the first one takes away what is smooth of it, to which a soft mechanism yields: 1e-9 of a
+  // mast's accelerations.
+  double round_off() { return of_forces = 4 * eps * kkt.complement_.largest_share(y); }
+  double correction() {
+    const bool last = left <= round_off();
+    kkt.complement_.solve(kkt.residual_, kkt.dy_);
+    return last ? 0 : 1;
+  }
+  void apply() {
+    y += kkt.dy_;
+    const bool tells = ++corrections == 2;
+    if (tells) kkt.x_before_.swap(x);
+    x = b;
+    add_rows_force(bodies, -1, y, x);
+    kkt.masses_.solve(x);
+    if (tells) soft = kkt.is_soft(kkt.complement_.softness(kkt.residual_, kkt.dy_), x);
+  }
+};
+
+// False: the mechanism is too soft for it, which may leave no trace in any single pivot. The second correction tells: it
 // answers to what the first has left, round-off, which S^-1 enlarges most in the softest direction. Of chains and masts
 // of 1000 to 80,000 rows under their own weight and springs that is within 5 % of their least eigenvalue. Or the factors
 // are of other rows, too far off for corrections to come closer.
 bool SparseMassKkt::solve_by_complement(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x,
                                         Vec& y) {
-  struct Equations {
-    SparseMassKkt& kkt;
-    const std::vector<BodyBlock>& bodies;
-    const Vec &b, &c;
-    Vec &x, &y;
-    bool is_long;
-    int corrections = 0;
-    bool soft = false;
-    double of_forces = 0;
-    double residual() {
-      kkt.residual_ = -c;
-      add_rows_times(bodies, 1, x, kkt.residual_);
-      return left = kkt.residual_.lpNorm<Eigen::Infinity>();
-    }
-    // Multipliers along a chain add up to accelerations a million times those that are left. Their round-off does not
-    // fall by corrections, but the first one takes away what is smooth of it, to which a soft mechanism yields: 1e-9 of
-    // a mast's accelerations.
-    double round_off() { return of_forces = 4 * eps * kkt.complement_.largest_share(y); }
-    double correction() {
-      const bool last = left <= round_off();
-      kkt.complement_.solve(kkt.residual_, kkt.dy_);
-      return last ? 0 : 1;
-    }
-    void apply() {
-      y += kkt.dy_;
-      const bool tells = is_long && ++corrections == 2;
-      if (tells) kkt.x_before_.swap(x);
-      x = b;
-      add_rows_force(bodies, -1, y, x);
-      kkt.masses_.solve(x);
-      if (tells) soft = kkt.is_soft(kkt.complement_.softness(kkt.residual_, kkt.dy_), x);
-    }
-    double left = 0;
-  };
   y.setZero(nc_);
   x = b;
   masses_.solve(x);
   if (nc_ == 0) return true;
-  const bool is_long = nc_ >= soft_from;
-  // Of a row's dozen products. Long chains take their second correction in any case.
-  const double enough = is_long ? 0 : 16 * eps * std::max(c.lpNorm<Eigen::Infinity>(), x.lpNorm<Eigen::Infinity>());
-  Equations equations{*this, bodies, b, c, x, y, is_long};
-  const double left = refine(equations, {.most = 4, .enough = enough, .falls = 0.9}).residual;
-  const bool astray = is_long && left > 1e3 * equations.of_forces &&
+  ByComplement equations{*this, bodies, b, c, x, y};
+  const double left = refine(equations, {.most = 4, .enough = 0, .falls = 0.9}).residual;
+  const bool astray = left > 1e3 * equations.of_forces &&
                       left > 1e3 * (equations.round_off() + 4 * eps * x.lpNorm<Eigen::Infinity>());
   return !equations.soft && !astray;
 }

@@ -46,6 +46,7 @@ class SparseMassKkt {
 
  private:
   enum class Route { complement, fronts, springs };
+  struct ByComplement;  // the equations as they are refined (refinement.hpp)
   bool rows_merge_unknowns(const std::vector<BodyBlock>& bodies, int nc);
   bool factorise_masses(const std::vector<BodyBlock>& bodies, Metric metric);
   bool factorise_fronts(const std::vector<BodyBlock>& bodies);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include <Eigen/QR>
 
+#include "system/onto_rows.hpp"
 #include "system/tangent_space.hpp"
 
 namespace trammel::simulate {
@@ -108,6 +110,13 @@ class Nearest {
 std::optional<State> nearest_steady(model::AssembledSystem& system, const FlatTurning& flat, const State& state,
                                     const Vector3d& rate) {
   return Nearest(system, flat, state, rate)();
+}
+
+bool onto_rows(model::AssembledSystem& system, State& s, std::function<Vec(const State&, const Vec&)> along) {
+  constexpr double off = 1e-10;  // [m, rad] beside coordinates of order 1: less than the search tells apart
+  const double size = std::max(1.0, s.q.lpNorm<Eigen::Infinity>());
+  return model::positions_onto_rows(system, s, {.allowed = off * size, .most = 10, .along = std::move(along)}) &&
+         model::velocities_onto_rows(system, s);
 }
 
 }  // namespace trammel::simulate

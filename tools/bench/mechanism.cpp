@@ -2,7 +2,8 @@
 //
 //     tools/bench/run mechanism
 //
-// "evaluation": M, f, the joints' rows and the solution at a point that is new each time. "run": from the scene's start
+// "evaluation": M, f, the joints' rows and the solution at a point that is new each time; of chains some steps into the
+// run, in its pose and with its violations of the rows, which decide how they are solved. "run": from the scene's start
 // to its end with
 // events, ledger and records, without reading the scene; columns: 10 over the exponent of the tolerance, counters:
 // evaluations, steps.
@@ -31,19 +32,31 @@ scene::Scene load(const std::string& name, const std::vector<scene::Override>& o
   return scene::Scene::load(TRAMMEL_SOURCE_DIR "/scenes/benchmarks/" + name + ".json", overrides);
 }
 
-void evaluations(benchmark::State& report, const scene::Scene& scene) {
+State after(int steps, const simulate::Setup& setup) {
+  if (steps == 0) return setup.initial;
+  const RecordsFolder folder;
+  simulate::Recorder recorder(folder.path, *setup.model, setup.columns, {});
+  simulate::Simulator simulator(setup.model, *setup.integrator, setup.settings, {});
+  simulator.start(setup.initial);
+  while (simulator.statistics().steps < steps && simulator.advance(recorder))
+    ;
+  return simulator.state();
+}
+
+void evaluations(benchmark::State& report, const scene::Scene& scene, int steps = 0) {
   plugin::Registry registry;
   const simulate::Setup setup = simulate::set_up(scene, registry);
+  const State state = after(steps, setup);
   model::AssembledSystem system(setup.model);
-  const Vec little = Vec::Constant(setup.initial.v.size(), 1e-12), v = setup.initial.v + little;
+  const Vec little = Vec::Constant(state.v.size(), 1e-12), v = state.v + little;
   Vec q, a, lambda;
-  system.retract(setup.initial.q, little, q);
+  system.retract(state.q, little, q);
   bool there = false;
-  system.move_to(0, setup.initial.q, v);
+  system.move_to(state.t, state.q, v);
   system.accelerate({}, a, lambda);  // lays the factors out
   for (auto _ : report) {
     there = !there;
-    system.move_to(0, there ? q : setup.initial.q, there ? v : setup.initial.v);
+    system.move_to(state.t, there ? q : state.q, there ? v : state.v);
     system.accelerate({}, a, lambda);
     benchmark::DoNotOptimize(a.data());
   }
@@ -116,7 +129,7 @@ void register_all() {
   benchmark::RegisterBenchmark(
       "evaluation, chain",
       [](benchmark::State& report) {
-        evaluations(report, load("chain", {{"parameters.links", std::to_string(report.range(0))}}));
+        evaluations(report, load("chain", {{"parameters.links", std::to_string(report.range(0))}}), 20);
       })
       ->RangeMultiplier(10)
       ->Range(10, 10000)

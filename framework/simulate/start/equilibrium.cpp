@@ -8,6 +8,7 @@
 
 #include "simulate/contact/resting_contacts.hpp"
 #include "simulate/watch/turn_counts.hpp"
+#include "system/onto_rows.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -195,17 +196,10 @@ class StaticEquilibrium {
 
   // The least change of q that satisfies the rows: violations left by a turn would count as a step against the forces.
   void onto_rows(Vec& q) {
-    const Vec no_force = Vec::Zero(system_.sizes().nc);
-    Vec dq, mu, moved;
-    for (int i = 0; i < 5; ++i) {
-      system_.move_to(state_.t, q, zero_v_);
-      const Vec g = system_.g();
-      if (g.size() == 0 || g.lpNorm<Eigen::Infinity>() <= settled * std::max(1.0, q.lpNorm<Eigen::Infinity>())) return;
-      system_.factorise({1, 0, 0}, zero_v_, no_force, Factors::projection);
-      if (!system_.correct(zero_v_, g, dq, mu, Factors::projection)) return;
-      system_.retract(q, dq, moved);
-      q = moved;
-    }
+    State s{state_.t, q, zero_v_, {}, {}};
+    model::positions_onto_rows(system_, s,
+                               {.allowed = settled * std::max(1.0, q.lpNorm<Eigen::Infinity>()), .most = 5});
+    q = s.q;
   }
 
   // The residual G^T lambda - f at another time and place.

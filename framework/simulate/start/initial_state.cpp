@@ -2,54 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "diagnose/conflict.hpp"
-#include "run/contact_scale.hpp"
-#include "simulate/start/equilibrium.hpp"
 #include "diagnose/row_offsets.hpp"
+#include "run/contact_scale.hpp"
 #include "run/row_tolerance.hpp"
+#include "simulate/start/equilibrium.hpp"
+#include "system/onto_rows.hpp"
 
 namespace trammel::simulate {
 namespace {
 
 // What "nearest" weighs: masses, and with contacts what the bodies store at 1 rad/s too, so that a beam that reaches
 // into a plane is turned out of it and not bent.
-constexpr Blend by_mass = {1, 0, 0}, by_mass_and_stiffness = {1, 0, 1};
+constexpr Blend by_mass_and_stiffness = {1, 0, 1};
 
-bool project_position(model::AssembledSystem& system, State& s, Blend nearest = by_mass) {
-  Vec zero = Vec::Zero(system.sizes().nv), dq, mu, q;
-  const Vec no_force = Vec::Zero(system.sizes().nc);
-  const RowTolerance allowed = row_tolerance(system, s);
-  double before = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 50; ++i) {
-    system.move_to(s.t, s.q, s.v);
-    const Vec g = system.g();
-    const double now = g.norm();
-    if (!std::isfinite(now)) return false;
-    if (now < 1e-7 * allowed.length || (now < allowed.round_off && now > 0.5 * before)) return true;
-    before = now;
-    system.factorise(nearest, zero, no_force);
-    if (!system.correct(zero, g, dq, mu)) return false;
-    system.retract(s.q, dq, q);
-    s.q = q;
-  }
-  return before < allowed.length;
+bool project_position(model::AssembledSystem& system, State& s, Blend nearest = model::by_mass) {
+  return model::positions_onto_rows(system, s, {.metric = nearest, .allowed = row_tolerance(system, s).length});
 }
 
 bool project_velocity(model::AssembledSystem& system, State& s) {
-  Vec zero = Vec::Zero(system.sizes().nv), dv, mu;
-  const Vec no_force = Vec::Zero(system.sizes().nc);
-  for (int i = 0; i < 2; ++i) {
-    system.move_to(s.t, s.q, s.v);
-    const Vec g_dot = system.g_dot();
-    system.factorise({1, 0, 0}, zero, no_force);
-    if (!system.correct(zero, g_dot, dv, mu)) return false;
-    s.v += dv;
-  }
+  if (!model::velocities_onto_rows(system, s)) return false;
   const double allowed = row_tolerance(system, s).speed;
   system.move_to(s.t, s.q, s.v);
   return system.g_dot().norm() < allowed;

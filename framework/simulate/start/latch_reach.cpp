@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 
 #include "diagnose/row_offsets.hpp"
+#include "system/onto_rows.hpp"
 #include "system/pseudo_random.hpp"
 
 namespace trammel::simulate {
 namespace {
 
 constexpr int most_rows = 1000;
-constexpr Blend minimum_norm = {.c_m = 0, .c_1 = 1};
 
 class Approach {
  public:
@@ -56,25 +56,13 @@ class Approach {
  private:
   // q onto the rows, and its gap.
   bool restore(Vec& q) {
-    constexpr int most_iterations = 10;
-    constexpr double settled = 1e-9;
     system_.set_modes(open_);
-    const Vec still = Vec::Zero(system_.sizes().nv), no_force = Vec::Zero(system_.sizes().nc);
-    double before = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < most_iterations; ++i) {
-      system_.move_to(t_, q, still);
-      gap_ = system_.gap(contact_);
-      const double violation = no_force.size() > 0 ? system_.g().lpNorm<Eigen::Infinity>() : 0;
-      if (violation < settled) return std::isfinite(gap_);
-      if (!(violation < before)) return false;
-      before = violation;
-      Vec dq, mu, moved;
-      system_.factorise(minimum_norm, still, no_force, Factors::projection);
-      if (!system_.correct(still, Vec(system_.g()), dq, mu, Factors::projection)) return false;
-      system_.retract(q, dq, moved);
-      q = moved;
-    }
-    return false;
+    State s{t_, q, Vec::Zero(system_.sizes().nv), {}, {}};
+    const bool found =
+        model::positions_onto_rows(system_, s, {.metric = model::by_coordinates, .allowed = 1e-9, .most = 10});
+    q = s.q;
+    gap_ = system_.gap(contact_);
+    return found && std::isfinite(gap_);
   }
 
   // closing_: the change of least norm that keeps the rows and reduces the gap by 1. Returns the sine of the angle
@@ -89,7 +77,7 @@ class Approach {
     const Vec wanted = Vec::Unit(system_.sizes().nc, system_.row({contact_, 0}));
     Vec mu, gradient = still, change = no_force;
     system_.add_rows_force(1, wanted, gradient);
-    system_.factorise(minimum_norm, still, no_force, Factors::projection);
+    system_.factorise(model::by_coordinates, still, no_force, Factors::projection);
     if (!system_.correct(still, wanted, closing_, mu, Factors::projection))
       return std::numeric_limits<double>::quiet_NaN();
     system_.add_rows_times(1, closing_, change);
