@@ -163,9 +163,9 @@ class ExactModes {
     const Mat E = carrying_.rows.resultants()(Eigen::all, columns);
     Vec forces(E.cols());
     for (std::size_t k = 0; k < columns.size(); ++k) forces[Index(k)] = F_[row_at(columns[k])];
-    Vec resultants = E * forces;
+    Vec resultants = E * forces, y;
     for (int corrections = 0; corrections < 3; ++corrections) {
-      const double missed = admissible_forces(sharing, E, resultants, forces);
+      const double missed = admissible_forces(sharing, E, resultants, forces, &y);
       if (!(missed <= round_off * resultants.norm())) return corrections > 0;
       for (std::size_t k = 0; k < columns.size(); ++k) F_[row_at(columns[k])] = forces[Index(k)];
       a_ = A_ * F_ + b_;

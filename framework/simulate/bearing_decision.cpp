@@ -16,9 +16,9 @@
 
 #include <fmt/format.h>
 
-#include "system/locks_itself.hpp"
-#include "simulate/contact_mode.hpp"
 #include "run/run_failed.hpp"
+#include "simulate/contact_mode.hpp"
+#include "system/locks_itself.hpp"
 
 namespace trammel::simulate {
 namespace {

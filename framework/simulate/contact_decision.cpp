@@ -34,7 +34,8 @@ void ContactModes::find_candidates(const ContactChanges& changes) {
   for (const TouchingContact& c : touching_) {
     const double at_rest = jump + scale_.of(c.contact).at_rest();
     const bool constrained = c.impulse > 0 && treatment(c.contact).rebound == Restitution::Rebound::constrained;
-    const bool rests = std::abs(c.was_closed ? c.after - c.before : c.after) <= at_rest;
+    // A closed one may keep the rate that the steps left it, or have lost it with others (rule 2).
+    const bool rests = std::abs(c.after) <= at_rest || (c.was_closed && std::abs(c.after - c.before) <= at_rest);
     const bool released = contains(changes.released, c.contact) && c.impulse == 0 && !shared_before_[c.contact];
     if ((rests || constrained) && !released) candidates_.push_back(c.contact);
   }

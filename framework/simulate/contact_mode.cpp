@@ -6,8 +6,6 @@
 #include <numbers>
 #include <string_view>
 
-#include <Eigen/QR>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -155,7 +153,7 @@ void ContactModes::find_bearings() {
 void ContactModes::strike(State& state, const ContactChanges& changes) {
   const double kinetic_before = system_.energy().kinetic;
   v_before_ = state.v;
-  std::vector<bool> falls;
+  Brief brief;
   std::vector<TouchingContact> all;
   for (;;) {
     all = touching_;
@@ -165,16 +163,14 @@ void ContactModes::strike(State& state, const ContactChanges& changes) {
     std::copy_n(all.begin(), touching_.size(), touching_.begin());
     std::copy_n(all.begin() + std::ptrdiff_t(touching_.size()), bearings_.size(), bearings_.begin());
     state.v = v_before_ + dv_;
-    falls = falling_back(state, changes);
-    if (!capture_chatter(falls)) break;
+    brief = too_brief(state, changes);
+    if (!capture_chatter(brief.falls)) break;
     system_.move_to(state.t, state.q, v_before_);
   }
-  if (const auto first = std::find(falls.begin(), falls.end(), true); first != falls.end()) {
+  if (const std::size_t first = brief.first(); first < touching_.size()) {
     system_.move_to(state.t, state.q, state.v);
-    const double rocking = system_.energy().kinetic;
-    end_rocking(state, falls);
-    const double taken = rocking - system_.energy().kinetic;  // by them all; told of one
-    losses_.push_back({touching_[std::size_t(first - falls.begin())].contact, taken});
+    const double taken = end_rocking(state, brief);  // by them all; told of one
+    losses_.push_back({touching_[first].contact, taken});
     lost_elsewhere_ -= taken;
   }
   system_.move_to(state.t, state.q, state.v);
@@ -245,107 +241,10 @@ double ContactModes::capture_speed(int contact) const {
   return named > 0 ? named : scale_.of(contact).slow();
 }
 
-bool ContactModes::cannot_follow(int contact, double separation, double acceleration) const {
-  if (!(acceleration < 0)) return false;
-  if (steps_.fixed) return 2 * separation < chatter_steps_ * *steps_.fixed * -acceleration;
-  const double error = scale_.of(contact).error_of_position(steps_.tolerance);
-  return separation * separation < chatter_steps_ * error * 2 * -acceleration;
-}
-
 double ContactModes::at_rest(const std::vector<TouchingContact>& contacts) const {
   double slow = 0;
   for (const TouchingContact& c : contacts) slow = std::max(slow, scale_.of(c.contact).at_rest());
   return slow;
-}
-
-// Of the touching contacts those that separate after the impact, but fall back before the steps can follow. All with so
-// small a separation are judged as one: in a pile each flies only as long as its neighbours do. Were they all at rest,
-// those that would press
-// fall back, with the acceleration that their own force holds.
-std::vector<bool> ContactModes::falling_back(const State& state, const ContactChanges& changes) {
-  const auto separates = [this](const TouchingContact& c) {
-    const bool rebounds = c.restitution > 0 && c.restitution < 1 && c.impulse > 0;  // with e = 1 flights do not shrink
-    return rebounds || (c.was_closed && c.impulse == 0 && c.after > scale_.of(c.contact).at_rest());
-  };
-  std::vector<bool> falls(touching_.size(), false);
-  if (chatter_steps_ <= 0 || std::none_of(touching_.begin(), touching_.end(), separates)) return falls;
-  system_.move_to(state.t, state.q, state.v);
-  find_candidates(changes);
-  const std::size_t at_rest_now = candidates_.size();
-  model::Modes open = modes_;
-  open_all(open);
-  system_.set_modes(open);
-  system_.move_to(state.t, state.q, state.v);
-  const double fastest = fastest_gap_acceleration();
-  for (const TouchingContact& c : touching_)
-    if (separates(c) && !contains(candidates_, c.contact) && cannot_follow(c.contact, c.after, -fastest))
-      candidates_.push_back(c.contact);
-  if (candidates_.size() > at_rest_now) {
-    gather(state, changes, true);
-    problem_.prepare(system_);
-    accelerate_participants();
-    if (problem_.solve(nothing()).outcome == LcpOutcome::solved)
-      for (std::size_t i = at_rest_now; i < candidates_.size(); ++i) {
-        const auto c = std::find_if(touching_.begin(), touching_.end(),
-                                    [&](const TouchingContact& each) { return each.contact == candidates_[i]; });
-        falls[std::size_t(c - touching_.begin())] =
-            problem_.who[i].N > 0 && cannot_follow(c->contact, c->after, problem_.acceleration_without(i));
-      }
-  }
-  system_.set_modes(before_);
-  system_.move_to(state.t, state.q, state.v);
-  return falls;
-}
-
-double ContactModes::fastest_gap_acceleration() {
-  system_.accelerate({}, a_, lambda_);
-  double fastest = 0;
-  for (const TouchingContact& c : touching_)
-    fastest = std::max(fastest, std::abs(system_.acceleration({c.contact, 0}, a_)));
-  return fastest;
-}
-
-// Rule 2: takes e = 0 where the rebound is too short to follow; true if there is such a contact.
-bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
-  bool captured = false;
-  for (std::size_t i = 0; i < touching_.size(); ++i)
-    if (falls[i] && touching_[i].restitution > 0) touching_[i].restitution = 0, captured = true;
-  return captured;
-}
-
-// Rule 2: takes the rates of those that opened, pushed by the impact of others, too little to follow.
-void ContactModes::end_rocking(State& state, const std::vector<bool>& falls) {
-  const auto at_rest = [this](const TouchingContact& c) { return scale_.of(c.contact).at_rest(); };
-  std::vector<bool> rests = falls;
-  bool any = true;
-  for (std::size_t i = 0; i < touching_.size(); ++i) rests[i] = rests[i] || touching_[i].after <= at_rest(touching_[i]);
-  while (any) {
-    take_rates(state, rests);
-    any = false;
-    for (std::size_t i = 0; i < touching_.size(); ++i) {
-      TouchingContact& c = touching_[i];
-      c.after = rests[i] ? 0 : system_.gap_rate(c.contact);
-      if (c.after < -at_rest(c)) rests[i] = any = true;
-    }
-  }
-}
-
-// The least change of v, so a loss of energy, after which the contacts that rest have no rate.
-void ContactModes::take_rates(State& state, const std::vector<bool>& rests) {
-  std::vector<model::ContactDirection> held;
-  for (std::size_t i = 0; i < touching_.size(); ++i) {
-    const TouchingContact& c = touching_[i];
-    if (!rests[i]) continue;
-    held.push_back({c.contact, 0});
-    if (system_.model().contacts[c.contact].coulomb && c.slip_after.norm() <= scale_.of(c.contact).at_rest())
-      for (int k = 1; k <= system_.tangents(c.contact); ++k) held.push_back({c.contact, k});
-  }
-  Vec rates(Eigen::Index(held.size()));
-  for (std::size_t i = 0; i < held.size(); ++i) rates[Eigen::Index(i)] = system_.rate(held[i]);
-  Mat jump, delassus;
-  system_.impulse_response(held, jump, delassus);
-  state.v -= jump * delassus.completeOrthogonalDecomposition().solve(rates);
-  system_.move_to(state.t, state.q, state.v);
 }
 
 double ContactModes::distance_from_critical(const State& state) {

@@ -73,12 +73,12 @@
 
 #include <trammel/integrator.hpp>
 
-#include "simulate/results/contact_event.hpp"
-#include "simulate/contact/contact_problem.hpp"
 #include "run/contact_scale.hpp"
+#include "run/settings.hpp"
+#include "simulate/contact/contact_problem.hpp"
 #include "simulate/impact/impact_laws.hpp"
 #include "simulate/impact/impact_warnings.hpp"
-#include "run/settings.hpp"
+#include "simulate/results/contact_event.hpp"
 
 namespace trammel::simulate {
 
@@ -147,11 +147,22 @@ class ContactModes {
   void find_touching(const ContactChanges& changes);
   void find_bearings();
   void strike(State& state, const ContactChanges& changes);
-  std::vector<bool> falling_back(const State& state, const ContactChanges& changes);
+  // Of the touching contacts, by index: whose separation after the impact is too short to follow, and whose slip.
+  struct Brief {
+    std::vector<bool> falls, stops;
+    std::size_t first() const;  // of either; their number if there is none
+  };
+  Brief too_brief(const State& state, const ContactChanges& changes);
+  void judge_brief(std::size_t at_rest_now, Brief& brief);
+  bool separates(const TouchingContact& c) const;
+  bool begins_to_slip(const TouchingContact& c) const;
+  const TouchingContact* beginning_to_slip(const Participant& p) const;
+  bool stops_at_once(std::size_t participant) const;
+  bool let_fast_slips_go();
   double fastest_gap_acceleration();
   bool capture_chatter(const std::vector<bool>& falls);
-  void end_rocking(State& state, const std::vector<bool>& falls);
-  void take_rates(State& state, const std::vector<bool>& rests);
+  double end_rocking(State& state, const Brief& brief);
+  double take_rates(State& state, const std::vector<bool>& rests, const std::vector<bool>& stops);
   bool cannot_follow(int contact, double separation, double acceleration) const;
   void lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
   void find_candidates(const ContactChanges& changes);

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "simulate/root_bracket.hpp"
 #include "simulate/contact/signed_loads.hpp"
+#include "simulate/root_bracket.hpp"
 #include "simulate/trial_step.hpp"
 
 namespace trammel::simulate {

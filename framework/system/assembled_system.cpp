@@ -39,6 +39,7 @@ void AssembledSystem::set_modes(const Modes& modes) {
     return modes.contacts[i].closed && law && law->treatment().release == Restitution::Release::never;
   };
   w.loads.lay_out(w.modes);
+  w.shared_at.assign(modes.shared.size(), {});
   int row = w.model->sizes.nc;
   for (std::size_t i = 0; i < modes.contacts.size(); ++i)
     if (locks(i)) w.loads.set_row({int(i), 0}, row++);

@@ -120,7 +120,7 @@ class AssembledSystem final : public System, public HasRigidMotions {
   double spring_force(int contact, const Vec& lambda);
   Tangential slip(int contact);                             // [m/s]; of contacts with friction
   Tangential slip_acceleration(int contact, const Vec& a);  // [m/s^2]
-  Vec3 along_tangents(int contact, const Tangential& x);              // along the tangent; in space in world axes
+  Vec3 along_tangents(int contact, const Tangential& x);    // along the tangent; in space in world axes
   int tangents(int contact) const;                          // 1, or 2 in space but for a joint's
   void anchor(int contact, ContactMode& mode);              // what holds it at this place
   // A step has become the solution, and the system is at its end: slip is measured from its direction there, in space,

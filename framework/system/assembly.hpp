@@ -174,6 +174,12 @@ struct AssembledSystem::Work {
   Mat moved_with_sliding(int group);                               // ContactLoads::solve_with_sliding
   const ContactLoads& shared_rows(int group, const Vec& lambda);   // with the resultants of a group
   const ContactLoads& shared_loads(int group, const Vec& lambda);  // and with its forces
+  // Where `loads` has the forces of a group: contacts are asked for theirs one after the other.
+  struct SharedAt {
+    long long point = -1, configuration = -1;
+    Vec lambda;
+  };
+  std::vector<SharedAt> shared_at;   // by group
   std::vector<int> judged;           // closed contacts at rest whose friction is decided in every evaluation
   Eigen::Matrix2Xd judged_friction;  // [N] by contact, at the last accelerate
   bool coupled = false;              // sliding friction depends on a row's force: W != G

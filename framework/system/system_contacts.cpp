@@ -125,6 +125,7 @@ ContactLoads::Bounds AssembledSystem::Work::bounds(int contact, const Vec& lambd
 
 const ContactLoads& AssembledSystem::Work::shared_rows(int group, const Vec& lambda) {
   follow_shares();
+  shared_at[std::size_t(group)] = {};
   loads.prepare(group, lambda, [&](int contact) { return bounds(contact, lambda); });
   return loads;
 }
@@ -151,9 +152,14 @@ Mat AssembledSystem::Work::moved_with_sliding(int group) {
 
 const ContactLoads& AssembledSystem::Work::shared_loads(int group, const Vec& lambda) {
   follow_shares();
+  SharedAt& at = shared_at[std::size_t(group)];
+  if (at.point == point && at.configuration == configuration && at.lambda.size() == lambda.size() &&
+      at.lambda == lambda)
+    return loads;
   const bool found = loads.solve(group, lambda, [&](int contact) { return bounds(contact, lambda); });
   if (!found && !modes.shared[std::size_t(group)].sliding.empty())
     loads.solve_with_sliding(group, moved_with_sliding(group));
+  at = {point, configuration, lambda};
   return loads;
 }
 

@@ -95,6 +95,7 @@ class InteriorPoint {
 
   bool step(double mu) {
     scale();
+    factorise();
     Vec right = -scaled_;
     if (!direction(right)) return false;
     double reach = std::min({1.0, reach_of(now_.x, dx_), reach_of(z_, dz_)});
@@ -137,18 +138,24 @@ class InteriorPoint {
     scaled_ = W_ * z_;
   }
 
+  void factorise() {
+    const Index rows = G_.rows(), all = rows + has_s();
+    const Mat GW = G_ * W_;
+    GWY_ = GW * yields_;
+    K_.setZero(all, all);
+    K_.topLeftCorner(rows, rows) = GWY_ * GW.transpose();
+    if (has_s()) K_.col(rows).head(rows) = u_, K_.row(rows).head(rows) = u_.transpose();
+    lu_.compute(K_);
+  }
+
   // W^-1 dx + W dz = right, and the linear equations.
   bool direction(const Vec& right) {
-    const Index rows = G_.rows(), all = rows + has_s();
-    const Mat GW = G_ * W_, GWY = GW * yields_;
-    Mat K = Mat::Zero(all, all);
-    K.topLeftCorner(rows, rows) = GWY * GW.transpose();
-    Vec r(all);
-    r.head(rows) = primal_ - GWY * (right - W_ * dual_);
-    if (has_s()) K.col(rows).head(rows) = u_, K.row(rows).head(rows) = u_.transpose(), r[rows] = free_;
-    const Eigen::FullPivLU<Mat> lu(K);
-    Vec d = lu.solve(r);
-    d += lu.solve(r - K * d);
+    const Index rows = G_.rows();
+    Vec r(K_.rows());
+    r.head(rows) = primal_ - GWY_ * (right - W_ * dual_);
+    if (has_s()) r[rows] = free_;
+    Vec d = lu_.solve(r);
+    d += lu_.solve(r - K_ * d);
     if (!d.allFinite()) return false;
     dy_ = d.head(rows), ds_ = has_s() ? d[rows] : 0;
     dx_ = W_ * (yields_ * (right - W_ * (dual_ - G_.transpose() * dy_)));
@@ -170,7 +177,8 @@ class InteriorPoint {
   Vec z_, scaled_;
   Vec primal_, dual_, dx_, dy_, dz_;
   double free_ = 0, ds_ = 0;
-  Mat W_, W_inverse_, yields_;
+  Mat W_, W_inverse_, yields_, GWY_, K_;
+  Eigen::FullPivLU<Mat> lu_;  // of K
 };
 
 }  // namespace

@@ -8,23 +8,32 @@
 namespace trammel::complementarity {
 namespace {
 
-constexpr int most_iterations = 60;
+constexpr int most_iterations = 60;  // where there are such forces
+// From where they may be none: it takes more only where cones are thin, which the interior point method minds less.
+constexpr int first_iterations = 20;
+// Of lambda: what the interior point method misses where there are none.
+constexpr double none = 1e-6;
 constexpr double round_off = 1e-14;  // of lambda
 
 class DualNewton {
  public:
   DualNewton(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda)
       : contacts_(contacts), E_(E), lambda_(lambda) {
-    const Mat all = E * E.transpose();
-    size_ = all.trace() / double(std::max<Eigen::Index>(1, all.rows()));
-    evaluate(Eigen::LDLT<Mat>(all).solve(lambda));
+    begin();
   }
 
+  // As springs share without cones.
+  void begin() {
+    const Mat all = E_ * E_.transpose();
+    size_ = all.trace() / double(std::max<Eigen::Index>(1, all.rows()));
+    evaluate(Eigen::LDLT<Mat>(all).solve(lambda_));
+  }
   void begin_at(const Vec& y) { evaluate(y); }
+  const Vec& y() const { return y_; }
 
-  double solve(Vec& F) {
+  double solve(Vec& F, int most) {
     const double size = lambda_.norm();
-    for (int i = 0; i < most_iterations && missed_.norm() > round_off * size; ++i)
+    for (int i = 0; i < most && missed_.norm() > round_off * size; ++i)
       if (!step()) break;
     F = F_;
     return missed_.norm();
@@ -35,7 +44,7 @@ class DualNewton {
   // far as it falls.
   // False: it does not fall.
   bool step() {
-    const Mat H = E_ * slope() * E_.transpose();
+    const Mat H = curvature();
     const Vec from = y_, left = missed_;
     const double before = value_;
     for (const double stiff : {1e-13, 1e-6, 1.0}) {
@@ -95,41 +104,38 @@ class DualNewton {
   // max over the cones of F . x - |F|^2/2 at x = E^T y; without what given normal forces are worth.
   double conjugate() const { return F_.dot(pushed_) - 0.5 * F_.squaredNorm(); }
 
-  // dPi/dx
-  Mat slope() const {
-    Mat D = Mat::Zero(pushed_.size(), pushed_.size());
-    for (const SharingContact& c : contacts_) {
-      const double T = length(c, pushed_), mu = c.coefficient;
-      if (c.normal >= 0) {
-        const double a = pushed_[c.normal];
-        if (c.tangents.empty()) {
-          D(c.normal, c.normal) = a > 0;
-          continue;
-        }
-        if (a <= -mu * T) continue;
-        if (T <= mu * a) {
-          D(c.normal, c.normal) = 1;
-          for (const Eigen::Index k : c.tangents) D(k, k) = 1;
-          continue;
-        }
-        add_side(c, T, mu * F_[c.normal], D);
-        Vec edge = Vec::Zero(D.rows());
-        edge[c.normal] = 1;
-        for (const Eigen::Index k : c.tangents) edge[k] = mu * pushed_[k] / T;
-        D += edge * edge.transpose() / (1 + mu * mu);
-      } else if (const double bound = mu * c.given; T <= bound) {
-        for (const Eigen::Index k : c.tangents) D(k, k) = 1;
-      } else {
-        add_side(c, T, bound, D);
-      }
-    }
-    return D;
+  // E dPi/dx E^T, where dPi/dx = L L^T, contact by contact.
+  Mat curvature() const {
+    Mat EL(E_.rows(), E_.cols());
+    Eigen::Index used = 0;
+    for (const SharingContact& c : contacts_) add_columns(c, EL, used);
+    Mat H = Mat::Zero(E_.rows(), E_.rows());
+    if (used == 0) return H;  // which Eigen's rankUpdate does not bear
+    H.selfadjointView<Eigen::Lower>().rankUpdate(EL.leftCols(used));
+    H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
+    return H;
   }
 
-  // On a circle of this radius the force turns with what pushes it.
-  void add_side(const SharingContact& c, double T, double radius, Mat& D) const {
-    for (const Eigen::Index k : c.tangents)
-      for (const Eigen::Index l : c.tangents) D(k, l) += radius / T * ((k == l) - pushed_[k] * pushed_[l] / (T * T));
+  // Inside its cone it is free; on the side it moves along the edge, and turns with what pushes it.
+  void add_columns(const SharingContact& c, Mat& EL, Eigen::Index& used) const {
+    const double T = length(c, pushed_), mu = c.coefficient;
+    const double a = c.normal >= 0 ? pushed_[c.normal] : c.given;
+    if (c.normal >= 0 && (c.tangents.empty() ? !(a > 0) : a <= -mu * T)) return;
+    const bool inside = T <= mu * a;
+    if (inside || c.tangents.empty()) {
+      if (c.normal >= 0) EL.col(used++) = E_.col(c.normal);
+      for (const Eigen::Index k : c.tangents) EL.col(used++) = E_.col(k);
+      return;
+    }
+    if (c.normal >= 0) {
+      EL.col(used) = E_.col(c.normal);
+      for (const Eigen::Index k : c.tangents) EL.col(used) += mu * pushed_[k] / T * E_.col(k);
+      EL.col(used++) /= std::sqrt(1 + mu * mu);
+    }
+    if (c.tangents.size() < 2) return;
+    const double radius = c.normal >= 0 ? mu * F_[c.normal] : mu * c.given;
+    const Eigen::Index k = c.tangents[0], l = c.tangents[1];
+    EL.col(used++) = std::sqrt(radius / T) / T * (pushed_[k] * E_.col(l) - pushed_[l] * E_.col(k));
   }
 
   const std::vector<SharingContact>& contacts_;
@@ -184,10 +190,18 @@ ConeProgram sharing_program(const std::vector<SharingContact>& contacts, const M
   return program;
 }
 
-double admissible_forces(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec& F) {
+double admissible_forces(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec& F,
+                         Vec* nearby) {
   constexpr double solved = 1e-12;  // of lambda
   DualNewton newton(contacts, E, lambda);
-  double missed = newton.solve(F);
+  if (nearby && nearby->size() > 0) {
+    newton.begin_at(*nearby);
+    const double missed = newton.solve(F, first_iterations);
+    if (missed <= solved * lambda.norm()) return *nearby = newton.y(), missed;
+    newton.begin();
+  }
+  double missed = newton.solve(F, first_iterations);
+  if (nearby) *nearby = newton.y();
   if (missed <= solved * lambda.norm()) return missed;
   ConeProgram program = sharing_program(contacts, E, lambda);
   const double size = program.r.lpNorm<Eigen::Infinity>();
@@ -197,9 +211,11 @@ double admissible_forces(const std::vector<SharingContact>& contacts, const Mat&
   const auto keep_if_better = [&](double other_missed) {
     if (other_missed < missed) missed = other_missed, F = other;
   };
-  keep_if_better((E * other - lambda).norm());
+  const double missed_inside = (E * other - lambda).norm();
+  keep_if_better(missed_inside);
+  if (missed_inside > none * lambda.norm()) return missed;
   newton.begin_at(size * inside.y.head(E.rows()));
-  keep_if_better(newton.solve(other));
+  keep_if_better(newton.solve(other, most_iterations));
   return missed;
 }
 

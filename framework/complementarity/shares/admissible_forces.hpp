@@ -30,7 +30,9 @@ struct SharingContact {
 // Minimises |F|^2 / 2.
 ConeProgram sharing_program(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda);
 
-// Fills F; returns |E F - lambda|, round-off where there are such forces.
-double admissible_forces(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec& F);
+// Fills F; returns |E F - lambda|, round-off where there are such forces. `nearby`: y of a lambda nearby, or empty;
+// returns that of this one.
+double admissible_forces(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec& F,
+                         Vec* nearby = nullptr);
 
 }  // namespace trammel::complementarity

@@ -4,8 +4,8 @@
 
 #include <Eigen/QR>
 
-#include "complementarity/shares/carrying_equations.hpp"
 #include "complementarity/exact_modes.hpp"
+#include "complementarity/shares/carrying_equations.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -167,6 +167,13 @@ double ContactProblem::acceleration_without(std::size_t participant) const {
   if (p.tangent >= 0)
     own += delassus_.row(p.normal).segment(p.tangent, p.tangents).dot(F_.segment(p.tangent, p.tangents));
   return a_[p.normal] - own;
+}
+
+double ContactProblem::deceleration_to_spare(std::size_t participant) const {
+  const complementarity::ContactPoint& point = points_[participant];
+  const Participant& p = who[participant];
+  const double stiff = delassus_.block(point.tangent, point.tangent, point.tangents, point.tangents).trace();
+  return stiff / point.tangents * (p.mu * p.N - p.T.norm());
 }
 
 void ContactProblem::jump(Vec& dv) const {

@@ -9,8 +9,8 @@
 
 #include <vector>
 
-#include "complementarity/shares/carrying_rows.hpp"
 #include "complementarity/contact_forces.hpp"
+#include "complementarity/shares/carrying_rows.hpp"
 #include "system/assembled_system.hpp"
 
 namespace trammel::simulate {
@@ -47,6 +47,8 @@ class ContactProblem {
   [[nodiscard]] complementarity::ContactSolution solve(double nothing);
   // Of the gap, of a unilateral participant, without its own force [m/s^2]; after `solve`.
   double acceleration_without(std::size_t participant) const;
+  // By how much more its friction could decelerate a slip, of a participant that rests [m/s^2]; after `solve`.
+  double deceleration_to_spare(std::size_t participant) const;
   // Change of v by the forces found as impulses.
   void jump(Vec& dv) const;
   // Those that slide along tangents which follow from the normals and from the tangents at rest.

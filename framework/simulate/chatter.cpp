@@ -1,0 +1,167 @@
+// Rule 2 of contact_mode.hpp: motions after an impact that steps cannot follow.
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/QR>
+
+#include "simulate/contact_mode.hpp"
+
+namespace trammel::simulate {
+
+using complementarity::LcpOutcome;
+using Tangent = Participant::Tangent;
+
+std::size_t ContactModes::Brief::first() const {
+  std::size_t i = 0;
+  while (i < falls.size() && !falls[i] && !stops[i]) ++i;
+  return i;
+}
+
+bool ContactModes::cannot_follow(int contact, double separation, double acceleration) const {
+  if (!(acceleration < 0)) return false;
+  if (steps_.fixed) return 2 * separation < chatter_steps_ * *steps_.fixed * -acceleration;
+  const double error = scale_.of(contact).error_of_position(steps_.tolerance);
+  return separation * separation < chatter_steps_ * error * 2 * -acceleration;
+}
+
+bool ContactModes::separates(const TouchingContact& c) const {
+  const bool rebounds = c.restitution > 0 && c.restitution < 1 && c.impulse > 0;  // with e = 1 flights do not shrink
+  return rebounds || (c.was_closed && c.impulse == 0 && c.after > scale_.of(c.contact).at_rest());
+}
+
+// It stuck, and the impact made it slip: impulses decide in an impact, and its load has none.
+bool ContactModes::begins_to_slip(const TouchingContact& c) const {
+  return c.was_closed && before_.contacts[c.contact].friction == Friction::stick &&
+         c.slip_after.norm() > scale_.of(c.contact).at_rest();
+}
+
+const TouchingContact* ContactModes::beginning_to_slip(const Participant& p) const {
+  const auto c = std::find_if(touching_.begin(), touching_.end(),
+                              [&](const TouchingContact& each) { return each.contact == p.contact; });
+  return c != touching_.end() && begins_to_slip(*c) ? &*c : nullptr;
+}
+
+// All with so small a separation or slip are judged as one: in a pile each flies only as long as its neighbours do.
+// Were they all at rest, those that would press fall back, with the acceleration that their own force holds, and those
+// that would stick stop, by what their friction has to spare.
+ContactModes::Brief ContactModes::too_brief(const State& state, const ContactChanges& changes) {
+  Brief brief{std::vector<bool>(touching_.size(), false), std::vector<bool>(touching_.size(), false)};
+  const auto moves = [this](const TouchingContact& c) { return separates(c) || begins_to_slip(c); };
+  if (chatter_steps_ <= 0 || std::none_of(touching_.begin(), touching_.end(), moves)) return brief;
+  system_.move_to(state.t, state.q, state.v);
+  find_candidates(changes);
+  const std::size_t at_rest_now = candidates_.size();
+  model::Modes open = modes_;
+  open_all(open);
+  system_.set_modes(open);
+  system_.move_to(state.t, state.q, state.v);
+  const double fastest = fastest_gap_acceleration();
+  for (const TouchingContact& c : touching_)
+    if (separates(c) && !contains(candidates_, c.contact) && cannot_follow(c.contact, c.after, -fastest))
+      candidates_.push_back(c.contact);
+  gather(state, changes, true);
+  bool slips = false;
+  for (Participant& p : problem_.who)
+    if (p.tangent == Tangent::sliding && beginning_to_slip(p)) p.tangent = Tangent::resting, slips = true;
+  if (slips || candidates_.size() > at_rest_now) judge_brief(at_rest_now, brief);
+  system_.set_modes(before_);
+  system_.move_to(state.t, state.q, state.v);
+  return brief;
+}
+
+void ContactModes::judge_brief(std::size_t at_rest_now, Brief& brief) {
+  problem_.prepare(system_);
+  accelerate_participants();
+  do {
+    if (problem_.solve(nothing()).outcome != LcpOutcome::solved) return;
+  } while (let_fast_slips_go());
+  for (std::size_t i = 0; i < problem_.who.size(); ++i) {
+    const Participant& p = problem_.who[i];
+    const auto c = std::find_if(touching_.begin(), touching_.end(),
+                                [&](const TouchingContact& each) { return each.contact == p.contact; });
+    if (c == touching_.end() || !(p.N > 0)) continue;
+    const auto k = std::size_t(c - touching_.begin());
+    brief.stops[k] = p.tangent == Tangent::resting && begins_to_slip(*c);
+    brief.falls[k] = i >= at_rest_now && i < candidates_.size() &&
+                     cannot_follow(c->contact, c->after, problem_.acceleration_without(i));
+  }
+}
+
+bool ContactModes::stops_at_once(std::size_t participant) const {
+  const Participant& p = problem_.who[participant];
+  return p.a_t.norm() <= nothing() && cannot_follow(p.contact, beginning_to_slip(p)->slip_after.norm(),
+                                                    -problem_.deceleration_to_spare(participant));
+}
+
+// True if the forces are to be found again, with fewer at rest.
+bool ContactModes::let_fast_slips_go() {
+  bool any = false;
+  for (std::size_t i = 0; i < problem_.who.size(); ++i) {
+    Participant& p = problem_.who[i];
+    if (p.tangent != Tangent::resting || !beginning_to_slip(p) || !(p.N > 0) || stops_at_once(i)) continue;
+    p.tangent = Tangent::sliding;
+    p.ratio = -p.mu * p.direction;
+    any = true;
+  }
+  return any;
+}
+
+double ContactModes::fastest_gap_acceleration() {
+  system_.accelerate({}, a_, lambda_);
+  double fastest = 0;
+  for (const TouchingContact& c : touching_)
+    fastest = std::max(fastest, std::abs(system_.acceleration({c.contact, 0}, a_)));
+  return fastest;
+}
+
+// Takes e = 0 where the rebound is too short to follow; true if there is such a contact.
+bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
+  bool captured = false;
+  for (std::size_t i = 0; i < touching_.size(); ++i)
+    if (falls[i] && touching_[i].restitution > 0) touching_[i].restitution = 0, captured = true;
+  return captured;
+}
+
+// Takes the rates of those that the impact of others opened, and the slips that it made, which are too short to follow.
+// Returns what that takes of the energy [J].
+double ContactModes::end_rocking(State& state, const Brief& brief) {
+  const auto at_rest = [this](const TouchingContact& c) { return scale_.of(c.contact).at_rest(); };
+  std::vector<bool> rests = brief.falls;
+  bool any = true;
+  double taken = 0;
+  for (std::size_t i = 0; i < touching_.size(); ++i) rests[i] = rests[i] || touching_[i].after <= at_rest(touching_[i]);
+  while (any) {
+    taken += take_rates(state, rests, brief.stops);
+    any = false;
+    for (std::size_t i = 0; i < touching_.size(); ++i) {
+      TouchingContact& c = touching_[i];
+      c.after = rests[i] ? 0 : system_.gap_rate(c.contact);
+      if (c.after < -at_rest(c)) rests[i] = any = true;
+    }
+  }
+  return taken;
+}
+
+// The least change of v, so a loss of energy, after which the contacts that rest have no rate. The loss is what the
+// impulses do against the rates that they end: what a base that moves does is not in it.
+double ContactModes::take_rates(State& state, const std::vector<bool>& rests, const std::vector<bool>& stops) {
+  std::vector<model::ContactDirection> held;
+  for (std::size_t i = 0; i < touching_.size(); ++i) {
+    const TouchingContact& c = touching_[i];
+    if (!rests[i]) continue;
+    held.push_back({c.contact, 0});
+    const bool sticks = stops[i] || c.slip_after.norm() <= scale_.of(c.contact).at_rest();
+    if (system_.model().contacts[c.contact].coulomb && sticks)
+      for (int k = 1; k <= system_.tangents(c.contact); ++k) held.push_back({c.contact, k});
+  }
+  Vec rates(Eigen::Index(held.size()));
+  for (std::size_t i = 0; i < held.size(); ++i) rates[Eigen::Index(i)] = system_.rate(held[i]);
+  Mat jump, delassus;
+  system_.impulse_response(held, jump, delassus);
+  const Vec impulses = delassus.completeOrthogonalDecomposition().solve(rates);
+  state.v -= jump * impulses;
+  system_.move_to(state.t, state.q, state.v);
+  return impulses.dot(rates - 0.5 * (delassus * impulses));
+}
+
+}  // namespace trammel::simulate
