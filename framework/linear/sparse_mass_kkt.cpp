@@ -20,6 +20,10 @@ constexpr double soft_chain = 2e-9;
 // Below this, accelerations that the second correction still changes by more than this part of them are not trusted: of
 // 594 loads on masts and 48 beams of graded masses it was 100 times their error at least.
 constexpr double may_be_soft = 1e-6, trusted_change = 1e-7;
+// Redundant rows whose right sides part by more than this, beside the accelerations, contradict each other: no x reaches
+// them, and the nearest c that one does stands for them, as in all other solvers. Drift within a run's tolerance leaves
+// less, and fronts then take the rows that they have not found dependent, which differs by no more.
+constexpr double contradiction = 1e-6;
 // Of rows as springs, where fronts contradict each other. Less leaves more rounding of the elimination, more leaves
 // more directions free, which follow the rounding of rows and forces. Accelerations of a hoop of 10,000 bays from 30 to
 // 88 degrees are exact to 7e-10 by 1e-9, 1.3e-10 by 1e-10, 4e-11 by 1e-11, 4e-10 by 1e-12.
@@ -77,7 +81,12 @@ bool SparseMassKkt::factorise_springs(const std::vector<BodyBlock>& bodies) {
 
 void SparseMassKkt::solve_by_fronts(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
   if (route_ == Route::fronts) {
-    const bool holds = fronts_.solve(bodies, b, c, x, y);
+    bool holds = fronts_.solve(bodies, b, c, x, y);
+    if (redundant_ && fronts_.missed() > contradiction) {
+      Vec reachable = c;
+      minimise_norm(bodies, reachable);  // perpendicular to the null space of G^T: in the range of G
+      holds = fronts_.solve(bodies, b, reachable, x, y);
+    }
     if (holds && !springs_are_better(bodies, b, c, x)) return;
     fronts_failed_ = true;
     if (!holds) factorise_springs(bodies);  // the masses were positive definite before
@@ -161,8 +170,8 @@ bool SparseMassKkt::solve_by_complement(const std::vector<BodyBlock>& bodies, co
   if (nc_ == 0) return true;
   ByComplement equations{*this, bodies, b, c, x, y};
   const double left = refine(equations, {.most = 4, .enough = 0, .falls = 0.9}).residual;
-  const bool astray = left > 1e3 * equations.of_forces &&
-                      left > 1e3 * (equations.round_off() + 4 * eps * x.lpNorm<Eigen::Infinity>());
+  const bool astray =
+      left > 1e3 * equations.of_forces && left > 1e3 * (equations.round_off() + 4 * eps * x.lpNorm<Eigen::Infinity>());
   return !equations.soft && !astray;
 }
 

@@ -132,7 +132,7 @@ TEST(ResumedRun, OfAChainThatHasLeftASoftTableEndsWithTheSameBytes) {
       "link{i}": {"for": {"i": "=n"}, "type": "rigid_body", "mass": "=0.1+0.01*{i}", "inertia": 1e-4,
         "markers": {"a": [-0.05, 0], "b": [0.05, 0]}, "position": ["={i}*0.1+0.05", 0]}},
     "joints": {
-      "rail": {"type": "prismatic", "between": ["ground", "table.com"], "axis": [0, 1]},
+      "rail": {"type": "prismatic", "between": [{"point": [0.6, 0]}, "table.com"], "axis": [0, 1]},
       "hinge{i}": {"for": {"i": [1, "=n-1"]}, "type": "revolute", "between": ["link{i-1}.b", "link{i}.a"]}},
     "forces": {"spring": {"type": "spring_damper", "between": [{"point": [0.6, 1]}, "table.com"], "stiffness": 200,
       "damping": 1, "length": 1}},
