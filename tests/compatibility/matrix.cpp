@@ -178,7 +178,7 @@ TEST(Matrix, EveryCorrectionRunsWithEveryIntegratorOnItsLevelsAndIsRefusedOnOthe
           std::find(correction.levels.begin(), correction.levels.end(), level) != correction.levels.end();
       for (const IntegratorForm& method : every_integrator()) {
         json all = with_integrator(pendulum(), method.form);
-        all["corrections"][to_string(level)] = entry(correction.form);
+        all["corrections"][compatibility::to_string(level)] = entry(correction.form);
         if (corrects)
           expect_physics(all, correction.form.name() + " with " + method.form.name());
         else

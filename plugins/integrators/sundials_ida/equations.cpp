@@ -63,7 +63,8 @@ bool Equations::residual(double t, const double* y, const double* y_dot, double*
   result.segment(nq_, nv_) = r_;
   if (nc_ > 0) {
     const Eigen::Index rows = nq_ + nv_;
-    result.segment(rows, nc_) = s.g_dot();
+    rates_ = s.g_dot();
+    result.segment(rows, nc_) = rates_;
     r_.setZero(nv_);
     s.add_mass_times(1, at_.pi, r_);
     s.add_rows_force(1, at_.mu, r_);
@@ -103,7 +104,7 @@ void Equations::find_redundant_part(const Vec& multipliers, Vec& part) {
   if (system_->correct(r_, zero_rows_, change_, dmu_, Factors::projection)) part = multipliers - dmu_;
 }
 
-// xi_b: the increment of q that b_1 / c stands for; off_: the part that leaves the manifold.
+// xi_b_: the increment of q that b_1 / c stands for, with the change of N(q) by it; off_: what leaves the manifold.
 void Equations::measure_tangent(const double* b) {
   const View b_1(b, nq_);
   if (flat_) {
@@ -111,17 +112,36 @@ void Equations::measure_tangent(const double* b) {
     off_.setZero(nq_);
     return;
   }
-  moved_ = at_.q + b_1 / c_;
-  xi_b_.resize(nv_), off_.resize(nq_);
+  xi_b_.resize(nv_), off_.resize(nq_), moved_.resize(nq_);
+  z_ = at_.v;
+  if (nc_ > 0) z_ -= at_.pi;
+  change_ = at_.q + b_1 / c_;
+  system_->rate(change_, z_, moved_);
+  off_ = moved_;
+  system_->rate(at_.q, z_, moved_);
+  off_ = (b_1 + off_ - moved_) / c_;
+  moved_ = at_.q + off_;
   system_->difference(moved_, at_.q, xi_b_);
-  system_->rate(at_.q, xi_b_, off_);
-  off_ = b_1 / c_ - off_;
+  system_->rate(at_.q, xi_b_, moved_);
+  off_ -= moved_;
+}
+
+// What the increment xi_b of q changes of G v + g_t. Of the rest of xi it is of the order h |v|/length of what is kept.
+void Equations::measure_turning() {
+  turned_.setZero(nc_);
+  if (!(xi_b_.lpNorm<Eigen::Infinity>() > eps * at_.q.lpNorm<Eigen::Infinity>())) return;
+  moved_.resize(nq_);
+  system_->retract(q_, xi_b_, moved_);
+  system_->move_to(at_.t, moved_, at_.v);
+  turned_ = system_->g_dot() - rates_;
+  system_->move_to(at_.t, q_, at_.v);
 }
 
 bool Equations::solve_projection(const double* b) {
   const double* const rows = b + nq_ + nv_;
   r_ = -View(rows + nc_, nv_);
-  rc_ = -View(rows, nc_) + c_ * View(rows + nc_ + nv_, nc_);
+  measure_turning();
+  rc_ = turned_ - View(rows, nc_) + c_ * View(rows + nc_ + nv_, nc_);
   system_->add_rows_times(-c_, xi_b_, rc_);
   return system_->correct(r_, rc_, dpi_, dmu_, Factors::projection);
 }

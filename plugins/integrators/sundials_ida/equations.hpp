@@ -9,11 +9,12 @@
 // Without rows y = (q, v). The linear equations J x = b of Newton's iteration, J = dF/dy + c dF/dy', are reduced to two
 // solutions with the System's own factors, in increments xi of q (dq = N xi + what leaves the manifold):
 //
-//     [M G^T; G 0] (dpi, dmu) = (b_4, b_3 - c (b_5 - G xi_b)),   xi_b = N^+ b_1 / c
+//     [M G^T; G 0] (dpi, dmu) = (b_4, b_3 - d(G v)/dq xi_b - c (b_5 - G xi_b)),   xi_b = N^+ b_1 / c
 //     [S W^T; G 0] (xi, dlambda/c^2) = (b_2 + (c M + D) z, b_5)/(c^2, 1),   S = M + D/c + K/c^2,   z = c xi_b - dpi
 //     dv = c (xi - xi_b) + dpi
 //
-// d(G v)/dq and dN/dq are left out, relative to what is kept of the order h |v|/length.
+// In the first iteration b_1 is large, so xi_b needs d(G v)/dq, D and dN/dq, which are taken as differences. Of the rest
+// of xi they are left out where that is of the order h |v|/length of what is kept.
 #pragma once
 
 #include <trammel/integrator.hpp>
@@ -48,6 +49,7 @@ class Equations {
   bool factors_at(const Point& at, double c);
   void find_redundant_part(const Vec& multipliers, Vec& part);
   void measure_tangent(const double* b);
+  void measure_turning();
   bool solve_projection(const double* b);
   void add_damping(const Vec& z, Vec& r);
   bool settle_positions(System& s, double t, Vec& q, Vec& v);
@@ -59,6 +61,8 @@ class Equations {
   Point at_, set_up_;                    // of the last residual, of the last factorisation
   double c_ = 1;                         // of the last factorisation
   Vec applied_;                          // -f + W^T lambda at at_
+  Vec rates_;                            // G v + g_t there
+  Vec turned_;                           // its change by xi_b_
   Vec redundant_lambda_, redundant_mu_;  // parts without a force, to be removed by the next solution
   Vec xi_b_, off_, xi_, dpi_, dmu_, dlambda_, z_, r_, rc_, moved_, zero_, zero_rows_, q_, change_;
 };
