@@ -20,7 +20,7 @@ constexpr Option kFolder{"--out", "DIR", "results folder; default out/<scene nam
 constexpr Option kTarget{"--target", "E",
                          "largest scaled error: the cheapest choice that meets it is found and verified"};
 constexpr Option kObserve{"--observe", "NAME", "an observed column that counts (repeatable); default: all"};
-constexpr Option kBudget{"--budget", "S", "CPU time to spend [s]; default 45 for each core"};
+constexpr Option kBudget{"--budget", "S", "CPU time to spend [s]; default 40 for each core"};
 constexpr Option kJobs{"--jobs", "N", "processes; default: one for each core that this process may use"};
 
 double positive(const Option& option, const std::string& text) {
@@ -36,7 +36,7 @@ Exit run(const Arguments& arguments) {
   options.out = results_folder(arguments, "_trade");
   if (arguments.has(kTarget.name)) options.target = positive(kTarget, arguments.last(kTarget.name));
   if (arguments.has(kJobs.name)) options.jobs = int(positive(kJobs, arguments.last(kJobs.name)));
-  constexpr double a_core = 45;  // [s]
+  constexpr double a_core = 40;  // [s]
   const int cores = options.jobs > 0 ? options.jobs : study::cores_at_hand();
   options.budget = arguments.has(kBudget.name) ? positive(kBudget, arguments.last(kBudget.name)) : a_core * cores;
   options.observe = arguments.all(kObserve.name);

@@ -144,7 +144,8 @@ void WorkPrecision::search(double target) {
         which.emplace_back(i, *level);
     }
     drop_dear(which, target);
-    if (which.empty() || run_.left() <= 0 || run_.interrupted()) return;
+    // The rest is for the model and for what the choice is verified by.
+    if (which.empty() || run_.left() < 0.35 * run_.budget() || run_.interrupted()) return;
     const auto found = best(target);
     const double share = run_.left() / double(2 * which.size());
     run(which, found ? std::min(share, 2 * dear * sample(*found).cpu.least + 0.02) : share);
@@ -177,7 +178,7 @@ void WorkPrecision::repeat(double target, double factor) {
     for (const auto& [level, s] : courses_[i].samples)
       if (s.done() && s.error.max <= target && s.cpu.least <= factor * least)
         front.emplace_back(i, level), cases.push_back(courses_[i].method.overrides(level)), each += s.cpu.least;
-  const double enough = run_.spent() + run_.budget() / 8;
+  const double enough = run_.spent() + run_.budget() / 10;
   for (int k = 1; k < times && run_.spent() + each < enough && !run_.interrupted(); ++k) {
     const std::vector<CaseResult> results = run_(cases, run_.left());
     for (std::size_t n = 0; n < front.size(); ++n) {
