@@ -21,6 +21,7 @@ constexpr Option kTarget{"--target", "E",
                          "largest scaled error: the cheapest choice that meets it is found and verified"};
 constexpr Option kObserve{"--observe", "NAME", "an observed column that counts (repeatable); default: all"};
 constexpr Option kBudget{"--budget", "S", "CPU time to spend [s]; default 40 for each core"};
+constexpr Option kGrid{"--grid", "", "run every method at every setting in place of a search"};
 constexpr Option kJobs{"--jobs", "N", "processes; default: one for each core that this process may use"};
 
 double positive(const Option& option, const std::string& text) {
@@ -39,6 +40,7 @@ Exit run(const Arguments& arguments) {
   constexpr double a_core = 40;  // [s]
   const int cores = options.jobs > 0 ? options.jobs : study::cores_at_hand();
   options.budget = arguments.has(kBudget.name) ? positive(kBudget, arguments.last(kBudget.name)) : a_core * cores;
+  if (arguments.has(kGrid.name)) options.search = study::TradeOptions::Search::grid;
   options.observe = arguments.all(kObserve.name);
   options.command = arguments.command_line();
   const study::SceneSource source(arguments.operand(), overrides_of(arguments));
@@ -66,7 +68,7 @@ Command trade_command() {
   return {"trade",
           "SCENE",
           "Measure speed against accuracy on this scene, and name the cheapest choice that meets a target.",
-          {kFolder, kTarget, kObserve, kBudget, kJobs, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
+          {kFolder, kTarget, kObserve, kGrid, kBudget, kJobs, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
           run};
 }
 

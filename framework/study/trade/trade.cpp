@@ -46,7 +46,8 @@ class Trade {
     WorkPrecision wp(content_.methods, reference, measure, run_);
     content_.target = std::max(target, reference.floor());
     tell("running the methods");
-    options_.target ? wp.search(content_.target) : wp.scan();
+    const bool adaptive = options_.target && options_.search == TradeOptions::Search::adaptive;
+    adaptive ? wp.search(content_.target) : wp.scan(options_.target ? 1 : 2);
     content_.search_runs = wp.runs(), content_.full_grid = wp.full_grid();
     tell("repeating what is near the front");
     wp.repeat(content_.target, on_front);

@@ -11,8 +11,8 @@ constexpr int most_runs = 6;  // of one method
 constexpr double dear = 3;    // times the cheapest so far
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Of log10 of the error a level: a tolerance falls by 10^0.5, and so does an error that is proportional to it; a step is
-// halved.
+// Of log10 of the error a level: a tolerance falls by 10^0.5, and so does an error that is proportional to it; a step
+// is halved.
 double expected_slope(const Method& method) {
   return method.dial == Method::Dial::tolerance ? -0.5 : -method.order * std::log10(2.0);
 }
@@ -152,8 +152,8 @@ void WorkPrecision::search(double target) {
   }
 }
 
-void WorkPrecision::scan() {
-  for (int level = 0; level < 19; level += 2) {
+void WorkPrecision::scan(int stride) {
+  for (int level = 0; level < 19; level += stride) {
     std::vector<std::pair<std::size_t, int>> which;
     for (std::size_t i = 0; i < courses_.size(); ++i)
       if (level < courses_[i].method.levels() && courses_[i].ended.empty()) which.emplace_back(i, level);
