@@ -13,9 +13,9 @@
 //       "reduce": {"swing": {"observe": "theta", "as": "max"}}
 //     }
 //
-// or "vary": [{"a.b": 1}, {"a.b": 2, "a.c": 3}], a list of cases. In a grid the last path varies fastest. Random samples
-// are of std::mt19937_64, Sobol points of Joe and Kuo's table in Boost, shifted modulo 1 by numbers of the seed if one is
-// given: the cases of one file are the same on every machine.
+// or "vary": [{"a.b": 1}, {"a.b": 2, "a.c": 3}], a list of cases. In a grid the last path varies fastest. Random
+// samples are of std::mt19937_64, Sobol points of Joe and Kuo's table in Boost, shifted modulo 1 by numbers of the seed
+// if one is given: the cases of one file are the same on every machine.
 #pragma once
 
 #include <cstdint>

@@ -84,7 +84,11 @@ TEST(Study, AsksForARequeueWhenItIsTerminated) {
   const auto result =
       trammel({"study", "study.json", "--out", "a"},
               {.folder = folder.path(),
-               .send_signal_when = [&] { return read_file(folder.path() / "a/cases.ndjson").size() > 100; },
+               .send_signal_when =
+                   [&] {
+                     std::error_code missing;
+                     return std::filesystem::file_size(folder.path() / "a/cases.ndjson", missing) > 100 && !missing;
+                   },
                .signal = SIGTERM});
   EXPECT_EQ(result.exit_code, 75) << result.err;
   EXPECT_EQ(json::parse(folder.file("a/study.json"))["status"], "interrupted");
@@ -93,11 +97,11 @@ TEST(Study, AsksForARequeueWhenItIsTerminated) {
 TEST(Study, TellsAllErrorsOfItsFileAtOnce) {
   const Folder folder(R"({"study": 1, "scene": "pendulum.json", "seed": 3,
   "vary": {"parameters.L": {"from": 0.1, "to": 1, "counts": 3}},
-  "reduce": {"lowest": {"observe": "tip_y", "as": "minimum"}}
+  "reduce": {"lowest": {"observe": "tip_y", "as": "mni"}}
 })");
   const auto result = folder.run({"study.json"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("study.json:1:52: seed"));
+  EXPECT_THAT(result.err, HasSubstr("study.json:1:48: seed"));
   EXPECT_THAT(result.err, HasSubstr("Did you mean \"count\"?"));
   EXPECT_THAT(result.err, HasSubstr("Did you mean \"min\"?"));
 }
@@ -107,7 +111,7 @@ TEST(Study, NamesThePathThatItsSceneDoesNotHave) {
   "reduce": {"a": {"observe": "angel", "as": "max"}}})");
   const auto result = folder.run({"study.json"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("study.json:1:49: vary.parameters.l"));
+  EXPECT_THAT(result.err, HasSubstr("study.json:1:65: vary.parameters.l"));
   EXPECT_THAT(result.err, HasSubstr("Did you mean \"angle\"?"));
 }
 

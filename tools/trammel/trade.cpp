@@ -20,7 +20,8 @@ constexpr Option kFolder{"--out", "DIR", "results folder; default out/<scene nam
 constexpr Option kTarget{"--target", "E",
                          "largest scaled error: the cheapest choice that meets it is found and verified"};
 constexpr Option kObserve{"--observe", "NAME", "an observed column that counts (repeatable); default: all"};
-constexpr Option kBudget{"--budget", "S", "CPU time to spend [s]; default 45 for each core"};
+constexpr Option kBudget{"--budget", "S", "CPU time to spend [s]; default 40 for each core"};
+constexpr Option kGrid{"--grid", "", "run every method at every setting in place of a search"};
 constexpr Option kJobs{"--jobs", "N", "processes; default: one for each core that this process may use"};
 
 Exit run(const Arguments& arguments) {
@@ -28,9 +29,10 @@ Exit run(const Arguments& arguments) {
   options.out = results_folder(arguments, "_trade");
   if (arguments.has(kTarget.name)) options.target = positive(arguments, kTarget);
   if (arguments.has(kJobs.name)) options.jobs = int(positive(arguments, kJobs));
-  constexpr double a_core = 45;  // [s]
+  constexpr double a_core = 40;  // [s]
   const int cores = options.jobs > 0 ? options.jobs : study::cores_at_hand();
   options.budget = arguments.has(kBudget.name) ? positive(arguments, kBudget) : a_core * cores;
+  if (arguments.has(kGrid.name)) options.search = study::TradeOptions::Search::grid;
   options.observe = arguments.all(kObserve.name);
   options.command = arguments.command_line();
   const study::SceneSource source(arguments.operand(), overrides_of(arguments));
@@ -58,7 +60,7 @@ Command trade_command() {
   return {"trade",
           "SCENE",
           "Measure speed against accuracy on this scene, and name the cheapest choice that meets a target.",
-          {kFolder, kTarget, kObserve, kBudget, kJobs, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
+          {kFolder, kTarget, kObserve, kGrid, kBudget, kJobs, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
           run};
 }
 

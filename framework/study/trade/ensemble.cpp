@@ -59,7 +59,10 @@ bool Distribution::alike() const {
 
 std::vector<Distribution> compare_ensembles(const Overrides& choice, double choice_cpu, const Overrides& reference,
                                             double reference_cpu, const Measure& measure, Runner& run) {
-  const int affordable = int(run.left() / (choice_cpu + reference_cpu));
+  // Half of what is left, but the fewest if all of it is needed.
+  const double pair = choice_cpu + reference_cpu;
+  const int half = int(run.left() / (2 * pair)),
+            affordable = half < fewest && run.left() > fewest * pair ? fewest : half;
   const int starts = std::min(all_starts, affordable);
   if (starts < fewest || measure.reference().series.rows() == 0) return {};
   std::vector<std::string> order;

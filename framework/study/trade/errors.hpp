@@ -1,8 +1,8 @@
 // Errors of observables against a reference, at the times of the records.
 //
-// Each observable is divided by its scale, the largest |x - x(start)| of the reference, or |x| if that is 0. Records that
-// lie within a hundredth of their distance from an impact do not count: a velocity jumps there, and on which side of
-// the jump a record falls says nothing of the error. Multipliers (contact forces, reactions, accelerations), which a
+// Each observable is divided by its scale, the largest |x - x(start)| of the reference, or |x| if that is 0. Records
+// that lie within a hundredth of their distance from an impact do not count: a velocity jumps there, and on which side
+// of the jump a record falls says nothing of the error. Multipliers (contact forces, reactions, accelerations), which a
 // method finds with other digits than positions, have their own maximum.
 #pragma once
 

@@ -1,8 +1,8 @@
-// What the model itself costs and is worth: each fidelity parameter one rung up and some rungs down its ladder, friction
-// and corrections left out, all with the integrator that was chosen.
+// What the model itself costs and is worth: each fidelity parameter one rung up and some rungs down its ladder,
+// friction and corrections left out, all with the integrator that was chosen.
 //
-// The difference to the scene's own model is the error of the cheaper model; that to a finer one estimates the truncation
-// of the scene's own.
+// The difference to the scene's own model is the error of the cheaper model; that to a finer one estimates the
+// truncation of the scene's own.
 #pragma once
 
 #include <string>

@@ -9,7 +9,7 @@
 namespace trammel::study {
 namespace {
 
-constexpr double loosest = 1e-8, tightest = 1e-13, tighter = 1e-2;
+constexpr double loosest = loosest_reference, tightest = 1e-13, tighter = 1e-2;
 
 class ReferenceSearch {
  public:
@@ -91,7 +91,7 @@ class ReferenceSearch {
       const auto more = [&](const ReferenceRun& r) {
         return r.result.cpu * std::pow(r.tolerance / tolerance, 1.0 / (r.method.order + 1));
       };
-      if (more(*first_) + more(*second_) > run_.budget() / 3 - run_.spent()) break;
+      if (more(*first_) + more(*second_) > run_.budget() / 4 - run_.spent()) break;
       std::vector<CaseResult> results =
           run_({at(first_->method, tolerance), at(second_->method, tolerance)}, run_.budget() / 4);
       if (!results[0].done() || !results[1].done()) break;

@@ -1,6 +1,6 @@
 // A reference that finds itself: two methods of unrelated families, tightened until they agree.
 //
-// What they share is trusted, and no error below ten times their disagreement is claimed. The search takes a third of
+// What they share is trusted, and no error below ten times their disagreement is claimed. The search takes a quarter of
 // the budget at most.
 #pragma once
 
@@ -11,6 +11,8 @@
 #include "study/trade/runner.hpp"
 
 namespace trammel::study {
+
+inline constexpr double loosest_reference = 1e-8;  // tolerance
 
 struct ReferenceRun {
   Method method;

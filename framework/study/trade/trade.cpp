@@ -46,7 +46,8 @@ class Trade {
     WorkPrecision wp(content_.methods, reference, measure, run_);
     content_.target = std::max(target, reference.floor());
     tell("running the methods");
-    options_.target ? wp.search(content_.target) : wp.scan();
+    const bool adaptive = options_.target && options_.search == TradeOptions::Search::adaptive;
+    adaptive ? wp.search(content_.target) : wp.scan(options_.target ? 1 : 2);
     content_.search_runs = wp.runs(), content_.full_grid = wp.full_grid();
     tell("repeating what is near the front");
     wp.repeat(content_.target, on_front);
@@ -91,8 +92,8 @@ class Trade {
   void judge(const Method& method, int level, const CaseResult& result, const Measure& measure) {
     own_scene(measure);
     separate(method, level, result, measure);
-    fidelity(result, measure);
     ensembles(measure);
+    fidelity(result, measure);
   }
 
   void own_scene(const Measure& measure) {
@@ -174,15 +175,17 @@ class Trade {
     const TradeReference& r = *content_.reference;
     if (!r.chaotic) return;
     tell("comparing distributions beyond the horizon");
+    const Method& method = r.first.method;
+    const double tolerance = std::max(r.first.tolerance, loosest_reference);  // no trajectory is asked for
+    const double cpu = r.first.result.cpu * std::pow(r.first.tolerance / tolerance, 1.0 / (method.order + 1));
     content_.distributions = compare_ensembles(content_.choice->overrides, content_.choice->cpu,
-                                               {{"integrator", r.first.method.with_tolerance(r.first.tolerance)}},
-                                               r.first.result.cpu, measure, run_);
+                                               {{"integrator", method.with_tolerance(tolerance)}}, cpu, measure, run_);
     if (content_.distributions.empty())
       content_.no_distributions = fmt::format(
           "beyond the horizon nothing is claimed: {:.3g} s of CPU time are left, and 4 perturbed starts of the choice "
           "and "
           "of the reference take {:.3g} s (--budget gives more)",
-          std::max(0.0, run_.left()), 4 * (content_.choice->cpu + r.first.result.cpu));
+          std::max(0.0, run_.left()), 4 * (content_.choice->cpu + cpu));
   }
 
   const TradeOptions& options_;

@@ -1,5 +1,5 @@
-// Speed against accuracy on a user's own scene: which method and which model are cheapest for the accuracy that is asked
-// for, and how far that can be trusted.
+// Speed against accuracy on a user's own scene: which method and which model are cheapest for the accuracy that is
+// asked for, and how far that can be trusted.
 //
 //     reference -> work and precision of the methods -> the choice -> fidelity of the model -> verified -> trade.json
 #pragma once
@@ -17,10 +17,12 @@
 namespace trammel::study {
 
 struct TradeOptions {
-  std::filesystem::path out;         // trade.json, trade.csv, choice.json, scene.chosen.json; made if missing
-  std::optional<double> target;      // largest scaled error
-  std::vector<std::string> observe;  // columns that count; empty: all
-  double budget = 60;                // [s] of CPU time
+  std::filesystem::path out;             // trade.json, trade.csv, choice.json, scene.chosen.json; made if missing
+  std::optional<double> target;          // largest scaled error
+  std::vector<std::string> observe;      // columns that count; empty: all
+  enum class Search { adaptive, grid };  // grid: every method at every level, to judge the search by
+  Search search = Search::adaptive;
+  double budget = 60;  // [s] of CPU time
   int jobs = 0;
   simulate::Interrupt* interrupt = nullptr;
   std::vector<std::string> command;

@@ -11,8 +11,8 @@ constexpr int most_runs = 6;  // of one method
 constexpr double dear = 3;    // times the cheapest so far
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Of log10 of the error a level: a tolerance falls by 10^0.5, and so does an error that is proportional to it; a step is
-// halved.
+// Of log10 of the error a level: a tolerance falls by 10^0.5, and so does an error that is proportional to it; a step
+// is halved.
 double expected_slope(const Method& method) {
   return method.dial == Method::Dial::tolerance ? -0.5 : -method.order * std::log10(2.0);
 }
@@ -144,15 +144,16 @@ void WorkPrecision::search(double target) {
         which.emplace_back(i, *level);
     }
     drop_dear(which, target);
-    if (which.empty() || run_.left() <= 0 || run_.interrupted()) return;
+    // The rest is for the model and for what the choice is verified by.
+    if (which.empty() || run_.left() < 0.35 * run_.budget() || run_.interrupted()) return;
     const auto found = best(target);
     const double share = run_.left() / double(2 * which.size());
     run(which, found ? std::min(share, 2 * dear * sample(*found).cpu.least + 0.02) : share);
   }
 }
 
-void WorkPrecision::scan() {
-  for (int level = 0; level < 19; level += 2) {
+void WorkPrecision::scan(int stride) {
+  for (int level = 0; level < 19; level += stride) {
     std::vector<std::pair<std::size_t, int>> which;
     for (std::size_t i = 0; i < courses_.size(); ++i)
       if (level < courses_[i].method.levels() && courses_[i].ended.empty()) which.emplace_back(i, level);
@@ -177,7 +178,7 @@ void WorkPrecision::repeat(double target, double factor) {
     for (const auto& [level, s] : courses_[i].samples)
       if (s.done() && s.error.max <= target && s.cpu.least <= factor * least)
         front.emplace_back(i, level), cases.push_back(courses_[i].method.overrides(level)), each += s.cpu.least;
-  const double enough = run_.spent() + run_.budget() / 8;
+  const double enough = run_.spent() + run_.budget() / 10;
   for (int k = 1; k < times && run_.spent() + each < enough && !run_.interrupted(); ++k) {
     const std::vector<CaseResult> results = run_(cases, run_.left());
     for (std::size_t n = 0; n < front.size(); ++n) {

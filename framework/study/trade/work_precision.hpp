@@ -42,7 +42,7 @@ class WorkPrecision {
   WorkPrecision(const Methods& methods, const TradeReference& reference, const Measure& measure, Runner& run);
 
   void search(double target);
-  void scan();
+  void scan(int stride);
   // Five interleaved repetitions of those that may be on the front: cheaper than `factor` times the best.
   void repeat(double target, double factor);
 
