@@ -15,7 +15,8 @@ TRAMMEL_PLUGIN(
         .parameter("thickness", &P::thickness, {.unit = "m", .min = 0, .above_min = true, .required = true})
         .parameter("density", &P::density, {.unit = "kg/m^3", .min = 0, .above_min = true, .required = true})
         .parameter("youngs_modulus", &P::youngs_modulus, {.unit = "Pa", .min = 0, .above_min = true, .required = true})
-        .parameter("poissons_ratio", &P::poissons_ratio, {.min = -0.99, .max = 0.4999, .doc = "lateral over axial strain"})
+        .parameter("poissons_ratio", &P::poissons_ratio,
+                   {.min = -0.99, .max = 0.4999, .doc = "lateral over axial strain"})
         .own_part(&P::sole_patch, trammel::plate::patch_declaration())
         .parts(
             "patches", &P::named_patches, trammel::plate::patch_declaration(),

@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "arguments.hpp"
 #include "plugin/registry.hpp"
@@ -44,8 +43,7 @@ const KindOfPlugin& kind_of(const std::string& name) {
     if (kind.name == name) return kind;
     names.push_back(kind.name);
   }
-  throw UsageError(fmt::format("there is no kind of plugin '{}'{}; expected {}", name, scene::did_you_mean(name, names),
-                               fmt::join(names, ", ")));
+  throw UsageError(fmt::format("there is no kind of plugin '{}'{}", name, scene::did_you_mean(name, names)));
 }
 
 // Component, file, target and (without its underscores) class have this name.

@@ -54,8 +54,7 @@ void add_orders(Checks& checks) {
       "order-on-the-pendulum-with-rod", "On constrained motion the method has the order it claims.",
       [](const Subject& s) { return some_rod(s); }, true));
   checks.push_back(order_on("order-where-rows-depend-on-time",
-                            "Where the rows depend on time the method has the order it claims.", some_wind,
-                            true));
+                            "Where the rows depend on time the method has the order it claims.", some_wind, true));
   checks.push_back(
       {words("order-when-rows-come-and-go", "After a restart with rows 1, 0, 1 the method keeps its order.", slope,
              "The state jumped, or sizes changed: discard the history and start from `now`."),

@@ -11,10 +11,9 @@ namespace trammel::kit {
 
 namespace {
 
-constexpr std::size_t fitted = 4;
-
-// The references carry a few 1e-13, and so do errors of some thousand steps of numbers about 1.
-constexpr double round_off = 2e-12;
+// The references carry some 1e-13, and so do errors of some thousand steps of numbers about 1; they must change slopes by
+// a few hundredths only.
+constexpr double round_off = 1e-11;
 
 double slope(const std::vector<Convergence::Run>& runs, std::size_t first, std::size_t last) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
@@ -26,25 +25,31 @@ double slope(const std::vector<Convergence::Run>& runs, std::size_t first, std::
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-// s = p + c h through the last two slopes, each at the middle of its steps.
-double limit_of_slopes(const Convergence& c) {
-  const auto h = [&](std::size_t i) { return 1 / std::sqrt(double(c.runs[i].steps) * c.runs[i - 1].steps); };
-  const double h_1 = h(c.last - 2), h_2 = h(c.last - 1);
-  const double s_1 = slope(c.runs, c.last - 3, c.last - 1);
-  return (c.slope * h_1 - s_1 * h_2) / (h_1 - h_2);
+double slope_between(const Convergence::Run& coarse, const Convergence::Run& fine) {
+  return std::log(coarse.error / fine.error) / std::log(double(fine.steps) / coarse.steps);
+}
+
+// s = p + c h through the slopes of the last two halvings, each at the middle of its steps.
+void extrapolate(Convergence& c) {
+  const auto &last = c.runs[c.last - 1], &before = c.runs[c.last - 1 - c.halving],
+             &first = c.runs[c.last - 1 - 2 * c.halving];
+  const double h_1 = 1 / std::sqrt(double(first.steps) * before.steps),
+               h_2 = 1 / std::sqrt(double(before.steps) * last.steps);
+  c.slope = slope_between(before, last);
+  c.limit = (c.slope * h_1 - slope_between(first, before) * h_2) / (h_1 - h_2);
 }
 
 void fit(Convergence& c) {
   const auto useful = [](const Convergence::Run& r) { return std::isfinite(r.error) && r.error > round_off; };
   c.last = c.runs.size();
   while (c.last > 0 && !useful(c.runs[c.last - 1])) --c.last;
+  if (c.last > 1 && 2 * c.runs[c.last - 2].steps > c.runs[c.last - 1].steps) c.halving = 2;
   c.first = c.last;
-  while (c.first > 0 && useful(c.runs[c.first - 1]) && c.last - c.first < fitted) --c.first;
+  while (c.first > 0 && useful(c.runs[c.first - 1]) && c.last - c.first <= 2 * c.halving) --c.first;
   c.order = c.slope = c.limit = std::nan("");
   if (!c.measured()) return;
   c.order = slope(c.runs, c.first, c.last);
-  c.slope = slope(c.runs, c.last - 2, c.last);
-  c.limit = limit_of_slopes(c);
+  extrapolate(c);
 }
 
 // Every run that was not rejected is near round-off.
@@ -80,7 +85,7 @@ std::string Convergence::table() const {
     text += std::isfinite(runs[i].error) ? fmt::format("{:12.4e} {:12.4e}{}\n", until / runs[i].steps, runs[i].error,
                                                        first <= i && i < last ? "  fitted" : "")
                                          : fmt::format("{:12.4e} {:>12}\n", until / runs[i].steps, "rejected");
-  return text + fmt::format("order {:.3f}; slope of the last two runs {:.3f}, extrapolated to h = 0 {:.3f}\n", order,
+  return text + fmt::format("order {:.3f}; slope of the last halving {:.3f}, extrapolated to h = 0 {:.3f}\n", order,
                             slope, limit);
 }
 
@@ -115,6 +120,7 @@ Convergence converge(const Maker& make, const Problem& problem, int most) {
   const std::vector<State> exact = solution_at_quarters(problem);
   const State start = problem.solution(0);
   const auto system = problem.system();
+  const double size_v = std::max(1.0, start.v.norm());
   Vec off;
   const int order = make()->traits().order;
   return converge(problem.name, problem.until, step_numbers(quarters, most, order), [&](int n) {
@@ -125,7 +131,7 @@ Convergence converge(const Maker& make, const Problem& problem, int most) {
       if (++step % (n / quarters) != 0) return;
       const State& at = exact[std::size_t(step / (n / quarters)) - 1];
       system->difference(s.q, at.q, off);
-      square += off.squaredNorm() + (s.v - at.v).squaredNorm();
+      square += off.squaredNorm() + ((s.v - at.v) / size_v).squaredNorm();
     });
     return std::sqrt(square / quarters);
   });
@@ -143,7 +149,8 @@ Report has_order(const Convergence& c, int order) {
   const double low = std::min(c.slope, c.limit) - tolerance, high = std::max(c.slope, c.limit) + tolerance;
   // Slopes that change by more than a half do not tell one order from the next.
   const bool settled = std::abs(c.slope - c.limit) <= 0.55;
-  const bool holds = from_below ? c.slope >= order - tolerance : settled && low <= order && order <= high;
+  const bool holds =
+      from_below ? std::max(c.slope, c.order) >= order - tolerance : settled && low <= order && order <= high;
   report.claim(
       fmt::format("of order {} on {}", order, c.problem), holds,
       fmt::format("{}{:.2f} to {:.2f}\n{}", settled ? "found " : "slopes do not settle: ", low, high, c.table()));

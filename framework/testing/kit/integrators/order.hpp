@@ -1,7 +1,7 @@
 // The order of a method about which only the claimed order is known: steps are shortened until the errors meet
-// round-off, and the slope log(e_1/e_2)/log(h_1/h_2) of the last two runs above it is extrapolated to h = 0:
+// round-off, and the slope log(e_1/e_2)/log(h_1/h_2) of the last halving above it is extrapolated to h = 0:
 //
-//     s(h) = p + c h     from the last two slopes
+//     s(h) = p + c h     from the slopes of the last two halvings
 #pragma once
 
 #include <functional>
@@ -21,9 +21,10 @@ struct Convergence {
   double until = 1;                 // [s] the runs' time: h = until/steps
   std::vector<Run> runs = {};       // the largest step first
   std::size_t first = 0, last = 0;  // the runs of the fit: [first, last)
-  double order = 0;                 // slope of the last four of them by least squares; NaN: fewer than three
-  double slope = 0, limit = 0;      // of the last two runs; extrapolated to h = 0
-  bool measured() const { return last - first >= 3; }
+  double order = 0;                 // slope by least squares; NaN: not measured
+  double slope = 0, limit = 0;      // of the last halving; extrapolated to h = 0
+  std::size_t halving = 1;          // runs to go back for steps twice as long
+  bool measured() const { return last - first > 2 * halving; }
   std::string table() const;
 };
 

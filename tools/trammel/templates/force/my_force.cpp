@@ -1,7 +1,11 @@
-// A spring and damper between two markers, by components in world axes, planar or spatial, to change:
+// A spring through the markers' common point, with a damper along their line, planar or spatial, to change:
 //
-//     F = k d + c d',   d = x_B - x_A        on A; -F on B
-//     U = k d . d/2,    dissipated power c d' . d'
+//     F = (k l + c l') u,   d = x_B - x_A,  l = |d|,  u = d/l,  l' = u . d'        on A; -F on B
+//     U = k l^2/2,          dissipated power c l'^2
+//
+// Forces along the line are equal and opposite in moment, too; damping of d' across it would not be.
+#include <cmath>
+
 #include <trammel/force.hpp>
 #include <trammel/plugin.hpp>
 
@@ -13,7 +17,8 @@ struct MyForce final : Force {
   double stiffness = 10, damping = 1;
 
   void wrench(double, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
-    const Vec3 F = stiffness * (B.x - A.x) + damping * rate(A, B);
+    const Line line = between(A, B);
+    const Vec3 F = (stiffness * line.l + damping * line.rate) * line.u;
     on_A.head(F.size()) += F;
     on_B.head(F.size()) -= F;
   }
@@ -21,11 +26,20 @@ struct MyForce final : Force {
     return stiffness * (B.x - A.x).squaredNorm() / 2;
   }
   Power power(double, const Motion& A, const Motion& B) const override {
-    return {.dissipated = damping * rate(A, B).squaredNorm()};
+    return {.dissipated = damping * std::pow(between(A, B).rate, 2)};
   }
 
  private:
-  static Vec3 rate(const Motion& A, const Motion& B) { return B.V.head(B.x.size()) - A.V.head(A.x.size()); }
+  struct Line {
+    double l, rate;
+    Vec3 u;
+  };
+  static Line between(const Motion& A, const Motion& B) {
+    const Vec3 d = B.x - A.x;
+    const double l = d.norm();
+    const Vec3 u = l > 0 ? Vec3(d / l) : Vec3(0 * d);  // where the markers meet the spring is at rest
+    return {l, u.dot(B.V.head(d.size()) - A.V.head(d.size())), u};
+  }
 };
 
 }  // namespace
