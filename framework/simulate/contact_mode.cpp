@@ -6,11 +6,10 @@
 #include <numbers>
 #include <string_view>
 
-#include <Eigen/QR>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "linear/dense/decompositions.hpp"
 #include "run/run_failed.hpp"
 
 namespace trammel::simulate {
@@ -344,7 +343,7 @@ void ContactModes::take_rates(State& state, const std::vector<bool>& rests) {
   for (std::size_t i = 0; i < held.size(); ++i) rates[Eigen::Index(i)] = system_.rate(held[i]);
   Mat jump, delassus;
   system_.impulse_response(held, jump, delassus);
-  state.v -= jump * delassus.completeOrthogonalDecomposition().solve(rates);
+  state.v -= jump * Eigen::CompleteOrthogonalDecomposition<Mat>(delassus).solve(rates);
   system_.move_to(state.t, state.q, state.v);
 }
 

@@ -13,6 +13,8 @@
 
 #include <trammel/testing/measurements.hpp>
 
+#include "linear/dense/decompositions.hpp"
+
 namespace trammel {
 namespace {
 

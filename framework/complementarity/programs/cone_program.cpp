@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/LU>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -148,7 +148,8 @@ class InteriorPoint {
     if (has_s()) K.col(rows).head(rows) = u_, K.row(rows).head(rows) = u_.transpose(), r[rows] = free_;
     const Eigen::FullPivLU<Mat> lu(K);
     Vec d = lu.solve(r);
-    d += lu.solve(r - K * d);
+    const Vec left = r - K * d;
+    d += lu.solve(left);
     if (!d.allFinite()) return false;
     dy_ = d.head(rows), ds_ = has_s() ? d[rows] : 0;
     dx_ = W_ * (yields_ * (right - W_ * (dual_ - G_.transpose() * dy_)));

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 namespace {
 
 constexpr int most_iterations = 60;
-constexpr double round_off = 1e-14;  // of lambda
+constexpr double round_off_of_lambda = 1e-14;  // of lambda
 
 class DualNewton {
  public:
@@ -24,7 +24,7 @@ class DualNewton {
 
   double solve(Vec& F) {
     const double size = lambda_.norm();
-    for (int i = 0; i < most_iterations && missed_.norm() > round_off * size; ++i)
+    for (int i = 0; i < most_iterations && missed_.norm() > round_off_of_lambda * size; ++i)
       if (!step()) break;
     F = F_;
     return missed_.norm();
