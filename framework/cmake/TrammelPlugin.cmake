@@ -11,6 +11,7 @@ function(trammel_add_plugin name)
   install(TARGETS ${name} LIBRARY DESTINATION lib/trammel COMPONENT plugins)
   if(TARGET trammel_plugin_prefix)  # our own: our flags, precompiled headers, and beside libtrammel without installing
     target_link_libraries(${name} PRIVATE trammel_options)
+    trammel_unity(${name} ${name} ${ARGN})
     target_precompile_headers(${name} REUSE_FROM trammel_plugin_prefix)
     set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/trammel)
     set_property(GLOBAL APPEND PROPERTY TRAMMEL_COMPONENTS ${name})

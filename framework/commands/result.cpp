@@ -56,7 +56,7 @@ json dissipated(const model::Model& model, const Ledger& ledger, double drift) {
 
 // Contacts whose forces were not unique, with the first and the last time [s] of a record or event at which this was
 // seen.
-json indeterminate(const model::Model& model, const ContactAudit& audit) {
+json indeterminate_contacts(const model::Model& model, const ContactAudit& audit) {
   json contacts = json::object();
   for (const auto& [contact, span] : audit.indeterminate())
     contacts[model.contacts[std::size_t(contact)].name] = {{"first", span.first}, {"last", span.last}};
@@ -158,7 +158,7 @@ std::string result_json(const scene::Scene& scene, const Setup& setup, Simulator
                      {"energy_of_refinements", ledger.refinements()},
                      {"energy_drift", drift},
                      {"energy_dissipated", dissipated(*setup.model, ledger, drift)},
-                     {"statically_indeterminate", indeterminate(*setup.model, simulator.audit())},
+                     {"statically_indeterminate", indeterminate_contacts(*setup.model, simulator.audit())},
                      {"constraint_maxima",
                       {{"position", statistics.largest.position},
                        {"velocity", statistics.largest.velocity},

@@ -23,7 +23,6 @@ namespace trammel::simulate {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 double seconds(Clock::duration d) {
@@ -185,7 +184,7 @@ class Run {
   // Logs first: a checkpoint never refers to bytes that are not on the disk.
   void write() {
     records_.recorder()->sync();
-    json data = json::object();
+    nlohmann::json data = nlohmann::json::object();
     JsonArchive archive(data, JsonArchive::Direction::write);
     simulator_->archive(archive);
     Recorder::Lengths lengths = records_.recorder()->lengths();
@@ -198,7 +197,7 @@ class Run {
 
   struct Checkpoint {
     fs::path file;
-    json data;
+    nlohmann::json data;
     Recorder::Lengths lengths;
   };
 

@@ -13,9 +13,9 @@ namespace {
 using Tangent = ContactRole::Tangent;
 using Eigen::Index;
 
-constexpr double round_off = 1e-12;  // of the forces and of the accelerations
+constexpr double mode_tolerance = 1e-12;  // of the forces and of the accelerations
 
-Eigen::Vector2d part(const Vec& x, const ContactPoint& p) {
+Eigen::Vector2d along_tangents(const Vec& x, const ContactPoint& p) {
   Eigen::Vector2d both = Eigen::Vector2d::Zero();
   both.head(p.tangents) = x.segment(p.tangent, p.tangents);
   return both;
@@ -25,7 +25,7 @@ Eigen::Vector2d part(const Vec& x, const ContactPoint& p) {
 
 std::vector<ContactRole> roles_of(const std::vector<ContactPoint>& points, const Vec& F, const Vec& a, double nothing) {
   std::vector<ContactRole> roles;
-  const double no_force = round_off * F.lpNorm<Eigen::Infinity>();
+  const double no_force = mode_tolerance * F.lpNorm<Eigen::Infinity>();
   for (const ContactPoint& p : points) {
     ContactRole& role = roles.emplace_back();
     const double N = p.normal >= 0 ? F[p.normal] : p.given;
@@ -33,12 +33,12 @@ std::vector<ContactRole> roles_of(const std::vector<ContactPoint>& points, const
     if (!role.closed) continue;
     if (p.slides()) role.tangent = Tangent::slides, role.ratio = p.ratio;
     if (!p.held()) continue;
-    const Eigen::Vector2d a_t = part(a, p);
+    const Eigen::Vector2d a_t = along_tangents(a, p);
     const bool moves = a_t.norm() > nothing;
     role.tangent = moves ? Tangent::slides : Tangent::sticks;
     // A force near its bound has the direction with more digits.
-    const bool bound = N > no_force && part(F, p).norm() > 0.5 * p.coefficient * N;
-    if (moves) role.ratio = p.coefficient * (bound ? part(F, p) : Eigen::Vector2d(-a_t)).normalized();
+    const bool bound = N > no_force && along_tangents(F, p).norm() > 0.5 * p.coefficient * N;
+    if (moves) role.ratio = p.coefficient * (bound ? along_tangents(F, p) : Eigen::Vector2d(-a_t)).normalized();
   }
   return roles;
 }
@@ -73,7 +73,7 @@ class ExactModes {
   // accelerations show, with all contacts closed that do not part and all tangents sticking that do not move.
   void share_by_accelerations() {
     const std::vector<ContactRole> on_the_way = roles_;
-    roles_ = roles_of(points_, F_, a_, round_off * acceleration_scale());
+    roles_ = roles_of(points_, F_, a_, mode_tolerance * acceleration_scale());
     const auto same = [](const ContactRole& x, const ContactRole& y) {
       return x.closed == y.closed && x.idle == y.idle && x.tangent == y.tangent;
     };
@@ -113,7 +113,7 @@ class ExactModes {
   }
   double beyond_cone(std::size_t i) const {
     const ContactPoint& p = points_[i];
-    return A_(p.tangent, p.tangent) * (part(F_, p).norm() - p.coefficient * std::max(0.0, normal_force(i)));
+    return A_(p.tangent, p.tangent) * (along_tangents(F_, p).norm() - p.coefficient * std::max(0.0, normal_force(i)));
   }
 
   // Contacts that may share otherwise, for they do not slide and their resultants alone matter, and the columns of
@@ -140,7 +140,7 @@ class ExactModes {
   }
 
   bool springs_are_admissible() const {
-    const double little = round_off * acceleration_scale();
+    const double little = mode_tolerance * acceleration_scale();
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const ContactRole& role = roles_[i];
       if (!carrying_.indeterminate[i] || !role.closed || role.idle || role.tangent == Tangent::slides) continue;
@@ -166,7 +166,7 @@ class ExactModes {
     Vec resultants = E * forces, y;
     for (int corrections = 0; corrections < 3; ++corrections) {
       const double missed = admissible_forces(sharing, E, resultants, forces, &y);
-      if (!(missed <= round_off * resultants.norm())) return corrections > 0;
+      if (!(missed <= mode_tolerance * resultants.norm())) return corrections > 0;
       for (std::size_t k = 0; k < columns.size(); ++k) F_[row_at(columns[k])] = forces[Index(k)];
       a_ = A_ * F_ + b_;
       resultants += equations.correction(a_);
@@ -200,7 +200,7 @@ class ExactModes {
     }
     const Mat E = independent_rows(moved);
     const Vec kept = E * forces;
-    if (!(admissible_forces(sharing, E, kept, forces) <= round_off * kept.norm())) return;
+    if (!(admissible_forces(sharing, E, kept, forces) <= mode_tolerance * kept.norm())) return;
     Vec F = F_;
     F(rows) = forces.head(n);
     for (std::size_t k = 0; k < sliding.size(); ++k) {
@@ -215,7 +215,7 @@ class ExactModes {
 
   // The mode that is contradicted most, as an acceleration. False: none is.
   bool change_worst() {
-    double worst = round_off * acceleration_scale();
+    double worst = mode_tolerance * acceleration_scale();
     std::size_t who = points_.size();
     ContactRole wanted;
     const auto consider = [&](std::size_t i, double amount, auto&& change) {
@@ -248,10 +248,11 @@ class ExactModes {
       if (role.tangent == Tangent::sticks)
         consider(i, beyond_cone(i), [&](ContactRole& r) {
           r.tangent = Tangent::slides;
-          r.ratio = p.coefficient * part(F_, p).normalized();
+          r.ratio = p.coefficient * along_tangents(F_, p).normalized();
         });
       if (role.tangent == Tangent::slides && normal_force(i) > 0)
-        consider(i, part(a_, p).dot(role.ratio.normalized()), [](ContactRole& r) { r.tangent = Tangent::sticks; });
+        consider(i, along_tangents(a_, p).dot(role.ratio.normalized()),
+                 [](ContactRole& r) { r.tangent = Tangent::sticks; });
     }
     if (who == points_.size()) return false;
     roles_[who] = wanted;

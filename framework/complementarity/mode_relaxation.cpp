@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/QR>
-
 #include "complementarity/programs/nonnegative_least_squares.hpp"
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -85,7 +84,7 @@ class Relaxation {
       if (x[j] > 0) used.push_back(j);
     if (used.empty()) return;
     const Mat columns = B(Eigen::all, used);
-    rest -= columns * columns.colPivHouseholderQr().solve(rest);
+    rest -= columns * Eigen::ColPivHouseholderQR<Mat>(columns).solve(rest);
   }
 
   void add(const ContactPoint& p, const DecidedMode& mode) {

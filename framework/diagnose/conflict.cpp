@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <Eigen/QR>
 
 #include "diagnose/redundancy.hpp"
+#include "linear/dense/decompositions.hpp"
 #include "run/row_tolerance.hpp"
 #include "system/onto_rows.hpp"
 

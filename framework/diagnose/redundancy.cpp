@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/QR>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "linear/dense/decompositions.hpp"
 #include "linear/sparse/dependent_rows.hpp"
 
 namespace trammel::simulate {
@@ -38,7 +37,8 @@ namespace {
 std::vector<bool> in_self_stress(const Mat& G) {
   Eigen::ColPivHouseholderQR<Mat> qr;
   qr.setThreshold(rank_tolerance);
-  qr.compute(G.transpose());
+  const Mat columns = G.transpose();
+  qr.compute(columns);
   const Eigen::Index rank = qr.rank(), spare = G.rows() - rank;
   Mat stress(G.rows(), spare);
   stress.topRows(rank) = qr.matrixR().topRightCorner(rank, spare);

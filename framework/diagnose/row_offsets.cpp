@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -56,7 +56,8 @@ std::vector<RowOffset> own_row_offsets(const model::BodyEntry& body, const State
   const BodyRows here = own_rows(body, state.t, q, v);
   BodyRows held = here;
   for (int i = 0; body.nq == body.nv && i < 20 && held.g.norm() > 1e-12; ++i) {
-    q -= held.G.transpose() * (held.G * held.G.transpose()).ldlt().solve(held.g);
+    const Mat GGt = held.G * held.G.transpose();
+    q -= held.G.transpose() * Eigen::LDLT<Mat>(GGt).solve(held.g);
     held = own_rows(body, state.t, q, v);
   }
   const Vec g_dot = here.G * v + here.g_t;

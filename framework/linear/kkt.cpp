@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "linear/dense/eps.hpp"
+#include "linear/dense/orthonormal.hpp"
 #include "linear/dense/products_of_few_rows.hpp"
 #include "linear/refinement.hpp"
 
@@ -11,7 +13,6 @@ namespace trammel::numerics {
 
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 // Shares of multipliers in the rows' accelerations that are so many times what is left of them take their digits with
 // them: of a
 // light body between heavy ones.
@@ -63,11 +64,7 @@ Mat range_of(const Mat& G, double tolerance) {
   const WithoutLevers rows(G);
   const Vec lengths = rows.G.rowwise().norm();
   const Eigen::ColPivHouseholderQR<Mat> qr = decomposed(rows, lengths, tolerance);
-  return lengths.asDiagonal() * (qr.householderQ() * Mat::Identity(G.rows(), qr.rank())).eval();
-}
-
-Mat orthonormal(const Mat& basis) {
-  return Eigen::HouseholderQR<Mat>(basis).householderQ() * Mat::Identity(basis.rows(), basis.cols());
+  return lengths.asDiagonal() * first_columns_of_q(qr, qr.rank());
 }
 
 }  // namespace
@@ -115,7 +112,8 @@ void MassKkt::change_rows(const Mat& G, const Mat& W, double rank_tolerance) {
 void MassKkt::merge_rows(const Mat& G, double rank_tolerance) {
   merged_ = orthonormal(schur_ * range_of(G, rank_tolerance));
   cod_.setThreshold(Eigen::Default);
-  cod_.compute(B_.transpose() * merged_);
+  const Mat merged_rows = B_.transpose() * merged_;
+  cod_.compute(merged_rows);
 }
 
 // Its pivots are of the order of the squares of those sines too, and of its own round-off.
@@ -187,8 +185,9 @@ void MassKkt::solve_with_rows(const Vec& c, Vec& x, Vec& y) {
       schur_lu_.solve(w_, y);
     add_transposed_product(-1, C_, y, x);
   } else if (redundant_) {
-    const Vec particular = cod_.transpose().solve(merged_.transpose() * c);
-    y = merged_ * cod_.solve(x - particular);
+    const Vec merged_c = merged_.transpose() * c, particular = solve_transposed(cod_, merged_c);
+    const Vec left = x - particular;
+    y = merged_ * cod_.solve(left);
     add_transposed_product(-1, B_, y, x);
   } else {
     hold_rows(c, x, y);

@@ -21,11 +21,10 @@
 
 #include <variant>
 
-#include <Eigen/QR>
-
 #include <trammel/types.hpp>
 
 #include "linear/dense/cholesky.hpp"
+#include "linear/dense/decompositions.hpp"
 #include "linear/dense/lu.hpp"
 #include "linear/sparse/sparse_cholesky.hpp"
 

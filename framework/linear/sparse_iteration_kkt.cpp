@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "linear/dense/eps.hpp"
 #include "linear/refinement.hpp"
 #include "linear/sparse/sparse_sum.hpp"
 
@@ -11,7 +12,6 @@ namespace trammel::numerics {
 
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 // Of S's and G's scales. Large beside its round-off, so that corrections converge; its square root is the singular
 // value, relative to the largest, below which rows count as redundant. A chain's own rows must not, whose softest falls
 // with the square of their number: among few rows alone soft ones are those of a singular position.

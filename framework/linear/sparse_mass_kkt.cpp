@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "linear/dense/eps.hpp"
 #include "linear/refinement.hpp"
 
 namespace trammel::numerics {
 
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 // The complement serves as it is down to this sine of a row's angle to others: its square above round-off by 1e10.
 constexpr double safe_sine = 1e-3;
 // And down to this eigenvalue of the whole, S's diagonal scaled to 1: round-off of its rows, 1e-13, over the root is

@@ -5,8 +5,9 @@
 #include <random>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCore>
+
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -125,7 +126,7 @@ class KrylovBasis {
   Mat V_, TV_, next_;
 };
 
-struct Undamped {
+struct InverseIteration {
   Pencil& pencil;
   Vec operator()(const Vec& x) const { return pencil.solve(pencil.mass_times(x)); }
   Vec inner(const Vec& x) const { return pencil.mass_times(x); }
@@ -215,10 +216,11 @@ Spectrum krylov_modes(model::AssembledSystem& system, const State& state, int co
   spectrum.damped = !pencil.symmetric() || mean.damping > 1e-8 * std::sqrt(shift);
   if (!spectrum.damped) {
     pencil.factorise({shift, 0, 1});
-    Undamped T{pencil};
-    KrylovBasis<Undamped> basis(T, n);
+    InverseIteration T{pencil};
+    KrylovBasis<InverseIteration> basis(T, n);
     const std::vector<Pair> pairs = converge(basis, count, [&](const Mat& H) {
-      const Eigen::SelfAdjointEigenSolver<Mat> solver((H + H.transpose()) / 2);
+      const Mat symmetric = (H + H.transpose()) / 2;
+      const Eigen::SelfAdjointEigenSolver<Mat> solver(symmetric);
       std::vector<Pair> all;
       for (Eigen::Index i = 0; i < H.rows(); ++i) {
         const double theta = solver.eigenvalues()(i), omega2 = 1 / theta - shift, omega = std::sqrt(std::abs(omega2));

@@ -11,7 +11,7 @@ namespace trammel::simulate {
 namespace {
 
 // Round-off and truncation of a central difference balance there, for arguments of size one.
-constexpr double difference = 6e-6;
+constexpr double difference_step = 6e-6;
 
 class AtState {
  public:
@@ -68,12 +68,12 @@ class AtState {
     for (Eigen::Index j = 0; j < Z.cols(); ++j) {
       Vec ahead;
       for (const double side : {1.0, -1.0}) {
-        system_.retract(s_.q, side * difference * Z.col(j), q);
+        system_.retract(s_.q, side * difference_step * Z.col(j), q);
         system_.move_to(s_.t, q, s_.v);
         if (side > 0)
           ahead = system_.g_dot();
         else
-          rates.col(j) = (ahead - system_.g_dot()) / (2 * difference);
+          rates.col(j) = (ahead - system_.g_dot()) / (2 * difference_step);
       }
     }
     system_.move_to(s_.t, s_.q, s_.v);
@@ -91,7 +91,7 @@ class AtState {
   // dM/dt along the motion, times the columns.
   Mat mass_rate_times(const Mat& columns) {
     Mat product = Mat::Zero(n_.nv, columns.cols());
-    const double tau = difference / std::max(1.0, s_.v.lpNorm<Eigen::Infinity>());
+    const double tau = difference_step / std::max(1.0, s_.v.lpNorm<Eigen::Infinity>());
     Vec q, r;
     for (const double side : {1.0, -1.0}) {
       system_.retract(s_.q, side * tau * s_.v, q);

@@ -5,8 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/QR>
-
+#include "linear/dense/decompositions.hpp"
 #include "system/onto_rows.hpp"
 #include "system/tangent_space.hpp"
 
@@ -16,13 +15,13 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int most_unknowns = 120;  // of dense differences
-constexpr int most_iterations = 20;
+constexpr int most_newton_steps = 20;
 constexpr double difference = 1e-6;         // of unknowns of order 1: central differences
-constexpr double settled = 1e-11;           // of the forces
+constexpr double balanced = 1e-11;          // of the forces
 constexpr double near = 0.1;                // of velocities
 constexpr double phases[] = {0, 0.7, 1.9};  // [rad, m] at the largest velocity
 
-double largest(const Vec& x) {
+double size_of(const Vec& x) {
   return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0;
 }
 
@@ -31,13 +30,13 @@ double largest(const Vec& x) {
 class Nearest {
  public:
   Nearest(model::AssembledSystem& system, const FlatTurning& flat, const State& s, const Vector3d& rate)
-      : system_(system), flat_(flat), s_(s), rate_(rate), speed_(largest(s.v)) {
+      : system_(system), flat_(flat), s_(s), rate_(rate), speed_(size_of(s.v)) {
     system_.move_to(s.t, s.q, s.v);
     Z_ = tangent_space(system_).Z;
     const Vec force = system_.f();
     Vec momentum = Vec::Zero(s.v.size());
     system_.add_mass_times(1, s.v, momentum);
-    force_ = std::max(largest(force), 1e-4 * largest(momentum) * speed_);
+    force_ = std::max(size_of(force), 1e-4 * size_of(momentum) * speed_);
   }
 
   std::optional<State> operator()() {
@@ -45,10 +44,10 @@ class Nearest {
     const Eigen::Index m = Z_.cols(), n = 2 * m + (planar ? 1 : 3);
     if (n > most_unknowns || !(force_ > 0)) return {};
     Vec z = Vec::Zero(n);
-    for (int i = 0; i < most_iterations; ++i) {
+    for (int i = 0; i < most_newton_steps; ++i) {
       const Vec r = unbalanced(z);
       if (!r.allFinite()) return {};
-      if (largest(r) <= settled) return state_at(z);
+      if (size_of(r) <= balanced) return state_at(z);
       Mat J(r.size(), n);
       for (Eigen::Index j = 0; j < n; ++j) {
         const Vec step = difference * Vec::Unit(n, j);
@@ -59,7 +58,7 @@ class Nearest {
       least.setThreshold(1e-7);
       least.compute(J);
       z -= least.solve(r);
-      if (!(largest(z.tail(n - m)) < near)) return {};
+      if (!(size_of(z.tail(n - m)) < near)) return {};
     }
     return {};
   }

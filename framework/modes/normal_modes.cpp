@@ -4,10 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -73,8 +70,10 @@ Complex without_drift(Complex lambda, double frame_rate) {
 // With lambda = s mu and columns of M scaled to 1: [0 1; -K/s^2 -D/s] (y, mu y) = mu (y, mu y).
 void first_order(const Linearisation& l, const Vec& scale, std::vector<Mode>& modes) {
   const Eigen::Index m = l.M.rows();
-  const Eigen::PartialPivLU<Mat> mass(l.M * scale.asDiagonal());
-  const Mat K = mass.solve(l.K * scale.asDiagonal()), D = mass.solve(l.D * scale.asDiagonal());
+  const Mat scaled_M = l.M * scale.asDiagonal(), scaled_K = l.K * scale.asDiagonal(),
+            scaled_D = l.D * scale.asDiagonal();
+  const Eigen::PartialPivLU<Mat> mass(scaled_M);
+  const Mat K = mass.solve(scaled_K), D = mass.solve(scaled_D);
   const double s = std::max({std::sqrt(K.norm()), D.norm(), 1e-300});
   Mat A = Mat::Zero(2 * m, 2 * m);
   A.topRightCorner(m, m).setIdentity();
@@ -82,7 +81,7 @@ void first_order(const Linearisation& l, const Vec& scale, std::vector<Mode>& mo
   A.bottomRightCorner(m, m) = -D / s;
   const Eigen::EigenSolver<Mat> solver(A);
   if (solver.info() != Eigen::Success) throw model::NotSolvable("the eigenvalues could not be found");
-  const auto mu = solver.eigenvalues();
+  const Eigen::VectorXcd mu = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
   const double fastest = s * mu.cwiseAbs().maxCoeff();
   const std::vector<bool> drifts = drifts_of(K, l.noise, l.speed, s, mu);

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
+#include "linear/dense/decompositions.hpp"
 #include "system/tangent_space.hpp"
 
 namespace trammel::simulate {
@@ -17,7 +16,7 @@ constexpr double constant = 1e-7, noisy = 100;
 // Rows against a vector in their null space.
 constexpr double free_of_rows = 1e-7;
 
-double largest(const Mat& x) {
+double largest_entry(const Mat& x) {
   return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0;
 }
 
@@ -28,17 +27,18 @@ Mat normalised(const Eigen::LLT<Mat>& mass, const Mat& A) {
 }
 
 bool agree(const Coefficients& a, const Coefficients& b, double rate, double noise) {
-  const Eigen::LLT<Mat> mass((a.M + a.M.transpose()) / 2);
+  const Mat M = (a.M + a.M.transpose()) / 2;
+  const Eigen::LLT<Mat> mass(M);
   if (mass.info() != Eigen::Success) return false;
-  const auto apart = [&](const Mat& x, const Mat& y) { return largest(normalised(mass, y - x)); };
-  const auto size = [&](const Mat& x) { return largest(normalised(mass, x)); };
+  const auto apart = [&](const Mat& x, const Mat& y) { return largest_entry(normalised(mass, y - x)); };
+  const auto size = [&](const Mat& x) { return largest_entry(normalised(mass, x)); };
   return apart(a.M, b.M) <= constant && apart(a.D, b.D) <= constant * rate + noisy * noise * size(a.D) &&
          apart(a.K, b.K) <= constant * rate * rate + noisy * noise * size(a.K);
 }
 
 bool annihilates(const Mat& columns_transposed, const Mat& x) {
   if (columns_transposed.cols() == 0 || x.cols() == 0) return true;
-  return largest(columns_transposed.transpose() * x) <= free_of_rows * largest(columns_transposed);
+  return largest_entry(columns_transposed.transpose() * x) <= free_of_rows * largest_entry(columns_transposed);
 }
 
 }  // namespace

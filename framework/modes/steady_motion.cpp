@@ -5,8 +5,8 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <Eigen/QR>
 
+#include "linear/dense/decompositions.hpp"
 #include "modes/nearest_steady.hpp"
 #include "modes/steady_linearisation.hpp"
 #include "system/tangent_space.hpp"
@@ -61,7 +61,8 @@ Vector3d least_rate(const model::Model& model, const FlatTurning& flat, const St
   least.setThreshold(1e-9);
   least.compute(by_rate);
   if (least.rank() == 0) return Vector3d::Zero();
-  const Vector3d rate = least.solve(s.a);
+  const Vec rate_of_least = least.solve(s.a);
+  const Vector3d rate = rate_of_least;
   return rate.norm() <= 1e-12 * largest(s.v) ? Vector3d(Vector3d::Zero()) : rate;
 }
 
@@ -131,7 +132,7 @@ class InFrame {
       Eigen::CompleteOrthogonalDecomposition<Mat> least;  // what nothing holds keeps its place
       least.setThreshold(1e-9);
       least.compute(K);
-      const Vec dq = space.Z * least.solve(-space.left.transpose() * left_over);
+      const Vec along_rows = -space.left.transpose() * left_over, dq = space.Z * least.solve(along_rows);
       const double change = largest(dq), size = std::max(1.0, largest(s.q));
       if (!std::isfinite(change) || change > 10 * size) break;
       move(s, dq);

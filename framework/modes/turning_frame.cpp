@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -55,7 +56,7 @@ std::array<Mat, 3> turning_of(const model::BodyEntry& body, Space space, double 
   std::array<Mat, 3> turning;
   for (int k = 3 - axes; k < 3; ++k) turning[std::size_t(k)].setZero(flat, flat);
   for (int j = 0; j < flat; ++j) {
-    const Mat change = mass.solve(angular_momenta(body, axes, t, q + Vec::Unit(q.size(), j)) - here);
+    const Mat there = angular_momenta(body, axes, t, q + Vec::Unit(q.size(), j)) - here, change = mass.solve(there);
     for (int k = 0; k < axes; ++k) turning[std::size_t(k + 3 - axes)].col(j) = change.col(k).head(flat);
   }
   return turning;

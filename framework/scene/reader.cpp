@@ -215,15 +215,15 @@ class Tree {
   Value root_;
 };
 
-[[noreturn]] void fail(const std::string& file, std::string message) {
+[[noreturn]] void refuse(const std::string& file, std::string message) {
   throw SceneError({{{file, 0, 0}, "", std::move(message)}});
 }
 
 }  // namespace
 
 Value parse_text(const std::string& text, const std::string& file) {
-  if (text.find('\0') != std::string::npos) fail(file, "holds binary data, expected a JSON text");
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail(file, "is empty, expected a JSON object");
+  if (text.find('\0') != std::string::npos) refuse(file, "holds binary data, expected a JSON text");
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) refuse(file, "is empty, expected a JSON object");
   Value root = Tree(text, file).parse();
   if (root.type() != Value::Type::object)
     throw SceneError({root.problem(fmt::format("found {}, expected an object", root.type_name()))});

@@ -4,15 +4,16 @@
 
 #include <trammel/methods/error_norm.hpp>
 
+#include "linear/dense/eps.hpp"
+
 namespace trammel {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 // Methods of order 8 that keep errors of about 1e-9 have the longest steps: half the amplitude of an oscillation.
 // Shorter steps are judged more strictly.
 constexpr double steps_in_a_motion = 2;
 
-double largest(const Vec& a, const Vec& b) {
+double largest_of(const Vec& a, const Vec& b) {
   return a.size() ? std::max(a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>()) : 0;
 }
 
@@ -22,9 +23,9 @@ double error_norm(const Vec& e_q, const Vec& e_v, const State& now, const State&
   const Eigen::Index n = e_v.size();
   if (n == 0) return 0;
   const double ahead = steps_in_a_motion * std::abs(next.t - now.t);
-  const double round_off_v = 4 * eps * largest(now.v, next.v);
+  const double round_off_v = 4 * eps * largest_of(now.v, next.v);
   const bool flat = now.q.size() == n;
-  const double all_q = largest(now.q, next.q), round_off_q = 4 * eps * all_q;
+  const double all_q = largest_of(now.q, next.q), round_off_q = 4 * eps * all_q;
   double sum = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
     const double size_v = std::max(std::abs(now.v[i]), std::abs(next.v[i]));

@@ -281,4 +281,8 @@ void JointRows::add_reaction_tangent(double t, const Motion& A, const Motion& B,
     vary_all(Evaluation<3>(*this, t, A, B));
 }
 
+Quaterniond smallest_rotation(const Vector3d& from, const Vector3d& to) {
+  return Quaterniond::FromTwoVectors(from, to);
+}
+
 }  // namespace trammel

@@ -4,11 +4,12 @@
 
 #include <trammel/methods/newmark_step.hpp>
 
+#include "linear/dense/eps.hpp"
+
 namespace trammel {
 
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 // Of the first increment from an extrapolated prediction. Methods of second order have a local error of v of 0.1 to
 // 0.25 of that
 // increment, so that what Newton's iteration leaves is within a hundredth of it.

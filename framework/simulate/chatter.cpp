@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
-
+#include "linear/dense/decompositions.hpp"
 #include "simulate/contact_mode.hpp"
 
 namespace trammel::simulate {
@@ -158,7 +157,7 @@ double ContactModes::take_rates(State& state, const std::vector<bool>& rests, co
   for (std::size_t i = 0; i < held.size(); ++i) rates[Eigen::Index(i)] = system_.rate(held[i]);
   Mat jump, delassus;
   system_.impulse_response(held, jump, delassus);
-  const Vec impulses = delassus.completeOrthogonalDecomposition().solve(rates);
+  const Vec impulses = Eigen::CompleteOrthogonalDecomposition<Mat>(delassus).solve(rates);
   state.v -= jump * impulses;
   system_.move_to(state.t, state.q, state.v);
   return impulses.dot(rates - 0.5 * (delassus * impulses));

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "linear/dense/decompositions.hpp"
 #include "run/run_failed.hpp"
 
 namespace trammel::simulate {

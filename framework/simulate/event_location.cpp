@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "linear/dense/eps.hpp"
 #include "simulate/contact/signed_loads.hpp"
 #include "simulate/root_bracket.hpp"
 #include "simulate/trial_step.hpp"
@@ -14,8 +15,6 @@ namespace trammel::simulate {
 namespace {
 
 using Friction = model::ContactMode::Friction;
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
 
 // Thrown and caught in this file: the integrator refused one of the steps that locate an event.
 struct StepRefused {};

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "linear/dense/eps.hpp"
 #include "plugin/breadcrumb.hpp"
 #include "plugin/guard.hpp"
 #include "run/run_failed.hpp"
@@ -17,7 +18,6 @@
 namespace trammel::simulate {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr std::size_t most_warnings = 20;
 
 int error_order(Integrator& integrator) {

@@ -6,16 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "linear/dense/eps.hpp"
 #include "plugin/breadcrumb.hpp"
 #include "run/run_failed.hpp"
 #include "simulate/simulator.hpp"
 
 namespace trammel::simulate {
-namespace {
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
-}  // namespace
+namespace {}  // namespace
 
 void Simulator::settle(const ContactChanges& changes) {
   const std::size_t before = events_.size();

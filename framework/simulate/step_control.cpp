@@ -4,9 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "linear/dense/eps.hpp"
+
 namespace trammel::simulate {
 namespace {
-constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr int most_halvings = 10;  // of a fixed step that the method refuses
 }  // namespace
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <Eigen/QR>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::numerics {
 
@@ -14,7 +14,7 @@ Vec Anderson::next(const Vec& s) {
     dX << dX_.rightCols(kept), last_x_;
     dS << dS_.rightCols(kept), s - last_s_;
     dX_ = dX, dS_ = dS;
-    change -= (dX_ + dS_) * dS_.colPivHouseholderQr().solve(s);
+    change -= (dX_ + dS_) * Eigen::ColPivHouseholderQR<Mat>(dS_).solve(s);
   } else {
     dX_.resize(s.size(), 0), dS_.resize(s.size(), 0);
   }

@@ -3,8 +3,7 @@
 // for bodies whose coordinates hold those motions.
 #include <algorithm>
 
-#include <Eigen/Cholesky>
-
+#include "linear/dense/decompositions.hpp"
 #include "system/assembled_system.hpp"
 
 namespace trammel::model {
@@ -41,7 +40,8 @@ bool AssembledSystem::rigid_motions(double t, const Vec& q, Mat& r) {
       p.row(j).head(linear) = of_one.linear;
       p.row(j).tail(all - linear) = of_one.angular;
     }
-    if (body.nv > 0) r.middleRows(body.v0, body.nv) = mass.block(body.v0, 0, body.nv, body.nv).llt().solve(p);
+    const Mat M = mass.block(body.v0, 0, body.nv, body.nv);
+    if (body.nv > 0) r.middleRows(body.v0, body.nv) = Eigen::LLT<Mat>(M).solve(p);
   }
   return true;
 }

@@ -1,7 +1,6 @@
 #include "system/tangent_space.hpp"
 
-#include <Eigen/QR>
-
+#include "linear/dense/decompositions.hpp"
 #include "linear/kkt.hpp"
 
 namespace trammel::simulate {
@@ -29,9 +28,7 @@ Mat complement(Mat columns, double rank_tolerance) {
   Eigen::ColPivHouseholderQR<Mat> qr;
   qr.setThreshold(rank_tolerance);
   qr.compute(columns);
-  Mat basis = Mat::Identity(n, n).rightCols(n - qr.rank());
-  basis.applyOnTheLeft(qr.householderQ());
-  return basis;
+  return numerics::last_columns_of_q(qr, n - qr.rank());
 }
 
 }  // namespace

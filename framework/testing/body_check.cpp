@@ -5,12 +5,11 @@
 //     dE/ds = P + v^T (M a - f)                                 the last term is 0 along M a = f
 //     c_m M - c_d df/dv + c_k d(M a - f)/dq = the exact tangent, where it is offered
 //     own rows: G = dg/dq, dg/dt = G v + g_t, d(G v + g_t)/dt = G a - gamma along the path, K = d(G^T lambda)/dq
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <set>
 
 #include <trammel/fields.hpp>
 
+#include "linear/dense/decompositions.hpp"
 #include "testing/body_under_test.hpp"
 
 namespace trammel {

@@ -19,12 +19,12 @@
 namespace trammel {
 namespace {
 
-struct Tried {
+struct TriedLaw {
   std::unique_ptr<ContactForce> law;
   ContactClaims claims;
   double energy, depth = 1e-12;  // [J] of the approach; [m] where it is stored
 
-  Tried(const MakerOf<ContactForce>& make, const ContactClaims& c)
+  TriedLaw(const MakerOf<ContactForce>& make, const ContactClaims& c)
       : law(make()), claims(c), energy(c.mass * c.speed * c.speed / 2) {
     while (law->potential(-depth) < energy && depth < 1e6) depth *= 2;
     double above = depth / 2;
@@ -36,7 +36,7 @@ struct Tried {
   double normal(double gap, double rate) const { return law->normal(gap, rate, claims.speed); }
 };
 
-Report never_pulls(const Tried& l) {
+Report never_pulls(const TriedLaw& l) {
   return compare("the force is never negative", [&](Comparison& c) {
     for (double gap = -2; gap <= 1; gap += 0.05)
       for (double rate = -10; rate <= 10; rate += 0.25)
@@ -48,7 +48,7 @@ Report never_pulls(const Tried& l) {
   });
 }
 
-Report is_nothing_apart(const Tried& l) {
+Report is_nothing_apart(const TriedLaw& l) {
   return compare("no force and no energy while apart", [&](Comparison& c) {
     for (const double gap : {0.0, 1e-9, 0.5, 10.0}) {
       c.within(l.law->potential(gap * l.depth), 0, 0, fmt::format("energy at gap {:.3g} m", gap * l.depth));
@@ -60,7 +60,7 @@ Report is_nothing_apart(const Tried& l) {
 }
 
 // Down to 1e-12 of the depth, where F ~ depth^n is below 1e-5 of its maximum for any n above 0.42.
-Report starts_from_zero(const Tried& l) {
+Report starts_from_zero(const TriedLaw& l) {
   return compare("the force starts from zero, if claimed", [&](Comparison& c) {
     if (!l.claims.starts_from_zero) return;
     for (const double rate : {-1.0, -0.1, 0.0, 1.0}) {
@@ -71,7 +71,7 @@ Report starts_from_zero(const Tried& l) {
   });
 }
 
-Report potential_is_the_elastic_energy(const Tried& l) {
+Report potential_is_the_elastic_energy(const TriedLaw& l) {
   return compare("the force at rest is minus the gradient of the potential", [&](Comparison& c) {
     c.holds(l.depth < 1e6, "the potential never reaches the energy of the approach");
     for (const double part : {0.2, 0.6, 1.0}) {
@@ -83,7 +83,7 @@ Report potential_is_the_elastic_energy(const Tried& l) {
   });
 }
 
-Report slope_is_the_derivative(const Tried& l) {
+Report slope_is_the_derivative(const TriedLaw& l) {
   return compare("slope is the derivative of the force", [&](Comparison& c) {
     for (const double part : {0.2, 0.6, 1.0})
       for (const double rate : {-1.0, -0.3, 0.1, 0.4}) {
@@ -103,7 +103,7 @@ Report slope_is_the_derivative(const Tried& l) {
 }
 
 // The classical Runge-Kutta method in 4000 steps over the time to cross the depth; a contact may last 100 times that.
-Report energy_never_grows(const Tried& l) {
+Report energy_never_grows(const TriedLaw& l) {
   return compare("energy never grows over an impact", [&](Comparison& c) {
     const double h = l.depth / l.claims.speed / 4000;
     const auto a = [&](double x, double v) { return l.normal(x, v) / l.claims.mass; };
@@ -148,7 +148,7 @@ Report bounces_end(const Restitution& law) {
 }  // namespace
 
 std::vector<Check> contact_force_checks(const MakerOf<ContactForce>& make, const ContactClaims& claims) {
-  using Look = Report (*)(const Tried&);
+  using Look = Report (*)(const TriedLaw&);
   const std::pair<const char*, Look> all[] = {
       {"NeverPulls", never_pulls},
       {"IsNothingApart", is_nothing_apart},
@@ -158,7 +158,7 @@ std::vector<Check> contact_force_checks(const MakerOf<ContactForce>& make, const
       {"EnergyNeverGrows", energy_never_grows},
   };
   std::vector<Check> checks;
-  for (const auto& [name, look] : all) checks.push_back({name, [=] { return look(Tried(make, claims)); }});
+  for (const auto& [name, look] : all) checks.push_back({name, [=] { return look(TriedLaw(make, claims)); }});
   return checks;
 }
 

@@ -16,20 +16,21 @@
 namespace trammel {
 namespace {
 
-constexpr double times[] = {0.1, 0.7, 1.3, 1.9};  // [s]
-constexpr double step = 0.05;                     // [s, m, rad] largest of the differences: motions change over 0.5
+constexpr double force_times[] = {0.1, 0.7, 1.3, 1.9};  // [s]
+constexpr double force_step = 0.05;  // [s, m, rad] largest of the differences: motions change over 0.5
 
 struct Wrenches {
   Wrench on_A, on_B;
 };
 
-struct Tried {
+struct TriedForce {
   std::unique_ptr<Force> force;
   Space space;
   Reaction reaction;
   MovingPair pair;
 
-  Tried(const MakerOf<Force>& make, Space s, Reaction r) : force(make()), space(s), reaction(r), pair(moving_pair(s)) {}
+  TriedForce(const MakerOf<Force>& make, Space s, Reaction r)
+      : force(make()), space(s), reaction(r), pair(moving_pair(s)) {}
 
   Wrenches wrenches(double t, const Motion& A, const Motion& B) const {
     Wrenches w{Wrench::Zero(A.V.size()), Wrench::Zero(B.V.size())};
@@ -39,16 +40,16 @@ struct Tried {
   Wrenches along(double t) const { return wrenches(t, pair.a.at(t), pair.b.at(t)); }
 };
 
-Report energy_balances(const Tried& f) {
+Report force_energy_balances(const TriedForce& f) {
   return compare("power of the wrenches is taken from the potential, supplied or dissipated", [&](Comparison& c) {
-    for (const double t : times) {
+    for (const double t : force_times) {
       const Motion A = f.pair.a.at(t), B = f.pair.b.at(t);
       const Wrenches w = f.wrenches(t, A, B);
       const Power P = f.force->power(t, A, B);
       const double by_wrench = w.on_A.dot(A.V) + w.on_B.dot(B.V);
       const Difference stored = difference(
           [&](double s) { return Vec::Constant(1, f.force->potential(t + s, f.pair.a.at(t + s), f.pair.b.at(t + s))); },
-          step);
+          force_step);
       const double noise = 1e-13 * (w.on_A.cwiseAbs().dot(A.V.cwiseAbs()) + w.on_B.cwiseAbs().dot(B.V.cwiseAbs()));
       c.derivative(Vec::Constant(1, P.supplied - P.dissipated - by_wrench), stored,
                    fmt::format("d(potential)/dt at t = {}", t), noise);
@@ -56,19 +57,19 @@ Report energy_balances(const Tried& f) {
   });
 }
 
-Report only_dissipates(const Tried& f) {
+Report force_only_dissipates(const TriedForce& f) {
   return compare("dissipated power is not negative", [&](Comparison& c) {
-    for (const double t : times) {
+    for (const double t : force_times) {
       const double power = f.force->power(t, f.pair.a.at(t), f.pair.b.at(t)).dissipated;
       c.holds(power >= 0, fmt::format("{:.6g} W at t = {}", power, t));
     }
   });
 }
 
-Report action_is_reaction(const Tried& f) {
+Report action_is_reaction(const TriedForce& f) {
   return compare("wrenches on A and B are equal and opposite", [&](Comparison& c) {
     if (f.reaction == Reaction::outside) return;
-    for (const double t : times) {
+    for (const double t : force_times) {
       const Motion A = f.pair.a.at(t), B = f.pair.b.at(t);
       const Wrenches w = f.wrenches(t, A, B);
       const Vec on_A = about_origin(w.on_A, A.x), on_B = about_origin(w.on_B, B.x);
@@ -77,10 +78,10 @@ Report action_is_reaction(const Tried& f) {
   });
 }
 
-Report turns_with_the_scene(const Tried& f) {
+Report turns_with_the_scene(const TriedForce& f) {
   return compare("wrenches turn with the scene", [&](Comparison& c) {
     if (f.reaction == Reaction::outside) return;
-    for (const double t : times) {
+    for (const double t : force_times) {
       Vec6 turn = Vec6::Zero(twist_size(f.space));
       turn.tail(rotations(f.space)) = Eigen::Vector3d(0.7, -0.4, 0.9).head(rotations(f.space));
       Motion origin = marker_at(Vec::Zero(turn.size()), Vec::Zero(turn.size()));
@@ -106,10 +107,10 @@ Report turns_with_the_scene(const Tried& f) {
 }
 
 // Central differences of a kink converge, to the mean of its slopes: both sides are asked.
-Report has_a_derivative(const Tried& f) {
+Report has_a_derivative(const TriedForce& f) {
   return compare("wrenches have a derivative by pose and velocity", [&](Comparison& c) {
     const int n = twist_size(f.space);
-    for (const double t : times) {
+    for (const double t : force_times) {
       const Motion A = f.pair.a.at(t), B = f.pair.b.at(t);
       for (int i = 0; i < 2 * n; ++i) {
         const auto moved = [&](double s) {
@@ -120,7 +121,7 @@ Report has_a_derivative(const Tried& f) {
           both << w.on_A, w.on_B;
           return both;
         };
-        const Difference d = difference(moved, step);
+        const Difference d = difference(moved, force_step);
         const double h = 1e-6;
         const Vec right = (moved(h) - moved(0)) / h, left = (moved(0) - moved(-h)) / h;
         const double scale = d.value.cwiseAbs().maxCoeff() + d.size / d.h;
@@ -132,13 +133,13 @@ Report has_a_derivative(const Tried& f) {
 }
 
 // Of a marker that may be a point, which has no axes.
-Report axes_count_only_where_said(const Tried& f) {
+Report force_axes_count_only_where_said(const TriedForce& f) {
   return compare("a marker's orientation counts only where NeedsOrientation says so", [&](Comparison& c) {
     const auto* needs = dynamic_cast<const NeedsOrientation*>(f.force.get());
     const int turns = rotations(f.space), dim = dimension(f.space);
     Vec6 turn = Vec6::Zero(twist_size(f.space));
     turn.tail(turns).setConstant(0.6);
-    for (const double t : times) {
+    for (const double t : force_times) {
       const Motion A = f.pair.a.at(t), B = f.pair.b.at(t);
       const Wrenches w = f.wrenches(t, A, B);
       for (int k = 0; k < 2; ++k) {
@@ -156,14 +157,15 @@ Report axes_count_only_where_said(const Tried& f) {
 }  // namespace
 
 std::vector<Check> force_checks(const MakerOf<Force>& make, Space space, Reaction reaction) {
-  using Look = Report (*)(const Tried&);
+  using Look = Report (*)(const TriedForce&);
   const std::pair<const char*, Look> all[] = {
-      {"EnergyBalances", energy_balances},      {"OnlyDissipates", only_dissipates},
-      {"ActionIsReaction", action_is_reaction}, {"TurnsWithTheScene", turns_with_the_scene},
-      {"HasADerivative", has_a_derivative},     {"AxesCountOnlyWhereSaid", axes_count_only_where_said},
+      {"EnergyBalances", force_energy_balances}, {"OnlyDissipates", force_only_dissipates},
+      {"ActionIsReaction", action_is_reaction},  {"TurnsWithTheScene", turns_with_the_scene},
+      {"HasADerivative", has_a_derivative},      {"AxesCountOnlyWhereSaid", force_axes_count_only_where_said},
   };
   std::vector<Check> checks;
-  for (const auto& [name, look] : all) checks.push_back({name, [=] { return look(Tried(make, space, reaction)); }});
+  for (const auto& [name, look] : all)
+    checks.push_back({name, [=] { return look(TriedForce(make, space, reaction)); }});
   return checks;
 }
 

@@ -7,8 +7,6 @@
 // and axes of markers count only where NeedsOrientation says so. Rows that repeat each other are no fault.
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-
 #include <stdexcept>
 
 #include <trammel/linear_rows.hpp>
@@ -16,6 +14,7 @@
 #include <trammel/testing/components.hpp>
 #include <trammel/testing/markers.hpp>
 
+#include "linear/dense/decompositions.hpp"
 #include "testing/difference.hpp"
 
 namespace trammel {
@@ -26,12 +25,12 @@ constexpr double step = 0.05;                // [s, m, rad] largest of the diffe
 
 using Markers = std::vector<Motion>;
 
-struct Tried {
+struct TriedJoint {
   std::unique_ptr<Constraint> joint;
   Space space;
   std::vector<MovingMarker> moving;
 
-  Tried(const MakerOf<Constraint>& make, Space s) : joint(make()), space(s) {
+  TriedJoint(const MakerOf<Constraint>& make, Space s) : joint(make()), space(s) {
     const int n = joint->marker_count();
     if (n < 2 || n > Rows::most_markers) throw std::length_error(fmt::format("{} markers, expected 2 to 4", n));
     moving = moving_markers(s, n);
@@ -71,12 +70,12 @@ Markers with_moved(Markers markers, int marker, const Vec6& by) {
   return markers;
 }
 
-Report rows_have_their_sizes(const Tried& j) {
+Report rows_have_their_sizes(const TriedJoint& j) {
   return compare("rows keep the sizes they come in with",
                  [&](Comparison& c) { c.holds(j.along(times[0]).g.allFinite(), "a number that is not finite"); });
 }
 
-Report jacobian_is_the_gradient(const Tried& j) {
+Report jacobian_is_the_gradient(const TriedJoint& j) {
   return compare("H_A, H_B, ... are the gradients of g", [&](Comparison& c) {
     for (const double t : times) {
       const Markers markers = j.at(t);
@@ -92,7 +91,7 @@ Report jacobian_is_the_gradient(const Tried& j) {
   });
 }
 
-Report g_t_is_the_time_derivative(const Tried& j) {
+Report g_t_is_the_time_derivative(const TriedJoint& j) {
   return compare("g_t is the derivative of g by time alone", [&](Comparison& c) {
     for (const double t : times) {
       const Markers markers = j.at(t);
@@ -103,7 +102,7 @@ Report g_t_is_the_time_derivative(const Tried& j) {
 }
 
 // With the joint's own H and g_t, so that only gamma is checked.
-Report gamma_is_the_rest_of_the_acceleration(const Tried& j) {
+Report gamma_is_the_rest_of_the_acceleration(const TriedJoint& j) {
   return compare("d(g_dot)/dt = H_A A_A + H_B A_B + ... - gamma", [&](Comparison& c) {
     for (const double t : times) {
       const Rows r = j.along(t);
@@ -114,7 +113,7 @@ Report gamma_is_the_rest_of_the_acceleration(const Tried& j) {
   });
 }
 
-Report reactions_balance(const Tried& j) {
+Report reactions_balance(const TriedJoint& j) {
   return compare("reactions on all markers balance", [&](Comparison& c) {
     for (const double t : times) {
       Markers markers = j.at(t);
@@ -140,7 +139,7 @@ Report reactions_balance(const Tried& j) {
 }
 
 // Of joints that offer it.
-Report reaction_tangent_is_that_of_the_wrenches(const Tried& j) {
+Report reaction_tangent_is_that_of_the_wrenches(const TriedJoint& j) {
   return compare("the reaction's derivative is that of H^T lambda", [&](Comparison& c) {
     const Vec6 lambda = Vec::LinSpaced(j.joint->row_count(j.space), 1.5, -0.7);
     const auto* exact = dynamic_cast<const ReactionTangent*>(j.joint.get());
@@ -172,7 +171,7 @@ Report reaction_tangent_is_that_of_the_wrenches(const Tried& j) {
 }
 
 // Of markers whose axes stand still.
-Report rows_are_linear_if_claimed(const Tried& j) {
+Report rows_are_linear_if_claimed(const TriedJoint& j) {
   return compare("between points the rows are g_0 + H x with constant H, where LinearRows says so", [&](Comparison& c) {
     const auto* claims = dynamic_cast<const LinearRows*>(j.joint.get());
     if (!claims || !claims->linear()) return;
@@ -208,7 +207,7 @@ Report rows_are_linear_if_claimed(const Tried& j) {
 }
 
 // Of a marker that may be a point, which has no axes.
-Report axes_count_only_where_said(const Tried& j) {
+Report joint_axes_count_only_where_said(const TriedJoint& j) {
   return compare("a marker's orientation counts only where NeedsOrientation says so", [&](Comparison& c) {
     const auto* needs = dynamic_cast<const NeedsOrientation*>(j.joint.get());
     for (int k = 0; k < j.count(); ++k) {
@@ -229,7 +228,7 @@ Report axes_count_only_where_said(const Tried& j) {
 }  // namespace
 
 std::vector<Check> joint_checks(const MakerOf<Constraint>& make, Space space, Reaction reaction) {
-  using Look = Report (*)(const Tried&);
+  using Look = Report (*)(const TriedJoint&);
   const std::pair<const char*, Look> all[] = {
       {"RowsHaveTheirSizes", rows_have_their_sizes},
       {"JacobianIsTheGradient", jacobian_is_the_gradient},
@@ -238,12 +237,12 @@ std::vector<Check> joint_checks(const MakerOf<Constraint>& make, Space space, Re
       {"ReactionTangentIsThatOfTheWrenches", reaction_tangent_is_that_of_the_wrenches},
       {"ReactionsBalance", reactions_balance},
       {"RowsAreLinearIfClaimed", rows_are_linear_if_claimed},
-      {"AxesCountOnlyWhereSaid", axes_count_only_where_said},
+      {"AxesCountOnlyWhereSaid", joint_axes_count_only_where_said},
   };
   std::vector<Check> checks;
   for (const auto& [name, look] : all)
     if (look != reactions_balance || reaction == Reaction::on_A)
-      checks.push_back({name, [=] { return look(Tried(make, space)); }});
+      checks.push_back({name, [=] { return look(TriedJoint(make, space)); }});
   return checks;
 }
 

@@ -9,6 +9,8 @@
 
 #include <trammel/testing/problems.hpp>
 
+#include "linear/dense/decompositions.hpp"
+
 namespace trammel {
 namespace {
 
@@ -105,12 +107,13 @@ class ProblemSystem final : public System {
     A.topLeftCorner(n_, n_) = S;
     A.bottomLeftCorner(m_, n_) = rows_.G;
     A.topRightCorner(n_, m_) = W.transpose();
-    return A.size() ? Factored(scale_.asDiagonal() * A * scale_.asDiagonal()) : Factored();
+    return A.size() ? Factored(Mat(scale_.asDiagonal() * A * scale_.asDiagonal())) : Factored();
   }
   void solve(const Factored& s, const Vec& b, const Vec& c, Vec& x, Vec& y) const {
     Vec right(n_ + m_);
     right << b, c;
-    const Vec z = right.size() ? Vec(scale_.cwiseProduct(s.solve(scale_.cwiseProduct(right)))) : right;
+    const Vec scaled = scale_.cwiseProduct(right);
+    const Vec z = right.size() ? Vec(scale_.cwiseProduct(s.solve(scaled))) : right;
     x = z.head(n_);
     y = z.tail(m_);
   }

@@ -14,6 +14,8 @@
 
 #include <trammel/testing/measurements.hpp>
 
+#include "linear/dense/decompositions.hpp"
+
 namespace trammel {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/LU>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -155,7 +155,8 @@ class InteriorPoint {
     r.head(rows) = primal_ - GWY_ * (right - W_ * dual_);
     if (has_s()) r[rows] = free_;
     Vec d = lu_.solve(r);
-    d += lu_.solve(r - K_ * d);
+    const Vec left = r - K_ * d;
+    d += lu_.solve(left);
     if (!d.allFinite()) return false;
     dy_ = d.head(rows), ds_ = has_s() ? d[rows] : 0;
     dx_ = W_ * (yields_ * (right - W_ * (dual_ - G_.transpose() * dy_)));

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -93,7 +93,7 @@ class Cones {
     for (int iteration = 0; iteration < 50; ++iteration) {
       if (solved(F)) return true;
       linearise(F);
-      const Vec step = -J_.completeOrthogonalDecomposition().solve(phi_);
+      const Vec step = -Eigen::CompleteOrthogonalDecomposition<Mat>(J_).solve(phi_);
       if (!step.allFinite()) return false;
       bool smaller = false;
       for (double part = 1; part > 1e-3 && !smaller; part /= 2) {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/LU>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -90,7 +90,8 @@ class Tableau {
 
   // From the beginning, without the round-off of the pivots.
   void renew() {
-    const Eigen::PartialPivLU<Mat> lu(first_(Eigen::all, basis_));
+    const Mat basis = first_(Eigen::all, basis_);
+    const Eigen::PartialPivLU<Mat> lu(basis);
     rows_ = lu.solve(first_);
     for (int i = 0; i < n_; ++i) rows_.col(basis_[std::size_t(i)]) = Vec::Unit(n_, i);
   }
@@ -107,9 +108,11 @@ void polish(const Mat& M, const Vec& q, Vec& z) {
   for (int i = 0; i < q.size(); ++i)
     if (z[i] > 0) active.push_back(i);
   if (active.empty()) return;
-  const Eigen::FullPivLU<Mat> lu(M(active, active));
+  const Mat M_BB = M(active, active);
+  const Vec minus_q = -q(active);
+  const Eigen::FullPivLU<Mat> lu(M_BB);
   if (!lu.isInvertible()) return;
-  const Vec refined = lu.solve(-q(active));
+  const Vec refined = lu.solve(minus_q);
   if (refined.allFinite() && refined.minCoeff() >= 0) z(active) = refined;
 }
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/QR>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -66,7 +66,8 @@ class ActiveSet {
     if (positive_.empty()) return z_.resize(0), true;
     qr_.setThreshold(1e-12);
     const Vec scale = size_(positive_).cwiseInverse();
-    qr_.compute(B_(Eigen::all, positive_) * scale.asDiagonal());
+    const Mat columns = B_(Eigen::all, positive_) * scale.asDiagonal();
+    qr_.compute(columns);
     if (qr_.rank() < Eigen::Index(positive_.size())) return false;
     z_ = scale.cwiseProduct(qr_.solve(d_));
     return z_.allFinite();

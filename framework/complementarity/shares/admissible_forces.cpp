@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -13,7 +13,7 @@ constexpr int most_iterations = 60;  // where there are such forces
 constexpr int first_iterations = 20;
 // Of lambda: what the interior point method misses where there are none.
 constexpr double none = 1e-6;
-constexpr double round_off = 1e-14;  // of lambda
+constexpr double round_off_of_lambda = 1e-14;  // of lambda
 
 class DualNewton {
  public:
@@ -33,7 +33,7 @@ class DualNewton {
 
   double solve(Vec& F, int most) {
     const double size = lambda_.norm();
-    for (int i = 0; i < most && missed_.norm() > round_off * size; ++i)
+    for (int i = 0; i < most && missed_.norm() > round_off_of_lambda * size; ++i)
       if (!step()) break;
     F = F_;
     return missed_.norm();

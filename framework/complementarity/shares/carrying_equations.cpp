@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "linear/dense/decompositions.hpp"
+
 namespace trammel::complementarity {
 namespace {
 
@@ -30,7 +32,8 @@ CarryingEquations::CarryingEquations(const std::vector<ContactPoint>& points, co
   F_lambda_ = along_rows(points, roles, carrying) * carrying.share;
   // Powers of two: scaling adds no round-off.
   scale_ = A.diagonal()(basis_).unaryExpr([](double x) { return std::exp2(-std::round(std::log2(x) / 2)); });
-  lu_.compute(scale_.asDiagonal() * (A(basis_, Eigen::all) * F_lambda_) * scale_.asDiagonal());
+  const Mat scaled = scale_.asDiagonal() * (A(basis_, Eigen::all) * F_lambda_) * scale_.asDiagonal();
+  lu_.compute(scaled);
 }
 
 Mat CarryingEquations::along_rows(const std::vector<ContactPoint>& points, const std::vector<ContactRole>& roles,
@@ -57,7 +60,8 @@ bool CarryingEquations::regular() const {
 }
 
 Vec CarryingEquations::correction(const Vec& a) const {
-  return scale_.cwiseProduct(lu_.solve(-scale_.cwiseProduct(a(basis_))));
+  const Vec right = -scale_.cwiseProduct(a(basis_));
+  return scale_.cwiseProduct(lu_.solve(right));
 }
 
 Vec CarryingEquations::forces() const {

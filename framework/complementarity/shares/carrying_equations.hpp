@@ -5,9 +5,8 @@
 // W: the unknowns along rows, and T = p N where a contact slides. F_0: friction that slides under a given normal force.
 #pragma once
 
-#include <Eigen/LU>
-
 #include "complementarity/shares/carrying_rows.hpp"
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 

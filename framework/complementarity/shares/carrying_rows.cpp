@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include <Eigen/Cholesky>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 
@@ -30,7 +30,8 @@ std::vector<std::size_t> contacts_of_rows(const std::vector<ContactPoint>& point
 
 Mat least_norm_shares(const Mat& shares) {
   const Index n = shares.cols();
-  const Mat alone = Eigen::LLT<Mat>(Mat::Identity(n, n) + shares.transpose() * shares).solve(Mat::Identity(n, n));
+  const Mat one = Mat::Identity(n, n), M = one + shares.transpose() * shares;
+  const Mat alone = Eigen::LLT<Mat>(M).solve(one);
   Mat share(n + shares.rows(), n);
   share << alone, shares * alone;
   return share;

@@ -1,20 +1,19 @@
 #include "complementarity/shares/independent_rows.hpp"
 
-#include <Eigen/QR>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 namespace {
 
-constexpr double dependent = 1e-9;  // of the longest column
+constexpr double dependent_column = 1e-9;  // of the longest column
 
 }  // namespace
 
 Mat independent_rows(const Mat& E) {
   Eigen::ColPivHouseholderQR<Mat> qr;
-  qr.setThreshold(dependent);
+  qr.setThreshold(dependent_column);
   qr.compute(E);
-  const Mat range = qr.householderQ() * Mat::Identity(E.rows(), qr.rank());
-  return range.transpose() * E;
+  return numerics::first_columns_of_q(qr, qr.rank()).transpose() * E;
 }
 
 }  // namespace trammel::complementarity

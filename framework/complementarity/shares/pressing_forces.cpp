@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Cholesky>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -63,8 +63,9 @@ class PrincipalPivoting {
   // The force j, until its contact no longer approaches. False: it grows without bound.
   bool raise(Eigen::Index j) {
     for (;;) {
-      const Eigen::LLT<Mat> factors(A_(carrying_, carrying_));
-      const Vec yields = carrying_.empty() ? Vec() : Vec(factors.solve(A_(carrying_, j)));
+      const Mat among = A_(carrying_, carrying_);
+      const Vec column = A_(carrying_, j);
+      const Vec yields = carrying_.empty() ? Vec() : Vec(Eigen::LLT<Mat>(among).solve(column));
       const double left = A_(j, j) - (carrying_.empty() ? 0.0 : A_(j, carrying_).dot(yields));
       const double approach = -(A_.row(j).dot(x_) + b_[j]);
       const double wanted = left > dependent ? approach / left : infinity;
@@ -106,7 +107,8 @@ class PrincipalPivoting {
   // The forces of those that carry, without the round-off of the way there.
   void settle() {
     if (carrying_.empty()) return;
-    const Vec exact = Eigen::LLT<Mat>(A_(carrying_, carrying_)).solve(-b_(carrying_));
+    const Mat among = A_(carrying_, carrying_);
+    const Vec right = -b_(carrying_), exact = Eigen::LLT<Mat>(among).solve(right);
     for (std::size_t k = 0; k < carrying_.size(); ++k) x_[carrying_[k]] = std::max(0.0, exact[Eigen::Index(k)]);
   }
 

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 namespace {
 
 // Squares of sines of angles: below this a row follows from others. Where A is built from rows that are right to 1e-16,
 // what is left of a dependent one is some 1e-14; contacts 1e-6 of a body's size apart leave 1e-12.
-constexpr double dependent = 1e-13;
+constexpr double least_share = 1e-13;
 constexpr double no_share = 1e-9;  // of K, rows at length one
 
 // Cholesky with diagonal pivoting, the rows of `order` only.
@@ -24,7 +24,7 @@ class PivotedCholesky {
       for (std::size_t k = 1; k < rows.size(); ++k)
         if (share(rows[k]) > share(rows[best])) best = k;
       const Eigen::Index row = rows[best];
-      if (!(share(row) > dependent)) break;
+      if (!(share(row) > least_share)) break;
       eliminate(row);
       result.basis.push_back(row);
       rows.erase(rows.begin() + std::ptrdiff_t(best));
@@ -73,7 +73,8 @@ Mat implied_by(const Mat& A, const std::vector<Eigen::Index>& basis, const std::
   const Vec scale = length(basis).cwiseInverse();
   const Mat of_basis = scale.asDiagonal() * A(basis, basis) * scale.asDiagonal();
   const Mat of_implied = scale.asDiagonal() * A(basis, implied);
-  K = (scale.asDiagonal() * Eigen::LLT<Mat>(of_basis).solve(of_implied)).transpose();
+  const Mat found = Eigen::LLT<Mat>(of_basis).solve(of_implied);
+  K = (scale.asDiagonal() * found).transpose();
   for (Eigen::Index i = 0; i < m; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
       if (std::abs(K(i, j)) * length[basis[std::size_t(j)]] <= no_share * length[implied[std::size_t(i)]]) K(i, j) = 0;

@@ -12,10 +12,9 @@
 
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include <trammel/types.hpp>
 
+#include "linear/dense/decompositions.hpp"
 #include "linear/dense/simd_columns.hpp"
 
 namespace trammel::numerics {

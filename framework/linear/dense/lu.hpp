@@ -7,10 +7,9 @@
 
 #include <vector>
 
-#include <Eigen/LU>
-
 #include <trammel/types.hpp>
 
+#include "linear/dense/decompositions.hpp"
 #include "linear/dense/simd_columns.hpp"
 
 namespace trammel::numerics {

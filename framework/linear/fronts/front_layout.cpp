@@ -8,7 +8,7 @@ namespace trammel::numerics {
 namespace {
 
 // Measured on trusses: of masts a unit a front, of hoops two.
-constexpr EliminationTree::Costs costs{.front = 400, .entry = 2};
+constexpr EliminationTree::Costs costs_of_bodies{.front = 400, .entry = 2};
 
 void make_set(std::vector<int>& x) {
   std::sort(x.begin(), x.end());
@@ -42,7 +42,7 @@ void FrontLayout::extend(const std::vector<BodyBlock>& bodies) {
   for (std::vector<int>& clique : cliques) make_set(clique);
   std::sort(cliques.begin(), cliques.end());
   cliques.erase(std::unique(cliques.begin(), cliques.end()), cliques.end());
-  tree_.build(cliques, weight, costs);
+  tree_.build(cliques, weight, costs_of_bodies);
   place(bodies, point);
 }
 

@@ -11,9 +11,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double small_pivot = 64 * std::numeric_limits<double>::epsilon();
+constexpr double small_root = 64 * std::numeric_limits<double>::epsilon();
 
-std::size_t factors_of(const FrontalPattern::Front& front) {
+std::size_t entries_of_L(const FrontalPattern::Front& front) {
   return std::size_t(front.size) * std::size_t(front.eliminated);
 }
 
@@ -43,7 +43,7 @@ void FrontalCholesky::keep(const Front& front) {
   const double* column = work_.data();
   double* to = store_.data() + stored_;
   for (Index j = 0; j < k; ++j, column += stride, to += n) std::copy(column + j, column + n, to + j);
-  stored_ += factors_of(front);
+  stored_ += entries_of_L(front);
   to = stack_.data() + top_;
   for (Index j = k; j < n; ++j, column += stride, to += n - k) std::copy(column + j, column + n, to + j - k);
   top_ += std::size_t(n - k) * std::size_t(n - k);
@@ -51,7 +51,7 @@ void FrontalCholesky::keep(const Front& front) {
 
 bool FrontalCholesky::factorise(const FrontalPattern& pattern, const Sparse& A, const Vec& largest) {
   std::size_t all = 0;
-  for (const Front& front : pattern.fronts()) all += factors_of(front);
+  for (const Front& front : pattern.fronts()) all += entries_of_L(front);
   store_.resize(Index(all));
   work_.resize(pattern.largest() * column_stride(pattern.largest()));
   stack_.resize(Index(pattern.most_waiting()));
@@ -62,7 +62,7 @@ bool FrontalCholesky::factorise(const FrontalPattern& pattern, const Sparse& A, 
     const int* const unknowns = pattern.unknowns(front);
     for (int j = 0; j < front.eliminated; ++j) {
       const double root = work_(j * column_stride(front.size) + j);
-      if (!(root * root > small_pivot * largest(unknowns[j]))) return false;
+      if (!(root * root > small_root * largest(unknowns[j]))) return false;
     }
     keep(front);
   }
@@ -83,12 +83,12 @@ void FrontalCholesky::substitute(const FrontalPattern& pattern, Vec& x) {
     y_.segment(k, n - k).noalias() = L.bottomRows(n - k) * y_.head(k);
     for (Index i = 0; i < k; ++i) x(unknowns[i]) = y_(i);
     for (Index i = k; i < n; ++i) x(unknowns[i]) -= y_(i);
-    at += factors_of(front);
+    at += entries_of_L(front);
   }
   for (auto front = fronts.rbegin(); front != fronts.rend(); ++front) {
     const Index n = front->size, k = front->eliminated;
     const int* const unknowns = pattern.unknowns(*front);
-    at -= factors_of(*front);
+    at -= entries_of_L(*front);
     const Factors L(at, n, k);
     for (Index i = 0; i < n; ++i) y_(i) = x(unknowns[i]);
     y_.head(k).noalias() -= L.bottomRows(n - k).transpose() * y_.segment(k, n - k);

@@ -49,7 +49,7 @@ void eliminate_columns(double* F, int n, int k, int* rows) {
   }
 }
 
-std::size_t factors_of(const FrontalPattern::Front& front) {
+std::size_t entries_of_L_and_U(const FrontalPattern::Front& front) {
   return std::size_t(front.eliminated) * std::size_t(2 * front.size - front.eliminated);
 }
 
@@ -99,7 +99,7 @@ bool FrontalLu::eliminate(const FrontalPattern& pattern, const Front& front, con
     if (!(std::abs(pivot) > small_pivot * largest(unknowns[j]))) return false;
   }
   double* const at = store_.data() + stored_;
-  stored_ += factors_of(front);
+  stored_ += entries_of_L_and_U(front);
   matrix(at, n, k) = F.leftCols(k);
   matrix(at + n * k, k, b) = F.topRightCorner(k, b);
   matrix(stack_.data() + top_, b, b) = F.bottomRightCorner(b, b);
@@ -109,7 +109,7 @@ bool FrontalLu::eliminate(const FrontalPattern& pattern, const Front& front, con
 
 bool FrontalLu::factorise(const FrontalPattern& pattern, const Sparse& A, const Vec& largest) {
   std::size_t all = 0;
-  for (const Front& front : pattern.fronts()) all += factors_of(front);
+  for (const Front& front : pattern.fronts()) all += entries_of_L_and_U(front);
   store_.resize(Index(all));
   work_.resize(Index(pattern.largest()) * pattern.largest());
   stack_.resize(Index(pattern.most_waiting()));
@@ -165,14 +165,14 @@ void FrontalLu::substitute(const FrontalPattern& pattern, Vec& x) {
     y_.resize(n);
     for (int i = 0; i < k; ++i) y_(i) = x(rows[i]);
     solve_lower(at, n, k, y_);
-    at += factors_of(front);
+    at += entries_of_L_and_U(front);
     for (int i = 0; i < k; ++i) x(unknowns[i]) = y_(i);
     for (int i = k; i < n; ++i) x(unknowns[i]) += y_(i);
   }
   for (auto front = pattern.fronts().rbegin(); front != pattern.fronts().rend(); ++front) {
     const int n = front->size, k = front->eliminated;
     const int* const unknowns = pattern.unknowns(*front);
-    at -= factors_of(*front);
+    at -= entries_of_L_and_U(*front);
     y_.resize(n);
     for (int i = 0; i < n; ++i) y_(i) = x(unknowns[i]);
     solve_upper(at, n, k, y_);

@@ -12,7 +12,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr EliminationTree::Costs costs{.along = 1, .front = 10000, .entry = 20};  // measured on plates
+constexpr EliminationTree::Costs costs_of_entries{.along = 1, .front = 10000, .entry = 20};  // measured on plates
 
 // Children right before their parent, depth first.
 std::vector<int> post_order(const EliminationTree& tree) {
@@ -127,7 +127,7 @@ void FrontalPattern::analyse(const Sparse& A) {
       }
   }
   EliminationTree tree;
-  tree.build(pairs, weight, costs);
+  tree.build(pairs, weight, costs_of_entries);
   lay_out(tree, members, A.rows());
   place_entries(A);
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/QR>
+#include "linear/dense/decompositions.hpp"
 
 #include "linear/fronts/row_elimination.hpp"
 

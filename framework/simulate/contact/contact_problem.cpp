@@ -2,10 +2,9 @@
 
 #include <cmath>
 
-#include <Eigen/QR>
-
 #include "complementarity/exact_modes.hpp"
 #include "complementarity/shares/carrying_equations.hpp"
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -207,7 +206,7 @@ void ContactProblem::end_slip(Vec& dv) const {
     along(slip, points_[i]) = who[i].a_t.head(points_[i].tangents);
   }
   const Mat A = delassus_(held, held);
-  const Vec impulses = A.completeOrthogonalDecomposition().solve(-slip(held));
+  const Vec lost = -slip(held), impulses = Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost);
   dv.noalias() = jump_(Eigen::all, held) * impulses;
 }
 

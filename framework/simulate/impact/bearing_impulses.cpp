@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include <Eigen/QR>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -13,7 +13,7 @@ using complementarity::LcpOutcome;
 
 constexpr int most_rounds = 60;
 // Of the largest load: what rounds may leave, some units of the round-off of a solution.
-constexpr double round_off = 1e-13;
+constexpr double settled = 1e-13;
 // Of the largest load: the step of differences, in a function that is linear piece by piece, or nearly so.
 constexpr double difference = 1e-6;
 
@@ -115,13 +115,13 @@ ContactSolution BearingImpulses::solve(ContactProblem& problem, double at_rest, 
   for (int round = 0; round < most_rounds; ++round) {
     const Vec next = follow(N);
     if (solution.outcome != LcpOutcome::solved) return solution;
-    if ((next - N).lpNorm<Eigen::Infinity>() <= round_off * next.lpNorm<Eigen::Infinity>()) return solution;
+    if ((next - N).lpNorm<Eigen::Infinity>() <= settled * next.lpNorm<Eigen::Infinity>()) return solution;
     Vec step = next - N;
     if (round >= 10) {  // Newton's
       Mat slope = Mat::Identity(n, n);
       const double d = difference * std::max(N.maxCoeff(), next.maxCoeff());
       for (Eigen::Index j = 0; j < n; ++j) slope.col(j) -= (follow(N + d * Vec::Unit(n, j)) - next) / d;
-      step = slope.fullPivLu().solve(step);
+      step = Vec(Eigen::FullPivLU<Mat>(slope).solve(step));
       if (!step.allFinite()) step = next - N;
     }
     N = (N + step).cwiseMax(0);

@@ -1,6 +1,6 @@
 #include "simulate/impact/energetic_impact.hpp"
 
-#include <Eigen/QR>
+#include "linear/dense/decompositions.hpp"
 #include "simulate/impact/spring_impact.hpp"
 
 namespace trammel::simulate {
@@ -63,7 +63,8 @@ void EnergeticImpact::let_approaches_vanish(const std::vector<TouchingContact>& 
   for (std::size_t i = 0; i < touching.size(); ++i)
     if (touching[i].without_collision) u[directions_.normal[i]] += vanishing_approach * touching[i].slip_before.norm();
   if (held.empty()) return;
-  const Vec give_back = directions_.A(held, held).completeOrthogonalDecomposition().solve(-u(held));
+  const Mat A = directions_.A(held, held);
+  const Vec lost = -u(held), give_back = Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost);
   P(held) += give_back;
   dv.noalias() += directions_.jump(Eigen::all, held) * give_back;
   u.noalias() += directions_.A(Eigen::all, held) * give_back;

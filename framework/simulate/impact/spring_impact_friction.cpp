@@ -1,9 +1,8 @@
 // Which contacts stick and slide while springs push, and the forces that hold those that stick.
+#include "linear/dense/decompositions.hpp"
 #include "simulate/impact/spring_impact.hpp"
 
 #include <cmath>
-
-#include <Eigen/QR>
 
 namespace trammel::simulate {
 
@@ -154,7 +153,8 @@ void SpringImpact::hold_sticking() {
   dependent_ = qr.rank() < Eigen::Index(sticking_.size());
   Mat others = A_(sticking_, Eigen::all);
   for (const Eigen::Index row : sticking_) others.col(row).setZero();
-  hold_ = -qr.solve(others);
+  hold_ = qr.solve(others);
+  hold_ *= -1;
 }
 
 }  // namespace trammel::simulate

@@ -13,7 +13,7 @@ namespace {
 
 // Of an explicit method, each about a radian of what is fastest, of a system of `few` coordinates at most; a step of
 // more costs more.
-constexpr double most_steps = 1e6, few = 10;
+constexpr double most_evaluations = 1e6, few = 10;
 // Of elements: their fast waves are in motion, by loads and blows, and a tolerance that sees them follows them.
 constexpr int many = 100;
 
@@ -36,7 +36,7 @@ bool decides_friction_at_every_evaluation(const model::Model& model) {
 bool exceeds_explicit_steps(const FastestMotion& fastest, const Setup& setup) {
   const double time = setup.settings.until - setup.settings.start;
   const double cost = std::max(1.0, setup.model->sizes.nv / few);
-  return fastest.rate() * time * cost > most_steps && !decides_friction_at_every_evaluation(*setup.model);
+  return fastest.rate() * time * cost > most_evaluations && !decides_friction_at_every_evaluation(*setup.model);
 }
 
 const Choice& fitting(const FastestMotion& fastest, const MassRatio& ratio, const Setup& setup) {

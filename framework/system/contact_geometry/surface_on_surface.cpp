@@ -26,7 +26,7 @@ namespace {
 
 using V3 = Eigen::Vector3d;
 using M3 = Eigen::Matrix3d;
-using Change = PointChange<Eigen::Dynamic>;
+using SurfacePointChange = PointChange<Eigen::Dynamic>;
 using Along = Eigen::Matrix<double, 2, Eigen::Dynamic>;  // dxi by some variables
 
 struct Box {
@@ -125,7 +125,7 @@ class SurfaceOnSurface final : public SurfaceContact {
       const auto m = y.J.cols();
       SurfacePoints::OnNodes F = SurfacePoints::OnNodes::Zero(3, 3 + m);  // with c_k and c_d, by x and B's coordinates
       Mat on_B = Mat::Zero(m, 3 + m);
-      Change by;
+      SurfacePointChange by;
       if (c_k != 0) {
         const Along dxi = by_position(touch, by);
         const auto dF = pressure_.change(touch.at, approach_, by);
@@ -240,7 +240,7 @@ class SurfaceOnSurface final : public SurfaceContact {
   }
 
   // Derivatives by x in the first three columns, by B's coordinates in the others; also returns dxi.
-  Along by_position(const Touch& touch, Change& by) const {
+  Along by_position(const Touch& touch, SurfacePointChange& by) const {
     const SurfaceJet& y = touch.y;
     const PressedPoint& at = touch.at;
     const V3 d = touch.x - y.r;
@@ -254,7 +254,7 @@ class SurfaceOnSurface final : public SurfaceContact {
     by.slip = du - at.n * by.rate - at.rate * by.n;
     return dxi;
   }
-  void by_velocity(const Touch& touch, Change& by) const {
+  void by_velocity(const Touch& touch, SurfacePointChange& by) const {
     const SurfacePoints::OnNodes moved = of_both(touch.y);
     by.gap.setZero(moved.cols());
     by.n.setZero(3, moved.cols());

@@ -10,7 +10,6 @@
 namespace {
 
 using namespace trammel;
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 struct Cylindrical : RowJoint {
@@ -24,7 +23,7 @@ struct Cylindrical : RowJoint {
     JointRows rows(world.space);
     rows.across(n_A).parallel(n_A, n_B);
     if (position) rows.offset(n_A, *position);
-    if (angle) rows.angle(n_A, Quaterniond::FromTwoVectors(n_B, n_A), *angle);
+    if (angle) rows.angle(n_A, smallest_rotation(n_B, n_A), *angle);
     return rows;
   }
 };

@@ -24,7 +24,6 @@
 namespace {
 
 using namespace trammel;
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 struct Revolute : RowJoint, BearingJoint {
@@ -36,7 +35,7 @@ struct Revolute : RowJoint, BearingJoint {
     const Vector3d n_A = spatial_axis(world, axis, "axis"), n_B = spatial_axis(world, axis_b, "axis_b", n_A);
     JointRows rows(world.space);
     rows.same_point().parallel(n_A, n_B);
-    if (angle) rows.angle(n_A, Quaterniond::FromTwoVectors(n_B, n_A), *angle);
+    if (angle) rows.angle(n_A, smallest_rotation(n_B, n_A), *angle);
     return rows;
   }
 
@@ -47,7 +46,7 @@ struct Revolute : RowJoint, BearingJoint {
     planar_ = world.space == Space::planar;
     n_ = spatial_axis(world, axis, "axis");
     e_A_ = n_.unitOrthogonal();
-    e_B_ = Quaterniond::FromTwoVectors(n_, spatial_axis(world, axis_b, "axis_b", n_)) * e_A_;
+    e_B_ = smallest_rotation(n_, spatial_axis(world, axis_b, "axis_b", n_)) * e_A_;
   }
 
   void check_bearings(const World&) const override {

@@ -1,0 +1,13 @@
+// The eigenvalue decompositions of decompositions.hpp.
+#include "linear/dense/decompositions.hpp"
+
+namespace Eigen {
+
+template class SelfAdjointEigenSolver<Mat>;
+template class GeneralizedSelfAdjointEigenSolver<Mat>;
+template class EigenSolver<Mat>;
+
+template SelfAdjointEigenSolver<Mat>& SelfAdjointEigenSolver<Mat>::compute(const EigenBase<Mat>&, int);
+template EigenSolver<Mat>& EigenSolver<Mat>::compute(const EigenBase<Mat>&, bool);
+
+}  // namespace Eigen
