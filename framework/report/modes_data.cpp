@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "report/csv_line.hpp"
 #include "report/json_file.hpp"
 #include "report/run_data.hpp"
 
@@ -18,16 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line)
-    if (c == ',')
-      cells.emplace_back();
-    else
-      cells.back() += c;
-  return cells;
-}
 
 // Rows "mode,body:point,x,y,x_re,y_re,x_im,y_im" of outlines; those of markers, "body.marker", are left out.
 class Shapes {
