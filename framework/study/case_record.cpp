@@ -14,7 +14,6 @@ namespace {
 
 using json = nlohmann::json;
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 struct Count {
   const char* name;

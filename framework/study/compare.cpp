@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "report/csv_line.hpp"
 #include "simulate/results/results_folder.hpp"
 
 namespace trammel::study {
@@ -47,13 +48,6 @@ void note(Difference& d, const std::string& where, const std::string& a, const s
   if (shared && d.least) d.least = std::min(*d.least, *shared);
 }
 
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> all;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) all.push_back(cell);
-  return all;
-}
-
 Difference compare_tables(std::istream& a, std::istream& b) {
   Difference d;
   std::string line_a, line_b;
@@ -61,13 +55,13 @@ Difference compare_tables(std::istream& a, std::istream& b) {
   for (std::size_t row = 0;; ++row) {
     const bool more_a = bool(std::getline(a, line_a)), more_b = bool(std::getline(b, line_b));
     if (!more_a && !more_b) return d;
-    if (row == 0) header = cells(line_a);
+    if (row == 0) header = report::cells_of(line_a);
     if (more_a != more_b) {
       note(d, fmt::format("row {}", row), more_a ? "a row" : "no row", more_b ? "a row" : "no row");
       return d;
     }
     if (line_a == line_b) continue;
-    const std::vector<std::string> x = cells(line_a), y = cells(line_b);
+    const std::vector<std::string> x = report::cells_of(line_a), y = report::cells_of(line_b);
     for (std::size_t k = 0; k < std::max(x.size(), y.size()); ++k) {
       const std::string in_a = k < x.size() ? x[k] : "", in_b = k < y.size() ? y[k] : "";
       if (in_a == in_b) continue;

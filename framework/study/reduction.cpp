@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "report/csv_line.hpp"
 #include "model/scene_keys.hpp"
 #include "scene/files.hpp"
 #include "scene/suggestion.hpp"
@@ -22,7 +23,6 @@ using scene::Value;
 using As = Reduction::As;
 using Direction = Reduction::Direction;
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 const std::vector<std::pair<std::string, As>> ways = {
     {"final", As::final},     {"initial", As::initial}, {"max", As::max}, {"min", As::min},
@@ -43,20 +43,13 @@ std::optional<T> choice(const Value& value, const std::vector<std::pair<std::str
   return std::nullopt;
 }
 
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> all;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) all.push_back(cell);
-  return all;
-}
-
 void read_table(const Value& value, const std::string& file, const std::string& column, Reference& reference,
                 Problems& problems) {
   const auto path = std::filesystem::path(value.position().file).parent_path() / file;
   std::istringstream in(scene::read_named_file(path.string()));
   std::string line;
   std::getline(in, line);
-  const std::vector<std::string> header = cells(line);
+  const std::vector<std::string> header = report::cells_of(line);
   const auto found = std::find(header.begin(), header.end(), column);
   if (found == header.end() || header.front() != "t")
     return problems.error(value.problem(
@@ -65,7 +58,7 @@ void read_table(const Value& value, const std::string& file, const std::string& 
             : fmt::format("{} has no column \"{}\"{}", file, column, scene::did_you_mean(column, header))));
   const std::size_t at = std::size_t(found - header.begin());
   while (std::getline(in, line)) {
-    const std::vector<std::string> row = cells(line);
+    const std::vector<std::string> row = report::cells_of(line);
     if (row.size() <= at) continue;
     reference.t.push_back(std::strtod(row[0].c_str(), nullptr));
     reference.x.push_back(std::strtod(row[at].c_str(), nullptr));

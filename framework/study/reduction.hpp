@@ -8,6 +8,7 @@
 //                           between records; NaN: never
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@
 #include "study/series.hpp"
 
 namespace trammel::study {
+
+// A value that a run does not have.
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 struct Reference {
   double constant = 0;

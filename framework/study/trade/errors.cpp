@@ -7,8 +7,6 @@
 namespace trammel::study {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // By what the scene writes: contacts.tip.force, joints.pin.reaction, beam.tip.ay.
 bool is_multiplier(const scene::Scene& scene, const std::string& name) {
   const scene::Value* what = scene.root().at_path("record.observe");

@@ -6,6 +6,7 @@
 // method finds with other digits than positions, have their own maximum.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@
 #include "study/case_run.hpp"
 
 namespace trammel::study {
+
+// The error of a run that did not get to its end.
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Error {
   double max = 0, rms = 0;  // of positions, velocities, energies

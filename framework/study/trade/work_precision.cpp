@@ -9,7 +9,6 @@ namespace {
 
 constexpr int most_runs = 6;  // of one method
 constexpr double dear = 3;    // times the cheapest so far
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Of log10 of the error a level: a tolerance falls by 10^0.5, and so does an error that is proportional to it; a step
 // is halved.
