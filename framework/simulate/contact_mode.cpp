@@ -54,15 +54,18 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   find_candidates(changes);
   auto solution =
       changes.locked ? complementarity::ContactSolution{LcpOutcome::no_solution, 0} : decide(state, changes, jumped);
-  // A force that changes its sign at Painleve's critical state does so by way of infinity: without it the contact would
-  // approach.
+  // Where contacts slide a force may change its sign by way of infinity (Painleve's critical state): without it the
+  // contact would approach. Elsewhere it passes 0, and so does the acceleration without it: its sign is round-off.
   const auto approaches_without_force = [&](int contact) {
+    const double scene = 1e12 * scale_.of(contact).no_acceleration();
     return !modes_.contacts[contact].closed &&
-           system_.acceleration({contact, 0}, a_) <
-               -opened_by_error * std::max(largest_, scale_.of(contact).no_acceleration());
+           system_.acceleration({contact, 0}, a_) < -opened_by_error * std::max(largest_, scene);
   };
   const bool slides = std::any_of(problem_.who.begin(), problem_.who.end(),
-                                  [](const Participant& p) { return p.tangent == Participant::Tangent::sliding; });
+                                  [](const Participant& p) { return p.tangent == Participant::Tangent::sliding; }) ||
+                      std::any_of(changes.released.begin(), changes.released.end(), [this](int contact) {
+                        return before_.contacts[contact].friction == Friction::slide;
+                      });
   if (solution.outcome == LcpOutcome::solved && !changes.released.empty() && slides) {
     system_.set_modes(modes_);
     system_.move_to(state.t, state.q, state.v);

@@ -3,18 +3,17 @@
 //
 // Rules for set-valued contacts (Restitution), at an event at time t:
 //  1. Impact of every contact that touches and closes, with all that touch or are closed (impact_laws.hpp).
-//  2. Capture: slower than capture_speed, e = 0. Also a rebound with e < 1 that the steps in contact cannot follow:
-//  with fixed
-//     ones whose flight 2 u+/|gap acceleration| would last fewer than chatter_steps of them; with controlled ones that
-//     would
-//     rise less than chatter_steps times the error they may make in a position. The impact is solved again with e = 0
-//     for it.
-//     Each repetition lowers the number of contacts with e > 0, so this ends. Contacts that open because others struck,
-//     and
-//     too little to follow (a block that rocks to rest, discs of a pile that knock against each other: impacts without
-//     end in
-//     a finite time), keep no rate: v is projected onto the motions in which they and all others without a rate have
-//     none.
+//  2. Capture (chatter.cpp): slower than capture_speed, e = 0. Also a rebound with e < 1 that the steps in contact
+//     cannot follow: with fixed ones whose flight 2 u+/|gap acceleration| would last fewer than chatter_steps of them;
+//     with controlled ones that would rise less than chatter_steps times the error they may make in a position. The
+//     impact is solved again with e = 0 for it. Each repetition lowers the number of contacts with e > 0, so this ends.
+//     Contacts that open because others struck, and too little to follow (a block that rocks to rest, discs of a pile
+//     that knock against each other: impacts without end in a finite time), keep no rate. Nor do contacts that stuck
+//     keep a slip that the impact gave them, if their friction ends it within a way as short: an impact decides by its
+//     impulses alone, and where these are small beside the loads times any time that steps resolve, the loads decide.
+//     Which these are, the problem of rule 3 tells, with all of them at rest. v is then projected onto the motions in
+//     which they and all others without a rate have none: the least change, so it takes energy, which is told with the
+//     impact.
 //  3. Contacts that then touch without rate are candidates. They close where the forces of the complementarity problem
 //         A = A_free + D N,   0 <= N complementary to A >= 0      (A gap accelerations, N normal forces)
 //     push; where the gap accelerates apart they stay open ("lift").
