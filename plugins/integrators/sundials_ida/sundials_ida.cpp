@@ -121,7 +121,17 @@ class SundialsIda final : public Integrator, public DenseOutput {
     failed_ = nullptr, refused_ = "";
     asleep_ = false;
     given_.clear(), tape_.clear();
-    if (now.v.size() > 0) solver_->restart(s, now);
+    if (now.v.size() > 0) start(s, State(now));
+  }
+
+  // A state that is off the rows, as after an impact at the end of a step, has no solution beside it.
+  void start(System& s, State now) {
+    solver_->equations().restart(s);
+    const State given = now;
+    if (!solver_->equations().project(s, now.t, now.q, now.v)) now = given;
+    s.move_to(now.t, now.q, now.v);
+    s.accelerate({}, now.a, now.lambda);
+    solver_->restart(s, now);
   }
 
   static Outcome stand_still(System& s, const State& now, State& next) {
