@@ -5,7 +5,7 @@
 #include "model/model.hpp"
 #include "run/settings.hpp"
 #include "scene/value.hpp"
-#include "trammel/correction.hpp"
+#include <trammel/correction.hpp>
 
 namespace trammel::compatibility {
 

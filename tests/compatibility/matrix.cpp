@@ -21,23 +21,11 @@ const compatibility::Matrix& matrix() {
   return all;
 }
 
-// Every form, whether its abilities differ from the default's or not.
-const std::vector<IntegratorForm>& every_integrator() {
-  static const std::vector<IntegratorForm> all = [] {
-    std::vector<IntegratorForm> some;
-    for (const plugin::Entry* one : registry().all()) {
-      if (one->declaration.kind != Kind::integrator || one->declaration.name == "limited" ||
-          one->declaration.name == "free_euler")
-        continue;
-      for (const Form& form : compatibility::forms(*one)) {
-        IntegratorForm next{form, {}};
-        for (const Need need : compatibility::every_need)
-          if (compatibility::takes(dynamic_cast<const Integrator&>(*form.component), need)) next.takes.push_back(need);
-        some.push_back(next);
-      }
-    }
-    return some;
-  }();
+// Those of tests among them are no methods for a scene.
+std::vector<IntegratorForm> methods() {
+  std::vector<IntegratorForm> all;
+  for (const IntegratorForm& one : matrix().integrators)
+    if (one.form.type != "limited" && one.form.type != "free_euler") all.push_back(one);
   return all;
 }
 
@@ -76,24 +64,30 @@ double total(const json& energy) {
   return energy.at("kinetic").get<double>() + energy.at("potential").get<double>() + energy.at("elastic").get<double>();
 }
 
-// Rows: to the tolerance of iterations, or to Baumgarte's balance of violations after 20 steps of 1 ms.
-void expect_physics(const json& all, const std::string& what) {
+// How far rows may be off. Methods that hold them do so to 1e-10 or better; Baumgarte's terms and the velocities of
+// index 3 ripple by what a step of 1 ms leaves. An impact at the end of the step is late by a step of 5 cm/s.
+struct Off {
+  double position = 1e-6, velocity = 1e-3;
+};
+constexpr Off a_step_late{1e-4, 0.1};
+
+void expect_physics(const json& all, const std::string& what, const Off& off = {}) {
   SCOPED_TRACE(what);
   const Finished run = run_text(all.dump());
-  ASSERT_TRUE(run.done()) << run.report.reason << "\n" << all.dump(1);
-  EXPECT_LE(run.result["constraint_maxima"]["position"].get<double>(), 1e-6);
-  EXPECT_LE(run.result["constraint_maxima"]["velocity"].get<double>(), 1e-4);
+  ASSERT_TRUE(run.done()) << run.report.reason << "\n" << all.dump();
+  EXPECT_LE(run.result["constraint_maxima"]["position"].get<double>(), off.position);
+  EXPECT_LE(run.result["constraint_maxima"]["velocity"].get<double>(), off.velocity);
   // Of the falling kilogram 0.2 mJ, of the pendulum 100 J. What methods of order 2 change in 20 steps is a thousandth.
-  const double from = total(run.result["energy_start"]), to = total(run.result["energy_end"]);
+  const double from = run.result["energy_start"], to = total(run.result["energy_end"]);
   const double supplied = run.result["energy_supplied"]["total"].get<double>();
   const double moved =
-      std::abs(from) + std::abs(to) + std::abs(supplied) + run.result["energy_start"]["kinetic"].get<double>();
+      std::abs(from) + std::abs(to) + std::abs(supplied) + run.result["energy_end"]["kinetic"].get<double>();
   EXPECT_LE(to - from - supplied, 1e-3 * moved + 1e-9);
   EXPECT_TRUE(std::isfinite(to));
 }
 
 TEST(Matrix, EveryIntegratorRunsWhatItTakesAndIsRefusedWhatItDoesNot) {
-  for (const IntegratorForm& method : every_integrator())
+  for (const IntegratorForm& method : methods())
     for (const Need need : compatibility::every_need) {
       const json step = need == Need::error_estimate ? json{{"tolerance", 1e-5}} : json(1e-3);
       const json all = with_integrator(with_need(need), method.form, step);
@@ -110,12 +104,11 @@ TEST(Matrix, EveryPairOfLawsRunsWithEveryIntegratorThatTakesItsNeeds) {
     const json all = with_laws(laws);
     const std::string pair = (laws.contact ? laws.contact->name() : "a joint") + " and " +
                              (laws.friction ? laws.friction->name() : "no friction");
-    for (const IntegratorForm& method : matrix().integrators) {
-      if (method.form.type == "limited" || method.form.type == "free_euler") continue;
+    for (const IntegratorForm& method : methods()) {
       const json run = with_integrator(all, method.form);
       const std::string what = pair + " with " + method.form.name();
       if (laws.why_not.empty() && takes_all(method, laws.needs))
-        expect_physics(run, what);
+        expect_physics(run, what, laws.fixed_steps ? a_step_late : Off{});
       else
         EXPECT_NE(refusal_of(run), "") << what;
     }
@@ -176,7 +169,7 @@ TEST(Matrix, EveryCorrectionRunsWithEveryIntegratorOnItsLevelsAndIsRefusedOnOthe
     for (const auto level : {Correction::Level::position, Correction::Level::velocity, Correction::Level::energy}) {
       const bool corrects =
           std::find(correction.levels.begin(), correction.levels.end(), level) != correction.levels.end();
-      for (const IntegratorForm& method : every_integrator()) {
+      for (const IntegratorForm& method : methods()) {
         json all = with_integrator(pendulum(), method.form);
         all["corrections"][compatibility::to_string(level)] = entry(correction.form);
         if (corrects)
@@ -192,9 +185,9 @@ TEST(Matrix, EveryBodyRunsWithEveryIntegratorThatTakesItsNeeds) {
     if (body.type == "refining_bar") continue;  // of another test
     const json all = with_body(body.type);
     ASSERT_FALSE(all.is_null()) << body.type << " has no scene in small_scenes.hpp";
-    for (const IntegratorForm& method : every_integrator())
+    for (const IntegratorForm& method : methods())
       if ((!body.rows || takes(method, Need::rows)) && (!body.rotations || takes(method, Need::rotations)))
-        expect_physics(with_integrator(all, method.form), body.type + " with " + method.form.name());
+        expect_physics(with_integrator(all, method.form, step_of(all)), body.type + " with " + method.form.name());
   }
 }
 
@@ -203,7 +196,7 @@ TEST(Matrix, TellsBodiesWithoutMomentumFromThoseThatACorrectionNeeds) {
     for (const compatibility::CorrectionForm& correction : matrix().corrections) {
       if (!correction.needs_momentum || body.type == "refining_bar" || body.type == "moving_base") continue;
       json all = with_body(body.type);
-      all["integrator"] = {{"type", "runge_kutta_4"}, {"step", 1e-5}};
+      all["integrator"] = {{"type", "runge_kutta_4"}, {"step", step_of(all)}};
       all["corrections"]["energy"] = entry(correction.form);
       EXPECT_EQ(refusal_of(all) == "", body.momentum) << body.type;
     }

@@ -33,6 +33,7 @@ struct Limit {
   const char* ability;
   Need need;
   const char *noun, *cause;
+  friend void PrintTo(const Limit& limit, std::ostream* out) { *out << limit.ability; }
 };
 class IntegratorThatIsLimited : public testing::TestWithParam<Limit> {};
 
@@ -48,7 +49,7 @@ TEST_P(IntegratorThatIsLimited, IsRefusedWithTheCauseAndThoseThatTakeIt) {
 INSTANTIATE_TEST_SUITE_P(
     All, IntegratorThatIsLimited,
     testing::Values(Limit{"rows", Need::rows, "rows", "joints.j has rows"},
-                    Limit{"redundant_rows", Need::redundant_rows, "redundant rows", "joints.again"},
+                    Limit{"redundant_rows", Need::redundant_rows, "redundant rows", "joints.repeats: rows 1, 2 of 2"},
                     Limit{"friction", Need::friction, "friction that sticks", "the friction of joints.j sticks"},
                     Limit{"jumps", Need::jumps, "forces that jump", "contacts.c is decided at every evaluation"},
                     Limit{"rotations", Need::rotations, "rotations in space", "bodies.b turns in space"},

@@ -13,8 +13,8 @@
 //     [S W^T; G 0] (xi, dlambda/c^2) = (b_2 + (c M + D) z, b_5)/(c^2, 1),   S = M + D/c + K/c^2,   z = c xi_b - dpi
 //     dv = c (xi - xi_b) + dpi
 //
-// In the first iteration b_1 is large, so xi_b needs d(G v)/dq, D and dN/dq, which are taken as differences. Of the rest
-// of xi they are left out where that is of the order h |v|/length of what is kept.
+// In the first iteration b_1 is large, so xi_b needs d(G v)/dq, D and dN/dq, which are taken as differences. Of the
+// rest of xi they are left out where that is of the order h |v|/length of what is kept.
 #pragma once
 
 #include <trammel/integrator.hpp>

@@ -1,7 +1,6 @@
 #include "solver.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <new>
 
 #include <ida/ida.h>
@@ -52,21 +51,6 @@ struct Solver::Library {
   SUNLinearSolver factors = nullptr;
 
   ~Library() {
-    if (memory) {
-      long a = 0, b = 0, c = 0, d = 0, e = 0, f = 0;
-      int k = 0;
-      double h = 0;
-      IDAGetNumSteps(memory, &a);
-      IDAGetNumErrTestFails(memory, &b);
-      IDAGetNumNonlinSolvConvFails(memory, &c);
-      IDAGetNumNonlinSolvIters(memory, &d);
-      IDAGetNumLinSolvSetups(memory, &e);
-      IDAGetNumResEvals(memory, &f);
-      IDAGetLastOrder(memory, &k);
-      IDAGetLastStep(memory, &h);
-      fprintf(stderr, "IDA steps %ld errfails %ld convfails %ld iters %ld setups %ld res %ld order %d h %g\n", a, b, c,
-              d, e, f, k, h);
-    }
     if (memory) IDAFree(&memory);
     if (factors) SUNLinSolFreeEmpty(factors);
     if (matrix) SUNMatFreeEmpty(matrix);

@@ -2,9 +2,9 @@
 // (equations.hpp). IDA takes its own steps, to its own tolerances; a step of the Simulator reads the solution.
 //
 // IDA integrates ahead, one internal step after another, until the end of a trial is passed. Its steps do not depend on
-// where trials end, and its memory cannot be copied; the tape keeps the polynomial of every internal step since the last
-// accepted state. A trial within the tape is answered by it, so trials leave no trace, bit for bit. The result is moved
-// onto the rows, and a and lambda are solved for there; neither flows back into IDA.
+// where trials end, and its memory cannot be copied; the tape keeps the polynomial of every internal step since the
+// last accepted state. A trial within the tape is answered by it, so trials leave no trace, bit for bit. The result is
+// moved onto the rows, and a and lambda are solved for there; neither flows back into IDA.
 //
 //     accept     the tape before the step is forgotten. A state that no trial has given (a correction changed it)
 //                restarts IDA there
@@ -32,8 +32,8 @@ namespace {
 
 using namespace trammel;
 
-// Before IDA begins anew: bounds what a resumed run repeats. A beginning costs some twenty internal steps, so this costs
-// half a per cent.
+// Before IDA begins anew: bounds what a resumed run repeats. A beginning costs some twenty internal steps, so this
+// costs half a per cent.
 constexpr long long most_internal_steps = 4096;
 
 // Tells states apart bit for bit.
@@ -121,7 +121,17 @@ class SundialsIda final : public Integrator, public DenseOutput {
     failed_ = nullptr, refused_ = "";
     asleep_ = false;
     given_.clear(), tape_.clear();
-    if (now.v.size() > 0) solver_->restart(s, now);
+    if (now.v.size() > 0) start(s, State(now));
+  }
+
+  // A state that is off the rows, as after an impact at the end of a step, has no solution beside it.
+  void start(System& s, State now) {
+    solver_->equations().restart(s);
+    const State given = now;
+    if (!solver_->equations().project(s, now.t, now.q, now.v)) now = given;
+    s.move_to(now.t, now.q, now.v);
+    s.accelerate({}, now.a, now.lambda);
+    solver_->restart(s, now);
   }
 
   static Outcome stand_still(System& s, const State& now, State& next) {
