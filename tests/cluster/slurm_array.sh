@@ -60,7 +60,7 @@ for _ in $(seq 200); do sinfo -h -o %t 2> /dev/null | grep -q idle && break; sle
 sinfo -h -o %t | grep -q idle || skip "the node of Slurm does not come up"
 
 cat > "$folder/study.json" <<S
-{"study": 1, "scene": "$source/scenes/tour/01_pendulum.json", "set": {"simulate.until": 40},
+{"study": 1, "scene": "$source/scenes/tour/01_pendulum.json", "set": {"simulate.until": 60},
  "vary": {"parameters.L": {"from": 0.1, "to": 2, "count": 20, "scale": "log"}, "parameters.m": {"from": 1, "to": 2, "count": 10}},
  "reduce": {"low": {"observe": "tip_y", "as": "min"}, "down": {"observe": "tip_x", "as": "first_crossing", "direction": "down"}}}
 S
@@ -70,17 +70,19 @@ export TRAMMEL=$program
 job=$(sbatch --parsable --array=1-8 --output="$folder/log/%a.txt" "$source/tools/study.sbatch" "$folder/study.json" "$folder") ||
   fail "sbatch refuses the array"
 # Two tasks get SIGTERM, as at their time limit, and are queued again; a worker of a third one is killed at once.
+# A requeued task waits two minutes: Slurm's own rule.
 terminated= killed=0
-for _ in $(seq 1200); do
+for round in $(seq 6000); do
   for task in 1 4; do
-    if [[ $terminated != *$task* ]] && [ "$(wc -l < "shard_$task/cases.ndjson" 2> /dev/null || echo 0)" -ge 3 ]; then
-      scancel --signal=TERM --full "${job}_$task" && terminated+=$task
+    if [[ $terminated != *$task* ]] && [ -s "shard_$task/cases.ndjson" ]; then
+      terminated+=$task
+      scancel --signal=TERM --batch "${job}_$task" || fail "task $task ended before it could be terminated"
     fi
   done
-  if [ $killed -eq 0 ] && [ "$(wc -l < shard_6/cases.ndjson 2> /dev/null || echo 0)" -ge 3 ]; then
+  if [ $killed -eq 0 ] && [ -s shard_6/cases.ndjson ]; then
     worker=$(pgrep -f -n "^$program study .*--shard 6/8") && kill -KILL "$worker" && killed=1
   fi
-  [ -z "$(squeue -h -j "$job" 2> /dev/null)" ] && break
+  [ $((round % 20)) -eq 0 ] && [ -z "$(squeue -h -j "$job" 2> /dev/null)" ] && break
   sleep 0.05
 done
 [ -z "$(squeue -h -j "$job" 2> /dev/null)" ] || fail "the array does not end"
