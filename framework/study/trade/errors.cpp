@@ -7,6 +7,9 @@
 namespace trammel::study {
 namespace {
 
+// Varies by less of its size: a constant of the motion. Smaller than that part of the largest observable: round-off of 0.
+constexpr double constant = 1e-6, nothing = 1e-8;
+
 // By what the scene writes: contacts.tip.force, joints.pin.reaction, beam.tip.ay.
 bool is_multiplier(const scene::Scene& scene, const std::string& name) {
   const scene::Value* what = scene.root().at_path("record.observe");
@@ -40,10 +43,12 @@ Measure::Measure(const CaseResult& reference, const std::vector<std::string>& ob
     double range = 0, most = 0;
     for (std::size_t i = 0; i < s.rows(); ++i)
       range = std::max(range, std::abs(s.at(i, k) - s.at(0, k))), most = std::max(most, std::abs(s.at(i, k)));
-    scales_.push_back(range > 1e-12 * most ? range : most > 0 ? most : 1);
+    scales_.push_back(range > constant * most ? range : most > 0 ? most : 1);
     if (!observed.empty() && std::find(observed.begin(), observed.end(), s.names[k]) == observed.end()) continue;
     (is_multiplier(scene, s.names[k]) ? multipliers_ : columns_).push_back(k);
   }
+  const double largest = *std::max_element(scales_.begin(), scales_.end());
+  for (double& scale : scales_) scale = std::max(scale, nothing * largest);
   if (columns_.empty()) columns_ = multipliers_;  // nothing else is asked for
 }
 

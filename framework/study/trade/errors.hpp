@@ -1,6 +1,7 @@
 // Errors of observables against a reference, at the times of the records.
 //
-// Each observable is divided by its scale, the largest |x - x(start)| of the reference, or |x| if that is 0. Records
+// Each observable is divided by its scale, the largest |x - x(start)| of the reference, or |x| if x varies by less than
+// a millionth of that, and at least 1e-8 of the largest scale: what should be 0 is not judged by its round-off. Records
 // that lie within a hundredth of their distance from an impact do not count: a velocity jumps there, and on which side
 // of the jump a record falls says nothing of the error. Multipliers (contact forces, reactions, accelerations), which a
 // method finds with other digits than positions, have their own maximum.

@@ -25,7 +25,16 @@ class ReferenceSearch {
     begin();
     if (!choose(why)) return std::nullopt;
     tighten();
-    return judged();
+    TradeReference found = judged();
+    constexpr int fewest = 5;
+    const Series& s = found.first.result.series;
+    const auto compared = std::count_if(s.t.begin(), s.t.end(), [&](double t) { return t <= found.trusted_until; });
+    if (compared >= std::min<long>(fewest, long(s.rows()))) return found;
+    why = fmt::format(
+        "{} (tolerance {:.2g}) and {} (tolerance {:.2g}) agree within a tenth of the target until t = {:.6g} s only",
+        found.first.method.name, found.first.tolerance, found.second.method.name, found.second.tolerance,
+        found.trusted_until);
+    return std::nullopt;
   }
 
  private:
@@ -85,7 +94,7 @@ class ReferenceSearch {
 
   void tighten() {
     TradeReference best = compared();
-    while (first_->tolerance > tightest && best.disagreement > 0.001 * target_) {
+    while (first_->tolerance > tightest && (best.chaotic || best.disagreement > 0.001 * target_)) {
       const double tolerance = std::max(tightest, first_->tolerance * tighter);
       // Cost grows with the tolerance to the power -1/(order + 1).
       const auto more = [&](const ReferenceRun& r) {

@@ -82,11 +82,12 @@ class Trade {
     }
   }
 
+  // Never below the references' floor.
   double claimed(const CaseResult& result, const Measure& measure) const {
     const TradeReference& r = *content_.reference;
-    return std::max(measure.error(result.series, r.trusted_until).max,
-                    measure.error(result.series, r.second.result.series, r.trusted_until).max) +
-           r.disagreement;
+    const double measured = std::max(measure.error(result.series, r.trusted_until).max,
+                                     measure.error(result.series, r.second.result.series, r.trusted_until).max);
+    return std::max(measured + r.disagreement, r.floor());
   }
 
   void judge(const Method& method, int level, const CaseResult& result, const Measure& measure) {
