@@ -30,8 +30,8 @@ nlohmann::ordered_json result_head(const scene::Scene& scene, const Setup& setup
 nlohmann::ordered_json to_json(const Energy& energy);
 // The columns of series.csv and events.csv: {"series": [{"name", "unit", "meaning", "path"}, ...], "events": [...]}.
 nlohmann::ordered_json columns_json(const Setup& setup, Recorder::Books books);
-// What does not move, for the report (animation_line.hpp); empty if a component has no answer at the state that a run has
-// failed at.
+// What does not move, for the report (animation_line.hpp); empty if a component has no answer at the state at which a
+// run has failed.
 nlohmann::ordered_json drawing_json(model::AssembledSystem& system, const State& state);
 std::string title_of(const scene::Scene& scene);  // its file, if it has none
 

@@ -1,5 +1,5 @@
-// animation.ndjson for a report: some of its lines, as many as fit, with places as 16-bit numbers in the box that contains
-// them all (a step of it is 1/65535 of its longest side).
+// animation.ndjson for a report: some of its lines, as many as fit, with places as 16-bit numbers in the box that
+// contains them all (a step is 1/65535 of its longest side).
 //
 //     {"frames": n, "total": lines of the file, "stride": lines from one frame to the next, "dimension": 2 or 3,
 //      "times": f64, "low": [x, y, z], "step": metres per unit,

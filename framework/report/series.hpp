@@ -1,5 +1,6 @@
-// series.csv for a report. A long one is reduced: each interval of rows becomes two, with the least and the largest value
-// of every column in the order in which they come. So no extreme is lost, and a plot looks as it would with all rows.
+// series.csv for a report. A long one is reduced: each interval of rows becomes two, with the least and the largest
+// value of every column in the order in which they come. So no extreme is lost, and a plot looks as it would with all
+// rows.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +16,8 @@ struct Series {
   long long interval = 1;                    // rows that became two; 1: all rows are here
 };
 
-// At most `most_numbers` values, or a few rows. Throws std::runtime_error naming file and line for a row that is no row of
-// numbers. A last line without its end, of a run that was killed, is left out.
+// At most `most_numbers` values, or a few rows. Throws std::runtime_error naming file and line for a row that is no row
+// of numbers. A last line without its end, of a run that was killed, is left out.
 Series read_series(const std::filesystem::path& file, std::size_t most_numbers);
 
 }  // namespace trammel::report

@@ -1,4 +1,5 @@
-// Progress where people wait, on standard error: a bar on a terminal, drawn anew at each call; elsewhere a line a minute.
+// Progress where people wait, on standard error: a bar on a terminal, drawn anew at each call; elsewhere a line a
+// minute.
 #pragma once
 
 #include <chrono>

@@ -21,7 +21,7 @@ struct FaceMesh {
   std::vector<Quad> quads;
 };
 
-// Ability of a body; called at the times of the records. A body with faces is Drawn, too: where only lines can be shown.
+// Ability of a body; called at the times of the records. A body with faces is Drawn, too, for pictures of lines only.
 class HasFaces {
  public:
   virtual ~HasFaces();

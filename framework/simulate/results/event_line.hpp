@@ -2,8 +2,8 @@
 //
 //     t,kind,component,impulse,approach,separation,energy_lost,friction,direction
 //
-// In space friction_x, friction_y, friction_z and direction_x, ... follow: vectors of contacts in world axes (friction and
-// direction without axis are those of joints, along their one free motion). Scenes with a body that can refine have
+// In space friction_x, friction_y, friction_z and direction_x, ... follow: vectors of contacts in world axes (friction
+// and direction without axis are those of joints, along their one free motion). Scenes with a body that can refine have
 // cause and coordinates, energies, mass and momenta before and after it.
 #pragma once
 

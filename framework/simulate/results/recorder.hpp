@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "simulate/results/animation_line.hpp"
+#include "simulate/pictures/animation_line.hpp"
 #include "simulate/results/event_line.hpp"
-#include "simulate/results/field_line.hpp"
+#include "simulate/pictures/field_line.hpp"
 #include "simulate/results/log_file.hpp"
 #include "simulate/results/observable.hpp"
 #include "simulate/results/record_sink.hpp"

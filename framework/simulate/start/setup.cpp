@@ -10,7 +10,7 @@
 #include "plugin/describe.hpp"
 #include "plugin/parameters.hpp"
 #include "simulate/contact/contact_reach.hpp"
-#include "simulate/results/field_line.hpp"
+#include "simulate/pictures/field_line.hpp"
 #include "simulate/start/blame.hpp"
 #include "simulate/start/crash_witness.hpp"
 #include "simulate/start/initial_state.hpp"

@@ -1,4 +1,4 @@
-#include "simulate/results/animation_line.hpp"
+#include "simulate/pictures/animation_line.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "simulate/results/field_line.hpp"
+#include "simulate/pictures/field_line.hpp"
 
 #include <iterator>
 
