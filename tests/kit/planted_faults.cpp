@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"kit_components.so", "good_masses"}, std::pair{"kit_components.so", "good_distance"},
                     std::pair{"kit_components.so", "good_spring"}, std::pair{"kit_components.so", "good_hertz"},
                     std::pair{"kit_components.so", "good_smooth"}, std::pair{"kit_components.so", "good_projection"}),
-    [](const auto& info) { return std::string(info.param.second); });
+    [](const auto& tested) { return std::string(tested.param.second); });
 
 }  // namespace
 }  // namespace kit_test

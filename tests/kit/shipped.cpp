@@ -20,7 +20,7 @@ TEST_P(Shipped, PassesItsKit) {
   const auto json = check(installed + GetParam() + ".so", {}, 0);
   EXPECT_EQ(faults(json), "");
 }
-INSTANTIATE_TEST_SUITE_P(All, Shipped, testing::ValuesIn(libraries()), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(All, Shipped, testing::ValuesIn(libraries()), [](const auto& tested) { return tested.param; });
 
 class Template : public testing::TestWithParam<std::string> {};
 TEST_P(Template, PassesItsKitAsItIs) {
@@ -29,7 +29,7 @@ TEST_P(Template, PassesItsKitAsItIs) {
 }
 INSTANTIATE_TEST_SUITE_P(All, Template,
                          testing::Values("integrator", "body", "joint", "force", "contact", "friction", "correction"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& tested) { return tested.param; });
 
 }  // namespace
 }  // namespace kit_test

@@ -127,7 +127,8 @@ template <ForceFault fault>
 struct Spring final : Force {
   void wrench(double, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
     const auto n = A.x.size();
-    Vec3 F = 10 * (B.x - A.x) + (fault == ForceFault::damper_supplies ? -1 : 1) * (B.V.head(n) - A.V.head(n));
+    const Vec3 d = B.x - A.x;
+    Vec3 F = (10 + (fault == ForceFault::damper_supplies ? -1 : 1) * rate(A, B) / d.norm()) * d;
     if (fault == ForceFault::knows_north) F(0) *= 2;
     if (fault == ForceFault::has_a_kink) F(1) += 3 * std::abs(B.x(1) - 0.5);
     on_A.head(n) += F * (fault == ForceFault::pushes_itself ? 0.9 : 1);
@@ -137,9 +138,14 @@ struct Spring final : Force {
     return (fault == ForceFault::potential_lies ? 4.9 : 5) * (B.x - A.x).squaredNorm();
   }
   Power power(double, const Motion& A, const Motion& B) const override {
-    const auto n = A.x.size();
-    const double rate = (B.V.head(n) - A.V.head(n)).squaredNorm();
-    return {.dissipated = fault == ForceFault::damper_supplies ? -rate : rate};
+    const double power = std::pow(rate(A, B), 2);
+    return {.dissipated = fault == ForceFault::damper_supplies ? -power : power};
+  }
+
+ private:
+  static double rate(const Motion& A, const Motion& B) {
+    const Vec3 d = B.x - A.x, u = B.V.head(d.size()) - A.V.head(d.size());
+    return d.dot(u) / d.norm();
   }
 };
 
