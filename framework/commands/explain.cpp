@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "commands/simulation.hpp"
 #include "diagnose/redundancy.hpp"
 #include "plugin/breadcrumb.hpp"
 #include "run/run_failed.hpp"
@@ -45,15 +46,15 @@ std::string step_text(const StepChoice& choice) {
 
 class Text {
  public:
-  void section(const std::string& title) { text_ += title + "\n"; }
+  void section(const std::string& title) { sections_.push_back({title, {}}); }
   template <class... Args>
   void line(const char* format, const Args&... args) {
-    text_ += "  " + fmt::format(fmt::runtime(format), args...) + "\n";
+    sections_.back().lines.push_back(fmt::format(fmt::runtime(format), args...));
   }
-  const std::string& text() const { return text_; }
+  std::vector<ExplainedPart> sections() && { return std::move(sections_); }
 
  private:
-  std::string text_;
+  std::vector<ExplainedPart> sections_;
 };
 
 const char* friction_in(const model::Model& model, int joint) {
@@ -206,7 +207,7 @@ void left_out(Text& text, const Setup& setup) {
 
 }  // namespace
 
-std::string explain(const scene::Scene& scene, plugin::Registry& registry, CrashWitness* witness) {
+std::vector<ExplainedPart> explain(const scene::Scene& scene, plugin::Registry& registry, CrashWitness* witness) {
   Setup setup = set_up(scene, registry, Purpose::motion, witness);
   Text text;
   built(text, scene, registry, setup);
@@ -223,7 +224,16 @@ std::string explain(const scene::Scene& scene, plugin::Registry& registry, Crash
   left_out(text, setup);
   if (!setup.warnings.empty()) text.section("Warnings");
   for (const std::string& warning : setup.warnings) text.line("{}", warning);
-  return text.text();
+  return std::move(text).sections();
+}
+
+std::string text_of(const std::vector<ExplainedPart>& parts) {
+  std::string text;
+  for (const ExplainedPart& part : parts) {
+    text += part.title + "\n";
+    for (const std::string& line : part.lines) text += "  " + line + "\n";
+  }
+  return text;
 }
 
 }  // namespace trammel::simulate

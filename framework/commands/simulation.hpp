@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "plugin/registry.hpp"
 #include "run/interrupt.hpp"
@@ -51,7 +52,13 @@ RunReport run_static(const scene::Scene& scene, plugin::Registry& registry, cons
 // Reads everything and builds the model without running; throws like run. Returns warnings, a line each.
 std::string validate(const scene::Scene& scene, plugin::Registry& registry, CrashWitness* witness = nullptr);
 
-// What was built, what each part costs, what was left out: a text for a person.
-std::string explain(const scene::Scene& scene, plugin::Registry& registry, CrashWitness* witness = nullptr);
+// What was built, what each part costs, what was left out: sentences for a person under titles.
+struct ExplainedPart {
+  std::string title;
+  std::vector<std::string> lines;
+};
+std::vector<ExplainedPart> explain(const scene::Scene& scene, plugin::Registry& registry,
+                                   CrashWitness* witness = nullptr);
+std::string text_of(const std::vector<ExplainedPart>& parts);  // titles, and under each its lines, indented
 
 }  // namespace trammel::simulate

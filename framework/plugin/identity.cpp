@@ -3,6 +3,7 @@
 #include <array>
 #include <fstream>
 
+#include "plugin/fingerprint.hpp"
 #include "plugin/library_section.hpp"
 #include "plugin/plugin_error.hpp"
 #include "scene/fnv_hash.hpp"
@@ -18,12 +19,8 @@ std::uint64_t hash_of(const std::filesystem::path& file) {
   return in.eof() && !in.bad() ? hash.value() : 0;
 }
 
-std::string sdk_of(const std::filesystem::path& library) try {
-  const std::string section = library_section(library, ".trammel").value_or("");
-  constexpr std::string_view key = "\nsdk=";
-  const std::size_t begin = section.find(key);
-  if (begin == std::string::npos) return "";
-  return section.substr(begin + key.size(), section.find('\n', begin + 1) - begin - key.size());
+std::string section_of(const std::filesystem::path& library) try {
+  return library_section(library, ".trammel").value_or("");
 } catch (const PluginError&) {
   return "";  // the file was replaced after it was loaded
 }
@@ -31,7 +28,9 @@ std::string sdk_of(const std::filesystem::path& library) try {
 }  // namespace
 
 Identity identify(const std::filesystem::path& library) {
-  return {library.string(), sdk_of(library), hash_of(library)};
+  const std::string section = section_of(library);
+  const auto line = [&](const char* key) { return std::string(fingerprint_value(section, key)); };
+  return {library.string(), line("sdk"), line("compiler"), hash_of(library)};
 }
 
 }  // namespace trammel::plugin

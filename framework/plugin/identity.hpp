@@ -10,6 +10,7 @@ namespace trammel::plugin {
 struct Identity {
   std::string file;
   std::string sdk;         // version of the SDK that it was built against, "2.0"
+  std::string compiler;    // "gcc 12"
   std::uint64_t hash = 0;  // of the whole file (fnv_hash.hpp); 0: no longer readable
 };
 

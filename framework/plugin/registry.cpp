@@ -176,6 +176,7 @@ void Registry::load(const fs::path& library) {
   if (!section) throw PluginError(file, "not a Trammel plugin: it has no .trammel section (TRAMMEL_PLUGIN makes it)");
   if (const std::string differences = mismatch(*section, host_fingerprint()); !differences.empty())
     throw PluginError(file, fmt::format("built for another program: {}", differences));
+  if (const std::string missing = missing_extensions(*section); !missing.empty()) throw PluginError(file, missing);
   require_seal(file, *section);
   rehearse(file);
   add(open(file), file);

@@ -68,13 +68,14 @@ TEST(Result, SaysByWhatItWasMade) {
       ElementsAre(HasSubstr("trammel"), "run", cli::bounce, "--out", "out", "--set", "parameters.e=0.5", "--quiet"));
   EXPECT_EQ(made["set"], json::parse(R"(["parameters.e=0.5"])"));
   EXPECT_THAT(made["date"].get<std::string>(), MatchesRegex("20..-..-..T..:..:..Z"));
-  for (const char* key : {"version", "commit", "build_type", "instruction_set"})
+  for (const char* key : {"version", "commit", "build_type", "instruction_set", "compiler", "flags"})
     EXPECT_NE(made["program"][key].get<std::string>(), "") << key;
   EXPECT_NE(made["host"]["instruction_set"].get<std::string>(), "");
   ASSERT_EQ(written["plugins"].size(), 3u);
   for (const json& plugin : written["plugins"]) {
     EXPECT_THAT(plugin["hash"].get<std::string>(), MatchesRegex("[0-9a-f]{16}"));
     EXPECT_NE(plugin["hash"].get<std::string>(), std::string(16, '0'));
+    EXPECT_THAT(plugin["compiler"].get<std::string>(), MatchesRegex("(gcc|clang) [0-9]+"));
     EXPECT_THAT(plugin["sdk"].get<std::string>(), MatchesRegex("[0-9]+\\.[0-9]+"));
   }
 }

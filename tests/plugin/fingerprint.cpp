@@ -28,9 +28,33 @@ TEST(Fingerprint, NamesBothValuesOfADifference) {
 }
 
 TEST(Fingerprint, NamesEveryDifference) {
-  const std::string plugin = replaced(replaced(host, "gcc 12", "gcc 13"), "3.4.0", "3.3.9");
+  const std::string plugin = replaced(replaced(host, "align=64", "align=32"), "3.4.0", "3.3.9");
   EXPECT_EQ(mismatch(plugin, host),
-            "compiler: the plugin has gcc 13, this program gcc 12; eigen: the plugin has 3.3.9, this program 3.4.0");
+            "eigen: the plugin has 3.3.9, this program 3.4.0; eigen_align: the plugin has 32, this program 64");
+}
+
+TEST(Fingerprint, TakesAPluginOfAnotherCompilerWithTheSameStandardLibrary) {
+  EXPECT_EQ(mismatch(replaced(host, "gcc 12", "clang 14"), host), "");
+  const std::string with_library =
+      replaced(host, "eigen=", "standard_library=libstdc++ 12\nstring_abi=cxx11=1\neigen=");
+  EXPECT_EQ(mismatch(replaced(with_library, "++ 12", "++ 11"), with_library), "");
+  EXPECT_EQ(mismatch(replaced(with_library, "libstdc++ 12", "libc++ 14000"), with_library),
+            "standard_library: the plugin has libc++ 14000, this program libstdc++ 12");
+  EXPECT_EQ(mismatch(replaced(with_library, "cxx11=1", "cxx11=0"), with_library),
+            "string_abi: the plugin has cxx11=0, this program cxx11=1");
+}
+
+TEST(Fingerprint, TakesAPluginForOtherExtensionsOfTheProcessor) {
+  const std::string with_avx = replaced(host, "eigen=", "extensions=base avx\neigen=");
+  EXPECT_EQ(mismatch(replaced(with_avx, " avx", ""), with_avx), "");
+  EXPECT_EQ(mismatch(host, with_avx), "");
+}
+
+TEST(Fingerprint, NamesWhatTheProcessorLacks) {
+  EXPECT_EQ(missing_extensions(host_fingerprint()), "");
+  EXPECT_EQ(missing_extensions(host), "");  // built before this line was there
+  EXPECT_EQ(missing_extensions("trammel plugin\nextensions=base no_such_unit\n"),
+            "its code needs no_such_unit, which this processor does not have; build it with -march=x86-64");
 }
 
 TEST(Fingerprint, TakesAPluginOfAnOlderMinorSdk) {

@@ -156,6 +156,37 @@ TEST(Registry, SearchesTheUsersFolder) {
   EXPECT_EQ(registry.find(Kind::integrator, "good").declaration.name, "good");
 }
 
+TEST(Registry, NeverSearchesTheCurrentFolder) {
+  const Folder here, data;
+  here.copy("good", "good.so");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(here.path());
+  ::setenv("XDG_DATA_HOME", "relative", 1);  // no absolute path is no path of the user's, and an empty entry no folder
+  ::setenv("TRAMMEL_PLUGIN_PATH", ":", 1);
+  std::filesystem::create_directories("relative/trammel/plugins");
+  std::filesystem::copy_file("good.so", "relative/trammel/plugins/good.so");
+  Registry registry;
+  ::unsetenv("XDG_DATA_HOME"), ::unsetenv("TRAMMEL_PLUGIN_PATH");
+  const std::string answer = unknown(registry, Kind::integrator, "good");
+  std::filesystem::current_path(before);
+  EXPECT_THAT(answer, HasSubstr("no integrator \"good\""));
+}
+
+// Which of two methods of one name has run must never be a matter of the order of folders.
+TEST(Registry, RefusesOneNameInTwoFoldersOfTheSearchPath) {
+  const Folder first, second;
+  first.copy("good", "good.so"), second.copy("good", "good.so");
+  Registry registry = empty_registry();
+  registry.search(first.path()), registry.search(second.path());
+  try {
+    registry.find(Kind::integrator, "good");
+    FAIL() << "took one of the two";
+  } catch (const PluginError& e) {
+    EXPECT_THAT(std::string(e.what()), HasSubstr(first.path().string()));
+    EXPECT_THAT(std::string(e.what()), HasSubstr(second.path().string()));
+  }
+}
+
 TEST(Registry, ReportsAMissingPluginOfTheSceneWhereItIsNamed) {
   Registry registry = empty_registry();
   scene::Problems problems;

@@ -74,9 +74,9 @@ TEST(TrussScenes, RedundantRowsDoNotChangeTheMast) {
 // Each unit's four halves follow from the lengths of the others; 12 rows a unit, one of them redundant in three.
 TEST(TrussScenes, ExplainNamesTheRedundantRowsOfAMastOfAnyLength) {
   for (const int units : {8, 300}) {
-    const std::string told = simulate::explain(
+    const std::string told = simulate::text_of(simulate::explain(
         scene::Scene::load(TRAMMEL_SOURCE_DIR "/scenes/truss/S1R.json", {{"parameters.n", std::to_string(units)}}),
-        registry());
+        registry()));
     for (int k = 0; k < units; ++k)
       for (int half = 1; half <= 4; ++half)
         EXPECT_NE(told.find(fmt::format("joints.half_{}_{}: row 1 of 1 follows from the rows before", half, k)),

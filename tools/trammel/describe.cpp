@@ -1,43 +1,73 @@
 // trammel describe NAME: the manual page of a component, of a part of a scene, or of the scene language.
+#include <utility>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "arguments.hpp"
 #include "commands/scene_topics.hpp"
 #include "input.hpp"
 #include "plugin/describe.hpp"
+#include "plugin/describe_json.hpp"
 #include "run/setting_parts.hpp"
 
 namespace trammel::tool {
 
 namespace {
 
+// The page as text, or the same as an object of pages.
+class Pages {
+ public:
+  explicit Pages(bool as_json) : as_json_(as_json) {}
+  template <class Described>
+  void add(const Described& described) {
+    if (as_json_)
+      pages_.push_back(plugin::describe_json(described));
+    else
+      fmt::print("{}{}", std::exchange(separator_, "\n"), plugin::describe(described));
+  }
+  void add(const simulate::Topic& topic) {
+    if (as_json_)
+      pages_.push_back(
+          {{"kind", "scene language"}, {"name", topic.name}, {"summary", topic.summary}, {"text", topic.page}});
+    else
+      fmt::print("{}", topic.page);
+  }
+  Exit end() const {
+    if (as_json_) print_json({{"status", "done"}, {"pages", pages_}});
+    return Exit::done;
+  }
+
+ private:
+  bool as_json_;
+  const char* separator_ = "";
+  nlohmann::ordered_json pages_ = nlohmann::ordered_json::array();
+};
+
 Exit describe(const Arguments& arguments) {
+  Pages pages(arguments.has(kJson.name));
   std::vector<std::string> names;
   for (const plugin::Part& part : simulate::setting_parts()) {
     names.push_back(part.name);
     if (part.name != arguments.operand()) continue;
-    fmt::print("{}", plugin::describe(part));
-    return Exit::done;
+    pages.add(part);
+    return pages.end();
   }
   plugin::Registry registry;
   load_plugins(arguments, registry);
   for (const simulate::Topic& topic : simulate::scene_topics(registry.all())) {
     names.push_back(topic.name);
     if (topic.name != arguments.operand()) continue;
-    fmt::print("{}", topic.page);
-    return Exit::done;
+    pages.add(topic);
+    return pages.end();
   }
   try {
-    const char* separator = "";
-    for (const plugin::Entry* entry : registry.find_any(arguments.operand())) {
-      fmt::print("{}{}", separator, plugin::describe(*entry));
-      separator = "\n";
-    }
+    for (const plugin::Entry* entry : registry.find_any(arguments.operand())) pages.add(*entry);
   } catch (const plugin::UnknownComponent& unknown) {
     throw UsageError(fmt::format("{}. Of the scene language: {}", unknown.what(), fmt::join(names, ", ")));
   }
-  return Exit::done;
+  return pages.end();
 }
 
 }  // namespace
@@ -47,7 +77,7 @@ Command describe_command() {
           "NAME",
           "Show the manual page of a component, of a part of a scene (simulate, step), or of the language (scene, "
           "markers).",
-          {kPlugin},
+          {kPlugin, kJson},
           describe};
 }
 

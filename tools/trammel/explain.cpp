@@ -1,5 +1,6 @@
 // trammel explain SCENE: what was built, what each part costs per step, what was left out.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "arguments.hpp"
 #include "commands/simulation.hpp"
@@ -20,8 +21,18 @@ constexpr Option kTarget{"--target", "X",
 Exit ablate(const Arguments& arguments, plugin::Registry& registry) {
   const double target = arguments.has(kTarget.name) ? positive(arguments, kTarget) : 1e-3;
   const study::SceneSource source(arguments.operand(), overrides_of(arguments));
-  fmt::print("{}", report::text(study::page_of(study::ablate(source, registry, target), arguments.operand())));
+  const report::Page page = study::page_of(study::ablate(source, registry, target), arguments.operand());
+  if (arguments.has(kJson.name))
+    print_json({{"status", "done"}, {"page", report::to_json(page)}});
+  else
+    fmt::print("{}", report::text(page));
   return Exit::done;
+}
+
+void print_as_json(const std::string& scene, const std::vector<simulate::ExplainedPart>& parts) {
+  nlohmann::ordered_json sections = nlohmann::ordered_json::array();
+  for (const simulate::ExplainedPart& part : parts) sections.push_back({{"title", part.title}, {"lines", part.lines}});
+  print_json({{"status", "done"}, {"scene", scene}, {"sections", sections}});
 }
 
 Exit explain(const Arguments& arguments) {
@@ -29,7 +40,11 @@ Exit explain(const Arguments& arguments) {
   plugin::Registry registry;
   load_plugins(arguments, registry);
   if (arguments.has(kAblate.name)) return ablate(arguments, registry);
-  fmt::print("{}", simulate::explain(scene, registry, &witness()));
+  const auto parts = simulate::explain(scene, registry, &witness());
+  if (arguments.has(kJson.name))
+    print_as_json(arguments.operand(), parts);
+  else
+    fmt::print("{}", simulate::text_of(parts));
   return Exit::done;
 }
 
@@ -39,7 +54,7 @@ Command explain_command() {
   return {"explain",
           "SCENE",
           "Show what is built from a scene, which rows are redundant, what each part costs, what is left out.",
-          {kSet, kPlugin, kAllowScenePlugins, kAblate, kTarget},
+          {kSet, kPlugin, kAllowScenePlugins, kAblate, kTarget, kJson},
           explain};
 }
 

@@ -19,9 +19,11 @@
 #include "crash.hpp"
 #include "input.hpp"
 #include "last_words.hpp"
+#include "manual.hpp"
 #include "no_memory.hpp"
 #include "scene/suggestion.hpp"
 #include "simulate/results/results_folder.hpp"
+#include "version.hpp"
 
 namespace trammel::tool {
 
@@ -60,7 +62,13 @@ Exit dispatch(const std::string& program, std::span<const std::string> words) {
     return words.empty() ? Exit::bad_input : Exit::done;
   }
   if (words[0] == "--version") {
-    fmt::print("trammel {}\n", TRAMMEL_VERSION);
+    if (words.size() > 2 || (words.size() == 2 && words[1] != kJson.name))
+      throw UsageError(fmt::format("'trammel --version' takes --json only, found '{}'", words.back()));
+    print_version(words.size() == 2);
+    return Exit::done;
+  }
+  if (words.size() == 1 && (words[0] == "manual" || words[0] == "completion")) {  // for an installation
+    fmt::print("{}", words[0] == "manual" ? manual_page(commands()) : bash_completion(commands()));
     return Exit::done;
   }
   const Command& command = find_command(words[0]);

@@ -7,8 +7,10 @@
 //
 // Use it once per library, outside any anonymous namespace. It exports a byte section and one C function:
 //
-//   .trammel               a magic line, then key=value lines: the properties that must be equal in plugin and host
-//                          before C++ objects may be exchanged. The host reads them from the file, so that no code of
+//   .trammel               a magic line, then key=value lines: the properties that must agree in plugin and host
+//                          before C++ objects may be exchanged, and what the code needs of the processor. Which
+//                          compiler was used is only told: compilers agree on layouts, and on one another's
+//                          standard library. The host reads them from the file, so that no code of
 //                          an incompatible library is executed. The section survives strip and --gc-sections. Its last
 //                          line is reserved for a checksum of the library's code, written by trammel_add_plugin and
 //                          `trammel seal`: a file that was damaged afterwards is refused before it is loaded. A library
@@ -75,6 +77,82 @@ using Declarations = std::vector<Declaration>;
 #define TRAMMEL_EIGEN_STORAGE "column-major"
 #endif
 
+// Extensions of the processor that the library's code may use. All that compilers use of themselves and that a
+// processor may lack is in the list; the names are those of __builtin_cpu_supports.
+#if defined(__SSSE3__)
+#define TRAMMEL_SSSE3 " ssse3"
+#else
+#define TRAMMEL_SSSE3 ""
+#endif
+#if defined(__SSE4_1__)
+#define TRAMMEL_SSE4_1 " sse4.1"
+#else
+#define TRAMMEL_SSE4_1 ""
+#endif
+#if defined(__SSE4_2__)
+#define TRAMMEL_SSE4_2 " sse4.2"
+#else
+#define TRAMMEL_SSE4_2 ""
+#endif
+#if defined(__POPCNT__)
+#define TRAMMEL_POPCNT " popcnt"
+#else
+#define TRAMMEL_POPCNT ""
+#endif
+#if defined(__AVX__)
+#define TRAMMEL_AVX " avx"
+#else
+#define TRAMMEL_AVX ""
+#endif
+#if defined(__AVX2__)
+#define TRAMMEL_AVX2 " avx2"
+#else
+#define TRAMMEL_AVX2 ""
+#endif
+#if defined(__FMA__)
+#define TRAMMEL_FMA " fma"
+#else
+#define TRAMMEL_FMA ""
+#endif
+#if defined(__BMI__)
+#define TRAMMEL_BMI " bmi"
+#else
+#define TRAMMEL_BMI ""
+#endif
+#if defined(__BMI2__)
+#define TRAMMEL_BMI2 " bmi2"
+#else
+#define TRAMMEL_BMI2 ""
+#endif
+#if defined(__AVX512F__)
+#define TRAMMEL_AVX512F " avx512f"
+#else
+#define TRAMMEL_AVX512F ""
+#endif
+#if defined(__AVX512VL__)
+#define TRAMMEL_AVX512VL " avx512vl"
+#else
+#define TRAMMEL_AVX512VL ""
+#endif
+#if defined(__AVX512DQ__)
+#define TRAMMEL_AVX512DQ " avx512dq"
+#else
+#define TRAMMEL_AVX512DQ ""
+#endif
+#if defined(__AVX512BW__)
+#define TRAMMEL_AVX512BW " avx512bw"
+#else
+#define TRAMMEL_AVX512BW ""
+#endif
+#if defined(__AVX512CD__)
+#define TRAMMEL_AVX512CD " avx512cd"
+#else
+#define TRAMMEL_AVX512CD ""
+#endif
+#define TRAMMEL_EXTENSIONS                                                                                   \
+  "base" TRAMMEL_SSSE3 TRAMMEL_SSE4_1 TRAMMEL_SSE4_2 TRAMMEL_POPCNT TRAMMEL_AVX TRAMMEL_AVX2 TRAMMEL_FMA     \
+      TRAMMEL_BMI TRAMMEL_BMI2 TRAMMEL_AVX512F TRAMMEL_AVX512VL TRAMMEL_AVX512DQ TRAMMEL_AVX512BW TRAMMEL_AVX512CD
+
 #define TRAMMEL_MAGIC "trammel plugin"
 
 // eigen_align and eigen_malloc determine how a heap vector is allocated; it must be freed in the same way.
@@ -82,6 +160,7 @@ using Declarations = std::vector<Declaration>;
   TRAMMEL_MAGIC             \
   "\nsdk=" TRAMMEL_TEXT(TRAMMEL_SDK_MAJOR) "." TRAMMEL_TEXT(TRAMMEL_SDK_MINOR)                                       \
   "\ncompiler=" TRAMMEL_COMPILER                                                                                     \
+  "\nextensions=" TRAMMEL_EXTENSIONS                                                                                 \
   "\nstandard_library=" TRAMMEL_STANDARD_LIBRARY                                                                     \
   "\nstring_abi=" TRAMMEL_STRING_ABI                                                                                 \
   "\ncontainers=" TRAMMEL_CONTAINERS                                                                                 \

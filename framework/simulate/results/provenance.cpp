@@ -16,8 +16,33 @@ namespace trammel::simulate {
 
 using json = nlohmann::ordered_json;
 
+#if defined(__clang__)
+constexpr const char* compiler = "clang " __clang_version__;
+#else
+constexpr const char* compiler = "gcc " __VERSION__;
+#endif
+
 BuildInfo build_info() {
-  return {TRAMMEL_VERSION, TRAMMEL_COMMIT, TRAMMEL_BUILD_TYPE, *TRAMMEL_ARCH ? TRAMMEL_ARCH : "the compiler's default"};
+  return {TRAMMEL_VERSION, TRAMMEL_COMMIT, TRAMMEL_BUILD_TYPE, *TRAMMEL_ARCH ? TRAMMEL_ARCH : "the compiler's default",
+          compiler,        TRAMMEL_FLAGS};
+}
+
+json program_json() {
+  const BuildInfo build = build_info();
+  return {{"version", build.version},       {"commit", build.commit},
+          {"build_type", build.build_type}, {"instruction_set", build.instruction_set},
+          {"compiler", build.compiler},     {"flags", build.flags}};
+}
+
+json libraries_json(const std::vector<plugin::Identity>& plugins) {
+  json libraries = json::array();
+  for (const plugin::Identity& library : plugins)
+    libraries.push_back({{"name", std::filesystem::path(library.file).stem().string()},
+                         {"file", library.file},
+                         {"sdk", library.sdk},
+                         {"compiler", library.compiler},
+                         {"hash", fmt::format("{:016x}", library.hash)}});
+  return libraries;
 }
 
 std::string host_instruction_set() {
@@ -44,30 +69,19 @@ std::string utc_now() {
 
 json provenance(const scene::Scene& scene, const std::vector<std::string>& command,
                 const std::vector<plugin::Identity>& plugins) {
-  const BuildInfo build = build_info();
   json set = json::array();
   for (const scene::Override& override : scene.overrides()) set.push_back(override.path + "=" + override.value);
-  json libraries = json::array();
-  for (const plugin::Identity& library : plugins)
-    libraries.push_back({{"name", std::filesystem::path(library.file).stem().string()},
-                         {"file", library.file},
-                         {"sdk", library.sdk},
-                         {"hash", fmt::format("{:016x}", library.hash)}});
   return {{"made",
            {{"command", command},
             {"set", set},
             {"date", utc_now()},
-            {"program",
-             {{"version", build.version},
-              {"commit", build.commit},
-              {"build_type", build.build_type},
-              {"instruction_set", build.instruction_set}}},
+            {"program", program_json()},
             {"host", {{"instruction_set", host_instruction_set()}}}}},
           {"versions",
            {{"trammel_sdk", fmt::format("{}.{}", TRAMMEL_SDK_MAJOR, TRAMMEL_SDK_MINOR)},
             {"compiler", __VERSION__},
             {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}}},
-          {"plugins", libraries}};
+          {"plugins", libraries_json(plugins)}};
 }
 
 }  // namespace trammel::simulate

@@ -1,0 +1,91 @@
+// Commands with --json: one object on standard output that says what the text says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace {
+
+using cli::trammel;
+using nlohmann::json;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+json object_of(std::vector<std::string> words) {
+  words.push_back("--json");
+  const auto result = trammel(words);
+  EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_EQ(result.err, "");
+  return json::parse(result.out);
+}
+
+TEST(JsonOutput, OfExplainHasTheSectionsOfItsText) {
+  const json told = object_of({"explain", cli::bounce});
+  std::vector<std::string> titles;
+  for (const json& section : told["sections"]) titles.push_back(section["title"]);
+  EXPECT_THAT(titles, Contains("Built"));
+  EXPECT_THAT(titles, Contains("Left out"));
+  const std::string text = trammel({"explain", cli::bounce}).out;
+  for (const std::string& title : titles) EXPECT_THAT(text, HasSubstr(title + "\n"));
+  EXPECT_THAT(told["sections"][0]["lines"][0].get<std::string>(), StartsWith("planar scene: nq = 2"));
+}
+
+TEST(JsonOutput, OfDescribeHasEveryParameterWithItsRangeAndDefault) {
+  const json page = object_of({"describe", "hht_alpha"})["pages"].at(0);
+  EXPECT_EQ(page["kind"], "integrator");
+  bool found = false;
+  for (const json& parameter : page["parameters"]) {
+    if (parameter["name"] != "alpha") continue;
+    found = true;
+    EXPECT_DOUBLE_EQ(parameter["min"].get<double>(), -1.0 / 3);
+    EXPECT_EQ(parameter["max"], 0);
+    EXPECT_TRUE(parameter["default"].is_number());
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST(JsonOutput, OfDescribeHasPartsOfASceneAndPagesOnItsLanguage) {
+  EXPECT_EQ(object_of({"describe", "simulate"})["pages"].at(0)["parameters"].at(0)["name"], "until");
+  EXPECT_THAT(object_of({"describe", "expressions"})["pages"].at(0)["text"].get<std::string>(), HasSubstr("atan2"));
+}
+
+TEST(JsonOutput, OfAnUnknownNameIsAnErrorWithTheNearestOne) {
+  const auto result = trammel({"describe", "hht_alfa", "--json"});
+  EXPECT_EQ(result.exit_code, 2);
+  const json answer = json::parse(result.out);
+  EXPECT_EQ(answer["status"], "error");
+  EXPECT_THAT(answer["problems"][0]["message"].get<std::string>(), HasSubstr("hht_alpha"));
+}
+
+TEST(JsonOutput, OfValidateHasTheWarnings) {
+  EXPECT_EQ(object_of({"validate", cli::bounce})["status"], "done");
+}
+
+TEST(JsonOutput, OfTheVersionSaysWhatAResultDependsOn) {
+  const json version = object_of({"--version"});
+  for (const char* key : {"version", "commit", "compiler", "flags", "instruction_set"})
+    EXPECT_NE(version[key].get<std::string>(), "") << key;
+  bool found = false;
+  for (const json& plugin : version["plugins"]) {
+    EXPECT_EQ(plugin["hash"].get<std::string>().size(), 16u);
+    found = found || plugin["name"] == "newmark";
+  }
+  EXPECT_TRUE(found);
+}
+
+// What an installation makes of the declarations of the commands.
+TEST(Installation, ManualPageAndCompletionNameEveryCommandAndOption) {
+  const std::string help = trammel({"help"}).out, page = trammel({"manual"}).out;
+  const std::string completion = trammel({"completion"}).out;
+  EXPECT_THAT(page, StartsWith(".TH TRAMMEL 1"));
+  for (const char* command : {"run", "static", "modes", "validate", "explain", "list", "describe", "schema", "seal"}) {
+    EXPECT_THAT(page, HasSubstr(".SS trammel " + std::string(command)));
+    EXPECT_THAT(completion, HasSubstr("    " + std::string(command) + ")\n"));
+  }
+  EXPECT_THAT(page, HasSubstr("\\-\\-allow\\-scene\\-plugins"));
+  EXPECT_THAT(completion, HasSubstr("--allow-scene-plugins"));
+}
+
+}  // namespace

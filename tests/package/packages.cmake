@@ -1,0 +1,67 @@
+# Makes the packages, unpacks them into scratch roots, and works with them as an author does who has nothing else.
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+find_program(dpkg_deb dpkg-deb)
+find_program(shlibdeps dpkg-shlibdeps)
+if(NOT dpkg_deb OR NOT shlibdeps OR SANITIZE)
+  message("skipped: no dpkg-deb and dpkg-shlibdeps (Debian's dpkg-dev), or the build has sanitizers")
+  return()
+endif()
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} -E chdir ${BUILD} ${CMAKE_CPACK_COMMAND} -B ${WORK}/packages)
+file(GLOB run_package ${WORK}/packages/trammel_*.deb)
+file(GLOB dev_package ${WORK}/packages/trammel-dev_*.deb)
+file(GLOB archive ${WORK}/packages/trammel-*.tar.gz)
+
+# What each needs.
+run(${dpkg_deb} -f ${run_package} Depends)
+foreach(library libc6 libfmt libboost-filesystem libstdc\\+\\+6)
+  expect("${output}" "${library}")
+endforeach()
+run(${dpkg_deb} -f ${dev_package} Depends)
+expect("${output}" "trammel \\(= ${VERSION}\\)")
+expect("${output}" "libeigen3-dev")
+
+# Packages as installed, and the archive unpacked elsewhere: both must find everything from where they are.
+run(${dpkg_deb} -x ${run_package} ${WORK}/root)
+run(${dpkg_deb} -x ${dev_package} ${WORK}/root)
+file(ARCHIVE_EXTRACT INPUT ${archive} DESTINATION ${WORK}/elsewhere)
+file(GLOB elsewhere ${WORK}/elsewhere/*)
+foreach(file share/man/man1/trammel.1 share/bash-completion/completions/trammel share/trammel/scenes/beam_impact.json
+    include/trammel/integrator.hpp lib/trammel/newmark.so)
+  foreach(prefix ${WORK}/root/usr ${elsewhere})
+    if(NOT EXISTS ${prefix}/${file})
+      message(FATAL_ERROR "${prefix} has no ${file}")
+    endif()
+  endforeach()
+endforeach()
+
+file(COPY ${SOURCE}/ DESTINATION ${WORK}/project)
+find_program(pkgconfig pkg-config)
+foreach(prefix ${WORK}/root/usr ${elsewhere})
+  string(MD5 name ${prefix})
+  # Four lines of CMake.
+  file(WRITE ${WORK}/${name}/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES CXX)\n"
+    "find_package(Trammel REQUIRED)\ntrammel_add_plugin(heun ${WORK}/project/heun.cpp)\n")
+  run(${CMAKE_COMMAND} -S ${WORK}/${name} -B ${WORK}/${name}/build -DTrammel_ROOT=${prefix} -DCMAKE_CXX_FLAGS=-O0
+      -DCMAKE_CXX_COMPILER=${COMPILER})
+  run(${CMAKE_COMMAND} --build ${WORK}/${name}/build)
+  set(plugins ${WORK}/${name}/build/heun.so)
+  # One line with pkg-config.
+  if(pkgconfig)
+    run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${prefix}/lib/pkgconfig ${pkgconfig} --cflags --libs trammel)
+    separate_arguments(flags UNIX_COMMAND "${output}")
+    run(${COMPILER} -O0 -shared -fPIC ${WORK}/project/heun.cpp -o ${WORK}/${name}/heun.so ${flags})
+    list(APPEND plugins ${WORK}/${name}/heun.so)
+  else()
+    message("pkg-config is not installed: its line is not tried")
+  endif()
+  foreach(plugin ${plugins})
+    run(${prefix}/bin/trammel run ${WORK}/project/scene.json --plugin ${plugin} --out ${WORK}/${name}/run --quiet)
+    file(STRINGS ${WORK}/${name}/run/series.csv rows)
+    list(GET rows -1 last)
+    expect("${last}" "^1,-3\\.90(50000000|49999999)")  # v t - g t^2/2 at 1 s
+  endforeach()
+  run(${prefix}/bin/trammel validate ${prefix}/share/trammel/scenes/beam_impact.json)
+  run(${prefix}/bin/trammel --version --json)
+  expect("${output}" "\"file\": \"${prefix}/lib/trammel/newmark.so\"")
+endforeach()
