@@ -10,9 +10,11 @@
 set(TRAMMEL_BATCH_SIZE 60000)  # [bytes] of sources
 set(TRAMMEL_HEAVY_ROOMS modes sdk system/contact_geometry)  # many templates a line: half as much
 
+set(TRAMMEL_ROOMS_APART study)  # whose sources have helpers of the same names
+
 # trammel_unity(TARGET ROOM SOURCE...): the sources, in their order, in batches that no other room is part of.
 function(trammel_unity target room)
-  if(NOT TRAMMEL_UNITY)
+  if(NOT TRAMMEL_UNITY OR room IN_LIST TRAMMEL_ROOMS_APART)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP

@@ -8,7 +8,7 @@
 namespace trammel::simulate {
 namespace {
 
-void append(const Eigen::Ref<const Vec>& numbers, std::string& out) {
+void append_numbers(const Eigen::Ref<const Vec>& numbers, std::string& out) {
   const char* separator = "[";
   for (const double x : numbers) {
     fmt::format_to(std::back_inserter(out), "{}{:.6g}", separator, x);
@@ -17,16 +17,16 @@ void append(const Eigen::Ref<const Vec>& numbers, std::string& out) {
   out += ']';
 }
 
-void append(const FieldPatch& patch, std::string& out) {
+void append_numbers(const FieldPatch& patch, std::string& out) {
   fmt::format_to(std::back_inserter(out), "{{\"along\":{},\"points\":[", patch.along);
   for (Eigen::Index k = 0; k < patch.points.cols(); ++k) {
     if (k > 0) out += ',';
-    append(patch.points.col(k), out);
+    append_numbers(patch.points.col(k), out);
   }
   out += "],\"values\":[";
   for (Eigen::Index k = 0; k < patch.values.rows(); ++k) {
     if (k > 0) out += ',';
-    append(patch.values.row(k).transpose(), out);
+    append_numbers(patch.values.row(k).transpose(), out);
   }
   out += "]}";
 }
