@@ -49,7 +49,7 @@ void FieldLine::append(const State& state, std::string& out) {
                    nlohmann::json(std::vector<std::string>(names.begin(), names.end())).dump());
     for (std::size_t k = 0; k < patches_.size(); ++k) {
       if (k > 0) out += ',';
-      simulate::append(patches_[k], out);
+      append_numbers(patches_[k], out);
     }
     out += "]}";
   }
