@@ -30,7 +30,7 @@ double least_time(const std::function<void()>& call) {
   return least;
 }
 
-struct Kind {
+struct PartsOfAKind {
   int count = 0;
   double once = 0;  // [s]
 };
@@ -51,7 +51,7 @@ class Costs {
 
  private:
   void add(const std::string& component, const std::function<void()>& evaluate) {
-    Kind& kind = kinds_[component];
+    PartsOfAKind& kind = kinds_[component];
     if (kind.count++ == 0) kind.once = least_time(evaluate);
   }
 
@@ -82,7 +82,7 @@ class Costs {
   }
 
   Json json() const {
-    std::vector<std::pair<std::string, Kind>> all(kinds_.begin(), kinds_.end());
+    std::vector<std::pair<std::string, PartsOfAKind>> all(kinds_.begin(), kinds_.end());
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
       return a.second.count * a.second.once > b.second.count * b.second.once;
     });
@@ -99,7 +99,7 @@ class Costs {
 
   model::AssembledSystem& system_;
   const State& state_;
-  std::map<std::string, Kind> kinds_;
+  std::map<std::string, PartsOfAKind> kinds_;
   Mat M_;
   Vec f_;
   Rows rows_;
