@@ -125,7 +125,9 @@ void expect_trusted_whatever_the_names(json (*structure)(unsigned, bool), unsign
   EXPECT_GE(run.result["energy_dissipated"]["friction_total"], -1e-9) << seed;
   // Far above what round-off grows to in half a second, far below any other choice of forces.
   for (const auto& [column, values] : run.series)
-    if (column[0] == 'x') EXPECT_NEAR(values.back(), other.end(column), 1e-7) << seed << " " << column;
+    if (column[0] == 'x') {
+      EXPECT_NEAR(values.back(), other.end(column), 1e-7) << seed << " " << column;
+    }
 }
 
 TEST(RandomStructures, TowersDroppedOrPushedDoNotDependOnNames) {
