@@ -117,23 +117,29 @@ json table(unsigned seed, bool permuted) {
   return s;
 }
 
-void expect_trusted_whatever_the_names(json (*structure)(unsigned, bool), unsigned seed) {
+void expect_same_whatever_the_names(json (*structure)(unsigned, bool), unsigned seed, bool trusted) {
   const Finished run = run_text(structure(seed, false).dump()), other = run_text(structure(seed, true).dump());
   ASSERT_TRUE(run.done()) << seed << ": " << run.report.reason;
   ASSERT_TRUE(other.done()) << seed << ": " << other.report.reason;
-  EXPECT_TRUE(run.result["warnings"].empty()) << seed << ": " << run.result["warnings"].dump();
+  if (trusted) {
+    EXPECT_TRUE(run.result["warnings"].empty()) << seed << ": " << run.result["warnings"].dump();
+  }
   EXPECT_GE(run.result["energy_dissipated"]["friction_total"], -1e-9) << seed;
   // Far above what round-off grows to in half a second, far below any other choice of forces.
   for (const auto& [column, values] : run.series)
-    if (column[0] == 'x') EXPECT_NEAR(values.back(), other.end(column), 1e-7) << seed << " " << column;
+    if (column[0] == 'x') {
+      EXPECT_NEAR(values.back(), other.end(column), 1e-7) << seed << " " << column;
+    }
 }
 
 TEST(RandomStructures, TowersDroppedOrPushedDoNotDependOnNames) {
-  for (unsigned seed = 1; seed <= 6; ++seed) expect_trusted_whatever_the_names(tower, seed);
+  for (unsigned seed = 1; seed <= 6; ++seed) expect_same_whatever_the_names(tower, seed, true);
 }
 
 TEST(RandomStructures, TablesOfManyLegsDoNotDependOnNames) {
-  for (unsigned seed = 1; seed <= 6; ++seed) expect_trusted_whatever_the_names(table, seed);
+  // Not always trusted: legs that slide keep the share of springs, by which one of the second pulls, and the run says so
+  // (framework/complementarity/README.md, what is not promised).
+  for (unsigned seed = 1; seed <= 6; ++seed) expect_same_whatever_the_names(table, seed, false);
 }
 
 }  // namespace
