@@ -116,6 +116,34 @@ TEST(CheckCommand, SaysOfALibraryThatCannotBeLoadedWhy) {
   }
 }
 
+// The measured radius stands beside the theory's; figures of every kind are there, and the page is one HTML file.
+TEST(CheckReport, ShowsTheSpectralRadiusOfTheoryAndEveryBuiltInBeside) {
+  cli::TemporaryFolder folder;
+  const std::string file = (folder.path() / "hht.html").string();
+  const auto json = check(installed + "hht_alpha.so", {"--only", "integrator.moves-on-in-time", "--report", file}, 0);
+  EXPECT_THAT(cli::read_file(file), HasSubstr("<html"));
+  const auto& page = json["components"][0]["page"];
+  std::set<std::string> curves;
+  int radii = 0;
+  for (const auto& figure : page["figures"])
+    for (const auto& curve : figure["curves"]) {
+      curves.insert(curve["name"]);
+      if (figure["title"] != "Spectral radius" || curve["name"] == "measured") continue;
+      const auto& measured = figure["curves"][0]["points"];
+      for (const auto& theory : curve["points"])
+        for (const auto& point : measured)
+          if (point[0] == theory[0]) {
+            ++radii;
+            // Roots that have died out within the first steps are found by the matrix pencil to some digits only.
+            EXPECT_NEAR(point[1].get<double>(), theory[1].get<double>(), 1e-4) << "omega h = " << point[0];
+          }
+    }
+  EXPECT_GE(radii, 30);
+  for (const char* built_in : {"newmark", "generalized_alpha", "runge_kutta_4", "dormand_prince", "dop853"})
+    EXPECT_TRUE(curves.contains(built_in)) << built_in;
+  EXPECT_THAT(page["sentences"].dump(), HasSubstr("Deception rate"));
+}
+
 TEST(NewCommand, RefusesNamesThatCannotBe) {
   cli::TemporaryFolder folder;
   const auto made = [&](const std::string& kind, const std::string& name) {

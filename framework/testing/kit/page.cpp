@@ -211,8 +211,8 @@ void add_honesty(Page& page, const Subject& s) {
   }
   Figure figure{
       "True error over tolerance",
-      "Runs whose steps the estimate controls. At 1 the error is what was asked for; above 10 the run ended well "
-      "and deceived.",
+      "Runs whose steps the estimate controls. The tolerance is that of each step, whose errors add up over the "
+      "run: at 1 the error of the run is what was asked for, above 10 the run ended well and deceived.",
       {"tolerance", Scale::logarithmic},
       {"error of q and v over tolerance", Scale::logarithmic},
       {}};

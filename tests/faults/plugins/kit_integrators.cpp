@@ -77,7 +77,7 @@ class Heun final : public Integrator {
     s.rate(q_, v_, slope_again_);
     next.q = now.q + length / 2 * (slope_ + slope_again_);
     s.normalise(next.q);
-    next.v = (now.v + length / 2 * (now.a + a_)) * (1 + 1e-10 * count_ + more);
+    next.v = (now.v + length / 2 * (now.a + a_)) * (1 + 1e-9 * count_ + more);
     if (fault == Fault::grows) next.v *= 1 + 0.1 * h;
     if (fault == Fault::measures_in_metres) next.v = (next.v.array().abs() > 0.03).select(next.v, 0);
     next.t = now.t + (fault == Fault::takes_another_time ? h * (1 + 1e-9) : h);

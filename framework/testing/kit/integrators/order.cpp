@@ -11,8 +11,8 @@ namespace trammel::kit {
 
 namespace {
 
-// The references carry some 1e-13, and so do errors of some thousand steps of numbers about 1; they must change slopes by
-// a few hundredths only.
+// The references carry some 1e-13, and so do errors of some thousand steps of numbers about 1; this may change slopes
+// by a few hundredths only.
 constexpr double round_off = 1e-11;
 
 double slope(const std::vector<Convergence::Run>& runs, std::size_t first, std::size_t last) {
@@ -45,7 +45,7 @@ void fit(Convergence& c) {
   while (c.last > 0 && !useful(c.runs[c.last - 1])) --c.last;
   if (c.last > 1 && 2 * c.runs[c.last - 2].steps > c.runs[c.last - 1].steps) c.halving = 2;
   c.first = c.last;
-  while (c.first > 0 && useful(c.runs[c.first - 1]) && c.last - c.first <= 2 * c.halving) --c.first;
+  while (c.first > 0 && useful(c.runs[c.first - 1]) && c.last - c.first <= 4 * c.halving) --c.first;
   c.order = c.slope = c.limit = std::nan("");
   if (!c.measured()) return;
   c.order = slope(c.runs, c.first, c.last);

@@ -28,8 +28,8 @@ struct Convergence {
   std::string table() const;
 };
 
-// Step numbers n_0, 2 n_0, 4 n_0, ... up to `most`; with 3 n_0, 6 n_0, ... between them for orders above 4, whose errors
-// leave room for few halvings only.
+// Step numbers n_0, 2 n_0, 4 n_0, ... up to `most`; with 3 n_0, 6 n_0, ... between them for orders above 4, whose
+// errors leave room for few halvings only.
 std::vector<int> step_numbers(int n_0, int most, int order);
 
 // `error(n)` of a run with n steps, relative to a size of 1.
@@ -39,9 +39,9 @@ Convergence converge(const std::string& problem, double until, const std::vector
 // Against the problem's closed form, else against its own motion to round-off (flow.hpp), at quarters of its time.
 Convergence converge(const Maker& method, const Problem& problem, int most);
 
-// The claimed order, from both sides: it lies between the last slope and its limit, within 0.2, and one of the two rounds
-// to it. Above order 6 slopes do not settle before errors meet round-off: then from below only, within 0.4. A method of
-// order 5 or higher may be at round-off from the first steps on; that is said and holds.
+// The claimed order, from both sides: it lies between the last slope and its limit, within 0.2, and one of the two
+// rounds to it. Above order 6 slopes do not settle before errors meet round-off: then from below only, within 0.4. A
+// method of order 5 or higher may be at round-off from the first steps on; that is said and holds.
 Report has_order(const Convergence& c, int order);
 
 // At least this order: what shrinks may do so faster where errors cancel.

@@ -34,8 +34,8 @@ Problem nothing();  // nv = 0
 // The same motion, t_0 later.
 Problem shifted(Problem problem, double t_0);
 
-// Forwards to a system, counts what is asked, and answers the n-th request for forces, accelerations or corrections with what no method can
-// use.
+// Forwards to a system, counts what is asked, and answers the n-th request for forces, accelerations or corrections
+// with what no method can use.
 class Failing final : public System {
  public:
   enum class How { beyond_range, not_a_number, singular };
