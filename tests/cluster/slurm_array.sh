@@ -60,7 +60,7 @@ for _ in $(seq 200); do sinfo -h -o %t 2> /dev/null | grep -q idle && break; sle
 sinfo -h -o %t | grep -q idle || skip "the node of Slurm does not come up"
 
 cat > "$folder/study.json" <<S
-{"study": 1, "scene": "$source/scenes/tour/01_pendulum.json", "set": {"simulate.until": 60},
+{"study": 1, "scene": "$source/scenes/tour/01_pendulum.json", "set": {"simulate.until": 15},
  "vary": {"parameters.L": {"from": 0.1, "to": 2, "count": 20, "scale": "log"}, "parameters.m": {"from": 1, "to": 2, "count": 10}},
  "reduce": {"low": {"observe": "tip_y", "as": "min"}, "down": {"observe": "tip_x", "as": "first_crossing", "direction": "down"}}}
 S
