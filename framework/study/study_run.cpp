@@ -145,12 +145,11 @@ StudyReport merge_studies(const std::vector<fs::path>& folders, const StudyOptio
     for (CaseRecord& r : read_journal(folder))
       if (r.index < study.size() && r.key == study.key(r.index, content.scene_hash))
         content.records[r.index] = std::move(r);
+  std::set<std::uint64_t> there;
+  for (const CaseRecord& old : read_journal(options.out)) there.insert(old.key);
   Journal journal(options.out);
-  const std::vector<CaseRecord> there = read_journal(options.out);
   for (const auto& [i, r] : content.records)
-    if (std::none_of(there.begin(), there.end(),
-                     [&, i = i](const CaseRecord& old) { return old.index == i && old.key == content.records[i].key; }))
-      journal.add(to_line(r));
+    if (!there.contains(r.key)) journal.add(to_line(r));
   return write_results(content, options.out, false);
 }
 

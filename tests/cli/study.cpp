@@ -79,7 +79,7 @@ TEST(Study, FailsWhenEveryCaseFailed) {
 }
 
 TEST(Study, AsksForARequeueWhenItIsTerminated) {
-  const Folder folder(R"({"study": 1, "scene": "pendulum.json", "set": {"integrator.step": 1e-5},
+  const Folder folder(R"({"study": 1, "scene": "pendulum.json", "set": {"integrator.step": 1e-4},
                           "vary": {"parameters.m": {"from": 1, "to": 2, "count": 1000}}})");
   const auto result =
       trammel({"study", "study.json", "--out", "a"},

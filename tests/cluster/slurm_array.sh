@@ -2,7 +2,7 @@
 # A study of 200 cases as a Slurm array on one node, with tasks killed on the way: nothing is lost, nothing counted twice,
 # and the merged results are the bytes of one process. slurm_array.sh PROGRAM SOURCE; exit code 77: skipped.
 #
-# The node is brought up as root without systemd, in a temporary folder, and ended by the ids of its own processes.
+# UNTIL: simulated time of a case [s], less on a busy machine. The node is brought up as root without systemd, in a temporary folder, and ended by the ids of its own processes.
 set -u
 program=$(realpath "$1") source=$(realpath "$2")
 skip() { echo "skipped: $1"; exit 77; }
@@ -60,7 +60,7 @@ for _ in $(seq 200); do sinfo -h -o %t 2> /dev/null | grep -q idle && break; sle
 sinfo -h -o %t | grep -q idle || skip "the node of Slurm does not come up"
 
 cat > "$folder/study.json" <<S
-{"study": 1, "scene": "$source/scenes/tour/01_pendulum.json", "set": {"simulate.until": 60},
+{"study": 1, "scene": "$source/scenes/tour/01_pendulum.json", "set": {"simulate.until": ${UNTIL:-15}},
  "vary": {"parameters.L": {"from": 0.1, "to": 2, "count": 20, "scale": "log"}, "parameters.m": {"from": 1, "to": 2, "count": 10}},
  "reduce": {"low": {"observe": "tip_y", "as": "min"}, "down": {"observe": "tip_x", "as": "first_crossing", "direction": "down"}}}
 S
