@@ -21,7 +21,35 @@ bool has(const fs::path& folder, const char* file) {
   return fs::exists(folder / file, error);
 }
 
-// Of a folder's JSON files the first with a "page"; null: there is none.
+// One page of several, of `trammel check` on a library: each figure and table named after its page.
+Json joined(const std::vector<Json>& pages) {
+  if (pages.size() == 1) return pages.front();
+  Json all = {{"title", fmt::format("{} components", pages.size())}};
+  for (const char* key : {"sentences", "figures", "tables"}) all[key] = Json::array();
+  for (const Json& page : pages) {
+    const std::string title = page.value("title", "");
+    for (const Json& sentence : page.at("sentences"))
+      all["sentences"].push_back(fmt::format("{}: {}", title, sentence.get<std::string>()));
+    for (const char* key : {"figures", "tables"})
+      for (Json part : page.at(key)) {
+        part["title"] = fmt::format("{}: {}", title, part.value("title", ""));
+        all[key].push_back(std::move(part));
+      }
+  }
+  return all;
+}
+
+// The "page" of a result, or those of its "components"; null: there is none.
+Json page_of(const Json& json) {
+  if (const Json* page = find(json, {"page"})) return *page;
+  std::vector<Json> pages;
+  if (const Json* components = find(json, {"components"}); components && components->is_array())
+    for (const Json& component : *components)
+      if (const Json* page = find(component, {"page"})) pages.push_back(*page);
+  return pages.empty() ? Json(nullptr) : joined(pages);
+}
+
+// Of a folder's JSON files the first with a page; null: there is none.
 Json page_in(const fs::path& what) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -33,8 +61,8 @@ Json page_in(const fs::path& what) {
     files = {what};
   }
   for (const fs::path& file : files) {
-    const Json json = json_file(file);
-    if (const Json* page = find(json, {"page"})) return *page;
+    Json page = page_of(json_file(file));
+    if (!page.is_null()) return page;
   }
   return nullptr;
 }

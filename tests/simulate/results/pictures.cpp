@@ -25,7 +25,7 @@ Pictures pictures_of(const std::string& text, Runner run = simulate::run) {
 }
 
 // A block of 2 kg that rests on an incline of 0.3 rad with friction, held by a spring along x.
-const std::string block = R"({
+const std::string block = R"scene({
   "trammel": 1, "space": "planar", "gravity": [0, -10],
   "bodies": {"block": {"type": "point_mass", "mass": 2, "position": [0, 0]}},
   "contacts": {"floor": {"type": "constraint_method", "restitution": 0,
@@ -34,7 +34,7 @@ const std::string block = R"({
   "forces": {"spring": {"type": "spring_damper", "between": [{"point": [-1, 0]}, "block.com"], "stiffness": 4, "length": 0.5}},
   "simulate": {"until": 0.1},
   "record": {"every": 0.05, "observe": {"x": "block.com.x", "force": "contacts.floor.force", "sum": "=block.com.x+1"}}
-})";
+})scene";
 
 // Gravity and the spring, 2 N towards its end at x = -1, are balanced by the contact as a whole.
 TEST(Animation, ShowsForcesOnTheirBodyInWorldAxes) {
