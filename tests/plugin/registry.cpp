@@ -157,7 +157,7 @@ TEST(Registry, SearchesTheUsersFolder) {
 }
 
 TEST(Registry, NeverSearchesTheCurrentFolder) {
-  const Folder here, data;
+  const Folder here;
   here.copy("good", "good.so");
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(here.path());

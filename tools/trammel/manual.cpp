@@ -1,5 +1,5 @@
-// trammel manual, trammel completion: the manual page and the shell's completion, from the declarations of all commands.
-// Installation calls them; they are not in the list of commands.
+// trammel manual, trammel completion: the manual page and the shell's completion, from the declarations of all
+// commands. Installation calls them; they are not in the list of commands.
 #include "manual.hpp"
 
 #include <fmt/format.h>
