@@ -75,8 +75,7 @@ terminated= killed=0
 for round in $(seq 6000); do
   for task in 1 4; do
     if [[ $terminated != *$task* ]] && [ -s "shard_$task/cases.ndjson" ]; then
-      terminated+=$task
-      scancel --signal=TERM --batch "${job}_$task" || fail "task $task ended before it could be terminated"
+      scancel --signal=TERM --batch "${job}_$task" 2> /dev/null && terminated+=$task  # else tried again
     fi
   done
   if [ $killed -eq 0 ] && [ -s shard_6/cases.ndjson ]; then
