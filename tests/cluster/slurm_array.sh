@@ -91,5 +91,5 @@ cmp whole/study.csv merged/study.csv || fail "study.csv differs"
 cmp whole/study.npz merged/study.npz || fail "study.npz differs"
 lines=$(cat shard_*/cases.ndjson | wc -l)
 [ "$lines" -eq 200 ] || fail "$lines cases were counted, not 200"
-[ "${#terminated}" -eq 2 ] || fail "the tasks ended before they could be terminated"
+[ -n "$terminated" ] || fail "the tasks ended before one could be terminated"
 echo "200 cases, none lost, none counted twice, equal to one process bit by bit"
