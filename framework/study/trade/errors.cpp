@@ -7,7 +7,8 @@
 namespace trammel::study {
 namespace {
 
-// Varies by less of its size: a constant of the motion. Smaller than that part of the largest observable: round-off of 0.
+// constant: an observable that varies by less of its size is a constant of the motion. nothing: one smaller than that
+// part of the largest is the round-off of 0.
 constexpr double constant = 1e-6, nothing = 1e-8;
 
 // By what the scene writes: contacts.tip.force, joints.pin.reaction, beam.tip.ay.
