@@ -57,6 +57,7 @@ class StepSearch {
     object["step"] = h;
     Overrides change = change_;
     change.push_back({"integrator", object.dump()});
+    change.push_back({"record.every", fmt::format("{:.17g}", h)});  // a record ends a step
     const CaseResult r = run_case(source_.with(change), registry_, options_);
     return r.done() && largest_energy(r) <= unbounded * energy_;
   }
