@@ -136,10 +136,11 @@ Exit make_plugin(const Arguments& a) {
 Command new_command() {
   return {
       "new",
-      "KIND NAME...",
+      "KIND NAME",
       "Write a folder with a complete plugin to change: integrator, body, joint, force, contact, friction, correction.",
       {kInto},
-      make_plugin};
+      make_plugin,
+      2};
 }
 
 }  // namespace trammel::tool
