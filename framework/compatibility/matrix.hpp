@@ -1,6 +1,6 @@
 // The matrix of support: which integrator takes what, which laws of contact and friction go together and what they
-// need, what corrections correct, what bodies bring. It follows from the components alone, by the rules that also refuse
-// scenes.
+// need, what corrections correct, what bodies bring. It follows from the components alone, by the rules that also
+// refuse scenes.
 #pragma once
 
 #include <optional>

@@ -10,7 +10,7 @@
 #include "diagnose/redundancy.hpp"
 #include "linear/dense/decompositions.hpp"
 #include "run/row_tolerance.hpp"
-#include "system/onto_rows.hpp"
+#include "system/on_rows/onto_rows.hpp"
 
 namespace trammel::simulate {
 namespace {

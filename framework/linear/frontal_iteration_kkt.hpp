@@ -10,8 +10,8 @@
 //     [D S D    D W^T E] [D^-1 x]   [D b]        D, E diagonal, of powers of two: scaling does not round
 //     [E G D       0   ] [E^-1 y] = [E c]
 //
-// Where rows depend on each other, or exchanges within fronts do not serve, by the slower sparse LU of sparse_iteration_kkt.hpp,
-// unscaled: y is
+// Where rows depend on each other, or exchanges within fronts do not serve, by the slower sparse LU of
+// sparse_iteration_kkt.hpp, unscaled: y is
 // then of minimum norm, and what is singular beyond the rows is told.
 // The pattern is analysed when it widens: once per mesh, and as contacts reach what they have not touched.
 #pragma once

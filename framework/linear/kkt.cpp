@@ -7,7 +7,7 @@
 #include "linear/dense/eps.hpp"
 #include "linear/dense/orthonormal.hpp"
 #include "linear/dense/products_of_few_rows.hpp"
-#include "linear/refinement.hpp"
+#include "linear/dense/refinement.hpp"
 
 namespace trammel::numerics {
 

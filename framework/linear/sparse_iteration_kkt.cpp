@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "linear/dense/eps.hpp"
-#include "linear/refinement.hpp"
+#include "linear/dense/refinement.hpp"
 #include "linear/sparse/sparse_sum.hpp"
 
 namespace trammel::numerics {

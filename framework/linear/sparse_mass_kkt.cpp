@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "linear/dense/eps.hpp"
-#include "linear/refinement.hpp"
+#include "linear/dense/refinement.hpp"
 
 namespace trammel::numerics {
 
@@ -20,9 +20,9 @@ constexpr double soft_chain = 2e-9;
 // Below this, accelerations that the second correction still changes by more than this part of them are not trusted: of
 // 594 loads on masts and 48 beams of graded masses it was 100 times their error at least.
 constexpr double may_be_soft = 1e-6, trusted_change = 1e-7;
-// Redundant rows whose right sides part by more than this, beside the accelerations, contradict each other: no x reaches
-// them, and the nearest c that one does stands for them, as in all other solvers. Drift within a run's tolerance leaves
-// less, and fronts then take the rows that they have not found dependent, which differs by no more.
+// Redundant rows whose right sides part by more than this, beside the accelerations, contradict each other: no x
+// reaches them, and the nearest c that one does stands for them, as in all other solvers. Drift within a run's
+// tolerance leaves less, and fronts then take the rows that they have not found dependent, which differs by no more.
 constexpr double contradiction = 1e-6;
 // Of rows as springs, where fronts contradict each other. Less leaves more rounding of the elimination, more leaves
 // more directions free, which follow the rounding of rows and forces. Accelerations of a hoop of 10,000 bays from 30 to
@@ -138,8 +138,8 @@ struct SparseMassKkt::ByComplement {
     add_rows_times(bodies, 1, x, kkt.residual_);
     return left = kkt.residual_.lpNorm<Eigen::Infinity>();
   }
-  // Multipliers along a chain add up to accelerations a million times those that are left. Their round-off does not fall
-  // by corrections, but the first one takes away what is smooth of it, to which a soft mechanism yields: 1e-9 of a
+  // Multipliers along a chain add up to accelerations a million times those that are left. Their round-off does not
+  // fall by corrections, but the first one takes away what is smooth of it, to which a soft mechanism yields: 1e-9 of a
   // mast's accelerations.
   double round_off() { return of_forces = 4 * eps * kkt.complement_.largest_share(y); }
   double correction() {
@@ -158,10 +158,10 @@ struct SparseMassKkt::ByComplement {
   }
 };
 
-// False: the mechanism is too soft for it, which may leave no trace in any single pivot. The second correction tells: it
-// answers to what the first has left, round-off, which S^-1 enlarges most in the softest direction. Of chains and masts
-// of 1000 to 80,000 rows under their own weight and springs that is within 5 % of their least eigenvalue. Or the factors
-// are of other rows, too far off for corrections to come closer.
+// False: the mechanism is too soft for it, which may leave no trace in any single pivot. The second correction tells:
+// it answers to what the first has left, round-off, which S^-1 enlarges most in the softest direction. Of chains and
+// masts of 1000 to 80,000 rows under their own weight and springs that is within 5 % of their least eigenvalue. Or the
+// factors are of other rows, too far off for corrections to come closer.
 bool SparseMassKkt::solve_by_complement(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x,
                                         Vec& y) {
   y.setZero(nc_);

@@ -6,8 +6,8 @@
 // by one of two ways, which the rows decide each time they are factorised:
 //  - rows that do not merge unknowns, independent by more than round-off of their squares, as of rigid bodies in chains
 //    and trees: the Schur complement G M^-1 G^T (complement/row_complement.hpp);
-//  - all others, front by front (fronts/frontal_kkt.hpp): constant rows that merge unknowns leave small fronts (trusses),
-//    and redundant or nearly dependent rows are not squared there.
+//  - all others, front by front (fronts/frontal_kkt.hpp): constant rows that merge unknowns leave small fronts
+//    (trusses), and redundant or nearly dependent rows are not squared there.
 //
 // Long chains have soft directions: their softest singular value falls with n^-2 (masts) or n^-3 (hoops), and its
 // square is lost in the complement although no pivot shows it. A solution's second correction does, and fronts take

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "system/tangent_space.hpp"
+#include "system/on_rows/tangent_space.hpp"
 
 namespace trammel::simulate {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "linear/dense/decompositions.hpp"
-#include "system/onto_rows.hpp"
-#include "system/tangent_space.hpp"
+#include "system/on_rows/onto_rows.hpp"
+#include "system/on_rows/tangent_space.hpp"
 
 namespace trammel::simulate {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "linear/dense/decompositions.hpp"
-#include "system/tangent_space.hpp"
+#include "system/on_rows/tangent_space.hpp"
 
 namespace trammel::simulate {
 namespace {

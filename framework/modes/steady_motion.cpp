@@ -9,7 +9,7 @@
 #include "linear/dense/decompositions.hpp"
 #include "modes/nearest_steady.hpp"
 #include "modes/steady_linearisation.hpp"
-#include "system/tangent_space.hpp"
+#include "system/on_rows/tangent_space.hpp"
 
 namespace trammel::simulate {
 namespace {

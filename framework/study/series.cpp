@@ -18,7 +18,8 @@ SeriesSink::SeriesSink(const std::vector<simulate::Column>& columns, Keep keep) 
   series_.names.insert(series_.names.end(), simulate::book_columns.begin(), simulate::book_columns.end());
 }
 
-void SeriesSink::row(model::AssembledSystem& system, const State& state, const simulate::Ledger::Totals& books, long long) {
+void SeriesSink::row(model::AssembledSystem& system, const State& state, const simulate::Ledger::Totals& books,
+                     long long) {
   simulate::Moment moment(system, state);
   series_.t.push_back(state.t);
   for (const simulate::Column& column : columns_) series_.values.push_back(column.value(moment));

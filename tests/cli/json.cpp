@@ -47,7 +47,7 @@ TEST(JsonOutput, OfDescribeHasEveryParameterWithItsRangeAndDefault) {
 }
 
 TEST(JsonOutput, OfDescribeHasPartsOfASceneAndPagesOnItsLanguage) {
-  EXPECT_EQ(object_of({"describe", "simulate"})["pages"].at(0)["parameters"].at(0)["name"], "until");
+  EXPECT_EQ(object_of({"describe", "simulate"})["pages"].at(0)["parameters"].at(0)["name"], "start");
   EXPECT_THAT(object_of({"describe", "expressions"})["pages"].at(0)["text"].get<std::string>(), HasSubstr("atan2"));
 }
 

@@ -137,8 +137,8 @@ TEST(RandomStructures, TowersDroppedOrPushedDoNotDependOnNames) {
 }
 
 TEST(RandomStructures, TablesOfManyLegsDoNotDependOnNames) {
-  // Not always trusted: legs that slide keep the share of springs, by which one of the second pulls, and the run says so
-  // (framework/complementarity/README.md, what is not promised).
+  // Not always trusted: legs that slide keep the share of springs, by which one of the second pulls, and the run says
+  // so (framework/complementarity/README.md, what is not promised).
   for (unsigned seed = 1; seed <= 6; ++seed) expect_same_whatever_the_names(table, seed, false);
 }
 

@@ -62,7 +62,9 @@ TEST(Verification, EndsTrustWhereRepetitionsPart) {
 TEST(Remedy, GetsPastAStepThatIsTooLongForASpring) {
   plugin::Registry registry;
   const SceneSource source(tour + "04_spring_damper.json",
-                           {{"integrator", R"({"type": "runge_kutta_4", "step": 0.5})"}, {"simulate.until", "200"}});
+                           {{"integrator", R"({"type": "runge_kutta_4", "step": 0.5})"},
+                            {"record.every", "0.5"},
+                            {"simulate.until", "200"}});
   const CaseResult failed = run_case(source.with(), registry);
   ASSERT_FALSE(failed.done());
   const auto remedy = find_remedy(source, registry, failed.t_end, 10);
@@ -76,7 +78,7 @@ TEST(Ablation, LeavesOutAnIdleSpringAndKeepsGravity) {
   const SceneSource source(
       tour + "01_pendulum.json",
       {{"simulate.until", "1"},
-       {"forces", R"({"idle": {"type": "spring_damper", "between": ["ground", "bar.tip"], "stiffness": 1e-12}})"}});
+       {"forces", R"({"idle": {"type": "spring_damper", "between": ["ground", "bar.tip"], "stiffness": 1e-12, "length": 1}})"}});
   const Ablation a = ablate(source, registry, 1e-6, 1);
   ASSERT_EQ(a.left_out.size(), 1u);
   EXPECT_EQ(a.left_out.front().change.path, "forces.idle");

@@ -25,8 +25,8 @@ namespace trammel::numerics {
 
 class RowComplement {
  public:
-  // Of the first nc rows. False: a pivot is no more than the square of `least_sine` beside its diagonal, the sine of its
-  // row's angle to those eliminated before; the factors are not complete then.
+  // Of the first nc rows. False: a pivot is no more than the square of `least_sine` beside its diagonal, the sine of
+  // its row's angle to those eliminated before; the factors are not complete then.
   [[nodiscard]] bool factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc,
                                double least_sine = 0);
   // Of y = S^-1 r: a mean of the eigenvalues of S with its diagonal scaled to 1 (a Rayleigh quotient), so no less than

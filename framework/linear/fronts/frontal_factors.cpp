@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "linear/refinement.hpp"
+#include "linear/dense/refinement.hpp"
 
 namespace trammel::numerics {
 

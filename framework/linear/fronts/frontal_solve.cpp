@@ -8,7 +8,7 @@
 #include "linear/dense/products_of_few_rows.hpp"
 #include "linear/dense/short_sums.hpp"
 #include "linear/fronts/frontal_kkt.hpp"
-#include "linear/refinement.hpp"
+#include "linear/dense/refinement.hpp"
 
 namespace trammel::numerics {
 

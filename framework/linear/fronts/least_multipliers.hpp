@@ -7,7 +7,7 @@
 // merging rows count too. In a front, w are the multipliers of its own rows, of length one, and of the rows that its
 // children passed to it:
 //
-//     w = Q_2 p + Q_3 z,   y_own = D w_own           p: multipliers of the rows that it passes to its parent; D: 1/length
+//     w = Q_2 p + Q_3 z,   y_own = D w_own     p: multipliers of the rows that it passes to its parent; D: 1/length
 //     B [Q_3 Q_2] = Q [R_33 R_32; 0 R]               B: D of own rows, R of each child's
 //     |y + n|^2 of all rows up to here = |R p + beta_2|^2 + const   for   R_33 z = -(beta_3 + R_32 p)
 //

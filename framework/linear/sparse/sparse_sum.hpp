@@ -5,8 +5,8 @@
 // Each block's places are noted the first time, with where its entries are stored: neighbouring rows together, so that
 // a cell of 16 nodes needs 192 places for 2304 entries. Later sums only compare the rows and columns. From the first
 // block on that is another than last time (contacts wander), all are looked up, and the pattern becomes that of the
-// blocks that there are now, beside what is reserved: it depends on this sum and not on earlier ones, so that a run that
-// is resumed eliminates in the same order. The pattern is symmetric and has the diagonal.
+// blocks that there are now, beside what is reserved: it depends on this sum and not on earlier ones, so that a run
+// that is resumed eliminates in the same order. The pattern is symmetric and has the diagonal.
 #pragma once
 
 #include <cstddef>

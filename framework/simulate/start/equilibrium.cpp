@@ -8,7 +8,7 @@
 
 #include "simulate/contact/resting_contacts.hpp"
 #include "simulate/watch/turn_counts.hpp"
-#include "system/onto_rows.hpp"
+#include "system/on_rows/onto_rows.hpp"
 
 namespace trammel::simulate {
 namespace {

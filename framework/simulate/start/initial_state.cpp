@@ -11,7 +11,7 @@
 #include "run/contact_scale.hpp"
 #include "run/row_tolerance.hpp"
 #include "simulate/start/equilibrium.hpp"
-#include "system/onto_rows.hpp"
+#include "system/on_rows/onto_rows.hpp"
 
 namespace trammel::simulate {
 namespace {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "diagnose/row_offsets.hpp"
-#include "system/onto_rows.hpp"
+#include "system/on_rows/onto_rows.hpp"
 #include "system/pseudo_random.hpp"
 
 namespace trammel::simulate {

@@ -122,8 +122,8 @@ TEST(ResumedRun, WhoseRowsTakeTurnsEndsWithTheSameBytes) {
   }
 }
 
-// A chain of many bodies that strikes a table, itself a body on a spring, and leaves it: the contacts' stiffness couples
-// two bodies in the iteration matrix while they touch, as many rows in another pattern.
+// A chain of many bodies that strikes a table, itself a body on a spring, and leaves it: the contacts' stiffness
+// couples two bodies in the iteration matrix while they touch, as many rows in another pattern.
 TEST(ResumedRun, OfAChainThatHasLeftASoftTableEndsWithTheSameBytes) {
   const scene::Scene scene = scene::Scene::parse(R"json({
     "trammel": 1, "space": "planar", "gravity": [0, -9.81], "parameters": {"n": 12},

@@ -26,7 +26,7 @@ Words words(const char* name, const char* claim, const char* equation, const cha
   return {std::string("integrator.") + name, claim, equation, {header, line}};
 }
 
-constexpr const char* of_order = "int order = 1;  // of q and v with constant steps, constraints included";
+constexpr const char* of_order = "Of q and v with constant steps, constraints included.";
 constexpr const char* slope = "log |y_h - y| = p log h + constant,   p = Traits::order";
 
 int most_steps(const Subject& s) {

@@ -1,4 +1,4 @@
-#include "system/onto_rows.hpp"
+#include "system/on_rows/onto_rows.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "system/tangent_space.hpp"
+#include "system/on_rows/tangent_space.hpp"
 
 #include "linear/dense/decompositions.hpp"
 #include "linear/kkt.hpp"

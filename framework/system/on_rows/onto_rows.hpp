@@ -3,9 +3,9 @@
 //     q := q (+) dq,   [S G^T; G 0] (dq, mu) = -(0, g)               factors at each iterate
 //     v := v + dv,     [S G^T; G 0] (dv, mu) = -(0, G v + g_t)       linear; twice, to reduce round-off
 //
-// Positions end at the rows' round-off, `rounding` of the largest coordinate, since rows are differences of coordinates;
-// or, where the rows are within `allowed`, as soon as an iteration does not halve what is left: Newton's method
-// converges quadratically until there is only round-off.
+// Positions end at the rows' round-off, `rounding` of the largest coordinate, since rows are differences of
+// coordinates; or, where the rows are within `allowed`, as soon as an iteration does not halve what is left: Newton's
+// method converges quadratically until there is only round-off.
 //
 // The integrators' and corrections' own iterations are others: they keep factors from one iterate to the next.
 #pragma once
