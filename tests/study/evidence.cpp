@@ -59,12 +59,11 @@ TEST(Verification, EndsTrustWhereRepetitionsPart) {
   EXPECT_THAT(v.sentences().front(), testing::HasSubstr("trust ends at t = "));
 }
 
-TEST(Remedy, GetsPastAStepThatIsTooLongForASpring) {
+// Steps of a millisecond at least keep no tolerance of 1e-14; nor do finer ones of this method.
+TEST(Remedy, GetsPastStepsThatAreTooLongForTheirTolerance) {
   plugin::Registry registry;
   const SceneSource source(tour + "04_spring_damper.json",
-                           {{"integrator", R"({"type": "runge_kutta_4", "step": 0.5})"},
-                            {"record.every", "0.5"},
-                            {"simulate.until", "200"}});
+                           {{"integrator", R"({"type": "runge_kutta_4", "step": {"tolerance": 1e-14, "min": 1e-3}})"}});
   const CaseResult failed = run_case(source.with(), registry);
   ASSERT_FALSE(failed.done());
   const auto remedy = find_remedy(source, registry, failed.t_end, 10);
@@ -78,7 +77,8 @@ TEST(Ablation, LeavesOutAnIdleSpringAndKeepsGravity) {
   const SceneSource source(
       tour + "01_pendulum.json",
       {{"simulate.until", "1"},
-       {"forces", R"({"idle": {"type": "spring_damper", "between": ["ground", "bar.tip"], "stiffness": 1e-12, "length": 1}})"}});
+       {"forces",
+        R"({"idle": {"type": "spring_damper", "between": ["ground", "bar.tip"], "stiffness": 1e-12, "length": 1}})"}});
   const Ablation a = ablate(source, registry, 1e-6, 1);
   ASSERT_EQ(a.left_out.size(), 1u);
   EXPECT_EQ(a.left_out.front().change.path, "forces.idle");
