@@ -11,6 +11,10 @@ constexpr const char* header = "trammel/integrator.hpp";
 std::string takes_no_rows(const Subject& s) {
   return s.traits().rows ? "" : "it takes no rows: Traits::rows = false";
 }
+// Its map is not linear on linear problems, and a long step takes as many of its own as the motion asks.
+std::string steps_inside_each_step(const Subject& s) {
+  return s.traits().order > 0 ? "" : "it takes steps of its own inside each step: Traits::order = 0";
+}
 template <class Ability>
 std::function<std::string(const Subject&)> unless_it_offers(const char* ability) {
   return [=](const Subject& s) {
@@ -120,7 +124,7 @@ void add_extremes(Checks& checks) {
   checks.push_back(
       {words("any-step-is-finite-or-rejected", "Steps of 1e-12 s to 1e3 s end in finite numbers or a rejection.",
              "|y_{n+1}| < infinity, or Outcome::reject", reject),
-       Level::quick, any_step_is_finite_or_rejected});
+       Level::quick, any_step_is_finite_or_rejected, steps_inside_each_step});
   checks.push_back({words("rejects-what-is-not-a-number", "A step on a force that is not a number is rejected.",
                           "f = NaN: Outcome::reject", reject),
                     Level::quick, rejects_what_is_not_a_number});
@@ -161,7 +165,7 @@ void add_accuracy(Checks& checks) {
                     takes_no_rows});
   checks.push_back({words("is-stable-for-small-steps", "For small steps no root of the amplification matrix exceeds 1.",
                           "|z_i| <= 1 + O((omega h)^(p+1)) on x'' = -omega^2 x", of_order),
-                    Level::quick, is_stable_for_small_steps});
+                    Level::quick, is_stable_for_small_steps, steps_inside_each_step});
 }
 
 constexpr const char* estimate_line =
