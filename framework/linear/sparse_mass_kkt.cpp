@@ -23,6 +23,7 @@ constexpr double may_be_soft = 1e-6, trusted_change = 1e-7;
 // Redundant rows whose right sides part by more than this, beside the accelerations, contradict each other: no x
 // reaches them, and the nearest c that one does stands for them, as in all other solvers. Drift within a run's
 // tolerance leaves less, and fronts then take the rows that they have not found dependent, which differs by no more.
+// Corrections of rows alone (b = 0) are repeated until only round-off is left, all of which contradicts itself.
 constexpr double contradiction = 1e-6;
 // Of rows as springs, where fronts contradict each other. Less leaves more rounding of the elimination, more leaves
 // more directions free, which follow the rounding of rows and forces. Accelerations of a hoop of 10,000 bays from 30 to
@@ -82,7 +83,7 @@ bool SparseMassKkt::factorise_springs(const std::vector<BodyBlock>& bodies) {
 void SparseMassKkt::solve_by_fronts(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y) {
   if (route_ == Route::fronts) {
     bool holds = fronts_.solve(bodies, b, c, x, y);
-    if (redundant_ && fronts_.missed() > contradiction) {
+    if (fronts_.missed() > contradiction && !b.isZero(0)) {
       Vec reachable = c;
       minimise_norm(bodies, reachable);  // perpendicular to the null space of G^T: in the range of G
       holds = fronts_.solve(bodies, b, reachable, x, y);
