@@ -75,7 +75,8 @@ terminated= killed=0
 for round in $(seq 6000); do
   for task in 1 4; do
     if [[ $terminated != *$task* ]] && [ -s "shard_$task/cases.ndjson" ]; then
-      scancel --signal=TERM --batch "${job}_$task" 2> /dev/null && terminated+=$task  # else tried again
+      scancel --signal=TERM --batch "${job}_$task" 2> /dev/null
+      terminated+=$task  # once: a task that is terminated again when it was requeued would wait once more
     fi
   done
   if [ $killed -eq 0 ] && [ -s shard_6/cases.ndjson ]; then
