@@ -6,57 +6,12 @@
 #include <trammel/methods/runge_kutta.hpp>
 
 #include "support.hpp"
+#include "testing/kit/integrators/problems.hpp"
 
 namespace trammel::test {
 namespace {
 
-// Forwards to a system, and answers the n-th request for accelerations or corrections with what no method can use.
-class Failing final : public System {
- public:
-  enum class How { beyond_range, not_a_number, singular };
-  Failing(System& sound, How how) : sound_(sound), how_(how) {}
-  void fail_at(int n) { left_ = n; }
-  bool has_failed() const { return left_ < 0; }
-
-  Sizes sizes() const override { return sound_.sizes(); }
-  void rate(const Vec& q, const Vec& v, Vec& q_dot) const override { sound_.rate(q, v, q_dot); }
-  void normalise(Vec& q) const override { sound_.normalise(q); }
-  void retract(const Vec& q, const Vec& dq, Vec& q_new) const override { sound_.retract(q, dq, q_new); }
-  void difference(const Vec& q1, const Vec& q0, Vec& dq) const override { sound_.difference(q1, q0, dq); }
-  void move_to(double t, const Vec& q, const Vec& v) override { sound_.move_to(t, q, v); }
-  const Vec& f() override {
-    f_ = sound_.f();
-    if (how_ != How::singular && fails()) f_.setConstant(poison());
-    return f_;
-  }
-  const Vec& g() override { return sound_.g(); }
-  const Vec& g_dot() override { return sound_.g_dot(); }
-  void add_mass_times(double c, const Vec& a, Vec& r) override { sound_.add_mass_times(c, a, r); }
-  void add_reaction(double c, const Vec& lambda, Vec& r) override { sound_.add_reaction(c, lambda, r); }
-  void add_rows_times(double c, const Vec& x, Vec& rc) override { sound_.add_rows_times(c, x, rc); }
-  void add_rows_force(double c, const Vec& mu, Vec& r) override { sound_.add_rows_force(c, mu, r); }
-  Energy energy() override { return sound_.energy(); }
-  void accelerate(Stabilisation s, Vec& a, Vec& lambda) override {
-    sound_.accelerate(s, a, lambda);
-    if (how_ != How::singular && fails()) a.setConstant(poison());
-  }
-  void factorise(Blend b, const Vec& a, const Vec& lambda, Factors kept) override {
-    sound_.factorise(b, a, lambda, kept);
-  }
-  [[nodiscard]] bool correct(const Vec& r, const Vec& rc, Vec& da, Vec& dlambda, Factors kept) override {
-    const bool solved = sound_.correct(r, rc, da, dlambda, kept);
-    return solved && !(how_ == How::singular && fails());
-  }
-
- private:
-  bool fails() { return left_ >= 0 && left_-- == 0; }
-  double poison() const { return how_ == How::beyond_range ? 1e200 : std::numeric_limits<double>::quiet_NaN(); }
-
-  System& sound_;
-  How how_;
-  int left_ = std::numeric_limits<int>::min();  // evaluations before the failure
-  Vec f_;
-};
+using kit::Failing;
 
 bool finite(const State& s) {
   return s.q.allFinite() && s.v.allFinite() && s.a.allFinite() && s.lambda.allFinite();
