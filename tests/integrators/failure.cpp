@@ -1,7 +1,6 @@
 // Every integrator in every form on systems that fail at the n-th evaluation, for every n: a step is accepted with
 // finite numbers or rejected, and leaves no trace; what lies inside a step is a state, or not finite.
 #include <cmath>
-#include <limits>
 
 #include <trammel/methods/runge_kutta.hpp>
 
