@@ -18,7 +18,7 @@
 
 #include "run/run_failed.hpp"
 #include "simulate/contact_mode.hpp"
-#include "system/locks_itself.hpp"
+#include "system/point/locks_itself.hpp"
 
 namespace trammel::simulate {
 namespace {

@@ -13,7 +13,7 @@
 #include "run/run_failed.hpp"
 #include "simulate/start/blame.hpp"
 #include "simulate/trial_step.hpp"
-#include "system/locks_itself.hpp"
+#include "system/point/locks_itself.hpp"
 
 namespace trammel::simulate {
 namespace {

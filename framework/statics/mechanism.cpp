@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "system/pseudo_random.hpp"
+#include "system/point/pseudo_random.hpp"
 
 namespace trammel::simulate {
 
@@ -25,7 +25,7 @@ double mass_norm(model::AssembledSystem& system, const Vec& x) {
 Vec unrelated_motion(model::AssembledSystem& system, double t, const Vec& q) {
   const Vec zero = Vec::Zero(system.sizes().nv);
   system.move_to(t, q, zero);
-  const Vec x = pseudo_random(zero.size(), 1, 1);
+  const Vec x = model::pseudo_random(zero.size(), 1, 1);
   return x / mass_norm(system, x);
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,38 +12,14 @@
 
 #include "model/call_site.hpp"
 #include "model/model.hpp"
-#include "plugin/guard.hpp"
-#include "system/contact_modes.hpp"
+#include "system/point/contact_modes.hpp"
+#include "system/point/counts.hpp"
+#include "system/point/not_solvable.hpp"
+#include "system/point/storage.hpp"
 
 namespace trammel::model {
 
-// Counts of the expensive operations.
-struct Counts {
-  long long residual_evaluations = 0;  // evaluations of f
-  long long jacobian_evaluations = 0;  // of the iteration matrix
-  long long factorizations = 0;
-  // Newton iterations of implicit methods: points with a solution by the iteration matrix. Several solutions at one
-  // point (velocity rows, position rows, a test for round-off) count once; solutions for rows without a residual do not
-  // count.
-  long long newton_iterations = 0;
-};
-
-// The equations of motion have no solution at a point: an error of the scene, not of the plugin that called.
-class NotSolvable : public std::runtime_error, public plugin::PassesThroughPlugins {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-// Dense matrices; sparse M and S with dense rows, for bodies of many coordinates; or blocks by bodies with sparse
-// factorisations, for many bodies tied by rows. automatic: by what is measured to be quicker (storage_for).
-enum class Storage { automatic, dense, sparse, blocks };
-Storage storage_for(const Model& model);
-
-// The stresses of a CarriedStress tangent: those at `from` plus their linear change by the increment dq.
-struct CarriedFrom {
-  const Vec& from;
-  const Vec& dq;
-};
+struct CarriedFrom;  // tangent.hpp
 
 class AssembledSystem final : public System, public HasRigidMotions {
  public:
@@ -172,8 +147,8 @@ class AssembledSystem final : public System, public HasRigidMotions {
   Counts& counts();
 
  private:
-  struct Work;
-  std::unique_ptr<Work> work_;
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace trammel::model

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "run/contact_scale.hpp"
-#include "system/pseudo_random.hpp"
+#include "system/point/pseudo_random.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 bool moves(model::AssembledSystem& system, const Scale& scale, int contact) {
   const Vec rest = Vec::Zero(system.sizes().nv);
   const double by =
-      system.acceleration({contact, 0}, pseudo_random(rest.size(), 1, 0)) - system.acceleration({contact, 0}, rest);
+      system.acceleration({contact, 0}, model::pseudo_random(rest.size(), 1, 0)) - system.acceleration({contact, 0}, rest);
   return std::abs(by) > 1e-12 * std::min(1.0, scale.length()) + 16 * scale.resolution();
 }
 
@@ -37,7 +37,7 @@ void check_reach(model::AssembledSystem& system, const State& start, const scene
     const Scale own = scale.of(i);
     bool reaches = moves(system, own, i);
     for (double seed = 1; seed < 3 && !reaches; ++seed) {  // a dead centre, perhaps
-      system.retract(start.q, pseudo_random(start.v.size(), 0.1, seed), elsewhere);
+      system.retract(start.q, model::pseudo_random(start.v.size(), 0.1, seed), elsewhere);
       system.move_to(start.t, elsewhere, still);
       reaches = moves(system, own, i);
     }

@@ -9,7 +9,7 @@
 
 #include "diagnose/row_offsets.hpp"
 #include "system/on_rows/onto_rows.hpp"
-#include "system/pseudo_random.hpp"
+#include "system/point/pseudo_random.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -117,7 +117,7 @@ std::optional<double> nearest_if_never(model::AssembledSystem& system, const Sta
   double nearest = std::numeric_limits<double>::infinity();
   for (int attempt = 0; attempt < 4; ++attempt) {
     Vec q = start.q;
-    if (attempt > 0) system.retract(start.q, pseudo_random(start.v.size(), 0.1, attempt), q);
+    if (attempt > 0) system.retract(start.q, model::pseudo_random(start.v.size(), 0.1, attempt), q);
     Approach approach(system, start.t, contact);
     if (approach.from(q) != Approach::End::stationary) return {};
     const auto& limit = system.model().contacts[std::size_t(contact)].limit;

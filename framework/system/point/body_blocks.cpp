@@ -1,6 +1,8 @@
-#include "system/body_blocks.hpp"
+#include "system/point/body_blocks.hpp"
 
 #include <algorithm>
+
+#include "linear/dense/prefetch.hpp"
 
 namespace trammel::model {
 
@@ -31,6 +33,12 @@ void BodyBlocks::lay_out(std::span<const Tie> ties) {
         block.rows.push_back(i), block.constant.push_back(tie.constant);
     }
   for (BodyBlock& block : bodies_) block.Gt.setZero(block.M.rows(), Eigen::Index(block.rows.size()));
+}
+
+void BodyBlocks::prefetch_rows(std::size_t body) const {
+  const BodyEntry& entry = model_.bodies[body];
+  const std::size_t own = std::size_t(entry.rows) * std::size_t(entry.nv);
+  numerics::prefetch(bodies_[body].Gt.data(), own * sizeof(double));
 }
 
 namespace {

@@ -1,4 +1,4 @@
-#include "system/constant_rows.hpp"
+#include "system/point/constant_rows.hpp"
 
 namespace trammel::model {
 

@@ -1,4 +1,4 @@
-#include "system/contact_loads.hpp"
+#include "system/point/contact_loads.hpp"
 
 #include <algorithm>
 #include <cmath>

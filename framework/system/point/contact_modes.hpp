@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "system/slip.hpp"
+#include "system/point/slip.hpp"
 
 namespace trammel::model {
 

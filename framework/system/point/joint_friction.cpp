@@ -1,20 +1,12 @@
-// Joints with friction at the point: their slip, the loads of their bearings, and W for given multipliers.
-//
-//     N(lambda) = sum_k |L_k lambda|,  L_k = C_k H_B^T      homogeneous of degree 1, so with n = dN/dlambda at lambda
-//     W^T lambda = (G^T - r h^T n) lambda                   r = T/N while sliding, h: the row of the slip
-//
-// W^T lambda is the reaction at lambda, and W^T its derivative there. Hence solving with W of the last lambda is a
-// Newton iteration. If the loads are scalars (a planar guide), n depends only on their signs, and the second iterate is
-// exact.
+#include "system/point/joint_friction.hpp"
+
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
-#include <trammel/joint_friction.hpp>
-
-#include "system/assembly.hpp"
-#include "system/locks_itself.hpp"
+#include "system/markers/pair_tangent.hpp"
+#include "system/point/locks_itself.hpp"
 
 namespace trammel {
 
@@ -52,90 +44,101 @@ double total(const Bearings& bearings, const Vec6& loads) {
 
 }  // namespace
 
-void AssembledSystem::Work::reserve_bearings() {
-  for (int i = 0; i < int(model->contacts.size()); ++i)
-    if (model->contacts[std::size_t(i)].joint) {
-      bearing_of.resize(model->contacts.size(), -1);
-      bearing_of[std::size_t(i)] = int(bearings.size());
-      bearings.push_back({.contact = i});
+JointFriction::JointFriction(Point& at, ContactsAtPoint& contacts) : at_(at), contacts_(contacts) {
+  for (int i = 0; i < contacts_.count(); ++i)
+    if (contacts_.in_joint(i)) {
+      bearing_of_.resize(std::size_t(contacts_.count()), -1);
+      bearing_of_[std::size_t(i)] = int(bearings_.size());
+      bearings_.push_back({.contact = i});
     }
-  bear_nothing();
+  unload();
 }
 
-const JointEntry& AssembledSystem::Work::joint_of(int contact) const {
-  return model->joints[std::size_t(model->contacts[std::size_t(contact)].joint->joint)];
+const JointEntry& JointFriction::joint_of(int contact) const {
+  return at_.model->joints[std::size_t(contacts_.entry(contact).joint->joint)];
 }
 
-AssembledSystem::Work::Bearing& AssembledSystem::Work::bearing(int contact) {
-  Bearing& b = bearings[std::size_t(bearing_of[std::size_t(contact)])];
-  if (b.point == point) return b;
+JointFriction::Bearing& JointFriction::bearing(int contact) {
+  Bearing& b = bearings_[std::size_t(bearing_of_[std::size_t(contact)])];
+  if (b.point == at_.number) return b;
   const JointEntry& joint = joint_of(contact);
-  const Slots& at = contact_slots[std::size_t(contact)];
-  const CallSite around = site;
-  called(joint.origin, "rows");
-  evaluate_constraint(*joint.joint, joint.rows, motions(at), at.count, rows);
-  called(joint.origin, "bearings");
-  b.at.begin(model->world.space);
-  model->contacts[std::size_t(contact)].joint->bearing->bearings(t, motion(at.A), motion(at.B), b.at);
-  site = around;
-  b.loads = b.at.C * rows.H_B.transpose();
-  b.point = point;
+  const Slots& slots = contacts_.slots(contact);
+  const CallSite around = at_.site;
+  at_.called(joint.origin, "rows");
+  at_.evaluate(*joint.joint, joint.rows, at_.motions(slots), slots.count, rows_);
+  at_.called(joint.origin, "bearings");
+  b.at.begin(at_.model->world.space);
+  contacts_.entry(contact).joint->bearing->bearings(at_.t, at_.motion(slots.A), at_.motion(slots.B), b.at);
+  at_.site = around;
+  b.loads = b.at.C * rows_.H_B.transpose();
+  b.point = at_.number;
   return b;
 }
 
-double AssembledSystem::Work::bearing_load(int contact, const Vec& lambda) {
+double JointFriction::load(int contact, const Vec& lambda) {
   const JointEntry& joint = joint_of(contact);
   const Bearing& b = bearing(contact);
   return total(b.at, b.loads * lambda.segment(joint.row, joint.rows));
 }
 
-bool AssembledSystem::Work::slides_in_bearing(int contact) {
-  return modes.contacts[std::size_t(contact)].closed && friction_ratio(contact) != Tangential::Zero();
+const Vec6& JointFriction::load_by_row(int contact) const {
+  return bearings_[std::size_t(bearing_of_[std::size_t(contact)])].load_by_row;
 }
 
-void AssembledSystem::Work::bear_nothing() {
-  bool bore = false;
-  for (Bearing& b : bearings) {
-    bore = bore || (b.load_by_row.size() > 0 && !b.load_by_row.isZero(0));
+bool JointFriction::slides(int contact) {
+  return contacts_.mode(contact).closed && contacts_.friction_ratio(contact) != Tangential::Zero();
+}
+
+bool JointFriction::unload() {
+  bool loaded = false;
+  for (Bearing& b : bearings_) {
+    loaded = loaded || (b.load_by_row.size() > 0 && !b.load_by_row.isZero(0));
     b.load_by_row.setZero(joint_of(b.contact).rows);
   }
-  if (bore && rows_fresh && coupled) couple_reactions();
+  return loaded;
 }
 
-bool AssembledSystem::Work::bear(const Vec& lambda) {
-  if (bearings.empty()) return false;
+JointFriction::Loaded JointFriction::load_with(const Vec& lambda) {
   // The load of a lightly loaded joint is limited by the round-off of larger loads in other joints.
   const double largest = lambda.size() > 0 ? lambda.lpNorm<Eigen::Infinity>() : 0;
-  bool changed = false, far = false;
-  for (Bearing& b : bearings) {
-    if (!slides_in_bearing(b.contact)) continue;
+  Loaded loaded;
+  for (Bearing& b : bearings_) {
+    if (!slides(b.contact)) continue;
     bearing(b.contact);
     const JointEntry& joint = joint_of(b.contact);
     const Vec6 of_joint = lambda.segment(joint.row, joint.rows), p = b.loads * of_joint;
     const double round_off = 64 * eps * largest * b.loads.cwiseAbs().sum();
-    far = far || std::abs(total(b.at, p) - b.load_by_row.dot(of_joint)) > round_off;
+    loaded.far = loaded.far || std::abs(total(b.at, p) - b.load_by_row.dot(of_joint)) > round_off;
     const Vec6 before = b.load_by_row;
     b.load_by_row.setZero();
     for_each_bearing(b.at, [&](int first, int n) {
       const double load = p.segment(first, n).norm();
       if (load > 0) b.load_by_row += b.loads.middleRows(first, n).transpose() * (p.segment(first, n) / load);
     });
-    changed = changed || b.load_by_row != before;
+    loaded.changed = loaded.changed || b.load_by_row != before;
   }
-  if (changed) couple_reactions();
-  return far;
+  return loaded;
 }
 
-void AssembledSystem::Work::fail_without_loads() {
+void JointFriction::fail_without_loads() {
   std::string names;
-  for (const Bearing& b : bearings)
-    if (slides_in_bearing(b.contact))
-      names += (names.empty() ? "" : ", ") + model->contacts[std::size_t(b.contact)].path();
+  for (const Bearing& b : bearings_)
+    if (slides(b.contact)) names += (names.empty() ? "" : ", ") + contacts_.entry(b.contact).path();
   throw LocksItself(
       fmt::format("the sliding friction of {} was not found: the bearings' loads and the friction that follows from "
                   "them raise each "
                   "other; with so much friction the joint may lock itself as it slides",
                   names));
+}
+
+CallSite JointFriction::find_not_finite() {
+  for (const Bearing& b : bearings_) {
+    const Rows& slip = contacts_.rows(b.contact);
+    if (!slip.g.allFinite() || !slip.gamma.allFinite() || !slip.H_A.allFinite() || !slip.H_B.allFinite())
+      return {&joint_of(b.contact).origin, "slip_row"};
+    if (!bearing(b.contact).loads.allFinite()) return {&joint_of(b.contact).origin, "bearings"};
+  }
+  return {};
 }
 
 namespace {
@@ -180,25 +183,25 @@ class SlipForce final : public MarkerWrenches {
 
 }  // namespace
 
-void AssembledSystem::Work::add_slip_tangent(int contact, Blend c, const Vec& lambda, Matrix& S) {
-  const Slots& at = contact_slots[std::size_t(contact)];
-  const Rows& r = this->contact(contact);
-  const double damping = friction_damping(contact)(0, 0);
+void JointFriction::add_tangent(int contact, Blend c, const Vec& lambda, Matrix& S) {
+  const Slots& slots = contacts_.slots(contact);
+  const Rows& r = contacts_.rows(contact);
+  const double damping = contacts_.friction_damping(contact)(0, 0);
   if (c.c_d != 0 && damping != 0) {
-    const double weight = c.c_d * damping * bearing_load(contact, lambda);
-    for (int k = 0; k < at.count; ++k)
-      for (int l = 0; l < at.count; ++l)
-        chain.add_pair(at[k], at[l], r.H(k).row(1).transpose() * r.H(l).row(1), weight, S);
+    const double weight = c.c_d * damping * load(contact, lambda);
+    for (int k = 0; k < slots.count; ++k)
+      for (int l = 0; l < slots.count; ++l)
+        at_.chain.add_pair(slots[k], slots[l], r.H(k).row(1).transpose() * r.H(l).row(1), weight, S);
   }
-  const int row = loads.place({contact, 1}).row;
-  const double ratio = friction_ratio(contact)[0], held = row >= 0 ? lambda(row) : 0;
+  const int row = contacts_.loads.place({contact, 1}).row;
+  const double ratio = contacts_.friction_ratio(contact)[0], held = row >= 0 ? lambda(row) : 0;
   if (c.c_k == 0 || (ratio == 0 && held == 0)) return;
   const JointEntry& joint = joint_of(contact);
-  called(joint.origin, "bearings");
-  const SlipForce force(joint, *model->contacts[std::size_t(contact)].joint->bearing, t,
-                        lambda.segment(joint.row, joint.rows), ratio, held);
-  const std::array<int, 2> both = {at.A, at.B};
-  add_wrench_tangent(chain, both, t, q, v, force, c.c_k, 0, S);
+  at_.called(joint.origin, "bearings");
+  const SlipForce force(joint, *contacts_.entry(contact).joint->bearing, at_.t, lambda.segment(joint.row, joint.rows),
+                        ratio, held);
+  const std::array<int, 2> both = {slots.A, slots.B};
+  add_wrench_tangent(at_.chain, both, at_.t, at_.q, at_.v, force, c.c_k, 0, S);
 }
 
 }  // namespace model

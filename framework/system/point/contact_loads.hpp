@@ -17,7 +17,7 @@
 #include <trammel/types.hpp>
 
 #include "complementarity/shares/spare_load.hpp"
-#include "system/contact_modes.hpp"
+#include "system/point/contact_modes.hpp"
 
 namespace trammel::model {
 

@@ -1,7 +1,7 @@
 // Self-locking: load and friction of a sliding joint increase each other without bound.
 #pragma once
 
-#include "system/assembled_system.hpp"
+#include "system/point/not_solvable.hpp"
 
 namespace trammel::model {
 

@@ -6,11 +6,11 @@
 
 #include <trammel/types.hpp>
 
-namespace trammel::simulate {
+namespace trammel::model {
 
 inline Vec pseudo_random(Eigen::Index n, double size, double seed) {
   return Vec::NullaryExpr(
       n, [=](Eigen::Index i) { return size * std::sin(seed + 1.618033988749895 * double(i * i + 1)); });
 }
 
-}  // namespace trammel::simulate
+}  // namespace trammel::model

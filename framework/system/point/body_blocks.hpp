@@ -34,6 +34,7 @@ class BodyBlocks {
 
   std::vector<numerics::BodyBlock>& bodies() { return bodies_; }
   Mat& mass(std::size_t body) { return bodies_[body].M; }
+  void prefetch_rows(std::size_t body) const;  // where its own rows go
   // Rows of G are set, or cleared and then added to; they persist.
   void clear_rows(int body, int row, Eigen::Index n);
   void add_rows(int body, int row, const Motion& marker, const RowsOf& H);  // G(row + i, :) += (H J)_i

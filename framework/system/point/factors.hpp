@@ -1,0 +1,59 @@
+// Factorisations of the equations at the point: [S W^T; G 0] in the storage of the system.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "linear/frontal_iteration_kkt.hpp"
+#include "linear/kkt.hpp"
+#include "system/point/mass_and_force.hpp"
+#include "system/point/rows.hpp"
+#include "system/point/tangent.hpp"
+
+namespace trammel::model {
+
+class FactorsAtPoint {
+ public:
+  // Those of System::Factors, and that for accelerations at the point.
+  enum Store : std::size_t { iteration, projection, at_point };
+
+  FactorsAtPoint(Point& at, ContactsAtPoint& contacts, RowsAtPoint& rows, MassAndForceAtPoint& masses,
+                 TangentAtPoint& tangent, BodyBlocks* blocks, bool sparse, Counts& counts);
+
+  // The rows must be there. With friction: W, otherwise G alone.
+  [[nodiscard]] bool factorise_mass(Store store, bool with_friction);  // false: M is not positive definite
+  void factorise_identity(Store store);
+  void factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda, bool with_friction,
+                         const CarriedFrom* carried = nullptr);
+  [[nodiscard]] bool solve(Store store, const Vec& b, const Vec& c, Vec& x, Vec& y);  // false: not solvable
+  bool redundant(Store store) const;             // true if rows were redundant at the last factorise_mass
+  void minimise_norm(Store store, Vec& lambda);  // of redundant rows, in blocks
+
+ private:
+  // M or the identity alone has a cheaper, symmetric factorisation.
+  struct Kept {
+    bool symmetric = false;  // of M or the identity alone
+    numerics::MassKkt mass;
+    bool mass_factorised = false;  // for constant mass matrices: once
+    numerics::IterationKkt iteration;
+    numerics::FrontalIterationKkt sparse;  // used instead with sparse storage
+  };
+  void factorise_sparse(Kept& store, Blend c, const Vec& a, const Vec& lambda, bool sliding,
+                        const CarriedFrom* carried);
+  void reserve_contacts();
+  void add_rows_to(numerics::SparseSum& sum, bool sliding);  // W^T and G beside S
+
+  Point& at_;
+  ContactsAtPoint& contacts_;
+  RowsAtPoint& rows_;
+  MassAndForceAtPoint& masses_;
+  TangentAtPoint& tangent_;
+  BodyBlocks* blocks_;
+  bool sparse_;
+  Counts& counts_;
+  std::array<Kept, 3> kept_;
+  std::vector<int> row_places_;  // column indices and values of a few rows
+  std::vector<double> row_numbers_;
+};
+
+}  // namespace trammel::model

@@ -1,0 +1,76 @@
+#include "system/point/impulse_response.hpp"
+
+#include "linear/kkt.hpp"
+#include "linear/sparse_mass_kkt.hpp"
+#include "system/point/not_solvable.hpp"
+#include "system/point/pseudo_random.hpp"
+
+namespace trammel::model {
+
+void ImpulseResponse::respond(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus) {
+  const int nv = at_.model->sizes.nv;
+  const auto n = Eigen::Index(directions.size());
+  const Solver dv_of = with_joints_held();
+  Mat N = Mat::Zero(nv, n);
+  jump.resize(nv, n);
+  Vec dv, column;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const ContactDirection d = directions[std::size_t(i)];
+    const Rows& r = contacts_.rows(d.contact);
+    const Slots& slots = contacts_.slots(d.contact);
+    for (int k = 0; k < slots.count; ++k) at_.motion(slots[k]);
+    column.setZero(nv);
+    at_.add_row_force(slots, r, d.row, 1, column);
+    N.col(i) = column;
+    dv_of(column, dv);
+    jump.col(i) = dv;
+  }
+  delassus.noalias() = N.transpose() * jump;
+  clear_held(N, jump, delassus);
+}
+
+ImpulseResponse::Solver ImpulseResponse::with_joints_held() {
+  masses_.evaluate_mass();
+  const int joint_rows = rows_.held();
+  const auto solver = [joint_rows](auto&& solve) {
+    return [joint_rows, solve](const Vec& impulse, Vec& dv) {
+      Vec on_joints;
+      solve(impulse, Vec(Vec::Zero(joint_rows)), dv, on_joints);
+    };
+  };
+  if (blocks_) {
+    const auto held = std::make_shared<numerics::SparseMassKkt>();
+    if (!held->factorise(blocks_->bodies(), joint_rows, numerics::SparseMassKkt::Metric::mass))
+      throw NotSolvable("the mass matrix is not positive definite");
+    return solver(
+        [held, this](const Vec& b, const Vec& c, Vec& x, Vec& y) { held->solve(blocks_->bodies(), b, c, x, y); });
+  }
+  const auto held = std::make_shared<numerics::MassKkt>();
+  const Mat G = rows_.G().topRows(joint_rows);
+  if (!(sparse_ ? held->factorise(masses_.sparse(), G, G) : held->factorise(masses_.dense(), G)))
+    throw NotSolvable("the mass matrix is not positive definite");
+  return solver([held](const Vec& b, const Vec& c, Vec& x, Vec& y) { held->solve(b, c, x, y); });
+}
+
+// Directions that the joints fix: their remaining response is round-off.
+void ImpulseResponse::clear_held(const Mat& N, Mat& jump, Mat& delassus) {
+  constexpr double round_off = 1e-12;
+  const Vec masses = masses_.diagonal();
+  for (Eigen::Index i = 0; i < N.cols(); ++i) {
+    const double alone = N.col(i).cwiseAbs2().cwiseQuotient(masses).sum();
+    if (delassus(i, i) > round_off * alone) continue;
+    jump.col(i).setZero();
+    delassus.row(i).setZero();
+    delassus.col(i).setZero();
+  }
+}
+
+Vec ImpulseResponse::some_motion() {
+  const Vec weight = masses_.diagonal().cwiseSqrt(), numbers = pseudo_random(at_.model->sizes.nv, 1, 1);
+  if (rows_.held() == 0) return numbers.cwiseQuotient(weight);
+  Vec some;
+  with_joints_held()(numbers.cwiseProduct(weight), some);
+  return some;
+}
+
+}  // namespace trammel::model

@@ -1,0 +1,38 @@
+// What impulses on contacts do to the velocities at the point, with the rows of bodies, joints and locked contacts
+// active: M dv + G_b^T L_b = impulse, G_b dv = 0.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "system/point/mass_and_force.hpp"
+#include "system/point/rows.hpp"
+
+namespace trammel::model {
+
+class ImpulseResponse {
+ public:
+  ImpulseResponse(Point& at, ContactsAtPoint& contacts, RowsAtPoint& rows, MassAndForceAtPoint& masses,
+                  BodyBlocks* blocks, bool sparse)
+      : at_(at), contacts_(contacts), rows_(rows), masses_(masses), blocks_(blocks), sparse_(sparse) {}
+
+  // The rows must be there. Column i of `jump` is dv for a unit impulse along directions[i], and delassus(i, j) the
+  // change of the rate of directions[i] by a unit impulse along directions[j]. Throws NotSolvable.
+  void respond(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus);
+  // A pseudo-random velocity that the joints permit.
+  Vec some_motion();
+
+ private:
+  using Solver = std::function<void(const Vec& impulse, Vec& dv)>;
+  Solver with_joints_held();
+  void clear_held(const Mat& N, Mat& jump, Mat& delassus);
+
+  Point& at_;
+  ContactsAtPoint& contacts_;
+  RowsAtPoint& rows_;
+  MassAndForceAtPoint& masses_;
+  BodyBlocks* blocks_;
+  bool sparse_;
+};
+
+}  // namespace trammel::model

@@ -1,0 +1,57 @@
+// Joints with friction at the point: the loads of their bearings by the joints' multipliers.
+//
+//     N(lambda) = sum_k |L_k lambda|,  L_k = C_k H_B^T      homogeneous of degree 1, so with n = dN/dlambda at lambda
+//     W^T lambda = (G^T - r h^T n) lambda                   r = T/N while sliding, h: the row of the slip
+//
+// W^T lambda is the reaction at lambda, and W^T its derivative there. Hence solving with W of the last lambda is a
+// Newton iteration. If the loads are scalars (a planar guide), n depends only on their signs, and the second iterate is
+// exact.
+#pragma once
+
+#include <vector>
+
+#include <trammel/joint_friction.hpp>
+#include <trammel/system.hpp>
+
+#include "system/point/contacts.hpp"
+
+namespace trammel::model {
+
+class JointFriction {
+ public:
+  JointFriction(Point& at, ContactsAtPoint& contacts);
+
+  bool none() const { return bearings_.empty(); }
+  const JointEntry& joint_of(int contact) const;
+  double load(int contact, const Vec& lambda);  // N [N]
+  const Vec6& load_by_row(int contact) const;   // n, for which W is formed
+  bool unload();                                // n = 0; false: it was
+  struct Loaded {
+    bool changed = false;  // n: W is another
+    bool far = false;      // n . lambda before was not N(lambda)
+  };
+  Loaded load_with(const Vec& lambda);  // n at these multipliers, of joints that slide
+  [[noreturn]] void fail_without_loads();
+  // S += c_k K + c_d D of the friction, or of the row that holds the joint.
+  void add_tangent(int contact, Blend c, const Vec& lambda, Matrix& S);
+  CallSite find_not_finite();
+
+ private:
+  struct Bearing {
+    int contact = 0;
+    long long point = -1;
+    Bearings at = {};
+    Mat6 loads = {};        // L: derivatives of the bearings' loads by the joint's multipliers [1]
+    Vec6 load_by_row = {};  // n
+  };
+  Bearing& bearing(int contact);  // at this point
+  bool slides(int contact);       // with friction
+
+  Point& at_;
+  ContactsAtPoint& contacts_;
+  std::vector<Bearing> bearings_;
+  std::vector<int> bearing_of_;  // by contact: index into `bearings_`; empty if there are none
+  Rows rows_;
+};
+
+}  // namespace trammel::model

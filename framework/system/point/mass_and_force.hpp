@@ -1,0 +1,46 @@
+// M and f of bodies, forces and compliant contacts at the point.
+#pragma once
+
+#include <trammel/types.hpp>
+
+#include "linear/sparse/sparse_sum.hpp"
+#include "system/point/body_blocks.hpp"
+#include "system/point/contacts.hpp"
+#include "system/point/counts.hpp"
+
+namespace trammel::model {
+
+class MassAndForceAtPoint {
+ public:
+  // `blocks`: M in them; else dense, or sparse.
+  MassAndForceAtPoint(Point& at, ContactsAtPoint& contacts, BodyBlocks* blocks, bool sparse, Counts& counts);
+
+  void moved();          // to another point
+  void forget_forces();  // f depends on more than the point
+  const Vec& force();
+  void evaluate_mass();
+  const Mat& dense() const { return M_; }               // after evaluate_mass, where it is stored like this
+  const auto& sparse() const { return sum_.matrix(); }  // likewise
+  void add_times(double c, const Vec& a, Vec& r);       // r += c M a
+  Vec diagonal();
+
+ private:
+  void evaluate_bodies();
+  void evaluate_body(std::size_t body);
+  void sum_mass();
+  void add_contact(int i);
+
+  Point& at_;
+  ContactsAtPoint& contacts_;
+  BodyBlocks* blocks_;
+  bool sparse_;
+  Counts& counts_;
+  bool mass_fresh_ = false;
+  bool bodies_fresh_ = false, force_fresh_ = false;  // f contains the bodies' part; f is complete
+  Mat M_;
+  numerics::SparseSum sum_;  // in place of M
+  Vec f_;
+  Wrench on_A_, on_B_;
+};
+
+}  // namespace trammel::model

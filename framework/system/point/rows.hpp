@@ -1,0 +1,71 @@
+// The rows of bodies, joints and contacts at the point: g, g_dot, gamma, G and W; dense, or in the blocks of many
+// bodies.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "system/point/body_blocks.hpp"
+#include "system/point/constant_rows.hpp"
+#include "system/point/contacts.hpp"
+#include "system/point/joint_friction.hpp"
+
+namespace trammel::model {
+
+class RowsAtPoint {
+ public:
+  RowsAtPoint(Point& at, ContactsAtPoint& contacts, JointFriction& friction, BodyBlocks* blocks);
+
+  // For the contacts' modes: `held` rows are bilateral in impacts and come first.
+  void lay_out(int count, int held);
+  int count() const { return count_; }
+  int held() const { return held_; }
+
+  bool evaluate();  // false: they were there
+  void forget() { fresh_ = false; }
+  const Vec& g() const { return g_; }
+  const Vec& g_dot() const { return g_dot_; }
+  const Vec& gamma() const { return gamma_; }
+  const Mat& G() const { return G_; }                      // not in blocks
+  const Mat& W() const { return W_; }                      // likewise, if coupled
+  bool coupled() const { return coupled_; }                // sliding friction depends on a row's force: W is not G
+  void couple();                                           // forms W
+  void unload_bearings();                                  // W with unloaded bearings
+  bool load_bearings(const Vec& lambda);                   // W at these multipliers; false: W^T lambda did not change
+  void add_times(double c, const Vec& x, Vec& rc) const;   // rc += c G x
+  void add_force(double c, const Vec& y, Vec& r) const;    // r += c G^T y
+  void add_reaction(double c, const Vec& lambda, Vec& r);  // r += c W^T lambda
+  Eigen::SparseMatrix<double, Eigen::RowMajor> sparse() const;  // G, without entries that are 0
+  double rank_tolerance() const;                                // by what the rows are violated
+
+  CallSite find_not_finite();  // of joints
+
+ private:
+  void order_joints();
+  void evaluate_constant_rows();
+  void place_constant_rows();
+  void evaluate_own_rows(const BodyEntry& body);
+  void evaluate_contact(int i);
+  // Rows first .. first + n - 1 of r between these markers become the rows from `row` on.
+  void place(const Rows& r, const Slots& slots, const Seen& motions, Eigen::Index first, Eigen::Index n, int row);
+  void add_to_reaction(int slot, int row, const Mat6& H);
+
+  Point& at_;
+  ContactsAtPoint& contacts_;
+  JointFriction& friction_;
+  BodyBlocks* blocks_;                        // null: dense
+  std::vector<std::size_t> joint_order_;      // sorted by their first bodies, for cache locality
+  std::vector<std::size_t> constant_joints_;  // not in joint_order_: their rows are linear in the coordinates
+  std::vector<std::size_t> constrained_;      // bodies with their own rows
+  ConstantRows constant_rows_;
+  bool constant_rows_placed_ = false;  // in `blocks_`
+  int count_ = 0, held_ = 0;
+  bool fresh_ = false, coupled_ = false;
+  Vec g_, g_dot_, gamma_;
+  Mat G_, W_;
+  Rows rows_;  // of one joint
+  BodyRows own_rows_;
+};
+
+}  // namespace trammel::model

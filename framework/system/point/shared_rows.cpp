@@ -1,0 +1,161 @@
+#include "system/point/shared_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "complementarity/shares/carrying_rows.hpp"
+#include "complementarity/shares/independent_rows.hpp"
+
+namespace trammel::model {
+namespace {
+
+using Eigen::Index;
+
+// Relative to the rates of the motion. Entries of K below 1e-9 are neglected (complementarity/shares/row_basis.cpp),
+// which limits its accuracy.
+constexpr double same = 1e-8;
+// Relative to the terms of a rate, if joints fix the direction.
+constexpr double round_off = 1e-12;
+
+}  // namespace
+
+void SharedRowsAtPoint::lay_out() {
+  solved_at_.assign(contacts_.modes.shared.size(), {});
+}
+
+void SharedRowsAtPoint::evaluate_rows() {
+  if (!rows_.evaluate()) return;
+  if (rows_.coupled() && contacts_.loads.sliding_shares() && follow()) rows_.couple();
+}
+
+bool SharedRowsAtPoint::follow() {
+  std::vector<SharedRows>& groups = contacts_.modes.shared;
+  if (groups.empty()) return false;
+  evaluate_rows();  // which comes here itself if the shares affect the motion
+  if (std::exchange(followed_at_, at_.configuration) == at_.configuration) return false;
+  const Vec some = response_.some_motion();
+  bool changed = false;
+  for (int group = 0; group < int(groups.size()); ++group) {
+    if (still_implied(groups[std::size_t(group)], some)) continue;
+    renew(group);
+    changed = true;
+  }
+  return changed;
+}
+
+SharedRowsAtPoint::Rate SharedRowsAtPoint::rate_by(ContactDirection d, const Vec& some) {
+  Rate rate;
+  at_.for_each_entry(contacts_.slots(d.contact), contacts_.rows(d.contact), d.row, [&](double along, int velocity) {
+    const double term = along * some(velocity);
+    rate.sum += term, rate.terms += std::abs(term);
+  });
+  return rate;
+}
+
+bool SharedRowsAtPoint::still_implied(const SharedRows& group, const Vec& some) {
+  std::vector<Rate> of_basis;
+  for (const ContactDirection& d : group.basis) of_basis.push_back(rate_by(d, some));
+  for (Index i = 0; i < group.K.rows(); ++i) {
+    const Rate own = rate_by(group.implied[std::size_t(i)], some);
+    double off = own.sum, size = std::abs(own.sum), terms = own.terms;
+    for (Index j = 0; j < group.K.cols(); ++j) {
+      const Rate& other = of_basis[std::size_t(j)];
+      off -= group.K(i, j) * other.sum;
+      size += std::abs(group.K(i, j) * other.sum), terms += std::abs(group.K(i, j)) * other.terms;
+    }
+    if (std::abs(off) > same * size + round_off * terms) return false;
+  }
+  return true;
+}
+
+void SharedRowsAtPoint::renew(int group) {
+  SharedRows& shared = contacts_.modes.shared[std::size_t(group)];
+  std::vector<ContactDirection> all = shared.basis;
+  all.insert(all.end(), shared.implied.begin(), shared.implied.end());
+  std::vector<Index> basis, implied;
+  for (std::size_t k = 0; k < all.size(); ++k) (k < shared.basis.size() ? basis : implied).push_back(Index(k));
+  Mat jump, A;
+  response_.respond(all, jump, A);
+  const Mat K = complementarity::implied_by(A, basis, implied);
+  if (!K.allFinite()) return;  // the basis has become dependent: handled by the solver for accelerations
+  Mat shares = K;
+  for (Index i = 0; i < K.rows(); ++i)
+    if (shared.share.row(Index(basis.size()) + i).isZero(0)) shares.row(i).setZero();  // idle
+  shared.K = K;
+  shared.share = complementarity::least_norm_shares(shares);
+  contacts_.loads.form_resultants(group);
+}
+
+ContactLoads::Bounds SharedRowsAtPoint::bounds(int contact, const Vec& lambda) {
+  const ContactEntry& entry = contacts_.entry(contact);
+  ContactLoads::Bounds bounds;
+  if (entry.coulomb) bounds.coefficient = entry.coulomb->static_coefficient();
+  if (contacts_.loads.place({contact, 0}).group < 0) bounds.given = std::max(0.0, force_along({contact, 0}, lambda));
+  return bounds;
+}
+
+const ContactLoads& SharedRowsAtPoint::prepared(int group, const Vec& lambda) {
+  follow();
+  solved_at_[std::size_t(group)] = {};
+  contacts_.loads.prepare(group, lambda, [&](int contact) { return bounds(contact, lambda); });
+  return contacts_.loads;
+}
+
+// As many combinations of velocities as are independent.
+Mat SharedRowsAtPoint::moved_with_sliding(int group) {
+  std::vector<ContactDirection> all = contacts_.loads.members(group);
+  const auto members = Index(all.size());
+  const std::vector<int>& sliding = contacts_.modes.shared[std::size_t(group)].sliding;
+  for (const int contact : sliding)
+    for (int k = 0; k <= contacts_.tangents(contact); ++k) all.push_back({contact, k});
+  Mat jump, A;
+  evaluate_rows();
+  response_.respond(all, jump, A);
+  Mat moved(jump.rows(), members + Index(sliding.size()));
+  moved.leftCols(members) = jump.leftCols(members);
+  Index column = members, from = members;
+  for (const int contact : sliding) {
+    const Index n = contacts_.tangents(contact);
+    moved.col(column++) = jump.col(from) + jump.middleCols(from + 1, n) * contacts_.friction_ratio(contact).head(n);
+    from += 1 + n;
+  }
+  return complementarity::independent_rows(moved);
+}
+
+const ContactLoads& SharedRowsAtPoint::solved(int group, const Vec& lambda) {
+  ContactLoads& loads = contacts_.loads;
+  follow();
+  SolvedAt& at = solved_at_[std::size_t(group)];
+  if (at.point == at_.number && at.configuration == at_.configuration && at.lambda.size() == lambda.size() &&
+      at.lambda == lambda)
+    return loads;
+  const bool found = loads.solve(group, lambda, [&](int contact) { return bounds(contact, lambda); });
+  if (!found && !contacts_.modes.shared[std::size_t(group)].sliding.empty())
+    loads.solve_with_sliding(group, moved_with_sliding(group));
+  at = {at_.number, at_.configuration, lambda};
+  return loads;
+}
+
+double SharedRowsAtPoint::force_along(ContactDirection d, const Vec& lambda) {
+  const ContactLoads::Place& place = contacts_.loads.place(d);
+  if (d.row == 0 && contacts_.in_joint(d.contact)) return friction_.load(d.contact, lambda);
+  if (place.group >= 0) return solved(place.group, lambda).load(place);
+  if (place.row >= 0) return -lambda(place.row);
+  if (d.row > 0 || !contacts_.entry(d.contact).force || !contacts_.mode(d.contact).closed) return 0;
+  if (contacts_.on_surface(d.contact)) return contacts_.surface(d.contact).sums().normal;
+  return contacts_.law_normal(d.contact);
+}
+
+double SharedRowsAtPoint::spring_force(int contact, const Vec& lambda) {
+  follow();
+  const ContactLoads::Place& place = contacts_.loads.place({contact, 0});
+  const SharedRows& shared = contacts_.modes.shared[std::size_t(place.group)];
+  const auto n = int(shared.basis.size());
+  double sum = 0;
+  for (int k = 0; k < n; ++k)
+    sum += shared.K(place.index - n, k) * contacts_.loads.spring(shared.basis[std::size_t(k)], lambda);
+  return sum;
+}
+
+}  // namespace trammel::model

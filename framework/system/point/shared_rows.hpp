@@ -1,0 +1,55 @@
+// Rows of contacts that are implied by others at the point, and the forces of closed contacts that follow:
+//
+//     g_implied = K g_basis + a combination of the joints' rows
+//
+// K depends on the configuration. It is constant if the dependence follows from the geometry of one body, such as the
+// feet of a table; it changes if bodies that touch at one point turn against each other. K is tested with one
+// pseudo-random motion that the joints permit.
+#pragma once
+
+#include <vector>
+
+#include "system/point/impulse_response.hpp"
+
+namespace trammel::model {
+
+class SharedRowsAtPoint {
+ public:
+  SharedRowsAtPoint(Point& at, ContactsAtPoint& contacts, JointFriction& friction, RowsAtPoint& rows,
+                    ImpulseResponse& response)
+      : at_(at), contacts_(contacts), friction_(friction), rows_(rows), response_(response) {}
+
+  void lay_out();        // for the contacts' modes
+  void evaluate_rows();  // with the shares on which W depends
+  bool follow();         // updates K and the shares at this point; true if some have changed
+
+  double force_along(ContactDirection d, const Vec& lambda);   // [N] of a closed contact that does not slide
+  double spring_force(int contact, const Vec& lambda);         // [N] of an idle one if it shared as a spring
+  const ContactLoads& prepared(int group, const Vec& lambda);  // with the resultants of a group
+  Mat moved_with_sliding(int group);                           // ContactLoads::solve_with_sliding
+
+ private:
+  struct Rate {
+    double sum = 0, terms = 0;  // terms: sum of the terms' absolute values
+  };
+  Rate rate_by(ContactDirection d, const Vec& some);
+  bool still_implied(const SharedRows& group, const Vec& some);
+  void renew(int group);
+  ContactLoads::Bounds bounds(int contact, const Vec& lambda);
+  const ContactLoads& solved(int group, const Vec& lambda);  // with its forces
+
+  // Where `loads` has the forces of a group: contacts are asked for theirs one after the other.
+  struct SolvedAt {
+    long long point = -1, configuration = -1;
+    Vec lambda;
+  };
+  Point& at_;
+  ContactsAtPoint& contacts_;
+  JointFriction& friction_;
+  RowsAtPoint& rows_;
+  ImpulseResponse& response_;
+  std::vector<SolvedAt> solved_at_;  // by group
+  long long followed_at_ = -1;       // the configuration where K and the shares were last updated
+};
+
+}  // namespace trammel::model

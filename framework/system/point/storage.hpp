@@ -1,0 +1,13 @@
+// How the matrices of a system are stored.
+#pragma once
+
+#include "model/model.hpp"
+
+namespace trammel::model {
+
+// Dense matrices; sparse M and S with dense rows, for bodies of many coordinates; or blocks by bodies with sparse
+// factorisations, for many bodies tied by rows. automatic: by what is measured to be quicker (storage_for).
+enum class Storage { automatic, dense, sparse, blocks };
+Storage storage_for(const Model& model);
+
+}  // namespace trammel::model
