@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "support/modes_of.hpp"
 #include "run/run_failed.hpp"
+#include "support/modes_of.hpp"
 
 namespace trammel::test {
 namespace {
@@ -335,6 +335,39 @@ TEST(ModesOfSteadyMotion, ATurningSpringIsStretchedFirst) {
   const std::vector<double> found = modes.oscillations();
   ASSERT_FALSE(found.empty());
   EXPECT_NEAR(found.back(), breath, 1e-6 * breath);
+}
+
+// Two discs on one axle, joined by a spring and damper between their rims, which turns with them: its length knows the
+// angle between the discs alone, dl/dangle = R cos(angle/2), so their torsion does not depend on the rate of turning.
+TEST(ModesOfSteadyMotion, ADamperThatTurnsWithItsDiscsDampsTheirTorsionAsAtRest) {
+  const double I1 = 0.3, I2 = 0.5, R = 0.2, angle = 1.1, k = 400, c = 3;
+  const double arm = R * std::cos(angle / 2), reduced = I1 * I2 / (I1 + I2);
+  const std::complex<double> expected(-c * arm * arm / (2 * reduced),
+                                      std::sqrt(k * arm * arm / reduced - std::pow(c * arm * arm / (2 * reduced), 2)));
+  for (const double W : {0.0, 2.0, 50.0}) {
+    const Modes modes =
+        modes_of(fmt::format(R"({{"trammel": 1, "space": "planar",
+      "bodies": {{"hub": {{"type": "rigid_body", "mass": 1, "inertia": {0}, "angular_velocity": {2},
+                           "markers": {{"rim": [{3}, 0]}}}},
+                  "ring": {{"type": "rigid_body", "mass": 1, "inertia": {1}, "angular_velocity": {2},
+                            "markers": {{"rim": [{4:.17g}, {5:.17g}]}}}}}},
+      "joints": {{"hub": {{"type": "revolute", "between": ["ground", "hub.com"]}},
+                  "ring": {{"type": "revolute", "between": ["ground", "ring.com"]}}}},
+      "forces": {{"coupling": {{"type": "spring_damper", "between": ["hub.rim", "ring.rim"], "stiffness": {6},
+                                "damping": {7}, "length": {8:.17g}}}}},
+      "simulate": {{"until": 1}}}})",
+                             I1, I2, W, R, R * std::cos(angle), R * std::sin(angle), k, c, 2 * R * std::sin(angle / 2)),
+                 {}, steady());
+    int torsions = 0;
+    for (std::size_t i = 0; i < modes.count(); ++i) {
+      const auto& value = modes.result["modes"][i]["eigenvalue"];
+      const std::complex<double> found(value["real"], std::abs(double(value["imaginary"])));
+      if (found.imag() < 1) continue;
+      ++torsions;
+      EXPECT_LT(std::abs(found - expected), close * std::max(1.0, W) * std::abs(expected)) << W << ": " << found;
+    }
+    EXPECT_EQ(torsions, 1) << W;
+  }
 }
 
 }  // namespace

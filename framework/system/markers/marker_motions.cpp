@@ -1,5 +1,7 @@
 #include "system/markers/marker_motions.hpp"
 
+#include <numeric>
+
 #include <Eigen/Geometry>
 
 #include <trammel/linear_rows.hpp>
@@ -187,22 +189,44 @@ void MarkerMotions::add_pair(int index, int other, const Mat6& D, double c, Matr
   S.from(a.v0, b.v0).add(of_a.dofs, of_b.dofs, pair_, c);
 }
 
+// V = J v: with the unit wrenches e_i, dV_i/dq = v^T d(J^T e_i)/dq.
+void MarkerMotions::add_rate_pair(int index, int other, const Mat6& D, double t, const Vec& q, const Vec& v, double c,
+                                  Matrix& S) {
+  const Slot& a = slots_[std::size_t(index)];
+  const Slot& b = slots_[std::size_t(other)];
+  if (a.marker.body < 0 || b.marker.body < 0 || b.linear) return;
+  const auto v_body = v.segment(b.v0, b.nv);
+  const Motion& of_a = kept_[std::size_t(index)].motion;
+  pair_.setZero(of_a.J.cols(), b.nv);
+  for (Eigen::Index i = 0; i < D.cols(); ++i) {
+    if (D.col(i).isZero(0)) continue;
+    turning_.setZero(b.nv, b.nv);
+    Matrix onto = Matrix::onto(turning_);
+    add_to_body(other, t, q, Wrench::Unit(D.cols(), i), 1, onto);
+    const Vec6 along_a = of_a.J.transpose() * D.col(i);
+    pair_.noalias() += along_a * (v_body.transpose() * turning_);
+  }
+  std::vector<int> all(std::size_t(b.nv));
+  std::iota(all.begin(), all.end(), 0);
+  S.from(a.v0, b.v0).add(of_a.dofs, all, pair_, c);
+}
+
 void MarkerMotions::add_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c, Matrix& S) {
   const Slot& slot = slots_[std::size_t(index)];
   if (!slot.body) return;
-  const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
-  if (!entry.reaction_derivative) return add_numeric_reaction_derivative(index, t, q, F, c, S);
-  Matrix target = S.from(entry.v0, entry.v0);
-  ask(slot.marker.body, "add_reaction_derivative", [&] {
-    entry.reaction_derivative->add_reaction_derivative(slot.marker.marker, t, q.segment(entry.q0, entry.nq), F, c,
-                                                       target);
-  });
+  Matrix of_body = S.from(slot.v0, slot.v0);
+  add_to_body(index, t, q, F, c, of_body);
 }
 
-void MarkerMotions::add_numeric_reaction_derivative(int index, double t, const Vec& q, const Wrench& F, double c,
-                                                    Matrix& S) {
+void MarkerMotions::add_to_body(int index, double t, const Vec& q, const Wrench& F, double c, Matrix& of_body) {
   const Slot& slot = slots_[std::size_t(index)];
   const BodyEntry& entry = model_.bodies[std::size_t(slot.marker.body)];
+  const auto q_of_body = q.segment(entry.q0, entry.nq);
+  if (entry.reaction_derivative) {
+    ask(slot.marker.body, "add_reaction_derivative",
+        [&] { entry.reaction_derivative->add_reaction_derivative(slot.marker.marker, t, q_of_body, F, c, of_body); });
+    return;
+  }
   v_zero_.setZero(entry.nv);
   const auto generalised_force = [&](const Vec& q_body, Vec& out) {
     probe_.dofs = kept_[std::size_t(index)].motion.dofs;
@@ -210,8 +234,8 @@ void MarkerMotions::add_numeric_reaction_derivative(int index, double t, const V
     out.setZero(entry.nv);
     for (std::size_t j = 0; j < probe_.dofs.size(); ++j) out(probe_.dofs[j]) = probe_.J.col(Eigen::Index(j)).dot(F);
   };
-  tangent_differences(entry, q.segment(entry.q0, entry.nq), generalised_force, block_);
-  S.add(entry.v0, entry.v0, block_, c);
+  tangent_differences(entry, q_of_body, generalised_force, block_);
+  of_body.add(0, 0, block_, c);
 }
 
 }  // namespace trammel::model

@@ -49,6 +49,8 @@ class MarkerMotions {
   void add_rows(int slot, const Motion& motion, int row, const RowsOf& H, Mat& G) const;
   // S(dofs, dofs') += c J^T D J' for a twist x twist matrix D between two slots
   void add_pair(int slot, int other, const Mat6& D, double c, Matrix& S);
+  // S(dofs, body') += c J^T D d(J' v)/dq between two slots: the twist of the other changes with its body's place
+  void add_rate_pair(int slot, int other, const Mat6& D, double t, const Vec& q, const Vec& v, double c, Matrix& S);
   // S += c d(J^T F)/dq of the marker's body
   void add_reaction_derivative(int slot, double t, const Vec& q, const Wrench& F, double c, Matrix& S);
 
@@ -77,7 +79,8 @@ class MarkerMotions {
   void evaluate(const Slot& slot, double t, const Vec& q, const Vec& v, Motion& motion) const;
   void evaluate_linear(int slot, const Vec& q, const Vec& v);
   void keep_linear(int slot);
-  void add_numeric_reaction_derivative(int slot, double t, const Vec& q, const Wrench& F, double c, Matrix& S);
+  // The same for a matrix of the body alone.
+  void add_to_body(int slot, double t, const Vec& q, const Wrench& F, double c, Matrix& of_body);
 
   template <class Call>
   void ask(int body, const char* name, Call call) const {
@@ -98,7 +101,7 @@ class MarkerMotions {
   bool still_ = false;
   Motion probe_;  // for the differences
   Vec v_zero_;
-  Mat block_, pair_;
+  Mat block_, pair_, turning_;
 };
 
 }  // namespace trammel::model

@@ -49,7 +49,8 @@ void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double
     wrenches(seen, on);
   };
 
-  const auto difference = [&](std::size_t moved, auto&& move, double weight) {
+  // D[k]: derivative of the wrench on marker k by component i of what `move` changes.
+  const auto difference = [&](std::size_t moved, auto&& move) {
     for (Mat6& block : D) block.setZero(twist, twist);
     for (int i = 0; i < twist; ++i) {
       const double s = move(probe[moved], i, 1);
@@ -59,27 +60,29 @@ void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double
       probe[moved] = now[moved];
       for (std::size_t k = 0; k < n; ++k) D[k].col(i) = (plus[k] - minus[k]) / (2 * s);
     }
-    for (std::size_t k = 0; k < n; ++k) chain.add_pair(slots[k], slots[moved], D[k], weight, S);
   };
 
   for (std::size_t moved = 0; moved < n; ++moved) {
     if (chain.body(slots[moved]) < 0) continue;
     if (c_k != 0) {
-      const auto pose = [&](Motion& m, int i, double sign) {
+      difference(moved, [&](Motion& m, int i, double sign) {
         const double s = difference_step(i < m.x.size() ? now[moved].x(i) : 1.0);
         displace(now[moved], i, sign * s, m);
         return s;
-      };
-      difference(moved, pose, c_k);
+      });
+      for (std::size_t k = 0; k < n; ++k) chain.add_pair(slots[k], slots[moved], D[k], c_k, S);
     }
-    if (c_d != 0 && wrenches.depends_on_velocity()) {
-      const auto velocity = [&](Motion& m, int i, double sign) {
-        const double s = difference_step(now[moved].V(i));
-        m.V = now[moved].V;
-        m.V(i) += sign * s;
-        return s;
-      };
-      difference(moved, velocity, c_d);
+    const bool turns = c_k != 0 && !now[moved].V.isZero(0);
+    if (!wrenches.depends_on_velocity() || (c_d == 0 && !turns)) continue;
+    difference(moved, [&](Motion& m, int i, double sign) {
+      const double s = difference_step(now[moved].V(i));
+      m.V = now[moved].V;
+      m.V(i) += sign * s;
+      return s;
+    });
+    for (std::size_t k = 0; k < n; ++k) {
+      if (c_d != 0) chain.add_pair(slots[k], slots[moved], D[k], c_d, S);
+      if (turns) chain.add_rate_pair(slots[k], slots[moved], D[k], t, q, v, c_k, S);
     }
   }
   if (c_k == 0) return;

@@ -1,7 +1,6 @@
-// d of the generalised force of a few markers, whose wrenches are a function of their motions, by differences of the
-// poses and velocities: S += c_k d(J^T w)/dq + c_d d(J^T w)/dv. Of the markers' own motion only J^T's change with q is
-// included beside; that V depends on q at fixed v is left out (it is of the order damping x speed / length beside the
-// stiffness, and Newton's iteration corrects for it).
+// d of the generalised force of a few markers, whose wrenches w are a function of their motions, by differences of the
+// poses and velocities: S += c_k d(J^T w)/dq + c_d d(J^T w)/dv. K includes that the markers' twists V = J(q) v change with q
+// at fixed v: without it, a damper between bodies that turn together would act on their turning.
 #pragma once
 
 #include <span>
