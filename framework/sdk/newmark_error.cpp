@@ -32,6 +32,7 @@ double NewmarkError::operator()(System& s, const State& now, const State& next, 
   const double h = next.t - now.t;
   e_q_ = of_q_ * h * h * (next.a - now.a);
   if (!of_velocities_) {
+    along_rows_.project(s, next, e_q_);
     e_v_.setZero(e_q_.size());
     return error_norm(e_q_, e_v_, now, next, tolerance);
   }

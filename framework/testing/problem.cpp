@@ -9,12 +9,13 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include <trammel/rigid_motions.hpp>
 #include <trammel/testing/problems.hpp>
 
 namespace trammel {
 namespace {
 
-class ProblemSystem final : public System {
+class ProblemSystem final : public System, public HasRigidMotions {
  public:
   explicit ProblemSystem(Problem p) : p_(std::move(p)) {
     Vec q, v;
@@ -72,6 +73,11 @@ class ProblemSystem final : public System {
     if (!finite_[int(which)] || !r.allFinite() || !rc.allFinite()) return false;
     solve(kept_[int(which)], -r, -rc, da, dlambda);
     return da.allFinite() && dlambda.allFinite();
+  }
+
+  bool rigid_motions(double, const Vec& q, Mat& r) override {
+    if (p_.rigid_motions) r = p_.rigid_motions(q);
+    return bool(p_.rigid_motions);
   }
 
  private:

@@ -21,8 +21,8 @@ namespace trammel {
 
 class NewmarkError {
  public:
-  // `of_velocities` false: only e_q counts. It is for formulation index3, whose velocities oscillate about the manifold
-  // of the velocity rows (Negrut et al. 2007).
+  // `of_velocities` false: only the part of e_q along the rows counts. It is for formulation index3, whose positions
+  // satisfy the rows while its velocities and accelerations oscillate across them (Negrut et al. 2007).
   void set(double alpha_m, double alpha_f, double beta, double gamma, bool of_velocities = true);
   void restart(const State& now);
   void accept(const State& next);

@@ -47,6 +47,7 @@ struct Problem {
   // c_d D + c_k K of the force, D = -df/dv, K = -df/dq; empty: by differences.
   std::function<Mat(const Blend& c, const Vec& q, const Vec& v)> tangent = {};
   Manifold manifold = {};
+  std::function<Mat(const Vec& q)> rigid_motions = {};  // as HasRigidMotions; empty: the system knows none
 
   // A System with a dense orthogonal decomposition and derivatives by differences; it shares no code with the
   // framework's assembly.

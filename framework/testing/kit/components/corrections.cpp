@@ -85,9 +85,16 @@ Report restores_velocities(const Subject& s) {
   });
 }
 
+bool keeps_momentum(const Correction& correction) {
+  const auto* needs = dynamic_cast<const NeedsMomentum*>(&correction);
+  return needs && needs->needs_momentum();
+}
+
+// A pendulum's speed is all momentum about its pivot, so one that keeps momentum is asked about a free pair of masses.
 Report restores_energy(const Subject& s) {
+  const bool momentum = keeps_momentum(*s.maker<Correction>()());
   return compare("the energy is that of the balance, the rows' rates as before", [&](Comparison& c) {
-    const Problem problem = some_rod(s);
+    const Problem problem = momentum ? some_spring_pair(s) : some_rod(s);
     Corrected done(s, Level_::energy, size, problem);
     c.holds(bool(done.outcome), fmt::format("rejected: {}", done.outcome.reason()));
     const double before = std::abs(problem.energy.value(done.off) - done.energy),
@@ -97,6 +104,9 @@ Report restores_energy(const Subject& s) {
     c.holds(same_bits(done.state.q, done.off.q), "q changed");
     const double moved = (done.g_dot(done.state) - done.g_dot(done.off)).norm();
     c.holds(moved <= 1e-9, fmt::format("G v + g_t changed by {:.3e} m/s", moved));
+    if (!momentum) return;
+    const Vec gained = problem.rigid_motions(done.off.q).transpose() * problem.M * (done.state.v - done.off.v);
+    c.holds(gained.norm() <= 1e-12, fmt::format("the momentum changed by {:.3e} N s", gained.norm()));
   });
 }
 

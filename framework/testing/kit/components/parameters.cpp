@@ -113,7 +113,7 @@ Json random_entry(const Subject& s, std::mt19937& random) {
 Report random_sets_run(const Subject& s) {
   Report report;
   std::mt19937 random = s.random(71);
-  const int sets = s.level == Level::quick ? 25 : 100;
+  const int sets = s.level == Level::quick ? 200 : 1000;
   int refused = 0;
   for (int i = 0; i < sets && report.holds; ++i) {
     const Json object = random_entry(s, random);

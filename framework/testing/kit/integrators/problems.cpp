@@ -90,6 +90,28 @@ Problem particle(std::function<Vec(double, const Vec&, const Vec&)> force) {
   return p;
 }
 
+Problem some_spring_pair(const Subject& s) {
+  std::mt19937 random = s.random(8);
+  const double k = between(random, 20, 40);  // [N/m], of 1 m
+  const auto stretched = [](const Vec& q) { return (q.tail(2) - q.head(2)).norm() - 1; };
+  Problem p;
+  p.name = "masses on a spring";
+  p.closed_form = false;
+  p.M = Vec{{1, 1, 2, 2}}.asDiagonal();
+  p.force = [=](double, const Vec& q, const Vec&) -> Vec {
+    const Eigen::Vector2d d = q.tail(2) - q.head(2), pull = k * stretched(q) * d / d.norm();
+    return Vec{{pull(0), pull(1), -pull(0), -pull(1)}};
+  };
+  p.exact = [](double, Vec& q, Vec& v) {
+    q = Vec{{0, 0, 1.1, 0.2}};
+    v = Vec{{0.5, -1, 1, 1}};
+  };
+  p.energy = {
+      10, [=, M = p.M](const State& at) { return at.v.dot(M * at.v) / 2 + k * stretched(at.q) * stretched(at.q) / 2; }};
+  p.rigid_motions = [](const Vec& q) -> Mat { return Mat{{1, 0, -q(1)}, {0, 1, q(0)}, {1, 0, -q(3)}, {0, 1, q(2)}}; };
+  return p;
+}
+
 Problem flight(const Problem& rod) {
   Problem p = rod;
   p.name = "flight";

@@ -27,6 +27,9 @@ Problem any_pendulum(const Subject& s);  // with its rod where the method takes 
 Problem springs(std::vector<double> frequencies);
 // One coordinate of unit mass under a force, from q = 0 at rest. The start only.
 Problem particle(std::function<Vec(double, const Vec&, const Vec&)> force);
+// Two masses in the plane on the ends of a spring, which turn, move and breathe; they know their motions as one rigid
+// body. The start only.
+Problem some_spring_pair(const Subject& s);
 // The pendulum with its rod taken off. The start only.
 Problem flight(const Problem& rod);
 Problem nothing();  // nv = 0
