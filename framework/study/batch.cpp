@@ -79,9 +79,15 @@ std::vector<CaseResult> Batch::operator()(const std::vector<Overrides>& cases) c
       return packed(refused);
     }
   };
-  workers.answer = [&](std::size_t i, const std::string& bytes) { results[i] = unpacked(bytes); };
+  const auto keep = [&](std::size_t i, CaseResult result) {
+    results[i] = std::move(result);
+    if (finished) finished(results[i]);
+  };
+  workers.answer = [&](std::size_t i, const std::string& bytes) { keep(i, unpacked(bytes)); };
   workers.lost = [&](const Lost& lost) {
-    results[lost.task].status = CaseResult::Status::failed, results[lost.task].reason = lost.why;
+    CaseResult failed;
+    failed.status = CaseResult::Status::failed, failed.reason = lost.why;
+    keep(lost.task, failed);
   };
   std::vector<std::size_t> tasks(cases.size());
   std::iota(tasks.begin(), tasks.end(), 0);

@@ -1,6 +1,7 @@
 // Cases on all cores, their results in the order of the cases.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "study/case_run.hpp"
@@ -15,6 +16,7 @@ struct Batch {
   plugin::Registry& registry;
   int jobs = 0;  // as of Workers
   CaseOptions options;
+  std::function<void(const CaseResult&)> finished = {};  // called for each, in any order
 
   // A case whose process was ended is `failed` with the reason; after an interrupt the rest are `interrupted`.
   std::vector<CaseResult> operator()(const std::vector<Overrides>& cases) const;

@@ -9,6 +9,7 @@
 
 #include "arguments.hpp"
 #include "input.hpp"
+#include "progress.hpp"
 #include "report/page.hpp"
 #include "testing/kit/catalogue.hpp"
 #include "testing/kit/child.hpp"
@@ -171,9 +172,14 @@ kit::Verdicts verdicts_of(const Arguments& a, kit::Request request, const kit::S
   if (!quiet)
     fmt::print("{} {} of {}, level {}, seed {}\n\n", component.kind, component.name, component.file,
                request.level == kit::Level::quick ? "quick" : "full", request.seed);
+  ProgressBar bar(!quiet);
+  const std::size_t of = request.only.empty() ? kit::catalogue(component.interface).size() : 1;
+  std::size_t done = 0;
   try {
     return kit::run(request, component, [&](const kit::Result& r) {
+      bar.clear();
       if (!quiet) print_result(a, r);
+      bar.draw(double(++done) / double(of), fmt::format("{} of {} checks", done, of));
     });
   } catch (const kit::NothingToCheck& e) {
     throw UsageError(e.what());

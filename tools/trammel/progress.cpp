@@ -31,7 +31,7 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::clear() {
-  if (drawn_) fmt::print(stderr, "\r\033[K");
+  if (drawn_) fmt::print(stderr, "\r\033[K"), std::fflush(stderr);
 }
 
 // Empty in the first second: an estimate from it would be erratic.

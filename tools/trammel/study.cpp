@@ -1,6 +1,4 @@
 // trammel study STUDY.json, and trammel study merge DIR...: many runs of one scene, and their results folder.
-#include <unistd.h>
-
 #include <csignal>
 
 #include <fmt/format.h>
@@ -9,6 +7,7 @@
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "last_words.hpp"
+#include "progress.hpp"
 #include "results_folder.hpp"
 #include "study/study_run.hpp"
 
@@ -84,11 +83,6 @@ Exit merge(const Arguments& arguments) {
   return told(arguments, study::merge_studies(folders, options));
 }
 
-void show(std::size_t done, std::size_t of) {
-  fmt::print(stderr, "\r{} of {} cases{}", done, of, done == of ? "\n" : "");
-  std::fflush(stderr);
-}
-
 Exit run(const Arguments& arguments) {
   if (arguments.operand() == "merge") return merge(arguments);
   if (arguments.operands().size() > 1)
@@ -103,8 +97,13 @@ Exit run(const Arguments& arguments) {
   options.out = results_folder(arguments, ending.c_str());
   const simulate::ResultsFolder folder(options.out, simulate::Analysis::study);
   options.interrupt = &watch_for_interrupts();
-  if (!arguments.has(kJson.name) && !arguments.has(kQuiet.name) && ::isatty(STDERR_FILENO)) options.progress = show;
-  return told(arguments, study::run_study(study, arguments.operand(), registry, options));
+  ProgressBar bar(!arguments.has(kJson.name) && !arguments.has(kQuiet.name));
+  options.progress = [&bar](std::size_t done, std::size_t of) {
+    bar.draw(double(done) / double(of), fmt::format("{} of {} cases", done, of));
+  };
+  const StudyReport report = study::run_study(study, arguments.operand(), registry, options);
+  bar.clear();
+  return told(arguments, report);
 }
 
 }  // namespace

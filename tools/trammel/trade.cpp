@@ -1,6 +1,4 @@
 // trammel trade SCENE: speed against accuracy on this scene.
-#include <unistd.h>
-
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,6 +6,7 @@
 #include "arguments.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
+#include "progress.hpp"
 #include "results_folder.hpp"
 #include "study/trade/trade.hpp"
 #include "study/workers.hpp"
@@ -42,10 +41,10 @@ Exit run(const Arguments& arguments) {
   const simulate::ResultsFolder folder(options.out, simulate::Analysis::trade);
   options.interrupt = &watch_for_interrupts();
   const bool quiet = arguments.has(kJson.name) || arguments.has(kQuiet.name);
-  if (!quiet && ::isatty(STDERR_FILENO))
-    options.progress = [](const std::string& what) { fmt::print(stderr, "\r\033[K{} ...", what), std::fflush(stderr); };
+  ProgressBar bar(!quiet);
+  options.progress = [&bar](double spent, const std::string& what) { bar.draw(spent, what); };
   const study::TradeReport report = study::trade(source, registry, options);
-  if (options.progress) fmt::print(stderr, "\r\033[K");
+  bar.clear();
   if (arguments.has(kJson.name))
     print_line(report.json);
   else if (!quiet)

@@ -4,11 +4,13 @@ namespace trammel::study {
 
 std::vector<CaseResult> Runner::operator()(const std::vector<Overrides>& cases, double limit, double perturbation) {
   Batch batch{source_, registry_, jobs_, {}};
+  batch.finished = [this](const CaseResult& r) {
+    spent_ += r.cpu + r.cpu_set_up;
+    ++runs_;
+    if (finished_) finished_();
+  };
   batch.options.cpu_limit = limit, batch.options.interrupt = interrupt_, batch.options.perturbation = perturbation;
-  std::vector<CaseResult> results = batch(cases);
-  for (const CaseResult& r : results) spent_ += r.cpu + r.cpu_set_up;
-  runs_ += int(cases.size());
-  return results;
+  return batch(cases);
 }
 
 }  // namespace trammel::study

@@ -7,8 +7,15 @@ namespace trammel::study {
 
 class Runner {
  public:
-  Runner(const SceneSource& source, plugin::Registry& registry, double budget, int jobs, simulate::Interrupt* interrupt)
-      : source_(source), registry_(registry), budget_(budget), jobs_(jobs), interrupt_(interrupt) {}
+  // `finished` is called after each case.
+  Runner(const SceneSource& source, plugin::Registry& registry, double budget, int jobs, simulate::Interrupt* interrupt,
+         std::function<void()> finished = {})
+      : source_(source),
+        registry_(registry),
+        budget_(budget),
+        jobs_(jobs),
+        interrupt_(interrupt),
+        finished_(std::move(finished)) {}
 
   // Each ends after `limit` [s] of CPU time.
   std::vector<CaseResult> operator()(const std::vector<Overrides>& cases, double limit, double perturbation = 0);
@@ -27,6 +34,7 @@ class Runner {
   double budget_, spent_ = 0;
   int jobs_, runs_ = 0;
   simulate::Interrupt* interrupt_;
+  std::function<void()> finished_;
 };
 
 }  // namespace trammel::study

@@ -21,13 +21,13 @@ class Trade {
   Trade(const SceneSource& source, plugin::Registry& registry, const TradeOptions& options)
       : options_(options),
         scene_(source.with()),
-        run_(source, registry, options.budget, options.jobs, options.interrupt),
+        run_(source, registry, options.budget, options.jobs, options.interrupt, [this] { show(); }),
         content_{source, options, {}, {}, "", 0, {}, 0, 0, {}, {}, {}, {}, {}, {}, "", 0, 0} {}
 
   TradeReport operator()() {
-    tell("asking the integrators");
+    begin("asking the integrators");
     content_.methods = methods_for(run_.source(), run_.registry());
-    tell("looking for a reference");
+    begin("looking for a reference");
     const double target = options_.target.value_or(usual_target);
     content_.reference = find_reference(content_.methods, run_, target, options_.observe, content_.no_reference);
     if (content_.reference) measure_all(target);
@@ -36,8 +36,14 @@ class Trade {
   }
 
  private:
-  void tell(const std::string& what) {
-    if (options_.progress) options_.progress(what);
+  void begin(const std::string& what) {
+    now_ = what;
+    show();
+  }
+
+  void show() const {
+    if (options_.progress)
+      options_.progress(run_.spent() / run_.budget(), fmt::format("{}, {} runs", now_, run_.runs()));
   }
 
   void measure_all(double target) {
@@ -45,11 +51,11 @@ class Trade {
     const Measure measure(reference.first.result, options_.observe, scene_);
     WorkPrecision wp(content_.methods, reference, measure, run_);
     content_.target = std::max(target, reference.floor());
-    tell("running the methods");
+    begin("running the methods");
     const bool adaptive = options_.target && options_.search == TradeOptions::Search::adaptive;
     adaptive ? wp.search(content_.target) : wp.scan(options_.target ? 1 : 2);
     content_.search_runs = wp.runs(), content_.full_grid = wp.full_grid();
-    tell("repeating what is near the front");
+    begin("repeating what is near the front");
     wp.repeat(content_.target, on_front);
     content_.courses = wp.courses();
     if (options_.target) choose(wp, measure);
@@ -65,7 +71,7 @@ class Trade {
     std::sort(meeting.begin(), meeting.end());
     for (const auto& [cpu, which] : meeting) {
       const Method& method = wp.courses()[which.first].method;
-      tell("verifying " + method.name + ", " + method.setting(which.second));
+      begin("verifying " + method.name + ", " + method.setting(which.second));
       const std::vector<CaseResult> again = run_({method.overrides(which.second)}, std::max(1.0, 10 * cpu));
       if (!again[0].done()) continue;
       const double error = claimed(again[0], measure);
@@ -98,7 +104,7 @@ class Trade {
   }
 
   void own_scene(const Measure& measure) {
-    tell("running the scene as it is");
+    begin("running the scene as it is");
     const std::vector<CaseResult> own = run_({Overrides{}}, std::max(1.0, run_.left() / 3));
     Choice& choice = *content_.choice;
     choice.own_done = own[0].done(), choice.own_cpu = own[0].cpu;
@@ -111,7 +117,7 @@ class Trade {
     errors.integration = measure.error(result.series, until).max;
     const scene::Value* contacts = scene_.root().find("contacts");
     if (contacts && contacts->type() == scene::Value::Type::object && !contacts->members().empty()) {
-      tell("separating the treatment of contacts");
+      begin("separating the treatment of contacts");
       Overrides finer = method.overrides(level);
       const double asked = method.asked(level);
       finer.push_back(
@@ -129,7 +135,7 @@ class Trade {
   }
 
   void fidelity(const CaseResult& result, const Measure& measure) {
-    tell("trying other models");
+    begin("trying other models");
     const double until = content_.reference->trusted_until;
     const std::vector<Rung> rungs = ladders(run_.source(), run_.registry());
     if (rungs.empty() || run_.left() <= 0) return;
@@ -175,7 +181,7 @@ class Trade {
   void ensembles(const Measure& measure) {
     const TradeReference& r = *content_.reference;
     if (!r.chaotic) return;
-    tell("comparing distributions beyond the horizon");
+    begin("comparing distributions beyond the horizon");
     const Method& method = r.first.method;
     const double tolerance = std::max(r.first.tolerance, loosest_reference);  // no trajectory is asked for
     const double cpu = r.first.result.cpu * std::pow(r.first.tolerance / tolerance, 1.0 / (method.order + 1));
@@ -192,6 +198,7 @@ class Trade {
   const TradeOptions& options_;
   scene::Scene scene_;
   Runner run_;
+  std::string now_;
   TradeContent content_;
 };
 

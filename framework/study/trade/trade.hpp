@@ -26,7 +26,8 @@ struct TradeOptions {
   int jobs = 0;
   simulate::Interrupt* interrupt = nullptr;
   std::vector<std::string> command;
-  std::function<void(const std::string&)> progress;  // what is done now
+  // The share of the budget that is spent, and what is done now; after each run.
+  std::function<void(double spent, const std::string&)> progress;
 };
 
 struct Choice {
