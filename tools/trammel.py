@@ -108,11 +108,16 @@ def _overrides(values):
 
 
 def _scene_file(scene, folder):
-    """The path of a scene; a dict is written into the folder."""
+    """The path of a scene or study; a dict is written into the folder, and files that it names are those of this process's folder."""
     if not isinstance(scene, dict):
         return Path(scene)
+
+    def from_here(names):
+        return [from_here(name) for name in names] if isinstance(names, list) else str(Path(names).absolute())
+
+    named = {key: from_here(scene[key]) for key in ("include", "scene") if key in scene}
     file = Path(folder) / "scene.json"
-    file.write_text(json.dumps(scene, indent=1))
+    file.write_text(json.dumps(scene | named, indent=1))
     return file
 
 
@@ -124,7 +129,7 @@ def _run(command, scene, out, values):
     out = Path(out)
     with tempfile.TemporaryDirectory(prefix="trammel_") as folder:
         words = [command, _scene_file(scene, folder), "--out", out, *_overrides(values)]
-        code, answer = _call(words + (["--format", "npz"] if command == "run" else []), allowed=(0, 1))
+        code, answer = _call(words + ["--format", "npz"], allowed=(0, 1))
     if not (out / "series.csv").exists():
         raise RunFailed(answer.get("reason") or "the run failed before its first record",
                         [Problem(**problem) for problem in answer.get("problems", [])])

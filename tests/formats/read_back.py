@@ -18,6 +18,15 @@ BALL = {
                            "between": ["ball.com", {"plane": {"point": [0, 0], "normal": [0, 1]}}]}},
     "simulate": {"until": 1}, "record": {"every": 0.01, "observe": {"y": "ball.com.y"}},
 }
+# A mass on a spring of 100 N/m that a load pulls down, 1 N at t = 1.
+HANGING = {
+    "trammel": 1, "space": "planar", "gravity": [0, 0],
+    "bodies": {"mass": {"type": "point_mass", "mass": 0.1, "position": [0, -1]}},
+    "joints": {"rail": {"type": "point_on_line", "between": ["ground", "mass.point"], "axis": [0, 1]}},
+    "forces": {"spring": {"type": "spring_damper", "between": ["ground", "mass.point"], "stiffness": 100, "length": 1},
+               "pull": {"type": "load", "on": "mass.point", "force": {"y": "=-t"}}},
+    "simulate": {"until": 1}, "static": {"steps": 4}, "record": {"observe": {"y": "mass.point.y"}},
+}
 
 try:
     if TOOL == "vtk":
@@ -64,6 +73,12 @@ class numpy(InAFolder):
         self.assertGreaterEqual(impacts.sum(), 2)
         np.testing.assert_allclose(events["separation"][impacts][:2], 0.5 * events["approach"][impacts][:2])
         self.assertTrue(np.isnan(events["impulse"][~impacts]).all())
+
+    def test_reads_equilibria_under_growing_loads(self):
+        self.scene.write_text(json.dumps(HANGING))
+        trammel("static", self.scene, "--out", self.out, "--format", "npz", "--quiet")
+        npz = np.load(self.out / "series.npz")
+        np.testing.assert_allclose(npz["y"], -1 - 0.01 * npz["t"], atol=1e-12)
 
     def test_reads_the_matrices_of_a_linearisation(self):
         trammel("modes", self.scene, "--set", "contacts={}", "--out", self.out, "--matrices", self.folder / "m.npz", "--quiet")
@@ -128,6 +143,34 @@ class module(InAFolder):
         self.assertTrue(problem.file.endswith("ball.json"))
         self.assertEqual(problem.path, "contacts.floor.restitutoin")
         self.assertGreater(problem.line, 1)
+
+    def test_finds_equilibria(self):
+        hung = self.trammel.static(HANGING)
+        np.testing.assert_allclose(hung["y"][-1], -1.01, atol=1e-12)
+        self.assertEqual(hung.units["y"], "m")
+
+    def test_studies_many_cases(self):
+        study = {"study": 1, "scene": str(self.scene), "vary": {"contacts.floor.restitution": [0, 0.25, 0.5]},
+                 "reduce": {"highest": {"observe": "y", "as": "final"}}}
+        found = self.trammel.study(study, out=self.folder / "study", jobs=1)
+        self.assertEqual((found["done"], found["failed"]), (3, 0))
+        with np.load(self.folder / "study/study.npz") as npz:
+            self.assertEqual(len(npz["highest"]), 3)
+        self.assertTrue(found._repr_html_().startswith("<iframe srcdoc="))
+
+    def test_names_the_place_of_an_error_in_a_study(self):
+        study = {"study": 1, "scene": str(self.scene), "vary": {"contacts.flor.restitution": [0]},
+                 "reduce": {"highest": {"observe": "y", "as": "final"}}}
+        with self.assertRaises(self.trammel.SceneError) as raised:
+            self.trammel.study(study, out=self.folder / "study")
+        self.assertIn("floor", str(raised.exception))
+
+    def test_trades_speed_for_accuracy(self):
+        swinging = {key: value for key, value in HANGING.items() if key != "static"}
+        swinging["record"] = {"every": 0.1, "observe": {"y": "mass.point.y"}}
+        found = self.trammel.trade(swinging, target=1e-3, budget=10, out=self.folder / "trade")
+        self.assertLessEqual(found["choice"]["error"], 1e-3)
+        self.assertTrue(found._repr_html_().startswith("<iframe srcdoc="))
 
     def test_refuses_a_column_that_is_not_there(self):
         with self.assertRaisesRegex(KeyError, "no column 'z'; there are t, y"):

@@ -7,16 +7,14 @@
 #include <fmt/format.h>
 
 #include "arguments.hpp"
+#include "beside_results.hpp"
 #include "commands/simulation.hpp"
-#include "formats/run_formats.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "last_words.hpp"
 #include "progress.hpp"
-#include "report/report.hpp"
 #include "results_folder.hpp"
 #include "scene/suggestion.hpp"
-#include "simulate/results/log_file.hpp"
 #include "study/evidence/remedy.hpp"
 #include "study/evidence/verification.hpp"
 
@@ -26,9 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Option kReport{"--report", "", "write report.html beside the results, to look at: animation, plots, events"};
-constexpr Option kFormat{"--format", "NAME",
-                         "write the results also as npz (NumPy) or vtu (ParaView), beside the others (repeatable)"};
 constexpr Option kVerify{"--verify", "",
                          "run again with finer steps and by another method: an error for every observable"};
 constexpr Option kTarget{"--target", "X", "of --verify: the error wanted, in parts of what an observable changes"};
@@ -57,38 +52,6 @@ std::string continuation(const Arguments& arguments, const fs::path& folder) {
   if (arguments.operand().starts_with("-")) add("--");
   add(arguments.operand());
   return command;
-}
-
-std::vector<const formats::RunFormat*> chosen_formats(const Arguments& arguments) {
-  std::vector<std::string> names;
-  for (const formats::RunFormat& format : formats::run_formats()) names.emplace_back(format.name);
-  std::vector<const formats::RunFormat*> chosen;
-  for (const std::string& name : arguments.all(kFormat.name)) {
-    chosen.push_back(formats::find_run_format(name));
-    if (!chosen.back())
-      throw UsageError(fmt::format("--format {}: there is no such format{}", name, scene::did_you_mean(name, names)));
-  }
-  return chosen;
-}
-
-void write_format(const formats::RunFormat& format, const fs::path& folder, bool quiet) {
-  try {
-    const fs::path file = format.write(folder);
-    if (!quiet) print_line(fmt::format("As {}: {}", format.name, file.string()));
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "trammel: no {} was written: {}\n", format.name, e.what());
-  }
-}
-
-// The results stand, whatever becomes of their report.
-void write_report(const fs::path& folder, bool quiet) {
-  const fs::path file = folder / "report.html";
-  try {
-    simulate::write_whole(file, report::report({folder}));
-    if (!quiet) print_line(fmt::format("To look at it, open {}", file.string()));
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "trammel: no report was written: {}\n", e.what());
-  }
 }
 
 study::SceneSource source_of(const Arguments& arguments) {
@@ -122,7 +85,7 @@ Exit run(const Arguments& arguments) {
   simulate::RunOptions options;
   options.out = folder_of_run(arguments);
   options.resume = arguments.has("--resume");
-  const std::vector<const formats::RunFormat*> formats = chosen_formats(arguments);
+  const BesideResults beside(arguments);
   const scene::Scene scene = load_scene(arguments);
   plugin::Registry registry;
   load_plugins(arguments, registry);
@@ -147,8 +110,7 @@ Exit run(const Arguments& arguments) {
   if (!json && !quiet) print_line(report.summary);
   if (arguments.has(kVerify.name) && report.status == simulate::Status::done)
     verify(arguments, registry, scene, options.out, json || quiet);
-  for (const formats::RunFormat* format : formats) write_format(*format, options.out, json || quiet);
-  if (arguments.has(kReport.name)) write_report(options.out, json || quiet);
+  beside.write(options.out, json || quiet);
   switch (report.status) {
     case simulate::Status::done:
       return Exit::done;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "arguments.hpp"
+#include "beside_results.hpp"
 #include "commands/simulation.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
@@ -17,6 +18,7 @@ constexpr Option kFolder{"--out", "DIR", "results folder; default out/<scene nam
 
 Exit run(const Arguments& arguments) {
   const bool json = arguments.has("--json"), quiet = arguments.has("--quiet");
+  const BesideResults beside(arguments);
   simulate::RunOptions options;
   options.out = results_folder(arguments, "_static");
   const scene::Scene scene = load_scene(arguments);
@@ -34,6 +36,7 @@ Exit run(const Arguments& arguments) {
   }
   if (json) print_line(report.result_json);
   if (!json && !quiet) print_line(report.summary);
+  beside.write(options.out, json || quiet);
   if (report.status == simulate::Status::done) return Exit::done;
   fmt::print(stderr, "trammel: {}\nResults up to there are in {}\n", report.reason, options.out.string());
   return report.status == simulate::Status::interrupted ? Exit::interrupted : Exit::failed;
@@ -45,7 +48,7 @@ Command static_command() {
   return {"static",
           "SCENE",
           "Find equilibria under growing loads: t is the load.",
-          {kFolder, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
+          {kFolder, kSet, kPlugin, kAllowScenePlugins, kReport, kFormat, kJson, kQuiet},
           run};
 }
 

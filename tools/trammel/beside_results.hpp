@@ -1,0 +1,28 @@
+// What is written beside the results of a run or static analysis, to look at them or for other tools: --report, --format.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "arguments.hpp"
+#include "formats/run_formats.hpp"
+
+namespace trammel::tool {
+
+inline constexpr Option kReport{"--report", "",
+                                "write report.html beside the results, to look at: animation, plots, events"};
+inline constexpr Option kFormat{
+    "--format", "NAME", "write the results also as npz (NumPy) or vtu (ParaView), beside the others (repeatable)"};
+
+class BesideResults {
+ public:
+  explicit BesideResults(const Arguments& arguments);  // throws UsageError: no such format
+  // The results stand, whatever becomes of these; a failure is said on standard error.
+  void write(const std::filesystem::path& folder, bool quiet) const;
+
+ private:
+  bool report_;
+  std::vector<const formats::RunFormat*> formats_;
+};
+
+}  // namespace trammel::tool
