@@ -8,7 +8,7 @@
 
 #include "simulate/start/equilibrium.hpp"
 #include "statics/mechanism.hpp"
-#include "system/point/tangent.hpp"
+#include "system/equations/tangent.hpp"
 #include "run/run_failed.hpp"
 
 namespace trammel::simulate {

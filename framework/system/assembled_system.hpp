@@ -15,7 +15,7 @@
 #include "system/point/contact_modes.hpp"
 #include "system/point/counts.hpp"
 #include "system/point/not_solvable.hpp"
-#include "system/point/storage.hpp"
+#include "system/equations/storage.hpp"
 
 namespace trammel::model {
 

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "system/assembled_system.hpp"
-#include "system/point/factors.hpp"
-#include "system/point/resting_friction.hpp"
-#include "system/point/shared_rows.hpp"
+#include "system/equations/factors.hpp"
+#include "system/equations/resting_friction.hpp"
+#include "system/equations/shared_rows.hpp"
 
 namespace trammel::model {
 

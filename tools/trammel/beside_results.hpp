@@ -1,4 +1,5 @@
-// What is written beside the results of a run or static analysis, to look at them or for other tools: --report, --format.
+// What is written beside the results of a run or a static analysis, to look at them or for other tools: --report,
+// --format.
 #pragma once
 
 #include <filesystem>

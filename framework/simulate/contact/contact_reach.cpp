@@ -16,8 +16,8 @@ namespace {
 // them.
 bool moves(model::AssembledSystem& system, const Scale& scale, int contact) {
   const Vec rest = Vec::Zero(system.sizes().nv);
-  const double by =
-      system.acceleration({contact, 0}, model::pseudo_random(rest.size(), 1, 0)) - system.acceleration({contact, 0}, rest);
+  const double by = system.acceleration({contact, 0}, model::pseudo_random(rest.size(), 1, 0)) -
+                    system.acceleration({contact, 0}, rest);
   return std::abs(by) > 1e-12 * std::min(1.0, scale.length()) + 16 * scale.resolution();
 }
 

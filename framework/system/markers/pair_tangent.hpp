@@ -1,6 +1,6 @@
-// d of the generalised force of a few markers, whose wrenches w are a function of their motions, by differences of the
-// poses and velocities: S += c_k d(J^T w)/dq + c_d d(J^T w)/dv. K includes that the markers' twists V = J(q) v change with q
-// at fixed v: without it, a damper between bodies that turn together would act on their turning.
+// The derivative of the generalised force of a few markers, whose wrenches w are a function of their motions, by
+// differences of the poses and velocities: S += c_k d(J^T w)/dq + c_d d(J^T w)/dv. K includes that the markers' twists
+// V = J(q) v change with q at fixed v: without it, a damper between bodies that turn together acts on their turning.
 #pragma once
 
 #include <span>

@@ -4,7 +4,7 @@
 #include <trammel/types.hpp>
 
 #include "linear/sparse/sparse_sum.hpp"
-#include "system/point/body_blocks.hpp"
+#include "system/equations/body_blocks.hpp"
 #include "system/point/contacts.hpp"
 #include "system/point/counts.hpp"
 

@@ -1,7 +1,7 @@
-#include "system/point/storage.hpp"
+#include "system/equations/storage.hpp"
 
 #include "linear/sparse/sparse_sum.hpp"
-#include "system/point/body_blocks.hpp"
+#include "system/equations/body_blocks.hpp"
 
 namespace trammel::model {
 

@@ -1,4 +1,4 @@
-#include "system/point/constant_rows.hpp"
+#include "system/equations/constant_rows.hpp"
 
 namespace trammel::model {
 

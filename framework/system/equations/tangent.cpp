@@ -1,4 +1,4 @@
-#include "system/point/tangent.hpp"
+#include "system/equations/tangent.hpp"
 
 #include "system/markers/numeric_derivative.hpp"
 #include "system/markers/pair_tangent.hpp"

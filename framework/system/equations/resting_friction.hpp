@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "system/point/factors.hpp"
+#include "system/equations/factors.hpp"
 
 namespace trammel::model {
 

@@ -1,4 +1,4 @@
-#include "system/point/resting_friction.hpp"
+#include "system/equations/resting_friction.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "system/point/rows.hpp"
+#include "system/equations/rows.hpp"
 
 #include <algorithm>
 

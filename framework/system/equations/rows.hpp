@@ -6,8 +6,8 @@
 
 #include <Eigen/SparseCore>
 
-#include "system/point/body_blocks.hpp"
-#include "system/point/constant_rows.hpp"
+#include "system/equations/body_blocks.hpp"
+#include "system/equations/constant_rows.hpp"
 #include "system/point/contacts.hpp"
 #include "system/point/joint_friction.hpp"
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "system/point/mass_and_force.hpp"
-#include "system/point/rows.hpp"
+#include "system/equations/mass_and_force.hpp"
+#include "system/equations/rows.hpp"
 
 namespace trammel::model {
 

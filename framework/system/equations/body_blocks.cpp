@@ -1,4 +1,4 @@
-#include "system/point/body_blocks.hpp"
+#include "system/equations/body_blocks.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "system/point/factors.hpp"
+#include "system/equations/factors.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "system/point/shared_rows.hpp"
+#include "system/equations/shared_rows.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "model/build.hpp"
-#include "system/point/factors.hpp"
-#include "system/point/shared_rows.hpp"
+#include "system/equations/factors.hpp"
+#include "system/equations/shared_rows.hpp"
 
 #include "support/made.hpp"
 

@@ -6,9 +6,9 @@
 
 #include "linear/frontal_iteration_kkt.hpp"
 #include "linear/kkt.hpp"
-#include "system/point/mass_and_force.hpp"
-#include "system/point/rows.hpp"
-#include "system/point/tangent.hpp"
+#include "system/equations/mass_and_force.hpp"
+#include "system/equations/rows.hpp"
+#include "system/equations/tangent.hpp"
 
 namespace trammel::model {
 

@@ -1,4 +1,4 @@
-#include "system/point/mass_and_force.hpp"
+#include "system/equations/mass_and_force.hpp"
 
 #include "linear/dense/prefetch.hpp"
 #include "linear/dense/products_of_few_rows.hpp"

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "system/point/impulse_response.hpp"
+#include "system/equations/impulse_response.hpp"
 
 namespace trammel::model {
 

@@ -1,4 +1,4 @@
-#include "system/point/impulse_response.hpp"
+#include "system/equations/impulse_response.hpp"
 
 #include "linear/kkt.hpp"
 #include "linear/sparse_mass_kkt.hpp"
