@@ -12,7 +12,8 @@
 
 namespace trammel::stability {
 
-// The principal root, that nearest to the exact factor exp(z) of a step, says how the method treats the motion itself.
+// The principal root says how the method treats the motion itself: that nearest to the exact factor exp(z) of a step,
+// among those that oscillate if there are any.
 struct Oscillation {
   double radius = 0;        // the largest modulus of all roots
   double damping = 0;       // of the principal root: the ratio zeta that an exact oscillator of the same root has

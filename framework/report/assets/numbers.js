@@ -63,7 +63,8 @@ function axis(values, logarithmic, from, to, wanted) {
     const margin = (high / low) ** 0.05;
     [low, high] = [low / margin, high * margin];
   } else {
-    if (high === low) [low, high] = [low - (Math.abs(low) / 2 || 0.5), high + (Math.abs(high) / 2 || 0.5)];
+    const round_off = 1e-9 * Math.max(Math.abs(low), Math.abs(high));
+    if (high - low <= round_off) [low, high] = [low - (Math.abs(low) / 2 || 0.5), high + (Math.abs(high) / 2 || 0.5)];
     const margin = 0.05 * (high - low);
     [low, high] = [low - margin, high + margin];
   }
