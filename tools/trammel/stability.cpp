@@ -1,4 +1,5 @@
 // trammel stability INTEGRATOR: measured maps of stability and damping, beside theory.
+#include <filesystem>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -31,8 +32,25 @@ std::pair<std::string, std::vector<std::string>> values_over(const std::string& 
   return {text.substr(0, equals), values};
 }
 
+// The operand may be the library of one integrator, as that of `trammel check`.
+std::string integrator_in(const std::string& operand, plugin::Registry& registry) {
+  if (std::error_code error; !std::filesystem::is_regular_file(operand, error)) return operand;
+  plugin::Registry alone(plugin::Registry::Start::empty);
+  alone.search(operand);
+  std::vector<std::string> names;
+  for (const plugin::Entry* entry : alone.all())
+    if (entry->declaration.kind == Kind::integrator) names.push_back(entry->declaration.name);
+  if (names.empty()) throw UsageError(fmt::format("{} has no integrator", operand));
+  if (names.size() > 1)
+    throw UsageError(fmt::format("{0} has several integrators: trammel stability NAME --plugin {0}, NAME one of {1}",
+                                 operand, fmt::join(names, ", ")));
+  registry.search(operand);
+  return names.front();
+}
+
 report::Page page_of(const Arguments& arguments, plugin::Registry& registry) {
-  const stability::IntegratorUnderTest subject(registry, arguments.operand(), overrides_of(arguments));
+  const stability::IntegratorUnderTest subject(registry, integrator_in(arguments.operand(), registry),
+                                               overrides_of(arguments));
   if (!arguments.has(kScene.name)) {
     if (arguments.has(kOver.name)) throw UsageError("--over needs --scene: its values are of a scene");
     return stability::measure(subject);
@@ -60,7 +78,7 @@ Exit stability(const Arguments& arguments) {
 
 Command stability_command() {
   return {"stability",
-          "INTEGRATOR",
+          "INTEGRATOR|LIB",
           "Measure where a method is stable, what it damps, and how it holds rows at small steps, beside theory.",
           {kOfMethod, kScene, kOver, kReport, kPlugin, kJson},
           stability};

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <trammel/fidelity.hpp>
 #include <trammel/methods/oscillating_steps.hpp>
 
 #include "plugin/parameters.hpp"
@@ -45,7 +46,19 @@ void describe(Method& method, plugin::Registry& registry) {
   const std::unique_ptr<Component> made = registry.find(Kind::integrator, method.type).declaration.make();
   const auto* integrator = dynamic_cast<const Integrator*>(made.get());
   if (!integrator) return;
-  method.family = family_of(*integrator), method.order = integrator->traits().order;
+  method.family = family_of(*integrator), method.order = std::max(1, integrator->traits().order);
+  if (method.dial == Method::Dial::step || dynamic_cast<const ErrorEstimate*>(integrator)) return;
+  if (const auto* has = dynamic_cast<const HasFidelity*>(integrator))
+    for (const FidelityParameter& p : has->fidelity())
+      if (p.costs == FidelityParameter::Costs::more_if_smaller) method.tolerances.push_back(p.name);
+  if (method.tolerances.empty()) method.dial = Method::Dial::step;
+}
+
+// [s] the scene's own fixed step, or one for its records.
+double usual_step(const json& own, const simulate::Settings& settings) {
+  if (own.is_object() && own.contains("step") && own["step"].is_number()) return own["step"];
+  const double thousandth = (settings.until - settings.start) / 1000;
+  return settings.every > 0 ? std::min(settings.every, thousandth) : thousandth;
 }
 
 }  // namespace
@@ -61,7 +74,9 @@ std::string Method::setting(int level) const {
 
 std::string Method::with_tolerance(double tolerance) const {
   json object = json::parse(integrator);
-  object["step"] = {{"tolerance", json::parse(fmt::format("{:.3g}", tolerance))}};
+  const json number = json::parse(fmt::format("{:.3g}", tolerance));
+  for (const std::string& name : tolerances) object[name] = number;
+  object["step"] = tolerances.empty() ? json{{"tolerance", number}} : json(step);
   return object.dump();
 }
 
@@ -78,7 +93,10 @@ Methods methods_for(const SceneSource& source, plugin::Registry& registry) {
   const scene::Scene scene = source.with();
   const json own = own_integrator(scene);
   const std::string own_type = own.is_object() ? own.value("type", "dop853") : "";
+  scene::Problems problems;
+  const double usual = usual_step(own, simulate::read_settings(scene.root(), simulate::Purpose::motion, problems));
   const auto consider = [&](Method method) {
+    if (method.dial == Method::Dial::tolerance) method.step = usual;
     describe(method, registry);
     if (const std::string reason = refusal(source, registry, method); reason.empty())
       all.capable.push_back(std::move(method));

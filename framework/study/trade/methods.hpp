@@ -1,6 +1,8 @@
 // The integrators that a scene can be run with, and the settings by which each is made more accurate.
 //
-// A level is one setting: a tolerance of 10^(-2 - level/2), or a fixed step of 4 h 2^(-level), h the scene's own.
+// A level is one setting: a tolerance of 10^(-2 - level/2), of the step or of the method's own control (fidelity.hpp); or,
+// for methods that control no error, a fixed step of 4 h 2^(-level). h is the scene's own, or the smaller of a record's
+// interval and a thousandth of the time.
 #pragma once
 
 #include <string>
@@ -19,9 +21,10 @@ struct Method {
   std::string family;  // methods of different families share no formula: what two of them agree on is trusted
   int order = 1;
   Dial dial = Dial::tolerance;
-  bool own = false;                   // with the parameters that the scene gives it
-  std::string integrator;             // its JSON object without steps
-  double step = 0, contact_step = 0;  // [s] of the scene, for fixed steps; contact_step 0: none
+  bool own = false;                          // with the parameters that the scene gives it
+  std::string integrator;                    // its JSON object without steps
+  double step = 0, contact_step = 0;         // [s] for fixed steps; contact_step 0: none
+  std::vector<std::string> tolerances = {};  // the method's own parameters; then `step` stays as it is
 
   int levels() const { return dial == Dial::tolerance ? 19 : 10; }
   double asked(int level) const;            // tolerance, or step [s]

@@ -23,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+#include <trammel/fidelity.hpp>
 #include <trammel/integrator.hpp>
 #include <trammel/plugin.hpp>
 
@@ -50,7 +51,7 @@ std::uint64_t checksum(const State& state) {
   return hash;
 }
 
-class SundialsIda final : public Integrator, public DenseOutput {
+class SundialsIda final : public Integrator, public DenseOutput, public HasFidelity {
  public:
   double rtol = 1e-6, atol = 1e-9, max_step = 0;
   int max_order = 5;
@@ -60,6 +61,11 @@ class SundialsIda final : public Integrator, public DenseOutput {
   }
   Traits traits() const override {
     return {.order = 0, .implicit = true, .steps = max_order, .holds_position = true, .holds_velocity = true};
+  }
+
+  std::vector<FidelityParameter> fidelity() const override {
+    using enum FidelityParameter::Costs;
+    return {{"rtol", more_if_smaller}, {"atol", more_if_smaller}};
   }
 
   void restart(System& s, const State& now) override { begin(s, now); }
