@@ -1,5 +1,5 @@
-// Ability of a component: parameters that trade accuracy for time. `trammel trade` varies them; the others are properties
-// of the thing that is modelled.
+// Ability of a component: parameters that trade accuracy for time. `trammel trade` varies them; the others are
+// properties of the thing that is modelled.
 //
 // Of a body, force or contact they are the model's, such as a number of modes. Of an integrator without ErrorEstimate
 // that controls its error itself, they are its tolerances (Costs::more_if_smaller): all are set to the tolerance wanted.

@@ -1,8 +1,8 @@
 // The integrators that a scene can be run with, and the settings by which each is made more accurate.
 //
-// A level is one setting: a tolerance of 10^(-2 - level/2), of the step or of the method's own control (fidelity.hpp); or,
-// for methods that control no error, a fixed step of 4 h 2^(-level). h is the scene's own, or the smaller of a record's
-// interval and a thousandth of the time.
+// A level is one setting: a tolerance of 10^(-2 - level/2), of the step or of the method's own control (fidelity.hpp);
+// or, for methods that control no error, a fixed step of 4 h 2^(-level). h is the scene's own, or the smaller of a
+// record's interval and a thousandth of the time.
 #pragma once
 
 #include <string>
