@@ -74,7 +74,7 @@ void Simulator::start(State initial) {
   if (!pressing.empty()) settle(pressing);  // what they store is there from the first instant
   ledger_.start(now_);
   energy_start_ = energy_at_state();
-  most_kinetic_ = energy_start_.kinetic;
+  most_moved_ = energy_start_.kinetic;
   if (!striking.empty()) return settle(striking);
   if (!pressing.empty()) return;
   if (bears) return settle({});
@@ -117,16 +117,18 @@ double Simulator::little_energy() {
   return little * (moving > 0 ? std::min(1.0, moving) : 1);
 }
 
-// Energy without a cause, relative to what moved most, fell or rose, came in and went out. A little more keeps
-// round-off of a
-// system at rest from counting.
-double Simulator::relative_drift() {
-  const Energy energy = energy_at_state();
-  most_kinetic_ = std::max(most_kinetic_, energy.kinetic);  // what a base brings in and takes out again is no supply
+// The most that a cause can have set in motion so far: what there was at the start, fell, came in and went out. What a
+// base brings in and takes out again counts as long as it is there; what the method makes of nothing never does.
+void Simulator::take_moved(const Energy& energy, const Ledger::Totals& totals) {
   const double changed = std::abs(energy_start_.elastic) + std::abs(energy.potential - energy_start_.potential) +
-                         std::abs(ledger_.supplied()) + std::abs(ledger_.refinements()) + ledger_.dissipated();
-  const double moved = std::max(most_kinetic_, energy_start_.kinetic + changed);
-  return std::abs(energy_drift()) / (moved + little_energy() + 1e-9 * std::abs(ledger_.energy_start()));
+                         std::abs(totals.supplied) + std::abs(ledger_.refinements()) + totals.dissipated;
+  most_moved_ = std::max(most_moved_, energy_start_.kinetic + changed);
+}
+
+// Energy without a cause, relative to what moved most. A little more keeps round-off of a system at rest from counting.
+double Simulator::relative_drift() {
+  take_moved(energy_at_state(), ledger_.totals());
+  return std::abs(energy_drift()) / (most_moved_ + little_energy() + 1e-9 * std::abs(ledger_.energy_start()));
 }
 
 // A method that is unstable with its step may give finite nonsense for long. Its energy tells: it goes on growing,
@@ -392,9 +394,10 @@ void Simulator::record_inside(RecordSink& recorder) {
                           t));
     system_.move_to(t, inside_.q, inside_.v);
     system_.accelerate({}, inside_.a, inside_.lambda);
-    recorder.row(system_, inside_, ledger_.totals_inside((t - next_.t) / h), statistics_.steps);
+    const Ledger::Totals totals = ledger_.totals_inside((t - next_.t) / h);
+    recorder.row(system_, inside_, totals, statistics_.steps);
     audit_.look(system_, inside_);
-    most_kinetic_ = std::max(most_kinetic_, system_.energy().kinetic);
+    take_moved(system_.energy(), totals);
     judge_joints(inside_);
     ++records_;
   }

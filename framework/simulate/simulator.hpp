@@ -18,21 +18,21 @@
 
 #include <trammel/correction.hpp>
 
-#include "plugin/plugin_error.hpp"
-#include "simulate/results/checkpoint.hpp"
-#include "simulate/contact/coarse_thresholds.hpp"
 #include "diagnose/conflict.hpp"
-#include "simulate/contact/contact_audit.hpp"
-#include "simulate/contact_mode.hpp"
+#include "plugin/plugin_error.hpp"
 #include "run/contact_scale.hpp"
-#include "simulate/event_location.hpp"
-#include "simulate/results/ledger.hpp"
-#include "simulate/watch/open_joints.hpp"
-#include "simulate/results/recorder.hpp"
-#include "simulate/refinement.hpp"
 #include "run/settings.hpp"
 #include "run/statistics.hpp"
+#include "simulate/contact/coarse_thresholds.hpp"
+#include "simulate/contact/contact_audit.hpp"
+#include "simulate/contact_mode.hpp"
+#include "simulate/event_location.hpp"
+#include "simulate/refinement.hpp"
+#include "simulate/results/checkpoint.hpp"
+#include "simulate/results/ledger.hpp"
+#include "simulate/results/recorder.hpp"
 #include "simulate/step_control.hpp"
+#include "simulate/watch/open_joints.hpp"
 #include "simulate/watch/theory_watch.hpp"
 #include "simulate/watch/turn_counts.hpp"
 
@@ -67,7 +67,7 @@ class Simulator {
   std::vector<std::string> doubts() const;
   const ContactAudit& audit() const { return audit_; }
   Energy energy_at_state();
-  Energy last_energy();  // of a run that has ended, perhaps by a component that cannot give its own any more: then NaN
+  Energy last_energy();   // of a run that has ended, perhaps by a component that cannot give its own any more: then NaN
   double energy_drift();  // [J] what no cause in the ledger explains
   // Joints and bodies whose rows no state near the last one satisfies, there or a step later; empty: none are known.
   Conflict conflict();
@@ -80,6 +80,7 @@ class Simulator {
   double record_time(long long k) const;
   void record_due(RecordSink& recorder);
   double relative_drift();
+  void take_moved(const Energy& energy, const Ledger::Totals& totals);
   double little_energy();
   void judge_energy();
   void measure_joints();
@@ -136,7 +137,7 @@ class Simulator {
   long long records_ = 0;                                         // written
   bool last_row_ = false;                                         // the row at the end is written
   Energy energy_start_;
-  double most_kinetic_ = 0;  // [J] at the start and at records
+  double most_moved_ = 0;  // [J] up to the last record
   double window_start_ = 0;
   long long window_events_ = 0;
   bool locked_ = false;  // no step from here is short enough for what slides to have finite forces

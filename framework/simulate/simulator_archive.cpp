@@ -132,7 +132,7 @@ void Simulator::archive_state(Archive& a) {
   audit_.archive(a, model.contacts.size());
   thresholds_.archive(a);
   a("hold_until", hold_until_), a("step_limit", step_limit_), a("drift_before", drift_before_);
-  a("most_kinetic", most_kinetic_);
+  a("most_moved", most_moved_);
   a("records", records_), a("last_row", last_row_), a("window_start", window_start_),
       a("window_events", window_events_), a("standing", standing_);
   model::Counts& counts = system_.counts();

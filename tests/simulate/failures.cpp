@@ -187,5 +187,24 @@ TEST(InconsistentStart, OfABeamInsideAPlaneIsTurnedOutAndNotBent) {
   EXPECT_NEAR(run.series.at("theta").front(), 0, 1e-4);
 }
 
+// A spring of omega = 10/s: steps beyond the method's limit make energy of nothing, however finite it is.
+TEST(UnstableSteps, EndTheRunInsteadOfResults) {
+  const auto spring = [](const char* integrator, double h) {
+    return run_text(fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, 0],
+      "bodies": {{"mass": {{"type": "point_mass", "mass": 1, "position": [0, 1.1]}}}},
+      "forces": {{"spring": {{"type": "spring_damper", "between": ["ground", "mass.point"], "stiffness": 100, "length": 1}}}},
+      "integrator": {{"type": "{}", "step": {}}}, "simulate": {{"until": 40}}, "record": {{"every": 4}}}})",
+                                integrator, h));
+  };
+  for (const char* method : {"runge_kutta_4", "dormand_prince", "dop853", "adams_baumgarte"}) {
+    const Finished run = spring(method, 2);
+    EXPECT_EQ(run.report.status, simulate::Status::failed) << method;
+    EXPECT_THAT(run.report.reason, HasSubstr("diverged")) << method;
+    EXPECT_TRUE(spring(method, 0.05).done()) << method;
+  }
+  for (const char* method : {"hht_alpha", "newmark", "generalized_alpha"})  // stable with any step
+    EXPECT_TRUE(spring(method, 0.7).done()) << method;
+}
+
 }  // namespace
 }  // namespace trammel::test

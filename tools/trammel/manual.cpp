@@ -36,13 +36,13 @@ std::string page_of(const Command& command) {
 
 // What a word stands for, by the name that the help gives it.
 const char* completed_by(std::string_view value) {
-  if (value == "SCENE") return "_filedir json";
-  if (value == "DIR") return "_filedir -d";
-  if (value == "LIB") return "_filedir so";
+  if (value == "SCENE") return "_trammel_files .json";
+  if (value == "DIR") return "_trammel_files /";
+  if (value == "LIB") return "_trammel_files .so";
   if (value == "NAME")
     return "COMPREPLY=($(compgen -W \"$(trammel list --all 2>/dev/null | sed -n 's/^  \\([^ ]*\\).*/\\1/p')\" -- "
            "\"$cur\"))";
-  return "_filedir";
+  return "_trammel_files";
 }
 
 std::string names_of(const std::vector<Command>& commands) {
@@ -89,13 +89,19 @@ std::string manual_page(const std::vector<Command>& commands) {
 
 std::string bash_completion(const std::vector<Command>& commands) {
   std::string text =
-      "# bash completion of trammel, made by 'trammel completion'\n_trammel() {\n"
-      "  local cur prev words cword\n  _init_completion || return\n"
+      "# bash completion of trammel, made by 'trammel completion'\n"
+      "_trammel_files() {  # folders, and files with this ending; /: folders alone\n"
+      "  COMPREPLY=($(compgen -d -- \"$cur\"))\n"
+      "  [[ $1 == / ]] || COMPREPLY+=($(compgen -f -X \"!*$1\" -- \"$cur\"))\n"
+      "}\n"
+      "_trammel() {\n"
+      "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} words=(\"${COMP_WORDS[@]}\") "
+      "cword=$COMP_CWORD\n"
       "  if ((cword == 1)); then\n";
   text += fmt::format("    COMPREPLY=($(compgen -W \"{}\" -- \"$cur\"))\n    return\n  fi\n", names_of(commands));
   text += "  case ${words[1]} in\n";
   for (const Command& command : commands) text += completion_of(command);
-  return text + "  esac\n} &&\n  complete -F _trammel trammel\n";
+  return text + "  esac\n} &&\n  complete -o filenames -F _trammel trammel\n";
 }
 
 }  // namespace trammel::tool
