@@ -33,6 +33,29 @@ TEST(Commands, HelpNamesEachOfThem) {
   EXPECT_EQ(result.err, "");
 }
 
+TEST(Commands, NameTheNextInTheirLastLine) {
+  const cli::TemporaryFolder folder;
+  const std::vector<std::pair<std::vector<std::string>, std::string>> commands = {
+      {{"validate", kPendulum, "--set", "simulate.until=0.1"},
+       "next: trammel run " + kPendulum + " --set simulate.until=0.1"},
+      {{"explain", kPendulum}, "next: trammel run " + kPendulum},
+      {{"list"}, "next: trammel describe NAME"},
+      {{"describe", "newmark"}, "next: trammel trade SCENE"},
+      {{"describe", "revolute"}, "next: trammel validate SCENE"},
+      {{"run", kPendulum, "--set", "simulate.until=0.1", "--out", "a"}, "next: trammel report a"},
+      {{"compare", "a", "a"}, "next: trammel report a a"},
+      {{"report", "a"}, "next: xdg-open a/report.html"},
+      {{"modes", kPendulum, "--out", "m"}, "next: trammel report m"},
+      {{"static", kPendulum, "--out", "s"}, "next: trammel report s"},
+      {{"stability", "newmark"}, "next: trammel check newmark"},
+  };
+  for (const auto& [words, next] : commands) {
+    const auto result = trammel(words, {.folder = folder.path()});
+    ASSERT_FALSE(lines(result.out).empty()) << words.front() << result.err;
+    EXPECT_EQ(lines(result.out).back(), next);
+  }
+}
+
 TEST(Commands, EachShowsItsOptions) {
   for (const char* name : {"run", "static", "modes", "validate", "explain", "list", "describe", "schema"}) {
     const auto result = trammel({name, "--help"});

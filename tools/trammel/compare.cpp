@@ -3,6 +3,7 @@
 
 #include "arguments.hpp"
 #include "input.hpp"
+#include "next.hpp"
 #include "study/compare.hpp"
 
 namespace trammel::tool {
@@ -17,6 +18,7 @@ Exit run(const Arguments& arguments) {
     print_line(comparison.json);
   else
     print_line(comparison.text);
+  print_next(arguments, {"trammel", "report", arguments.operands()[0], arguments.operands()[1]});
   return comparison.equal ? Exit::done : Exit::failed;
 }
 

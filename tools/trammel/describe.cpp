@@ -8,6 +8,7 @@
 #include "arguments.hpp"
 #include "commands/scene_topics.hpp"
 #include "input.hpp"
+#include "next.hpp"
 #include "plugin/describe.hpp"
 #include "plugin/describe_json.hpp"
 #include "run/setting_parts.hpp"
@@ -45,6 +46,14 @@ class Pages {
   nlohmann::ordered_json pages_ = nlohmann::ordered_json::array();
 };
 
+// `command`: what one does with a scene that names it.
+Exit end(const Arguments& arguments, const Pages& pages, const char* command = "validate") {
+  const Exit exit = pages.end();
+  fmt::print("{}", arguments.has(kJson.name) ? "" : "\n");
+  print_next(arguments, {"trammel", command, "SCENE"}, {kPlugin});
+  return exit;
+}
+
 Exit describe(const Arguments& arguments) {
   Pages pages(arguments.has(kJson.name));
   std::vector<std::string> names;
@@ -52,7 +61,7 @@ Exit describe(const Arguments& arguments) {
     names.push_back(part.name);
     if (part.name != arguments.operand()) continue;
     pages.add(part);
-    return pages.end();
+    return end(arguments, pages);
   }
   plugin::Registry registry;
   load_plugins(arguments, registry);
@@ -60,14 +69,18 @@ Exit describe(const Arguments& arguments) {
     names.push_back(topic.name);
     if (topic.name != arguments.operand()) continue;
     pages.add(topic);
-    return pages.end();
+    return end(arguments, pages);
   }
+  const char* command = "validate";
   try {
-    for (const plugin::Entry* entry : registry.find_any(arguments.operand())) pages.add(*entry);
+    for (const plugin::Entry* entry : registry.find_any(arguments.operand())) {
+      pages.add(*entry);
+      if (entry->declaration.kind == Kind::integrator) command = "trade";
+    }
   } catch (const plugin::UnknownComponent& unknown) {
     throw UsageError(fmt::format("{}. Of the scene language: {}", unknown.what(), fmt::join(names, ", ")));
   }
-  return pages.end();
+  return end(arguments, pages, command);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "commands/simulation.hpp"
 #include "input.hpp"
 #include "last_words.hpp"
+#include "next.hpp"
 #include "report/page.hpp"
 #include "study/evidence/ablation.hpp"
 
@@ -44,7 +45,8 @@ Exit explain(const Arguments& arguments) {
   if (arguments.has(kJson.name))
     print_as_json(arguments.operand(), parts);
   else
-    fmt::print("{}", simulate::text_of(parts));
+    fmt::print("{}\n", simulate::text_of(parts));
+  print_next(arguments, {"trammel", "run", arguments.operand()}, {kSet, kPlugin, kAllowScenePlugins});
   return Exit::done;
 }
 

@@ -6,6 +6,7 @@
 #include "commands/scene_topics.hpp"
 #include "compatibility/matrix.hpp"
 #include "input.hpp"
+#include "next.hpp"
 #include "plugin/describe.hpp"
 #include "run/setting_parts.hpp"
 
@@ -32,15 +33,16 @@ void warn_of_unusable(const plugin::Registry& registry) {
   for (const plugin::PluginError& error : registry.failures()) fmt::print(stderr, "warning: {}\n", error.what());
 }
 
-Exit print_matrix(plugin::Registry& registry, bool as_json) {
+Exit print_matrix(const Arguments& arguments, plugin::Registry& registry) {
   const compatibility::Matrix matrix = compatibility::matrix(registry);
-  if (as_json) {
+  if (arguments.has(kJson.name)) {
     nlohmann::ordered_json all = {{"status", "done"}};
     all.update(compatibility::to_json(matrix));
     print_json(all);
     return Exit::done;
   }
-  fmt::print("{}", compatibility::text(matrix));
+  fmt::print("{}\n", compatibility::text(matrix));
+  print_next(arguments, {"trammel", "describe", "NAME"}, {kPlugin});
   warn_of_unusable(registry);
   return Exit::done;
 }
@@ -48,7 +50,7 @@ Exit print_matrix(plugin::Registry& registry, bool as_json) {
 Exit list(const Arguments& arguments) {
   plugin::Registry registry;
   load_plugins(arguments, registry);
-  if (arguments.has(kMatrix.name)) return print_matrix(registry, arguments.has("--json"));
+  if (arguments.has(kMatrix.name)) return print_matrix(arguments, registry);
   const auto entries = registry.all();
   if (arguments.has("--json")) {
     nlohmann::ordered_json components = nlohmann::ordered_json::array(), unusable = nlohmann::ordered_json::array();
@@ -67,6 +69,8 @@ Exit list(const Arguments& arguments) {
   }
   fmt::print("{}", plugin::list(entries));
   if (arguments.has(kAll.name)) fmt::print("\n{}", pages(entries));
+  fmt::print("\n");
+  print_next(arguments, {"trammel", "describe", "NAME"}, {kPlugin});
   warn_of_unusable(registry);
   return Exit::done;
 }

@@ -9,6 +9,7 @@
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "last_words.hpp"
+#include "next.hpp"
 #include "results_folder.hpp"
 
 namespace trammel::tool {
@@ -81,6 +82,7 @@ Exit run(const Arguments& arguments) {
   }
   if (json) print_line(report.result_json);
   if (!json && !quiet) print_line(report.summary);
+  print_next(arguments, {"trammel", "report", options.out.native()});
   return Exit::done;
 }
 

@@ -1,10 +1,11 @@
 // trammel report DIR...: one HTML file to look at.
-#include <limits>
 #include <fmt/format.h>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "arguments.hpp"
 #include "input.hpp"
+#include "next.hpp"
 #include "report/report.hpp"
 #include "simulate/results/log_file.hpp"
 
@@ -36,18 +37,16 @@ Exit run(const Arguments& arguments) {
     print_json({{"status", "done"}, {"report", file.string()}});
   else
     print_line(file.string());
+  print_next(arguments, {"xdg-open", file.native()});
   return Exit::done;
 }
 
 }  // namespace
 
 Command report_command() {
-  return {"report",
-          "DIR...",
-          "Write one HTML file to look at: animation, plots, events. Several runs are overlaid.",
-          {kFile, kJson},
-          run,
-          std::numeric_limits<std::size_t>::max()};
+  return {
+      "report",       "DIR...", "Write one HTML file to look at: animation, plots, events. Several runs are overlaid.",
+      {kFile, kJson}, run,      std::numeric_limits<std::size_t>::max()};
 }
 
 }  // namespace trammel::tool

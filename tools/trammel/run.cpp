@@ -12,6 +12,7 @@
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "last_words.hpp"
+#include "next.hpp"
 #include "progress.hpp"
 #include "results_folder.hpp"
 #include "scene/suggestion.hpp"
@@ -113,6 +114,7 @@ Exit run(const Arguments& arguments) {
   beside.write(options.out, json || quiet);
   switch (report.status) {
     case simulate::Status::done:
+      if (!arguments.has(kReport.name)) print_next(arguments, {"trammel", "report", options.out.native()});
       return Exit::done;
     case simulate::Status::failed:
       fmt::print(stderr, "trammel: {}\nResults up to there are in {}\n", report.reason, options.out.string());

@@ -7,6 +7,7 @@
 
 #include "arguments.hpp"
 #include "input.hpp"
+#include "next.hpp"
 #include "report/page.hpp"
 #include "simulate/results/log_file.hpp"
 #include "stability/page.hpp"
@@ -69,8 +70,8 @@ Exit stability(const Arguments& arguments) {
     return Exit::done;
   }
   if (arguments.has(kReport.name)) simulate::write_whole(arguments.last(kReport.name), report::html(page));
-  fmt::print("{}\n", report::text(page));
-  fmt::print("\nTry: trammel check {}\n", arguments.operand());
+  fmt::print("{}\n\n", report::text(page));
+  print_next(arguments, {"trammel", "check", arguments.operand()}, {kPlugin});
   return Exit::done;
 }
 

@@ -7,6 +7,7 @@
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "last_words.hpp"
+#include "next.hpp"
 #include "progress.hpp"
 #include "results_folder.hpp"
 
@@ -37,7 +38,10 @@ Exit run(const Arguments& arguments) {
   if (json) print_line(report.result_json);
   if (!json && !quiet) print_line(report.summary);
   beside.write(options.out, json || quiet);
-  if (report.status == simulate::Status::done) return Exit::done;
+  if (report.status == simulate::Status::done) {
+    print_next(arguments, {"trammel", "report", options.out.native()});
+    return Exit::done;
+  }
   fmt::print(stderr, "trammel: {}\nResults up to there are in {}\n", report.reason, options.out.string());
   return report.status == simulate::Status::interrupted ? Exit::interrupted : Exit::failed;
 }

@@ -7,6 +7,7 @@
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "last_words.hpp"
+#include "next.hpp"
 #include "progress.hpp"
 #include "results_folder.hpp"
 #include "study/study_run.hpp"
@@ -52,7 +53,7 @@ Exit exit_of(StudyReport::Status status) {
   }
 }
 
-Exit told(const Arguments& arguments, const StudyReport& report) {
+Exit told(const Arguments& arguments, const StudyReport& report, const std::filesystem::path* folder) {
   if (arguments.has(kJson.name))
     print_line(report.json);
   else if (!arguments.has(kQuiet.name))
@@ -61,6 +62,8 @@ Exit told(const Arguments& arguments, const StudyReport& report) {
     fmt::print(stderr, "trammel: interrupted; the same command runs the cases that are missing\n");
   if (report.status == StudyReport::Status::incomplete)
     fmt::print(stderr, "trammel: cases are missing; the same command runs them\n");
+  if (report.status == StudyReport::Status::done && folder)
+    print_next(arguments, {"trammel", "report", folder->native()});
   return exit_of(report.status);
 }
 
@@ -80,7 +83,7 @@ Exit merge(const Arguments& arguments) {
   study::StudyOptions options = options_of(arguments);
   options.out = arguments.last("--out");
   const simulate::ResultsFolder folder(options.out, simulate::Analysis::study);
-  return told(arguments, study::merge_studies(folders, options));
+  return told(arguments, study::merge_studies(folders, options), &options.out);
 }
 
 Exit run(const Arguments& arguments) {
@@ -90,7 +93,7 @@ Exit run(const Arguments& arguments) {
   const study::Study study = study::Study::load(arguments.operand(), overrides_of(arguments));
   plugin::Registry registry;
   load_plugins(arguments, registry);
-  if (arguments.has(kEstimate.name)) return told(arguments, study::estimate_study(study, registry));
+  if (arguments.has(kEstimate.name)) return told(arguments, study::estimate_study(study, registry), nullptr);
   study::StudyOptions options = options_of(arguments);
   const std::string ending =
       options.shard.of > 1 ? fmt::format("_{}_of_{}", options.shard.index, options.shard.of) : "";
@@ -103,7 +106,7 @@ Exit run(const Arguments& arguments) {
   };
   const StudyReport report = study::run_study(study, arguments.operand(), registry, options);
   bar.clear();
-  return told(arguments, report);
+  return told(arguments, report, &options.out);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "arguments.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
+#include "next.hpp"
 #include "progress.hpp"
 #include "results_folder.hpp"
 #include "study/trade/trade.hpp"
@@ -50,6 +51,7 @@ Exit run(const Arguments& arguments) {
   else if (!quiet)
     print_line(report.summary);
   if (options.interrupt->requested()) return Exit::interrupted;
+  print_next(arguments, {"trammel", "report", options.out.native()});
   return report.done && (!options.target || report.choice) ? Exit::done : Exit::failed;
 }
 

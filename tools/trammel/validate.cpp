@@ -6,6 +6,7 @@
 #include "commands/simulation.hpp"
 #include "input.hpp"
 #include "last_words.hpp"
+#include "next.hpp"
 
 namespace trammel::tool {
 
@@ -21,6 +22,7 @@ Exit validate(const Arguments& arguments) {
   } else {
     for (const std::string& warning : lines(warnings)) fmt::print(stderr, "warning: {}\n", warning);
     fmt::print("{} is valid\n", arguments.operand());
+    print_next(arguments, {"trammel", "run", arguments.operand()}, {kSet, kPlugin, kAllowScenePlugins});
   }
   return Exit::done;
 }
