@@ -88,12 +88,12 @@ class Trade {
     }
   }
 
-  // Never below the references' floor.
+  // The references may be off as well, and on the same side: by their floor, ten times what they disagree.
   double claimed(const CaseResult& result, const Measure& measure) const {
     const TradeReference& r = *content_.reference;
     const double measured = std::max(measure.error(result.series, r.trusted_until).max,
                                      measure.error(result.series, r.second.result.series, r.trusted_until).max);
-    return std::max(measured + r.disagreement, r.floor());
+    return measured + r.floor();
   }
 
   void judge(const Method& method, int level, const CaseResult& result, const Measure& measure) {
