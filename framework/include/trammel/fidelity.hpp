@@ -2,7 +2,8 @@
 // properties of the thing that is modelled.
 //
 // Of a body, force or contact they are the model's, such as a number of modes. Of an integrator without ErrorEstimate
-// that controls its error itself, they are its tolerances (Costs::more_if_smaller): all are set to the tolerance wanted.
+// that controls its error itself, they are its tolerances (Costs::more_if_smaller), all set to the tolerance that is
+// wanted.
 #pragma once
 
 #include <string>
