@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "simulate/start/setup.hpp"
 #include "simulate/simulator.hpp"
+#include "simulate/start/setup.hpp"
 
 namespace trammel::simulate {
 
@@ -14,8 +14,7 @@ class SlowSteps {
   SlowSteps(double t, long long steps) : t_(t), steps_(steps) {}
 
   // After `seconds` of CPU time, which a busy machine does not change: why the steps are so short, and the setting that
-  // cures it. Empty: the run is
-  // not slow, it is too early to decide, or the message was given before.
+  // cures it. Empty: the run is not slow, it is too early to decide, or the message was given before.
   std::string look(double seconds, const Setup& setup, Simulator& simulator);
 
  private:

@@ -8,9 +8,9 @@
 
 #include "complementarity/contact_order.hpp"
 #include "complementarity/exact_modes.hpp"
-#include "complementarity/programs/friction_cone.hpp"
 #include "complementarity/islands.hpp"
 #include "complementarity/mode_search.hpp"
+#include "complementarity/programs/friction_cone.hpp"
 #include "complementarity/programs/polyhedral_cone.hpp"
 #include "complementarity/shares/pressing_forces.hpp"
 #include "complementarity/shares/row_basis.hpp"
@@ -94,8 +94,7 @@ class Cascade {
   }
 
   // Newton's method on the cones. With contacts that yield it comes to the one of several solutions that springs have,
-  // from which
-  // the way to the rigid ones is short.
+  // from which the way to the rigid ones is short.
   bool try_cones(double yields, const Vec& start, int rounds = 40) {
     Vec F = start;
     if (yields > 0) {
@@ -123,8 +122,7 @@ class Cascade {
   }
 
   // Keeps it if it is the best so far, once it is exact or else, where that fails, as it is. In space directions of
-  // slip are
-  // better known before: the better one. True: no better one is needed.
+  // slip are better known before: the better one. True: no better one is needed.
   bool accept(const Vec& nearby) { return accept(nearby, A_ * nearby + b_); }
   bool accept(const Vec& nearby, const Vec& a) {
     for (const double off : {1e-12, 1e-8}) {

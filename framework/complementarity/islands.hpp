@@ -1,6 +1,5 @@
 // Contacts that act on each other, directly or through others: a chain of entries of A that are not 0. Each island is a
-// problem
-// of its own.
+// problem of its own.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,5 @@
 // Forces of contacts of which some modes are decided and others are not: linear equations and inequalities that every
-// solution of
-// contact_point.hpp in these modes satisfies.
+// solution of contact_point.hpp in these modes satisfies.
 //
 //     undecided   N >= 0, a_n >= 0, T in the cone
 //     open        N = T = 0, a_n >= 0

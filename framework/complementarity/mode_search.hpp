@@ -1,11 +1,9 @@
 // All modes of a few contacts: open, sticking, sliding, by branch and bound. Complete: it finds forces that obey
-// contact_point.hpp
-// wherever there are some, and "none" is a proof.
+// contact_point.hpp wherever there are some, and "none" is a proof.
 //
 // A contact without a mode yet is relaxed (mode_relaxation.hpp). Where what is left has no forces, no completion of
 // these modes has, and none is looked at. In space the directions that a contact slides in are quarters of the circle
-// first, then halves of
-// those, down to a degree; the round cone's own Newton method goes on from what is found there.
+// first, then halves of those, down to a degree; the round cone's own Newton method goes on from what is found there.
 #pragma once
 
 #include <functional>

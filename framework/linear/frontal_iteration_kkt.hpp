@@ -11,9 +11,8 @@
 //     [E G D       0   ] [E^-1 y] = [E c]
 //
 // Where rows depend on each other, or exchanges within fronts do not serve, by the slower sparse LU of
-// sparse_iteration_kkt.hpp, unscaled: y is
-// then of minimum norm, and what is singular beyond the rows is told.
-// The pattern is analysed when it widens: once per mesh, and as contacts reach what they have not touched.
+// sparse_iteration_kkt.hpp, unscaled: y is then of minimum norm, and what is singular beyond the rows is told. The
+// pattern is analysed when it widens: once per mesh, and as contacts reach what they have not touched.
 #pragma once
 
 #include <trammel/types.hpp>
@@ -30,8 +29,7 @@ class FrontalIterationKkt {
   // The sum of S, W^T and G; what it is given before the first `factorise` to reserve stays.
   SparseSum& sum() { return full_; }
   // `additions()` adds all of it to the sum; it may be run twice. `independent()`: whether the rows are, asked where
-  // small pivots
-  // make it doubtful.
+  // small pivots make it doubtful.
   template <class Independent, class Additions>
   void factorise(int nv, int nc, Independent&& independent, Additions&& additions) {
     full_.fill(nv + nc, additions);

@@ -14,13 +14,11 @@ namespace trammel::numerics {
 namespace {
 
 // Shares of multipliers in the rows' accelerations that are so many times what is left of them take their digits with
-// them: of a
-// light body between heavy ones.
+// them: of a light body between heavy ones.
 constexpr double cancelling = 1e6;
 
 // The pivots of G M^-1 G^T over its diagonal are squares of those sines, row by row against the rows before. They are
-// only
-// a warning, given early; the decomposition decides.
+// only a warning, given early; the decomposition decides.
 bool pivots_are_safe(const Cholesky& factors, const Mat& matrix, double tolerance) {
   const double safe = 100 * tolerance * tolerance;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
@@ -29,8 +27,7 @@ bool pivots_are_safe(const Cholesky& factors, const Mat& matrix, double toleranc
 }
 
 // What a row has of an angle is a lever [m]. Where levers are long, rows in metres look alike by them, and what the
-// rows are off by
-// is less of a length: both are measured by the longest. The rows reach the same.
+// rows are off by is less of a length: both are measured by the longest. The rows reach the same.
 struct WithoutLevers {
   Mat G;
   double longest = 1;  // [m] and no less
@@ -47,8 +44,7 @@ struct WithoutLevers {
 };
 
 // Of the rows at length one, whose pivots are sines of angles to the rows before: masses and units, and the lengths of
-// rows near a
-// singular position, must not make independent rows look alike.
+// rows near a singular position, must not make independent rows look alike.
 Eigen::ColPivHouseholderQR<Mat> decomposed(const WithoutLevers& rows, const Vec& lengths, double tolerance) {
   Mat unit = rows.G;
   for (Eigen::Index i = 0; i < unit.rows(); ++i)
@@ -204,8 +200,7 @@ Mat& IterationKkt::begin(Eigen::Index nv, Eigen::Index nc) {
 namespace {
 
 // In the columns from `first` on. A pivot is compared with its own column, so unlike scales of S and G make none small;
-// the
-// largest entry of all is asked first, which is cheaper and nearly always enough.
+// the largest entry of all is asked first, which is cheaper and nearly always enough.
 bool has_small_pivot(const Lu& lu, const Mat& matrix, Eigen::Index first, double smallest) {
   const double largest = matrix.cwiseAbs().maxCoeff();
   const auto is_safe = [&](Eigen::Index j, double scale) { return std::abs(lu.pivot(j)) > smallest * scale; };

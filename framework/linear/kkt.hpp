@@ -5,18 +5,14 @@
 //
 // Two factorisations, by what S is:
 //  - Mass: S = M symmetric positive definite. Cholesky of M and of the Schur complement G M^-1 G^T, whose pivots warn
-//  of
-//    redundant rows; those are solved by orthogonal decompositions of G L^-T: x stays unique, and the condition number
-//    is
-//    not squared. With W other than G (sliding friction) the complement G M^-1 W^T is factorised as it is, by LU,
-//    redundant
-//    or singular ones orthogonally. M may be sparse.
-//  - Iteration: S any dense matrix (a sparse one: frontal_iteration_kkt.hpp). LU of the whole with row
-//    pivoting. If it is singular beyond redundant rows, the minimum-norm solution.
+//    of redundant rows; those are solved by orthogonal decompositions of G L^-T: x stays unique, and the condition
+//    number is not squared. With W other than G (sliding friction) the complement G M^-1 W^T is factorised as it is, by
+//    LU, redundant or singular ones orthogonally. M may be sparse.
+//  - Iteration: S any dense matrix (a sparse one: frontal_iteration_kkt.hpp). LU of the whole with row pivoting. If it
+//    is singular beyond redundant rows, the minimum-norm solution.
 // Of redundant rows combinations U^T G are taken in their place, U an orthonormal basis of their range: y = U z is of
-// minimum
-// norm, and what of c is outside the range, which no x reaches, is left.
-// Storage is kept from one factorisation to the next: no allocation at constant sizes while rows are independent.
+// minimum norm, and what of c is outside the range, which no x reaches, is left. Storage is kept from one factorisation
+// to the next: no allocation at constant sizes while rows are independent.
 #pragma once
 
 #include <variant>
@@ -32,11 +28,9 @@ namespace trammel::numerics {
 
 // Below which sine of the angle to the others a row counts as dependent on them, for rows that are off by `violation`
 // (max norm of g, of lengths of order one). Redundant rows are dependent only where they hold: otherwise they part by
-// the violation, and
-// must not pass for new ones. Not more than ten times that: a long chain's own rows are dependent but for n^-2. (Where
-// branches of motion cross, rows part by the distance from the crossing, over which a violation shifts the state by
-// itself; slopes on the rows
-// pass there, RungeKutta::Rows.)
+// the violation, and must not pass for new ones. Not more than ten times that: a long chain's own rows are dependent
+// but for n^-2. (Where branches of motion cross, rows part by the distance from the crossing, over which a violation
+// shifts the state by itself; slopes on the rows pass there, RungeKutta::Rows.)
 double rank_tolerance_at(double violation);
 // Of the rows at length one: masses and units must not make independent rows look alike.
 Eigen::Index rank_of_rows(const Mat& G, double tolerance);

@@ -125,8 +125,7 @@ bool SparseIterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   if (!solution_.allFinite()) return false;
   if (reached) return true;
   // What no x reaches is left: where redundant rows differ, by round-off or as far as Newton's iteration still has to
-  // go. Each solution
-  // has added it to y, along the rows' null space.
+  // go. Each solution has added it to y, along the rows' null space.
   if (!soft_ && eps_ > 0) y += solves_ / eps_ * residual_.tail(c.size());
   const double of_rows = residual_.tail(c.size()).norm();
   const double of_forces = residual_.head(nv_).norm();

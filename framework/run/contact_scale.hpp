@@ -34,8 +34,8 @@ struct Scale {
   double no_acceleration() const;
   // Slower than this may be what the steps leave of the rates of rows that they hold [m/s].
   double drift() const { return 1e-6 * speed; }
-  // Slip in space that has no direction [m/s] (system/slip.hpp); impacts slower than that have no rebound unless the
-  // law says so.
+  // Slip in space that has no direction [m/s] (system/point/slip.hpp); impacts slower than that have no rebound unless
+  // the law says so.
   double slow() const { return 1e-7 * speed; }
   // The digits to which positions and velocities are written in a scene.
   double written_length() const { return 1e-9 * length() + resolution(); }

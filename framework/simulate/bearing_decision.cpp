@@ -1,8 +1,7 @@
 // Rule 10 of contact_mode.hpp: which joints that rub stick and slide.
 //
 // Their loads, which bound the friction, follow from the reactions, and these from the friction and from all contacts.
-// Rounds find
-// modes that agree with their own loads:
+// Rounds find modes that agree with their own loads:
 //
 //     loads of the modes of the last round, exactly (AssembledSystem::accelerate)  ->  problem with these loads given
 //     ->  modes

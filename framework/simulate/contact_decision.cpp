@@ -123,8 +123,7 @@ void ContactModes::gather(const State& state, const ContactChanges& changes, boo
 
 // Rule 7: contacts that slide while what rests, and what is closed, leaves them no slip. The steps leave some, so such
 // slips, the feet of one block, do not reach 0 at one instant. In space also those that have no direction then: a body
-// that slides and spins
-// ends both at once. True if there are any, which are added to `changes`.
+// that slides and spins ends both at once. True if there are any, which are added to `changes`.
 bool ContactModes::stop_with_others(ContactChanges& changes) {
   if (changes.stopped.empty()) return false;
   const std::vector<bool> held = problem_.held_by_others();

@@ -18,51 +18,37 @@
 //         A = A_free + D N,   0 <= N complementary to A >= 0      (A gap accelerations, N normal forces)
 //     push; where the gap accelerates apart they stay open ("lift").
 //  4. A closed contact opens where its normal force falls through 0; the others are decided anew as in 3. Among
-//  redundant
-//     contacts (three feet of a planar block) the single forces mean nothing: they open only where 3 says so.
+//     redundant contacts (three feet of a planar block) the single forces mean nothing: they open only where 3 says so.
 //  9. A contact that never releases (a latch) has locked after rule 1, if it touches without rate: it is no candidate,
-//  and its
-//     row is held like a joint's from then on, through the decision that follows and all later impacts.
+//     and its row is held like a joint's from then on, through the decision that follows and all later impacts.
 // 10. Joints that rub take part like compliant contacts, with the load of their bearings for a normal force. It follows
-// from the
-//     forces sought, so the problem is solved in rounds (bearing_decision.cpp). In impacts they rub under the impulses
-//     of their
-//     reactions (bearing_impulses.hpp). A joint that locks itself while it slides has no finite forces: it jams by rule
-//     8.
+//     from the forces sought, so the problem is solved in rounds (bearing_decision.cpp). In impacts they rub under the
+//     impulses of their reactions (bearing_impulses.hpp). A joint that locks itself while it slides has no finite
+//     forces: it jams by rule 8.
 // `rebound: constrained` makes candidates of contacts that separate at e u-, `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0, `onset: next_step` only changes when an event is seen.
 //
 // Compliant contacts (ContactForce) switch their force on when the gap falls through 0 and off when it rises through 0.
 //
 // Set-valued friction, of either kind, is part of the same problem (contact_problem.hpp), in which the compliant
-// contacts'
-// normal forces are given:
+// contacts' normal forces are given:
 //  5. A contact slides, T = -mu N slip/|slip|, or it rests: new contacts without slip, those that stick, and those
-//  whose slip
-//     has just reached 0. Those at rest stick where mu_0 (and, once they let go, mu) suffices; else they slide the way
-//     they
-//     accelerate. In space a slip may turn instead of stopping. Its zero is looked for along the direction it had where
-//     the
-//     step began (system/slip.hpp): more than `slow` across it there has turned, and slides on in its own direction;
-//     less
-//     counts as rest, so a slip that dips below `slow`, 1e-7 of the scene's speed, is taken through rest. Fixed steps
-//     do not
-//     resolve the end of a slip that turns; there also what a tenth of a step takes away counts as rest.
+//     whose slip has just reached 0. Those at rest stick where mu_0 (and, once they let go, mu) suffices; else they
+//     slide the way they accelerate. In space a slip may turn instead of stopping. Its zero is looked for along the
+//     direction it had where the step began (system/point/slip.hpp): more than `slow` across it there has turned, and
+//     slides on in its own direction; less counts as rest, so a slip that dips below `slow`, 1e-7 of the scene's speed,
+//     is taken through rest. Fixed steps do not resolve the end of a slip that turns; there also what a tenth of a step
+//     takes away counts as rest.
 //  6. A contact whose friction has reached its bound lets go: mu decides at once, less a part of 1e-8, so that it is
-//  not held
-//     exactly there (mu = mu_0). It slides, or opens where sliding would pull (much friction). All others at rest are
-//     checked at
-//     the same instant.
+//     not held exactly there (mu = mu_0). It slides, or opens where sliding would pull (much friction). All others at
+//     rest are checked at the same instant.
 //  7. What was left of the slip of those at rest by the steps (a drift) is ended by the least change of v. Others whose
-//  slip
-//     ends with it (the third foot of a table) are at rest as well, and so are those that what rests leaves no slip:
-//     from rule 5
-//     again.
+//     slip ends with it (the third foot of a table) are at rest as well, and so are those that what rests leaves no
+//     slip: from rule 5 again.
 //  8. Where rigid contacts have no solution with finite forces (Painleve's rod), or these grow beyond all bounds as
-//  that state is
-//     approached, the slip stops or turns in an impact without collision: rule 1 with nothing approaching. If that has
-//     none, the run ends with a message; so do modes that contradict each other
-//     at one instant (Simulator).
+//     that state is approached, the slip stops or turns in an impact without collision: rule 1 with nothing
+//     approaching. If that has none, the run ends with a message; so do modes that contradict each other at one instant
+//     (Simulator).
 // Degenerate cases: contact_forces.hpp. Where there are several solutions it is Lemke's, which looks first where no
 // force is.
 #pragma once
@@ -122,16 +108,14 @@ class ContactModes {
 
   double nothing() const;  // [m/s^2] less is no acceleration
   // How near the forces of contacts that slide are to having no solution: the least pivot of their equations, of that
-  // without
-  // friction; 0 at Painleve's critical state, 1 far from it.
+  // without friction; 0 at Painleve's critical state, 1 far from it.
   double distance_from_critical(const State& state);
   bool any_closed() const;  // but for the bearings of joints, which always are
 
   // [s] Of steps with error control, so that no double zero of a slip velocity is stepped over: 0.45 of the shortest
   // period in which a blow on a closed contact with set-valued friction swings back. Below half of it a swing turns at
   // most once within a step, so two zeros in it show in the slopes at its ends (EventLocation::dips finds those of c +
-  // cos in every
-  // phase up to 0.45, and misses the shallowest from 0.5 on).
+  // cos in every phase up to 0.45, and misses the shallowest from 0.5 on).
   double step_limit(const State& state);
   // Less than this is no friction force [N]: it moves the contact less than `no_acceleration`.
   double friction_noise(int contact);

@@ -348,8 +348,7 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
 }
 
 // An event that changed nothing was round-off, or what was missed moves nothing yet. It is one again where several
-// times as much is
-// missed.
+// times as much is missed.
 void EventLocation::wait_longer(const Watch& before, const Value& now, Watch& watch) const {
   if (watch.kind == Kind::load) return;
   watch.noise = std::max(watch.noise, before.noise);
@@ -384,8 +383,7 @@ void EventLocation::report(int w) {
 
 // How near to 0 a gap counts as there. Where a truss unfolds into its singular position, the rows that keep its cells
 // alike are double roots: their round-off tells how far cells have unfolded to half of the digits. Latches that such
-// rows tie lock as one; else
-// those that are late would find that nothing can move.
+// rows tie lock as one; else those that are late would find that nothing can move.
 double EventLocation::same_instant(int contact) const {
   const bool by_double_root = system_.model().contacts[contact].limit && system_.redundant();
   return by_double_root ? std::sqrt(eps) * scale_.of(contact).length() : 4 * scale_.of(contact).touching();

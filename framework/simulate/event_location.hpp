@@ -7,48 +7,42 @@
 //     hold       sticking contact                mu_0 N - |T|, T the friction that holds it
 //     idle       closed, carries nothing         what it would carry as a spring, with the other sign
 //     unload     contacts that share rows        how much further each of them could be unloaded
-//     follow     contacts that share rows        a little acceleration, less that of a direction that is implied by
-//     others
+//     follow     contacts that share rows        a little acceleration, less that of an implied direction
 //     slide      sliding contact                 slip velocity along its direction at the step's begin
 //     load       bearing of a joint that rubs    its load, on the side on which it presses (signed_loads.hpp)
 // In space a slip without a direction that other contacts hold back has stopped as well, though it crosses no zero
 // (`stalls`). An event shows in three ways: the function is negative at the step's end; it was positive at both ends
-// but dipped between
-// them (the cubic through values and slopes of both ends tells where to look); or, just after an event that left it at
-// round-off of 0, the parabola of its start says that it came back within the step. It is located by repeating the step
-// with other lengths, so to the accuracy of the method itself, down to the rounding of t; the earliest event counts.
-// Of an event that was just handled only round-off is ignored (ContactScale).
+// but dipped between them (the cubic through values and slopes of both ends tells where to look); or, just after an
+// event that left it at round-off of 0, the parabola of its start says that it came back within the step. It is located
+// by repeating the step with other lengths, so to the accuracy of the method itself, down to the rounding of t; the
+// earliest event counts. Of an event that was just handled only round-off is ignored (ContactScale).
 //
 // An integrator with error control sees what time alone does to these functions only through the motion: not at all
 // where everything is held, and a table that shakes under a ball in flight moves nothing. So a controlled step is too
-// long if a
-// function departs from the form assumed here by so much that it could have crossed 0 unseen: gaps, at an irrational
-// part of the step, from their cubic; forces, one step ahead, from their tangent. What a jump of a law leaves is taken
-// by steps too
-// short to matter.
+// long if a function departs from the form assumed here by so much that it could have crossed 0 unseen: gaps, at an
+// irrational part of the step, from their cubic; forces, one step ahead, from their tangent. What a jump of a law
+// leaves is taken by steps too short to matter.
 //
 // A shortened step still has a length of at least 4 units in the last place of t, so every event advances time.
 //
 // Forces come from the equations of motion at the step's end; methods that satisfy neither position nor velocity rows
 // work on the level of accelerations, there lambda itself is that force, with their stabilisation. Where rows are
-// redundant lambda is
-// one choice of many: contacts that share rows are watched together, by how much further each of them could be unloaded
-// until they cannot carry what they carry (AssembledSystem::spare_load); which of them then lets go is decided by the
-// complementarity problem (contact_mode.hpp). Where one of them slides its share decides the motion, and each is
-// watched for itself. What is implied
-// by others has no row in g, so nothing holds it once it no longer follows from them: a support that moves by a law of
-// its own, or
-// bodies that turn out of a singular place. Its acceleration shows that first.
+// redundant lambda is one choice of many: contacts that share rows are watched together, by how much further each of
+// them could be unloaded until they cannot carry what they carry (AssembledSystem::spare_load); which of them then lets
+// go is decided by the complementarity problem (contact_mode.hpp). Where one of them slides its share decides the
+// motion, and each is watched for itself. What is implied by others has no row in g, so nothing holds it once it no
+// longer follows from them: a support that moves by a law of its own, or bodies that turn out of a singular place. Its
+// acceleration shows that first.
 #pragma once
 
 #include <vector>
 
 #include <trammel/integrator.hpp>
 
+#include "run/contact_scale.hpp"
+#include "simulate/contact_mode.hpp"
 #include "simulate/root_bracket.hpp"
 #include "system/between_states.hpp"
-#include "simulate/contact_mode.hpp"
-#include "run/contact_scale.hpp"
 
 namespace trammel::simulate {
 
@@ -62,13 +56,11 @@ class EventLocation {
   enum class Found { nothing, event, step_refused, step_too_long, not_finite };
   // Looks at the trial now -> next over h. Found::event: h and next are shortened to it, `changes` tells what happened.
   // Found::step_too_long only if `may_shorten`: next is not to be taken. Found::not_finite: at next a gap or a force is
-  // no
-  // number, though the state may be (a law of time that ended under a body).
+  // no number, though the state may be (a law of time that ended under a body).
   Found examine(const State& now, double& h, State& next, bool may_shorten);
   const ContactChanges& changes() const { return changes_; }
   // [s] From here: `swings` (ContactModes::step_limit), unless all that is closed slides so fast that it loses no more
-  // than a
-  // quarter of its slip in a longer step: that has no zero to step over.
+  // than a quarter of its slip in a longer step: that has no zero to step over.
   double longest_step(double swings) const;
   long long steps_tried() const { return steps_tried_; }
   void accept(double h, const State& next);  // next became the solution
@@ -90,8 +82,8 @@ class EventLocation {
     double little = 0;        // no less is missed: [N] unload, hold, [m/s^2] follow
     int bearing = -1;         // load: among those with a sign
     double side = 1;          // load: 1 or -1
-    double slow_for = 0;      // [s] slide in space: it has been without a direction (system/slip.hpp) as long as that
-    double pushed = 0;        // [m/s^2] slide in space: the most that it was accelerated in that time
+    double slow_for = 0;  // [s] slide in space: it has been without a direction (system/point/slip.hpp) as long as that
+    double pushed = 0;    // [m/s^2] slide in space: the most that it was accelerated in that time
   };
   using Value = numerics::ValueAndSlope;  // slopes of forces and accelerations are not known
   struct Suspect {

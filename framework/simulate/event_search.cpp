@@ -11,8 +11,7 @@ namespace {
 constexpr double inside = 0.3819660112501051;
 
 // In space a slip comes to its end by steps that leave a fifth of it: over its zero the stiffness mu N/|s| across it is
-// more than
-// an explicit method bears, which makes of round-off there a turn.
+// more than an explicit method bears, which makes of round-off there a turn.
 bool overshoots(double begin, double end, double slow) {
   return begin > 10 * slow && end < 0.2 * begin;
 }

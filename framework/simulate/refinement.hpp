@@ -5,8 +5,7 @@
 //     q, v by the bodies' transfers;   a, lambda from the equations of motion in the new coordinates
 //
 // A nested refinement changes neither shape nor velocity, so mass, momentum and energies stay; the event tells them
-// before
-// and after, and what the energy did change is a cause of its own in the ledger.
+// before and after, and what the energy did change is a cause of its own in the ledger.
 #pragma once
 
 #include <memory>
@@ -14,9 +13,9 @@
 
 #include <trammel/integrator.hpp>
 
-#include "system/assembled_system.hpp"
 #include "model/refinement.hpp"
 #include "simulate/results/refine_event.hpp"
+#include "system/assembled_system.hpp"
 
 namespace trammel::simulate {
 

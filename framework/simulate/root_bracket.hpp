@@ -2,8 +2,7 @@
 //
 // Algorithm 748 (Alefeld, Potra, Shi 1995, ACM TOMS 21(3)): inverse cubic interpolation guarded by bisection, at most
 // twice as many evaluations as bisection, about eight for a smooth function. Where slopes are known: by the cubic
-// through values and slopes
-// of both ends (Hermite), guarded by bisection, two or three evaluations.
+// through values and slopes of both ends (Hermite), guarded by bisection, two or three evaluations.
 #pragma once
 
 #include <functional>

@@ -132,8 +132,7 @@ double Simulator::relative_drift() {
 }
 
 // A method that is unstable with its step may give finite nonsense for long. Its energy tells: it goes on growing,
-// where that of
-// a damping method overshoots once and falls (HHT-alpha at h omega = 1e5: by 5e4).
+// where that of a damping method overshoots once and falls (HHT-alpha at h omega = 1e5: by 5e4).
 void Simulator::judge_energy() {
   const double drift = relative_drift();
   if (!std::isfinite(drift)) find_culprit(0);

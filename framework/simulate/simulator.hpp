@@ -3,10 +3,8 @@
 // An iteration tries a step towards the next stop (a record time, or the end), lets EventLocation shorten it to the
 // first event, corrects, accepts, and settles the event. Every iteration that does not end the run either advances t or
 // is a rejected step, and rejections in a row are bounded by the step control; an event advances t by at least 4 units
-// in its last
-// place; some hundred of them in a row that advance it by little more, or more than `event_limit` events in a
-// thousandth of
-// the run, end it. So the loop cannot hang.
+// in its last place; some hundred of them in a row that advance it by little more, or more than `event_limit` events in
+// a thousandth of the run, end it. So the loop cannot hang.
 #pragma once
 
 #include <atomic>

@@ -2,8 +2,7 @@
 //
 // Fixed steps land on the times asked for: from t to the next stop T there are n = ceil((T - t)/h) equal steps, and the
 // last one ends at T exactly, so no drift accumulates. If (T - t)/n is h up to the rounding of T and t, h itself is
-// used, bit for
-// bit the same each time, as multistep methods like it.
+// used, bit for bit the same each time, as multistep methods like it.
 //
 // With a tolerance the steps follow the PI controller of Gustafsson (Hairer, Wanner II, IV.2): after a step with error
 // e <= 1
@@ -13,8 +12,7 @@
 //
 // with p the order of the estimate. Even steps (OscillatingSteps) change only when they are to be a quarter longer, by
 // the larger of the last two errors, or are rejected; the last few before a stop are of equal length. A step shortened
-// only to reach a stop does not
-// shorten the ones after it.
+// only to reach a stop does not shorten the ones after it.
 #pragma once
 
 #include <string>

@@ -12,10 +12,10 @@
 
 #include "model/call_site.hpp"
 #include "model/model.hpp"
+#include "system/equations/storage.hpp"
 #include "system/point/contact_modes.hpp"
 #include "system/point/counts.hpp"
 #include "system/point/not_solvable.hpp"
-#include "system/equations/storage.hpp"
 
 namespace trammel::model {
 
@@ -100,8 +100,7 @@ class AssembledSystem final : public System, public HasRigidMotions {
   void anchor(int contact, ContactMode& mode);              // what holds it at this place
   // A step has become the solution, and the system is at its end: slip is measured from its direction there, in space,
   // and what a round body rolls from its place there. Rolling in space is no function of the configuration; within a
-  // step the
-  // rotation stands for it to the second order, and joins the rates exactly.
+  // step the rotation stands for it to the second order, and joins the rates exactly.
   void step_taken();
   // Velocity jump by impulses on contacts with active bilateral rows (M dv + G_b^T L_b = sum_i n_i L_i): column i of
   // `jump` is dv for a unit impulse along directions[i], and delassus(i, j) the change of the rate of directions[i] by

@@ -1,6 +1,5 @@
 // A body's momentum is p = R^T M v with its velocities R as part of one rigid body, so R = M^-1 (dp/dv)^T: body by
-// body, and exact
-// for bodies whose coordinates hold those motions.
+// body, and exact for bodies whose coordinates hold those motions.
 #include <algorithm>
 
 #include "linear/dense/decompositions.hpp"

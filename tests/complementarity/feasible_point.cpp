@@ -18,8 +18,7 @@ constexpr Real no_pivot = 1e-11L, no_slope = 1e-15L, negligible = 1e-13L;
 constexpr int pivots_of_steepest_slope = 200;
 
 // Columns: x, then one artificial variable a row (not stored: never enters again), then the right side. Last row: the
-// slopes of
-// the sum of the artificial variables.
+// slopes of the sum of the artificial variables.
 class FirstPhase {
  public:
   FirstPhase(const Mat& B, const Vec& d) : m_(B.rows()), n_(B.cols()), table_(m_ + 1, n_ + 1), basis_(std::size_t(m_)) {
@@ -67,8 +66,7 @@ class FirstPhase {
   }
 
   // Of rows that reach zero first but for what is negligible (Harris) the largest pivot, or by Bland's rule the
-  // variable of the
-  // least number.
+  // variable of the least number.
   Index leaving(Index column, bool largest_pivot) const {
     const auto ratio = [&](Index i, Real slack) {
       return (std::max<Real>(0, table_(i, n_)) + slack) / table_(i, column);

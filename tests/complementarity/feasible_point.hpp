@@ -1,6 +1,5 @@
 // Whether B x = d has a solution x >= 0: the first phase of the simplex method, in the end with Bland's rule, which
-// cannot
-// cycle, in extended precision. Slow, and shares nothing with the code that it judges.
+// cannot cycle, in extended precision. Slow, and shares nothing with the code that it judges.
 #pragma once
 
 #include <trammel/types.hpp>

@@ -44,8 +44,7 @@ class PlanarBodies {
 };
 
 // One of the structured kinds, of some random measures, with no more contacts than this: stacks, arches, channels,
-// piles of discs,
-// tables of many feet, wedges, feet that nearly coincide.
+// piles of discs, tables of many feet, wedges, feet that nearly coincide.
 Problem any_structure(std::mt19937& random, int most_contacts);
 
 // Larger ones. mass_ratio: of the uppermost block to the lowest.

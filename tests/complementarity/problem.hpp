@@ -27,8 +27,7 @@ Answer solve(const Problem& problem, double nothing = 0);
 double little(const Problem& problem, const Vec& F);
 
 // [m/s^2] The largest failure of a normal force, a friction force (times their own A_ii), or an acceleration of a = A F
-// + b to
-// obey the law of its contact.
+// + b to obey the law of its contact.
 double offence(const Problem& problem, const Vec& F, const Vec& a);
 
 // The same contacts in another order: contact k of the result is contact order[k] of `problem`; rows move with their

@@ -105,8 +105,7 @@ TEST_P(FrontalFactorsOf, SolvesByCholeskyWhatIsPositiveDefinite) {
 }
 
 // A membrane of 24 x 24 points. Its rows sum to 0 inside: corrections make up for nothing that is wrong in the factors,
-// as they do where
-// the diagonal dominates.
+// as they do where the diagonal dominates.
 TEST(FrontalFactors, SolvesByCholeskyTheEquationsOfAMembrane) {
   constexpr int side = 24;
   Mat A = 4 * Mat::Identity(side * side, side * side);

@@ -48,8 +48,7 @@ Vec accelerations_by_fronts(const Truss& truss, const Vec& b, const Vec& c) {
 }
 
 // A force on one point, 1e4 to 1e6 times as much as its accelerations ask for: they are lost in the complement's
-// round-off, of which
-// a mean of eigenvalues alone does not tell.
+// round-off, of which a mean of eigenvalues alone does not tell.
 TEST(LongMast, HasTheAccelerationsOfFrontsUnderASingleForce) {
   for (const int units : {126, 130, 200, 250})
     for (const double degrees : {60, 75, 80}) {
@@ -89,8 +88,7 @@ TEST(LargeHoop, HasTheAccelerationsOfItsExactModel) {
 }
 
 // Fronts contradict each other, and springs take the rows' place. Rounding of the coordinates, 5e-14, turns a side by a
-// few times that
-// of the 2e-3 between neighbours.
+// few times that of the 2e-3 between neighbours.
 TEST(VeryLargeHoop, HasTheAccelerationsOfItsExactModelByRowsAsSprings) {
   for (const Pose& pose : poses) EXPECT_LT(error_of(Truss::hoop(3000, pose.theta, pose.theta_dot)), 5e-11);
 }

@@ -11,8 +11,7 @@ namespace trammel::numerics {
 namespace {
 
 // Bodies of three velocities in a chain, two rows between neighbours, the first tied to the ground; `twice`: so many of
-// the
-// joints are said twice.
+// the joints are said twice.
 struct Chain {
   std::vector<BodyBlock> bodies;
   Mat M, G;

@@ -9,8 +9,7 @@ namespace trammel {
 namespace {
 
 // Trials from t = 1, each half as long as the one before, whose errors fall by 2^order a trial from far above 1: which
-// part counts
-// of the last of them.
+// part counts of the last of them.
 ErrorAlongRows::Part counted(double order) {
   ErrorAlongRows along;
   State now, next;

@@ -4,9 +4,9 @@
 //     tools/bench/run integrator_step --benchmark_filter=hht_alpha
 //
 // Every benchmark repeats the same thousand steps from the same state: the beam straight on the plane just after it
-// struck
-// it with e = 0, all modes excited as in a run. "free" steps go on without the contact's row, "closed" ones with it;
-// "no contact" is the free beam in a scene without contacts. Rows: method, phase, coupling, step [s]; columns: modes.
+// struck it with e = 0, all modes excited as in a run. "free" steps go on without the contact's row, "closed" ones with
+// it; "no contact" is the free beam in a scene without contacts. Rows: method, phase, coupling, step [s]; columns:
+// modes.
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -16,8 +16,8 @@
 #include "allocations.hpp"
 #include "beam_scene.hpp"
 #include "main.hpp"
-#include "system/assembled_system.hpp"
 #include "simulate/start/setup.hpp"
+#include "system/assembled_system.hpp"
 
 namespace trammel::bench {
 namespace {

@@ -4,11 +4,9 @@
 //
 // "evaluation": M, f, the joints' rows and the solution at a point that is new each time; of chains some steps into the
 // run, in its pose and with its violations of the rows, which decide how they are solved. "run": from the scene's start
-// to its end with
-// events, ledger and records, without reading the scene; columns: 10 over the exponent of the tolerance, counters:
-// evaluations, steps.
-// "implicit steps": 100 of 1e-3 s of a spatial chain in such a run; counters: Newton iterations and tangents
-// a step, and the resident memory's peak so far [MB] (start one row alone for its own:
+// to its end with events, ledger and records, without reading the scene; columns: 10 over the exponent of the
+// tolerance, counters: evaluations, steps. "implicit steps": 100 of 1e-3 s of a spatial chain in such a run; counters:
+// Newton iterations and tangents a step, and the resident memory's peak so far [MB] (start one row alone for its own:
 // --benchmark_filter='implicit.*/640$').
 #include <cmath>
 #include <string>

@@ -4,10 +4,8 @@
 //
 // Iteration: forces, mass times accelerations, tangent, its factors and one solution, 3 x 3 points a cell. The target
 // is 2.5 ms with 10 x 10 elements, 5 with 14 x 14, 80 with 40 x 40, and a time that grows no faster than (control
-// points)^1.5. "growth" is p of
-// time ~ n^p: 2 where the time is in proportion to the control points, 3 at that bound. resident_MB: of this program,
-// at the most so
-// far; set_up_s: scene, mesh and pattern.
+// points)^1.5. "growth" is p of time ~ n^p: 2 where the time is in proportion to the control points, 3 at that bound.
+// resident_MB: of this program, at the most so far; set_up_s: scene, mesh and pattern.
 #include <chrono>
 #include <string>
 
@@ -19,8 +17,8 @@
 
 #include "main.hpp"
 #include "records_folder.hpp"
-#include "simulate/start/setup.hpp"
 #include "simulate/simulator.hpp"
+#include "simulate/start/setup.hpp"
 
 namespace trammel::bench {
 namespace {

@@ -4,8 +4,7 @@
 //     tools/bench/run truss_step
 //
 // Scissor mast, prismatic mast and hoop of scenes/truss, n = 100 to 10,000. "growth" is p of time ~ n^p. Setting up a
-// scene is not
-// counted; its seconds are a counter of its own.
+// scene is not counted; its seconds are a counter of its own.
 #include <chrono>
 #include <string>
 
@@ -15,8 +14,8 @@
 
 #include "main.hpp"
 #include "records_folder.hpp"
-#include "simulate/start/setup.hpp"
 #include "simulate/simulator.hpp"
+#include "simulate/start/setup.hpp"
 
 namespace trammel::bench {
 namespace {

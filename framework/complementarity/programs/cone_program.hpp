@@ -5,8 +5,7 @@
 //
 // s is free, and left out where u is empty. By a primal-dual interior point method with Nesterov and Todd's scaling and
 // Mehrotra's correction (Vandenberghe, The CVXOPT linear and quadratic cone program solvers, 2010). It does not ask
-// that cones are wide or that
-// the program has a solution inside of them, and ends at round-off.
+// that cones are wide or that the program has a solution inside of them, and ends at round-off.
 #pragma once
 
 #include <vector>

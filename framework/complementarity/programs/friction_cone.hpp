@@ -6,10 +6,9 @@
 // project: onto the disk of radius c max(0, N - r a_n), or c N where N is given; r > 0 any numbers, here one over the
 // diagonal of A. Phi is piecewise smooth; Newton's method with the derivative of the piece it is in (Alart, Curnier,
 // Comput. Methods Appl. Mech. Eng. 92, 353 (1991)), shortened where it does not make |Phi| smaller, ends at round-off
-// in a few steps
-// from the pyramid's solution. The step is the least one where A is singular (dependent feet). Where it stalls, sweeps
-// over the contacts, each projected for itself with the others' forces as they are (Gauss, Seidel), go on: with given
-// normal forces these converge from anywhere, to the least of T.A T/2 + b.T on the disks.
+// in a few steps from the pyramid's solution. The step is the least one where A is singular (dependent feet). Where it
+// stalls, sweeps over the contacts, each projected for itself with the others' forces as they are (Gauss, Seidel), go
+// on: with given normal forces these converge from anywhere, to the least of T.A T/2 + b.T on the disks.
 #pragma once
 
 #include "complementarity/programs/contact_point.hpp"

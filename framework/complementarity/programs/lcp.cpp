@@ -41,8 +41,7 @@ class Tableau {
   const std::vector<int>& basis() const { return basis_; }
 
   // The row that leaves when `column` enters: of the least ratio, of equal ones that with the largest pivot; the
-  // covering variable
-  // before all others, for that ends the method. -1: none, a ray.
+  // covering variable before all others, for that ends the method. -1: none, a ray.
   int leaving_row(int column) const {
     const double least_pivot = no_pivot * std::max(1.0, rows_.col(column).lpNorm<Eigen::Infinity>());
     double least = std::numeric_limits<double>::infinity();

@@ -1,8 +1,7 @@
 // The problem of contact_point.hpp with a polygon in place of the friction disk, as a linear complementarity problem.
 //
 // Of each contact held by friction, with directions d_k of its tangents, to and fro in the plane (where the polygon is
-// exact) and
-// evenly around in space:
+// exact) and evenly around in space:
 //
 //     T = sum_k beta_k d_k,                              z = (N, beta_1 .. beta_m, lambda)
 //     0 <= N       complementary to  a_n                 >= 0
@@ -12,8 +11,7 @@
 // (Stewart, Trinkle, Int. J. Numer. Methods Eng. 39, 2673 (1996)). Where all tangents rest the matrix is copositive,
 // z.M z = F.A F + c N lambda, and Lemke's method ends in a solution unless some forces in balance, F.A F = 0, push
 // contacts that still approach, b.F < 0 (Anitescu, Potra, Nonlinear Dyn. 14, 231 (1997)). Sliding contacts, T = p N,
-// lose this: there may be no
-// solution (Painleve), and Lemke's method may miss one.
+// lose this: there may be no solution (Painleve), and Lemke's method may miss one.
 //
 // Several solutions: contacts as springs of the same small compliance, a + compliance F in place of a, relative to A,
 // choose. Then dependent contacts share as equal springs do, and no forces arise that only press against each other.

@@ -3,8 +3,7 @@
 // Where rows depend on each other only the resultants of their forces are determined (row_basis.hpp). They share those
 // as equal springs do, F_R of least norm; where that pulls or leaves a cone, by the admissible forces of least norm
 // (admissible_forces.hpp). A contact that slides makes a difference by how it shares, since its friction follows: those
-// that would pull are idle, closed
-// without a force, until their spring would press.
+// that would pull are idle, closed without a force, until their spring would press.
 #pragma once
 
 #include <vector>
@@ -33,8 +32,7 @@ CarryingRows carrying_rows(const std::vector<ContactPoint>& points, const Mat& A
                            const std::vector<ContactRole>& roles);
 
 // Forces of least norm by their resultants, F = share lambda, (basis, then implied) x basis; rows of `shares` are those
-// of K, or 0
-// where an implied one is idle.
+// of K, or 0 where an implied one is idle.
 Mat least_norm_shares(const Mat& shares);
 
 // Contacts that share with each other, by their rows: indices into A, those of each contact together.

@@ -1,6 +1,5 @@
 // Q^T E: as many combinations of the rows of E as are independent, up to what makes rows dependent (row_basis.hpp). Its
-// null space is
-// that of E.
+// null space is that of E.
 #pragma once
 
 #include <trammel/types.hpp>

@@ -5,13 +5,11 @@
 // A symmetric positive semi-definite, of any rank. By principal pivoting (Dantzig, Cottle; Cottle, Pang, Stone, The
 // Linear Complementarity Problem, 1992, section 4.2): one force after the other is raised until its contact no longer
 // approaches, and a force that falls to 0 meanwhile leaves. Only independent contacts carry, so N is one solution of
-// many where contacts are
-// dependent; a is unique.
+// many where contacts are dependent; a is unique.
 //
 // There is no solution exactly where the program has no least value: some forces in balance with each other, d >= 0
-// with A d = 0,
-// push contacts that still approach, b.d < 0. That d is the proof: gaps that must close between bodies that cannot give
-// way.
+// with A d = 0, push contacts that still approach, b.d < 0. That d is the proof: gaps that must close between bodies
+// that cannot give way.
 #pragma once
 
 #include <trammel/types.hpp>

@@ -4,8 +4,7 @@
 //
 // from the Delassus matrix A = G P G^T, where P holds the joints: a row follows from others where the pivot that is
 // left of it in a Cholesky factorisation, the square of the sine of its angle to them, is round-off. Forces along rows
-// act alike where their
-// resultants on the basis are the same,
+// act alike where their resultants on the basis are the same,
 //
 //     lambda = E F,   E = [1 K^T]
 //

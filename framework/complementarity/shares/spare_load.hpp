@@ -3,8 +3,7 @@
 //     maximise s,     E F = lambda,     |T| <= c (N - s)  at each contact
 //
 // Negative where no admissible forces have these resultants; continuous in them; no more than `most` of them where
-// contacts press
-// against each other, which bounds nothing. By cone_program.hpp.
+// contacts press against each other, which bounds nothing. By cone_program.hpp.
 #pragma once
 
 #include "complementarity/shares/admissible_forces.hpp"

@@ -3,8 +3,7 @@
 //     x_j = X_u(j) + o_j        u(j) the merged unknown, o_j what the rows' right sides add up to on the way to j
 //
 // Such rows leave a system of bodies in natural coordinates with as many unknowns as its points have, and no round-off.
-// A row
-// between unknowns that others have merged already says nothing new: it is idle.
+// A row between unknowns that others have merged already says nothing new: it is idle.
 #pragma once
 
 #include <array>

@@ -1,10 +1,8 @@
 // M = C C^T of a symmetric positive definite matrix, dense, and the triangular solves with C.
 //
 // C = L D^1/2 with M = L D L^T: so no root stands between one column and the next. Plain loops by columns (packs.hpp):
-// for a few
-// dozen unknowns Eigen's decomposition costs three times as much (it works by rows and also keeps a norm). Larger
-// matrices are
-// left to Eigen's blocked algorithm, which wins by its use of the cache.
+// for a few dozen unknowns Eigen's decomposition costs three times as much (it works by rows and also keeps a norm).
+// Larger matrices are left to Eigen's blocked algorithm, which wins by its use of the cache.
 //
 // In each row the factors keep the zeros before M's first entry, which loops leave out: bodies one after the other are
 // blocks.

@@ -1,8 +1,7 @@
 // P A = L U by Gaussian elimination with row pivoting, dense, and the solves with it.
 //
 // Plain loops by columns (packs.hpp): up to 20 unknowns Eigen's blocked algorithm takes over twice as long for the
-// factors, and
-// one and a half times as long for a solve. Larger matrices are left to it.
+// factors, and one and a half times as long for a solve. Larger matrices are left to it.
 #pragma once
 
 #include <vector>

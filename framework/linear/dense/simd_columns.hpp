@@ -2,9 +2,9 @@
 //
 // Loops over the rows as they stand spend much of their time on the numbers left over behind the last pack, and on
 // packs that read what two earlier ones wrote. So matrices are kept with padded columns, and each loop begins with the
-// pack that holds the
-// first row wanted; what it does to the rows before and to the padding must not matter. Of 7, 11, 15 unknowns LU's
-// factors take 134, 278, 515 ns so, instead of 154, 359, 689, and a solve 75, 110, 151 instead of 97, 163, 224 (Xeon
+// pack that holds the first row wanted; what it does to the rows before and to the padding must not matter. Of 7, 11,
+// 15 unknowns LU's factors take 134, 278, 515 ns so, instead of 154, 359, 689, and a solve 75, 110, 151 instead of 97,
+// 163, 224 (Xeon
 // 2.5 GHz).
 #pragma once
 
@@ -40,8 +40,7 @@ inline Eigen::Map<const Pack> rows_from(Eigen::Index i) {
 
 // So few unknowns that loops over them leave no trace when their number is known to the compiler: what is being solved
 // for stays in registers. Cholesky's factors and a solve with them take 120 instead of 197 ns so for 7 unknowns. Fewer
-// are filled up with 1 on
-// the diagonal.
+// are filled up with 1 on the diagonal.
 inline constexpr int few = 8;
 
 // A, m x m with m <= n, with the identity's rows and columns behind its own. (n goes down to m, which so is known,

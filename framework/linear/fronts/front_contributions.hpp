@@ -1,6 +1,5 @@
 // What bodies give to the fronts' own rows and masses: of each source (front_layout.hpp) a column of G^T or M, copied
-// from the bodies,
-// where they lie apart.
+// from the bodies, where they lie apart.
 //
 // Those known never to change are copied once, and kept once where they are alike. In a truss all pins and masses are a
 // few kinds: of a prismatic mast 0.3 of 2.9 kB a unit are left, which a solution reads three times; 10,000 units take a

@@ -3,9 +3,8 @@
 //
 // Rows between equal coordinates merge unknowns (merged_unknowns.hpp). Merged unknowns of the same bodies are one
 // point; bodies and the other rows are the cliques of points that the tree is built of (elimination_tree.hpp). A row or
-// a body's mass belongs to the
-// first front that eliminates one of its points. Rows may begin to tell of points that they did not before: then all is
-// laid out anew.
+// a body's mass belongs to the first front that eliminates one of its points. Rows may begin to tell of points that
+// they did not before: then all is laid out anew.
 #pragma once
 
 #include <map>
@@ -22,8 +21,7 @@ namespace trammel::numerics {
 class FrontLayout {
  public:
   // A column of a body's Gt, which is part of a row of the front; or, of row -1, a body's mass. `map`: the front's
-  // column for each of
-  // the body's velocities, `size` of them from v0 on; -1: none.
+  // column for each of the body's velocities, `size` of them from v0 on; -1: none.
   struct Source {
     int body, column, row, map = 0, size = 0, v0 = 0;
     bool constant = false;  // known never to change

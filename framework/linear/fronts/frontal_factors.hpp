@@ -2,8 +2,7 @@
 //
 // Cholesky's where A is symmetric and positive definite, else LU. A sum of blocks is symmetric to the rounding of the
 // sum: so far it may deviate. That decides about the work alone, as a small pivot does: a solution is corrected by what
-// A itself leaves of the
-// equations until that is round-off, and where it does not become so this says no.
+// A itself leaves of the equations until that is round-off, and where it does not become so this says no.
 #pragma once
 
 #include "linear/fronts/frontal_cholesky.hpp"

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "linear/dense/prefetch.hpp"
-#include "linear/fronts/row_elimination.hpp"
 #include "linear/dense/short_sums.hpp"
+#include "linear/fronts/row_elimination.hpp"
 
 namespace trammel::numerics {
 
@@ -124,8 +124,7 @@ void FrontalKkt::prefetch_rows(std::size_t k, const std::vector<BodyBlock>& bodi
 }
 
 // Where factors will be written, about as many as those of front k before: a step of 10,000 units of a prismatic mast
-// takes 335 ms so
-// instead of 365.
+// takes 335 ms so instead of 365.
 void FrontalKkt::prefetch_place_for_factors(std::size_t k) const {
   const std::size_t left = std::size_t(store_.size()) - stored_;
   prefetch(store_.data() + stored_, std::min(stored_ - places_[k].factors, left) * sizeof(double));

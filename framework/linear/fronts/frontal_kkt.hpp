@@ -8,18 +8,15 @@
 // front (elimination_tree.hpp). In a front, F the unknowns it eliminates and B its boundary, C the rows and K the
 // masses known there:
 //
-//     Q^T [C_F C_B] = [R  *   *]      Householder with column pivoting, rows at length one: r rows tell r unknowns of
-//     F,
-//                     [0  0  C'']     the rest tell something of B alone and go to the parent, or nothing: they depend
-//                     on others
+//     Q^T [C_F C_B] = [R  *   *]      Householder with column pivoting, rows at length one: r rows are pivots in F,
+//                     [0  0  C'']     the rest concern B alone and go to the parent, or depend on others
 //     x_1 = P c - S (x_2, x_B)        the r unknowns, by R: P = R^-1 Q_1^T;  K' = K restricted to that
 //     K'' = K'_BB - K'_B2 K'_22^-1 K'_2B      the free unknowns x_2, by Cholesky;  to the parent
 //
 // front_layout.hpp has which fronts there are, row_elimination.hpp a front's rows, frontal_solve.cpp the solutions. The
 // rank is decided in each front, among rows of nearby units, where independent rows of a long chain differ clearly:
-// singular values of the
-// whole, which fall with n^-2 or n^-3, decide nothing. Only what goes on from front to front is rounded.
-// y: of dependent rows the combinations found get 0; it is a solution, not the one of minimum norm.
+// singular values of the whole, which fall with n^-2 or n^-3, decide nothing. Only what goes on from front to front is
+// rounded. y: of dependent rows the combinations found get 0; it is a solution, not the one of minimum norm.
 //
 // Where round-off has come between rows that depend on each other, on a long way around, rows are springs
 // (frontal_springs.cpp):
@@ -35,8 +32,8 @@
 #include <vector>
 
 #include "linear/bodies/body_block.hpp"
-#include "linear/fronts/front_layout.hpp"
 #include "linear/fronts/front_contributions.hpp"
+#include "linear/fronts/front_layout.hpp"
 
 namespace trammel::numerics {
 
@@ -49,8 +46,7 @@ class FrontalKkt {
   // rows that depend on others were taken for independent ones: round-off has come between them on a long way around.
   [[nodiscard]] bool solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
   // The same with rows as springs: eps = 1/k, or 0 if a mass is not positive definite; and the solution with it.
-  // `softness` is
-  // eps in the unit of the least mass's inverse.
+  // `softness` is eps in the unit of the least mass's inverse.
   [[nodiscard]] double factorise_springs(const std::vector<BodyBlock>& bodies, int nc, bool identity, double softness);
   void solve_springs(const std::vector<BodyBlock>& bodies, double eps, const Vec& b, const Vec& c, Vec& x, Vec& y);
   int dependent() const { return dependent_; }  // rows

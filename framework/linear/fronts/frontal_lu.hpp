@@ -6,8 +6,7 @@
 //     [A_BF A_BB]     [L_BF   1 ] [      S  ]
 //
 // Exchanges within F alone may meet a small pivot where A is regular, or come close to it: solutions want to be
-// corrected by their
-// residuals (frontal_factors.hpp).
+// corrected by their residuals (frontal_factors.hpp).
 #pragma once
 
 #include "linear/fronts/frontal_pattern.hpp"
@@ -30,8 +29,7 @@ class FrontalLu {
   bool eliminate(const FrontalPattern& pattern, const Front& front, const Vec& largest, Eigen::Map<Mat>& F);
 
   // Aligned as Eigen's own: sums over pieces of them then round alike in every run. store_: of each front L_F and U_F
-  // over L_BF,
-  // then U_FB. stack_: the S that are still to be taken.
+  // over L_BF, then U_FB. stack_: the S that are still to be taken.
   Vec store_, work_, stack_;
   std::size_t stored_ = 0, top_ = 0;
   std::vector<int> exchanged_;  // of each front: which row of F comes to which place

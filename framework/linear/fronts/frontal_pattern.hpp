@@ -1,13 +1,12 @@
 // Which fronts a matrix most of whose entries are 0 is eliminated in, and where each of its numbers goes.
 //
 // The unknowns that a front eliminates (elimination_tree.hpp; F), with its boundary (B), make a dense matrix: their
-// entries of A and
-// what the fronts below leave. It leaves another, on B, to the front above.
-// Order and places are kept while the pattern lasts: once per mesh of a plate. Unknowns with the same neighbours make
-// one node of the tree. One without a diagonal entry, a multiplier of a row, joins a node in which its row is large, so
-// that their front has a pivot for both. That is asked anew for each matrix: the order follows from the matrix at hand
-// alone, and a run that is resumed rounds as one that goes on.
-// Duff, Reid, ACM Trans. Math. Softw. 9 (1983), 302; 10 (1984), 633 (unsymmetric).
+// entries of A and what the fronts below leave. It leaves another, on B, to the front above. Order and places are kept
+// while the pattern lasts: once per mesh of a plate. Unknowns with the same neighbours make one node of the tree. One
+// without a diagonal entry, a multiplier of a row, joins a node in which its row is large, so that their front has a
+// pivot for both. That is asked anew for each matrix: the order follows from the matrix at hand alone, and a run that
+// is resumed rounds as one that goes on. Duff, Reid, ACM Trans. Math. Softw. 9 (1983), 302; 10 (1984), 633
+// (unsymmetric).
 #pragma once
 
 #include <cstddef>

@@ -1,14 +1,13 @@
 // The solutions of frontal_kkt.hpp: right sides go up from front to front, unknowns and multipliers come down. They are
-// refined where
-// the fronts are, in merged unknowns and rows at length one.
+// refined where the fronts are, in merged unknowns and rows at length one.
 #include <algorithm>
 #include <limits>
 
 #include "linear/dense/prefetch.hpp"
 #include "linear/dense/products_of_few_rows.hpp"
+#include "linear/dense/refinement.hpp"
 #include "linear/dense/short_sums.hpp"
 #include "linear/fronts/frontal_kkt.hpp"
-#include "linear/dense/refinement.hpp"
 
 namespace trammel::numerics {
 

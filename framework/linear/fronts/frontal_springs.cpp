@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "linear/fronts/frontal_kkt.hpp"
 #include "linear/dense/short_sums.hpp"
+#include "linear/fronts/frontal_kkt.hpp"
 
 namespace trammel::numerics {
 
@@ -58,11 +58,9 @@ void FrontalKkt::add_springs(std::size_t f) {
 
 // With each solution x comes to satisfy the rows better and y to push as hard as that takes. It ends where what is
 // left, if it shrinks on as the rows' violation does, is nothing: what would still change, ever more slowly, is
-// rounding of the rows in
-// directions they hardly tell.
-// The second solution refines the first one, y as it was: rounded k times as large as the masses, that would push in
-// directions that
-// rows hardly tell and forget it slowly. Later ones are small.
+// rounding of the rows in directions they hardly tell. The second solution refines the first one, y as it was: rounded
+// k times as large as the masses, that would push in directions that rows hardly tell and forget it slowly. Later ones
+// are small.
 void FrontalKkt::approach(double k) {
   constexpr int most = 40;
   constexpr double settled = 1e-10, slow = 0.9, visible = 1e-6;
@@ -100,8 +98,7 @@ void FrontalKkt::push_by_rows(double k, bool taken) {
 }
 
 // 1 - k G (M + k G^T G)^-1 G^T keeps the null part of Y and shrinks the rest; applied twice it leaves nothing else.
-// Round-off asks
-// for more passes.
+// Round-off asks for more passes.
 void FrontalKkt::remove_null_part(double k, Vec& Y) {
   for (int pass = 0; pass < 3; ++pass) {
     left_rows_ = Y;

@@ -11,8 +11,7 @@ namespace trammel::numerics {
 namespace {
 
 // Columns' squares lose digits as the shares of rows above are taken from them: below this part of the longest that was
-// measured they
-// are measured anew.
+// measured they are measured anew.
 constexpr double digits_left = 1e-4;
 
 }  // namespace
@@ -26,8 +25,7 @@ RowElimination::Rank RowElimination::run(int F, double tolerance, int* columns, 
 }
 
 // Of columns first ... last - 1 on the rows from `begin` on, while one is longer than the tolerance; how many.
-// `columns`: they come
-// first.
+// `columns`: they come first.
 int RowElimination::eliminate(int first, int last, int begin, double tolerance, int* columns, double* scratch) {
   double* const squares = scratch;
   double safe = 0;
@@ -73,8 +71,7 @@ void RowElimination::bring_forward(int j, int first, int* columns) {
 }
 
 // Column j on rows begin ... m - 1 becomes (beta, 0 ... 0). v stays in it until all others have been reflected. Rows
-// that column j does
-// not meet stay as they are: of masts a quarter.
+// that column j does not meet stay as they are: of masts a quarter.
 void RowElimination::reflect(int j, int begin, double norm, double* scratch) {
   double* const along = scratch + padded(n_);
   const int first = std::min(begin, F_);  // nothing in columns before counts there

@@ -6,8 +6,7 @@
 //
 // A column counts while it is longer than the tolerance; rows have length one. C is kept by rows: a reflection then
 // combines rows as long as the front is wide, which the processor does by several numbers at once. Q^T is kept as such,
-// since a product with it
-// waits for nothing, where one reflection waits for the other.
+// since a product with it waits for nothing, where one reflection waits for the other.
 #pragma once
 
 #include <trammel/types.hpp>

@@ -16,8 +16,7 @@ std::vector<int> along(const Graph& graph);
 // Approximate minimum degree.
 std::vector<int> of_minimum_degree(const Graph& graph);
 // Nested dissection (George, SIAM J. Numer. Anal. 10 (1973), 345), for graphs wide both ways: a few nodes that keep two
-// halves apart
-// come last, and so on within the halves. `weight`: unknowns of each node.
+// halves apart come last, and so on within the halves. `weight`: unknowns of each node.
 std::vector<int> by_dissection(const Graph& graph, const std::vector<int>& weight);
 
 }  // namespace trammel::numerics

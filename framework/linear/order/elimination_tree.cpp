@@ -9,8 +9,7 @@ namespace trammel::numerics {
 namespace {
 
 // Where the order along the graph takes no more than so many times the work by degrees, halves would not save any, but
-// take long
-// to find (4 s of a mast with 10,000 units).
+// take long to find (4 s of a mast with 10,000 units).
 constexpr double wide = 3;
 
 // What each node leaves as its boundary, by place in the order, ascending; the first of it is the parent.

@@ -2,11 +2,9 @@
 //
 // A front eliminates some nodes and leaves a dense matrix on their neighbours, its boundary, to its parent
 // (multifrontal method: Duff and Reid 1983). Three orders are tried (elimination_order.hpp): along the graph, where
-// each front has the next unit's own equations to
-// lean on and rounding grows with the distance alone; approximate minimum degree, which leaves less to do where the
-// graph is wide; and dissection, which does where it is large both ways (and is tried only there). Fronts too small to
-// be worth their overhead are
-// united with their parents.
+// each front has the next unit's own equations to lean on and rounding grows with the distance alone; approximate
+// minimum degree, which leaves less to do where the graph is wide; and dissection, which does where it is large both
+// ways (and is tried only there). Fronts too small to be worth their overhead are united with their parents.
 #pragma once
 
 #include <vector>

@@ -75,8 +75,7 @@ class Triangle {
     return k;
   }
   // Row k of R and what is left of the row, so that the latter has no part at k any more. Returns how many times as
-  // long the
-  // diagonal is then.
+  // long the diagonal is then.
   double rotate(int k, Row& row) {
     if (row.empty()) row.push_back({k, eps});
     const double r = row.front().value, a = left_[std::size_t(k)], length = std::hypot(r, a);

@@ -61,8 +61,7 @@ class SparseSum {
     Eigen::Index at;  // in values_
   };
   // In places_: rows, columns, and the first of each run of neighbouring rows, with the end. In at_: where each run is
-  // stored, column
-  // by column.
+  // stored, column by column.
   struct Piece {
     int rows, columns, runs;
     std::size_t places, at;

@@ -3,8 +3,7 @@
 //
 // Static and kinetic coefficients: every tangent at rest is first held with mu_0; those that it cannot hold get mu, and
 // the problem is solved again, so that the others are checked against what is left. Each repetition lets at least one
-// more go, so
-// this ends; a tangent that mu holds after all stays at rest.
+// more go, so this ends; a tangent that mu holds after all stays at rest.
 #pragma once
 
 #include <vector>

@@ -12,8 +12,7 @@ namespace trammel::simulate {
 namespace {
 
 // Whether some acceleration changes the gap's, where the system is; by levers of the scene's length, beyond what the
-// place leaves of
-// them.
+// place leaves of them.
 bool moves(model::AssembledSystem& system, const Scale& scale, int contact) {
   const Vec rest = Vec::Zero(system.sizes().nv);
   const double by = system.acceleration({contact, 0}, model::pseudo_random(rest.size(), 1, 0)) -

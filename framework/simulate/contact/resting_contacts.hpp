@@ -1,7 +1,6 @@
 // Which contacts push on a system at rest. Compliant ones are always evaluated: their law says 0 while they are apart.
 // Those with rows are closed where they push (gap = 0, force >= 0) and open elsewhere, found by closing what penetrates
-// and letting
-// go what pulls, until neither is left.
+// and letting go what pulls, until neither is left.
 #pragma once
 
 #include "system/assembled_system.hpp"

@@ -1,6 +1,5 @@
 // The loads of a joint's bearings that have a sign: p = C w of those in one direction (joint_friction.hpp), which press
-// on one side
-// or the other. Where one passes through 0 the friction |p| has a kink.
+// on one side or the other. Where one passes through 0 the friction |p| has a kink.
 #pragma once
 
 #include <vector>

@@ -7,15 +7,13 @@
 //     |T| <= mu_0 N where s+ = 0,  T = -mu N s+/|s+| elsewhere
 //
 // Lambda is linear in F. With loads N given it is the problem of contact_problem.hpp, and the loads Phi(N) follow from
-// its solution.
-// What is sought is N = Phi(N). There is one wherever that problem has a continuous solution, since large loads hold
-// all joints, which
-// bounds Phi (Brouwer). Rounds N <- Phi(N) end at the least where Phi grows; those that come to no end are continued by
-// Newton's method. A joint that locks itself while it slides, Phi > N on the way, so comes to rest.
+// its solution. What is sought is N = Phi(N). There is one wherever that problem has a continuous solution, since large
+// loads hold all joints, which bounds Phi (Brouwer). Rounds N <- Phi(N) end at the least where Phi grows; those that
+// come to no end are continued by Newton's method. A joint that locks itself while it slides, Phi > N on the way, so
+// comes to rest.
 //
 // `held`: from loads so large that all joints are held. Without an impact from outside N = 0 solves it, too; this finds
-// the impulse by
-// which a sliding joint that locks itself jams, if it has one.
+// the impulse by which a sliding joint that locks itself jams, if it has one.
 //
 // Of joints Coulomb's law takes part; a smooth law gives no impulse. A smooth law of a contact counts with its ratio at
 // the slip before.
@@ -36,8 +34,7 @@ class BearingImpulses {
   // What impulses on these participants load the bearings among them; the system is at `state`, and is left there.
   void prepare(model::AssembledSystem& system, const State& state, const std::vector<Participant>& who);
   // The problem is prepared, for the same participants. Fills `given` of the bearings: their loads. `applied`: reaction
-  // impulses
-  // beside those of the impulses sought.
+  // impulses beside those of the impulses sought.
   [[nodiscard]] complementarity::ContactSolution solve(ContactProblem& problem, double at_rest, From from,
                                                        const Vec& applied);
   [[nodiscard]] complementarity::ContactSolution solve(ContactProblem& problem, double at_rest, From from) {

@@ -1,8 +1,7 @@
 // The energetic law of restitution for the contacts that touch: spring_impact.hpp for a System.
 //
 // Closed contacts and those that touch without having struck take part with e = 0. A contact's loss is that of its own
-// course: what its
-// compressions stored times 1 - e^2, and what friction took.
+// course: what its compressions stored times 1 - e^2, and what friction took.
 //
 // An impact without collision begins with an approach that is nothing beside the slip: where sliding friction drives
 // contacts on into each other the springs are compressed until the slip has ended or turned, however small that was.

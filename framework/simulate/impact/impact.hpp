@@ -9,17 +9,14 @@
 //     |T_i| <= mu_0 L_i where s_i+ = 0 (it sticks),  T_i = -mu L_i s_i+/|s_i+| elsewhere
 //
 // L_i, T_i [N s] are the impulses, e_i the restitution of the contact's law at approach speed -u_i-; slower than the
-// law's
-// capture_speed e_i = 0. The friction impulse is one Coulomb decision over the whole impact, judged by the slip at its
-// end
-// (Moreau): a slip that stops and turns within the impact is not followed, and with e > 0 an eccentric impact may gain
-// energy (Kane's paradox), which is told (impact_gains.hpp). With D the Delassus matrix it is the problem of
-// contact_forces.hpp. Several contacts at once are one problem; nature may answer otherwise (Pfeiffer, Glocker 1996),
-// and a chain of equal balls does.
-// An impact without collision is asked for where sliding contacts have no finite forces (contact_mode.hpp, rule 8). No
-// impulse at all would solve it, too; the solution is taken that is left of an approach as it vanishes, which such
-// contacts cannot end while they slide. Where the law has none, the course of the impact decides
-// (energetic_impact.hpp).
+// law's capture_speed e_i = 0. The friction impulse is one Coulomb decision over the whole impact, judged by the slip
+// at its end (Moreau): a slip that stops and turns within the impact is not followed, and with e > 0 an eccentric
+// impact may gain energy (Kane's paradox), which is told (impact_gains.hpp). With D the Delassus matrix it is the
+// problem of contact_forces.hpp. Several contacts at once are one problem; nature may answer otherwise (Pfeiffer,
+// Glocker 1996), and a chain of equal balls does. An impact without collision is asked for where sliding contacts have
+// no finite forces (contact_mode.hpp, rule 8). No impulse at all would solve it, too; the solution is taken that is
+// left of an approach as it vanishes, which such contacts cannot end while they slide. Where the law has none, the
+// course of the impact decides (energetic_impact.hpp).
 //
 // Energy lost through contact i is -L_i (u_i- + u_i+)/2 - T_i (s_i- + s_i+)/2; the sum is the loss of kinetic energy if
 // no row depends on time. Laws that follow the rates through the impact know each contact's share better: it differs by
@@ -28,8 +25,8 @@
 
 #include <vector>
 
-#include "simulate/impact/bearing_impulses.hpp"
 #include "simulate/contact/contact_problem.hpp"
+#include "simulate/impact/bearing_impulses.hpp"
 
 namespace trammel::simulate {
 

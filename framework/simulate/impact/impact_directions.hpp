@@ -9,16 +9,15 @@
 
 #include <vector>
 
-#include "system/assembled_system.hpp"
 #include "simulate/impact/impact.hpp"
+#include "system/assembled_system.hpp"
 
 namespace trammel::simulate {
 
 class ImpactDirections {
  public:
   // Friction that an impact meets: Coulomb's law; a smooth law counts with its ratio at the slip that there is, so that
-  // within the
-  // impact it may end a slip and never reverse it.
+  // within the impact it may end a slip and never reverse it.
   struct Friction {
     double mu_0 = 0, mu = 0;
   };

@@ -3,11 +3,10 @@
 //
 // All contacts that touch share one impact, so they share one law: of those that approach and were open the one that
 // comes last in the order newton, poisson, energetic; each keeps its own e. So an energetic contact that strikes is
-// never spoiled by another that
-// strikes with it. Joints that rub do so within Newton's impact, and right after one by the other laws, under the loads
-// of all of it (rubbing_after.hpp). An impact without collision (contact_mode.hpp, rule 8) has no restitution and
-// follows Newton's law; where
-// that gives no impulse, for it judges friction by the slip at the end, the course of springs.
+// never spoiled by another that strikes with it. Joints that rub do so within Newton's impact, and right after one by
+// the other laws, under the loads of all of it (rubbing_after.hpp). An impact without collision (contact_mode.hpp, rule
+// 8) has no restitution and follows Newton's law; where that gives no impulse, for it judges friction by the slip at
+// the end, the course of springs.
 #pragma once
 
 #include <vector>

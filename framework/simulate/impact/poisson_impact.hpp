@@ -6,10 +6,8 @@
 // N_C, N_E [N s] are normal impulses, u gap rates [m/s]. In each phase friction is one Coulomb decision, judged by the
 // slip at its end:
 // |T| <= mu_0 N where s = 0, T = -mu N s/|s| elsewhere. Of the expansion's impulse e N_C is given, and what it needs
-// beyond that keeps
-// contacts from closing again. N_E = e N_C + dN enters as two forces at one point, one given and one to be found: their
-// cones add up
-// to the cone of N_E. Closed contacts have e = 0.
+// beyond that keeps contacts from closing again. N_E = e N_C + dN enters as two forces at one point, one given and one
+// to be found: their cones add up to the cone of N_E. Closed contacts have e = 0.
 //
 // Without friction and with one contact it is Newton's law, u+ = -e u-. Energy may grow where friction reverses a slip;
 // without friction it never does (poisson_impact.cpp). F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral

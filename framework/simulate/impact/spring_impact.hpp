@@ -1,33 +1,28 @@
 // Energetic restitution for any number of contacts with friction: each contact is a spring, and nothing else moves
 // while they push.
 //
-//     u = u- + A P       rates of gaps and slips [m/s], P impulses [N s], A the Delassus matrix at the frozen
-//     configuration
+//     u = u- + A P       rates of gaps and slips [m/s], P impulses [N s], A the Delassus matrix, frozen
 //     dP_n/dtau = F = k x,   dx/dtau = -u_n     where x > 0 or u_n < 0 (it presses);   F = 0 elsewhere
 //     dP_t/dtau = T          |T| <= mu_0 F where s = 0 (it sticks),  T = -mu F s/|s| elsewhere
 //
 // Where a compression ends (u_n reaches 0) a part 1 - e^2 of the work that this compression has stored is lost, and the
 // spring keeps the rest: k x^2/2 becomes k x_0^2/2 + e^2 k (x^2 - x_0^2)/2, with x_0 from before this compression. A
-// contact that is
-// pressed again compresses again. It ends where no spring pushes and no gap closes.
+// contact that is pressed again compresses again. It ends where no spring pushes and no gap closes.
 //
 // All springs have the same stiffness k; P does not depend on how large it is. Of a single contact it is Stronge's
 // hypothesis (Proc. R. Soc. A 431, 169 (1990)), since the rates follow from P_n alone: Routh's construction in the
-// plane, in space the hodograph of
-// Keller (J. Appl. Mech. 53, 1 (1986)). Of several, the distributing law of Liu, Zhao, Brogliato (Proc. R. Soc. A 464,
-// 3193 (2008)) for equal linear springs, but that the loss happens at the end of compression: so springs do not stiffen
-// as e becomes small.
+// plane, in space the hodograph of Keller (J. Appl. Mech. 53, 1 (1986)). Of several, the distributing law of Liu, Zhao,
+// Brogliato (Proc. R. Soc. A 464, 3193 (2008)) for equal linear springs, but that the loss happens at the end of
+// compression: so springs do not stiffen as e becomes small.
 //
 // Guarantee, whatever the contacts' number, friction and dependence: each normal's work is -(1 - e^2) times the work of
 // its compressions, friction takes energy only, so the energy never grows. Forces along normals are given at each
-// instant, so friction always
-// has a solution (Painleve's paradox does not arise). Springs that friction or other contacts keep compressed when all
-// has come to rest give nothing back. What is left at the end, as where walls without clearance return a body for
-// ever, is ended by an impact without restitution, which takes energy only.
+// instant, so friction always has a solution (Painleve's paradox does not arise). Springs that friction or other
+// contacts keep compressed when all has come to rest give nothing back. What is left at the end, as where walls without
+// clearance return a body for ever, is ended by an impact without restitution, which takes energy only.
 //
 // Between events (a rate, slip or spring reaches 0, friction its bound) it is a smooth differential equation; midpoint
-// steps
-// extrapolated to order 12 (Gragg, Bulirsch, Stoer) follow it to round-off.
+// steps extrapolated to order 12 (Gragg, Bulirsch, Stoer) follow it to round-off.
 #pragma once
 
 #include <vector>
@@ -61,8 +56,7 @@ class SpringImpact {
   const Vec& lost_normal() const { return lost_normal_; }
   const Vec& lost_friction() const { return lost_friction_; }
   // Work of normal forces that the end took [J], counted as lost: what springs still held, of contacts that friction or
-  // others keep
-  // wedged, and what ended the last approaches.
+  // others keep wedged, and what ended the last approaches.
   double taken_at_end() const { return taken_at_end_; }
   bool cut_short() const { return cut_short_; }  // ended without restitution, after `most_phases`
   static constexpr int most_phases = 1000;

@@ -119,8 +119,7 @@ bool SpringImpact::dips_within(const Vec& y, double h, const Vec& y_end) {
 }
 
 // The first event within h, by the method of Illinois; the margin ends between 1 and 9 tolerances below 0. Returns its
-// time, and its
-// state in `y_end`, which comes in as that after h, with the margin `at_end`.
+// time, and its state in `y_end`, which comes in as that after h, with the margin `at_end`.
 double SpringImpact::locate(const Vec& y, double h, double at_end, Vec& y_end) {
   const double aim = 5 * tolerance;
   Vec inside;

@@ -44,8 +44,7 @@ double SpringImpact::fastest_approach() const {
 }
 
 // An impact without restitution, if possible with friction. `yields`: what a contact gives way, of the largest entry of
-// A, so that round-off
-// in the rates of dependent contacts is no contradiction.
+// A, so that round-off in the rates of dependent contacts is no contradiction.
 ContactSolution SpringImpact::end_approaches(double yields) {
   const Vec u = rates();
   const Mat A = A_ + yields * A_.diagonal().maxCoeff() * Mat::Identity(m_, m_);

@@ -6,9 +6,8 @@
 // Where that pulls or leaves a friction cone, dependent contacts carry the same resultants by other forces
 // (complementarity/shares/admissible_forces.hpp), as long as there are some. Those that slide do not: their friction,
 // and with it the motion, follows from their share as springs. Nor do those that are idle. The others share what these
-// leave of the resultants. Where they
-// cannot, those that slide take part along the direction of their force, n + p t: only forces that leave the motion as
-// it is.
+// leave of the resultants. Where they cannot, those that slide take part along the direction of their force, n + p t:
+// only forces that leave the motion as it is.
 #pragma once
 
 #include <array>

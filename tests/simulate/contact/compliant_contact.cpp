@@ -115,8 +115,7 @@ TEST(CompliantContact, BegunAtRestKeepsItsEnergy) {
 }
 
 // The heads of the cards move alike, so the apex that sticks between them has no depth, and its force is round-off: it
-// neither has
-// events nor shortens steps.
+// neither has events nor shortens steps.
 TEST(CompliantContact, ThatOnlyTouchesDoesNotHoldUpTheOthers) {
   for (const double mu : {0.1, 0.2})
     for (const double stiffness : {1e4, 1e5}) {
@@ -130,14 +129,14 @@ TEST(CompliantContact, ThatOnlyTouchesDoesNotHoldUpTheOthers) {
       const char *floor = R"("point": [0, 0], "normal": [0, 1])",
                  *roof = R"("point": [0, 0], "normal": [0, -1], "on": "roof.middle")",
                  *head = R"x("point": [0, 0], "normal": ["=-cos(a)", "=sin(a)"], "on": "right.head")x";
-      const Finished run = run_file("contact/card_house.json",
-                                    {{"contacts.left_foot", contact("left.foot", floor)},
-                                     {"contacts.right_foot", contact("right.foot", floor)},
-                                     {"contacts.apex", contact("left.head", head)},
-                                     {"contacts.roof_left", contact("left.head", roof)},
-                                     {"contacts.roof_right", contact("right.head", roof)},
-                                     {"integrator", R"({"type": "dop853", "step": {"tolerance": 1e-9}})"},
-                                     {"simulate.until", "0.01"}});
+      const Finished run =
+          run_file("contact/card_house.json", {{"contacts.left_foot", contact("left.foot", floor)},
+                                               {"contacts.right_foot", contact("right.foot", floor)},
+                                               {"contacts.apex", contact("left.head", head)},
+                                               {"contacts.roof_left", contact("left.head", roof)},
+                                               {"contacts.roof_right", contact("right.head", roof)},
+                                               {"integrator", R"({"type": "dop853", "step": {"tolerance": 1e-9}})"},
+                                               {"simulate.until", "0.01"}});
       ASSERT_TRUE(run.done()) << run.report.reason;
       EXPECT_LT(run.result["counts"]["steps"], 5000) << mu << " " << stiffness;
       EXPECT_LT(run.result["counts"]["locating_steps"], 20000) << mu << " " << stiffness;

@@ -1,7 +1,6 @@
 // The row of a screw, beside a cylindrical joint: B slides along A's axis n by the lead p for each turn, in space.
 //
-//     g = n . d - p/(2 pi) psi,    d = x_B - x_A,    psi [rad] the angle of B against A about n, counted on over whole
-//     turns
+//     g = n . d - p/(2 pi) psi,    d = x_B - x_A,    psi [rad] the angle of B against A about n, over whole turns
 //     g' = n . d' + (n x d)... = n . (V_B - V_A) + omega_A . (n x d) - p/(2 pi) h . (omega_B - omega_A)
 //
 // h, the gradient of psi, is n while the cylindrical joint holds, which is where gamma is right.

@@ -41,8 +41,8 @@ class NewmarkStep {
   void begin(const System& s, const State& now, double h, double c_q, double c_v, State& next);
   // Predicts a_{n+1} by the line through a_{n-1} and a_n; `ratio` is this step over the last one. Keeps a_n if a
   // changes too fast: extrapolation would enlarge a mode that rings from step to step. The first increment then is the
-  // second difference of a, which
-  // measures the step's own error (newmark_error.hpp); Newton's iteration ends at a small share of it.
+  // second difference of a, which measures the step's own error (newmark_error.hpp); Newton's iteration ends at a small
+  // share of it.
   void extrapolate(const State& now, const Vec& a_before, double ratio, State& next);
   bool iterating() const { return newton.iterating(); }
   // Computes next.q and next.v from next.a and moves the system to that point.

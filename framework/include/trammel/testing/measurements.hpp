@@ -116,10 +116,8 @@ Report check_order(const Maker& method, const Problem& problem, double order, in
 Report check_stability(const Maker& method, Axis axis, double limit);
 // The estimate of the local error, where there is one, has its error_order() and is near the true error on a motion of
 // `omega` [rad/s] with steps h to h/4: 0.9 to 1.1 times it, if it is of higher order than the method (with rows up to 4
-// times, as what lies across
-// them is estimated and then removed); else, the error of an embedded method of lower order, 1 to 100/(omega h)^(order
-// + 1 -
-// error_order) times it.
+// times, as what lies across them is estimated and then removed); else, the error of an embedded method of lower order,
+// 1 to 100/(omega h)^(order + 1 - error_order) times it.
 Report check_estimate(const Maker& method, const Problem& problem, double omega, double h);
 Report check_energy(const Maker& method, const Problem& problem, int n, double allowed);
 // The rows are satisfied to 1e-9 where the method's traits claim so, otherwise within `allowed`.
