@@ -258,8 +258,8 @@ bool Simulator::step_and_examine(const StepControl::Proposal& proposal, double& 
       if (!control().too_small(now_.t)) return false;
       locked_ = near_critical_state();
       if (!locked_)
-        fail(h, fmt::format("the error cannot be kept below the tolerance with steps of at least {:.3g} s",
-                            control().smallest(now_.t)));
+        fail(h, fmt::format("the error cannot be kept below the tolerance with steps of at least {:.3g} s{}",
+                            control().smallest(now_.t), last_motions_.say(system_, now_, next_, h)));
       return false;
     }
   }
@@ -286,8 +286,9 @@ void Simulator::refuse(const StepControl::Proposal& proposal, const char* reason
   locked_ = near_critical_state();
   if (locked_) return;
   find_culprit(proposal.h);
+  const std::string why = reason + last_motions_.say(system_, now_, next_, proposal.h);
   system_.move_to(now_.t, now_.q, now_.v);
-  fail(proposal.h, reason);
+  fail(proposal.h, why);
 }
 
 std::string Simulator::when(double h) const {
@@ -319,7 +320,8 @@ void Simulator::fail_not_finite(double h) {
   const std::string what = not_finite_in(next_);
   if (!what.empty() && !near_the_end_of_numbers() && !finite_with_shorter_steps(integrator_, system_, now_, h, inside_))
     throw BadStep(fmt::format("it returned {}; expected finite numbers", what));
-  fail(h, "the solution diverged: numbers that are not finite. The step may be too long for the method");
+  fail(h, "the solution diverged: numbers that are not finite. The step may be too long for the method" +
+              last_motions_.say(system_, now_, next_, h));
 }
 
 // What it throws is its own fault unless a component that it called through the system threw it.
@@ -355,6 +357,7 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
   if (std::abs(stop - next_.t) <= 4 * eps * std::abs(stop)) next_.t = stop;
   if (!corrections_.empty()) step_ledger_and_correct();
   integrator_.accept(system_, now_, next_);
+  last_motions_.take(h);
   if (shortened)
     control().interrupted();
   else

@@ -30,6 +30,7 @@
 #include "simulate/results/ledger.hpp"
 #include "simulate/results/recorder.hpp"
 #include "simulate/step_control.hpp"
+#include "simulate/watch/last_motions.hpp"
 #include "simulate/watch/open_joints.hpp"
 #include "simulate/watch/theory_watch.hpp"
 #include "simulate/watch/turn_counts.hpp"
@@ -125,6 +126,7 @@ class Simulator {
   TurnCounts turns_;
   TheoryWatch theories_;
   OpenJoints open_joints_;
+  LastMotions last_motions_;
   Statistics statistics_;
 
   State now_, next_, inside_, uncorrected_;

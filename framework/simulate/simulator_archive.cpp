@@ -145,6 +145,8 @@ void Simulator::archive_state(Archive& a) {
   location_.archive(a);
   modes_.impact_warnings().archive(a, model.contacts.size());
   theories_.archive(a);
+  last_motions_.archive(a);
+  require(last_motions_.fits(model.contacts.size()), "last_event_contact");
   // A row is due after each that is written, in time order: no other count belongs to this t.
   const double rows_so_far = (now_.t - settings_.start) / settings_.every;
   require(std::abs(double(records_) - rows_so_far) < 3, "records");

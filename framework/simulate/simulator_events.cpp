@@ -80,7 +80,7 @@ void Simulator::guard_against_storm(int contact) {
 
 // An impact after which the contact stays closed is two events, and strikes once.
 void Simulator::write_events(RecordSink& recorder) {
-  for (const ContactEvent& event : events_) recorder.event(event);
+  for (const ContactEvent& event : events_) recorder.event(event), last_motions_.take(event);
   if (refinement_.possible()) {
     std::vector<int> struck;
     for (const ContactEvent& event : events_)

@@ -206,5 +206,24 @@ TEST(UnstableSteps, EndTheRunInsteadOfResults) {
     EXPECT_TRUE(spring(method, 0.7).done()) << method;
 }
 
+// A mass that hangs in a light spring, and one on a spring too stiff for the least step.
+TEST(StepsTooSmall, NameTheBodyThatMovesMostTheStepsBeforeAndTheLastEvent) {
+  const Finished run = run_text(R"({"trammel": 1, "space": "planar", "gravity": [0, -10],
+    "bodies": {"slow": {"type": "point_mass", "mass": 1, "position": [0, -1]},
+               "fast": {"type": "point_mass", "mass": 1, "position": [1, -1.01]},
+               "ball": {"type": "point_mass", "mass": 1, "position": [2, 0.05]}},
+    "forces": {"soft": {"type": "spring_damper", "between": ["ground", "slow.point"], "stiffness": 10, "length": 1},
+               "switched": {"type": "load", "on": "fast.point", "force": {"x": "=1e9*max(0, t-0.2)^0.1"}}},
+    "contacts": {"floor": {"type": "constraint_method", "restitution": 0.5,
+                           "between": ["ball.point", {"plane": {"point": [0, 0], "normal": [0, 1]}}]}},
+    "integrator": {"type": "dop853", "step": {"tolerance": 1e-10, "min": 1e-4}},
+    "simulate": {"until": 1}, "record": {"every": 0.1}})");
+  EXPECT_EQ(run.report.status, simulate::Status::failed);
+  EXPECT_THAT(run.report.reason, HasSubstr("the velocities change most in bodies.fast (100 %), by energy"));
+  EXPECT_THAT(run.report.reason, HasSubstr("; the steps before took 0."));
+  EXPECT_THAT(run.report.reason,
+              testing::ContainsRegex("the last event is (impact|contact_open|lift) of contacts.floor at t = 0.1"));
+}
+
 }  // namespace
 }  // namespace trammel::test
