@@ -56,6 +56,8 @@ report::Page page_of(const Arguments& arguments, plugin::Registry& registry) {
     if (arguments.has(kOver.name)) throw UsageError("--over needs --scene: its values are of a scene");
     return stability::measure(subject);
   }
+  if (arguments.all(kOver.name).size() > 1)
+    throw UsageError("--over is given twice; each call varies one path: run it for each");
   const auto [path, values] = arguments.has(kOver.name) ? values_over(arguments.last(kOver.name))
                                                         : std::pair<std::string, std::vector<std::string>>("", {""});
   return stability::measure_on_scene(subject, study::SceneSource(arguments.last(kScene.name)), registry, path, values);

@@ -127,6 +127,7 @@ class SundialsIda final : public Integrator, public DenseOutput, public HasFidel
     failed_ = nullptr, refused_ = "";
     asleep_ = false;
     given_.clear(), tape_.clear();
+    tape_.reserve(now.q.size() + now.v.size(), max_order);
     if (now.v.size() > 0) start(s, State(now));
   }
 

@@ -1,6 +1,7 @@
 // The solution between the last accepted state and the end of IDA's last internal step, segment by segment.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,14 @@ namespace trammel::ida {
 class Tape {
  public:
   void clear() { first_ = count_ = 0; }
+  // Memory for the segments of as many coordinates, so that the steps ask for none: of small systems for hundreds.
+  void reserve(Eigen::Index coordinates, int max_order) {
+    constexpr std::size_t numbers = 1 << 17, fewest = 16, most = 256;
+    const auto each = std::max<std::size_t>(1, std::size_t(coordinates) * std::size_t(max_order + 1));
+    const std::size_t count = std::clamp(numbers / each, fewest, most);
+    if (segments_.size() < count) segments_.resize(count);
+    for (Segment& segment : segments_) segment.derivatives.resize(coordinates, max_order + 1);
+  }
   bool empty() const { return count_ == 0; }
   double end() const { return segments_[first_ + count_ - 1].end; }  // not empty
 
