@@ -11,18 +11,14 @@ namespace trammel::simulate {
 
 namespace {
 
-constexpr Eigen::Index remembered = 3;  // steps
-constexpr std::size_t named = 3;        // bodies
-constexpr double worth_naming = 0.01;   // of the whole
+constexpr std::size_t named = 3;       // bodies
+constexpr double worth_naming = 0.01;  // of the whole
 
 }  // namespace
 
 void LastMotions::take(double h) {
-  const Eigen::Index n = std::min(remembered, steps_.size() + 1);
-  Vec steps(n);
-  steps[0] = h;
-  steps.tail(n - 1) = steps_.head(n - 1);
-  steps_ = std::move(steps);
+  std::shift_right(steps_.begin(), steps_.end(), 1);
+  steps_[0] = h;
 }
 
 void LastMotions::take(const ContactEvent& event) {
@@ -51,11 +47,10 @@ std::string LastMotions::shares(model::AssembledSystem& system, const State& now
 
 std::string LastMotions::say(model::AssembledSystem& system, const State& now, const State& next, double h) const {
   std::string text = shares(system, now, next, h);
-  if (steps_.size() > 0) {
-    std::vector<std::string> sizes;
-    for (const double step : steps_) sizes.push_back(fmt::format("{:.3g}", step));
-    text += fmt::format("; the steps before took {} s, the last one first", fmt::join(sizes, ", "));
-  }
+  std::vector<std::string> sizes;
+  for (const double step : steps_)
+    if (step > 0) sizes.push_back(fmt::format("{:.3g}", step));
+  if (!sizes.empty()) text += fmt::format("; the steps before took {} s, the last one first", fmt::join(sizes, ", "));
   if (event_contact_ >= 0)
     text += fmt::format("; the last event is {} of {} at t = {:.9g} s", to_string(ContactEvent::Kind(event_kind_)),
                         system.model().contacts[std::size_t(event_contact_)].path(), event_at_);
@@ -63,8 +58,8 @@ std::string LastMotions::say(model::AssembledSystem& system, const State& now, c
 }
 
 void LastMotions::archive(Archive& a) {
-  a("last_steps", steps_), a("last_event_at", event_at_), a("last_event_contact", event_contact_),
-      a("last_event_kind", event_kind_);
+  a("last_step", steps_[0]), a("last_step_but_1", steps_[1]), a("last_step_but_2", steps_[2]);
+  a("last_event_at", event_at_), a("last_event_contact", event_contact_), a("last_event_kind", event_kind_);
 }
 
 }  // namespace trammel::simulate

@@ -2,6 +2,7 @@
 // velocities change most in the step that failed.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include <trammel/archive.hpp>
@@ -27,7 +28,7 @@ class LastMotions {
  private:
   std::string shares(model::AssembledSystem& system, const State& now, const State& next, double h) const;
 
-  Vec steps_;  // [s] the last ones, the latest first
+  std::array<double, 3> steps_ = {};  // [s] the last ones, the latest first; 0: none
   double event_at_ = 0;
   int event_contact_ = -1, event_kind_ = 0;
 };
