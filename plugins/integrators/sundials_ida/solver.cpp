@@ -160,8 +160,8 @@ void Solver::restart(System& s, const State& now) {
     IDASetId(ida.memory, ida.kind);
     IDASetSuppressAlg(ida.memory, SUNTRUE);  // index 2
     IDASetMaxOrd(ida.memory, tolerances_.max_order);
-    // The multipliers are not in the error test, so what Newton's iteration leaves of them would go on to the next steps'
-    // predictions. IDA's own value, 0.33 of the tolerance, costs more steps than it saves iterations.
+    // The multipliers are not in the error test, so what Newton's iteration leaves of them would go on to the next
+    // steps' predictions. IDA's own value, 0.33 of the tolerance, costs more steps than it saves iterations.
     IDASetNonlinConvCoef(ida.memory, 1e-3);
     if (tolerances_.max_step > 0) IDASetMaxStep(ida.memory, tolerances_.max_step);
     ida.factors->content = this;
