@@ -6,10 +6,14 @@
 
 namespace trammel::scene::limits {
 
-inline constexpr std::size_t bytes = 64u << 20;   // of a scene with its includes; of a table
-inline constexpr int files = 1000;                // read by "include"; a file counts each time
-inline constexpr int nested = 100;                // arrays and objects; includes; parameters in parameters
+inline constexpr std::size_t bytes = 64u << 20;  // of a scene with its includes; of a table
+inline constexpr int files = 1000;               // read by "include"; a file counts each time
+inline constexpr int nested = 100;               // arrays and objects; includes; parameters in parameters
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // libFuzzer's name; under its sanitizers more take minutes and 10 GB
+inline constexpr std::size_t values = 1'000'000;
+#else
 inline constexpr std::size_t values = 30'000'000;  // of the scene after repetition; a mast of 100,000 units: 26 million
+#endif
 inline constexpr std::size_t bytes_of_a_value = 64;  // longer texts, names and paths count as more values
 inline constexpr std::size_t name = 500;             // [bytes] of a key
 inline constexpr std::size_t problems = 100;         // reported; reading ends at the next one
