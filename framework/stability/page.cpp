@@ -206,25 +206,27 @@ Page measure(const IntegratorUnderTest& subject) {
 }
 
 Page measure_on_scene(const IntegratorUnderTest& subject, const study::SceneSource& source, plugin::Registry& registry,
-                      const std::string& path, const std::vector<std::string>& values) {
+                      const std::vector<study::Overrides>& changes) {
   Page page{.title = fmt::format("Largest bounded step of {} on {}", subject.described(), source.file()),
             .sentences = {},
             .figures = {},
             .tables = {}};
   const double limit = stability_limit(subject.maker(), trammel::Axis::imaginary, most);
   const std::optional<double> ends = limit < most ? std::optional<double>(limit) : std::nullopt;
-  Table table{.title = path.empty() ? "The scene as it is" : "Over " + path,
-              .columns = {{path.empty() ? "value" : path, ""}, {"largest bounded step", "s"}, {"linear theory", "s"}},
-              .rows = {}};
-  for (const std::string& value : values) {
-    const study::Overrides change = path.empty() ? study::Overrides{} : study::Overrides{{path, value}};
+  Table table{.title = "The scene as it is", .columns = {}, .rows = {}};
+  for (const scene::Override& varied : changes.front()) table.columns.push_back({varied.path, ""});
+  if (!table.columns.empty()) table.title = "Changes of the scene";
+  table.columns.push_back({"largest bounded step", "s"});
+  table.columns.push_back({"linear theory", "s"});
+  for (const study::Overrides& change : changes) {
     const LargestStep found = largest_step(source, registry, subject.object(), ends, change);
-    table.rows.push_back({value.empty() ? "-" : value,
-                          !found.failure.empty() ? found.failure
-                          : found.at_limit       ? fmt::format("{:.4g} or more", found.h)
-                          : found.h > 0          ? fmt::format("{:.4g}", found.h)
-                                                 : "none",
-                          number(found.predicted)});
+    std::vector<std::string>& row = table.rows.emplace_back();
+    for (const scene::Override& varied : change) row.push_back(varied.value);
+    row.push_back(!found.failure.empty() ? found.failure
+                  : found.at_limit       ? fmt::format("{:.4g} or more", found.h)
+                  : found.h > 0          ? fmt::format("{:.4g}", found.h)
+                                         : "none");
+    row.push_back(number(found.predicted));
   }
   page.sentences.push_back(
       ends ? fmt::format("Without damping the method is stable up to omega h = {}; linear theory divides "

@@ -3,7 +3,7 @@
 
 #include "report/page.hpp"
 #include "stability/integrator_under_test.hpp"
-#include "study/scene_source.hpp"
+#include "study/batch.hpp"
 
 namespace trammel::stability {
 
@@ -11,9 +11,9 @@ namespace trammel::stability {
 // method; the sentences say what does not.
 report::Page measure(const IntegratorUnderTest& subject);
 
-// The largest bounded step on a scene, for each value of a parameter: path "" and one value "": the scene as it is.
+// The largest bounded step on a scene with each of these changes, which all name the same paths; one without paths: the
+// scene as it is.
 report::Page measure_on_scene(const IntegratorUnderTest& subject, const study::SceneSource& source,
-                              plugin::Registry& registry, const std::string& path,
-                              const std::vector<std::string>& values);
+                              plugin::Registry& registry, const std::vector<study::Overrides>& changes);
 
 }  // namespace trammel::stability

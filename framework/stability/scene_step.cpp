@@ -83,7 +83,7 @@ std::optional<double> predicted(const scene::Scene& scene, plugin::Registry& reg
 
 LargestStep largest_step(const study::SceneSource& source, plugin::Registry& registry, const std::string& integrator,
                          std::optional<double> limit, const Overrides& change) {
-  LargestStep found{.value = change.empty() ? "" : change.front().value, .predicted = {}};
+  LargestStep found{.predicted = {}};
   const scene::Scene scene = source.with(change);
   const simulate::Settings settings = simulate::set_up(scene, registry).settings;
   found.predicted = predicted(scene, registry, limit);

@@ -12,7 +12,6 @@
 namespace trammel::stability {
 
 struct LargestStep {
-  std::string value;                // of the parameter that is varied; empty: none is
   double h = 0;                     // [s] bounded; 0: no step is
   bool at_limit = false;            // the longest step tried is bounded
   std::optional<double> predicted;  // [s] none: nothing swings, or the method has no limit

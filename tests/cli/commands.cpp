@@ -1,4 +1,5 @@
 // The program's commands, its exit codes and what it prints where.
+#include <cmath>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -309,7 +310,8 @@ TEST(Run, DrawsAProgressBarOnATerminalAndRemovesIt) {
   // A million steps: more than a minute under sanitizers on a busy machine.
   const auto result = trammel({"run", scene}, {.folder = folder.path(), .terminal = true, .time_limit = 600});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.err, testing::ContainsRegex("\\[#*\\.*\\] +[0-9]+ %  t = .* s, [0-9]+ steps( of [-0-9.e]+ s)?, [0-9]+ impacts"));
+  EXPECT_THAT(result.err, testing::ContainsRegex(
+                              "\\[#*\\.*\\] +[0-9]+ %  t = .* s, [0-9]+ steps( of [-0-9.e]+ s)?, [0-9]+ impacts"));
   EXPECT_THAT(result.err, testing::EndsWith("\r\033[K"));
 }
 
@@ -385,6 +387,38 @@ TEST(Json, OfAMistakeOnTheCommandLineIsAnObjectToo) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(json::parse(result.out)["status"], "error");
   EXPECT_EQ(result.err, "");
+}
+
+// A mass on a spring: Runge-Kutta's limit is 2.83 sqrt(m/k).
+TEST(Commands, StabilityTriesEveryCombinationOfTheValuesOver) {
+  const cli::TemporaryFolder folder;
+  const std::string scene = (folder.path() / "spring.json").string();
+  cli::write_file(scene, R"({"trammel": 1, "space": "planar", "gravity": [0, 0], "parameters": {"m": 1, "k": 100},
+  "bodies": {"mass": {"type": "point_mass", "mass": "=m", "position": [1.1, 0]}},
+  "forces": {"spring": {"type": "spring_damper", "between": ["ground", "mass.point"], "stiffness": "=k", "length": 1}},
+  "integrator": {"type": "runge_kutta_4", "step": 1e-3}, "simulate": {"until": 60}})");
+  const std::vector<std::string> words = {"stability", "runge_kutta_4", "--scene", scene, "--json"};
+  const auto with = [&](const std::string& first, const std::string& second) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--over", first, "--over", second});
+    return trammel(all);
+  };
+  const auto result = with("parameters.m=1,4", "parameters.k=100,400");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json rows = json::parse(result.out)["page"]["tables"][0]["rows"];
+  const std::vector<std::pair<std::string, std::string>> expected = {
+      {"1", "100"}, {"1", "400"}, {"4", "100"}, {"4", "400"}};
+  ASSERT_EQ(rows.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const auto& [m, k] = expected[i];
+    EXPECT_EQ(rows[i][0], m);
+    EXPECT_EQ(rows[i][1], k);
+    // Growth at the limit is slow, and the search ends within a hundredth.
+    EXPECT_NEAR(std::stod(rows[i][2].get<std::string>()) / (2.8284 * std::sqrt(std::stod(m) / std::stod(k))), 1, 0.03);
+  }
+  const auto twice = with("parameters.m=1", "parameters.m=4");
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_THAT(twice.out, HasSubstr("--over parameters.m is given twice"));
 }
 
 }  // namespace
