@@ -10,16 +10,16 @@ namespace trammel {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr int steps = 10;
+constexpr int halvings = 10;
 
 }  // namespace
 
 Difference difference(const std::function<Vec(double)>& f, double h) {
-  std::array<Vec, steps> row, above;
+  std::array<Vec, halvings> row, above;
   Difference d;
   d.h = h;
   double s = h;
-  for (int j = 0; j < steps; ++j, s /= 2) {
+  for (int j = 0; j < halvings; ++j, s /= 2) {
     const Vec plus = f(s), minus = f(-s);
     if (j == 0) {
       d.value = d.round_off = Vec::Zero(plus.size());

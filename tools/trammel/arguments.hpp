@@ -69,6 +69,7 @@ inline constexpr Option kSet{"--set", "PATH=VALUE",
 inline constexpr Option kPlugin{"--plugin", "LIB", "a plugin library, or a folder of them (repeatable)"};
 inline constexpr Option kAllowScenePlugins{
     "--allow-scene-plugins", "", "load the libraries that the scene names under \"plugins\": their code runs"};
+inline constexpr Option kJobs{"--jobs", "N", "processes; default: one for each core that this process may use"};
 inline constexpr Option kJson{"--json", "", "print one JSON object on standard output and nothing else"};
 
 // One function per file of the same name.

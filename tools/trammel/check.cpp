@@ -31,8 +31,8 @@ constexpr Option kWith{"--with", "JSON",
                        "the component's parameters, an object as in a scene (repeatable: forms checked in turn); "
                        "\"space\": \"spatial\" for one in space"};
 constexpr Option kExpect{"--expect", "CHECK=REASON", "this check may fail, for this reason (repeatable)"};
-constexpr Option kReport{"--report", "FILE",
-                         "write an HTML page: verdicts, order plots, spectral radius, drifts, work against precision"};
+constexpr Option kCheckReport{
+    "--report", "FILE", "write an HTML page: verdicts, order plots, spectral radius, drifts, work against precision"};
 constexpr Option kComponent{"--component", "NAME", "one component of a library with several; all of them if left out"};
 constexpr Option kLimit{"--limit", "SECONDS",
                         "of one check, then it counts as timed out; 30 if left out, 4 times as long at level full"};
@@ -255,7 +255,7 @@ Command check_command() {
   return {"check",
           "LIB|COMPONENT",
           "Measure whether a plugin keeps its contract and its claims, each check in a process of its own.",
-          {kLevel, kOnly, kComponent, kSeed, kLimit, kWith, kExpect, kReport, kPlugin, kInProcess, kList, kJson},
+          {kLevel, kOnly, kComponent, kSeed, kLimit, kWith, kExpect, kCheckReport, kPlugin, kInProcess, kList, kJson},
           check};
 }
 

@@ -10,7 +10,7 @@ namespace trammel::tool {
 
 namespace {
 
-Exit run(const Arguments& arguments) {
+Exit run_compare(const Arguments& arguments) {
   if (arguments.operands().size() != 2)
     throw UsageError("'trammel compare' needs two results folders: trammel compare A B");
   const study::Comparison comparison = study::compare(arguments.operands()[0], arguments.operands()[1]);
@@ -29,7 +29,7 @@ Command compare_command() {
           "A B",
           "Compare two results folders: which files differ, where first, by how many digits, and how each was made.",
           {kJson},
-          run,
+          run_compare,
           2};
 }
 

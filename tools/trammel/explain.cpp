@@ -16,11 +16,11 @@ namespace {
 
 constexpr Option kAblate{"--ablate", "",
                          "leave out each optional part in turn, and find the smallest scene that keeps the target"};
-constexpr Option kTarget{"--target", "X",
-                         "of --ablate: the change allowed, in parts of what the observables change; 1e-3"};
+constexpr Option kExplainTarget{"--target", "X",
+                                "of --ablate: the change allowed, in parts of what the observables change; 1e-3"};
 
 Exit ablate(const Arguments& arguments, plugin::Registry& registry) {
-  const double target = arguments.has(kTarget.name) ? positive(arguments, kTarget) : 1e-3;
+  const double target = arguments.has(kExplainTarget.name) ? positive(arguments, kExplainTarget) : 1e-3;
   const study::SceneSource source(arguments.operand(), overrides_of(arguments));
   const report::Page page = study::page_of(study::ablate(source, registry, target), arguments.operand());
   if (arguments.has(kJson.name))
@@ -56,7 +56,7 @@ Command explain_command() {
   return {"explain",
           "SCENE",
           "Show what is built from a scene, which rows are redundant, what each part costs, what is left out.",
-          {kSet, kPlugin, kAllowScenePlugins, kAblate, kTarget, kJson},
+          {kSet, kPlugin, kAllowScenePlugins, kAblate, kExplainTarget, kJson},
           explain};
 }
 

@@ -30,10 +30,10 @@ namespace trammel::tool {
 namespace {
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {
-      run_command(),    static_command(), modes_command(),  validate_command(), explain_command(),   report_command(),
-      study_command(),  trade_command(),  compare_command(), list_command(),    describe_command(),  schema_command(),
-      new_command(),    check_command(),  stability_command(), seal_command()};
+  static const std::vector<Command> all = {run_command(),     static_command(), modes_command(),     validate_command(),
+                                           explain_command(), report_command(), study_command(),     trade_command(),
+                                           compare_command(), list_command(),   describe_command(),  schema_command(),
+                                           new_command(),     check_command(),  stability_command(), seal_command()};
   return all;
 }
 

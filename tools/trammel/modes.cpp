@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Option kFolder{"--out", "DIR", "results folder; default out/<scene name>_modes"};
+constexpr Option kModesFolder{"--out", "DIR", "results folder; default out/<scene name>_modes"};
 constexpr Option kAt{"--at", "TIME",
                      "the state after a run to that time [s], or under the loads of it in a scene of statics"};
 constexpr Option kFrom{"--from", "DIR", "the state of the checkpoint in a results folder"};
@@ -62,7 +62,7 @@ simulate::ModesOptions read(const Arguments& arguments) {
   return options;
 }
 
-Exit run(const Arguments& arguments) {
+Exit run_modes(const Arguments& arguments) {
   const bool json = arguments.has("--json"), quiet = arguments.has("--quiet");
   simulate::ModesOptions options = read(arguments);
   std::vector<scene::Override> more;
@@ -92,8 +92,8 @@ Command modes_command() {
   return {"modes",
           "SCENE",
           "Find frequencies, damping and shapes of small motions about a state.",
-          {kFolder, kAt, kFrom, kSteady, kCount, kMatrices, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
-          run};
+          {kModesFolder, kAt, kFrom, kSteady, kCount, kMatrices, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
+          run_modes};
 }
 
 }  // namespace trammel::tool

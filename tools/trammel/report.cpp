@@ -24,7 +24,7 @@ fs::path file_of(const Arguments& arguments) {
   return fs::is_directory(first, error) ? first / "report.html" : fs::path(first).replace_extension(".html");
 }
 
-Exit run(const Arguments& arguments) {
+Exit run_report(const Arguments& arguments) {
   std::vector<fs::path> what;
   for (const std::string& operand : arguments.operands()) what.emplace_back(operand);
   const fs::path file = file_of(arguments);
@@ -44,9 +44,12 @@ Exit run(const Arguments& arguments) {
 }  // namespace
 
 Command report_command() {
-  return {
-      "report",       "DIR...", "Write one HTML file to look at: animation, plots, events. Several runs are overlaid.",
-      {kFile, kJson}, run,      std::numeric_limits<std::size_t>::max()};
+  return {"report",
+          "DIR...",
+          "Write one HTML file to look at: animation, plots, events. Several runs are overlaid.",
+          {kFile, kJson},
+          run_report,
+          std::numeric_limits<std::size_t>::max()};
 }
 
 }  // namespace trammel::tool

@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 
 constexpr Option kVerify{"--verify", "",
                          "run again with finer steps and by another method: an error for every observable"};
-constexpr Option kTarget{"--target", "X", "of --verify: the error wanted, in parts of what an observable changes"};
+constexpr Option kVerifyTarget{"--target", "X",
+                               "of --verify: the error wanted, in parts of what an observable changes"};
 constexpr Option kResume{"--resume", "DIR", "continue the interrupted run whose results are in DIR"};
 
 fs::path folder_of_run(const Arguments& arguments) {
@@ -62,7 +63,7 @@ study::SceneSource source_of(const Arguments& arguments) {
 void verify(const Arguments& arguments, plugin::Registry& registry, const scene::Scene& scene, const fs::path& folder,
             bool quiet) {
   std::optional<double> target;
-  if (arguments.has(kTarget.name)) target = positive(arguments, kTarget);
+  if (arguments.has(kVerifyTarget.name)) target = positive(arguments, kVerifyTarget);
   const study::CaseResult done = study::read_run(folder, scene);
   const study::Verification verification = study::verify(source_of(arguments), registry, done, target);
   study::record(verification, folder);
@@ -80,7 +81,7 @@ void say_remedy(const Arguments& arguments, plugin::Registry& registry, const si
   fmt::print(stderr, "It gets past there with {}:{}\n", remedy->what, sets);
 }
 
-Exit run(const Arguments& arguments) {
+Exit run_scene(const Arguments& arguments) {
   const bool json = arguments.has("--json");
   const bool quiet = arguments.has("--quiet");
   simulate::RunOptions options;
@@ -134,8 +135,8 @@ Command run_command() {
   return {"run",
           "SCENE",
           "Simulate a scene and write its results.",
-          {kOut, kSet, kPlugin, kAllowScenePlugins, kReport, kFormat, kVerify, kTarget, kResume, kJson, kQuiet},
-          run};
+          {kOut, kSet, kPlugin, kAllowScenePlugins, kReport, kFormat, kVerify, kVerifyTarget, kResume, kJson, kQuiet},
+          run_scene};
 }
 
 }  // namespace trammel::tool

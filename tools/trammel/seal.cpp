@@ -7,7 +7,7 @@ namespace trammel::tool {
 
 namespace {
 
-Exit run(const Arguments& arguments) {
+Exit run_seal(const Arguments& arguments) {
   plugin::seal(arguments.operand());
   return Exit::done;
 }
@@ -19,7 +19,7 @@ Command seal_command() {
           "LIB",
           "Write the checksum of a plugin's code into its file: it is refused if it is damaged afterwards.",
           {},
-          run};
+          run_seal};
 }
 
 }  // namespace trammel::tool

@@ -15,9 +15,9 @@ namespace trammel::tool {
 
 namespace {
 
-constexpr Option kFolder{"--out", "DIR", "results folder; default out/<scene name>_static"};
+constexpr Option kStaticFolder{"--out", "DIR", "results folder; default out/<scene name>_static"};
 
-Exit run(const Arguments& arguments) {
+Exit run_static(const Arguments& arguments) {
   const bool json = arguments.has("--json"), quiet = arguments.has("--quiet");
   const BesideResults beside(arguments);
   simulate::RunOptions options;
@@ -52,8 +52,8 @@ Command static_command() {
   return {"static",
           "SCENE",
           "Find equilibria under growing loads: t is the load.",
-          {kFolder, kSet, kPlugin, kAllowScenePlugins, kReport, kFormat, kJson, kQuiet},
-          run};
+          {kStaticFolder, kSet, kPlugin, kAllowScenePlugins, kReport, kFormat, kJson, kQuiet},
+          run_static};
 }
 
 }  // namespace trammel::tool

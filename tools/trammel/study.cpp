@@ -18,9 +18,8 @@ namespace {
 
 using study::StudyReport;
 
-constexpr Option kFolder{"--out", "DIR", "results folder; default out/<study name>, with _I_of_N for a shard"};
+constexpr Option kStudyFolder{"--out", "DIR", "results folder; default out/<study name>, with _I_of_N for a shard"};
 constexpr Option kShard{"--shard", "I/N", "only part I (from 1) of N: one task of an array on a cluster"};
-constexpr Option kJobs{"--jobs", "N", "processes; default: one for each core that this process may use"};
 constexpr Option kEstimate{"--estimate", "", "run three cases, and propose the number of shards for a minute each"};
 
 int number(std::string_view option, const std::string& text, const char* expected) {
@@ -86,7 +85,7 @@ Exit merge(const Arguments& arguments) {
   return told(arguments, study::merge_studies(folders, options), &options.out);
 }
 
-Exit run(const Arguments& arguments) {
+Exit run_study(const Arguments& arguments) {
   if (arguments.operand() == "merge") return merge(arguments);
   if (arguments.operands().size() > 1)
     throw UsageError(fmt::format("'trammel study' takes one study, found also '{}'", arguments.operands()[1]));
@@ -115,8 +114,8 @@ Command study_command() {
   return {"study",
           "STUDY",
           "Run a scene with many values, as a study file says; 'study merge DIR... --out DIR' joins shards.",
-          {kFolder, kSet, kShard, kJobs, kEstimate, kPlugin, kAllowScenePlugins, kJson, kQuiet},
-          run,
+          {kStudyFolder, kSet, kShard, kJobs, kEstimate, kPlugin, kAllowScenePlugins, kJson, kQuiet},
+          run_study,
           1'000'000};
 }
 

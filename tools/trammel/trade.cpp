@@ -16,18 +16,17 @@ namespace trammel::tool {
 
 namespace {
 
-constexpr Option kFolder{"--out", "DIR", "results folder; default out/<scene name>_trade"};
-constexpr Option kTarget{"--target", "E",
-                         "largest scaled error: the cheapest choice that meets it is found and verified"};
+constexpr Option kTradeFolder{"--out", "DIR", "results folder; default out/<scene name>_trade"};
+constexpr Option kTradeTarget{"--target", "E",
+                              "largest scaled error: the cheapest choice that meets it is found and verified"};
 constexpr Option kObserve{"--observe", "NAME", "an observed column that counts (repeatable); default: all"};
 constexpr Option kBudget{"--budget", "S", "CPU time to spend [s]; default 40 for each core"};
 constexpr Option kGrid{"--grid", "", "run every method at every setting in place of a search"};
-constexpr Option kJobs{"--jobs", "N", "processes; default: one for each core that this process may use"};
 
-Exit run(const Arguments& arguments) {
+Exit run_trade(const Arguments& arguments) {
   study::TradeOptions options;
   options.out = results_folder(arguments, "_trade");
-  if (arguments.has(kTarget.name)) options.target = positive(arguments, kTarget);
+  if (arguments.has(kTradeTarget.name)) options.target = positive(arguments, kTradeTarget);
   if (arguments.has(kJobs.name)) options.jobs = int(positive(arguments, kJobs));
   constexpr double a_core = 40;  // [s]
   const int cores = options.jobs > 0 ? options.jobs : study::cores_at_hand();
@@ -58,11 +57,12 @@ Exit run(const Arguments& arguments) {
 }  // namespace
 
 Command trade_command() {
-  return {"trade",
-          "SCENE",
-          "Measure speed against accuracy on this scene, and name the cheapest choice that meets a target.",
-          {kFolder, kTarget, kObserve, kGrid, kBudget, kJobs, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
-          run};
+  return {
+      "trade",
+      "SCENE",
+      "Measure speed against accuracy on this scene, and name the cheapest choice that meets a target.",
+      {kTradeFolder, kTradeTarget, kObserve, kGrid, kBudget, kJobs, kSet, kPlugin, kAllowScenePlugins, kJson, kQuiet},
+      run_trade};
 }
 
 }  // namespace trammel::tool

@@ -38,6 +38,15 @@ struct Words {
   Contract contract;
 };
 
+// Claims about one kind of component: their names begin alike, and one header states what they judge.
+struct ClaimsOf {
+  const char* kind;    // "correction."
+  const char* header;  // "trammel/correction.hpp"
+  Words operator()(const char* name, const char* claim, const char* equation, const char* line) const {
+    return {std::string(kind) + name, claim, equation, {header, line}};
+  }
+};
+
 struct Check {
   Words words;
   Level level = Level::quick;

@@ -13,16 +13,16 @@
 namespace trammel::problems {
 
 namespace {
-constexpr double g = 9.81;
+constexpr double gravity = 9.81;
 constexpr double mass = 3, half = 1, inertia = mass * 4 * half * half / 12;
 }  // namespace
 
 double BouncingBall::speed_before(int n) const {
-  return std::sqrt(2 * g * height) * std::pow(e, n - 1);
+  return std::sqrt(2 * gravity * height) * std::pow(e, n - 1);
 }
 double BouncingBall::impact_time(int n) const {
-  double t = std::sqrt(2 * height / g);
-  for (int i = 2; i <= n; ++i) t += 2 * speed_before(i) / g;
+  double t = std::sqrt(2 * height / gravity);
+  for (int i = 2; i <= n; ++i) t += 2 * speed_before(i) / gravity;
   return t;
 }
 std::string BouncingBall::scene(const std::string& integrator, double until) const {

@@ -13,7 +13,7 @@ namespace trammel::kit {
 
 namespace {
 
-constexpr const char* header = "trammel/correction.hpp";
+constexpr ClaimsOf correction_claim{"correction.", "trammel/correction.hpp"};
 using Level_ = Correction::Level;
 
 // The end of a step that is off the rows by about `off`, and what comes out.
@@ -190,35 +190,32 @@ std::string has_only_the_energy(const Subject& s) {
              : "it corrects neither positions nor velocities";
 }
 
-Words words(const char* name, const char* claim, const char* equation, const char* line) {
-  return {std::string("correction.") + name, claim, equation, {header, line}};
-}
-
 }  // namespace
 
 Checks correction_checks() {
   const char* const state = "Corrects q or v of `state`, which is the step's end on entry";
-  return {{words("restores-positions", "The corrected position satisfies the rows.", "g(t, q) = 0",
-                 "moves q so that g(t, q) = 0"),
-           Level::quick, restores_positions, unless_it_corrects(Level_::position, "position")},
-          {words("restores-velocities", "The corrected velocity satisfies the rows.", "G v + g_t = 0",
-                 "moves v so that G v + g_t = 0, at the final q"),
-           Level::quick, restores_velocities, unless_it_corrects(Level_::velocity, "velocity")},
-          {words("restores-the-energy", "The corrected velocity has the energy of the balance.",
-                 "E(q, v') = E_start + supplied - dissipated,  G v' = G v",
-                 "moves v so that the energy agrees with the balance and G v + g_t does not change"),
-           Level::quick, restores_energy, unless_it_corrects(Level_::energy, "energy")},
-          {words("is-as-small-as-the-violation", "The change is of the violation's size.",
-                 "|dq| = O(|g|), |dv| = O(|G v + g_t|)", state),
-           Level::quick, is_small, has_only_the_energy},
-          {words("leaves-the-free-motion", "The motion that the rows allow is not changed.",
-                 "n^T M dq = 0 for G n = 0, to first order", state),
-           Level::quick, leaves_free_motion, has_only_the_energy},
-          {words("does-nothing-without-rows", "Without rows nothing changes.", "nc = 0: dq = 0, dv = 0", state),
-           Level::quick, does_nothing_without_rows, has_only_the_energy},
-          {words("invents-no-state", "What is not a number does not become one.", "q = NaN: reject, or q = NaN",
-                 "A rejection ends the run."),
-           Level::quick, rejects_nan, has_only_the_energy}};
+  return {
+      {correction_claim("restores-positions", "The corrected position satisfies the rows.", "g(t, q) = 0",
+                        "moves q so that g(t, q) = 0"),
+       Level::quick, restores_positions, unless_it_corrects(Level_::position, "position")},
+      {correction_claim("restores-velocities", "The corrected velocity satisfies the rows.", "G v + g_t = 0",
+                        "moves v so that G v + g_t = 0, at the final q"),
+       Level::quick, restores_velocities, unless_it_corrects(Level_::velocity, "velocity")},
+      {correction_claim("restores-the-energy", "The corrected velocity has the energy of the balance.",
+                        "E(q, v') = E_start + supplied - dissipated,  G v' = G v",
+                        "moves v so that the energy agrees with the balance and G v + g_t does not change"),
+       Level::quick, restores_energy, unless_it_corrects(Level_::energy, "energy")},
+      {correction_claim("is-as-small-as-the-violation", "The change is of the violation's size.",
+                        "|dq| = O(|g|), |dv| = O(|G v + g_t|)", state),
+       Level::quick, is_small, has_only_the_energy},
+      {correction_claim("leaves-the-free-motion", "The motion that the rows allow is not changed.",
+                        "n^T M dq = 0 for G n = 0, to first order", state),
+       Level::quick, leaves_free_motion, has_only_the_energy},
+      {correction_claim("does-nothing-without-rows", "Without rows nothing changes.", "nc = 0: dq = 0, dv = 0", state),
+       Level::quick, does_nothing_without_rows, has_only_the_energy},
+      {correction_claim("invents-no-state", "What is not a number does not become one.", "q = NaN: reject, or q = NaN",
+                        "A rejection ends the run."),
+       Level::quick, rejects_nan, has_only_the_energy}};
 }
 
 }  // namespace trammel::kit

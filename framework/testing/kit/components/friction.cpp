@@ -13,11 +13,7 @@ namespace trammel::kit {
 
 namespace {
 
-constexpr const char* header = "trammel/friction.hpp";
-
-Words words(const char* name, const char* claim, const char* equation, const char* line) {
-  return {std::string("friction.") + name, claim, equation, {header, line}};
-}
+constexpr ClaimsOf friction_claim{"friction.", "trammel/friction.hpp"};
 
 void over_slips(const std::function<void(double)>& look) {
   for (double slip = 1e-12; slip < 2e6; slip *= 3) look(slip);
@@ -121,26 +117,28 @@ Report decides_by_a_speed(const Subject& s) {
 Checks smooth_friction_checks() {
   const char* const ratio = "F_t/F_n; 0 at slip = 0, so that the force has no jump";
   const char* const law = "A force that is smooth in the slip velocity: F_t = -ratio(|s|) F_n s/|s|.";
-  return {
-      {words("never-drives", "Friction acts against the slip.", "ratio(|s|) >= 0", law), Level::quick, never_drives},
-      {words("stays-inside-its-cone", "The tangential force is bounded by the normal force.", "|F_t| <= mu F_n", law),
-       Level::quick, stays_in_a_cone},
-      {words("starts-from-zero", "The force has no jump at rest.", "ratio(0) = 0", ratio), Level::quick,
-       starts_from_zero},
-      {words("slope-is-the-derivative", "The slope is the derivative of the ratio.", "slope = d(ratio)/d(slip)",
-             "its derivative [s/m]"),
-       Level::quick, slope_is_the_derivative}};
+  return {{friction_claim("never-drives", "Friction acts against the slip.", "ratio(|s|) >= 0", law), Level::quick,
+           never_drives},
+          {friction_claim("stays-inside-its-cone", "The tangential force is bounded by the normal force.",
+                          "|F_t| <= mu F_n", law),
+           Level::quick, stays_in_a_cone},
+          {friction_claim("starts-from-zero", "The force has no jump at rest.", "ratio(0) = 0", ratio), Level::quick,
+           starts_from_zero},
+          {friction_claim("slope-is-the-derivative", "The slope is the derivative of the ratio.",
+                          "slope = d(ratio)/d(slip)", "its derivative [s/m]"),
+           Level::quick, slope_is_the_derivative}};
 }
 
 Checks set_valued_friction_checks() {
-  return {{words("stays-inside-its-cone", "What slides is held no more than what rests.", "0 <= mu(|s|) <= mu_0",
-                 "mu(|s|) <= mu_0"),
-           Level::quick, holds_more_at_rest},
-          {words("never-drives", "Friction acts against the slip.", "mu(|s|) >= 0", "F_t = -mu(|s|) F_n s/|s|."),
-           Level::quick, sliding_never_drives},
-          {words("decides-by-a-speed", "There is a speed below which it sticks.", "0 <= stick speed < infinity",
-                 "sticks below this slip; 0: below round-off only, for `at_events`"),
-           Level::quick, decides_by_a_speed}};
+  return {
+      {friction_claim("stays-inside-its-cone", "What slides is held no more than what rests.", "0 <= mu(|s|) <= mu_0",
+                      "mu(|s|) <= mu_0"),
+       Level::quick, holds_more_at_rest},
+      {friction_claim("never-drives", "Friction acts against the slip.", "mu(|s|) >= 0", "F_t = -mu(|s|) F_n s/|s|."),
+       Level::quick, sliding_never_drives},
+      {friction_claim("decides-by-a-speed", "There is a speed below which it sticks.", "0 <= stick speed < infinity",
+                      "sticks below this slip; 0: below round-off only, for `at_events`"),
+       Level::quick, decides_by_a_speed}};
 }
 
 }  // namespace trammel::kit

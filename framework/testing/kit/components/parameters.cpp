@@ -17,11 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* header = "trammel/parameters.hpp";
-
-Words words(const char* name, const char* claim, const char* equation, const char* line) {
-  return {std::string("parameters.") + name, claim, equation, {header, line}};
-}
+constexpr ClaimsOf parameter_claim{"parameters.", "trammel/parameters.hpp"};
 
 // "" if the component runs with these parameters or refuses them with words of its own.
 std::string tried(const Subject& s, const Json& object, bool& refused) {
@@ -171,25 +167,26 @@ Checks parameter_checks() {
   const char* const declared = "A component's declaration: its name, its source in the literature and its parameters";
   const char* const range = "A value outside min..max is an error, outside usual_min..usual_max a warning.";
   return {
-      {words("are-declared-in-full", "Source, documentation and defaults are declared.", "min <= default <= max",
-             declared),
+      {parameter_claim("are-declared-in-full", "Source, documentation and defaults are declared.",
+                       "min <= default <= max", declared),
        Level::quick, are_declared_in_full},
-      {words("are-in-the-manual", "Manual and schema name every parameter.", "keys of the parser = keys of the manual",
-             "Parsing, range errors, suggestions of names, `trammel describe`, the JSON Schema and the manual are "
-             "derived "
-             "from the declaration."),
+      {parameter_claim(
+           "are-in-the-manual", "Manual and schema name every parameter.", "keys of the parser = keys of the manual",
+           "Parsing, range errors, suggestions of names, `trammel describe`, the JSON Schema and the manual are "
+           "derived "
+           "from the declaration."),
        Level::quick, are_in_the_manual, has_none},
-      {words("defaults-run", "The defaults run.", "|result| < infinity",
-             "The member gives the type, its initialiser the default."),
+      {parameter_claim("defaults-run", "The defaults run.", "|result| < infinity",
+                       "The member gives the type, its initialiser the default."),
        Level::quick, defaults_run},
-      {words("bounds-run", "The bounds of each range run or are refused.", "|result(min)|, |result(max)| < infinity",
-             range),
+      {parameter_claim("bounds-run", "The bounds of each range run or are refused.",
+                       "|result(min)|, |result(max)| < infinity", range),
        Level::quick, bounds_run, has_no_bounds},
-      {words("outside-is-refused", "A value outside its range is refused by its name.", "x < min or x > max: an error",
-             range),
+      {parameter_claim("outside-is-refused", "A value outside its range is refused by its name.",
+                       "x < min or x > max: an error", range),
        Level::quick, outside_is_refused, has_no_bounds},
-      {words("random-sets-run", "Random sets inside the ranges are finite or refused.",
-             "|result| < infinity, or ParameterError", range),
+      {parameter_claim("random-sets-run", "Random sets inside the ranges are finite or refused.",
+                       "|result| < infinity, or ParameterError", range),
        Level::quick, random_sets_run, has_none}};
 }
 

@@ -12,7 +12,7 @@ namespace trammel::kit {
 
 namespace {
 
-constexpr const char* header = "trammel/body.hpp";
+constexpr ClaimsOf refinement_claim{"body.refinement-", "trammel/body.hpp"};
 
 std::string does_not_refine(const Subject& s) {
   return s.offers<Refinable>() ? "" : "it does not offer Refinable";
@@ -134,28 +134,25 @@ Report resumes_refined(const Subject& s) {
   });
 }
 
-Words words(const char* name, const char* claim, const char* equation, const char* line) {
-  return {std::string("body.refinement-") + name, claim, equation, {header, line}};
-}
-
 }  // namespace
 
 Checks refinable_checks() {
   const char* const by_transfer = "The framework maps q and v by the transfer and solves for a and lambda again.";
   return {
-      {words("adds-coordinates", "A refined body has more coordinates.", "nv after > nv before",
-             "A body that may replace its coordinates during the run (mesh refinement)."),
+      {refinement_claim("adds-coordinates", "A refined body has more coordinates.", "nv after > nv before",
+                        "A body that may replace its coordinates during the run (mesh refinement)."),
        Level::quick, becomes_larger, never_due},
-      {words("keeps-the-energies", "A refinement changes no energy.", "T(q', v') = T(q, v), U(q') = U(q)", by_transfer),
+      {refinement_claim("keeps-the-energies", "A refinement changes no energy.", "T(q', v') = T(q, v), U(q') = U(q)",
+                        by_transfer),
        Level::quick, keeps_its_energies, never_due},
-      {words("keeps-the-momentum", "A refinement changes no mass and no momentum.", "P(q', v') = P(q, v)",
-             "Mass and momentum, for the balance before and after a refinement."),
+      {refinement_claim("keeps-the-momentum", "A refinement changes no mass and no momentum.", "P(q', v') = P(q, v)",
+                        "Mass and momentum, for the balance before and after a refinement."),
        Level::quick, keeps_its_momentum, tells_no_momentum},
-      {words("keeps-the-markers", "Markers keep their names, places and velocities.",
-             "x(q') = x(q), V(q', v') = V(q, v)",
-             "Markers keep their names and indices; Motion objects are created anew."),
+      {refinement_claim("keeps-the-markers", "Markers keep their names, places and velocities.",
+                        "x(q') = x(q), V(q', v') = V(q, v)",
+                        "Markers keep their names and indices; Motion objects are created anew."),
        Level::quick, keeps_its_markers, never_due},
-      {words(
+      {refinement_claim(
            "resumes", "The archive rebuilds the refined body.", "f(archive) = f",
            "The data that rebuild the refined coordinates when a run resumes; coordinates() is called after reading."),
        Level::quick, resumes_refined, never_due}};

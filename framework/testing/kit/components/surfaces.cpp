@@ -10,7 +10,7 @@ namespace trammel::kit {
 
 namespace {
 
-constexpr const char* header = "trammel/body.hpp";
+constexpr ClaimsOf surface_claim{"body.surface-", "trammel/body.hpp"};
 
 std::string has_no_surface(const Subject& s) {
   return s.offers<Surface>() ? "" : "it does not offer Surface";
@@ -115,25 +115,22 @@ Report has_a_thickness(const Subject& s) {
   });
 }
 
-Words words(const char* name, const char* claim, const char* equation, const char* line) {
-  return {std::string("body.surface-") + name, claim, equation, {header, line}};
-}
-
 }  // namespace
 
 Checks surface_checks() {
   const char* const nearest = "Nearest point on a body's surface, for contact.";
   return {
-      {words("normal-points-to-the-point", "The nearest point lies under the point, along the normal.",
-             "(x - p) x n = 0, |n| = 1", nearest),
+      {surface_claim("normal-points-to-the-point", "The nearest point lies under the point, along the normal.",
+                     "(x - p) x n = 0, |n| = 1", nearest),
        Level::quick, nearest_is_perpendicular, has_no_surface},
-      {words("nearest-is-nearest", "No point beside the nearest one is nearer.", "|x - p(u, v)| >= |x - p*|", nearest),
+      {surface_claim("nearest-is-nearest", "No point beside the nearest one is nearer.", "|x - p(u, v)| >= |x - p*|",
+                     nearest),
        Level::quick, nearest_is_nearest, has_no_surface},
-      {words("motion-is-that-of-the-point", "The motion at parameters (u, v) is that of the surface's point.",
-             "dx/dt = V = J v", "The point is given by surface parameters (u, v)."),
+      {surface_claim("motion-is-that-of-the-point", "The motion at parameters (u, v) is that of the surface's point.",
+                     "dx/dt = V = J v", "The point is given by surface parameters (u, v)."),
        Level::quick, motion_is_that_of_the_point, has_no_surface},
-      {words("has-a-thickness", "The faces lie on both sides of the surface.", "half thickness >= 0",
-             "Distance from this surface to the body's faces on both sides [m]."),
+      {surface_claim("has-a-thickness", "The faces lie on both sides of the surface.", "half thickness >= 0",
+                     "Distance from this surface to the body's faces on both sides [m]."),
        Level::quick, has_a_thickness, has_no_surface}};
 }
 
