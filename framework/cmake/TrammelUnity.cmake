@@ -8,13 +8,12 @@
 # What a unity build asks of sources: helpers in unnamed namespaces have names of their own within a room. Locals may have the
 # name of another source's helper, so -Wshadow, which would warn of that, is left to builds without unity.
 set(TRAMMEL_BATCH_SIZE 60000)  # [bytes] of sources
-set(TRAMMEL_HEAVY_ROOMS modes sdk system/contact_geometry)  # many templates a line: half as much
-
-set(TRAMMEL_ROOMS_APART study)  # whose sources have helpers of the same names
+# Many templates a line: half as much, so that no batch takes more than 20 s or 1 GB.
+set(TRAMMEL_HEAVY_ROOMS assumed_mode_beam modes sdk system/contact_geometry testing)
 
 # trammel_unity(TARGET ROOM SOURCE...): the sources, in their order, in batches that no other room is part of.
 function(trammel_unity target room)
-  if(NOT TRAMMEL_UNITY OR room IN_LIST TRAMMEL_ROOMS_APART)
+  if(NOT TRAMMEL_UNITY)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP

@@ -1,7 +1,6 @@
 #include <trammel/methods/linear_roots.hpp>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel {
 
@@ -13,15 +12,15 @@ std::array<std::complex<double>, 2> oscillator_eigenvalues(double Omega, double 
 // The three equations of AlphaMethod at n + 1 on the left, at n on the right; h^2 A = -Omega^2 q - 2 zeta Omega (h v).
 Roots alpha_roots(const AlphaMethod::Weights& w, double Omega, double zeta) {
   const double k = Omega * Omega, c = 2 * zeta * Omega;
-  Eigen::Matrix3d left, right;
+  Mat left(3, 3), right(3, 3);
   left << 1, 0, -w.beta,  //
       0, 1, -w.gamma,     //
       (1 - w.alpha_f) * k, (1 - w.alpha_f) * c, 1 - w.alpha_m;
   right << 1, 1, 0.5 - w.beta,  //
       0, 1, 1 - w.gamma,        //
       -w.alpha_f * k, -w.alpha_f * c, -w.alpha_m;
-  const Eigen::Vector3cd roots =
-      Eigen::EigenSolver<Eigen::Matrix3d>(left.partialPivLu().solve(right), false).eigenvalues();
+  const Mat A = Eigen::PartialPivLU<Mat>(left).solve(right);
+  const Eigen::VectorXcd roots = Eigen::EigenSolver<Mat>(A, false).eigenvalues();
   return {roots.begin(), roots.end()};
 }
 

@@ -9,7 +9,7 @@
 namespace trammel::study {
 namespace {
 
-using json = nlohmann::json;
+using json = nlohmann::ordered_json;
 
 json counts(const CaseCounts& n) {
   return {n.steps,     n.contact_steps,  n.rejected,          n.locating_steps, n.evaluations,

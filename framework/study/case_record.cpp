@@ -12,21 +12,20 @@
 namespace trammel::study {
 namespace {
 
-using json = nlohmann::json;
-
+using json = nlohmann::ordered_json;
 
 struct Count {
   const char* name;
   long long CaseCounts::*member;
 };
-constexpr Count counts[] = {{"steps", &CaseCounts::steps},
-                            {"rejected", &CaseCounts::rejected},
-                            {"evaluations", &CaseCounts::evaluations},
-                            {"jacobians", &CaseCounts::jacobians},
-                            {"factorizations", &CaseCounts::factorizations},
-                            {"newton_iterations", &CaseCounts::newton_iterations},
-                            {"events", &CaseCounts::events},
-                            {"impacts", &CaseCounts::impacts}};
+constexpr Count kCounts[] = {{"steps", &CaseCounts::steps},
+                             {"rejected", &CaseCounts::rejected},
+                             {"evaluations", &CaseCounts::evaluations},
+                             {"jacobians", &CaseCounts::jacobians},
+                             {"factorizations", &CaseCounts::factorizations},
+                             {"newton_iterations", &CaseCounts::newton_iterations},
+                             {"events", &CaseCounts::events},
+                             {"impacts", &CaseCounts::impacts}};
 
 std::string hex(std::uint64_t x) {
   return fmt::format("{:016x}", x);
@@ -66,7 +65,7 @@ CaseRecord record_of(const Study& study, std::size_t index, std::uint64_t key, c
 
 std::string to_line(const CaseRecord& r) {
   json numbers = json::array(), values = json::array();
-  for (const Count& c : counts) numbers.push_back(r.counts.*c.member);
+  for (const Count& c : kCounts) numbers.push_back(r.counts.*c.member);
   for (const double x : r.values) values.push_back(std::isfinite(x) ? json(x) : json());
   return json{{"case", r.index},    {"key", hex(r.key)},  {"scene_hash", hex(r.scene_hash)},
               {"status", r.status}, {"reason", r.reason}, {"values", values},
@@ -88,8 +87,8 @@ std::optional<CaseRecord> from_line(const std::string& line) {
                  j.at("t_end").get<double>(),
                  j.at("cpu").get<double>()};
     for (const json& x : j.at("values")) r.values.push_back(x.is_null() ? unknown : x.get<double>());
-    for (std::size_t k = 0; k < std::size(counts); ++k)
-      r.counts.*counts[k].member = j.at("counts").at(k).get<long long>();
+    for (std::size_t k = 0; k < std::size(kCounts); ++k)
+      r.counts.*kCounts[k].member = j.at("counts").at(k).get<long long>();
     return r;
   } catch (const std::exception&) {
     return std::nullopt;
@@ -101,14 +100,14 @@ std::string csv(const Study& study, const CaseRecords& records) {
   for (const std::string& path : study.paths()) text += "," + cell(path);
   for (const Reduction& one : study.reductions()) text += "," + cell(one.name);
   text += ",t_end";
-  for (const Count& c : counts) text += fmt::format(",{}", c.name);
+  for (const Count& c : kCounts) text += fmt::format(",{}", c.name);
   text += ",reason\n";
   for (const auto& [i, r] : records) {
     text += fmt::format("{},{},{}", i, hex(r.scene_hash), r.status);
     for (const std::string& value : study.values(i)) text += "," + cell(shown(value));
     for (const double x : r.values) text += std::isfinite(x) ? fmt::format(",{:.17g}", x) : ",nan";
     text += fmt::format(",{:.17g}", r.t_end);
-    for (const Count& c : counts) text += fmt::format(",{}", r.counts.*c.member);
+    for (const Count& c : kCounts) text += fmt::format(",{}", r.counts.*c.member);
     text += "," + cell(r.reason) + "\n";
   }
   return text;
@@ -146,7 +145,7 @@ void write_npz(const std::filesystem::path& file, const Study& study, const Case
   }
   for (std::size_t k = 0; k < study.reductions().size(); ++k)
     numbers(study.reductions()[k].name, [k](std::size_t, const CaseRecord& r) { return r.values.at(k); });
-  for (const Count& c : counts) {
+  for (const Count& c : kCounts) {
     std::vector<std::int64_t> all;
     for (const auto& [i, r] : records) all.push_back(r.counts.*c.member);
     npz.add(c.name, {n}, all);
