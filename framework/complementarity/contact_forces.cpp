@@ -25,7 +25,7 @@ constexpr double compliances[] = {1e-10, 0.0}, dependent_compliances[] = {1e-6, 
 // A violation that is round-off of A F, of 1e-4 of its shares: nothing better is looked for.
 constexpr double round_off = 1e-11;
 // Contacts whose modes are searched at most, and how many sets of modes.
-constexpr std::size_t few_contacts = 10, few_round_contacts = 4;
+constexpr std::size_t few_contacts = 24, few_round_contacts = 4;
 constexpr int most_nodes = 20000;
 
 class Cascade {

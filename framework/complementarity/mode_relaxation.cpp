@@ -18,6 +18,8 @@ using Kind = DecidedMode::Kind;
 constexpr double contradictory = 1e-8;
 // Cosine of a column with what equations miss that is round-off.
 constexpr double no_slope = 1e-9;
+// What is missed proves that there are no forces up to so many times those that make accelerations of the size of b.
+constexpr double excluded = 1e4;
 constexpr int sides = 8;  // of the polygon around the disk
 
 Vector2d direction(double angle) {
@@ -67,13 +69,15 @@ class Relaxation {
     return (product.array().abs() > 1e-12 * size.array()).select(product, 0.0);
   }
 
-  // By Farkas' lemma the rest r = d - B x proves it: d.r > 0, and no column has a component along r.
+  // By Farkas' lemma the rest r = d - B x proves it: d.r > 0, and no column has a component along r, or one so small
+  // that only forces without measure could make up for r.
   static RelaxedForces::Verdict verdict(const Mat& B, const Vec& d, const Vec& x, double missed) {
     if (missed <= contradictory) return RelaxedForces::Verdict::found;
     Vec rest = d - B * x;
     make_orthogonal(B, x, rest);
+    const double slope = std::min(no_slope, missed / excluded) * rest.norm();
     for (Index j = 0; j < B.cols(); ++j)
-      if (B.col(j).dot(rest) > no_slope * rest.norm() * B.col(j).norm()) return RelaxedForces::Verdict::doubtful;
+      if (B.col(j).dot(rest) > slope * B.col(j).norm()) return RelaxedForces::Verdict::doubtful;
     return RelaxedForces::Verdict::none;
   }
 
