@@ -93,6 +93,17 @@ void EventLocation::choose_sides(const std::vector<Watch>& before) {
   }
 }
 
+// Friction that holds exactly at its bound (equal blocks that brake as one) leaves no spare load, up to round-off: what
+// others lose then must not be hidden by it.
+void EventLocation::allow_for_critical_friction() {
+  for (std::size_t w = 0; w < watches_.size(); ++w) {
+    Watch& watch = watches_[w];
+    if (watch.kind != Kind::unload) continue;
+    const double more = std::max(0.0, 1e-9 * watch.bound - watch.little);
+    watch.little += more, now_[w].f += more;
+  }
+}
+
 bool EventLocation::watched_group(int group) const {
   return std::any_of(watches_.begin(), watches_.end(), [group](const Watch& w) { return w.group == group; });
 }
@@ -123,6 +134,7 @@ void EventLocation::restart(const State& now) {
   }
   next_.resize(watches_.size()), probe_.resize(watches_.size());
   evaluate(now, now_);
+  allow_for_critical_friction();
   choose_sides(before);
   for (Watch& watch : watches_) measure_slow(0, now, watch);
   for (std::size_t w = 0; w < watches_.size(); ++w) watches_[w].steepest = std::abs(now_[w].slope);

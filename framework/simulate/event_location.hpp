@@ -99,6 +99,7 @@ class EventLocation {
   bool watched_group(int group) const;
   void watch_friction(int contact, bool as_one);
   void watch_loads(int contact);
+  void allow_for_critical_friction();
   void choose_sides(const std::vector<Watch>& before);
   bool by_force(int w) const {
     const Kind kind = watches_[w].kind;
