@@ -29,7 +29,7 @@ void ContactModes::open_all(model::Modes& modes) const {
 void ContactModes::find_candidates(const ContactChanges& changes) {
   candidates_.clear();
   double scale = 0;
-  for (const TouchingContact& c : touching_) scale = std::max(scale, std::abs(c.before));
+  for (const TouchingContact& c : touching_) scale = std::max({scale, std::abs(c.before), c.slip_before.norm()});
   const double jump = 1e-9 * scale;  // [m/s] its round-off
   for (const TouchingContact& c : touching_) {
     const double at_rest = jump + scale_.of(c.contact).at_rest();
@@ -74,7 +74,8 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
   const bool was_closed = before.closed && before.friction != Friction::none;
   double at_rest = std::max(scale_.of(p.contact).at_rest(), entry.coulomb->stick_speed());
   if (jumped)
-    for (const TouchingContact& c : touching_) at_rest = std::max(at_rest, 1e-9 * std::abs(c.before));
+    for (const TouchingContact& c : touching_)
+      at_rest = std::max({at_rest, 1e-9 * std::abs(c.before), 1e-9 * c.slip_before.norm()});
   bool rests = speed <= at_rest;
   p.direction = direction_of(slip);
   if (was_closed && !jumped) {
@@ -184,7 +185,40 @@ complementarity::ContactSolution ContactModes::take_verdicts() {
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
   const std::vector<bool> kept_closed = problem_.kept_closed(nothing());
   for (std::size_t i = 0; i < problem_.who.size(); ++i) take_verdict(problem_.who[i], kept_closed[i]);
+  problem_.find_idle(modes_);
+  for (const Participant& p : problem_.who)  // no force, no friction
+    if (model::ContactMode& mode = modes_.contacts[p.contact]; p.idle && mode.friction == Friction::stick)
+      mode.friction = Friction::none;
   modes_.shared = problem_.shared_rows(modes_);
+  return solution;
+}
+
+bool ContactModes::in_balance(double violation) const {
+  const double none = std::max(nothing(), 10 * violation * largest_);
+  return std::any_of(problem_.who.begin(), problem_.who.end(), [&](const Participant& p) {
+    return p.unilateral && before_.contacts[p.contact].closed && !modes_.contacts[p.contact].closed && p.a_n <= none;
+  });
+}
+
+// Rule 11.
+complementarity::ContactSolution ContactModes::decide_by_what_follows(const State& state, ContactChanges changes) {
+  const Scale& scene = scale_.scene();
+  const double moment = scene.speed > 0 ? 1e-4 * scene.length() / scene.speed : 0;  // [s]
+  const model::Modes decided = modes_;
+  system_.set_modes(modes_);
+  system_.move_to(state.t, state.q, state.v);
+  system_.accelerate({}, a_, lambda_);
+  State later = state;
+  later.t += moment;
+  system_.retract(state.q, moment * state.v + 0.5 * moment * moment * a_, later.q);
+  later.v += moment * a_;
+  system_.move_to(later.t, later.q, later.v);
+  changes.released.clear();
+  find_candidates(changes);
+  complementarity::ContactSolution solution = decide(later, changes, false);
+  system_.move_to(state.t, state.q, state.v);
+  if (solution.outcome == complementarity::LcpOutcome::gave_up)
+    modes_ = decided, solution.outcome = complementarity::LcpOutcome::solved;
   return solution;
 }
 

@@ -77,12 +77,18 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
       solution = decide(state, others, jumped);
     }
   }
-  if (solution.outcome == LcpOutcome::no_solution && !jumped) {  // rule 8
+  if (solution.outcome == LcpOutcome::solved && !jumped && in_balance(solution.violation))
+    solution = decide_by_what_follows(state, changes);
+  if (solution.outcome == LcpOutcome::no_solution) {  // rule 8
+    system_.set_modes(before_);
+    system_.move_to(state.t, state.q, state.v);
+    if (jumped) {
+      tell_impacts(state.t, false, events);
+      find_touching({});
+    }
     jumped = without_collision = true;
     for (TouchingContact& c : touching_) c.without_collision = true, c.raised = changes.raised;
     for (TouchingContact& c : bearings_) c.without_collision = true;
-    system_.set_modes(before_);
-    system_.move_to(state.t, state.q, state.v);
     strike(state, changes);
     lock(state, changes, events);
     find_candidates(changes);
@@ -94,26 +100,31 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
     const bool struck = contains(changes.struck, c.contact);
     carry = carry || ((struck || contains(changes.released, c.contact)) &&
                       treatment(c.contact).restart == Restitution::Restart::carry);
+    if (struck || (!c.was_closed && c.impulse > 0)) modes_.contacts[c.contact].approach_speed = -c.before;
+  }
+  tell_impacts(state.t, without_collision, events);
+  finish(state, carry && state.a.size() == system_.sizes().nv);  // none yet at the start
+  for (const TouchingContact& c : touching_) tell_normal(state, c, events);
+  tell_friction(state, events);
+}
+
+void ContactModes::tell_impacts(double t, bool without_collision, std::vector<ContactEvent>& events) const {
+  for (const TouchingContact& c : touching_)
     if (c.impulse > 0 && (!c.was_closed || without_collision))
-      events.push_back({.t = state.t,
+      events.push_back({.t = t,
                         .contact = c.contact,
                         .impulse = c.impulse,
                         .approach = -c.before,
                         .separation = c.after,
                         .energy_lost = c.energy_lost(),
                         .friction = system_.along_tangents(c.contact, c.friction)});
-    if (struck || (!c.was_closed && c.impulse > 0)) modes_.contacts[c.contact].approach_speed = -c.before;
-  }
   for (const TouchingContact& c : bearings_)
     if (!c.friction.isZero(0))
-      events.push_back({.t = state.t,
+      events.push_back({.t = t,
                         .contact = c.contact,
                         .impulse = c.impulse,
                         .energy_lost = c.energy_lost(),
                         .friction = system_.along_tangents(c.contact, c.friction)});
-  finish(state, carry && state.a.size() == system_.sizes().nv);  // none yet at the start
-  for (const TouchingContact& c : touching_) tell_normal(state, c, events);
-  tell_friction(state, events);
 }
 
 void ContactModes::toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events) {
@@ -185,7 +196,7 @@ void ContactModes::strike(State& state, const ContactChanges& changes) {
     losses_.push_back({c.contact, c.energy_lost()});
     lost_elsewhere_ -= c.energy_lost();
   }
-  impact_warnings_.check(state.t, kinetic_before, all, impact_.cut_short());
+  impact_warnings_.check(state.t, kinetic_before, at_rest(all), all, impact_.cut_short());
 }
 
 // Rule 9.
@@ -259,6 +270,7 @@ double ContactModes::distance_from_critical(const State& state) {
   for (int i = 0; i < int(modes_.contacts.size()); ++i)
     if (modes_.contacts[i].closed && system_.model().contacts[i].restitution) candidates_.push_back(i);
   gather(state, {}, false);
+  for (Participant& p : problem_.who) p.idle = system_.sharing(p.contact).idle;
   problem_.prepare(system_);
   return problem_.distance_from_critical(before_);
 }

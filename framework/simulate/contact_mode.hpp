@@ -25,6 +25,9 @@
 //     from the forces sought, so the problem is solved in rounds (bearing_decision.cpp). In impacts they rub under the
 //     impulses of their reactions (bearing_impulses.hpp). A joint that locks itself while it slides has no finite
 //     forces: it jams by rule 8.
+// 11. Where a contact that was closed has neither force nor acceleration, and the others do not hold it (a stack below
+//     a ceiling that begins to tip), the problem of rule 3 a moment later tells which of them press then. If that has
+//     no solution, rule 8.
 // `rebound: constrained` makes candidates of contacts that separate at e u-, `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0, `onset: next_step` only changes when an event is seen.
 //
@@ -47,8 +50,8 @@
 //     slip: from rule 5 again.
 //  8. Where rigid contacts have no solution with finite forces (Painleve's rod), or these grow beyond all bounds as
 //     that state is approached, the slip stops or turns in an impact without collision: rule 1 with nothing
-//     approaching. If that has none, the run ends with a message; so do modes that contradict each other at one instant
-//     (Simulator).
+//     approaching; dependent contacts, of which none could part alone, yield a little in it. If that has none, the run
+//     ends with a message; so do modes that contradict each other at one instant (Simulator).
 // Degenerate cases: contact_forces.hpp. Where there are several solutions it is Lemke's, which looks first where no
 // force is.
 #pragma once
@@ -126,6 +129,7 @@ class ContactModes {
   using Friction = model::ContactMode::Friction;
   using Kind = ContactEvent::Kind;
 
+  void tell_impacts(double t, bool without_collision, std::vector<ContactEvent>& events) const;
   void toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events);
   void find_touching(const ContactChanges& changes);
   void find_bearings();
@@ -156,6 +160,8 @@ class ContactModes {
   bool end_drift(State& state, ContactChanges& changes);
   [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped);
   [[nodiscard]] complementarity::ContactSolution take_verdicts();
+  bool in_balance(double violation) const;
+  [[nodiscard]] complementarity::ContactSolution decide_by_what_follows(const State& state, ContactChanges changes);
   // Of joints that rub (bearing_decision.cpp).
   bool has_bearings() const;
   [[nodiscard]] complementarity::ContactSolution decide_with_bearings(const State& state);

@@ -175,6 +175,10 @@ bool Simulator::advance(RecordSink& recorder) {
     accept(h, h < proposal.h, proposal, error);
     record_inside(recorder);
     if (found == EventLocation::Found::event) {
+      if (passes_infinity(location_.changes())) {
+        jam(recorder, h);
+        return true;
+      }
       settle(location_.changes());
       const int contact = events_.empty() ? -1 : events_.back().contact;
       write_events(recorder);  // now: a checkpoint may follow
@@ -211,6 +215,15 @@ bool Simulator::near_critical_state() {
   const double distance = modes_.distance_from_critical(now_);
   raised_ = beyond * distance;
   return distance < near;
+}
+
+// A force changes its sign there by way of infinity, which looks like a release.
+bool Simulator::passes_infinity(const ContactChanges& changes) {
+  const auto slides = [](const model::ContactMode& m) {
+    return m.closed && m.friction == model::ContactMode::Friction::slide;
+  };
+  const std::vector<model::ContactMode>& contacts = system_.modes().contacts;
+  return !changes.released.empty() && std::any_of(contacts.begin(), contacts.end(), slides) && near_critical_state();
 }
 
 // What locks itself as it slides comes to rest where it is.

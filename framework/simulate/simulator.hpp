@@ -90,6 +90,7 @@ class Simulator {
   bool step_and_examine(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
   bool locks_here();
   bool near_critical_state();
+  bool passes_infinity(const ContactChanges& changes);
   void jam(RecordSink& recorder, double h);
   void look_at_theories();
   void refuse(const StepControl::Proposal& proposal, const char* reason);

@@ -1,5 +1,6 @@
 #include "simulate/contact/contact_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "complementarity/exact_modes.hpp"
@@ -41,7 +42,7 @@ void ContactProblem::prepare(model::AssembledSystem& system) {
   system.impulse_response(directions_, jump_, delassus_);
 }
 
-complementarity::ContactSolution ContactProblem::solve_once(double nothing) {
+complementarity::ContactSolution ContactProblem::solve_once(const Mat& A, double nothing) {
   for (std::size_t i = 0; i < who.size(); ++i) {
     const Participant& p = who[i];
     complementarity::ContactPoint& point = points_[i];
@@ -51,7 +52,17 @@ complementarity::ContactSolution ContactProblem::solve_once(double nothing) {
     else if (p.tangent == Participant::Tangent::sliding)
       point.kind = complementarity::ContactPoint::Tangent::sliding, point.ratio = p.ratio;
   }
-  return complementarity::solve_contacts(points_, delassus_, b_, F_, a_, nothing);
+  return complementarity::solve_contacts(points_, A, b_, F_, a_, nothing);
+}
+
+// Contacts that depend on each other, as a stack between floor and ceiling, cannot all part again. They yield: to the
+// impulses that end a slip by a thousandth of what they approach, so that no slip outlasts the approach.
+Mat ContactProblem::yielding() const {
+  double approach = 0;
+  for (const Participant& p : who) approach = std::max(approach, p.vanishing);
+  Mat A = delassus_;
+  A.diagonal() *= 1 + 1e-3 * approach / b_.lpNorm<Eigen::Infinity>();
+  return A;
 }
 
 complementarity::ContactSolution ContactProblem::solve(double nothing) {
@@ -64,7 +75,9 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
   for (const Pushed& p : pushed_) b_ += push(p) * delassus_.col(p.direction);
   complementarity::ContactSolution solution;
   for (bool settled = false; !settled;) {
-    solution = solve_once(nothing);
+    solution = solve_once(delassus_, nothing);
+    const bool approach = std::any_of(who.begin(), who.end(), [](const Participant& p) { return p.vanishing > 0; });
+    if (solution.outcome != complementarity::LcpOutcome::solved && approach) solution = solve_once(yielding(), nothing);
     if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
     settled = true;
     for (std::size_t i = 0; i < who.size(); ++i) {
@@ -104,6 +117,7 @@ std::vector<complementarity::ContactRole> ContactProblem::roles(const model::Mod
     const model::ContactMode& mode = modes.contacts[std::size_t(p.contact)];
     complementarity::ContactRole& role = roles.emplace_back();
     role.closed = mode.closed;
+    role.idle = p.idle;
     const bool slides = mode.friction == Friction::slide || p.tangent == Participant::Tangent::sliding;
     if (mode.closed && mode.friction == Friction::stick) role.tangent = Tangent::sticks;
     if (mode.closed && p.unilateral && slides) role.tangent = Tangent::slides;
@@ -126,14 +140,19 @@ std::vector<bool> ContactProblem::kept_closed(double nothing) const {
   return kept;
 }
 
+void ContactProblem::find_idle(const model::Modes& modes) {
+  const std::vector<complementarity::ContactRole> role = roles(modes);
+  const complementarity::CarryingRows carrying = complementarity::carrying_rows(points_, delassus_, role);
+  double largest = 0;
+  for (const Participant& p : who) largest = std::max(largest, p.N);
+  const double none = complementarity::largest_violation * largest;
+  for (std::size_t i = 0; i < who.size() && carrying.sliding_shares; ++i)
+    who[i].idle = role[i].closed && who[i].unilateral && carrying.indeterminate[i] && who[i].N <= none;
+}
+
 std::vector<model::SharedRows> ContactProblem::shared_rows(const model::Modes& modes) const {
-  std::vector<complementarity::ContactRole> role = roles(modes);
-  complementarity::CarryingRows carrying = complementarity::carrying_rows(points_, delassus_, role);
-  if (carrying.sliding_shares) {
-    for (std::size_t i = 0; i < who.size(); ++i)
-      role[i].idle = role[i].closed && who[i].unilateral && carrying.indeterminate[i] && who[i].N == 0;
-    carrying = complementarity::carrying_rows(points_, delassus_, role);
-  }
+  const std::vector<complementarity::ContactRole> role = roles(modes);
+  const complementarity::CarryingRows carrying = complementarity::carrying_rows(points_, delassus_, role);
   const auto directions = [this](const std::vector<Eigen::Index>& rows) {
     std::vector<model::ContactDirection> all;
     for (const Eigen::Index row : rows) all.push_back(directions_[std::size_t(row)]);

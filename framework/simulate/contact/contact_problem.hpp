@@ -33,6 +33,7 @@ struct Participant {
 
   // Found: force [N] or impulse [N s], and acceleration or velocity, along normal and tangents.
   double N = 0, a_n = 0;
+  bool idle = false;  // closed without a force, beside dependent ones that slide
   Tangential T = Tangential::Zero(), a_t = Tangential::Zero();
 };
 
@@ -59,7 +60,9 @@ class ContactProblem {
   // In these modes: the least pivot of the equations of their forces, of that which they have without friction of what
   // slides.
   double distance_from_critical(const model::Modes& modes) const;
-  // Once their modes are decided: which of those that are closed depend on each other, and how they share.
+  // Once their modes are decided: which are idle, and which of those that are closed depend on each other, and how they
+  // share.
+  void find_idle(const model::Modes& modes);
   std::vector<model::SharedRows> shared_rows(const model::Modes& modes) const;
 
  private:
@@ -68,7 +71,8 @@ class ContactProblem {
     std::size_t who;
     Eigen::Index direction;
   };
-  complementarity::ContactSolution solve_once(double nothing);
+  complementarity::ContactSolution solve_once(const Mat& A, double nothing);
+  Mat yielding() const;  // the Delassus matrix of contacts that are not quite rigid
   double push(const Pushed& p) const { return who[p.who].ratio[0] * who[p.who].given; }  // [N]
   [[nodiscard]] bool let_approaches_vanish();
   std::vector<complementarity::ContactRole> roles(const model::Modes& modes) const;

@@ -23,11 +23,15 @@ double work_at_most(const TouchingContact& c) {
 
 }  // namespace
 
-void ImpactWarnings::check(double t, double kinetic, const std::vector<TouchingContact>& touching, bool cut_short) {
+void ImpactWarnings::check(double t, double kinetic, double at_rest, const std::vector<TouchingContact>& touching,
+                           bool cut_short) {
   if (cut_short && cut_short_++ == 0) first_cut_ = t;
-  double gain = 0, most = 0;
-  for (const TouchingContact& c : touching) gain -= c.energy_lost(), most += work_at_most(c);
-  if (!(gain > round_off * most && gain > std::numeric_limits<double>::epsilon() * kinetic)) return;
+  double gain = 0, most = 0, of_rest = 0;
+  for (const TouchingContact& c : touching) {
+    gain -= c.energy_lost(), most += work_at_most(c);
+    of_rest += (std::abs(c.impulse) + c.friction.norm()) * at_rest;
+  }
+  if (!(gain > round_off * most + of_rest && gain > std::numeric_limits<double>::epsilon() * kinetic)) return;
   ++gains_;
   total_ += gain;
   if (gain <= largest_) return;

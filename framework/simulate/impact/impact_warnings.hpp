@@ -18,8 +18,8 @@ namespace trammel::simulate {
 
 class ImpactWarnings {
  public:
-  // After an impact at t; `kinetic` [J] before it.
-  void check(double t, double kinetic, const std::vector<TouchingContact>& touching, bool cut_short);
+  // After an impact at t; `kinetic` [J] before it. Slower than `at_rest` is no motion that could give work.
+  void check(double t, double kinetic, double at_rest, const std::vector<TouchingContact>& touching, bool cut_short);
   std::vector<std::string> lines(const model::Model& model) const;
   void archive(Archive& a, std::size_t contacts);
 

@@ -234,5 +234,98 @@ TEST(BlockInAChannel, StopsAtAllCornersTogether) {
   EXPECT_GT(stopped, 50);
 }
 
+// Blocks on each other that slide apart below a ceiling without clearance. One that slides off the middle of those
+// below makes them tip: the ceiling holds the stack, whose friction then slows it more and more, or locks it at once.
+json stack_in_a_channel(int blocks, double mu, std::mt19937& random) {
+  const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+  const double w = any(0.3, 1), h = any(0.2, 0.5);
+  json s = {{"trammel", 1},
+            {"space", "planar"},
+            {"gravity", {0, -10}},
+            {"simulate", {{"until", 0.5}}},
+            {"record", {{"every", 0.025}, {"observe", json::object()}}}};
+  const auto touch = [&](const std::string& name, const std::string& marker, const json& plane) {
+    s["contacts"][name] = contact(marker, plane, mu);
+    s["record"]["observe"][name] = fmt::format("contacts.{}.force", name);
+  };
+  for (int i = 0; i < blocks; ++i) {
+    const std::string b = fmt::format("b{}", i);
+    const double m = any(0.5, 2);
+    s["bodies"][b] = {{"type", "rigid_body"},
+                      {"mass", m},
+                      {"inertia", m * (w * w + h * h) / 12},
+                      {"position", {0, (i + 0.5) * h}},
+                      {"velocity", {any(-2, 2), 0}},
+                      {"markers",
+                       {{"l", {-w / 2, -h / 2}},
+                        {"r", {w / 2, -h / 2}},
+                        {"tl", {-w / 2, h / 2}},
+                        {"tr", {w / 2, h / 2}},
+                        {"top", {0, h / 2}}}}};
+    json plane = {{"point", {0, 0}}, {"normal", {0, 1}}};
+    if (i > 0) plane["on"] = fmt::format("b{}.top", i - 1);
+    for (const char* side : {"l", "r"}) touch(fmt::format("{}{}", side, i), fmt::format("{}.{}", b, side), plane);
+  }
+  for (const char* corner : {"tl", "tr"})
+    touch(corner, fmt::format("b{}.{}", blocks - 1, corner), {{"point", {0, blocks * h}}, {"normal", {0, -1}}});
+  return s;
+}
+
+// Legs at random places on a floor. Three would carry; the others share, and a leg is closed without a force where a
+// spring in its place would pull.
+json sliding_table(int legs, double mu, std::mt19937& random) {
+  const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+  const double m = any(0.5, 5), h = any(0.1, 0.8);
+  json s = {{"trammel", 1},
+            {"space", "spatial"},
+            {"gravity", {0, 0, -9.81}},
+            {"simulate", {{"until", 1.5}}},
+            {"record", {{"every", 0.05}}}};
+  json markers;
+  for (int i = 0; i < legs; ++i) {
+    const double angle = 2 * std::numbers::pi * i / legs + any(-0.2, 0.2), radius = any(0.5, 1);
+    const std::string foot = fmt::format("f{}", i);
+    markers[foot] = {radius * std::cos(angle), radius * std::sin(angle), -h};
+    s["contacts"][foot] = contact("table." + foot, {{"point", {0, 0, 0}}, {"normal", {0, 0, 1}}}, mu);
+  }
+  s["bodies"]["table"] = {{"type", "rigid_body"},
+                          {"mass", m},
+                          {"inertia", {0.3 * m, 0.3 * m, 0.5 * m}},
+                          {"position", {0, 0, h}},
+                          {"velocity", {any(-2, 2), any(-2, 2), 0}},
+                          {"angular_velocity", {0, 0, any(-4, 4)}},
+                          {"markers", markers}};
+  return s;
+}
+
+TEST(TableOfManyLegs, SlidesAndSpinsByForcesThatContactsHave) {
+  std::mt19937 random(28);
+  for (int i = 0; i < 45; ++i) {
+    const Finished run =
+        run_text(sliding_table(std::vector{4, 6, 8}[i % 3], std::vector{0.1, 0.3, 0.6}[i / 3 % 3], random).dump());
+    SCOPED_TRACE(i);
+    expect_trusted(run);
+  }
+}
+
+TEST(StackInAChannel, SlowsDownByForcesThatContactsHave) {
+  std::mt19937 random(27);
+  int held_by_the_ceiling = 0;
+  for (int i = 0; i < 60; ++i) {
+    const int blocks = 1 + i % 3;
+    const Finished run = run_text(stack_in_a_channel(blocks, std::vector{0.1, 0.2, 0.3, 0.5}[i % 4], random).dump());
+    SCOPED_TRACE(i);
+    expect_trusted(run);
+    const std::vector<double>&kinetic = run.series.at("energy_kinetic"), &potential = run.series.at("energy_potential");
+    for (std::size_t k = 1; k < kinetic.size(); ++k)
+      EXPECT_LE(kinetic[k] + potential[k], kinetic[k - 1] + potential[k - 1] + 1e-9 * kinetic[0]) << k;
+    double ceiling = 0;
+    for (const char* corner : {"tl", "tr"})
+      for (const double N : run.series.at(corner)) ceiling = std::max(ceiling, N);
+    held_by_the_ceiling += ceiling > 0.01;
+  }
+  EXPECT_GT(held_by_the_ceiling, 0);
+}
+
 }  // namespace
 }  // namespace trammel::test

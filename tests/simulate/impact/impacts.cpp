@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "../routh.hpp"
-#include "support/run_scene.hpp"
 #include "simulate/impact/impact_warnings.hpp"
+#include "support/run_scene.hpp"
 
 namespace trammel::test {
 namespace {
@@ -176,13 +176,25 @@ TEST(ImpactWarnings, CountManyGainsInOneLine) {
   loses.before = -1, loses.after = 1;
   for (int i = 1; i <= 10000; ++i) {
     gains.impulse = i == 7 ? 4 : 2;
-    warnings.check(0.1 * i, 5, {gains}, false);
-    warnings.check(0.1 * i, 5, {loses}, false);
+    warnings.check(0.1 * i, 5, 1e-12, {gains}, false);
+    warnings.check(0.1 * i, 5, 1e-12, {loses}, false);
   }
   const std::vector<std::string> lines = warnings.lines(model);
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_THAT(lines[0], HasSubstr("10000 impacts created energy: 2.5e+03 J in all"));
   EXPECT_THAT(lines[0], HasSubstr("the largest 0.5 J, 10 % of the kinetic energy at t = 0.7 s through tip"));
+}
+
+// Of contacts that all but rest: their rates, and the work of impulses along them, are round-off.
+TEST(ImpactWarnings, AreSilentOnRatesThatAreRoundOff) {
+  model::Model model;
+  model.contacts.resize(1);
+  simulate::ImpactWarnings warnings;
+  simulate::TouchingContact knocks;
+  knocks.impulse = 1e-11;
+  knocks.before = -3e-13, knocks.after = 4e-13;
+  warnings.check(0.1, 1e-24, 1e-12, {knocks}, false);
+  EXPECT_TRUE(warnings.lines(model).empty());
 }
 
 }  // namespace
