@@ -112,12 +112,13 @@ Mat SharedRowsAtPoint::moved_with_sliding(int group) {
   Mat jump, A;
   evaluate_rows();
   response_.respond(all, jump, A);
-  Mat moved(jump.rows(), members + Index(sliding.size()));
-  moved.leftCols(members) = jump.leftCols(members);
+  // Accelerations along the directions themselves: those of coordinates have units of their own.
+  Mat moved(A.rows(), members + Index(sliding.size()));
+  moved.leftCols(members) = A.leftCols(members);
   Index column = members, from = members;
   for (const int contact : sliding) {
     const Index n = contacts_.tangents(contact);
-    moved.col(column++) = jump.col(from) + jump.middleCols(from + 1, n) * contacts_.friction_ratio(contact).head(n);
+    moved.col(column++) = A.col(from) + A.middleCols(from + 1, n) * contacts_.friction_ratio(contact).head(n);
     from += 1 + n;
   }
   return complementarity::independent_rows(moved);
