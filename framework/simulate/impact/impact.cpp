@@ -32,7 +32,12 @@ complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, c
   }
   problem_.prepare(system);
   bearings_.prepare(system, state, problem_.who);
-  const complementarity::ContactSolution solution = bearings_.solve(problem_, at_rest, from);
+  complementarity::ContactSolution solution = bearings_.solve(problem_, at_rest, from);
+  // What the steps left of the rates of closed contacts is kept, unless rates of dependent contacts then contradict
+  // each other: a stack that touches floor and ceiling.
+  const bool ends_drift = solution.outcome == complementarity::LcpOutcome::no_solution;
+  for (std::size_t i = 0; i < touching.size() && ends_drift; ++i) problem_.who[i].a_n = touching[i].before;
+  if (ends_drift) solution = bearings_.solve(problem_, at_rest, from);
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
   problem_.jump(dv);
   for (std::size_t i = 0; i < touching.size(); ++i) {
@@ -42,6 +47,8 @@ complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, c
     // From the complementarity itself where the impulse acts: -e u- exactly, without the round-off of D L.
     if (system.model().contacts[c.contact].joint)
       c.after = c.before;
+    else if (c.was_closed && ends_drift)
+      c.after = p.N > 0 ? 0 : p.a_n;
     else if (c.impulse > 0)
       c.after = c.was_closed ? c.before : -c.restitution * c.before;
     else
