@@ -183,7 +183,7 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
 complementarity::ContactSolution ContactModes::take_verdicts() {
   const complementarity::ContactSolution solution = problem_.solve(nothing());
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
-  const std::vector<bool> kept_closed = problem_.kept_closed(nothing());
+  const std::vector<bool> kept_closed = problem_.kept_closed(nothing(solution.violation));
   for (std::size_t i = 0; i < problem_.who.size(); ++i) take_verdict(problem_.who[i], kept_closed[i]);
   problem_.find_idle(modes_);
   for (const Participant& p : problem_.who)  // no force, no friction
@@ -193,19 +193,30 @@ complementarity::ContactSolution ContactModes::take_verdicts() {
   return solution;
 }
 
+double ContactModes::nothing(double violation) const {
+  return std::max(nothing(), 10 * violation * largest_);
+}
+
+// Rule 11, of a solution found up to `violation`.
 bool ContactModes::in_balance(double violation) const {
-  const double none = std::max(nothing(), 10 * violation * largest_);
+  double largest = 0;
+  for (const Participant& p : problem_.who) largest = std::max(largest, p.N);
   return std::any_of(problem_.who.begin(), problem_.who.end(), [&](const Participant& p) {
-    return p.unilateral && before_.contacts[p.contact].closed && !modes_.contacts[p.contact].closed && p.a_n <= none;
+    const bool opens = before_.contacts[p.contact].closed && !modes_.contacts[p.contact].closed;
+    const bool just_presses = p.N > 0 && p.N <= 10 * violation * largest;
+    return p.unilateral && (just_presses || (opens && p.a_n <= nothing(violation)));
   });
 }
 
 // Rule 11.
-complementarity::ContactSolution ContactModes::decide_by_what_follows(const State& state, ContactChanges changes) {
+complementarity::ContactSolution ContactModes::decide_by_what_follows(const State& state, ContactChanges changes,
+                                                                      bool jumped,
+                                                                      complementarity::ContactSolution so_far) {
+  using complementarity::LcpOutcome;
   const Scale& scene = scale_.scene();
   const double moment = scene.speed > 0 ? 1e-4 * scene.length() / scene.speed : 0;  // [s]
   const model::Modes decided = modes_;
-  system_.set_modes(modes_);
+  system_.set_modes(so_far.outcome == LcpOutcome::solved ? modes_ : before_);
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
   State later = state;
@@ -215,11 +226,11 @@ complementarity::ContactSolution ContactModes::decide_by_what_follows(const Stat
   system_.move_to(later.t, later.q, later.v);
   changes.released.clear();
   find_candidates(changes);
-  complementarity::ContactSolution solution = decide(later, changes, false);
+  const complementarity::ContactSolution solution = decide(later, changes, jumped);
   system_.move_to(state.t, state.q, state.v);
-  if (solution.outcome == complementarity::LcpOutcome::gave_up)
-    modes_ = decided, solution.outcome = complementarity::LcpOutcome::solved;
-  return solution;
+  if (solution.outcome != LcpOutcome::gave_up) return solution;
+  modes_ = decided;
+  return so_far;
 }
 
 // Accelerations without the forces sought, and the forces given.

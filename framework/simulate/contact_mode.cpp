@@ -77,8 +77,9 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
       solution = decide(state, others, jumped);
     }
   }
-  if (solution.outcome == LcpOutcome::solved && !jumped && in_balance(solution.violation))
-    solution = decide_by_what_follows(state, changes);
+  const bool undecided = solution.outcome == LcpOutcome::gave_up ||
+                         (solution.outcome == LcpOutcome::solved && in_balance(solution.violation));
+  if (undecided) solution = decide_by_what_follows(state, changes, jumped, solution);
   if (solution.outcome == LcpOutcome::no_solution) {  // rule 8
     system_.set_modes(before_);
     system_.move_to(state.t, state.q, state.v);

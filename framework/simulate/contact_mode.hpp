@@ -26,8 +26,8 @@
 //     impulses of their reactions (bearing_impulses.hpp). A joint that locks itself while it slides has no finite
 //     forces: it jams by rule 8.
 // 11. Where a contact that was closed has neither force nor acceleration, and the others do not hold it (a stack below
-//     a ceiling that begins to tip), the problem of rule 3 a moment later tells which of them press then. If that has
-//     no solution, rule 8.
+//     a ceiling that begins to tip), or where no solution is found to round-off, the problem of rule 3 a moment later
+//     tells which of them press then. If that has no solution, rule 8.
 // `rebound: constrained` makes candidates of contacts that separate at e u-, `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0, `onset: next_step` only changes when an event is seen.
 //
@@ -109,7 +109,8 @@ class ContactModes {
   ImpactWarnings& impact_warnings() { return impact_warnings_; }
   const ImpactWarnings& impact_warnings() const { return impact_warnings_; }
 
-  double nothing() const;  // [m/s^2] less is no acceleration
+  double nothing() const;                  // [m/s^2] less is no acceleration
+  double nothing(double violation) const;  // of a solution found up to that
   // How near the forces of contacts that slide are to having no solution: the least pivot of their equations, of that
   // without friction; 0 at Painleve's critical state, 1 far from it.
   double distance_from_critical(const State& state);
@@ -161,7 +162,9 @@ class ContactModes {
   [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped);
   [[nodiscard]] complementarity::ContactSolution take_verdicts();
   bool in_balance(double violation) const;
-  [[nodiscard]] complementarity::ContactSolution decide_by_what_follows(const State& state, ContactChanges changes);
+  [[nodiscard]] complementarity::ContactSolution decide_by_what_follows(const State& state, ContactChanges changes,
+                                                                        bool jumped,
+                                                                        complementarity::ContactSolution so_far);
   // Of joints that rub (bearing_decision.cpp).
   bool has_bearings() const;
   [[nodiscard]] complementarity::ContactSolution decide_with_bearings(const State& state);

@@ -236,14 +236,15 @@ TEST(BlockInAChannel, StopsAtAllCornersTogether) {
 
 // Blocks on each other that slide apart below a ceiling without clearance. One that slides off the middle of those
 // below makes them tip: the ceiling holds the stack, whose friction then slows it more and more, or locks it at once.
-json stack_in_a_channel(int blocks, double mu, std::mt19937& random) {
+// `length` [m] of its unit; gravity stays, so speeds and times go with its root.
+json stack_in_a_channel(int blocks, double mu, std::mt19937& random, double length = 1) {
   const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
-  const double w = any(0.3, 1), h = any(0.2, 0.5);
+  const double w = any(0.3, 1) * length, h = any(0.2, 0.5) * length, time = std::sqrt(length);
   json s = {{"trammel", 1},
             {"space", "planar"},
             {"gravity", {0, -10}},
-            {"simulate", {{"until", 0.5}}},
-            {"record", {{"every", 0.025}, {"observe", json::object()}}}};
+            {"simulate", {{"until", 0.5 * time}}},
+            {"record", {{"every", 0.025 * time}, {"observe", json::object()}}}};
   const auto touch = [&](const std::string& name, const std::string& marker, const json& plane) {
     s["contacts"][name] = contact(marker, plane, mu);
     s["record"]["observe"][name] = fmt::format("contacts.{}.force", name);
@@ -255,7 +256,7 @@ json stack_in_a_channel(int blocks, double mu, std::mt19937& random) {
                       {"mass", m},
                       {"inertia", m * (w * w + h * h) / 12},
                       {"position", {0, (i + 0.5) * h}},
-                      {"velocity", {any(-2, 2), 0}},
+                      {"velocity", {any(-2, 2) * length / time, 0}},
                       {"markers",
                        {{"l", {-w / 2, -h / 2}},
                         {"r", {w / 2, -h / 2}},
@@ -325,6 +326,28 @@ TEST(StackInAChannel, SlowsDownByForcesThatContactsHave) {
     held_by_the_ceiling += ceiling > 0.01;
   }
   EXPECT_GT(held_by_the_ceiling, 0);
+}
+
+// Errors of 1e-9 a step, grown where forces pass from one contact to the other.
+TEST(StackInAChannel, OfAnySizeSlowsDownAlike) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const auto kinetic = [seed](double length) {
+      std::mt19937 random(seed);
+      const Finished run =
+          run_text(stack_in_a_channel(1 + int(seed) % 3, std::vector{0.1, 0.2, 0.3}[seed % 3], random, length).dump());
+      expect_trusted(run);
+      std::vector<double> energies = run.series.at("energy_kinetic");
+      for (double& energy : energies) energy /= length;
+      return energies;
+    };
+    const std::vector<double> here = kinetic(1);
+    for (const double length : {1e-3, 1e3}) {
+      const std::vector<double> there = kinetic(length);
+      ASSERT_EQ(there.size(), here.size());
+      for (std::size_t i = 0; i < here.size(); ++i)
+        EXPECT_NEAR(there[i], here[i], 1e-6 * here[0]) << "seed " << seed << ", length " << length << ", row " << i;
+    }
+  }
 }
 
 }  // namespace
