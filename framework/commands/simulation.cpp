@@ -281,7 +281,7 @@ class Run {
         {status, reason, cost(), options_.resume, options_.command},
         [&](const Outcomes& outcomes) { return result_json(scene_, setup_, *simulator_, outcomes); },
         [&](const Outcomes& outcomes) { return summary(scene_, setup_, *simulator_, outcomes, options_.out); });
-    report_.t = simulator_->state().t, report_.cpu = cost().cpu;
+    report_.t = simulator_->state().t, report_.cpu = cost().cpu, report_.last_good = simulator_->last_good();
   }
 
   const scene::Scene& scene_;

@@ -3,8 +3,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <trammel/integrator.hpp>
 
 #include "plugin/registry.hpp"
 #include "run/interrupt.hpp"
@@ -36,9 +39,10 @@ enum class Status { done, failed, interrupted };
 
 struct RunReport {
   Status status = Status::done;
-  std::string reason;       // why it failed: time, step and cause
-  double t = 0, cpu = 0;    // [s] reached; of CPU time
-  std::string result_json;  // as written to out/result.json
+  std::string reason;              // why it failed: time, step and cause
+  double t = 0, cpu = 0;           // [s] reached; of CPU time
+  std::optional<State> last_good;  // Simulator::last_good
+  std::string result_json;         // as written to out/result.json
   std::string summary;  // a few lines for a person: what was simulated, impacts, energy by cause, norms, cost, where
 };
 

@@ -19,6 +19,7 @@ namespace trammel::simulate {
 namespace {
 
 constexpr std::size_t most_warnings = 20;
+constexpr double unexplained = 0.05;  // of the energy that moved: more without a cause is said
 
 int error_order(Integrator& integrator) {
   const auto* estimate = dynamic_cast<const ErrorEstimate*>(&integrator);
@@ -138,12 +139,13 @@ void Simulator::judge_energy() {
   if (!std::isfinite(drift)) find_culprit(0);
   const bool runs_away = !(drift < 1e3) && (last_row_ || !(drift < drift_before_));
   drift_before_ = std::max(drift, 1e3);
+  if (drift <= unexplained) last_good_ = now_;
   if (runs_away)
     throw RunFailed(fmt::format(
         "at t = {:.9g} s, step {}: the solution diverged: its energy changed by {:.3g} J that no force supplied or "
         "took, {:.3g} times what moved. The step may be too long for the method",
         now_.t, statistics_.steps, energy_drift(), drift));
-  if (last_row_ && drift > 0.05)
+  if (last_row_ && drift > unexplained)
     warnings_.push_back(fmt::format(
         "the method itself changed the energy by {:.3g} J, {:.2g} times all that moved; shorter steps change less",
         energy_drift(), drift));
@@ -415,6 +417,7 @@ void Simulator::record_inside(RecordSink& recorder) {
     take_moved(system_.energy(), totals);
     judge_joints(inside_);
     ++records_;
+    last_good_ = now_;
   }
 }
 

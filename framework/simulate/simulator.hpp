@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,8 @@ class Simulator {
   bool advance(RecordSink& recorder);
 
   const State& state() const { return now_; }
+  // Where a row was written last and the energy had its causes; none: nowhere yet.
+  const std::optional<State>& last_good() const { return last_good_; }
   const Settings& settings() const { return settings_; }
   model::AssembledSystem& system() { return system_; }
   const Statistics& statistics() const { return statistics_; }
@@ -131,6 +134,7 @@ class Simulator {
   Statistics statistics_;
 
   State now_, next_, inside_, uncorrected_;
+  std::optional<State> last_good_;
   bool in_contact_ = false;
   double step_limit_ = std::numeric_limits<double>::infinity();  // [s] ContactModes::step_limit
   double drift_before_ = 1e3;  // relative_drift at the last record, or 1e3 if it was less

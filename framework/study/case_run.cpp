@@ -4,6 +4,7 @@
 
 #include <new>
 #include <optional>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -42,6 +43,7 @@ class CaseRun {
 
  private:
   void simulate(SeriesSink& sink) {
+    if (options_.start) start_at(*options_.start);
     std::vector<simulate::Simulator::LevelCorrection> corrections;
     for (const auto& c : setup_.corrections) corrections.push_back({c.level, c.correction.get(), &c.origin});
     simulate::Simulator simulator(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
@@ -61,6 +63,14 @@ class CaseRun {
       fail({t, step, fmt::format("at t = {:.9g} s, step {}: ", t, step), simulator.system().last_call()});
     }
     collect(simulator);
+  }
+
+  void start_at(const State& state) {
+    State& initial = setup_.initial;
+    if (state.q.size() != initial.q.size() || state.v.size() != initial.v.size())
+      throw std::invalid_argument("the state has other coordinates than the scene's start");
+    initial = state;
+    setup_.settings.start = state.t;
   }
 
   void perturb(model::AssembledSystem& system) {

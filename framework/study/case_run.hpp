@@ -9,8 +9,11 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <trammel/integrator.hpp>
 
 #include "plugin/registry.hpp"
 #include "run/interrupt.hpp"
@@ -26,6 +29,7 @@ struct CaseOptions {
   // Relative to the largest speed at the start, or that of the start's acceleration over the run: v is moved by that
   // part of it along the acceleration there, which rows at rest allow.
   double perturbation = 0;
+  std::optional<State> start;  // from there, in place of the scene's start
   simulate::Interrupt* interrupt = nullptr;
   simulate::CrashWitness* witness = nullptr;
 };

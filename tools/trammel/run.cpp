@@ -74,11 +74,12 @@ void verify(const Arguments& arguments, plugin::Registry& registry, const scene:
 
 // What to change after a failure at t. Trying costs no more than the run did.
 void say_remedy(const Arguments& arguments, plugin::Registry& registry, const simulate::RunReport& report) {
-  const auto remedy = study::find_remedy(source_of(arguments), registry, report.t, std::max(1.0, report.cpu));
+  const auto remedy =
+      study::find_remedy(source_of(arguments), registry, {report.t, report.last_good}, std::max(1.0, report.cpu));
   if (!remedy) return;
   std::string sets;
   for (const scene::Override& o : remedy->overrides) sets += " --set " + shell_quoted(o.path + "=" + o.value);
-  fmt::print(stderr, "It gets past there with {}:{}\n", remedy->what, sets);
+  fmt::print(stderr, "Tried from t = {:.6g} s, it gets past there with {}:{}\n", remedy->from, remedy->what, sets);
 }
 
 Exit run_scene(const Arguments& arguments) {
