@@ -44,57 +44,26 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   toggle(state, changes.toggled, events);
   find_touching(changes);
   const auto approaches = [this](const TouchingContact& c) { return c.before < -scale_.of(c.contact).at_rest(); };
-  bool jumped = !changes.struck.empty() && std::any_of(touching_.begin(), touching_.end(), approaches);
+  const bool jumped = !changes.struck.empty() && std::any_of(touching_.begin(), touching_.end(), approaches);
   losses_.clear();
   lost_elsewhere_ = 0;
   find_bearings();
   if (jumped) strike(state, changes);
-  bool without_collision = false;
   lock(state, changes, events);
   find_candidates(changes);
   auto solution =
       changes.locked ? complementarity::ContactSolution{LcpOutcome::no_solution, 0} : decide(state, changes, jumped);
-  // Where contacts slide a force may change its sign by way of infinity (Painleve's critical state): without it the
-  // contact would approach. Elsewhere it passes 0, and so does the acceleration without it: its sign is round-off.
-  const auto approaches_without_force = [&](int contact) {
-    const double scene = 1e12 * scale_.of(contact).no_acceleration();
-    return !modes_.contacts[contact].closed &&
-           system_.acceleration({contact, 0}, a_) < -opened_by_error * std::max(largest_, scene);
-  };
-  const bool slides = std::any_of(problem_.who.begin(), problem_.who.end(),
-                                  [](const Participant& p) { return p.tangent == Participant::Tangent::sliding; }) ||
-                      std::any_of(changes.released.begin(), changes.released.end(), [this](int contact) {
-                        return before_.contacts[contact].friction == Friction::slide;
-                      });
-  if (solution.outcome == LcpOutcome::solved && !changes.released.empty() && slides) {
-    system_.set_modes(modes_);
-    system_.move_to(state.t, state.q, state.v);
-    system_.accelerate({}, a_, lambda_);
-    if (std::any_of(changes.released.begin(), changes.released.end(), approaches_without_force)) {
-      ContactChanges others = changes;
-      others.released.clear();
-      find_candidates(others);
-      solution = decide(state, others, jumped);
-    }
+  if (solution.outcome == LcpOutcome::solved && changes_sign_by_infinity(state, changes)) {
+    ContactChanges others = changes;
+    others.released.clear();
+    find_candidates(others);
+    solution = decide(state, others, jumped);
   }
   const bool undecided = solution.outcome == LcpOutcome::gave_up ||
                          (solution.outcome == LcpOutcome::solved && in_balance(solution.violation));
   if (undecided) solution = decide_by_what_follows(state, changes, jumped, solution);
-  if (solution.outcome == LcpOutcome::no_solution) {  // rule 8
-    system_.set_modes(before_);
-    system_.move_to(state.t, state.q, state.v);
-    if (jumped) {
-      tell_impacts(state.t, false, events);
-      find_touching({});
-    }
-    jumped = without_collision = true;
-    for (TouchingContact& c : touching_) c.without_collision = true, c.raised = changes.raised;
-    for (TouchingContact& c : bearings_) c.without_collision = true;
-    strike(state, changes);
-    lock(state, changes, events);
-    find_candidates(changes);
-    solution = decide(state, changes, jumped);
-  }
+  const bool without_collision = solution.outcome == LcpOutcome::no_solution;
+  if (without_collision) solution = strike_without_collision(state, changes, jumped, events);
   if (solution.outcome != LcpOutcome::solved) fail_without_solution("balance of forces", state.t, solution);
   bool carry = false;
   for (const TouchingContact& c : touching_) {
@@ -107,6 +76,44 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   finish(state, carry && state.a.size() == system_.sizes().nv);  // none yet at the start
   for (const TouchingContact& c : touching_) tell_normal(state, c, events);
   tell_friction(state, events);
+}
+
+// Where contacts slide a force may change its sign by way of infinity (Painleve's critical state): without it the
+// contact would approach. Elsewhere it passes 0, and so does the acceleration without it: its sign is round-off.
+bool ContactModes::changes_sign_by_infinity(const State& state, const ContactChanges& changes) {
+  const std::vector<int>& released = changes.released;
+  const bool slides = std::any_of(problem_.who.begin(), problem_.who.end(),
+                                  [](const Participant& p) { return p.tangent == Participant::Tangent::sliding; }) ||
+                      std::any_of(released.begin(), released.end(), [this](int contact) {
+                        return before_.contacts[contact].friction == Friction::slide;
+                      });
+  if (released.empty() || !slides) return false;
+  system_.set_modes(modes_);
+  system_.move_to(state.t, state.q, state.v);
+  system_.accelerate({}, a_, lambda_);
+  return std::any_of(released.begin(), released.end(), [&](int contact) {
+    const double scene = 1e12 * scale_.of(contact).no_acceleration();
+    return !modes_.contacts[contact].closed &&
+           system_.acceleration({contact, 0}, a_) < -opened_by_error * std::max(largest_, scene);
+  });
+}
+
+// Rule 8. An impact may have come before it at this instant.
+complementarity::ContactSolution ContactModes::strike_without_collision(State& state, const ContactChanges& changes,
+                                                                        bool jumped,
+                                                                        std::vector<ContactEvent>& events) {
+  system_.set_modes(before_);
+  system_.move_to(state.t, state.q, state.v);
+  if (jumped) {
+    tell_impacts(state.t, false, events);
+    find_touching({});
+  }
+  for (TouchingContact& c : touching_) c.without_collision = true, c.raised = changes.raised;
+  for (TouchingContact& c : bearings_) c.without_collision = true;
+  strike(state, changes);
+  lock(state, changes, events);
+  find_candidates(changes);
+  return decide(state, changes, true);
 }
 
 void ContactModes::tell_impacts(double t, bool without_collision, std::vector<ContactEvent>& events) const {

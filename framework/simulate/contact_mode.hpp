@@ -130,6 +130,10 @@ class ContactModes {
   using Friction = model::ContactMode::Friction;
   using Kind = ContactEvent::Kind;
 
+  bool changes_sign_by_infinity(const State& state, const ContactChanges& changes);
+  [[nodiscard]] complementarity::ContactSolution strike_without_collision(State& state, const ContactChanges& changes,
+                                                                          bool jumped,
+                                                                          std::vector<ContactEvent>& events);
   void tell_impacts(double t, bool without_collision, std::vector<ContactEvent>& events) const;
   void toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events);
   void find_touching(const ContactChanges& changes);
