@@ -9,6 +9,10 @@ namespace {
 
 using Tangent = Participant::Tangent;
 
+// Rule 11. Forces and accelerations below so many times what a solution is off by are not told from 0. A moment later,
+// by this part of the time that the scene's speed takes through its length, they are, and little else has changed.
+constexpr double undecided = 10, moment_later = 1e-4;
+
 // Of length 1; the first tangent's if x has none.
 Tangential direction_of(const Tangential& x) {
   const double length = x.norm();
@@ -194,7 +198,7 @@ complementarity::ContactSolution ContactModes::take_verdicts() {
 }
 
 double ContactModes::nothing(double violation) const {
-  return std::max(nothing(), 10 * violation * largest_);
+  return std::max(nothing(), undecided * violation * largest_);
 }
 
 // Rule 11, of a solution found up to `violation`.
@@ -203,7 +207,7 @@ bool ContactModes::in_balance(double violation) const {
   for (const Participant& p : problem_.who) largest = std::max(largest, p.N);
   return std::any_of(problem_.who.begin(), problem_.who.end(), [&](const Participant& p) {
     const bool opens = before_.contacts[p.contact].closed && !modes_.contacts[p.contact].closed;
-    const bool just_presses = p.N > 0 && p.N <= 10 * violation * largest;
+    const bool just_presses = p.N > 0 && p.N <= undecided * violation * largest;
     return p.unilateral && (just_presses || (opens && p.a_n <= nothing(violation)));
   });
 }
@@ -214,7 +218,7 @@ complementarity::ContactSolution ContactModes::decide_by_what_follows(const Stat
                                                                       complementarity::ContactSolution so_far) {
   using complementarity::LcpOutcome;
   const Scale& scene = scale_.scene();
-  const double moment = scene.speed > 0 ? 1e-4 * scene.length() / scene.speed : 0;  // [s]
+  const double moment = scene.speed > 0 ? moment_later * scene.length() / scene.speed : 0;  // [s]
   const model::Modes decided = modes_;
   system_.set_modes(so_far.outcome == LcpOutcome::solved ? modes_ : before_);
   system_.move_to(state.t, state.q, state.v);
