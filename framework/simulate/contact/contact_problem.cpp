@@ -78,6 +78,9 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
     solution = solve_once(delassus_, nothing);
     const bool approach = std::any_of(who.begin(), who.end(), [](const Participant& p) { return p.vanishing > 0; });
     if (solution.outcome != complementarity::LcpOutcome::solved && approach) solution = solve_once(yielding(), nothing);
+    // That nothing is left of an approach proves nothing of contacts that do not approach.
+    if (solution.outcome == complementarity::LcpOutcome::no_solution && approach)
+      solution.outcome = complementarity::LcpOutcome::gave_up;
     if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
     settled = true;
     for (std::size_t i = 0; i < who.size(); ++i) {

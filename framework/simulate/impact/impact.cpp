@@ -36,7 +36,8 @@ complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, c
   // What the steps left of the rates of closed contacts is kept, unless rates of dependent contacts then contradict
   // each other: a stack that touches floor and ceiling.
   const bool ends_drift = solution.outcome == complementarity::LcpOutcome::no_solution;
-  for (std::size_t i = 0; i < touching.size() && ends_drift; ++i) problem_.who[i].a_n = touching[i].before;
+  for (std::size_t i = 0; i < touching.size() && ends_drift; ++i)
+    problem_.who[i].a_n = touching[i].before, problem_.who[i].let_go = false;
   if (ends_drift) solution = bearings_.solve(problem_, at_rest, from);
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
   problem_.jump(dv);
