@@ -234,6 +234,43 @@ TEST(BlockInAChannel, StopsAtAllCornersTogether) {
   EXPECT_GT(stopped, 50);
 }
 
+// Legs at random places on a floor. Three would carry; the others share, and a leg is closed without a force where a
+// spring in its place would pull.
+json sliding_table(int legs, double mu, std::mt19937& random) {
+  const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+  const double m = any(0.5, 5), h = any(0.1, 0.8);
+  json s = {{"trammel", 1},
+            {"space", "spatial"},
+            {"gravity", {0, 0, -9.81}},
+            {"simulate", {{"until", 1.5}}},
+            {"record", {{"every", 0.05}}}};
+  json markers;
+  for (int i = 0; i < legs; ++i) {
+    const double angle = 2 * std::numbers::pi * i / legs + any(-0.2, 0.2), radius = any(0.5, 1);
+    const std::string foot = fmt::format("f{}", i);
+    markers[foot] = {radius * std::cos(angle), radius * std::sin(angle), -h};
+    s["contacts"][foot] = contact("table." + foot, {{"point", {0, 0, 0}}, {"normal", {0, 0, 1}}}, mu);
+  }
+  s["bodies"]["table"] = {{"type", "rigid_body"},
+                          {"mass", m},
+                          {"inertia", {0.3 * m, 0.3 * m, 0.5 * m}},
+                          {"position", {0, 0, h}},
+                          {"velocity", {any(-2, 2), any(-2, 2), 0}},
+                          {"angular_velocity", {0, 0, any(-4, 4)}},
+                          {"markers", markers}};
+  return s;
+}
+
+TEST(TableOfManyLegs, SlidesAndSpinsByForcesThatContactsHave) {
+  std::mt19937 random(28);
+  for (int i = 0; i < 45; ++i) {
+    const Finished run =
+        run_text(sliding_table(std::vector{4, 6, 8}[i % 3], std::vector{0.1, 0.3, 0.6}[i / 3 % 3], random).dump());
+    SCOPED_TRACE(i);
+    expect_trusted(run);
+  }
+}
+
 // Blocks on each other that slide apart below a ceiling without clearance. One that slides off the middle of those
 // below makes them tip: the ceiling holds the stack, whose friction then slows it more and more, or locks it at once.
 // `length` [m] of its unit; gravity stays, so speeds and times go with its root.
@@ -270,43 +307,6 @@ json stack_in_a_channel(int blocks, double mu, std::mt19937& random, double leng
   for (const char* corner : {"tl", "tr"})
     touch(corner, fmt::format("b{}.{}", blocks - 1, corner), {{"point", {0, blocks * h}}, {"normal", {0, -1}}});
   return s;
-}
-
-// Legs at random places on a floor. Three would carry; the others share, and a leg is closed without a force where a
-// spring in its place would pull.
-json sliding_table(int legs, double mu, std::mt19937& random) {
-  const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
-  const double m = any(0.5, 5), h = any(0.1, 0.8);
-  json s = {{"trammel", 1},
-            {"space", "spatial"},
-            {"gravity", {0, 0, -9.81}},
-            {"simulate", {{"until", 1.5}}},
-            {"record", {{"every", 0.05}}}};
-  json markers;
-  for (int i = 0; i < legs; ++i) {
-    const double angle = 2 * std::numbers::pi * i / legs + any(-0.2, 0.2), radius = any(0.5, 1);
-    const std::string foot = fmt::format("f{}", i);
-    markers[foot] = {radius * std::cos(angle), radius * std::sin(angle), -h};
-    s["contacts"][foot] = contact("table." + foot, {{"point", {0, 0, 0}}, {"normal", {0, 0, 1}}}, mu);
-  }
-  s["bodies"]["table"] = {{"type", "rigid_body"},
-                          {"mass", m},
-                          {"inertia", {0.3 * m, 0.3 * m, 0.5 * m}},
-                          {"position", {0, 0, h}},
-                          {"velocity", {any(-2, 2), any(-2, 2), 0}},
-                          {"angular_velocity", {0, 0, any(-4, 4)}},
-                          {"markers", markers}};
-  return s;
-}
-
-TEST(TableOfManyLegs, SlidesAndSpinsByForcesThatContactsHave) {
-  std::mt19937 random(28);
-  for (int i = 0; i < 45; ++i) {
-    const Finished run =
-        run_text(sliding_table(std::vector{4, 6, 8}[i % 3], std::vector{0.1, 0.3, 0.6}[i / 3 % 3], random).dump());
-    SCOPED_TRACE(i);
-    expect_trusted(run);
-  }
 }
 
 TEST(StackInAChannel, SlowsDownByForcesThatContactsHave) {
