@@ -93,7 +93,8 @@ TEST_F(Seal, AndPreflightBearDamageAnywhere) {
 
 TEST_F(Seal, SurvivesStrip) {
   const std::size_t size = content(sealed).size();
-  ASSERT_EQ(std::system(("strip --strip-all " + sealed.string()).c_str()), 0);  // of binutils, as the compiler's assembler
+  // strip is part of binutils, as the compiler's assembler.
+  ASSERT_EQ(std::system(("strip --strip-all " + sealed.string()).c_str()), 0);
   EXPECT_LT(content(sealed).size(), size);
   EXPECT_EQ(refusal(sealed), "");
 }
