@@ -69,8 +69,8 @@ Part step() {
            {.unit = "s", .min = 0, .above_min = true, .doc = "20 times record.every if left out, and at most that"},
            defaults.most)},
       {"A scene without an integrator is run by dop853 with errors below 1e-9; with \"rows\": \"projected\" where "
-       "bodies whose masses differ by more than 1e7 are tied by joints; and by hht_alpha with errors below 1e-7 a "
-       "step, "
+       "bodies whose masses differ by more than 1e7 are tied by joints, and in runs of rows over 1000 s; and by "
+       "hht_alpha with errors below 1e-7 a step, "
        "which damps what is fast beside the rest, where the fastest motion goes through more than a million radians in "
        "the run (of n > 10 coordinates 10/n million; of more than 100 the errors are below 1e-5). The summary, "
        "'trammel explain' and \"integrator_choice\" in result.json tell which and why.",

@@ -16,6 +16,9 @@ namespace {
 constexpr double most_evaluations = 1e6, few = 10;
 // Of elements: their fast waves are in motion, by loads and blows, and a tolerance that sees them follows them.
 constexpr int many = 100;
+// Of rows that dop853 stabilises at 10 1/s (its delta and epsilon): they bound its steps, whatever moves. A run that is
+// longer than so many times a tenth of a second is of slower motions.
+constexpr double stabilised_at = 10, most_of_stabilisation = 1e4;  // [1/s]
 
 struct Choice {
   const char* name;
@@ -39,9 +42,25 @@ bool exceeds_explicit_steps(const FastestMotion& fastest, const Setup& setup) {
   return fastest.rate() * time * cost > most_evaluations && !decides_friction_at_every_evaluation(*setup.model);
 }
 
+bool outlasts_stabilisation(const Setup& setup) {
+  const model::Model& model = *setup.model;
+  const bool rows = model.sizes.nc > 0 || std::any_of(model.contacts.begin(), model.contacts.end(),
+                                                      [](const model::ContactEntry& c) { return c.restitution; });
+  const double time = setup.settings.until - setup.settings.start;
+  return rows && stabilised_at * time > most_of_stabilisation && !decides_friction_at_every_evaluation(model);
+}
+
 const Choice& fitting(const FastestMotion& fastest, const MassRatio& ratio, const Setup& setup) {
   if (exceeds_explicit_steps(fastest, setup)) return setup.model->sizes.nv > many ? damped_waves : damped_steps;
-  return ratio.is_large() ? steps_on_rows : explicit_steps;
+  return ratio.is_large() || outlasts_stabilisation(setup) ? steps_on_rows : explicit_steps;
+}
+
+std::string reason(const Choice& choice, const FastestMotion& fastest, const MassRatio& ratio, const Setup& setup) {
+  if (&choice != &steps_on_rows) return description(fastest, *setup.model);
+  if (ratio.is_large()) return description(ratio, *setup.model);
+  return fmt::format("rows that are stabilised, at {} 1/s, would ask for {:.0e} steps or more in a run of {:.6g} s",
+                     stabilised_at, stabilised_at * (setup.settings.until - setup.settings.start) / 3,
+                     setup.settings.until - setup.settings.start);
 }
 
 const Choice& named(const std::string& name) {
@@ -74,9 +93,8 @@ void choose_integrator(Setup& setup, model::AssembledSystem& system, const std::
   const Choice& choice = before.empty() ? fitting(fastest, ratio, setup) : named(before);
   if (&choice != &explicit_steps) take(choice, setup, registry, problems);
   setup.chosen = choice.name;
-  setup.choice =
-      fmt::format("{}, tolerance {:.3g}: the scene names none, and {}", choice.name, choice.tolerance,
-                  &choice == &steps_on_rows ? description(ratio, *setup.model) : description(fastest, *setup.model));
+  setup.choice = fmt::format("{}, tolerance {:.3g}: the scene names none, and {}", choice.name, choice.tolerance,
+                             reason(choice, fastest, ratio, setup));
 }
 
 }  // namespace trammel::simulate

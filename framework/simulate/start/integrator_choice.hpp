@@ -1,7 +1,8 @@
 // The integrator of a scene that names none.
 //
 //     dop853, tolerance 1e-9               the usual choice: no step to choose; contacts and friction are events
-//     the same with "rows": "projected"    where light bodies are tied to heavy ones (mass_ratio.hpp)
+//     the same with "rows": "projected"    where light bodies are tied to heavy ones (mass_ratio.hpp), and in runs over
+//                                          1000 s, whose motions are slower than the stabilisation of the rows
 //     hht_alpha, tolerance 1e-7            where explicit methods need more than a million steps, or with n > 10
 //                                          coordinates more than 10/n million: it damps the fast motions
 //     the same, tolerance 1e-5             with more than 100 coordinates: waves through elements are always in motion

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "support/run_in_pieces.hpp"
 #include "diagnose/fastest_motion.hpp"
 #include "diagnose/mass_ratio.hpp"
 #include "simulate/start/setup.hpp"
+#include "support/run_in_pieces.hpp"
 
 namespace trammel::test {
 namespace {
@@ -68,6 +68,23 @@ TEST(IntegratorChoice, PutsRowsOnTheirPlaceWhereLightBodiesHoldHeavyOnes) {
         << ratio;  // of second order: (omega h)^2 with omega of 10 to 30 rad/s
     EXPECT_NEAR(run.end("u"), other.end("u"), 1e-5) << ratio;
   }
+}
+
+// Two hinged bodies that turn once in 1.5 hours: terms that pull rows back at 10 1/s would decide the steps. Without
+// forces the turns are exact.
+TEST(IntegratorChoice, LeavesSlowMotionsTheirLongSteps) {
+  const std::string satellites = R"({"trammel": 1, "space": "planar", "gravity": [0, 0], "parameters": {"w": 1.16e-3},
+    "bodies": {
+      "a": {"type": "rigid_body", "mass": 500, "inertia": 400, "angular_velocity": "=w", "markers": {"h": [1, 0]}},
+      "b": {"type": "rigid_body", "mass": 200, "inertia": 100, "position": [2, 0], "velocity": [0, "=2*w"],
+            "angular_velocity": "=w", "markers": {"h": [-1, 0]}}},
+    "joints": {"hinge": {"type": "revolute", "between": ["a.h", "b.h"]}},
+    "simulate": {"until": 86400}, "record": {"every": 3600, "observe": {"turn": "a.com.angle"}}})";
+  const Finished run = run_text(satellites);
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_THAT(choice(run), AllOf(StartsWith("dop853 with projected rows, tolerance 1e-09: "), HasSubstr("86400 s")));
+  EXPECT_LT(run.result["counts"]["steps"], 2000);
+  EXPECT_NEAR(run.end("turn"), 1.16e-3 * 86400, 1e-5);  // as one body; 1e-9 of 100 rad a step, in some hundred steps
 }
 
 TEST(IntegratorChoice, DampsWhatIsTooFastToFollow) {
