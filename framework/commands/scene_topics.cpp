@@ -6,11 +6,11 @@
 #include <fmt/ranges.h>
 
 #include "plugin/describe.hpp"
+#include "run/setting_parts.hpp"
 #include "scene/expression.hpp"
 #include "simulate/results/contact_event.hpp"
 #include "simulate/results/relative_motion.hpp"
 #include "simulate/results/series_columns.hpp"
-#include "run/setting_parts.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -198,10 +198,41 @@ Topic events() {
                                   "before and after"))};
 }
 
+Topic study() {
+  return {"study", "the file of 'trammel study': many runs of a scene, or of several",
+          R"page(study (a file of its own)
+  {
+    "study": 1,
+    "scene": "pendulum.json",
+    "vary": {"bodies.rod.length": [0.5, 1, 2],
+             "bodies.rod.mass": {"from": 0.1, "to": 10, "count": 5, "scale": "log"}},
+    "reduce": {"swing": {"observe": "theta", "as": "max"}}
+  }
+
+Keys
+  study    1: the version of the format; required. title: a line for reports
+  scene    the scene's file, relative to the study; not needed where "vary" has "scene" in every case
+  set      values of every case by dotted path, as --set: {"simulate.until": 5}
+  vary     lists or ranges of values by dotted path, or a list of cases: [{"parameters.L": 1}, {"parameters.L": 2}].
+           The path "scene" varies the scene: "scene": ["hht.json", "baumgarte.json"]
+  mode     of paths: grid (every combination, the last path varies fastest), zip (the first value of each, the second, ...),
+           random or sobol (ranges without "count"; "count": the number of cases, "seed")
+  reduce   a number of each case by name: "observe" a column of its records, "as" final, initial, max, min, max_abs,
+           mean, rms (less "reference": a number, or {"file": "measured.csv", "column": "theta"}) or first_crossing
+           of a "level" in a "direction" (up, down, any)
+  keep     true: each case's results folder is kept, out/NAME/cases/0 and so on, as 'trammel run' or 'trammel static'
+           writes it; reductions may then observe constraint_position, _velocity and _acceleration, too
+
+  'trammel study STUDY.json' writes study.csv and study.npz, a row a case, and runs only cases that are missing when it
+  is called again. --shard I/N runs a part, 'trammel study merge' joins parts, --estimate proposes how many.
+  Examples: scenes/beam_impact/studies
+)page"};
+}
+
 }  // namespace
 
 std::vector<Topic> scene_topics(const Entries& entries) {
-  return {scene(), expressions(), repetition(), table(), markers(entries), observables(entries), events()};
+  return {scene(), expressions(), repetition(), table(), markers(entries), observables(entries), events(), study()};
 }
 
 }  // namespace trammel::simulate

@@ -3,7 +3,7 @@
 
 #include "report/page.hpp"
 #include "stability/integrator_under_test.hpp"
-#include "study/batch.hpp"
+#include "study/cases/batch.hpp"
 
 namespace trammel::stability {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "study/batch.hpp"
+#include "study/cases/batch.hpp"
 
 namespace trammel::stability {
 

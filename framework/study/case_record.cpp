@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulate/results/npz.hpp"
+#include "study/cases/json_text.hpp"
 
 namespace trammel::study {
 namespace {
@@ -45,12 +46,6 @@ std::string cell(const std::string& text) {
 std::optional<double> as_number(const std::string& text) {
   const json value = json::parse(text, nullptr, false);
   return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
-}
-
-// A text without its quotes.
-std::string shown(const std::string& value) {
-  const json parsed = json::parse(value, nullptr, false);
-  return parsed.is_string() ? parsed.get<std::string>() : value;
 }
 
 }  // namespace
@@ -104,7 +99,7 @@ std::string csv(const Study& study, const CaseRecords& records) {
   text += ",reason\n";
   for (const auto& [i, r] : records) {
     text += fmt::format("{},{},{}", i, hex(r.scene_hash), r.status);
-    for (const std::string& value : study.values(i)) text += "," + cell(shown(value));
+    for (const std::string& value : study.values(i)) text += "," + cell(without_quotes(value));
     for (const double x : r.values) text += std::isfinite(x) ? fmt::format(",{:.17g}", x) : ",nan";
     text += fmt::format(",{:.17g}", r.t_end);
     for (const Count& c : kCounts) text += fmt::format(",{}", r.counts.*c.member);
@@ -140,7 +135,7 @@ void write_npz(const std::filesystem::path& file, const Study& study, const Case
       continue;
     }
     std::vector<std::string> texts;
-    for (const auto& [i, r] : records) texts.push_back(shown(study.values(i)[k]));
+    for (const auto& [i, r] : records) texts.push_back(without_quotes(study.values(i)[k]));
     npz.add(study.paths()[k], texts);
   }
   for (std::size_t k = 0; k < study.reductions().size(); ++k)

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "study/case_run.hpp"
+#include "study/cases/case_run.hpp"
 #include "study/study_file.hpp"
 
 namespace trammel::study {

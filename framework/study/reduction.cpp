@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "report/csv_line.hpp"
 #include "model/scene_keys.hpp"
+#include "report/csv_line.hpp"
 #include "scene/files.hpp"
 #include "scene/suggestion.hpp"
 
@@ -22,7 +22,6 @@ using scene::Problems;
 using scene::Value;
 using As = Reduction::As;
 using Direction = Reduction::Direction;
-
 
 const std::vector<std::pair<std::string, As>> ways = {
     {"final", As::final},     {"initial", As::initial}, {"max", As::max}, {"min", As::min},

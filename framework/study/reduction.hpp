@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "scene/value.hpp"
-#include "study/series.hpp"
+#include "study/cases/series.hpp"
 
 namespace trammel::study {
 

@@ -10,7 +10,8 @@
 #include "scene/fnv_hash.hpp"
 #include "scene/suggestion.hpp"
 #include "simulate/results/provenance.hpp"
-#include "study/json_text.hpp"
+#include "simulate/results/series_columns.hpp"
+#include "study/cases/json_text.hpp"
 #include "study/samples.hpp"
 
 namespace trammel::study {
@@ -21,6 +22,8 @@ using scene::Value;
 using Type = Value::Type;
 
 constexpr std::size_t most_cases = 10'000'000, most_dimensions = 3000;  // of Boost's table of Sobol's numbers: 3667
+
+const std::string scene_path = "scene";  // in "vary": no path of a scene
 
 const std::vector<std::string>& modes() {
   static const std::vector<std::string> all = {"grid", "zip", "random", "sobol", "list"};
@@ -86,6 +89,13 @@ std::vector<std::string> read_values(const Value& value, Problems& problems) {
   return texts;
 }
 
+// What names the value of a path in case i.
+const Value& place_of(const Value& vary, std::size_t i, const std::string& path) {
+  const Value& one = vary.type() == Type::array ? vary.items()[i] : vary;
+  const Value* named = one.find(path);
+  return named ? *named : one;
+}
+
 }  // namespace
 
 Study::Study(scene::Scene definition) : definition_(std::move(definition)) {}
@@ -94,7 +104,7 @@ Study Study::load(const std::string& file, const std::vector<scene::Override>& o
   Study study(scene::Scene::load(file, overrides));
   Problems problems;
   study.read(problems);
-  if (problems.empty()) study.check_against_scene(problems);
+  if (problems.empty()) study.check_against_scenes(problems);
   problems.throw_if_any();
   return study;
 }
@@ -111,17 +121,12 @@ void Study::read(Problems& problems) {
   const Value& root = definition_.root();
   if (root.type() != Type::object) return problems.error(root.problem("expected a study: an object"));
   model::check_keys(
-      root, {"study", "title", "scene", "set", "mode", "vary", "count", "seed", "reduce", "parameters", "include"},
+      root,
+      {"study", "title", "scene", "set", "mode", "vary", "count", "seed", "reduce", "keep", "parameters", "include"},
       problems);
-  const Value *version = root.find("study"), *scene = root.find("scene");
+  const Value* version = root.find("study");
   if (!version || version->type() != Type::number || version->number() != 1)
     problems.error((version ? *version : root).problem("expected \"study\": 1, the version of this format"));
-  if (!scene) {
-    problems.error(root.problem("has no \"scene\": the file that it runs"));
-  } else if (const auto name = scene->read_text(problems)) {
-    const std::filesystem::path file = std::filesystem::path(scene->position().file).parent_path() / *name;
-    scene_file_ = file.string();
-  }
   if (const Value* set = root.find("set")) {
     if (set->type() != Type::object) problems.error(set->problem("expected an object of values by dotted path"));
     if (set->type() == Type::object)
@@ -131,11 +136,33 @@ void Study::read(Problems& problems) {
     problems.error(root.problem("has no \"vary\": values by dotted path, or a list of cases"));
   else
     read_vary(root, problems);
+  if (problems.empty()) read_scenes(root, problems);
+  if (const Value* keep = root.find("keep")) keep_ = keep->read_boolean(problems).value_or(false);
   if (const Value* reduce = root.find("reduce")) {
     reductions_ = read_reductions(*reduce, problems);
     scene::FnvHash hash;
     hash.text(json_text(*reduce));
     reductions_hash_ = hash.value();
+  }
+}
+
+// Files are relative to the one that names them.
+void Study::read_scenes(const Value& root, Problems& problems) {
+  const Value &vary = *root.find("vary"), *common = root.find("scene");
+  const auto column = std::size_t(std::find(paths_.begin(), paths_.end(), scene_path) - paths_.begin());
+  const auto common_name = common ? common->read_text(problems) : std::nullopt;
+  if (common && !common_name) return;
+  for (const auto& values : cases_) {
+    const bool own = column < paths_.size() && !values[column].empty();
+    if (!own && !common) return problems.error(root.problem("has no \"scene\": the file that it runs"));
+    const Value& named_by = own ? place_of(vary, scene_of_.size(), scene_path) : *common;
+    if (own && values[column].front() != '"')
+      return problems.error(named_by.problem(fmt::format("found {}, expected a file's name", values[column])));
+    const auto folder = std::filesystem::path(named_by.position().file).parent_path();
+    const std::string file = (folder / (own ? without_quotes(values[column]) : *common_name)).string();
+    const auto found = std::find(scene_files_.begin(), scene_files_.end(), file);
+    scene_of_.push_back(std::size_t(found - scene_files_.begin()));
+    if (found == scene_files_.end()) scene_files_.push_back(file);
   }
 }
 
@@ -225,39 +252,42 @@ void Study::read_vary(const Value& root, Problems& problems) {
   }
 }
 
-// Each path by itself, so that all that are wrong are told at their places.
-void Study::check_against_scene(Problems& problems) const {
-  const Value& root = definition_.root();
-  if (std::error_code error; !std::filesystem::exists(scene_file_, error))
-    return problems.error(root.find("scene")->problem(fmt::format("no such file: {}", scene_file_)));
-  const SceneSource source(scene_file_);
-  const scene::Scene base = source.with();  // a scene that is wrong by itself is told as by `trammel validate`
-  const auto check = [&](const Value& at, const std::string& path, const std::string& value) {
-    try {
-      source.with({{path, value}});
-    } catch (const scene::SceneError& e) {
-      for (const scene::Problem& p : e.problems())
-        problems.error(at.problem(p.path.empty() ? p.message : p.path + ": " + p.message));
+// Each path by itself, with each scene that has it, so that all that are wrong are told at their places.
+void Study::check_against_scenes(Problems& problems) const {
+  const Value &root = definition_.root(), &vary = *root.find("vary");
+  const Value *common = root.find("scene"), *set = root.find("set");
+  for (std::size_t which = 0; which < scene_files_.size(); ++which) {
+    if (std::error_code error; !std::filesystem::exists(scene_files_[which], error)) {
+      problems.error((common ? *common : vary).problem(fmt::format("no such file: {}", scene_files_[which])));
+      continue;
     }
-  };
-  if (const Value* set = root.find("set"))
-    for (const auto& [path, value] : set->members()) check(value, path, json_text(value));
-  const Value& vary = *root.find("vary");
-  for (std::size_t k = 0; k < paths_.size(); ++k)
-    for (const auto& values : cases_) {
-      if (values[k].empty()) continue;
-      const Value* at = vary.find(paths_[k]);
-      check(at ? *at : vary, paths_[k], values[k]);
-      break;
-    }
-  const Value* observe = base.root().at_path("record.observe");
-  std::vector<std::string> columns = {"t",
-                                      "energy_kinetic",
-                                      "energy_potential",
-                                      "energy_elastic",
-                                      "energy_total",
-                                      "energy_supplied",
-                                      "energy_dissipated"};
+    const SceneSource source(scene_files_[which]);
+    check_observed(source.with(), which, problems);  // a scene that is wrong by itself is told as by `trammel validate`
+    const auto check = [&](const Value& at, const std::string& path, const std::string& value) {
+      try {
+        source.with({{path, value}});
+      } catch (const scene::SceneError& e) {
+        for (const scene::Problem& p : e.problems())
+          problems.error(at.problem(p.path.empty() ? p.message : p.path + ": " + p.message));
+      }
+    };
+    if (set)
+      for (const auto& [path, value] : set->members()) check(value, path, json_text(value));
+    for (std::size_t k = 0; k < paths_.size(); ++k)
+      for (std::size_t i = 0; i < size() && paths_[k] != scene_path; ++i) {
+        if (scene_of_[i] != which || cases_[i][k].empty()) continue;
+        check(place_of(vary, i, paths_[k]), paths_[k], cases_[i][k]);
+        break;
+      }
+  }
+}
+
+void Study::check_observed(const scene::Scene& scene, std::size_t which, Problems& problems) const {
+  const Value* observe = scene.root().at_path("record.observe");
+  std::vector<std::string> columns = {"t"};
+  const auto add = [&columns](const auto& more) { columns.insert(columns.end(), more.begin(), more.end()); };
+  add(simulate::energy_columns), add(simulate::book_columns);
+  if (keep_) add(simulate::norm_columns);
   if (observe && observe->type() == Type::object)
     for (const auto& [name, what] : observe->members()) columns.push_back(name);
   const auto is_set = [&](const std::string& name) {
@@ -265,14 +295,15 @@ void Study::check_against_scene(Problems& problems) const {
   };
   for (const Reduction& one : reductions_)
     if (std::find(columns.begin(), columns.end(), one.observe) == columns.end() && !is_set(one.observe))
-      problems.error(root.find("reduce")->find(one.name)->find("observe")->problem(
-          fmt::format("the scene observes no \"{}\"{}", one.observe, scene::did_you_mean(one.observe, columns))));
+      problems.error(definition_.root().find("reduce")->find(one.name)->find("observe")->problem(
+          fmt::format("{} observes no \"{}\"{}", which > 0 ? scene_files_[which] : "the scene", one.observe,
+                      scene::did_you_mean(one.observe, columns))));
 }
 
 std::vector<scene::Override> Study::overrides(std::size_t i) const {
   std::vector<scene::Override> all;
   for (std::size_t k = 0; k < paths_.size(); ++k)
-    if (!cases_[i][k].empty()) all.push_back({paths_[k], cases_[i][k]});
+    if (!cases_[i][k].empty() && paths_[k] != scene_path) all.push_back({paths_[k], cases_[i][k]});
   return all;
 }
 

@@ -1,4 +1,4 @@
-// A study: one scene, the values that vary, and the scalars that are kept of each run.
+// A study: a scene or several, the values that vary, and the scalars that are kept of each run.
 //
 //     {
 //       "study": 1,
@@ -10,10 +10,12 @@
 //         "bodies.rod.mass": {"from": 0.1, "to": 10, "count": 5, "scale": "log"}
 //       },
 //       "count": 100, "seed": 1,                             of random and sobol, whose entries are ranges
-//       "reduce": {"swing": {"observe": "theta", "as": "max"}}
+//       "reduce": {"swing": {"observe": "theta", "as": "max"}},
+//       "keep": true                                         each case's results folder, as of `trammel run`
 //     }
 //
-// or "vary": [{"a.b": 1}, {"a.b": 2, "a.c": 3}], a list of cases. In a grid the last path varies fastest. Random
+// or "vary": [{"a.b": 1}, {"a.b": 2, "a.c": 3}], a list of cases. The path "scene" varies the scene itself:
+// "scene": ["hht.json", "baumgarte.json"]. In a grid the last path varies fastest. Random
 // samples are of std::mt19937_64, Sobol points of Joe and Kuo's table in Boost, shifted modulo 1 by numbers of the seed
 // if one is given: the cases of one file are the same on every machine.
 #pragma once
@@ -24,8 +26,8 @@
 #include <vector>
 
 #include "scene/value.hpp"
+#include "study/cases/scene_source.hpp"
 #include "study/reduction.hpp"
-#include "study/scene_source.hpp"
 
 namespace trammel::study {
 
@@ -42,8 +44,10 @@ class Study {
   const std::vector<std::string>& values(std::size_t i) const { return cases_[i]; }
   std::vector<scene::Override> overrides(std::size_t i) const;
   const std::vector<Reduction>& reductions() const { return reductions_; }
-  const std::string& scene_file() const { return scene_file_; }
+  const std::vector<std::string>& scene_files() const { return scene_files_; }  // in the order of their first cases
+  std::size_t scene_of(std::size_t i) const { return scene_of_[i]; }            // index into scene_files()
   const std::vector<scene::Override>& set() const { return set_; }
+  bool keep() const { return keep_; }
   std::string resolved() const { return definition_.resolved(); }
   // Of what decides the outcome of a case: the scene, the program's commit, values and reductions.
   std::uint64_t key(std::size_t i, std::uint64_t scene_hash) const;
@@ -53,15 +57,19 @@ class Study {
   void read(scene::Problems& problems);
   void read_vary(const scene::Value& root, scene::Problems& problems);
   void read_list(const scene::Value& list, scene::Problems& problems);
-  void check_against_scene(scene::Problems& problems) const;
+  void read_scenes(const scene::Value& root, scene::Problems& problems);
+  void check_against_scenes(scene::Problems& problems) const;
+  void check_observed(const scene::Scene& scene, std::size_t which, scene::Problems& problems) const;
 
   scene::Scene definition_;
-  std::string scene_file_;
+  std::vector<std::string> scene_files_;
+  std::vector<std::size_t> scene_of_;  // each case's
   std::vector<scene::Override> set_;
   std::vector<std::string> paths_;
   std::vector<std::vector<std::string>> cases_;  // JSON texts
   std::vector<Reduction> reductions_;
   std::uint64_t reductions_hash_ = 0;
+  bool keep_ = false;
 };
 
 }  // namespace trammel::study

@@ -13,6 +13,7 @@ inline constexpr const char* study_json = "study.json";
 
 struct StudyContent {
   const Study& study;
+  std::filesystem::path folder;  // of the results
   std::string file;              // of the study, absolute
   std::uint64_t scene_hash = 0;  // of the scene without the cases' values
   Shard shard;
@@ -24,6 +25,6 @@ struct StudyContent {
 std::vector<std::size_t> missing(const StudyContent& content);
 nlohmann::ordered_json to_json(const StudyContent& content, const char* status);
 // Writes all files; the summary tells what came out.
-StudyReport write_results(const StudyContent& content, const std::filesystem::path& folder, bool interrupted);
+StudyReport write_results(const StudyContent& content, bool interrupted);
 
 }  // namespace trammel::study

@@ -7,11 +7,14 @@
 
 #include <fmt/format.h>
 
+#include "scene/fnv_hash.hpp"
 #include "simulate/results/provenance.hpp"
 #include "simulate/results/results_folder.hpp"
+#include "simulate/start/setup.hpp"
+#include "study/cases/kept_case.hpp"
+#include "study/cases/workers.hpp"
 #include "study/journal.hpp"
 #include "study/study_results.hpp"
-#include "study/workers.hpp"
 
 namespace trammel::study {
 namespace {
@@ -19,42 +22,83 @@ namespace {
 using json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-CaseResult result_of(const Study& study, const SceneSource& source, plugin::Registry& registry, std::size_t i,
-                     simulate::CrashWitness* witness) {
-  CaseResult result;
-  try {
-    const scene::Scene scene = source.with(study.overrides(i));
-    CaseOptions options;
-    options.keep = SeriesSink::Keep::energies;
-    options.witness = witness;
-    result = run_case(scene, registry, options);
-  } catch (const scene::SceneError& e) {
-    result.reason = e.what();
+// A study's scenes, each read once, and its cases.
+class Cases {
+ public:
+  Cases(const Study& study, plugin::Registry& registry) : study_(study), registry_(registry) {
+    for (const std::string& file : study.scene_files()) sources_.emplace_back(file, study.set());
   }
-  return result;
+
+  scene::Scene scene(std::size_t i) const { return sources_[study_.scene_of(i)].with(study_.overrides(i)); }
+  // Without the cases' values.
+  scene::Scene first_scene() const { return sources_.front().with(); }
+
+  std::uint64_t scene_hash() const {
+    if (sources_.size() == 1) return first_scene().hash();
+    scene::FnvHash hash;
+    for (const SceneSource& source : sources_) hash.number(source.with().hash());
+    return hash.value();
+  }
+
+  // In memory without a folder.
+  CaseResult run(std::size_t i, const std::optional<fs::path>& folder, simulate::CrashWitness* witness) const {
+    CaseResult result;
+    try {
+      CaseOptions options;
+      options.keep = SeriesSink::Keep::energies;
+      options.witness = witness;
+      return folder ? run_kept_case(scene(i), registry_, *folder, options) : run_case(scene(i), registry_, options);
+    } catch (const scene::SceneError& e) {
+      result.reason = e.what();
+    }
+    return result;
+  }
+
+  // What the cases need, once, before processes are forked.
+  void load_components() const {
+    std::set<std::size_t> loaded;
+    for (std::size_t i = 0; i < study_.size() && loaded.size() < sources_.size(); ++i) {
+      if (!loaded.insert(study_.scene_of(i)).second) continue;
+      try {
+        const scene::Scene of_case = scene(i);
+        simulate::set_up(of_case, registry_, simulate::purpose_of(of_case.root()));
+      } catch (const std::exception&) {  // the case itself tells
+      }
+    }
+  }
+
+ private:
+  const Study& study_;
+  plugin::Registry& registry_;
+  std::vector<SceneSource> sources_;
+};
+
+fs::path folder_of(const fs::path& out, std::size_t i) {
+  return out / cases_folder / std::to_string(i);
 }
 
-// Loads what the cases need, once, before processes are forked.
-void load_components(const SceneSource& source, const Study& study, plugin::Registry& registry) {
-  try {
-    const scene::Scene scene = source.with(study.overrides(0));
-    simulate::set_up(scene, registry, simulate::purpose_of(scene.root()));
-  } catch (const std::exception&) {  // the case itself tells
+// Folders of cases that are not among the records: of an older study, or unfinished.
+void remove_others(const fs::path& out, const CaseRecords& records) {
+  std::error_code error;
+  std::vector<fs::path> others;
+  for (const auto& entry : fs::directory_iterator(out / cases_folder, error)) {
+    const std::string name = entry.path().filename().string();
+    const bool number = name.find_first_not_of("0123456789") == name.npos && name.size() < 10;
+    if (number && !records.contains(std::stoul(name))) others.push_back(entry.path());
   }
+  for (const fs::path& other : others) fs::remove_all(other, error);
 }
 
 class StudyRun {
  public:
   StudyRun(const Study& study, const std::string& file, plugin::Registry& registry, const StudyOptions& options)
       : study_(study),
-        registry_(registry),
         options_(options),
-        source_(study.scene_file(), study.set()),
-        content_{study, fs::absolute(file).string(), 0, options.shard, {}, {}} {
-    const scene::Scene base = source_.with();
-    content_.scene_hash = base.hash();
-    load_components(source_, study, registry);
-    content_.made = simulate::provenance(base, options.command, registry.identities());
+        cases_(study, registry),
+        content_{study, options.out, fs::absolute(file).string(), 0, options.shard, {}, {}} {
+    content_.scene_hash = cases_.scene_hash();
+    cases_.load_components();
+    content_.made = simulate::provenance(cases_.first_scene(), options.command, registry.identities());
   }
 
   StudyReport operator()() {
@@ -68,14 +112,16 @@ class StudyRun {
       const std::vector<std::size_t> second = std::exchange(again_, {});  // once: what ended them may end all
       whole = run(second, journal);
     }
-    return write_results(content_, options_.out, !whole);
+    return write_results(content_, !whole);
   }
 
  private:
   void take_finished() {
     for (CaseRecord& r : read_journal(options_.out))
       if (r.index < study_.size() && options_.shard.has(r.index) && r.key == study_.key(r.index, content_.scene_hash))
-        content_.records[r.index] = std::move(r);
+        if (r.status == "refused" || !study_.keep() || fs::exists(folder_of(options_.out, r.index)))
+          content_.records[r.index] = std::move(r);
+    if (study_.keep()) remove_others(options_.out, content_.records);
   }
 
   bool run(const std::vector<std::size_t>& tasks, Journal& journal) {
@@ -83,8 +129,8 @@ class StudyRun {
     workers.jobs = options_.jobs;
     workers.interrupt = options_.interrupt;
     workers.work = [this](std::size_t i) {
-      return to_line(record_of(study_, i, study_.key(i, content_.scene_hash),
-                               result_of(study_, source_, registry_, i, options_.witness)));
+      const auto folder = study_.keep() ? std::optional(folder_of(options_.out, i)) : std::nullopt;
+      return to_line(record_of(study_, i, study_.key(i, content_.scene_hash), cases_.run(i, folder, options_.witness)));
     };
     workers.answer = [&](std::size_t i, const std::string& line) { take(i, line, journal); };
     workers.lost = [&](const Lost& lost) {
@@ -104,13 +150,18 @@ class StudyRun {
   }
 
   const Study& study_;
-  plugin::Registry& registry_;
   const StudyOptions& options_;
-  SceneSource source_;
+  Cases cases_;
   StudyContent content_;
   std::vector<std::size_t> again_;
   std::size_t finished_ = 0, all_ = 0;
 };
+
+void copy_case(const fs::path& from, const fs::path& to) {
+  if (!fs::exists(from)) return;  // it was refused
+  fs::create_directories(to);
+  fs::copy(from, to, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+}
 
 json read_study_json(const fs::path& folder) {
   std::ifstream in(folder / study_json);
@@ -139,29 +190,31 @@ StudyReport merge_studies(const std::vector<fs::path>& folders, const StudyOptio
                                                 other.at("scene_hash") != hash ? "scene" : "definition"));
   }
   const Study study = Study::restore(definition, first.at("file"));
-  StudyContent content{study, first.at("file"), std::stoull(hash, nullptr, 16), {}, {}, {}};
+  StudyContent content{study, options.out, first.at("file"), std::stoull(hash, nullptr, 16), {}, {}, {}};
   for (const char* key : {"made", "versions", "plugins"}) content.made[key] = first.at(key);
   for (const fs::path& folder : folders)
-    for (CaseRecord& r : read_journal(folder))
-      if (r.index < study.size() && r.key == study.key(r.index, content.scene_hash))
-        content.records[r.index] = std::move(r);
+    for (CaseRecord& r : read_journal(folder)) {
+      if (r.index >= study.size() || r.key != study.key(r.index, content.scene_hash)) continue;
+      if (study.keep()) copy_case(folder_of(folder, r.index), folder_of(options.out, r.index));
+      content.records[r.index] = std::move(r);
+    }
   std::set<std::uint64_t> there;
   for (const CaseRecord& old : read_journal(options.out)) there.insert(old.key);
   Journal journal(options.out);
   for (const auto& [i, r] : content.records)
     if (!there.contains(r.key)) journal.add(to_line(r));
-  return write_results(content, options.out, false);
+  return write_results(content, false);
 }
 
 StudyReport estimate_study(const Study& study, plugin::Registry& registry) {
   constexpr double a_minute = 60;
-  const SceneSource source(study.scene_file(), study.set());
+  const Cases cases(study, registry);
   std::set<std::size_t> tried = {0, study.size() / 2, study.size() - 1};
   double seconds = 0, most = 0;
   std::size_t failed = 0;
-  result_of(study, source, registry, 0, nullptr);  // loads the plugins
+  cases.run(0, {}, nullptr);  // loads the plugins
   for (const std::size_t i : tried) {
-    const CaseResult r = result_of(study, source, registry, i, nullptr);
+    const CaseResult r = cases.run(i, {}, nullptr);
     seconds += r.cpu + r.cpu_set_up, most = std::max(most, r.cpu + r.cpu_set_up);
     failed += r.done() ? 0 : 1;
   }

@@ -3,6 +3,7 @@
 //     study.csv, study.npz   a row per case, in the study's order: values, reductions, counts, status
 //     study.json             how it was made, failures, missing cases, the page of its report
 //     cases.ndjson           the journal: only cases that are not in it are run when the study is run again
+//     cases/0, cases/1, ...  with "keep": each case's results, as `trammel run` or `trammel static` writes them
 //
 // A case that fails is a row with its reason. Shard I of N runs the cases i with i mod N = I - 1.
 #pragma once
@@ -16,6 +17,8 @@
 #include "study/study_file.hpp"
 
 namespace trammel::study {
+
+inline constexpr const char* cases_folder = "cases";
 
 struct Shard {
   int index = 1, of = 1;  // from 1

@@ -10,7 +10,7 @@ using cli::trammel;
 using testing::HasSubstr;
 
 TEST(Manual, ExplainsTheLanguageOfScenes) {
-  for (const char* topic : {"scene", "expressions", "for", "table", "markers", "observables", "events"}) {
+  for (const char* topic : {"scene", "expressions", "for", "table", "markers", "observables", "events", "study"}) {
     const auto result = trammel({"describe", topic});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, testing::StartsWith(topic));

@@ -115,6 +115,66 @@ TEST(Study, NamesThePathThatItsSceneDoesNotHave) {
   EXPECT_THAT(result.err, HasSubstr("Did you mean \"angle\"?"));
 }
 
+// Two scenes; what is kept of a case is what `trammel run` leaves.
+const char* const kept = R"({"study": 1, "keep": true,
+  "vary": {"scene": ["pendulum.json", "bounce.json"], "simulate.until": [0.5, 1]},
+  "reduce": {"energy": {"observe": "energy_total", "as": "final"}}})";
+
+struct KeptFolder : Folder {
+  KeptFolder() : Folder(kept) { cli::write_file(path() / "bounce.json", read_file(cli::bounce)); }
+};
+
+TEST(Study, KeepsTheResultsOfItsCasesAsARunLeavesThem) {
+  const KeptFolder folder;
+  ASSERT_EQ(folder.run({"study.json", "--out", "a"}).exit_code, 0);
+  ASSERT_EQ(
+      trammel({"run", "bounce.json", "--set", "simulate.until=1", "--out", "b"}, {.folder = folder.path()}).exit_code,
+      0);
+  for (const char* file : {"series.csv", "events.csv", "animation.ndjson", "scene.resolved.json"})
+    EXPECT_EQ(folder.file(std::string("a/cases/3/") + file), folder.file(std::string("b/") + file));
+}
+
+TEST(Study, SaysTheSameOfCasesThatItKeeps) {
+  const KeptFolder folder;
+  ASSERT_EQ(folder.run({"study.json", "--out", "a"}).exit_code, 0);
+  std::string text = kept;
+  cli::write_file(folder.path() / "other.json", text.replace(text.find("true"), 4, "false"));
+  ASSERT_EQ(folder.run({"other.json", "--out", "b"}).exit_code, 0);
+  EXPECT_EQ(folder.file("a/study.csv"), folder.file("b/study.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "b/cases"));
+}
+
+TEST(Study, OfShardsBringsTheKeptResultsTogether) {
+  const KeptFolder folder;
+  for (const char* shard : {"1/2", "2/2"})
+    ASSERT_EQ(folder.run({"study.json", "--out", std::string("s") + shard[0], "--shard", shard}).exit_code, 0);
+  ASSERT_EQ(folder.run({"merge", "s1", "s2", "--out", "merged"}).exit_code, 0);
+  for (const char* number : {"0", "1", "2", "3"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "merged/cases" / number / "result.json")) << number;
+}
+
+TEST(Study, RunsACaseAgainWhoseKeptResultsAreGone) {
+  const KeptFolder folder;
+  ASSERT_EQ(folder.run({"study.json", "--out", "a"}).exit_code, 0);
+  std::filesystem::remove_all(folder.path() / "a/cases/2");
+  std::filesystem::create_directories(folder.path() / "a/cases/17");  // of an older, longer study
+  ASSERT_EQ(folder.run({"study.json", "--out", "a"}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "a/cases/2/result.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a/cases/17"));
+}
+
+TEST(Study, NamesTheCaseWhoseSceneHasNoSuchPath) {
+  const KeptFolder folder;
+  cli::write_file(folder.path() / "study.json", R"({"study": 1, "vary": [
+    {"scene": "pendulum.json", "parameters.L": 1},
+    {"scene": "bounce.json", "parameters.L": 1}]})");
+  const auto result = folder.run({"study.json"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("study.json:3:46: vary[1].parameters.L"));
+  cli::write_file(folder.path() / "study.json", R"({"study": 1, "vary": [{"scene": "pendulum.json"}, {}]})");
+  EXPECT_THAT(folder.run({"study.json"}).err, HasSubstr("has no \"scene\""));
+}
+
 TEST(Study, ProposesShardsOfAMinuteEach) {
   const Folder folder;
   const auto result = folder.run({"study.json", "--estimate", "--json"});

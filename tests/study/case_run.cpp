@@ -1,9 +1,9 @@
-#include "study/case_run.hpp"
+#include "study/cases/case_run.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "study/batch.hpp"
+#include "study/cases/batch.hpp"
 #include "support/made.hpp"
 #include "support/run_scene.hpp"
 #include "support/scenes.hpp"

@@ -1,4 +1,4 @@
-#include "study/workers.hpp"
+#include "study/cases/workers.hpp"
 
 #include <unistd.h>
 

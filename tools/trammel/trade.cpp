@@ -9,8 +9,8 @@
 #include "next.hpp"
 #include "progress.hpp"
 #include "results_folder.hpp"
+#include "study/cases/workers.hpp"
 #include "study/trade/trade.hpp"
-#include "study/workers.hpp"
 
 namespace trammel::tool {
 

@@ -1,4 +1,4 @@
-// Where a run's records and events go: to files (Recorder), or to memory (study/series.hpp).
+// Where a run's records and events go: to files (Recorder), or to memory (study/cases/series.hpp).
 #pragma once
 
 #include "simulate/results/contact_event.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "report/page.hpp"
-#include "study/batch.hpp"
+#include "study/cases/batch.hpp"
 
 namespace trammel::study {
 

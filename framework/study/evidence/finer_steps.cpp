@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulate/start/setup.hpp"
-#include "study/json_text.hpp"
+#include "study/cases/json_text.hpp"
 
 namespace trammel::study {
 namespace {

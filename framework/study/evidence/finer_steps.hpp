@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "study/batch.hpp"
+#include "study/cases/batch.hpp"
 
 namespace trammel::study {
 

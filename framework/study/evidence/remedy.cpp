@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "simulate/start/setup.hpp"
+#include "study/cases/json_text.hpp"
 #include "study/evidence/finer_steps.hpp"
-#include "study/json_text.hpp"
 #include "study/trade/methods.hpp"
 
 namespace trammel::study {

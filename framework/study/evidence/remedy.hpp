@@ -6,7 +6,7 @@
 
 #include <trammel/integrator.hpp>
 
-#include "study/batch.hpp"
+#include "study/cases/batch.hpp"
 
 namespace trammel::study {
 

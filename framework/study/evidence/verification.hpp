@@ -14,7 +14,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "study/batch.hpp"
+#include "study/cases/batch.hpp"
 
 namespace trammel::study {
 

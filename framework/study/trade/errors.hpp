@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "scene/value.hpp"
-#include "study/case_run.hpp"
+#include "study/cases/case_run.hpp"
 
 namespace trammel::study {
 

@@ -11,7 +11,7 @@
 
 #include "plugin/parameters.hpp"
 #include "simulate/start/setup.hpp"
-#include "study/json_text.hpp"
+#include "study/cases/json_text.hpp"
 
 namespace trammel::study {
 namespace {

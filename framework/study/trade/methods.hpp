@@ -10,7 +10,7 @@
 
 #include "plugin/registry.hpp"
 #include "scene/value.hpp"
-#include "study/batch.hpp"
+#include "study/cases/batch.hpp"
 
 namespace trammel::study {
 

@@ -1,7 +1,7 @@
 // Runs cases of one trade within its budget of CPU time, and counts them.
 #pragma once
 
-#include "study/batch.hpp"
+#include "study/cases/batch.hpp"
 
 namespace trammel::study {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "study/scene_source.hpp"
+#include "study/cases/scene_source.hpp"
 #include "study/trade/fidelity_study.hpp"
 #include "study/trade/work_precision.hpp"
 

@@ -12,7 +12,7 @@
 #include "report/page.hpp"
 #include "simulate/results/log_file.hpp"
 #include "simulate/results/provenance.hpp"
-#include "study/json_text.hpp"
+#include "study/cases/json_text.hpp"
 
 namespace trammel::study {
 namespace {

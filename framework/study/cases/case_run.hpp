@@ -19,7 +19,7 @@
 #include "run/interrupt.hpp"
 #include "scene/value.hpp"
 #include "simulate/start/crash_witness.hpp"
-#include "study/series.hpp"
+#include "study/cases/series.hpp"
 
 namespace trammel::study {
 

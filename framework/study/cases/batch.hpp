@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "study/case_run.hpp"
-#include "study/scene_source.hpp"
+#include "study/cases/case_run.hpp"
+#include "study/cases/scene_source.hpp"
 
 namespace trammel::study {
 

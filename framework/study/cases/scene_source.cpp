@@ -1,4 +1,4 @@
-#include "study/scene_source.hpp"
+#include "study/cases/scene_source.hpp"
 
 #include "scene/files.hpp"
 

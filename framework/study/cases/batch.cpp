@@ -1,10 +1,10 @@
-#include "study/batch.hpp"
+#include "study/cases/batch.hpp"
 
 #include <numeric>
 
 #include <nlohmann/json.hpp>
 
-#include "study/workers.hpp"
+#include "study/cases/workers.hpp"
 
 namespace trammel::study {
 namespace {

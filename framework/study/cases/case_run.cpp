@@ -1,4 +1,4 @@
-#include "study/case_run.hpp"
+#include "study/cases/case_run.hpp"
 
 #include <time.h>
 

@@ -1,4 +1,4 @@
-#include "study/json_text.hpp"
+#include "study/cases/json_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -25,6 +25,11 @@ std::string json_text(const scene::Value& value) {
       return "{" + text + "}";
   }
   return text;
+}
+
+std::string without_quotes(const std::string& json_text) {
+  const auto parsed = nlohmann::json::parse(json_text, nullptr, false);
+  return parsed.is_string() ? parsed.get<std::string>() : json_text;
 }
 
 }  // namespace trammel::study

@@ -8,5 +8,7 @@
 namespace trammel::study {
 
 std::string json_text(const scene::Value& value);
+// "theta" of "\"theta\"", other JSON as it is.
+std::string without_quotes(const std::string& json_text);
 
 }  // namespace trammel::study

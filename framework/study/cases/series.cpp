@@ -1,4 +1,4 @@
-#include "study/series.hpp"
+#include "study/cases/series.hpp"
 
 #include <algorithm>
 

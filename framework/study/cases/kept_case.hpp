@@ -1,0 +1,14 @@
+// A case with its results folder: a run as `trammel run` or `trammel static` makes it, told as one in memory.
+#pragma once
+
+#include <filesystem>
+
+#include "study/cases/case_run.hpp"
+
+namespace trammel::study {
+
+// Of the options, only witness and interrupt count. A case that is refused leaves no folder. Nothing is thrown.
+CaseResult run_kept_case(const scene::Scene& scene, plugin::Registry& registry, const std::filesystem::path& folder,
+                         const CaseOptions& options);
+
+}  // namespace trammel::study
