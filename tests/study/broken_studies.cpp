@@ -1,0 +1,97 @@
+// Study files that are wrong, each in its way: the error has the place, what was found and the nearest valid name.
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "study/study_file.hpp"
+
+#include "support/run_scene.hpp"
+
+namespace trammel::study {
+namespace {
+
+using testing::HasSubstr;
+
+struct Broken {
+  const char* name;
+  const char* text;
+  std::vector<std::string> expected;  // parts of the error
+};
+
+void PrintTo(const Broken& broken, std::ostream* out) {
+  *out << broken.name;
+}
+
+class BrokenStudy : public testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenStudy, IsRefusedAtThePlaceOfTheFault) {
+  const test::Folder folder;
+  std::filesystem::create_directories(folder.path());
+  std::filesystem::copy_file(TRAMMEL_SOURCE_DIR "/scenes/tour/01_pendulum.json", folder.path() / "pendulum.json");
+  std::ofstream(folder.path() / "measured.csv") << "t,angle\n0,1\n";
+  const std::string file = folder.path() / "study.json";
+  std::ofstream(file) << GetParam().text;
+  try {
+    Study::load(file);
+    FAIL() << "it was accepted";
+  } catch (const scene::SceneError& e) {
+    for (const std::string& part : GetParam().expected) EXPECT_THAT(e.what(), HasSubstr(part));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BrokenStudy,
+    testing::Values(
+        Broken{"Key",
+               R"({"study": 1, "scene": "pendulum.json",
+ "vray": {"parameters.L": [1]}})",
+               {"study.json:2:10: vray", "Did you mean \"vary\"?", "has no \"vary\""}},
+        Broken{"Comma",
+               R"({"study": 1, "scene": "pendulum.json"
+ "vary": {"parameters.L": [1]}})",
+               {"study.json:1:38", "comma"}},
+        Broken{"Version",
+               R"({"study": 2, "scene": "pendulum.json", "vary": {"parameters.L": [1]}})",
+               {"study.json:1:11: study", "expected \"study\": 1"}},
+        Broken{"Scene",
+               R"({"study": 1, "scene": "pendulm.json", "vary": {"parameters.L": [1]}})",
+               {"study.json:1:23: scene", "no such file", "pendulm.json"}},
+        Broken{"SceneOfACase",
+               R"({"study": 1, "vary": [{"scene": "pendulum.json"},
+ {"scene": 5}]})",
+               {"study.json:2:12: vary[1].scene", "found 5, expected a file's name"}},
+        Broken{"Mode",
+               R"({"study": 1, "scene": "pendulum.json", "mode": "gird", "vary": {"parameters.L": [1]}})",
+               {"study.json:1:48: mode", "found \"gird\"", "Did you mean \"grid\"?"}},
+        Broken{"Path",
+               R"({"study": 1, "scene": "pendulum.json", "vary": {"parameters.l": [1]}})",
+               {"vary.parameters.l", "Did you mean"}},
+        Broken{"Range",
+               R"({"study": 1, "scene": "pendulum.json",
+ "vary": {"parameters.L": {"from": 0, "to": 1, "count": 3, "scale": "log"}}})",
+               {"study.json:2:27: vary.parameters.L", "a logarithmic scale needs \"from\" and \"to\" above 0"}},
+        Broken{"Zip",
+               R"({"study": 1, "scene": "pendulum.json", "mode": "zip",
+ "vary": {"parameters.L": [1, 2], "parameters.m": [1]}})",
+               {"study.json:2:51: vary.parameters.m", "has 1 values, \"parameters.L\" has 2"}},
+        Broken{"Reduction",
+               R"({"study": 1, "scene": "pendulum.json", "vary": {"parameters.L": [1]},
+ "reduce": {"swing": {"observe": "angel", "as": "max"}}})",
+               {"study.json:2:34: reduce.swing.observe", "observes no \"angel\"", "Did you mean \"angle\"?"}},
+        Broken{"Way",
+               R"({"study": 1, "scene": "pendulum.json", "vary": {"parameters.L": [1]},
+ "reduce": {"swing": {"observe": "angle", "as": "max_ab", "level": 1}}})",
+               {"study.json:2:49: reduce.swing.as", "Did you mean \"max_abs\"?", "reduce.swing.level",
+                "only \"first_crossing\" has one"}},
+        Broken{"Reference",
+               R"({"study": 1, "scene": "pendulum.json", "vary": {"parameters.L": [1]},
+ "reduce": {"e": {"observe": "angle", "as": "rms", "reference": {"file": "measured.csv", "column": "angel"}}}})",
+               {"reduce.e.reference", "measured.csv has no column \"angel\"", "Did you mean \"angle\"?"}},
+        Broken{"Keep",
+               R"({"study": 1, "scene": "pendulum.json", "vary": {"parameters.L": [1]}, "keep": "all"})",
+               {"study.json:1:79: keep", "found the text \"all\", expected true or false"}}),
+    [](const auto& broken) { return broken.param.name; });
+
+}  // namespace
+}  // namespace trammel::study
