@@ -14,6 +14,16 @@ Declaration joined_declaration() {
               {.doc = "C1: smooth, it carries bending moments; C0: a hinge along the edge"});
 }
 
+std::vector<FidelityParameter> TsplinePlate::fidelity() const {
+  std::vector<FidelityParameter> all = {{"quadrature"}};
+  const Patch& p = sole_patch;
+  const bool numbered = !p.partial_lines.empty() || !p.crossed.empty() || !refine_elements.empty();
+  if (!named_patches.empty() || numbered || !p.knots_u.empty() || !p.knots_v.empty()) return all;
+  if (p.elements_u == 0 || p.elements_v == 0) all.push_back({"mesh.elements"});
+  all.push_back({"mesh.elements_u"}), all.push_back({"mesh.elements_v"});
+  return all;
+}
+
 std::string TsplinePlate::in_patch(int k) const {
   return named_patches.empty() ? "" : named_patches[std::size_t(k)].first + ".";
 }

@@ -14,6 +14,7 @@
 #include <trammel/awaits_contact.hpp>
 #include <trammel/body.hpp>
 #include <trammel/faces.hpp>
+#include <trammel/fidelity.hpp>
 #include <trammel/fields.hpp>
 #include <trammel/observed_units.hpp>
 #include <trammel/parameters.hpp>
@@ -50,6 +51,7 @@ class TsplinePlate final : public Body,
                            public SlidingSurface,
                            public Refinable,
                            public AwaitsContact,
+                           public HasFidelity,
                            public HasMomentum {
  public:
   // Parameters; see the declaration in plugin.cpp.
@@ -74,6 +76,9 @@ class TsplinePlate final : public Body,
   int refine_levels = 1;
 
   void prepare(const World& world) override;
+
+  // The mesh of a plate of one patch, unless its elements or lines are named by their numbers.
+  std::vector<FidelityParameter> fidelity() const override;
 
   Coordinates coordinates() const override { return Coordinates::flat(mesh_->coordinates.coordinates()); }
   void initial(Out q, Out v) const override;

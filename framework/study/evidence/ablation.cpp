@@ -1,7 +1,6 @@
 #include "study/evidence/ablation.hpp"
 
 #include <algorithm>
-#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -79,8 +78,14 @@ std::vector<Part> candidates(const std::vector<Part>& parts, double target) {
   for (const Part& part : parts)
     if (part.failure.empty() && part.difference <= target) cheap.push_back(part);
   std::stable_sort(cheap.begin(), cheap.end(), [](const Part& a, const Part& b) { return a.cpu < b.cpu; });
-  std::set<std::string> paths;
-  std::erase_if(cheap, [&](const Part& part) { return !paths.insert(part.change.path).second; });
+  std::vector<std::string> taken;
+  std::erase_if(cheap, [&](const Part& part) {
+    const std::string& path = part.change.path;
+    if (std::any_of(taken.begin(), taken.end(), [&](const std::string& other) { return overlap(path, other); }))
+      return true;
+    taken.push_back(path);
+    return false;
+  });
   std::stable_sort(cheap.begin(), cheap.end(),
                    [](const Part& a, const Part& b) { return a.difference < b.difference; });
   return cheap;

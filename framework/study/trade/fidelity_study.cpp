@@ -1,7 +1,7 @@
 #include "study/trade/fidelity_study.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -9,33 +9,100 @@
 
 #include "plugin/parameters.hpp"
 #include "simulate/start/setup.hpp"
+#include "study/cases/json_text.hpp"
 
 namespace trammel::study {
 namespace {
 
-void add(std::vector<Rung>& all, const std::string& path, const std::string& value, bool finer) {
-  all.push_back({fmt::format("{} = {}", path, value), {path, value}, finer, true});
-}
+// The rungs of one parameter of a component, as far as its declaration allows them.
+class Ladder {
+ public:
+  Ladder(std::vector<Rung>& all, const FidelityParameter& fidelity, const Parameter& parameter, std::string path)
+      : all_(all), fidelity_(fidelity), parameter_(parameter), path_(std::move(path)) {}
 
-void of_choice(std::vector<Rung>& all, const FidelityParameter& p, const std::string& path, const std::string& now) {
-  const auto found = std::find(p.choices.begin(), p.choices.end(), now);
-  if (found == p.choices.end()) return;
-  for (auto at = p.choices.begin(); at != p.choices.end(); ++at)
-    if (at < found || at == found + 1) add(all, path, *at, at > found);
-}
+  void operator()(const ParameterValue& now) {
+    if (const auto* text = std::get_if<std::string>(&now))
+      fidelity_.choices.empty() ? of_text(*text) : of_choice(*text);
+    if (const int* n = std::get_if<int>(&now); n && *n > 0) of_integer(*n);
+    if (const double* x = std::get_if<double>(&now); x && *x != 0) of_number(*x);
+  }
 
-void of_integer(std::vector<Rung>& all, const FidelityParameter& p, const std::string& path, int now) {
-  const bool larger = p.costs == FidelityParameter::Costs::more_if_larger;
-  const int up = now + std::max(1, now / 2), down = now - 1, half = now / 2;
-  add(all, path, std::to_string(larger ? up : down), true);
-  if (down >= 0) add(all, path, std::to_string(larger ? down : up), false);
-  if (larger && half >= 1 && half < down) add(all, path, std::to_string(half), false);
-}
+ private:
+  bool larger() const { return fidelity_.costs == FidelityParameter::Costs::more_if_larger; }
 
-void of_number(std::vector<Rung>& all, const FidelityParameter& p, const std::string& path, double now) {
-  const double finer = p.costs == FidelityParameter::Costs::more_if_larger ? 10 : 0.1;
-  add(all, path, fmt::format("{}", now * finer), true);
-  for (const double factor : {1 / finer, 1 / (finer * finer)}) add(all, path, fmt::format("{}", now * factor), false);
+  void add(const std::string& value, bool finer) {
+    all_.push_back({fmt::format("{} = {}", path_, value), {path_, value}, finer, true});
+  }
+  void add_number(double value, bool finer) {
+    const ParameterTraits& t = parameter_.traits;
+    if (value < t.min || value > t.max || (t.above_min && value == t.min)) return;
+    add(fmt::format("{}", value), finer);
+  }
+
+  void of_choice(const std::string& now) {
+    const auto& choices = fidelity_.choices;
+    const auto found = std::find(choices.begin(), choices.end(), now);
+    if (found == choices.end()) return;
+    for (auto at = choices.begin(); at != choices.end(); ++at)
+      if (at < found || at == found + 1) add(*at, at > found);
+  }
+
+  void of_integer(int now) {
+    const int up = now + std::max(1, now / 2), down = now - 1, half = now / 2;
+    add_number(larger() ? up : down, true);
+    add_number(larger() ? down : up, false);
+    if (larger() && half >= 1 && half < down) add_number(half, false);
+  }
+
+  void of_number(double now) {
+    const double finer = larger() ? 10 : 0.1;
+    add_number(now * finer, true);
+    for (const double factor : {1 / finer, 1 / (finer * finer)}) add_number(now * factor, false);
+  }
+
+  // "10x4": half as many again of each, and half as many.
+  void of_text(const std::string& now) {
+    for (const bool finer : {true, false}) {
+      const std::string changed = with_numbers(now, [&](int n) { return finer == larger() ? n + n / 2 : n / 2; });
+      if (changed != now && !changed.empty()) add(changed, finer);
+    }
+  }
+
+  // Empty: a number would not be positive.
+  template <class Change>
+  static std::string with_numbers(const std::string& text, Change change) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size();) {
+      if (std::isdigit(static_cast<unsigned char>(text[i])) == 0) {
+        result += text[i++];
+        continue;
+      }
+      std::size_t digits = 0;
+      const int n = change(std::stoi(text.substr(i), &digits));
+      if (n < 1) return "";
+      result += std::to_string(n), i += digits;
+    }
+    return result;
+  }
+
+  std::vector<Rung>& all_;
+  const FidelityParameter& fidelity_;
+  const Parameter& parameter_;
+  std::string path_;
+};
+
+// The object with another type: what the component does not declare, such as "between", stays.
+std::string with_alternative(const scene::Value& object, const Declaration& declared,
+                             const FidelityAlternative& other) {
+  const auto own = [&](const std::string& key) {
+    return std::any_of(declared.parameters.begin(), declared.parameters.end(),
+                       [&](const Parameter& p) { return p.name == key || p.name.starts_with(key + "."); });
+  };
+  std::string text = fmt::format("{{\"type\":\"{}\"", other.type);
+  for (const auto& [key, value] : object.members())
+    if (key != "type" && !own(key)) text += fmt::format(",\"{}\":{}", key, json_text(value));
+  for (const auto& [key, value] : other.parameters) text += fmt::format(",\"{}\":{}", key, value);
+  return text + "}";
 }
 
 void of_component(std::vector<Rung>& all, const Component* component, Kind kind, const std::string& path,
@@ -45,14 +112,23 @@ void of_component(std::vector<Rung>& all, const Component* component, Kind kind,
   if (!has || !type) return;
   const Declaration& declaration = registry.find(kind, type->text()).declaration;
   for (const FidelityParameter& p : has->fidelity())
-    for (const Parameter& parameter : declaration.parameters) {
-      if (parameter.name != p.name) continue;
-      const ParameterValue value = parameter.get(*component);
-      const std::string at = path + "." + p.name;
-      if (const auto* text = std::get_if<std::string>(&value)) of_choice(all, p, at, *text);
-      if (const int* n = std::get_if<int>(&value)) of_integer(all, p, at, *n);
-      if (const double* x = std::get_if<double>(&value)) of_number(all, p, at, *x);
-    }
+    for (const Parameter& parameter : declaration.parameters)
+      if (parameter.name == p.name) Ladder(all, p, parameter, path + "." + p.name)(parameter.get(*component));
+  for (const FidelityAlternative& other : has->alternatives())
+    all.push_back({fmt::format("{} by {}", path, other.type),
+                   {path, with_alternative(*scene.root().at_path(path), declaration, other)},
+                   other.finer,
+                   true});
+}
+
+// All, and each level if there are several.
+void of_corrections(std::vector<Rung>& all, const scene::Scene& scene) {
+  const scene::Value* corrections = scene.root().find("corrections");
+  if (!corrections || corrections->type() != scene::Value::Type::object) return;
+  all.push_back({"without corrections", {"corrections", "null"}, false, false});
+  if (corrections->members().size() < 2) return;
+  for (const auto& [level, how] : corrections->members())
+    all.push_back({"without corrections of " + level, {"corrections." + level, "null"}, false, false});
 }
 
 // Units that were repeated by "for" have no path of their own.
@@ -67,6 +143,10 @@ bool applies(const SceneSource& source, const Rung& rung) {
 
 }  // namespace
 
+bool overlap(const std::string& a, const std::string& b) {
+  return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
+}
+
 std::vector<Rung> ladders(const SceneSource& source, plugin::Registry& registry) {
   std::vector<Rung> all;
   const scene::Scene scene = source.with();
@@ -76,13 +156,15 @@ std::vector<Rung> ladders(const SceneSource& source, plugin::Registry& registry)
   for (const model::ContactEntry& contact : setup.model->contacts) {
     if (contact.joint) continue;
     of_component(all, contact.law.get(), Kind::contact, "contacts." + contact.name, scene, registry);
-    if (contact.friction)
-      all.push_back({"without friction of contacts." + contact.name,
-                     {"contacts." + contact.name + ".friction", "null"},
-                     false,
-                     false});
+    if (!contact.friction) continue;
+    of_component(all, contact.friction.get(), Kind::friction, "contacts." + contact.name + ".friction", scene,
+                 registry);
+    all.push_back({"without friction of contacts." + contact.name,
+                   {"contacts." + contact.name + ".friction", "null"},
+                   false,
+                   false});
   }
-  if (scene.root().find("corrections")) all.push_back({"without corrections", {"corrections", "null"}, false, false});
+  of_corrections(all, scene);
   std::erase_if(all, [&](const Rung& rung) { return !applies(source, rung); });
   return all;
 }

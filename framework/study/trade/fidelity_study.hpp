@@ -1,5 +1,6 @@
 // What the model itself costs and is worth: each fidelity parameter one rung up and some rungs down its ladder,
-// friction and corrections left out, all with the integrator that was chosen.
+// components by their alternatives (trammel/fidelity.hpp), friction and corrections left out, all with the integrator
+// that was chosen.
 //
 // The difference to the scene's own model is the error of the cheaper model; that to a finer one estimates the
 // truncation of the scene's own.
@@ -19,6 +20,9 @@ struct Rung {
   bool finer = false;
   bool parameter = true;  // false: a part of the scene is left out
 };
+
+// One of two dotted paths is part of the other: both cannot be changed together.
+bool overlap(const std::string& a, const std::string& b);
 
 std::vector<Rung> ladders(const SceneSource& source, plugin::Registry& registry);
 

@@ -167,7 +167,7 @@ class Trade {
     Overrides all = choice.overrides;
     std::vector<std::string> what;
     for (const RungResult* r : usable) {
-      const auto same = [&](const scene::Override& o) { return o.path == r->rung.change.path; };
+      const auto same = [&](const scene::Override& o) { return overlap(o.path, r->rung.change.path); };
       if (std::any_of(all.begin(), all.end(), same)) continue;
       all.push_back(r->rung.change), what.push_back(r->rung.what);
     }

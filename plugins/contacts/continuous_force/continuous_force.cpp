@@ -17,6 +17,7 @@
 #include <cmath>
 
 #include <trammel/contact.hpp>
+#include <trammel/fidelity.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
@@ -28,7 +29,7 @@ double power(double depth, double n) {
   return n == 1.5 ? depth * std::sqrt(depth) : std::pow(depth, n);
 }
 
-struct ContinuousForce : ContactForce {
+struct ContinuousForce : ContactForce, HasFidelity {
   enum class Damping { none, hunt_crossley, lankarani_nikravesh, flores, coefficient };
   double c2 = 0, p = 1.5;
   double stiffness = 0, exponent = 1.5, restitution = 1;
@@ -51,6 +52,12 @@ struct ContinuousForce : ContactForce {
 
   double potential(double gap) const override {
     return gap < 0 ? stiffness * std::pow(-gap, exponent + 1) / (exponent + 1) : 0;
+  }
+
+  std::vector<FidelityParameter> fidelity() const override { return {{"stiffness"}}; }
+  // Its limit as K grows.
+  std::vector<FidelityAlternative> alternatives() const override {
+    return {{"constraint_method", {{"restitution", restitution}}}};
   }
 
   Slope slope(double gap, double gap_rate, double approach_speed) const override {

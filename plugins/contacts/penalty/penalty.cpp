@@ -8,13 +8,14 @@
 #include <algorithm>
 
 #include <trammel/contact.hpp>
+#include <trammel/fidelity.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
 
 using namespace trammel;
 
-struct Penalty : ContactForce, ForceBySurfacePoints {
+struct Penalty : ContactForce, ForceBySurfacePoints, HasFidelity {
   enum class By { area, points };
   double stiffness = 0, damping = 0, apart = 0;
   By by = By::area;
@@ -28,6 +29,9 @@ struct Penalty : ContactForce, ForceBySurfacePoints {
     return {.by_gap = -stiffness, .by_rate = -damping};
   }
   double weight(double area) const override { return by == By::area ? area : 1; }
+  std::vector<FidelityParameter> fidelity() const override {
+    return {{"stiffness"}, {"spacing", FidelityParameter::Costs::more_if_smaller}};
+  }
   double spacing(double sphere_radius) const override { return apart > 0 ? apart : sphere_radius / 30; }
 };
 

@@ -4,6 +4,7 @@
 //     quadratic   T = -mu N y (2 - y) up to y = 1, -mu N beyond
 #include <cmath>
 
+#include <trammel/fidelity.hpp>
 #include <trammel/friction.hpp>
 #include <trammel/plugin.hpp>
 
@@ -11,7 +12,7 @@ namespace {
 
 using namespace trammel;
 
-struct RegularizedCoulomb : SmoothFriction {
+struct RegularizedCoulomb : SmoothFriction, HasFidelity {
   enum class Form { tanh, quadratic };
   double mu = 0, v_c = 1e-3;
   Form form = Form::tanh;
@@ -21,6 +22,11 @@ struct RegularizedCoulomb : SmoothFriction {
     if (form == Form::quadratic) return y < 1 ? mu * y * (2 - y) : mu;
     return mu * std::tanh(y);
   }
+  std::vector<FidelityParameter> fidelity() const override {
+    return {{"critical_velocity", FidelityParameter::Costs::more_if_smaller}};
+  }
+  // Its limit as v_c goes to 0.
+  std::vector<FidelityAlternative> alternatives() const override { return {{"coulomb", {{"coefficient", mu}}, true}}; }
   double slope(double slip) const override {
     if (form == Form::quadratic) return slip < v_c ? 2 * mu / v_c * (1 - slip / v_c) : 0;
     const double sech = 1 / std::cosh(std::min(slip / v_c, 300.0));
