@@ -21,7 +21,7 @@ def main(program, folder):
     schema = json.loads(subprocess.run([program, "schema"], check=True, capture_output=True, text=True).stdout)
     jsonschema.Draft202012Validator.check_schema(schema)
     validator = jsonschema.Draft202012Validator(schema)
-    scenes = sorted(pathlib.Path(folder).rglob("*.json"))
+    scenes = sorted(f for f in pathlib.Path(folder).rglob("*.json") if f.parent.name != "studies")
     refused = 0
     for scene in scenes:
         for error in validator.iter_errors(load(scene)):

@@ -1,13 +1,14 @@
-// Every scene of the repository is valid.
+// Every scene and every study of the repository is valid.
 #include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "commands/simulation.hpp"
 #include "scene/value.hpp"
 #include "simulate/start/setup.hpp"
-#include "commands/simulation.hpp"
+#include "study/study_file.hpp"
 
 #include "support/made.hpp"
 
@@ -16,10 +17,11 @@ namespace {
 
 const std::filesystem::path kScenes = TRAMMEL_SOURCE_DIR "/scenes";
 
-std::vector<std::string> all_scenes() {
+std::vector<std::string> files(bool studies) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kScenes))
-    if (entry.path().extension() == ".json") names.push_back(entry.path().lexically_relative(kScenes).string());
+    if (entry.path().extension() == ".json" && (entry.path().parent_path().filename() == "studies") == studies)
+      names.push_back(entry.path().lexically_relative(kScenes).string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -81,12 +83,26 @@ TEST_P(EveryScene, HasBodiesWithTheMarkersAndObservablesThatTheirManualNames) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(all_scenes()), [](const auto& scene) {
-  std::string name = scene.param.substr(0, scene.param.size() - 5);
+class EveryStudy : public testing::TestWithParam<std::string> {};
+
+// Also with all values of a case together, which reading a study does not try.
+TEST_P(EveryStudy, HasCasesThatAreValidScenes) {
+  const study::Study study = study::Study::load((kScenes / GetParam()).string());
+  for (std::size_t i = 0; i < study.size(); ++i) {
+    const study::SceneSource source(study.scene_files()[study.scene_of(i)], study.set());
+    EXPECT_NO_THROW(EXPECT_EQ(simulate::validate(source.with(study.overrides(i)), registry()), "")) << "case " << i;
+  }
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& file) {
+  std::string name = file.param.substr(0, file.param.size() - 5);
   std::replace_if(
       name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
   return name;
-});
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(files(false)), test_name);
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryStudy, testing::ValuesIn(files(true)), test_name);
 
 }  // namespace
 }  // namespace trammel::test

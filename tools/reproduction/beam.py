@@ -9,46 +9,44 @@ import numpy as np
 from beam_table_1 import ALPHAS, MODES, PAIRS, SECONDS_OF_PAPER
 from claims import Claim, Verdict, yes_if
 from figures import Curve, Figure, Panel
-from runs import run, significant as s
+from studies import case, significant as s
 
 TITLE = "A flexible beam strikes a plane: the paper's figures, tables and claims"
+SCENES = "beam_impact"
 STIFFNESSES = [1e8, 1e9, 1e10]
 BETWEEN = [(0.0, 0.369), (0.39, 0.755), (0.84, 1.15)]  # before cluster 1; between 1 and 2; from 2 on
 
 
-# Runs -----------------------------------------------------------------------------------------------------------------------
+# Cases ----------------------------------------------------------------------------------------------------------------------
 
-def scene(name, may_fail=False, until=None, N=None, e=None, alpha=None, pair=None, K=None, **values):
-    given = {"simulate__until": until, "parameters__N": N, "parameters__e": e, "parameters__alpha": alpha, "parameters__K": K}
-    if pair:
-        given |= {"parameters__delta": pair[0], "parameters__epsilon": pair[1]}
-    return run(f"beam_impact/{name}", may_fail, **{k: v for k, v in given.items() if v is not None}, **values)
+HHT = {(e, a): case("figure_2_3", scene="figure_2_hht", parameters__e=e, parameters__alpha=value) for e in (0, 0.3) for a, value in ALPHAS}
+BAUMGARTE = {(e, p): case("figure_2_3", scene="figure_2_baumgarte", parameters__e=e, parameters__delta=p[0]) for e in (0, 0.3) for p in PAIRS}
+FORCE = {(e, K): case("figure_2_3", scene="figure_2_continuous_force", parameters__e=e, parameters__K=K) for e in (0, 0.3) for K in STIFFNESSES}
+LOCATED = {(e, p): case("located_impacts", scene="baumgarte", parameters__e=e, parameters__delta=p[0]) for e in (0, 0.3) for p in (PAIRS[0], PAIRS[2])}
+ACCURATE = {e: case("located_impacts", scene="accurate", parameters__e=e) for e in (0, 0.3)}
+TABLE_1 = {(f"HHT alpha = {a}", N): case("table_1", parameters__N=N, parameters__alpha=value) for a, value in ALPHAS for N in MODES}
+TABLE_1 |= {(f"Baumgarte ({p[0]}, {p[1]})", N): case("table_1", parameters__N=N, parameters__delta=p[0]) for p in PAIRS for N in MODES}
+MODES_HHT = {(a, N): case("figure_4_5", parameters__N=N, parameters__alpha=a) for a in (0, -0.15) for N in MODES}
+MODES_BAUMGARTE = {N: case("figure_4_5", scene="figure_4_baumgarte", parameters__N=N) for N in MODES}
+SHARES = {"HHT alpha = 0": case("figure_6_7_8", parameters__alpha=0), "HHT alpha = -0.15": case("figure_6_7_8", parameters__alpha=-0.15),
+          "Baumgarte (1000, 5000)": case("figure_6_7_8", scene="figure_8")}
+NORMS, NORMS_CONSISTENT = ({N: case("figure_9", contacts__tip__restart=how, parameters__N=N) for N in MODES} for how in ("carry", "consistent"))
+FINE_HHT = [case("rebound", scene="hht", parameters__alpha=value) for _, value in ALPHAS]
+LITERAL_HHT = {e: case("rebound", scene="figure_2_hht", parameters__e=e) for e in (0, 0.3)}
 
 
-HHT = {(e, a): scene("figure_2_hht", e=e, alpha=value) for e in (0, 0.3) for a, value in ALPHAS}
-BAUMGARTE = {(e, p): scene("figure_2_baumgarte", e=e, pair=p) for e in (0, 0.3) for p in PAIRS}
-LOCATED = {(e, p): scene("baumgarte", e=e, pair=p, until=1.15) for e in (0, 0.3) for p in [(0, 0), (1000, 5000)]}
-FORCE = {(e, K): scene("figure_2_continuous_force", e=e, K=K) for e in (0, 0.3) for K in STIFFNESSES}
-ACCURATE = {e: scene("accurate", e=e, until=1.15) for e in (0, 0.3)}
-TABLE_1 = {(f"HHT alpha = {a}", N): scene("table_1_hht", N=N, alpha=value) for a, value in ALPHAS for N in MODES}
-TABLE_1 |= {(f"Baumgarte ({p[0]}, {p[1]})", N): scene("table_1_baumgarte", N=N, pair=p) for p in PAIRS for N in MODES}
-MODES_HHT = {(a, N): scene("figure_4_hht", N=N, alpha=a) for a in (0, -0.15) for N in MODES}
-MODES_BAUMGARTE = {N: scene("figure_4_baumgarte", N=N) for N in MODES}
-SHARES = {"HHT alpha = 0": scene("figure_6"), "HHT alpha = -0.15": scene("figure_7"), "Baumgarte (1000, 5000)": scene("figure_8")}
-NORMS = {N: scene("figure_9", N=N) for N in MODES}
-NORMS_CONSISTENT = {N: scene("figure_9", N=N, contacts__tip__restart="consistent") for N in MODES}
-LITERAL_HHT = {e: scene("figure_2_hht", e=e, alpha=0, until=0.45, contacts__tip__rebound="constrained") for e in (0, 0.3)}
-FINE_HHT = [scene("hht", e=0, alpha=value, until=0.755) for _, value in ALPHAS]
-STABILISED = scene("figure_2_hht", e=0, alpha=-0.15, until=0.6)
-INDEX3 = {name: scene("figure_2_hht", e=0, alpha=-0.15, until=0.6, may_fail=True, integrator__formulation="index3", **values)
-          for name, values in [("located impacts", {}), ("stale accelerations", {"contacts__tip__restart": "carry"}),
-                               ("impact at the step's end", {"contacts__tip__onset": "next_step"})]}
-STABILISED_LATE = scene("figure_2_hht", e=0, alpha=-0.15, until=0.6, contacts__tip__onset="next_step")
-FREE_1E4 = {N: scene("baumgarte", N=N, until=0.01, may_fail=True, integrator__step=1e-4) for N in (3, 5)}
-STEPS_N9 = {h: scene("figure_4_baumgarte", N=9, until=1.25, may_fail=True, integrator__step=h, integrator__contact_step=h)
-            for h in (1e-6, 1.5e-6, 2e-6)}
-N9_AT_2E6 = {name: scene("figure_4_baumgarte", N=9, until=0.6, may_fail=True, integrator__step=2e-6, integrator__contact_step=2e-6, **values)
-             for name, values in [("AB4", {}), ("AB4 (0, 0)", {"pair": (0, 0)}), ("AB3", {"integrator__predictor": "ab3"})]}
+def form(formulation, restart="", onset="", **more):
+    return case("index_3", integrator__formulation=formulation, contacts__tip__restart=restart, contacts__tip__onset=onset, **more)
+
+
+STABILISED, STABILISED_LATE = form("stabilised"), form("stabilised", onset="next_step")
+INDEX3 = {"located impacts": form("index3", may_fail=True), "stale accelerations": form("index3", restart="carry", may_fail=True),
+          "impact at the step's end": form("index3", onset="next_step", may_fail=True)}
+FREE_1E4 = {N: case("adams_steps", scene="baumgarte", parameters__N=N, may_fail=True) for N in (3, 5)}
+STEPS_N9 = {h: case("adams_steps", simulate__until=1.25, integrator__step=h, may_fail=True) for h in (1e-6, 1.5e-6, 2e-6)}
+N9_AT_2E6 = {"AB4": case("adams_steps", integrator__predictor="ab4", parameters__delta="", may_fail=True),
+             "AB4 (0, 0)": case("adams_steps", integrator__predictor="ab4", parameters__delta=0, may_fail=True),
+             "AB3": case("adams_steps", integrator__predictor="ab3", may_fail=True)}
 
 
 # What is read off a run -----------------------------------------------------------------------------------------------------
@@ -210,7 +208,7 @@ def delta_and_theta(results):
 def energy_rises(results):
     start = results[ACCURATE[0.3]]["energy_total"][0]
     published = [energy(results[BAUMGARTE[0.3, p]], 0.45, +1) for p in PAIRS]
-    located = [energy(results[LOCATED[0.3, p]], 0.45, +1) for p in [(0, 0), (1000, 5000)]]
+    located = [energy(results[LOCATED[0.3, p]], 0.45, +1) for p in (PAIRS[0], PAIRS[2])]
     work = [results[BAUMGARTE[0.3, p]].info["energy_supplied"]["constraints"] for p in PAIRS]
     text = (f"{start:.3f} -> {listed(published, 4)} J for the three pairs with the row on while the tip separates (its force "
             f"did {listed(work, 3)} J of work in 2 s); "

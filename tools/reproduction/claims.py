@@ -2,7 +2,7 @@
 import dataclasses
 from typing import Callable
 
-from runs import Run
+from studies import Case
 
 
 @dataclasses.dataclass
@@ -21,7 +21,7 @@ class Claim:
     claim: str
     paper: str
     why: str
-    runs: list[Run]
+    cases: list[Case]
     judge: Callable  # of the results
     expected: str = "yes"
 

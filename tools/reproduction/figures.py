@@ -12,7 +12,7 @@ matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
 import numpy as np  # noqa: E402
 
-from runs import Run  # noqa: E402
+from studies import Case  # noqa: E402
 
 plt.rcParams.update({"svg.hashsalt": "trammel", "font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 0.9})
 LEGEND_BELOW = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.17)}  # where it would hide what is drawn
@@ -22,7 +22,7 @@ COLOURS = len(plt.rcParams["axes.prop_cycle"])
 @dataclasses.dataclass
 class Curve:
     label: str
-    run: Run
+    run: Case
     y: str | Callable  # a column of series.csv, or a function of the result
 
 
@@ -40,7 +40,7 @@ class Panel:
     style: str = "-"
     projection = None
 
-    def runs(self):
+    def cases(self):
         return [curve.run for curve in self.curves]
 
     def drawn(self, results):
@@ -76,12 +76,12 @@ class Lines:
     title: str
     xlabel: str
     ylabel: str
-    needs: list[Run]
+    needs: list[Case]
     of: Callable
     equal: bool = False  # one scale for both axes
     projection = None
 
-    def runs(self):
+    def cases(self):
         return self.needs
 
     def draw(self, ax, results):
@@ -105,11 +105,11 @@ class Bars:
     name: str
     title: str
     ylabel: str
-    needs: list[Run]
+    needs: list[Case]
     of: Callable
     projection = None
 
-    def runs(self):
+    def cases(self):
         return self.needs
 
     def draw(self, ax, results):
@@ -132,8 +132,8 @@ class Figure:
     size: tuple = (5.2, 3.1)  # of a panel [in]
     columns: int = 0  # 0: chosen
 
-    def runs(self):
-        return [run for panel in self.panels for run in panel.runs()]
+    def cases(self):
+        return [case for panel in self.panels for case in panel.cases()]
 
 
 def values(curve, results):

@@ -7,27 +7,23 @@ import numpy as np
 
 from claims import Claim, Verdict, yes_if
 from figures import Curve, Figure, Panel
-from runs import run, significant as s
+from studies import case, significant as s
 
 TITLE = "A free-standing body on a moving base: the paper's figures and claims"
 CASES = {"1a": "e = -0.915 m", "1s": "e = 0", "2a": "e = -3.673 m", "2s": "e = 0", "3v": "Y0 = 0.9 m", "3h": "Y0 = 0"}
 
 
-def scene(name, may_fail=False, **values):
-    return run(f"free_standing/{name}", may_fail, **values)
-
-
-DROP = scene("drop", record__every=1e-3)
-CASE = {name: scene(name, record__every=1e-2) for name in CASES}
-CLOSE = scene("1a", simulate__until=4, record__every=1e-3)
-CLOSE_2 = {name: scene(name, simulate__until=0.5, record__every=5e-4) for name in ("2a", "2s")}
-FINE = {name: scene(name, integrator__step__tolerance=1e-11, record__every=1e-2) for name in CASES}
-OTHER = {name: scene(name, integrator='{"type": "dormand_prince", "step": {"tolerance": 1e-10}}', record__every=1e-2) for name in ("2a", "3h")}
-DROPS = {h: scene("drop_paper_scheme", parameters__h=h, simulate__until=0.9, record__every=1e-2) for h in (1e-5, 1e-6, 1e-7)}
-SCHEME = {h: scene("paper_scheme", parameters__h=h, record__every=0.1) for h in (1e-5, 1e-6)}
-EVENTS = {(method, tol): scene("1a", simulate__until=10, integrator__type=method, integrator__step__tolerance=tol)
+DROP = case("figure_5")
+CASE = {name: case("figure_6_9_11", scene=name, integrator="", integrator__step__tolerance="") for name in CASES}
+FINE = {name: case("figure_6_9_11", scene=name, integrator__step__tolerance=1e-11) for name in CASES}
+OTHER = {name: case("figure_6_9_11", scene=name, integrator={"type": "dormand_prince", "step": {"tolerance": 1e-10}}) for name in ("2a", "3h")}
+CLOSE = case("figure_7_8_10", scene="1a")
+CLOSE_2 = {name: case("figure_7_8_10", scene=name) for name in ("2a", "2s")}
+DROPS = {h: case("steps_of_the_drop", parameters__h=h) for h in (1e-5, 1e-6, 1e-7)}
+SCHEME = {h: case("cost", parameters__h=h) for h in (1e-5, 1e-6)}
+EVENTS = {(method, tol): case("cost", integrator__type=method, integrator__step__tolerance=tol)
           for method, tols in (("dormand_prince", (1e-6, 1e-7)), ("dop853", (1e-6, 1e-8, 1e-9, 1e-10))) for tol in tols}
-BEST = scene("1a", simulate__until=10, integrator__step__tolerance=1e-12)
+BEST = case("cost", integrator__step__tolerance=1e-12)
 
 
 # What is read off a run -----------------------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
-"""tools/reproduce SYSTEM: runs the scenes of a system's paper, draws its figures, fills its tables, judges its claims.
+"""tools/reproduce SYSTEM: runs the studies of a system's paper, draws its figures, fills its tables, judges its claims.
 
 A system is a module of this folder with TITLE, FIGURES (a list of Figure), CLAIMS (a list of Claim), and TABLES, a list of
-(name, title, runs, rows of the results): beam.py is one.
+(name, title, cases, rows of the results): beam.py is one.
 """
 import argparse
 import csv
@@ -14,10 +14,10 @@ import time
 
 import claims
 import figures
-from runs import Results
+from studies import Results
 
 HERE = pathlib.Path(__file__).resolve().parent
-PARTS = {"main", "runs", "figures", "pictures", "claims", "beam_table_1"}
+PARTS = {"main", "studies", "figures", "pictures", "claims", "beam_table_1"}
 
 
 def main():
@@ -25,22 +25,23 @@ def main():
     parser = argparse.ArgumentParser(prog="tools/reproduce", description="Redraws a paper's figures and checks its claims.")
     parser.add_argument("system", choices=systems)
     parser.add_argument("--out", type=pathlib.Path, help="results folder; default out/reproduce/SYSTEM")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time; default one per core")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="cases at a time; default one per core")
     options = parser.parse_args()
     system = importlib.import_module(options.system)
     out = options.out or pathlib.Path("out/reproduce") / options.system
-    shutil.rmtree(out / "runs", ignore_errors=True)
+    shutil.rmtree(out / "studies", ignore_errors=True)
     out.mkdir(parents=True, exist_ok=True)
 
     start = time.monotonic()
-    results = Results(out / "runs")
-    results.compute([run for figure in system.FIGURES for run in figure.runs()]
-                    + [run for _, _, runs, _ in system.TABLES for run in runs]
-                    + [run for claim in system.CLAIMS for run in claim.runs], options.jobs)
+    results = Results(getattr(system, "SCENES", options.system), out / "studies")
+    results.compute(options.jobs, getattr(system, "ALONE", set()))
+    cases = {case for figure in system.FIGURES for case in figure.cases()}
+    cases |= {case for _, _, cases_of, _ in system.TABLES for case in cases_of} | {case for claim in system.CLAIMS for case in claim.cases}
+    unexpected = results.unexpected(cases)
     for figure in system.FIGURES:
         figures.write(figure, results, out)
     text = [f"# {system.TITLE}", "", "Written by `tools/reproduce " + options.system + "`; every number of Trammel's was computed"
-            " by the runs in `runs/`, whose `command` files tell how.", ""]
+            " by the studies of the scenes, whose results are in `studies/`.", ""]
     for name, title, _, rows_of in system.TABLES:
         header, *rows = rows_of(results)
         with open(out / f"{name}.csv", "w", newline="") as file:
@@ -52,14 +53,14 @@ def main():
     surprises = [line for claim, verdict in verdicts if (line := claim.surprise(verdict))]
     if surprises:
         text += ["## Claims judged otherwise than expected", "", *("    " + line for line in surprises), ""]
-    if results.unexpected:
-        text += ["## Runs that failed", "", *("    " + line for line in results.unexpected), ""]
+    if unexpected:
+        text += ["## Cases that failed", "", *("    " + line for line in unexpected), ""]
     (out / "claims.md").write_text("\n".join(text))
 
     print("\n".join(text))
-    print(f"{len(results.of_key)} runs, {len(system.FIGURES)} figures, {time.monotonic() - start:.0f} s. Figures (SVG, CSV) and "
+    print(f"{results.count()} runs, {len(system.FIGURES)} figures, {time.monotonic() - start:.0f} s. Figures (SVG, CSV) and "
           f"claims.md are in {out}")
-    return 1 if results.unexpected or surprises else 0
+    return 1 if unexpected or surprises else 0
 
 
 if __name__ == "__main__":

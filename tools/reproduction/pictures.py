@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
-from runs import Run
+from studies import Case
 
 COLOURS = "turbo"
 
@@ -42,11 +42,11 @@ class Moment:
 
     name: str
     title: str | Callable  # may be a function of the result
-    run: Run
+    run: Case
     t: float
     colour: Colour | None = None  # none: the mesh alone
 
-    def runs(self):
+    def cases(self):
         return [self.run]
 
     def fields(self, results):

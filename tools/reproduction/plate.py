@@ -10,28 +10,26 @@ import numpy as np
 from claims import Claim, Verdict, yes_if
 from figures import Bars, Curve, Figure, Lines, Panel
 from pictures import Colour, Map, Surface
-from runs import run, significant as s
+from studies import case, significant as s
 
 TITLE = "A T-spline plate with local refinement: the paper's figures and claims"
 TIP = (0.005486869656, 0.000007887090)  # of the continuous shell at the full moment [m]
 QUARTERS = [0.25, 0.5, 0.75, 1]  # of the load
-ROLLUP = {n: run("plate/rollup", parameters__elements=n, record__fields=QUARTERS) for n in (16, 32, 64)}
-ROLLUP_STEPS = {n: run("plate/rollup", parameters__elements=16, static__steps=n) for n in (1, 4, 20)}
-RING = {"T-spline, 28 elements": run("plate/ring", record__fields=[1]), "4x4": run("plate/ring", bodies__ring__mesh__cross="[]"),
-        "8x8": run("plate/ring", parameters__mesh="8x8", bodies__ring__mesh__cross="[]")}
-RING_REFINED = RING["T-spline, 28 elements"]
+ROLLUP = {n: case("figure_5", parameters__elements=n, static__steps="") for n in (16, 32, 64)}
+ROLLUP_STEPS = {n: case("figure_5", static__steps=n) for n in (1, 4, 20)}
+RING_REFINED = case("figure_7_table_1", bodies__ring__mesh__cross="")
+RING = {"T-spline, 28 elements": RING_REFINED,
+        **{mesh: case("figure_7_table_1", parameters__mesh=mesh, bodies__ring__mesh__cross=[]) for mesh in ("4x4", "8x8")}}
 RING_EXACT = {"inside": 70e6 / 3, "outside": 20e6 / 3}  # von Mises stress of Lame's solution [Pa]
 SWINGS = [k / 10 for k in range(11)]  # [s]
-PENDULUM = {mesh: run("plate/pendulum", parameters__mesh=mesh, simulate__until=1, record__fields=SWINGS) for mesh in ("2x2", "4x4", "8x8")}
-CORNER = {mesh: run("plate/pendulum", parameters__mesh=mesh, parameters__hinge="corner") for mesh in ("4x4", "8x8")}
+PENDULUM = {mesh: case("figure_9_10_11", parameters__mesh=mesh, parameters__hinge="") for mesh in ("2x2", "4x4", "8x8")}
+CORNER = {mesh: case("figure_9_10_11", parameters__mesh=mesh, parameters__hinge="corner") for mesh in ("4x4", "8x8")}
 STRUCK = 0.22  # [s] just after the first contact
-BALL = {mesh: run("plate/ball", parameters__mesh=mesh, record__every=0.002, record__fields=[0, STRUCK], alone=True)
-        for mesh in ("10x10", "refined", "14x14")}
-# Case B, a lighter ball. Steps of 1e-3 s, enough for case A, move it by 3 mm at 0.4 s.
-LIGHT = {mesh: run("plate/ball", parameters__mesh=mesh, parameters__ball_mass=20, integrator__step=5e-4, simulate__until=0.6,
-                   record__every=0.002) for mesh in ("10x10", "refined", "14x14")}
+ALONE = {"figure_13_to_17"}  # its cases' times are compared
+BALL = {mesh: case("figure_13_to_17", parameters__mesh=mesh) for mesh in ("10x10", "refined", "14x14")}
+LIGHT = {mesh: case("light_ball", parameters__mesh=mesh) for mesh in ("10x10", "refined", "14x14")}
 STRESS_TIMES = [0.18, 0.218, 0.548, 1]  # [s]
-BALL_STRESSES = run("plate/ball", parameters__mesh="refined", simulate__until=1, record__every=0.002, record__fields=STRESS_TIMES)
+BALL_STRESSES = case("figure_18")
 
 
 # What is read off a run -----------------------------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ import numpy as np
 
 from claims import Claim, yes_if
 from figures import Curve, Figure, Panel
-from runs import run, significant as s
+from studies import case, significant as s
 
 TITLE = "Correction of constraint violations on a deployable truss: the method's claims"
 PERIOD = 2.9309086090986798543  # [s] exact
@@ -17,37 +17,36 @@ STEPS = 100_000
 LOCK = 1.80970780453337934  # [s] exact, of the mast S1c
 
 
-def mast(corrections, integrator="{}", steps=STEPS):
-    """Rows every 4 and a quarter periods: at other phases of the oscillation each time."""
-    return run("truss/S1o", corrections=corrections, simulate__until=f"={steps}/256*period", record__every="=4.25*period",
-               **({"integrator__delta": integrator, "integrator__epsilon": integrator} if integrator != "{}" else {}))
+def corrected(position="", velocity="", energy=False):
+    given = {"position": position, "velocity": velocity, "energy": energy}
+    return {level: how for level, how in given.items() if how}
 
 
-def levels(**of):
-    position, velocity, energy = (of.get(level) for level in ("position", "velocity", "energy"))
-    given = {"position": position, "velocity": velocity}
-    text = ", ".join([f'"{level}": "{how}"' for level, how in given.items() if how] + ['"energy": true'] * bool(energy))
-    return "{" + text + "}"
+def mast(**levels):
+    return case("corrections", corrections=corrected(**levels), integrator__delta="")
+
+
+def baumgarte(constant):
+    return case("corrections", integrator__delta=constant)
 
 
 NORM, MASS, TURN = "minimum_norm", "mass_weighted", "null_space_rotation"
 METHODS = {
-    "no correction": mast(levels()),
-    "Baumgarte, 1/s": mast(levels(), 1),
-    "Baumgarte, 20/s": mast(levels(), 20),
-    "energy alone": mast(levels(energy=True)),
-    "coordinates": mast(levels(position=NORM)),
-    "velocities": mast(levels(velocity=NORM)),
-    "coordinates, velocities": mast(levels(position=NORM, velocity=NORM)),
-    "the same, weighted by mass": mast(levels(position=MASS, velocity=MASS)),
-    "the same, by rotation": mast(levels(position=NORM, velocity=TURN)),
-    "coordinates, velocities, energy": mast(levels(position=NORM, velocity=NORM, energy=True)),
-    "the same, weighted by mass, energy": mast(levels(position=MASS, velocity=MASS, energy=True)),
-    "the same, by rotation, energy": mast(levels(position=NORM, velocity=TURN, energy=True)),
+    "no correction": mast(),
+    "Baumgarte, 1/s": baumgarte(1),
+    "Baumgarte, 20/s": baumgarte(20),
+    "energy alone": mast(energy=True),
+    "coordinates": mast(position=NORM),
+    "velocities": mast(velocity=NORM),
+    "coordinates, velocities": mast(position=NORM, velocity=NORM),
+    "the same, weighted by mass": mast(position=MASS, velocity=MASS),
+    "the same, by rotation": mast(position=NORM, velocity=TURN),
+    "coordinates, velocities, energy": mast(position=NORM, velocity=NORM, energy=True),
+    "the same, weighted by mass, energy": mast(position=MASS, velocity=MASS, energy=True),
+    "the same, by rotation, energy": mast(position=NORM, velocity=TURN, energy=True),
 }
-LOCKS = {(c, h): run("truss/S1c", corrections=levels(position=NORM, velocity=NORM, energy=c), integrator__step=h,
-                     record__every=2)  # records would shorten the steps
-         for c in (False, True) for h in (16e-3, 8e-3, 4e-3)}
+LOCKS = {(energy, h): case("lock", corrections=corrected(NORM, NORM, energy), integrator__step=h)
+         for energy in (False, True) for h in (16e-3, 8e-3, 4e-3)}
 
 
 # What is read off a run -----------------------------------------------------------------------------------------------------
