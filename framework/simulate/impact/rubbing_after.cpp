@@ -5,13 +5,19 @@
 namespace trammel::simulate {
 namespace {
 
+// [m/s] What a closed contact keeps of the rate that the steps left it: its gap's rate counts from there, as in the
+// impact before.
+double drift(const TouchingContact& c) {
+  return c.was_closed ? c.before : 0;
+}
+
 Participant participant(model::AssembledSystem& system, const TouchingContact& c) {
   const model::ContactEntry& entry = system.model().contacts[std::size_t(c.contact)];
   Participant p;
   p.contact = c.contact;
   p.unilateral = !entry.joint;
   p.N = c.impulse, p.T = c.friction;
-  p.a_n = c.was_closed ? 0 : std::max(0.0, c.after);
+  p.a_n = std::max(0.0, c.after - drift(c));
   p.a_t = c.slip_after;
   if (!entry.coulomb) return p;
   p.tangent = Participant::Tangent::resting;
@@ -22,11 +28,11 @@ Participant participant(model::AssembledSystem& system, const TouchingContact& c
 
 // To `c` what was found for it.
 void add(const Participant& p, TouchingContact& c) {
-  const double normal = p.unilateral ? p.N * (c.after + p.a_n) : 0;
+  const double normal = p.unilateral ? p.N * (c.after - drift(c) + p.a_n) : 0;
   const double lost = c.energy_lost() - 0.5 * (normal + p.T.dot(c.slip_after + p.a_t));
   c.impulse += p.N;
   c.friction += p.T;
-  if (p.unilateral) c.after = c.was_closed ? c.after : p.a_n;
+  if (p.unilateral) c.after = p.a_n + drift(c);
   c.slip_after = p.a_t;
   c.course = 0;
   c.course = lost - c.loss_at_mean_rates();
