@@ -2,8 +2,8 @@
 //
 //     M dv + G_b^T Lambda = sum_i D_i F_i      F [N s]: impulses on contacts, and of friction in joints, along the
 //     directions D
-//     N = sum_k |p_k|,  p = L Lambda           [N s] the load of a joint (system/joint_friction.cpp), its reaction
-//     impulse Lambda
+//     N = sum_k |p_k|,  p = L Lambda           [N s] the load of a joint (system/point/joint_friction.cpp), its
+//     reaction impulse Lambda
 //     |T| <= mu_0 N where s+ = 0,  T = -mu N s+/|s+| elsewhere
 //
 // Lambda is linear in F. With loads N given it is the problem of contact_problem.hpp, and the loads Phi(N) follow from

@@ -11,7 +11,7 @@
 // L_i, T_i [N s] are the impulses, e_i the restitution of the contact's law at approach speed -u_i-; slower than the
 // law's capture_speed e_i = 0. The friction impulse is one Coulomb decision over the whole impact, judged by the slip
 // at its end (Moreau): a slip that stops and turns within the impact is not followed, and with e > 0 an eccentric
-// impact may gain energy (Kane's paradox), which is told (impact_gains.hpp). With D the Delassus matrix it is the
+// impact may gain energy (Kane's paradox), which is told (impact_warnings.hpp). With D the Delassus matrix it is the
 // problem of contact_forces.hpp. Several contacts at once are one problem; nature may answer otherwise (Pfeiffer,
 // Glocker 1996), and a chain of equal balls does. An impact without collision is asked for where sliding contacts have
 // no finite forces (contact_mode.hpp, rule 8). No impulse at all would solve it, too; the solution is taken that is
