@@ -27,18 +27,34 @@ void add(const ContactPoint& p, Island& island) {
   for (int k = 0; k < p.tangents; ++k) island.rows.push_back(p.tangent + k);
 }
 
-}  // namespace
-
-std::vector<Island> islands(const std::vector<ContactPoint>& points, const Mat& A) {
-  std::vector<Island> all;
+// The contacts of each, by index.
+std::vector<std::vector<std::size_t>> members_of_islands(const std::vector<ContactPoint>& points, const Mat& A) {
+  std::vector<std::vector<std::size_t>> all;
   std::vector<bool> found(points.size(), false);
   for (std::size_t first = 0; first < points.size(); ++first) {
     if (found[first]) continue;
     found[first] = true;
-    std::vector<std::size_t> members = {first};
+    std::vector<std::size_t>& members = all.emplace_back(1, first);
     for (std::size_t k = 0; k < members.size(); ++k)
       for (std::size_t i = first + 1; i < points.size(); ++i)
         if (!found[i] && act_on_each_other(points[members[k]], points[i], A)) found[i] = true, members.push_back(i);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::size_t> island_of_each(const std::vector<ContactPoint>& points, const Mat& A) {
+  const std::vector<std::vector<std::size_t>> all = members_of_islands(points, A);
+  std::vector<std::size_t> numbers(points.size());
+  for (std::size_t island = 0; island < all.size(); ++island)
+    for (const std::size_t i : all[island]) numbers[i] = island;
+  return numbers;
+}
+
+std::vector<Island> islands(const std::vector<ContactPoint>& points, const Mat& A) {
+  std::vector<Island> all;
+  for (const std::vector<std::size_t>& members : members_of_islands(points, A)) {
     Island& island = all.emplace_back();
     for (const std::size_t i : members) add(points[i], island);
   }

@@ -8,6 +8,9 @@
 
 namespace trammel::complementarity {
 
+// Of each contact: the number of its island, less than the number of contacts.
+std::vector<std::size_t> island_of_each(const std::vector<ContactPoint>& points, const Mat& A);
+
 struct Island {
   std::vector<ContactPoint> points;  // with rows of its own
   std::vector<Eigen::Index> rows;    // of A, by row of its own

@@ -65,8 +65,8 @@ void AssembledSystem::set_modes(const Modes& modes) {
     };
     if (!contacts.locks(i) && mode.closed && entry.restitution) add_row(0);
     const bool sticks = mode.closed && mode.friction == ContactMode::Friction::stick;
-    const bool by_rows =
-        sticks && (p.at.chain.held_still() || entry.coulomb->decide() == SetValuedFriction::Decide::at_events);
+    const bool by_rows = sticks && (p.at.chain.held_still() || !entry.coulomb ||
+                                    entry.coulomb->decide() == SetValuedFriction::Decide::at_events);
     if (sticks && !by_rows) resting.push_back(i);
     for (int k = 1; k <= contacts.tangents(i) && by_rows; ++k) add_row(k);
   }

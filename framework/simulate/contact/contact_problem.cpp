@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "complementarity/exact_modes.hpp"
+#include "complementarity/islands.hpp"
 #include "complementarity/shares/carrying_equations.hpp"
 #include "linear/dense/decompositions.hpp"
 
@@ -195,6 +196,10 @@ double ContactProblem::deceleration_to_spare(std::size_t participant) const {
   const Participant& p = who[participant];
   const double stiff = delassus_.block(point.tangent, point.tangent, point.tangents, point.tangents).trace();
   return stiff / point.tangents * (p.mu * p.N - p.T.norm());
+}
+
+std::vector<std::size_t> ContactProblem::islands() const {
+  return complementarity::island_of_each(points_, delassus_);
 }
 
 void ContactProblem::jump(Vec& dv) const {

@@ -49,6 +49,8 @@ class ContactProblem {
   double acceleration_without(std::size_t participant) const;
   // By how much more its friction could decelerate a slip, of a participant that rests [m/s^2]; after `solve`.
   double deceleration_to_spare(std::size_t participant) const;
+  // Of each participant: the number of its island, less than their number; once prepared.
+  std::vector<std::size_t> islands() const;
   // Change of v by the forces found as impulses.
   void jump(Vec& dv) const;
   // Those that slide along tangents which follow from the normals and from the tangents at rest.

@@ -16,6 +16,8 @@ constexpr int most_rounds = 60;
 constexpr double settled = 1e-13;
 // Of the largest load: the step of differences, in a function that is linear piece by piece, or nearly so.
 constexpr double difference = 1e-6;
+// Of the largest load by an impulse: less is round-off of the reactions.
+constexpr double no_load = 1e-9;
 
 // All that take part held by rows of their own.
 model::Modes all_held(const model::AssembledSystem& system, const std::vector<Participant>& who) {
@@ -24,8 +26,7 @@ model::Modes all_held(const model::AssembledSystem& system, const std::vector<Pa
   for (const Participant& p : who) {
     model::ContactMode& mode = modes.contacts[std::size_t(p.contact)];
     mode.closed = true;
-    const bool sticks =
-        system.model().contacts[std::size_t(p.contact)].coulomb && p.tangent != Participant::Tangent::none;
+    const bool sticks = p.tangent != Participant::Tangent::none;
     mode.friction = sticks ? model::ContactMode::Friction::stick : model::ContactMode::Friction::none;
   }
   return modes;
@@ -76,6 +77,20 @@ Vec BearingImpulses::reaction(const std::vector<Participant>& who) const {
     sum += (columns_[k].row == 0 ? p.N : p.T[columns_[k].row - 1]) * reaction_.col(Eigen::Index(k));
   }
   return sum;
+}
+
+std::vector<std::size_t> BearingImpulses::join(std::vector<std::size_t> islands,
+                                               const std::vector<Participant>& who) const {
+  Mat by_column(Eigen::Index(bearings_.size()), bearings_.empty() ? 0 : Eigen::Index(columns_.size()));
+  for (Eigen::Index k = 0; k < by_column.cols(); ++k) by_column.col(k) = loads(who, reaction_.col(k));
+  const double least = by_column.size() > 0 ? no_load * by_column.maxCoeff() : 0;
+  for (Eigen::Index j = 0; j < by_column.rows(); ++j)
+    for (Eigen::Index k = 0; k < by_column.cols(); ++k) {
+      if (!(by_column(j, k) > least)) continue;
+      const std::size_t joined = islands[bearings_[std::size_t(j)]], other = islands[columns_[std::size_t(k)].who];
+      std::replace(islands.begin(), islands.end(), other, joined);
+    }
+  return islands;
 }
 
 Vec BearingImpulses::loads(const std::vector<Participant>& who, const Vec& reaction) const {

@@ -15,8 +15,7 @@
 // `held`: from loads so large that all joints are held. Without an impact from outside N = 0 solves it, too; this finds
 // the impulse by which a sliding joint that locks itself jams, if it has one.
 //
-// Of joints Coulomb's law takes part; a smooth law gives no impulse. A smooth law of a contact counts with its ratio at
-// the slip before.
+// Of joints Coulomb's law takes part; a smooth law gives no impulse.
 #pragma once
 
 #include <vector>
@@ -40,6 +39,9 @@ class BearingImpulses {
   [[nodiscard]] complementarity::ContactSolution solve(ContactProblem& problem, double at_rest, From from) {
     return solve(problem, at_rest, from, Vec::Zero(reaction_.rows()));
   }
+  // Of the islands of the participants (ContactProblem::islands), those together that act on each other by way of the
+  // load of a bearing.
+  std::vector<std::size_t> join(std::vector<std::size_t> islands, const std::vector<Participant>& who) const;
   // By the impulses N and T of the participants.
   Vec reaction(const std::vector<Participant>& who) const;
 

@@ -38,12 +38,9 @@ complementarity::ContactSolution EnergeticImpact::solve(model::AssembledSystem& 
 }
 
 void EnergeticImpact::begin_without_collision(const std::vector<TouchingContact>& touching) {
-  for (std::size_t i = 0; i < touching.size(); ++i) {
-    if (!touching[i].without_collision) continue;
-    directions_.rates[directions_.normal[i]] -= vanishing_approach * touching[i].slip_before.norm();
-    directions_.friction[i].mu_0 *= 1 + touching[i].raised;
-    directions_.friction[i].mu *= 1 + touching[i].raised;
-  }
+  for (std::size_t i = 0; i < touching.size(); ++i)
+    if (touching[i].without_collision)
+      directions_.rates[directions_.normal[i]] -= vanishing_approach * touching[i].slip_before.norm();
 }
 
 void EnergeticImpact::let_approaches_vanish(const std::vector<TouchingContact>& touching, Vec& P, Vec& u,

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "simulate/impact/impact_friction.hpp"
+
 namespace trammel::simulate {
 complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, const State& state, double at_rest,
                                                std::vector<TouchingContact>& touching, Vec& dv) {
@@ -19,19 +21,18 @@ complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, c
     } else if (c.without_collision) {
       p.vanishing = vanishing_approach * c.slip_before.norm();
     }
-    if (entry.coulomb) {
-      p.tangent = Participant::Tangent::resting;
-      p.mu_0 = (1 + c.raised) * entry.coulomb->static_coefficient();
-      p.mu = (1 + c.raised) * entry.coulomb->kinetic_coefficient(p.a_t.norm());
-    } else if (entry.smooth) {
-      p.tangent = Participant::Tangent::sliding;
-      const double speed = p.a_t.norm();
-      if (speed > 0) p.ratio = -entry.smooth->ratio(speed) * (p.a_t / speed);
-    }
+    if (entry.friction) p.tangent = Participant::Tangent::resting;
     problem_.who.push_back(p);
   }
   problem_.prepare(system);
   bearings_.prepare(system, state, problem_.who);
+  take_islands(bearings_.join(problem_.islands(), problem_.who), touching);
+  for (std::size_t i = 0; i < touching.size(); ++i) {
+    const TouchingContact& c = touching[i];
+    const ImpactFriction friction =
+        friction_in_impact(system.model().contacts[std::size_t(c.contact)], c, c.slip_before.norm());
+    problem_.who[i].mu_0 = friction.mu_0, problem_.who[i].mu = friction.mu;
+  }
   complementarity::ContactSolution solution = bearings_.solve(problem_, at_rest, from);
   // What the steps left of the rates of closed contacts is kept, unless rates of dependent contacts then contradict
   // each other: a stack that touches floor and ceiling.

@@ -6,7 +6,7 @@
 //     0 <= L_i  complementary to  u_i+ + e_i u_i- >= 0     for contacts that were open
 //     0 <= L_i  complementary to  u_i+ - u_i-     >= 0     for contacts that were closed (they keep u-, 0 but for
 //     round-off)
-//     |T_i| <= mu_0 L_i where s_i+ = 0 (it sticks),  T_i = -mu L_i s_i+/|s_i+| elsewhere
+//     |T_i| <= mu_0 L_i where s_i+ = 0 (it sticks),  T_i = -mu L_i s_i+/|s_i+| elsewhere     (impact_friction.hpp)
 //
 // L_i, T_i [N s] are the impulses, e_i the restitution of the contact's law at approach speed -u_i-; slower than the
 // law's capture_speed e_i = 0. The friction impulse is one Coulomb decision over the whole impact, judged by the slip
@@ -42,6 +42,8 @@ struct TouchingContact {
   double raised = 0;                         // by this part of them its coefficients of friction count as larger
   double before = 0;                         // u- [m/s]
   double restitution = 0;                    // e
+  std::size_t island = 0;                    // equal for those that act on each other (complementarity/islands.hpp)
+  double speed = 0;                          // [m/s] of the impact among these (impact_friction.hpp)
   double impulse = 0;                        // L [N s]
   double after = 0;                          // u+ [m/s]
   Tangential friction = Tangential::Zero();  // T [N s]

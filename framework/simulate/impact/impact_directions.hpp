@@ -9,26 +9,20 @@
 
 #include <vector>
 
-#include "simulate/impact/impact.hpp"
+#include "simulate/impact/impact_friction.hpp"
 #include "system/assembled_system.hpp"
 
 namespace trammel::simulate {
 
 class ImpactDirections {
  public:
-  // Friction that an impact meets: Coulomb's law; a smooth law counts with its ratio at the slip that there is, so that
-  // within the impact it may end a slip and never reverse it.
-  struct Friction {
-    double mu_0 = 0, mu = 0;
-  };
-
-  // Of all that touch, at the system's point. Fills in `slip_before`.
+  // Of all that touch, at the system's point. Fills in `slip_before`, `island` and `speed`.
   void prepare(model::AssembledSystem& system, std::vector<TouchingContact>& touching);
 
   Mat jump, A;
   Vec rates;                         // [m/s] before the impact
   std::vector<int> normal, tangent;  // by contact: index of its normal and of its first tangent, -1 without friction
-  std::vector<Friction> friction;
+  std::vector<ImpactFriction> friction;
   int tangents = 1;
 };
 

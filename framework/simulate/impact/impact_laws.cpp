@@ -43,9 +43,9 @@ complementarity::ContactSolution ImpactLaws::solve(model::AssembledSystem& syste
   std::vector<TouchingContact> bearings(joints, touching.end());
   touching.erase(joints, touching.end());
   complementarity::ContactSolution solution = strike(system, at_rest, touching, dv);
-  if (solution.outcome == complementarity::LcpOutcome::solved && !bearings.empty())
-    solution = rubbing_after_.solve(system, state, at_rest, touching, bearings, dv);
   touching.insert(touching.end(), bearings.begin(), bearings.end());
+  if (solution.outcome == complementarity::LcpOutcome::solved && !bearings.empty())
+    solution = rubbing_after_.solve(system, state, at_rest, touching, dv);
   return solution;
 }
 

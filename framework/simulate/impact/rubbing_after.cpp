@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "simulate/impact/impact_friction.hpp"
+
 namespace trammel::simulate {
 namespace {
 
@@ -11,18 +13,14 @@ double drift(const TouchingContact& c) {
   return c.was_closed ? c.before : 0;
 }
 
-Participant participant(model::AssembledSystem& system, const TouchingContact& c) {
-  const model::ContactEntry& entry = system.model().contacts[std::size_t(c.contact)];
+Participant participant(const model::ContactEntry& entry, const TouchingContact& c) {
   Participant p;
   p.contact = c.contact;
   p.unilateral = !entry.joint;
   p.N = c.impulse, p.T = c.friction;
   p.a_n = std::max(0.0, c.after - drift(c));
   p.a_t = c.slip_after;
-  if (!entry.coulomb) return p;
-  p.tangent = Participant::Tangent::resting;
-  p.mu_0 = entry.coulomb->static_coefficient();
-  p.mu = entry.coulomb->kinetic_coefficient(p.a_t.norm());
+  if (entry.friction) p.tangent = Participant::Tangent::resting;
   return p;
 }
 
@@ -41,17 +39,25 @@ void add(const Participant& p, TouchingContact& c) {
 }  // namespace
 
 complementarity::ContactSolution RubbingAfter::solve(model::AssembledSystem& system, const State& state, double at_rest,
-                                                     std::vector<TouchingContact>& touching,
-                                                     std::vector<TouchingContact>& bearings, Vec& dv) {
+                                                     std::vector<TouchingContact>& touching, Vec& dv) {
+  const auto entry = [&](const TouchingContact& c) -> const model::ContactEntry& {
+    return system.model().contacts[std::size_t(c.contact)];
+  };
   State after = state;
   after.v += dv;
   system.move_to(after.t, after.q, after.v);
-  for (TouchingContact& c : bearings) c.slip_after = system.slip(c.contact);
   problem_.who.clear();
-  for (const TouchingContact& c : touching) problem_.who.push_back(participant(system, c));
-  for (const TouchingContact& c : bearings) problem_.who.push_back(participant(system, c));
+  for (TouchingContact& c : touching) {
+    if (entry(c).joint) c.slip_before = c.slip_after = system.slip(c.contact);
+    problem_.who.push_back(participant(entry(c), c));
+  }
   problem_.prepare(system);
   bearings_.prepare(system, after, problem_.who);
+  take_islands(bearings_.join(problem_.islands(), problem_.who), touching);
+  for (std::size_t i = 0; i < touching.size(); ++i) {
+    const ImpactFriction friction = friction_in_impact(entry(touching[i]), touching[i], touching[i].slip_after.norm());
+    problem_.who[i].mu_0 = friction.mu_0, problem_.who[i].mu = friction.mu;
+  }
   const Vec applied = bearings_.reaction(problem_.who);
   const auto solution = bearings_.solve(problem_, at_rest, BearingImpulses::From::nothing, applied);
   system.move_to(state.t, state.q, state.v);
@@ -60,10 +66,6 @@ complementarity::ContactSolution RubbingAfter::solve(model::AssembledSystem& sys
   problem_.jump(rubbed);
   dv += rubbed;
   for (std::size_t i = 0; i < touching.size(); ++i) add(problem_.who[i], touching[i]);
-  for (std::size_t j = 0; j < bearings.size(); ++j) {
-    bearings[j].slip_before = bearings[j].slip_after;
-    add(problem_.who[touching.size() + j], bearings[j]);
-  }
   return solution;
 }
 

@@ -16,10 +16,10 @@ namespace trammel::simulate {
 
 class RubbingAfter {
  public:
-  // `touching` and `dv` come in as the impact leaves them. The system is at `state`, before the impact.
+  // `touching` and `dv` come in as the impact leaves them, with the joints that rub. The system is at `state`, before
+  // the impact.
   [[nodiscard]] complementarity::ContactSolution solve(model::AssembledSystem& system, const State& state,
-                                                       double at_rest, std::vector<TouchingContact>& touching,
-                                                       std::vector<TouchingContact>& bearings, Vec& dv);
+                                                       double at_rest, std::vector<TouchingContact>& touching, Vec& dv);
 
  private:
   ContactProblem problem_;

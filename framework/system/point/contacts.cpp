@@ -107,7 +107,7 @@ Tangential ContactsAtPoint::friction_ratio(int i) {
         ask_friction(i, "kinetic_coefficient", [&] { return entry.coulomb->kinetic_coefficient(s.norm()); });
     return -mu * SlipDirection(s, mode(i).direction, mode(i).slow).unit();
   }
-  if (!entry.smooth) return Tangential::Zero();
+  if (!entry.smooth || mode(i).friction == ContactMode::Friction::stick) return Tangential::Zero();
   const Tangential s = slip(i);
   const double speed = s.norm();
   if (!(speed > 0)) return Tangential::Zero();
@@ -122,7 +122,7 @@ Eigen::Matrix2d ContactsAtPoint::friction_damping(int i) {
     const double mu = ask_friction(i, "kinetic_coefficient", [&] { return entry.coulomb->kinetic_coefficient(speed); });
     return mu * slip_direction(i).slope();
   }
-  if (!entry.smooth) return Eigen::Matrix2d::Zero();
+  if (!entry.smooth || mode(i).friction == ContactMode::Friction::stick) return Eigen::Matrix2d::Zero();
   const Tangential s = slip(i);
   const double speed = s.norm();
   const double slope = ask_friction(i, "slope", [&] { return entry.smooth->slope(speed); });

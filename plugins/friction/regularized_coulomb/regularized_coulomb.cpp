@@ -2,6 +2,8 @@
 //
 //     tanh        T = -mu N tanh(y),       y = slip / v_c
 //     quadratic   T = -mu N y (2 - y) up to y = 1, -mu N beyond
+//
+// In impacts of rigid contacts it counts as Coulomb's law (framework/simulate/impact/impact_friction.hpp).
 #include <cmath>
 
 #include <trammel/fidelity.hpp>
@@ -39,7 +41,11 @@ struct RegularizedCoulomb : SmoothFriction, HasFidelity {
 TRAMMEL_PLUGIN(
     trammel::friction<RegularizedCoulomb>("regularized_coulomb", "dry friction made smooth: it creeps, never sticks")
         .source("E. Pennestri, V. Rossi, P. Salvini, P. P. Valentini, Nonlinear Dyn. 83, 1785 (2016): a review")
-        .parameter("coefficient", &RegularizedCoulomb::mu, {.min = 0, .usual_max = 10, .required = true, .doc = "mu"})
+        .parameter("coefficient", &RegularizedCoulomb::mu,
+                   {.min = 0,
+                    .usual_max = 10,
+                    .required = true,
+                    .doc = "mu; impacts faster than v_c take Coulomb's law with it"})
         .parameter("critical_velocity", &RegularizedCoulomb::v_c,
                    {.unit = "m/s",
                     .min = 0,
