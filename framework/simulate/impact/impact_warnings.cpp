@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 
@@ -21,24 +22,36 @@ double work_at_most(const TouchingContact& c) {
                 c.friction.norm() * (c.slip_before.norm() + c.slip_after.norm()));
 }
 
+// Of the contacts of an island.
+struct Work {
+  double gain = 0, at_most = 0, of_rest = 0;
+  bool creates(double kinetic) const {
+    return gain > round_off * at_most + of_rest && gain > std::numeric_limits<double>::epsilon() * kinetic;
+  }
+};
+
 }  // namespace
 
 void ImpactWarnings::check(double t, double kinetic, double at_rest, const std::vector<TouchingContact>& touching,
                            bool cut_short) {
   if (cut_short && cut_short_++ == 0) first_cut_ = t;
-  double gain = 0, most = 0, of_rest = 0;
+  std::map<std::size_t, Work> islands;
   for (const TouchingContact& c : touching) {
-    gain -= c.energy_lost(), most += work_at_most(c);
-    of_rest += (std::abs(c.impulse) + c.friction.norm()) * at_rest;
+    Work& work = islands[c.island];
+    work.gain -= c.energy_lost(), work.at_most += work_at_most(c);
+    work.of_rest += (std::abs(c.impulse) + c.friction.norm()) * at_rest;
   }
-  if (!(gain > round_off * most + of_rest && gain > std::numeric_limits<double>::epsilon() * kinetic)) return;
+  std::erase_if(islands, [&](const auto& island) { return !island.second.creates(kinetic); });
+  if (islands.empty()) return;
+  double gain = 0;
+  for (const auto& [number, work] : islands) gain += work.gain;
   ++gains_;
   total_ += gain;
   if (gain <= largest_) return;
   largest_ = gain, kinetic_ = kinetic, time_ = t;
   contacts_.clear();
   for (const TouchingContact& c : touching)
-    if (c.impulse > 0) contacts_.push_back(c.contact);
+    if (c.impulse > 0 && islands.contains(c.island)) contacts_.push_back(c.contact);
 }
 
 std::vector<std::string> ImpactWarnings::lines(const model::Model& model) const {

@@ -2,8 +2,10 @@
 // ended them.
 //
 // Contacts take sum_i -L_i (u_i- + u_i+)/2 - T_i (s_i- + s_i+)/2 out of the kinetic energy, whatever moving rows and
-// bases supply; where that is negative beyond round-off, the impact created energy. The gain in per cent is that of the
-// kinetic energy before.
+// bases supply; where that is negative beyond round-off, the impact created energy. The sum is over contacts that act
+// on each other (TouchingContact::island): what others lose at that instant hides no gain. Shares of single contacts,
+// or of friction, prove nothing: with e = 0 friction may stop a slip s- and then hold what the impact presses the other
+// way, T . s- > 0, and that is the course of Coulomb's law. The gain in per cent is that of the kinetic energy before.
 #pragma once
 
 #include <string>

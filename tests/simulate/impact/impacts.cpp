@@ -197,5 +197,57 @@ TEST(ImpactWarnings, AreSilentOnRatesThatAreRoundOff) {
   EXPECT_TRUE(warnings.lines(model).empty());
 }
 
+// Of contacts that do not act on each other, one may lose more than the other gains.
+TEST(ImpactWarnings, SumOverContactsThatActOnEachOtherOnly) {
+  model::Model model;
+  model.contacts.resize(2);
+  model.contacts[0].name = "tip", model.contacts[1].name = "ball";
+  simulate::TouchingContact gains, loses;
+  gains.impulse = 1, gains.before = -1, gains.after = 1.25;
+  loses.contact = 1, loses.impulse = 1, loses.before = -1, loses.after = 0;
+  simulate::ImpactWarnings together, apart;
+  together.check(0.1, 5, 1e-12, {gains, loses}, false);
+  EXPECT_TRUE(together.lines(model).empty());
+  loses.island = 1;
+  apart.check(0.1, 5, 1e-12, {gains, loses}, false);
+  ASSERT_EQ(apart.lines(model).size(), 1u);
+  EXPECT_THAT(apart.lines(model)[0], HasSubstr("0.125 J, 2.5 % of the kinetic energy at t = 0.1 s through tip;"));
+}
+
+TEST(KanesRod, GainsEnergyWhateverIsLostElsewhereAtThatInstant) {
+  const Finished run = run_text(
+      rod, {{"bodies.ball", R"({"type": "point_mass", "mass": 3, "position": [5, 1e-4], "velocity": [0, -1]})"},
+            {"contacts.ball", R"({"type": "constraint_method", "restitution": 0,
+                            "between": ["ball.point", {"plane": {"point": [0, 0], "normal": [0, 1]}}]})"}});
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  ASSERT_EQ(run.of_kind("impact").size(), 2u);
+  EXPECT_EQ(run.of_kind("impact")[0].t, run.of_kind("impact")[1].t);
+  EXPECT_LT(run.end("energy_total"), run.series.at("energy_total")[0]);
+  ASSERT_EQ(run.result["warnings"].size(), 1u);
+  EXPECT_THAT(std::string(run.result["warnings"][0]),
+              HasSubstr("created energy: 0.224 J, 8.14 % of the kinetic energy at t = 0.0001 s through tip;"));
+}
+
+// A slip stops, then friction holds what the impact presses back: T . s- > 0, by every law, and no energy is created.
+TEST(KanesRod, LosesEnergyWhereFrictionHoldsAgainstTheSlipItBeganWith) {
+  const Overrides plastic = {{"contacts.tip.restitution", "0"},
+                             {"contacts.tip.friction.static", "1.5"},
+                             {"contacts.tip.friction.kinetic", "1.5"},
+                             {"bodies.rod.velocity", "[0.05, -1]"}};
+  const Finished newton = run_text(rod, plastic);
+  ASSERT_TRUE(newton.done()) << newton.report.reason;
+  const auto [a, b, c, u, s] = rod_end;
+  const double det = a * c - b * b, slip = 0.05, T = (-slip * a + u * b) / det;
+  EXPECT_GT(T * slip, 0.01);
+  EXPECT_NEAR(newton.of_kind("impact").at(0).detail.at("friction"), T, round_off);
+  for (const char* law : {"newton", "poisson", "energetic"}) {
+    Overrides overrides = plastic;
+    overrides.push_back({"contacts.tip.impact_law", law});
+    const Finished run = run_text(rod, overrides);
+    for (const char* rate : {"vx", "vy", "omega"}) EXPECT_NEAR(run.end(rate), newton.end(rate), 1e-10) << law;
+    EXPECT_TRUE(run.result["warnings"].empty()) << law;
+  }
+}
+
 }  // namespace
 }  // namespace trammel::test
