@@ -53,6 +53,42 @@ double longest(const ConstBlock& x, const ConstBlock& d) {
   return step;
 }
 
+struct Cone {
+  Index first, size;
+};
+
+// A matrix of one block for each cone.
+class Blocks {
+ public:
+  void set_zero(const std::vector<Cone>& cones) {
+    cones_ = &cones;
+    blocks_.resize(cones.size());
+    for (std::size_t c = 0; c < cones.size(); ++c) blocks_[c].setZero(cones[c].size, cones[c].size);
+  }
+  Mat& operator[](std::size_t c) { return blocks_[c]; }
+
+  Vec operator*(const Vec& x) const {
+    Vec y(x.size());
+    for (std::size_t c = 0; c < blocks_.size(); ++c) {
+      const auto [first, size] = (*cones_)[c];
+      y.segment(first, size) = blocks_[c].lazyProduct(x.segment(first, size));
+    }
+    return y;
+  }
+  friend Mat operator*(const Mat& G, const Blocks& B) {
+    Mat product(G.rows(), G.cols());
+    for (std::size_t c = 0; c < B.blocks_.size(); ++c) {
+      const auto [first, size] = (*B.cones_)[c];
+      product.middleCols(first, size) = G.middleCols(first, size).lazyProduct(B.blocks_[c]);
+    }
+    return product;
+  }
+
+ private:
+  const std::vector<Cone>* cones_ = nullptr;
+  std::vector<Mat> blocks_;
+};
+
 // Its dual: D x - G^T y = z,  u . y = -1,  z in the cones.
 class InteriorPoint {
  public:
@@ -86,10 +122,6 @@ class InteriorPoint {
   }
 
  private:
-  struct Cone {
-    Index first, size;
-  };
-
   bool has_s() const { return u_.size() > 0; }
   static ConstBlock of(const Vec& v, const Cone& c) { return v.segment(c.first, c.size); }
 
@@ -114,9 +146,9 @@ class InteriorPoint {
 
   // W with W z = W^-1 x, symmetric, and (1 + W D W)^-1.
   void scale() {
-    const Index n = now_.x.size();
-    W_.setZero(n, n), W_inverse_.setZero(n, n), yields_.setZero(n, n);
-    for (const Cone& c : cones_) {
+    W_.set_zero(cones_), W_inverse_.set_zero(cones_), yields_.set_zero(cones_);
+    for (std::size_t i = 0; i < cones_.size(); ++i) {
+      const Cone& c = cones_[i];
       const auto x = of(now_.x, c), z = of(z_, c);
       const double nx = J_norm(x), nz = J_norm(z), gamma = std::sqrt((1 + x.dot(z) / (nx * nz)) / 2);
       Vec w = x / nx;
@@ -124,16 +156,16 @@ class InteriorPoint {
       w.tail(c.size - 1) -= z.tail(c.size - 1) / nz;
       w /= 2 * gamma;
       const double eta = std::sqrt(nx / nz);
-      auto W = W_.block(c.first, c.first, c.size, c.size);
+      Mat& W = W_[i];
       W = w * w.transpose() / (1 + w[0]);
       W.row(0) = w.transpose(), W.col(0) = w;
       W.diagonal().tail(c.size - 1).array() += 1;
-      auto inverse = W_inverse_.block(c.first, c.first, c.size, c.size);
+      Mat& inverse = W_inverse_[i];
       inverse = W / eta;
       inverse.row(0).tail(c.size - 1) *= -1, inverse.col(0).tail(c.size - 1) *= -1;
       W *= eta;
       const Mat stiff = Mat::Identity(c.size, c.size) + W * D_.segment(c.first, c.size).asDiagonal() * W;
-      yields_.block(c.first, c.first, c.size, c.size) = stiff.inverse();
+      yields_[i] = stiff.inverse();
     }
     scaled_ = W_ * z_;
   }
@@ -178,8 +210,9 @@ class InteriorPoint {
   Vec z_, scaled_;
   Vec primal_, dual_, dx_, dy_, dz_;
   double free_ = 0, ds_ = 0;
-  Mat W_, W_inverse_, yields_, GWY_, K_;
-  Eigen::FullPivLU<Mat> lu_;  // of K
+  Blocks W_, W_inverse_, yields_;
+  Mat GWY_, K_;
+  Eigen::PartialPivLU<Mat> lu_;  // of K
 };
 
 }  // namespace
