@@ -76,7 +76,7 @@ void take(const Choice& choice, Setup& setup, plugin::Registry& registry, scene:
   setup.integrator = std::move(made.component);
   setup.integrator_origin = std::move(made.origin);
   setup.integrator_type = parameters.root().find("type")->text();
-  setup.settings.step.tolerance = setup.settings.contact_step.tolerance = {choice.tolerance, choice.tolerance};
+  setup.settings.step.tolerance = setup.settings.contact_step.tolerance = {choice.tolerance, 0};  // in the scene's unit
 }
 
 }  // namespace
