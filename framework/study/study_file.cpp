@@ -300,6 +300,11 @@ void Study::check_observed(const scene::Scene& scene, std::size_t which, Problem
                       scene::did_you_mean(one.observe, columns))));
 }
 
+std::string Study::title() const {
+  const Value* title = definition_.root().find("title");
+  return title && title->type() == Type::text ? title->text() : "";
+}
+
 std::vector<scene::Override> Study::overrides(std::size_t i) const {
   std::vector<scene::Override> all;
   for (std::size_t k = 0; k < paths_.size(); ++k)

@@ -48,6 +48,7 @@ class Study {
   std::size_t scene_of(std::size_t i) const { return scene_of_[i]; }            // index into scene_files()
   const std::vector<scene::Override>& set() const { return set_; }
   bool keep() const { return keep_; }
+  std::string title() const;  // empty: it has none
   std::string resolved() const { return definition_.resolved(); }
   // Of what decides the outcome of a case: the scene, the program's commit, values and reductions.
   std::uint64_t key(std::size_t i, std::uint64_t scene_hash) const;

@@ -1,6 +1,7 @@
 #include "study/study_page.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -97,9 +98,9 @@ report::Table table(const StudyContent& content) {
     if (all.rows.size() == most_rows) break;
     std::vector<std::string>& row = all.rows.emplace_back();
     row.push_back(fmt::format("{}", i));
-    for (const std::string& value : content.study.values(i)) row.push_back(value);
-    for (const double x : r.values) row.push_back(fmt::format("{:.6g}", x));
-    row.push_back(r.status);
+    for (const std::string& value : content.study.values(i)) row.push_back(without_quotes(value));
+    for (const double x : r.values) row.push_back(std::isfinite(x) ? fmt::format("{:.6g}", x) : "");
+    row.push_back(r.done() ? r.status : fmt::format("{}: {}", r.status, r.reason));
   }
   return all;
 }
@@ -107,7 +108,8 @@ report::Table table(const StudyContent& content) {
 }  // namespace
 
 report::Page page_of(const StudyContent& content, const std::string& verdict) {
-  report::Page page{content.file, {verdict}, over_the_number(content), {table(content)}};
+  const std::string title = content.study.title();
+  report::Page page{title.empty() ? content.file : title, {verdict}, over_the_number(content), {table(content)}};
   for (report::Figure& figure : over_time(content)) page.figures.push_back(std::move(figure));
   return page;
 }
