@@ -36,7 +36,7 @@ void Scale::raise_to(const Scale& other) {
 // Of gravity, and of a motion at this speed through this length. A gap may begin at any size; then the place bounds it.
 double Scale::no_acceleration() const {
   const double way = std::max(gaps_and_bodies, place);
-  return way > 0 ? 1e-12 * std::max(gravity, speed * speed / way) : 0;
+  return 1e-12 * std::max(gravity, way > 0 ? speed * speed / way : 0);
 }
 
 // Bodies at rest shake by the round-off of the weight that contacts hold: no less is asked for.

@@ -101,7 +101,7 @@ double Simulator::record_time(long long k) const {
 void Simulator::record_due(RecordSink& recorder) {
   while (!last_row_ && record_time(records_) <= now_.t) {
     recorder.row(system_, now_, ledger_.totals(), statistics_.steps);
-    audit_.look(system_, now_);
+    audit_.look(system_, now_, scale_);
     last_row_ = record_time(records_) >= settings_.until;
     ++records_;
     judge_energy();
@@ -413,7 +413,7 @@ void Simulator::record_inside(RecordSink& recorder) {
     system_.accelerate({}, inside_.a, inside_.lambda);
     const Ledger::Totals totals = ledger_.totals_inside((t - next_.t) / h);
     recorder.row(system_, inside_, totals, statistics_.steps);
-    audit_.look(system_, inside_);
+    audit_.look(system_, inside_, scale_);
     take_moved(system_.energy(), totals);
     judge_joints(inside_);
     ++records_;

@@ -28,7 +28,7 @@ void Simulator::settle(const ContactChanges& changes) {
   }
   window_events_ += 1;
   hold_until_ = now_.t + settings_.contact_hold;
-  audit_.look(system_, now_);
+  audit_.look(system_, now_, scale_);
   at_new_modes();
 }
 

@@ -6,12 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "simulate/contact/force_noise.hpp"
 #include "simulate/results/observable.hpp"
 
 namespace trammel::simulate {
 namespace {
 
-// Of the largest normal force, or of all energy that was lost: round-off and what the location of events leaves.
+// Of the forces that act on a contact, or of all energy that was lost: round-off and what the location of events leaves.
 constexpr double little = 1e-8;
 
 }  // namespace
@@ -21,7 +22,7 @@ void ContactAudit::Worst::raise_to(int i, double when, double amount, double sca
   contact = i, t = when, force = amount, relative = amount / scale;
 }
 
-void ContactAudit::look(model::AssembledSystem& system, const State& state) {
+void ContactAudit::look(model::AssembledSystem& system, const State& state, const ContactScale& scale) {
   const std::vector<model::ContactMode>& modes = system.modes().contacts;
   std::vector<int> closed;
   for (int i = 0; i < int(modes.size()); ++i)
@@ -30,20 +31,49 @@ void ContactAudit::look(model::AssembledSystem& system, const State& state) {
   Moment moment(system, state);
   const Vec& lambda = moment.lambda();
   look_at_groups(system, state.t, lambda);
-  double largest = 0;
-  for (const int i : closed) largest = std::max(largest, std::abs(system.normal_force(i, lambda)));
+  for (const int i : closed) {
+    if (!system.sharing(i).shared) continue;
+    const auto [span, added] = indeterminate_.try_emplace(i, Span{state.t, state.t});
+    span->second.last = state.t;
+  }
+  look_at_forces(system, state, closed, lambda, scale);
+}
+
+void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& state, const std::vector<int>& closed,
+                                  const Vec& lambda, const ContactScale& scale) {
+  struct Looked {
+    int contact;
+    Eigen::Index normal;  // in F; the tangents follow
+    double pull, beyond;  // [N] more than it can
+  };
+  std::vector<model::ContactDirection> directions;
+  std::vector<double> forces;
+  std::vector<Looked> all;
+  bool doubtful = false;
   for (const int i : closed) {
     const model::ContactEntry& entry = system.model().contacts[std::size_t(i)];
-    if (system.sharing(i).shared) {
-      const auto [span, added] = indeterminate_.try_emplace(i, Span{state.t, state.t});
-      span->second.last = state.t;
-    }
-    if (entry.restitution->treatment().release == Restitution::Release::never) continue;  // a latch may pull
     const double N = system.normal_force(i, lambda);
-    pull_.raise_to(i, state.t, -N, largest);
-    if (!entry.coulomb || modes[std::size_t(i)].friction != model::ContactMode::Friction::stick) continue;
-    const double T = system.friction_force(i, lambda).norm(), bound = entry.coulomb->static_coefficient() * N;
-    beyond_cone_.raise_to(i, state.t, T - std::max(0.0, bound), largest);
+    Looked looked{i, Eigen::Index(forces.size()), -N, 0};
+    directions.push_back({i, 0}), forces.push_back(N);
+    const model::Tangential T = system.friction_force(i, lambda);
+    for (int k = 0; k < system.tangents(i) && entry.friction; ++k)
+      directions.push_back({i, 1 + k}), forces.push_back(T[k]);
+    if (entry.restitution->treatment().release == Restitution::Release::never) continue;  // a latch may pull
+    if (entry.coulomb && system.modes().contacts[std::size_t(i)].friction == model::ContactMode::Friction::stick)
+      looked.beyond = T.norm() - std::max(0.0, entry.coulomb->static_coefficient() * N);
+    doubtful = doubtful || std::max(looked.pull, looked.beyond) > little * std::abs(N);
+    all.push_back(looked);
+  }
+  if (!doubtful) return;  // what acts on a contact is no less than its own force
+  const Judged judged =
+      judge_forces(system, directions, Eigen::Map<const Vec>(forces.data(), std::ssize(forces)), scale);
+  for (const Looked& looked : all) {
+    double acts = 0, noise = 0;
+    for (Eigen::Index k = looked.normal;
+         k < judged.scale.size() && directions[std::size_t(k)].contact == looked.contact; ++k)
+      acts = std::max(acts, judged.scale[k]), noise = std::max(noise, judged.noise[k]);
+    if (looked.pull > noise) pull_.raise_to(looked.contact, state.t, looked.pull, acts);
+    if (looked.beyond > noise) beyond_cone_.raise_to(looked.contact, state.t, looked.beyond, acts);
   }
 }
 

@@ -2,7 +2,7 @@
 //
 //     N >= 0,   |T| <= mu_0 N  [N],   work of friction <= 0 [J]      but for round-off
 //
-// and whether those that share rows can carry what they carry (AssembledSystem::spare_load).
+// of the forces that act on the contact itself (force_noise.hpp), and whether those that share rows can carry what they carry (AssembledSystem::spare_load).
 // What does not is told in a warning: the run cannot be trusted there. It also keeps when contacts were statically
 // indeterminate, closed with rows that depend on each other, so that their forces are one choice of many
 // (complementarity/shares/carrying_rows.hpp).
@@ -12,13 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "run/contact_scale.hpp"
 #include "simulate/results/ledger.hpp"
 
 namespace trammel::simulate {
 
 class ContactAudit {
  public:
-  void look(model::AssembledSystem& system, const State& state);
+  void look(model::AssembledSystem& system, const State& state, const ContactScale& scale);
 
   struct Span {
     double first = 0, last = 0;  // [s]
@@ -29,13 +30,15 @@ class ContactAudit {
   void archive(Archive& a, std::size_t contacts);
 
  private:
-  // The worst of a kind, relative to the largest normal force at that instant.
+  // The worst of a kind, relative to what acts on its contact at that instant.
   struct Worst {
     int contact = -1;
     double t = 0, force = 0, relative = 0;
     void raise_to(int i, double when, double amount, double scale);
     void archive(Archive& a, const std::string& name);
   };
+  void look_at_forces(model::AssembledSystem& system, const State& state, const std::vector<int>& closed,
+                      const Vec& lambda, const ContactScale& scale);
   void look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda);
 
   Worst pull_, beyond_cone_, overloaded_;

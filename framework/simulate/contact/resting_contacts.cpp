@@ -1,12 +1,20 @@
 #include "simulate/contact/resting_contacts.hpp"
 
-#include "run/contact_scale.hpp"
+#include <algorithm>
+
+#include "simulate/contact/force_noise.hpp"
 
 namespace trammel::simulate {
+namespace {
+
+constexpr double round_off = 1e-9;  // of the forces that act on a contact
+
+}  // namespace
 
 RestingContacts::RestingContacts(model::AssembledSystem& system)
     : system_(system),
-      modes_{.contacts = std::vector<model::ContactMode>(system.model().contacts.size()), .shared = {}} {
+      modes_{.contacts = std::vector<model::ContactMode>(system.model().contacts.size()), .shared = {}},
+      scale_(system.model()) {
   system_.hold_still(true);
   system_.set_modes(modes_);
 }
@@ -17,11 +25,10 @@ RestingContacts::~RestingContacts() {
 }
 
 void RestingContacts::close_what_may_push() {
-  ContactScale scale(system_.model());
-  scale.take_all(system_);
+  scale_.take_all(system_);
   for (std::size_t i = 0; i < modes_.contacts.size(); ++i)
     modes_.contacts[i].closed =
-        system_.model().contacts[i].force || system_.gap(int(i)) <= scale.of(int(i)).written_length();
+        system_.model().contacts[i].force || system_.gap(int(i)) <= scale_.of(int(i)).written_length();
   system_.set_modes(modes_);
 }
 
@@ -36,12 +43,25 @@ bool RestingContacts::close_penetrating() {
   return changed;
 }
 
+std::vector<int> RestingContacts::pulling(const Vec& lambda) {
+  std::vector<model::ContactDirection> closed;
+  for (std::size_t i = 0; i < modes_.contacts.size(); ++i)
+    if (modes_.contacts[i].closed && system_.row({int(i), 0}) >= 0) closed.push_back({int(i), 0});
+  Vec N(Eigen::Index(closed.size()));
+  for (std::size_t k = 0; k < closed.size(); ++k) N[Eigen::Index(k)] = system_.normal_force(closed[k].contact, lambda);
+  std::vector<int> all;
+  if (N.size() == 0 || N.minCoeff() >= 0) return all;
+  const Judged judged = judge_forces(system_, closed, N, scale_);
+  for (Eigen::Index k = 0; k < N.size(); ++k)
+    if (-N[k] > std::max(round_off * judged.scale[k], judged.noise[k])) all.push_back(closed[std::size_t(k)].contact);
+  return all;
+}
+
 bool RestingContacts::release_pulling(const Vec& lambda) {
   bool changed = false;
-  for (std::size_t i = 0; i < modes_.contacts.size(); ++i) {
-    if (!modes_.contacts[i].closed || system_.row({int(i), 0}) < 0 || released_ >= 100) continue;
-    if (system_.normal_force(int(i), lambda) >= -1e-9 * lambda.lpNorm<Eigen::Infinity>()) continue;
-    modes_.contacts[i].closed = false;
+  for (const int i : pulling(lambda)) {
+    if (released_ >= 100) break;
+    modes_.contacts[std::size_t(i)].closed = false;
     changed = true, ++released_;
   }
   if (changed) system_.set_modes(modes_);

@@ -84,6 +84,41 @@ TEST(Equilibrium, LetsContactsGoThatWouldPull) {
   EXPECT_EQ(run.end("closed"), 0);
 }
 
+// A light ball that a spring holds off the floor it starts on, and a heavy one that nothing ties to it, on a floor of its
+// own or on a spring under the ball's.
+std::string beside(const char* heavy, double mass) {
+  return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -10],
+  "parameters": {{"M": {:.17g}}},
+  "bodies": {{"ball": {{"type": "point_mass", "mass": 1e-3, "position": [0, 0]}},
+             "block": {{"type": "point_mass", "mass": "=M", "position": [5, 0]}}}},
+  "joints": {{"ball": {{"type": "point_on_line", "between": ["ground", "ball.point"], "axis": [0, 1]}},
+             "block": {{"type": "point_on_line", "between": [{{"point": [5, 0]}}, "block.point"], "axis": [0, 1]}}}},
+  "forces": {{"spring": {{"type": "spring_damper", "between": [{{"point": [0, 1]}}, "ball.point"], "stiffness": 1,
+                        "length": 0.985}}{}}},
+  "contacts": {{"floor": {{"type": "constraint_method", {},
+               "other": {{"type": "constraint_method",
+                         "between": ["block.point", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}}}},
+  "simulate": {{"until": 1}},
+  "record": {{"every": 1, "observe": {{"y": "ball.point.y", "N": "contacts.floor.force"}}}}}})",
+                     mass, heavy, floor_of_ball);
+}
+
+TEST(Equilibrium, OfALightBodyDoesNotDependOnAHeavyOneElsewhere) {
+  for (
+      const char* heavy :
+      {"",
+       R"(, "tie": {"type": "spring_damper", "between": ["block.point", "ball.point"], "stiffness": 1e-9, "length": 5})"})
+    for (const double mass : {1e-3, 1.0, 1e3, 1e6, 1e9, 1e12}) {
+      const std::string scene = beside(heavy, mass);
+      for (const Finished& run :
+           {run_text(scene, {{"initial", "\"equilibrium\""}}), run_static(scene, {{"static.steps", "1"}})}) {
+        ASSERT_TRUE(run.done()) << run.report.reason;
+        EXPECT_NEAR(run.end("y"), 0.005, 1e-10) << "mass " << mass;  // LoadPath: 1e-9 of the load; the tie: less
+        EXPECT_EQ(run.end("N"), 0) << "mass " << mass;
+      }
+    }
+}
+
 TEST(Equilibrium, OnATableInUniformTranslationMovesWithIt) {
   const Finished run = at_rest(
       R"json({"table": {"type": "moving_base", "x": "=0.3*sin(7*t)", "y": "=0.2*t"},
