@@ -11,11 +11,12 @@
 // The round that gives the same modes again is the check: it solves the whole problem with the loads of its own
 // solution. The first round has the loads with which all that may rest rests, so where a joint could stay or go, it
 // stays.
+//
+// Rounds may come back to modes they have had: the load at rest does not hold the joint, and mu_0 times the load that it
+// has as it slides would. In such a cycle each joint that the loads of its own rest have not held has let go, and mu
+// decides for it, as after rule 6. Where nothing lets go in a cycle, none were found, which proves nothing.
 #include <algorithm>
 
-#include <fmt/format.h>
-
-#include "run/run_failed.hpp"
 #include "simulate/contact_mode.hpp"
 #include "system/point/locks_itself.hpp"
 
@@ -67,11 +68,18 @@ void ContactModes::load_bearings_at_rest(const State& state, const model::Modes&
   load_bearings(state, at_rest);
 }
 
-// No solution where bearings that slide find none for their loads.
+// By the loads of modes in which it was at rest; null: those of load_bearings_at_rest.
+bool ContactModes::was_not_held(const Participant& p, const model::Modes* loads) const {
+  return system_.model().contacts[p.contact].joint && p.tangent == Participant::Tangent::resting &&
+         modes_.contacts[p.contact].friction == Friction::slide &&
+         (!loads || loads->contacts[p.contact].friction == Friction::stick);
+}
+
 complementarity::ContactSolution ContactModes::decide_with_bearings(const State& state) try {
-  const std::vector<Participant> asked = problem_.who;
+  std::vector<Participant> asked = problem_.who;
+  std::vector<bool> not_held(asked.size(), false);
   const model::Modes open = modes_;
-  model::Modes last;
+  std::vector<model::Modes> had;  // since one let go
   load_bearings_at_rest(state, open);
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Participant> who = asked;
@@ -80,26 +88,24 @@ complementarity::ContactSolution ContactModes::decide_with_bearings(const State&
     problem_.who = std::move(who);
     modes_ = open;
     const complementarity::ContactSolution solution = take_verdicts();
-    if (solution.outcome != complementarity::LcpOutcome::solved || (round > 0 && agree(modes_, last))) return solution;
-    last = modes_;
+    if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
+    const model::Modes* last = had.empty() ? nullptr : &had.back();
+    if (last && agree(modes_, *last)) return solution;
+    for (std::size_t i = 0; i < asked.size(); ++i) not_held[i] = not_held[i] || was_not_held(problem_.who[i], last);
+    if (std::any_of(had.begin(), had.end(), [this](const model::Modes& modes) { return agree(modes_, modes); })) {
+      bool more = false;
+      for (std::size_t i = 0; i < asked.size(); ++i)
+        if (not_held[i] && !asked[i].let_go) asked[i].let_go = more = true;
+      if (!more) break;
+      had.clear();
+    }
+    had.push_back(modes_);
     load_bearings(state, modes_);
   }
-  return {complementarity::LcpOutcome::no_solution, 0};
+  bearings_undecided_ = true;
+  return {complementarity::LcpOutcome::gave_up, 0};
 } catch (const model::LocksItself&) {
   return {complementarity::LcpOutcome::no_solution, 0};
-}
-
-void ContactModes::fail_on_bearings(double t) const {
-  std::string names;
-  for (const Participant& p : problem_.who)
-    if (const model::ContactEntry& entry = system_.model().contacts[p.contact]; entry.joint)
-      names += (names.empty() ? "" : ", ") + entry.path();
-  throw RunFailed(
-      fmt::format("at t = {:.9g} s: gave up on the friction of {}: in {} rounds no modes were found, sticking or "
-                  "sliding, that agree with the loads of the bearings that follow from them, nor an impulse after "
-                  "which there are some; with so much "
-                  "friction a joint may lock itself",
-                  t, names, most_rounds));
 }
 
 }  // namespace trammel::simulate

@@ -170,6 +170,7 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes) {
 
 // Rules 3, 5, 6 and 7.
 complementarity::ContactSolution ContactModes::decide(State& state, ContactChanges changes, bool jumped) {
+  bearings_undecided_ = false;
   largest_ = 0;  // not of an earlier event, which a resumed run does not know
   do {
     gather(state, changes, jumped);

@@ -4,13 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string_view>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "linear/dense/decompositions.hpp"
-#include "run/run_failed.hpp"
 
 namespace trammel::simulate {
 
@@ -64,7 +59,7 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   if (undecided) solution = decide_by_what_follows(state, changes, jumped, solution);
   const bool without_collision = solution.outcome == LcpOutcome::no_solution;
   if (without_collision) solution = strike_without_collision(state, changes, jumped, events);
-  if (solution.outcome != LcpOutcome::solved) fail_without_solution("balance of forces", state.t, solution);
+  if (solution.outcome != LcpOutcome::solved) fail_without_balance(state.t, solution);
   bool carry = false;
   for (const TouchingContact& c : touching_) {
     const bool struck = contains(changes.struck, c.contact);
@@ -182,7 +177,7 @@ void ContactModes::strike(State& state, const ContactChanges& changes) {
     all = touching_;
     all.insert(all.end(), bearings_.begin(), bearings_.end());
     const auto solution = impact_.solve(system_, state, at_rest(all), all, dv_);
-    if (solution.outcome != LcpOutcome::solved) fail_without_solution("impact", state.t, solution);
+    if (solution.outcome != LcpOutcome::solved) fail_without_impact(state.t, solution);
     std::copy_n(all.begin(), touching_.size(), touching_.begin());
     std::copy_n(all.begin() + std::ptrdiff_t(touching_.size()), bearings_.size(), bearings_.begin());
     state.v = v_before_ + dv_;
@@ -229,33 +224,6 @@ void ContactModes::lock(State& state, const ContactChanges& changes, std::vector
   before_ = held;
   system_.set_modes(held);
   system_.move_to(state.t, state.q, state.v);
-}
-
-void ContactModes::fail_without_solution(const char* what, double t,
-                                         const complementarity::ContactSolution& solution) const {
-  if (has_bearings()) fail_on_bearings(t);
-  std::vector<std::string_view> names;
-  bool friction = false;
-  for (const TouchingContact& c : touching_) {
-    const model::ContactEntry& entry = system_.model().contacts[c.contact];
-    names.push_back(entry.name);
-    friction = friction || entry.friction;
-  }
-  const std::string compliant = "; a compliant law, such as continuous_force, has one";
-  std::string why;
-  if (solution.outcome != LcpOutcome::no_solution)
-    why = fmt::format(
-        "was not found: the best try violates the contacts' conditions by {:.2g} of the forces, {:.0g} is asked "
-        "for{}",
-        solution.violation, complementarity::largest_violation, compliant);
-  else if (friction)
-    why =
-        "has no solution, as a search of all their modes proves: so much friction leaves rigid contacts none "
-        "(Painleve)" +
-        compliant;
-  else
-    why = "has no solution: they close on bodies that cannot give way";
-  throw RunFailed(fmt::format("at t = {:.9g} s: the {} of contacts {} {}", t, what, fmt::join(names, ", "), why));
 }
 
 // A law that names none leaves it to the scene.

@@ -24,7 +24,7 @@
 // 10. Joints that rub take part like compliant contacts, with the load of their bearings for a normal force. It follows
 //     from the forces sought, so the problem is solved in rounds (bearing_decision.cpp). In impacts they rub under the
 //     impulses of their reactions (bearing_impulses.hpp). A joint that locks itself while it slides has no finite
-//     forces: it jams by rule 8.
+//     forces: it jams by rule 8. Rounds that find no modes prove nothing.
 // 11. Where a contact that was closed has neither force nor acceleration, and the others do not hold it (a stack below
 //     a ceiling that begins to tip), or where no solution is found to round-off, the problem of rule 3 a moment later
 //     tells which of them press then. If that has no solution, rule 8.
@@ -172,7 +172,7 @@ class ContactModes {
   // Of joints that rub (bearing_decision.cpp).
   bool has_bearings() const;
   [[nodiscard]] complementarity::ContactSolution decide_with_bearings(const State& state);
-  [[noreturn]] void fail_on_bearings(double t) const;
+  bool was_not_held(const Participant& p, const model::Modes* loads) const;
   void load_bearings_at_rest(const State& state, const model::Modes& open);
   void load_bearings(const State& state, const model::Modes& modes);
   void accelerate_participants();
@@ -185,8 +185,12 @@ class ContactModes {
   double unresolved(int contact, const State& state);
   void keep_forces(const State& state);
   void carry_forces(Vec& lambda) const;
-  [[noreturn]] void fail_without_solution(const char* what, double t,
-                                          const complementarity::ContactSolution& solution) const;
+  // contact_failure.cpp
+  [[noreturn]] void fail_without_balance(double t, const complementarity::ContactSolution& solution) const;
+  [[noreturn]] void fail_without_impact(double t, const complementarity::ContactSolution& solution) const;
+  [[noreturn]] void fail_without_solution(const char* what, double t, const complementarity::ContactSolution& solution,
+                                          const std::vector<Participant>& who) const;
+  bool blocked(const std::vector<Participant>& who) const;
   Restitution::Treatment treatment(int contact) const {
     return system_.model().contacts[contact].restitution->treatment();
   }
@@ -207,7 +211,8 @@ class ContactModes {
   std::vector<Eigen::Vector3d> forces_before_;  // by contact and direction [N], where some are carried over
   std::vector<Loss> losses_;
   double lost_elsewhere_ = 0;
-  double largest_ = 0;  // of the accelerations without the forces sought
+  bool bearings_undecided_ = false;  // in the last decision: no modes agreed with the loads of the bearings
+  double largest_ = 0;               // of the accelerations without the forces sought
   Vec dv_, v_before_, a_, lambda_, lambda_before_;
 };
 

@@ -1,0 +1,77 @@
+// What is said where the contacts of an instant have no forces, or none were found, and the run ends.
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "run/run_failed.hpp"
+#include "simulate/contact_mode.hpp"
+
+namespace trammel::simulate {
+
+using complementarity::LcpOutcome;
+
+void ContactModes::fail_without_balance(double t, const complementarity::ContactSolution& solution) const {
+  fail_without_solution("balance of forces", t, solution, problem_.who);
+}
+
+void ContactModes::fail_without_impact(double t, const complementarity::ContactSolution& solution) const {
+  std::vector<Participant> who;
+  for (const TouchingContact& c : touching_) {
+    Participant& p = who.emplace_back();
+    p.contact = c.contact;
+    p.a_n = c.was_closed ? 0 : c.before;
+  }
+  for (const TouchingContact& c : bearings_) {
+    Participant& p = who.emplace_back();
+    p.contact = c.contact, p.unilateral = false;
+  }
+  fail_without_solution("impact", t, solution, who);
+}
+
+// Without any friction there is none either.
+bool ContactModes::blocked(const std::vector<Participant>& who) const {
+  ContactProblem without_friction;
+  for (const Participant& p : who) {
+    if (!p.unilateral) continue;
+    Participant& pressing = without_friction.who.emplace_back();
+    pressing.contact = p.contact, pressing.a_n = p.a_n;
+  }
+  if (without_friction.who.empty()) return false;
+  without_friction.prepare(system_);
+  return without_friction.solve(nothing()).outcome == LcpOutcome::no_solution;
+}
+
+void ContactModes::fail_without_solution(const char* what, double t, const complementarity::ContactSolution& solution,
+                                         const std::vector<Participant>& who) const {
+  std::string contacts, joints;
+  for (const Participant& p : who) {
+    const model::ContactEntry& entry = system_.model().contacts[std::size_t(p.contact)];
+    std::string& names = entry.joint ? joints : contacts;
+    names += (names.empty() ? "" : ", ") + (entry.joint ? entry.path() : entry.name);
+  }
+  const std::string compliant = contacts.empty() ? "" : "; a compliant law, such as continuous_force, has one";
+  const std::string of_contacts = contacts.empty() ? "" : "contacts " + contacts;
+  std::string of = of_contacts + (contacts.empty() || joints.empty() ? "" : " and ") + joints, why;
+  if (solution.outcome == LcpOutcome::gave_up && bearings_undecided_)
+    why = fmt::format(
+        "was not found: no modes of {}, sticking or sliding, agree with the loads of the bearings that follow from "
+        "them; "
+        "with so much friction a joint may lock itself",
+        joints);
+  else if (solution.outcome == LcpOutcome::gave_up)
+    why = fmt::format(
+        "was not found: the best try violates the contacts' conditions by {:.2g} of the forces, {:.0g} is asked for{}",
+        solution.violation, complementarity::largest_violation, compliant);
+  else if (blocked(who))
+    of = of_contacts, why = "has no solution: they close on bodies that cannot give way";
+  else
+    why = fmt::format("has no solution: so much friction leaves {} none ({}){}",
+                      joints.empty()     ? "rigid contacts"
+                      : contacts.empty() ? "joints"
+                                         : "rigid contacts and joints",
+                      joints.empty() ? "Painleve" : "Painleve; self-locking", compliant);
+  throw RunFailed(fmt::format("at t = {:.9g} s: the {} of {} {}", t, what, of, why));
+}
+
+}  // namespace trammel::simulate

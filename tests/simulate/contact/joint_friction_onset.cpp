@@ -1,0 +1,138 @@
+// Which dry joints of a mechanism that is let go begin to slide, against all modes of all joints.
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <Eigen/LU>
+
+#include "support/run_scene.hpp"
+
+namespace trammel::test {
+namespace {
+
+constexpr double g = 9.81;  // [m/s^2]
+
+// Sliders on a rail along x, side by side at the height 0, each joined to one bob by a rod, and pushed along the rail.
+// The load of a rail then follows from the rods' forces, and these from what slides.
+struct Slider {
+  double mass, x, push, mu_0, mu;
+};
+struct Hung {
+  std::vector<Slider> sliders;
+  double bob, x, y;  // its mass and place, not below a slider
+};
+
+std::string scene(const Hung& hung, double until) {
+  std::string bodies = fmt::format(
+      R"("bob": {{"type": "point_mass", "mass": {:.17g}, "position": [{:.17g}, {:.17g}]}})", hung.bob, hung.x, hung.y);
+  std::string joints, forces, observe;
+  for (std::size_t i = 0; i < hung.sliders.size(); ++i) {
+    const Slider& s = hung.sliders[i];
+    bodies +=
+        fmt::format(R"(, "s{}": {{"type": "rigid_body", "mass": {:.17g}, "inertia": 1, "position": [{:.17g}, 0]}})", i,
+                    s.mass, s.x);
+    joints += fmt::format(
+        R"({}"rail{}": {{"type": "prismatic", "between": ["ground", "s{}.com"],
+                         "friction": {{"type": "coulomb", "static": {:.17g}, "kinetic": {:.17g}}}}},
+           "rod{}": {{"type": "distance", "between": ["s{}.com", "bob.point"], "length": {:.17g}}})",
+        i > 0 ? ", " : "", i, i, s.mu_0, s.mu, i, i, std::hypot(hung.x - s.x, hung.y));
+    forces += fmt::format(R"({}"f{}": {{"type": "load", "on": "s{}.com", "force": {{"x": {:.17g}}}}})",
+                          i > 0 ? ", " : "", i, i, s.push);
+    observe += fmt::format(R"({}"v{}": "s{}.com.vx")", i > 0 ? ", " : "", i, i);
+  }
+  return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, {}], "bodies": {{{}}}, "joints": {{{}}},
+  "forces": {{{}}}, "simulate": {{"until": {:.17g}}}, "record": {{"every": {:.17g}, "observe": {{{}}}}}}})",
+                     -g, bodies, joints, forces, until, until, observe);
+}
+
+// The sliders' accelerations in each set of modes that agrees with its own loads.
+class AllModes {
+ public:
+  explicit AllModes(const Hung& hung) : hung_(hung), n_(int(hung.sliders.size())) {
+    modes_.resize(std::size_t(n_));
+    visit(0);
+  }
+  const std::vector<Vec>& found() const { return found_; }
+
+ private:
+  struct Mode {
+    int slides, presses;  // direction of sliding, or 0; side of the rail it presses on
+  };
+  void visit(int i) {
+    if (i == n_) return look();
+    for (const Mode mode : {Mode{0, 1}, Mode{1, 1}, Mode{1, -1}, Mode{-1, 1}, Mode{-1, -1}}) {
+      modes_[std::size_t(i)] = mode;
+      visit(i + 1);
+    }
+  }
+  // Unknown: accelerations of the sliders and of the bob, forces of the rods (tension), friction on the sliders.
+  void look() {
+    const int size = 3 * n_ + 2, bob = n_, rods = n_ + 2, friction = 2 * n_ + 2;
+    Mat A = Mat::Zero(size, size);
+    Vec b = Vec::Zero(size);
+    A(bob, bob) = A(bob + 1, bob + 1) = hung_.bob;
+    b[bob + 1] = -hung_.bob * g;
+    for (int i = 0; i < n_; ++i) {
+      const Slider& s = hung_.sliders[std::size_t(i)];
+      const auto [slides, presses] = modes_[std::size_t(i)];
+      const Eigen::Vector2d e = Eigen::Vector2d(hung_.x - s.x, hung_.y).normalized();
+      A(i, i) = s.mass, A(i, rods + i) = -e.x(), A(i, friction + i) = -1, b[i] = s.push;
+      A.block<2, 1>(bob, rods + i) = e;
+      A(rods + i, i) = -e.x(), A.block<1, 2>(rods + i, bob) = e.transpose();
+      A(friction + i, slides ? friction + i : i) = 1;  // T + slides mu presses (m g - e_y S) = 0, or a = 0
+      if (!slides) continue;
+      A(friction + i, rods + i) = -slides * s.mu * presses * e.y();
+      b[friction + i] = -slides * s.mu * presses * s.mass * g;
+    }
+    const Eigen::FullPivLU<Mat> lu(A);
+    if (!lu.isInvertible()) return;
+    const Vec x = lu.solve(b);
+    for (int i = 0; i < n_; ++i) {
+      const Slider& s = hung_.sliders[std::size_t(i)];
+      const auto [slides, presses] = modes_[std::size_t(i)];
+      const double load = s.mass * g - hung_.y / std::hypot(hung_.x - s.x, hung_.y) * x[rods + i];
+      if (!slides && std::abs(x[friction + i]) > s.mu_0 * std::abs(load)) return;
+      if (slides && (slides * x[i] <= 0 || presses * load < 0)) return;
+    }
+    found_.push_back(x.head(n_));
+  }
+
+  const Hung& hung_;
+  int n_;
+  std::vector<Mode> modes_;
+  std::vector<Vec> found_;
+};
+
+Hung random_hung(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto draw = [&](double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(random);
+  };
+  Hung hung{{}, std::pow(10.0, draw(-1, 1)), draw(-1, 1), draw(0.2, 1) * (seed % 3 ? -1 : 1)};
+  for (std::size_t i = 0; i < 1 + seed % 2; ++i) {
+    const double mu = draw(0, 0.6);
+    hung.sliders.push_back({std::pow(10.0, draw(-1, 1)), i == 0 ? -1.2 : 1.2, draw(-1, 1), mu * (1 + draw(0, 10)), mu});
+    hung.sliders.back().push *= 3 * g * (hung.bob + hung.sliders.back().mass);
+  }
+  return hung;
+}
+
+TEST(DryJoints, LetGoFromRestMoveAsOneOfAllModes) {
+  constexpr double until = 1e-6;
+  for (unsigned seed = 0; seed < 120; ++seed) {
+    const Hung hung = random_hung(seed);
+    const std::vector<Vec> modes = AllModes(hung).found();
+    const Finished run = run_text(scene(hung, until));
+    ASSERT_FALSE(modes.empty()) << seed;
+    ASSERT_TRUE(run.done()) << seed << ": " << run.report.reason << "\n" << scene(hung, until);
+    double least = 1e300;
+    Vec a(Eigen::Index(hung.sliders.size()));
+    for (Eigen::Index i = 0; i < a.size(); ++i) a[i] = run.end(fmt::format("v{}", i)) / until;
+    for (const Vec& mode : modes) least = std::min(least, (a - mode).norm() / (g + mode.norm()));
+    EXPECT_LT(least, 1e-4) << seed << "\n" << scene(hung, until);  // a changes by some a / s^2 t^2
+  }
+}
+
+}  // namespace
+}  // namespace trammel::test
