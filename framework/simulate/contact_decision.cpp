@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulate/contact/law_speeds.hpp"
 #include "simulate/contact_mode.hpp"
 
 namespace trammel::simulate {
@@ -10,7 +11,8 @@ namespace {
 using Tangent = Participant::Tangent;
 
 // Rule 11. Forces and accelerations below so many times what a solution is off by are not told from 0. A moment later,
-// by this part of the time that the scene's speed takes through its length, they are, and little else has changed.
+// by this part of the time that the scene's speed, or what accelerates there, takes through its length, they are, and
+// little else has changed.
 constexpr double undecided = 10, moment_later = 1e-4;
 
 // Of length 1; the first tangent's if x has none.
@@ -49,6 +51,10 @@ double ContactModes::slow(int contact) const {
   return system_.model().world.space == Space::spatial ? scale_.of(contact).slow() : 0;
 }
 
+double ContactModes::stick_speed(int contact) const {
+  return simulate::stick_speed(system_.model().contacts[contact], scale_.of(contact));
+}
+
 // Slip across its former direction that is none [m/s]: with fixed steps also what a tenth of a step takes away.
 double ContactModes::unresolved(int contact, const State& state) {
   const model::ContactMode& mode = before_.contacts[contact];
@@ -76,7 +82,7 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
   if (p.mu_0 == 0) return;
   const model::ContactMode& before = before_.contacts[p.contact];
   const bool was_closed = before.closed && before.friction != Friction::none;
-  double at_rest = std::max(scale_.of(p.contact).at_rest(), entry.coulomb->stick_speed());
+  double at_rest = stick_speed(p.contact);
   if (jumped)
     for (const TouchingContact& c : touching_)
       at_rest = std::max({at_rest, 1e-9 * std::abs(c.before), 1e-9 * c.slip_before.norm()});
@@ -151,8 +157,7 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes) {
     if (p.tangent != Tangent::resting) continue;
     p.a_t = system_.slip(p.contact);
     const double drift = p.a_t.norm();
-    drifted = drifted || (drift > scale_.of(p.contact).at_rest() &&
-                          system_.model().contacts[p.contact].coulomb->stick_speed() < drift);
+    drifted = drifted || drift > stick_speed(p.contact);
   }
   if (!drifted) return false;
   problem_.end_slip(dv_);
@@ -219,7 +224,8 @@ complementarity::ContactSolution ContactModes::decide_by_what_follows(const Stat
                                                                       complementarity::ContactSolution so_far) {
   using complementarity::LcpOutcome;
   const Scale& scene = scale_.scene();
-  const double moment = scene.speed > 0 ? moment_later * scene.length() / scene.speed : 0;  // [s]
+  const double speed = std::max(scene.speed, std::sqrt(largest_ * scene.length()));
+  const double moment = speed > 0 ? moment_later * scene.length() / speed : 0;  // [s]
   const model::Modes decided = modes_;
   system_.set_modes(so_far.outcome == LcpOutcome::solved ? modes_ : before_);
   system_.move_to(state.t, state.q, state.v);

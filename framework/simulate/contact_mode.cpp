@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "linear/dense/decompositions.hpp"
+#include "simulate/contact/law_speeds.hpp"
 
 namespace trammel::simulate {
 
@@ -226,10 +227,8 @@ void ContactModes::lock(State& state, const ContactChanges& changes, std::vector
   system_.move_to(state.t, state.q, state.v);
 }
 
-// A law that names none leaves it to the scene.
 double ContactModes::capture_speed(int contact) const {
-  const double named = treatment(contact).capture_speed;
-  return named > 0 ? named : scale_.of(contact).slow();
+  return simulate::capture_speed(system_.model().contacts[contact], scale_.of(contact));
 }
 
 double ContactModes::at_rest(const std::vector<TouchingContact>& contacts) const {

@@ -180,6 +180,7 @@ class ContactModes {
   void finish(State& state, bool carry);
   void tell_normal(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
   void tell_friction(const State& state, std::vector<ContactEvent>& events);
+  double stick_speed(int contact) const;
   double slow(int contact) const;
   double at_rest(const std::vector<TouchingContact>& contacts) const;  // [m/s] the largest of theirs
   double unresolved(int contact, const State& state);

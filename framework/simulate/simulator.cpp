@@ -58,6 +58,7 @@ void Simulator::start(State initial) {
   look_at_theories();
   system_.move_to(now_.t, now_.q, now_.v);
   scale_.take_all(system_);
+  thresholds_.look_at_slips(system_, scale_);
   measure_joints();
   ContactChanges pressing, striking;
   bool bears = false;
@@ -102,6 +103,8 @@ void Simulator::record_due(RecordSink& recorder) {
   while (!last_row_ && record_time(records_) <= now_.t) {
     recorder.row(system_, now_, ledger_.totals(), statistics_.steps);
     audit_.look(system_, now_, scale_);
+    system_.move_to(now_.t, now_.q, now_.v);
+    thresholds_.look_at_slips(system_, scale_);
     last_row_ = record_time(records_) >= settings_.until;
     ++records_;
     judge_energy();
@@ -114,7 +117,8 @@ double Simulator::little_energy() {
   constexpr double little = 1e-9;
   scratch_.setZero(now_.v.size());
   system_.add_mass_times(1, Vec::Ones(now_.v.size()), scratch_);
-  const double moving = scratch_.lpNorm<Eigen::Infinity>() * scale_.scene().speed * scale_.scene().speed;
+  const double speed = std::max(scale_.scene().speed, scale_.scene().motion);
+  const double moving = scratch_.lpNorm<Eigen::Infinity>() * speed * speed;
   return little * (moving > 0 ? std::min(1.0, moving) : 1);
 }
 

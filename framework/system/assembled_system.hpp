@@ -133,6 +133,7 @@ class AssembledSystem final : public System, public HasRigidMotions {
 
   const Motion& motion(MarkerRef marker);     // at the current point
   const Motion& contact_marker(int contact);  // marker A; for a surface its deepest point
+  Vec3 velocity_apart(int contact);           // of marker A less that of marker B
   // Largest pressure of a body's closed contacts on each patch of its surface [Pa]; empty: none is closed.
   std::vector<double> surface_pressure(int body);
   bool has_surface_contact(int body) const;  // a closed one

@@ -147,6 +147,14 @@ const Motion& AssembledSystem::contact_marker(int contact) {
   return p.at.motion(slot);
 }
 
+Vec3 AssembledSystem::velocity_apart(int contact) {
+  Parts& p = *parts_;
+  p.contacts.rows(contact);  // computes the nearest points of surfaces
+  const Slots& slots = p.contacts.slots(contact);
+  const Eigen::Index dim = p.at.motion(slots.A).x.size();
+  return p.at.motion(slots.A).V.head(dim) - p.at.motion(slots.B).V.head(dim);
+}
+
 bool AssembledSystem::has_surface_contact(int body) const {
   for (int i = 0; i < parts_->contacts.count(); ++i)
     if (parts_->contacts.presses_surface(i, body)) return true;

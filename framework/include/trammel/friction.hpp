@@ -28,7 +28,9 @@ class SetValuedFriction : public Component {
   virtual double static_coefficient() const = 0;              // mu_0
   virtual double kinetic_coefficient(double slip) const = 0;  // mu(|s|) <= mu_0
   virtual Decide decide() const = 0;
-  virtual double stick_speed() const = 0;  // [m/s] sticks below this slip; 0: below round-off only, for `at_events`
+  // [m/s] sticks below this slip; 0: the scene decides, below round-off for `at_events`, else what steps leave of rates
+  // that are held.
+  virtual double stick_speed() const = 0;
 };
 
 }  // namespace trammel

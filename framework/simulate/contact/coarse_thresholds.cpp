@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "simulate/contact/law_speeds.hpp"
+
 namespace trammel::simulate {
 namespace {
 
@@ -25,37 +27,71 @@ bool rebounds(const Restitution& law, double capture_speed) {
   return law.coefficient(2 * capture_speed) > 0;
 }
 
+std::string of_impacts(const model::ContactEntry& contact, const Scale& scale, double fastest) {
+  const double capture = capture_speed(contact, scale);
+  if (!(fastest > scale.at_rest()) || fastest > capture || !rebounds(*contact.restitution, capture)) return "";
+  if (contact.restitution->treatment().capture_speed > 0)
+    return fmt::format(
+        "no impact of {} was faster than its capture_speed of {:.3g} m/s, the fastest had {:.3g} m/s: none had a "
+        "rebound. A capture_speed well below that gives them one",
+        contact.path(), capture, fastest);
+  return fmt::format(
+      "no impact of {} was faster than {:.3g} m/s, a part of the scene's speed below which impacts have no rebound, "
+      "the "
+      "fastest had {:.3g} m/s. A capture_speed well below that gives them one",
+      contact.path(), capture, fastest);
+}
+
+std::string of_slips(const model::ContactEntry& contact, double fastest) {
+  const double named = contact.coulomb->stick_speed();
+  if (!(fastest > 0) || fastest * coarse > named || !(named > 0)) return "";
+  return fmt::format(
+      "{}.friction.stick_speed is {:.3g} m/s, the fastest slip was {:.3g} m/s: what is slower than the former sticks "
+      "at "
+      "once. Without it the stick speed follows the scene's",
+      contact.path(), named, fastest);
+}
+
 }  // namespace
 
 void CoarseThresholds::look(const ContactEvent& event) {
   fastest_[event.contact] = std::max(fastest_[event.contact], event.approach);
 }
 
+void CoarseThresholds::look_at_slips(model::AssembledSystem& system, const ContactScale& scale) {
+  for (Eigen::Index i = 0; i < fastest_slip_.size(); ++i) {
+    const model::ContactEntry& contact = system.model().contacts[std::size_t(i)];
+    if (!contact.coulomb || !(contact.coulomb->stick_speed() > 0)) continue;
+    const bool touches = system.modes().contacts[std::size_t(i)].closed || contact.joint ||
+                         system.gap(int(i)) <= scale.of(int(i)).touching();
+    if (touches) fastest_slip_[i] = std::max(fastest_slip_[i], system.slip(int(i)).norm());
+  }
+}
+
 std::vector<std::string> CoarseThresholds::warnings(const model::Model& model, const Settings& settings,
                                                     const ContactScale& scale) const {
   std::vector<std::string> all;
+  const auto add = [&all](const std::string& text) {
+    if (!text.empty()) all.push_back(text);
+  };
   for (const std::string& text :
        {of_step("step", settings.step, scale.scene().length()),
         settings.own_contact_step ? of_step("contact_step", settings.contact_step, scale.scene().length())
                                   : std::string()})
-    if (!text.empty()) all.push_back(text);
+    add(text);
   for (Eigen::Index i = 0; i < fastest_.size(); ++i) {
     const model::ContactEntry& contact = model.contacts[std::size_t(i)];
-    if (!contact.restitution || !(fastest_[i] > 0)) continue;
-    const double capture = contact.restitution->treatment().capture_speed;
-    if (fastest_[i] > capture || !rebounds(*contact.restitution, capture)) continue;
-    all.push_back(fmt::format(
-        "no impact of {} was faster than its capture_speed of {:.3g} m/s, the fastest had {:.3g} m/s: none had a "
-        "rebound. A capture_speed well below that gives them one",
-        contact.path(), capture, fastest_[i]));
+    if (contact.restitution) add(of_impacts(contact, scale.of(int(i)), fastest_[i]));
+    if (contact.coulomb) add(of_slips(contact, fastest_slip_[i]));
   }
   return all;
 }
 
 void CoarseThresholds::archive(Archive& a) {
   const Eigen::Index contacts = fastest_.size();
-  a("fastest_impacts", fastest_);
+  a("fastest_impacts", fastest_), a("fastest_slips", fastest_slip_);
   if (fastest_.size() != contacts) throw std::length_error("fastest_impacts");
+  if (fastest_slip_.size() != contacts) throw std::length_error("fastest_slips");
 }
 
 }  // namespace trammel::simulate

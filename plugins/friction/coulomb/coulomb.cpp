@@ -17,7 +17,7 @@ namespace {
 using namespace trammel;
 
 struct Coulomb : SetValuedFriction {
-  double mu_0 = 0, mu = 0, eps = 1e-6;
+  double mu_0 = 0, mu = 0, eps = 0;
   Decide method = Decide::at_events;
 
   void prepare(const World&) override {
@@ -49,5 +49,4 @@ TRAMMEL_PLUGIN(
                    {.unit = "m/s",
                     .min = 0,
                     .usual_max = 1e-4,
-                    .above_min = true,
-                    .doc = "lcp_every_step: slower than this sticks"}))
+                    .doc = "lcp_every_step: slower than this sticks; 0: a millionth of the scene's speed"}))

@@ -210,7 +210,7 @@ struct NeverSticks final : SetValuedFriction {
   double static_coefficient() const override { return 0.3; }
   double kinetic_coefficient(double) const override { return 0.2; }
   Decide decide() const override { return Decide::every_evaluation; }
-  double stick_speed() const override { return 0; }
+  double stick_speed() const override { return -1e-6; }
 };
 
 enum class CorrectionFault { none, stops_halfway, moves_along, changes_velocities, acts_without_rows, invents };
