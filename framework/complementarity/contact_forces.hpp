@@ -7,8 +7,8 @@
 //     larger compliance, and goes on with springs along their self-stress: the solution that the phase after it has,
 //     too.
 //  3. Where that fails: all modes of few contacts, by branch and bound (mode_search.hpp), up to 24 in the plane and 4
-//     in space. It finds a solution or proves, up to a bound, that there is none (Painleve). It gives up where something
-//     comes near to a solution, 1e-8 of b, and is none, and after 20,000 sets of modes.
+//     in space. It finds a solution or proves, up to a bound, that there is none (Painleve). It gives up where
+//     something comes near to a solution, 1e-8 of b, and is none, and after 20,000 sets of modes.
 //
 // Every answer is made exact (exact_modes.hpp), then it is checked: its violation of the conditions is returned with
 // it. Degenerate problems end in a defined way: c N = 0 (a contact that just touches) leaves T = 0 and a_t as it is; a

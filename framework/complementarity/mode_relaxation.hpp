@@ -8,10 +8,10 @@
 //
 // In the plane a direction is one of two, and the cone has two edges: nothing is lost. In space the disk becomes the
 // octagon around it, and the arc between two angles the triangle around it, so that what has no solution here has none
-// there. All unknowns x are >= 0, along edges of cones; a non-negative least squares problem B x = d finds them or shows
-// that there are none: what it misses is a vector r with r . d > 0 and r . B_j <= 0 (Farkas). Of columns whose r . B_j is
-// round-off only that much follows: sum_j x_j |B_j| > 1e4, forces that by themselves accelerate 1e4 times as much as b,
-// and balance each other.
+// there. All unknowns x are >= 0, along edges of cones; a non-negative least squares problem B x = d finds them or
+// shows that there are none: what it misses is a vector r with r . d > 0 and r . B_j <= 0 (Farkas). Of columns whose
+// r . B_j is round-off only that much follows: sum_j x_j |B_j| > 1e4, forces that by themselves accelerate 1e4 times as
+// much as b, and balance each other.
 #pragma once
 
 #include <vector>

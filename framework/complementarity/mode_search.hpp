@@ -1,6 +1,6 @@
 // All modes of a few contacts: open, sticking, sliding, by branch and bound. Complete: it finds forces that obey
-// contact_point.hpp wherever there are some, and "none" is a proof, of forces up to a bound: those that accelerate, each
-// alone and all of these added, by less than 1e4 times b. Larger ones, which balance each other, are within what
+// contact_point.hpp wherever there are some, and "none" is a proof, of forces up to a bound: those that accelerate,
+// each alone and all of these added, by less than 1e4 times b. Larger ones, which balance each other, are within what
 // round-off of A may hide (mode_relaxation.hpp).
 //
 // A contact without a mode yet is relaxed (mode_relaxation.hpp). Where what is left has no forces, no completion of

@@ -1,6 +1,6 @@
 // The size of a scene, in space and speed, which decides what of a contact is round-off. All grow only, so that what
-// counts as touching does not change back. A scene scaled by any factor behaves alike, and so does one that is moved, or
-// that moves as a whole: place and motion count only by their round-off.
+// counts as touching does not change back. A scene scaled by any factor behaves alike, and so does one that is moved,
+// or that moves as a whole: place and motion count only by their round-off.
 #pragma once
 
 #include <algorithm>
@@ -57,8 +57,9 @@ struct Scale {
   void raise_to(const Scale& other);
 };
 
-// Each contact's own scale, so that a plane far off decides nothing for the others: its gap, place and speed, and at the
-// start the extents of all bodies and distances of joined markers, which may be tied to its own, and their speeds.
+// Each contact's own scale, so that a plane far off decides nothing for the others: its gap, place and speed, and the
+// extents, distances of joined markers and speeds at the start of all bodies, which may be tied to its own or strike
+// it.
 class ContactScale {
  public:
   explicit ContactScale(const model::Model& model) : own_(model.contacts.size()) {}

@@ -12,8 +12,8 @@
 // solution. The first round has the loads with which all that may rest rests, so where a joint could stay or go, it
 // stays.
 //
-// Rounds may come back to modes they have had: the load at rest does not hold the joint, and mu_0 times the load that it
-// has as it slides would. In such a cycle each joint that the loads of its own rest have not held has let go, and mu
+// Rounds may come back to modes they have had: the load at rest does not hold the joint, and mu_0 times the load that
+// it has as it slides would. In such a cycle each joint that the loads of its own rest have not held has let go, and mu
 // decides for it, as after rule 6. Where nothing lets go in a cycle, none were found, which proves nothing.
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // Thresholds that are larger than the motion that they judge: what they let pass then is the motion itself.
 //
 //     integrator.step.absolute       an error that steps may make, beside the scene's size (ContactScale)
-//     contacts.NAME.capture_speed    below which impacts have no rebound, beside the fastest impact of the contact, also
-//                                    where the scene's speed stands for it
+//     contacts.NAME.capture_speed    below which impacts have no rebound, beside the fastest impact of the contact;
+//                                    also where the scene's speed stands for it
 //     contacts.NAME.friction.stick_speed    below which it sticks, beside the fastest slip of the contact
 #pragma once
 

@@ -12,7 +12,8 @@
 namespace trammel::simulate {
 namespace {
 
-// Of the forces that act on a contact, or of all energy that was lost: round-off and what the location of events leaves.
+// Of the forces that act on a contact, or of all energy that was lost: round-off, and what the location of events
+// leaves.
 constexpr double little = 1e-8;
 
 }  // namespace

@@ -2,10 +2,10 @@
 //
 //     N >= 0,   |T| <= mu_0 N  [N],   work of friction <= 0 [J]      but for round-off
 //
-// of the forces that act on the contact itself (force_noise.hpp), and whether those that share rows can carry what they carry (AssembledSystem::spare_load).
-// What does not is told in a warning: the run cannot be trusted there. It also keeps when contacts were statically
-// indeterminate, closed with rows that depend on each other, so that their forces are one choice of many
-// (complementarity/shares/carrying_rows.hpp).
+// of the forces that act on the contact itself (force_noise.hpp), and whether those that share rows can carry what they
+// carry (AssembledSystem::spare_load). What does not is told in a warning: the run cannot be trusted there. It also
+// keeps when contacts were statically indeterminate, closed with rows that depend on each other, so that their forces
+// are one choice of many (complementarity/shares/carrying_rows.hpp).
 #pragma once
 
 #include <map>

@@ -84,8 +84,8 @@ TEST(Equilibrium, LetsContactsGoThatWouldPull) {
   EXPECT_EQ(run.end("closed"), 0);
 }
 
-// A light ball that a spring holds off the floor it starts on, and a heavy one that nothing ties to it, on a floor of its
-// own or on a spring under the ball's.
+// A light ball that a spring holds off the floor it starts on, and a heavy block on the floor, which nothing ties to it
+// but what `heavy` adds.
 std::string beside(const char* heavy, double mass) {
   return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -10],
   "parameters": {{"M": {:.17g}}},
