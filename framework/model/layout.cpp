@@ -38,6 +38,7 @@ void Model::lay_out() {
     entry.tangent = dynamic_cast<const ReactionTangent*>(entry.joint.get());
     sizes.nc += entry.rows;
   }
+  for (ForceEntry& entry : forces) entry.tangent = dynamic_cast<const WrenchTangent*>(entry.force.get());
   for (ContactEntry& entry : contacts) {
     entry.restitution = dynamic_cast<const Restitution*>(entry.law.get());
     entry.force = dynamic_cast<const ContactForce*>(entry.law.get());

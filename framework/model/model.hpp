@@ -63,6 +63,7 @@ struct ForceEntry {
   std::string name;
   plugin::Origin origin;
   std::unique_ptr<Force> force;
+  const WrenchTangent* tangent = nullptr;  // ability, looked up once
   MarkerRef A, B;
   bool from_outside = false;  // "on": A is not a part of the scene, but the frame that the force is given in
 };

@@ -13,9 +13,10 @@
 #include <trammel/faces.hpp>
 #include <trammel/fidelity.hpp>
 #include <trammel/fields.hpp>
+#include <trammel/force.hpp>
 #include <trammel/integrator.hpp>
-#include <trammel/linear_theory.hpp>
 #include <trammel/linear_rows.hpp>
+#include <trammel/linear_theory.hpp>
 #include <trammel/methods/oscillating_steps.hpp>
 #include <trammel/needs_orientation.hpp>
 #include <trammel/observed_units.hpp>
@@ -48,6 +49,9 @@ Transfer::~Transfer() = default;
 
 // Of corrections.
 NeedsMomentum::~NeedsMomentum() = default;
+
+// Of forces.
+WrenchTangent::~WrenchTangent() = default;
 
 // Abilities of bodies.
 SharedMotion::~SharedMotion() = default;

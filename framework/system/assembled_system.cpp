@@ -281,6 +281,19 @@ Eigen::SparseMatrix<double> AssembledSystem::sparse_tangent(Blend c, const Vec& 
   return sum.matrix();
 }
 
+CoordinateSizes AssembledSystem::coordinate_sizes() {
+  CoordinateSizes sizes = parts_->at.chain.sizes();
+  for (const BodyEntry& body : model().bodies) {
+    int iq = body.q0, iv = body.v0;
+    for (const Coordinates::Part& part : body.parts) {
+      for (int j = 0; j < part.nv && part.kind == Coordinates::Kind::flat; ++j)
+        sizes.place = std::max(sizes.place, std::abs(parts_->at.q(iq + j)) / sizes.of(iv + j));
+      iq += part.nq, iv += part.nv;
+    }
+  }
+  return sizes;
+}
+
 const Motion& AssembledSystem::motion(MarkerRef marker) {
   return parts_->at.motion(parts_->at.chain.slot(marker));
 }

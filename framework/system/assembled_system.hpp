@@ -13,6 +13,7 @@
 #include "model/call_site.hpp"
 #include "model/model.hpp"
 #include "system/equations/storage.hpp"
+#include "system/markers/coordinate_sizes.hpp"
 #include "system/point/contact_modes.hpp"
 #include "system/point/counts.hpp"
 #include "system/point/not_solvable.hpp"
@@ -132,6 +133,7 @@ class AssembledSystem final : public System, public HasRigidMotions {
   Eigen::SparseMatrix<double> sparse_tangent(Blend c, const Vec& a, const Vec& lambda);
 
   const Motion& motion(MarkerRef marker);     // at the current point
+  CoordinateSizes coordinate_sizes();         // with the place at the current point
   const Motion& contact_marker(int contact);  // marker A; for a surface its deepest point
   Vec3 velocity_apart(int contact);           // of marker A less that of marker B
   // Largest pressure of a body's closed contacts on each patch of its surface [Pa]; empty: none is closed.

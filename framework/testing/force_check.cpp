@@ -3,7 +3,7 @@
 //     dV/dt + F_A . V_A + F_B . V_B = supplied - dissipated,  dissipated >= 0
 //     F_A + F_B = 0, moments about the origin too (except external loads)
 //     Q F(A, B) = F(Q A, Q B) for a turn Q of the scene (likewise)
-//     F has a derivative by pose and velocity, which the framework takes by differences
+//     F has a derivative by pose and velocity, which the framework takes by differences, or from WrenchTangent
 //     axes of a marker count, and moments act on it, only where NeedsOrientation says so
 #include <fmt/format.h>
 
@@ -132,6 +132,44 @@ Report has_a_derivative(const TriedForce& f) {
   });
 }
 
+// Of forces that offer it.
+Report wrench_tangent_is_exact(const TriedForce& f) {
+  return compare("the exact derivatives are those of the wrenches", [&](Comparison& c) {
+    const auto* exact = dynamic_cast<const WrenchTangent*>(f.force.get());
+    if (!exact) return;
+    const int n = twist_size(f.space);
+    for (const double t : force_times) {
+      const Motion A = f.pair.a.at(t), B = f.pair.b.at(t);
+      PairTangent K, D;
+      for (PairTangent* of : {&K, &D})
+        for (Mat6* block : {&of->AA, &of->AB, &of->BA, &of->BB}) block->setZero(n, n);
+      exact->add_wrench_tangent(t, A, B, K, D);
+      for (int i = 0; i < 4 * n; ++i) {
+        const bool by_pose = i < 2 * n, of_A = i / n % 2 == 0;
+        const Vec6 e = Vec6::Unit(n, i % n);
+        const auto moved = [&](double s) {
+          Motion both[] = {A, B};
+          Motion& m = both[of_A ? 0 : 1];
+          if (by_pose)
+            m = displaced(m, s * e);
+          else
+            m.V += s * e;
+          const Wrenches w = f.wrenches(t, both[0], both[1]);
+          Vec all(2 * n);
+          all << w.on_A, w.on_B;
+          return all;
+        };
+        const PairTangent& of = by_pose ? K : D;
+        Vec claimed(2 * n);
+        claimed << (of_A ? of.AA : of.AB).col(i % n), (of_A ? of.BA : of.BB).col(i % n);
+        c.derivative(
+            claimed, difference(moved, force_step),
+            fmt::format("by {} {} of {} at t = {}", by_pose ? "twist" : "velocity", i % n, of_A ? 'A' : 'B', t));
+      }
+    }
+  });
+}
+
 // Of a marker that may be a point, which has no axes.
 Report force_axes_count_only_where_said(const TriedForce& f) {
   return compare("a marker's orientation counts only where NeedsOrientation says so", [&](Comparison& c) {
@@ -159,9 +197,13 @@ Report force_axes_count_only_where_said(const TriedForce& f) {
 std::vector<Check> force_checks(const MakerOf<Force>& make, Space space, Reaction reaction) {
   using Look = Report (*)(const TriedForce&);
   const std::pair<const char*, Look> all[] = {
-      {"EnergyBalances", force_energy_balances}, {"OnlyDissipates", force_only_dissipates},
-      {"ActionIsReaction", action_is_reaction},  {"TurnsWithTheScene", turns_with_the_scene},
-      {"HasADerivative", has_a_derivative},      {"AxesCountOnlyWhereSaid", force_axes_count_only_where_said},
+      {"EnergyBalances", force_energy_balances},
+      {"OnlyDissipates", force_only_dissipates},
+      {"ActionIsReaction", action_is_reaction},
+      {"TurnsWithTheScene", turns_with_the_scene},
+      {"HasADerivative", has_a_derivative},
+      {"WrenchTangentIsExact", wrench_tangent_is_exact},
+      {"AxesCountOnlyWhereSaid", force_axes_count_only_where_said},
   };
   std::vector<Check> checks;
   for (const auto& [name, look] : all)

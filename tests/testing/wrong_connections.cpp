@@ -135,6 +135,35 @@ struct Spring final : Force {
   ForceDefect defect;
 };
 
+// The same with its derivative, or one that takes the pull for constant.
+struct SpringWithTangent final : Force, WrenchTangent {
+  explicit SpringWithTangent(bool wrong) : forgets_the_turn(wrong) {}
+  void wrench(double t, const Motion& A, const Motion& B, Wrench& on_A, Wrench& on_B) const override {
+    own.wrench(t, A, B, on_A, on_B);
+  }
+  double potential(double t, const Motion& A, const Motion& B) const override { return own.potential(t, A, B); }
+  Power power(double t, const Motion& A, const Motion& B) const override { return own.power(t, A, B); }
+  void add_wrench_tangent(double, const Motion& A, const Motion& B, PairTangent& K, PairTangent& D) const override {
+    const auto n = A.x.size();
+    const Vec3 d = B.x - A.x, u = d.normalized(), d_dot = (B.V - A.V).head(n);
+    const Vec3 across = (d_dot - u.dot(d_dot) * u) / d.norm();
+    const Mat3 one = Mat3::Identity(n, n), along = u * u.transpose();
+    Mat3 by_d = Spring::k * one + Spring::c * u * across.transpose();
+    if (!forgets_the_turn) by_d += Spring::c * u.dot(d_dot) / d.norm() * (one - along);
+    add_by_distance(by_d, K);
+    add_by_distance(Spring::c * along, D);
+  }
+  Spring own{ForceDefect::none};
+  bool forgets_the_turn;
+};
+TEST(ForceChecks, AcceptAnExactTangent) {
+  EXPECT_EQ(refusals(force_checks([] { return std::make_unique<SpringWithTangent>(false); })), Names());
+}
+TEST(ForceChecks, RefuseATangentThatIsNotTheDerivative) {
+  EXPECT_EQ(refusals(force_checks([] { return std::make_unique<SpringWithTangent>(true); })),
+            Names{"WrenchTangentIsExact"});
+}
+
 Names refusals_of(ForceDefect defect) {
   return refusals(force_checks([=] {
     auto spring = std::make_unique<Spring>(defect);

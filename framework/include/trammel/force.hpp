@@ -16,4 +16,22 @@ class Force : public Component {
   virtual Power power(double t, const Motion& A, const Motion& B) const = 0;
 };
 
+// Ability of forces: the derivatives of both wrenches, exact. Without it the framework takes differences, whose steps
+// presume that the force changes over the distance of the markers.
+class WrenchTangent {
+ public:
+  virtual ~WrenchTangent();
+  // Adds to K the derivatives by the markers' poses while V stays, and to D those by V. Blocks have the twists' size on
+  // entry.
+  virtual void add_wrench_tangent(double t, const Motion& A, const Motion& B, PairTangent& K, PairTangent& D) const = 0;
+};
+// Of a force F on A and -F on B that depends on d = x_B - x_A, or of its part by d': adds its derivative dF/dd.
+inline void add_by_distance(const Mat3& dF_dd, PairTangent& K) {
+  const auto n = dF_dd.rows();
+  K.AA.topLeftCorner(n, n) -= dF_dd;
+  K.AB.topLeftCorner(n, n) += dF_dd;
+  K.BA.topLeftCorner(n, n) += dF_dd;
+  K.BB.topLeftCorner(n, n) -= dF_dd;
+}
+
 }  // namespace trammel

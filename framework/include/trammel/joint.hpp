@@ -31,14 +31,8 @@ class Joint : public Constraint {
   void rows_between(double t, Motions markers, Rows& r) const final { rows(t, *markers[0], *markers[1], r); }
 };
 
-// Derivatives of the wrenches H^T lambda on both markers by small twists of both (translation, then rotation about
-// world axes): d(wrench on A) = AA d(twist of A) + AB d(twist of B), and so on.
-struct PairTangent {
-  Mat6 AA, AB, BA, BB;
-};
-
-// Ability of joints between two markers: this derivative, exact. Without it the framework takes differences of the
-// rows.
+// Ability of joints between two markers: the derivatives of the wrenches H^T lambda, exact. Without it the framework
+// takes differences of the rows.
 class ReactionTangent {
  public:
   virtual ~ReactionTangent();

@@ -23,6 +23,12 @@ struct Motion {
 // Force, then moment, in world axes at the marker [N; N m]. Generalised force on the body: J^T wrench.
 using Wrench = Vec6;
 
+// Derivatives of the wrenches on two markers by small twists of both (translation, then rotation about world axes), or
+// by their velocities: d(wrench on A) = AA d(twist of A) + AB d(twist of B), and so on.
+struct PairTangent {
+  Mat6 AA, AB, BA, BB;
+};
+
 // Constraint rows between markers A and B, or up to four (n <= 6 rows).
 //     g_dot = H_A V_A + H_B V_B + ... + g_t,        H_A A_A + H_B A_B + ... = gamma
 struct Rows {

@@ -10,14 +10,19 @@ namespace {
 
 class ForceWrench final : public MarkerWrenches {
  public:
-  ForceWrench(const Force& force, double t) : force_(force), t_(t) {}
+  ForceWrench(const Force& force, const WrenchTangent* exact, double t) : force_(force), exact_(exact), t_(t) {}
   void operator()(Motions markers, std::span<Wrench> on) const override {
     force_.wrench(t_, *markers[0], *markers[1], on[0], on[1]);
   }
   bool depends_on_velocity() const override { return true; }
+  bool exact_tangent(Motions markers, PairTangent& K, PairTangent& D) const override {
+    if (exact_) exact_->add_wrench_tangent(t_, *markers[0], *markers[1], K, D);
+    return exact_ != nullptr;
+  }
 
  private:
   const Force& force_;
+  const WrenchTangent* exact_;
   double t_;
 };
 
@@ -29,10 +34,11 @@ void TangentAtPoint::add(Blend c, const Vec& a, const Vec& lambda, Matrix& S, co
     for (int i = 0; i < model.sizes.nv; ++i) S.add(i, i, c.c_1);
   for (const BodyEntry& body : model.bodies) add_body(body, c, a, lambda, S, carried);
   for (std::size_t i = 0; i < at_.forces.size(); ++i) {
-    at_.called(model.forces[i].origin, "wrench");
+    const ForceEntry& force = model.forces[i];
+    at_.called(force.origin, force.tangent ? "add_wrench_tangent" : "wrench");
     const std::array<int, 2> both = {at_.forces[i].A, at_.forces[i].B};
-    add_wrench_tangent(at_.chain, both, at_.t, at_.q, at_.v, ForceWrench(*model.forces[i].force, at_.t), -c.c_k, -c.c_d,
-                       S);
+    add_wrench_tangent(at_.chain, both, at_.t, at_.q, at_.v, ForceWrench(*force.force, force.tangent, at_.t), -c.c_k,
+                       -c.c_d, S);
   }
   for (std::size_t i = 0; i < at_.joints.size() && c.c_k != 0; ++i) add_joint(i, c.c_k, lambda, S);
   for (int i = 0; i < contacts_.count(); ++i)
@@ -67,6 +73,7 @@ void TangentAtPoint::add_body_by_differences(const BodyEntry& body, Blend c, con
     Matrix alone = Matrix::onto(M);
     body.body->mass(at_.t, place, alone);
   };
+  const Vec sizes = at_.chain.sizes().of.segment(body.v0, body.nv);
   Mat M, block;
   at_.called(body.origin, "mass");
   body.body->mass(at_.t, q, S);
@@ -77,7 +84,7 @@ void TangentAtPoint::add_body_by_differences(const BodyEntry& body, Blend c, con
   at_.called(body.origin, "force");
   if (c.c_d != 0) {
     velocity_differences(
-        v,
+        v, sizes,
         [&](const Vec& moved, Vec& out) {
           out.setZero(body.nv);
           body.body->force(at_.t, q, moved, out);
@@ -87,7 +94,7 @@ void TangentAtPoint::add_body_by_differences(const BodyEntry& body, Blend c, con
   }
   if (c.c_k != 0) {
     tangent_differences(
-        body, q,
+        body, q, sizes,
         [&](const Vec& moved, Vec& out) {
           out.setZero(body.nv);
           body.body->force(at_.t, moved, v, out);

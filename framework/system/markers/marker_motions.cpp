@@ -1,5 +1,6 @@
 #include "system/markers/marker_motions.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include <Eigen/Geometry>
@@ -134,6 +135,93 @@ const Motion& MarkerMotions::motion_in_passing(int index, std::size_t k, double 
   return motion;
 }
 
+// The marker's motion where the scene starts.
+Vec3 MarkerMotions::start_of(MarkerRef ref, Motion& m) const {
+  const auto body = std::size_t(ref.body);
+  if (ref.body < 0) {
+    const GroundFrame& frame = model_.ground_frames[std::size_t(ref.marker)];
+    const int dim = dimension(model_.world.space);
+    return frame.x.size() == dim ? frame.x : Vec3(Vec3::Zero(dim));
+  }
+  ask(ref.body, "motion", [&] { model_.bodies[body].body->motion(ref.marker, 0, q_start_[body], v_start_[body], m); });
+  return m.x;
+}
+
+void MarkerMotions::measure() {
+  const std::size_t bodies = model_.bodies.size();
+  q_start_.resize(bodies), v_start_.resize(bodies);
+  std::vector<double> extents(bodies, 0), lengths;
+  double place = 0;
+  Motion m;
+  for (std::size_t b = 0; b < bodies; ++b) {
+    const BodyEntry& entry = model_.bodies[b];
+    q_start_[b] = Vec::Zero(entry.nq), v_start_[b] = Vec::Zero(entry.nv);
+    ask(int(b), "initial", [&] { entry.body->initial(q_start_[b], v_start_[b]); });
+    v_start_[b].setZero();
+    Vec3 first;
+    for (int k = 0; k < int(entry.body->markers().size()); ++k) {
+      const Vec3 x = start_of({int(b), k}, m);
+      if (k == 0) first = x;
+      place = std::max(place, x.lpNorm<Eigen::Infinity>());
+      extents[b] = std::max(extents[b], (x - first).norm());
+    }
+  }
+  lengths = extents;
+  const double one_point = 64 * std::numeric_limits<double>::epsilon() * place;
+  const auto tie = [&](MarkerRef a, MarkerRef b) {
+    const double apart = (start_of(b, m) - start_of(a, m)).norm();
+    for (const MarkerRef end : {a, b})
+      if (end.body >= 0 && apart > one_point)
+        lengths[std::size_t(end.body)] = std::max(lengths[std::size_t(end.body)], apart);
+  };
+  for (const JointEntry& joint : model_.joints)
+    for (std::size_t k = 1; k < joint.markers.size(); ++k) tie(joint.markers[0], joint.markers[k]);
+  for (const ForceEntry& force : model_.forces)
+    if (!force.from_outside) tie(force.A, force.B);
+  double longest = 0;
+  for (const double length : lengths) longest = std::max(longest, length);
+
+  sizes_.emplace();
+  sizes_->length = longest > 0 ? longest : place > 0 ? place : 1;
+  sizes_->of = sizes_->levers = Vec::Ones(model_.sizes.nv);
+  for (std::size_t b = 0; b < bodies; ++b) measure(int(b), lengths[b] > 0 ? lengths[b] : sizes_->length, extents[b]);
+}
+
+void MarkerMotions::measure(int body, double L, double extent) {
+  const BodyEntry& entry = model_.bodies[std::size_t(body)];
+  const int markers = int(entry.body->markers().size());
+  Vec moves = Vec::Zero(entry.nv);  // in parts of L and of 1 rad
+  Vec turning = Vec::Zero(entry.nv);
+  Motion m;
+  for (int k = 0; k < markers; ++k) {
+    start_of({body, k}, m);
+    const auto dim = m.x.size();
+    for (std::size_t j = 0; j < m.dofs.size(); ++j) {
+      const Vec6 column = m.J.col(Eigen::Index(j));
+      const double turn = column.tail(column.size() - dim).norm();
+      double& most = moves(m.dofs[j]);
+      most = std::max({most, column.head(dim).norm() / L, turn});
+      if (std::abs(turn - 1) < 1e-9) ++turning(m.dofs[j]);
+    }
+  }
+  int iv = 0;
+  for (const Coordinates::Part& part : entry.parts) {
+    for (int j = iv; j < iv + part.nv; ++j) {
+      const bool flat = part.kind == Coordinates::Kind::flat;
+      // What moves no marker is a place like others, or a turn.
+      if (!(moves(j) > 0)) moves(j) = flat ? 1 / L : 1;
+      if (extent > 0 && (!flat || turning(j) == markers)) sizes_->levers(entry.v0 + j) = extent;
+    }
+    iv += part.nv;
+  }
+  sizes_->of.segment(entry.v0, entry.nv) = moves.cwiseInverse();
+}
+
+const CoordinateSizes& MarkerMotions::sizes() {
+  if (!sizes_) measure();
+  return *sizes_;
+}
+
 Motion MarkerMotions::motion_at_zero(int index) const {
   const Slot& slot = slots_[std::size_t(index)];
   if (!slot.body) return kept_[std::size_t(index)].motion;
@@ -234,7 +322,7 @@ void MarkerMotions::add_to_body(int index, double t, const Vec& q, const Wrench&
     out.setZero(entry.nv);
     for (std::size_t j = 0; j < probe_.dofs.size(); ++j) out(probe_.dofs[j]) = probe_.J.col(Eigen::Index(j)).dot(F);
   };
-  tangent_differences(entry, q_of_body, generalised_force, block_);
+  tangent_differences(entry, q_of_body, sizes().of.segment(entry.v0, entry.nv), generalised_force, block_);
   of_body.add(0, 0, block_, c);
 }
 

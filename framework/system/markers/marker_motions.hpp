@@ -5,12 +5,14 @@
 #include <array>
 #include <deque>
 #include <map>
+#include <optional>
 #include <typeindex>
 #include <vector>
 
 #include "linear/dense/prefetch.hpp"
 #include "model/call_site.hpp"
 #include "model/model.hpp"
+#include "system/markers/coordinate_sizes.hpp"
 #include "system/markers/twist_rows.hpp"
 
 namespace trammel::model {
@@ -37,7 +39,9 @@ class MarkerMotions {
   // The same for temporary use as marker k of a joint: the next call may overwrite it.
   const Motion& motion_in_passing(int slot, std::size_t k, double t, const Vec& q, const Vec& v);
   void prefetch(int slot) const { numerics::prefetch(&kept_[std::size_t(slot)], 256); }  // its place and velocity
-  Motion motion_at_zero(int slot) const;                                                 // q = 0, v = 0, t = 0
+  // By the bodies' markers where the scene starts, once for all: the model's own, whatever has happened since.
+  const CoordinateSizes& sizes();
+  Motion motion_at_zero(int slot) const;  // q = 0, v = 0, t = 0
   const Motion& last_motion(int slot) const { return kept_[std::size_t(slot)].motion; }
   int first_velocity(int slot) const { return slots_[std::size_t(slot)].v0; }
   int body(int slot) const { return slots_[std::size_t(slot)].marker.body; }  // -1: ground
@@ -76,6 +80,9 @@ class MarkerMotions {
     double value;
   };
   Slot& add_slot(MarkerRef marker);
+  Vec3 start_of(MarkerRef marker, Motion& m) const;
+  void measure();
+  void measure(int body, double L, double extent);
   void evaluate(const Slot& slot, double t, const Vec& q, const Vec& v, Motion& motion) const;
   void evaluate_linear(int slot, const Vec& q, const Vec& v);
   void keep_linear(int slot);
@@ -99,7 +106,9 @@ class MarkerMotions {
   std::vector<std::vector<int>> known_;  // slot or -1, by body (the ground first) and marker
   long long point_ = 0;
   bool still_ = false;
-  Motion probe_;  // for the differences
+  std::optional<CoordinateSizes> sizes_;
+  std::vector<Vec> q_start_, v_start_;  // by body
+  Motion probe_;                        // for the differences
   Vec v_zero_;
   Mat block_, pair_, turning_;
 };

@@ -1,6 +1,7 @@
+#include <algorithm>
 #include <cmath>
 
-#include "system/markers/numeric_derivative.hpp"
+#include "system/markers/coordinate_sizes.hpp"
 #include "system/markers/pair_tangent.hpp"
 
 namespace trammel::model {
@@ -31,6 +32,24 @@ void displace(const Motion& from, int i, double s, Motion& to) {
   to.R = turn * from.R;
 }
 
+// On which wrenches change: the distance of the markers, or the scene's length where they lie on each other; their
+// speed and spin, or this length and 1 rad in 1 s.
+struct PairSizes {
+  double length, speed, spin;
+};
+PairSizes sizes_of(const std::vector<Motion>& markers, double scene) {
+  constexpr double one_point = 1e-6;  // of the scene
+  double apart = 0, speed = 0, spin = 1;
+  for (const Motion& m : markers) {
+    const auto dim = m.x.size();
+    apart = std::max(apart, (m.x - markers[0].x).norm());
+    speed = std::max(speed, m.V.head(dim).norm());
+    spin = std::max(spin, m.V.tail(m.V.size() - dim).norm());
+  }
+  const double length = apart > one_point * scene ? apart : scene;
+  return {length, std::max(speed, length), spin};
+}
+
 }  // namespace
 
 void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
@@ -43,46 +62,63 @@ void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double
   for (std::size_t k = 0; k < n; ++k) seen[k] = &probe[k];
   const auto twist = now[0].V.size();
   std::vector<Wrench> plus(n), minus(n);
-  std::vector<Mat6> D(n);
   const auto evaluate = [&](std::vector<Wrench>& on) {
     for (Wrench& w : on) w.setZero(twist);
     wrenches(seen, on);
   };
-
-  // D[k]: derivative of the wrench on marker k by component i of what `move` changes.
-  const auto difference = [&](std::size_t moved, auto&& move) {
-    for (Mat6& block : D) block.setZero(twist, twist);
-    for (int i = 0; i < twist; ++i) {
-      const double s = move(probe[moved], i, 1);
-      evaluate(plus);
-      move(probe[moved], i, -1);
-      evaluate(minus);
-      probe[moved] = now[moved];
-      for (std::size_t k = 0; k < n; ++k) D[k].col(i) = (plus[k] - minus[k]) / (2 * s);
-    }
+  const auto turns = [&](std::size_t moved) { return c_k != 0 && !now[moved].V.isZero(0); };
+  const auto add_by_pose = [&](std::size_t k, std::size_t moved, const Mat6& D) {
+    chain.add_pair(slots[k], slots[moved], D, c_k, S);
+  };
+  const auto add_by_velocity = [&](std::size_t k, std::size_t moved, const Mat6& D) {
+    if (c_d != 0) chain.add_pair(slots[k], slots[moved], D, c_d, S);
+    if (turns(moved)) chain.add_rate_pair(slots[k], slots[moved], D, t, q, v, c_k, S);
   };
 
-  for (std::size_t moved = 0; moved < n; ++moved) {
-    if (chain.body(slots[moved]) < 0) continue;
-    if (c_k != 0) {
-      difference(moved, [&](Motion& m, int i, double sign) {
-        const double s = difference_step(i < m.x.size() ? now[moved].x(i) : 1.0);
-        displace(now[moved], i, sign * s, m);
-        return s;
-      });
-      for (std::size_t k = 0; k < n; ++k) chain.add_pair(slots[k], slots[moved], D[k], c_k, S);
+  PairTangent K, D;
+  for (PairTangent* of : {&K, &D})
+    for (Mat6* block : {&of->AA, &of->AB, &of->BA, &of->BB}) block->setZero(twist, twist);
+  if (n == 2 && wrenches.exact_tangent(seen, K, D)) {
+    const auto block = [](const PairTangent& of, std::size_t k, std::size_t moved) -> const Mat6& {
+      return k == 0 ? (moved == 0 ? of.AA : of.AB) : (moved == 0 ? of.BA : of.BB);
+    };
+    for (std::size_t moved = 0; moved < n; ++moved) {
+      if (chain.body(slots[moved]) < 0) continue;
+      for (std::size_t k = 0; k < n && c_k != 0; ++k) add_by_pose(k, moved, block(K, k, moved));
+      for (std::size_t k = 0; k < n; ++k) add_by_velocity(k, moved, block(D, k, moved));
     }
-    const bool turns = c_k != 0 && !now[moved].V.isZero(0);
-    if (!wrenches.depends_on_velocity() || (c_d == 0 && !turns)) continue;
-    difference(moved, [&](Motion& m, int i, double sign) {
-      const double s = difference_step(now[moved].V(i));
-      m.V = now[moved].V;
-      m.V(i) += sign * s;
-      return s;
-    });
-    for (std::size_t k = 0; k < n; ++k) {
-      if (c_d != 0) chain.add_pair(slots[k], slots[moved], D[k], c_d, S);
-      if (turns) chain.add_rate_pair(slots[k], slots[moved], D[k], t, q, v, c_k, S);
+  } else {
+    const PairSizes size = sizes_of(now, chain.sizes().length);
+    std::vector<Mat6> by(n);
+    // by[k]: derivative of the wrench on marker k by component i of what `move` changes and returns.
+    const auto difference = [&](std::size_t moved, auto&& move) {
+      for (Mat6& block : by) block.setZero(twist, twist);
+      for (int i = 0; i < twist; ++i) {
+        const double ahead = move(probe[moved], i, 1);
+        evaluate(plus);
+        const double behind = move(probe[moved], i, -1);
+        evaluate(minus);
+        probe[moved] = now[moved];
+        for (std::size_t k = 0; k < n; ++k) by[k].col(i) = (plus[k] - minus[k]) / (ahead - behind);
+      }
+    };
+    for (std::size_t moved = 0; moved < n; ++moved) {
+      if (chain.body(slots[moved]) < 0) continue;
+      if (c_k != 0) {
+        difference(moved, [&](Motion& m, int i, double sign) {
+          const bool place = i < m.x.size();
+          const double s = sign * (place ? exact_difference_step(size.length, now[moved].x(i)) : difference_step(1));
+          displace(now[moved], i, s, m);
+          return place ? m.x(i) : s;
+        });
+        for (std::size_t k = 0; k < n; ++k) add_by_pose(k, moved, by[k]);
+      }
+      if (!wrenches.depends_on_velocity() || (c_d == 0 && !turns(moved))) continue;
+      difference(moved, [&](Motion& m, int i, double sign) {
+        m.V = now[moved].V;
+        return m.V(i) += sign * difference_step(i < m.x.size() ? size.speed : size.spin);
+      });
+      for (std::size_t k = 0; k < n; ++k) add_by_velocity(k, moved, by[k]);
     }
   }
   if (c_k == 0) return;

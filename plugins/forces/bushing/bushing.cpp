@@ -27,13 +27,34 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // J^-T x = x + phi x x / 2 + k phi x (phi x x),  k = 1/a^2 - 1/(2 a tan(a/2)), a = |phi|.
+double factor(double a) {
+  return a < 1e-3 ? 1.0 / 12 + a * a / 720 : 1 / (a * a) - 1 / (2 * a * std::tan(a / 2));
+}
 Vector3d inverse_transposed_jacobian(const Vector3d& phi, const Vector3d& x) {
-  const double a = phi.norm();
-  const double k = a < 1e-3 ? 1.0 / 12 + a * a / 720 : 1 / (a * a) - 1 / (2 * a * std::tan(a / 2));
-  return x + phi.cross(x) / 2 + k * phi.cross(phi.cross(x));
+  return x + phi.cross(x) / 2 + factor(phi.norm()) * phi.cross(phi.cross(x));
+}
+Vector3d inverse_jacobian(const Vector3d& phi, const Vector3d& x) {
+  return x - phi.cross(x) / 2 + factor(phi.norm()) * phi.cross(phi.cross(x));
 }
 
-struct Bushing : Force, NeedsOrientation, CountsTurns {
+// (dk/da)/a. Near 0, where it is a difference of large numbers, by its series.
+double slope_of_factor(double a) {
+  if (const double s = a * a; a < 0.5)
+    return 1.0 / 360 +
+           s * (1.0 / 7560 +
+                s * (1.0 / 201600 + s * (1.0 / 5987520 + s * (691.0 / 130767436800 + s * (1.0 / 6227020800)))));
+  const double sine = std::sin(a / 2), over_tangent = std::cos(a / 2) / sine;
+  return (-2 / (a * a) + over_tangent / (2 * a) + 1 / (4 * sine * sine)) / (a * a);
+}
+// The change of J^-T x with phi and x.
+Vector3d change_of_inverse(const Vector3d& phi, const Vector3d& x, const Vector3d& d_phi, const Vector3d& d_x) {
+  const double a = phi.norm();
+  const Vector3d twice = d_phi.cross(phi.cross(x)) + phi.cross(d_phi.cross(x));
+  return inverse_transposed_jacobian(phi, d_x) + d_phi.cross(x) / 2 + factor(a) * twice +
+         slope_of_factor(a) * phi.dot(d_phi) * phi.cross(phi.cross(x));
+}
+
+struct Bushing : Force, WrenchTangent, NeedsOrientation, CountsTurns {
   Vec3 stiffness = Vec3::Zero(2), damping = Vec3::Zero(2);
   std::vector<double> torsional_stiffness, torsional_damping;
 
@@ -73,6 +94,19 @@ struct Bushing : Force, NeedsOrientation, CountsTurns {
     on_B.tail(M.size()) += M;
   }
 
+  void add_wrench_tangent(double, const Motion& A, const Motion& B, PairTangent& K, PairTangent& D) const override {
+    const Offset o(A, B, last_phi_);
+    const auto n = A.V.size();
+    const Vec6 none = Vec6::Zero(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Vec6 e = Vec6::Unit(n, i);
+      add_column(i, A, B, o, {e, none, none, none}, K.AA, K.BA);
+      add_column(i, A, B, o, {none, e, none, none}, K.AB, K.BB);
+      add_column(i, A, B, o, {none, none, e, none}, D.AA, D.BA);
+      add_column(i, A, B, o, {none, none, none, e}, D.AB, D.BB);
+    }
+  }
+
   double potential(double, const Motion& A, const Motion& B) const override {
     const Offset o(A, B, last_phi_);
     return 0.5 * (o.s.dot(stiffness.cwiseProduct(o.s)) + o.phi.dot(K_r_.cwiseProduct(o.phi)));
@@ -104,6 +138,50 @@ struct Bushing : Force, NeedsOrientation, CountsTurns {
       }
     }
   };
+
+  // Small twists of the markers' poses and changes of their velocities.
+  struct Change {
+    Vec6 pose_A, pose_B, V_A, V_B;
+  };
+
+  // With F = -R_A (K s + C s') on B:
+  //     dF = theta_A x F - R_A (K ds + C ds'),   R_A ds = dd - theta_A x d,  R_A ds' = dw - theta_A x w,  w = R_A s'
+  //     dM = theta_A x M - R_A (d(J^-T K_r phi) + C_r domega_r),   dphi = J^-1 R_A^T (theta_B - theta_A)
+  void add_column(Eigen::Index i, const Motion& A, const Motion& B, const Offset& o, const Change& by, Mat6& on_A,
+                  Mat6& on_B) const {
+    const auto dim = A.x.size(), turns = A.V.size() - dim;
+    const auto place = [&](const Vec6& twist) { return Vec3(twist.head(dim)); };
+    const auto turn = [&](const Vec6& twist) { return Vec3(twist.tail(turns)); };
+    const auto in_A = [&](const Vec3& x) { return Vec3(A.R.transpose() * x); };
+    const auto from_A = [&](const Vec3& x) { return Vec3(A.R * x); };
+    const Vec3 d = B.x - A.x, w = from_A(o.s_dot), theta = turn(by.pose_A);
+    const Vec3 F = from_A(-stiffness.cwiseProduct(o.s) - damping.cwiseProduct(o.s_dot));
+    const Vec3 dd = place(by.pose_B) - place(by.pose_A);
+    const Vec3 dw = place(by.V_B) - place(by.V_A) - turned(turn(A.V), dd) - turned(turn(by.V_A), d);
+    const Vec3 ds = in_A(dd - turned(theta, d)), ds_dot = in_A(dw - turned(theta, w));
+    const Vec3 dF = turned(theta, F) - from_A(stiffness.cwiseProduct(ds) + damping.cwiseProduct(ds_dot));
+    const Vec3 dM = change_of_moment(A, o, turn(by.pose_B) - theta, turn(by.V_B) - turn(by.V_A), theta);
+    on_A.col(i).head(dim) -= dF;
+    on_B.col(i).head(dim) += dF;
+    on_A.col(i).tail(turns) -= dM + moment(dd, F) + moment(d, dF);
+    on_B.col(i).tail(turns) += dM;
+  }
+
+  Vec3 change_of_moment(const Motion& A, const Offset& o, const Vec3& turn, const Vec3& d_omega,
+                        const Vec3& theta) const {
+    if (turn.size() == 1) return -K_r_.cwiseProduct(turn) - C_r_.cwiseProduct(d_omega);
+    const auto in_A = [&](const Vec3& x) { return Vector3d(A.R.transpose() * x); };
+    const Vector3d M = -elastic_moment(o) - C_r_.cwiseProduct(o.omega), d_phi = inverse_jacobian(o.phi, in_A(turn));
+    const Vector3d of_rate = in_A(d_omega) - in_A(theta).cross(Vector3d(o.omega));
+    const Vector3d K_phi = K_r_.cwiseProduct(o.phi), K_d_phi = K_r_.cwiseProduct(Vec3(d_phi));
+    const Vector3d dM_A = -change_of_inverse(o.phi, K_phi, d_phi, K_d_phi) - Vector3d(C_r_).cwiseProduct(of_rate);
+    return Vec3(A.R * Vec3(in_A(theta).cross(M) + dM_A));
+  }
+
+  static Vec3 turned(const Vec3& turn, const Vec3& x) {
+    if (x.size() == 2) return turn(0) * Eigen::Vector2d(-x(1), x(0));
+    return Vec3(Vector3d(turn).cross(Vector3d(x)));
+  }
 
   Vec3 elastic_moment(const Offset& o) const {
     const Vec3 by_phi = K_r_.cwiseProduct(o.phi);

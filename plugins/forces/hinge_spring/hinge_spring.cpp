@@ -3,10 +3,12 @@
 //
 //     e = |x_B - x_A|,   e^2 = a^2 + b^2 + 2 a b cos(psi)          psi [rad] the bend: 0 straight, pi folded
 //     U = kappa psi^2 / 2,   force along AB  -dU/de = kappa (psi / sin(psi)) e / (a b)       pushes the ends apart
+//     force on A  -p d,  d = x_B - x_A,  p = kappa (psi / sin(psi)) / (a b),   d(p d)/dd = p 1 - dp/dw d d^T / (a b)
 //
-// psi/sin(psi) is an even function of psi and regular at the straight position, where e = a + b, and beyond it, where
-// the arms are stretched. (Arms in natural coordinates have no axes for a torsional spring.) psi = pi, arms of equal
-// length folded onto each other, is a dead point, where the force is unbounded.
+// with w = 1 - cos(psi), dw/d(e^2) = -1/(2 a b). psi/sin(psi) is an even function of psi and regular at the straight
+// position, where e = a + b, and beyond it, where the arms are stretched. (Arms in natural coordinates have no axes for
+// a torsional spring.) psi = pi, arms of equal length folded onto each other, is a dead point, where the force is
+// unbounded.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +20,7 @@ namespace {
 
 using namespace trammel;
 
-struct HingeSpring : Force {
+struct HingeSpring : Force, WrenchTangent {
   double stiffness = 0;
   std::vector<double> arms;
 
@@ -40,9 +42,23 @@ struct HingeSpring : Force {
   }
   Power power(double, const Motion&, const Motion&) const override { return {}; }
 
+  void add_wrench_tangent(double, const Motion& A, const Motion& B, PairTangent& K, PairTangent&) const override {
+    const Vec3 d = B.x - A.x;
+    const Bend bend = bend_of(d.squaredNorm());
+    const double ab = arms[0] * arms[1], p = stiffness * bend.over_sine / ab, dp_dw = stiffness * bend.slope() / ab;
+    add_by_distance(dp_dw / ab * d * d.transpose() - p * Mat3::Identity(d.size(), d.size()), K);
+  }
+
  private:
   struct Bend {
     double cosine, square, over_sine;  // cos(psi), psi^2, psi/sin(psi)
+
+    // d(psi/sin(psi))/dw = (1 - psi cos(psi)/sin(psi)) / sin(psi)^2
+    double slope() const {
+      const double w = 1 - cosine;
+      if (std::abs(w) < 1e-3) return 1.0 / 3 + w * (4.0 / 15 + w * (6.0 / 35 + w * (32.0 / 315)));
+      return (1 - over_sine * cosine) / (w * (2 - w));
+    }
   };
   // With w = 1 - cos(psi) near straight: psi^2 = 2 w + w^2/3 + 4 w^3/45 + ..., whatever the sign of w.
   Bend bend_of(double e_squared) const {

@@ -4,6 +4,8 @@
 //     supplied power  F . V + M omega        no potential: even the work of a constant load counts as supplied
 //
 // The marker is B. A is the ground; the wrench on it has no effect and remains zero.
+#include <Eigen/Geometry>
+
 #include <trammel/force.hpp>
 #include <trammel/needs_orientation.hpp>
 #include <trammel/plugin.hpp>
@@ -12,7 +14,7 @@ namespace {
 
 using namespace trammel;
 
-struct Load : Force, NeedsOrientation {
+struct Load : Force, WrenchTangent, NeedsOrientation {
   enum class Frame { world, body };
   Frame frame = Frame::world;
   TimeFunction force_x, force_y;
@@ -36,6 +38,19 @@ struct Load : Force, NeedsOrientation {
   void wrench(double t, const Motion&, const Motion& B, Wrench&, Wrench& on_B) const override { on_B += at(t, B); }
   double potential(double, const Motion&, const Motion&) const override { return 0; }
   Power power(double t, const Motion&, const Motion& B) const override { return {.supplied = at(t, B).dot(B.V)}; }
+
+  // What is fixed in the marker's axes turns with them.
+  void add_wrench_tangent(double t, const Motion&, const Motion& B, PairTangent& K, PairTangent&) const override {
+    if (frame == Frame::world) return;
+    const Wrench w = at(t, B);
+    if (w.size() == 3) {
+      K.BB(0, 2) -= w(1), K.BB(1, 2) += w(0);
+      return;
+    }
+    for (const int part : {0, 3})
+      for (int i = 0; i < 3; ++i)
+        K.BB.block<3, 1>(part, 3 + i) += Eigen::Vector3d::Unit(i).cross(Eigen::Vector3d(w.segment<3>(part)));
+  }
 
  private:
   Wrench at(double t, const Motion& B) const {

@@ -13,7 +13,7 @@ namespace {
 
 using namespace trammel;
 
-struct SpringDamper : Force {
+struct SpringDamper : Force, WrenchTangent {
   double stiffness = 0, damping = 0;
   std::optional<double> length;  // L
 
@@ -41,6 +41,21 @@ struct SpringDamper : Force {
   Power power(double, const Motion& A, const Motion& B) const override {
     const double l_dot = between(A, B).l_dot;
     return {.dissipated = damping * l_dot * l_dot};
+  }
+
+  // By d:  dF/dl u u^T + F/l (1 - u u^T) + c u (dl'/dd)^T,   dl'/dd = (d' - l' u)/l;   by d':  c u u^T.
+  void add_wrench_tangent(double, const Motion& A, const Motion& B, PairTangent& K, PairTangent& D) const override {
+    const Line line = between(A, B);
+    const auto dim = line.u.size();
+    const Mat3 one = Mat3::Identity(dim, dim), along = line.u * line.u.transpose();
+    if (line.l == 0) {
+      if (rest_ == 0) add_by_distance(stiffness * one, K);
+      return;
+    }
+    const Vec3 turning = (B.V.head(dim) - A.V.head(dim) - line.l_dot * line.u) / line.l;
+    const double pull = (stiffness * (line.l - rest_) + damping * line.l_dot) / line.l;
+    add_by_distance(stiffness * along + pull * (one - along) + damping * line.u * turning.transpose(), K);
+    add_by_distance(damping * along, D);
   }
 
  private:
