@@ -10,9 +10,6 @@
 namespace trammel::simulate {
 namespace {
 
-// Round-off and truncation of a central difference balance there, for arguments of size one.
-constexpr double difference_step = 6e-6;
-
 class AtState {
  public:
   AtState(model::AssembledSystem& system, const State& s) : system_(system), s_(s), n_(system.sizes()) {
@@ -23,6 +20,7 @@ class AtState {
     Linearisation l;
     l.noise = noise_of_stiffness(system_.model());
     const TangentSpace space = tangent_space(system_);
+    sizes_ = space.sizes;
     l.Z = space.Z;
     l.redundant = space.redundant;
     left_ = space.left;
@@ -43,7 +41,7 @@ class AtState {
     Mat turned = Mat::Zero(n_.nv, l.Z.cols());
     const bool turning = add_turning(model, s_.v, l.Z, turned);
     const Mat Z_dot = carried(l.Z, turned);
-    const bool carried_along = Z_dot.lpNorm<Eigen::Infinity>() > 1e-9 * s_.v.lpNorm<Eigen::Infinity>();
+    const bool carried_along = largest_in_sizes(Z_dot) > 1e-9 * sizes_.largest(s_.v);
     if (!carried_along && !turning) return;
     if (carried_along && sliding)
       throw model::NotSolvable("a contact slides while joints move: the modes of such a state are not defined here");
@@ -58,6 +56,12 @@ class AtState {
     if (carried_along) l.K -= Z_dot.transpose() * M * Z_dot + l.Z.transpose() * mass_rate_times(Z_dot);
   }
 
+  double largest_in_sizes(const Mat& columns) const {
+    double largest = 0;
+    for (Eigen::Index j = 0; j < columns.cols(); ++j) largest = std::max(largest, sizes_.largest(columns.col(j)));
+    return largest;
+  }
+
   // Z' by the rows' rates at neighbouring places.
   Mat carried(const Mat& Z, const Mat& turned) {
     Mat Z_dot = Mat::Zero(n_.nv, Z.cols());
@@ -67,13 +71,14 @@ class AtState {
     Mat rates(n_.nc, Z.cols());
     for (Eigen::Index j = 0; j < Z.cols(); ++j) {
       Vec ahead;
+      const double step = sizes_.difference_step(Z.col(j));
       for (const double side : {1.0, -1.0}) {
-        system_.retract(s_.q, side * difference_step * Z.col(j), q);
+        system_.retract(s_.q, side * step * Z.col(j), q);
         system_.move_to(s_.t, q, s_.v);
         if (side > 0)
           ahead = system_.g_dot();
         else
-          rates.col(j) = (ahead - system_.g_dot()) / (2 * difference_step);
+          rates.col(j) = (ahead - system_.g_dot()) / (2 * step);
       }
     }
     system_.move_to(s_.t, s_.q, s_.v);
@@ -91,7 +96,7 @@ class AtState {
   // dM/dt along the motion, times the columns.
   Mat mass_rate_times(const Mat& columns) {
     Mat product = Mat::Zero(n_.nv, columns.cols());
-    const double tau = difference_step / std::max(1.0, s_.v.lpNorm<Eigen::Infinity>());
+    const double tau = sizes_.difference_step(s_.v);
     Vec q, r;
     for (const double side : {1.0, -1.0}) {
       system_.retract(s_.q, side * tau * s_.v, q);
@@ -108,6 +113,7 @@ class AtState {
   model::AssembledSystem& system_;
   const State& s_;
   Sizes n_;
+  model::CoordinateSizes sizes_;
   Mat left_;
 };
 

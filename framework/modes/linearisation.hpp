@@ -1,6 +1,6 @@
 // Small motions about a state, in independent coordinates y of the constraint manifold:
 //
-//     M_r y'' + D_r y' + K_r y = 0,     dq = Z y,   G Z = 0        Z: nv x m, orthonormal; redundant rows of G by rank
+//     M_r y'' + D_r y' + K_r y = 0,     dq = Z y,   G Z = 0        Z: nv x m, tangent_space.hpp
 //
 // About a state of rest these are Z^T M Z, Z^T D Z and Z^T K Z with the system's D and K; K includes d(W^T lambda)/dq,
 // the geometric stiffness of the constraints. About a state in motion Z moves along with it and its coefficients are
@@ -27,7 +27,8 @@ struct Linearisation {
   Mat Z;                // nv x m
   int redundant = 0;    // rows
   double noise = 1e-9;  // noise_of_stiffness
-  double speed = 0;  // largest velocity of a steady motion (constant coefficients) [m/s, rad/s]; else 0
+  double speed =
+      0;  // largest velocity of a steady motion (constant coefficients) in its coordinate's size [1/s]; else 0
   // [rad/s] of the frame in which y is measured, in the plane about the third axis; 0: the world.
   Eigen::Vector3d frame_rate = Eigen::Vector3d::Zero();
 };

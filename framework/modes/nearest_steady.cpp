@@ -16,49 +16,50 @@ using Eigen::Vector3d;
 
 constexpr int most_unknowns = 120;  // of dense differences
 constexpr int most_newton_steps = 20;
-constexpr double difference = 1e-6;         // of unknowns of order 1: central differences
 constexpr double balanced = 1e-11;          // of the forces
 constexpr double near = 0.1;                // of velocities
-constexpr double phases[] = {0, 0.7, 1.9};  // [rad, m] at the largest velocity
+constexpr double phases[] = {0, 0.7, 1.9};  // of a coordinate's size at the largest velocity
 
-double size_of(const Vec& x) {
+double largest(const Vec& x) {
   return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0;
 }
 
-// z = (y, u, w): increments of q and v along the rows' tangent space, and of Omega; u and w in parts of the largest
-// velocity.
+// z = (y, u, w): increments of q and v along the rows' tangent space, in the coordinates' sizes, and of Omega; u and w
+// in parts of the largest velocity.
 class Nearest {
  public:
   Nearest(model::AssembledSystem& system, const FlatTurning& flat, const State& s, const Vector3d& rate)
-      : system_(system), flat_(flat), s_(s), rate_(rate), speed_(size_of(s.v)) {
+      : system_(system), flat_(flat), s_(s), rate_(rate) {
     system_.move_to(s.t, s.q, s.v);
-    Z_ = tangent_space(system_).Z;
+    const TangentSpace space = tangent_space(system_);
+    Z_ = space.Z, sizes_ = space.sizes, speed_ = sizes_.largest(s.v);
     const Vec force = system_.f();
     Vec momentum = Vec::Zero(s.v.size());
     system_.add_mass_times(1, s.v, momentum);
-    force_ = std::max(size_of(force), 1e-4 * size_of(momentum) * speed_);
+    work_ = std::max(sizes_.largest_work(force), 1e-4 * sizes_.largest_work(momentum) * speed_);
   }
 
   std::optional<State> operator()() {
     const bool planar = system_.model().world.space == Space::planar;
     const Eigen::Index m = Z_.cols(), n = 2 * m + (planar ? 1 : 3);
-    if (n > most_unknowns || !(force_ > 0)) return {};
+    if (n > most_unknowns || !(work_ > 0)) return {};
     Vec z = Vec::Zero(n);
     for (int i = 0; i < most_newton_steps; ++i) {
       const Vec r = unbalanced(z);
       if (!r.allFinite()) return {};
-      if (size_of(r) <= balanced) return state_at(z);
+      if (largest(r) <= balanced) return state_at(z);
       Mat J(r.size(), n);
+      const double h = model::difference_step(1, sizes_.place);
       for (Eigen::Index j = 0; j < n; ++j) {
-        const Vec step = difference * Vec::Unit(n, j);
-        J.col(j) = (unbalanced(z + step) - unbalanced(z - step)) / (2 * difference);
+        const Vec step = h * Vec::Unit(n, j);
+        J.col(j) = (unbalanced(z + step) - unbalanced(z - step)) / (2 * h);
       }
       if (!J.allFinite()) return {};
       Eigen::CompleteOrthogonalDecomposition<Mat> least;
       least.setThreshold(1e-7);
       least.compute(J);
       z -= least.solve(r);
-      if (!(size_of(z.tail(n - m)) < near)) return {};
+      if (!(largest(z.tail(n - m)) < near)) return {};
     }
     return {};
   }
@@ -89,8 +90,8 @@ class Nearest {
       system_.accelerate({}, a, lambda);
       Vec force = Vec::Zero(s.v.size());
       const Vec apart = TurningFrame(system_.model(), flat_, later, rate).turned(later.v) - a;
-      system_.add_mass_times(1 / force_, apart, force);
-      all.segment(at, force.size()) = force;
+      system_.add_mass_times(1 / work_, apart, force);
+      all.segment(at, force.size()) = force.cwiseProduct(sizes_.of);
       at += force.size();
     }
     return all;
@@ -100,7 +101,8 @@ class Nearest {
   const FlatTurning& flat_;
   const State& s_;
   Vector3d rate_;
-  double speed_, force_ = 0;
+  double speed_ = 0, work_ = 0;
+  model::CoordinateSizes sizes_;
   Mat Z_;
 };
 
@@ -112,9 +114,12 @@ std::optional<State> nearest_steady(model::AssembledSystem& system, const FlatTu
 }
 
 bool onto_rows(model::AssembledSystem& system, State& s, std::function<Vec(const State&, const Vec&)> along) {
-  constexpr double off = 1e-10;  // [m, rad] beside coordinates of order 1: less than the search tells apart
-  const double size = std::max(1.0, s.q.lpNorm<Eigen::Infinity>());
-  return model::positions_onto_rows(system, s, {.allowed = off * size, .most = 10, .along = std::move(along)}) &&
+  constexpr double off = 1e-10;  // of the coordinates' sizes: less than the search tells apart
+  system.move_to(s.t, s.q, s.v);
+  const model::CoordinateSizes sizes = system.coordinate_sizes();
+  // Rows are in metres or, of angles, in radians.
+  const double allowed = off * std::min(1.0, sizes.length) * sizes.place;
+  return model::positions_onto_rows(system, s, {.allowed = allowed, .most = 10, .along = std::move(along)}) &&
          model::velocities_onto_rows(system, s);
 }
 

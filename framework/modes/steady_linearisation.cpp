@@ -36,9 +36,10 @@ bool agree(const Coefficients& a, const Coefficients& b, double rate, double noi
          apart(a.K, b.K) <= constant * rate * rate + noisy * noise * size(a.K);
 }
 
-bool annihilates(const Mat& columns_transposed, const Mat& x) {
+bool annihilates(const Mat& columns_transposed, const Mat& x, const Vec& sizes) {
   if (columns_transposed.cols() == 0 || x.cols() == 0) return true;
-  return largest_entry(columns_transposed.transpose() * x) <= free_of_rows * largest_entry(columns_transposed);
+  return largest_entry(columns_transposed.transpose() * x) <=
+         free_of_rows * largest_entry(sizes.asDiagonal() * columns_transposed);
 }
 
 }  // namespace
@@ -65,13 +66,13 @@ std::optional<Linearisation> linearise_steady(model::AssembledSystem& system, co
     const TurningFrame frame_later(model, flat, later, rate);
     const Mat Z_later = frame.after(tau, space.Z), left_later = frame.after(tau, space.left);
     system.move_to(later.t, later.q, later.v);
-    if (!annihilates(rows_transposed(system), Z_later)) continue;
-    if (space.sliding && !annihilates(reactions_transposed(system), left_later)) continue;
+    if (!annihilates(rows_transposed(system), Z_later, space.sizes.of)) continue;
+    if (space.sliding && !annihilates(reactions_transposed(system), left_later, space.sizes.of)) continue;
     const Coefficients now = coefficients_in(system, frame, s, space.Z, space.left),
                        then = coefficients_in(system, frame_later, later, Z_later, left_later);
     if (!agree(now, then, 1 / tau, noise)) continue;
     system.move_to(s.t, s.q, s.v);
-    return Linearisation{now.M, now.D, now.K, space.Z, space.redundant, noise, s.v.lpNorm<Eigen::Infinity>(), rate};
+    return Linearisation{now.M, now.D, now.K, space.Z, space.redundant, noise, motion.speed, rate};
   }
   system.move_to(s.t, s.q, s.v);
   return {};

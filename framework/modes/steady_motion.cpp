@@ -15,9 +15,10 @@ namespace trammel::simulate {
 namespace {
 
 using Eigen::Vector3d;
+using model::CoordinateSizes;
 
 constexpr int most_iterations = 30;
-constexpr double settled = 1e-13;  // [m, rad] of coordinates of order 1
+constexpr double settled = 1e-13;  // of the coordinates' sizes
 // [1/s^2] of M in the iteration matrix: what nothing holds and nothing pushes, as the angle of a rotor, keeps its
 // place.
 constexpr double damping = 1e-6;
@@ -26,15 +27,12 @@ constexpr double far = 0.5;  // of velocities: another motion than the one that 
 // have.
 constexpr double unbalanced = 1e-8;
 
-double largest(const Vec& x) {
-  return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0;
-}
-
-// M a - f + W^T lambda with the accelerations of the steady motion, and what its terms are.
+// M a - f + W^T lambda with the accelerations of the steady motion, and what its terms are, by their work over the
+// coordinates' sizes [N m].
 struct Balance {
   Vec left_over;
-  double terms = 0;
-  bool holds() const { return largest(left_over) <= unbalanced * terms; }
+  double left = 0, terms = 0;
+  bool holds() const { return left <= unbalanced * terms; }
 };
 Balance balance(model::AssembledSystem& system, const State& s) {
   system.move_to(s.t, s.q, s.v);
@@ -45,25 +43,31 @@ Balance balance(model::AssembledSystem& system, const State& s) {
   system.add_reaction(1, s.lambda, held);
   const Vec& f = system.f();
   // Where nothing pushes, what it takes to turn the momentum counts: gyroscopic forces may all vanish.
-  const double terms = std::max({largest(Ma), largest(f), largest(held), 1e-4 * largest(momentum) * largest(s.v)});
-  return {Ma - f + held, terms};
+  const CoordinateSizes sizes = system.coordinate_sizes();
+  const auto work = [&](const Vec& force) { return sizes.largest_work(force); };
+  const double terms = std::max({work(Ma), work(f), work(held), 1e-4 * work(momentum) * sizes.largest(s.v)});
+  const Vec left_over = Ma - f + held;
+  return {left_over, work(left_over), terms};
 }
 
 // Omega of least size whose accelerations are nearest to the state's own.
-Vector3d least_rate(const model::Model& model, const FlatTurning& flat, const State& s) {
+Vector3d least_rate(model::AssembledSystem& system, const FlatTurning& flat, const State& s) {
+  const model::Model& model = system.model();
+  const Vec per_size = system.coordinate_sizes().of.cwiseInverse();
   Mat by_rate(s.v.size(), 3);
   for (int k = 0; k < 3; ++k) {
     const bool in_space = model.world.space == Space::spatial || k == 2;
     const TurningFrame frame(model, flat, s, in_space ? Vector3d(Vector3d::Unit(k)) : Vector3d(Vector3d::Zero()));
-    by_rate.col(k) = frame.turned(s.v);
+    by_rate.col(k) = per_size.cwiseProduct(Vec(frame.turned(s.v)));
   }
   Eigen::CompleteOrthogonalDecomposition<Mat> least;
   least.setThreshold(1e-9);
   least.compute(by_rate);
   if (least.rank() == 0) return Vector3d::Zero();
-  const Vec rate_of_least = least.solve(s.a);
+  const Vec rate_of_least = least.solve(per_size.cwiseProduct(s.a));
   const Vector3d rate = rate_of_least;
-  return rate.norm() <= 1e-12 * largest(s.v) ? Vector3d(Vector3d::Zero()) : rate;
+  return rate.norm() <= 1e-12 * per_size.cwiseProduct(s.v).lpNorm<Eigen::Infinity>() ? Vector3d(Vector3d::Zero())
+                                                                                     : rate;
 }
 
 bool lasts(model::AssembledSystem& system, const FlatTurning& flat, const State& s, double tau, const Vector3d& rate) {
@@ -75,9 +79,10 @@ bool lasts(model::AssembledSystem& system, const FlatTurning& flat, const State&
 SteadyMotion steady_as_it_is(model::AssembledSystem& system, const FlatTurning& flat, State s) {
   system.move_to(s.t, s.q, s.v);
   system.accelerate({}, s.a, s.lambda);
-  SteadyMotion motion{std::move(s), {}};
+  const double speed = system.coordinate_sizes().largest(s.v);
+  SteadyMotion motion{std::move(s), {}, speed};
   std::vector<Vector3d> rates = body_rates(system.model(), motion.state);
-  rates.insert(rates.begin(), least_rate(system.model(), flat, motion.state));
+  rates.insert(rates.begin(), least_rate(system, flat, motion.state));
   for (const Vector3d& rate : rates)
     if (lasts(system, flat, motion.state, motion.tau(), rate)) motion.rates.push_back(rate);
   return motion;
@@ -95,8 +100,9 @@ std::optional<std::string> settle_in_the_world(model::AssembledSystem& system, S
     system.add_reaction(1, s.lambda, r);
     system.factorise({damping, 0, 1}, zero, s.lambda);
     if (!system.correct(r, system.g(), dq, dlambda)) return "its stiffness there is singular";
-    const double change = largest(dq);
-    if (!std::isfinite(change) || change > 1e3 * std::max(1.0, largest(s.q))) break;
+    const CoordinateSizes sizes = system.coordinate_sizes();
+    const double change = sizes.largest(dq);
+    if (!std::isfinite(change) || change > 1e3 * sizes.place) break;
     system.retract(s.q, dq, q);
     s.q = q, s.lambda += dlambda;
     system.move_to(s.t, s.q, s.v);
@@ -107,7 +113,7 @@ std::optional<std::string> settle_in_the_world(model::AssembledSystem& system, S
       system.move_to(s.t, s.q, s.v);
     }
     // At the end of the digits steps no longer shrink.
-    const double size = std::max(1.0, largest(s.q));
+    const double size = sizes.place;
     if (change <= settled * size || (change <= 1e-9 * size && change >= before)) return {};
     before = change;
   }
@@ -133,7 +139,7 @@ class InFrame {
       least.setThreshold(1e-9);
       least.compute(K);
       const Vec along_rows = -space.left.transpose() * left_over, dq = space.Z * least.solve(along_rows);
-      const double change = largest(dq), size = std::max(1.0, largest(s.q));
+      const double change = space.sizes.largest(dq), size = space.sizes.place;
       if (!std::isfinite(change) || change > 10 * size) break;
       move(s, dq);
       const auto along = [&](const State& at, const Vec& by) -> Vec {
@@ -162,7 +168,7 @@ class InFrame {
 }  // namespace
 
 double SteadyMotion::tau() const {
-  return 0.7 / std::max(1e-300, largest(state.v));
+  return 0.7 / std::max(1e-300, speed);
 }
 
 State steady_state(model::AssembledSystem& system, const FlatTurning& flat, State at, const Vector3d& rate) {
@@ -185,7 +191,7 @@ std::variant<SteadyMotion, std::string> find_steady_motion(model::AssembledSyste
   std::optional<std::string> why = settle_in_the_world(system, s);
   if (!why) {
     s.a = Vec::Zero(s.v.size());
-    if (s.v.isZero(0)) return SteadyMotion{s, {Vector3d::Zero()}};
+    if (s.v.isZero(0)) return SteadyMotion{s, {Vector3d::Zero()}, 0};
     if (SteadyMotion motion = steady_as_it_is(system, flat, s); !motion.rates.empty()) return motion;
     why = "the one that Newton's method came to does not last";
   }
@@ -194,12 +200,13 @@ std::variant<SteadyMotion, std::string> find_steady_motion(model::AssembledSyste
   system.move_to(state.t, state.q, state.v);
   s = state;
   system.accelerate({}, s.a, s.lambda);
-  rates.insert(rates.begin(), least_rate(system.model(), flat, s));
+  rates.insert(rates.begin(), least_rate(system, flat, s));
   for (const Vector3d& rate : rates) {
     if (rate.isZero(0)) continue;
     s = state;
     if (InFrame(system, flat, rate).settle(s)) continue;
-    if (largest(s.v - state.v) > far * largest(state.v)) continue;
+    const CoordinateSizes sizes = system.coordinate_sizes();
+    if (sizes.largest(s.v - state.v) > far * sizes.largest(state.v)) continue;
     if (SteadyMotion motion = steady_as_it_is(system, flat, s); !motion.rates.empty()) return motion;
   }
   for (const Vector3d& rate : rates)

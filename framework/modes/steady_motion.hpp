@@ -23,7 +23,8 @@ namespace trammel::simulate {
 struct SteadyMotion {
   State state;                         // with a and lambda
   std::vector<Eigen::Vector3d> rates;  // Omega of frames it is steady in [rad/s], the slowest first
-  double tau() const;                  // [s] in which it goes some way: 0.7 rad or m at its largest velocity
+  double speed = 0;                    // [1/s] the largest velocity, in the size of its coordinate
+  double tau() const;                  // [s] in which it goes some way: 0.7 of a size at its largest velocity
 };
 
 // The state as it is; no rates: it is not steady.

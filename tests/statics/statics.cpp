@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <fmt/format.h>
+
 #include "support/run_scene.hpp"
 
 namespace trammel::test {
@@ -41,6 +43,39 @@ TEST(Statics, FollowsTheLoadOfATruss) {
   }
   EXPECT_EQ(run.result["load_steps"].size(), 6u);
   EXPECT_LE(int(run.result["newton_iterations"]), 20);
+}
+
+// A body on two springs under a load that grows, all lengths in a unit and x from the origin; forces go with the unit.
+std::string loaded(double unit, double x) {
+  const auto at = [&](double u) { return fmt::format("{:.17g}", (x + u) * unit); };
+  const auto m = [&](double u) { return fmt::format("{:.17g}", u * unit); };
+  const auto spring = [&](const char* name, double foot) {
+    return fmt::format(R"("{0}": {{"type": "spring_damper", "between": [{{"point": [{1}, 0]}}, "b.{0}"],
+        "stiffness": 50, "damping": 1, "length": {2}}})",
+                       name, at(foot), m(0.5));
+  };
+  return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, {}],
+    "bodies": {{"b": {{"type": "rigid_body", "mass": 1, "inertia": {:.17g}, "position": [{}, {}],
+                       "markers": {{"p": [{}, {}], "q": [{}, {}]}}}}}},
+    "forces": {{{}, {}, "l": {{"type": "load", "on": "b.q", "force": {{"x": "=3*{}*t", "y": "=2*{}*t"}}}}}},
+    "simulate": {{"until": 1}}, "static": {{"steps": 3}},
+    "record": {{"observe": {{"x": "b.com.x", "y": "b.com.y", "angle": "b.angle"}}}}}})",
+                     m(-9.81), unit * unit / 12, at(0), m(-1), m(0.25), m(0.125), m(-0.25), m(0.125), spring("p", 0.5),
+                     spring("q", -0.375), unit, unit);
+}
+
+TEST(Statics, AreTheSameInAnyUnitAndPlace) {
+  const Finished here = run_static(loaded(1, 0));
+  ASSERT_TRUE(here.done()) << here.report.reason;
+  const auto expect_same = [&](double unit, double x, double off) {
+    const Finished there = run_static(loaded(unit, x));
+    ASSERT_TRUE(there.done()) << unit << ", " << x << ": " << there.report.reason;
+    EXPECT_NEAR(there.end("x") / unit - x, here.end("x"), off) << unit << ", " << x;
+    EXPECT_NEAR(there.end("y") / unit, here.end("y"), off) << unit << ", " << x;
+    EXPECT_NEAR(there.end("angle"), here.end("angle"), off) << unit << ", " << x;
+  };
+  for (const double unit : {1e-9, 1e-6, 1e-3, 1e3, 1e6}) expect_same(unit, 0, 1e-8);
+  for (const double x : {1e2, 1e4, 1e6}) expect_same(1, x, 1e-8 + 1e-14 * x);
 }
 
 // The largest load, about 0.595, is where load_at has its maximum.

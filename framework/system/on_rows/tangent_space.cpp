@@ -19,16 +19,17 @@ Mat transposed(const Sizes& n, Add&& add) {
   return all;
 }
 
-// An orthonormal basis of the orthogonal complement of the columns.
-Mat complement(Mat columns, double rank_tolerance) {
+// A basis of the columns' orthogonal complement, orthonormal over the sizes of its rows.
+Mat complement(Mat columns, const Vec& sizes, double rank_tolerance) {
+  columns = sizes.asDiagonal() * columns;
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
     if (const double length = columns.col(i).norm(); length > 0) columns.col(i) /= length;
   const Eigen::Index n = columns.rows();
-  if (columns.cols() == 0) return Mat::Identity(n, n);
+  if (columns.cols() == 0) return Mat(sizes.asDiagonal());
   Eigen::ColPivHouseholderQR<Mat> qr;
   qr.setThreshold(rank_tolerance);
   qr.compute(columns);
-  return numerics::last_columns_of_q(qr, n - qr.rank());
+  return sizes.asDiagonal() * numerics::last_columns_of_q(qr, n - qr.rank());
 }
 
 }  // namespace
@@ -45,12 +46,13 @@ TangentSpace tangent_space(model::AssembledSystem& system) {
   const Sizes n = system.sizes();
   const Mat Gt = rows_transposed(system), Wt = reactions_transposed(system);
   const double violation = n.nc > 0 ? system.g().lpNorm<Eigen::Infinity>() : 0;
-  const double tolerance = numerics::rank_tolerance_at(violation);
   TangentSpace space;
-  space.Z = complement(Gt, tolerance);
+  space.sizes = system.coordinate_sizes();
+  const double tolerance = numerics::rank_tolerance_at(violation / space.sizes.length);
+  space.Z = complement(Gt, space.sizes.of, tolerance);
   space.redundant = n.nc - int(n.nv - space.Z.cols());
   space.sliding = Gt != Wt;
-  space.left = space.sliding ? complement(Wt, tolerance) : space.Z;
+  space.left = space.sliding ? complement(Wt, space.sizes.of, tolerance) : space.Z;
   if (space.left.cols() != space.Z.cols())
     throw model::NotSolvable("friction jams: a sliding contact's force does not move what its row holds");
   return space;

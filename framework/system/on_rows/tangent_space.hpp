@@ -1,4 +1,5 @@
-// The null spaces of the rows G and of the reactions W at the system's point.
+// The null spaces of the rows G and of the reactions W at the system's point. Their bases are orthonormal in the sizes
+// of the coordinates: the same in any unit of lengths, places beside angles.
 #pragma once
 
 #include "system/assembled_system.hpp"
@@ -6,7 +7,8 @@
 namespace trammel::simulate {
 
 struct TangentSpace {
-  Mat Z;                 // G Z = 0: nv x m, orthonormal
+  model::CoordinateSizes sizes;
+  Mat Z;                 // G Z = 0: nv x m; Z over the sizes is orthonormal
   Mat left;              // W left = 0; Z itself unless sliding friction couples rows
   bool sliding = false;  // W is not G
   int redundant = 0;     // number of redundant rows
