@@ -11,9 +11,18 @@
 
 namespace trammel::simulate {
 
+namespace {
+
+// Angles as displacements at their levers: rows of a mechanism of any size then differ alike.
+Eigen::SparseMatrix<double, Eigen::RowMajor> rows_without_levers(model::AssembledSystem& system) {
+  return system.sparse_rows() * system.coordinate_sizes().levers.cwiseInverse().asDiagonal();
+}
+
+}  // namespace
+
 std::vector<RedundantRows> redundant_rows(model::AssembledSystem& system, const State& state) {
   system.move_to(state.t, state.q, state.v);
-  const std::vector<int> dependent = numerics::dependent_rows(system.sparse_rows(), rank_tolerance);
+  const std::vector<int> dependent = numerics::dependent_rows(rows_without_levers(system), rank_tolerance);
   std::vector<RedundantRows> found;
   auto row = dependent.begin();
   for (const model::RowGroup& group : row_groups(system.model())) {
@@ -57,7 +66,7 @@ void check_bearing_loads(model::AssembledSystem& system, const State& state, con
   const auto& contacts = system.model().contacts;
   const auto rubs = [](const model::ContactEntry& contact) { return contact.joint.has_value(); };
   if (std::none_of(contacts.begin(), contacts.end(), rubs) || redundant_rows(system, state).empty()) return;
-  const std::vector<bool> uncertain = in_self_stress(Mat(system.sparse_rows()));
+  const std::vector<bool> uncertain = in_self_stress(Mat(rows_without_levers(system)));
   for (const model::ContactEntry& contact : contacts) {
     if (!contact.joint) continue;
     const model::JointEntry& joint = system.model().joints[std::size_t(contact.joint->joint)];

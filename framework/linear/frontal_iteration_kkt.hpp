@@ -37,11 +37,12 @@ class FrontalIterationKkt {
     by_fronts_ = factorise_sum() && (pivots_are_safe() || independent());
     if (!by_fronts_) fall_back();
   }
+  void measure_by(Levers levers) { levers_ = std::move(levers); }
   template <class Additions>
   void factorise(int nv, const Mat& G, double rank_tolerance, Additions&& additions) {
     safe_pivot_ = 100 * rank_tolerance;
     factorise(
-        nv, int(G.rows()), [&] { return rank_of_rows(G, rank_tolerance) == G.rows(); }, additions);
+        nv, int(G.rows()), [&] { return rank_of_rows(G, rank_tolerance, levers_) == G.rows(); }, additions);
   }
   // False: not solvable (singular beyond redundant rows), or not finite.
   [[nodiscard]] bool solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
@@ -60,6 +61,7 @@ class FrontalIterationKkt {
   double safe_pivot_ = 1e-5;   // beside its column
   Vec scale_;                  // D and E
   Vec right_, solution_;
+  Levers levers_;
 };
 
 }  // namespace trammel::numerics

@@ -26,20 +26,21 @@ bool pivots_are_safe(const Cholesky& factors, const Mat& matrix, double toleranc
   return true;
 }
 
-// What a row has of an angle is a lever [m]. Where levers are long, rows in metres look alike by them, and what the
-// rows are off by is less of a length: both are measured by the longest. The rows reach the same.
+// Columns of angles as displacements at their levers; others, too, are shortened to one.
 struct WithoutLevers {
   Mat G;
-  double longest = 1;  // [m] and no less
+  double longest = 1;  // [m] of levers that are not known, and no less
 
-  explicit WithoutLevers(const Mat& rows) : G(rows) {
+  WithoutLevers(const Mat& rows, const Levers& levers) : G(rows) {
     if (G.rows() == 0) return;
+    if (levers) G = G * levers().cwiseInverse().asDiagonal();
     for (Eigen::Index j = 0; j < G.cols(); ++j) {
       const double lever = std::max(1.0, G.col(j).lpNorm<Eigen::Infinity>());
       if (lever > 1) G.col(j) /= lever;
-      longest = std::max(longest, lever);
+      if (!levers) longest = std::max(longest, lever);
     }
   }
+  // What rows are off by is less of a length where levers are long.
   double tolerance(double of_rows) const { return std::max(rank_tolerance_at(0), of_rows / longest); }
 };
 
@@ -56,8 +57,8 @@ Eigen::ColPivHouseholderQR<Mat> decomposed(const WithoutLevers& rows, const Vec&
 }
 
 // A basis of what G reaches, nc x rank.
-Mat range_of(const Mat& G, double tolerance) {
-  const WithoutLevers rows(G);
+Mat range_of_rows(const Mat& G, double tolerance, const Levers& levers) {
+  const WithoutLevers rows(G, levers);
   const Vec lengths = rows.G.rowwise().norm();
   const Eigen::ColPivHouseholderQR<Mat> qr = decomposed(rows, lengths, tolerance);
   return lengths.asDiagonal() * first_columns_of_q(qr, qr.rank());
@@ -69,9 +70,17 @@ double rank_tolerance_at(double violation) {
   return std::clamp(10 * violation, 1e-7, 1e-2);
 }
 
-Eigen::Index rank_of_rows(const Mat& G, double tolerance) {
-  const WithoutLevers rows(G);
+Eigen::Index rank_of_rows(const Mat& G, double tolerance, const Levers& levers) {
+  const WithoutLevers rows(G, levers);
   return decomposed(rows, rows.G.rowwise().norm(), tolerance).rank();
+}
+
+Mat MassKkt::range_of(const Mat& G, double tolerance) const {
+  return range_of_rows(G, tolerance, levers_);
+}
+
+Mat IterationKkt::range_of(const Mat& G, double tolerance) const {
+  return range_of_rows(G, tolerance, levers_);
 }
 
 template <class Factors, class Masses>

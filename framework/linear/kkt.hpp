@@ -15,6 +15,7 @@
 // to the next: no allocation at constant sizes while rows are independent.
 #pragma once
 
+#include <functional>
 #include <variant>
 
 #include <trammel/types.hpp>
@@ -32,11 +33,16 @@ namespace trammel::numerics {
 // but for n^-2. (Where branches of motion cross, rows part by the distance from the crossing, over which a violation
 // shifts the state by itself; slopes on the rows pass there, RungeKutta::Rows.)
 double rank_tolerance_at(double violation);
+// What a row has of an angle is a lever [m], which would make rows in metres look alike where levers are long, and rows
+// of a mechanism in micrometres where they are short: angles are taken times their levers. The levers of the columns, 1
+// of those that are none; null: not known. Asked for only where rows may be dependent.
+using Levers = std::function<const Vec&()>;
 // Of the rows at length one: masses and units must not make independent rows look alike.
-Eigen::Index rank_of_rows(const Mat& G, double tolerance);
+Eigen::Index rank_of_rows(const Mat& G, double tolerance, const Levers& levers = {});
 
 class MassKkt {
  public:
+  void measure_by(Levers levers) { levers_ = std::move(levers); }
   // False: M is not positive definite. `G` may have no rows.
   bool factorise(const Mat& M, const Mat& G, const Mat& W, double rank_tolerance = rank_tolerance_at(0));
   bool factorise(const Mat& M, const Mat& G) { return factorise(M, G, G); }
@@ -54,6 +60,7 @@ class MassKkt {
   void hold_rows(const Vec& c, Vec& z, Vec& y);
   void complement(const Mat& W, double rank_tolerance);
   void merge_rows(const Mat& G, double rank_tolerance);
+  Mat range_of(const Mat& G, double tolerance) const;
 
   template <class Factors, class Masses>
   bool factorise_by(const Masses& M, const Mat& G, const Mat& W, double rank_tolerance);
@@ -71,11 +78,13 @@ class MassKkt {
   Cholesky schur_cholesky_;
   Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
   Vec w_;
+  Levers levers_;
   bool redundant_ = false, coupled_ = false;
 };
 
 class IterationKkt {
  public:
+  void measure_by(Levers levers) { levers_ = std::move(levers); }
   // The caller fills S() (nv x nv, zero on entry) after `begin` and then calls `factorise`.
   Mat& begin(Eigen::Index nv, Eigen::Index nc);
   // False: not finite.
@@ -86,12 +95,14 @@ class IterationKkt {
 
  private:
   bool merge_rows(const Mat& W, const Mat& G, double rank_tolerance);
+  Mat range_of(const Mat& G, double tolerance) const;
 
   Mat full_;
   Mat merged_;  // U, nc x rank, while rows are redundant
   Lu lu_;
   Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
   Vec right_, solution_;
+  Levers levers_;
   Eigen::Index nv_ = 0;
   bool redundant_ = false, singular_ = false, finite_ = true;
 };

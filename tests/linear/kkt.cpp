@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <utility>
 
 namespace trammel::numerics {
@@ -47,6 +48,48 @@ void expect_solved(const Mat& S, const Mat& W, const Mat& rows, const Vec& right
     EXPECT_LE((rows * s.x - c).cwiseAbs().maxCoeff(),
               eps * (rows.cwiseAbs() * s.x.cwiseAbs() + c.cwiseAbs()).maxCoeff());
   }
+}
+
+// Bodies of a place and an angle each, with levers of a unit; the last `spare` rows are combinations of the others.
+struct Mechanism {
+  Mat rows;
+  Vec levers;
+  Mat masses;  // of a mass and its square of the lever
+};
+Mechanism mechanism(unsigned seed, int rows, int spare, double unit) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const int bodies = 4, n = 3 * bodies;
+  Mechanism m{Mat(rows + spare, n), Vec::Ones(n), Mat::Identity(n, n)};
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < n; ++j) m.rows(i, j) = number(random) * (j % 3 == 2 ? unit : 1);
+  for (int i = 0; i < spare; ++i) {
+    m.rows.row(rows + i).setZero();
+    for (int k = 0; k < rows; ++k) m.rows.row(rows + i) += number(random) * m.rows.row(k);
+  }
+  for (int j = 2; j < n; j += 3) m.levers(j) = unit, m.masses(j, j) = unit * unit;
+  return m;
+}
+
+// Two rows that differ by levers alone are independent, whatever their length is in metres.
+TEST(RankOfRows, IsTheSameForLeversOfAnyLength) {
+  for (const double unit : {1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6})
+    for (unsigned seed = 1; seed <= 20; ++seed)
+      for (const int spare : {0, 1, 3}) {
+        Mechanism m = mechanism(seed, 6, spare, unit);
+        m.rows.row(1) = m.rows.row(0);
+        m.rows(1, 2) += 0.5 * unit;  // another lever of the first body
+        for (int i = 0; i < spare; ++i) m.rows.row(6 + i) = 0.3 * m.rows.row(1) - m.rows.row(2 + i);
+        const Levers levers = [&]() -> const Vec& { return m.levers; };
+        EXPECT_EQ(rank_of_rows(m.rows, rank_tolerance_at(0), levers), 6) << unit << ", " << seed << ", " << spare;
+        MassKkt kkt;
+        kkt.measure_by(levers);
+        ASSERT_TRUE(kkt.factorise(m.masses, m.rows));
+        const Vec right = Vec::LinSpaced(12, -1, 1).cwiseProduct(m.levers), c = m.rows * right;
+        Solution s;
+        kkt.solve(right, c, s.x, s.y);
+        EXPECT_LE((m.rows * s.x - c).cwiseAbs().maxCoeff(), 1e-9 * c.cwiseAbs().maxCoeff()) << unit << ", " << seed;
+      }
 }
 
 TEST(MassKkt, SaysWhetherRowsAreRedundant) {

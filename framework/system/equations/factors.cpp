@@ -27,7 +27,13 @@ FactorsAtPoint::FactorsAtPoint(Point& at, ContactsAtPoint& contacts, RowsAtPoint
       blocks_(blocks),
       sparse_(sparse),
       counts_(counts) {
-  if (blocks_) blocks_->kept[at_point].passing = true;
+  const numerics::Levers levers = [&chain = at_.chain]() -> const Vec& { return chain.sizes().levers; };
+  for (Kept& each : kept_)
+    each.mass.measure_by(levers), each.iteration.measure_by(levers), each.sparse.measure_by(levers);
+  if (blocks_) {
+    blocks_->kept[at_point].passing = true;
+    for (auto& each : blocks_->kept) each.dense.measure_by(levers);
+  }
   if (sparse_) reserve_contacts();
 }
 

@@ -292,7 +292,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> RowsAtPoint::sparse() const {
 }
 
 double RowsAtPoint::rank_tolerance() const {
-  return numerics::rank_tolerance_at(g_.size() ? g_.lpNorm<Eigen::Infinity>() : 0);
+  return numerics::rank_tolerance_at(g_.size() ? g_.lpNorm<Eigen::Infinity>() / at_.chain.sizes().length : 0);
 }
 
 CallSite RowsAtPoint::find_not_finite() {
