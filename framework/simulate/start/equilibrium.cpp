@@ -14,9 +14,10 @@ namespace trammel::simulate {
 namespace {
 
 constexpr int most_steps = 300;
-constexpr double tau_first = 1e-3, tau_last = 100;  // [s]
-// Round-off of coordinates of the order of 1 m.
-constexpr double settled = 1e-14;  // [m, rad]
+constexpr double tau_first = 1e-3;  // [s]
+constexpr double tau_last = 100;    // of 1 s, or of the time of a fall through the scene where that is longer
+constexpr double settled = 1e-14;   // of the coordinates' sizes and places: round-off
+constexpr double far_off = 1e6;     // of their sizes
 
 class StaticEquilibrium {
  public:
@@ -29,6 +30,8 @@ class StaticEquilibrium {
         turns_(system) {
     turns_.follow(state_.t, state_.q, zero_v_);
     system_.move_to(state_.t, state_.q, zero_v_);
+    const double g = system_.model().world.gravity.norm();
+    if (g > 0) slow_ = std::max(slow_, std::sqrt(system_.coordinate_sizes().length / g));
     contacts_.close_what_may_push();
   }
 
@@ -38,10 +41,11 @@ class StaticEquilibrium {
     for (int i = 0; i < most_steps; ++i) {
       Vec q_next;
       const bool found = step(tau, q_next);
-      const double change = found ? dq_.lpNorm<Eigen::Infinity>() : 0;
-      if (!std::isfinite(change) || change > 1e6) return false;
-      if (found && change <= settled * std::max(1.0, state_.q.lpNorm<Eigen::Infinity>())) {
-        if (tau < 1) {  // small because damped, perhaps
+      const model::CoordinateSizes sizes = system_.coordinate_sizes();
+      const double change = found ? sizes.largest(dq_) : 0;
+      if (!std::isfinite(change) || change > far_off * sizes.place) return false;
+      if (found && change <= settled * sizes.place) {
+        if (tau < slow_) {  // small because damped, perhaps
           tau *= 10;
           continue;
         }
@@ -62,7 +66,7 @@ class StaticEquilibrium {
         continue;
       }
       const double shrunk = next > 0 ? unbalanced / next : 10;
-      tau = std::min(tau_last, tau * 2 * std::clamp(shrunk, 0.7, 5.0));
+      tau = std::min(tau_last * slow_, tau * 2 * std::clamp(shrunk, 0.7, 5.0));
       state_.q = q_next;
       turns_.follow(state_.t, state_.q, zero_v_);
       unbalanced = contacts_.close_penetrating() ? look(state_.q) : next;
@@ -97,6 +101,7 @@ class StaticEquilibrium {
     const Vec lambda = lambda_;
     Vec ahead, behind, q, rows, dv, mu;
     double tau = 1, before = 0;
+    const model::CoordinateSizes sizes = system_.coordinate_sizes();
     for (int i = 0; i < most; ++i) {
       unbalance(state_.t + dt, dt * state_.v, lambda, ahead);
       unbalance(state_.t - dt, -dt * state_.v, lambda, behind);
@@ -109,7 +114,7 @@ class StaticEquilibrium {
       system_.factorise({1 / (tau * tau), 0, 1}, zero_v_, lambda);
       if (!system_.correct(ahead, rows, dv, mu)) return undetermined(ahead);
       state_.v += dv;
-      const double change = dv.lpNorm<Eigen::Infinity>(), speed = state_.v.lpNorm<Eigen::Infinity>();
+      const double change = sizes.largest(dv), speed = sizes.largest(state_.v);
       if (change <= settled * speed) return {};
       if (i == 0) before = change;
       if ((i + 1) % slow != 0) continue;
@@ -197,8 +202,9 @@ class StaticEquilibrium {
   // The least change of q that satisfies the rows: violations left by a turn would count as a step against the forces.
   void onto_rows(Vec& q) {
     State s{state_.t, q, zero_v_, {}, {}};
-    model::positions_onto_rows(system_, s,
-                               {.allowed = settled * std::max(1.0, q.lpNorm<Eigen::Infinity>()), .most = 5});
+    const model::CoordinateSizes sizes = system_.coordinate_sizes();
+    // Rows are in metres or, of angles, in radians.
+    model::positions_onto_rows(system_, s, {.allowed = settled * std::min(1.0, sizes.length) * sizes.place, .most = 5});
     q = s.q;
   }
 
@@ -218,7 +224,7 @@ class StaticEquilibrium {
   RestingContacts contacts_;
   TurnCounts turns_;
   Vec a_, lambda_, dq_, residual_;
-  double scale_ = 0;
+  double scale_ = 0, slow_ = 1;  // slow_: [s]
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "support/run_scene.hpp"
 
 namespace trammel::test {
@@ -30,6 +32,49 @@ TEST(Equilibrium, OfAWeightOnASpringIsItsSag) {
   EXPECT_NEAR(run.end("x"), 0.3, 1e-14);
   EXPECT_EQ(run.end("vy"), 0);
   EXPECT_NEAR(run.end("ay"), 0, 1e-12);
+}
+
+// In units of length, under the same gravity: stiffnesses are per unit.
+struct Hanging {
+  const char* how;
+  std::string scene(double unit) const {
+    const auto m = [&](double x) { return fmt::format("{:.17g}", x * unit); };
+    const std::string kind = how;
+    const std::string place = kind == "by a hinge" ? m(-0.3) + ", " + m(-0.1)
+                              : kind == "on feet"  ? "0, " + m(0.2)
+                                                   : "0, 0";
+    const auto foot = [&](const char* name) {
+      return fmt::format(R"("{0}": {{"type": "constraint_method", "between": ["b.{0}",
+          {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}})",
+                         name);
+    };
+    const std::string rest = kind == "on a spring" ? fmt::format(R"("forces": {{"s": {{"type": "spring_damper",
+            "between": [{{"point": [0, {}]}}, "b.p"], "stiffness": {:.17g}, "length": {}}}}})",
+                                                                 m(1), 100 / unit, m(0.5))
+                             : kind == "by a hinge"
+                                 ? R"("joints": {"j": {"type": "revolute", "between": ["ground", "b.p"]}})"
+                                 : fmt::format(R"("contacts": {{{}, {}}})", foot("l"), foot("r"));
+    return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+      "bodies": {{"b": {{"type": "rigid_body", "mass": 1, "inertia": {:.17g}, "position": [{}],
+                         "markers": {{"p": [{}, {}], "l": [{}, 0], "r": [{}, 0]}}}}}},
+      {}, "initial": "equilibrium", "simulate": {{"until": 0}},
+      "record": {{"every": 1, "observe": {{"x": "b.com.x", "y": "b.com.y", "angle": "b.angle"}}}}}})",
+                       unit * unit / 12, place, m(0.3), m(0.1), m(-0.5), m(0.5), rest);
+  }
+};
+
+TEST(Equilibrium, IsTheSameInAnyUnitOfLength) {
+  for (const Hanging& body : {Hanging{"on a spring"}, Hanging{"by a hinge"}, Hanging{"on feet"}}) {
+    const Finished here = run_text(body.scene(1));
+    ASSERT_TRUE(here.done()) << body.how << ": " << here.report.reason;
+    for (const double unit : {1e-9, 1e-6, 1e-3, 1e3, 1e6}) {
+      const Finished there = run_text(body.scene(unit));
+      ASSERT_TRUE(there.done()) << body.how << ", " << unit << ": " << there.report.reason;
+      EXPECT_NEAR(there.end("x") / unit, here.end("x"), 1e-11) << body.how << ", " << unit;
+      EXPECT_NEAR(there.end("y") / unit, here.end("y"), 1e-11) << body.how << ", " << unit;
+      EXPECT_NEAR(there.end("angle"), here.end("angle"), 1e-11) << body.how << ", " << unit;
+    }
+  }
 }
 
 TEST(Equilibrium, OfAPendulumHangsThoughItStartedNearTheTop) {
