@@ -76,7 +76,8 @@ void take(const Choice& choice, Setup& setup, plugin::Registry& registry, scene:
   setup.integrator = std::move(made.component);
   setup.integrator_origin = std::move(made.origin);
   setup.integrator_type = parameters.root().find("type")->text();
-  setup.settings.step.tolerance = setup.settings.contact_step.tolerance = {choice.tolerance, 0};  // in the scene's unit
+  // `absolute` 0: in the scene's own unit, as where a scene gives a tolerance itself.
+  setup.settings.step.tolerance = setup.settings.contact_step.tolerance = {choice.tolerance, 0};
 }
 
 }  // namespace

@@ -43,6 +43,34 @@ std::string choice(const Finished& run) {
   return run.result["integrator_choice"];
 }
 
+// A pendulum of a rod with a light mass on a stiff spring at its end: damped steps. All lengths are in the unit, times
+// stay.
+std::string stiff_pendulum(double unit) {
+  return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, {g}],
+    "bodies": {{"a": {{"type": "rigid_body", "mass": 1, "inertia": {i}, "position": [{half}, 0],
+                       "markers": {{"t": [-{half}, 0], "e": [{half}, 0]}}}},
+               "b": {{"type": "point_mass", "mass": 1e-3, "position": [{one}, -{tenth}]}}}},
+    "joints": {{"j": {{"type": "revolute", "between": ["ground", "a.t"]}}}},
+    "forces": {{"s": {{"type": "spring_damper", "between": ["a.e", "b.point"], "stiffness": 1e9, "damping": 1,
+                       "length": {tenth}}}}},
+    "simulate": {{"until": 1}}, "record": {{"every": 0.1, "observe": {{"x": "a.com.x", "y": "a.com.y"}}}}}})",
+                     fmt::arg("g", -9.81 * unit), fmt::arg("i", unit * unit / 12), fmt::arg("half", unit / 2),
+                     fmt::arg("one", unit), fmt::arg("tenth", unit / 10));
+}
+
+TEST(IntegratorChoice, HasTheToleranceOfTheScenesOwnUnit) {
+  const Finished here = run_text(stiff_pendulum(1));
+  ASSERT_TRUE(here.done()) << here.report.reason;
+  ASSERT_THAT(choice(here), StartsWith("hht_alpha, tolerance 1e-07: "));
+  for (const double unit : {1e-6, 1e-3}) {
+    const Finished there = run_text(stiff_pendulum(unit));
+    ASSERT_TRUE(there.done()) << there.report.reason;
+    EXPECT_THAT(choice(there), StartsWith("hht_alpha, tolerance 1e-07: "));
+    EXPECT_NEAR(there.end("x") / unit, here.end("x"), 1e-5) << unit;
+    EXPECT_NEAR(there.end("y") / unit, here.end("y"), 1e-5) << unit;
+  }
+}
+
 TEST(IntegratorChoice, IsDop853AsARule) {
   EXPECT_THAT(choice(run_text(spring_pendulum(100))), StartsWith("dop853, tolerance 1e-09: "));
   EXPECT_THAT(choice(run_text(double_pendulum(1, 1))), StartsWith("dop853, tolerance 1e-09: "));
