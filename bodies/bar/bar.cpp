@@ -52,6 +52,10 @@ struct Bar : Body,
     set_masses();
     L_ = length_ ? *length_ : (to_ - from_).stableNorm();
     if (!(L_ > 0)) throw ParameterError("to", "the bar has length 0: \"to\" is where \"from\" is");
+    if (!std::isnormal(L_ * L_))
+      throw ParameterError(length_ ? "length" : "to",
+                           "the bar is too short or too long for its length to be squared; expected 1.5e-154 m to "
+                           "1.3e154 m");
     names_ = {"from", "to", "mid"};
     at_ = {0, 1, 0.5};
     for (const auto& [name, at] : more_markers_) names_.push_back(name), at_.push_back(at);

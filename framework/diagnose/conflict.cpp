@@ -93,6 +93,7 @@ class RowSelection {
     if (r.size() == 0) return x;
     std::vector<int> columns;  // with entries in these rows
     const Mat G = dense_rows(columns);
+    if (columns.empty()) return x;
     Eigen::CompleteOrthogonalDecomposition<Mat> decomposition;
     decomposition.setThreshold(rank_tolerance);
     decomposition.compute(G);

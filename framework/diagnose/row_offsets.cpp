@@ -19,16 +19,23 @@ RowOffset angle(double g, double g_dot, double s) {
   return sine ? RowOffset{std::atan2(g, s), g_dot / s, true} : RowOffset{g, g_dot, true};
 }
 
-std::vector<RowOffset> row_offsets(model::AssembledSystem& system, const Constraint& constraint,
-                                   const std::vector<model::MarkerRef>& markers, double t) {
+using MarkerMotions = std::array<const Motion*, Rows::most_markers>;
+
+Rows rows_of(model::AssembledSystem& system, const Constraint& constraint, const std::vector<model::MarkerRef>& markers,
+             double t, MarkerMotions& at) {
   const Space space = system.model().world.space;
-  const Eigen::Index dim = dimension(space);
-  std::array<const Motion*, Rows::most_markers> at = {};
   for (std::size_t k = 0; k < markers.size(); ++k) at[k] = &system.motion(markers[k]);
   Rows rows;
   rows.resize(constraint.row_count(space), space, int(markers.size()));
   constraint.rows_between(t, Motions(at.data(), markers.size()), rows);
+  return rows;
+}
 
+std::vector<RowOffset> row_offsets(model::AssembledSystem& system, const Constraint& constraint,
+                                   const std::vector<model::MarkerRef>& markers, double t) {
+  const Eigen::Index dim = dimension(system.model().world.space);
+  MarkerMotions at = {};
+  const Rows rows = rows_of(system, constraint, markers, t, at);
   Vec g_dot = rows.g_t;
   for (std::size_t k = 0; k < markers.size(); ++k) g_dot += rows.H(int(k)) * at[k]->V;
   std::vector<RowOffset> all;
@@ -79,6 +86,18 @@ std::vector<RowOffset> row_offsets(model::AssembledSystem& system, const model::
 
 RowOffset row_offset(model::AssembledSystem& system, const model::RowLimit& limit, double t) {
   return row_offsets(system, *limit.joint, limit.markers, t).front();
+}
+
+std::vector<int> rows_without_direction(model::AssembledSystem& system, const model::JointEntry& joint, double t) {
+  MarkerMotions at = {};
+  const Rows rows = rows_of(system, *joint.joint, joint.markers, t, at);
+  std::vector<int> all;
+  for (int i = 0; i < joint.rows; ++i) {
+    bool has_direction = false;
+    for (int k = 0; k < int(joint.markers.size()); ++k) has_direction = has_direction || !rows.H(k).row(i).isZero(0);
+    if (!has_direction) all.push_back(i);
+  }
+  return all;
 }
 
 Offset norm(const std::vector<RowOffset>& rows) {

@@ -26,6 +26,10 @@ struct RowOffset {
 std::vector<RowOffset> row_offsets(model::AssembledSystem& system, const model::RowGroup& rows, const State& state);
 RowOffset row_offset(model::AssembledSystem& system, const model::RowLimit& limit, double t);
 
+// Those of a joint that no motion of its markers changes in first order, as where markers coincide that must have a
+// distance. They hold nothing there, and do as soon as the markers part: no equations of motion.
+std::vector<int> rows_without_direction(model::AssembledSystem& system, const model::JointEntry& joint, double t);
+
 // The norms of all, without their kinds: (m, rad) and (m/s, rad/s).
 struct Offset {
   double position = 0, velocity = 0;

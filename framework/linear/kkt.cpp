@@ -45,9 +45,11 @@ struct WithoutLevers {
 };
 
 // Of the rows at length one, whose pivots are sines of angles to the rows before: masses and units, and the lengths of
-// rows near a singular position, must not make independent rows look alike.
+// rows near a singular position, must not make independent rows look alike. Pivoting asks for the longest of the
+// columns: of a system without velocities it is given one of zeros, which reaches as little.
 Eigen::ColPivHouseholderQR<Mat> decomposed(const WithoutLevers& rows, const Vec& lengths, double tolerance) {
-  Mat unit = rows.G;
+  Mat unit = Mat::Zero(rows.G.rows(), std::max<Eigen::Index>(rows.G.cols(), 1));
+  unit.leftCols(rows.G.cols()) = rows.G;
   for (Eigen::Index i = 0; i < unit.rows(); ++i)
     if (lengths[i] > 0) unit.row(i) /= lengths[i];
   Eigen::ColPivHouseholderQR<Mat> qr(unit.rows(), unit.cols());
@@ -56,7 +58,7 @@ Eigen::ColPivHouseholderQR<Mat> decomposed(const WithoutLevers& rows, const Vec&
   return qr;
 }
 
-// A basis of what G reaches, nc x rank.
+// A basis of what G reaches, nc x rank; of rows that hold nothing it has no columns.
 Mat range_of_rows(const Mat& G, double tolerance, const Levers& levers) {
   const WithoutLevers rows(G, levers);
   const Vec lengths = rows.G.rowwise().norm();
@@ -116,6 +118,7 @@ void MassKkt::change_rows(const Mat& G, const Mat& W, double rank_tolerance) {
 // power method, with the square of that, takes it to round-off.
 void MassKkt::merge_rows(const Mat& G, double rank_tolerance) {
   merged_ = orthonormal(schur_ * range_of(G, rank_tolerance));
+  if (merged_.cols() == 0) return;
   cod_.setThreshold(Eigen::Default);
   const Mat merged_rows = B_.transpose() * merged_;
   cod_.compute(merged_rows);
@@ -178,6 +181,18 @@ void MassKkt::hold_rows(const Vec& c, Vec& z, Vec& y) {
   if (!std::isfinite(left)) y.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
+// The same of the combinations that stand for redundant rows. Rows that hold nothing leave z as it is.
+void MassKkt::hold_merged_rows(const Vec& c, Vec& z, Vec& y) {
+  if (merged_.cols() == 0) {
+    y.setConstant(schur_.allFinite() && c.allFinite() ? 0 : std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  const Vec merged_c = merged_.transpose() * c, particular = solve_transposed(cod_, merged_c);
+  const Vec left = z - particular;
+  y = merged_ * cod_.solve(left);
+  add_transposed_product(-1, B_, y, z);
+}
+
 // From x = b. x is z = L^T x before the last line:  z = L^-1 b - B^T y,  B z = c;  or with C for the first B.
 void MassKkt::solve_with_rows(const Vec& c, Vec& x, Vec& y) {
   with_mass([&](auto& mass) { mass.solve_lower(x); });
@@ -190,10 +205,7 @@ void MassKkt::solve_with_rows(const Vec& c, Vec& x, Vec& y) {
       schur_lu_.solve(w_, y);
     add_transposed_product(-1, C_, y, x);
   } else if (redundant_) {
-    const Vec merged_c = merged_.transpose() * c, particular = solve_transposed(cod_, merged_c);
-    const Vec left = x - particular;
-    y = merged_ * cod_.solve(left);
-    add_transposed_product(-1, B_, y, x);
+    hold_merged_rows(c, x, y);
   } else {
     hold_rows(c, x, y);
   }
@@ -235,6 +247,7 @@ bool IterationKkt::factorise(const Mat& W, const Mat& G, double rank_tolerance) 
     finite_ = full_.allFinite();
     if (!finite_) return false;
     redundant_ = merge_rows(W, G, rank_tolerance);
+    if (full_.rows() == 0) return true;
     if (redundant_) lu_.compute(full_);
   }
   singular_ = has_small_pivot(lu_, full_, 0, 8 * eps);
@@ -261,7 +274,7 @@ bool IterationKkt::merge_rows(const Mat& W, const Mat& G, double rank_tolerance)
 }
 
 bool IterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
-  if (!finite_) return false;
+  if (!finite_ || !c.allFinite()) return false;
   const auto rows = redundant_ ? merged_.cols() : c.size();
   if (rows == 0 && nv_ > 0 && !singular_) {
     lu_.solve(b, x);

@@ -58,6 +58,7 @@ class MassKkt {
  private:
   void solve_with_rows(const Vec& c, Vec& x, Vec& y);
   void hold_rows(const Vec& c, Vec& z, Vec& y);
+  void hold_merged_rows(const Vec& c, Vec& z, Vec& y);
   void complement(const Mat& W, double rank_tolerance);
   void merge_rows(const Mat& G, double rank_tolerance);
   Mat range_of(const Mat& G, double tolerance) const;
@@ -73,7 +74,7 @@ class MassKkt {
   Mat B_;       // G L^-T (nc x nv)
   Mat C_;       // W L^-T, where W is not G
   Mat schur_;   // B B^T or B C^T
-  Mat merged_;  // U, nc x rank, while redundant
+  Mat merged_;  // U, nc x rank, while redundant; the rank may be 0
   Lu schur_lu_;
   Cholesky schur_cholesky_;
   Eigen::CompleteOrthogonalDecomposition<Mat> cod_;

@@ -34,13 +34,15 @@ bool SparseIterationKkt::factorise(const Eigen::SparseMatrix<double>& full, int 
   for (int j = 0; j < nv; ++j)
     for (Eigen::SparseMatrix<double>::InnerIterator it(full, j); it; ++it)
       (it.row() < nv ? S : G) = std::max(it.row() < nv ? S : G, std::abs(it.value()));
-  eps_ = S > 0 ? regularisation(nc) * G * G / S : 0;
+  const double of_rows = S > 0 ? regularisation(nc) * G * G / S : 0;
+  eps_ = G > 0 ? of_rows : 1;  // rows that hold nothing have no scale
   for (int i = 0; i < nc; ++i) regular_.coeffRef(nv + i, nv + i) -= eps_;
   regular_.makeCompressed();
+  failed_ = redundant_ = soft_ = false;
+  if (full.rows() == 0) return true;
   if (!same_pattern) lu_.analyzePattern(regular_);
   lu_.factorize(regular_);
   failed_ = lu_.info() != Eigen::Success;
-  redundant_ = soft_ = false;
   if (nc > 0 && nc < long_from && !failed_ && eps_ > 0) judge_rows(nc);
   return !failed_;
 }
@@ -117,6 +119,7 @@ bool SparseIterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   if (failed_ || !b.allFinite() || !c.allFinite()) return false;
   right_.resize(b.size() + c.size());
   right_ << b, c;
+  if (right_.size() == 0) return x = b, y = c, true;
   const double left = soft_ ? solve_without_soft_rows(int(c.size())) : solve_and_refine();
   const bool reached = left <= 1e-6 * right_.norm();
   if (reached && redundant_ && !soft_) minimise_norm(int(c.size()));

@@ -197,6 +197,7 @@ Outcome NewmarkStep::finish(System& s, const State& now, State& next) {
     do {
       move(s, now, next);
       missed = largest(s.g());
+      if (next.v.size() == 0) break;  // rows that move nothing
       if (!correct_rows_alone(s, next)) return Outcome::reject("the iteration matrix is singular");
       change = formulation == Formulation::index3 ? change_each_ : std::max(change_each_, change_v_);
     } while (change * std::min(newton.rate(), turns * moved_) > eps && ++passes < 4);

@@ -74,6 +74,11 @@ TEST(Bar, HasNoMeaningWithoutLengthOrMass) {
   };
   EXPECT_NE(error(R"({"type": "bar", "mass": 2, "from": [1, 2], "to": [1, 2]})").find("the bar has length 0"),
             std::string::npos);
+  for (const char* to : {"[0, 1e-300]", "[1e200, 1e200]"})
+    EXPECT_NE(error(fmt::format(R"({{"type": "bar", "mass": 2, "from": [0, 0], "to": {}}})", to))
+                  .find("too short or too long for its length to be squared"),
+              std::string::npos)
+        << to;
   EXPECT_NE(
       error(R"({"type": "bar", "mass": 0, "from": [0, 0], "to": [1, 2]})").find("a bar without mass needs a point"),
       std::string::npos);

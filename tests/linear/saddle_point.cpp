@@ -75,6 +75,20 @@ class Mechanism {
     if (sine == 0) p_.redundant += rows_of_joint;
     return *this;
   }
+  // Joint `joint` holds nothing: its markers are fixed.
+  Mechanism& fix(int joint) {
+    for (BodyBlock& body : p_.bodies)
+      for (std::size_t i = 0; i < body.rows.size(); ++i)
+        if (body.rows[i] / rows_of_joint == joint) body.Gt.col(Eigen::Index(i)).setZero();
+    p_.redundant += rows_of_joint;
+    return *this;
+  }
+  // Another joint, of the ground with itself.
+  Mechanism& hold_ground() {
+    add_joint(-1, -1);
+    p_.redundant += rows_of_joint;
+    return *this;
+  }
   // Factors between 10^-decades and 10^decades.
   Mechanism& scale_masses(double decades) {
     for (BodyBlock& body : p_.bodies) body.M *= std::pow(10, decades * uniform_(random_));
@@ -161,6 +175,18 @@ std::vector<Problem> problems() {
       Mechanism("joints said twice", 12, chain(12)).repeat(2, 1, 0).repeat(7, 1, 0).problem(),
       Mechanism("joint said thrice, in other units", 12, loop(12)).repeat(4, 2, 0).repeat(4, -0.5, 0).problem(),
       Mechanism("unlike masses, joint said twice", 12, tree(12)).scale_masses(3).repeat(6, 1, 0).problem(),
+      Mechanism("a joint that holds nothing", 12, loop(12)).fix(3).problem(),
+      Mechanism("no joint that holds anything", 2, chain(2)).fix(0).fix(1).problem(),
+      Mechanism("joint of the ground with itself", 12, chain(12)).hold_ground().problem(),
+      Mechanism("free bodies, joint of the ground with itself", 5, {}).hold_ground().problem(),
+      Mechanism("no body, joint of the ground with itself", 0, {}).hold_ground().problem(),
+      Mechanism("nothing at all", 0, {}).problem(),
+      Mechanism("unlike masses, joints said twice or idle", 12, tree(12))
+          .scale_masses(3)
+          .fix(11)
+          .hold_ground()
+          .repeat(6, 1, 0)
+          .problem(),
       of_truss("mast", test::Truss::mast(4, 1, 0.3)),
       of_truss("prismatic mast", test::Truss::prismatic_mast(2, 1, 0.3)),
       of_truss("hoop", test::Truss::hoop(8, 1, 0.3)),
@@ -182,6 +208,7 @@ Mat whole(const Problem& p) {
 }
 
 Vec of_complement(const Problem& p, const Vec& y) {
+  if (p.nv() == 0) return Vec::Zero(p.nc());
   const Vec forces = p.W.transpose().cwiseAbs() * y.cwiseAbs() + p.b.cwiseAbs();
   return p.G.cwiseAbs() * (p.S.inverse().cwiseAbs() * forces);
 }
@@ -195,6 +222,7 @@ struct Reference {
 
   Reference(const Problem& p, bool by_complement) {
     const int nv = p.nv(), nc = p.nc();
+    if (nv + nc == 0) return;
     const Long A = whole(p).cast<long double>();
     // x in units of the bodies' masses; rows at length one where that does not change what minimum norm means.
     LongVec D = LongVec::Ones(nv + nc);

@@ -10,11 +10,24 @@
 
 namespace trammel::numerics {
 
+namespace {
+
+// Rows that vanish are in no front.
+int rows_of_nothing(const FrontLayout& layout, int nc) {
+  int apart = 0;
+  for (int i = 0; i < nc; ++i) apart += layout.merged().takes(i) ? 0 : 1;
+  return apart - int(layout.all_own_rows());
+}
+
+}  // namespace
+
 bool FrontalKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, bool identity, double rank_tolerance) {
   lay_out(bodies, nc, false);
   identity_ = identity;
   rank_tolerance_ = rank_tolerance;
-  return eliminate_fronts(bodies);
+  const bool positive = eliminate_fronts(bodies);
+  dependent_ += rows_of_nothing(layout_, nc);
+  return positive;
 }
 
 void FrontalKkt::lay_out(const std::vector<BodyBlock>& bodies, int nc, bool springs) {

@@ -11,14 +11,15 @@ bool have_one_pattern(const Eigen::SparseMatrix<double>& A, const Eigen::SparseM
 }
 
 void SparseSum::begin(int n) {
-  if (matrix_.rows() != n) {
+  const bool resized = matrix_.rows() != n;  // the diagonal has no place then, even where nothing is added
+  if (resized) {
     matrix_.resize(n, n);
     singles_.clear(), pieces_.clear(), places_.clear(), at_.clear();
   }
   values_ = matrix_.valuePtr();
   std::fill_n(values_, matrix_.nonZeros(), 0.0);
   next_single_ = next_piece_ = 0;
-  missing_ = other_ = false;
+  missing_ = other_ = resized;
 }
 
 bool SparseSum::finished() {

@@ -95,6 +95,18 @@ scene::Problem contradiction(model::AssembledSystem& system, const State& start,
   return problem_at(paths, root, fmt::format("{}{} contradict each other{}", none, names(conflict), remark(conflict)));
 }
 
+void check_directions(model::AssembledSystem& system, const State& s, const scene::Value& root,
+                      scene::Problems& problems) {
+  system.move_to(s.t, s.q, s.v);
+  for (const model::JointEntry& joint : system.model().joints)
+    for (const int row : rows_without_direction(system, joint, s.t))
+      problems.error(problem_at(
+          {"joints." + joint.name}, root,
+          fmt::format("row {} of {} has no direction at the start: no motion of the joint's markers changes it in "
+                      "first order, as where markers coincide; place the markers apart, or leave the joint out",
+                      row + 1, joint.rows)));
+}
+
 // Rows that are satisfied and still require accelerations that no motion has.
 void check_motion(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
   Vec a, lambda, missed;
@@ -182,6 +194,7 @@ State initial_state(model::AssembledSystem& system, double t, Settings::Initial 
       check_rows(system, s, root, problems);
     else if (!project_position(system, s) || !project_velocity(system, s))
       problems.error(contradiction(system, s, root));
+    if (problems.empty()) check_directions(system, s, root, problems);
     if (problems.empty()) check_motion(system, s, root, problems);
   }
   if (wanted == Settings::Initial::equilibrium && problems.empty())
