@@ -9,6 +9,9 @@ namespace trammel::plugin {
 
 // Tests the arithmetic itself, not control registers, so that it works on every processor. Sums of denormals are fast.
 const char* arithmetic_fault() noexcept {
+#if defined(__GLIBC__)
+  if (::fegetexcept() != 0) return "floating-point exceptions have become traps, which end the program";
+#endif
   // Less than half of the distance from 1 to its neighbours: with rounding to nearest, sum and difference are 1.
   const volatile double one = 1, little = 0x1p-55, least = std::numeric_limits<double>::denorm_min();
   const volatile double above = one + little, below = one - little, twice = least + least;

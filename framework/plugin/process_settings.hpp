@@ -1,5 +1,5 @@
 // Process settings that a library may change: the rounding mode, flushing of denormals to 0 (by a library linked with
-// -ffast-math), the C locale. Results depend on the IEEE rules.
+// -ffast-math), traps at floating-point exceptions, the C locale. Results depend on the IEEE rules.
 #pragma once
 
 #include <cfenv>

@@ -343,15 +343,40 @@ void Simulator::fail_not_finite(double h) {
               last_motions_.say(system_, now_, next_, h));
 }
 
-// What it throws is its own fault unless a component that it called through the system threw it.
+namespace {
+
+// What a correction has no right to change of the end of a step; "" if it has not.
+std::string wrongly_changed(const State& uncorrected, const State& corrected) {
+  for (const auto& [name, member] : {std::pair("q", &State::q), std::pair("v", &State::v), std::pair("a", &State::a),
+                                     std::pair("lambda", &State::lambda)})
+    if (const auto n = (uncorrected.*member).size(), found = (corrected.*member).size(); found != n)
+      return fmt::format("it left {} with {} numbers; expected {}", name, found, n);
+  if (corrected.t != uncorrected.t)
+    return fmt::format("it changed the time to {:.9g} s; expected {:.9g} s", corrected.t, uncorrected.t);
+  return "";
+}
+
+}  // namespace
+
+// What it throws or changes is its own fault unless a component that it called through the system threw it.
 Outcome Simulator::corrected(const LevelCorrection& entry, const Correction::Step& step) {
   const plugin::Breadcrumb goes_on(*entry.origin, "apply");
-  try {
-    return entry.correction->apply(entry.level, system_, step, next_);
-  } catch (...) {
-    if (system_.last_call().origin) throw;
-    plugin::rethrow_as_plugin_error(*entry.origin, "apply", next_.t);
-  }
+  plugin::ProcessSettings settings;
+  const Outcome outcome = [&] {
+    try {
+      return entry.correction->apply(entry.level, system_, step, next_);
+    } catch (...) {
+      if (system_.last_call().origin) throw;
+      plugin::rethrow_as_plugin_error(*entry.origin, "apply", next_.t);
+    }
+  }();
+  const char* const fault = plugin::arithmetic_fault();
+  settings.put_back();
+  std::string cause = wrongly_changed(step.uncorrected, next_);
+  if (*fault)
+    cause = fmt::format("{}: it changed the arithmetic of the process, or a component that was called did", fault);
+  if (!cause.empty()) throw plugin::PluginError(*entry.origin, "apply", cause, step.uncorrected.t);
+  return outcome;
 }
 
 // The ledger follows the method's own step: what a correction adds or takes is nobody's supply.

@@ -35,6 +35,17 @@ TEST(ProcessSettings, NotesDenormalsThatBecomeZero) {
 }
 #endif
 
+#if defined(__GLIBC__)
+TEST(ProcessSettings, NotesTraps) {
+  ProcessSettings settings;
+  ::feenableexcept(FE_ALL_EXCEPT);
+  const std::string fault = arithmetic_fault();
+  settings.put_back();
+  EXPECT_EQ(fault, "floating-point exceptions have become traps, which end the program");
+  EXPECT_STREQ(arithmetic_fault(), "");
+}
+#endif
+
 TEST(ProcessSettings, PutsBackAtItsEnd) {
   {
     const ProcessSettings settings;

@@ -1,6 +1,9 @@
 // Runs that cannot go on say when, in which step and why, and keep what they have.
 #include <gmock/gmock.h>
 
+#include "plugin/plugin_error.hpp"
+#include "plugin/process_settings.hpp"
+
 #include "support/run_scene.hpp"
 #include "support/scenes.hpp"
 
@@ -42,6 +45,44 @@ std::vector<Method> all_methods() {
   return methods;
 }
 INSTANTIATE_TEST_SUITE_P(With, ForceThatIsNotANumber, testing::ValuesIn(all_methods()), method_name);
+
+class CorrectionThatChangesWhatIsNotItsOwn : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(CorrectionThatChangesWhatIsNotItsOwn, EndsTheRunAndIsNamed) {
+  const auto& [how, said] = GetParam();
+  for (const char* integrator : {"newmark", "runge_kutta_4", "hht_alpha"}) {
+    std::string found;
+    try {
+      run_text(oscillator,
+               {{"plugins", fmt::format(R"(["{}/tests/plugins/spoilt_correction.so"])", TRAMMEL_BUILD_DIR)},
+                {"corrections", fmt::format(R"({{"position": {{"type": "spoilt_correction", "how": "{}"}}}})", how)},
+                {"integrator", fmt::format(R"({{"type": "{}", "step": 1e-2}})", integrator)},
+                {"contacts", "{}"}});
+    } catch (const plugin::PluginError& e) {
+      found = e.what();
+    }
+    EXPECT_THAT(found, HasSubstr("correction spoilt_correction (corrections.position): apply at t = 0.03 s, step 3: "));
+    EXPECT_THAT(found, HasSubstr(said));
+    EXPECT_STREQ(plugin::arithmetic_fault(), "");
+  }
+}
+
+constexpr std::pair<const char*, const char*> changes[] = {
+    {"q", "it left q with 1 numbers; expected 2"},
+    {"v", "it left v with 5 numbers; expected 2"},
+    {"a", "it left a with 0 numbers; expected 2"},
+    {"lambda", "it left lambda with 100 numbers; expected 0"},
+    {"t", "it changed the time to 1e+09 s; expected 0.03 s"},
+    {"rounding", "numbers are no longer rounded to nearest"},
+#if defined(__SSE2__)
+    {"denormals", "numbers below 2.2e-308 (denormals) have become 0"},
+#endif
+#if defined(__GLIBC__)
+    {"traps", "floating-point exceptions have become traps"},
+#endif
+};
+INSTANTIATE_TEST_SUITE_P(Such, CorrectionThatChangesWhatIsNotItsOwn, testing::ValuesIn(changes),
+                         [](const auto& change) { return std::string("As_") + change.param.first; });
 
 TEST(DivergingRun, IsNotBlamedOnAComponent) {
   // h omega = 10: explicit Runge-Kutta multiplies by about 400 a step until the numbers end.
