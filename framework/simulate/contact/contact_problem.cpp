@@ -28,6 +28,7 @@ void ContactProblem::prepare(model::AssembledSystem& system) {
   directions_.clear();
   points_.clear();
   pushed_.clear();
+  by_rows_.clear();
   for (const Participant& p : who) {
     complementarity::ContactPoint point;
     if (p.unilateral) point.normal = int(directions_.size()), directions_.push_back({p.contact, 0});
@@ -39,6 +40,8 @@ void ContactProblem::prepare(model::AssembledSystem& system) {
       for (int k = 0; k < point.tangents; ++k) directions_.push_back({p.contact, 1 + k});
     }
     points_.push_back(point);
+    const SetValuedFriction* const friction = system.model().contacts[std::size_t(p.contact)].coulomb;
+    by_rows_.push_back(friction && friction->decide() == SetValuedFriction::Decide::at_events);
   }
   system.impulse_response(directions_, jump_, delassus_);
 }
@@ -117,13 +120,14 @@ std::vector<complementarity::ContactRole> ContactProblem::roles(const model::Mod
   using Tangent = complementarity::ContactRole::Tangent;
   using Friction = model::ContactMode::Friction;
   std::vector<complementarity::ContactRole> roles;
-  for (const Participant& p : who) {
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    const Participant& p = who[i];
     const model::ContactMode& mode = modes.contacts[std::size_t(p.contact)];
     complementarity::ContactRole& role = roles.emplace_back();
     role.closed = mode.closed;
     role.idle = p.idle;
     const bool slides = mode.friction == Friction::slide || p.tangent == Participant::Tangent::sliding;
-    if (mode.closed && mode.friction == Friction::stick) role.tangent = Tangent::sticks;
+    if (mode.closed && mode.friction == Friction::stick && by_rows_[i]) role.tangent = Tangent::sticks;
     if (mode.closed && p.unilateral && slides) role.tangent = Tangent::slides;
   }
   return roles;

@@ -77,11 +77,13 @@ class ContactProblem {
   Mat yielding() const;  // the Delassus matrix of contacts that are not quite rigid
   double push(const Pushed& p) const { return who[p.who].ratio[0] * who[p.who].given; }  // [N]
   [[nodiscard]] bool let_approaches_vanish();
+  // Of what rows hold: a foot whose friction each evaluation decides has none, and shares none.
   std::vector<complementarity::ContactRole> roles(const model::Modes& modes) const;
 
   std::vector<model::ContactDirection> directions_;
   std::vector<complementarity::ContactPoint> points_;
   std::vector<Pushed> pushed_;
+  std::vector<bool> by_rows_;  // by participant: rows hold it where it sticks
   Mat jump_, delassus_;
   Vec b_, F_, a_;
 };

@@ -17,12 +17,13 @@ bool RestingFriction::decides(int contact) const {
 }
 
 // The problem of Zhang and Wang 2017, (32)-(39), with A = W_T^T P W_T; P: inverse of the mass on the null space of the
-// rows.
+// rows. What rows hold already, as beside a foot that sticks by rows, takes no friction: P leaves round-off of it.
 void RestingFriction::add_to(Vec& a, Vec& lambda) {
   const int nv = at_.model->sizes.nv, nc = rows_.count();
   const Eigen::Index m = contacts_.tangents(resting_.front()), n = m * Eigen::Index(resting_.size());
   Mat response(nv, n), reaction(nc, n), columns = Mat::Zero(nv, n);
-  Vec b(n), column, x, y, T, a_t;
+  constexpr double held = 1e-9;  // what the rows leave of a force along the tangent
+  Vec b(n), column, x, y, left, T, a_t;
   std::vector<complementarity::ContactPoint> points;
   for (Eigen::Index k = 0; k < n; ++k) {
     const int i = resting_[std::size_t(k / m)], row = 1 + int(k % m);
@@ -33,6 +34,9 @@ void RestingFriction::add_to(Vec& a, Vec& lambda) {
       throw NotSolvable("the friction of the feet at rest was not found");
     response.col(k) = x, reaction.col(k) = y;
     b[k] = contacts_.acceleration(i, row, a);
+    left = column;
+    rows_.add_reaction(-1, y, left);
+    if (left.norm() <= held * column.norm()) columns.col(k).setZero(), response.col(k).setZero(), b[k] = 0;
     if (row > 1) continue;
     points.push_back({.tangent = int(k),
                       .tangents = int(m),

@@ -376,5 +376,42 @@ TEST(Friction, DecidedAtEveryStepLetsGoAtTheEndOfAStep) {
   EXPECT_LT(error("1e-4"), 2e-4);
 }
 
+// A block of 1 kg on two feet, sunk as far as they carry it, that a load at the height of the feet pushes with 2 N/s;
+// the same in other units of length.
+std::string pushed_on_two_feet(const char* left, const char* right, double unit) {
+  const double half = 0.05 * unit, g = 9.81 * unit, stiffness = 1e6;
+  const auto foot = [&](const char* name, const char* method) {
+    return fmt::format(R"("{}": {{"type": "continuous_force", "stiffness": {}, "exponent": 1, "damping": "none",
+        "between": ["b.{}", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}],
+        "friction": {{"type": "coulomb", "static": 0.4, "kinetic": 0.3, "method": "{}", "stick_speed": {:.17g}}}}})",
+                       name, stiffness, name, method, 1e-6 * unit);
+  };
+  return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, {:.17g}],
+    "bodies": {{"b": {{"type": "rigid_body", "mass": 1, "inertia": {:.17g}, "position": [0, {:.17g}],
+        "markers": {{"l": [{:.17g}, {:.17g}], "r": [{:.17g}, {:.17g}], "low": [0, {:.17g}]}}}}}},
+    "contacts": {{{}, {}}},
+    "forces": {{"push": {{"type": "load", "on": "b.low", "force": {{"x": "={:.17g}*t", "y": 0}}}}}},
+    "integrator": {{"type": "runge_kutta_4", "step": 1e-4}}, "simulate": {{"until": 0.2}},
+    "record": {{"every": 0.02, "observe": {{"x": "b.com.x", "l": "contacts.l.friction", "r": "contacts.r.friction"}}}}}})",
+                     -g, 0.1 * unit * unit, half - g / 2 / stiffness, -half, -half, half, -half, -half, foot("l", left),
+                     foot("r", right), 2 * unit);
+}
+
+// Its feet have no rows at rest, so that there are none to share; with one that has a row, that one holds.
+TEST(Friction, DecidedAtEveryStepHoldsABlockOnTwoFeet) {
+  for (const double unit : {1.0, 1e-6})
+    for (const auto& [left, right] :
+         {std::pair{"lcp_every_step", "lcp_every_step"}, {"lcp_every_step", "events"}, {"events", "lcp_every_step"}}) {
+      SCOPED_TRACE(fmt::format("{} {} in {} m", left, right, unit));
+      const Finished run = run_text(pushed_on_two_feet(left, right, unit));
+      ASSERT_TRUE(run.done()) << run.report.reason;
+      EXPECT_EQ(run.of_kind("slip").size(), 0u);
+      EXPECT_NEAR(run.end("l") + run.end("r"), -2 * unit * 0.2, 1e-9 * unit);
+      EXPECT_NEAR(run.end("x"), 0, 1e-9 * unit);
+      const bool shared = std::string(left) == right, left_holds = std::string(left) == "events";
+      EXPECT_NEAR(run.end("l"), shared ? -0.2 * unit : left_holds ? -0.4 * unit : 0, 1e-9 * unit);
+    }
+}
+
 }  // namespace
 }  // namespace trammel::test

@@ -376,6 +376,24 @@ TEST(EveryStep, StopsThePointOnTheInclineInSpaceToo) {
   EXPECT_NEAR(run.end("y"), d.y(0), 1e-6);
 }
 
+// Their friction is in no row: nothing of it is shared, and each evaluation finds the forces of least norm.
+TEST(EveryStep, SharesTheForceThatHoldsATableAmongItsFeet) {
+  for (const int feet : {3, 4}) {
+    Overrides on_its_feet = {
+        {"integrator", R"({"type": "runge_kutta_4", "step": 1e-4})"},
+        {"simulate.until", "0.01"},
+        {"bodies.table.markers.low", "[0, 0, -0.2]"},
+        {"forces.push", R"json({"type": "load", "on": "table.low", "force": {"x": 3, "y": 0}})json"}};
+    for (int i = 0; i < feet; ++i)
+      on_its_feet.push_back({fmt::format("contacts.f{}.friction.method", i), "lcp_every_step"});
+    const Finished run = run_text(table(feet, compliant, R"("velocity": [0, 0, 0])"), on_its_feet);
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    EXPECT_EQ(run.result["sizes"].back()["nc"], 0);
+    EXPECT_EQ(run.of_kind("slip").size(), 0u);
+    for (const char* foot : {"T0", "T1", "T2"}) EXPECT_NEAR(run.end(foot), -3.0 / feet, 1e-10) << feet;
+  }
+}
+
 // The same block as in the plane, its plane at any angle about the normal: bitwise the same is not to be had, the same
 // to round-off is.
 TEST(InThePlaneAndInSpace, AShakenBlockDoesTheSame) {
