@@ -281,6 +281,7 @@ Spectrum spectrum_of(Posed& posed, const ModesOptions& options) {
 
 RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, const ModesOptions& options) {
   const bool ran = options.at && purpose_of(scene.root()) == Purpose::motion;
+  if (!options.from) refuse_files_of_others(options.out / run_to_state, Analysis::motion);
   if (ran) {
     RunOptions run_options;
     run_options.out = options.out / run_to_state, run_options.command = options.command;

@@ -56,7 +56,7 @@ TEST_F(ResultsFolder, ThatAnotherRunWritesToIsRefused) {
 }
 
 TEST_F(ResultsFolder, KeepsNothingOfAnOlderRunAndAllThatIsNotOfARun) {
-  fs::create_directory(r);
+  ASSERT_EQ(run().exit_code, 0);
   for (const char* name : {"series.csv", "events.csv", "animation.ndjson", "fields.ndjson", "result.json",
                            "checkpoint.cbor", "checkpoint.previous.cbor", "checkpoint.cbor.tmp", "notes.txt"})
     cli::write_file(r / name, "old");
@@ -64,6 +64,54 @@ TEST_F(ResultsFolder, KeepsNothingOfAnOlderRunAndAllThatIsNotOfARun) {
   for (const auto& name : names()) EXPECT_EQ(cli::read_file(r / name) == "old", name == "notes.txt") << name;
   EXPECT_FALSE(names().contains("fields.ndjson"));
   EXPECT_FALSE(names().contains("checkpoint.cbor.tmp"));
+}
+
+// Each file that a command removes or overwrites, in a folder that no run has written to.
+TEST_F(ResultsFolder, WithSomebodysOwnFilesIsRefused) {
+  const std::string study = R"({"study": 1, "scene": ")" + cli::bounce +
+                            R"(", "mode": "list", "vary": [{}], "reduce": {"y": {"observe": "height", "as": "max"}}})";
+  cli::write_file(folder.path() / "of_one.json", study);
+  struct Own {
+    const char *command, *name;
+  };
+  for (const auto& [command, name] : {Own{"run", "series.csv"},
+                                      {"run", "report.html"},
+                                      {"run", "events.npz"},
+                                      {"run", "fields.ndjson"},
+                                      {"run", "result.json"},
+                                      {"run", "scene.resolved.json"},
+                                      {"run", "checkpoint.cbor"},
+                                      {"static", "report.html"},
+                                      {"modes", "modes.csv"},
+                                      {"modes", "modes.json"},
+                                      {"study", "study.csv"},
+                                      {"study", "study.json"},
+                                      {"study", "cases.ndjson"},
+                                      {"trade", "choice.json"},
+                                      {"trade", "trade.json"}}) {
+    SCOPED_TRACE(std::string(command) + ", " + name);
+    fs::remove_all(r);
+    fs::create_directory(r);
+    cli::write_file(r / name, R"({"mine": 1})");
+    const std::string operand = std::string(command) == "study" ? "of_one.json" : cli::bounce;
+    const auto result = trammel({command, operand, "--out", "r"}, {.folder = folder.path()});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, HasSubstr(name));
+    EXPECT_THAT(result.err, HasSubstr("--out names another folder"));
+    EXPECT_EQ(names(), std::set<std::string>{name});
+    EXPECT_EQ(cli::read_file(r / name), R"({"mine": 1})");
+  }
+}
+
+// Of a run that was killed there may be no result.
+TEST_F(ResultsFolder, OfAnUnfinishedRunIsItsOwn) {
+  for (const char* left : {"scene.resolved.json", "checkpoint.cbor", "result.json"}) {
+    fs::remove_all(r);
+    ASSERT_EQ(run().exit_code, 0);
+    for (const auto& name : names())
+      if (name != left && name != "series.csv") fs::remove(r / name);
+    EXPECT_EQ(run().exit_code, 0) << left;
+  }
 }
 
 TEST_F(ResultsFolder, OfAnotherCommandIsRefused) {
@@ -97,7 +145,8 @@ TEST_F(ResultsFolder, FollowsNoSymbolicLinks) {
   for (const char* name : {"series.csv", "events.csv", "animation.ndjson", "result.json", "result.json.tmp",
                            "checkpoint.cbor", "checkpoint.cbor.tmp", "checkpoint.previous.cbor", ".reserve"}) {
     fs::remove_all(r);
-    fs::create_directory(r);
+    ASSERT_EQ(run().exit_code, 0);
+    fs::remove(r / name);
     fs::create_symlink("../precious", r / name);
     EXPECT_EQ(run().exit_code, 0) << name;
     EXPECT_EQ(cli::read_file(folder.path() / "precious"), "precious") << name;

@@ -5,13 +5,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace trammel::simulate {
@@ -21,8 +24,11 @@ namespace fs = std::filesystem;
 
 constexpr std::array written = {"series.csv",  "events.csv",          "animation.ndjson", "fields.ndjson",
                                 "result.json", "scene.resolved.json", "modes.json",       "modes.csv",
-                                "shapes.csv",  newest_checkpoint,     checkpoint_before, "report.html",
+                                "shapes.csv",  newest_checkpoint,     checkpoint_before,  "report.html",
                                 "series.npz",  "events.npz",          "animation.pvd",    "fields.pvd"};
+
+constexpr std::array of_study = {"study.json", "study.csv", "study.npz", "cases.ndjson"};
+constexpr std::array of_trade = {"trade.json", "trade.csv", "choice.json", "scene.chosen.json"};
 
 constexpr std::array commands = {"trammel run", "trammel static", "trammel modes", "trammel study", "trammel trade"};
 
@@ -66,16 +72,46 @@ int open_locked(const fs::path& folder) {
   return number;
 }
 
+std::span<const char* const> written_by(Analysis analysis) {
+  if (analysis == Analysis::study) return of_study;
+  if (analysis == Analysis::trade) return of_trade;
+  return written;
+}
+
+nlohmann::json json_of(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return {};
+  std::ifstream in(file);
+  return nlohmann::json::parse(in, nullptr, false);
+}
+
+bool is_checkpoint(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return false;
+  constexpr int key_and_value = 64;  // the last of its entries, which are in the order of their names
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  in.seekg(std::max<std::streamoff>(0, std::streamoff(in.tellg()) - key_and_value));
+  return std::string(std::istreambuf_iterator<char>(in), {}).find("trammel_checkpoint") != std::string::npos;
+}
+
+// Each command begins with one of these, so that a folder of one that was killed has it, too.
+bool shows_results(const fs::path& folder) {
+  for (const auto& [name, key] : {std::pair("scene.resolved.json", "trammel"),
+                                  std::pair("result.json", "trammel_result"), std::pair("modes.json", "trammel_result"),
+                                  std::pair("study.json", "trammel_study"), std::pair("trade.json", "trammel_trade")}) {
+    const nlohmann::json content = json_of(folder / name);
+    if (content.is_object() && content.contains(key)) return true;
+  }
+  return is_checkpoint(folder / newest_checkpoint) || is_checkpoint(folder / checkpoint_before);
+}
+
 std::optional<Analysis> analysis_in(const fs::path& folder) {
   std::error_code error;
   for (const auto& [name, analysis] :
        {std::pair("modes.json", Analysis::modes), std::pair("study.json", Analysis::study),
         std::pair("trade.json", Analysis::trade)})
     if (fs::exists(folder / name, error)) return analysis;
-  const fs::path file = folder / "result.json";
-  if (!fs::is_regular_file(fs::symlink_status(file, error))) return std::nullopt;
-  std::ifstream in(file);
-  const nlohmann::json result = nlohmann::json::parse(in, nullptr, false);
+  const nlohmann::json result = json_of(folder / "result.json");
   if (!result.is_object()) return std::nullopt;
   const auto analysis = result.find("analysis");
   return analysis != result.end() && *analysis == "static" ? Analysis::statics : Analysis::motion;
@@ -89,12 +125,24 @@ ResultsFolder::Made::~Made() {
 
 ResultsFolder::ResultsFolder(const fs::path& folder, Analysis analysis)
     : made_{make(without_slash(folder))}, lock_(open_locked(without_slash(folder))) {
+  refuse_files_of_others(folder, analysis);
   const auto there = analysis_in(folder);
   if (there && *there != analysis)
     refuse(folder, fmt::format("it holds results of '{}'", commands[std::size_t(*there)]));
 }
 
 ResultsFolder::~ResultsFolder() = default;
+
+void refuse_files_of_others(const fs::path& folder, Analysis analysis) {
+  std::vector<std::string> lost;
+  for (const char* name : written_by(analysis))
+    if (std::error_code error; fs::exists(fs::symlink_status(folder / name, error))) lost.push_back(name);
+  if (lost.empty() || shows_results(folder)) return;
+  refuse(folder, fmt::format("'{}' would delete or overwrite {} there, and nothing in the folder shows that an older "
+                             "run wrote {}; move {} away if the folder is the right one",
+                             commands[std::size_t(analysis)], fmt::join(lost, ", "), lost.size() > 1 ? "them" : "it",
+                             lost.size() > 1 ? "them" : "it"));
+}
 
 void remove_results(const fs::path& folder) {
   for (const char* name : written)

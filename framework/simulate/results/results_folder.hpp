@@ -3,7 +3,7 @@
 // While a command runs, the folder is locked: a second one is refused, because both would write the same files.
 // Symbolic links are not followed. A new run removes the results of an older run of the same command and nothing else,
 // because the default folder is named after the scene and scenes are run repeatedly. Another command's results are
-// refused.
+// refused, and so are files of a run's names in a folder that shows nothing of a run: they are somebody's own.
 #pragma once
 
 #include <filesystem>
@@ -42,6 +42,10 @@ class ResultsFolder {
   Made made_;
   Descriptor lock_;
 };
+
+// Throws FolderRefused if the folder holds files that this command removes or overwrites, and nothing that shows that
+// they are of an older run.
+void refuse_files_of_others(const std::filesystem::path& folder, Analysis analysis);
 
 // Removes every file that a command writes, also half-written ones; what else is there stays. Throws OutputError.
 void remove_results(const std::filesystem::path& folder);
