@@ -175,6 +175,12 @@ class Table {
     if (value && value->type() == Value::Type::text && !value->text().starts_with("=")) {
       const auto found = std::find(header.begin(), header.end(), value->text());
       index = std::size_t(found - header.begin());
+      if (std::count(header.begin(), header.end(), value->text()) > 1) {
+        problems_.error(value->problem(fmt::format(
+            "{} has more than one column \"{}\"; give the number of the one that is meant, from 1", file_,
+            value->text())));
+        return false;
+      }
       if (found != header.end()) return true;
       const std::vector<std::string> names(header.begin(), header.end());
       problems_.error(value->problem(

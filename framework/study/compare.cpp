@@ -236,7 +236,8 @@ Comparison compare(const fs::path& a, const fs::path& b) {
                                one["b"].dump());
   if (!result.equal && made.empty()) result.text += "Both were made alike: the same scene, program and plugins.\n";
   result.text.pop_back();
-  result.json = json{{"equal", result.equal}, {"differences", list}, {"only", only}, {"made", made}}.dump(2);
+  result.json = json{{"equal", result.equal}, {"differences", list}, {"only", only}, {"made", made}}.dump(
+      2, ' ', false, json::error_handler_t::replace);  // damaged files have bytes that are no text
   return result;
 }
 

@@ -55,6 +55,8 @@ void read_table(const Value& value, const std::string& file, const std::string& 
         header.front() != "t"
             ? fmt::format("the first column of {} is \"{}\", expected \"t\"", file, header.front())
             : fmt::format("{} has no column \"{}\"{}", file, column, scene::did_you_mean(column, header))));
+  if (std::count(found, header.end(), column) > 1)
+    return problems.error(value.problem(fmt::format("{} has more than one column \"{}\"", file, column)));
   const std::size_t at = std::size_t(found - header.begin());
   while (std::getline(in, line)) {
     const std::vector<std::string> row = report::cells_of(line);

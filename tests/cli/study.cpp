@@ -198,4 +198,24 @@ TEST(Compare, TellsTheFirstRowAndColumnThatDifferAndByHowManyDigits) {
   EXPECT_THAT(differs.out, HasSubstr("made with another scene"));
 }
 
+// Bytes that are no text, or none at all: a difference like others, with the file's name.
+TEST(Compare, NamesADamagedFile) {
+  const Folder folder;
+  for (const char* out : {"a", "b"})
+    ASSERT_EQ(trammel({"run", "pendulum.json", "--out", out, "--quiet"}, {.folder = folder.path()}).exit_code, 0);
+  const std::string whole = folder.file("b/series.csv");
+  for (const std::string& damaged :
+       {std::string("\xff\xfe") + whole.substr(2), whole.substr(0, whole.size() / 2) + "\xc3\x28\n", std::string()}) {
+    cli::write_file(folder.path() / "b/series.csv", damaged);
+    for (const char* form : {"--json", ""}) {
+      std::vector<std::string> words = {"compare", "a", "b"};
+      if (*form) words.push_back(form);
+      const auto result = trammel(words, {.folder = folder.path()});
+      EXPECT_EQ(result.exit_code, 1);
+      EXPECT_THAT(result.err, testing::Not(HasSubstr("exception")));
+      EXPECT_THAT(result.out, HasSubstr("series.csv"));
+    }
+  }
+}
+
 }  // namespace

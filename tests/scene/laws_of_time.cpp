@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "scene/laws/continuity.hpp"
 #include "scene/expression.hpp"
+#include "scene/laws/continuity.hpp"
 #include "scene/laws/tabulated_law.hpp"
 #include "scene/value.hpp"
 
@@ -256,6 +256,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"0,0\n1\n2,2\n3,3\n", R"({"table": "quake.csv"})",
               "quake.csv:2:1: x: found 1 cells, expected at least 2"},
         Wrong{good, R"({"table": "quake.csv", "column": "y"})", "has no column \"y\"; known: t, x"},
+        Wrong{"t,x,x\n0,0,1\n1,1,2\n2,0,3\n3,0,4\n", R"({"table": "quake.csv", "column": "x"})",
+              "has more than one column \"x\"; give the number of the one that is meant, from 1"},
+        Wrong{"t,t,x\n0,0,1\n1,1,2\n2,0,3\n3,0,4\n", R"({"table": "quake.csv", "time": "t", "column": "x"})",
+              "has more than one column \"t\""},
         Wrong{good, R"({"table": "quake.csv", "column": 3})", "found column 3, but"},
         Wrong{good, R"({"table": "quake.csv", "time": 0})", "found column 0, but"},
         Wrong{good, R"({"table": "quake.csv", "holds": "acceleration"})",
