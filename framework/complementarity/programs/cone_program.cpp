@@ -212,7 +212,7 @@ class InteriorPoint {
   double free_ = 0, ds_ = 0;
   Blocks W_, W_inverse_, yields_;
   Mat GWY_, K_;
-  Eigen::PartialPivLU<Mat> lu_;  // of K
+  Eigen::FullPivLU<Mat> lu_;  // of K; pivots of rows alone lose digits where cones are thin
 };
 
 }  // namespace
