@@ -123,6 +123,25 @@ TEST(StickSpeed, ThatExceedsASlipIsTold) {
   EXPECT_THAT(run.result.at("warnings").dump(), HasSubstr("contacts.floor.friction.stick_speed is 1e-06 m/s"));
 }
 
+// The law's 1 mm/s is the whole motion of a block that slides by millimetres.
+TEST(Creep, OfASmoothLawIsToldWhereItIsTheMotion) {
+  const auto sliding = [](double speed) {
+    return run_text(fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -10],
+  "bodies": {{"p": {{"type": "point_mass", "mass": 1, "position": [0, 0], "velocity": [{0:.17g}, 0]}},
+             "q": {{"type": "point_mass", "mass": 1, "position": [{1:.17g}, 0]}}}},
+  "forces": {{"drive": {{"type": "spring_damper", "between": ["p.point", "q.point"], "stiffness": 1, "length": {1:.17g}}}}},
+  "contacts": {{"floor": {{"type": "constraint_method", "between": ["p.point", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}],
+      "friction": {{"type": "regularized_coulomb", "coefficient": 1e-4}}}},
+               "base": {{"type": "constraint_method", "between": ["q.point", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}}}},
+  "simulate": {{"until": 1}}, "record": {{"every": 0.01, "observe": {{"v": "p.point.vx"}}}}}})",
+                                speed, speed));
+  };
+  const Finished fast = sliding(1), creeping = sliding(2e-3);
+  ASSERT_TRUE(fast.done() && creeping.done()) << creeping.report.reason;
+  EXPECT_EQ(fast.result.at("warnings").dump(), "[]");
+  EXPECT_THAT(creeping.result.at("warnings").dump(), HasSubstr("the fastest slip of contacts.floor was 0.002 m/s"));
+}
+
 // Beside a body of metres, which would fall faster than all others move.
 TEST(CaptureSpeed, OfTheSceneThatExceedsAllImpactsIsTold) {
   const auto thrown = [](double speed) {

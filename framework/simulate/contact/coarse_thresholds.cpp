@@ -52,6 +52,18 @@ std::string of_slips(const model::ContactEntry& contact, double fastest) {
       contact.path(), named, fastest);
 }
 
+// Where the fastest slip is hardly faster than the creep in place of sticking, and goes far, it is the creep itself.
+std::string of_creep(const model::ContactEntry& contact, double fastest, double duration, double length) {
+  constexpr double any_slip = 1e300, hardly_faster = 10;
+  const double creep = contact.smooth->ratio(any_slip) / contact.smooth->slope(0);  // all of the force, if it rose on
+  if (!(creep > 0) || !(fastest * duration > coarse * length) || fastest > hardly_faster * creep) return "";
+  return fmt::format(
+      "the fastest slip of {} was {:.3g} m/s, and its friction law creeps with speeds up to about {:.3g} m/s instead "
+      "of "
+      "sticking: a critical_velocity well below the slips, or coulomb, tells them apart",
+      contact.path(), fastest, creep);
+}
+
 }  // namespace
 
 void CoarseThresholds::look(const ContactEvent& event) {
@@ -61,7 +73,8 @@ void CoarseThresholds::look(const ContactEvent& event) {
 void CoarseThresholds::look_at_slips(model::AssembledSystem& system, const ContactScale& scale) {
   for (Eigen::Index i = 0; i < fastest_slip_.size(); ++i) {
     const model::ContactEntry& contact = system.model().contacts[std::size_t(i)];
-    if (!contact.coulomb || !(contact.coulomb->stick_speed() > 0)) continue;
+    const bool judged = contact.coulomb ? contact.coulomb->stick_speed() > 0 : contact.smooth && !contact.surface;
+    if (!judged) continue;
     const bool touches = system.modes().contacts[std::size_t(i)].closed || contact.joint ||
                          system.gap(int(i)) <= scale.of(int(i)).touching();
     if (touches) fastest_slip_[i] = std::max(fastest_slip_[i], system.slip(int(i)).norm());
@@ -83,6 +96,8 @@ std::vector<std::string> CoarseThresholds::warnings(const model::Model& model, c
     const model::ContactEntry& contact = model.contacts[std::size_t(i)];
     if (contact.restitution) add(of_impacts(contact, scale.of(int(i)), fastest_[i]));
     if (contact.coulomb) add(of_slips(contact, fastest_slip_[i]));
+    if (contact.smooth)
+      add(of_creep(contact, fastest_slip_[i], settings.until - settings.start, scale.scene().length()));
   }
   return all;
 }

@@ -4,6 +4,7 @@
 //     contacts.NAME.capture_speed    below which impacts have no rebound, beside the fastest impact of the contact;
 //                                    also where the scene's speed stands for it
 //     contacts.NAME.friction.stick_speed    below which it sticks, beside the fastest slip of the contact
+//     the creep of a smooth friction law    in place of sticking, beside the same
 #pragma once
 
 #include <string>
