@@ -52,10 +52,19 @@ std::string of_slips(const model::ContactEntry& contact, double fastest) {
       contact.path(), named, fastest);
 }
 
+// [m/s] at which the law would have all of its force, if it rose on as from 0. A law that has no answer is told where
+// it acts.
+double creep_speed(const SmoothFriction& law) try {
+  constexpr double any_slip = 1e300;
+  return law.ratio(any_slip) / law.slope(0);
+} catch (...) {
+  return 0;
+}
+
 // Where the fastest slip is hardly faster than the creep in place of sticking, and goes far, it is the creep itself.
 std::string of_creep(const model::ContactEntry& contact, double fastest, double duration, double length) {
-  constexpr double any_slip = 1e300, hardly_faster = 10;
-  const double creep = contact.smooth->ratio(any_slip) / contact.smooth->slope(0);  // all of the force, if it rose on
+  constexpr double hardly_faster = 10;
+  const double creep = creep_speed(*contact.smooth);
   if (!(creep > 0) || !(fastest * duration > coarse * length) || fastest > hardly_faster * creep) return "";
   return fmt::format(
       "the fastest slip of {} was {:.3g} m/s, and its friction law creeps with speeds up to about {:.3g} m/s instead "
