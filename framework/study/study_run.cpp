@@ -77,14 +77,14 @@ fs::path folder_of(const fs::path& out, std::size_t i) {
   return out / cases_folder / std::to_string(i);
 }
 
-// Folders of cases that are not among the records: of an older study, or unfinished.
-void remove_others(const fs::path& out, const CaseRecords& records) {
+// Folders of the shard's cases that are not among the records: of an older study, or unfinished.
+void remove_others(const fs::path& out, const Shard& shard, const CaseRecords& records) {
   std::error_code error;
   std::vector<fs::path> others;
   for (const auto& entry : fs::directory_iterator(out / cases_folder, error)) {
     const std::string name = entry.path().filename().string();
     const bool number = name.find_first_not_of("0123456789") == name.npos && name.size() < 10;
-    if (number && !records.contains(std::stoul(name))) others.push_back(entry.path());
+    if (number && shard.has(std::stoul(name)) && !records.contains(std::stoul(name))) others.push_back(entry.path());
   }
   for (const fs::path& other : others) fs::remove_all(other, error);
 }
@@ -121,7 +121,7 @@ class StudyRun {
       if (r.index < study_.size() && options_.shard.has(r.index) && r.key == study_.key(r.index, content_.scene_hash))
         if (r.status == "refused" || !study_.keep() || fs::exists(folder_of(options_.out, r.index)))
           content_.records[r.index] = std::move(r);
-    if (study_.keep()) remove_others(options_.out, content_.records);
+    if (study_.keep()) remove_others(options_.out, options_.shard, content_.records);
   }
 
   bool run(const std::vector<std::size_t>& tasks, Journal& journal) {

@@ -153,6 +153,14 @@ TEST(Study, OfShardsBringsTheKeptResultsTogether) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "merged/cases" / number / "result.json")) << number;
 }
 
+TEST(Study, LeavesTheKeptResultsOfAnotherShardInItsFolder) {
+  const KeptFolder folder;
+  for (const char* shard : {"1/2", "2/2"})
+    ASSERT_EQ(folder.run({"study.json", "--out", "a", "--shard", shard}).exit_code, 0);
+  for (const char* number : {"0", "1", "2", "3"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "a/cases" / number / "result.json")) << number;
+}
+
 TEST(Study, RunsACaseAgainWhoseKeptResultsAreGone) {
   const KeptFolder folder;
   ASSERT_EQ(folder.run({"study.json", "--out", "a"}).exit_code, 0);
