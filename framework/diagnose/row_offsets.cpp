@@ -19,10 +19,10 @@ RowOffset angle(double g, double g_dot, double s) {
   return sine ? RowOffset{std::atan2(g, s), g_dot / s, true} : RowOffset{g, g_dot, true};
 }
 
-using MarkerMotions = std::array<const Motion*, Rows::most_markers>;
+using JointMotions = std::array<const Motion*, Rows::most_markers>;
 
 Rows rows_of(model::AssembledSystem& system, const Constraint& constraint, const std::vector<model::MarkerRef>& markers,
-             double t, MarkerMotions& at) {
+             double t, JointMotions& at) {
   const Space space = system.model().world.space;
   for (std::size_t k = 0; k < markers.size(); ++k) at[k] = &system.motion(markers[k]);
   Rows rows;
@@ -34,7 +34,7 @@ Rows rows_of(model::AssembledSystem& system, const Constraint& constraint, const
 std::vector<RowOffset> row_offsets(model::AssembledSystem& system, const Constraint& constraint,
                                    const std::vector<model::MarkerRef>& markers, double t) {
   const Eigen::Index dim = dimension(system.model().world.space);
-  MarkerMotions at = {};
+  JointMotions at = {};
   const Rows rows = rows_of(system, constraint, markers, t, at);
   Vec g_dot = rows.g_t;
   for (std::size_t k = 0; k < markers.size(); ++k) g_dot += rows.H(int(k)) * at[k]->V;
@@ -89,7 +89,7 @@ RowOffset row_offset(model::AssembledSystem& system, const model::RowLimit& limi
 }
 
 std::vector<int> rows_without_direction(model::AssembledSystem& system, const model::JointEntry& joint, double t) {
-  MarkerMotions at = {};
+  JointMotions at = {};
   const Rows rows = rows_of(system, *joint.joint, joint.markers, t, at);
   std::vector<int> all;
   for (int i = 0; i < joint.rows; ++i) {
