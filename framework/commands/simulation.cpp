@@ -94,8 +94,10 @@ class Run {
     if (e.cause == Ending::Cause::scene) {
       if (!options_.resume) records_.remove();  // the scene is wrong, which its start has shown
     } else {
-      end(Status::failed, e.reason + (e.cause == Ending::Cause::rows ? contradiction() : ""));
+      end(Status::failed,
+          e.reason + (e.cause == Ending::Cause::rows ? contradiction() : "") + simulator_->circumstances());
     }
+    report_.no_motion = true;
     if (e.thrown) std::rethrow_exception(e.thrown);
   }
 

@@ -42,6 +42,7 @@ struct RunReport {
   std::string reason;              // why it failed: time, step and cause
   double t = 0, cpu = 0;           // [s] reached; of CPU time
   std::optional<State> last_good;  // Simulator::last_good
+  bool no_motion = false;          // it failed because no motion was found, which another method may find
   std::string result_json;         // as written to out/result.json
   std::string summary;  // a few lines for a person: what was simulated, impacts, energy by cause, norms, cost, where
 };

@@ -19,7 +19,6 @@ namespace trammel::simulate {
 namespace {
 
 constexpr std::size_t most_warnings = 20;
-constexpr double unexplained = 0.05;  // of the energy that moved: more without a cause is said
 
 int error_order(Integrator& integrator) {
   const auto* estimate = dynamic_cast<const ErrorEstimate*>(&integrator);
@@ -54,6 +53,8 @@ Simulator::Simulator(std::shared_ptr<model::Model> model, Integrator& integrator
 void Simulator::start(State initial) {
   now_ = std::move(initial);
   window_start_ = now_.t;
+  if (now_.t > settings_.start)  // a run that is taken up there: the records before are written
+    records_ = (long long)(std::ceil((now_.t - settings_.start) / settings_.every - 1e-9));
   turns_.follow(now_.t, now_.q, now_.v);
   look_at_theories();
   system_.move_to(now_.t, now_.q, now_.v);
@@ -258,6 +259,7 @@ bool Simulator::try_step(const StepControl::Proposal& proposal, double& h, Event
 
 bool Simulator::step_and_examine(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found,
                                  double& error) {
+  tried_ = h;
   const Outcome outcome = trial_step(integrator_, system_, now_, h, next_);
   if (!outcome) return refuse(proposal, outcome.reason()), false;
   const auto refuse_not_finite = [&] {
@@ -277,8 +279,8 @@ bool Simulator::step_and_examine(const StepControl::Proposal& proposal, double& 
       if (!control().too_small(now_.t)) return false;
       locked_ = near_critical_state();
       if (!locked_)
-        fail(h, fmt::format("the error cannot be kept below the tolerance with steps of at least {:.3g} s{}",
-                            control().smallest(now_.t), last_motions_.say(system_, now_, next_, h)));
+        fail(h, fmt::format("the error cannot be kept below the tolerance with steps of at least {:.3g} s",
+                            control().smallest(now_.t)));
       return false;
     }
   }
@@ -305,9 +307,17 @@ void Simulator::refuse(const StepControl::Proposal& proposal, const char* reason
   locked_ = near_critical_state();
   if (locked_) return;
   find_culprit(proposal.h);
-  const std::string why = reason + last_motions_.say(system_, now_, next_, proposal.h);
   system_.move_to(now_.t, now_.q, now_.v);
-  fail(proposal.h, why);
+  fail(proposal.h, reason);
+}
+
+std::string Simulator::circumstances() {
+  for (const ContactEvent& event : events_) last_motions_.take(event);  // found, and not written yet
+  try {
+    return last_motions_.say(system_, now_, next_, tried_, settings_.until);
+  } catch (const std::exception&) {
+    return "";  // a component has no answer there
+  }
 }
 
 std::string Simulator::when(double h) const {
@@ -339,8 +349,7 @@ void Simulator::fail_not_finite(double h) {
   const std::string what = not_finite_in(next_);
   if (!what.empty() && !near_the_end_of_numbers() && !finite_with_shorter_steps(integrator_, system_, now_, h, inside_))
     throw BadStep(fmt::format("it returned {}; expected finite numbers", what));
-  fail(h, "the solution diverged: numbers that are not finite. The step may be too long for the method" +
-              last_motions_.say(system_, now_, next_, h));
+  fail(h, "the solution diverged: numbers that are not finite. The step may be too long for the method");
 }
 
 namespace {

@@ -48,7 +48,8 @@ class Simulator {
   Simulator(std::shared_ptr<model::Model> model, Integrator& integrator, const Settings& settings,
             std::vector<LevelCorrection> corrections);
 
-  void start(State initial);     // at settings.start; contacts that touch are settled before the first step
+  // At settings.start, or later, as if the run had come there. Contacts that touch are settled before the first step.
+  void start(State initial);
   void archive(JsonArchive& a);  // all that decides how the run goes on
   void resume();                 // after the archive was read
 
@@ -71,6 +72,10 @@ class Simulator {
   Energy energy_at_state();
   Energy last_energy();   // of a run that has ended, perhaps by a component that cannot give its own any more: then NaN
   double energy_drift();  // [J] what no cause in the ledger explains
+  double relative_drift();                     // its size in parts of what moved most
+  static constexpr double unexplained = 0.05;  // relative_drift of a doubtful run
+  // After a failure: what moved most, the last steps and the nearest events (last_motions.hpp).
+  std::string circumstances();
   // Joints and bodies whose rows no state near the last one satisfies, there or a step later; empty: none are known.
   Conflict conflict();
 
@@ -81,7 +86,6 @@ class Simulator {
   void require_state_fits() const;  // throws std::out_of_range
   double record_time(long long k) const;
   void record_due(RecordSink& recorder);
-  double relative_drift();
   void take_moved(const Energy& energy, const Ledger::Totals& totals);
   double little_energy();
   void judge_energy();
@@ -135,6 +139,7 @@ class Simulator {
 
   State now_, next_, inside_, uncorrected_;
   std::optional<State> last_good_;
+  double tried_ = 0;  // [s] the last trial's step
   bool in_contact_ = false;
   double step_limit_ = std::numeric_limits<double>::infinity();  // [s] ContactModes::step_limit
   double drift_before_ = 1e3;  // relative_drift at the last record, or 1e3 if it was less

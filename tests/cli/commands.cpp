@@ -299,6 +299,34 @@ TEST(Run, HasTheColumnsOfTheContract) {
             "t,kind,component,impulse,approach,separation,energy_lost,friction,direction");
 }
 
+// Rows that are redundant for an instant: what moved, steps and events are in the reason, the remedy beside it.
+TEST(Run, OfAFailureSaysWhatMovedAndARemedyThatWorks) {
+  const cli::TemporaryFolder folder;
+  const std::string scene = (folder.path() / "storm.json").string(), out = (folder.path() / "out").string();
+  cli::write_file(scene, R"({"trammel": 1, "space": "planar", "gravity": [0, -10],
+  "bodies": {"ball": {"type": "point_mass", "mass": 0.1, "position": [0, 1e-6], "velocity": [0.5, 0]}},
+  "contacts": {"floor": {"type": "constraint_method", "restitution": 0.999,
+                         "between": ["ball.point", {"plane": {"point": [0, 0], "normal": [0, 1]}}]}},
+  "integrator": {"type": "dop853", "step": {"tolerance": 1e-9}}, "simulate": {"until": 0.7, "event_limit": 2},
+  "record": {"every": 0.01}})");
+  const auto result = trammel({"run", scene, "--out", out, "--json"});
+  EXPECT_EQ(result.exit_code, 1);
+  const json report = json::parse(result.out);
+  EXPECT_EQ(report, json::parse(cli::read_file(folder.path() / "out/result.json")));
+  for (const std::string& text : {result.err, report["reason"].get<std::string>()}) {
+    EXPECT_THAT(text, HasSubstr("; the steps before took "));
+    EXPECT_THAT(text, HasSubstr("; the last event is impact of contacts.floor at t = "));
+  }
+  EXPECT_THAT(result.err, HasSubstr("Tried from t = "));
+  ASSERT_TRUE(report["remedy"]["found"]);
+  std::vector<std::string> again = {"run", scene, "--out", out, "--json"};
+  for (const auto& [path, value] : report["remedy"]["set"].items()) {
+    EXPECT_THAT(result.err, HasSubstr("--set " + path + "=" + value.get<std::string>()));
+    again.insert(again.end(), {"--set", path + "=" + value.get<std::string>()});
+  }
+  EXPECT_GE(json::parse(trammel(again).out)["t_end"], report["remedy"]["passes"]);
+}
+
 TEST(Run, DrawsNoProgressBarIntoAFile) {
   const cli::TemporaryFolder folder;
   EXPECT_EQ(trammel({"run", cli::bounce}, {.folder = folder.path()}).err, "");

@@ -1,10 +1,8 @@
-// Verification, remedies and ablation, on motions whose answers are known.
+// Verification and ablation, on motions whose answers are known.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "simulate/start/setup.hpp"
 #include "study/evidence/ablation.hpp"
-#include "study/evidence/remedy.hpp"
 #include "study/evidence/verification.hpp"
 #include "study/trade/errors.hpp"
 
@@ -58,36 +56,6 @@ TEST(Verification, EndsTrustWhereRepetitionsPart) {
   EXPECT_LT(v.trusted_until, 20);
   EXPECT_FALSE(v.met());
   EXPECT_THAT(v.sentences().front(), testing::HasSubstr("trust ends at t = "));
-}
-
-// Steps of a millisecond at least keep no tolerance of 1e-14; nor do finer ones of this method.
-TEST(Remedy, GetsPastStepsThatAreTooLongForTheirTolerance) {
-  plugin::Registry registry;
-  const SceneSource source(tour + "04_spring_damper.json",
-                           {{"integrator", R"({"type": "runge_kutta_4", "step": {"tolerance": 1e-14, "min": 1e-3}})"}});
-  const CaseResult failed = run_case(source.with(), registry);
-  ASSERT_FALSE(failed.done());
-  const auto remedy = find_remedy(source, registry, {failed.t_end, std::nullopt}, 10);
-  ASSERT_TRUE(remedy);
-  EXPECT_GT(run_case(source.with(remedy->overrides), registry).t_end, failed.t_end);
-}
-
-// Half of the run is behind: what is tried begins there, at a state of the pendulum's.
-TEST(Remedy, IsTriedFromTheLastGoodState) {
-  plugin::Registry registry;
-  const SceneSource source(tour + "04_spring_damper.json",
-                           {{"integrator", R"({"type": "runge_kutta_4", "step": {"tolerance": 1e-14, "min": 1e-3}})"}});
-  const simulate::Setup setup = simulate::set_up(source.with(), registry);
-  State good = setup.initial;
-  good.t = 0.5;
-  const auto remedy = find_remedy(source, registry, {0.6, good}, 10);
-  ASSERT_TRUE(remedy);
-  EXPECT_EQ(remedy->from, 0.5);
-  State of_another_scene = good;
-  of_another_scene.q.resize(100);
-  const auto from_start = find_remedy(source, registry, {0.6, of_another_scene}, 10);
-  ASSERT_TRUE(from_start);
-  EXPECT_EQ(from_start->from, setup.settings.start);
 }
 
 // A spring of no strength beside gravity.

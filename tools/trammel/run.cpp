@@ -72,14 +72,23 @@ void verify(const Arguments& arguments, plugin::Registry& registry, const scene:
   for (const std::string& sentence : verification.sentences()) print_line("  " + sentence);
 }
 
-// What to change after a failure at t. Trying costs no more than the run did.
-void say_remedy(const Arguments& arguments, plugin::Registry& registry, const simulate::RunReport& report) {
-  const auto remedy =
-      study::find_remedy(source_of(arguments), registry, {report.t, report.last_good}, std::max(1.0, report.cpu));
-  if (!remedy) return;
+// What to change after a failure.
+void find_remedy(const Arguments& arguments, plugin::Registry& registry, simulate::RunReport& report,
+                 const fs::path& folder) {
+  constexpr double long_wait = 5;  // [s]
+  const double limit = study::search_limit(report.cpu);
+  if (limit > long_wait)
+    fmt::print(stderr,
+               "Trying changes of the scene that get past there, for {:.0f} s of CPU time at most (Ctrl-C ends "
+               "the search)\n",
+               limit);
+  const study::RemedySearch search = study::find_remedy(source_of(arguments), registry, {report.t, report.last_good},
+                                                        {limit, &watch_for_interrupts()});
   std::string sets;
-  for (const scene::Override& o : remedy->overrides) sets += " --set " + shell_quoted(o.path + "=" + o.value);
-  fmt::print(stderr, "Tried from t = {:.6g} s, it gets past there with {}:{}\n", remedy->from, remedy->what, sets);
+  if (search.remedy)
+    for (const scene::Override& o : search.remedy->overrides) sets += " --set " + shell_quoted(o.path + "=" + o.value);
+  fmt::print(stderr, "{}{}{}\n", search.sentence(), sets.empty() ? "" : ":", sets);
+  report.result_json = study::record(search, folder);
 }
 
 Exit run_scene(const Arguments& arguments) {
@@ -109,8 +118,12 @@ Exit run_scene(const Arguments& arguments) {
     report = simulate::run(scene, registry, options);
   }
 
-  if (json) print_line(report.result_json);
   if (!json && !quiet) print_line(report.summary);
+  if (report.status == simulate::Status::failed) {
+    fmt::print(stderr, "trammel: {}\nResults up to there are in {}\n", report.reason, options.out.string());
+    if (report.no_motion && !quiet) find_remedy(arguments, registry, report, options.out);
+  }
+  if (json) print_line(report.result_json);
   if (arguments.has(kVerify.name) && report.status == simulate::Status::done)
     verify(arguments, registry, scene, options.out, json || quiet);
   beside.write(options.out, json || quiet);
@@ -119,8 +132,6 @@ Exit run_scene(const Arguments& arguments) {
       if (!arguments.has(kReport.name)) print_next(arguments, {"trammel", "report", options.out.native()});
       return Exit::done;
     case simulate::Status::failed:
-      fmt::print(stderr, "trammel: {}\nResults up to there are in {}\n", report.reason, options.out.string());
-      if (!quiet) say_remedy(arguments, registry, report);
       return Exit::failed;
     case simulate::Status::interrupted:
       fmt::print(stderr, "trammel: interrupted; results are in {}, continue with: {}\n", options.out.string(),

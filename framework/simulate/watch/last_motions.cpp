@@ -11,8 +11,17 @@ namespace trammel::simulate {
 
 namespace {
 
-constexpr std::size_t named = 3;       // bodies
+constexpr std::size_t named = 3;       // bodies, joints
 constexpr double worth_naming = 0.01;  // of the whole
+constexpr double round_off = 1e-12;    // of coordinates, in rows
+
+std::vector<std::string> largest(std::vector<std::pair<double, std::string>> all) {
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (all.size() > named) all.resize(named);
+  std::vector<std::string> names;
+  for (auto& [size, name] : all) names.push_back(std::move(name));
+  return names;
+}
 
 }  // namespace
 
@@ -38,15 +47,42 @@ std::string LastMotions::shares(model::AssembledSystem& system, const State& now
     const double share = dv.segment(body.v0, body.nv).dot(momentum.segment(body.v0, body.nv)) / all;
     if (share > worth_naming) bodies.emplace_back(share, fmt::format("bodies.{} ({:.0f} %)", body.name, 100 * share));
   }
-  std::stable_sort(bodies.begin(), bodies.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  if (bodies.size() > named) bodies.resize(named);
-  std::vector<std::string> names;
-  for (auto& [share, name] : bodies) names.push_back(std::move(name));
-  return fmt::format("; in that step the velocities change most in {}, by energy", fmt::join(names, ", "));
+  return fmt::format("; in the last trial the velocities change most in {}, by energy",
+                     fmt::join(largest(bodies), ", "));
 }
 
-std::string LastMotions::say(model::AssembledSystem& system, const State& now, const State& next, double h) const {
-  std::string text = shares(system, now, next, h);
+std::string LastMotions::worst_rows(model::AssembledSystem& system, const State& next) const {
+  if (system.sizes().nc == 0 || next.q.size() != system.sizes().nq || !next.q.allFinite()) return "";
+  system.move_to(next.t, next.q, next.v);
+  const Vec g = system.g();
+  std::vector<std::pair<double, std::string>> groups;
+  for (const model::RowGroup& rows : model::row_groups(system.model()))
+    if (const double apart = rows.count > 0 ? g.segment(rows.first, rows.count).lpNorm<Eigen::Infinity>() : 0;
+        apart > round_off * (1 + next.q.lpNorm<Eigen::Infinity>()))
+      groups.emplace_back(apart, fmt::format("{} ({:.2g})", rows.path, apart));
+  if (groups.empty()) return "";
+  return fmt::format("; at the end of the last trial the rows farthest from 0 are those of {}",
+                     fmt::join(largest(groups), ", "));
+}
+
+// By its present gap and rate, which need not be what follows.
+std::string LastMotions::next_closing(model::AssembledSystem& system, const State& now, double until) const {
+  double soonest = until - now.t;
+  int which = -1;
+  system.move_to(now.t, now.q, now.v);
+  for (int i = 0; i < int(system.model().contacts.size()); ++i) {
+    if (system.model().contacts[std::size_t(i)].joint || system.modes().contacts[std::size_t(i)].closed) continue;
+    const double gap = system.gap(i), rate = system.gap_rate(i);
+    if (rate < 0 && gap > 0 && -gap / rate < soonest) soonest = -gap / rate, which = i;
+  }
+  if (which < 0) return "";
+  return fmt::format("; {} may close next, at t = {:.9g} s by its gap of {:.3g} m and its rate",
+                     system.model().contacts[std::size_t(which)].path(), now.t + soonest, system.gap(which));
+}
+
+std::string LastMotions::say(model::AssembledSystem& system, const State& now, const State& next, double h,
+                             double until) const {
+  std::string text = shares(system, now, next, h) + worst_rows(system, next);
   std::vector<std::string> sizes;
   for (const double step : steps_)
     if (step > 0) sizes.push_back(fmt::format("{:.3g}", step));
@@ -54,7 +90,7 @@ std::string LastMotions::say(model::AssembledSystem& system, const State& now, c
   if (event_contact_ >= 0)
     text += fmt::format("; the last event is {} of {} at t = {:.9g} s", to_string(ContactEvent::Kind(event_kind_)),
                         system.model().contacts[std::size_t(event_contact_)].path(), event_at_);
-  return text;
+  return text + next_closing(system, now, until);
 }
 
 void LastMotions::archive(Archive& a) {

@@ -30,17 +30,18 @@ std::string packed(const CaseResult& r) {
   json events = json::array();
   for (const simulate::ContactEvent& e : r.events)
     events.push_back({e.t, int(e.kind), e.contact, e.impulse, e.approach, e.separation, e.energy_lost});
-  const json all = {{"status", int(r.status)},
-                    {"reason", r.reason},
-                    {"hash", r.scene_hash},
-                    {"integrator", r.integrator},
-                    {"names", r.series.names},
-                    {"t", r.series.t},
-                    {"values", r.series.values},
-                    {"events", events},
-                    {"counts", counts(r.counts)},
-                    {"numbers", {r.t_end, r.cpu, r.cpu_set_up, r.energy_start, r.energy_drift, r.dissipated}},
-                    {"warnings", r.warnings}};
+  const json all = {
+      {"status", int(r.status)},
+      {"reason", r.reason},
+      {"hash", r.scene_hash},
+      {"integrator", r.integrator},
+      {"names", r.series.names},
+      {"t", r.series.t},
+      {"values", r.series.values},
+      {"events", events},
+      {"counts", counts(r.counts)},
+      {"numbers", {r.t_end, r.cpu, r.cpu_set_up, r.energy_start, r.energy_drift, r.relative_drift, r.dissipated}},
+      {"warnings", r.warnings}};
   const std::vector<std::uint8_t> bytes = json::to_cbor(all);
   return {bytes.begin(), bytes.end()};
 }
@@ -59,7 +60,8 @@ CaseResult unpacked(const std::string& bytes) {
   }
   r.counts = counts(all["counts"]);
   const json& n = all["numbers"];
-  r.t_end = n[0], r.cpu = n[1], r.cpu_set_up = n[2], r.energy_start = n[3], r.energy_drift = n[4], r.dissipated = n[5];
+  r.t_end = n[0], r.cpu = n[1], r.cpu_set_up = n[2], r.energy_start = n[3], r.energy_drift = n[4];
+  r.relative_drift = n[5], r.dissipated = n[6];
   r.warnings = all["warnings"].get<std::vector<std::string>>();
   return r;
 }

@@ -55,12 +55,14 @@ class CaseRun {
       while (simulator.advance(sink)) {
         require_arithmetic(settings_, setup_, simulator.state().t, simulator.statistics().steps + 1);
         if (stops(simulator.state().t)) break;
+        if (options_.enough && simulator.state().t > *options_.enough) break;
       }
       if (result_.status == Status::refused) result_.status = Status::done;
     } catch (...) {
       const double t = simulator.state().t;
       const long long step = simulator.statistics().steps + 1;
       fail({t, step, fmt::format("at t = {:.9g} s, step {}: ", t, step), simulator.system().last_call()});
+      if (result_.status == Status::failed) result_.reason += simulator.circumstances();
     }
     collect(simulator);
   }
@@ -70,7 +72,6 @@ class CaseRun {
     if (state.q.size() != initial.q.size() || state.v.size() != initial.v.size())
       throw std::invalid_argument("the state has other coordinates than the scene's start");
     initial = state;
-    setup_.settings.start = state.t;
   }
 
   void perturb(model::AssembledSystem& system) {
@@ -138,6 +139,7 @@ class CaseRun {
     result_.t_end = simulator.state().t;
     result_.energy_start = simulator.ledger().energy_start();
     result_.energy_drift = simulator.last_energy().total() - simulator.ledger().energy();
+    if (result_.done()) result_.relative_drift = simulator.relative_drift();
     result_.dissipated = simulator.ledger().dissipated();
     for (const auto& more : {simulator.doubts(), simulator.warnings()})
       result_.warnings.insert(result_.warnings.end(), more.begin(), more.end());

@@ -29,7 +29,8 @@ struct CaseOptions {
   // Relative to the largest speed at the start, or that of the start's acceleration over the run: v is moved by that
   // part of it along the acceleration there, which rows at rest allow.
   double perturbation = 0;
-  std::optional<State> start;  // from there, in place of the scene's start
+  std::optional<State> start;    // from there, as if the run had come there
+  std::optional<double> enough;  // [s] a run that passes it is done
   simulate::Interrupt* interrupt = nullptr;
   simulate::CrashWitness* witness = nullptr;
 };
@@ -59,6 +60,7 @@ struct CaseResult {
   double t_end = 0;                           // [s] reached
   double cpu = 0, cpu_set_up = 0;             // [s] of the simulation; of set-up
   double energy_start = 0, energy_drift = 0;  // [J] energy_drift: what no cause explains (ledger.hpp)
+  double relative_drift = 0;                  // of a run that is done: Simulator::relative_drift
   double dissipated = 0;                      // [J] by named causes
   std::vector<std::string> warnings;
 

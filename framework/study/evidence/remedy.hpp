@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
 #include <trammel/integrator.hpp>
 
 #include "study/cases/batch.hpp"
@@ -14,6 +15,7 @@ struct Remedy {
   std::string what;     // "finer steps: hht_alpha with step 5e-05 s"
   Overrides overrides;  // as --set takes them
   double from = 0;      // [s] where the trial began
+  double passes = 0;    // [s] where it ended, without a failure
 };
 
 struct Failure {
@@ -21,10 +23,34 @@ struct Failure {
   std::optional<State> last_good;  // simulate::RunReport; none: only the scene's start is known
 };
 
-// Runs on from the last good state, and if nothing helps there from the start, with finer steps, with rows projected,
-// and with other methods in turn, until one of them passes the failure by a hundredth of the run. Each may take `limit`
-// [s] of CPU time. Nothing: none did.
-std::optional<Remedy> find_remedy(const SceneSource& source, plugin::Registry& registry, const Failure& failure,
-                                  double limit);
+struct SearchLimits {
+  double cpu = 0;  // [s] of all trials together
+  simulate::Interrupt* interrupt = nullptr;
+};
+
+struct RemedySearch {
+  enum class End { helped, nothing_helped, out_of_time, interrupted };
+  End end = End::nothing_helped;
+  std::optional<Remedy> remedy;   // if one helped
+  int tried = 0;                  // changes that the scene accepts
+  double from = 0;                // [s] where the last trials began
+  double cpu = 0, cpu_limit = 0;  // [s] taken and given
+
+  std::string sentence() const;  // for a person
+  nlohmann::ordered_json to_json() const;
+};
+
+// A share of its CPU time that a failed run may spend on the search, and the least that it may [s].
+double search_limit(double cpu_of_run);
+
+// Tries finer steps, rows projected, other methods, and more events, each in a process of its own: from the last good
+// state, and if nothing helps there from the start. A change helps if the run passes the failure by a hundredth of its
+// time, and by as much as lies between the last good state and the failure, and the method has not changed the energy
+// there by more than Simulator::unexplained.
+RemedySearch find_remedy(const SceneSource& source, plugin::Registry& registry, const Failure& failure,
+                         const SearchLimits& limits);
+
+// Into result.json of the failed run; returns its new text.
+std::string record(const RemedySearch& search, const std::filesystem::path& folder);
 
 }  // namespace trammel::study
