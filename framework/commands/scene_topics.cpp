@@ -222,6 +222,9 @@ Keys
            of a "level" in a "direction" (up, down, any)
   keep     true: each case's results folder is kept, out/NAME/cases/0 and so on, as 'trammel run' or 'trammel static'
            writes it; reductions may then observe constraint_position, _velocity and _acceleration, too
+  figures  of the report of a study that keeps its cases: [{"title": "Figure 2", "observe": "theta"}, ...], "observe" a
+           column or a list of them; "cases": {"parameters.L": 1} draws those with these values, a list of such objects
+           those that meet one; "scale": "log", "time": "log" are the axes'. Without: each column that is reduced
 
   'trammel study STUDY.json' writes study.csv and study.npz, a row a case, and runs only cases that are missing when it
   is called again. --shard I/N runs a part, 'trammel study merge' joins parts, --estimate proposes how many.

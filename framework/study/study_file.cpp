@@ -120,10 +120,10 @@ Study Study::restore(const std::string& text, const std::string& file) {
 void Study::read(Problems& problems) {
   const Value& root = definition_.root();
   if (root.type() != Type::object) return problems.error(root.problem("expected a study: an object"));
-  model::check_keys(
-      root,
-      {"study", "title", "scene", "set", "mode", "vary", "count", "seed", "reduce", "keep", "parameters", "include"},
-      problems);
+  model::check_keys(root,
+                    {"study", "title", "scene", "set", "mode", "vary", "count", "seed", "reduce", "keep", "figures",
+                     "parameters", "include"},
+                    problems);
   const Value* version = root.find("study");
   if (!version || version->type() != Type::number || version->number() != 1)
     problems.error((version ? *version : root).problem("expected \"study\": 1, the version of this format"));
@@ -144,6 +144,14 @@ void Study::read(Problems& problems) {
     hash.text(json_text(*reduce));
     reductions_hash_ = hash.value();
   }
+  if (problems.empty()) read_figures(root, problems);
+}
+
+void Study::read_figures(const Value& root, Problems& problems) {
+  const Value* figures = root.find("figures");
+  if (!figures) return;
+  if (!keep_) problems.error(figures->problem("they show records of the cases: add \"keep\": true to the study"));
+  figures_ = study::read_figures(*figures, paths_, cases_, problems);
 }
 
 // Files are relative to the one that names them.
@@ -293,11 +301,19 @@ void Study::check_observed(const scene::Scene& scene, std::size_t which, Problem
   const auto is_set = [&](const std::string& name) {
     return std::any_of(set_.begin(), set_.end(), [&](const auto& o) { return o.path == "record.observe." + name; });
   };
-  for (const Reduction& one : reductions_)
-    if (std::find(columns.begin(), columns.end(), one.observe) == columns.end() && !is_set(one.observe))
-      problems.error(definition_.root().find("reduce")->find(one.name)->find("observe")->problem(
-          fmt::format("{} observes no \"{}\"{}", which > 0 ? scene_files_[which] : "the scene", one.observe,
-                      scene::did_you_mean(one.observe, columns))));
+  const auto check = [&](const std::string& column, const Value& named_by) {
+    if (std::find(columns.begin(), columns.end(), column) == columns.end() && !is_set(column))
+      problems.error(
+          named_by.problem(fmt::format("{} observes no \"{}\"{}", which > 0 ? scene_files_[which] : "the scene", column,
+                                       scene::did_you_mean(column, columns))));
+  };
+  const Value& root = definition_.root();
+  for (const Reduction& one : reductions_) check(one.observe, *root.find("reduce")->find(one.name)->find("observe"));
+  for (std::size_t k = 0; k < figures_.size(); ++k)
+    if (std::any_of(figures_[k].cases.begin(), figures_[k].cases.end(),
+                    [&](std::size_t i) { return scene_of_[i] == which; }))
+      for (const std::string& column : figures_[k].observe)
+        check(column, *root.find("figures")->items()[k].find("observe"));
 }
 
 std::string Study::title() const {

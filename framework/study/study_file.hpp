@@ -11,7 +11,8 @@
 //       },
 //       "count": 100, "seed": 1,                             of random and sobol, whose entries are ranges
 //       "reduce": {"swing": {"observe": "theta", "as": "max"}},
-//       "keep": true                                         each case's results folder, as of `trammel run`
+//       "keep": true,                                        each case's results folder, as of `trammel run`
+//       "figures": [{"observe": "theta"}]                    of its report (study_figures.hpp)
 //     }
 //
 // or "vary": [{"a.b": 1}, {"a.b": 2, "a.c": 3}], a list of cases. The path "scene" varies the scene itself:
@@ -28,6 +29,7 @@
 #include "scene/value.hpp"
 #include "study/cases/scene_source.hpp"
 #include "study/reduction.hpp"
+#include "study/study_figures.hpp"
 
 namespace trammel::study {
 
@@ -48,6 +50,7 @@ class Study {
   std::size_t scene_of(std::size_t i) const { return scene_of_[i]; }            // index into scene_files()
   const std::vector<scene::Override>& set() const { return set_; }
   bool keep() const { return keep_; }
+  const std::vector<StudyFigure>& figures() const { return figures_; }
   std::string title() const;  // empty: it has none
   std::string resolved() const { return definition_.resolved(); }
   // Of what decides the outcome of a case: the scene, the program's commit, values and reductions.
@@ -60,6 +63,7 @@ class Study {
   void read_list(const scene::Value& list, scene::Problems& problems);
   void read_scenes(const scene::Value& root, scene::Problems& problems);
   void check_against_scenes(scene::Problems& problems) const;
+  void read_figures(const scene::Value& root, scene::Problems& problems);
   void check_observed(const scene::Scene& scene, std::size_t which, scene::Problems& problems) const;
 
   scene::Scene definition_;
@@ -71,6 +75,7 @@ class Study {
   std::vector<Reduction> reductions_;
   std::uint64_t reductions_hash_ = 0;
   bool keep_ = false;
+  std::vector<StudyFigure> figures_;
 };
 
 }  // namespace trammel::study

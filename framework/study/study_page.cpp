@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,18 +18,18 @@ namespace {
 constexpr std::size_t most_rows = 200, most_curves = 12;
 constexpr std::size_t most_numbers = 40'000;  // of a case's series, reduced to extremes beyond
 
-bool varies(const Study& study, std::size_t path) {
-  for (std::size_t i = 1; i < study.size(); ++i)
-    if (study.values(i)[path] != study.values(0)[path]) return true;
-  return study.size() == 1;
+bool varies(const Study& study, const std::vector<std::size_t>& cases, std::size_t path) {
+  for (const std::size_t i : cases)
+    if (study.values(i)[path] != study.values(cases.front())[path]) return true;
+  return false;
 }
 
 // What tells a case from the others: "hht, alpha = -0.15".
-std::string label(const Study& study, std::size_t i) {
+std::string label(const Study& study, const std::vector<std::size_t>& cases, std::size_t i) {
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < study.paths().size(); ++k) {
     const std::string value = without_quotes(study.values(i)[k]), &path = study.paths()[k];
-    if (value.empty() || !varies(study, k)) continue;
+    if (value.empty() || !varies(study, cases, k)) continue;
     parts.push_back(path == "scene" ? std::filesystem::path(value).stem().string()
                                     : fmt::format("{} = {}", path.substr(path.rfind('.') + 1), value));
   }
@@ -36,8 +37,8 @@ std::string label(const Study& study, std::size_t i) {
 }
 
 // A column of a kept case over time; no points where the case or the column is missing.
-report::Curve curve(const StudyContent& content, std::size_t i, const std::string& column) {
-  report::Curve curve{label(content.study, i), report::Mark::line, {}, {}};
+report::Curve curve(const StudyContent& content, std::size_t i, const std::string& column, std::string name) {
+  report::Curve curve{std::move(name), report::Mark::line, {}, {}};
   const std::filesystem::path file = content.folder / cases_folder / std::to_string(i) / "series.csv";
   if (std::error_code error; !std::filesystem::exists(file, error)) return curve;
   const report::Series series = report::read_series(file, most_numbers);
@@ -49,24 +50,49 @@ report::Curve curve(const StudyContent& content, std::size_t i, const std::strin
   return curve;
 }
 
-// Of the columns that are reduced, a curve for each case.
-std::vector<report::Figure> over_time(const StudyContent& content) {
-  std::vector<report::Figure> all;
-  std::vector<std::string> drawn;
-  for (const Reduction& one : content.study.reductions()) {
-    const bool done = std::find(drawn.begin(), drawn.end(), one.observe) != drawn.end();
-    if (!content.study.keep() || done || one.observe == "t") continue;
-    drawn.push_back(one.observe);
-    report::Figure figure{one.observe, "", {"t [s]"}, {one.observe}, {}};
-    for (const auto& [i, record] : content.records) {
-      if (figure.curves.size() == most_curves) break;
-      figure.curves.push_back(curve(content, i, one.observe));
-    }
-    if (content.records.size() > most_curves)
-      figure.caption = fmt::format("The first {} of {} cases.", most_curves, content.records.size());
-    all.push_back(std::move(figure));
+// Without figures of its own a study shows the columns that are reduced, of all cases.
+std::vector<StudyFigure> figures_of(const Study& study) {
+  if (!study.figures().empty() || !study.keep()) return study.figures();
+  std::vector<StudyFigure> all;
+  std::vector<std::size_t> cases(study.size());
+  std::iota(cases.begin(), cases.end(), 0);
+  for (const Reduction& one : study.reductions()) {
+    const auto shows = [&](const StudyFigure& other) { return other.title == one.observe; };
+    if (one.observe != "t" && std::none_of(all.begin(), all.end(), shows))
+      all.push_back({.title = one.observe, .observe = {one.observe}, .cases = cases});
   }
   return all;
+}
+
+// A logarithmic axis shows no 0, such as a norm of rows while none is closed.
+void remove_zeros(report::Curve& curve, const StudyFigure& figure) {
+  std::erase_if(curve.points,
+                [&](const report::Point& p) { return (figure.log && !(p.y > 0)) || (figure.log_time && !(p.x > 0)); });
+}
+
+report::Figure over_time(const StudyContent& content, const StudyFigure& wanted) {
+  const auto scale = [](bool log) { return log ? report::Scale::logarithmic : report::Scale::linear; };
+  const std::string columns = fmt::format("{}", fmt::join(wanted.observe, ", "));
+  report::Figure figure{wanted.title.empty() ? columns : wanted.title,
+                        "",
+                        {"t [s]", scale(wanted.log_time)},
+                        {columns, scale(wanted.log)},
+                        {}};
+  std::vector<std::size_t> there;
+  for (const std::size_t i : wanted.cases)
+    if (content.records.contains(i)) there.push_back(i);
+  for (const std::size_t i : there)
+    for (const std::string& column : wanted.observe) {
+      if (figure.curves.size() == most_curves) continue;
+      std::vector<std::string> name;
+      if (there.size() > 1) name.push_back(label(content.study, there, i));
+      if (wanted.observe.size() > 1 || there.size() == 1) name.push_back(column);
+      figure.curves.push_back(curve(content, i, column, fmt::format("{}", fmt::join(name, ", "))));
+      remove_zeros(figure.curves.back(), wanted);
+    }
+  if (const std::size_t all = there.size() * wanted.observe.size(); all > most_curves)
+    figure.caption = fmt::format("The first {} of {} curves.", most_curves, all);
+  return figure;
 }
 
 // Of one number that varies: each reduction over it.
@@ -110,7 +136,7 @@ report::Table table(const StudyContent& content) {
 report::Page page_of(const StudyContent& content, const std::string& verdict) {
   const std::string title = content.study.title();
   report::Page page{title.empty() ? content.file : title, {verdict}, over_the_number(content), {table(content)}};
-  for (report::Figure& figure : over_time(content)) page.figures.push_back(std::move(figure));
+  for (const StudyFigure& figure : figures_of(content.study)) page.figures.push_back(over_time(content, figure));
   return page;
 }
 

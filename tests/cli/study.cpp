@@ -134,6 +134,28 @@ TEST(Study, KeepsTheResultsOfItsCasesAsARunLeavesThem) {
     EXPECT_EQ(folder.file(std::string("a/cases/3/") + file), folder.file(std::string("b/") + file));
 }
 
+// A number is the same however it is written; null is a case that leaves the path as it is.
+TEST(Study, DrawsTheFiguresThatItNames) {
+  const Folder folder(R"({"study": 1, "scene": "pendulum.json", "keep": true, "set": {"simulate.until": 0.1},
+    "vary": [{"parameters.L": 1, "parameters.m": 2}, {"parameters.L": 2, "parameters.m": 2}, {"parameters.L": 1}],
+    "figures": [{"title": "Heavy", "observe": "angle", "cases": {"parameters.m": 2.0}},
+                {"observe": ["energy_total", "tip_x"], "scale": "log", "time": "log",
+                 "cases": [{"parameters.L": 1, "parameters.m": null}]}]})");
+  ASSERT_EQ(folder.run({"study.json", "--out", "a"}).exit_code, 0);
+  const json figures = json::parse(folder.file("a/study.json"))["page"]["figures"];
+  ASSERT_EQ(figures.size(), 2u);
+  EXPECT_EQ(figures[0]["title"], "Heavy");
+  ASSERT_EQ(figures[0]["curves"].size(), 2u);
+  EXPECT_EQ(figures[0]["curves"][1]["name"], "L = 2");
+  EXPECT_FALSE(figures[0]["curves"][1]["points"].empty());
+  EXPECT_EQ(figures[1]["title"], "energy_total, tip_x");
+  EXPECT_EQ(figures[1]["y"]["scale"], "logarithmic");
+  ASSERT_EQ(figures[1]["curves"].size(), 2u);
+  EXPECT_EQ(figures[1]["curves"][1]["name"], "tip_x");
+  EXPECT_FALSE(figures[1]["curves"][1]["points"].empty());
+  for (const json& point : figures[1]["curves"][1]["points"]) EXPECT_GT(point[0], 0);  // the start is off the axis
+}
+
 TEST(Study, SaysTheSameOfCasesThatItKeeps) {
   const KeptFolder folder;
   ASSERT_EQ(folder.run({"study.json", "--out", "a"}).exit_code, 0);

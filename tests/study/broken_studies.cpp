@@ -90,7 +90,22 @@ INSTANTIATE_TEST_SUITE_P(
                {"reduce.e.reference", "measured.csv has no column \"angel\"", "Did you mean \"angle\"?"}},
         Broken{"Keep",
                R"({"study": 1, "scene": "pendulum.json", "vary": {"parameters.L": [1]}, "keep": "all"})",
-               {"study.json:1:79: keep", "found the text \"all\", expected true or false"}}),
+               {"study.json:1:79: keep", "found the text \"all\", expected true or false"}},
+        Broken{"Figure",
+               R"({"study": 1, "scene": "pendulum.json", "vary": {"parameters.L": [1]}, "keep": true,
+ "figures": [{"observe": "angel", "scale": "lin"}, {"observe": "angle", "cases": {"parameters.l": 1}},
+ {"observe": "angle", "cases": [{"parameters.L": 2}]}, {"titel": "a"}]})",
+               {"study.json:2:45: figures[0].scale", "found \"lin\", expected", "figures[1].cases.parameters.l",
+                "Did you mean \"parameters.L\"?", "study.json:3:32: figures[2].cases: no case has these values",
+                "figures[3].titel", "has no \"observe\""}},
+        Broken{"FigureOfAColumn",
+               R"({"study": 1, "scene": "pendulum.json", "vary": {"parameters.L": [1]}, "keep": true,
+ "figures": [{"observe": ["energy_total", "angel"]}]})",
+               {"study.json:2:26: figures[0].observe", "observes no \"angel\"", "Did you mean \"angle\"?"}},
+        Broken{"FigureOfCasesThatAreNotKept",
+               R"({"study": 1, "scene": "pendulum.json", "vary": {"parameters.L": [1]},
+ "figures": [{"observe": "angle"}]})",
+               {"study.json:2:13: figures", "add \"keep\": true"}}),
     [](const auto& broken) { return broken.param.name; });
 
 }  // namespace
