@@ -1,42 +1,45 @@
-"""Claims of a paper: each is judged by numbers that the runs computed."""
+"""Claims of a paper, each judged by numbers that the runs computed.
+
+    CLAIMS = Claims()
+
+    @CLAIMS("high modes are damped", where="figures 6, 7", paper="W7 vanishes", why="the steps do not resolve them")
+    def judge(results): return condition, "what Trammel computed, with its numbers"
+
+`expected` is the verdict that the program is known to give, "yes" if nothing else; another one fails tools/reproduce. `why`
+explains in words: every figure is computed by the judge, whose comments give the reason of its tolerances.
+"""
 import dataclasses
 from typing import Callable
 
-from studies import Case
-
-
-@dataclasses.dataclass
-class Verdict:
-    """What Trammel computed, in words and numbers; holds: "yes", "no", "partly" or under what condition."""
-
-    trammel: str
-    holds: str
-
-
 @dataclasses.dataclass
 class Claim:
-    """`why` explains in words: every figure of a claim is computed by its judge. `expected`: the verdict that the program is
-    known to give; another one fails tools/reproduce."""
-
-    claim: str
-    paper: str
+    text: str
+    where: str  # in the paper
+    paper: str  # what it says there
     why: str
-    cases: list[Case]
-    judge: Callable  # of the results
+    judge: Callable  # of the results: (the verdict, or True and False for yes and no; what was found)
     expected: str = "yes"
+    verdict: str = "not judged"
+    found: str = ""
 
-    def row(self, verdict):
-        return [self.claim, self.paper, verdict.trammel, verdict.holds, self.why]
+    def decide(self, results):
+        try:
+            verdict, self.found = self.judge(results)
+            self.verdict = verdict if isinstance(verdict, str) else "yes" if verdict else "no"
+        except (ArithmeticError, LookupError, ValueError) as e:  # a run has ended too early for it
+            self.found = f"{type(e).__name__}: {e}"
 
-    def surprise(self, verdict):
+    def surprise(self):
         """A line if the verdict is not the expected one, else nothing."""
-        return "" if verdict.holds == self.expected else f'"{self.claim}": found "{verdict.holds}", expected "{self.expected}"'
+        return "" if self.verdict == self.expected else f'"{self.text}": found "{self.verdict}", expected "{self.expected}"'
 
+class Claims(list):
+    def __call__(self, text, where, paper, why, expected="yes"):
+        def add(judge):
+            self.append(Claim(text, where, paper, why, judge, expected))
+            return judge
+        return add
 
-def yes_if(condition, trammel):
-    return Verdict(trammel, "yes" if condition else "no")
-
-
-def markdown(header, rows):
-    lines = ["| " + " | ".join(str(c).replace("|", "\\|") for c in row) + " |" for row in [header, ["---"] * len(header), *rows]]
-    return "\n".join(lines)
+    def table(self):
+        yield ["claim", "where", "paper", "Trammel", "holds", "why"]
+        yield from ([c.text, c.where, c.paper, c.found, c.verdict, c.why] for c in self)

@@ -1,26 +1,28 @@
 """The studies of a system, scenes/SYSTEM/studies/*.json: run by `trammel study`, their cases' results read as arrays."""
 import csv
-import dataclasses
-import functools
 import json
 import os
 import pathlib
 import subprocess
 import sys
+from typing import NamedTuple
 
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
+def trammel(*words):
+    """Exit code 1 is no error here: a run has failed, and is judged later."""
+    ended = subprocess.run([os.environ["TRAMMEL"], *map(str, words)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    if ended.returncode not in (0, 1):
+        raise SystemExit(f"tools/reproduce: trammel {' '.join(map(str, words))}\n{ended.stderr}")
 
-@dataclasses.dataclass(frozen=True)
-class Case:
+class Case(NamedTuple):
     """The one case of a study that has these values. may_fail: a claim says that this run breaks down."""
 
     study: str
     values: tuple
     may_fail: bool = False
-
 
 def case(study, may_fail=False, **values):
     """case("table_1", scene="table_1_hht", parameters__N=5): dots of a path are written as two underscores."""
@@ -28,19 +30,12 @@ def case(study, may_fail=False, **values):
         values["scene"] = f"../{values['scene']}.json"
     return Case(study, tuple((path.replace("__", "."), json.dumps(value)) for path, value in values.items()), may_fail)
 
-
-class Fields:
-    """What a scene's one plate shows at a time t: points[element, row, column, axis] and values[name][element, row, column]."""
-
-    def __init__(self, line):
-        content = json.loads(line)
-        (body,) = content["bodies"].values()
-        grid = (len(body["patches"]), -1, body["patches"][0]["along"])
-        self.t = content["t"]
-        self.points = np.array([patch["points"] for patch in body["patches"]]).reshape(*grid, 3)
-        values = np.array([patch["values"] for patch in body["patches"]])
-        self.values = {name: values[:, k].reshape(grid) for k, name in enumerate(body["fields"])}
-
+def same(cell, value):
+    """A cell of study.csv, in which texts have no quotes, and a value's JSON."""
+    try:
+        return json.loads(cell) == json.loads(value)
+    except json.JSONDecodeError:
+        return cell == json.loads(value)
 
 class Result:
     """What a case left: columns of series.csv (`result["theta"]`), events, and result.json in `info`."""
@@ -48,94 +43,53 @@ class Result:
     def __init__(self, folder):
         self.folder = folder
         self.info = json.loads((folder / "result.json").read_text())
-        self.cpu = self.info["cpu_time_s"]
-        with open(folder / "series.csv") as file:
-            names = file.readline().strip().split(",")
-        table = np.loadtxt(folder / "series.csv", delimiter=",", skiprows=1, ndmin=2)
-        self.columns = dict(zip(names, table.T))
+        self.cpu, self.counts = self.info["cpu_time_s"], self.info.get("counts", {})
+        self.done = self.info["status"] == "done"
+        self.columns = np.atleast_1d(np.genfromtxt(folder / "series.csv", delimiter=",", names=True))
+        self.t = self.columns["t"]
         with open(folder / "events.csv") as file:
-            self.events = [
-                (float(row["t"]), row["kind"], {name: figure for name, figure in row.items() if figure and name not in ("t", "kind", "component")})
-                for row in csv.DictReader(file)
-            ]
+            self.events = [(float(row["t"]), row["kind"], {name: text for name, text in row.items() if text}) for row in csv.DictReader(file)]
 
     def __getitem__(self, name):
         return self.columns[name]
 
-    @functools.cached_property
-    def moments(self):
-        return [Fields(line) for line in (self.folder / "fields.ndjson").read_text().splitlines()]
-
-    def fields(self, t):
-        """At the time of fields.ndjson nearest to t."""
-        return min(self.moments, key=lambda fields: abs(fields.t - t))
-
-    @property
-    def t(self):
-        return self.columns["t"]
-
-    @property
-    def counts(self):
-        return self.info["counts"]
-
-    @property
-    def done(self):
-        return self.info["status"] == "done"
-
+    def at(self, t, column):
+        """At the record nearest to t."""
+        return self[column][np.argmin(abs(self.t - t))]
 
 class Results:
-    """Of all studies, by case."""
+    """Of all studies, by case. `rows`: those of study.csv, of each study."""
 
-    def __init__(self, system, out):
-        self.files = sorted((ROOT / "scenes" / system / "studies").glob("*.json"))
-        self.out = out
-        self.cases = {}  # of a study, by name: rows of study.csv
-        self.used = {}
-
-    def compute(self, jobs, alone):
-        """One study after the other. alone: those whose times are compared, one case at a time."""
-        for k, file in enumerate(self.files, 1):
-            print(f"  {k}/{len(self.files)} {file.stem}", file=sys.stderr, flush=True)
-            folder = self.out / file.stem
-            command = [os.environ["TRAMMEL"], "study", str(file), "--quiet", "--out", str(folder),
-                       "--jobs", str(1 if file.stem in alone else jobs)]
-            ended = subprocess.run(command, stderr=subprocess.PIPE, text=True)
-            if ended.returncode not in (0, 1) or not (folder / "study.csv").exists():
-                raise SystemExit(f"tools/reproduce: {' '.join(command)}\n{ended.stderr}")
-            with open(folder / "study.csv") as table:
-                self.cases[file.stem] = list(csv.DictReader(table))
+    def __init__(self, system, out, jobs, alone):
+        """Runs one study after the other. alone: those whose times are compared, one case at a time."""
+        self.out, self.rows, self.titles, self.used = out, {}, {}, {}
+        for file in sorted((ROOT / "scenes" / system / "studies").glob("*.json")):
+            print(f"  {file.stem}", file=sys.stderr, flush=True)
+            trammel("study", file, "--quiet", "--out", out / file.stem, "--jobs", 1 if file.stem in alone else jobs)
+            trammel("report", out / file.stem)
+            self.titles[file.stem] = json.loads((out / file.stem / "study.json").read_text())["page"]["title"]
+            with open(out / file.stem / "study.csv") as table:
+                self.rows[file.stem] = list(csv.DictReader(table))
 
     def __getitem__(self, wanted):
         if wanted not in self.used:
-            row = self._row(wanted)
-            self.used[wanted] = Result(self.out / wanted.study / "cases" / row["case"])
+            self.used[wanted] = Result(self.out / wanted.study / "cases" / self.row(wanted)["case"])
         return self.used[wanted]
 
-    def _row(self, wanted):
-        rows = [row for row in self.cases[wanted.study] if all(_same(row.get(path, ""), value) for path, value in wanted.values)]
+    def row(self, wanted):
+        rows = [row for row in self.rows[wanted.study] if all(same(row.get(path, ""), value) for path, value in wanted.values)]
         if len(rows) != 1:
             raise SystemExit(f"tools/reproduce: {len(rows)} cases of {wanted.study} have {dict(wanted.values)}, expected one")
         return rows[0]
 
-    def unexpected(self, wanted):
-        """Of the wanted cases that may not fail, those that did, and why."""
-        rows = {(one.study, row["case"]): row for one in wanted if not one.may_fail and (row := self._row(one))["status"] != "done"}
-        return [f"{study}, case {number}: {row['reason']}" for (study, number), row in rows.items()]
-
-    def count(self):
-        return sum(len(rows) for rows in self.cases.values())
-
-
-def _same(cell, value):
-    """A cell of study.csv, in which texts have no quotes, and a value's JSON."""
-    try:
-        return json.loads(cell) == json.loads(value)
-    except json.JSONDecodeError:
-        return cell == json.loads(value)
-
+    def failures(self):
+        """Of cases that no claim expects to fail."""
+        expected = {(one.study, self.row(one)["case"]) for one in self.used if one.may_fail}
+        return [f"{study}, case {row['case']}: {row['reason']}" for study, rows in self.rows.items() for row in rows
+                if row["status"] != "done" and (study, row["case"]) not in expected]
 
 def significant(x, digits=3):
-    """4 digits of 0.00123 or 1.8e-7 as people write them."""
-    if x == 0 or not np.isfinite(x):
-        return f"{x:g}"
     return f"{x:.{digits}g}"
+
+def listed(numbers, digits=3):
+    return ", ".join(significant(x, digits) for x in numbers)
