@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 
 #include <fmt/format.h>
@@ -192,6 +193,61 @@ void add_small_steps(Page& page, const IntegratorUnderTest& subject) {
   if (!figure.curves.empty()) page.figures.push_back(std::move(figure));
 }
 
+// --- On a scene ---
+
+Table table_of_steps(const std::vector<study::Overrides>& changes, const std::vector<LargestStep>& found) {
+  Table table{.title = "The scene as it is", .columns = {}, .rows = {}};
+  for (const scene::Override& varied : changes.front()) table.columns.push_back({varied.path, ""});
+  if (!table.columns.empty()) table.title = "Changes of the scene";
+  table.columns.push_back({"largest bounded step", "s"});
+  table.columns.push_back({"linear theory", "s"});
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    std::vector<std::string>& row = table.rows.emplace_back();
+    for (const scene::Override& varied : changes[i]) row.push_back(varied.value);
+    row.push_back(!found[i].failure.empty() ? found[i].failure
+                  : found[i].at_limit       ? fmt::format("{:.4g} or more", found[i].h)
+                  : found[i].h > 0          ? fmt::format("{:.4g}", found[i].h)
+                                            : "none");
+    row.push_back(number(found[i].predicted));
+  }
+  return table;
+}
+
+// Over the path that varies fastest, two curves for each combination of the others; nothing if its values are no
+// numbers above 0.
+std::optional<Figure> steps_over_values(const std::vector<study::Overrides>& changes,
+                                        const std::vector<LargestStep>& found) {
+  if (changes.size() < 2) return std::nullopt;
+  Figure figure{.title = "Largest bounded step",
+                .caption = "",
+                .x = {changes.front().back().path, Scale::logarithmic},
+                .y = {"step [s]", Scale::logarithmic},
+                .curves = {}};
+  const auto curve = [&figure](const std::string& name, Mark mark) -> Curve& {
+    const auto at =
+        std::find_if(figure.curves.begin(), figure.curves.end(), [&](const Curve& c) { return c.name == name; });
+    if (at != figure.curves.end()) return *at;
+    return figure.curves.emplace_back(Curve{.name = name, .mark = mark, .points = {}, .failures = {}});
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const std::string& value = changes[i].back().value;
+    char* end = nullptr;
+    const double x = std::strtod(value.c_str(), &end);
+    if (end != value.c_str() + value.size() || !(x > 0)) return std::nullopt;
+    std::string others;
+    for (std::size_t k = 0; k + 1 < changes[i].size(); ++k)
+      others += fmt::format(", {} = {}", changes[i][k].path, changes[i][k].value);
+    if (found[i].predicted)
+      curve("linear theory" + others, Mark::dashed).points.push_back({x, *found[i].predicted, ""});
+    Curve& measured = curve("measured" + others, Mark::line_and_points);
+    if (found[i].h > 0)
+      measured.points.push_back({x, found[i].h, found[i].at_limit ? "or more" : ""});
+    else
+      measured.failures.push_back({x, 0, found[i].failure.empty() ? "no step is bounded" : found[i].failure});
+  }
+  return figure;
+}
+
 }  // namespace
 
 Page measure(const IntegratorUnderTest& subject) {
@@ -213,27 +269,16 @@ Page measure_on_scene(const IntegratorUnderTest& subject, const study::SceneSour
             .tables = {}};
   const double limit = stability_limit(subject.maker(), trammel::Axis::imaginary, most);
   const std::optional<double> ends = limit < most ? std::optional<double>(limit) : std::nullopt;
-  Table table{.title = "The scene as it is", .columns = {}, .rows = {}};
-  for (const scene::Override& varied : changes.front()) table.columns.push_back({varied.path, ""});
-  if (!table.columns.empty()) table.title = "Changes of the scene";
-  table.columns.push_back({"largest bounded step", "s"});
-  table.columns.push_back({"linear theory", "s"});
-  for (const study::Overrides& change : changes) {
-    const LargestStep found = largest_step(source, registry, subject.object(), ends, change);
-    std::vector<std::string>& row = table.rows.emplace_back();
-    for (const scene::Override& varied : change) row.push_back(varied.value);
-    row.push_back(!found.failure.empty() ? found.failure
-                  : found.at_limit       ? fmt::format("{:.4g} or more", found.h)
-                  : found.h > 0          ? fmt::format("{:.4g}", found.h)
-                                         : "none");
-    row.push_back(number(found.predicted));
-  }
+  std::vector<LargestStep> found;
+  for (const study::Overrides& change : changes)
+    found.push_back(largest_step(source, registry, subject.object(), ends, change));
   page.sentences.push_back(
       ends ? fmt::format("Without damping the method is stable up to omega h = {}; linear theory divides "
                          "it by the highest frequency of small motions about the start.",
                          number(*ends))
            : "The method has no limit of stability that linear theory could predict.");
-  page.tables.push_back(std::move(table));
+  if (auto figure = steps_over_values(changes, found)) page.figures.push_back(std::move(*figure));
+  page.tables.push_back(table_of_steps(changes, found));
   return page;
 }
 
