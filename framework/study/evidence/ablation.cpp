@@ -5,52 +5,66 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
+#include "simulate/start/setup.hpp"
 #include "study/trade/errors.hpp"
 #include "study/trade/fidelity_study.hpp"
 
 namespace trammel::study {
 namespace {
 
+using json = nlohmann::ordered_json;
+
 constexpr double least_limit = 1;  // [s] of CPU time for a scene without a part; longer runs: times_longer
 constexpr double times_longer = 5;
 
-void without_each(std::vector<Part>& all, const scene::Scene& scene, const char* group) {
-  const scene::Value* entries = scene.root().find(group);
-  if (!entries || entries->type() != scene::Value::Type::object) return;
-  for (const auto& member : entries->members()) {
-    const std::string path = fmt::format("{}.{}", group, member.first);
+void without_each(std::vector<Part>& all, const json& written, const char* group) {
+  if (!written.contains(group) || !written[group].is_object()) return;
+  for (const auto& [name, entry] : written[group].items()) {
+    const std::string path = fmt::format("{}.{}", group, name);
     all.push_back({.what = "without " + path, .change = {path, "null"}, .worst = ""});
+    if (group == std::string("joints") && entry.is_object() && entry.contains("friction"))
+      all.push_back({.what = "without friction of " + path, .change = {path + ".friction", "null"}, .worst = ""});
   }
-}
-
-void without_joint_friction(std::vector<Part>& all, const scene::Scene& scene) {
-  const scene::Value* joints = scene.root().find("joints");
-  if (!joints || joints->type() != scene::Value::Type::object) return;
-  for (const auto& [name, joint] : joints->members())
-    if (joint.type() == scene::Value::Type::object && joint.find("friction"))
-      all.push_back({.what = fmt::format("without friction of joints.{}", name),
-                     .change = {fmt::format("joints.{}.friction", name), "null"},
-                     .worst = ""});
 }
 
 std::vector<Part> optional_parts(const SceneSource& source, plugin::Registry& registry) {
   const scene::Scene scene = source.with();
+  const json written = json::parse(scene.resolved());  // units that "for" repeats are one part here
   std::vector<Part> all;
-  if (scene.root().find("gravity"))
+  if (written.contains("gravity"))
     all.push_back({.what = "without gravity", .change = {"gravity", "null"}, .worst = ""});
-  without_each(all, scene, "forces");
-  without_each(all, scene, "contacts");
-  without_joint_friction(all, scene);
+  for (const char* group : {"forces", "contacts", "joints"}) without_each(all, written, group);
   for (const Rung& rung : ladders(source, registry))
     if (!rung.finer) all.push_back({.what = rung.what, .change = rung.change, .worst = ""});
   return all;
 }
 
-// The scene as it is runs with each of the parts left out, and the same scene twice: first of all, for its own time.
-std::vector<CaseResult> run_all(const Batch& batch, const std::vector<Part>& parts) {
-  std::vector<Overrides> cases;
-  for (const Part& part : parts) cases.push_back({part.change});
+// Why the scene cannot be set up with the change; empty: it can. What is observed of a part needs the part.
+std::string refusal(const SceneSource& source, plugin::Registry& registry, const Part& part) {
+  const std::string observe = "record.observe.";
+  try {
+    simulate::set_up(source.with({part.change}), registry);
+    return "";
+  } catch (const scene::SceneError& e) {
+    std::vector<std::string> columns;
+    for (const scene::Problem& p : e.problems())
+      if (p.path.starts_with(observe)) columns.push_back(p.path.substr(observe.size()));
+    if (!columns.empty() && columns.size() == e.problems().size())
+      return fmt::format("it is observed: {}", fmt::join(columns, ", "));
+    return e.problems().front().message;
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+}
+
+// The scene with each of the parts left out, and first of all as it is, for its own time under the same conditions.
+std::vector<CaseResult> run_all(const Batch& batch, std::vector<Part>& parts) {
+  std::vector<Overrides> cases = {{}};
+  for (Part& part : parts)
+    if (part.failure = refusal(batch.source, batch.registry, part); part.failure.empty())
+      cases.push_back({part.change});
   return batch(cases);
 }
 
@@ -65,7 +79,7 @@ CaseResult own_run(const SceneSource& source, plugin::Registry& registry) {
 void judge(Part& part, const CaseResult& result, const Measure& measure) {
   part.cpu = result.cpu;
   if (!result.done()) {
-    part.failure = result.reason;
+    part.failure = result.reason.substr(0, result.reason.find_first_of(";\n"));
     return;
   }
   const Error e = measure.error(result.series, measure.end());
@@ -98,7 +112,7 @@ void find_smallest(Ablation& a, const SceneSource& source, plugin::Registry& reg
     Overrides change;
     for (const Part& part : a.left_out) change.push_back(part.change);
     Part together{.what = "", .change = {}, .worst = ""};
-    judge(together, run_case(source.with(change), registry, options), measure);
+    judge(together, Batch{source, registry, 1, options}({change}).front(), measure);
     if (!together.failure.empty() || together.difference > a.target) continue;
     a.difference = together.difference, a.cpu_of_smallest = together.cpu;
     return;
@@ -115,7 +129,10 @@ Ablation ablate(const SceneSource& source, plugin::Registry& registry, double ta
   options.cpu_limit = std::max(least_limit, times_longer * own.cpu);
   Ablation a{.cpu = own.cpu, .parts = optional_parts(source, registry), .target = target, .left_out = {}};
   const std::vector<CaseResult> results = run_all({source, registry, jobs, options}, a.parts);
-  for (std::size_t i = 0; i < a.parts.size(); ++i) judge(a.parts[i], results[i], measure);
+  a.cpu = results.front().cpu;
+  std::size_t next = 1;
+  for (Part& part : a.parts)
+    if (part.failure.empty()) judge(part, results[next++], measure);
   std::stable_sort(a.parts.begin(), a.parts.end(), [](const Part& x, const Part& y) {
     return std::pair(!x.failure.empty(), x.difference) < std::pair(!y.failure.empty(), y.difference);
   });
@@ -126,7 +143,7 @@ Ablation ablate(const SceneSource& source, plugin::Registry& registry, double ta
 report::Page page_of(const Ablation& a, const std::string& scene) {
   report::Page page{.title = "What the parts of " + scene + " are worth", .sentences = {}, .figures = {}, .tables = {}};
   if (a.left_out.empty()) {
-    page.sentences.push_back(fmt::format("Every part changes the observables by more than {:g}: keep all.", a.target));
+    page.sentences.push_back(fmt::format("Every part is needed, or changes the observables by more than {:g}: keep all.", a.target));
   } else {
     std::vector<std::string> sets;
     for (const Part& part : a.left_out)

@@ -1,8 +1,8 @@
 // What each optional part of a scene is worth: what its results change and what time is saved when it is left out, and
 // the smallest scene that keeps a target.
 //
-// Optional are forces, contacts, friction, corrections, gravity, and rungs of the components' fidelity parameters
-// (trammel/fidelity.hpp). Differences are those of study/trade/errors.hpp, with the scene's own run as reference.
+// Optional are forces, contacts, joints, friction, corrections, gravity, and rungs of the components' fidelity
+// parameters (trammel/fidelity.hpp). What "for" repeats is one part. Differences are those of study/trade/errors.hpp, with the scene's own run as reference.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct Part {
   double difference = 0;     // largest scaled change of the observables
   std::string worst;         // the observable that changes most
   double cpu = 0;            // [s] without it
-  std::string failure = "";  // empty: it runs without it
+  std::string failure = "";  // why the scene does not run without it, or needs it for what it observes; empty: it does
 };
 
 struct Ablation {
