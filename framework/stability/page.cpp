@@ -274,7 +274,8 @@ Page measure_on_scene(const IntegratorUnderTest& subject, const study::SceneSour
     found.push_back(largest_step(source, registry, subject.object(), ends, change));
   page.sentences.push_back(
       ends ? fmt::format("Without damping the method is stable up to omega h = {}; linear theory divides "
-                         "it by the highest frequency of small motions about the start.",
+                         "it by the highest frequency of small motions about the start, or about the equilibrium if "
+                         "nothing swings at the start.",
                          number(*ends))
            : "The method has no limit of stability that linear theory could predict.");
   if (auto figure = steps_over_values(changes, found)) page.figures.push_back(std::move(*figure));

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "diagnose/fastest_motion.hpp"
+#include "simulate/start/equilibrium.hpp"
 #include "simulate/start/setup.hpp"
 #include "system/assembled_system.hpp"
 
@@ -71,12 +72,23 @@ class StepSearch {
   double energy_ = 0;
 };
 
-std::optional<double> predicted(const scene::Scene& scene, plugin::Registry& registry, std::optional<double> limit) {
-  const simulate::Setup setup = simulate::set_up(scene, registry);
+// [rad/s] about the start, or about the equilibrium if nothing swings there, as about a pendulum held level; 0:
+// nowhere.
+double highest_frequency(const simulate::Setup& setup) {
   model::AssembledSystem system(setup.model);
-  const double omega = simulate::fastest_motion(system, setup.initial).frequency;
-  if (!limit || !(omega > 0)) return std::nullopt;
-  return *limit / omega;
+  if (const double omega = simulate::fastest_motion(system, setup.initial).frequency; omega > 0) return omega;
+  State rest = setup.initial;
+  try {
+    return simulate::find_equilibrium(system, rest) ? 0 : simulate::fastest_motion(system, rest).frequency;
+  } catch (const std::exception&) {
+    return 0;  // a component has no answer on the way there
+  }
+}
+
+std::optional<double> predicted(const scene::Scene& scene, plugin::Registry& registry, std::optional<double> limit) {
+  if (!limit) return std::nullopt;
+  const double omega = highest_frequency(simulate::set_up(scene, registry));
+  return omega > 0 ? std::optional(*limit / omega) : std::nullopt;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // The largest fixed step with which a scene stays bounded, by bisection, beside what the linear theory says: the
-// method's limit on the imaginary axis over the highest frequency of small motions about the start
-// (diagnose/fastest_motion.hpp).
+// method's limit on the imaginary axis over the highest frequency of small motions about the start, or about the
+// equilibrium if nothing swings there (diagnose/fastest_motion.hpp).
 #pragma once
 
 #include <optional>

@@ -34,22 +34,37 @@ std::optional<double> number(const std::string& text) {
   return text.empty() || end != text.c_str() + text.size() ? std::nullopt : std::optional(x);
 }
 
-std::optional<double> digits(const std::string& a, const std::string& b) {
+// Relative to the larger one, or to `scale` if that is more.
+std::optional<double> digits(const std::string& a, const std::string& b, double scale) {
   const auto x = number(a), y = number(b);
   if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) return std::nullopt;
   if (*x == *y) return all_digits;
-  const double relative = std::abs(*x - *y) / std::max(std::abs(*x), std::abs(*y));
-  return std::clamp(-std::log10(relative), 0.0, all_digits);
+  const double relative = std::abs(*x - *y) / std::max({std::abs(*x), std::abs(*y), scale});
+  return std::max(0.0, std::min(-std::log10(relative), all_digits));
 }
 
-void note(Difference& d, const std::string& where, const std::string& a, const std::string& b) {
-  const std::optional<double> shared = digits(a, b);
+void note(Difference& d, const std::string& where, const std::string& a, const std::string& b, double scale = 0) {
+  const std::optional<double> shared = digits(a, b, scale);
   if (d.count++ == 0) d.where = where, d.a = a, d.b = b, d.digits = d.least = shared;
   if (shared && d.least) d.least = std::min(*d.least, *shared);
 }
 
+// The largest size of the numbers in each column: what is round-off there shares no digits, and is no difference.
+std::vector<double> scales(std::istream& table) {
+  std::vector<double> all;
+  for (std::string line; std::getline(table, line);) {
+    const std::vector<std::string> cells = report::cells_of(line);
+    if (cells.size() > all.size()) all.resize(cells.size(), 0);
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      if (const auto x = number(cells[k]); x && std::isfinite(*x)) all[k] = std::max(all[k], std::abs(*x));
+  }
+  table.clear(), table.seekg(0);
+  return all;
+}
+
 Difference compare_tables(std::istream& a, std::istream& b) {
   Difference d;
+  const std::vector<double> scale = scales(a);
   std::string line_a, line_b;
   std::vector<std::string> header;
   for (std::size_t row = 0;; ++row) {
@@ -70,7 +85,7 @@ Difference compare_tables(std::istream& a, std::istream& b) {
            row == 0 ? fmt::format("the header, column {}", k + 1)
                     : fmt::format("row {} ({} = {}), column {}", row, header.empty() ? "" : header[0],
                                   x.empty() ? "" : x[0], column),
-           in_a, in_b);
+           in_a, in_b, k < scale.size() ? scale[k] : 0);
     }
   }
 }
@@ -127,7 +142,7 @@ Difference compare_file(const fs::path& a, const fs::path& b) {
   const std::string ending = a.extension().string();
   if (ending == ".csv") return compare_tables(in_a, in_b);
   if (ending == ".ndjson") return compare_lines(in_a, in_b);
-  if (ending == ".json" && a.filename() != "scene.resolved.json") {
+  if (ending == ".json") {
     Difference d;
     compare_json(json::parse(in_a, nullptr, false), json::parse(in_b, nullptr, false), "", d);
     return d;
@@ -218,6 +233,8 @@ Comparison compare(const fs::path& a, const fs::path& b) {
   }
   for (const std::string& name : in_b)
     if (!in_a.contains(name)) only.push_back({{"file", name}, {"in", b.string()}});
+  std::stable_partition(differences.begin(), differences.end(),
+                        [](const Difference& d) { return d.file.ends_with(".csv"); });  // what a reader asks first
   result.equal = differences.empty() && only.empty();
   json list = json::array();
   for (const Difference& d : differences) {

@@ -57,8 +57,8 @@ class Reader {
     const Value* given = one.find(key);
     const std::string name = given ? given->read_text(problems_).value_or("linear") : "linear";
     if (name != "log" && name != "linear")
-      problems_.error(given->problem(fmt::format("found \"{}\", expected \"linear\" or \"log\"{}", name,
-                                                 scene::did_you_mean(name, {"linear", "log"}))));
+      problems_.error(
+          given->problem(fmt::format("found \"{}\"{}", name, scene::did_you_mean(name, {"linear", "log"}))));
     return name == "log";
   }
 

@@ -209,10 +209,10 @@ StudyReport merge_studies(const std::vector<fs::path>& folders, const StudyOptio
 StudyReport estimate_study(const Study& study, plugin::Registry& registry) {
   constexpr double a_minute = 60;
   const Cases cases(study, registry);
-  std::set<std::size_t> tried = {0, study.size() / 2, study.size() - 1};
+  const std::set<std::size_t> tried = {0, study.size() / 2, study.size() - 1};
   double seconds = 0, most = 0;
   std::size_t failed = 0;
-  cases.run(0, {}, nullptr);  // loads the plugins
+  cases.load_components();
   for (const std::size_t i : tried) {
     const CaseResult r = cases.run(i, {}, nullptr);
     seconds += r.cpu + r.cpu_set_up, most = std::max(most, r.cpu + r.cpu_set_up);

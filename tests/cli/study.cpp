@@ -226,6 +226,8 @@ TEST(Compare, TellsTheFirstRowAndColumnThatDifferAndByHowManyDigits) {
   EXPECT_THAT(differs.out, HasSubstr("series.csv: first at row 2 (t = 0.01"));
   EXPECT_THAT(differs.out, HasSubstr("digits agree"));
   EXPECT_THAT(differs.out, HasSubstr("made with another scene"));
+  EXPECT_THAT(differs.out, HasSubstr("scene.resolved.json: first at integrator.step: 0.001 and 0.0005"));
+  EXPECT_EQ(differs.out.find("series.csv"), 0u);  // the records first
 }
 
 // Bytes that are no text, or none at all: a difference like others, with the file's name.

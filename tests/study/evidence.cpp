@@ -75,5 +75,24 @@ TEST(Ablation, LeavesOutAnIdleSpringAndKeepsGravity) {
   EXPECT_GT(gravity->difference, 0.5);
 }
 
+const Part& part_of(const Ablation& a, const std::string& path) {
+  return *std::find_if(a.parts.begin(), a.parts.end(), [&](const Part& p) { return p.change.path == path; });
+}
+
+// Springs of no strength, written once; the reaction of a joint is of no interest to whom observes the angle alone.
+TEST(Ablation, LeavesOutWhatIsRepeatedAtOnceAndKeepsWhatIsObserved) {
+  plugin::Registry registry;
+  const SceneSource source(
+      tour + "01_pendulum.json",
+      {{"simulate.until", "1"},
+       {"record.observe.reaction", "joints.hinge.reaction"},
+       {"forces", R"({"idle_{i}": {"for": {"i": 2}, "type": "spring_damper", "between": ["ground", "bar.tip"],
+                                   "stiffness": 1e-12, "length": "=1+{i}"}})"}});
+  const Ablation a = ablate(source, registry, 1e-6, 1);
+  ASSERT_EQ(a.left_out.size(), 1u);
+  EXPECT_EQ(a.left_out.front().change.path, "forces.idle_{i}");
+  EXPECT_EQ(part_of(a, "joints.hinge").failure, "it is observed: reaction");
+}
+
 }  // namespace
 }  // namespace trammel::study

@@ -105,7 +105,8 @@ TEST_P(Remedied, GetsPastItsFailureWithTheChangeThatIsNamed) {
   EXPECT_LT(whole.relative_drift, simulate::Simulator::unexplained);
 }
 
-// Runge-Kutta bears omega h = 2.83: steps of 0.05 s are too long for 100 rad/s, and so are steps of 0.033 s, which halves of 0.08 s become.
+// Runge-Kutta bears omega h = 2.83: steps of 0.05 s are too long for 100 rad/s, and so are steps of 0.033 s, which
+// halves of 0.08 s become.
 INSTANTIATE_TEST_SUITE_P(
     Of, Remedied,
     testing::Values(Failing{"ASingularConfiguration", singular, {}, "the error cannot be kept below the tolerance"},

@@ -87,8 +87,8 @@ TABLES = [("table_1", "Table 1: CPU time of 2 s, e = 0", table_1)]
 
 CLAIMS = Claims()
 
-@CLAIMS("alpha hardly changes theta(t)", "figure 2", "curves coincide", "Up to bounce 2; then chaos: each alpha leaves the fast modes "
-        "another phase, through the contact too, since short steps in free flight change little.", expected="partly")
+@CLAIMS("alpha hardly changes theta(t)", "figure 2", "curves coincide", "Up to bounce 2; then chaos: each alpha leaves the fast modes another phase, "
+        "through the contact too, since short steps in free flight change little.", expected="partly")
 def _(results):
     found = {e: spreads(results, [HHT[e, a] for a, _ in ALPHAS]) for e in (0, 0.3)}
     text = "; ".join(f"e = {e}: theta differs by {listed(d, 2)} rad before bounce 1, before bounce 2, after" for e, d in found.items())
@@ -96,8 +96,8 @@ def _(results):
     before, after = max(max(d[:2]) for d in found.values()), max(d[2] for d in found.values())
     return "no" if before > SEEN else "partly" if after > SEEN else "yes", text
 
-@CLAIMS("alpha < 0 loses energy in free flight after an impact", "figure 3", "energy falls between bounces",
-        "Damping of the modes that the steps do not resolve, which the impact has excited.")
+@CLAIMS("alpha < 0 loses energy in free flight after an impact", "figure 3", "energy falls between bounces", "Damping of the modes that the steps do "
+        "not resolve, which the impact has excited.")
 def _(results):
     lost = {a: (energy_after_first(r), energy_before_second(r)) for a, _ in ALPHAS for r in [results[HHT[0, a]]]}
     loss = {a: x - y for a, (x, y) in lost.items()}
@@ -115,8 +115,8 @@ def _(results):
     # Vanishes: by another order. Stays: within what a curve between 0 and 1 shows.
     return damped < 0.1 * min(undamped, baumgarte) and max(w1.values()) - min(w1.values()) < 0.05, text + " (medians, 0.70 to 0.755 s)"
 
-@CLAIMS("delta and epsilon change theta(t) much", "figure 2", "clearly different curves", "An onset not located leaves an overshoot C0, "
-        "and -epsilon^2 C0 acts as a force; a row switched on while the tip separates does work.", expected=SIMPLIFIED)
+@CLAIMS("delta and epsilon change theta(t) much", "figure 2", "clearly different curves", "An onset not located leaves an overshoot C0, and -epsilon^2 "
+        "C0 acts as a force; a row switched on while the tip separates does work.", expected=SIMPLIFIED)
 def _(results):
     published = [spread(results, [BAUMGARTE[e, p] for p in PAIRS], BETWEEN[1]) for e in (0, 0.3)]
     located = [spread(results, [LOCATED[e, p] for p in (PAIRS[0], PAIRS[2])], BETWEEN[1]) for e in (0, 0.3)]
@@ -124,8 +124,8 @@ def _(results):
             f"simplifications; {s(located[0], 2)}, {s(located[1], 2)} rad without")
     return "yes" if max(located) > SEEN else SIMPLIFIED if max(published) > SEEN else "no", text
 
-@CLAIMS("energy rises at impact 1 for (0, 0) and (10, 50), e = 0.3", "figure 3", "rises; not for (1000, 5000)", "The row is switched on "
-        "while the tip leaves with e v: its force does the work f C'.", expected=SIMPLIFIED)
+@CLAIMS("energy rises at impact 1 for (0, 0) and (10, 50), e = 0.3", "figure 3", "rises; not for (1000, 5000)", "The row is switched on while the tip "
+        "leaves with e v: its force does the work f C'.", expected=SIMPLIFIED)
 def _(results):
     start = results[ACCURATE]["energy_total"][0]
     published = [energy_after(results[BAUMGARTE[0.3, p]], 0.45) for p in PAIRS]
@@ -153,17 +153,17 @@ def _(results):
     worst = maxima(results, NORMS, "velocity")
     return max(worst) < 1e-12, f"{listed(worst, 2)} m/s for N = 3, 5, 7, 9"  # round-off of speeds of some m/s in sums over the modes
 
-@CLAIMS("HHT's acceleration violation is large and grows with N", "figure 9", "1e4", "Accelerations and multipliers of before the impact are "
-        "kept at the onset.", expected=SIMPLIFIED)
+@CLAIMS("HHT's acceleration violation is large and grows with N", "figure 9", "1e4", "Accelerations and multipliers of before the impact are kept at "
+        "the onset.", expected=SIMPLIFIED)
 def _(results):
     carried, solved = (maxima(results, runs, "acceleration") for runs in (NORMS, NORMS_CONSISTENT))
     text = f"{listed(carried, 2)} m/s^2 for N = 3, 5, 7, 9 with accelerations carried over; {listed(solved, 2)} with them solved anew"
     large = min(carried) > 1e3 and carried[-1] > carried[0]  # the paper gives a power of ten, of the largest
     return SIMPLIFIED if large and max(solved) < 1e3 else "yes" if min(carried + solved) > 1e3 else "no", text
 
-@CLAIMS("Baumgarte diverges for N = 9, e = 0", "figures 4, 5", "diverges", "Not Baumgarte's doing: AB4 in PECE mode is unstable on the whole "
-        "imaginary axis, and the highest axial mode lies far out on it. Without stabilisation the energy grows alike; with AB3, stable "
-        "there, it does not.", expected="only for longer steps")
+@CLAIMS("Baumgarte diverges for N = 9, e = 0", "figures 4, 5", "diverges", "Not Baumgarte's doing: AB4 in PECE mode is unstable on the whole imaginary "
+        "axis, and the highest axial mode lies far out on it. Without stabilisation the energy grows alike; with AB3, stable there, it does not.",
+        expected="only for longer steps")
 def _(results):
     text = "; ".join(f"h = {h:g}: {ending(results[r])}, E = {s(results[r]['energy_total'][-1])} J" for h, r in STEPS_N9.items())
     text += "; at 0.6 s with h = 2e-6: " + ", ".join(f"{name} {results[r]['energy_total'][-1]:.4g} J" for name, r in N9_AT_2E6.items())
@@ -171,14 +171,14 @@ def _(results):
     broken = {h: not r.done or r["energy_total"][-1] > 1.03 * r["energy_total"][0] for h in STEPS_N9 for r in [results[STEPS_N9[h]]]}
     return "yes" if broken[1e-6] else "only for longer steps" if broken[2e-6] else "no", text
 
-@CLAIMS("Adams with 1e-4 s in free flight", "text", "used", "Beyond the method's stability for the highest axial mode; the scenes use "
-        "shorter steps.", expected="no")
+@CLAIMS("Adams with 1e-4 s in free flight", "text", "used", "Beyond the method's stability for the highest axial mode; the scenes use shorter steps.",
+        expected="no")
 def _(results):
     text = "; ".join(f"N = {N}: {ending(results[r])}, after {results[r].counts['steps']} steps" for N, r in FREE_1E4.items())
     return all(results[r].done for r in FREE_1E4.values()), text
 
-@CLAIMS("N matters strongly from bounce 2", "figures 4, 5", "curves separate", "The impulse goes with the tip's effective mass, about 1/N: "
-        "each N is another system.")
+@CLAIMS("N matters strongly from bounce 2", "figures 4, 5", "curves separate", "The impulse goes with the tip's effective mass, about 1/N: each N is "
+        "another system.")
 def _(results):
     before, between, after = spreads(results, MODES_HHT)
     seconds = [clusters(results[r])[1][0] for r in MODES_HHT]
@@ -199,8 +199,8 @@ def _(results):
     # 2e-3 s is a line's width on the figures' axis of 2 s.
     return "no" if before > SEEN else "yes" if max(abs(t - exact) for t in seconds) < 2e-3 else "bounce 1 only", text
 
-@CLAIMS("alpha towards -1/3 speeds HHT up 1.8 times", "table 1", "305 to 166 s, 9818 to 7233 s", "Iterations a step differ little; the "
-        "number of contact steps is chaotic.", expected="no")
+@CLAIMS("alpha towards -1/3 speeds HHT up 1.8 times", "table 1", "305 to 166 s, 9818 to 7233 s", "Iterations a step differ little; the number of "
+        "contact steps is chaotic.", expected="no")
 def _(results):
     times = {a: [results[TABLE_1[f"HHT alpha = {a}", N]] for N in MODES] for a, _ in ALPHAS}
     per_step = {a: [r.counts["newton_iterations"] / r.counts["steps"] for r in rs] for a, rs in times.items()}
@@ -210,8 +210,8 @@ def _(results):
             + "; ".join(f"{a}: {listed([r.counts['contact_steps'] / 1000 for r in rs], 3)}" for a, rs in times.items()))
     return min(ratios.values()) > 1.2, text  # half of the paper's least gain, 9818/7233
 
-@CLAIMS("HHT is dearer than Adams", "table 1", "3 to 4 times", "A step is, by its iterations; a run is not, because Adams needs its short "
-        "steps everywhere.", expected="per step only")
+@CLAIMS("HHT is dearer than Adams", "table 1", "3 to 4 times", "A step is, by its iterations; a run is not, because Adams needs its short steps "
+        "everywhere.", expected="per step only")
 def _(results):
     def both(of):
         return [of(results[TABLE_1["HHT alpha = -0.15", N]]) / of(results[TABLE_1["Baumgarte (1000, 5000)", N]]) for N in MODES]
@@ -219,8 +219,8 @@ def _(results):
     return ("yes" if min(step + whole) > 1 else "per step only" if min(step) > 1 else "no",
             f"HHT / Adams a step: {listed(step, 2)}; a run: {listed(whole, 2)} for N = 3, 5, 7, 9")
 
-@CLAIMS("HHT without stabilisation diverges", "text", "diverges", "Only if the impact is not located: position rows alone then "
-        "pull the overshoot back within one step, at a speed far above the motion's. Stale accelerations do no such harm.", expected=SIMPLIFIED)
+@CLAIMS("HHT without stabilisation diverges", "text", "diverges", "Only if the impact is not located: position rows alone then pull the overshoot back "
+        "within one step, at a speed far above the motion's. Stale accelerations do no such harm.", expected=SIMPLIFIED)
 def _(results):
     index3 = {name: results[r] for name, r in INDEX3.items()}
     text = "; ".join(f"index 3, {name}: {ending(r)}, |G v| {s(r.info['constraint_maxima']['velocity'], 2)} m/s" for name, r in index3.items())

@@ -1,9 +1,4 @@
-"""Claims of a paper, each judged by numbers that the runs computed.
-
-    CLAIMS = Claims()
-
-    @CLAIMS("high modes are damped", where="figures 6, 7", paper="W7 vanishes", why="the steps do not resolve them")
-    def judge(results): return condition, "what Trammel computed, with its numbers"
+"""Claims of a paper, each judged by numbers that the runs computed: @CLAIMS(text, where, paper, why) before the judge.
 
 `expected` is the verdict that the program is known to give, "yes" if nothing else; another one fails tools/reproduce. `why`
 explains in words: every figure is computed by the judge, whose comments give the reason of its tolerances.

@@ -49,8 +49,8 @@ TABLES = [("displacements", "Displacements, and the digits that hold", displacem
 
 CLAIMS = Claims()
 
-@CLAIMS("the drop rebounds to equal heights", "figure 5", "equal", "A flat elastic landing is unstable in tilt, but only round-off feeds "
-        "it, and the rebounds are too few for that.")
+@CLAIMS("the drop rebounds to equal heights", "figure 5", "equal", "A flat elastic landing is unstable in tilt, but only round-off feeds it, and the "
+        "rebounds are too few for that.")
 def _(results):
     r = results[DROP]
     height = r["y"] - r["y"][0] + 0.4
@@ -67,23 +67,23 @@ def _(results):
     return fine < 1e-6, (  # a millionth of the height of the drop
         f"largest difference of y to {s(results[DROPS[1e-6]].t[-1])} s: h = 1e-5 to 1e-6 {s(coarse, 2)} m, 1e-6 to 1e-7 {s(fine, 2)} m")
 
-@CLAIMS("stick and slip show at once in slip velocity and forces", "figures 7, 8", "visible", "Release drops the force from its static "
-        "to its kinetic bound.")
+@CLAIMS("stick and slip show at once in slip velocity and forces", "figures 7, 8", "visible", "Release drops the force from its static to its kinetic "
+        "bound.")
 def _(results):
     kinds = [kind for _, kind, _ in results[CLOSE].events]
     sticks, slips, turns = (kinds.count(kind) for kind in ("stick", "slip", "reversal"))
     # More than once in each of the four periods of the base, on each foot.
     return sticks + slips + turns > 20 and sticks > 5, f"{sticks + slips + turns} changes between stick and slip in 4 s, {slips} of them releases"
 
-@CLAIMS("horizontal base: a symmetric body is periodic, an unsymmetric one drifts", "figure 6", "so", "One-sided rocking unloads one foot "
-        "in each period.")
+@CLAIMS("horizontal base: a symmetric body is periodic, an unsymmetric one drifts", "figure 6", "so", "One-sided rocking unloads one foot in each "
+        "period.")
 def _(results):
     symmetric, other = (drift(results[CASE[name]], 2) for name in ("1s", "1a"))
     # The run's tolerance of 1e-9 against what a figure shows.
     return abs(symmetric) < 1e-9 and other > SMALL, f"drift a period: e = 0 {s(symmetric, 1)} m, e = -0.915 m {other:.10f} m"
 
-@CLAIMS("vertical base: a symmetric body stays, an unsymmetric one moves sideways", "figure 9", "so", "The feet strike unequally, so the "
-        "legs' reactions have a sum.")
+@CLAIMS("vertical base: a symmetric body stays, an unsymmetric one moves sideways", "figure 9", "so", "The feet strike unequally, so the legs' "
+        "reactions have a sum.")
 def _(results):
     symmetric, other = max(abs(results[CASE["2s"]]["x_xd"])), results[CASE["2a"]].at(3, "x_xd")
     # Round-off of strikes, which 3 s amplify, against a hundred times as much.

@@ -110,8 +110,8 @@ def _(results):
     return ("yes" if late < 5e-4 else "partly" if early < 5e-4 else "no",
             f"ball trajectories differ by up to {1e3 * early:.2f} mm until 0.4 s, {1e3 * late:.2f} mm until 0.59 s")
 
-@CLAIMS("it costs half of 14x14", "table 4, figure 17", "half, and less than 10x10", "Its coordinates lie between those of the two: less than "
-        "10x10 it can take by fewer steps only.", expected="no")
+@CLAIMS("it costs half of 14x14", "table 4, figure 17", "half, and less than 10x10", "Its coordinates lie between those of the two: less than 10x10 it "
+        "can take by fewer steps only.", expected="no")
 def _(results):
     coarse, refined, fine = (results[which] for which in BALL.values())
     half, less = refined.cpu <= 0.5 * fine.cpu, refined.cpu < coarse.cpu
@@ -119,7 +119,7 @@ def _(results):
             f"{s(refined.cpu / fine.cpu)} of 14x14, {s(refined.cpu / coarse.cpu)} of 10x10; "
             f"{', '.join(f'{coordinates(r)}' for r in (coarse, refined, fine))} coordinates")
 
-@CLAIMS("a refinement keeps the surface's motion", "section 3", "so", "Old functions are combinations of new ones.")
+@CLAIMS("a refinement keeps the surface's motion", "text", "so", "Old functions are combinations of new ones.")
 def _(results):
     detail = next((d for _, kind, d in results[BALL["refined"]].events if kind == "refine"), None)
     if not detail:

@@ -17,12 +17,10 @@ def trammel(*words):
     if ended.returncode not in (0, 1):
         raise SystemExit(f"tools/reproduce: trammel {' '.join(map(str, words))}\n{ended.stderr}")
 
-class Case(NamedTuple):
-    """The one case of a study that has these values. may_fail: a claim says that this run breaks down."""
-
+class Case(NamedTuple):  # the one of a study that has these values
     study: str
     values: tuple
-    may_fail: bool = False
+    may_fail: bool  # a claim says that this run breaks down
 
 def case(study, may_fail=False, **values):
     """case("table_1", scene="table_1_hht", parameters__N=5): dots of a path are written as two underscores."""
@@ -88,8 +86,8 @@ class Results:
         return [f"{study}, case {row['case']}: {row['reason']}" for study, rows in self.rows.items() for row in rows
                 if row["status"] != "done" and (study, row["case"]) not in expected]
 
-def significant(x, digits=3):
-    return f"{x:.{digits}g}"
-
 def listed(numbers, digits=3):
-    return ", ".join(significant(x, digits) for x in numbers)
+    return ", ".join(f"{x:.{digits}g}" for x in numbers)
+
+def significant(x, digits=3):
+    return listed([x], digits)

@@ -79,14 +79,14 @@ TABLES = [("methods", "Corrections on the oscillating mast, 100000 steps", metho
 CLAIMS = Claims()
 BOTH, ALL = "coordinates, velocities", "coordinates, velocities, energy"
 
-@CLAIMS("Without correction violations grow without bound", "its motive", "so", "constant error a step in the rates of the rows: G v grows "
-        "with t, g and the energy with its square")
+@CLAIMS("Without correction violations grow without bound", "its motive", "so", "constant error a step in the rates of the rows: G v grows with t, g "
+        "and the energy with its square")
 def _(results):
     of = Of(results, "no correction")
     return of.g_grows > 1.5, f"g to {s(of.g)} m, as t^{of.g_grows:.2f}"  # nearer to 2 than to 1
 
-@CLAIMS("Correcting coordinates and velocities removes violations", "eq. 15 to 18", "so", "Newton's method on the rows, a projection of "
-        "the velocities at the corrected coordinates")
+@CLAIMS("Correcting coordinates and velocities removes violations", "eq. 15 to 18", "so", "Newton's method on the rows, a projection of the velocities "
+        "at the corrected coordinates")
 def _(results):
     of = Of(results, BOTH)
     return max(of.g, of.g_dot) < ROUND_OFF, f"g {s(of.g)} m, G v {s(of.g_dot)} m/s"
@@ -101,8 +101,8 @@ def _(results):
     of = Of(results, BOTH)
     return of.energy > 1e6 * ROUND_OFF * ENERGY and abs(of.energy_grows - 1) < 0.3, f"{s(of.energy)} J, as t^{of.energy_grows:.2f}"
 
-@CLAIMS("The correction of energy keeps it to round-off", "eq. 8", "so", "velocities scaled within the null space of the rows; it waits at "
-        "turning points")
+@CLAIMS("The correction of energy keeps it to round-off", "eq. 8", "so", "velocities scaled within the null space of the rows; it waits at turning "
+        "points")
 def _(results):
     of = Of(results, ALL)
     return of.energy < 10 * ROUND_OFF * ENERGY and of.g_dot < ROUND_OFF, f"{s(of.energy)} J, G v {s(of.g_dot)} m/s"
@@ -117,8 +117,8 @@ def _(results):
     one, other = Of(results, BOTH).phase, Of(results, ALL).phase
     return abs(other) < 0.2 * abs(one), f"{s(other)} s against {s(one)} s"  # clearly: to less than a fifth
 
-@CLAIMS("Baumgarte's stabilisation bounds violations but does not remove them", "its motive", "so", "they settle where damping balances the "
-        "error of a step")
+@CLAIMS("Baumgarte's stabilisation bounds violations but does not remove them", "its motive", "so", "they settle where damping balances the error of a "
+        "step")
 def _(results):
     soft, hard = Of(results, "Baumgarte, 1/s"), Of(results, "Baumgarte, 20/s")
     return abs(soft.g_grows) < 0.3 and hard.g > 100 * ROUND_OFF, f"g {s(soft.g)}, as t^{soft.g_grows:.2f}, and {s(hard.g)} m"

@@ -121,7 +121,13 @@ Exit run_scene(const Arguments& arguments) {
   if (!json && !quiet) print_line(report.summary);
   if (report.status == simulate::Status::failed) {
     fmt::print(stderr, "trammel: {}\nResults up to there are in {}\n", report.reason, options.out.string());
-    if (report.no_motion && !quiet) find_remedy(arguments, registry, report, options.out);
+    if (report.no_motion && !quiet) {
+      try {
+        find_remedy(arguments, registry, report, options.out);
+      } catch (const std::exception& e) {  // no process can be made, or no file be written
+        fmt::print(stderr, "The search for a remedy failed: {}\n", e.what());
+      }
+    }
   }
   if (json) print_line(report.result_json);
   if (arguments.has(kVerify.name) && report.status == simulate::Status::done)

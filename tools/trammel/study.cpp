@@ -60,7 +60,8 @@ Exit told(const Arguments& arguments, const StudyReport& report, const std::file
   if (report.status == StudyReport::Status::interrupted)
     fmt::print(stderr, "trammel: interrupted; the same command runs the cases that are missing\n");
   if (report.status == StudyReport::Status::incomplete)
-    fmt::print(stderr, "trammel: cases are missing; the same command runs them\n");
+    fmt::print(stderr, "trammel: cases are missing; {}\n",
+               arguments.operand() == "merge" ? "run the shards that have them" : "the same command runs them");
   if (report.status == StudyReport::Status::done && folder)
     print_next(arguments, {"trammel", "report", folder->native()});
   return exit_of(report.status);
