@@ -73,6 +73,17 @@ class Cases {
   std::vector<SceneSource> sources_;
 };
 
+// Folders of cases are replaced as a whole: somebody's own folder of that name, or what a link leads to, is not touched.
+void refuse_cases_of_others(const fs::path& out) {
+  const fs::file_status cases = fs::symlink_status(out / cases_folder);
+  if (!fs::exists(cases) || (simulate::shows_results(out) && !fs::is_symlink(cases))) return;
+  throw simulate::FolderRefused(fmt::format(
+      "cannot write results to {0}: it has a folder {1}/, where a study keeps and replaces its cases' results, which "
+      "{2}; --out names another folder",
+      out.string(), cases_folder,
+      fs::is_symlink(cases) ? "is a symbolic link" : "nothing there shows to be of an older study"));
+}
+
 fs::path folder_of(const fs::path& out, std::size_t i) {
   return out / cases_folder / std::to_string(i);
 }
@@ -96,6 +107,7 @@ class StudyRun {
         options_(options),
         cases_(study, registry),
         content_{study, options.out, fs::absolute(file).string(), 0, options.shard, {}, {}} {
+    if (study.keep()) refuse_cases_of_others(options.out);
     content_.scene_hash = cases_.scene_hash();
     cases_.load_components();
     content_.made = simulate::provenance(cases_.first_scene(), options.command, registry.identities());
@@ -158,17 +170,28 @@ class StudyRun {
 };
 
 void copy_case(const fs::path& from, const fs::path& to) {
-  if (!fs::exists(from)) return;  // it was refused
+  std::error_code none;
+  if (!fs::exists(from, none) || fs::equivalent(from, to, none)) return;  // it was refused; it is there
   fs::create_directories(to);
   fs::copy(from, to, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
 }
 
+bool is_hash(const std::string& text) {
+  return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == text.npos;
+}
+
 json read_study_json(const fs::path& folder) {
   std::ifstream in(folder / study_json);
-  const json all = json::parse(in, nullptr, false);
+  json all = json::parse(in, nullptr, false);
   if (!all.is_object() || !all.contains("trammel_study"))
     throw simulate::FolderRefused(
         fmt::format("{} holds no results of 'trammel study': it has no study.json", folder.string()));
+  const auto text = [&all](const char* key) { return all.contains(key) && all[key].is_string(); };
+  if (!text("definition") || !text("file") || !text("scene_hash") || !is_hash(all["scene_hash"]))
+    throw simulate::FolderRefused(
+        fmt::format("{} is damaged: it lacks the study's definition, file or scene_hash; the command that made it "
+                    "writes it again",
+                    (folder / study_json).string()));
   return all;
 }
 
@@ -191,7 +214,8 @@ StudyReport merge_studies(const std::vector<fs::path>& folders, const StudyOptio
   }
   const Study study = Study::restore(definition, first.at("file"));
   StudyContent content{study, options.out, first.at("file"), std::stoull(hash, nullptr, 16), {}, {}, {}};
-  for (const char* key : {"made", "versions", "plugins"}) content.made[key] = first.at(key);
+  if (study.keep()) refuse_cases_of_others(options.out);
+  for (const char* key : {"made", "versions", "plugins"}) content.made[key] = first.value(key, json());
   for (const fs::path& folder : folders)
     for (CaseRecord& r : read_journal(folder)) {
       if (r.index >= study.size() || r.key != study.key(r.index, content.scene_hash)) continue;

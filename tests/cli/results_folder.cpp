@@ -123,6 +123,22 @@ TEST_F(ResultsFolder, OfAnotherCommandIsRefused) {
   EXPECT_EQ(names(), before);
 }
 
+// `modes` keeps the run to its state in a folder of its own.
+TEST_F(ResultsFolder, OfModesDoesNotFollowALinkInPlaceOfItsRun) {
+  ASSERT_EQ(run().exit_code, 0);
+  const auto before = names();
+  fs::create_directory(folder.path() / "m");
+  fs::create_directory_symlink("../r", folder.path() / "m/run");
+  for (const std::vector<std::string>& at : {std::vector<std::string>{}, {"--at", "0.1"}}) {
+    std::vector<std::string> words = {"modes", cli::bounce, "--out", "m"};
+    words.insert(words.end(), at.begin(), at.end());
+    const auto result = trammel(words, {.folder = folder.path()});
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("it is a symbolic link"));
+    EXPECT_EQ(names(), before);
+  }
+}
+
 TEST_F(ResultsFolder, IsNotMadeForAnInvalidScene) {
   cli::write_file(folder.path() / "bad.json", R"({"trammel": 1, "space": "planar", "bodies": {}})");
   for (const char* command : {"run", "static", "modes"}) {

@@ -183,6 +183,51 @@ TEST(Study, LeavesTheKeptResultsOfAnotherShardInItsFolder) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "a/cases" / number / "result.json")) << number;
 }
 
+// A study that keeps its cases replaces cases/ and what is in it.
+TEST(Study, LeavesSomebodysOwnFolderOfCases) {
+  const KeptFolder folder;
+  std::filesystem::create_directories(folder.path() / "a/cases/1");
+  cli::write_file(folder.path() / "a/cases/1/notes.txt", "mine");
+  for (const char* shard : {"1/2", "2/2"})
+    ASSERT_EQ(folder.run({"study.json", "--out", std::string("s") + shard[0], "--shard", shard}).exit_code, 0);
+  for (const auto& words :
+       {std::vector<std::string>{"study.json", "--out", "a"}, {"merge", "s1", "s2", "--out", "a"}}) {
+    const auto result = folder.run(words);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("it has a folder cases/"));
+    EXPECT_EQ(folder.file("a/cases/1/notes.txt"), "mine");
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "a/study.json"));
+  }
+}
+
+TEST(Study, MergesIntoTheFolderOfOneOfItsShards) {
+  const KeptFolder folder;
+  for (const char* shard : {"1/2", "2/2"})
+    ASSERT_EQ(folder.run({"study.json", "--out", std::string("s") + shard[0], "--shard", shard}).exit_code, 0);
+  const auto result = folder.run({"merge", "s1", "s2", "--out", "s1"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json::parse(folder.file("s1/study.json"))["missing"], json::array());
+  for (const char* number : {"0", "1", "2", "3"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "s1/cases" / number / "result.json")) << number;
+}
+
+TEST(Study, NamesADamagedOneThatItIsToMerge) {
+  const Folder folder;
+  ASSERT_EQ(folder.run({"study.json", "--out", "s1", "--shard", "1/2"}).exit_code, 0);
+  const json sound = json::parse(folder.file("s1/study.json"));
+  for (const char* key : {"definition", "file", "scene_hash"})
+    for (const json& value : {json(), json(7), json("zz")}) {
+      if (std::string(key) != "scene_hash" && value == "zz") continue;
+      json damaged = sound;
+      damaged[key] = value;
+      cli::write_file(folder.path() / "s1/study.json", damaged.dump());
+      const auto result = folder.run({"merge", "s1", "--out", "m"});
+      EXPECT_EQ(result.exit_code, 2) << key << value;
+      EXPECT_THAT(result.err, HasSubstr("s1/study.json is damaged")) << key << value;
+      EXPECT_FALSE(std::filesystem::exists(folder.path() / "m")) << key << value;
+    }
+}
+
 TEST(Study, RunsACaseAgainWhoseKeptResultsAreGone) {
   const KeptFolder folder;
   ASSERT_EQ(folder.run({"study.json", "--out", "a"}).exit_code, 0);

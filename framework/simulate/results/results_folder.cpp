@@ -55,10 +55,14 @@ std::vector<fs::path> make(const fs::path& folder) {
   return made;
 }
 
-int open_locked(const fs::path& folder) {
+void refuse_link(const fs::path& folder) {
   std::error_code error;
   if (fs::is_symlink(fs::symlink_status(folder, error)))
     refuse(folder, "it is a symbolic link; name the folder that it leads to");
+}
+
+int open_locked(const fs::path& folder) {
+  refuse_link(folder);
   const int number = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (number < 0) refuse(folder, std::strerror(errno));
   const auto close_and_refuse = [&](const char* why) {
@@ -94,17 +98,6 @@ bool is_checkpoint(const fs::path& file) {
   return std::string(std::istreambuf_iterator<char>(in), {}).find("trammel_checkpoint") != std::string::npos;
 }
 
-// Each command begins with one of these, so that a folder of one that was killed has it, too.
-bool shows_results(const fs::path& folder) {
-  for (const auto& [name, key] : {std::pair("scene.resolved.json", "trammel"),
-                                  std::pair("result.json", "trammel_result"), std::pair("modes.json", "trammel_result"),
-                                  std::pair("study.json", "trammel_study"), std::pair("trade.json", "trammel_trade")}) {
-    const nlohmann::json content = json_of(folder / name);
-    if (content.is_object() && content.contains(key)) return true;
-  }
-  return is_checkpoint(folder / newest_checkpoint) || is_checkpoint(folder / checkpoint_before);
-}
-
 std::optional<Analysis> analysis_in(const fs::path& folder) {
   std::error_code error;
   for (const auto& [name, analysis] :
@@ -118,6 +111,17 @@ std::optional<Analysis> analysis_in(const fs::path& folder) {
 }
 
 }  // namespace
+
+// Each command begins with one of these, so that a folder of one that was killed has it, too.
+bool shows_results(const fs::path& folder) {
+  for (const auto& [name, key] : {std::pair("scene.resolved.json", "trammel"),
+                                  std::pair("result.json", "trammel_result"), std::pair("modes.json", "trammel_result"),
+                                  std::pair("study.json", "trammel_study"), std::pair("trade.json", "trammel_trade")}) {
+    const nlohmann::json content = json_of(folder / name);
+    if (content.is_object() && content.contains(key)) return true;
+  }
+  return is_checkpoint(folder / newest_checkpoint) || is_checkpoint(folder / checkpoint_before);
+}
 
 ResultsFolder::Made::~Made() {
   for (auto at = folders.rbegin(); at != folders.rend(); ++at) ::rmdir(at->c_str());  // if empty
@@ -134,6 +138,7 @@ ResultsFolder::ResultsFolder(const fs::path& folder, Analysis analysis)
 ResultsFolder::~ResultsFolder() = default;
 
 void refuse_files_of_others(const fs::path& folder, Analysis analysis) {
+  refuse_link(without_slash(folder));
   std::vector<std::string> lost;
   for (const char* name : written_by(analysis))
     if (std::error_code error; fs::exists(fs::symlink_status(folder / name, error))) lost.push_back(name);

@@ -43,9 +43,12 @@ class ResultsFolder {
   Descriptor lock_;
 };
 
-// Throws FolderRefused if the folder holds files that this command removes or overwrites, and nothing that shows that
+// Throws FolderRefused if the folder is a symbolic link or holds files that this command removes or overwrites, and nothing that shows that
 // they are of an older run.
 void refuse_files_of_others(const std::filesystem::path& folder, Analysis analysis);
+
+// Whether something in the folder shows that a command of this program wrote there.
+bool shows_results(const std::filesystem::path& folder);
 
 // Removes every file that a command writes, also half-written ones; what else is there stays. Throws OutputError.
 void remove_results(const std::filesystem::path& folder);

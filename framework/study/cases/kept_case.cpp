@@ -63,7 +63,7 @@ void run(CaseResult& result, const scene::Scene& scene, plugin::Registry& regist
   result.t_end = all.at("t_end"), result.cpu = all.at("cpu_time_s");
   result.warnings = all.at("warnings").get<std::vector<std::string>>();
   if (!statics) result.integrator = all.at("integrator"), result.energy_drift = all.at("energy_drift");
-  result.series = series_of(folder);
+  if (result.done()) result.series = series_of(folder);  // of one that failed, on a full disk, there may be none
 }
 
 }  // namespace
