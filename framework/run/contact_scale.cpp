@@ -20,6 +20,14 @@ void take_marker(const Motion& marker, Scale& scale) {
   scale.motion = std::max(scale.motion, velocity(marker).cwiseAbs().maxCoeff());
 }
 
+// Of the others from the first [m].
+double extent(model::AssembledSystem& system, const std::vector<model::MarkerRef>& markers) {
+  double largest = 0;
+  for (const model::MarkerRef marker : markers)
+    largest = std::max(largest, (system.motion(marker).x - system.motion(markers.front()).x).norm());
+  return largest;
+}
+
 }  // namespace
 
 void Scale::take_length(double length) {
@@ -108,6 +116,7 @@ void ContactScale::take_contact(model::AssembledSystem& system, int contact) {
   if (!entry.joint) own.speed = std::max(own.speed, std::abs(system.gap_rate(contact)));
   if (entry.friction) own.speed = std::max(own.speed, system.slip(contact).norm());
   if (!entry.joint && !entry.limit) own.take_length(std::abs(system.gap(contact)));
+  if (entry.limit) own.take_length(extent(system, entry.limit->markers));  // its gap may be an angle
   own.take_fall();
   scene_.raise_to(own);
 }

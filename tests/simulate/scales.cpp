@@ -325,5 +325,27 @@ TEST(Scales, AnEquilibriumThatNothingDeterminesNamesTheFreeDirection) {
   EXPECT_TRUE(run_file("free_standing/1s.json", {{"simulate.until", "0.1"}}).done());
 }
 
+// A rope that begins slack, with its ends in one point, in any unit and far from the origin: it lets the ball fall by its
+// length L, and throws it back with e v.
+TEST(ARope, ReboundsWhereverItIs) {
+  for (const double length : {1e-3, 1.0, 1e3, 1e6})
+    for (const double place : {0.0, 1e4, 1e8}) {
+      if (length * 1e9 < place) continue;  // coordinates there do not resolve its motion
+      const double falls = std::sqrt(2 * length / 9.81), end = 1.5 * falls, rises = end - falls;
+      const Finished run = run_text(fmt::format(
+          R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+  "bodies": {{"ball": {{"type": "point_mass", "mass": 1, "position": [{0:.17g}, {0:.17g}]}}}},
+  "contacts": {{"rope": {{"type": "constraint_method", "restitution": 0.5, "between": [{{"point": [{0:.17g}, {0:.17g}]}}, "ball.point"],
+                        "from": "below", "reaches": {{"type": "distance", "length": {1:.17g}}}}}}},
+  "simulate": {{"until": {2:.17g}}}, "record": {{"every": {3:.17g}, "observe": {{"y": "ball.point.y"}}}}}})",
+          place, length, end, end / 20));
+      ASSERT_TRUE(run.done()) << run.report.reason;
+      ASSERT_EQ(run.events.size(), 1u) << length << " m at " << place << " m";
+      EXPECT_NEAR(run.events[0].t, falls, falls * (1e-8 + 100 * eps * place / length));
+      const double y = -length + 0.5 * std::sqrt(2 * 9.81 * length) * rises - 9.81 / 2 * rises * rises;
+      EXPECT_NEAR(run.end("y") - place, y, 1e-8 * length + 100 * eps * place) << length << " m at " << place << " m";
+    }
+}
+
 }  // namespace
 }  // namespace trammel::test

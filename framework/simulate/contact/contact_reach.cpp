@@ -35,11 +35,12 @@ void check_reach(model::AssembledSystem& system, const State& start, const scene
     const double gap = system.gap(i);
     const Scale own = scale.of(i);
     bool reaches = moves(system, own, i);
-    for (double seed = 1; seed < 3 && !reaches; ++seed) {  // a dead centre, perhaps
-      system.retract(start.q, model::pseudo_random(start.v.size(), 0.1, seed), elsewhere);
-      system.move_to(start.t, elsewhere, still);
-      reaches = moves(system, own, i);
-    }
+    for (double seed = 1; seed < 3 && !reaches; ++seed)  // a dead centre, perhaps
+      for (const double far : {0.1, 0.1 * std::max(1.0, std::abs(gap))}) {
+        system.retract(start.q, model::pseudo_random(start.v.size(), far, seed), elsewhere);
+        system.move_to(start.t, elsewhere, still);
+        reaches = reaches || moves(system, own, i);
+      }
     const model::ContactEntry& contact = system.model().contacts[std::size_t(i)];
     const scene::Value* at = root.at_path("contacts." + contact.name);
     system.move_to(start.t, start.q, still);
