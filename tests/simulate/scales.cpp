@@ -347,5 +347,24 @@ TEST(ARope, ReboundsWhereverItIs) {
     }
 }
 
+// A body that rests is accelerated by the round-off of the forces that balance there, which is no motion to resolve.
+TEST(ABallThatCameToRest, NeedsNoStepsOfExponentialCollocation) {
+  for (const double height : {1e-3, 1.0, 1e3}) {
+    const double settled = std::sqrt(2 * height / 9.81) * 1.7 / 0.3;
+    const Finished run = run_text(fmt::format(
+        R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+  "bodies": {{"ball": {{"type": "point_mass", "mass": 2, "position": [0, {:.17g}]}}}},
+  "contacts": {{"floor": {{"type": "constraint_method", "restitution": 0.7,
+                         "between": ["ball.point", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}}}},
+  "integrator": {{"type": "exponential_collocation", "step": {{"tolerance": 1e-9}}}},
+  "simulate": {{"until": {:.17g}}}, "record": {{"every": {:.17g}, "observe": {{"y": "ball.point.y"}}}}}})",
+        height, 5 * settled, settled / 10));
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    const double stabilised = 20;  // steps a second that stabilised rows ask for
+    EXPECT_LT(run.result["counts"]["steps"].get<double>(), 1000 + stabilised * 5 * settled) << height;
+    EXPECT_NEAR(run.end("y"), 0, 1e-12 * height);
+  }
+}
+
 }  // namespace
 }  // namespace trammel::test

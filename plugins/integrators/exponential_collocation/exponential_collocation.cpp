@@ -56,6 +56,8 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     field_.forget();
     const auto [nq, nv, nc] = s.sizes();
     if (nv != modes_.omega().size() || nc != rows_) linearise(s, now);
+    s.move_to(now.t, now.q, now.v);
+    round_off_of_forces_ = nv > 0 ? eps * (modes_.shapes().transpose() * s.f()).lpNorm<Eigen::Infinity>() : 0;
   }
 
   Outcome step(System& s, const State& now, double h, State& next) override {
@@ -119,6 +121,7 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     archive("rows", rows_);
     archive("steps", steps_);
     archive("linearise", linearise_);
+    archive("round_off_of_forces", round_off_of_forces_);
     convergence_.archive(archive);
     field_.archive(archive);
     archive("past_h", past_h_);
@@ -194,14 +197,14 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     next.lambda.resize(0);
   }
 
-  // Round-off of nu, because elastic forces are differences of terms as large as omega^2 q; and its effect on q in a
-  // step.
+  // Round-off of nu, because elastic forces are differences of terms as large as omega^2 q, and applied forces are
+  // balanced by those of rows where a body rests; and its effect on q in a step.
   std::pair<double, double> round_off(const State& now, double h) {
-    constexpr double eps = std::numeric_limits<double>::epsilon();
     if (now.q.size() != now.v.size())
-      return {0, eps * modes_.amplitudes().lpNorm<Eigen::Infinity>() * now.q.lpNorm<Eigen::Infinity>() / (h * h)};
+      return {round_off_of_forces_,
+              eps * modes_.amplitudes().lpNorm<Eigen::Infinity>() * now.q.lpNorm<Eigen::Infinity>() / (h * h)};
     rest_.noalias() = modes_.amplitudes() * now.q;
-    return {eps * rest_.cwiseProduct(modes_.omega_2()).lpNorm<Eigen::Infinity>(),
+    return {std::max(eps * rest_.cwiseProduct(modes_.omega_2()).lpNorm<Eigen::Infinity>(), round_off_of_forces_),
             eps * rest_.lpNorm<Eigen::Infinity>() / (h * h)};
   }
 
@@ -352,12 +355,13 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   }
 
   static constexpr int most_coordinates = 1000;
-  static constexpr double none = 0;
+  static constexpr double none = 0, eps = std::numeric_limits<double>::epsilon();
   RungeKutta field_{{1, &none, &none, &none}};  // only its slopes are used
   SmallOscillations modes_;
-  int rows_ = 0;            // at the last linearisation
-  int steps_ = 0;           // since then
-  bool linearise_ = false;  // at the next step
+  int rows_ = 0;                    // at the last linearisation
+  int steps_ = 0;                   // since then
+  bool linearise_ = false;          // at the next step
+  double round_off_of_forces_ = 0;  // of nu, at the last restart
   SweepConvergence convergence_;
   // At the points of the last accepted step of size past_h_; 0: none.
   double past_h_ = 0;
