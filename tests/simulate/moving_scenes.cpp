@@ -97,6 +97,34 @@ TEST(AMovingScene, HasTheSameStops) {
     }
 }
 
+// Moved by 1e8 m, where coordinates are rounded to 1.5e-8 m: it asks for no shorter steps than here, and ends as near
+// as some hundred roundings allow.
+TEST(ASceneFarAway, TakesStepsThatItsPlaceResolves) {
+  const auto pendulum = [](double place) {
+    return run_text(fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+  "bodies": {{"bob": {{"type": "point_mass", "mass": 1, "position": [{0:.17g}, {1:.17g}]}}}},
+  "joints": {{"rod": {{"type": "distance", "between": [{{"point": [{2:.17g}, {2:.17g}]}}, "bob.point"], "length": 1}}}},
+  "simulate": {{"until": 2}}, "record": {{"every": 0.1, "observe": {{"x": "bob.point.x"}}}}}})",
+                                place + 0.6, place - 0.8, place));
+  };
+  const auto block = [](double place) {
+    return run_text(fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [3, -9.81],
+  "bodies": {{"p": {{"type": "point_mass", "mass": 3, "position": [{0:.17g}, {0:.17g}]}}}},
+  "contacts": {{"floor": {{"type": "constraint_method", "friction": {{"type": "coulomb", "static": 0.1, "kinetic": 0.1}},
+      "between": ["p.point", {{"plane": {{"point": [{0:.17g}, {0:.17g}], "normal": [-0.28, 0.96]}}}}]}}}},
+  "simulate": {{"until": 2}}, "record": {{"every": 0.1, "observe": {{"x": "p.point.x"}}}}}})",
+                                place));
+  };
+  for (const double place : {1e6, 1e8}) {
+    const double off = 1e-8 + 300 * eps * place;
+    for (const auto& [here, there] : {std::pair(pendulum(0), pendulum(place)), std::pair(block(0), block(place))}) {
+      ASSERT_TRUE(here.done() && there.done()) << there.report.reason;
+      EXPECT_NEAR(there.end("x") - place, here.end("x"), off) << place;
+      EXPECT_LT(there.result["counts"]["steps"].get<double>(), 20 * here.result["counts"]["steps"].get<double>() + 200);
+    }
+  }
+}
+
 // A block that slides under compliant contact, decided at every step, in any unit of length.
 std::string by_every_step(double unit, const std::string& more) {
   return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, {:.17g}],
