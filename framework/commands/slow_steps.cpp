@@ -13,13 +13,20 @@ namespace {
 
 constexpr double many = 50;            // steps between two records
 constexpr double long_wait = 20;       // [s] of CPU time to the end
+constexpr double stabilised_at = 10;   // [1/s] the rows of an explicit method, unless the scene says otherwise
 constexpr double accounts_for = 0.01;  // radians of the fastest motion in a step: fewer are short for another reason
 
-std::string cause(const FastestMotion& fastest, const Setup& setup, const Simulator& simulator, double h) {
+std::string cause(const FastestMotion& fastest, const Setup& setup, Simulator& simulator, double h) {
   const bool implicit = setup.integrator->traits().implicit, on_rows = setup.integrator->traits().holds_position;
   if (const MassRatio ratio = mass_ratio(*setup.model, simulator.state()); ratio.is_large() && !on_rows)
     return fmt::format("{}; \"rows\": \"projected\" in the integrator takes long steps there",
                        description(ratio, *setup.model));
+  const bool stabilises = !implicit && !on_rows && simulator.system().sizes().nc > 0;
+  if (stabilises && stabilised_at * h > accounts_for && stabilised_at > fastest.rate())
+    return fmt::format(
+        "rows that are stabilised at {} 1/s bound the steps of an explicit method; \"rows\": \"projected\" in the "
+        "integrator takes longer ones",
+        stabilised_at);
   const std::string what = description(fastest, *setup.model);
   if (fastest.rate() * h < accounts_for)
     return fmt::format(
