@@ -13,6 +13,7 @@
 #include "plugin/breadcrumb.hpp"
 #include "plugin/fingerprint.hpp"
 #include "plugin/library_section.hpp"
+#include "plugin/process_place.hpp"
 #include "plugin/process_settings.hpp"
 #include "plugin/rehearsal.hpp"
 #include "plugin/seal.hpp"
@@ -53,6 +54,7 @@ const Declarations& open(const std::string& file) {
   const Origin origin{file, "", ""};
   const Breadcrumb goes_on(origin, "loading it");  // may still end the process here, in spite of the rehearsal
   const ProcessSettings settings;
+  const ProcessPlace place;
   dll::shared_library library;
   boost::dll::fs::error_code failed;
   library.load(file, dll::load_mode::rtld_now | dll::load_mode::rtld_local, failed);
@@ -212,8 +214,9 @@ const Entry* Registry::loaded(Kind kind, std::string_view name) const {
 // NAME.so of every folder, not only of the first: two libraries with the same name are an error.
 void Registry::look_for(std::string_view name) {
   if (!is_name(name) || !names_looked_for_.emplace(name).second) return;
+  std::error_code error;  // a name may be longer than a file's
   for (const fs::path& folder : folders_)
-    if (const fs::path file = folder / (std::string(name) + extension); fs::exists(file)) load(file);
+    if (const fs::path file = folder / (std::string(name) + extension); fs::exists(file, error)) load(file);
 }
 
 void Registry::load_folders() {
