@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "plugin/breadcrumb.hpp"
+#include "plugin/guard.hpp"
 #include "simulate/simulator.hpp"
 
 namespace trammel::simulate {
@@ -80,6 +82,16 @@ void archive_shared(Archive& a, model::Modes& modes, int rows) {
   }
 }
 
+// A component's own part. One that throws as it is written is named; what cannot be read is told of the checkpoint.
+template <class Component>
+void archive_component(JsonArchive& a, const std::string& name, const plugin::Origin& origin, double t,
+                       Component& component) {
+  const plugin::Breadcrumb goes_on(origin, "archive");
+  JsonArchive own = a.nested(name);
+  if (a.reading()) return component.archive(own);
+  plugin::guard(origin, "archive", t, [&] { component.archive(own); });
+}
+
 }  // namespace
 
 // Bodies first: those that are refined decide the sizes of all that follows.
@@ -91,8 +103,7 @@ void Simulator::archive(JsonArchive& a) {
   if (a.reading()) integrator.require_lengths(system_.sizes());
   integrator_.archive(integrator);
   for (std::size_t i = 0; i < corrections_.size(); ++i) {
-    JsonArchive correction = a.nested(fmt::format("correction_{}", i));
-    corrections_[i].correction->archive(correction);
+    archive_component(a, fmt::format("correction_{}", i), *corrections_[i].origin, now_.t, *corrections_[i].correction);
   }
 }
 
@@ -100,8 +111,7 @@ void Simulator::archive_bodies(JsonArchive& a) {
   if (!refinement_.possible()) return;
   for (const model::BodyEntry& entry : system_.model().bodies) {
     if (!entry.refinable) continue;
-    JsonArchive body = a.nested("body_" + entry.name);
-    entry.refinable->archive(body);
+    archive_component(a, "body_" + entry.name, entry.origin, now_.t, *entry.refinable);
   }
   if (a.reading()) refinement_.lay_out();
 }

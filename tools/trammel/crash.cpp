@@ -1,5 +1,6 @@
 #include "crash.hpp"
 
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <array>
@@ -37,17 +38,25 @@ const char* what_happened(int signal) {
   }
 }
 
+// Only plugins start threads, so a call that is in progress is not the cause.
+bool on_another_thread() {
+  return ::syscall(SYS_gettid) != ::getpid();
+}
+
 // Reports which component ended the process and how, and ends it.
 [[noreturn]] void tell_and_end(std::string_view how) {
   const simulate::CrashWitness::Culprit who = witness().culprit();
+  const bool by_thread = on_another_thread();
   Line line;
-  if (who.origin)
+  if (by_thread)
+    line.add("a thread that a plugin started ended the program");
+  else if (who.origin)
     line.add_culprit(who);
   else
     line.add("the program ended where no plugin is known to be called");
   line.add_time(who);
   line.add(": {}", how);
-  end_process(who.origin ? Exit::bad_plugin : Exit::failed, "failed", line);
+  end_process(who.origin || by_thread ? Exit::bad_plugin : Exit::failed, "failed", line);
 }
 
 void on_crash(int signal) {

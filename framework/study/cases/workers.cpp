@@ -168,10 +168,12 @@ class Crew {
 
   void ended(std::size_t i) {
     const int status = close(workers_[i]);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
     const long long at = board_.current(i).exchange(none);
+    // A plugin may end its process with any code, also with that of success.
     if (at != none && std::find(answered_.begin(), answered_.end(), std::uint64_t(at)) == answered_.end())
       plan_.lost({tasks_[std::size_t(at)], how(status), from_outside(status)});
+    else if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+      return;
     if (board_.next() < (long long)(tasks_.size())) start(i);
   }
 
@@ -180,7 +182,8 @@ class Crew {
   }
   static std::string how(int status) {
     return WIFSIGNALED(status) ? fmt::format("its process was ended by signal {}", WTERMSIG(status))
-                               : fmt::format("its process ended with exit code {}", WEXITSTATUS(status));
+                               : fmt::format("its process ended with exit code {}, as if a plugin had called exit",
+                                             WEXITSTATUS(status));
   }
 
   // Whole answers that are in the pipes already.

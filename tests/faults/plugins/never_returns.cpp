@@ -1,10 +1,12 @@
-// The correction works on for ever, or crashes, or throws, once some steps are done.
+// The correction works on for ever, or crashes, or throws, once some steps are done; or a thread of its own crashes; or
+// it throws where it is archived.
 #include <unistd.h>
 
 #include <atomic>
 #include <csignal>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "idle.hpp"
 
@@ -16,10 +18,17 @@ struct NeverReturns : Idle {
     if (next.t < from) return trammel::Outcome::accept();
     if (how == "crash") std::raise(SIGSEGV);
     if (how == "throw") throw std::runtime_error("no way back");
+    if (how == "thread") std::thread([] { std::raise(SIGSEGV); }).join();
+    if (how == "exit") ::_exit(0);
+    if (how == "archive") return trammel::Outcome::accept();
     for (;;) {
       if (how == "wait") ::usleep(1000);
       spins_ = spins_ + 1;
     }
+  }
+
+  void archive(trammel::Archive&) override {
+    if (how == "archive") throw std::runtime_error("nothing to keep");
   }
 
  private:
@@ -29,4 +38,4 @@ struct NeverReturns : Idle {
 
 TRAMMEL_PLUGIN(trammel::correction<NeverReturns>("never_returns", "does nothing for ever")
                    .parameter("from", &NeverReturns::from, {.unit = "s"})
-                   .parameter("how", &NeverReturns::how, {.doc = "wait, spin, crash, throw"}))
+                   .parameter("how", &NeverReturns::how, {.doc = "wait, spin, crash, throw, thread, exit, archive"}))
