@@ -57,6 +57,25 @@ TEST(Commands, NameTheNextInTheirLastLine) {
   }
 }
 
+// Libraries are looked for by the names of components.
+TEST(Commands, AnswerAComponentWhoseNameIsTooLongForAFile) {
+  const std::string name(1000, 'x');
+  const auto described = trammel({"describe", name});
+  EXPECT_EQ(described.exit_code, 2) << described.err;
+  EXPECT_THAT(described.err, HasSubstr("no component \"xxx"));
+  const auto validated = trammel({"validate", kPendulum, "--set", "integrator.type=" + name});
+  EXPECT_EQ(validated.exit_code, 2) << validated.err;
+  EXPECT_THAT(validated.err, HasSubstr("integrator.type: no integrator \"xxx"));
+}
+
+TEST(Commands, TradeTakesAWholeNumberOfProcesses) {
+  for (const char* jobs : {"0", "-1", "0.5", "2.5", "1e12", "two"}) {
+    const auto result = trammel({"trade", kPendulum, "--jobs", jobs});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, HasSubstr("--jobs " + std::string(jobs) + ": expected a whole number"));
+  }
+}
+
 TEST(Commands, EachShowsItsOptions) {
   for (const char* name : {"run", "static", "modes", "validate", "explain", "list", "describe", "schema"}) {
     const auto result = trammel({name, "--help"});

@@ -183,6 +183,30 @@ TEST_F(Plugin, ThatChangesTheRoundingWhileItIsLoadedChangesNoResult) {
             cli::read_file(folder.path() / "plain/series.csv"));
 }
 
+// Results go where they would go without it, and can be read.
+TEST_F(Plugin, ThatChangesTheWorkingFolderWhileItIsLoadedMovesNoResult) {
+  const auto result = run(kPlugins / "changes_process.so", {"corrections.position=changes_process"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(recorded_status(), "done");
+  const auto access = fs::status(folder.path() / "out/bounce/series.csv").permissions();
+  EXPECT_NE(access & fs::perms::owner_read, fs::perms::none);
+}
+
+TEST_F(Plugin, ThatPrintsLeavesTheOutputOfJsonAlone) {
+  const std::string library = (kPlugins / "changes_process.so").string();
+  for (const auto& words :
+       {std::vector<std::string>{"run", cli::bounce, "--set", "corrections.position=changes_process"},
+        {"validate", cli::bounce, "--set", "corrections.position=changes_process"},
+        {"list"}}) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--json", "--plugin", library});
+    const auto result = trammel(all, {.folder = folder.path()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(json::parse(result.out, nullptr, false).value("status", ""), "done") << result.out;
+    EXPECT_THAT(result.err, HasSubstr("loaded"));
+  }
+}
+
 // What goes well when it is tried out may still end the process when it counts, by a crash or past all functions of
 // atexit.
 TEST_F(Plugin, ThatFailsTheSecondTimeItIsLoadedIsNamed) {
@@ -222,6 +246,36 @@ TEST_F(Plugin, WhoseCorrectionFailsIsNamedAndNotTheIntegrator) {
     EXPECT_THAT(result.err, HasSubstr(cause));
     EXPECT_EQ(recorded_status(), "failed");
   }
+}
+
+// Only plugins start threads, and nobody knows which one: not the call that is in progress.
+TEST_F(Plugin, WhoseThreadCrashesIsNotTakenForTheIntegrator) {
+  const auto result =
+      run(kPlugins / "never_returns.so", {R"(corrections.position={"type": "never_returns", "how": "thread"})"});
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("a thread that a plugin started ended the program at t = "));
+  EXPECT_EQ(result.err.find("integrator"), result.err.npos) << result.err;
+  EXPECT_EQ(recorded_status(), "failed");
+}
+
+TEST_F(Plugin, ThatThrowsWhereItIsArchivedIsNamed) {
+  const auto result =
+      run(kPlugins / "never_returns.so", {R"(corrections.position={"type": "never_returns", "how": "archive"})"});
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("correction never_returns (corrections.position): archive at t = "));
+  EXPECT_THAT(result.err, HasSubstr("nothing to keep"));
+}
+
+TEST_F(Plugin, ThatEndsAProcessOfAStudyFailsItsCase) {
+  cli::write_file(folder.path() / "of_two.json",
+                  R"({"study": 1, "scene": ")" + cli::bounce +
+                      R"(", "vary": {"corrections.position": [false, {"type": "never_returns", "how": "exit"}]}})");
+  const auto result =
+      trammel({"study", "of_two.json", "--out", "s", "--plugin", (kPlugins / "never_returns.so").string()},
+              {.folder = folder.path()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("1 of 2 cases are done, 1 failed"));
+  EXPECT_THAT(result.out, HasSubstr("exit code 0, as if a plugin had called exit"));
 }
 #endif
 
@@ -320,6 +374,20 @@ TEST_F(Plugin, ThatCrashesInAnotherCommandThanRunIsNamedThereToo) {
     EXPECT_EQ(forces.exit_code, 3) << command << ": " << forces.err;
     EXPECT_THAT(forces.err, HasSubstr("spoilt_force.so: body spoilt_force (bodies.p): force at t = 0 s")) << command;
   }
+}
+
+// The name of the library is part of the message.
+TEST_F(Plugin, ThatCrashesIsToldInJsonWhateverItsNameIs) {
+  const fs::path library = folder.path() / "two\nlines \"quoted\".so";
+  fs::copy_file(kPlugins / "spoilt_step.so", library);
+  const auto result =
+      trammel({"run", cli::bounce, "--json", "--plugin", library.string(), "--set", "integrator.type=spoilt_step",
+               "--set", "integrator.how=memory", "--set", "integrator.after=0"},
+              {.folder = folder.path()});
+  EXPECT_EQ(result.exit_code, 3);
+  const json told = json::parse(result.out, nullptr, false);
+  ASSERT_FALSE(told.is_discarded()) << result.out;
+  EXPECT_THAT(told["problems"][0]["message"].get<std::string>(), HasSubstr("two lines \"quoted\".so"));
 }
 
 TEST_F(Plugin, ThatCrashesIsNamedWithTheCallAndTheTimeAndRecordsAreKept) {

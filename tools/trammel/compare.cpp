@@ -15,7 +15,7 @@ Exit run_compare(const Arguments& arguments) {
     throw UsageError("'trammel compare' needs two results folders: trammel compare A B");
   const study::Comparison comparison = study::compare(arguments.operands()[0], arguments.operands()[1]);
   if (arguments.has(kJson.name))
-    print_line(comparison.json);
+    print_json_text(comparison.json);
   else
     print_line(comparison.text);
   print_next(arguments, {"trammel", "report", arguments.operands()[0], arguments.operands()[1]});

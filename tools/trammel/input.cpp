@@ -1,5 +1,8 @@
 #include "input.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -41,9 +44,39 @@ double positive(const Arguments& arguments, const Option& option) {
   return x;
 }
 
+int whole_number(const Option& option, const std::string& text, const char* expected) {
+  if (text.empty() || text.size() > 6 || text.find_first_not_of("0123456789") != text.npos || std::stoi(text) == 0)
+    throw UsageError(fmt::format("{} {}: expected {}", option.name, text, expected));
+  return std::stoi(text);
+}
+
+namespace {
+
+int kept_output = STDOUT_FILENO;
+
+}  // namespace
+
+int json_output() {
+  return kept_output;
+}
+
+void keep_output_for_json() {
+  constexpr int high = 100;  // a library that prints is unlikely to use it
+  const int kept = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, high);
+  if (kept >= 0 && ::dup2(STDERR_FILENO, STDOUT_FILENO) >= 0) kept_output = kept;
+}
+
 void print_json(const nlohmann::ordered_json& object) {
   // Names of files need not be UTF-8; what is not is replaced, so that the output stays JSON.
-  std::puts(object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+  print_json_text(object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+void print_json_text(const std::string& json) {
+  std::fflush(stdout);
+  if (kept_output != STDOUT_FILENO) ::dup2(kept_output, STDOUT_FILENO);
+  print_line(json);
+  std::fflush(stdout);
+  if (kept_output != STDOUT_FILENO) ::dup2(STDERR_FILENO, STDOUT_FILENO);
 }
 
 void print_line(const std::string& text) {

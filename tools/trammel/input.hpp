@@ -24,9 +24,17 @@ void load_plugins(const Arguments& arguments, plugin::Registry& registry);
 
 // The option's value, a number > 0. Throws UsageError.
 double positive(const Arguments& arguments, const Option& option);
+// Of an option's value or a part of it, a whole number from 1 to 999999. Throws UsageError.
+int whole_number(const Option& option, const std::string& text, const char* expected);
+
+// With --json standard output carries one object and nothing else: from here on what plugins print goes to standard
+// error, and `print_json` and `print_json_text` to where standard output led.
+void keep_output_for_json();
+int json_output();  // the descriptor
 
 void print_json(const nlohmann::ordered_json& object);
-void print_line(const std::string& text);  // takes no memory: results are complete by then
+void print_json_text(const std::string& json);  // takes no memory: results are complete by then
+void print_line(const std::string& text);    // takes no memory: results are complete by then
 
 std::vector<std::string> lines(const std::string& text);  // without empty ones
 

@@ -3,6 +3,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "input.hpp"
+
 namespace trammel::tool {
 
 namespace {
@@ -20,13 +22,13 @@ void put(int file, std::string_view text) {
 }
 
 void put_json(std::string_view message) {
-  put(STDOUT_FILENO,
+  put(json_output(),
       R"({"status": "error", "problems": [{"file": "", "line": 0, "column": 0, "path": "", "message": ")");
-  for (const char c : message) {
-    if (c == '"' || c == '\\') put(STDOUT_FILENO, "\\");
-    put(STDOUT_FILENO, {&c, 1});
+  for (const char& c : message) {
+    if (c == '"' || c == '\\') put(json_output(), "\\");
+    put(json_output(), static_cast<unsigned char>(c) < 0x20 ? std::string_view(" ") : std::string_view(&c, 1));
   }
-  put(STDOUT_FILENO, "\"}]}\n");
+  put(json_output(), "\"}]}\n");
 }
 
 }  // namespace
@@ -44,7 +46,7 @@ void Line::add_culprit(const simulate::CrashWitness::Culprit& who) {
   if (!who.origin->component.empty()) add("{}", who.origin->component);
   if (!who.origin->path.empty()) add(" ({})", who.origin->path);
   add("{}{}{}", who.origin->component.empty() ? "" : ": ", who.call,
-      who.certain ? "" : ", or the program on its behalf,");
+      who.certain ? "" : ", or the program on its behalf");
 }
 
 void Line::add_time(const simulate::CrashWitness::Culprit& who) {

@@ -139,7 +139,10 @@ int run_program(const std::string& program, std::span<const std::string> words) 
 int main(int argc, char** argv) {
   using namespace trammel::tool;
   open_standard_descriptors();
-  if (std::any_of(argv, argv + argc, [](const char* word) { return std::strcmp(word, "--json") == 0; })) speak_json();
+  if (std::any_of(argv, argv + argc, [](const char* word) { return std::strcmp(word, "--json") == 0; })) {
+    keep_output_for_json();
+    speak_json();
+  }
   watch_for_lack_of_memory();
   watch_for_crashes();
   // A file that meets its size limit is then an error of the write, with results kept, and not the end of the process.

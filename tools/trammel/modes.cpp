@@ -76,11 +76,11 @@ Exit run_modes(const Arguments& arguments) {
   options.witness = &witness();
   const simulate::RunReport report = simulate::analyse_modes(scene, registry, options);
   if (report.status != simulate::Status::done) {
-    if (json) print_line(report.result_json);
+    if (json) print_json_text(report.result_json);
     fmt::print(stderr, "trammel: on the way to t = {:.9g}: {}\n", *options.at, report.reason);
     return report.status == simulate::Status::interrupted ? Exit::interrupted : Exit::failed;
   }
-  if (json) print_line(report.result_json);
+  if (json) print_json_text(report.result_json);
   if (!json && !quiet) print_line(report.summary);
   print_next(arguments, {"trammel", "report", options.out.native()});
   return Exit::done;

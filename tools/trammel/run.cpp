@@ -129,7 +129,7 @@ Exit run_scene(const Arguments& arguments) {
       }
     }
   }
-  if (json) print_line(report.result_json);
+  if (json) print_json_text(report.result_json);
   if (arguments.has(kVerify.name) && report.status == simulate::Status::done)
     verify(arguments, registry, scene, options.out, json || quiet);
   beside.write(options.out, json || quiet);

@@ -35,7 +35,7 @@ Exit run_static(const Arguments& arguments) {
     if (bar.wanted()) options.progress = [&bar](const simulate::Progress& progress) { bar.draw(progress); };
     report = simulate::run_static(scene, registry, options);
   }
-  if (json) print_line(report.result_json);
+  if (json) print_json_text(report.result_json);
   if (!json && !quiet) print_line(report.summary);
   beside.write(options.out, json || quiet);
   if (report.status == simulate::Status::done) {

@@ -22,20 +22,14 @@ constexpr Option kStudyFolder{"--out", "DIR", "results folder; default out/<stud
 constexpr Option kShard{"--shard", "I/N", "only part I (from 1) of N: one task of an array on a cluster"};
 constexpr Option kEstimate{"--estimate", "", "run three cases, and propose the number of shards for a minute each"};
 
-int number(std::string_view option, const std::string& text, const char* expected) {
-  if (text.empty() || text.size() > 6 || text.find_first_not_of("0123456789") != text.npos || std::stoi(text) == 0)
-    throw UsageError(fmt::format("{} {}: expected {}", option, text, expected));
-  return std::stoi(text);
-}
-
 study::Shard shard_of(const Arguments& arguments) {
   if (!arguments.has(kShard.name)) return {};
   const std::string& text = arguments.last(kShard.name);
   const char* expected = "I/N with 1 <= I <= N, e.g. 3/40";
   const auto slash = text.find('/');
   if (slash == text.npos) throw UsageError(fmt::format("--shard {}: expected {}", text, expected));
-  const study::Shard shard{number("--shard", text.substr(0, slash), expected),
-                           number("--shard", text.substr(slash + 1), expected)};
+  const study::Shard shard{whole_number(kShard, text.substr(0, slash), expected),
+                           whole_number(kShard, text.substr(slash + 1), expected)};
   if (shard.index > shard.of) throw UsageError(fmt::format("--shard {}: expected {}", text, expected));
   return shard;
 }
@@ -54,7 +48,7 @@ Exit exit_of(StudyReport::Status status) {
 
 Exit told(const Arguments& arguments, const StudyReport& report, const std::filesystem::path* folder) {
   if (arguments.has(kJson.name))
-    print_line(report.json);
+    print_json_text(report.json);
   else if (!arguments.has(kQuiet.name))
     print_line(report.summary);
   if (report.status == StudyReport::Status::interrupted)
@@ -70,7 +64,8 @@ Exit told(const Arguments& arguments, const StudyReport& report, const std::file
 study::StudyOptions options_of(const Arguments& arguments) {
   study::StudyOptions options;
   options.shard = shard_of(arguments);
-  if (arguments.has(kJobs.name)) options.jobs = number("--jobs", arguments.last(kJobs.name), "a whole number from 1");
+  if (arguments.has(kJobs.name))
+    options.jobs = whole_number(kJobs, arguments.last(kJobs.name), "a whole number from 1");
   options.command = arguments.command_line();
   options.witness = &witness();
   return options;

@@ -27,7 +27,8 @@ Exit run_trade(const Arguments& arguments) {
   study::TradeOptions options;
   options.out = results_folder(arguments, "_trade");
   if (arguments.has(kTradeTarget.name)) options.target = positive(arguments, kTradeTarget);
-  if (arguments.has(kJobs.name)) options.jobs = int(positive(arguments, kJobs));
+  if (arguments.has(kJobs.name))
+    options.jobs = whole_number(kJobs, arguments.last(kJobs.name), "a whole number from 1");
   constexpr double a_core = 40;  // [s]
   const int cores = options.jobs > 0 ? options.jobs : study::cores_at_hand();
   options.budget = arguments.has(kBudget.name) ? positive(arguments, kBudget) : a_core * cores;
@@ -46,7 +47,7 @@ Exit run_trade(const Arguments& arguments) {
   const study::TradeReport report = study::trade(source, registry, options);
   bar.clear();
   if (arguments.has(kJson.name))
-    print_line(report.json);
+    print_json_text(report.json);
   else if (!quiet)
     print_line(report.summary);
   if (options.interrupt->requested()) return Exit::interrupted;
