@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 
 namespace trammel::simulate {
@@ -70,6 +73,63 @@ double Scale::error_of_position(const Tolerance& tolerance) const {
   return relative + (tolerance.absolute > 0 ? tolerance.absolute : relative) + resolution();
 }
 
+namespace {
+
+// Bodies are joined to sets; each is named by one of its bodies.
+class Islands {
+ public:
+  explicit Islands(std::size_t bodies) : parent_(bodies) { std::iota(parent_.begin(), parent_.end(), std::size_t(0)); }
+  std::size_t of(std::size_t body) {
+    while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
+    return body;
+  }
+  void connect(const std::vector<int>& bodies) {  // < 0: the ground
+    std::optional<std::size_t> first;
+    for (const int body : bodies) {
+      if (body < 0) continue;
+      const std::size_t island = of(std::size_t(body));
+      parent_[island] = first.value_or(island);
+      if (!first) first = island;
+    }
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+std::vector<int> bodies_of(const model::Model& model, const model::ContactEntry& contact) {
+  std::vector<int> all = {contact.A.body, contact.B.body};
+  const auto add = [&all](const std::vector<model::MarkerRef>& markers) {
+    for (const model::MarkerRef marker : markers) all.push_back(marker.body);
+  };
+  if (contact.limit) add(contact.limit->markers);
+  if (contact.surface) all.push_back(contact.surface->body), all.push_back(contact.surface->other);
+  if (contact.joint) add(model.joints[std::size_t(contact.joint->joint)].markers);
+  return all;
+}
+
+}  // namespace
+
+ContactScale::ContactScale(const model::Model& model) : own_(model.contacts.size()) {
+  Islands islands(model.bodies.size());
+  for (const model::JointEntry& joint : model.joints) {
+    std::vector<int> bodies;
+    for (const model::MarkerRef marker : joint.markers) bodies.push_back(marker.body);
+    islands.connect(bodies);
+  }
+  for (const model::ForceEntry& force : model.forces) islands.connect({force.A.body, force.B.body});
+  for (const model::ContactEntry& contact : model.contacts) islands.connect(bodies_of(model, contact));
+  std::map<std::size_t, std::size_t> numbers;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    island_of_body_.push_back(numbers.try_emplace(islands.of(i), numbers.size()).first->second);
+  for (const model::ContactEntry& contact : model.contacts) {
+    island_of_contact_.push_back(numbers.size());
+    for (const int body : bodies_of(model, contact))
+      if (body >= 0) island_of_contact_.back() = island_of_body_[std::size_t(body)];
+  }
+  islands_.resize(numbers.size() + 1);
+}
+
 void ContactScale::take_body(model::AssembledSystem& system, int body) {
   const int markers = int(system.model().bodies[std::size_t(body)].body->markers().size());
   Vec3 low, high, first;
@@ -82,9 +142,10 @@ void ContactScale::take_body(model::AssembledSystem& system, int body) {
     low = marker == 0 ? m.x : Vec3(low.cwiseMin(m.x)), high = marker == 0 ? m.x : Vec3(high.cwiseMax(m.x));
   }
   if (markers > 0) own.take_length((high - low).norm());
-  bodies_.gaps_and_bodies = std::max(bodies_.gaps_and_bodies, own.gaps_and_bodies);
-  bodies_.speed = std::max(bodies_.speed, own.speed);
-  bodies_.motion = std::max(bodies_.motion, own.motion);
+  Scale& island = islands_[island_of_body_[std::size_t(body)]];
+  island.gaps_and_bodies = std::max(island.gaps_and_bodies, own.gaps_and_bodies);
+  island.speed = std::max(island.speed, own.speed);
+  island.motion = std::max(island.motion, own.motion);
   scene_.place = std::max(scene_.place, own.place);
   for (std::size_t i = 0; i < own_.size(); ++i) {
     const model::ContactEntry& contact = system.model().contacts[i];
@@ -103,8 +164,10 @@ void ContactScale::take_distances(model::AssembledSystem& system, const std::vec
     here.take_length((system.motion(marker).x - first).norm() - off);
     here.take_speed(velocity(system.motion(marker)) - at_speed);
   }
-  bodies_.gaps_and_bodies = std::max(bodies_.gaps_and_bodies, here.gaps_and_bodies);
-  bodies_.speed = std::max(bodies_.speed, here.speed);
+  const auto on_body = std::find_if(markers.begin(), markers.end(), [](const auto& m) { return m.body >= 0; });
+  Scale& island = on_body == markers.end() ? islands_.back() : islands_[island_of_body_[std::size_t(on_body->body)]];
+  island.gaps_and_bodies = std::max(island.gaps_and_bodies, here.gaps_and_bodies);
+  island.speed = std::max(island.speed, here.speed);
   scene_.place = std::max(scene_.place, here.place);
 }
 
@@ -123,9 +186,10 @@ void ContactScale::take_contact(model::AssembledSystem& system, int contact) {
 
 void ContactScale::take_all(model::AssembledSystem& system) {
   const model::Model& model = system.model();
-  bodies_.gravity = model.world.gravity.norm();
+  const double gravity = model.world.gravity.norm();
+  for (Scale& island : islands_) island.gravity = gravity;
   for (std::size_t i = 0; i < own_.size(); ++i) {
-    own_[i].gravity = bodies_.gravity;
+    own_[i].gravity = gravity;
     take_place(model.contacts[i].geometry.point, own_[i]);
   }
   for (int body = 0; body < int(model.bodies.size()); ++body) take_body(system, body);
@@ -133,9 +197,12 @@ void ContactScale::take_all(model::AssembledSystem& system) {
     take_distances(system, joint.markers, system.g().segment(joint.row, joint.rows).norm());
   for (const model::ForceEntry& force : model.forces)  // where a force from outside acts from says nothing
     if (!force.from_outside) take_distances(system, {force.A, force.B}, 0);
-  for (std::size_t i = 0; i < own_.size(); ++i) bodies_.take_speed(system.velocity_apart(int(i)));  // one may strike it
-  bodies_.take_fall();
-  scene_.raise_to(bodies_);
+  for (std::size_t i = 0; i < own_.size(); ++i)  // one may strike it
+    islands_[island_of_contact_[i]].take_speed(system.velocity_apart(int(i)));
+  for (Scale& island : islands_) {
+    island.take_fall();
+    scene_.raise_to(island);
+  }
   take_contacts(system);
 }
 
@@ -145,7 +212,7 @@ void ContactScale::take_contacts(model::AssembledSystem& system) {
 }
 
 Scale ContactScale::of(int contact) const {
-  Scale scale = bodies_;
+  Scale scale = islands_[island_of_contact_[std::size_t(contact)]];
   scale.raise_to(own_[std::size_t(contact)]);
   // Where joints rub, a scene may have no length but the gaps of others.
   if (scale.gaps_and_bodies == 0) scale.gaps_and_bodies = scene_.gaps_and_bodies;
@@ -153,20 +220,23 @@ Scale ContactScale::of(int contact) const {
 }
 
 void ContactScale::archive(Archive& a) {
-  Mat all(5, Eigen::Index(own_.size()) + 2);
-  const auto put = [&](Eigen::Index k, const Scale& s) {
-    all.col(k) << s.gaps_and_bodies, s.place, s.speed, s.motion, s.gravity;
-  };
-  for (std::size_t i = 0; i < own_.size(); ++i) put(Eigen::Index(i), own_[i]);
-  put(all.cols() - 2, bodies_), put(all.cols() - 1, scene_);
-  Vec flat = Eigen::Map<const Vec>(all.data(), all.size());
+  std::vector<Scale*> scales;
+  for (Scale& own : own_) scales.push_back(&own);
+  for (Scale& island : islands_) scales.push_back(&island);
+  scales.push_back(&scene_);
+  Vec flat(Eigen::Index(5 * scales.size()));
+  Eigen::Index k = 0;
+  for (const Scale* s : scales) {
+    flat.segment<5>(k) << s->gaps_and_bodies, s->place, s->speed, s->motion, s->gravity;
+    k += 5;
+  }
   a("scales", flat);
-  if (flat.size() != all.size()) throw std::length_error("scales");
-  const auto get = [&](Eigen::Index k, Scale& s) {
-    s = {flat[5 * k], flat[5 * k + 1], flat[5 * k + 2], flat[5 * k + 3], flat[5 * k + 4]};
-  };
-  for (std::size_t i = 0; i < own_.size(); ++i) get(Eigen::Index(i), own_[i]);
-  get(all.cols() - 2, bodies_), get(all.cols() - 1, scene_);
+  if (flat.size() != k) throw std::length_error("scales");
+  k = 0;
+  for (Scale* s : scales) {
+    *s = {flat[k], flat[k + 1], flat[k + 2], flat[k + 3], flat[k + 4]};
+    k += 5;
+  }
 }
 
 }  // namespace trammel::simulate

@@ -58,11 +58,11 @@ struct Scale {
 };
 
 // Each contact's own scale, so that a plane far off decides nothing for the others: its gap, place and speed, and the
-// extents, distances of joined markers and speeds at the start of all bodies, which may be tied to its own or strike
-// it.
+// extents, distances of joined markers and speeds at the start of all bodies of its island, which are tied to its own
+// or may strike it.
 class ContactScale {
  public:
-  explicit ContactScale(const model::Model& model) : own_(model.contacts.size()) {}
+  explicit ContactScale(const model::Model& model);
   void take_all(model::AssembledSystem& system);       // all markers, at the system's point
   void take_contacts(model::AssembledSystem& system);  // those of contacts
 
@@ -75,8 +75,10 @@ class ContactScale {
   void take_body(model::AssembledSystem& system, int body);
   void take_distances(model::AssembledSystem& system, const std::vector<model::MarkerRef>& markers, double off);
   void take_contact(model::AssembledSystem& system, int contact);
-  Scale bodies_;            // without gaps
-  std::vector<Scale> own_;  // by contact: its gap and speed, and the places and motions of its markers
+  // Bodies that joints, forces or contacts connect; the ground connects none.
+  std::vector<std::size_t> island_of_body_, island_of_contact_;
+  std::vector<Scale> islands_;  // without gaps; the last one is of what acts on no body
+  std::vector<Scale> own_;      // by contact: its gap and speed, and the places and motions of its markers
   Scale scene_;
 };
 

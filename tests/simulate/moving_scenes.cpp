@@ -170,13 +170,14 @@ TEST(Creep, OfASmoothLawIsToldWhereItIsTheMotion) {
   EXPECT_THAT(creeping.result.at("warnings").dump(), HasSubstr("the fastest slip of contacts.floor was 0.002 m/s"));
 }
 
-// Beside a body of metres, which would fall faster than all others move.
+// Tied to a body of metres, which would fall faster than all others move.
 TEST(CaptureSpeed, OfTheSceneThatExceedsAllImpactsIsTold) {
   const auto thrown = [](double speed) {
     return run_text(fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -10],
   "bodies": {{"p": {{"type": "point_mass", "mass": 1, "position": [0, 0], "velocity": [{:.17g}, 0]}},
              "q": {{"type": "rigid_body", "mass": 1, "inertia": 1, "position": [1, 2], "markers": {{"end": [2, 0]}}}}}},
   "joints": {{"rail": {{"type": "point_on_line", "between": ["ground", "p.point"], "axis": [1, 0]}}}},
+  "forces": {{"tie": {{"type": "spring_damper", "between": ["p.point", "q.com"], "stiffness": 1e-30, "length": 1}}}},
   "contacts": {{"wall": {{"type": "constraint_method", "restitution": 1,
                          "between": ["p.point", {{"plane": {{"point": [{:.17g}, 0], "normal": [-1, 0]}}}}]}},
                "floor": {{"type": "constraint_method", "between": ["q.com", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}}}},

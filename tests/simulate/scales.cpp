@@ -347,6 +347,31 @@ TEST(ARope, ReboundsWhereverItIs) {
     }
 }
 
+// What it is not tied to and cannot strike decides nothing for its impacts.
+TEST(ABallBesideALargeBody, ReboundsAsAlone) {
+  for (const double height : {1e-5, 1e-3, 1.0}) {
+    const auto bounces = [&](double length) {
+      const double settled = std::sqrt(2 * height / 9.81) * 1.8 / 0.2;
+      return run_text(fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+  "bodies": {{"ball": {{"type": "point_mass", "mass": 1, "position": [0, {0:.17g}]}},
+             "ship": {{"type": "rigid_body", "mass": 1e7, "inertia": 1e10, "markers": {{"bow": [{1:.17g}, 0]}}}}}},
+  "joints": {{"mooring": {{"type": "fixed", "between": ["ground", "ship.com"]}}}},
+  "contacts": {{"floor": {{"type": "constraint_method", "restitution": 0.8,
+                         "between": ["ball.point", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}}}},
+  "simulate": {{"until": {2:.17g}}}, "record": {{"every": {3:.17g}, "observe": {{"y": "ball.point.y"}}}}}})",
+                                  height, length, 1.2 * settled, settled / 10));
+    };
+    const Finished alone = bounces(height);
+    ASSERT_TRUE(alone.done()) << alone.report.reason;
+    EXPECT_EQ(alone.of_kind("impact").size(), 43u);
+    for (const double length : {300.0, 1e4, 6.4e6}) {
+      const Finished beside = bounces(length);
+      ASSERT_TRUE(beside.done()) << beside.report.reason;
+      EXPECT_EQ(beside.of_kind("impact").size(), 43u) << height << ", " << length;
+    }
+  }
+}
+
 // A body that rests is accelerated by the round-off of the forces that balance there, which is no motion to resolve.
 TEST(ABallThatCameToRest, NeedsNoStepsOfExponentialCollocation) {
   for (const double height : {1e-3, 1.0, 1e3}) {
