@@ -73,7 +73,7 @@ class Cases {
   std::vector<SceneSource> sources_;
 };
 
-// Folders of cases are replaced as a whole: somebody's own folder of that name, or what a link leads to, is not touched.
+// Folders of cases are replaced as a whole. Not touched: a folder of that name that is somebody's own, or a link.
 void refuse_cases_of_others(const fs::path& out) {
   const fs::file_status cases = fs::symlink_status(out / cases_folder);
   if (!fs::exists(cases) || (simulate::shows_results(out) && !fs::is_symlink(cases))) return;

@@ -43,8 +43,8 @@ class ResultsFolder {
   Descriptor lock_;
 };
 
-// Throws FolderRefused if the folder is a symbolic link or holds files that this command removes or overwrites, and nothing that shows that
-// they are of an older run.
+// Throws FolderRefused if the folder is a symbolic link, or holds files that this command removes or overwrites and
+// nothing that shows that they are of an older run.
 void refuse_files_of_others(const std::filesystem::path& folder, Analysis analysis);
 
 // Whether something in the folder shows that a command of this program wrote there.
