@@ -452,7 +452,9 @@ TEST(Commands, StabilityTriesEveryCombinationOfTheValuesOver) {
   };
   const auto result = with("parameters.m=1,4", "parameters.k=100,400");
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const json rows = json::parse(result.out)["page"]["tables"][0]["rows"];
+  const json page = json::parse(result.out)["page"], rows = page["tables"][0]["rows"];
+  EXPECT_EQ(page["figures"][0]["x"]["label"], "parameters.k");
+  EXPECT_EQ(page["figures"][0]["curves"].size(), 4u);  // measured and theory, for each mass
   const std::vector<std::pair<std::string, std::string>> expected = {
       {"1", "100"}, {"1", "400"}, {"4", "100"}, {"4", "400"}};
   ASSERT_EQ(rows.size(), expected.size());

@@ -92,6 +92,8 @@ TEST(DivergingRun, IsNotBlamedOnAComponent) {
   EXPECT_EQ(run.report.status, simulate::Status::failed);
   EXPECT_THAT(run.report.reason, HasSubstr("at t = "));
   EXPECT_THAT(run.report.reason, testing::Not(HasSubstr("spring")));
+  EXPECT_THAT(run.report.reason, HasSubstr("in the last trial the velocities change most in bodies.mass (100 %)"));
+  EXPECT_THAT(run.report.reason, HasSubstr("; the steps before took 0.1, 0.1, 0.1 s"));
 }
 
 // The step that a run of 2 s can resolve, 16 units in the last place of t, is far below the steps of the extremes
@@ -127,6 +129,8 @@ TEST(EventStorm, EndsTheRunWithAWayOut) {
   EXPECT_THAT(run.report.reason, HasSubstr("event storm at t = "));
   EXPECT_THAT(run.report.reason, HasSubstr("contacts.floor"));
   EXPECT_THAT(run.report.reason, HasSubstr("capture_speed"));
+  EXPECT_THAT(run.report.reason, HasSubstr("; the last event is impact of contacts.floor at t = "));
+  EXPECT_EQ(run.result["reason"], run.report.reason);
   EXPECT_FALSE(run.events.empty());  // what led to it is kept
 }
 

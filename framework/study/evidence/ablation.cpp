@@ -143,7 +143,8 @@ Ablation ablate(const SceneSource& source, plugin::Registry& registry, double ta
 report::Page page_of(const Ablation& a, const std::string& scene) {
   report::Page page{.title = "What the parts of " + scene + " are worth", .sentences = {}, .figures = {}, .tables = {}};
   if (a.left_out.empty()) {
-    page.sentences.push_back(fmt::format("Every part is needed, or changes the observables by more than {:g}: keep all.", a.target));
+    page.sentences.push_back(
+        fmt::format("Every part is needed, or changes the observables by more than {:g}: keep all.", a.target));
   } else {
     std::vector<std::string> sets;
     for (const Part& part : a.left_out)
@@ -160,7 +161,7 @@ report::Page page_of(const Ablation& a, const std::string& scene) {
                                   {"CPU time", "of the scene as it is"}},
                       .rows = {}};
   for (const Part& part : a.parts)
-    table.rows.push_back({part.what, part.failure.empty() ? fmt::format("{:.2g}", part.difference) : "fails",
+    table.rows.push_back({part.what, part.failure.empty() ? fmt::format("{:.2g}", part.difference) : "needed",
                           part.failure.empty() ? part.worst : part.failure,
                           a.cpu > 0 && part.failure.empty() ? fmt::format("{:.2f}", part.cpu / a.cpu) : "-"});
   page.tables.push_back(std::move(table));
