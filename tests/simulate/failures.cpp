@@ -93,7 +93,7 @@ TEST(DivergingRun, IsNotBlamedOnAComponent) {
   EXPECT_THAT(run.report.reason, HasSubstr("at t = "));
   EXPECT_THAT(run.report.reason, testing::Not(HasSubstr("spring")));
   EXPECT_THAT(run.report.reason, HasSubstr("in the last trial the velocities change most in bodies.mass (100 %)"));
-  EXPECT_THAT(run.report.reason, HasSubstr("; the steps before took 0.1, 0.1, 0.1 s"));
+  EXPECT_THAT(run.report.reason, HasSubstr("; the steps before took 0.1 s"));
 }
 
 // The step that a run of 2 s can resolve, 16 units in the last place of t, is far below the steps of the extremes
