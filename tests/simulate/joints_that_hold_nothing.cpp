@@ -1,5 +1,6 @@
 // Joints all of whose markers are fixed already: rows of rank 0, alone or beside a rank of others. They are redundant,
 // and the motion is that without them.
+#include <filesystem>
 #include <ostream>
 
 #include <fmt/format.h>
@@ -51,6 +52,8 @@ TEST_P(JointsThatHoldNothing, LeaveTheMotionAsItIs) {
   for (const char* integrator :
        {"dop853", "runge_kutta_4", "newmark", "hht_alpha", "generalized_alpha", "sundials_ida"}) {
     SCOPED_TRACE(integrator);
+    if (!std::filesystem::exists(fmt::format("{}/lib/trammel/{}.so", TRAMMEL_BUILD_DIR, integrator)))
+      continue;  // sundials_ida is built where SUNDIALS is installed
     const Finished with = run_text(scene(c, pin + (holds ? ", " : "") + c.joints, integrator)),
                    without = run_text(scene(c, pin, integrator));
     ASSERT_TRUE(with.done()) << with.report.reason;
