@@ -248,6 +248,19 @@ TEST_F(Plugin, WhoseCorrectionFailsIsNamedAndNotTheIntegrator) {
   }
 }
 
+// One of them ends there: both would write into the same files.
+TEST_F(Plugin, WhoseCallReturnsInTwoProcessesRunsOnce) {
+  const auto plain = trammel({"run", cli::bounce, "--out", "plain"}, {.folder = folder.path()});
+  ASSERT_EQ(plain.exit_code, 0) << plain.err;
+  const auto result =
+      run(kPlugins / "never_returns.so",
+          {R"(corrections.position={"type": "never_returns", "how": "fork", "from": 0.99})", "simulate.until=1"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::string series = cli::read_file(folder.path() / "out/bounce/series.csv");
+  EXPECT_EQ(cli::read_file(folder.path() / "plain/series.csv").substr(0, series.size()), series);
+  EXPECT_EQ(recorded_status(), "done");
+}
+
 // Only plugins start threads, and nobody knows which one: not the call that is in progress.
 TEST_F(Plugin, WhoseThreadCrashesIsNotTakenForTheIntegrator) {
   const auto result =

@@ -13,6 +13,7 @@
 
 #include "last_words.hpp"
 #include "no_memory.hpp"
+#include "plugin/breadcrumb.hpp"
 
 namespace trammel::tool {
 
@@ -94,6 +95,7 @@ void watch_for_crashes() {
   std::atexit(on_exit);
   std::at_quick_exit(on_exit);
   std::set_terminate(on_terminate);
+  plugin::end_forks_of_calls();
   stack_t stack = {};
   stack.ss_sp = handler_stack.data();
   stack.ss_size = handler_stack.size();

@@ -1,5 +1,5 @@
 // The correction works on for ever, or crashes, or throws, once some steps are done; or a thread of its own crashes; or
-// it throws where it is archived.
+// two processes return from it; or it throws where it is archived.
 #include <unistd.h>
 
 #include <atomic>
@@ -20,6 +20,8 @@ struct NeverReturns : Idle {
     if (how == "throw") throw std::runtime_error("no way back");
     if (how == "thread") std::thread([] { std::raise(SIGSEGV); }).join();
     if (how == "exit") ::_exit(0);
+    if (how == "fork") static_cast<void>(::fork());
+    if (how == "fork") return trammel::Outcome::accept();
     if (how == "archive") return trammel::Outcome::accept();
     for (;;) {
       if (how == "wait") ::usleep(1000);
@@ -38,4 +40,5 @@ struct NeverReturns : Idle {
 
 TRAMMEL_PLUGIN(trammel::correction<NeverReturns>("never_returns", "does nothing for ever")
                    .parameter("from", &NeverReturns::from, {.unit = "s"})
-                   .parameter("how", &NeverReturns::how, {.doc = "wait, spin, crash, throw, thread, exit, archive"}))
+                   .parameter("how", &NeverReturns::how,
+                              {.doc = "wait, spin, crash, throw, thread, exit, fork, archive"}))
