@@ -9,8 +9,8 @@ namespace {
 
 using Sparse = numerics::FrontalCholesky::Sparse;
 
-// Masses on a line, tied by springs of random stiffness to those up to three away and to the ground by `ground`; free to
-// move together without it.
+// Masses on a line, tied by springs of random stiffness to those up to three away and to the ground by `ground`; free
+// to move together without it.
 Sparse springs(int n, double ground, unsigned seed) {
   std::mt19937 random{seed};
   std::uniform_real_distribution<double> stiffness(0.5, 2);

@@ -2,7 +2,8 @@
 // the smallest scene that keeps a target.
 //
 // Optional are forces, contacts, joints, friction, corrections, gravity, and rungs of the components' fidelity
-// parameters (trammel/fidelity.hpp). What "for" repeats is one part. Differences are those of study/trade/errors.hpp, with the scene's own run as reference.
+// parameters (trammel/fidelity.hpp). What "for" repeats is one part. Differences are those of study/trade/errors.hpp,
+// with the scene's own run as reference.
 #pragma once
 
 #include <string>
