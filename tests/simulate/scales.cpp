@@ -325,8 +325,8 @@ TEST(Scales, AnEquilibriumThatNothingDeterminesNamesTheFreeDirection) {
   EXPECT_TRUE(run_file("free_standing/1s.json", {{"simulate.until", "0.1"}}).done());
 }
 
-// A rope that begins slack, with its ends in one point, in any unit and far from the origin: it lets the ball fall by its
-// length L, and throws it back with e v.
+// A rope that begins slack, with its ends in one point, in any unit and far from the origin: it lets the ball fall by
+// its length L, and throws it back with e v.
 TEST(ARope, ReboundsWhereverItIs) {
   for (const double length : {1e-3, 1.0, 1e3, 1e6})
     for (const double place : {0.0, 1e4, 1e8}) {
