@@ -1,6 +1,7 @@
 #include "commands/slow_steps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -16,6 +17,11 @@ constexpr double long_wait = 20;       // [s] of CPU time to the end
 constexpr double stabilised_at = 10;   // [1/s] the rows of an explicit method, unless the scene says otherwise
 constexpr double accounts_for = 0.01;  // radians of the fastest motion in a step: fewer are short for another reason
 
+// Methods of second order follow a swing by steps of some tolerance^(1/3) radians.
+double radians_that_account(bool implicit, const Tolerance& tolerance) {
+  return implicit ? std::min(accounts_for, std::cbrt(tolerance.relative) / 2) : accounts_for;
+}
+
 std::string cause(const FastestMotion& fastest, const Setup& setup, Simulator& simulator, double h) {
   const bool implicit = setup.integrator->traits().implicit, on_rows = setup.integrator->traits().holds_position;
   if (const MassRatio ratio = mass_ratio(*setup.model, simulator.state()); ratio.is_large() && !on_rows)
@@ -28,21 +34,23 @@ std::string cause(const FastestMotion& fastest, const Setup& setup, Simulator& s
         "integrator takes longer ones",
         stabilised_at);
   const std::string what = description(fastest, *setup.model);
-  if (fastest.rate() * h < accounts_for)
+  if (fastest.rate() * h < radians_that_account(implicit, setup.settings.step.tolerance))
     return fmt::format(
         "{}, which asks for none so short, with {} events so far; a looser tolerance takes longer ones, or fixed "
         "steps: "
         "\"integrator\": {{\"type\": \"generalized_alpha\", \"step\": {:.0e}}}",
         what, simulator.statistics().events, std::min(setup.settings.every, 1 / fastest.rate()));
+  const std::string damper =
+      fastest.frequency >= fastest.decay
+          ? fmt::format("a damper beside the spring, \"damping\": stiffness / {:.0e}, ends that", fastest.frequency)
+          : "";
   if (implicit)
-    return fmt::format(
-        "{}, and the error control follows it; a looser tolerance does not, nor does hht_alpha with "
-        "more damping (\"alpha\": -0.3)",
-        what);
+    return fmt::format("{}, by more than the tolerance, and the error control follows it; {}", what,
+                       damper.empty() ? "a looser tolerance does not" : damper);
   return fmt::format(
       "{}, and an explicit method follows it; \"integrator\": {{\"type\": \"hht_alpha\", \"step\": "
-      "{{\"tolerance\": 1e-5}}}} does not",
-      what);
+      "{{\"tolerance\": 1e-5}}}} does not{}",
+      what, damper.empty() ? "" : ", unless it swings by more than that tolerance; " + damper);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <trammel/methods/newmark_step.hpp>
 
@@ -52,10 +53,12 @@ void NewmarkStep::begin(const System& s, const State& now, double h, double c_q,
   zero_.setZero(sizes.nc > 0 ? sizes.nv : 0);
   pi_.setZero(formulation == Formulation::stabilised ? zero_.size() : 0);
   dpi_.resize(pi_.size());
+  for (Vec* scratch : {&first_da_, &left_, &momentum_}) scratch->resize(sizes.nv);  // used in some steps only
   next.t = now.t + h;
   next.a = now.a;
   h_ = h;
   moved_ = 0;
+  doubted_ = false;
   find_lead(now, now.a);
   next.lambda = now.lambda;
   newton.start();
@@ -177,15 +180,41 @@ bool NewmarkStep::at_round_off(System& s, const Vec& r) {
   return relative(dv, size_v_) <= newton.tolerance || c_v_ * dv <= little * change_q_ * size_q_;
 }
 
+// More than a small share of the first increment's momentum M da, and no round-off.
+bool NewmarkStep::matters(System& s, const Vec& r) {
+  if (largest(r) <= 64 * eps * largest(s.f())) return false;
+  momentum_.setZero(r.size());
+  s.add_mass_times(1, first_da_, momentum_);
+  return largest(r) > share_of_first * largest(momentum_);
+}
+
+// A spring that the prediction stretches by d has the stiffness k d/L across itself, which c_q multiplies. Factors of
+// that point then hide what r leaves to the soft motions across a stiff spring, and the iteration seems to have
+// converged. True if r matters and stiffness takes up a part of it, r = -(M da + stiffness) in the last increment.
+bool NewmarkStep::doubtful(System& s, const Vec& r) {
+  constexpr double little = 0.1;
+  left_ = r;
+  s.add_reaction(1, dlambda_, left_);
+  if (!matters(s, left_)) return false;
+  const double left = largest(left_);
+  s.add_mass_times(1, da_, left_);
+  return largest(left_) > little * left;
+}
+
 void NewmarkStep::correct(System& s, Blend blend, const Vec& r, State& next) {
+  if (std::exchange(doubted_, false) && !matters(s, r)) return newton.confirm();
   if (misled(s, r)) {
     next.a -= lead_;
     return;
   }
-  if (newton.wants_factors()) factorise(s, blend, next), moved_ = 0;
+  const bool of_this_point = newton.wants_factors();
+  if (of_this_point) factorise(s, blend, next), moved_ = 0;
   if (!correct_rows(s, r, next)) return newton.fail("the iteration matrix is singular");
   const double change = std::max(change_each_, change_v_);
+  if (newton.first()) first_da_ = da_;
   newton.judge(change, !newton.fast(change) && at_round_off(s, r));
+  doubted_ = newton.converged() && !of_this_point && doubtful(s, r);
+  if (doubted_) newton.renew();
 }
 
 Outcome NewmarkStep::finish(System& s, const State& now, State& next) {

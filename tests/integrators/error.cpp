@@ -116,6 +116,34 @@ TEST(NewmarkError, AlsoMeasuresTheFirstStepAfterARestart) {
               0.02);  // next term: (omega h)^2 and the difference's h/1000
 }
 
+// One motion of 1 rad/s and 1 m, one of omega and d, after a few steps.
+double error_of_two(const std::string& name, double omega, double d, double h, const Tolerance& tolerance) {
+  Posed s(oscillators({1, omega}));
+  auto method = make(name);
+  State start = s.start();
+  start.q[1] = d;
+  s->move_to(start.t, start.q, start.v);
+  s->accelerate({}, start.a, start.lambda);
+  method->restart(s, start);
+  const State now = advance(*method, s, start, h, 5);
+  State next;
+  if (!method->step(s, now, h, next)) throw std::runtime_error("rejected");
+  return dynamic_cast<ErrorEstimate&>(*method).error(s, now, next, tolerance);
+}
+
+// What is too fast for the step counts by what it moves, omega d h a step, not by its accelerations omega^2 d.
+TEST(NewmarkError, IsThatOfTheSlowMotionBesideAFastOne) {
+  const Tolerance tight{.relative = 0, .absolute = 1e-9};
+  const double h = 0.1, omega = 1e6;
+  for (const char* name : {"hht_alpha", "generalized_alpha", "newmark"}) {
+    const double slow = error_of_two(name, omega, 0, h, tight);
+    EXPECT_GT(slow, 1) << name;
+    // Accelerations of 1e-2 m/s^2, beside 1e-4 of the error of the slow ones; the rest is (omega h)^2 of the filter.
+    EXPECT_NEAR(error_of_two(name, omega, 1e-14, h, tight) / slow, 1, 0.01) << name;
+    EXPECT_GT(error_of_two(name, omega, 1e-7, h, tight), 5 * slow) << name;
+  }
+}
+
 struct Dense {
   std::string name;
   int order, n;

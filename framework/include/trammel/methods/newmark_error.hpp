@@ -11,6 +11,18 @@
 //     C_1 = gamma - 1/2 + delta,   C_q = beta + delta/2 - 1/6,
 //     C_v = (delta (2 alpha_m - 1) + gamma (1 + 2 delta) - 1/3)/2
 //
+// Of modes that are too fast for the step, h omega >> 1, this is not the error: their accelerations ring from step to
+// step, and e_v does not decrease with h, so that the step would shrink until it resolves them. Where the error exceeds
+// the tolerance, it is filtered by the iteration matrix S = M + c_v D + c_q K of the step's end (Hairer, Wanner,
+// Solving ODEs II, IV.8, after Shampine):
+//
+//     [S G^T; G 0] (x, mu) = (M e, G e)      of a mode  x = e/(1 + z), z = c_q omega^2
+//     e_q -> x,   e_v -> x + (e - x) z^(-1/2) where z > 1
+//
+// e_q of a mode that rings by A is then its displacement, A/omega^2; and h times e_v of one that rings by V in v is
+// V/omega, the oscillation that it would become in shorter steps. What the step resolves, z < 1, keeps its e_v, and its
+// e_q but for a part of (omega h)^2, as little as the next term of the estimate.
+//
 // Near a change of rank, round-off of the position and velocity rows enters a divided by h: see error_along_rows.hpp.
 #pragma once
 
@@ -34,11 +46,18 @@ class NewmarkError {
   void archive(Archive& a);
 
  private:
+  bool has_step_before(const State& now) const { return a_before_.size() == now.a.size() && h_before_ > 0; }
+  void find_rate(System& s, const State& now, double h);
+  double norm(System& s, const State& now, const State& next, const Vec& e_v, const Tolerance& tolerance);
+  [[nodiscard]] bool filter(System& s, const Vec& e, Vec& x);
+
   double first_ = 0, of_q_ = 0, of_v_ = 0;  // C_1, C_q, C_v
+  double c_q_ = 0, c_v_ = 0;                // c_q/h^2, c_v/h
   bool of_velocities_ = true;
   double t_ = 0, h_before_ = 0;  // time of the last accepted point; size of the step that led to it
   Vec a_, a_before_;             // at the last accepted point and the one before it; empty: none
   Vec q_, v_, rate_, e_q_, e_v_, along_, lambda_;
+  Vec slow_q_, slow_v_, fast_, momentum_, of_rows_, mu_;
   ErrorAlongRows along_rows_;  // used if the velocity rows are satisfied, too
 };
 

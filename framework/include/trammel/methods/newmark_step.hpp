@@ -47,7 +47,8 @@ class NewmarkStep {
   bool iterating() const { return newton.iterating(); }
   // Computes next.q and next.v from next.a and moves the system to that point.
   void move(System& s, const State& now, State& next);
-  // One Newton increment of a, lambda and pi. `blend` makes S the derivative of r by a; r includes + W^T lambda.
+  // One Newton increment of a, lambda and pi; none if r only confirms that the iteration has converged. `blend` makes S
+  // the derivative of r by a; r includes + W^T lambda.
   // The prediction a_{n+1} = a_n is useless if modes oscillate that are too fast for the step (after a refinement or an
   // impact): if a_n moves q further than v_n and this changes the forces by more than M a_n. In that case the first
   // call replaces a_{n+1} so that q moves along v_n.
@@ -65,6 +66,8 @@ class NewmarkStep {
   bool correct_rows(System& s, const Vec& r, State& next);
   bool misled(System& s, const Vec& r);  // the prediction by a_n is useless
   bool at_round_off(System& s, const Vec& r);
+  bool matters(System& s, const Vec& r);
+  bool doubtful(System& s, const Vec& r);  // the factors may hide what is left of r
 
   double c_q_ = 0, c_v_ = 0;
   double size_q_ = 0, size_v_ = 0;      // scales of q and v
@@ -74,9 +77,11 @@ class NewmarkStep {
   Factors of_pi_ = Factors::iteration;  // projection if W != G
   double moved_ = 0;                    // of q since the factors were made, like change_each_
   double h_ = 0;
-  bool leads_ = false;   // a_n moves q further than v_n, by lead_
-  Vec pi_, dpi_, zero_;  // empty if there is no pi; zero_ is empty if there are no rows
+  bool doubted_ = false;  // the iteration has converged, if the next r does not matter
+  bool leads_ = false;    // a_n moves q further than v_n, by lead_
+  Vec pi_, dpi_, zero_;   // empty if there is no pi; zero_ is empty if there are no rows
   Vec increment_, lead_, da_, dlambda_, rc_, mu_;
+  Vec first_da_, left_, momentum_;
 };
 
 }  // namespace trammel

@@ -38,6 +38,11 @@ class Newton {
   // Call it after an increment of relative size `change` was applied. `at_round_off`: a further increment would be
   // round-off only.
   void judge(double change, bool at_round_off);
+  bool first() const { return iterations_ == 0; }
+  // Goes on with new factors after it has converged: the caller doubts those of an earlier iterate; or ends there after
+  // all.
+  void renew() { state_ = State::iterating, wants_factors_ = true; }
+  void confirm() { state_ = State::converged; }
   double rate() const { return rate_; }  // theta of the last two increments; 1 after a single increment
   void fail(const char* reason);
   Outcome outcome() const { return converged() ? Outcome::accept() : Outcome::reject(reason_); }
