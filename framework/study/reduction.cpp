@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +17,7 @@
 #include "model/scene_keys.hpp"
 #include "report/csv_line.hpp"
 #include "scene/files.hpp"
+#include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
 
 namespace trammel::study {
@@ -42,30 +47,95 @@ std::optional<T> choice(const Value& value, const std::vector<std::pair<std::str
   return std::nullopt;
 }
 
-void read_table(const Value& value, const std::string& file, const std::string& column, Reference& reference,
-                Problems& problems) {
-  const auto path = std::filesystem::path(value.position().file).parent_path() / file;
-  std::istringstream in(scene::read_named_file(path.string()));
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> header = report::cells_of(line);
-  const auto found = std::find(header.begin(), header.end(), column);
-  if (found == header.end() || header.front() != "t")
-    return problems.error(value.problem(
-        header.front() != "t"
-            ? fmt::format("the first column of {} is \"{}\", expected \"t\"", file, header.front())
-            : fmt::format("{} has no column \"{}\"{}", file, column, scene::did_you_mean(column, header))));
-  if (std::count(found, header.end(), column) > 1)
-    return problems.error(value.problem(fmt::format("{} has more than one column \"{}\"", file, column)));
-  const std::size_t at = std::size_t(found - header.begin());
-  while (std::getline(in, line)) {
-    const std::vector<std::string> row = report::cells_of(line);
-    if (row.size() <= at) continue;
-    reference.t.push_back(std::strtod(row[0].c_str(), nullptr));
-    reference.x.push_back(std::strtod(row[at].c_str(), nullptr));
-  }
-  if (reference.t.empty()) problems.error(value.problem(fmt::format("{} has no rows", file)));
+// A finite number and nothing else but blanks.
+std::optional<double> number_of(std::string_view cell) {
+  cell.remove_prefix(std::min(cell.find_first_not_of(" \t"), cell.size()));
+  cell = cell.substr(0, cell.find_last_not_of(" \t") + 1);
+  if (cell.starts_with('+')) cell.remove_prefix(1);
+  double x = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), x);
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(x)) return {};
+  return x;
 }
+
+// The rows of a CSV file with a header, as `trammel run` writes: the times of its first column, the values of another.
+class ReferenceTable {
+ public:
+  ReferenceTable(const Value& value, const std::string& file, Problems& problems)
+      : value_(value), file_(file), problems_(problems) {
+    const auto folder = std::filesystem::path(value.position().file).parent_path();
+    path_ = (folder / file).string();
+    quotable_ = scene::is_within(folder, path_);
+  }
+
+  void read(const std::string& column, Reference& reference) {
+    std::istringstream in(scene::read_named_file(path_));
+    std::string text;
+    std::getline(in, text);
+    if (!find_column(cells_in(text), column)) return;
+    for (line_ = 2; std::getline(in, text); ++line_)
+      if (const std::vector<std::string> row = cells_in(text); row.size() > 1 || !row[0].empty())
+        if (!add(row, reference)) return;
+    if (reference.t.empty()) problems_.error(value_.problem(fmt::format("{} has no rows", file_)));
+  }
+
+ private:
+  static std::vector<std::string> cells_in(std::string& line) {
+    if (line.ends_with('\r')) line.pop_back();
+    return report::cells_of(line);
+  }
+
+  bool find_column(const std::vector<std::string>& header, const std::string& column) {
+    const auto found = std::find(header.begin(), header.end(), column);
+    std::string wrong;
+    if (header.front() != "t")
+      wrong = fmt::format("the first column of {} is {}, expected \"t\"", file_, quoted(header.front()));
+    else if (found == header.end())
+      wrong =
+          fmt::format("{} has no column \"{}\"{}", file_, column, quotable_ ? scene::did_you_mean(column, header) : "");
+    else if (std::count(found, header.end(), column) > 1)
+      wrong = fmt::format("{} has more than one column \"{}\"", file_, column);
+    if (!wrong.empty()) problems_.error(value_.problem(wrong));
+    column_ = std::size_t(found - header.begin());
+    return wrong.empty();
+  }
+
+  bool add(const std::vector<std::string>& row, Reference& reference) {
+    if (row.size() <= column_)
+      return refuse(row, row.size() - 1, fmt::format("found {} cells, expected at least {}", row.size(), column_ + 1));
+    const auto t = number_of(row[0]), x = number_of(row[column_]);
+    if (!t || !x) {
+      const std::size_t at = t ? column_ : 0;
+      return refuse(row, at, fmt::format("found {}, expected a number", quoted(row[at])));
+    }
+    if (!reference.t.empty() && *t < reference.t.back())
+      return refuse(row, 0, "the time is less than the one in the row before");
+    reference.t.push_back(*t);
+    reference.x.push_back(*x);
+    return true;
+  }
+
+  // At the first byte of a cell.
+  bool refuse(const std::vector<std::string>& row, std::size_t cell, std::string message) {
+    std::size_t column = 1;
+    for (std::size_t i = 0; i < cell; ++i) column += row[i].size() + 1;
+    problems_.error({{path_, line_, int(column)}, value_.path(), std::move(message)});
+    return false;
+  }
+
+  // Of a file outside the study's folder nothing is shown.
+  std::string quoted(const std::string& cell) const {
+    return quotable_ ? fmt::format("\"{}\"", scene::shortened(cell)) : "something else";
+  }
+
+  const Value& value_;
+  const std::string& file_;
+  Problems& problems_;
+  std::string path_;
+  bool quotable_ = true;
+  std::size_t column_ = 0;
+  int line_ = 1;
+};
 
 void read_reference(const Value& value, Reference& reference, Problems& problems) {
   if (value.type() != Value::Type::object) {
@@ -78,7 +148,7 @@ void read_reference(const Value& value, Reference& reference, Problems& problems
   const auto name = file->read_text(problems), which = column->read_text(problems);
   if (!name || !which) return;
   try {
-    read_table(value, *name, *which, reference, problems);
+    ReferenceTable(value, *name, problems).read(*which, reference);
   } catch (const scene::SceneError& e) {
     problems.error(file->problem(e.what()));
   }

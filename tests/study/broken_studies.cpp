@@ -1,6 +1,7 @@
 // Study files that are wrong, each in its way: the error has the place, what was found and the nearest valid name.
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -108,6 +109,42 @@ INSTANTIATE_TEST_SUITE_P(
  "figures": [{"observe": "angle"}]})",
                {"study.json:2:13: figures", "add \"keep\": true"}}),
     [](const auto& broken) { return broken.param.name; });
+
+// A measured column that holds anything but numbers is no reference: read as 0, or left out, it would be one all the
+// same.
+TEST(BrokenReference, IsRefusedAtItsLineAndColumn) {
+  const test::Folder folder;
+  std::filesystem::create_directories(folder.path());
+  std::filesystem::copy_file(TRAMMEL_SOURCE_DIR "/scenes/tour/01_pendulum.json", folder.path() / "pendulum.json");
+  const std::string study = folder.path() / "study.json", table = folder.path() / "measured.csv";
+  std::ofstream(study) << R"({"study": 1, "scene": "pendulum.json", "vary": {"parameters.L": [1]},
+ "reduce": {"e": {"observe": "angle", "as": "rms", "reference": {"file": "measured.csv", "column": "angle"}}}})";
+  const auto said = [&](const std::string& rows) -> std::string {
+    std::ofstream(table) << "t,angle,v\n" << rows;
+    try {
+      Study::load(study);
+    } catch (const scene::SceneError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  const auto at = [&](int line, int column) {
+    return fmt::format("measured.csv:{}:{}: reduce.e.reference", line, column);
+  };
+  EXPECT_EQ(said("0,1,2\n0.1,1.5,2\n"), "");
+  EXPECT_EQ(said("0, +1, 2\n0.1 ,1.5e0, 2\n"), "");
+  EXPECT_EQ(said("0,1,2\r\n0.1,1.5,2\r\n\r\n"), "");
+  for (const char* cell : {"n/a", "", " ", "1.5m", "nan", "1e999", "0x10"}) {
+    const std::string error = said(fmt::format("0,1,2\n0.25,{},2\n", cell));
+    EXPECT_THAT(error, HasSubstr(at(3, 6))) << cell;
+    EXPECT_THAT(error, HasSubstr("expected a number")) << cell;
+  }
+  EXPECT_THAT(said("0,1,2\nsoon,1.5,2\n"), testing::AllOf(HasSubstr(at(3, 1)), HasSubstr("found \"soon\"")));
+  EXPECT_THAT(said("0,1,2\n0.25\n"),
+              testing::AllOf(HasSubstr(at(3, 1)), HasSubstr("found 1 cells, expected at least 2")));
+  EXPECT_THAT(said("0,1,2\n0.2,1,2\n0.1,1,2\n"),
+              testing::AllOf(HasSubstr(at(4, 1)), HasSubstr("less than the one in the row before")));
+}
 
 }  // namespace
 }  // namespace trammel::study
