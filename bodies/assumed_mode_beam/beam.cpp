@@ -82,6 +82,7 @@ void AssumedModeBeam::prepare(const World& world) {
     marker_x(Eigen::Index(marker_names_.size())) = x;
     marker_names_.push_back(name);
   }
+  marker_x_ = marker_x;
   marker_shapes_ = shapes_at(shape, marker_x, foreshortening);
   outline_shapes_ = shapes_at(shape, Vec::LinSpaced(outline_points, 0, length), foreshortening);
 

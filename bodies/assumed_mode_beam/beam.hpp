@@ -22,8 +22,9 @@
 #include <optional>
 
 #include <trammel/body.hpp>
-#include <trammel/observed_units.hpp>
 #include <trammel/fidelity.hpp>
+#include <trammel/natural_boundary.hpp>
+#include <trammel/observed_units.hpp>
 #include <trammel/parameters.hpp>
 #include <trammel/theory_limit.hpp>
 #include <trammel/time_function.hpp>
@@ -43,7 +44,8 @@ class AssumedModeBeam final : public Body,
                               public Observed,
                               public ObservedUnits,
                               public Drawn,
-                              public TheoryLimit {
+                              public TheoryLimit,
+                              public NaturalBoundary {
  public:
   // Parameters; see the declaration in plugin.cpp.
   double length = 1, area = 0, second_moment = 0, density = 0, youngs_modulus = 0;
@@ -86,6 +88,8 @@ class AssumedModeBeam final : public Body,
 
   Bounds bounds() const override;
   double stretched(double t, In q) const override;
+
+  std::optional<Slow> under_moment(int marker) const override;
 
  private:
   // Coefficients in the inertia basis of L = X0 + Phi_x A, F = 1/2 B^T H B, X = L - F, Y = Phi_y B, and the rows
@@ -156,6 +160,7 @@ class AssumedModeBeam final : public Body,
   int n_axial_ = 0, N_ = 0;  // functions of each kind: modes and static ones
   Eigen::Vector2d gravity_ = Eigen::Vector2d::Zero();
   std::optional<InertiaBasis> basis_;
+  Vec marker_x_;  // [m] places of the markers along the beam
   std::vector<PointShape> marker_shapes_, outline_shapes_;
   Mat slopes_;              // Phi_y' at places close enough to see the shortest wave, by rows
   double mass_ = 0;         // rho S L

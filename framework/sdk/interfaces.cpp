@@ -18,6 +18,7 @@
 #include <trammel/linear_rows.hpp>
 #include <trammel/linear_theory.hpp>
 #include <trammel/methods/oscillating_steps.hpp>
+#include <trammel/natural_boundary.hpp>
 #include <trammel/needs_orientation.hpp>
 #include <trammel/observed_units.hpp>
 #include <trammel/outside_domain.hpp>
@@ -68,6 +69,7 @@ HasFaces::~HasFaces() = default;
 ObservedUnits::~ObservedUnits() = default;
 HasFidelity::~HasFidelity() = default;
 TheoryLimit::~TheoryLimit() = default;
+NaturalBoundary::~NaturalBoundary() = default;
 AwaitsContact::~AwaitsContact() = default;
 LinearMarkers::~LinearMarkers() = default;
 CarriedStress::~CarriedStress() = default;

@@ -4,9 +4,12 @@
 #include <functional>
 #include <numbers>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "simulate/start/setup.hpp"
 #include "support/modes_of.hpp"
 
 namespace trammel::test {
@@ -149,6 +152,43 @@ TEST(StaticFunctions, CarryATipLoadExactly) {
     EXPECT_NEAR(force.end("y"), small * L * 2 / 3, 1e-8 * small) << N;
     EXPECT_NEAR(force.end("x") - L, 1000 * L / (E * A), 1e-9 * 1000 * L / (E * A) + 1e-15) << N;
   }
+}
+
+// --- what modes alone do not have is said ---
+
+std::string warnings_of(const std::string& text, const std::vector<scene::Override>& overrides = {}) {
+  const simulate::Setup setup = simulate::set_up(scene::Scene::parse(text, "test.json", overrides), registry());
+  return fmt::format("{}", fmt::join(setup.warnings, "\n"));
+}
+
+const std::vector<const char*> turning_the_tip = {
+    R"("joints": {"s": {"type": "prismatic", "between": ["ground", "beam.tip"], "axis": [1, 0]}})",
+    R"("joints": {"s": {"type": "prismatic", "between": ["beam.tip", "ground"], "axis": [1, 0]}})",
+    R"("forces": {"s": {"type": "torsional_spring", "between": ["ground", "beam.tip"], "stiffness": 500}})",
+    R"json("forces": {"s": {"type": "load", "on": "beam.tip", "moment": "=max(0,t-0.5)"}})json"};
+
+TEST(TurnedTip, IsSaidWithTheSettingThatCuresIt) {
+  for (const char* turning : turning_the_tip) {
+    const std::string said = warnings_of(beam(0, 20, false, turning));
+    EXPECT_THAT(said, HasSubstr("beam.tip, where the functions that bodies.beam bends by have no moment")) << turning;
+    // 4/(pi^2 N) of the turn, and the next term of the sum over 1/(i - 1/2)^2, of relative size N^-2.
+    EXPECT_THAT(said, HasSubstr(fmt::format("{:.1f} % too small", 400 / (pi * pi * 20)))) << turning;
+    EXPECT_THAT(said, HasSubstr("--set bodies.beam.modes.static_transverse=true")) << turning;
+    EXPECT_EQ(warnings_of(beam(0, 20, false, turning), {{"bodies.beam.modes.static_transverse", "true"}}), "")
+        << turning;
+  }
+}
+
+// Forces alone converge as N^-3, a rigid beam is meant to be one, and the root has a moment.
+TEST(TurnedTip, IsNotSaidOfTipsThatNothingTurns) {
+  for (
+      const char* other :
+      {R"("joints": {"s": {"type": "point_on_line", "between": ["ground", "beam.tip"], "axis": [1, 0]}})",
+       R"("forces": {"s": {"type": "spring_damper", "between": [{"point": [2, 1]}, "beam.tip"], "stiffness": 10, "length": 1}})",
+       R"("forces": {"s": {"type": "load", "on": "beam.tip", "force": {"x": 0, "y": 1}}})",
+       R"("forces": {"s": {"type": "torsional_spring", "between": ["ground", "beam.root"], "stiffness": 500}})"})
+    EXPECT_EQ(warnings_of(beam(0, 20, false, other)), "") << other;
+  EXPECT_EQ(warnings_of(beam(2, 0, false, turning_the_tip[0])), "");
 }
 
 // --- how far it may bend ---

@@ -5,6 +5,7 @@
 #include "compatibility/integrator_check.hpp"
 #include "compatibility/scene_check.hpp"
 #include "diagnose/redundancy.hpp"
+#include "diagnose/turned_boundaries.hpp"
 #include "model/build.hpp"
 #include "model/scene_keys.hpp"
 #include "plugin/describe.hpp"
@@ -150,6 +151,8 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purp
                                           setup.initial, registry, problems);
     if (purpose == Purpose::motion && !root.find("integrator"))
       choose_integrator(setup, system, chosen_before, registry, problems);
+    for (std::string& sentence : turned_boundaries(system, setup.initial, setup.settings.until))
+      setup.warnings.push_back(std::move(sentence));
   });
   problems.throw_if_any();
   for (const scene::Problem& warning : problems.warnings()) setup.warnings.push_back(warning.text());

@@ -1,0 +1,19 @@
+// Markers that joints or forces turn although the functions of their body have no moment there (NaturalBoundary).
+//
+//     a joint turns a marker if a row of it has a part of H in the marker's angles;
+//     a force does if its wrench has a moment there, at the start or at a place, speed and time beside it
+//
+// Of rows and wrenches with a part in the places too, levers below a hundredth of the scene's length do not count.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "system/assembled_system.hpp"
+
+namespace trammel::simulate {
+
+// A sentence for each such marker, with the setting that adds the functions. Leaves the system at the start.
+std::vector<std::string> turned_boundaries(model::AssembledSystem& system, const State& start, double until);
+
+}  // namespace trammel::simulate
