@@ -77,7 +77,7 @@ class RowSelection {
     const Vec wanted = -rows_of(gamma);
     const Vec a = minimum_norm(wanted);
     system_.constraint_acceleration(a, gamma);
-    return rows_of(gamma).norm() < 1e-6 * std::max(1.0, wanted.norm());
+    return rows_of(gamma).norm() < allowed_.missed_acceleration(wanted.norm());
   }
 
   Vec rows_of(const Vec& all) const {
@@ -87,18 +87,24 @@ class RowSelection {
     return Eigen::Map<const Vec>(some.data(), Eigen::Index(some.size()));
   }
 
-  // x of least norm with G x = r, in the least-squares sense.
+  // x of least norm with G x = r, in the least-squares sense. Angles count as displacements at their levers, and rows
+  // by their length, so that what is dependent does not hang on the unit of lengths.
   Vec minimum_norm(const Vec& r) const {
     Vec x = Vec::Zero(system_.sizes().nv);
     if (r.size() == 0) return x;
     std::vector<int> columns;  // with entries in these rows
-    const Mat G = dense_rows(columns);
+    Mat G = dense_rows(columns);
     if (columns.empty()) return x;
+    const Vec per_lever = system_.coordinate_sizes().levers(columns).cwiseInverse();
+    G *= per_lever.asDiagonal();
+    Vec length = G.rowwise().norm();
+    length = (length.array() > 0).select(length, 1);
+    G.array().colwise() /= length.array();
     Eigen::CompleteOrthogonalDecomposition<Mat> decomposition;
     decomposition.setThreshold(rank_tolerance);
     decomposition.compute(G);
-    const Vec of_columns = decomposition.solve(r);
-    x(columns) = of_columns;
+    const Vec of_columns = decomposition.solve(r.cwiseQuotient(length));
+    x(columns) = of_columns.cwiseProduct(per_lever);
     return x;
   }
   Mat dense_rows(std::vector<int>& columns) const {
@@ -137,7 +143,7 @@ Vec missed_rows(model::AssembledSystem& system, const RowTolerance& allowed, Sta
   const double wanted = missed.norm();
   system.factorise(model::by_coordinates, no_force, missed, Factors::projection);
   if (system.correct(no_force, missed, a, mu, Factors::projection)) system.constraint_acceleration(a, missed);
-  return missed.norm() > 1e-6 * std::max(1.0, wanted) ? missed : Vec();
+  return missed.norm() > allowed.missed_acceleration(wanted) ? missed : Vec();
 }
 
 int group_of(int row, const std::vector<RowGroup>& groups) {

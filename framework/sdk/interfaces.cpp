@@ -22,6 +22,7 @@
 #include <trammel/needs_orientation.hpp>
 #include <trammel/observed_units.hpp>
 #include <trammel/outside_domain.hpp>
+#include <trammel/own_tolerances.hpp>
 #include <trammel/parameters.hpp>
 #include <trammel/rigid_motions.hpp>
 #include <trammel/system.hpp>
@@ -46,6 +47,7 @@ DenseOutput::~DenseOutput() = default;
 OscillatingSteps::~OscillatingSteps() = default;
 LinearTheory::~LinearTheory() = default;
 Resizable::~Resizable() = default;
+OwnTolerances::~OwnTolerances() = default;
 Transfer::~Transfer() = default;
 
 // Of corrections.

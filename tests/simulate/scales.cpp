@@ -1,6 +1,7 @@
 // A scene in other units of length, or elsewhere, has the same events.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <random>
 #include <string>
@@ -263,6 +264,65 @@ TEST(Scales, MovedJointsHoldAndSwingAsAtTheOrigin) {
           EXPECT_NEAR(there.end(angle), here.end(angle), 1e-8 + 100 * eps * place) << integrator << ", " << place;
       }
     }
+}
+
+std::string error_of(const std::string& scene) {
+  try {
+    run_text(scene);
+  } catch (const scene::SceneError& error) {
+    return error.what();
+  }
+  return "it ran";
+}
+
+// Positions and velocities agree at the start, accelerations of 2 and 4 lengths per s^2 do not.
+TEST(Scales, LawsThatContradictEachOtherAreNamedAtEverySize) {
+  const char* const scene = R"json({{"trammel": 1, "space": "planar", "parameters": {{"u": {}}},
+    "bodies": {{"m": {{"type": "point_mass", "mass": 1, "position": ["=u", 0]}}}},
+    "joints": {{"a": {{"type": "distance", "between": ["ground", "m.point"], "length": "=u*(1+t^2)"}},
+                "b": {{"type": "distance", "between": ["ground", "m.point"], "length": "=u*(1+2*t^2)"}}}},
+    "simulate": {{"until": 1}}}})json";
+  for (const double length : {1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6})
+    EXPECT_THAT(error_of(fmt::format(fmt::runtime(scene), length)),
+                HasSubstr("joints.a, joints.b hold at the start but prescribe motions that contradict each other"))
+        << length;
+}
+
+// A hinged bar of any length, whose end a second joint wants elsewhere.
+TEST(Scales, JointsThatContradictEachOtherAreNamedAtEverySize) {
+  const char* const scene = R"json({{"trammel": 1, "space": "planar", "parameters": {{"u": {}}},
+    "bodies": {{"bar": {{"type": "rigid_body", "mass": 1, "inertia": "=u^2/12", "position": ["=u/2", 0],
+                        "markers": {{"l": ["=-u/2", 0], "r": ["=u/2", 0]}}}}}},
+    "joints": {{"hinge": {{"type": "revolute", "between": ["ground", "bar.l"]}},
+                "far": {{"type": "distance", "between": [{{"point": [0, "=2*u"]}}, "bar.com"],
+                         "length": "=u*sqrt(4.25)"}},
+                "end": {{"type": "revolute", "between": [{{"point": ["=1.2*u", 0]}}, "bar.r"]}}}},
+    "simulate": {{"until": 1}}}})json";
+  for (const double length : {1e-6, 1e-3, 1.0, 1e3, 1e6})
+    EXPECT_THAT(error_of(fmt::format(fmt::runtime(scene), length)),
+                HasSubstr("joints.hinge, joints.end contradict each other"))
+        << length;
+}
+
+// Tolerances that are parameters of a method, too.
+TEST(Scales, IdaKeepsItsAbsoluteToleranceInTheScenesUnit) {
+  if (!std::filesystem::exists(TRAMMEL_BUILD_DIR "/lib/trammel/sundials_ida.so")) GTEST_SKIP() << "it is not built";
+  const char* const scene = R"json({{"trammel": 1, "space": "planar", "parameters": {{"u": {}}},
+    "gravity": [0, "=-9.81*u"],
+    "bodies": {{"a": {{"type": "point_mass", "mass": 1, "position": ["=u", 0]}},
+                "b": {{"type": "point_mass", "mass": 1, "position": ["=2*u", 0]}}}},
+    "joints": {{"p": {{"type": "distance", "between": ["ground", "a.point"], "length": "=u"}},
+                "q": {{"type": "distance", "between": ["a.point", "b.point"], "length": "=u"}}}},
+    "integrator": {{"type": "sundials_ida", "rtol": 1e-6, "step": 0.01}},
+    "simulate": {{"until": 2}}, "record": {{"every": 0.1, "observe": {{"x": "b.point.x"}}}}}})json";
+  const Finished here = run_text(fmt::format(fmt::runtime(scene), 1));
+  ASSERT_TRUE(here.done()) << here.report.reason;
+  for (const double length : {1e-9, 1e-6, 1e6}) {
+    const Finished there = run_text(fmt::format(fmt::runtime(scene), length));
+    ASSERT_TRUE(there.done()) << there.report.reason;
+    // Errors of 1e-6 a step that a double pendulum enlarges ten times; with 1e-9 m the smallest is off by 0.16 lengths.
+    EXPECT_NEAR(there.end("x") / length, here.end("x"), 3e-5) << length;
+  }
 }
 
 TEST(Scales, MovedJointsThatContradictEachOtherAreNamed) {

@@ -117,7 +117,8 @@ void check_motion(model::AssembledSystem& system, const State& s, const scene::V
     return;  // the run's own first solution says so, with its time
   }
   system.constraint_acceleration(a, missed);
-  if (missed.norm() <= 1e-6 * std::max(1.0, a.norm())) return;
+  const double off = missed.norm();
+  if (off <= row_tolerance(system, s).missed_acceleration(a.norm())) return;
   const Conflict conflict = smallest_conflict(system, s);
   if (conflict.empty()) return;
   const std::string who = conflict.paths.size() > 1 ? names(conflict) : "joints",

@@ -22,6 +22,7 @@ class Approach {
 
   Approach(model::AssembledSystem& system, double t, int contact) : system_(system), t_(t), contact_(contact) {
     open_.contacts.resize(system.model().contacts.size());
+    sizes_ = system.coordinate_sizes();
   }
 
   // The gap that is reached from q, which is near the rows.
@@ -30,7 +31,7 @@ class Approach {
     constexpr double enough = 1e-5;       // of the first gap
     constexpr double least_sine = 1e-4;   // of the gap's gradient to the rows: a gap within 1e-8 of the stationary one
     constexpr double least_change = 0.1;  // of what a step should bring
-    double longest = 0.1;                 // [m, rad] change of a coordinate in a step
+    double longest = 0.1;                 // change of a coordinate in a step, in its size
     if (!restore(q)) return End::unknown;
     const double first = gap_;
     for (int i = 0; i < most_steps; ++i) {
@@ -38,7 +39,7 @@ class Approach {
       const double gap = gap_, sine = closing_direction(q);
       if (!std::isfinite(sine)) return End::unknown;
       if (sine < least_sine) return End::stationary;
-      const double size = closing_.lpNorm<Eigen::Infinity>(), by = std::min(gap, longest / size);
+      const double size = sizes_.largest(closing_), by = std::min(gap, longest / size);
       Vec tried;
       system_.retract(q, by * closing_, tried);
       if (restore(tried) && gap_ < gap - least_change * by) {
@@ -58,8 +59,9 @@ class Approach {
   bool restore(Vec& q) {
     system_.set_modes(open_);
     State s{t_, q, Vec::Zero(system_.sizes().nv), {}, {}};
+    const double allowed = 1e-9 * std::min(1.0, sizes_.length) * sizes_.place;
     const bool found =
-        model::positions_onto_rows(system_, s, {.metric = model::by_coordinates, .allowed = 1e-9, .most = 10});
+        model::positions_onto_rows(system_, s, {.metric = model::by_coordinates, .allowed = allowed, .most = 10});
     q = s.q;
     gap_ = system_.gap(contact_);
     return found && std::isfinite(gap_);
@@ -90,6 +92,7 @@ class Approach {
   double t_;
   int contact_;
   model::Modes open_;
+  model::CoordinateSizes sizes_;
   Vec closing_;
   double gap_ = 0;
 };
@@ -117,7 +120,9 @@ std::optional<double> nearest_if_never(model::AssembledSystem& system, const Sta
   double nearest = std::numeric_limits<double>::infinity();
   for (int attempt = 0; attempt < 4; ++attempt) {
     Vec q = start.q;
-    if (attempt > 0) system.retract(start.q, model::pseudo_random(start.v.size(), 0.1, attempt), q);
+    system.move_to(start.t, start.q, start.v);
+    const Vec aside = model::pseudo_random(start.v.size(), 0.1, attempt);
+    if (attempt > 0) system.retract(start.q, aside.cwiseProduct(system.coordinate_sizes().of), q);
     Approach approach(system, start.t, contact);
     if (approach.from(q) != Approach::End::stationary) return {};
     const auto& limit = system.model().contacts[std::size_t(contact)].limit;

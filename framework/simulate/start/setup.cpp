@@ -1,6 +1,7 @@
 #include "simulate/start/setup.hpp"
 
 #include <fmt/format.h>
+#include <trammel/own_tolerances.hpp>
 
 #include "compatibility/integrator_check.hpp"
 #include "compatibility/scene_check.hpp"
@@ -10,6 +11,7 @@
 #include "model/scene_keys.hpp"
 #include "plugin/describe.hpp"
 #include "plugin/parameters.hpp"
+#include "run/contact_scale.hpp"
 #include "simulate/contact/contact_reach.hpp"
 #include "simulate/pictures/field_line.hpp"
 #include "simulate/start/blame.hpp"
@@ -115,6 +117,16 @@ void find_start(Setup& setup, model::AssembledSystem& system, const Value& root,
   begin_columns(setup.columns, system, setup.initial);
 }
 
+// From the start alone, so that a resumed run has the same.
+void tell_unit(Setup& setup, model::AssembledSystem& system) {
+  auto* const own = dynamic_cast<OwnTolerances*>(setup.integrator.get());
+  if (!own) return;
+  system.move_to(setup.initial.t, setup.initial.q, setup.initial.v);
+  ContactScale all(system.model());
+  all.take_all(system);
+  own->in_unit(all.scene().in_own_unit({.relative = 1, .absolute = 0}, setup.settings.every).absolute);
+}
+
 }  // namespace
 
 Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purpose, CrashWitness* witness,
@@ -151,6 +163,7 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purp
                                           setup.initial, registry, problems);
     if (purpose == Purpose::motion && !root.find("integrator"))
       choose_integrator(setup, system, chosen_before, registry, problems);
+    tell_unit(setup, system);
     for (std::string& sentence : turned_boundaries(system, setup.initial, setup.settings.until))
       setup.warnings.push_back(std::move(sentence));
   });

@@ -13,19 +13,27 @@ double largest(const Vec& x) {
   return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0;
 }
 
+bool at_round_off(AssembledSystem& system, const Vec& g, const Vec& q) {
+  if (largest(g) > rounding * largest(q)) return false;
+  const CoordinateSizes sizes = system.coordinate_sizes();
+  const Vec of_coordinates = system.sparse_rows().cwiseAbs() * (sizes.place * sizes.of);
+  return (g.cwiseAbs() - rounding * of_coordinates.cwiseMin(largest(q))).maxCoeff() <= 0;
+}
+
 }  // namespace
 
-bool positions_onto_rows(System& system, State& s, const OntoRows& how) {
+bool positions_onto_rows(AssembledSystem& system, State& s, const OntoRows& how) {
   const Vec no_force = Vec::Zero(system.sizes().nv), no_multiplier = Vec::Zero(system.sizes().nc);
   Vec g, dq, mu, q;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0;; ++i) {
     system.move_to(s.t, s.q, s.v);
     g = system.g();
+    if (g.size() == 0) return true;
     const double now = largest(g);
     if (!std::isfinite(now)) return false;
-    const bool at_round_off = now <= rounding * largest(s.q) || (now <= how.allowed && now > 0.5 * before);
-    if (at_round_off || i == how.most) return at_round_off || now <= how.allowed;
+    const bool met = at_round_off(system, g, s.q) || (now <= how.allowed && now > 0.5 * before);
+    if (met || i == how.most) return met || now <= how.allowed;
     before = now;
     system.factorise(how.metric, no_force, no_multiplier, Factors::projection);
     if (!system.correct(no_force, g, dq, mu, Factors::projection)) return false;

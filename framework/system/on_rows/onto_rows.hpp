@@ -3,9 +3,11 @@
 //     q := q (+) dq,   [S G^T; G 0] (dq, mu) = -(0, g)               factors at each iterate
 //     v := v + dv,     [S G^T; G 0] (dv, mu) = -(0, G v + g_t)       linear; twice, to reduce round-off
 //
-// Positions end at the rows' round-off, `rounding` of the largest coordinate, since rows are differences of
-// coordinates; or, where the rows are within `allowed`, as soon as an iteration does not halve what is left: Newton's
-// method converges quadratically until there is only round-off.
+// Positions end at the rows' round-off: `rounding` of the largest coordinate, since rows are differences of
+// coordinates, and of the coordinates that the row itself has, each by its size (coordinate_sizes.hpp), so that an
+// angle is not met as a distance of a kilometre is, nor a distance of a micrometre as an angle; or, where the rows are
+// within `allowed`, as soon as an iteration does not halve what is left: Newton's method converges quadratically until
+// there is only round-off.
 //
 // The integrators' and corrections' own iterations are others: they keep factors from one iterate to the next.
 #pragma once
@@ -13,7 +15,8 @@
 #include <functional>
 
 #include <trammel/integrator.hpp>
-#include <trammel/system.hpp>
+
+#include "system/assembled_system.hpp"
 
 namespace trammel::model {
 
@@ -29,7 +32,7 @@ struct OntoRows {
 };
 
 // False: the rows are not within `allowed` in the end. The system is left at the state.
-bool positions_onto_rows(System& system, State& state, const OntoRows& how);
+bool positions_onto_rows(AssembledSystem& system, State& state, const OntoRows& how);
 // False: the matrix is singular.
 bool velocities_onto_rows(System& system, State& state, Blend metric = by_mass);
 

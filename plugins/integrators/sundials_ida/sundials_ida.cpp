@@ -25,6 +25,7 @@
 
 #include <trammel/fidelity.hpp>
 #include <trammel/integrator.hpp>
+#include <trammel/own_tolerances.hpp>
 #include <trammel/plugin.hpp>
 
 #include "tape.hpp"
@@ -51,13 +52,16 @@ std::uint64_t checksum(const State& state) {
   return hash;
 }
 
-class SundialsIda final : public Integrator, public DenseOutput, public HasFidelity {
+class SundialsIda final : public Integrator, public DenseOutput, public HasFidelity, public OwnTolerances {
  public:
-  double rtol = 1e-6, atol = 1e-9, max_step = 0;
+  double rtol = 1e-6, atol = 0, max_step = 0;
   int max_order = 5;
 
-  void prepare(const World&) override {
-    solver_ = std::make_unique<ida::Solver>(ida::Tolerances{rtol, atol, max_order, max_step});
+  void prepare(const World&) override { in_unit(1); }
+  void in_unit(double length) override {
+    constexpr double share = 1e-3;
+    const double absolute = atol > 0 ? atol : share * rtol * length;
+    solver_ = std::make_unique<ida::Solver>(ida::Tolerances{rtol, absolute, max_order, max_step});
   }
   Traits traits() const override {
     return {.order = 0, .implicit = true, .steps = max_order, .holds_position = true, .holds_velocity = true};
@@ -65,7 +69,8 @@ class SundialsIda final : public Integrator, public DenseOutput, public HasFidel
 
   std::vector<FidelityParameter> fidelity() const override {
     using enum FidelityParameter::Costs;
-    return {{"rtol", more_if_smaller}, {"atol", more_if_smaller}};
+    if (atol > 0) return {{"rtol", more_if_smaller}, {"atol", more_if_smaller}};
+    return {{"rtol", more_if_smaller}};
   }
 
   void restart(System& s, const State& now) override { begin(s, now); }
@@ -229,8 +234,8 @@ TRAMMEL_PLUGIN(
         .parameter("atol", &SundialsIda::atol,
                    {.min = 0,
                     .usual_max = 1e-3,
-                    .above_min = true,
-                    .doc = "likewise, absolute, in the unit of each coordinate and rate"})
+                    .doc = "likewise, absolute, in the unit of each coordinate and rate; 0: rtol / 1000 of the scene's "
+                           "length, 1 at most"})
         .parameter("max_order", &SundialsIda::max_order,
                    {.min = 1, .max = 5, .doc = "of the formulas; above 2 they are unstable for some fast oscillations"})
         .parameter("max_step", &SundialsIda::max_step,

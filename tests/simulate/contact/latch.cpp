@@ -63,20 +63,21 @@ TEST(Latch, HoldsThroughALaterImpact) {
   EXPECT_NEAR(run.end("gap"), 0, 1e-12);
 }
 
-// A crank of 1 m and a rod of 2 m from its end to a slider on the x axis, which so comes as far as x = 3.
-std::string slider(double wanted, const char* from, const std::string& crank_row = "") {
+// A crank of 1 m and a rod of 2 m from its end to a slider on the x axis, which so comes as far as x = 3; or of 1 and 2
+// units.
+std::string slider(double wanted, const char* from, const std::string& crank_row = "", double unit = 1) {
   return fmt::format(R"json({{
-    "trammel": 1, "space": "planar",
-    "bodies": {{"pin": {{"type": "point_mass", "mass": 1, "position": [0, 1], "velocity": [1, 0]}},
-               "slider": {{"type": "point_mass", "mass": 1, "position": ["=sqrt(3)", 0], "velocity": [1, 0]}}}},
+    "trammel": 1, "space": "planar", "parameters": {{"u": {}}},
+    "bodies": {{"pin": {{"type": "point_mass", "mass": 1, "position": [0, "=u"], "velocity": ["=u", 0]}},
+               "slider": {{"type": "point_mass", "mass": 1, "position": ["=sqrt(3)*u", 0], "velocity": ["=u", 0]}}}},
     "joints": {{"crank": {{"type": "distance", "between": ["ground", "pin.point"], "length": {}}},
-               "rod": {{"type": "distance", "between": ["pin.point", "slider.point"], "length": 2}},
+               "rod": {{"type": "distance", "between": ["pin.point", "slider.point"], "length": "=2*u"}},
                "guide": {{"type": "point_on_line", "between": ["ground", "slider.point"], "axis": [1, 0]}}}},
     "contacts": {{"stop": {{"type": "latch", "between": ["ground", "slider.point"], "from": "{}",
                           "reaches": {{"type": "distance", "length": {}}}}}}},
     "integrator": {{"type": "dop853", "step": {{"tolerance": 1e-9}}}},
     "simulate": {{"until": 2}}, "initial": {{"consistent": "project"}}, "record": {{"every": 0.1}}}})json",
-                     crank_row.empty() ? "1" : crank_row, from, wanted);
+                     unit, crank_row.empty() ? R"("=u")" : crank_row, from, wanted * unit);
 }
 std::string refused(const std::string& scene) {
   try {
@@ -99,6 +100,13 @@ TEST(Latch, ThatTheJointsKeepFromClosingIsRefusedWithHowNearItComes) {
 TEST(Latch, ThatCanJustCloseIsAccepted) {
   EXPECT_EQ(refused(slider(2.999, "below")), "");
   EXPECT_EQ(refused(slider(1.001, "above")), "");
+}
+
+TEST(Latch, IsJudgedAlikeAtEverySize) {
+  for (const double unit : {1e-6, 1e-3, 1e3, 1e6}) {
+    EXPECT_NE(refused(slider(3.25, "below", "", unit)).find("can never lock"), std::string::npos) << unit;
+    EXPECT_EQ(refused(slider(2.9, "below", "", unit)), "") << unit;
+  }
 }
 
 TEST(Latch, IsNotJudgedWhereRowsDependOnTime) {
