@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "linear/dense/decompositions.hpp"
@@ -22,82 +23,128 @@ double irregular(int i) {
   return 1 + std::fmod((i + 1) * golden, 1.0);
 }
 
-// Columns of the tableau: w (0..n-1), z (n..2n-1), the covering variable z0 (2n), right side, perturbed right side.
+// The basic variables as functions of the others. Variables are numbered w (0..n-1), z (n..2n-1) and the covering
+// variable z0 (2n). A row for each basic one; a column for each of the n + 1 others, then the right side and the
+// perturbed right side.
 class Tableau {
  public:
-  Tableau(const Mat& M, const Vec& q) : n_(int(q.size())), first_(n_, 2 * n_ + 3), basis_(std::size_t(n_)) {
-    first_.setZero();
-    first_.leftCols(n_).setIdentity();
-    first_.middleCols(n_, n_) = -M;
-    first_.col(covering()).setConstant(-1);
-    first_.col(right()) = first_.col(perturbed()) = q;
+  Tableau(const Mat& M, const Vec& q)
+      : M_(M),
+        n_(q.size()),
+        rows_(n_, n_ + 3),
+        sides_(n_, 2),
+        basis_(std::size_t(n_)),
+        columns_(std::size_t(n_) + 1),
+        column_of_(2 * std::size_t(n_) + 1, -1) {
     const double size = std::max(-perturbation * q.minCoeff(), round_off * q.lpNorm<Eigen::Infinity>());
-    for (int i = 0; i < n_; ++i) first_(i, perturbed()) += size * irregular(i), basis_[std::size_t(i)] = i;
-    rows_ = first_;
+    for (Index i = 0; i < n_; ++i) {
+      sides_.row(i) << q[i], q[i] + size * irregular(int(i));
+      basis_[std::size_t(i)] = int(i);
+    }
+    for (Index j = 0; j <= n_; ++j) place(int(n_ + j), j);
+    rows_ << -M, Vec::Constant(n_, -1), sides_;
   }
 
-  int covering() const { return 2 * n_; }
-  int complement(int column) const { return column < n_ ? column + n_ : column - n_; }
+  int covering() const { return 2 * int(n_); }
+  int complement(int variable) const { return variable < n_ ? variable + int(n_) : variable - int(n_); }
   const std::vector<int>& basis() const { return basis_; }
 
-  // The row that leaves when `column` enters: of the least ratio, of equal ones that with the largest pivot; the
+  // The row that leaves when `variable` enters: of the least ratio, of equal ones that with the largest pivot; the
   // covering variable before all others, for that ends the method. -1: none, a ray.
-  int leaving_row(int column) const {
-    const double least_pivot = no_pivot * std::max(1.0, rows_.col(column).lpNorm<Eigen::Infinity>());
+  int leaving_row(int variable) {
+    entering_ = rows_.col(column_of_[std::size_t(variable)]);
+    const double least_pivot = no_pivot * std::max(1.0, entering_.lpNorm<Eigen::Infinity>());
     double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < n_; ++i)
-      if (rows_(i, column) > least_pivot) least = std::min(least, ratio(i, column));
-    int best = -1;
-    for (int i = 0; i < n_; ++i) {
-      if (!(rows_(i, column) > least_pivot)) continue;
-      if (ratio(i, column) > least * (1 + same_ratio)) continue;
-      if (basis_[std::size_t(i)] == covering()) return i;
-      if (best < 0 || rows_(i, column) > rows_(best, column)) best = i;
+    for (Index i = 0; i < n_; ++i)
+      if (entering_[i] > least_pivot) least = std::min(least, ratio(i));
+    Index best = -1;
+    for (Index i = 0; i < n_; ++i) {
+      if (!(entering_[i] > least_pivot)) continue;
+      if (ratio(i) > least * (1 + same_ratio)) continue;
+      if (basis_[std::size_t(i)] == covering()) return int(i);
+      if (best < 0 || entering_[i] > entering_[best]) best = i;
     }
-    return best;
+    return int(best);
   }
 
   // The first pivot brings z0 in at the most negative right side; -1: there is none.
   int first_row() const {
-    Eigen::Index row = 0;
+    Index row = 0;
     return rows_.col(perturbed()).minCoeff(&row) < 0 ? int(row) : -1;
   }
 
-  // Returns the variable that left.
-  int pivot(int row, int column) {
-    rows_.row(row) /= rows_(row, column);
-    for (int i = 0; i < n_; ++i) {
-      if (i == row) continue;
-      const double factor = rows_(i, column);
-      if (factor != 0) rows_.row(i) -= factor * rows_.row(row);
+  // Exchanges the variable with that of the row, which is returned. Decisions look at the entering column and at the
+  // right sides alone: where these are no numbers the method ends (`finite`).
+  int pivot(int row, int variable) {
+    const Index column = column_of_[std::size_t(variable)];
+    entering_ = rows_.col(column);
+    const double by = entering_[row];
+    rows_.row(row) /= by;
+    rows_(row, column) = 1 / by;
+    for (Index i = 0; i < n_; ++i) {
+      if (i == row || entering_[i] == 0) continue;
       rows_(i, column) = 0;
+      rows_.row(i) -= entering_[i] * rows_.row(row);
     }
-    const int left = basis_[std::size_t(row)];
-    basis_[std::size_t(row)] = column;
+    const int left = std::exchange(basis_[std::size_t(row)], variable);
+    column_of_[std::size_t(variable)] = -1;
+    place(left, column);
     if (++pivots_ % pivots_to_renew == 0) renew();
     return left;
   }
 
-  bool finite() const { return rows_.allFinite(); }
-  double value(int row) const { return rows_(row, right()); }
+  bool finite() const { return entering_.allFinite() && rows_.rightCols(2).allFinite(); }
+  double value(int row) const { return rows_(row, n_ + 1); }
 
  private:
-  int right() const { return 2 * n_ + 1; }
-  int perturbed() const { return 2 * n_ + 2; }
+  using Index = Eigen::Index;
+  Index perturbed() const { return n_ + 2; }
   // No right side is negative but for round-off.
-  double ratio(int i, int column) const { return std::max(0.0, rows_(i, perturbed())) / rows_(i, column); }
-
-  // From the beginning, without the round-off of the pivots.
-  void renew() {
-    const Mat basis = first_(Eigen::all, basis_);
-    const Eigen::PartialPivLU<Mat> lu(basis);
-    rows_ = lu.solve(first_);
-    for (int i = 0; i < n_; ++i) rows_.col(basis_[std::size_t(i)]) = Vec::Unit(n_, i);
+  double ratio(Index i) const { return std::max(0.0, rows_(i, perturbed())) / entering_[i]; }
+  void place(int variable, Index column) {
+    columns_[std::size_t(column)] = variable;
+    column_of_[std::size_t(variable)] = column;
   }
 
-  int n_, pivots_ = 0;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> first_, rows_;  // pivots work on rows
-  std::vector<int> basis_;
+  // The column of a variable in  w - M z - z0 = q.
+  Vec original(int variable) const {
+    if (variable == covering()) return Vec::Constant(n_, -1);
+    return variable < n_ ? Vec(Vec::Unit(n_, variable)) : Vec(-M_.col(variable - n_));
+  }
+
+  // From the beginning, without the round-off of the pivots: the equations of those w that are not basic tell the basic
+  // z, and the others the basic w.
+  void renew() {
+    std::vector<Index> of_z, of_w, left, equations;  // rows of basic z and w; equations without and with a basic w
+    std::vector<bool> basic(std::size_t(n_), false);
+    for (Index i = 0; i < n_; ++i) {
+      const int variable = basis_[std::size_t(i)];
+      if (variable >= n_)
+        of_z.push_back(i);
+      else
+        of_w.push_back(i), equations.push_back(variable), basic[std::size_t(variable)] = true;
+    }
+    for (Index i = 0; i < n_; ++i)
+      if (!basic[std::size_t(i)]) left.push_back(i);
+    Mat right(n_, n_ + 3), of_basic(n_, Index(of_z.size()));
+    for (Index j = 0; j <= n_; ++j) right.col(j) = original(columns_[std::size_t(j)]);
+    right.rightCols(2) = sides_;
+    for (std::size_t k = 0; k < of_z.size(); ++k) of_basic.col(Index(k)) = original(basis_[std::size_t(of_z[k])]);
+    const Mat equations_of_z = of_basic(left, Eigen::all), right_of_z = right(left, Eigen::all);
+    const Mat z = Eigen::PartialPivLU<Mat>(equations_of_z).solve(right_of_z);
+    const Mat taken = of_basic(equations, Eigen::all) * z;
+    rows_(of_z, Eigen::all) = z;
+    rows_(of_w, Eigen::all) = right(equations, Eigen::all) - taken;
+  }
+
+  const Mat& M_;
+  Index n_;
+  int pivots_ = 0;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows_;  // pivots work on rows
+  Mat sides_;
+  std::vector<int> basis_, columns_;  // the variable of each row, and of each column
+  std::vector<Index> column_of_;      // of each variable; -1: it is basic
+  Vec entering_;
 };
 
 // Solves again on the set found, M_BB z_B = -q_B, which removes the round-off of the pivots; kept only if it is a
@@ -141,7 +188,7 @@ LcpOutcome solve_lcp(const Mat& M, const Vec& q, Vec& z, Vec& w) {
   const int limit = 100 * n + 100;
   for (int pivots = 0; pivots < limit; ++pivots) {
     const int row = tableau.leaving_row(entering);
-    if (row < 0) return LcpOutcome::no_solution;
+    if (row < 0) return tableau.finite() ? LcpOutcome::no_solution : LcpOutcome::gave_up;
     const int left = tableau.pivot(row, entering);
     if (!tableau.finite()) return LcpOutcome::gave_up;
     if (left == tableau.covering()) {
