@@ -170,27 +170,44 @@ class InteriorPoint {
     scaled_ = W_ * z_;
   }
 
+  // K is positive definite inside the cones, but nearly singular where one of the rows determines s instead of x.
+  // K + weight u u^T is not, and has the same solution, since u . dy is known.
   void factorise() {
-    const Index rows = G_.rows(), all = rows + has_s();
     const Mat GW = G_ * W_;
     GWY_ = GW * yields_;
-    K_.setZero(all, all);
-    K_.topLeftCorner(rows, rows) = GWY_ * GW.transpose();
-    if (has_s()) K_.col(rows).head(rows) = u_, K_.row(rows).head(rows) = u_.transpose();
-    lu_.compute(K_);
+    K_.noalias() = GWY_ * GW.transpose();
+    Mat regular = K_;
+    if (has_s()) {
+      weight_ = K_.trace() / u_.squaredNorm();
+      regular.selfadjointView<Eigen::Lower>().rankUpdate(u_, weight_);
+    }
+    ldlt_.compute(regular);
+    if (has_s()) by_s_ = ldlt_.solve(u_);
+  }
+
+  // K dy + u ds = r,  u . dy = free
+  void solve_rows(const Vec& r, double free, Vec& dy, double& ds) const {
+    if (!has_s()) {
+      dy = ldlt_.solve(r);
+      ds = 0;
+      return;
+    }
+    const Vec right = r + weight_ * free * u_;
+    dy = ldlt_.solve(right);
+    ds = (u_.dot(dy) - free) / u_.dot(by_s_);
+    dy -= ds * by_s_;
   }
 
   // W^-1 dx + W dz = right, and the linear equations.
   bool direction(const Vec& right) {
-    const Index rows = G_.rows();
-    Vec r(K_.rows());
-    r.head(rows) = primal_ - GWY_ * (right - W_ * dual_);
-    if (has_s()) r[rows] = free_;
-    Vec d = lu_.solve(r);
-    const Vec left = r - K_ * d;
-    d += lu_.solve(left);
-    if (!d.allFinite()) return false;
-    dy_ = d.head(rows), ds_ = has_s() ? d[rows] : 0;
+    const Vec r = primal_ - GWY_ * (right - W_ * dual_);
+    solve_rows(r, free_, dy_, ds_);
+    Vec left = r - K_ * dy_, more;
+    if (has_s()) left -= ds_ * u_;
+    double more_s = 0;
+    solve_rows(left, has_s() ? free_ - u_.dot(dy_) : 0, more, more_s);
+    dy_ += more, ds_ += more_s;
+    if (!dy_.allFinite() || !std::isfinite(ds_)) return false;
     dx_ = W_ * (yields_ * (right - W_ * (dual_ - G_.transpose() * dy_)));
     dz_ = dual_ - G_.transpose() * dy_ + D_.cwiseProduct(dx_);
     return true;
@@ -212,7 +229,9 @@ class InteriorPoint {
   double free_ = 0, ds_ = 0;
   Blocks W_, W_inverse_, yields_;
   Mat GWY_, K_;
-  Eigen::FullPivLU<Mat> lu_;  // of K; pivots of rows alone lose digits where cones are thin
+  double weight_ = 0;  // of u u^T beside K
+  Vec by_s_;
+  Eigen::LDLT<Mat> ldlt_;  // its diagonal pivots are the largest of all, which digits need where cones are thin
 };
 
 }  // namespace
