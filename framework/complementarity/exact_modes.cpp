@@ -59,10 +59,14 @@ class ExactModes {
   }
 
  private:
-  // Forces and modes that do not contradict each other. False: it found none.
+  // Forces and modes that do not contradict each other. False: it found none, or came to modes for the second time,
+  // from where it would go round and round.
   bool settle_modes() {
     const int most = 6 * int(points_.size()) + 20;
+    std::vector<std::vector<ContactRole>> tried;
     for (int i = 0; i < most; ++i) {
+      if (std::find(tried.begin(), tried.end(), roles_) != tried.end()) return false;
+      tried.push_back(roles_);
       if (!find_forces()) return false;
       if (!change_worst()) return true;
     }

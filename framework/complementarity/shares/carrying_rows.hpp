@@ -20,6 +20,7 @@ struct ContactRole {
   bool idle = false;  // closed, its row follows from others, and it carries nothing
   Tangent tangent = Tangent::none;
   Eigen::Vector2d ratio = Eigen::Vector2d::Zero();  // slides: T / N
+  bool operator==(const ContactRole&) const = default;
 };
 
 struct CarryingRows {
