@@ -133,11 +133,15 @@ void ContactModes::gather(const State& state, const ContactChanges& changes, boo
 }
 
 // Rule 7: contacts that slide while what rests, and what is closed, leaves them no slip. The steps leave some, so such
-// slips, the feet of one block, do not reach 0 at one instant. In space also those that have no direction then: a body
-// that slides and spins ends both at once. True if there are any, which are added to `changes`.
+// slips, the feet of one block, do not reach 0 at one instant. A slip that does not follow from the rates that are left
+// elsewhere is a motion, however slow: in a row of dominoes each moves the one behind it by half as much. In space also
+// those that have no direction then: a body that slides and spins ends both at once. True if there are any, which are
+// added to `changes`.
 bool ContactModes::stop_with_others(ContactChanges& changes) {
   if (changes.stopped.empty()) return false;
-  const std::vector<bool> held = problem_.held_by_others();
+  const std::vector<double> beside = problem_.slip_beside_others(problem_.rates(system_));
+  // Joints' rows have drifts of their own, from which a slip may follow.
+  const bool joints = system_.model().sizes.nc > 0;
   const std::size_t before = changes.stopped.size();
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     const int contact = problem_.who[i].contact;
@@ -145,7 +149,9 @@ bool ContactModes::stop_with_others(ContactChanges& changes) {
     if (problem_.who[i].tangent != Tangent::sliding || !slid.closed || contains(changes.stopped, contact)) continue;
     if (!system_.model().contacts[contact].coulomb) continue;
     const double speed = system_.slip(contact).norm();
-    if (speed < slid.slow || (held[i] && speed <= scale_.of(int(contact)).drift())) changes.stopped.push_back(contact);
+    const Scale scale = scale_.of(contact);
+    const bool held = beside[i] <= (joints ? scale.drift() : scale.at_rest());
+    if (speed < slid.slow || (held && speed <= scale.drift())) changes.stopped.push_back(contact);
   }
   return changes.stopped.size() > before;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "linear/dense/decompositions.hpp"
 
@@ -10,13 +11,16 @@ namespace {
 
 // Squares of sines of angles: below this a row follows from others. Where A is built from rows that are right to 1e-16,
 // what is left of a dependent one is some 1e-14; contacts 1e-6 of a body's size apart leave 1e-12.
-constexpr double least_share = 1e-13;
+constexpr double round_off_of_shares = 1e-13;
 constexpr double no_share = 1e-9;  // of K, rows at length one
 
 // Cholesky with diagonal pivoting, the rows of `order` only.
 class PivotedCholesky {
  public:
-  explicit PivotedCholesky(const Mat& A) : left_(A.diagonal()), size_(A.diagonal()), A_(A) { L_.setZero(A.rows(), 0); }
+  explicit PivotedCholesky(const Mat& A, double least_share = round_off_of_shares)
+      : left_(A.diagonal()), size_(A.diagonal()), A_(A), least_share_(least_share) {
+    L_.setZero(A.rows(), 0);
+  }
 
   void take(std::vector<Eigen::Index> rows, RowBasis& result) {
     while (!rows.empty()) {
@@ -24,7 +28,7 @@ class PivotedCholesky {
       for (std::size_t k = 1; k < rows.size(); ++k)
         if (share(rows[k]) > share(rows[best])) best = k;
       const Eigen::Index row = rows[best];
-      if (!(share(row) > least_share)) break;
+      if (!(share(row) > least_share_)) break;
       eliminate(row);
       result.basis.push_back(row);
       rows.erase(rows.begin() + std::ptrdiff_t(best));
@@ -46,6 +50,7 @@ class PivotedCholesky {
   Vec left_, size_;
   Mat L_;
   const Mat& A_;
+  double least_share_;
 };
 
 }  // namespace
@@ -65,6 +70,13 @@ RowBasis find_basis(const Mat& A, const std::vector<Eigen::Index>& first, const 
   return result;
 }
 
+std::vector<Eigen::Index> well_conditioned_rows(const Mat& A, const std::vector<Eigen::Index>& rows,
+                                                double least_share) {
+  RowBasis result;
+  PivotedCholesky(A, least_share).take(rows, result);
+  return result.basis;
+}
+
 Mat implied_by(const Mat& A, const std::vector<Eigen::Index>& basis, const std::vector<Eigen::Index>& implied) {
   const Eigen::Index n = Eigen::Index(basis.size()), m = Eigen::Index(implied.size());
   Mat K = Mat::Zero(m, n);
@@ -79,6 +91,23 @@ Mat implied_by(const Mat& A, const std::vector<Eigen::Index>& basis, const std::
     for (Eigen::Index j = 0; j < n; ++j)
       if (std::abs(K(i, j)) * length[basis[std::size_t(j)]] <= no_share * length[implied[std::size_t(i)]]) K(i, j) = 0;
   return K;
+}
+
+Vec beside_basis(const Mat& A, const std::vector<Eigen::Index>& basis, const std::vector<Eigen::Index>& others,
+                 const Vec& rates) {
+  Vec beside = rates(others);
+  if (basis.empty() || others.empty()) return beside.setConstant(std::numeric_limits<double>::infinity()), beside;
+  const Vec scale = A.diagonal()(basis).cwiseSqrt().cwiseInverse();
+  const Mat of_basis = scale.asDiagonal() * A(basis, basis) * scale.asDiagonal();
+  const Mat of_others = scale.asDiagonal() * A(basis, others);
+  const Mat K = Eigen::LLT<Mat>(of_basis).solve(of_others);
+  beside -= K.transpose() * scale.cwiseProduct(rates(basis));
+  for (Eigen::Index i = 0; i < beside.size(); ++i) {
+    const double own = A(others[std::size_t(i)], others[std::size_t(i)]);
+    if (own - K.col(i).dot(of_others.col(i)) > round_off_of_shares * own)
+      beside[i] = std::numeric_limits<double>::infinity();
+  }
+  return beside;
 }
 
 bool follows(const Mat& A, const std::vector<Eigen::Index>& rows, Eigen::Index row) {

@@ -27,8 +27,18 @@ struct RowBasis {
 // `rows`: indices into A. Those of `first` enter the basis before all others do.
 RowBasis find_basis(const Mat& A, const std::vector<Eigen::Index>& first, const std::vector<Eigen::Index>& others = {});
 
+// As many of these rows as leave each other more than `least_share`: the square of the sine of the angle between a row
+// and those before it.
+std::vector<Eigen::Index> well_conditioned_rows(const Mat& A, const std::vector<Eigen::Index>& rows,
+                                                double least_share);
+
 // K of implied rows: basis and implied are indices into A.
 Mat implied_by(const Mat& A, const std::vector<Eigen::Index>& basis, const std::vector<Eigen::Index>& implied);
+
+// Of rates along all rows: what the `others` have beside K times those along the basis; infinity where a row does not
+// follow from it.
+Vec beside_basis(const Mat& A, const std::vector<Eigen::Index>& basis, const std::vector<Eigen::Index>& others,
+                 const Vec& rates);
 
 // Whether a row follows from these.
 bool follows(const Mat& A, const std::vector<Eigen::Index>& rows, Eigen::Index row);

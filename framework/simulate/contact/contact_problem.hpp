@@ -53,8 +53,10 @@ class ContactProblem {
   std::vector<std::size_t> islands() const;
   // Change of v by the forces found as impulses.
   void jump(Vec& dv) const;
-  // Those that slide along tangents which follow from the normals and from the tangents at rest.
-  std::vector<bool> held_by_others() const;
+  Vec rates(model::AssembledSystem& system) const;  // along their directions [m/s], once prepared
+  // Of those that slide along tangents which follow from the normals and from the tangents at rest: the part of their
+  // slip that does not follow from the rates of these [m/s]. Infinity where the tangents do not follow.
+  std::vector<double> slip_beside_others(const Vec& rates) const;
   // The least change of v that ends the slip `a_t` of all tangents at rest and leaves the unilateral normals alone.
   void end_slip(Vec& dv) const;
   // Unilateral ones without a force that the others keep closed: their rows follow from those of contacts that press.
