@@ -34,7 +34,7 @@ int json_output();  // the descriptor
 
 void print_json(const nlohmann::ordered_json& object);
 void print_json_text(const std::string& json);  // takes no memory: results are complete by then
-void print_line(const std::string& text);    // takes no memory: results are complete by then
+void print_line(const std::string& text);       // takes no memory: results are complete by then
 
 std::vector<std::string> lines(const std::string& text);  // without empty ones
 
