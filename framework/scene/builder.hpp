@@ -9,14 +9,15 @@ class Builder {
  public:
   using Content = std::variant<Null, bool, double, std::string, Items, Members>;
 
-  static Value make(Content content, Position at);
+  static Value make(Content content, const Position& at);
+  static Value make(Content content, const Value& in_file, int line, int column);  // in the file of another value
   static Value like(const Value& other, Content content);  // with the position, path and parameters of `other`
   static Items& items(Value& value) { return std::get<Items>(value.content_); }
   static Members& members(Value& value) {
-    value.by_name_.clear();
+    value.by_name_.reset();
     return std::get<Members>(value.content_);
   }
-  static void place(Value& value, Position at) { value.position_ = std::move(at); }
+  static void place(Value& value, const Value& at);  // with the position of another one
   static Value* find(Value& object, std::string_view key);
   // Sets the dotted paths, the scene's parameters and the indices of members in the whole tree. Throws SceneError if
   // the tree exceeds limits::values.
@@ -26,8 +27,12 @@ class Builder {
   static std::size_t size(const Value& value);
 
  private:
-  static void finish(Value& value, const std::string& path, const std::shared_ptr<const Value::Parameters>& parameters,
-                     std::size_t& size);
+  struct Family {
+    std::string path;
+    const std::shared_ptr<const Value::Parameters>& parameters;
+  };
+  static void finish(Value& value, const Family& family, std::string name,
+                     std::shared_ptr<const Value::Siblings>& siblings, std::size_t& size);
   static void order_by_name(Value& object);
 };
 

@@ -12,7 +12,8 @@ inline constexpr int nested = 100;               // arrays and objects; includes
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // libFuzzer's name; under its sanitizers more take minutes and 10 GB
 inline constexpr std::size_t values = 1'000'000;
 #else
-inline constexpr std::size_t values = 30'000'000;  // of the scene after repetition; a mast of 100,000 units: 26 million
+// Of the scene after repetition; a mast of 100,000 units has 26 million. They take about 150 bytes each.
+inline constexpr std::size_t values = 30'000'000;
 #endif
 inline constexpr std::size_t bytes_of_a_value = 64;  // longer texts, names and paths count as more values
 inline constexpr std::size_t name = 500;             // [bytes] of a key

@@ -13,7 +13,7 @@ namespace trammel::scene {
 
 namespace {
 
-void place_everywhere(Value& value, const Position& at) {
+void place_everywhere(Value& value, const Value& at) {
   if (value.type() == Value::Type::array) {
     for (Value& item : Builder::items(value)) place_everywhere(item, at);
   } else if (value.type() == Value::Type::object) {
@@ -47,7 +47,7 @@ Value parse_value(const std::string& text, const Position& at) {
   if (!nlohmann::json::accept(text, true)) return Builder::make(text, at);
   Value root = parse_text(wrapped, at.file);
   Value value = std::move(*Builder::find(root, "value"));
-  place_everywhere(value, at);
+  place_everywhere(value, Builder::make({}, at));
   return value;
 }
 

@@ -3,6 +3,7 @@
 // deep nesting.
 #include <algorithm>
 #include <unordered_set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -48,9 +49,13 @@ class Lines {
     for (std::size_t i = 0; i < text.size(); ++i)
       if (text[i] == '\n') starts_.push_back(i + 1);
   }
-  Position at(std::size_t offset) const {
+  std::pair<int, int> numbers_at(std::size_t offset) const {  // line and column
     const auto line = std::upper_bound(starts_.begin(), starts_.end(), offset) - starts_.begin();
-    return {file_, int(line), int(offset - starts_[std::size_t(line - 1)]) + 1};
+    return {int(line), int(offset - starts_[std::size_t(line - 1)]) + 1};
+  }
+  Position at(std::size_t offset) const {
+    const auto [line, column] = numbers_at(offset);
+    return {file_, line, column};
   }
 
  private:
@@ -61,7 +66,11 @@ class Lines {
 class Tree {
  public:
   Tree(const std::string& text, const std::string& file)
-      : text_(text), begin_(text.data()), furthest_(text.data()), lines_(text, file) {}
+      : text_(text),
+        begin_(text.data()),
+        furthest_(text.data()),
+        lines_(text, file),
+        in_file_(Builder::make({}, {file, 0, 0})) {}
 
   Value parse() {
     const char* end = begin_ + text_.size();
@@ -177,9 +186,13 @@ class Tree {
     refuse(at, fmt::format("the scene has more than {} values", limits::values));
     return true;
   }
+  Value make(Builder::Content content, std::size_t start) const {
+    const auto [line, column] = lines_.numbers_at(start);
+    return Builder::make(std::move(content), in_file_, line, column);
+  }
   bool scalar(Builder::Content content, std::size_t start) {
     if (too_many(start)) return false;
-    place(Builder::make(std::move(content), lines_.at(start)));
+    place(make(std::move(content), start));
     return true;
   }
   bool open(Builder::Content content) {
@@ -187,7 +200,7 @@ class Tree {
     if (too_many(start)) return false;
     if (open_.size() >= limits::nested)
       return refuse(start, fmt::format("nested deeper than {} levels", limits::nested));
-    open_.push_back({Builder::make(std::move(content), lines_.at(start)), {}, {}});
+    open_.push_back({make(std::move(content), start), {}, {}});
     return true;
   }
   bool close() {
@@ -209,6 +222,7 @@ class Tree {
   const char* begin_;
   const char* furthest_;
   Lines lines_;
+  Value in_file_;
   Problems problems_;
   std::vector<Frame> open_;
   std::size_t values_ = 0;

@@ -64,6 +64,16 @@ void Problems::throw_if_any() const {
   if (!errors_.empty()) throw SceneError(errors_);
 }
 
+const std::string& Value::file() const {
+  static const std::string none;
+  return siblings_ ? siblings_->file : none;
+}
+
+std::string Value::path() const {
+  if (!siblings_ || siblings_->path.empty()) return name_;
+  return siblings_->path + (name_.starts_with('[') ? "" : ".") + name_;
+}
+
 Value::Type Value::type() const {
   return Type(content_.index());
 }
@@ -76,14 +86,15 @@ const char* Value::type_name() const {
 const Value* Value::find(std::string_view key) const {
   if (type() != Type::object) return nullptr;
   const auto is_wanted = [key](const auto& member) { return member.first == key; };
-  if (by_name_.empty()) {
+  if (!by_name_) {
     const auto member = std::find_if(members().begin(), members().end(), is_wanted);
     return member == members().end() ? nullptr : &member->second;
   }
-  const auto at = std::lower_bound(by_name_.begin(), by_name_.end(), key, [this](int i, std::string_view name) {
+  const auto at = std::lower_bound(by_name_->begin(), by_name_->end(), key, [this](int i, std::string_view name) {
     return members()[std::size_t(i)].first < name;
   });
-  return at != by_name_.end() && is_wanted(members()[std::size_t(*at)]) ? &members()[std::size_t(*at)].second : nullptr;
+  return at != by_name_->end() && is_wanted(members()[std::size_t(*at)]) ? &members()[std::size_t(*at)].second
+                                                                         : nullptr;
 }
 
 const Value* Value::at_path(std::string_view dotted) const {
@@ -145,7 +156,7 @@ auto compiled(const Value& value, Problems& problems, Compile compile)
 std::optional<double> Value::read_number(Problems& problems) const {
   if (type() == Type::number) return std::get<double>(content_);
   if (is_expression(*this))
-    return compiled(*this, problems, [&](auto text) { return evaluate(text, lookup_in(parameters_.get())); });
+    return compiled(*this, problems, [&](auto text) { return evaluate(text, lookup_in(parameters())); });
   problems.error(problem(found(*this) + ", expected a number" +
                          (type() == Type::text ? " (an expression starts with \"=\")" : "")));
   return std::nullopt;
@@ -178,11 +189,11 @@ std::optional<std::string> Value::read_text(Problems& problems) const {
   }
   if (!is_expression(*this)) return text();
   const std::string_view name = std::string_view(text()).substr(1);
-  if (const auto* value = parameters_ ? find_parameter(*parameters_, name) : nullptr)
+  if (const auto* value = parameters() ? find_parameter(*parameters(), name) : nullptr)
     if (const std::string* named = std::get_if<std::string>(value)) return *named;
   std::vector<std::string> names;
-  if (parameters_)
-    for (const auto& [key, value] : *parameters_)
+  if (parameters())
+    for (const auto& [key, value] : *parameters())
       if (std::holds_alternative<std::string>(value)) names.push_back(key);
   problems.error(problem(fmt::format("found the expression \"{}\", expected a text or the name of a text parameter{}",
                                      shortened(text()), did_you_mean(name, names))));
@@ -208,8 +219,7 @@ std::optional<std::vector<double>> Value::read_numbers(Problems& problems) const
 std::optional<TimeFunction> Value::read_time_function(Problems& problems) const {
   if (type() == Type::object) return read_motion_table(*this, problems);
   if (is_expression(*this))
-    return compiled(*this, problems,
-                    [&](auto text) { return compile_time_function(text, lookup_in(parameters_.get())); });
+    return compiled(*this, problems, [&](auto text) { return compile_time_function(text, lookup_in(parameters())); });
   const auto number = read_number(problems);
   if (!number) return std::nullopt;
   return TimeFunction(*number);
@@ -218,23 +228,37 @@ std::optional<TimeFunction> Value::read_time_function(Problems& problems) const 
 std::optional<Formula> Value::read_formula(const std::vector<std::string>& names, Problems& problems) const {
   return compiled(*this, problems, [&](std::string_view text) {
     return Formula(text, names, [&](std::string_view name, int column) -> double {
-      if (name.find('.') == name.npos) return lookup_in(parameters_.get())(name, column);
+      if (name.find('.') == name.npos) return lookup_in(parameters())(name, column);
       throw ExpressionError(column, fmt::format("no quantity \"{}\"{}", shortened(name), did_you_mean(name, names)));
     });
   });
 }
 
-Value Builder::make(Content content, Position at) {
+Value Builder::make(Content content, const Position& at) {
   Value value;
   value.content_ = std::move(content);
-  value.position_ = std::move(at);
+  value.siblings_ = std::make_shared<const Value::Siblings>(Value::Siblings{at.file, "", nullptr});
+  value.line_ = at.line, value.column_ = at.column;
   return value;
+}
+
+Value Builder::make(Content content, const Value& in_file, int line, int column) {
+  Value value;
+  value.content_ = std::move(content);
+  value.siblings_ = in_file.siblings_;
+  value.line_ = line, value.column_ = column;
+  return value;
+}
+
+void Builder::place(Value& value, const Value& at) {
+  value.siblings_ = at.siblings_;
+  value.line_ = at.line_, value.column_ = at.column_;
 }
 
 Value Builder::like(const Value& other, Content content) {
   Value value = other;
   value.content_ = std::move(content);
-  value.by_name_.clear();
+  value.by_name_.reset();
   return value;
 }
 
@@ -252,7 +276,7 @@ std::size_t excess(std::size_t bytes) {
 }  // namespace
 
 std::size_t Builder::size(const Value& value) {
-  std::size_t sum = 1 + excess(value.position().file.size());
+  std::size_t sum = 1 + excess(value.file().size());
   if (value.type() == Value::Type::text) {
     const std::string& text = value.text();
     sum += excess(text.size()) + std::size_t(std::count(text.begin(), text.end(), '{'));
@@ -267,23 +291,28 @@ std::size_t Builder::size(const Value& value) {
 void Builder::finish(Value& value, const std::string& path,
                      const std::shared_ptr<const Value::Parameters>& parameters) {
   std::size_t sum = 0;
-  finish(value, path, parameters, sum);
+  std::shared_ptr<const Value::Siblings> alone;
+  finish(value, {"", parameters}, path, alone, sum);
 }
 
-void Builder::finish(Value& value, const std::string& path, const std::shared_ptr<const Value::Parameters>& parameters,
-                     std::size_t& size) {
-  value.path_ = path;
-  value.parameters_ = parameters;
-  size += 1 + excess(path.size()) + excess(value.position().file.size());
+// `siblings`: of the value before, which serves this one too if both are of one file.
+void Builder::finish(Value& value, const Family& family, std::string name,
+                     std::shared_ptr<const Value::Siblings>& siblings, std::size_t& size) {
+  if (!siblings || siblings->file != value.file())
+    siblings = std::make_shared<const Value::Siblings>(Value::Siblings{value.file(), family.path, family.parameters});
+  value.siblings_ = siblings;
+  value.name_ = std::move(name);
+  const Family own{value.path(), family.parameters};
+  size += 1 + excess(own.path.size()) + excess(value.file().size());
   if (size > limits::values)
     throw SceneError({value.problem(fmt::format(
         "the scene grows beyond {} values here; long names and deep nesting count as more", limits::values))});
+  std::shared_ptr<const Value::Siblings> of_children;
   if (value.type() == Value::Type::array) {
     int i = 0;
-    for (Value& item : items(value)) finish(item, fmt::format("{}[{}]", path, i++), parameters, size);
+    for (Value& item : items(value)) finish(item, own, fmt::format("[{}]", i++), of_children, size);
   } else if (value.type() == Value::Type::object) {
-    for (auto& [name, member] : members(value))
-      finish(member, path.empty() ? name : path + "." + name, parameters, size);
+    for (auto& [key, member] : members(value)) finish(member, own, key, of_children, size);
     order_by_name(value);
   }
 }
@@ -292,10 +321,11 @@ void Builder::order_by_name(Value& object) {
   constexpr std::size_t large = 64;  // the index does not speed up smaller objects
   const Members& members = object.members();
   if (members.size() < large) return;
-  object.by_name_.resize(members.size());
-  std::iota(object.by_name_.begin(), object.by_name_.end(), 0);
-  std::sort(object.by_name_.begin(), object.by_name_.end(),
+  std::vector<int> order(members.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
             [&](int a, int b) { return members[std::size_t(a)].first < members[std::size_t(b)].first; });
+  object.by_name_ = std::make_shared<const std::vector<int>>(std::move(order));
 }
 
 std::uint64_t Builder::hash(const Value& value) {

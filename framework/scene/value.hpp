@@ -75,9 +75,10 @@ class Value {
 
   Type type() const;
   const char* type_name() const;  // "a number", "an object", ... for messages
-  const Position& position() const { return position_; }
-  const std::string& path() const { return path_; }
-  Problem problem(std::string message) const { return {position_, path_, std::move(message)}; }
+  Position position() const { return {file(), line_, column_}; }
+  const std::string& file() const;
+  std::string path() const;
+  Problem problem(std::string message) const { return {position(), path(), std::move(message)}; }
 
   // The raw content; check type() first.
   bool boolean() const { return std::get<bool>(content_); }
@@ -105,11 +106,18 @@ class Value {
 
  private:
   friend class Builder;
+  // What the values of one array or object have in common, so that millions of values take little memory.
+  struct Siblings {
+    std::string file, path;                        // that they are written in; of the array or object
+    std::shared_ptr<const Parameters> parameters;  // of the whole scene
+  };
+  const Parameters* parameters() const { return siblings_ ? siblings_->parameters.get() : nullptr; }
+
   std::variant<Null, bool, double, std::string, Items, Members> content_;
-  Position position_;
-  std::string path_;
-  std::shared_ptr<const Parameters> parameters_;  // of the whole scene
-  std::vector<int> by_name_;                      // indices of the members sorted by name, of a large finished object
+  std::shared_ptr<const Siblings> siblings_;
+  int line_ = 0, column_ = 0;
+  std::string name_;                                 // among them: a key, or "[3]"
+  std::shared_ptr<const std::vector<int>> by_name_;  // members in the order of their names, of a large finished object
 };
 
 struct Override {
