@@ -21,6 +21,16 @@ Tangential direction_of(const Tangential& x) {
   return length > 0 ? Tangential(x / length) : Tangential(1, 0);
 }
 
+bool has_sliding(const model::SharedRows& group) {
+  return !group.sliding.empty();
+}
+
+bool shares_tangents(const model::SharedRows& group, int contact) {
+  const auto is = [contact](const model::ContactDirection& d) { return d.contact == contact && d.row > 0; };
+  return std::any_of(group.basis.begin(), group.basis.end(), is) ||
+         std::any_of(group.implied.begin(), group.implied.end(), is);
+}
+
 }  // namespace
 
 void ContactModes::open_all(model::Modes& modes) const {
@@ -193,7 +203,9 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
   system_.move_to(state.t, state.q, state.v);
   accelerate_participants();
   if (has_bearings()) return decide_with_bearings(state);
-  return take_verdicts();
+  const complementarity::ContactSolution solution = take_verdicts();
+  if (solution.outcome == complementarity::LcpOutcome::solved && hold_at_bounds(state)) find_shares();
+  return solution;
 }
 
 complementarity::ContactSolution ContactModes::take_verdicts() {
@@ -201,12 +213,45 @@ complementarity::ContactSolution ContactModes::take_verdicts() {
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
   const std::vector<bool> kept_closed = problem_.kept_closed(nothing(solution.violation));
   for (std::size_t i = 0; i < problem_.who.size(); ++i) take_verdict(problem_.who[i], kept_closed[i]);
+  find_shares();
+  return solution;
+}
+
+void ContactModes::find_shares() {
   problem_.find_idle(modes_);
   for (const Participant& p : problem_.who)  // no force, no friction
     if (model::ContactMode& mode = modes_.contacts[p.contact]; p.idle && mode.friction == Friction::stick)
       mode.friction = Friction::none;
   modes_.shared = problem_.shared_rows(modes_);
-  return solution;
+}
+
+// Rule 12. True if there are such contacts.
+bool ContactModes::hold_at_bounds(const State& state) {
+  constexpr double reached = 1 - 1e-6, round_off = 1e-9;
+  const auto at_bound = [this](const Participant& p) {
+    const bool sticks = modes_.contacts[p.contact].friction == Friction::stick;
+    return sticks && p.N > 0 && p.T.norm() > reached * p.mu_0 * p.N;
+  };
+  const bool sliding_shares = std::any_of(modes_.shared.begin(), modes_.shared.end(), has_sliding);
+  if (!sliding_shares || std::none_of(problem_.who.begin(), problem_.who.end(), at_bound)) return false;
+  system_.set_modes(modes_);
+  system_.move_to(state.t, state.q, state.v);
+  system_.accelerate({}, a_, lambda_);
+  bool found = false;
+  for (std::size_t g = 0; g < modes_.shared.size(); ++g) {
+    if (!has_sliding(modes_.shared[g])) continue;
+    if (system_.spare_load(int(g), lambda_) >= -round_off * system_.largest_load(int(g), lambda_)) continue;
+    for (Participant& p : problem_.who) {
+      if (!at_bound(p) || !shares_tangents(modes_.shared[g], p.contact)) continue;
+      model::ContactMode& mode = modes_.contacts[p.contact];
+      mode.friction = Friction::slide;
+      mode.direction = -direction_of(p.T);
+      mode.slow = slow(p.contact);
+      p.ratio = -p.mu * mode.direction;
+      found = true;
+    }
+  }
+  return found;
 }
 
 double ContactModes::nothing(double violation) const {

@@ -28,6 +28,9 @@
 // 11. Where a contact that was closed has neither force nor acceleration, and the others do not hold it (a stack below
 //     a ceiling that begins to tip), or where no solution is found to round-off, the problem of rule 3 a moment later
 //     tells which of them press then. If that has no solution, rule 8.
+// 12. A contact at rest whose friction is at its bound, and whose tangents follow from the rows of others, some of
+//     which slide (blocks that push each other along a channel): springs' share would be beyond the bound, and another
+//     share of the others is another motion. It keeps T = mu N, like one that slides, without a slip.
 // `rebound: constrained` makes candidates of contacts that separate at e u-, `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0, `onset: next_step` only changes when an event is seen.
 //
@@ -165,6 +168,8 @@ class ContactModes {
   bool end_drift(State& state, ContactChanges& changes);
   [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped);
   [[nodiscard]] complementarity::ContactSolution take_verdicts();
+  void find_shares();
+  bool hold_at_bounds(const State& state);
   bool in_balance(double violation) const;
   [[nodiscard]] complementarity::ContactSolution decide_by_what_follows(const State& state, ContactChanges changes,
                                                                         bool jumped,
