@@ -71,7 +71,15 @@ TEST(ErrorNorm, TakesRoundOffOfTheLargestEntryForNoError) {
   const State now = at(0, q, v);
   EXPECT_LE(error_norm(Eigen::Vector2d(0, 1e6 * eps), Eigen::Vector2d(1e3 * eps, 0), now, now, none), 1);
   EXPECT_GE(error_norm(Eigen::Vector2d(0, 1e8 * eps), still, now, now, none), 1);
-  EXPECT_GE(error_norm(still, Eigen::Vector2d(1e5 * eps, 0), now, now, none), 1);
+  EXPECT_GE(error_norm(still, Eigen::Vector2d(1e8 * eps, 0), now, now, none), 1);
+  const State here = at(0, still, v);
+  EXPECT_GE(error_norm(still, Eigen::Vector2d(1e5 * eps, 0), here, here, none), 1);
+}
+
+TEST(ErrorNorm, TakesRatesThatStabilisedRowsMakeOfRoundOffForNoError) {
+  const Tolerance none{.relative = 0, .absolute = 0};
+  const State far = at(0, Eigen::Vector2d(1e6, 0), Vec::Zero(2));
+  EXPECT_LE(error_norm(Vec::Zero(2), Eigen::Vector2d(1e6 * eps, 0), far, far, none), 1);  // 1 1/s
 }
 
 TEST(ErrorNorm, IsZeroOfNoErrorAndInfiniteOfNoNumber) {

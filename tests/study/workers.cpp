@@ -50,7 +50,7 @@ TEST(Workers, GoOnAfterTasksThatEndTheirProcess) {
   ASSERT_EQ(all.lost.size(), 2u);
   EXPECT_TRUE(all.lost.at(3).outside);
   EXPECT_FALSE(all.lost.at(7).outside);
-  EXPECT_EQ(all.lost.at(7).why, "its process ended with exit code 9");
+  EXPECT_EQ(all.lost.at(7).why, "its process ended with exit code 9, as if a plugin had called exit");
 }
 
 TEST(Workers, EndAtAnInterrupt) {

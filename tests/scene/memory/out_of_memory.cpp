@@ -88,7 +88,7 @@ TEST(OutOfMemory, EndsTheCopyOfAValueAtAnyAllocation) {
               Value copy = scene.root();
               copy = scene.root().at_path("bodies") ? *scene.root().at_path("bodies") : copy;
             }),
-            100);
+            30);
 }
 
 }  // namespace
