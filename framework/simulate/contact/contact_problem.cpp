@@ -17,10 +17,10 @@ Eigen::VectorBlock<Vec> along(Vec& x, const complementarity::ContactPoint& p) {
   return x.segment(p.tangent, p.tangents);
 }
 
-// Of a row whose drift is ended: the square of what other rows leave of it. A drift is 1e-6 of the scene's speed at
-// most (Scale::drift). To end it along a row of which others leave less than 1e-3 would take a change of v of more than
-// 1e-3 of that speed, which is no drift: so little do the first dominoes of a long row move while the last fall.
-constexpr double least_share = 1e-6;
+// Where the drifts of nearly dependent rows do not agree, to end them all takes changes of v that are many times as
+// large, which are no drift any more: so little do the first dominoes of a long row move while the last fall. Then those
+// drifts stay of which other rows leave less than 1e-3 (its square is `least_share`).
+constexpr double most_changed = 1e3, least_share = 1e-6;
 
 // Static or kinetic coefficient.
 double bound_of(const Participant& p) {
@@ -251,10 +251,15 @@ void ContactProblem::end_slip(Vec& dv) const {
     for (int k = 0; k < points_[i].tangents; ++k) held.push_back(points_[i].tangent + k);
     along(slip, points_[i]) = who[i].a_t.head(points_[i].tangents);
   }
-  const std::vector<Eigen::Index> ended = complementarity::well_conditioned_rows(delassus_, held, least_share);
-  const Mat A = delassus_(ended, ended);
-  const Vec lost = -slip(ended), impulses = Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost);
-  dv.noalias() = jump_(Eigen::all, ended) * impulses;
+  const auto end = [&](const std::vector<Eigen::Index>& rows) {
+    const Mat A = delassus_(rows, rows);
+    const Vec lost = -slip(rows), impulses = Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost);
+    dv.noalias() = jump_(Eigen::all, rows) * impulses;
+    return Vec(delassus_(Eigen::all, rows) * impulses);  // changes of rates [m/s]
+  };
+  const double drift = slip(held).lpNorm<Eigen::Infinity>();
+  if (end(held).lpNorm<Eigen::Infinity>() > most_changed * drift)
+    end(complementarity::well_conditioned_rows(delassus_, held, least_share));
 }
 
 }  // namespace trammel::simulate
