@@ -35,13 +35,13 @@ Matrix3d tilde(const Vector3d& a) {
   return Spatial<3>::C(a).transpose();
 }
 
-// A right-handed triad whose first vector is n.
-Matrix3d triad(const Vector3d& n) {
-  Matrix3d e;
-  e.col(0) = n;
-  e.col(1) = n.unitOrthogonal();
-  e.col(2) = n.cross(Vector3d(e.col(1)));
-  return e;
+// n, e_2 and e_3 are a right-handed triad.
+struct TriadAfter {
+  Vector3d e_2, e_3;
+};
+TriadAfter triad_after(const Vector3d& n) {
+  const Vector3d e_2 = n.unitOrthogonal();
+  return {e_2, n.cross(e_2)};
 }
 
 }  // namespace
@@ -97,8 +97,8 @@ JointRows& JointRows::offset(const Vec3& n, TimeFunction p) {
 
 JointRows& JointRows::across(const Vec3& n) {
   if (space_ == Space::planar) return offset(Eigen::Vector2d(-n(1), n(0)));
-  const Matrix3d e = triad(n);
-  return offset(Vector3d(e.col(1))).offset(Vector3d(e.col(2)));
+  const auto [e_2, e_3] = triad_after(n);
+  return offset(e_2).offset(e_3);
 }
 
 JointRows& JointRows::dot(const Vector3d& a, const Vector3d& b) {
@@ -108,8 +108,8 @@ JointRows& JointRows::dot(const Vector3d& a, const Vector3d& b) {
 
 JointRows& JointRows::parallel(const Vector3d& n_A, const Vector3d& n_B) {
   if (space_ == Space::planar) return *this;
-  const Matrix3d e = triad(n_A);
-  return dot(e.col(1), n_B).dot(e.col(2), n_B);
+  const auto [e_2, e_3] = triad_after(n_A);
+  return dot(e_2, n_B).dot(e_3, n_B);
 }
 
 JointRows& JointRows::angle(const Vec3& n, const Quaterniond& Q, TimeFunction phi) {
@@ -117,18 +117,18 @@ JointRows& JointRows::angle(const Vec3& n, const Quaterniond& Q, TimeFunction ph
     rows_.push_back(Angle{follow(std::move(phi))});
     return *this;
   }
-  const Matrix3d e = triad(n);
+  const auto [e_2, e_3] = triad_after(n);
   // a . b = e_2 . turn(delta) (-e_3) = sin(delta)
-  rows_.push_back(Dot{e.col(1), Q.conjugate() * Vector3d(-e.col(2)), follow(std::move(phi), n)});
+  rows_.push_back(Dot{e_2, Q.conjugate() * Vector3d(-e_3), follow(std::move(phi), n)});
   return *this;
 }
 
 JointRows& JointRows::orientation(const Vec3& n, const Quaterniond& Q, TimeFunction phi) {
   angle(n, Q, phi);
   if (space_ == Space::planar) return *this;
-  const Matrix3d e = triad(n);
+  const auto [e_2, e_3] = triad_after(n);
   const Vector3d n_B = Q.conjugate() * Vector3d(n);
-  return dot(e.col(1), n_B).dot(e.col(2), n_B);
+  return dot(e_2, n_B).dot(e_3, n_B);
 }
 
 int JointRows::count() const {
