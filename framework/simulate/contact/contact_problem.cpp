@@ -18,8 +18,8 @@ Eigen::VectorBlock<Vec> along(Vec& x, const complementarity::ContactPoint& p) {
 }
 
 // Where the drifts of nearly dependent rows do not agree, to end them all takes changes of v that are many times as
-// large, which are no drift any more: so little do the first dominoes of a long row move while the last fall. Then those
-// drifts stay of which other rows leave less than 1e-3 (its square is `least_share`).
+// large, which are no drift any more: so little do the first dominoes of a long row move while the last fall. Then
+// those drifts stay of which other rows leave less than 1e-3 (its square is `least_share`).
 constexpr double most_changed = 1e3, least_share = 1e-6;
 
 // Static or kinetic coefficient.
