@@ -12,13 +12,10 @@ ProcessPlace::ProcessPlace() : folder_(::open(".", O_PATH | O_DIRECTORY | O_CLOE
 }
 
 ProcessPlace::~ProcessPlace() {
-  put_back();
-  if (folder_ >= 0) ::close(folder_);
-}
-
-void ProcessPlace::put_back() noexcept {
-  if (folder_ >= 0) static_cast<void>(!::fchdir(folder_));
   ::umask(mode_t(mask_));
+  if (folder_ < 0) return;
+  static_cast<void>(!::fchdir(folder_));
+  ::close(folder_);
 }
 
 }  // namespace trammel::plugin

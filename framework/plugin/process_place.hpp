@@ -4,14 +4,13 @@
 
 namespace trammel::plugin {
 
-// Saves them in its constructor and restores them in its destructor or earlier.
+// Saves them in its constructor and restores them in its destructor.
 class ProcessPlace {
  public:
   ProcessPlace();
   ~ProcessPlace();
   ProcessPlace(const ProcessPlace&) = delete;
   ProcessPlace& operator=(const ProcessPlace&) = delete;
-  void put_back() noexcept;
 
  private:
   int folder_;

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "scene/files.hpp"
+#include "scene/laws/tabulated_law.hpp"
 #include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
-#include "scene/laws/tabulated_law.hpp"
 
 namespace trammel::scene {
 namespace {
@@ -54,14 +54,6 @@ Cells cells_of(std::string_view line) {
     at = end == line.npos ? line.size() + 1 : end + 1;
   }
   return cells;
-}
-
-std::optional<double> number_of(std::string_view cell) {
-  if (cell.starts_with('+')) cell.remove_prefix(1);
-  double x = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), x);
-  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(x)) return {};
-  return x;
 }
 
 class Table {
@@ -143,7 +135,7 @@ class Table {
       const Cells cells = cells_of(line);
       if (std::exchange(first, false)) {
         const bool names =
-            std::none_of(cells.begin(), cells.end(), [](auto cell) { return number_of(cell).has_value(); });
+            std::none_of(cells.begin(), cells.end(), [](auto cell) { return number_of_cell(cell).has_value(); });
         const Cells header = names ? cells : Cells();
         if (!find_column("time", 1, header, cells.size(), time_) ||
             !find_column("column", 2, header, cells.size(), column_))
@@ -176,9 +168,9 @@ class Table {
       const auto found = std::find(header.begin(), header.end(), value->text());
       index = std::size_t(found - header.begin());
       if (std::count(header.begin(), header.end(), value->text()) > 1) {
-        problems_.error(value->problem(fmt::format(
-            "{} has more than one column \"{}\"; give the number of the one that is meant, from 1", file_,
-            value->text())));
+        problems_.error(value->problem(
+            fmt::format("{} has more than one column \"{}\"; give the number of the one that is meant, from 1", file_,
+                        value->text())));
         return false;
       }
       if (found != header.end()) return true;
@@ -202,7 +194,7 @@ class Table {
     if (cells.size() <= std::max(time_, column_))
       return complain(line,
                       fmt::format("found {} cells, expected at least {}", cells.size(), std::max(time_, column_) + 1));
-    const auto t = number_of(cells[time_]), x = number_of(cells[column_]);
+    const auto t = number_of_cell(cells[time_]), x = number_of_cell(cells[column_]);
     if (!t || !x) {
       const std::string found =
           quotable_ ? fmt::format("\"{}\"", shortened(cells[t ? column_ : time_])) : "something else";
@@ -234,6 +226,15 @@ class Table {
 };
 
 }  // namespace
+
+std::optional<double> number_of_cell(std::string_view cell) {
+  cell = trimmed(cell);
+  if (cell.starts_with('+')) cell.remove_prefix(1);
+  double x = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), x);
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(x)) return {};
+  return x;
+}
 
 std::optional<TimeFunction> read_motion_table(const Value& object, Problems& problems) {
   return Table(object, problems).read();

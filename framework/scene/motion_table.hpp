@@ -7,12 +7,18 @@
 // names of the columns. "time" and "column" are such names or numbers from 1 (default 1 and 2). "holds" is "values"
 // (default) or "accelerations"; "scale" multiplies them. "beyond" ("hold", "zero" or "repeat") defines the law before
 // the first and after the last row, see tabulated_law.hpp, which also describes the interpolation. Without "beyond" the
-// table must cover the whole run (simulate/start/smooth_laws.hpp).
+// table must cover the whole run (simulate/start/law_checks.hpp).
 #pragma once
+
+#include <optional>
+#include <string_view>
 
 #include "scene/value.hpp"
 
 namespace trammel::scene {
+
+// A cell of a table of numbers: finite, and nothing else but blanks.
+std::optional<double> number_of_cell(std::string_view cell);
 
 // Problems in the table are reported with its file and line.
 std::optional<TimeFunction> read_motion_table(const Value& object, Problems& problems);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -17,6 +16,7 @@
 #include "model/scene_keys.hpp"
 #include "report/csv_line.hpp"
 #include "scene/files.hpp"
+#include "scene/motion_table.hpp"
 #include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
 
@@ -45,17 +45,6 @@ std::optional<T> choice(const Value& value, const std::vector<std::pair<std::str
   }
   problems.error(value.problem(fmt::format("found \"{}\"{}", *text, scene::did_you_mean(*text, names))));
   return std::nullopt;
-}
-
-// A finite number and nothing else but blanks.
-std::optional<double> number_of(std::string_view cell) {
-  cell.remove_prefix(std::min(cell.find_first_not_of(" \t"), cell.size()));
-  cell = cell.substr(0, cell.find_last_not_of(" \t") + 1);
-  if (cell.starts_with('+')) cell.remove_prefix(1);
-  double x = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), x);
-  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(x)) return {};
-  return x;
 }
 
 // The rows of a CSV file with a header, as `trammel run` writes: the times of its first column, the values of another.
@@ -103,7 +92,7 @@ class ReferenceTable {
   bool add(const std::vector<std::string>& row, Reference& reference) {
     if (row.size() <= column_)
       return refuse(row, row.size() - 1, fmt::format("found {} cells, expected at least {}", row.size(), column_ + 1));
-    const auto t = number_of(row[0]), x = number_of(row[column_]);
+    const auto t = scene::number_of_cell(row[0]), x = scene::number_of_cell(row[column_]);
     if (!t || !x) {
       const std::size_t at = t ? column_ : 0;
       return refuse(row, at, fmt::format("found {}, expected a number", quoted(row[at])));

@@ -15,7 +15,7 @@ std::size_t allocated() {
 
 double bytes_of_a_value(const std::string& text) {
   const std::size_t before = allocated();
-  const Scene scene = Scene::parse(text, "/home/somebody/scenes/of a project/with a long name.json");
+  const Scene scene = Scene::parse(text, "a folder of scenes/of a project with a long name/and a scene.json");
   return double(allocated() - before) / double(Builder::size(scene.root()));
 }
 
