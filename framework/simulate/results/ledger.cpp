@@ -1,5 +1,6 @@
 #include "simulate/results/ledger.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -9,6 +10,8 @@ namespace trammel::simulate {
 namespace {
 
 using Balance = model::AssembledSystem::Balance;
+
+constexpr double little = 1e-16;  // of the energy: round-off in a single step
 
 double size(const Balance& p) {
   return std::abs(p.drives) + std::abs(p.dampers) + std::abs(p.contacts) + std::abs(p.constraints) +
@@ -45,6 +48,7 @@ const Balance& Ledger::balance(double t, const Vec& q, const Vec& v, const Vec& 
 void Ledger::start(const State& state) {
   system_.move_to(state.t, state.q, state.v);
   energy_start_ = system_.energy().total();
+  energy_scale_ = std::abs(energy_start_);
 }
 
 void Ledger::restart(const State& state) {
@@ -56,18 +60,26 @@ void Ledger::step(const State& now, const State& next) {
   step_begin_ = totals(), step_ = next.t - now.t;
   end_ = balance(next.t, next.q, next.v, next.lambda);
   g_dot_end_ = system_.g_dot();
-  // A closed contact's row does work at the level of round-off; that is not worth an evaluation.
-  const double work = (size(now_) + size(end_)) * (next.t - now.t), energy = std::abs(energy_start_);
-  const bool matters = work > 1e-12 * energy;
+  // Rows do work at the level of round-off, which is not worth an evaluation.
+  const double work = (size(now_) + size(end_)) * (next.t - now.t);
+  if (work > little * energy_scale_) energy_scale_ = std::max(energy_scale_, kinetic(next.v));
+  const bool matters = work > 1e-12 * energy_scale_;
   const bool rubs = system_.rubs();
   if (OscillatingSteps* steps = between_.oscillating(); steps && (matters || rubs))
     integrate_by(*steps, now, next);
   else if (dense_ && (matters || rubs))
     integrate_by_dense_output(now, next);
-  else if (work > 1e-16 * energy || rubs)
+  else if (work > little * energy_scale_ || rubs)
     integrate_by_middle(now, next);
   std::swap(now_, end_);
   g_dot_.swap(g_dot_end_);
+}
+
+// At the system's point.
+double Ledger::kinetic(const Vec& v) {
+  momentum_.setZero(v.size());
+  system_.add_mass_times(1, v, momentum_);
+  return v.dot(momentum_) / 2;
 }
 
 void Ledger::integrate_by(OscillatingSteps& steps, const State& now, const State& next) {
@@ -162,7 +174,8 @@ double Ledger::impact_total() const {
 }
 
 void Ledger::archive(Archive& a) {
-  a("energy_start", energy_start_), a("drives", drives_), a("constraints", constraints_), a("dampers", dampers_);
+  a("energy_start", energy_start_), a("energy_scale", energy_scale_), a("drives", drives_),
+      a("constraints", constraints_), a("dampers", dampers_);
   a("contacts", contacts_), a("refinements", refinements_);
   a("power_drives", now_.drives), a("power_dampers", now_.dampers), a("power_contacts", now_.contacts);
   a("power_constraints", now_.constraints);

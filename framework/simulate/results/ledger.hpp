@@ -65,6 +65,7 @@ class Ledger {
   void integrate_by(OscillatingSteps& steps, const State& now, const State& next);
   void evaluate_inside(const State& now, const State& next, double theta);
   double off_rows(const Vec& lambda, double theta);
+  double kinetic(const Vec& v);
   void add(double duration, const model::AssembledSystem::Balance& power);
 
   model::AssembledSystem& system_;
@@ -72,14 +73,15 @@ class Ledger {
   DenseOutput* dense_;  // of a smooth method of high order, or none
   model::AssembledSystem::Balance now_, middle_, end_;
   double energy_start_ = 0, drives_ = 0, constraints_ = 0, markers_ = 0, dampers_ = 0, contacts_ = 0;  // [J]
-  double refinements_ = 0;                                                                             // [J]
+  double energy_scale_ = 0;  // [J] what round-off is measured by: the start's energy, or the largest kinetic one since
+  double refinements_ = 0;   // [J]
   Vec friction_;
   std::vector<double> impacts_;
   Totals step_begin_;      // before the last step, of length step_
   double step_ = 0;        // [s]
   Vec g_dot_, g_dot_end_;  // at `now` and at the step's end
   State inside_;
-  Vec a_, lambda_;
+  Vec a_, lambda_, momentum_;
 };
 
 }  // namespace trammel::simulate

@@ -129,6 +129,16 @@ TEST(EnergyLedger, OfAConservativeMotionHasNothingInIt) {
   EXPECT_NEAR(drift(run), 0, 2e-12);  // RK4 damps by (h omega)^6 / 72 of the 0.125 J a step, 1000 steps
 }
 
+// The round-off of a hinge that stands still has a power, which was integrated where the energy at the start, 0 J here,
+// was all it could be measured by: an evaluation more each step.
+TEST(EnergyLedger, OfAMotionFromZeroEnergyCostsNoEvaluation) {
+  const Finished run = run_file("tour/01_pendulum.json");
+  const nlohmann::json& counts = run.result["counts"];
+  EXPECT_EQ(run.result["energy_start"], 0);
+  EXPECT_LT(counts["residual_evaluations"].get<double>() - counts["newton_iterations"].get<double>(),
+            0.01 * counts["steps"].get<double>());
+}
+
 // A mass beside a point that sways by 0.1 sin(5 t), tied to it or struck by it.
 const std::string swaying = R"json({
   "trammel": 1, "gravity": [0, 0],
