@@ -29,6 +29,7 @@ double error_norm(const Vec& e_q, const Vec& e_v, const State& now, const State&
   const double all_q = largest_of(now.q, next.q), round_off_q = 4 * eps * all_q;
   const double round_off_v = 4 * eps * largest_of(now.v, next.v);
   const double absolute_v = std::max(tolerance.absolute, stabilised * round_off_q);
+  if (tolerance.parts) tolerance.parts->resize(n);
   double sum = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
     const double size_v = std::max(std::abs(now.v[i]), std::abs(next.v[i]));
@@ -36,8 +37,10 @@ double error_norm(const Vec& e_q, const Vec& e_v, const State& now, const State&
     const double size_q = std::min(entry, ahead * size_v);  // a step may be many oscillations long
     const double allowed_q = tolerance.absolute + tolerance.relative * size_q + round_off_q;
     const double allowed_v = absolute_v + tolerance.relative * size_v + round_off_v;
-    if (e_q[i] != 0) sum += e_q[i] / allowed_q * (e_q[i] / allowed_q);
-    if (e_v[i] != 0) sum += e_v[i] / allowed_v * (e_v[i] / allowed_v);
+    const double of_q = e_q[i] != 0 ? e_q[i] / allowed_q : 0;
+    const double of_v = e_v[i] != 0 ? e_v[i] / allowed_v : 0;
+    sum += of_q * of_q, sum += of_v * of_v;
+    if (tolerance.parts) (*tolerance.parts)[i] = of_q * of_q + of_v * of_v;
   }
   const double norm = std::sqrt(sum / double(2 * n));
   return std::isfinite(norm) ? norm : std::numeric_limits<double>::infinity();

@@ -261,6 +261,7 @@ bool Simulator::step_and_examine(const StepControl::Proposal& proposal, double& 
                                  double& error) {
   tried_ = h;
   const Outcome outcome = trial_step(integrator_, system_, now_, h, next_);
+  iterated_ = !outcome && integrator_.traits().implicit;
   if (!outcome) return refuse(proposal, outcome.reason()), false;
   const auto refuse_not_finite = [&] {
     if (!control().controlled()) fail_not_finite(h);
@@ -278,9 +279,7 @@ bool Simulator::step_and_examine(const StepControl::Proposal& proposal, double& 
       control().rejected_for_error(h, error);
       if (!control().too_small(now_.t)) return false;
       locked_ = near_critical_state();
-      if (!locked_)
-        fail(h, fmt::format("the error cannot be kept below the tolerance with steps of at least {:.3g} s",
-                            control().smallest(now_.t)));
+      if (!locked_) fail_for_error(h, tolerance);
       return false;
     }
   }
@@ -314,7 +313,7 @@ void Simulator::refuse(const StepControl::Proposal& proposal, const char* reason
 std::string Simulator::circumstances() {
   for (const ContactEvent& event : events_) last_motions_.take(event);  // found, and not written yet
   try {
-    return last_motions_.say(system_, now_, next_, tried_, settings_.until);
+    return last_motions_.say(system_, {now_, next_, tried_, error_parts_, iterated_}, settings_.until);
   } catch (const std::exception&) {
     return "";  // a component has no answer there
   }
@@ -326,6 +325,13 @@ std::string Simulator::when(double h) const {
 
 void Simulator::fail(double h, const std::string& why) const {
   throw RunFailed(fmt::format("{}: {}", when(h), why));
+}
+
+void Simulator::fail_for_error(double h, Tolerance tolerance) {
+  tolerance.parts = &error_parts_;
+  estimate_->error(system_, now_, next_, tolerance);
+  fail(h, fmt::format("the error cannot be kept below the tolerance with steps of at least {:.3g} s",
+                      control().smallest(now_.t)));
 }
 
 bool Simulator::near_the_end_of_numbers() const {

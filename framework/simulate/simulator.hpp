@@ -103,6 +103,7 @@ class Simulator {
   void refuse(const StepControl::Proposal& proposal, const char* reason);
   std::string when(double h) const;
   [[noreturn]] void fail(double h, const std::string& why) const;
+  [[noreturn]] void fail_for_error(double h, Tolerance tolerance);
   void find_culprit(double h);
   [[noreturn]] void fail_not_finite(double h);
   void step_ledger_and_correct();
@@ -140,6 +141,8 @@ class Simulator {
   State now_, next_, inside_, uncorrected_;
   std::optional<State> last_good_;
   double tried_ = 0;  // [s] the last trial's step
+  Vec error_parts_;   // LastTrial's
+  bool iterated_ = false;
   bool in_contact_ = false;
   double step_limit_ = std::numeric_limits<double>::infinity();  // [s] ContactModes::step_limit
   double drift_before_ = 1e3;  // relative_drift at the last record, or 1e3 if it was less

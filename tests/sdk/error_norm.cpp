@@ -29,6 +29,15 @@ TEST(ErrorNorm, IsTheRootMeanSquareOverPositionsAndVelocities) {
   EXPECT_NEAR(error_norm(Eigen::Vector2d(1, 2), Eigen::Vector2d(3, 4), now, now, one), std::sqrt(30 / 4.0), 4 * eps);
 }
 
+TEST(ErrorNorm, LeavesThePartsOfItsSquareWhereTheyAreWanted) {
+  Vec parts;
+  const Tolerance one{.relative = 0, .absolute = 1, .parts = &parts};
+  const State now = at(0, Vec::Zero(2), Vec::Zero(2));
+  const double whole = error_norm(Eigen::Vector2d(1, 0), Eigen::Vector2d(3, 4), now, now, one);
+  EXPECT_NEAR((parts - Eigen::Vector2d(10, 16)).norm(), 0, 64 * eps);
+  EXPECT_NEAR(parts.sum(), 4 * whole * whole, 64 * eps);
+}
+
 TEST(ErrorNorm, MeasuresAVelocityByItsSizeAtTheLargerEnd) {
   const Tolerance relative{.relative = 1e-3, .absolute = 0};
   const State slow = at(0, vec(0), vec(2)), fast = at(1, vec(0), vec(-8));

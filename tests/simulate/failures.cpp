@@ -252,7 +252,7 @@ TEST(UnstableSteps, EndTheRunInsteadOfResults) {
 }
 
 // A mass that hangs in a light spring, and one on a spring too stiff for the least step.
-TEST(StepsTooSmall, NameTheBodyThatMovesMostTheStepsBeforeAndTheLastEvent) {
+TEST(StepsTooSmall, NameTheBodyThatMakesTheErrorTheStepsBeforeAndTheLastEvent) {
   const Finished run = run_text(R"({"trammel": 1, "space": "planar", "gravity": [0, -10],
     "bodies": {"slow": {"type": "point_mass", "mass": 1, "position": [0, -1]},
                "fast": {"type": "point_mass", "mass": 1, "position": [1, -1.01]},
@@ -264,10 +264,23 @@ TEST(StepsTooSmall, NameTheBodyThatMovesMostTheStepsBeforeAndTheLastEvent) {
     "integrator": {"type": "dop853", "step": {"tolerance": 1e-10, "min": 1e-4}},
     "simulate": {"until": 1}, "record": {"every": 0.1}})");
   EXPECT_EQ(run.report.status, simulate::Status::failed);
-  EXPECT_THAT(run.report.reason, HasSubstr("the velocities change most in bodies.fast (100 %), by energy"));
+  EXPECT_THAT(run.report.reason, HasSubstr("; the error of the last trial is that of bodies.fast (100 %)"));
   EXPECT_THAT(run.report.reason, HasSubstr("; the steps before took 0."));
   EXPECT_THAT(run.report.reason,
               testing::ContainsRegex("the last event is (impact|contact_open|lift) of contacts.floor at t = 0.1"));
+}
+
+TEST(IterationThatFails, NamesTheBodyWithTheLargestResidual) {
+  const Finished run = run_text(R"({"trammel": 1, "space": "planar", "gravity": [0, -10],
+    "bodies": {"falling": {"type": "point_mass", "mass": 1, "position": [0, 0]},
+               "swinging": {"type": "point_mass", "mass": 1, "position": [1, -1], "velocity": [0, 3]}},
+    "forces": {"spring": {"type": "spring_damper", "between": [{"ground": [1, 0]}, "swinging.point"],
+                          "stiffness": 1e4, "length": 1}},
+    "integrator": {"type": "hht_alpha", "step": 0.1, "max_iterations": 1},
+    "simulate": {"until": 1}, "record": {"every": 0.1}})");
+  EXPECT_EQ(run.report.status, simulate::Status::failed);
+  EXPECT_THAT(run.report.reason,
+              HasSubstr("; the residual of the last iterate is that of bodies.swinging (100 %), by energy"));
 }
 
 }  // namespace

@@ -66,6 +66,9 @@ class Integrator : public Component {
 struct Tolerance {
   double relative = 1e-6;
   double absolute = 1e-6;
+  // (nv) If set, error_norm leaves each coordinate's part of the sum of squares there: what the message of a run that
+  // cannot keep the tolerance names.
+  Vec* parts = nullptr;
 };
 
 class ErrorEstimate {

@@ -23,6 +23,26 @@ std::vector<std::string> largest(std::vector<std::pair<double, std::string>> all
   return names;
 }
 
+// Twice the kinetic energy that each coordinate has of dv (nv), at the state `system` was moved to: a measure in which
+// metres and radians add up.
+Vec energies(model::AssembledSystem& system, const Vec& dv) {
+  Vec momentum = Vec::Zero(dv.size());
+  system.add_mass_times(1, dv, momentum);
+  return dv.cwiseProduct(momentum);
+}
+
+// The sentence with the bodies that have the largest parts of the sum (nv) in the place of its {}.
+std::string made_by(fmt::format_string<std::string> sentence, const model::AssembledSystem& system, const Vec& parts) {
+  const double all = parts.sum();
+  std::vector<std::pair<double, std::string>> bodies;
+  for (const model::BodyEntry& body : system.model().bodies) {
+    const double share = parts.segment(body.v0, body.nv).sum() / all;
+    if (share > worth_naming) bodies.emplace_back(share, fmt::format("bodies.{} ({:.0f} %)", body.name, 100 * share));
+  }
+  if (bodies.empty()) return "";
+  return "; " + fmt::format(sentence, fmt::to_string(fmt::join(largest(bodies), ", ")));
+}
+
 }  // namespace
 
 void LastMotions::take(double h) {
@@ -34,21 +54,20 @@ void LastMotions::take(const ContactEvent& event) {
   event_at_ = event.t, event_contact_ = event.contact, event_kind_ = int(event.kind);
 }
 
-std::string LastMotions::shares(model::AssembledSystem& system, const State& now, const State& next, double h) const {
-  if (next.a.size() != now.a.size() || now.a.size() == 0 || !next.a.allFinite()) return "";
-  const Vec dv = h * (next.a - now.a);
-  Vec momentum = Vec::Zero(dv.size());
-  system.move_to(now.t, now.q, now.v);
-  system.add_mass_times(1, dv, momentum);
-  const double all = dv.dot(momentum);
-  if (!(all > 0)) return "";
-  std::vector<std::pair<double, std::string>> bodies;
-  for (const model::BodyEntry& body : system.model().bodies) {
-    const double share = dv.segment(body.v0, body.nv).dot(momentum.segment(body.v0, body.nv)) / all;
-    if (share > worth_naming) bodies.emplace_back(share, fmt::format("bodies.{} ({:.0f} %)", body.name, 100 * share));
+std::string LastMotions::contributors(model::AssembledSystem& system, const LastTrial& trial) const {
+  const auto& [now, next, h, error_parts, iterated] = trial;
+  if (error_parts.size() > 0) return made_by("the error of the last trial is that of {}", system, error_parts);
+  if (next.a.size() != now.a.size() || !next.q.allFinite() || !next.v.allFinite() || !next.a.allFinite()) return "";
+  if (iterated) {
+    State balanced = next;
+    system.move_to(next.t, next.q, next.v);
+    system.accelerate({}, balanced.a, balanced.lambda);
+    return made_by("the residual of the last iterate is that of {}, by energy", system,
+                   energies(system, h * (balanced.a - next.a)));
   }
-  return fmt::format("; in the last trial the velocities change most in {}, by energy",
-                     fmt::join(largest(bodies), ", "));
+  system.move_to(now.t, now.q, now.v);
+  return made_by("in the last trial the velocities change most in {}, by energy", system,
+                 energies(system, h * (next.a - now.a)));
 }
 
 std::string LastMotions::worst_rows(model::AssembledSystem& system, const State& next) const {
@@ -80,9 +99,8 @@ std::string LastMotions::next_closing(model::AssembledSystem& system, const Stat
                      system.model().contacts[std::size_t(which)].path(), now.t + soonest, system.gap(which));
 }
 
-std::string LastMotions::say(model::AssembledSystem& system, const State& now, const State& next, double h,
-                             double until) const {
-  std::string text = shares(system, now, next, h) + worst_rows(system, next);
+std::string LastMotions::say(model::AssembledSystem& system, const LastTrial& trial, double until) const {
+  std::string text = contributors(system, trial) + worst_rows(system, trial.next);
   std::vector<std::string> sizes;
   for (const double step : steps_)
     if (step > 0) sizes.push_back(fmt::format("{:.3g}", step));
@@ -90,7 +108,7 @@ std::string LastMotions::say(model::AssembledSystem& system, const State& now, c
   if (event_contact_ >= 0)
     text += fmt::format("; the last event is {} of {} at t = {:.9g} s", to_string(ContactEvent::Kind(event_kind_)),
                         system.model().contacts[std::size_t(event_contact_)].path(), event_at_);
-  return text + next_closing(system, now, until);
+  return text + next_closing(system, trial.now, until);
 }
 
 void LastMotions::archive(Archive& a) {

@@ -1,5 +1,6 @@
 // What happened before a run cannot go on, for its message: the last step sizes, the events before and after, the
-// bodies whose velocities change most in the step that failed, and the joints whose rows are met worst at its end.
+// bodies that make the error or the residual of the step that failed, or whose velocities change most in it, and the
+// joints whose rows are met worst at its end.
 #pragma once
 
 #include <array>
@@ -13,22 +14,28 @@
 
 namespace trammel::simulate {
 
+// The step that failed, from `now` to `next` with steps of h [s].
+struct LastTrial {
+  const State& now;
+  const State& next;
+  double h;
+  const Vec& error_parts;  // (nv) Tolerance::parts of its error; empty: it was not its error that was refused
+  bool iterated;           // its method iterates, and found no solution: `next` is the last iterate
+};
+
 class LastMotions {
  public:
   void take(double h);  // an accepted step [s]
   void take(const ContactEvent& event);
-  // Of the trial from `now` to `next` with steps of h: sentences, each after "; ". A body's share is that of the
-  // kinetic energy of h (a_next - a_now), dv^T M dv/2: a measure in which metres and radians add up.
-  // `until` [s]: an event that is expected later is none of the run's.
-  std::string say(model::AssembledSystem& system, const State& now, const State& next, double h, double until) const;
+  // Sentences about the trial, each after "; ". `until` [s]: an event that is expected later is none of the run's.
+  std::string say(model::AssembledSystem& system, const LastTrial& trial, double until) const;
   void archive(Archive& a);
   bool fits(std::size_t contacts) const {  // what was read
     return event_contact_ < int(contacts) && event_kind_ >= 0 && event_kind_ <= int(ContactEvent::Kind::reversal);
   }
 
  private:
-  std::string shares(model::AssembledSystem& system, const State& now, const State& next, double h) const;
-
+  std::string contributors(model::AssembledSystem& system, const LastTrial& trial) const;
   std::string worst_rows(model::AssembledSystem& system, const State& next) const;
   std::string next_closing(model::AssembledSystem& system, const State& now, double until) const;
 
