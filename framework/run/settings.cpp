@@ -71,6 +71,10 @@ StepChoice read_step(const Value& value, const Resolution& resolution, Problems&
   const double both = number(value, part, "tolerance", 1e-6, problems);
   if (!value.find("tolerance") && !(value.find("relative") && value.find("absolute")))
     problems.error(value.problem("give \"tolerance\", or both \"relative\" and \"absolute\""));
+  constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();  // of a step, in parts of what moves
+  if (both > 0 && both < round_off)
+    problems.warning(value.find("tolerance")->problem(fmt::format(
+        "found {}, less than round-off: steps keep {:.2g}, and the errors of many steps add up", both, round_off)));
   choice.tolerance.relative = number(value, part, "relative", both, problems);
   choice.tolerance.absolute =
       number(value, part, "absolute", 0, problems);  // 0: in the scene's own unit (ContactScale)

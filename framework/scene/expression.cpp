@@ -202,6 +202,11 @@ class Compiler {
   bool uses_time_ = false;
 };
 
+void require_finite(double value) {
+  if (std::isnan(value)) throw ExpressionError(1, "the value is not a number (0/0, sqrt(-1), ...)");
+  if (std::isinf(value)) throw ExpressionError(1, fmt::format("the value is {}, expected a finite number", value));
+}
+
 }  // namespace
 
 TimeFunction compile_time_function(std::string_view text, const Lookup& lookup) {
@@ -210,14 +215,14 @@ TimeFunction compile_time_function(std::string_view text, const Lookup& lookup) 
   const TimeFunction law(code, std::string(text));
   if (compiler.uses_time()) return law;
   const double value = law(0);
-  if (!std::isfinite(value)) throw ExpressionError(1, fmt::format("the value is {}, expected a finite number", value));
+  require_finite(value);
   return TimeFunction(value);
 }
 
 double evaluate(std::string_view text, const Lookup& lookup) {
   Compiler compiler(text, lookup, false);
   const double value = TimeFunction(std::make_shared<const Code>(compiler.compile()), std::string(text))(0);
-  if (!std::isfinite(value)) throw ExpressionError(1, fmt::format("the value is {}, expected a finite number", value));
+  require_finite(value);
   return value;
 }
 

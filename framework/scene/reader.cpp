@@ -101,6 +101,8 @@ class Tree {
                        fmt::format("a key of {} bytes, expected at most {}", name.size(), limits::name)});
       return false;
     }
+    if (name != printable(name) || name.find('\n') != std::string::npos)
+      problems_.error({lines_.at(string_start()), join(name), "a control character in a key, expected text"});
     if (!frame.keys.insert(name).second) {
       problems_.error({lines_.at(string_start()), join(name),
                        fmt::format("the key \"{}\" stands here a second time; each key may stand once", name)});

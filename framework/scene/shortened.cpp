@@ -1,12 +1,27 @@
 #include "scene/shortened.hpp"
 
+#include <fmt/format.h>
+
 namespace trammel::scene {
+namespace {
+
+bool is_control(char c) {
+  return (c >= 0 && c < 0x20 && c != '\n') || c == 0x7f;
+}
+
+}  // namespace
 
 std::string shortened(std::string_view text, std::size_t longest) {
   if (text.size() <= longest) return std::string(text);
   std::size_t end = longest - 3;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a character of UTF-8
   return std::string(text.substr(0, end)) + "...";
+}
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  for (const char c : text) shown += is_control(c) ? fmt::format("\\u{:04x}", int(c)) : std::string(1, c);
+  return shown;
 }
 
 }  // namespace trammel::scene

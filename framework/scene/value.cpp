@@ -31,11 +31,11 @@ std::string all_texts(const std::vector<Problem>& problems) {
   return text;
 }
 
-// Shortens a message that contains long names or texts of the scene.
+// A message may contain any names and texts of the scene.
 Problem bounded(Problem problem) {
-  problem.at.file = shortened(problem.at.file, limits::message);
-  problem.path = shortened(problem.path, limits::path);
-  problem.message = shortened(problem.message, limits::message);
+  problem.at.file = printable(shortened(problem.at.file, limits::message));
+  problem.path = printable(shortened(problem.path, limits::path));
+  problem.message = printable(shortened(problem.message, limits::message));
   return problem;
 }
 
