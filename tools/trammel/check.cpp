@@ -1,7 +1,6 @@
 // trammel check LIB|COMPONENT: the conformance kit's verdict.
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <thread>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "input.hpp"
 #include "progress.hpp"
 #include "report/page.hpp"
+#include "simulate/results/log_file.hpp"
 #include "testing/kit/catalogue.hpp"
 #include "testing/kit/child.hpp"
 #include "testing/kit/page.hpp"
@@ -205,13 +205,6 @@ report::Page page_of(const kit::Request& request, const kit::Surveyed& component
   return page;
 }
 
-void write_report(const std::string& file, const report::Page& page) {
-  std::ofstream out(file);
-  out << report::html(page);
-  out.close();
-  if (!out) throw UsageError(fmt::format("--report {}: the file cannot be written", file));
-}
-
 // my.html for the only component, my_NAME.html for one of several.
 std::string report_file(std::string file, const std::string& name, bool several) {
   if (!several) return file;
@@ -237,7 +230,7 @@ Exit check(const Arguments& a) {
     if (!a.has("--report")) continue;
     const std::string file = report_file(a.last("--report"), component.name, found.size() > 1);
     const report::Page page = page_of(request, component, verdicts);
-    write_report(file, page);
+    simulate::write_whole(file, report::html(page));
     components.back()["page"] = report::to_json(page);
     if (!json) fmt::print("report: {}\n", file);
   }

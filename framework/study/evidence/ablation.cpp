@@ -69,6 +69,7 @@ std::vector<CaseResult> run_all(const Batch& batch, std::vector<Part>& parts) {
 }
 
 CaseResult own_run(const SceneSource& source, plugin::Registry& registry) {
+  simulate::set_up(source.with(), registry);  // SceneError: a run that failed is another thing
   CaseResult own = run_case(source.with(), registry);
   if (!own.done()) throw std::runtime_error("the scene itself does not run to its end: " + own.reason);
   if (own.series.names.empty())
