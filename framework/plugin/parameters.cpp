@@ -116,18 +116,7 @@ class ValueReader {
     return x && in_range(value, *x) ? std::move(x) : std::nullopt;
   }
 
-  bool in_range(const Value& value, double x) const {
-    const ParameterTraits& traits = parameter_.traits;
-    const bool above = traits.above_min ? x > traits.min : x >= traits.min;
-    if (!above || !(x <= traits.max)) {
-      problems_.error(value.problem(fmt::format("found {}, expected {}", x, expected(parameter_))));
-      return false;
-    }
-    if (x < traits.usual_min || x > traits.usual_max)
-      problems_.warning(value.problem(
-          fmt::format("{} is unusual; it is usually {}", x, range(traits.usual_min, false, traits.usual_max))));
-    return true;
-  }
+  bool in_range(const Value& value, double x) const { return plugin::in_range(value, x, parameter_, problems_); }
 
   bool in_range(const Value& value, const std::vector<double>& numbers) const {
     return std::all_of(numbers.begin(), numbers.end(), [&](double x) { return in_range(value, x); });
@@ -229,6 +218,19 @@ void set_parameters(Component& component, const Declaration& declaration, const 
 }
 
 }  // namespace
+
+bool in_range(const Value& value, double x, const Parameter& declared, Problems& problems) {
+  const ParameterTraits& traits = declared.traits;
+  const bool above = traits.above_min ? x > traits.min : x >= traits.min;
+  if (!above || !(x <= traits.max)) {
+    problems.error(value.problem(fmt::format("found {}, expected {}", x, expected(declared))));
+    return false;
+  }
+  if (x < traits.usual_min || x > traits.usual_max)
+    problems.warning(value.problem(
+        fmt::format("{} is unusual; it is usually {}", x, range(traits.usual_min, false, traits.usual_max))));
+  return true;
+}
 
 scene::Problem refused(const Value& object, const ParameterError& e) {
   if (const Value* value = find(object, e.parameter())) return value->problem(e.what());

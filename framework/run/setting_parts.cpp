@@ -48,8 +48,10 @@ Part step() {
       R"("step": 1e-4   or   "step": {"tolerance": 1e-9, "max": 1e-3})",
       {key("tolerance", Type::number,
            {.min = 0,
+            .usual_min = 1e-15,
             .above_min = true,
-            .doc = "relative to the motion and to the scene's size; needed unless both others are given"}),
+            .doc = "relative to the motion and to the scene's size, more than round-off; needed unless both others are "
+                   "given"}),
        key("relative", Type::number, {.min = 0, .doc = "\"tolerance\" if left out"}),
        key("absolute", Type::number,
            {.unit = "m, rad, m/s, rad/s",

@@ -7,8 +7,9 @@
 #include <fmt/ranges.h>
 
 #include "model/scene_keys.hpp"
-#include "scene/suggestion.hpp"
+#include "plugin/parameters.hpp"
 #include "run/setting_parts.hpp"
+#include "scene/suggestion.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -31,9 +32,8 @@ double number(const Value& object, const plugin::Part& part, const char* key, do
   const std::optional<double> x = value->read_number(problems);
   if (!x) return fallback;
   const Parameter& declared = part.declared(key);
-  const ParameterTraits& range = declared.traits;
   const bool whole = declared.type != Parameter::Type::integer || *x == std::floor(*x);
-  if (whole && (range.above_min ? *x > range.min : *x >= range.min) && *x <= range.max) return *x;
+  if (whole) return plugin::in_range(*value, *x, declared, problems) ? *x : fallback;
   problems.error(value->problem(fmt::format("found {}, expected {}", *x, plugin::expected(declared))));
   return fallback;
 }
@@ -71,10 +71,6 @@ StepChoice read_step(const Value& value, const Resolution& resolution, Problems&
   const double both = number(value, part, "tolerance", 1e-6, problems);
   if (!value.find("tolerance") && !(value.find("relative") && value.find("absolute")))
     problems.error(value.problem("give \"tolerance\", or both \"relative\" and \"absolute\""));
-  constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();  // of a step, in parts of what moves
-  if (both > 0 && both < round_off)
-    problems.warning(value.find("tolerance")->problem(fmt::format(
-        "found {}, less than round-off: steps keep {:.2g}, and the errors of many steps add up", both, round_off)));
   choice.tolerance.relative = number(value, part, "relative", both, problems);
   choice.tolerance.absolute =
       number(value, part, "absolute", 0, problems);  // 0: in the scene's own unit (ContactScale)

@@ -90,7 +90,11 @@ class Tree {
       return refuse(number_start(), fmt::format("{} is too small for a number, it would become 0", shortened(digits)));
     return scalar(value, number_start());
   }
-  bool string(std::string& value) { return scalar(std::move(value), string_start()); }
+  // A NUL would cut the messages of components that quote the text.
+  bool string(std::string& value) {
+    if (has_control_characters(value, "\n\t")) refuse(string_start(), "a control character in a text");
+    return scalar(std::move(value), string_start());
+  }
   bool binary(std::vector<std::uint8_t>&) { return false; }
 
   bool start_object(std::size_t) { return open(Members()); }
@@ -101,7 +105,7 @@ class Tree {
                        fmt::format("a key of {} bytes, expected at most {}", name.size(), limits::name)});
       return false;
     }
-    if (name != printable(name) || name.find('\n') != std::string::npos)
+    if (has_control_characters(name, ""))
       problems_.error({lines_.at(string_start()), join(name), "a control character in a key, expected text"});
     if (!frame.keys.insert(name).second) {
       problems_.error({lines_.at(string_start()), join(name),

@@ -270,11 +270,17 @@ TEST(StepsTooSmall, NameTheBodyThatMakesTheErrorTheStepsBeforeAndTheLastEvent) {
               testing::ContainsRegex("the last event is (impact|contact_open|lift) of contacts.floor at t = 0.1"));
 }
 
+TEST(ToleranceBelowRoundOff, IsAWarning) {
+  const Finished run = run_text(ball, {{"integrator", R"({"type": "dop853", "step": {"tolerance": 1e-18}})"}});
+  EXPECT_TRUE(run.done()) << run.report.reason;
+  EXPECT_THAT(run.result["warnings"].dump(), HasSubstr("integrator.step.tolerance: 1e-18 is unusual; it is usually"));
+}
+
 TEST(IterationThatFails, NamesTheBodyWithTheLargestResidual) {
   const Finished run = run_text(R"({"trammel": 1, "space": "planar", "gravity": [0, -10],
     "bodies": {"falling": {"type": "point_mass", "mass": 1, "position": [0, 0]},
-               "swinging": {"type": "point_mass", "mass": 1, "position": [1, -1], "velocity": [0, 3]}},
-    "forces": {"spring": {"type": "spring_damper", "between": [{"ground": [1, 0]}, "swinging.point"],
+               "swinging": {"type": "point_mass", "mass": 1, "position": [0, -1], "velocity": [3, 0]}},
+    "forces": {"spring": {"type": "spring_damper", "between": ["ground", "swinging.point"],
                           "stiffness": 1e4, "length": 1}},
     "integrator": {"type": "hht_alpha", "step": 0.1, "max_iterations": 1},
     "simulate": {"until": 1}, "record": {"every": 0.1}})");

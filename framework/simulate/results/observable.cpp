@@ -118,7 +118,8 @@ Value derived(const std::string& name, const std::string& text, const scene::For
     for (const Value& input : inputs) values.push_back(input(m));
     const double value = formula(values);
     if (!std::isfinite(value))
-      throw model::NotSolvable(fmt::format("record.observe.{}: \"{}\" is {}", name, text, value));
+      throw model::NotSolvable(
+          fmt::format("record.observe.{}: \"{}\" is {}", name, text, std::isnan(value) ? "not a number" : "infinite"));
     return value;
   };
 }
