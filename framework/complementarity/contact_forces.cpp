@@ -65,7 +65,7 @@ class Cascade {
       if (p.normal >= 0) normals.push_back(p.normal);
     Vec N;
     const LcpOutcome outcome = pressing_forces(A_(normals, normals), b_(normals), N);
-    pressing(normals) = N;
+    for (std::size_t k = 0; k < normals.size(); ++k) pressing[normals[k]] = N[Eigen::Index(k)];
     if (outcome == LcpOutcome::no_solution)
       return {outcome, violation(points_, A_, b_, Vec::Zero(b_.size()), nothing_)};
     accept(pressing);
@@ -126,17 +126,17 @@ class Cascade {
   bool accept(const Vec& nearby) { return accept(nearby, A_ * nearby + b_); }
   bool accept(const Vec& nearby, const Vec& a) {
     for (const double off : {1e-12, 1e-8}) {
-      Vec exact = nearby;
-      if (make_exact(points_, A_, b_, a, off, exact)) keep(exact);
+      Vec exact = nearby, a_exact = a;
+      if (make_exact(points_, A_, b_, off, exact, a_exact)) keep(exact, a_exact);
       if (!round_ && least_ <= round_off) return true;
     }
-    if (round_ || least_ > largest_violation) keep(nearby);
+    if (round_ || least_ > largest_violation) keep(nearby, A_ * nearby + b_);
     return least_ <= round_off;
   }
 
-  void keep(const Vec& F) {
+  void keep(const Vec& F, const Vec& a) {
     if (friction_ && lost_in_round_off(F)) return;
-    const double violated = violation(points_, A_, b_, F, nothing_);
+    const double violated = violation(points_, A_, b_, F, a, nothing_);
     if (!(violated < least_)) return;
     least_ = violated;
     best_ = F;

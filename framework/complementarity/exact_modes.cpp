@@ -58,6 +58,19 @@ class ExactModes {
     return true;
   }
 
+  // Of implied rows 0, where their angle to the basis is all that they differ by. Accelerations along different rows are
+  // compared by the lengths of the rows.
+  Vec accelerations() const {
+    const Vec length = A_.diagonal().cwiseSqrt();
+    double fastest = 0;
+    for (Index i = 0; i < a_.size(); ++i)
+      if (length[i] > 0) fastest = std::max(fastest, std::abs(a_[i]) / length[i]);
+    Vec a = a_;
+    for (const Index i : carrying_.rows.implied)
+      if (std::abs(a[i]) <= std::sqrt(round_off_of_shares) * length[i] * fastest) a[i] = 0;
+    return a;
+  }
+
  private:
   // Forces and modes that do not contradict each other. False: it found none, or came to modes for the second time,
   // from where it would go round and round.
@@ -291,14 +304,16 @@ class ExactModes {
 }  // namespace
 
 bool make_exact(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, double nearby, Vec& F) {
-  return make_exact(points, A, b, A * F + b, nearby, F);
+  Vec a = A * F + b;
+  return make_exact(points, A, b, nearby, F, a);
 }
 
-bool make_exact(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, const Vec& a, double nearby,
-                Vec& F) {
+bool make_exact(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, double nearby, Vec& F, Vec& a) {
   Vec exact = F;
-  if (!ExactModes(points, A, b, a, nearby, exact).solve()) return false;
+  ExactModes modes(points, A, b, a, nearby, exact);
+  if (!modes.solve()) return false;
   F = exact;
+  a = modes.accelerations();
   return true;
 }
 

@@ -1,5 +1,6 @@
 // Numbers at their limits, units, and many contacts: answers are verified where no enumeration can judge.
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "planar_bodies.hpp"
 #include "random_problems.hpp"
@@ -34,6 +35,35 @@ TEST(Limits, AContactThatJustTouchesLeavesItsTangentAlone) {
   ASSERT_EQ(solve_contacts(point, A, Vec{{0, 4}}, F, a).outcome, LcpOutcome::solved);
   EXPECT_EQ(F, Vec::Zero(2));
   EXPECT_EQ(a[1], 4);
+}
+
+// A block on its left corner falls back to the floor, its right corner against a wall. Flat but for an angle, that corner
+// moves towards the wall by as much of its fall. Within the angle at which rows count as dependent no wedge carries: the
+// forces are those of the flat block, whose wall carries nothing.
+TEST(Limits, ABlockThatIsFlatButForRoundOffIsNoWedge) {
+  std::mt19937 random(54);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int i = 0; i < 200; ++i) {
+    const double w = 0.1 + 0.4 * part(random), h = w * (0.2 + 0.6 * part(random)), mass = 1 + part(random);
+    const double mu_floor = 0.6 + part(random), mu_wall = 0.1 + 0.5 * part(random), gx = part(random);
+    const auto forces = [&](double angle) {
+      PlanarBodies bodies;
+      const Eigen::Rotation2Dd turned(angle);
+      const Eigen::Vector2d to_centre = turned * Eigen::Vector2d(w / 2, h / 2);
+      const int block = bodies.add(to_centre, mass, mass * (w * w + h * h) / 12, {gx, -9.81, 0});
+      bodies.touch(PlanarBodies::ground, block, {0, 0}, {0, 1}, mu_floor);
+      bodies.touch(PlanarBodies::ground, block, turned * Eigen::Vector2d(w, 0), {-1, 0}, mu_wall);
+      const Problem problem = bodies.problem("a block on a corner");
+      const Answer answer = solve(problem);
+      EXPECT_EQ(answer.outcome, LcpOutcome::solved) << i << ", " << angle;
+      return answer.F;
+    };
+    const Vec flat = forces(0);
+    ASSERT_EQ(flat[2], 0) << i;  // the wall's
+    for (const double angle : {1e-12, 1e-10, 1e-9, 3e-9, 1e-8, 3e-8, 1e-7})
+      EXPECT_LE((forces(angle) - flat).lpNorm<Eigen::Infinity>(), 10 * angle * flat.lpNorm<Eigen::Infinity>())
+          << i << ", " << angle;
+  }
 }
 
 // Forces in newtons or micronewtons, accelerations in m/s^2 or nm/s^2: the same answer. Of several solutions with

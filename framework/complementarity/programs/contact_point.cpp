@@ -38,9 +38,13 @@ double off_law(const ContactPoint& p, const Mat& A, const Vec& F, const Vec& a) 
 }  // namespace
 
 double violation(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, const Vec& F, double nothing) {
+  return violation(points, A, b, F, A * F + b, nothing);
+}
+
+double violation(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, const Vec& F, const Vec& a,
+                 double nothing) {
   if (b.size() == 0) return 0;
   if (!F.allFinite()) return std::numeric_limits<double>::infinity();
-  const Vec a = A * F + b;
   const double scale =
       b.lpNorm<Eigen::Infinity>() + 1e-4 * (A.cwiseAbs() * F.cwiseAbs()).maxCoeff() + nothing / largest_violation;
   double worst = 0;

@@ -38,6 +38,9 @@ struct ContactPoint {
 // round-off it has.
 // `nothing`: a violation as large is 1e-9, however small b is.
 double violation(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, const Vec& F, double nothing = 0);
+// The same with the accelerations that F makes, where those of rows that follow from others are corrected.
+double violation(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, const Vec& F, const Vec& a,
+                 double nothing);
 // What counts as a solution.
 constexpr double largest_violation = 1e-9;
 

@@ -9,9 +9,6 @@
 namespace trammel::complementarity {
 namespace {
 
-// Squares of sines of angles: below this a row follows from others. Where A is built from rows that are right to 1e-16,
-// what is left of a dependent one is some 1e-14; contacts 1e-6 of a body's size apart leave 1e-12.
-constexpr double round_off_of_shares = 1e-13;
 constexpr double no_share = 1e-9;  // of K, rows at length one
 
 // Cholesky with diagonal pivoting, the rows of `order` only.

@@ -17,6 +17,10 @@
 
 namespace trammel::complementarity {
 
+// Squares of sines of angles: below this a row follows from others. Where A is built from rows that are right to 1e-16,
+// what is left of a dependent one is some 1e-14; contacts 1e-6 of a body's size apart leave 1e-12.
+inline constexpr double round_off_of_shares = 1e-13;
+
 struct RowBasis {
   std::vector<Eigen::Index> basis, implied;  // indices into A
   Mat K;                                     // implied x basis; entries that are round-off are 0
