@@ -57,9 +57,8 @@ void LastMotions::take(const ContactEvent& event) {
 std::string LastMotions::contributors(model::AssembledSystem& system, const LastTrial& trial) const {
   const auto& [now, next, h, error_parts, iterated] = trial;
   if (error_parts.size() > 0) return made_by("the error of the last trial is that of {}", system, error_parts);
-  if (now.a.size() == 0 || next.a.size() != now.a.size() || !next.q.allFinite() || !next.v.allFinite() ||
-      !next.a.allFinite())
-    return "";
+  const bool tried = next.a.size() == system.sizes().nv && now.a.size() == next.a.size();  // not at the start yet
+  if (!tried || !next.q.allFinite() || !next.v.allFinite() || !next.a.allFinite()) return "";
   if (iterated) {
     State balanced = next;
     system.move_to(next.t, next.q, next.v);
