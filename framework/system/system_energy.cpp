@@ -103,8 +103,10 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     const Tangential ratio = contacts.friction_ratio(i);
     const Tangential slip = contacts.entry(i).friction ? contacts.slip(i) : Tangential(Tangential::Zero());
     if (contacts.entry(i).restitution) {
-      // The power of its rows, below, is its whole power except for sliding friction.
-      sum.friction(i) = -contacts.loads.spring({i, 0}, lambda) * ratio.dot(slip);
+      // The power of its rows, below, is its whole power except for sliding friction: that of the force it is told to
+      // have, which need not be a spring's. Of rows at rest, or without friction, it has none.
+      if (const double per_force = ratio.dot(slip); per_force != 0)
+        sum.friction(i) = -p.shares.force_along({i, 0}, lambda) * per_force;
       continue;
     }
     if (contacts.in_joint(i)) {  // likewise
