@@ -54,6 +54,8 @@ class MassKkt {
   // False: x or y is not finite.
   bool solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
   bool redundant() const { return redundant_; }
+  // Of the determinant of G M^-1 W^T: 1 with W = G; 0: nearly singular, or its rows are dependent.
+  int sign() const { return redundant_ ? 0 : coupled_ && B_.rows() > 0 ? schur_lu_.sign() : 1; }
 
  private:
   void solve_with_rows(const Vec& c, Vec& x, Vec& y);

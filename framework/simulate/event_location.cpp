@@ -133,7 +133,7 @@ void EventLocation::restart(const State& now) {
     if (each.kind == Kind::hold) each.little = little_friction(each.contact);
   }
   next_.resize(watches_.size()), probe_.resize(watches_.size());
-  evaluate(now, now_);
+  sign_ = evaluate(now, now_);
   allow_for_critical_friction();
   choose_sides(before);
   for (Watch& watch : watches_) measure_slow(0, now, watch);
@@ -217,6 +217,7 @@ void EventLocation::accept(double h, const State& next) {
     watches_[w].steepest = std::max(watches_[w].steepest, std::abs(next_[w].slope));
   }
   h_before_ = h;
+  sign_ = sign_next_;
   now_.swap(next_);
 }
 
@@ -235,11 +236,12 @@ double EventLocation::force(Watch& watch, double t, const Vec& lambda) {
   return watch.kind == Kind::press ? N : watch.bound - system_.friction_force(watch.contact, lambda).norm();
 }
 
-void EventLocation::evaluate(const State& state, std::vector<Value>& values) {
+int EventLocation::evaluate(const State& state, std::vector<Value>& values) {
   system_.move_to(state.t, state.q, state.v);
   values.resize(watches_.size());
   bool accelerated = false;
   for (std::size_t w = 0; w < watches_.size(); ++w) values[w] = value(int(w), state, accelerated);
+  return accelerated ? system_.sign() : 0;
 }
 
 // At the system's point, `state`; accelerated: a_ and lambda_ are those of this point, once a watch has asked for them.
@@ -311,10 +313,12 @@ void EventLocation::earliest_first(std::vector<Suspect>& suspects) const {
   std::stable_sort(suspects.begin(), suspects.end(), [](const auto& a, const auto& b) { return a.about < b.about; });
 }
 
-EventLocation::Found EventLocation::examine(const State& now, double& h, State& next, bool may_shorten) {
-  evaluate(next, next_);
+EventLocation::Found EventLocation::examine(const State& now, double& h, State& next, bool controlled,
+                                            bool may_shorten) {
+  sign_next_ = evaluate(next, next_);
   for (const Value& value : next_)
     if (!std::isfinite(value.f)) return Found::not_finite;
+  if (controlled && sign_ * sign_next_ < 0) return Found::passes_infinity;
   probed_ = false;
   if (may_shorten && hides(now, h, next)) return Found::step_too_long;
   suspects_.clear();
@@ -348,8 +352,9 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
         next = trial_;
       else if (++steps_tried_; !trial_step(integrator_, system_, now, h_event, next))
         return Found::step_refused;
-      evaluate(next, next_);
+      sign_next_ = evaluate(next, next_);
       h = h_event;
+      if (controlled && sign_ * sign_next_ < 0) return Found::passes_infinity;
     }
   } catch (const StepRefused&) {
     return Found::step_refused;
@@ -453,7 +458,8 @@ void EventLocation::archive(Archive& a) {
     values.row(w) << now_[w].f, now_[w].slope, watches_[w].noise, watches_[w].force_before, watches_[w].steepest,
         watches_[w].little, watches_[w].side, watches_[w].slow_for, watches_[w].pushed;
   Vec flat = Eigen::Map<const Vec>(values.data(), values.size());
-  a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_);
+  a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_),
+      a("sign", sign_);
   if (watches_.empty() && flat.size() > 0) {  // reading: the modes are back, their watches not yet
     watch_all();
     next_.resize(watches_.size()), probe_.resize(watches_.size()), now_.resize(watches_.size());

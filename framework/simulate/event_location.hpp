@@ -23,6 +23,9 @@
 // irrational part of the step, from their cubic; forces, one step ahead, from their tangent. What a jump of a law
 // leaves is taken by steps too short to matter.
 //
+// Nor may forces pass infinity within a controlled step, which where contacts slide need not show at its ends: there
+// the determinant of their equations changes its sign.
+//
 // A shortened step still has a length of at least 4 units in the last place of t, so every event advances time.
 //
 // Forces come from the equations of motion at the step's end; methods that satisfy neither position nor velocity rows
@@ -53,11 +56,12 @@ class EventLocation {
   bool watches() const { return !system_.model().contacts.empty(); }
   void restart(const State& now);  // modes or state changed
 
-  enum class Found { nothing, event, step_refused, step_too_long, not_finite };
+  enum class Found { nothing, event, step_refused, step_too_long, passes_infinity, not_finite };
   // Looks at the trial now -> next over h. Found::event: h and next are shortened to it, `changes` tells what happened.
   // Found::step_too_long only if `may_shorten`: next is not to be taken. Found::not_finite: at next a gap or a force is
-  // no number, though the state may be (a law of time that ended under a body).
-  Found examine(const State& now, double& h, State& next, bool may_shorten);
+  // no number, though the state may be (a law of time that ended under a body). Found::passes_infinity only if
+  // `controlled`: nor is it then.
+  Found examine(const State& now, double& h, State& next, bool controlled, bool may_shorten);
   const ContactChanges& changes() const { return changes_; }
   // [s] From here: `swings` (ContactModes::step_limit), unless all that is closed slides so fast that it loses no more
   // than a quarter of its slip in a longer step: that has no zero to step over.
@@ -114,7 +118,7 @@ class EventLocation {
   double little_force(int group);
   double little_friction(int contact);
   Value slide(int contact, const Vec& a);
-  void evaluate(const State& state, std::vector<Value>& values);
+  int evaluate(const State& state, std::vector<Value>& values);  // AssembledSystem::sign, if forces were asked for
   Value value(int w, const State& state, bool& accelerated);
   bool just_handled(int w) const { return now_[w].f <= watches_[w].noise; }
   bool happened(int w, const Value& end) const;
@@ -147,9 +151,10 @@ class EventLocation {
   std::vector<Watch> watches_;
   std::vector<model::ContactMode> modes_before_;  // at the last restart
   std::vector<Value> now_, next_, probe_;
-  bool probed_ = false;  // probe_ has the functions inside the step examined
-  double h_before_ = 0;  // [s] 0: no step yet since the last change
-  double longest_ = 0;   // [s] step tried since then
+  int sign_ = 0, sign_next_ = 0;  // AssembledSystem::sign where now_ and next_ are
+  bool probed_ = false;           // probe_ has the functions inside the step examined
+  double h_before_ = 0;           // [s] 0: no step yet since the last change
+  double longest_ = 0;            // [s] step tried since then
   std::vector<Suspect> suspects_;
   std::vector<int> at_end_;
   std::vector<double> begin_slopes_,

@@ -285,10 +285,12 @@ bool Simulator::step_and_examine(const StepControl::Proposal& proposal, double& 
   }
   if (location_.watches()) {
     const bool may_shorten = control().controlled() && h > 64 * control().smallest(now_.t);
-    found = location_.examine(now_, h, next_, may_shorten);
+    found = location_.examine(now_, h, next_, control().controlled(), may_shorten);
     if (found == EventLocation::Found::not_finite) return refuse_not_finite();
     if (found == EventLocation::Found::step_refused)
       return refuse(proposal, "a shorter step, tried to locate an event, was refused"), false;
+    if (found == EventLocation::Found::passes_infinity)
+      return refuse(proposal, "forces of contacts that slide pass infinity within it"), false;
     if (found == EventLocation::Found::step_too_long)
       return refuse(proposal, "it is too long to tell what contacts did within it"), false;
   }

@@ -298,6 +298,10 @@ const Motion& AssembledSystem::motion(MarkerRef marker) {
   return parts_->at.motion(parts_->at.chain.slot(marker));
 }
 
+int AssembledSystem::sign() const {
+  return parts_->factors.sign(FactorsAtPoint::at_point);
+}
+
 bool AssembledSystem::redundant() const {
   return parts_->factors.redundant(FactorsAtPoint::at_point);
 }

@@ -109,6 +109,9 @@ class AssembledSystem final : public System, public HasRigidMotions {
   void impulse_response(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus);
   // True if rows were redundant at the last `accelerate`: lambda is not unique.
   bool redundant() const;
+  // Of the determinant of the equations for the forces at the last `accelerate`, of that without friction: it changes
+  // where friction that slides leaves them no solution (Painleve's critical state). 0: not known.
+  int sign() const;
   // [rad/s] The highest initial frequency after impulses along the given directions: with the response x to one of
   // them, omega^2 = x K x / x M x (Rayleigh's quotient; K: stiffness, with active bilateral rows). 0: no restoring
   // force.

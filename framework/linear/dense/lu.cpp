@@ -61,6 +61,20 @@ void Lu::eliminate() {
   }
 }
 
+int Lu::sign() const {
+  const Eigen::Index n = in_blocks() ? blocks_.rows() : n_;
+  int sign = in_blocks() ? int(blocks_.permutationP().determinant()) : 1;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (!(std::abs(pivot(j)) > 0)) return 0;
+    if (pivot(j) < 0) sign = -sign;
+  }
+  if (in_blocks()) return sign;
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    for (std::size_t j = i + 1; j < rows_.size(); ++j)
+      if (rows_[j] < rows_[i]) sign = -sign;
+  return sign;
+}
+
 // Forward and back, by columns. A known number is taken out before the loop runs over its place, too.
 void Lu::solve(const Vec& b, Vec& x) {
   if (in_blocks()) {

@@ -18,6 +18,7 @@ class Lu {
   void compute(const Mat& A);  // square; a singular one gives a pivot that is 0 or round-off
   double pivot(Eigen::Index j) const { return in_blocks() ? blocks_.matrixLU()(j, j) : LU_(j, j); }
   void solve(const Vec& b, Vec& x);  // not in place
+  int sign() const;                  // of the determinant: 1, -1, or 0 where a pivot is 0 or not finite
 
  private:
   bool in_blocks() const { return n_ == 0; }

@@ -111,6 +111,10 @@ bool FactorsAtPoint::redundant(Store store) const {
   return blocks_ ? blocks_->redundant(blocks_->kept[store]) : kept_[store].mass.redundant();
 }
 
+int FactorsAtPoint::sign(Store store) const {
+  return !blocks_ && kept_[store].symmetric ? kept_[store].mass.sign() : 0;
+}
+
 void FactorsAtPoint::minimise_norm(Store store, Vec& lambda) {
   if (blocks_) blocks_->minimise_norm(blocks_->kept[store], lambda);
 }

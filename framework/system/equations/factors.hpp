@@ -27,6 +27,7 @@ class FactorsAtPoint {
                          const CarriedFrom* carried = nullptr);
   [[nodiscard]] bool solve(Store store, const Vec& b, const Vec& c, Vec& x, Vec& y);  // false: not solvable
   bool redundant(Store store) const;             // true if rows were redundant at the last factorise_mass
+  int sign(Store store) const;                   // MassKkt's; 0: not known
   void minimise_norm(Store store, Vec& lambda);  // of redundant rows, in blocks
 
  private:
