@@ -100,7 +100,7 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
       if (p.mu < p.mu_0) settled = false;
     }
   }
-  if (!let_approaches_vanish()) solution.outcome = complementarity::LcpOutcome::gave_up;
+  if (!let_approaches_vanish(nothing)) solution.outcome = complementarity::LcpOutcome::gave_up;
   for (const Pushed& p : pushed_) F_[p.direction] = push(p);
   for (std::size_t i = 0; i < who.size(); ++i) {
     Participant& p = who[i];
@@ -112,12 +112,14 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
   return solution;
 }
 
-bool ContactProblem::let_approaches_vanish() {
+bool ContactProblem::let_approaches_vanish(double nothing) {
   bool any = false;
   for (std::size_t i = 0; i < who.size(); ++i)
     if (who[i].vanishing > 0) any = true, b_[points_[i].normal] += who[i].vanishing;
   if (!any) return true;
   if (!complementarity::make_exact(points_, delassus_, b_, 1e-4, F_)) return false;
+  if (!(complementarity::violation(points_, delassus_, b_, F_, nothing) <= complementarity::largest_violation))
+    return false;
   a_ = delassus_ * F_ + b_;
   return true;
 }

@@ -78,7 +78,8 @@ class ContactProblem {
   complementarity::ContactSolution solve_once(const Mat& A, double nothing);
   Mat yielding() const;  // the Delassus matrix of contacts that are not quite rigid
   double push(const Pushed& p) const { return who[p.who].ratio[0] * who[p.who].given; }  // [N]
-  [[nodiscard]] bool let_approaches_vanish();
+  // False: no solution was found that is left of them.
+  [[nodiscard]] bool let_approaches_vanish(double nothing);
   // Of what rows hold: a foot whose friction each evaluation decides has none, and shares none.
   std::vector<complementarity::ContactRole> roles(const model::Modes& modes) const;
 
