@@ -94,6 +94,29 @@ TEST(TwoBlocksInTandem, SlowDownAsOneAndByNoLessThanTheirWeightsDo) {
     }
 }
 
+// A driven hand gives them their motion, and with the ceiling their forces are indeterminate: springs' shares would pull,
+// so others are told. What friction takes is the work of those.
+TEST(BlocksInTandem, LoseToFrictionTheWorkOfTheForcesThatAreTold) {
+  const double until = 0.2;
+  json s = in_a_channel({{0.178, 4.939, 0.358, 0}, {0.113, 0.21, 0.366, 0}}, 0.214, 0.524, 0);
+  s["bodies"]["hand"] = {{"type", "moving_base"}, {"x", "=0.872*t^2"}, {"markers", {{"o", {0, 0}}}}};
+  for (const char* corner : {"bl", "tl"})
+    s["contacts"][fmt::format("hand{}", corner)] =
+        contact(fmt::format("b0.{}", corner), {{"point", {0, 0}}, {"normal", {1, 0}}, {"on", "hand.o"}}, 0.418);
+  s["simulate"]["until"] = until;
+  const auto corners = {"bl", "br", "tl", "tr"};
+  for (const char* corner : corners) s["record"]["observe"][corner] = fmt::format("contacts.b1{}.force", corner);
+  const Finished run = run_text(s.dump());
+  expect_trusted(run);
+  double lost = 0;
+  for (const char* corner : corners) {
+    const double own = run.result["energy_dissipated"]["friction"][fmt::format("b1{}", corner)];
+    EXPECT_NEAR(own, 0.366 * run.end(corner) * 0.872 * until * until, 1e-8) << corner;  // constant, up to N
+    lost += own;
+  }
+  EXPECT_GT(lost, 0.366 * 0.21 * g * 0.872 * until * until);
+}
+
 TEST(BlocksInTandem, PushEachOtherByForcesThatContactsHave) {
   std::mt19937 random(27);
   const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };

@@ -1,0 +1,121 @@
+// Sliding contacts whose forces grow beyond all bounds: struts between a floor and a ceiling, of which the floor is
+// driven, and stacks that become struts as they slide.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "support/run_scene.hpp"
+
+namespace trammel::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr double g = 10;  // [m/s^2]
+
+json rough_contact(const std::string& marker, const json& plane, double mu_0, double mu) {
+  return {{"type", "constraint_method"},
+          {"restitution", 0},
+          {"between", {marker, {{"plane", plane}}}},
+          {"friction", {{"type", "coulomb"}, {"static", mu_0}, {"kinetic", mu}}}};
+}
+
+// A rod that leans by 1 in 20, less than friction's angle, between a ceiling and a floor that moves.
+json strut(const std::string& law) {
+  json s = {{"trammel", 1},
+            {"space", "planar"},
+            {"gravity", {0, -g}},
+            {"simulate", {{"until", 0.1}}},
+            {"record", {{"every", 0.01}, {"observe", {{"v", "rod.com.vx"}}}}}};
+  s["bodies"]["floor"] = {{"type", "moving_base"}, {"x", law}, {"markers", {{"o", {0, 0}}}}};
+  s["bodies"]["rod"] = {{"type", "rigid_body"},
+                        {"mass", 1},
+                        {"inertia", 1.0 / 12},
+                        {"position", {0.025, 0.5}},
+                        {"markers", {{"a", {-0.025, -0.5}}, {"b", {0.025, 0.5}}}}};
+  s["contacts"]["a"] = rough_contact("rod.a", {{"point", {0, 0}}, {"normal", {0, 1}}, {"on", "floor.o"}}, 0.5, 0.5);
+  s["contacts"]["b"] = rough_contact("rod.b", {{"point", {0, 1}}, {"normal", {0, -1}}}, 0.5, 0.5);
+  return s;
+}
+
+// The floor that rights it would lift the ceiling: neither end can slide, and no finite force stops a floor.
+TEST(Strut, ThatADrivenFloorRightsHasNoForcesAndTheRunEndsThere) {
+  for (const char* law : {"=0.3*t", "=0.3*t^2"}) {
+    const Finished run = run_text(strut(law).dump());
+    SCOPED_TRACE(law);
+    EXPECT_EQ(run.report.status, simulate::Status::failed);
+    EXPECT_THAT(run.report.reason, HasSubstr("at t = 0 s"));
+    EXPECT_THAT(run.report.reason, HasSubstr("Painleve"));
+  }
+}
+
+// The floor that lays it down lets go of the ceiling.
+TEST(Strut, ThatADrivenFloorLaysDownFalls) {
+  const Finished run = run_text(strut("=-0.3*t").dump());
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_LT(run.end("energy_total"), 5);
+}
+
+struct Layer {
+  double width, height, mass, x, mu_0, mu;  // [m], [kg], of its feet
+};
+
+// Boxes between floor and ceiling without clearance; the top one is pushed.
+json below_a_ceiling(const std::vector<Layer>& layers, double mu_0, double mu, double speed) {
+  json s = {{"trammel", 1}, {"space", "planar"}, {"gravity", {0, -g}}, {"simulate", {{"until", 0.3}}}};
+  double y = 0;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const auto& [w, h, m, x, mu_0_feet, mu_feet] = layers[i];
+    const std::string b = fmt::format("b{}", i);
+    s["bodies"][b] = {{"type", "rigid_body"},
+                      {"mass", m},
+                      {"inertia", m * (w * w + h * h) / 12},
+                      {"position", {x, y + h / 2}},
+                      {"velocity", {i + 1 == layers.size() ? speed : 0.0, 0}},
+                      {"markers",
+                       {{"bl", {-w / 2, -h / 2}},
+                        {"br", {w / 2, -h / 2}},
+                        {"tl", {-w / 2, h / 2}},
+                        {"tr", {w / 2, h / 2}},
+                        {"top", {0, h / 2}}}}};
+    json under = {{"point", {0, 0}}, {"normal", {0, 1}}};
+    if (i > 0) under["on"] = fmt::format("b{}.top", i - 1);
+    for (const char* foot : {"bl", "br"})
+      s["contacts"][b + foot] = rough_contact(b + "." + foot, under, mu_0_feet, mu_feet);
+    y += h;
+    s["record"]["observe"]["v" + std::to_string(i)] = b + ".com.vx";
+  }
+  const std::string top = fmt::format("b{}", layers.size() - 1);
+  for (const char* corner : {"tl", "tr"})
+    s["contacts"]["ceiling_" + std::string(corner)] =
+        rough_contact(top + "." + corner, {{"point", {0, y}}, {"normal", {0, -1}}}, mu_0, mu);
+  s["record"]["every"] = 0.01;
+  return s;
+}
+
+// Its top slides until the stack is a strut, where all its forces grow without bounds: steps that do not know of that
+// place go on beyond it with a hundredth of the speed.
+TEST(StackBelowACeiling, TakesNoStepOverThePoleOfItsForces) {
+  const json s = below_a_ceiling({{0.12, 0.082, 3.3, 0, 0.649, 0.649},
+                                  {0.274, 0.126, 0.324, -0.0076, 0.485, 0.485},
+                                  {0.172, 0.057, 0.134, 0.0085, 0.251, 0.204},
+                                  {0.107, 0.163, 0.232, -0.0208, 0.169, 0.134}},
+                                 0.587, 0.479, 0.83);
+  const auto with_tolerance = [&](double tolerance) {
+    return run_text(s.dump(),
+                    {{"integrator", fmt::format(R"({{"type": "dop853", "step": {{"tolerance": {}}}}})", tolerance)}});
+  };
+  const Finished tight = with_tolerance(1e-12), loose = with_tolerance(1e-9);
+  ASSERT_TRUE(tight.done()) << tight.report.reason;
+  ASSERT_TRUE(loose.done()) << loose.report.reason;
+  for (const char* v : {"v0", "v1", "v2", "v3"}) EXPECT_NEAR(loose.end(v), tight.end(v), 1e-4) << v;
+  EXPECT_GT(tight.end("v3"), 0.3);
+}
+
+}  // namespace
+}  // namespace trammel::test
