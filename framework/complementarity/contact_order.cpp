@@ -9,7 +9,13 @@ namespace trammel::complementarity {
 namespace {
 
 // Irregular weights, so that sums of different numbers differ.
-constexpr double weights[] = {1, 0.7548776662466927, 0.5698402909980532, 0.4301597090019467, 0.3247179572447460};
+constexpr double weights[] = {1,
+                              0.7548776662466927,
+                              0.5698402909980532,
+                              0.4301597090019467,
+                              0.3247179572447460,
+                              0.2451223337533073,
+                              0.1850377087105194};
 
 double relative(double x, double size) {
   return size > 0 ? x / size : 0;
@@ -23,6 +29,10 @@ double own_number(const ContactPoint& p, const Mat& A, double stiff, double load
     number += weights[3] * size(A(p.normal, p.normal));
   else
     number += weights[4] * relative(p.given * stiff, load) - 1;
+  for (int k = 0; k < p.tangents && p.normal >= 0 && p.tangent >= 0; ++k) {
+    const double both = A(p.normal, p.normal) * A(p.tangent + k, p.tangent + k);
+    number += weights[5 + k] * relative(A(p.normal, p.tangent + k), std::sqrt(std::max(0.0, both)));
+  }
   if (p.tangent >= 0) number += 1 + weights[4] * size(A.block(p.tangent, p.tangent, p.tangents, p.tangents).trace());
   return number;
 }
