@@ -54,8 +54,8 @@
 //  8. Where rigid contacts have no solution with finite forces (Painleve's rod), or these grow beyond all bounds as
 //     that state is approached (which no controlled step passes, event_location.hpp), the slip stops or turns in an
 //     impact without collision: rule 1 with nothing approaching; dependent contacts, of which none could part alone,
-//     yield a little in it. If that has none, the run ends with a message; so do modes that contradict each other at one
-//     instant (Simulator).
+//     yield a little in it. If that has none, the run ends with a message; so do modes that contradict each other at
+//     one instant (Simulator).
 // Degenerate cases: contact_forces.hpp. Where there are several solutions it is Lemke's, which looks first where no
 // force is.
 #pragma once
