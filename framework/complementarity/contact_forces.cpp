@@ -22,6 +22,9 @@ namespace {
 // Where rows depend on each other the first are larger than what Lemke's method perturbs, so that it ends where springs
 // do.
 constexpr double compliances[] = {1e-10, 0.0}, dependent_compliances[] = {1e-6, 1e-8, 1e-10, 0.0};
+// Accelerations that are none, in parts of all, from which exact modes are sought. Those of contacts that yield are off
+// by the round-off of pivoting, some 1e-10: what rests, taken to slide, can lead to another solution, a wedge.
+constexpr double judged_at_rest[] = {1e-8, 1e-12};
 // A violation that is round-off of A F, of 1e-4 of its shares: nothing better is looked for.
 constexpr double round_off = 1e-11;
 // Contacts whose modes are searched at most, and how many sets of modes.
@@ -125,7 +128,7 @@ class Cascade {
   // slip are better known before: the better one. True: no better one is needed.
   bool accept(const Vec& nearby) { return accept(nearby, A_ * nearby + b_); }
   bool accept(const Vec& nearby, const Vec& a) {
-    for (const double off : {1e-12, 1e-8}) {
+    for (const double off : judged_at_rest) {
       Vec exact = nearby, a_exact = a;
       if (make_exact(points_, A_, b_, off, exact, a_exact)) keep(exact, a_exact);
       if (!round_ && least_ <= round_off) return true;

@@ -58,8 +58,8 @@ class ExactModes {
     return true;
   }
 
-  // Of implied rows 0, where their angle to the basis is all that they differ by. Accelerations along different rows are
-  // compared by the lengths of the rows.
+  // Of implied rows 0, where their angle to the basis is all that they differ by. Accelerations along different rows
+  // are compared by the lengths of the rows.
   Vec accelerations() const {
     const Vec length = A_.diagonal().cwiseSqrt();
     double fastest = 0;

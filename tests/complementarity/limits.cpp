@@ -37,9 +37,9 @@ TEST(Limits, AContactThatJustTouchesLeavesItsTangentAlone) {
   EXPECT_EQ(a[1], 4);
 }
 
-// A block on its left corner falls back to the floor, its right corner against a wall. Flat but for an angle, that corner
-// moves towards the wall by as much of its fall. Within the angle at which rows count as dependent no wedge carries: the
-// forces are those of the flat block, whose wall carries nothing.
+// A block on its left corner falls back to the floor, its right corner against a wall. Flat but for an angle, that
+// corner moves towards the wall by as much of its fall. Within the angle at which rows count as dependent no wedge
+// carries: the forces are those of the flat block, whose wall carries nothing.
 TEST(Limits, ABlockThatIsFlatButForRoundOffIsNoWedge) {
   std::mt19937 random(54);
   std::uniform_real_distribution<double> part(0, 1);
@@ -64,6 +64,41 @@ TEST(Limits, ABlockThatIsFlatButForRoundOffIsNoWedge) {
       EXPECT_LE((forces(angle) - flat).lpNorm<Eigen::Infinity>(), 10 * angle * flat.lpNorm<Eigen::Infinity>())
           << i << ", " << angle;
   }
+}
+
+// Blocks on each other, the middle one sliding, the lowest with its right corner at a wall. Where friction under its
+// left corner pulls it away from the wall, the wall carries nothing: accelerations are the same as without it, though a
+// wedge between the wall and that corner may be a solution as well.
+TEST(Limits, AWallThatNothingMovesAgainstCarriesNothing) {
+  std::mt19937 random(55);
+  std::uniform_real_distribution<double> part(0, 1);
+  int resting = 0;
+  for (int i = 0; i < 3000; ++i) {
+    PlanarBodies bodies;
+    const double gx = 5 * part(random) - 1;
+    double y = 0, lowest = 0;
+    for (int block = 0; block < 3; ++block) {
+      const double w = 0.1 + 0.3 * part(random), h = 0.05 + 0.25 * part(random), mass = 100 * w * h;
+      bodies.add({0, y + h / 2}, mass, mass * (w * w + h * h) / 12, {gx, -9, 0});
+      const double mu = 0.1 + 0.9 * part(random);
+      for (const double x : {-w / 2, w / 2}) {
+        bodies.touch(block - 1, block, {x, y}, {0, 1}, mu);
+        if (block == 1) bodies.let_slide(-1);
+      }
+      if (block == 0) lowest = w;
+      y += h;
+    }
+    const Problem free = bodies.problem("a stack");
+    bodies.touch(PlanarBodies::ground, 0, {lowest / 2, 0}, {-1, 0}, 0.1 + 0.7 * part(random));
+    const Problem problem = bodies.problem("a stack at a wall");
+    const Answer alone = solve(free), answer = solve(problem);
+    if (alone.outcome != LcpOutcome::solved || alone.a[free.points[0].tangent] != 0) continue;
+    if (alone.F[free.points[0].tangent] <= 0) continue;  // the foot and the wall share
+    ++resting;
+    ASSERT_EQ(answer.outcome, LcpOutcome::solved) << i;
+    EXPECT_LE((answer.a.head(alone.a.size()) - alone.a).lpNorm<Eigen::Infinity>(), little(problem, answer.F)) << i;
+  }
+  EXPECT_GT(resting, 1000);
 }
 
 // Forces in newtons or micronewtons, accelerations in m/s^2 or nm/s^2: the same answer. Of several solutions with
