@@ -67,8 +67,7 @@ void StepControl::accepted(const Proposal& taken, double error) {
 }
 
 void StepControl::rejected_for_error(double h, double error) {
-  const double factor = std::isfinite(error) ? std::clamp(0.9 * std::pow(error, -1.0 / order_), 0.1, 0.9) : 0.1;
-  wish_ = h * factor;
+  wish_ = h * std::max(0.1, 0.9 * std::pow(error, -1.0 / order_));  // a tenth, too, where the error is no number
   planned_ = 0;
 }
 

@@ -7,8 +7,7 @@
 // With a tolerance the steps follow the PI controller of Gustafsson (Hairer, Wanner II, IV.2): after a step with error
 // e <= 1
 //
-//     h <- h min(5, max(0.2, 0.9 e^(-0.7/p) e_old^(0.4/p))),     after a rejected one h <- h min(1, max(0.1, 0.9
-//     e^(-1/p)))
+//     h <- h min(5, max(0.2, 0.9 e^(-0.7/p) e_old^(0.4/p))),     after a rejected one h <- h max(0.1, 0.9 e^(-1/p))
 //
 // with p the order of the estimate. Even steps (OscillatingSteps) change only when they are to be a quarter longer, by
 // the larger of the last two errors, or are rejected; the last few before a stop are of equal length. A step shortened
