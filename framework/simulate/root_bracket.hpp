@@ -15,8 +15,11 @@ struct RootBracket {
   double f_low, f_high;
 };
 
+struct Interval {
+  double low, high;
+};
 // Narrows the bracket until it is no wider than `resolution`.
-RootBracket narrow(const std::function<double(double)>& f, RootBracket bracket, double resolution);
+Interval narrow(const std::function<double(double)>& f, const RootBracket& bracket, double resolution);
 
 struct ValueAndSlope {
   double f, slope;
