@@ -12,7 +12,6 @@
 #include "simulate/simulator.hpp"
 
 namespace trammel::simulate {
-namespace {}  // namespace
 
 void Simulator::settle(const ContactChanges& changes) {
   const std::size_t before = events_.size();
