@@ -102,6 +102,16 @@ TEST(ElasticImpact, IsNoChatterHoweverShortTheFlightIsForTheSteps) {
   EXPECT_NEAR(run.end("energy_total"), 1.0125, 1e-11);
 }
 
+// Two balls that strike at the same instants, one of which sticks for the shortness of its flight.
+TEST(ElasticImpact, IsNoChatterBesideOneThatIs) {
+  const Finished run = run_text(ball, {{"bodies.hard", R"({"type": "point_mass", "mass": 0.1, "position": [5, 1]})"},
+                                       {"contacts.hard", R"({"type": "constraint_method", "restitution": 1,
+                                   "between": ["hard.point", {"plane": {"point": [0, 0], "normal": [0, 1]}}]})"},
+                                       {"simulate.chatter_steps", "1e4"}});
+  EXPECT_EQ(run.result["counts"]["impacts"], 3);  // of the other one at sqrt(0.2) s, 3 sqrt(0.2) s, and the one's
+  EXPECT_NEAR(run.end("energy_total"), 1 + 0.0125, 1e-11);
+}
+
 TEST(OscillatorAgainstAWall, FliesHalfAPeriodWhateverItsSpeed) {
   const Finished run = run_text(oscillator);
   const std::vector<Event> impacts = run.of_kind("impact");
@@ -183,6 +193,26 @@ TEST(ReboundWithinAStep, IsFoundHoweverFarTheFreeStepGoes) {
     }
     EXPECT_EQ(n, 7u);
     EXPECT_EQ(impacts.size(), n) << step;
+  }
+}
+
+// A step of a period and a quarter, exact, ends above the wall with a rate that falls to it as from the step's begin no
+// cubic does that has been behind the wall.
+TEST(ReboundWithinAStep, IsFoundWhereTheFreeStepEndsAboveTheWallAndFalls) {
+  for (const char* step : {"7.1", "7.3", "7.6"}) {
+    const Finished run = run_text(
+        oscillator, {{"bodies.mass.position", "[0, 1]"},
+                     {"bodies.mass.velocity", "[0, 1]"},
+                     {"forces.spring.length", "0"},
+                     {"contacts.wall.restitution", "0.8"},
+                     {"simulate.until", step},
+                     {"simulate.chatter_steps", "0"},
+                     {"record.every", step},
+                     {"integrator", fmt::format(R"({{"type": "exponential_collocation", "step": {}}})", step)}});
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    const std::vector<Event> impacts = run.of_kind("impact");
+    ASSERT_FALSE(impacts.empty());
+    EXPECT_NEAR(impacts[0].t, std::numbers::pi / 2, 1e-10) << step;  // the motion is exact
   }
 }
 
