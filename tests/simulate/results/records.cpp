@@ -1,9 +1,8 @@
 // Rows are written at start + k every, exactly, whatever the steps and events do.
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 
-#include "support/run_scene.hpp"
-#include "support/scenes.hpp"
 #include "simulate/start/setup.hpp"
 #include "support/run_scene.hpp"
 #include "support/scenes.hpp"
@@ -51,6 +50,30 @@ TEST(ARunOfZeroLength, WritesOneRowAndIsDone) {
   ASSERT_EQ(run.series.at("t").size(), 1u);
   EXPECT_EQ(run.end("y"), 1);
   EXPECT_EQ(run.result["counts"]["steps"], 0);
+}
+
+// A rod's row is (|x|^2/L - L)/2; explicit steps let it drift. With a row of the series each step.
+TEST(ConstraintNorms, AreThoseOfTheRowsAndTheirMaximaThoseOfAllSteps) {
+  const Finished run = run_text(R"({"trammel": 1, "space": "planar", "gravity": [0, -10],
+    "bodies": {"bob": {"type": "point_mass", "mass": 1, "position": [1, 0]}},
+    "joints": {"rod": {"type": "distance", "between": ["ground", "bob.point"], "length": 1}},
+    "integrator": {"type": "runge_kutta_4", "step": 0.05}, "simulate": {"until": 2},
+    "record": {"every": 0.05, "observe": {"x": "bob.point.x", "y": "bob.point.y", "vx": "bob.point.vx",
+                                          "vy": "bob.point.vy"}}})");
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  const auto column = [&run](const char* name) -> const std::vector<double>& { return run.series.at(name); };
+  const std::vector<double>&x = column("x"), &y = column("y"), &vx = column("vx"), &vy = column("vy");
+  ASSERT_EQ(x.size(), 41u);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_NEAR(column("constraint_position")[i], std::abs(x[i] * x[i] + y[i] * y[i] - 1) / 2, 1e-15);
+    EXPECT_NEAR(column("constraint_velocity")[i], std::abs(x[i] * vx[i] + y[i] * vy[i]), 1e-14);
+  }
+  for (const std::string name : {"position", "velocity", "acceleration"}) {
+    const std::vector<double>& norms = column(("constraint_" + name).c_str());
+    const double largest = *std::max_element(norms.begin(), norms.end());
+    EXPECT_GT(largest, 0) << name;
+    EXPECT_EQ(run.result["constraint_maxima"][name], largest) << name;
+  }
 }
 
 TEST(ResultsFolder, ThatCannotBeMadeIsNamedWithTheReason) {
