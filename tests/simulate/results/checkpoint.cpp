@@ -3,6 +3,7 @@
 // The program's side of it, signals and files, is in tests/cli/interruption.cpp; here runs are cut after exact numbers
 // of steps.
 #include <atomic>
+#include <bit>
 #include <cmath>
 
 #include "support/run_in_pieces.hpp"
@@ -10,6 +11,16 @@
 
 namespace trammel::test {
 namespace {
+
+// Of this name, however deep; null: there is none.
+nlohmann::json* find(nlohmann::json& object, const char* name) {
+  for (auto& [key, value] : object.items()) {
+    if (key == name) return &value;
+    if (!value.is_object()) continue;
+    if (nlohmann::json* const below = find(value, name)) return below;
+  }
+  return nullptr;
+}
 
 class Resumed : public testing::TestWithParam<Method> {
  protected:
@@ -205,6 +216,26 @@ TEST(ResumedRun, KeepsTheLedger) {
   const Logs whole = run_in_pieces(scene::Scene::parse(struck_bar, "test.json"), 1LL << 60);
   for (const char* cause : {"lost_to_impacts", "drives", "dampers", "constraints", "contacts", "impacts"})
     EXPECT_TRUE(whole.data.contains(cause)) << cause;
+}
+
+// Whatever the watches of contacts hold, at whatever moment the run was cut.
+TEST(ResumedRun, HasEachNumberOfItsWatchesBack) {
+  const scene::Scene scene = scene::Scene::parse(  // a contact each of two kinds, each with numbers of its own
+      struck_bar, "test.json", {{"contacts.far", R"({"type": "continuous_force", "stiffness": 1e4,
+                            "between": ["bar.hinge", {"plane": {"point": [0, -9], "normal": [0, 1]}}]})"}});
+  const Folder folder;
+  std::filesystem::create_directories(folder.path());
+  simulate::Recorder::Lengths lengths;
+  nlohmann::json data;
+  run_piece(scene, folder.path(), data, lengths, 20);
+  nlohmann::json* const watched = find(data, "watched");
+  ASSERT_TRUE(watched);
+  ASSERT_EQ(watched->size() % 2, 0u);  // two watches at least
+  ASSERT_FALSE(watched->empty());
+  for (std::size_t i = 0; i < watched->size(); ++i) (*watched)[i] = std::bit_cast<std::uint64_t>(1.5 + double(i));
+  const nlohmann::json written = *watched;
+  run_piece(scene, folder.path(), data, lengths, 0);
+  EXPECT_EQ(*find(data, "watched"), written);
 }
 
 }  // namespace
