@@ -129,6 +129,48 @@ TEST(EnergyLedger, OfAConservativeMotionHasNothingInIt) {
   EXPECT_NEAR(drift(run), 0, 2e-12);  // RK4 damps by (h omega)^6 / 72 of the 0.125 J a step, 1000 steps
 }
 
+// A ladder whose foot rubs on the floor and whose head slides along the wall.
+std::string ladder(const char* method) {
+  return fmt::format(R"json({{
+    "trammel": 1, "space": "planar", "gravity": [0, -10],
+    "bodies": {{"ladder": {{"type": "rigid_body", "mass": 1, "inertia": "=1/3", "angle": 2, "angular_velocity": 0,
+                           "position": ["=-cos(2)", "=sin(2)"], "markers": {{"foot": [-1, 0], "head": [1, 0]}}}}}},
+    "contacts": {{
+      "floor": {{"type": "constraint_method", "friction": {{"type": "coulomb", "static": 0.1, "kinetic": 0.1}},
+                "between": ["ladder.foot", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}},
+      "wall": {{"type": "constraint_method", "between": ["ladder.head", {{"plane": {{"point": [0, 0], "normal": [1, 0]}}}}]}}}},
+    "integrator": {{"type": "{}", "step": 0.02}},
+    "simulate": {{"until": 0.4}}, "record": {{"every": 0.02, "observe": {{
+      "angle": "ladder.com.angle", "floor": "contacts.floor.force", "wall": "contacts.wall.force",
+      "off_floor": "ladder.foot.vy", "off_wall": "ladder.head.vx"}}}}}})json",
+                     method);
+}
+
+// What rows do within steps, by the motion between two states on them, is nothing.
+TEST(EnergyLedger, GivesRowsOfContactsNothingWhereTheMethodHoldsThem) {
+  for (const char* method : {"newmark", "hht_alpha", "generalized_alpha"}) {
+    const Finished run = run_text(ladder(method));
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    EXPECT_GT(run.end("angle"), 2.05) << method;
+    EXPECT_GT(run.result["energy_dissipated"]["friction_total"], 0.01) << method;
+    EXPECT_NEAR(run.result["energy_supplied"]["constraints"], 0, 1e-10) << method;
+  }
+}
+
+// A method that lets rows drift does work against them: the force times the rate at the ends of steps.
+TEST(EnergyLedger, GivesRowsOfContactsTheWorkOfTheirDrift) {
+  const Finished run = run_text(ladder("runge_kutta_4"));
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  double work = 0;
+  for (const auto& [force, rate] : {std::pair("floor", "off_floor"), {"wall", "off_wall"}}) {
+    const std::vector<double>&N = run.series.at(force), &r = run.series.at(rate);
+    ASSERT_EQ(N.size(), 21u);
+    for (std::size_t i = 0; i + 1 < N.size(); ++i) work += 0.02 / 2 * (N[i] * r[i] + N[i + 1] * r[i + 1]);
+  }
+  EXPECT_GT(std::abs(work), 1e-9);
+  EXPECT_NEAR(run.result["energy_supplied"]["constraints"], work, 0.02 * std::abs(work));  // trapezoidal rule
+}
+
 // The round-off of a hinge that stands still has a power, which was integrated where the energy at the start, 0 J here,
 // was all it could be measured by: an evaluation more each step.
 TEST(EnergyLedger, OfAMotionFromZeroEnergyCostsNoEvaluation) {
