@@ -95,6 +95,24 @@ TEST_P(Incline, StoppingTimesAndDistancesAreTheClosedForms) {
 INSTANTIATE_TEST_SUITE_P(Contacts, Incline, testing::Values(rigid, compliant),
                          [](const auto& law) { return law.param == rigid ? "rigid" : "compliant"; });
 
+// As one stops the other one slides slowly, and goes on.
+TEST(Friction, StopsEachOfTwoBlocksAtItsOwnTime) {
+  const char* const floor =
+      R"("friction": {"type": "coulomb", "static": 0.2, "kinetic": 0.2}, "type": "constraint_method",
+                               "between": [)";
+  const Finished run = run_text(fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -10],
+    "bodies": {{"a": {{"type": "point_mass", "mass": 1, "position": [0, 0], "velocity": [2, 0]}},
+               "b": {{"type": "point_mass", "mass": 1, "position": [0, 0], "velocity": [2.002, 0]}}}},
+    "contacts": {{"a": {{{0} "a.point", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}},
+                 "b": {{{0} "b.point", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}}}},
+    "integrator": {{"type": "dop853", "step": 0.01}}, "simulate": {{"until": 1.5}}, "record": {{"every": 0.5}}}})",
+                                            floor));
+  const std::vector<Event> stops = run.of_kind("stick");
+  ASSERT_EQ(stops.size(), 2u) << run.report.reason;
+  EXPECT_NEAR(stops[0].t, 1, 1e-11);
+  EXPECT_NEAR(stops[1].t, 1.001, 1e-11);
+}
+
 class EveryIntegrator : public testing::TestWithParam<const char*> {};
 
 TEST_P(EveryIntegrator, StopsTheBlockOnTheIncline) {
