@@ -82,6 +82,20 @@ TEST(MovingBase, RelativeMotionIsThatOfTheFrame) {
   }
 }
 
+TEST(RelativeMotion, IsThatOfBothBodiesWhicheverComesFirst) {
+  const Finished run = run_text(R"({"trammel": 1, "space": "planar", "gravity": [0, 0],
+    "bodies": {"a": {"type": "point_mass", "mass": 1, "position": [0, 0]},
+               "b": {"type": "point_mass", "mass": 2, "position": [1, 0]}},
+    "forces": {"on_a": {"type": "load", "on": "a.point", "force": {"x": 3, "y": 0}},
+               "on_b": {"type": "load", "on": "b.point", "force": {"x": 2, "y": 0}}},
+    "simulate": {"until": 1}, "record": {"every": 1, "observe": {
+      "b_from_a": {"of": "b.point.ax", "relative_to": "a.point"},
+      "a_from_b": {"of": "a.point.ax", "relative_to": "b.point"}}}})");
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_DOUBLE_EQ(run.end("b_from_a"), 1 - 3);
+  EXPECT_DOUBLE_EQ(run.end("a_from_b"), 3 - 1);
+}
+
 TEST(MovingBase, LaunchesABallWhenItFallsFasterThanGravity) {
   // y = 0.2 cos 10 t: the ball leaves where y'' = -g, at cos 10 t = g / 20, and flies on a parabola.
   const Finished run = run_text(R"json({
