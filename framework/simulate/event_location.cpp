@@ -440,7 +440,6 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
     }
     if (!found) return bracket.high;
   }
-  if (bracket.at_high.f >= 0) return bracket.high;
   if (!has_slope(w)) {
     const auto f = [&](double h) { return step_to(now, h, w).f; };
     return numerics::narrow(f, {bracket.low, bracket.high, bracket.at_low.f, bracket.at_high.f}, resolution).high;
