@@ -196,8 +196,8 @@ TEST(ReboundWithinAStep, IsFoundHoweverFarTheFreeStepGoes) {
   }
 }
 
-// A step of a period and a quarter, exact, ends above the wall with a rate that falls to it as from the step's begin no
-// cubic does that has been behind the wall.
+// An exact step of a period and a bit less than a quarter, or more, ends above the wall. Where the mass falls there the
+// cubic through both ends has no minimum: only its acceleration at the begin tells of the flight's end.
 TEST(ReboundWithinAStep, IsFoundWhereTheFreeStepEndsAboveTheWallAndFalls) {
   for (const char* step : {"7.1", "7.3", "7.6"}) {
     const Finished run = run_text(
