@@ -199,13 +199,17 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
     if (problem_.who.empty()) return {complementarity::LcpOutcome::solved, 0};
     problem_.prepare(system_);
   } while (stop_with_others(changes) || end_drift(state, changes));
-  system_.set_modes(modes_);
-  system_.move_to(state.t, state.q, state.v);
-  accelerate_participants();
-  if (has_bearings()) return decide_with_bearings(state);
-  const complementarity::ContactSolution solution = take_verdicts();
-  if (solution.outcome == complementarity::LcpOutcome::solved && hold_at_bounds(state)) find_shares();
-  return solution;
+  for (;;) {
+    system_.set_modes(modes_);
+    system_.move_to(state.t, state.q, state.v);
+    accelerate_participants();
+    if (has_bearings()) return decide_with_bearings(state);
+    const complementarity::ContactSolution solution = take_verdicts();
+    if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
+    const std::vector<Participant*> held = held_at_bounds(state);
+    if (!let_go(held)) return hold(held), solution;
+    open_all(modes_);
+  }
 }
 
 complementarity::ContactSolution ContactModes::take_verdicts() {
@@ -225,33 +229,45 @@ void ContactModes::find_shares() {
   modes_.shared = problem_.shared_rows(modes_);
 }
 
-// Rule 12. True if there are such contacts.
-bool ContactModes::hold_at_bounds(const State& state) {
+// Rule 12: such contacts.
+std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
   constexpr double reached = 1 - 1e-6, round_off = 1e-9;
   const auto at_bound = [this](const Participant& p) {
     const bool sticks = modes_.contacts[p.contact].friction == Friction::stick;
-    return sticks && p.N > 0 && p.T.norm() > reached * p.mu_0 * p.N;
+    return sticks && p.N > 0 && p.T.norm() > reached * (p.let_go ? p.mu : p.mu_0) * p.N;
   };
   const bool sliding_shares = std::any_of(modes_.shared.begin(), modes_.shared.end(), has_sliding);
-  if (!sliding_shares || std::none_of(problem_.who.begin(), problem_.who.end(), at_bound)) return false;
+  if (!sliding_shares || std::none_of(problem_.who.begin(), problem_.who.end(), at_bound)) return {};
   system_.set_modes(modes_);
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
-  bool found = false;
+  std::vector<Participant*> held;
   for (std::size_t g = 0; g < modes_.shared.size(); ++g) {
     if (!has_sliding(modes_.shared[g])) continue;
     if (system_.spare_load(int(g), lambda_) >= -round_off * system_.largest_load(int(g), lambda_)) continue;
-    for (Participant& p : problem_.who) {
-      if (!at_bound(p) || !shares_tangents(modes_.shared[g], p.contact)) continue;
-      model::ContactMode& mode = modes_.contacts[p.contact];
-      mode.friction = Friction::slide;
-      mode.direction = -direction_of(p.T);
-      mode.slow = slow(p.contact);
-      p.ratio = -p.mu * mode.direction;
-      found = true;
-    }
+    for (Participant& p : problem_.who)
+      if (at_bound(p) && shares_tangents(modes_.shared[g], p.contact)) held.push_back(&p);
   }
-  return found;
+  return held;
+}
+
+// Rule 12. True if mu is less than mu_0 for one of them: all is to be decided again.
+bool ContactModes::let_go(const std::vector<Participant*>& held) const {
+  bool again = false;
+  for (Participant* p : held)
+    if (!p->let_go && p->mu < p->mu_0) p->let_go = again = true;
+  return again;
+}
+
+void ContactModes::hold(const std::vector<Participant*>& held) {
+  for (Participant* p : held) {
+    model::ContactMode& mode = modes_.contacts[p->contact];
+    mode.friction = Friction::slide;
+    mode.direction = -direction_of(p->T);
+    mode.slow = slow(p->contact);
+    p->ratio = -p->mu * mode.direction;
+  }
+  if (!held.empty()) find_shares();
 }
 
 double ContactModes::nothing(double violation) const {

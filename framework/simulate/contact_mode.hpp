@@ -30,7 +30,8 @@
 //     tells which of them press then. If that has no solution, rule 8.
 // 12. A contact at rest whose friction is at its bound, and whose tangents follow from the rows of others, some of
 //     which slide (blocks that push each other along a channel): springs' share would be beyond the bound, and another
-//     share of the others is another motion. It keeps T = mu N, like one that slides, without a slip.
+//     share of the others is another motion. It keeps T = mu N, like one that slides, without a slip. Where mu is less
+//     than mu_0 it has let go (rule 6), and all is decided again.
 // `rebound: constrained` makes candidates of contacts that separate at e u-, `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0, `onset: next_step` only changes when an event is seen.
 //
@@ -170,7 +171,9 @@ class ContactModes {
   [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped);
   [[nodiscard]] complementarity::ContactSolution take_verdicts();
   void find_shares();
-  bool hold_at_bounds(const State& state);
+  std::vector<Participant*> held_at_bounds(const State& state);
+  bool let_go(const std::vector<Participant*>& held) const;
+  void hold(const std::vector<Participant*>& held);
   bool in_balance(double violation) const;
   [[nodiscard]] complementarity::ContactSolution decide_by_what_follows(const State& state, ContactChanges changes,
                                                                         bool jumped,
