@@ -59,13 +59,16 @@ double Scale::no_acceleration() const {
   return 1e-12 * std::max(gravity, way > 0 ? speed * speed / way : 0);
 }
 
-// Bodies at rest shake by the round-off of the weight that contacts hold: no less is asked for.
+// Bodies at rest shake by the round-off of the weight that contacts hold, and turn by as much over their size: no less
+// is asked for, but of velocities always their relative part of the scene's speed.
 Tolerance Scale::in_own_unit(const Tolerance& tolerance, double every) const {
   if (tolerance.absolute > 0) return tolerance;
   const double way = std::max(speed, motion) * every + gravity * every * every;
   const double unit = gaps_and_bodies > 0 ? gaps_and_bodies : way > one_point() ? way : place > one_point() ? place : 1;
-  const double round_off = 256 * std::numeric_limits<double>::epsilon() * gravity * every;
-  return {tolerance.relative, std::max(tolerance.relative * std::min(1.0, unit), round_off)};
+  const double length = std::min(1.0, unit), round_off = 256 * std::numeric_limits<double>::epsilon() * gravity * every;
+  return {.relative = tolerance.relative,
+          .absolute = std::max(tolerance.relative * length, round_off),
+          .absolute_rate = std::min(round_off / length, tolerance.relative * std::max(speed, motion))};
 }
 
 double Scale::error_of_position(const Tolerance& tolerance) const {

@@ -46,7 +46,8 @@ struct Scale {
   double written_speed() const { return 1e-9 * speed + speed_resolution(); }
 
   // A tolerance without `absolute` (0) is meant in the scene's own unit: `absolute` then is `relative` times the
-  // length, 1 at most. `every` [s] makes a length of a speed where the scene has none.
+  // length, 1 at most; that of velocities is larger where round-off shakes bodies at rest by more. `every` [s] makes a
+  // length of a speed where the scene has none.
   Tolerance in_own_unit(const Tolerance& tolerance, double every) const;
   // What steps under this tolerance leave a position off by [m].
   double error_of_position(const Tolerance& tolerance) const;

@@ -28,7 +28,7 @@ double error_norm(const Vec& e_q, const Vec& e_v, const State& now, const State&
   const bool flat = now.q.size() == n;
   const double all_q = largest_of(now.q, next.q), round_off_q = 4 * eps * all_q;
   const double round_off_v = 4 * eps * largest_of(now.v, next.v);
-  const double absolute_v = std::max(tolerance.absolute, stabilised * round_off_q);
+  const double absolute_v = std::max({tolerance.absolute, tolerance.absolute_rate, stabilised * round_off_q});
   if (tolerance.parts) tolerance.parts->resize(n);
   double sum = 0;
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -38,6 +38,12 @@ TEST(ErrorNorm, LeavesThePartsOfItsSquareWhereTheyAreWanted) {
   EXPECT_NEAR(parts.sum(), 4 * whole * whole, 64 * eps);
 }
 
+TEST(ErrorNorm, MayHaveAnAbsoluteToleranceOfVelocitiesOfItsOwn) {
+  const Tolerance tolerance{.relative = 0, .absolute = 1e-3, .absolute_rate = 0.1};
+  EXPECT_NEAR(norm(0, 1, 0, 0, 1, tolerance), 10 / std::sqrt(2), 1e-14);
+  EXPECT_NEAR(norm(1, 0, 0, 0, 1, tolerance), 1000 / std::sqrt(2), 1e-11);
+}
+
 TEST(ErrorNorm, MeasuresAVelocityByItsSizeAtTheLargerEnd) {
   const Tolerance relative{.relative = 1e-3, .absolute = 0};
   const State slow = at(0, vec(0), vec(2)), fast = at(1, vec(0), vec(-8));

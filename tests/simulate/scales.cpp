@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include "support/run_scene.hpp"
@@ -172,6 +173,47 @@ TEST(Scales, ABlockOfAnySizeRocksToRestInTheSameImpacts) {
 }
 
 // x = cos t, y = 0.5 sin t in units of the length; 1e-9 a step, 20 s.
+// A deck that slides on two piers and comes to rest: what stands turns by the round-off of the loads, over its size.
+std::string bridge(double s) {
+  const double time = std::sqrt(s);
+  std::vector<std::string> bodies = {fmt::format(
+      R"("deck": {{"type": "rigid_body", "mass": 2, "inertia": {:.17g}, "position": [{:.17g}, {:.17g}],
+                  "velocity": [{:.17g}, 0], "markers": {{"under": [0, {:.17g}]}}}})",
+      0.05 * s * s, 0.013 * s, 0.25 * s, 0.5 * s / time, -0.05 * s)};
+  std::vector<std::string> contacts;
+  for (const auto& [pier, x] : {std::pair{"left", -0.3}, {"right", 0.3}}) {
+    bodies.push_back(fmt::format(
+        R"("{}": {{"type": "rigid_body", "mass": 1, "inertia": {:.17g}, "position": [{:.17g}, {a:.17g}],
+                  "markers": {{"bl": [-{a:.17g}, -{a:.17g}], "br": [{a:.17g}, -{a:.17g}],
+                               "tl": [-{a:.17g}, {a:.17g}], "tr": [{a:.17g}, {a:.17g}]}}}})",
+        pier, 0.005 * s * s, x * s, fmt::arg("a", 0.1 * s)));
+    for (const char* corner : {"bl", "br", "tl", "tr"})
+      contacts.push_back(fmt::format(
+          R"("{0}_{1}": {{"type": "constraint_method", "restitution": 0,
+                          "friction": {{"type": "coulomb", "static": {2}, "kinetic": {2}}},
+                          "between": ["{0}.{1}", {{"plane": {{"point": [0, 0], "normal": [0, {3}]{4}}}}}]}})",
+          pier, corner, corner[0] == 't' ? 0.3 : 0.6, corner[0] == 't' ? -1 : 1,
+          corner[0] == 't' ? R"(, "on": "deck.under")" : ""));
+  }
+  return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+      "bodies": {{{}}}, "contacts": {{{}}}, "simulate": {{"until": {:.17g}}},
+      "record": {{"every": {:.17g}, "observe": {{"x": "deck.com.x"}}}}}})",
+                     fmt::join(bodies, ", "), fmt::join(contacts, ", "), 0.4 * time, 0.02 * time);
+}
+
+TEST(Scales, ABridgeOfAnySizeTakesAsManySteps) {
+  const Finished metres = run_text(bridge(1));
+  ASSERT_TRUE(metres.done()) << metres.report.reason;
+  for (const double size : {1e-6, 1e-3, 1e3}) {
+    const Finished run = run_text(bridge(size));
+    ASSERT_TRUE(run.done()) << size << ": " << run.report.reason;
+    EXPECT_TRUE(run.result["warnings"].empty()) << size << ": " << run.result["warnings"].dump();
+    EXPECT_EQ(run.events.size(), metres.events.size()) << size;
+    EXPECT_LE(run.result["counts"]["steps"], 4 * metres.result["counts"]["steps"].get<int>()) << size;
+    EXPECT_NEAR(run.end("x") / size, metres.end("x"), 1e-7) << size;
+  }
+}
+
 TEST(Scales, ASpringOfAnySizeAnywhereSwingsAsAccurately) {
   for (const double length : {1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6})
     for (const double far : {0.0, 1e3, 1e6}) {

@@ -66,6 +66,7 @@ class Integrator : public Component {
 struct Tolerance {
   double relative = 1e-6;
   double absolute = 1e-6;
+  double absolute_rate = 0;  // [m/s, rad/s] of velocities, where it is more than `absolute`
   // (nv) If set, error_norm leaves each coordinate's part of the sum of squares there: what the message of a run that
   // cannot keep the tolerance names.
   Vec* parts = nullptr;
