@@ -303,11 +303,6 @@ class ExactModes {
 
 }  // namespace
 
-bool make_exact(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, double nearby, Vec& F) {
-  Vec a = A * F + b;
-  return make_exact(points, A, b, nearby, F, a);
-}
-
 bool make_exact(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, double nearby, Vec& F, Vec& a) {
   Vec exact = F;
   ExactModes modes(points, A, b, a, nearby, exact);

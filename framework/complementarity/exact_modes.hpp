@@ -18,13 +18,11 @@ namespace trammel::complementarity {
 // Of a solution: what each contact does; smaller than `nothing` is no acceleration.
 std::vector<ContactRole> roles_of(const std::vector<ContactPoint>& points, const Vec& F, const Vec& a, double nothing);
 
-// Changes F, whose accelerations are off by no more than `nearby` of them, to the exact solution. False: it found none.
-[[nodiscard]] bool make_exact(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, double nearby,
-                              Vec& F);
-// The same, with the accelerations `a` of the nearby solution, which may be those of contacts that yield. On return
-// they are those of F, but 0 along rows that follow from others at rest: those differ from 0 by the angle to the others
-// that counts as round-off, times what moves beside them. A block on one corner, a nanometre from flat, against a wall:
-// it turns about the corner, and whether the other corner presses on the wall by a wedge of 1e-9 rad is not decided.
+// Changes F, whose accelerations `a` are off by no more than `nearby` of them, to the exact solution. False: it found
+// none. `a` may be those of contacts that yield. On return they are those of the exact F, but 0 along rows that follow
+// from others at rest: those differ from 0 by the angle to the others that counts as round-off, times what moves beside
+// them. A block on one corner, a nanometre from flat, against a wall: it turns about the corner, and whether the other
+// corner presses on the wall by a wedge of 1e-9 rad is not decided.
 [[nodiscard]] bool make_exact(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, double nearby,
                               Vec& F, Vec& a);
 

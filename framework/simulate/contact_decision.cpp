@@ -31,6 +31,14 @@ bool shares_tangents(const model::SharedRows& group, int contact) {
          std::any_of(group.implied.begin(), group.implied.end(), is);
 }
 
+// Rule 12, of contacts held at their bounds. True if mu is less than mu_0 for one of them: all is to be decided again.
+bool let_go(const std::vector<Participant*>& held) {
+  bool again = false;
+  for (Participant* p : held)
+    if (!p->let_go && p->mu < p->mu_0) p->let_go = again = true;
+  return again;
+}
+
 }  // namespace
 
 void ContactModes::open_all(model::Modes& modes) const {
@@ -251,14 +259,7 @@ std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
   return held;
 }
 
-// Rule 12. True if mu is less than mu_0 for one of them: all is to be decided again.
-bool ContactModes::let_go(const std::vector<Participant*>& held) const {
-  bool again = false;
-  for (Participant* p : held)
-    if (!p->let_go && p->mu < p->mu_0) p->let_go = again = true;
-  return again;
-}
-
+// Rule 12.
 void ContactModes::hold(const std::vector<Participant*>& held) {
   for (Participant* p : held) {
     model::ContactMode& mode = modes_.contacts[p->contact];

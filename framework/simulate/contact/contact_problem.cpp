@@ -117,11 +117,9 @@ bool ContactProblem::let_approaches_vanish(double nothing) {
   for (std::size_t i = 0; i < who.size(); ++i)
     if (who[i].vanishing > 0) any = true, b_[points_[i].normal] += who[i].vanishing;
   if (!any) return true;
-  if (!complementarity::make_exact(points_, delassus_, b_, 1e-4, F_)) return false;
-  if (!(complementarity::violation(points_, delassus_, b_, F_, nothing) <= complementarity::largest_violation))
-    return false;
   a_ = delassus_ * F_ + b_;
-  return true;
+  if (!complementarity::make_exact(points_, delassus_, b_, 1e-4, F_, a_)) return false;
+  return complementarity::violation(points_, delassus_, b_, F_, a_, nothing) <= complementarity::largest_violation;
 }
 
 std::vector<complementarity::ContactRole> ContactProblem::roles(const model::Modes& modes) const {
