@@ -53,7 +53,7 @@
 //     slip ends with it (the third foot of a table) are at rest as well, and so are those that what rests leaves no
 //     slip: from rule 5 again.
 //  8. Where rigid contacts have no solution with finite forces (Painleve's rod), or these grow beyond all bounds as
-//     that state is approached (event_location.hpp refuses controlled steps that pass it), the slip stops or turns in an
+//     that state is approached (event_location.hpp refuses controlled steps past it), the slip stops or turns in an
 //     impact without collision: rule 1 with nothing approaching; dependent contacts, of which none could part alone,
 //     yield a little in it. If that has none, the run ends with a message; so do modes that contradict each other at
 //     one instant (Simulator).

@@ -24,7 +24,7 @@
 // leaves is taken by steps too short to matter.
 //
 // Nor may forces pass infinity within a controlled step, which where contacts slide need not show at its ends: there
-// the determinant of their equations changes its sign.
+// the determinant of their equations changes its sign, where that is known (AssembledSystem::sign).
 //
 // A shortened step still has a length of at least 4 units in the last place of t, so every event advances time.
 //

@@ -57,7 +57,7 @@ TEST(FixedSteps, AreEqualAndEndAtTheStop) {
   for (const double h : taken) EXPECT_EQ(h, 0.1 / 4);
 }
 
-// 1e5 steps of 0.1 from t = 1e4, whose round-off is many times that of a step.
+// From t = 1e4 on, whose round-off is many times that of a step.
 TEST(FixedSteps, AreTheStepItselfWhereTheyFitTheStopUpToRoundOffOfTime) {
   StepControl steps(fixed(0.1), every, 1);
   const std::vector<double> taken = steps_to(steps, 1e4 + 10, 1e4);
