@@ -1,20 +1,20 @@
-// Rule 10 of contact_mode.hpp: which joints that rub stick and slide.
+// Rule 10 of contact_mode.hpp: which joints with friction stick and slide.
 //
-// Their loads, which bound the friction, follow from the reactions, and these from the friction and from all contacts.
-// Rounds find modes that agree with their own loads:
+// The loads of their bearings bound the friction. They follow from the reactions, and these from the friction and from
+// all contacts. Rounds find modes that agree with their own loads:
 //
-//     loads of the modes of the last round, exactly (AssembledSystem::accelerate)  ->  problem with these loads given
-//     ->  modes
+//     modes of the last round -> their exact loads (AssembledSystem::accelerate) -> problem with these loads given ->
+//     modes
 //
-// A joint that locks itself while it slides has none: it jams (rule 8).
+// A joint that locks itself while it slides has no such load: it jams (rule 8).
 //
-// The round that gives the same modes again is the check: it solves the whole problem with the loads of its own
-// solution. The first round has the loads with which all that may rest rests, so where a joint could stay or go, it
-// stays.
+// A round that gives the same modes again is the check: it has solved the whole problem with the loads of its own
+// solution. The first round uses the loads of modes in which everything rests that may rest; so a joint that could rest
+// or slide rests.
 //
-// Rounds may come back to modes they have had: the load at rest does not hold the joint, and mu_0 times the load that
-// it has as it slides would. In such a cycle each joint that the loads of its own rest have not held has let go, and mu
-// decides for it, as after rule 6. Where nothing lets go in a cycle, none were found, which proves nothing.
+// Rounds may return to earlier modes: mu_0 times the load at rest does not hold the joint, but mu_0 times the load
+// while it slides would. In such a cycle each joint that was not held under the load of its own rest has let go, and mu
+// decides for it, as after rule 6. If no further joint lets go in a cycle, no modes were found, which proves nothing.
 #include <algorithm>
 
 #include "simulate/contact_mode.hpp"
@@ -23,7 +23,7 @@
 namespace trammel::simulate {
 namespace {
 
-constexpr int most_rounds = 50;  // two or three, as a rule
+constexpr int most_rounds = 50;  // usually two or three are needed
 
 // The same state of contacts; in space slip may begin in a direction that follows from the loads.
 bool agree(const model::Modes& a, const model::Modes& b) {
@@ -40,7 +40,7 @@ bool ContactModes::has_bearings() const {
                      [this](const Participant& p) { return system_.model().contacts[p.contact].joint.has_value(); });
 }
 
-// Fills `given` of the joints.
+// Sets the given normal forces of the joints to their loads in these modes.
 void ContactModes::load_bearings(const State& state, const model::Modes& modes) {
   system_.set_modes(modes);
   system_.move_to(state.t, state.q, state.v);
@@ -68,7 +68,7 @@ void ContactModes::load_bearings_at_rest(const State& state, const model::Modes&
   load_bearings(state, at_rest);
 }
 
-// By the loads of modes in which it was at rest; null: those of load_bearings_at_rest.
+// The joint was at rest in the modes that gave its load (null: the modes of load_bearings_at_rest) and slides under it.
 bool ContactModes::was_not_held(const Participant& p, const model::Modes* loads) const {
   return system_.model().contacts[p.contact].joint && p.tangent == Participant::Tangent::resting &&
          modes_.contacts[p.contact].friction == Friction::slide &&
@@ -79,7 +79,7 @@ complementarity::ContactSolution ContactModes::decide_with_bearings(const State&
   std::vector<Participant> asked = problem_.who;
   std::vector<bool> not_held(asked.size(), false);
   const model::Modes open = modes_;
-  std::vector<model::Modes> had;  // since one let go
+  std::vector<model::Modes> had;  // found since the last joint let go
   load_bearings_at_rest(state, open);
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Participant> who = asked;

@@ -28,7 +28,7 @@ bool ContactModes::separates(const TouchingContact& c) const {
   return rebounds || (c.was_closed && c.impulse == 0 && c.after > scale_.of(c.contact).at_rest());
 }
 
-// It stuck, and the impact made it slip: impulses decide in an impact, and its load has none.
+// It stuck, and the impact made it slip. (An impact is decided by impulses; the finite load contributes none.)
 bool ContactModes::begins_to_slip(const TouchingContact& c) const {
   return c.was_closed && before_.contacts[c.contact].friction == Friction::stick &&
          c.slip_after.norm() > scale_.of(c.contact).at_rest();
@@ -40,9 +40,9 @@ const TouchingContact* ContactModes::beginning_to_slip(const Participant& p) con
   return c != touching_.end() && begins_to_slip(*c) ? &*c : nullptr;
 }
 
-// All with so small a separation or slip are judged as one: in a pile each flies only as long as its neighbours do.
-// Were they all at rest, those that would press fall back, with the acceleration that their own force holds, and those
-// that would stick stop, by what their friction has to spare.
+// All contacts with so small a separation or slip are judged together: in a pile each flies only as long as its
+// neighbours do. Supposing that all of them rest: those that would press fall back, with the acceleration that their
+// own force prevents; those that would stick stop, with the deceleration that their friction can still supply.
 ContactModes::Brief ContactModes::too_brief(const State& state, const ContactChanges& changes) {
   Brief brief{std::vector<bool>(touching_.size(), false), std::vector<bool>(touching_.size(), false)};
   const auto moves = [this](const TouchingContact& c) { return separates(c) || begins_to_slip(c); };
@@ -92,7 +92,8 @@ bool ContactModes::stops_at_once(std::size_t participant) const {
                                                     -problem_.deceleration_to_spare(participant));
 }
 
-// True if the forces are to be found again, with fewer at rest.
+// Contacts whose slip friction does not end at once slide instead of resting. True if there are any: the forces are to
+// be found again.
 bool ContactModes::let_fast_slips_go() {
   bool any = false;
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
@@ -113,7 +114,7 @@ double ContactModes::fastest_gap_acceleration() {
   return fastest;
 }
 
-// Takes e = 0 where the rebound is too short to follow; true if there is such a contact.
+// Sets e = 0 for rebounds that are too short to follow; true if there are any.
 bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
   bool captured = false;
   for (std::size_t i = 0; i < touching_.size(); ++i)
@@ -121,8 +122,8 @@ bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
   return captured;
 }
 
-// Takes the rates of those that the impact of others opened, and the slips that it made, which are too short to follow.
-// Returns what that takes of the energy [J].
+// Ends the separations and slips that the impact of others caused and that are too short to follow. Returns the energy
+// that this takes [J].
 double ContactModes::end_rocking(State& state, const Brief& brief) {
   const auto at_rest = [this](const TouchingContact& c) { return scale_.of(c.contact).at_rest(); };
   std::vector<bool> rests = brief.falls;
@@ -141,8 +142,8 @@ double ContactModes::end_rocking(State& state, const Brief& brief) {
   return taken;
 }
 
-// The least change of v, so a loss of energy, after which the contacts that rest have no rate. The loss is what the
-// impulses do against the rates that they end: what a base that moves does is not in it.
+// The least change of v, so a loss of energy, after which the contacts in `rests` have no rate. The returned loss is
+// the work of the impulses against the rates that they end; it does not include work of a moving base.
 double ContactModes::take_rates(State& state, const std::vector<bool>& rests, const std::vector<bool>& stops) {
   std::vector<model::ContactDirection> held;
   for (std::size_t i = 0; i < touching_.size(); ++i) {

@@ -10,12 +10,12 @@ namespace {
 
 using Tangent = Participant::Tangent;
 
-// Rule 11. Forces and accelerations below so many times what a solution is off by are not told from 0. A moment later,
-// by this part of the time that the scene's speed, or what accelerates there, takes through its length, they are, and
-// little else has changed.
+// Rule 11. Forces and accelerations below `undecided` times the error of a solution cannot be distinguished from 0.
+// They can be for the state a moment later: after `moment_later` of the time in which the scene crosses its length, at
+// its speed or by its accelerations. Little else has changed by then.
 constexpr double undecided = 10, moment_later = 1e-4;
 
-// Of length 1; the first tangent's if x has none.
+// x / |x|; the direction of the first tangent if x is 0.
 Tangential direction_of(const Tangential& x) {
   const double length = x.norm();
   return length > 0 ? Tangential(x / length) : Tangential(1, 0);
@@ -31,7 +31,7 @@ bool shares_tangents(const model::SharedRows& group, int contact) {
          std::any_of(group.implied.begin(), group.implied.end(), is);
 }
 
-// Rule 12, of contacts held at their bounds. True if mu is less than mu_0 for one of them: all is to be decided again.
+// Rule 12. Contacts held at their bounds let go where mu < mu_0. True if any does: all modes are to be decided again.
 bool let_go(const std::vector<Participant*>& held) {
   bool again = false;
   for (Participant* p : held)
@@ -54,11 +54,11 @@ void ContactModes::find_candidates(const ContactChanges& changes) {
   candidates_.clear();
   double scale = 0;
   for (const TouchingContact& c : touching_) scale = std::max({scale, std::abs(c.before), c.slip_before.norm()});
-  const double jump = 1e-9 * scale;  // [m/s] its round-off
+  const double jump = 1e-9 * scale;  // [m/s] round-off of the impact
   for (const TouchingContact& c : touching_) {
     const double at_rest = jump + scale_.of(c.contact).at_rest();
     const bool constrained = c.impulse > 0 && treatment(c.contact).rebound == Restitution::Rebound::constrained;
-    // A closed one may keep the rate that the steps left it, or have lost it with others (rule 2).
+    // A closed contact may have kept the rate that the steps left in it, or have lost it with others (rule 2).
     const bool rests = std::abs(c.after) <= at_rest || (c.was_closed && std::abs(c.after - c.before) <= at_rest);
     const bool released = contains(changes.released, c.contact) && c.impulse == 0 && !shared_before_[c.contact];
     if ((rests || constrained) && !released) candidates_.push_back(c.contact);
@@ -73,7 +73,7 @@ double ContactModes::stick_speed(int contact) const {
   return simulate::stick_speed(system_.model().contacts[contact], scale_.of(contact));
 }
 
-// Slip across its former direction that is none [m/s]: with fixed steps also what a tenth of a step takes away.
+// [m/s] Slip across its former direction that counts as none; with fixed steps also what a tenth of a step takes away.
 double ContactModes::unresolved(int contact, const State& state) {
   const model::ContactMode& mode = before_.contacts[contact];
   if (!steps_.fixed || system_.tangents(contact) == 1) return mode.slow;
@@ -118,7 +118,7 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
                          entry.coulomb->decide() == SetValuedFriction::Decide::at_events;
 }
 
-// Who takes part: candidates of rule 3, joints that rub, and compliant contacts at rest in the tangent.
+// Participants: candidates of rule 3, joints with friction, and compliant contacts at rest in the tangent.
 void ContactModes::gather(const State& state, const ContactChanges& changes, bool jumped) {
   problem_.who.clear();
   for (const int i : candidates_) {
@@ -150,11 +150,11 @@ void ContactModes::gather(const State& state, const ContactChanges& changes, boo
   }
 }
 
-// Rule 7: contacts that slide while what rests, and what is closed, leaves them no slip. The steps leave some, so such
-// slips, the feet of one block, do not reach 0 at one instant. A slip that does not follow from the rates that are left
-// elsewhere is a motion, however slow: in a row of dominoes each moves the one behind it by half as much. In space also
-// those that have no direction then: a body that slides and spins ends both at once. True if there are any, which are
-// added to `changes`.
+// Rule 7: adds to changes.stopped the sliding contacts to which those at rest, and the closed rows, leave no slip; true
+// if there are any. Steps leave small slips in them, so the slips of, for example, the feet of one block do not reach 0
+// at one instant. A slip that does not follow from the small rates left elsewhere is a motion, however slow: in a row
+// of dominoes each moves the one behind it by half as much. In space, contacts whose slip is too slow to have a
+// direction are added too: a body that slides and spins ends both at once.
 bool ContactModes::stop_with_others(ContactChanges& changes) {
   if (changes.stopped.empty()) return false;
   const std::vector<double> beside = problem_.slip_beside_others(problem_.rates(system_));
@@ -174,7 +174,8 @@ bool ContactModes::stop_with_others(ContactChanges& changes) {
   return changes.stopped.size() > before;
 }
 
-// Rule 7; true if it has ended the slip of contacts that slid, which are added to `changes`.
+// Rule 7: ends the drift of the contacts at rest. True if this has ended the slip of sliding contacts too; they are
+// added to changes.stopped.
 bool ContactModes::end_drift(State& state, ContactChanges& changes) {
   bool drifted = false;
   for (Participant& p : problem_.who) {
@@ -200,7 +201,7 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes) {
 // Rules 3, 5, 6 and 7.
 complementarity::ContactSolution ContactModes::decide(State& state, ContactChanges changes, bool jumped) {
   bearings_undecided_ = false;
-  largest_ = 0;  // not of an earlier event, which a resumed run does not know
+  largest_ = 0;  // a value of an earlier event would be unknown to a resumed run
   do {
     gather(state, changes, jumped);
     open_all(modes_);
@@ -231,13 +232,14 @@ complementarity::ContactSolution ContactModes::take_verdicts() {
 
 void ContactModes::find_shares() {
   problem_.find_idle(modes_);
-  for (const Participant& p : problem_.who)  // no force, no friction
+  for (const Participant& p : problem_.who)  // without a force there is no friction
     if (model::ContactMode& mode = modes_.contacts[p.contact]; p.idle && mode.friction == Friction::stick)
       mode.friction = Friction::none;
   modes_.shared = problem_.shared_rows(modes_);
 }
 
-// Rule 12: such contacts.
+// Rule 12: the contacts at rest whose friction is at its bound while a group with sliding members cannot carry its
+// resultant.
 std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
   constexpr double reached = 1 - 1e-6, round_off = 1e-9;
   const auto at_bound = [this](const Participant& p) {
@@ -259,7 +261,7 @@ std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
   return held;
 }
 
-// Rule 12.
+// Rule 12: they keep T = mu N, as if they slid.
 void ContactModes::hold(const std::vector<Participant*>& held) {
   for (Participant* p : held) {
     model::ContactMode& mode = modes_.contacts[p->contact];
@@ -275,7 +277,7 @@ double ContactModes::nothing(double violation) const {
   return std::max(nothing(), undecided * violation * largest_);
 }
 
-// Rule 11, of a solution found up to `violation`.
+// Rule 11: `violation`, the error of the solution, leaves open which contacts press.
 bool ContactModes::in_balance(double violation) const {
   double largest = 0;
   for (const Participant& p : problem_.who) largest = std::max(largest, p.N);
@@ -286,7 +288,7 @@ bool ContactModes::in_balance(double violation) const {
   });
 }
 
-// Rule 11.
+// Rule 11: decides by the state a moment later.
 complementarity::ContactSolution ContactModes::decide_by_what_follows(const State& state, ContactChanges changes,
                                                                       bool jumped,
                                                                       complementarity::ContactSolution so_far) {
@@ -312,7 +314,7 @@ complementarity::ContactSolution ContactModes::decide_by_what_follows(const Stat
   return so_far;
 }
 
-// Accelerations without the forces sought, and the forces given.
+// Accelerations of the participants without the forces sought, and the given normal forces.
 void ContactModes::accelerate_participants() {
   system_.accelerate({}, a_, lambda_);
   largest_ = 0;
@@ -335,7 +337,7 @@ void ContactModes::take_verdict(const Participant& p, bool kept_closed) {
   if (p.tangent == Tangent::sliding) return;
   if (p.a_t.norm() > nothing()) {
     mode.direction = direction_of(p.a_t);
-  } else if (p.yielded && p.T.norm() > (1 - 1e-6) * p.mu * p.N) {  // too slowly to be seen
+  } else if (p.yielded && p.T.norm() > (1 - 1e-6) * p.mu * p.N) {  // slides, too slowly to be seen
     mode.direction = -direction_of(p.T);
   } else {
     mode.friction = Friction::stick;

@@ -1,4 +1,4 @@
-// What is said where the contacts of an instant have no forces, or none were found, and the run ends.
+// The messages of a run that ends because the contacts have no forces at an instant, or because none were found.
 #include <algorithm>
 #include <string>
 
@@ -29,7 +29,7 @@ void ContactModes::fail_without_impact(double t, const complementarity::ContactS
   fail_without_solution("impact", t, solution, who);
 }
 
-// Without any friction there is none either.
+// True if the contacts have no forces without friction either.
 bool ContactModes::blocked(const std::vector<Participant>& who) const {
   ContactProblem without_friction;
   for (const Participant& p : who) {

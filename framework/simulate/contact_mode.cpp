@@ -14,11 +14,11 @@ using complementarity::LcpOutcome;
 
 namespace {
 
-// A contact that begins at rest has no approach speed for a damping law to scale with, and no such damping: 1/speed
-// would hold it by a viscosity without bound, which steps of no fixed length follow. Below this part of the scene's
-// speed it is at rest.
+// Below this part of the scene's speed a contact begins at rest: it has no approach speed, and a damping law that
+// scales with 1/approach_speed gives no damping. (Otherwise 1/speed would hold it with an unbounded viscosity, which
+// fixed steps cannot follow.)
 constexpr double least_approach = 1e-6;
-// Of the accelerations: one that has just let go departs as slowly as its force passes 0, up to the round-off of
+// Of the accelerations. A contact that has just opened departs as slowly as its force passed 0, up to the round-off of
 // forces.
 constexpr double opened_by_error = 1e-6;
 
@@ -68,14 +68,15 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
                       treatment(c.contact).restart == Restitution::Restart::carry);
     if (struck || (!c.was_closed && c.impulse > 0)) modes_.contacts[c.contact].approach_speed = -c.before;
   }
-  tell_impacts(state.t, without_collision, events);
-  finish(state, carry && state.a.size() == system_.sizes().nv);  // none yet at the start
-  for (const TouchingContact& c : touching_) tell_normal(state, c, events);
-  tell_friction(state, events);
+  append_impacts(state.t, without_collision, events);
+  finish(state, carry && state.a.size() == system_.sizes().nv);  // the start has no a yet
+  for (const TouchingContact& c : touching_) append_normal_event(state, c, events);
+  append_friction_events(state, events);
 }
 
-// Where contacts slide a force may change its sign by way of infinity (Painleve's critical state): without it the
-// contact would approach. Elsewhere it passes 0, and so does the acceleration without it: its sign is round-off.
+// The force of a sliding contact may change its sign through infinity (Painleve's critical state): without the force
+// the contact would then approach. A force that passes 0 leaves an acceleration that passes 0 too: its sign is
+// round-off.
 bool ContactModes::changes_sign_by_infinity(const State& state, const ContactChanges& changes) {
   const std::vector<int>& released = changes.released;
   const bool slides = std::any_of(problem_.who.begin(), problem_.who.end(),
@@ -94,14 +95,14 @@ bool ContactModes::changes_sign_by_infinity(const State& state, const ContactCha
   });
 }
 
-// Rule 8. An impact may have come before it at this instant.
+// Rule 8. An impact may have happened before at the same instant.
 complementarity::ContactSolution ContactModes::strike_without_collision(State& state, const ContactChanges& changes,
                                                                         bool jumped,
                                                                         std::vector<ContactEvent>& events) {
   system_.set_modes(before_);
   system_.move_to(state.t, state.q, state.v);
   if (jumped) {
-    tell_impacts(state.t, false, events);
+    append_impacts(state.t, false, events);
     find_touching({});
   }
   for (TouchingContact& c : touching_) c.without_collision = true, c.raised = changes.raised;
@@ -112,7 +113,7 @@ complementarity::ContactSolution ContactModes::strike_without_collision(State& s
   return decide(state, changes, true);
 }
 
-void ContactModes::tell_impacts(double t, bool without_collision, std::vector<ContactEvent>& events) const {
+void ContactModes::append_impacts(double t, bool without_collision, std::vector<ContactEvent>& events) const {
   for (const TouchingContact& c : touching_)
     if (c.impulse > 0 && (!c.was_closed || without_collision))
       events.push_back({.t = t,
@@ -188,13 +189,13 @@ void ContactModes::strike(State& state, const ContactChanges& changes) {
   }
   if (const std::size_t first = brief.first(); first < touching_.size()) {
     system_.move_to(state.t, state.q, state.v);
-    const double taken = end_rocking(state, brief);  // by them all; told of one
+    const double taken = end_rocking(state, brief);  // the loss of all of them, reported for the first
     losses_.push_back({touching_[first].contact, taken});
     lost_elsewhere_ -= taken;
   }
   system_.move_to(state.t, state.q, state.v);
   lost_elsewhere_ += kinetic_before - system_.energy().kinetic;
-  all = touching_;  // as end_rocking leaves them
+  all = touching_;  // with the rates that end_rocking has left
   all.insert(all.end(), bearings_.begin(), bearings_.end());
   for (const TouchingContact& c : all) {
     losses_.push_back({c.contact, c.energy_lost()});
@@ -277,7 +278,7 @@ double ContactModes::force_noise(const std::vector<model::ContactDirection>& dir
   return most > 0 ? scale_.scene().no_acceleration() / most : 0;
 }
 
-// For those whose `restart` carries them over.
+// Stores the forces for contacts with `restart: carry`.
 void ContactModes::keep_forces(const State& state) {
   lambda_before_ = state.lambda;
   forces_before_.clear();
@@ -287,7 +288,7 @@ void ContactModes::keep_forces(const State& state) {
   const auto& contacts = system_.model().contacts;
   if (std::none_of(contacts.begin(), contacts.end(), carries)) return;
   forces_before_.assign(contacts.size(), Eigen::Vector3d::Zero());
-  if (state.lambda.size() != system_.sizes().nc) return;  // none yet
+  if (state.lambda.size() != system_.sizes().nc) return;  // the start has no lambda yet
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const model::ContactMode& mode = before_.contacts[i];
     if (!mode.closed) continue;
@@ -296,7 +297,7 @@ void ContactModes::keep_forces(const State& state) {
   }
 }
 
-// Multipliers that stand for the forces kept: of shared rows for their resultants.
+// Sets multipliers that stand for the stored forces; for rows that depend on each other, for their resultants.
 void ContactModes::carry_forces(Vec& lambda) const {
   const int joint_rows = system_.model().sizes.nc;
   lambda.setZero(system_.sizes().nc);
@@ -320,7 +321,8 @@ void ContactModes::finish(State& state, bool carry) {
     system_.accelerate({}, state.a, state.lambda);
 }
 
-void ContactModes::tell_normal(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events) {
+void ContactModes::append_normal_event(const State& state, const TouchingContact& c,
+                                       std::vector<ContactEvent>& events) {
   const bool closed = modes_.contacts[c.contact].closed;
   ContactEvent event{.t = state.t, .contact = c.contact, .approach = -c.before, .separation = c.after};
   if (closed != c.was_closed) {
@@ -333,7 +335,7 @@ void ContactModes::tell_normal(const State& state, const TouchingContact& c, std
   events.push_back(event);
 }
 
-void ContactModes::tell_friction(const State& state, std::vector<ContactEvent>& events) {
+void ContactModes::append_friction_events(const State& state, std::vector<ContactEvent>& events) {
   for (int i = 0; i < int(modes_.contacts.size()); ++i) {
     const model::ContactMode &now = modes_.contacts[i], &before = before_.contacts[i];
     if (!now.closed || now.friction == Friction::none) continue;

@@ -1,64 +1,71 @@
-// Which contacts are closed and which of them stick, and what happens at an event: impacts, then the accelerations
-// decide.
+// Which contacts are closed and which of them stick, and what happens at an event: first impacts, then the
+// accelerations decide.
 //
-// Rules for set-valued contacts (Restitution), at an event at time t:
-//  1. Impact of every contact that touches and closes, with all that touch or are closed (impact_laws.hpp).
-//  2. Capture (chatter.cpp): slower than capture_speed, e = 0. Also a rebound with e < 1 that the steps in contact
-//     cannot follow: with fixed ones whose flight 2 u+/|gap acceleration| would last fewer than chatter_steps of them;
-//     with controlled ones that would rise less than chatter_steps times the error they may make in a position. The
-//     impact is solved again with e = 0 for it. Each repetition lowers the number of contacts with e > 0, so this ends.
-//     Contacts that open because others struck, and too little to follow (a block that rocks to rest, discs of a pile
-//     that knock against each other: impacts without end in a finite time), keep no rate. Nor do contacts that stuck
-//     keep a slip that the impact gave them, if their friction ends it within a way as short: an impact decides by its
-//     impulses alone, and where these are small beside the loads times any time that steps resolve, the loads decide.
-//     Which these are, the problem of rule 3 tells, with all of them at rest. v is then projected onto the motions in
-//     which they and all others without a rate have none: the least change, so it takes energy, which is told with the
-//     impact.
-//  3. Contacts that then touch without rate are candidates. They close where the forces of the complementarity problem
+// Rules for set-valued contacts (Restitution) at an event at time t. ContactModes::settle applies 1, 2 and 9, then 3 to
+// 7 with 10 and 12 as one problem, then 11, then 8; other files refer to them by number.
+//  1. Impact: every contact that touches and closes strikes, together with all that touch or are closed
+//     (impact_laws.hpp).
+//  2. Capture (chatter.cpp): an impact slower than capture_speed has e = 0. So has a rebound with e < 1 that the steps
+//     in contact cannot follow: with fixed steps, if its flight 2 u+/|gap acceleration| would last fewer than
+//     chatter_steps of them; with controlled steps, if it would rise less than chatter_steps times the error that a
+//     position may have. The impact is solved again with e = 0 for these contacts. Each repetition lowers the number of
+//     contacts with e > 0, so this ends.
+//     A contact may open only because others struck, by too little to be followed (a block that rocks to rest, discs of
+//     a pile that knock against each other). Such contacts keep no rate: their impacts would go on without end in a
+//     finite time. A contact that stuck keeps no slip from the impact if its friction ends the slip within a distance
+//     as short. An impact is decided by impulses alone; where these are small beside the loads times the shortest time
+//     that steps resolve, the loads decide. The problem of rule 3 with all these contacts at rest finds those that
+//     rest. Then v is projected onto the motions in which they, and all other contacts without a rate, have no rate.
+//     This is the least change of v, so it takes energy; the loss is reported with the impact.
+//  3. Contacts that touch without a rate afterwards are candidates. They close where the forces of the complementarity
+//     problem
 //         A = A_free + D N,   0 <= N complementary to A >= 0      (A gap accelerations, N normal forces)
 //     push; where the gap accelerates apart they stay open ("lift").
-//  4. A closed contact opens where its normal force falls through 0; the others are decided anew as in 3. Among
-//     redundant contacts (three feet of a planar block) the single forces mean nothing: they open only where 3 says so.
-//  9. A contact that never releases (a latch) has locked after rule 1, if it touches without rate: it is no candidate,
-//     and its row is held like a joint's from then on, through the decision that follows and all later impacts.
-// 10. Joints that rub take part like compliant contacts, with the load of their bearings for a normal force. It follows
-//     from the forces sought, so the problem is solved in rounds (bearing_decision.cpp). In impacts they rub under the
-//     impulses of their reactions (bearing_impulses.hpp). A joint that locks itself while it slides has no finite
-//     forces: it jams by rule 8. Rounds that find no modes prove nothing.
-// 11. Where a contact that was closed has neither force nor acceleration, and the others do not hold it (a stack below
-//     a ceiling that begins to tip), or where no solution is found to round-off, the problem of rule 3 a moment later
-//     tells which of them press then. If that has no solution, rule 8.
-// 12. A contact at rest whose friction is at its bound, and whose tangents follow from the rows of others, some of
-//     which slide (blocks that push each other along a channel): springs' share would be beyond the bound, and another
-//     share of the others is another motion. It keeps T = mu N, like one that slides, without a slip. Where mu is less
-//     than mu_0 it has let go (rule 6), and all is decided again.
-// `rebound: constrained` makes candidates of contacts that separate at e u-, `restart: carry` leaves a as it was and
-// starts the multipliers of new rows from 0, `onset: next_step` only changes when an event is seen.
+//  4. A closed contact opens where its normal force falls through 0; rule 3 decides the others again. The single forces
+//     of redundant contacts (three feet of a planar block) are not unique: such contacts open only where rule 3 opens
+//     them.
+//
+// Set-valued friction, also of compliant contacts, is part of the same problem (contact_problem.hpp), in which the
+// normal forces of compliant contacts are given:
+//  5. A contact slides, T = -mu N slip/|slip|, or it is at rest: new contacts without slip, contacts that stick, and
+//     contacts whose slip has just reached 0. A contact at rest sticks where mu_0 (mu, once it has let go) suffices;
+//     otherwise it slides in the direction in which it accelerates. In space a slip may turn instead of stopping. Its
+//     zero is located along the direction that it had where the step began (system/point/slip.hpp). If the slip across
+//     that direction is then more than `slow`, it has turned, and slides on in its new direction; otherwise it counts
+//     as rest. So a slip that falls below `slow`, 1e-7 of the scene's speed, passes through rest. Fixed steps do not
+//     resolve the end of a slip that turns: with them, also the slip that a tenth of a step takes away counts as rest.
+//  6. A contact whose friction reaches its bound lets go: mu decides at once, reduced by a part of 1e-8 so that
+//     friction does not hold it exactly at the bound where mu = mu_0. It slides, or opens where sliding would need a
+//     pulling force (large mu). All other contacts at rest are checked at the same instant.
+//  7. A slip that the steps have left in contacts at rest (a drift) is ended by the least change of v. Other contacts
+//     whose slip ends with it (the third foot of a table), and those whose slip follows from the rates of the contacts
+//     at rest, are then at rest as well, and rule 5 is applied again.
+//  8. Rigid contacts may have no solution with finite forces (Painleve's rod), or forces that grow beyond all bounds as
+//     that state is approached (event_location.hpp rejects controlled steps past it). Then an impact without collision
+//     stops or turns the slip: rule 1 with nothing approaching, in which dependent contacts, none of which could part
+//     alone, yield a little. If this impact has no solution, the run ends with a message; so it does if modes
+//     contradict each other at one instant (Simulator).
+//  9. A contact that never releases (a latch) locks after rule 1 if it touches without a rate. It is no candidate; its
+//     row is held like a joint's from then on, through the decision that follows and all later impacts.
+// 10. Joints with friction take part like compliant contacts; their normal force is the load of their bearings. This
+// load depends on the forces sought, so the problem is solved in rounds (bearing_decision.cpp). In impacts they rub
+// under the impulses of their reactions (bearing_impulses.hpp). A joint that locks itself while it slides has no finite
+// forces: it jams by rule 8. Rounds that find no modes prove nothing.
+// 11. Rule 3 may not decide which contacts press: a contact that was closed has neither force nor acceleration, and the
+// others do not hold it (a stack below a ceiling that begins to tip), or no solution is found to round-off. Then the
+// same problem is solved for the state a moment later. If that has no solution, rule 8 applies.
+// 12. The friction of a contact at rest may be at its bound while its tangents depend on rows of other contacts, some
+// of which slide (blocks that push each other along a channel). The shares of springs (complementarity/shares) would
+// exceed the bound, and other shares would give another motion. Such a contact keeps T = mu N like one that slides,
+// without a slip. If mu < mu_0 it has let go (rule 6), and all modes are decided again.
+//
+// `rebound: constrained` makes candidates of contacts that separate at e u-. `restart: carry` leaves a as it was and
+// starts the multipliers of new rows from 0. `onset: next_step` only changes when an event is seen.
 //
 // Compliant contacts (ContactForce) switch their force on when the gap falls through 0 and off when it rises through 0.
 //
-// Set-valued friction, of either kind, is part of the same problem (contact_problem.hpp), in which the compliant
-// contacts' normal forces are given:
-//  5. A contact slides, T = -mu N slip/|slip|, or it rests: new contacts without slip, those that stick, and those
-//     whose slip has just reached 0. Those at rest stick where mu_0 (and, once they let go, mu) suffices; else they
-//     slide the way they accelerate. In space a slip may turn instead of stopping. Its zero is looked for along the
-//     direction it had where the step began (system/point/slip.hpp): more than `slow` across it there has turned, and
-//     slides on in its own direction; less counts as rest, so a slip that dips below `slow`, 1e-7 of the scene's speed,
-//     is taken through rest. Fixed steps do not resolve the end of a slip that turns; there also what a tenth of a step
-//     takes away counts as rest.
-//  6. A contact whose friction has reached its bound lets go: mu decides at once, less a part of 1e-8, so that it is
-//     not held exactly there (mu = mu_0). It slides, or opens where sliding would pull (much friction). All others at
-//     rest are checked at the same instant.
-//  7. What was left of the slip of those at rest by the steps (a drift) is ended by the least change of v. Others whose
-//     slip ends with it (the third foot of a table) are at rest as well, and so are those that what rests leaves no
-//     slip: from rule 5 again.
-//  8. Where rigid contacts have no solution with finite forces (Painleve's rod), or these grow beyond all bounds as
-//     that state is approached (event_location.hpp refuses controlled steps past it), the slip stops or turns in an
-//     impact without collision: rule 1 with nothing approaching; dependent contacts, of which none could part alone,
-//     yield a little in it. If that has none, the run ends with a message; so do modes that contradict each other at
-//     one instant (Simulator).
-// Degenerate cases: contact_forces.hpp. Where there are several solutions it is Lemke's, which looks first where no
-// force is.
+// Degenerate cases: contact_forces.hpp. If there are several solutions, Lemke's is taken, whose search begins where no
+// force acts.
 #pragma once
 
 #include <algorithm>
@@ -82,8 +89,8 @@ struct ContactChanges {
   std::vector<int> toggled;   // ContactForce: force on or off
   std::vector<int> yielded;   // sticking contacts whose friction reached its bound
   std::vector<int> stopped;   // sliding contacts whose slip reached 0
-  bool locked = false;        // what slides has no finite forces from here on (rule 8)
-  double raised = 0;          // part by which friction then is taken as larger: how far from there the state may be
+  bool locked = false;        // sliding contacts have no finite forces from here on (rule 8)
+  double raised = 0;          // friction then counts as larger by this part: the distance of the state from that point
   bool empty() const {
     return struck.empty() && released.empty() && toggled.empty() && yielded.empty() && stopped.empty() && !locked;
   }
@@ -104,7 +111,7 @@ class ContactModes {
 
   // Applies the changes at `state`: v jumps, modes and sizes change, a and lambda are solved anew. Appends the events.
   void settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
-  // Of the last impacts [J]: through contacts, closed ones too, and beyond them, through moving rows.
+  // Energy lost in the last impacts [J]: through contacts, also closed ones; and elsewhere, through moving rows.
   struct Loss {
     int contact;
     double energy;
@@ -114,21 +121,21 @@ class ContactModes {
   ImpactWarnings& impact_warnings() { return impact_warnings_; }
   const ImpactWarnings& impact_warnings() const { return impact_warnings_; }
 
-  double nothing() const;                  // [m/s^2] less is no acceleration
-  double nothing(double violation) const;  // of a solution found up to that
-  // How near the forces of contacts that slide are to having no solution: the least pivot of their equations, of that
-  // without friction; 0 at Painleve's critical state, 1 far from it.
+  double nothing() const;                  // [m/s^2] a smaller one counts as no acceleration
+  double nothing(double violation) const;  // of a solution found with this violation
+  // How near the forces of sliding contacts are to having no solution: the least pivot of their equations relative to
+  // that without friction; 0 at Painleve's critical state, 1 far from it.
   double distance_from_critical(const State& state);
-  bool any_closed() const;  // but for the bearings of joints, which always are
+  bool any_closed() const;  // bearings of joints, which are always closed, do not count
 
-  // [s] Of steps with error control, so that no double zero of a slip velocity is stepped over: 0.45 of the shortest
-  // period in which a blow on a closed contact with set-valued friction swings back. Below half of it a swing turns at
-  // most once within a step, so two zeros in it show in the slopes at its ends (EventLocation::dips finds those of c +
-  // cos in every phase up to 0.45, and misses the shallowest from 0.5 on).
+  // [s] Longest controlled step that cannot pass over a double zero of a slip velocity: 0.45 of the shortest period in
+  // which a closed contact with set-valued friction swings back after a blow. Below half of the period a swing turns at
+  // most once within a step, so two zeros in it show in the slopes at its ends. (EventLocation::dips finds the zeros of
+  // c + cos in every phase up to 0.45, and misses the shallowest from 0.5 on.)
   double step_limit(const State& state);
-  // Less than this is no friction force [N]: it moves the contact less than `no_acceleration`.
+  // [N] A smaller friction force counts as none: it accelerates the contact less than `no_acceleration`.
   double friction_noise(int contact);
-  // Nothing moves more than that by forces of this size along all of these directions [N].
+  // [N] Forces of this size along all of these directions accelerate nothing more than that.
   double force_noise(const std::vector<model::ContactDirection>& directions);
 
  private:
@@ -139,15 +146,16 @@ class ContactModes {
   [[nodiscard]] complementarity::ContactSolution strike_without_collision(State& state, const ContactChanges& changes,
                                                                           bool jumped,
                                                                           std::vector<ContactEvent>& events);
-  void tell_impacts(double t, bool without_collision, std::vector<ContactEvent>& events) const;
+  void append_impacts(double t, bool without_collision, std::vector<ContactEvent>& events) const;
   void toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events);
   void find_touching(const ContactChanges& changes);
   void find_bearings();
   void strike(State& state, const ContactChanges& changes);
-  // Of the touching contacts, by index: whose separation after the impact is too short to follow, and whose slip.
+  // By index of the touching contacts: `falls`, the separation after the impact is too short to follow; `stops`, the
+  // slip.
   struct Brief {
     std::vector<bool> falls, stops;
-    std::size_t first() const;  // of either; their number if there is none
+    std::size_t first() const;  // that falls or stops; their number if there is none
   };
   Brief too_brief(const State& state, const ContactChanges& changes);
   void judge_brief(std::size_t at_rest_now, Brief& brief);
@@ -177,7 +185,7 @@ class ContactModes {
   [[nodiscard]] complementarity::ContactSolution decide_by_what_follows(const State& state, ContactChanges changes,
                                                                         bool jumped,
                                                                         complementarity::ContactSolution so_far);
-  // Of joints that rub (bearing_decision.cpp).
+  // For joints with friction (bearing_decision.cpp).
   bool has_bearings() const;
   [[nodiscard]] complementarity::ContactSolution decide_with_bearings(const State& state);
   bool was_not_held(const Participant& p, const model::Modes* loads) const;
@@ -186,11 +194,11 @@ class ContactModes {
   void accelerate_participants();
   void take_verdict(const Participant& p, bool kept_closed);
   void finish(State& state, bool carry);
-  void tell_normal(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
-  void tell_friction(const State& state, std::vector<ContactEvent>& events);
+  void append_normal_event(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
+  void append_friction_events(const State& state, std::vector<ContactEvent>& events);
   double stick_speed(int contact) const;
   double slow(int contact) const;
-  double at_rest(const std::vector<TouchingContact>& contacts) const;  // [m/s] the largest of theirs
+  double at_rest(const std::vector<TouchingContact>& contacts) const;  // [m/s] the largest of their thresholds
   double unresolved(int contact, const State& state);
   void keep_forces(const State& state);
   void carry_forces(Vec& lambda) const;
@@ -216,12 +224,12 @@ class ContactModes {
   model::Modes before_, modes_;
   std::vector<TouchingContact> touching_, bearings_;  // contacts; joints that rub
   std::vector<int> candidates_;
-  std::vector<bool> shared_before_;             // by contact: it shared rows with others
+  std::vector<bool> shared_before_;             // by contact: it depended on rows of others
   std::vector<Eigen::Vector3d> forces_before_;  // by contact and direction [N], where some are carried over
   std::vector<Loss> losses_;
   double lost_elsewhere_ = 0;
-  bool bearings_undecided_ = false;  // in the last decision: no modes agreed with the loads of the bearings
-  double largest_ = 0;               // of the accelerations without the forces sought
+  bool bearings_undecided_ = false;  // in the last decision no modes agreed with the loads of the bearings
+  double largest_ = 0;               // [m/s^2] of the accelerations without the forces sought
   Vec dv_, v_before_, a_, lambda_, lambda_before_;
 };
 

@@ -62,7 +62,7 @@ void EventLocation::watch(int contact) {
   watch_friction(contact, as_one);
 }
 
-// `as_one`: what holds it is watched with those that share rows.
+// `as_one`: the force that holds it is watched together with those that share rows with it.
 void EventLocation::watch_friction(int contact, bool as_one) {
   const model::ContactEntry& entry = system_.model().contacts[contact];
   const model::ContactMode& mode = system_.modes().contacts[contact];
@@ -74,14 +74,14 @@ void EventLocation::watch_friction(int contact, bool as_one) {
                         .at_ends = entry.coulomb->decide() == SetValuedFriction::Decide::every_evaluation});
 }
 
-// Of a joint that sticks they bound what holds it; of one that slides they decide the motion.
+// Loads of a sticking joint bound the friction that holds it; those of a sliding joint decide its motion.
 void EventLocation::watch_loads(int contact) {
   if (system_.modes().contacts[contact].friction == Friction::none) return;
   const int count = count_signed_loads(system_.model(), contact);
   for (int k = 0; k < count; ++k) watches_.push_back({.contact = contact, .kind = Kind::load, .bearing = k});
 }
 
-// On which side bearings press: where they do; of one whose load has just passed through 0 the other one.
+// Sets the side on which bearings press: the present one, or the other one if the load has just passed through 0.
 void EventLocation::choose_sides(const std::vector<Watch>& before) {
   for (std::size_t w = 0; w < watches_.size(); ++w) {
     Watch& watch = watches_[w];
@@ -93,8 +93,8 @@ void EventLocation::choose_sides(const std::vector<Watch>& before) {
   }
 }
 
-// Friction that holds exactly at its bound (equal blocks that brake as one) leaves no spare load, up to round-off: what
-// others lose then must not be hidden by it.
+// Friction that holds exactly at its bound (equal blocks that brake as one) leaves no spare load, up to round-off. It
+// must not hide a loss of load of the other contacts.
 void EventLocation::allow_for_critical_friction() {
   for (std::size_t w = 0; w < watches_.size(); ++w) {
     Watch& watch = watches_[w];
@@ -140,7 +140,7 @@ void EventLocation::restart(const State& now) {
   for (std::size_t w = 0; w < watches_.size(); ++w) watches_[w].steepest = std::abs(now_[w].slope);
   for (std::size_t w = 0; w < before.size() && before.size() == watches_.size(); ++w)
     wait_longer(before[w], now_[w], watches_[w]);
-  // Sticking begins on its bound where the normal force begins at 0, and where mu = mu_0.
+  // A contact begins to stick at its bound where its normal force begins at 0, and where mu = mu_0.
   for (int w = 0; w < int(watches_.size()); ++w)
     if (watches_[w].kind == Kind::hold && !watches_[w].at_ends &&
         now_[w].f <= std::max(1e-9 * watches_[w].bound, watches_[w].little))
@@ -167,7 +167,7 @@ double EventLocation::little_force(int group) {
   return modes_.force_noise(all);
 }
 
-// Of a compliant contact that is only touching: its depth, and its force with it, is round-off.
+// Of a compliant contact that only touches: its depth is round-off, and so is its force.
 double EventLocation::little_friction(int contact) {
   const model::ContactEntry& entry = system_.model().contacts[std::size_t(contact)];
   if (!entry.force || !entry.coulomb) return 0;
@@ -186,9 +186,9 @@ bool EventLocation::slow(const Watch& watch) {
          system_.slip(watch.contact).norm() < system_.modes().contacts[std::size_t(watch.contact)].slow;
 }
 
-// What has been accelerated for ten times as long as that takes to pass `slow`, and has not, is held: friction whose
-// direction is not resolved there acts on it as a stiff damper, which other contacts that stick balance. At the
-// system's point, the end of the step.
+// A slip that stays below `slow` for ten times the time in which its acceleration would pass `slow` is held: friction
+// whose direction is not resolved there acts as a stiff damper that other sticking contacts balance. At the system's
+// point, the end of the step.
 bool EventLocation::stalls(double h, const State& next, int w) {
   const Watch& watch = watches_[std::size_t(w)];
   if (!slow(watch)) return false;
@@ -209,7 +209,7 @@ void EventLocation::accept(double h, const State& next) {
   system_.move_to(next.t, next.q, next.v);
   for (Watch& watch : watches_) measure_slow(h, next, watch);
   system_.step_taken();
-  if (system_.model().world.space == Space::spatial)  // along the directions they have now
+  if (system_.model().world.space == Space::spatial)  // along their present directions
     for (std::size_t w = 0; w < watches_.size(); ++w)
       if (watches_[w].kind == Kind::slide) next_[w] = slide(watches_[w].contact, next.a);
   for (std::size_t w = 0; w < watches_.size(); ++w) {
@@ -244,7 +244,7 @@ int EventLocation::evaluate(const State& state, std::vector<Value>& values) {
   return accelerated ? system_.sign() : 0;
 }
 
-// At the system's point, `state`; accelerated: a_ and lambda_ are those of this point, once a watch has asked for them.
+// The watched function at `state`, the system's point. `accelerated`: a_ and lambda_ have been solved at this point.
 EventLocation::Value EventLocation::value(int w, const State& state, bool& accelerated) {
   const auto accelerate = [&] {
     if (!std::exchange(accelerated, true)) system_.accelerate({}, a_, lambda_);
@@ -265,8 +265,8 @@ EventLocation::Value EventLocation::value(int w, const State& state, bool& accel
   return {force(watch, state.t, own_force_ ? state.lambda : lambda_), 0};
 }
 
-// Just after an event a function at round-off of 0 tells nothing, unless it goes on falling; nor does one that began
-// below it (a row that had drifted, an onset that was not located), unless it falls further.
+// Just after an event, a function at the round-off of 0 proves nothing unless it goes on falling; a function that began
+// below 0 (a drifted row, an onset that was not located) proves nothing unless it falls further.
 bool EventLocation::happened(int w, const Value& end) const {
   if (!(end.f < 0)) return false;
   if (!just_handled(w) || end.f < std::min(now_[w].f, 0.0) - watches_[w].noise) return true;
@@ -300,8 +300,8 @@ void EventLocation::find_suspects(const State& now, double h, const State& next)
   }
 }
 
-// By what values and slopes at the ends tell, so that of many the first one is located and the others are seen to come
-// later.
+// Orders suspects by the crossings that values and slopes at the ends predict. The first is then located first, and the
+// others are seen to come later.
 void EventLocation::earliest_first(std::vector<Suspect>& suspects) const {
   const auto crossing = [this](const Suspect& s) {
     const Value& begin = now_[s.watch];
@@ -337,7 +337,7 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
     earliest_first(suspects_);
     double h_event = h;
     for (Suspect& suspect : suspects_) {
-      if (suspect.high > h_event) {  // only if it comes before the earliest so far
+      if (suspect.high > h_event) {  // only if it precedes the earliest event so far
         const Value there = step_to(now, h_event, suspect.watch);
         if (!happened(suspect.watch, there)) continue;
         suspect.high = h_event, suspect.at_high = there;
@@ -364,8 +364,8 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
   return Found::event;
 }
 
-// An event that changed nothing was round-off, or what was missed moves nothing yet. It is one again where several
-// times as much is missed.
+// An event that changed nothing was round-off, or the missing force is too small to move anything yet. It is an event
+// again when several times as much is missing.
 void EventLocation::wait_longer(const Watch& before, const Value& now, Watch& watch) const {
   if (watch.kind == Kind::load) return;
   watch.noise = std::max(watch.noise, before.noise);
@@ -391,22 +391,22 @@ void EventLocation::report(int w) {
       return add(changes_.released);
     case Kind::hold:
       return add(changes_.yielded);
-    case Kind::load:  // all is decided anew
+    case Kind::load:  // all modes are decided again
       return;
     case Kind::slide:
       return add(changes_.stopped);
   }
 }
 
-// How near to 0 a gap counts as there. Where a truss unfolds into its singular position, the rows that keep its cells
-// alike are double roots: their round-off tells how far cells have unfolded to half of the digits. Latches that such
-// rows tie lock as one; else those that are late would find that nothing can move.
+// [m, rad] A gap below this happens at the same instant. Where a truss unfolds into its singular position, the rows
+// that keep its cells alike have double roots, so their round-off determines the cells only to half of the digits.
+// Latches tied by such rows lock as one; otherwise nothing could move for the late ones.
 double EventLocation::same_instant(int contact) const {
   const bool by_double_root = system_.model().contacts[contact].limit && system_.redundant();
   return by_double_root ? std::sqrt(eps) * scale_.of(contact).length() : 4 * scale_.of(contact).touching();
 }
 
-// All others that happen at the same instant as the one that was located.
+// Adds all other events of the instant that was located.
 void EventLocation::collect() {
   for (int w = 0; w < int(watches_.size()); ++w) {
     const Value& end = next_[w];
@@ -425,7 +425,7 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
   const int w = suspect.watch;
   const double resolution = 2 * eps * std::max(std::abs(now.t), std::abs(now.t + suspect.high));
   numerics::FallingBracket bracket{0, suspect.high, now_[w], suspect.at_high};
-  if (just_handled(w)) {  // look for a moment when it was apart
+  if (just_handled(w)) {  // look at a time when it was apart
     double apart = suspect.high;
     bool found = false;
     while (!found && apart > resolution) {
@@ -435,7 +435,7 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
         bracket.low = apart, bracket.at_low = there, found = true;
       else if (happened(w, there))
         bracket.high = apart, bracket.at_high = there;
-      else  // so near that nothing is to be seen yet: a step to there would find no event, and so without end
+      else  // so near that nothing shows yet: a step to there would find no event, without end
         break;
     }
     if (!found) return bracket.high;
@@ -444,7 +444,7 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
     const auto f = [&](double h) { return step_to(now, h, w).f; };
     return numerics::narrow(f, {bracket.low, bracket.high, bracket.at_low.f, bracket.at_high.f}, resolution).high;
   }
-  // A thousandth of what counts as there.
+  // A thousandth of `same_instant`.
   const Scale scale = scale_.of(watches_[w].contact);
   const double round_off = 1e-3 * (watches_[w].kind == Kind::slide ? scale.at_rest() : scale.touching());
   return numerics::crossing([&](double h) { return step_to(now, h, w); }, bracket, resolution, round_off);
@@ -459,7 +459,7 @@ void EventLocation::archive(Archive& a) {
   Vec flat = Eigen::Map<const Vec>(values.data(), values.size());
   a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_),
       a("sign", sign_);
-  if (watches_.empty() && flat.size() > 0) {  // reading: the modes are back, their watches not yet
+  if (watches_.empty() && flat.size() > 0) {  // in reading an archive: watches are set up after the modes
     watch_all();
     next_.resize(watches_.size()), probe_.resize(watches_.size()), now_.resize(watches_.size());
   }

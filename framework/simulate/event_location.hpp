@@ -3,39 +3,38 @@
 // Each contact is watched through functions that are positive until their event:
 //     approach   open contact                    gap
 //     leave      compliant contact in touch      -gap
-//     press      closed contact (Restitution)    its normal force N; one that has locked needs no watch
+//     press      closed contact (Restitution)    its normal force N; a locked one is not watched
 //     hold       sticking contact                mu_0 N - |T|, T the friction that holds it
-//     idle       closed, carries nothing         what it would carry as a spring, with the other sign
-//     unload     contacts that share rows        how much further each of them could be unloaded
-//     follow     contacts that share rows        a little acceleration, less that of an implied direction
-//     slide      sliding contact                 slip velocity along its direction at the step's begin
+//     idle       closed without a force         minus the force that it would carry as a spring
+//     unload     contacts that share rows        their spare load
+//     follow     contacts that share rows        a small acceleration minus that of an implied direction
+//     slide      sliding contact                 slip velocity along its direction where the step began
 //     load       bearing of a joint that rubs    its load, on the side on which it presses (signed_loads.hpp)
-// In space a slip without a direction that other contacts hold back has stopped as well, though it crosses no zero
-// (`stalls`). An event shows in three ways: the function is negative at the step's end; it was positive at both ends
-// but dipped between them (the cubic through values and slopes of both ends tells where to look); or, just after an
-// event that left it at round-off of 0, the parabola of its start says that it came back within the step. It is located
-// by repeating the step with other lengths, so to the accuracy of the method itself, down to the rounding of t; the
-// earliest event counts. Of an event that was just handled only round-off is ignored (ContactScale).
+// In space a slip without a direction that other contacts hold back has also stopped, although it crosses no zero
+// (`stalls`). An event shows in three ways: the function is negative at the step's end; it is positive at both ends and
+// negative between them (the cubic through values and slopes of both ends shows where to look); or, just after an event
+// that left it at the round-off of 0, the parabola at its start returns to 0 within the step. The event is located by
+// repeating the step with other lengths, so to the accuracy of the method itself, down to the rounding of t; the
+// earliest event counts. For an event that was just handled only round-off is ignored (ContactScale).
 //
-// An integrator with error control sees what time alone does to these functions only through the motion: not at all
-// where everything is held, and a table that shakes under a ball in flight moves nothing. So a controlled step is too
-// long if a function departs from the form assumed here by so much that it could have crossed 0 unseen: gaps, at an
-// irrational part of the step, from their cubic; forces, one step ahead, from their tangent. What a jump of a law
-// leaves is taken by steps too short to matter.
+// Error control sees the effect of time on these functions only through the motion: it sees none where everything is
+// held, or where a table shakes under a ball in flight. Therefore a controlled step is too long if a function departs
+// so far from the form assumed here that it could have crossed 0 unseen. Gaps are compared with their cubic at an
+// irrational part of the step, forces with their tangent one step ahead. A jump of a law of time leaves a difference
+// that steps too short to matter pass over.
 //
-// Nor may forces pass infinity within a controlled step, which where contacts slide need not show at its ends: there
-// the determinant of their equations changes its sign, where that is known (AssembledSystem::sign).
+// Nor may forces pass infinity within a controlled step. For sliding contacts this need not show at the ends of the
+// step, but the determinant of their equations changes its sign there, where it is known (AssembledSystem::sign).
 //
 // A shortened step still has a length of at least 4 units in the last place of t, so every event advances time.
 //
-// Forces come from the equations of motion at the step's end; methods that satisfy neither position nor velocity rows
-// work on the level of accelerations, there lambda itself is that force, with their stabilisation. Where rows are
-// redundant lambda is one choice of many: contacts that share rows are watched together, by how much further each of
-// them could be unloaded until they cannot carry what they carry (AssembledSystem::spare_load); which of them then lets
-// go is decided by the complementarity problem (contact_mode.hpp). Where one of them slides its share decides the
-// motion, and each is watched for itself. What is implied by others has no row in g, so nothing holds it once it no
-// longer follows from them: a support that moves by a law of its own, or bodies that turn out of a singular place. Its
-// acceleration shows that first.
+// Forces come from the equations of motion at the step's end. Methods that satisfy neither position nor velocity rows
+// work on the level of accelerations: there lambda itself, with their stabilisation, is that force. If rows are
+// redundant, lambda is not unique: contacts that share rows are watched together by their spare load
+// (AssembledSystem::spare_load), and the complementarity problem decides which of them opens (contact_mode.hpp). If one
+// of them slides, its share affects the motion, and each is watched for itself. An implied direction has no row in g,
+// so nothing holds it once it no longer follows from the basis: a support moves by a law of its own, or bodies turn out
+// of a singular position. This shows first in its acceleration.
 #pragma once
 
 #include <vector>
@@ -57,14 +56,14 @@ class EventLocation {
   void restart(const State& now);  // modes or state changed
 
   enum class Found { nothing, event, step_refused, step_too_long, passes_infinity, not_finite };
-  // Looks at the trial now -> next over h. Found::event: h and next are shortened to it, `changes` tells what happened.
-  // Found::step_too_long only if `may_shorten`: next is not to be taken. Found::not_finite: at next a gap or a force is
-  // no number, though the state may be (a law of time that ended under a body). Found::passes_infinity only if
-  // `controlled`: nor is it then.
+  // Examines the trial now -> next over h. Found::event: h and next are shortened to the event, `changes` are the
+  // changes there. Found::step_too_long only if `may_shorten`: next must not be accepted. Found::not_finite: a gap or a
+  // force at next is not finite, though the state may be (a law of time that ended under a body).
+  // Found::passes_infinity only if `controlled`: next must not be accepted either.
   Found examine(const State& now, double& h, State& next, bool controlled, bool may_shorten);
   const ContactChanges& changes() const { return changes_; }
-  // [s] From here: `swings` (ContactModes::step_limit), unless all that is closed slides so fast that it loses no more
-  // than a quarter of its slip in a longer step: that has no zero to step over.
+  // [s] Limit of the next step: `swings` (ContactModes::step_limit), or more if every closed contact slides so fast
+  // that a longer step takes at most a quarter of its slip, which then has no zero to pass over.
   double longest_step(double swings) const;
   long long steps_tried() const { return steps_tried_; }
   void accept(double h, const State& next);  // next became the solution
@@ -77,24 +76,24 @@ class EventLocation {
     int contact;
     Kind kind;
     bool at_ends = false;     // judged at the ends of steps only, never located
-    double noise = 0;         // no nearer to 0 than this at first, and it has just had its event
+    double noise = 0;         // values up to this one count as 0 at first, and just after the event
     double force_before = 0;  // one step before now
-    double bound = 0;         // [N] where it was asked for last: of friction, or of a group the largest of its forces
-    double steepest = 0;      // slide: the most that the slip has changed in a unit of time since it began [m/s^2]
-    bool reported = false;    // it had an event, the last one
+    double bound = 0;         // [N] at the last evaluation: the bound of friction, or the largest force of a group
+    double steepest = 0;      // slide: largest rate of change of the slip since it began [m/s^2]
+    bool reported = false;    // it had the last event
     int group = -1;           // unload, follow: in Modes::shared
-    double little = 0;        // no less is missed: [N] unload, hold, [m/s^2] follow
-    int bearing = -1;         // load: among those with a sign
+    double little = 0;        // smaller deficits are ignored: [N] unload, hold, [m/s^2] follow
+    int bearing = -1;         // load: index among the bearings with a signed load
     double side = 1;          // load: 1 or -1
-    double slow_for = 0;  // [s] slide in space: it has been without a direction (system/point/slip.hpp) as long as that
-    double pushed = 0;    // [m/s^2] slide in space: the most that it was accelerated in that time
+    double slow_for = 0;      // [s] slide in space: how long it has been without a direction (system/point/slip.hpp)
+    double pushed = 0;        // [m/s^2] slide in space: its largest acceleration in that time
   };
   using Value = numerics::ValueAndSlope;  // slopes of forces and accelerations are not known
   struct Suspect {
     int watch;
     double high;       // [s] length of a step after which the event has happened
     Value at_high;     // the function there
-    double about = 0;  // [s] where it crosses 0, roughly
+    double about = 0;  // [s] estimate of the crossing
   };
   struct Cubic;
 
@@ -118,7 +117,7 @@ class EventLocation {
   double little_force(int group);
   double little_friction(int contact);
   Value slide(int contact, const Vec& a);
-  int evaluate(const State& state, std::vector<Value>& values);  // AssembledSystem::sign, if forces were asked for
+  int evaluate(const State& state, std::vector<Value>& values);  // AssembledSystem::sign, or 0 without forces
   Value value(int w, const State& state, bool& accelerated);
   bool just_handled(int w) const { return now_[w].f <= watches_[w].noise; }
   bool happened(int w, const Value& end) const;
@@ -147,18 +146,18 @@ class EventLocation {
   ContactModes& modes_;
   const ContactScale& scale_;
   BetweenStates between_states_;
-  bool own_force_;  // the integrator's lambda is the force
+  bool own_force_;  // the integrator's lambda is the force of the contact
   std::vector<Watch> watches_;
   std::vector<model::ContactMode> modes_before_;  // at the last restart
   std::vector<Value> now_, next_, probe_;
-  int sign_ = 0, sign_next_ = 0;  // AssembledSystem::sign where now_ and next_ are
-  bool probed_ = false;           // probe_ has the functions inside the step examined
+  int sign_ = 0, sign_next_ = 0;  // AssembledSystem::sign at the points of now_ and next_
+  bool probed_ = false;           // probe_ is filled for the step examined
   double h_before_ = 0;           // [s] 0: no step yet since the last change
-  double longest_ = 0;            // [s] step tried since then
+  double longest_ = 0;            // [s] longest step tried since then
   std::vector<Suspect> suspects_;
   std::vector<int> at_end_;
   std::vector<double> begin_slopes_,
-      end_slopes_;      // of forces at the ends of the step examined, where they were asked for
+      end_slopes_;      // of forces at the ends of the step examined, where they were needed
   double h_tried_ = 0;  // [s] of the last trial, trial_; 0: none
   ContactChanges changes_;
   State trial_, moved_;

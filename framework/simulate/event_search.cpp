@@ -7,11 +7,11 @@
 namespace trammel::simulate {
 namespace {
 
-// Where in a step `hides` looks: an irrational part of it, the golden section's, meets no law's period again and again.
+// The place in a step where `hides` looks: an irrational part, the golden section's, resonates with no period of a law.
 constexpr double inside = 0.3819660112501051;
 
-// In space a slip comes to its end by steps that leave a fifth of it: over its zero the stiffness mu N/|s| across it is
-// more than an explicit method bears, which makes of round-off there a turn.
+// In space a slip ends by steps that leave a fifth of it. Near its zero the stiffness mu N/|s| across it is more than
+// an explicit method can bear; round-off there would become a turn.
 bool overshoots(double begin, double end, double slow) {
   return begin > 10 * slow && end < 0.2 * begin;
 }
@@ -23,7 +23,7 @@ struct EventLocation::Cubic {
   double low, high, F_low, F_high, S_low, S_high;
   double at = 0, minimum = 0;  // filled by `dips`
 
-  // Whether it has a minimum inside.
+  // True if it has a minimum inside, which it finds.
   bool dips() {
     const double h = high - low, d = (F_high - F_low) / h;
     const double a = 3 * (S_low + S_high - 2 * d), b = 2 * (3 * d - 2 * S_low - S_high),
@@ -38,9 +38,9 @@ struct EventLocation::Cubic {
     minimum = value(x);
     return true;
   }
-  // A distance of bodies that pass each other bends upwards alone, and so does the load of a joint's bearings, a sum of
-  // lengths: it goes as low as its tangents at the ends meet, where it may have a kink that the cubic rounds off.
-  // Whether that is below 0.
+  // The distance of bodies that pass each other is convex, and so is the load of a joint's bearings, a sum of lengths.
+  // Such a function is at least as large as its tangents at the ends, which meet where it may have a kink that the
+  // cubic rounds off. True if they meet below 0.
   bool tangents_cross() {
     if (!(S_low < 0 && S_high > 0)) return false;
     const double x = (F_low - F_high + S_high * (high - low)) / (S_high - S_low);
@@ -54,7 +54,7 @@ struct EventLocation::Cubic {
   }
 };
 
-// Whether the step is too long to tell what the functions did within it.
+// True if the step is too long to show what the functions did within it.
 bool EventLocation::hides(const State& now, double h, const State& next) {
   longest_ = std::max(longest_, h);
   if (h < 1e-6 * longest_) return false;
@@ -63,7 +63,7 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
     if (watches_[w].kind == Kind::slide && system_.tangents(watches_[w].contact) > 1 &&
         overshoots(now_[w].f, next_[w].f, system_.modes().contacts[watches_[w].contact].slow))
       return true;
-    // A longer step than swings allow, with a slip that has become steeper in it than any before.
+    // A step longer than swings allow, in which a slip has become steeper than ever before.
     if (watches_[w].kind == Kind::slide && std::abs(next_[w].slope) > 4 * watches_[w].steepest &&
         std::abs(next_[w].slope) * h > now_[w].f && now_[w].f > watches_[w].noise)
       return true;
@@ -77,8 +77,7 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
   return (gaps && hides_gap(h)) || (forces && hides_force(h));
 }
 
-// Whether swings of steps of length h could lead to an event unseen: of a force, or of a gap that is small for its
-// rate.
+// True if swings within steps of length h could hide an event: of a force, or of a gap that is small for its rate.
 bool EventLocation::swings_matter(const std::vector<Value>& values, double h) const {
   constexpr double far = 20;
   for (int w = 0; w < int(watches_.size()); ++w) {
@@ -104,7 +103,7 @@ bool EventLocation::hides_gap(double h) {
   return false;
 }
 
-// From its tangent of the step before; in the first step, from the line between its ends.
+// Compares the force with its tangent of the step before; in the first step, with the line between its ends.
 bool EventLocation::hides_force(double h) {
   if (h_before_ == 0) {
     system_.move_to(between_.t, between_.q, between_.v);
@@ -123,7 +122,7 @@ bool EventLocation::hides_force(double h) {
   return false;
 }
 
-// Whether the function, not negative at both ends, is negative between them.
+// True if the function is negative within the step and not at its ends.
 bool EventLocation::dips(const State& now, double h, const State& next, int w, Suspect& suspect) {
   const bool force = by_force(w), may_have_kink = !force || system_.model().contacts[watches_[w].contact].joint;
   Cubic cubic{0, h, now_[w].f, next_[w].f, now_[w].slope, next_[w].slope};
@@ -153,7 +152,7 @@ bool EventLocation::dips(const State& now, double h, const State& next, int w, S
   return false;
 }
 
-// A gap that an event has just left at 0 with the rate u and acceleration A < 0 closes again after -2 u/A or so.
+// A gap that an event has just left at 0 with rate u and acceleration A < 0 closes again after about -2 u/A.
 bool EventLocation::returns(const State& now, double h, int w, Suspect& suspect) {
   if (by_force(w) || watches_[w].kind == Kind::slide || !just_handled(w) || !(now_[w].slope > 0)) return false;
   system_.move_to(now.t, now.q, now.v);
@@ -166,12 +165,12 @@ bool EventLocation::returns(const State& now, double h, int w, Suspect& suspect)
   return true;
 }
 
-// Slopes of the force cost a solution of the equations of motion each; they are asked for when the force is so small,
-// compared with its change and the bend of its last three values, that it could have crossed 0 and come back.
+// Each slope of a force costs a solution of the equations of motion. It is worth it if the force is so small, compared
+// with its change and the curvature of its last three values, that it could have crossed 0 and come back.
 bool EventLocation::worth_slopes(int w, double h) const {
   const double least = std::min(now_[w].f, next_[w].f), change = next_[w].f - now_[w].f;
   if (h_before_ == 0 && !probed_) return true;
-  // Of a parabola: what a step as long before would have shown, from its distance to the chord inside.
+  // Of a parabola. Its distance to the chord inside the step stands for the value one step before.
   const double bend = h_before_ == 0 ? (probe_[w].f - now_[w].f - inside * change) * 2 / (inside * (1 - inside))
                                      : change - (now_[w].f - watches_[w].force_before) * (h / h_before_);
   return least < 0.5 * (std::abs(change) + std::abs(bend));
@@ -184,7 +183,7 @@ double EventLocation::force_slope(const State& state, double dt, int w) {
   return slope;
 }
 
-// Of all forces at once, for those whose slopes are worth it.
+// Computes the slopes of all forces for which they are worth it.
 double EventLocation::slope_at_end(const State& state, double dt, int w, double h, std::vector<double>& slopes) {
   if (slopes.empty()) {
     slopes.resize(watches_.size());
@@ -197,8 +196,8 @@ double EventLocation::slope_at_end(const State& state, double dt, int w, double 
   return slopes[w];
 }
 
-// Calls each(-1, t, lambda) at the state, then each(1, t + dt, lambda) a time dt later, as far as its accelerations
-// tell.
+// Calls each(-1, t, lambda) at the state, then each(1, t + dt, lambda) at the state extrapolated by its velocity and
+// acceleration.
 template <class Each>
 void EventLocation::force_slopes(const State& state, double dt, Each&& each) {
   system_.move_to(state.t, state.q, state.v);

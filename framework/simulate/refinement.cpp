@@ -45,7 +45,8 @@ void Refinement::find_due(const State& state, int contact) {
   }
 }
 
-// Nearest to the marker that touches, a sphere's centre as well, or to the deepest point of the surface that does.
+// Nearest point to the marker that touches (a sphere's centre, too), or to the deepest point of the surface that
+// touches.
 Eigen::Vector2d Refinement::place(const State& state, int contact, int body) {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   const model::BodyEntry& entry = model_->bodies[std::size_t(body)];

@@ -1,11 +1,10 @@
-// Refinement in the time loop: bodies are asked after every step, when they are told the pressures of contacts on their
-// surface, and when one of their contacts has closed; the state is carried over and what the new coordinates changed is
-// reported.
+// Refinement in the time loop. Bodies are asked after every step, with the contact pressures on their surface, and when
+// one of their contacts has closed. The state is transferred to the new coordinates, and the changes are reported.
 //
 //     q, v by the bodies' transfers;   a, lambda from the equations of motion in the new coordinates
 //
-// A nested refinement changes neither shape nor velocity, so mass, momentum and energies stay; the event tells them
-// before and after, and what the energy did change is a cause of its own in the ledger.
+// A nested refinement changes neither shape nor velocity, so mass, momentum and energies stay; the event reports them
+// before and after. A change of energy is a cause of its own in the ledger.
 #pragma once
 
 #include <memory>
@@ -23,18 +22,17 @@ class Refinement {
  public:
   Refinement(std::shared_ptr<model::Model> model, model::AssembledSystem& system);
 
-  void lay_out();  // bodies were read from an archive
+  void lay_out();  // after bodies were read from an archive
   bool possible() const { return !refinable_.empty(); }
-  // Null: nothing was refined. Else `state` is in the new coordinates, its a and lambda solved, and the energy changed
-  // by
-  // `gained()`. `contact`: index of the one that has just closed, -1 after a step.
+  // Null: nothing was refined. Otherwise `state` is in the new coordinates with a and lambda solved, and the energy has
+  // changed by `gained()`. `contact`: index of the one that has just closed, -1 after a step.
   const Transfer* refine(State& state, int contact);
   const std::vector<RefineEvent>& events() const { return events_; }
   double gained() const { return gained_; }  // [J] by the last refinement
 
  private:
   RefineEvent::Side side(const State& state, int body) const;
-  // Where on the body's surface the contact has closed; 0 without a surface.
+  // Place on the body's surface where the contact has closed; 0 without a surface.
   Eigen::Vector2d place(const State& state, int contact, int body);
   RefineCause cause(const State& state, int contact, int body, std::vector<double>& pressure);
   void find_due(const State& state, int contact);
@@ -42,7 +40,7 @@ class Refinement {
   std::shared_ptr<model::Model> model_;
   model::AssembledSystem& system_;
   std::vector<int> refinable_, due_, refined_;  // bodies
-  std::vector<std::vector<double>> pressures_;  // by refinable body, which its cause refers to
+  std::vector<std::vector<double>> pressures_;  // by refinable body; its RefineCause refers to them
   std::vector<RefineCause> causes_;             // by due body
   std::unique_ptr<model::JoinedTransfer> transfer_;
   std::vector<RefineEvent> events_;

@@ -34,8 +34,8 @@ double crossing_of_cubic(const FallingBracket& b) {
   return b.low + h * x;
 }
 
-// Each place is looked for a little after the crossing of the cubic, as far as round-off reaches, so that it becomes
-// the end.
+// Each trial is placed a little after the crossing of the cubic, as far as round-off reaches, so that it becomes the
+// new upper end.
 double crossing(const std::function<ValueAndSlope(double)>& f, FallingBracket b, double resolution, double round_off) {
   bool bisect = false;
   for (int i = 0; i < 200 && b.high - b.low > resolution; ++i) {

@@ -1,8 +1,8 @@
-// The crossing of a continuous function within a bracket, to the resolution asked for.
+// Finds the crossing of a continuous function within a bracket, to the resolution asked for.
 //
-// Algorithm 748 (Alefeld, Potra, Shi 1995, ACM TOMS 21(3)): inverse cubic interpolation guarded by bisection, at most
-// twice as many evaluations as bisection, about eight for a smooth function. Where slopes are known: by the cubic
-// through values and slopes of both ends (Hermite), guarded by bisection, two or three evaluations.
+// Without slopes by Algorithm 748 (Alefeld, Potra, Shi 1995, ACM TOMS 21(3)): inverse cubic interpolation guarded by
+// bisection, at most twice as many evaluations as bisection, about eight for a smooth function. With slopes by the
+// cubic through values and slopes of both ends (Hermite), guarded by bisection: two or three evaluations.
 #pragma once
 
 #include <functional>
@@ -31,7 +31,7 @@ struct FallingBracket {
 };
 // Where the cubic through both ends crosses 0.
 double crossing_of_cubic(const FallingBracket& bracket);
-// Returns a place at most `resolution` after the crossing, or so near to it that 0 >= f >= -round_off.
+// Returns a place at most `resolution` after the crossing, or one so near that 0 >= f >= -round_off.
 double crossing(const std::function<ValueAndSlope(double)>& f, FallingBracket bracket, double resolution,
                 double round_off);
 

@@ -53,7 +53,7 @@ Simulator::Simulator(std::shared_ptr<model::Model> model, Integrator& integrator
 void Simulator::start(State initial) {
   now_ = std::move(initial);
   window_start_ = now_.t;
-  if (now_.t > settings_.start)  // a run that is taken up there: the records before are written
+  if (now_.t > settings_.start)  // resumed from a checkpoint: earlier records are written
     records_ = (long long)(std::ceil((now_.t - settings_.start) / settings_.every - 1e-9));
   turns_.follow(now_.t, now_.q, now_.v);
   look_at_theories();
@@ -74,7 +74,7 @@ void Simulator::start(State initial) {
     if (system_.gap_rate(i) > scale.written_speed() && !(compliant && pressed)) continue;
     compliant ? pressing.toggled.push_back(i) : striking.struck.push_back(i);
   }
-  if (!pressing.empty()) settle(pressing);  // what they store is there from the first instant
+  if (!pressing.empty()) settle(pressing);  // the energy that they store belongs to the start
   ledger_.start(now_);
   energy_start_ = energy_at_state();
   most_moved_ = energy_start_.kinetic;
@@ -99,7 +99,7 @@ double Simulator::record_time(long long k) const {
   return t > settings_.until - 1e-9 * settings_.every ? settings_.until : t;
 }
 
-// The rows that are due at the state itself.
+// Writes the rows that are due at the present state.
 void Simulator::record_due(RecordSink& recorder) {
   while (!last_row_ && record_time(records_) <= now_.t) {
     recorder.row(system_, now_, ledger_.totals(), statistics_.steps);
@@ -113,7 +113,8 @@ void Simulator::record_due(RecordSink& recorder) {
   }
 }
 
-// What is no energy in this scene [J]: a nanojoule, or that part of what its masses have at its speed.
+// [J] Energy that counts as none in this scene: a nanojoule, or 1e-9 of the energy of its masses at its speed if that
+// is less.
 double Simulator::little_energy() {
   constexpr double little = 1e-9;
   scratch_.setZero(now_.v.size());
@@ -123,22 +124,24 @@ double Simulator::little_energy() {
   return little * (moving > 0 ? std::min(1.0, moving) : 1);
 }
 
-// The most that a cause can have set in motion so far: what there was at the start, fell, came in and went out. What a
-// base brings in and takes out again counts as long as it is there; what the method makes of nothing never does.
+// Largest energy that known causes can have set in motion so far: the initial energy, and the energy that fell, came in
+// and went out. What a base brings in and takes out again counts while it is there; what the method creates never
+// counts.
 void Simulator::take_moved(const Energy& energy, const Ledger::Totals& totals) {
   const double changed = std::abs(energy_start_.elastic) + std::abs(energy.potential - energy_start_.potential) +
                          std::abs(totals.supplied) + std::abs(ledger_.refinements()) + totals.dissipated;
   most_moved_ = std::max(most_moved_, energy_start_.kinetic + changed);
 }
 
-// Energy without a cause, relative to what moved most. A little more keeps round-off of a system at rest from counting.
+// The energy without a cause, relative to the energy moved. A small addend keeps round-off of a system at rest from
+// counting.
 double Simulator::relative_drift() {
   take_moved(energy_at_state(), ledger_.totals());
   return std::abs(energy_drift()) / (most_moved_ + little_energy() + 1e-9 * std::abs(ledger_.energy_start()));
 }
 
-// A method that is unstable with its step may give finite nonsense for long. Its energy tells: it goes on growing,
-// where that of a damping method overshoots once and falls (HHT-alpha at h omega = 1e5: by 5e4).
+// A method that is unstable at its step may return finite but meaningless numbers for long. Its energy shows this
+// because it goes on growing; that of a damping method overshoots once and falls (HHT-alpha at h omega = 1e5: by 5e4).
 void Simulator::judge_energy() {
   const double drift = relative_drift();
   if (!std::isfinite(drift)) find_culprit(0);
@@ -188,7 +191,7 @@ bool Simulator::advance(RecordSink& recorder) {
       }
       settle(location_.changes());
       const int contact = events_.empty() ? -1 : events_.back().contact;
-      write_events(recorder);  // now: a checkpoint may follow
+      write_events(recorder);  // before a checkpoint, which may follow
       guard_against_standstill(h, proposal.h, contact);
       guard_against_storm(contact);
     }
@@ -197,7 +200,7 @@ bool Simulator::advance(RecordSink& recorder) {
   }
 }
 
-// At the state itself, which the last step has met up to round-off.
+// True if sliding joints lock at the present state. Trial steps have ended there up to round-off.
 bool Simulator::locks_here() {
   const auto slides = [this](std::size_t i) {
     return system_.model().contacts[i].joint &&
@@ -215,8 +218,8 @@ bool Simulator::locks_here() {
   }
 }
 
-// Where forces of contacts that slide grow without end within a finite time (Painleve's critical state) steps become
-// too short. Friction a little larger is beyond that state, where an impact without collision ends the slip.
+// Near Painleve's critical state the forces of sliding contacts grow without end within a finite time, and steps become
+// too short. Slightly larger friction is beyond that state, where an impact without collision ends the slip.
 bool Simulator::near_critical_state() {
   constexpr double near = 1e-4, beyond = 10;
   const double distance = modes_.distance_from_critical(now_);
@@ -224,7 +227,7 @@ bool Simulator::near_critical_state() {
   return distance < near;
 }
 
-// A force changes its sign there by way of infinity, which looks like a release.
+// A force that changes its sign through infinity looks like a release.
 bool Simulator::passes_infinity(const ContactChanges& changes) {
   const auto slides = [](const model::ContactMode& m) {
     return m.closed && m.friction == model::ContactMode::Friction::slide;
@@ -233,7 +236,7 @@ bool Simulator::passes_infinity(const ContactChanges& changes) {
   return !changes.released.empty() && std::any_of(contacts.begin(), contacts.end(), slides) && near_critical_state();
 }
 
-// What locks itself as it slides comes to rest where it is.
+// A joint that locks itself while it slides comes to rest where it is.
 void Simulator::jam(RecordSink& recorder, double h) {
   locked_ = false;
   ContactChanges changes;
@@ -249,7 +252,7 @@ bool Simulator::try_step(const StepControl::Proposal& proposal, double& h, Event
     return step_and_examine(proposal, h, found, error);
   } catch (const OutsideDomain& e) {  // a shorter step may stay inside
     return refuse(proposal, said(e, system_.last_call()).c_str()), false;
-  } catch (const model::LocksItself&) {  // within the step: look how far it goes without
+  } catch (const model::LocksItself&) {  // inside the step: find how far steps get without it
     ++statistics_.rejected;
     control().rejected(proposal.h);
     locked_ = control().too_small(now_.t);
@@ -292,7 +295,7 @@ bool Simulator::step_and_examine(const StepControl::Proposal& proposal, double& 
     if (found == EventLocation::Found::passes_infinity)
       return refuse(proposal, "forces of contacts that slide pass infinity within it"), false;
     if (found == EventLocation::Found::step_too_long)
-      return refuse(proposal, "it is too long to tell what contacts did within it"), false;
+      return refuse(proposal, "it is too long to show what contacts did within it"), false;
   }
   return true;
 }
@@ -313,11 +316,11 @@ void Simulator::refuse(const StepControl::Proposal& proposal, const char* reason
 }
 
 std::string Simulator::circumstances() {
-  for (const ContactEvent& event : events_) last_motions_.take(event);  // found, and not written yet
+  for (const ContactEvent& event : events_) last_motions_.take(event);  // found, but not written yet
   try {
     return last_motions_.say(system_, {now_, next_, tried_, error_parts_, iterated_}, settings_.until);
   } catch (const std::exception&) {
-    return "";  // a component has no answer there
+    return "";  // a component has no answer at the state
   }
 }
 
@@ -340,8 +343,8 @@ bool Simulator::near_the_end_of_numbers() const {
   return !(std::max(now_.q.lpNorm<Eigen::Infinity>(), now_.v.lpNorm<Eigen::Infinity>()) < 1e30);
 }
 
-// Throws if a component answers with numbers that are not finite where the step began, or at the times it went to. Not
-// when the state itself is near the end of the numbers: then any component's answer may overflow.
+// Throws if a component returned numbers that are not finite where the step began, or at the times of its trials. Does
+// not throw if the state itself is near the end of the number range: there any component may overflow.
 void Simulator::find_culprit(double h) {
   if (near_the_end_of_numbers()) return;
   for (const double part : {0.0, 0.5, 1.0, 2.0}) {
@@ -351,7 +354,7 @@ void Simulator::find_culprit(double h) {
   }
 }
 
-// Components that answer with numbers, and a step that does not: the method's, if no shorter one helps.
+// The components return finite numbers and the step does not: the method is to blame if no shorter step helps.
 void Simulator::fail_not_finite(double h) {
   find_culprit(h);
   const std::string what = not_finite_in(next_);
@@ -362,7 +365,7 @@ void Simulator::fail_not_finite(double h) {
 
 namespace {
 
-// What a correction has no right to change of the end of a step; "" if it has not.
+// What a correction has changed without the right to at the end of a step; "" if nothing.
 std::string wrongly_changed(const State& uncorrected, const State& corrected) {
   for (const auto& [name, member] : {std::pair("q", &State::q), std::pair("v", &State::v), std::pair("a", &State::a),
                                      std::pair("lambda", &State::lambda)})
@@ -375,7 +378,8 @@ std::string wrongly_changed(const State& uncorrected, const State& corrected) {
 
 }  // namespace
 
-// What it throws or changes is its own fault unless a component that it called through the system threw it.
+// Exceptions and wrong changes are charged to the correction unless a component that it called through the system
+// threw.
 Outcome Simulator::corrected(const LevelCorrection& entry, const Correction::Step& step) {
   const plugin::Breadcrumb goes_on(*entry.origin, "apply");
   plugin::ProcessSettings settings;
@@ -396,7 +400,7 @@ Outcome Simulator::corrected(const LevelCorrection& entry, const Correction::Ste
   return outcome;
 }
 
-// The ledger follows the method's own step: what a correction adds or takes is nobody's supply.
+// The ledger follows the method's own step: energy changed by a correction counts as supplied by nothing.
 void Simulator::step_ledger_and_correct() {
   ledger_.step(now_, next_);
   uncorrected_ = next_;
@@ -412,7 +416,7 @@ void Simulator::step_ledger_and_correct() {
 }
 
 void Simulator::accept(double h, bool shortened, const StepControl::Proposal& proposal, double error) {
-  // The method's own t is t + h; only the times that others rely on are set.
+  // The method's own t is t + h; only times that others rely on are replaced.
   if (!shortened && proposal.t_next != next_.t) next_.t = proposal.t_next;
   const double stop = record_time(records_);
   if (std::abs(stop - next_.t) <= 4 * eps * std::abs(stop)) next_.t = stop;
@@ -438,13 +442,13 @@ void Simulator::accept(double h, bool shortened, const StepControl::Proposal& pr
   if (location_.watches()) scale_.take_contacts(system_);
   statistics_.locating_steps = location_.steps_tried();
   if (location_.watches()) location_.accept(h, next_);
-  if (corrections_.empty()) ledger_.step(now_, next_);  // last: it leaves the system in the middle of the step
+  if (corrections_.empty()) ledger_.step(now_, next_);  // last: it leaves the system at the middle of the step
   std::swap(now_, next_);
   turns_.follow(now_.t, now_.q, now_.v);
   look_at_theories();
 }
 
-// Rows due inside the last step (next_ -> now_), by the method's own interpolation.
+// Writes the rows due inside the last step (next_ -> now_) by the method's own interpolation.
 void Simulator::record_inside(RecordSink& recorder) {
   if (!dense_ || !control().controlled()) return;
   const double h = now_.t - next_.t;

@@ -1,10 +1,10 @@
 // The time loop: steps, events, corrections, records.
 //
 // An iteration tries a step towards the next stop (a record time, or the end), lets EventLocation shorten it to the
-// first event, corrects, accepts, and settles the event. Every iteration that does not end the run either advances t or
-// is a rejected step, and rejections in a row are bounded by the step control; an event advances t by at least 4 units
-// in its last place; some hundred of them in a row that advance it by little more, or more than `event_limit` events in
-// a thousandth of the run, end it. So the loop cannot hang.
+// first event, corrects, accepts, and settles the event. The loop cannot hang: every iteration that does not end the
+// run either advances t or is a rejected step, and the step control limits rejections in a row. An event advances t by
+// at least 4 units in the last place. Some hundred events in a row that advance t by little more, or more than
+// `event_limit` events in a thousandth of the run, end the run.
 #pragma once
 
 #include <atomic>
@@ -48,17 +48,18 @@ class Simulator {
   Simulator(std::shared_ptr<model::Model> model, Integrator& integrator, const Settings& settings,
             std::vector<LevelCorrection> corrections);
 
-  // At settings.start, or later, as if the run had come there. Contacts that touch are settled before the first step.
+  // Starts at settings.start, or later as if the run had come there. Touching contacts are settled before the first
+  // step.
   void start(State initial);
-  void archive(JsonArchive& a);  // all that decides how the run goes on
-  void resume();                 // after the archive was read
+  void archive(JsonArchive& a);  // everything that decides how the run continues
+  void resume();                 // to be called after the archive was read
 
-  // One accepted step, with what it ends in; false: the end is reached and recorded. Throws RunFailed, PluginError,
-  // OutputError; the state then is the last accepted one.
+  // Takes one accepted step and settles the event at its end; false: the end is reached and recorded. Throws RunFailed,
+  // PluginError, OutputError; the state is then the last accepted one.
   bool advance(RecordSink& recorder);
 
   const State& state() const { return now_; }
-  // Where a row was written last and the energy had its causes; none: nowhere yet.
+  // The state at the last written row at which the energy still had known causes; none: there is none yet.
   const std::optional<State>& last_good() const { return last_good_; }
   const Settings& settings() const { return settings_; }
   model::AssembledSystem& system() { return system_; }
@@ -66,17 +67,17 @@ class Simulator {
   const Ledger& ledger() const { return ledger_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
-  // What makes the run doubtful: contacts that pulled, impacts that created energy, bodies beyond their theory.
+  // Reasons to doubt the run: contacts that pulled, impacts that created energy, bodies beyond their theory.
   std::vector<std::string> doubts() const;
   const ContactAudit& audit() const { return audit_; }
   Energy energy_at_state();
-  Energy last_energy();   // of a run that has ended, perhaps by a component that cannot give its own any more: then NaN
-  double energy_drift();  // [J] what no cause in the ledger explains
-  double relative_drift();                     // its size in parts of what moved most
-  static constexpr double unexplained = 0.05;  // relative_drift of a doubtful run
-  // After a failure: what moved most, the last steps and the nearest events (last_motions.hpp).
+  Energy last_energy();                        // at the end of a run; NaN if a component can no longer give its energy
+  double energy_drift();                       // [J] change of energy that no cause in the ledger explains
+  double relative_drift();                     // its absolute value relative to the energy moved
+  static constexpr double unexplained = 0.05;  // a larger relative_drift makes a run doubtful
+  // After a failure: the bodies that move most, the last steps and the nearest events (last_motions.hpp).
   std::string circumstances();
-  // Joints and bodies whose rows no state near the last one satisfies, there or a step later; empty: none are known.
+  // Joints and bodies whose rows cannot be satisfied near the last state or a step later; empty: none are known.
   Conflict conflict();
 
  private:
@@ -112,7 +113,7 @@ class Simulator {
   void record_inside(RecordSink& recorder);
   void settle(const ContactChanges& changes);
   void guard_against_standstill(double h, double wanted, int contact);
-  void guard_against_storm(int contact);  // the last one; -1: unknown
+  void guard_against_storm(int contact);  // contact: the last one; -1: unknown
   void write_events(RecordSink& recorder);
   void refine(RecordSink& recorder, int contact);
   void at_new_modes();
@@ -141,21 +142,21 @@ class Simulator {
   State now_, next_, inside_, uncorrected_;
   std::optional<State> last_good_;
   double tried_ = 0;  // [s] the last trial's step
-  Vec error_parts_;   // LastTrial's
+  Vec error_parts_;   // LastTrial::error_parts
   bool iterated_ = false;
   bool in_contact_ = false;
-  double step_limit_ = std::numeric_limits<double>::infinity();  // [s] ContactModes::step_limit
-  double drift_before_ = 1e3;  // relative_drift at the last record, or 1e3 if it was less
-  double hold_until_ = -std::numeric_limits<double>::infinity();  // [s] contact steps until then
-  long long records_ = 0;                                         // written
+  double step_limit_ = std::numeric_limits<double>::infinity();   // [s] ContactModes::step_limit
+  double drift_before_ = 1e3;                                     // at the last record; at least 1e3
+  double hold_until_ = -std::numeric_limits<double>::infinity();  // [s] contact steps are used until then
+  long long records_ = 0;                                         // rows written
   bool last_row_ = false;                                         // the row at the end is written
   Energy energy_start_;
-  double most_moved_ = 0;  // [J] up to the last record
+  double most_moved_ = 0;  // [J] largest up to the last record
   double window_start_ = 0;
   long long window_events_ = 0;
-  bool locked_ = false;  // no step from here is short enough for what slides to have finite forces
+  bool locked_ = false;  // no step from here is so short that sliding contacts have finite forces
   double raised_ = 0;    // ContactChanges::raised
-  int standing_ = 0;     // events in a row that hardly moved t
+  int standing_ = 0;     // events in a row that hardly advanced t
   std::vector<ContactEvent> events_;
   std::vector<std::string> warnings_;
   Vec scratch_;

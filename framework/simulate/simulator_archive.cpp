@@ -1,4 +1,4 @@
-// What a checkpoint holds of a run, so that it goes on bit by bit as if it had never stopped.
+// The content of a checkpoint: with it a run continues bit by bit as if it had not stopped.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -12,7 +12,7 @@
 namespace trammel::simulate {
 namespace {
 
-// What was not written by a run of this scene is refused before anything is read beyond its end.
+// Refuses, before anything is read beyond its end, an archive that no run of this scene has written.
 void require(bool fits, const std::string& name) {
   if (!fits) throw std::out_of_range(fmt::format("\"{}\" does not fit", name));
 }
@@ -35,7 +35,7 @@ void archive_tangential(Archive& a, const std::string& name, model::ContactMode&
   numbers("rolled_from", mode.rolled_from);
 }
 
-// Each of a closed contact.
+// The directions of closed contacts.
 void archive_directions(Archive& a, const std::string& name, std::vector<model::ContactDirection>& directions,
                         const std::vector<model::ContactMode>& modes, int rows) {
   Vec flat(Eigen::Index(2 * directions.size()));
@@ -82,7 +82,7 @@ void archive_shared(Archive& a, model::Modes& modes, int rows) {
   }
 }
 
-// A component's own part. One that throws as it is written is named; what cannot be read is told of the checkpoint.
+// The archive of a component. An exception while writing names the component; one while reading, the checkpoint.
 template <class Component>
 void archive_component(JsonArchive& a, const std::string& name, const plugin::Origin& origin, double t,
                        Component& component) {
@@ -94,7 +94,7 @@ void archive_component(JsonArchive& a, const std::string& name, const plugin::Or
 
 }  // namespace
 
-// Bodies first: those that are refined decide the sizes of all that follows.
+// Bodies first: refined ones decide the sizes of everything that follows.
 void Simulator::archive(JsonArchive& a) {
   archive_bodies(a);
   archive_state(a);
@@ -157,7 +157,7 @@ void Simulator::archive_state(Archive& a) {
   theories_.archive(a);
   last_motions_.archive(a);
   require(last_motions_.fits(model.contacts.size()), "last_event_contact");
-  // A row is due after each that is written, in time order: no other count belongs to this t.
+  // In time order, a row is due after each row that was written: exactly one count of rows belongs to this t.
   const double rows_so_far = (now_.t - settings_.start) / settings_.every;
   require(std::abs(double(records_) - rows_so_far) < 3, "records");
 }

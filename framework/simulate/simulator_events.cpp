@@ -1,4 +1,4 @@
-// Events of a run: what follows from a contact's change or a refinement, and what may not go on for ever.
+// Events of a run: the consequences of a change of contacts or of a refinement, and limits of their number.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -50,8 +50,7 @@ void Simulator::restart_all_but_integrator() {
   statistics_.note_sizes(now_.t, system_.sizes());
 }
 
-// Events that hardly move t, one after the other, are no motion but a contradiction in the model: its modes exclude
-// each other.
+// Events in a row that hardly advance t are a contradiction in the model, not a motion: its modes exclude each other.
 void Simulator::guard_against_standstill(double h, double wanted, int contact) {
   standing_ = h <= 64 * eps * (std::abs(now_.t) + wanted) ? standing_ + 1 : 0;
   const int contacts = int(system_.model().contacts.size());
@@ -77,7 +76,7 @@ void Simulator::guard_against_storm(int contact) {
       contact < 0 ? "" : fmt::format(", the last of {}", system_.model().contacts[contact].path())));
 }
 
-// An impact after which the contact stays closed is two events, and strikes once.
+// An impact after which the contact stays closed is two events but one blow.
 void Simulator::write_events(RecordSink& recorder) {
   for (const ContactEvent& event : events_) recorder.event(event), last_motions_.take(event);
   if (refinement_.possible()) {

@@ -1,4 +1,4 @@
-// What a run makes of joints that contradict each other, and of those that have come apart.
+// What a run does about joints that contradict each other or have come apart.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -22,9 +22,8 @@ void Simulator::judge_joints(const State& state) {
         state.t, statistics_.steps, open));
 }
 
-// Rows that begin to contradict each other have accelerations of least squares, which an explicit method would follow.
-// The error of Baumgarte's terms is less; and what looks like it is examined. At the end of the step, where the system
-// is.
+// Rows that begin to contradict each other give accelerations of least squares, which an explicit method would follow.
+// Their violation exceeds Baumgarte's terms. Such rows are then examined, at the end of the step, where the system is.
 bool Simulator::contradictory(const ConstraintNorms& norms) {
   constexpr double suspicious = 0.01;
   if (!(norms.acceleration > suspicious * std::max(1.0, next_.a.lpNorm<Eigen::Infinity>())) || !system_.redundant())

@@ -8,7 +8,7 @@
 
 namespace trammel::simulate {
 namespace {
-constexpr int most_halvings = 10;  // of a fixed step that the method refuses
+constexpr int most_halvings = 10;  // of a fixed step that the method rejects
 }  // namespace
 
 StepControl::StepControl(const StepChoice& choice, double every, int order, bool even)
@@ -67,7 +67,7 @@ void StepControl::accepted(const Proposal& taken, double error) {
 }
 
 void StepControl::rejected_for_error(double h, double error) {
-  wish_ = h * std::max(0.1, 0.9 * std::pow(error, -1.0 / order_));  // a tenth, too, where the error is no number
+  wish_ = h * std::max(0.1, 0.9 * std::pow(error, -1.0 / order_));  // a tenth, also if the error is not finite
   planned_ = 0;
 }
 

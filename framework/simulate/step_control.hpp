@@ -1,17 +1,17 @@
 // The length of the next step.
 //
-// Fixed steps land on the times asked for: from t to the next stop T there are n = ceil((T - t)/h) equal steps, and the
-// last one ends at T exactly, so no drift accumulates. If (T - t)/n is h up to the rounding of T and t, h itself is
-// used, bit for bit the same each time, as multistep methods like it.
+// Fixed steps end exactly at the times asked for: from t to the next stop T there are n = ceil((T - t)/h) equal steps,
+// and the last one ends at T exactly, so no drift accumulates. If (T - t)/n is h up to the rounding of T and t, h
+// itself is used, bit for bit the same each time, which multistep methods need.
 //
 // With a tolerance the steps follow the PI controller of Gustafsson (Hairer, Wanner II, IV.2): after a step with error
 // e <= 1
 //
 //     h <- h min(5, max(0.2, 0.9 e^(-0.7/p) e_old^(0.4/p))),     after a rejected one h <- h max(0.1, 0.9 e^(-1/p))
 //
-// with p the order of the estimate. Even steps (OscillatingSteps) change only when they are to be a quarter longer, by
-// the larger of the last two errors, or are rejected; the last few before a stop are of equal length. A step shortened
-// only to reach a stop does not shorten the ones after it.
+// with p the order of the estimate. Even steps (for methods with OscillatingSteps) change only if the larger of the
+// last two errors allows a step at least a quarter longer, or after a rejection; the last few before a stop have equal
+// lengths. A step shortened only to reach a stop does not shorten the following ones.
 #pragma once
 
 #include <string>
@@ -24,8 +24,8 @@ namespace trammel::simulate {
 
 class StepControl {
  public:
-  // `every`: time between records [s], which gives the scale where the scene leaves it open (not the end of the run, so
-  // that a run resumed with a later end takes the same steps); `order` of the error estimate.
+  // `every` [s]: time between records, the scale of the first step if the scene gives none (not the end of the run, so
+  // that a run resumed with a later end takes the same steps). `order` of the error estimate.
   StepControl(const StepChoice& choice, double every, int order, bool even = false);
 
   bool controlled() const { return !choice_.fixed; }
@@ -40,9 +40,9 @@ class StepControl {
 
   void accepted(const Proposal& taken, double error);  // the whole proposal became the solution
   void rejected_for_error(double h, double error);
-  void rejected(double h);         // the method refused: try half of it
-  bool too_small(double t) const;  // after rejections: no step is left to try
-  // Events, other modes: what was planned up to the next stop is void.
+  void rejected(double h);         // the method rejected the step: try half of it
+  bool too_small(double t) const;  // after rejections: no shorter step is left to try
+  // After events and changes of modes: discards the plan up to the next stop.
   void interrupted() { planned_ = 0; }
   double smallest(double t) const;  // [s]
 

@@ -1,4 +1,4 @@
-// One trial step of an integrator, with the promise that what comes back has the system's sizes.
+// One trial step of an integrator, with a check that the result has the system's sizes.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ Outcome trial_step(Integrator& integrator, System& system, const State& now, dou
 // "q[2] = nan": the first number of `next` that is not finite; empty: all are.
 std::string not_finite_in(const State& next);
 
-// Whether the integrator gives finite numbers (or refuses) with some far shorter step from `now`: then its step was too
-// long for it; else it is to blame whatever the step. By the contract such trials leave no trace.
+// True if the integrator returns finite numbers (or rejects) with some far shorter step from `now`: then its step was
+// too long; otherwise the integrator is to blame. By the contract such trials leave no trace.
 bool finite_with_shorter_steps(Integrator& integrator, System& system, const State& now, double h, State& scratch);
 
 }  // namespace trammel::simulate

@@ -10,7 +10,7 @@
 namespace trammel::simulate {
 namespace {
 
-// An error a hundredth of the scene in each step is no solution of it.
+// If each step may be wrong by a hundredth of the scene's size, the result is no solution.
 constexpr double coarse = 0.01;
 
 std::string of_step(const char* key, const StepChoice& step, double length) {
@@ -22,7 +22,7 @@ std::string of_step(const char* key, const StepChoice& step, double length) {
       key, step.tolerance.absolute, length);
 }
 
-// The law with the same speed a little above its capture: whether it would rebound at all.
+// Evaluates the law just above its capture speed: would it rebound at all?
 bool rebounds(const Restitution& law, double capture_speed) {
   return law.coefficient(2 * capture_speed) > 0;
 }
@@ -52,8 +52,8 @@ std::string of_slips(const model::ContactEntry& contact, double fastest) {
       contact.path(), named, fastest);
 }
 
-// [m/s] at which the law would have all of its force, if it rose on as from 0. A law that has no answer is told where
-// it acts.
+// [m/s] The speed at which the law would reach its full force if it kept its slope at 0. A law that throws here is
+// reported by the run, where it acts.
 double creep_speed(const SmoothFriction& law) try {
   constexpr double any_slip = 1e300;
   return law.ratio(any_slip) / law.slope(0);
@@ -61,7 +61,7 @@ double creep_speed(const SmoothFriction& law) try {
   return 0;
 }
 
-// Where the fastest slip is hardly faster than the creep in place of sticking, and goes far, it is the creep itself.
+// A fastest slip that hardly exceeds the creep speed of the law, over a long distance, is the creep itself.
 std::string of_creep(const model::ContactEntry& contact, double fastest, double duration, double length) {
   constexpr double hardly_faster = 10;
   const double creep = creep_speed(*contact.smooth);
@@ -69,7 +69,7 @@ std::string of_creep(const model::ContactEntry& contact, double fastest, double 
   return fmt::format(
       "the fastest slip of {} was {:.3g} m/s, and its friction law creeps with speeds up to about {:.3g} m/s instead "
       "of "
-      "sticking: a critical_velocity well below the slips, or coulomb, tells them apart",
+      "sticking: use a critical_velocity well below the slips, or coulomb",
       contact.path(), fastest, creep);
 }
 

@@ -1,10 +1,11 @@
-// Thresholds that are larger than the motion that they judge: what they let pass then is the motion itself.
+// Thresholds that exceed the motion to which they apply: they then hide the motion itself.
 //
-//     integrator.step.absolute       an error that steps may make, beside the scene's size (ContactScale)
-//     contacts.NAME.capture_speed    below which impacts have no rebound, beside the fastest impact of the contact;
-//                                    also where the scene's speed stands for it
-//     contacts.NAME.friction.stick_speed    below which it sticks, beside the fastest slip of the contact
-//     the creep of a smooth friction law    in place of sticking, beside the same
+//     integrator.step.absolute              the error that a step may make, compared with the scene's size
+//     (ContactScale)
+//     contacts.NAME.capture_speed           speed below which impacts have no rebound, compared with the contact's
+//     fastest impact; also if it is derived from the scene's speed
+//     contacts.NAME.friction.stick_speed    speed below which it sticks, compared with the contact's fastest slip
+//     creep of a smooth friction law        in place of sticking, compared with the same
 #pragma once
 
 #include <string>

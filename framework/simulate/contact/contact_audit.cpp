@@ -12,8 +12,7 @@
 namespace trammel::simulate {
 namespace {
 
-// Of the forces that act on a contact, or of all energy that was lost: round-off, and what the location of events
-// leaves.
+// Of the forces that act on a contact, or of all energy that was lost: round-off, and the inaccuracy of located events.
 constexpr double little = 1e-8;
 
 }  // namespace
@@ -45,7 +44,7 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
   struct Looked {
     int contact;
     Eigen::Index normal;  // in F; the tangents follow
-    double pull, beyond;  // [N] more than it can
+    double pull, beyond;  // [N] beyond what a contact can do
   };
   std::vector<model::ContactDirection> directions;
   std::vector<double> forces;
@@ -65,7 +64,7 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
     doubtful = doubtful || std::max(looked.pull, looked.beyond) > little * std::abs(N);
     all.push_back(looked);
   }
-  if (!doubtful) return;  // what acts on a contact is no less than its own force
+  if (!doubtful) return;  // the scale of the forces that act on a contact is no less than its own force
   const Judged judged =
       judge_forces(system, directions, Eigen::Map<const Vec>(forces.data(), std::ssize(forces)), scale);
   for (const Looked& looked : all) {

@@ -1,11 +1,11 @@
-// Whether contacts did what contacts can do, looked at in records and after events:
+// Checks in records and after events whether contacts obeyed their laws, up to round-off:
 //
-//     N >= 0,   |T| <= mu_0 N  [N],   work of friction <= 0 [J]      but for round-off
+//     N >= 0,   |T| <= mu_0 N  [N],   work of friction <= 0 [J]
 //
-// of the forces that act on the contact itself (force_noise.hpp), and whether those that share rows can carry what they
-// carry (AssembledSystem::spare_load). What does not is told in a warning: the run cannot be trusted there. It also
-// keeps when contacts were statically indeterminate, closed with rows that depend on each other, so that their forces
-// are one choice of many (complementarity/shares/carrying_rows.hpp).
+// The scale of the round-off are the forces that act on the contact itself (force_noise.hpp). Contacts that share rows
+// are checked together (AssembledSystem::spare_load). A violation becomes a warning: the run cannot be trusted there.
+// The audit also keeps when contacts were statically indeterminate: closed with rows that depend on each other, so that
+// their forces are not unique (complementarity/shares/carrying_rows.hpp).
 #pragma once
 
 #include <map>
@@ -30,7 +30,7 @@ class ContactAudit {
   void archive(Archive& a, std::size_t contacts);
 
  private:
-  // The worst of a kind, relative to what acts on its contact at that instant.
+  // The worst violation of one kind, relative to the forces that act on its contact at that instant.
   struct Worst {
     int contact = -1;
     double t = 0, force = 0, relative = 0;

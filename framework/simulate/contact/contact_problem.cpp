@@ -17,9 +17,10 @@ Eigen::VectorBlock<Vec> along(Vec& x, const complementarity::ContactPoint& p) {
   return x.segment(p.tangent, p.tangents);
 }
 
-// Where the drifts of nearly dependent rows do not agree, to end them all takes changes of v that are many times as
-// large, which are no drift any more: so little do the first dominoes of a long row move while the last fall. Then
-// those drifts stay of which other rows leave less than 1e-3 (its square is `least_share`).
+// If the drifts of nearly dependent rows contradict each other, ending all of them takes changes of v that are many
+// times as large and no drift any more (the first dominoes of a long row move very little while the last ones fall).
+// Then only the drifts of well-conditioned rows are ended, those of which other rows leave more than 1e-3
+// (`least_share` is its square).
 constexpr double most_changed = 1e3, least_share = 1e-6;
 
 // Static or kinetic coefficient.
@@ -65,8 +66,8 @@ complementarity::ContactSolution ContactProblem::solve_once(const Mat& A, double
   return complementarity::solve_contacts(points_, A, b_, F_, a_, nothing);
 }
 
-// Contacts that depend on each other, as a stack between floor and ceiling, cannot all part again. They yield: to the
-// impulses that end a slip by a thousandth of what they approach, so that no slip outlasts the approach.
+// Contacts that depend on each other, as a stack between floor and ceiling, cannot all part again. They yield a little:
+// for the impulses that end a slip, by a thousandth of their approach, so that no slip outlasts the approach.
 Mat ContactProblem::yielding() const {
   double approach = 0;
   for (const Participant& p : who) approach = std::max(approach, p.vanishing);
@@ -88,7 +89,7 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
     solution = solve_once(delassus_, nothing);
     const bool approach = std::any_of(who.begin(), who.end(), [](const Participant& p) { return p.vanishing > 0; });
     if (solution.outcome != complementarity::LcpOutcome::solved && approach) solution = solve_once(yielding(), nothing);
-    // That nothing is left of an approach proves nothing of contacts that do not approach.
+    // Without a solution for a vanishing approach, contacts that do not approach may still have one.
     if (solution.outcome == complementarity::LcpOutcome::no_solution && approach)
       solution.outcome = complementarity::LcpOutcome::gave_up;
     if (solution.outcome != complementarity::LcpOutcome::solved) return solution;

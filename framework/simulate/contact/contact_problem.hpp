@@ -1,9 +1,9 @@
-// The contacts that take part in one instant, and their forces or impulses: complementarity/contact_forces.hpp for a
-// System.
+// The contacts that take part at one instant, and their forces or impulses: solves the problem of
+// complementarity/contact_forces.hpp for a System.
 //
-// Static and kinetic coefficients: every tangent at rest is first held with mu_0; those that it cannot hold get mu, and
-// the problem is solved again, so that the others are checked against what is left. Each repetition lets at least one
-// more go, so this ends; a tangent that mu holds after all stays at rest.
+// Static and kinetic coefficients: first mu_0 holds every tangent at rest. Tangents that it cannot hold let go: they
+// get mu, and the problem is solved again, which checks the others under the remaining forces. At least one more
+// tangent lets go in each repetition, so this ends. A tangent that mu holds after all stays at rest.
 #pragma once
 
 #include <vector>
@@ -20,20 +20,20 @@ struct Participant {
   enum class Tangent { none, resting, sliding };
   int contact = 0;
   bool unilateral = true;     // its normal force is unknown
-  double given = 0;           // [N] else
-  bool given_pushes = false;  // where it slides under it: its friction is not in a_n and a_t yet
+  double given = 0;           // [N] the normal force otherwise
+  bool given_pushes = false;  // sliding under `given`, whose friction a_n and a_t do not contain yet
   Tangent tangent = Tangent::none;
   double mu_0 = 0, mu = 0;                    // resting
   Tangential ratio = Tangential::Zero();      // sliding: T / N
   Tangential direction = Tangential::Zero();  // sliding: of the slip velocity, length 1
-  bool let_go = false;                        // resting: mu from the start; in the end: mu_0 did not hold it
-  bool yielded = false;  // resting, let go: its friction has reached its bound, it is not held there
+  bool let_go = false;                        // resting: mu applies from the start; afterwards: mu_0 did not hold it
+  bool yielded = false;  // resting, let go: its friction has reached its bound and does not hold it there
 
-  double vanishing = 0;  // of several solutions the one that is left of this approach in addition to a_n
+  double vanishing = 0;  // an approach added to a_n; of several solutions its limit, as it vanishes, is taken
 
   // Found: force [N] or impulse [N s], and acceleration or velocity, along normal and tangents.
   double N = 0, a_n = 0;
-  bool idle = false;  // closed without a force, beside dependent ones that slide
+  bool idle = false;  // closed without a force, in a group with dependent rows of which some slide
   Tangential T = Tangential::Zero(), a_t = Tangential::Zero();
 };
 
@@ -41,36 +41,37 @@ class ContactProblem {
  public:
   std::vector<Participant> who;
 
-  void prepare(model::AssembledSystem& system);  // their directions at the system's point
-  // Of each participant: what its normal and its tangent do without the forces to be found, in `a_n` and `a_t`.
-  // `nothing`: smaller is 0.
+  void prepare(model::AssembledSystem& system);  // finds their directions, at the system's point
+  // On entry `a_n` and `a_t` of each participant are its accelerations without the forces sought. Values up to
+  // `nothing` count as 0.
   [[nodiscard]] complementarity::ContactSolution solve(double nothing);
-  // Of the gap, of a unilateral participant, without its own force [m/s^2]; after `solve`.
+  // [m/s^2] Acceleration of the gap of a unilateral participant without its own force; after `solve`.
   double acceleration_without(std::size_t participant) const;
-  // By how much more its friction could decelerate a slip, of a participant that rests [m/s^2]; after `solve`.
+  // [m/s^2] Further deceleration of a slip that the friction of a resting participant could give; after `solve`.
   double deceleration_to_spare(std::size_t participant) const;
-  // Of each participant: the number of its island, less than their number; once prepared.
+  // By participant: index of its island, less than the number of participants; after `prepare`.
   std::vector<std::size_t> islands() const;
-  // Change of v by the forces found as impulses.
+  // Change of v by the forces found, taken as impulses.
   void jump(Vec& dv) const;
   Vec rates(model::AssembledSystem& system) const;  // along their directions [m/s], once prepared
-  // Of those that slide along tangents which follow from the normals and from the tangents at rest: the part of their
-  // slip that does not follow from the rates of these [m/s]. Infinity where the tangents do not follow.
+  // [m/s] For participants that slide: the part of their slip that does not follow from the rates of the normals and of
+  // the tangents at rest. Infinite where the tangents do not depend on these.
   std::vector<double> slip_beside_others(const Vec& rates) const;
   // The least change of v that ends the slip `a_t` of all tangents at rest and leaves the unilateral normals alone.
   void end_slip(Vec& dv) const;
-  // Unilateral ones without a force that the others keep closed: their rows follow from those of contacts that press.
+  // Unilateral participants without a force that the others keep closed: their rows depend on those of pressing
+  // contacts.
   std::vector<bool> kept_closed(double nothing) const;
-  // In these modes: the least pivot of the equations of their forces, of that which they have without friction of what
-  // slides.
+  // The least pivot of the equations of the forces in these modes, relative to that without the friction of sliding
+  // contacts.
   double distance_from_critical(const model::Modes& modes) const;
-  // Once their modes are decided: which are idle, and which of those that are closed depend on each other, and how they
-  // share.
+  // To be called after the modes are decided: finds the idle contacts. `shared_rows`: groups of closed contacts that
+  // depend on each other, and how they share their resultants.
   void find_idle(const model::Modes& modes);
   std::vector<model::SharedRows> shared_rows(const model::Modes& modes) const;
 
  private:
-  // Sliding under a normal force that is given, but not in a_n and a_t yet: a known force along its tangent.
+  // A participant that slides under a given normal force: a known force along its tangent, not in a_n and a_t yet.
   struct Pushed {
     std::size_t who;
     Eigen::Index direction;
@@ -78,9 +79,9 @@ class ContactProblem {
   complementarity::ContactSolution solve_once(const Mat& A, double nothing);
   Mat yielding() const;  // the Delassus matrix of contacts that are not quite rigid
   double push(const Pushed& p) const { return who[p.who].ratio[0] * who[p.who].given; }  // [N]
-  // False: no solution was found that is left of them.
+  // False: no solution was found as the limit of vanishing approaches.
   [[nodiscard]] bool let_approaches_vanish(double nothing);
-  // Of what rows hold: a foot whose friction each evaluation decides has none, and shares none.
+  // Rows hold only what is decided at events: a foot whose friction is decided in each evaluation has no row to share.
   std::vector<complementarity::ContactRole> roles(const model::Modes& modes) const;
 
   std::vector<model::ContactDirection> directions_;

@@ -11,8 +11,8 @@
 namespace trammel::simulate {
 namespace {
 
-// Whether some acceleration changes the gap's, where the system is; by levers of the scene's length, beyond what the
-// place leaves of them.
+// Does a pseudo-random acceleration at the system's point change the gap's acceleration by more than round-off? The
+// levers have the scene's length.
 bool moves(model::AssembledSystem& system, const Scale& scale, int contact) {
   const Vec rest = Vec::Zero(system.sizes().nv);
   const double by = system.acceleration({contact, 0}, model::pseudo_random(rest.size(), 1, 0)) -
@@ -35,7 +35,7 @@ void check_reach(model::AssembledSystem& system, const State& start, const scene
     const double gap = system.gap(i);
     const Scale own = scale.of(i);
     bool reaches = moves(system, own, i);
-    for (double seed = 1; seed < 3 && !reaches; ++seed)  // a dead centre, perhaps
+    for (double seed = 1; seed < 3 && !reaches; ++seed)  // the point may be a dead centre
       for (const double far : {0.1, 0.1 * std::max(1.0, std::abs(gap))}) {
         system.retract(start.q, model::pseudo_random(start.v.size(), far, seed), elsewhere);
         system.move_to(start.t, elsewhere, still);

@@ -1,6 +1,6 @@
-// Contacts whose gap no motion of the bodies changes: both markers on one rigid body, or on things without coordinates.
-// The row of the gap in all velocities, joints left aside, is 0 there: at the start and wherever else the bodies are.
-// And surfaces that start behind the plane they are to touch, all of them, as they do where its normal faces away.
+// Contacts whose gap no motion of the bodies changes: both markers are on one rigid body, or on things without
+// coordinates. There the gap's row in all velocities, without the joints, is 0 at the start and at other positions.
+// Also finds surfaces that lie wholly behind their plane at the start, as if its normal faced the wrong way.
 #pragma once
 
 #include <trammel/integrator.hpp>
@@ -10,7 +10,7 @@
 
 namespace trammel::simulate {
 
-// An error for each of them.
+// Reports an error for each of them.
 void check_reach(model::AssembledSystem& system, const State& start, const scene::Value& root,
                  scene::Problems& problems);
 

@@ -1,9 +1,9 @@
-// Which forces along contacts' directions are round-off, each judged by what acts on its own contact:
+// Decides which forces along contacts' directions are round-off, by the forces that act on the contact itself:
 //
 //     |F_i| <= part * s_i    or    |F_i| D_ii <= no_acceleration,       s_i = sum_j |D_ij F_j| / D_ii   [N]
 //
-// D is the Delassus matrix of the directions. A solution for F is off by a part of s_i, the forces that the others are
-// felt as along i; bodies that act on nothing there add nothing, however heavy they are.
+// D is the Delassus matrix of the directions. The error of a solution for F_i is a part of s_i, the sum of the forces
+// that the others exert along i. Bodies that exert no force there do not enter, however heavy they are.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ namespace trammel::simulate {
 
 struct Judged {
   Vec scale;  // s_i [N]
-  Vec noise;  // [N] no force, whatever `scale` is
+  Vec noise;  // [N] smaller is no force, whatever `scale` is
 };
 // F [N] along directions of closed contacts, at the system's point.
 Judged judge_forces(model::AssembledSystem& system, const std::vector<model::ContactDirection>& directions,

@@ -9,7 +9,7 @@ double capture_speed(const model::ContactEntry& contact, const Scale& scale) {
   return named > 0 ? named : scale.slow();
 }
 
-// Where every evaluation decides, no row holds what sticks: it may have what steps leave of rates.
+// If friction is decided in every evaluation, no row holds a sticking contact: it may keep the rate that steps leave.
 double stick_speed(const model::ContactEntry& contact, const Scale& scale) {
   const double named = contact.coulomb->stick_speed();
   const bool drifts = contact.coulomb->decide() == SetValuedFriction::Decide::every_evaluation;

@@ -1,5 +1,5 @@
-// Speeds [m/s] below which a law's impacts have no rebound, and its friction sticks: those that the law names, else the
-// scene's.
+// Speeds [m/s] below which impacts have no rebound and friction sticks: those that the law names, otherwise those of
+// the scene.
 #pragma once
 
 #include "run/contact_scale.hpp"

@@ -1,6 +1,7 @@
-// Which contacts push on a system at rest. Compliant ones are always evaluated: their law says 0 while they are apart.
-// Those with rows are closed where they push (gap = 0, force >= 0) and open elsewhere, found by closing what penetrates
-// and letting go what pulls, beyond round-off of what acts on it (force_noise.hpp), until neither is left.
+// Which contacts push on a system at rest. Compliant ones are always evaluated: their law gives 0 while they are apart.
+// Contacts with rows are closed where they push (gap = 0, force >= 0) and open elsewhere. They are found by closing
+// those that penetrate and opening those that pull by more than the round-off of the forces on them (force_noise.hpp),
+// until neither exists.
 #pragma once
 
 #include <vector>
@@ -12,18 +13,18 @@ namespace trammel::simulate {
 
 class RestingContacts {
  public:
-  // Markers that a law of time moves stand still while this lives; afterwards all contacts are open.
+  // Markers that follow a law of time stand still during the object's lifetime; its destructor opens all contacts.
   explicit RestingContacts(model::AssembledSystem& system);
   ~RestingContacts();
   RestingContacts(const RestingContacts&) = delete;
   RestingContacts& operator=(const RestingContacts&) = delete;
 
-  // All three at the system's point; true: the rows have changed.
+  // These three work at the system's point and return true if the rows have changed.
   void close_what_may_push();
   bool close_penetrating();
-  // A hundred times at most: a set that opens and closes for ever has no equilibrium.
+  // Opens at most 100 contacts in all: a set that opens and closes without end has no equilibrium.
   bool release_pulling(const Vec& lambda);
-  // What rests on something with friction goes with it.
+  // Lets contacts with friction stick, so that what rests on a moving base moves with it.
   void carry_along();
 
  private:

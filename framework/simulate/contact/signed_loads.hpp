@@ -1,5 +1,5 @@
-// The loads of a joint's bearings that have a sign: p = C w of those in one direction (joint_friction.hpp), which press
-// on one side or the other. Where one passes through 0 the friction |p| has a kink.
+// The loads of those bearings of a joint that have a sign: p = C w with one direction (joint_friction.hpp), positive or
+// negative by the side that is pressed. Where p passes through 0 the friction's bound |p| has a kink.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 namespace trammel::simulate {
 
 int count_signed_loads(const model::Model& model, int contact);
-// [N] At the system's point, which is at t, by the joint's multipliers among lambda.
+// [N] At the system's point and time t, from the joint's part of lambda.
 std::vector<double> signed_loads(model::AssembledSystem& system, int contact, double t, const Vec& lambda);
 
 }  // namespace trammel::simulate

@@ -12,14 +12,14 @@ using complementarity::ContactSolution;
 using complementarity::LcpOutcome;
 
 constexpr int most_rounds = 60;
-// Of the largest load: what rounds may leave, some units of the round-off of a solution.
+// Of the largest load: largest difference between two rounds, some units of the round-off of a solution.
 constexpr double settled = 1e-13;
-// Of the largest load: the step of differences, in a function that is linear piece by piece, or nearly so.
+// Of the largest load: step of the differences. The function is piecewise linear, or nearly so.
 constexpr double difference = 1e-6;
-// Of the largest load by an impulse: less is round-off of the reactions.
+// Of the largest load by an impulse: a smaller load is round-off of the reactions.
 constexpr double no_load = 1e-9;
 
-// All that take part held by rows of their own.
+// Modes in which rows hold all participants.
 model::Modes all_held(const model::AssembledSystem& system, const std::vector<Participant>& who) {
   model::Modes modes = system.modes();
   modes.shared.clear();
@@ -102,7 +102,7 @@ Vec BearingImpulses::loads(const std::vector<Participant>& who, const Vec& react
   return N;
 }
 
-// Loads that hold every bearing against all that moves.
+// Loads that hold every bearing against all motions.
 double BearingImpulses::large_load(const std::vector<Participant>& who) const {
   double impulses = 0, least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -132,7 +132,7 @@ ContactSolution BearingImpulses::solve(ContactProblem& problem, double at_rest, 
     if (solution.outcome != LcpOutcome::solved) return solution;
     if ((next - N).lpNorm<Eigen::Infinity>() <= settled * next.lpNorm<Eigen::Infinity>()) return solution;
     Vec step = next - N;
-    if (round >= 10) {  // Newton's
+    if (round >= 10) {  // Newton's method
       Mat slope = Mat::Identity(n, n);
       const double d = difference * std::max(N.maxCoeff(), next.maxCoeff());
       for (Eigen::Index j = 0; j < n; ++j) slope.col(j) -= (follow(N + d * Vec::Unit(n, j)) - next) / d;

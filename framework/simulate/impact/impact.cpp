@@ -34,8 +34,8 @@ complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, c
     problem_.who[i].mu_0 = friction.mu_0, problem_.who[i].mu = friction.mu;
   }
   complementarity::ContactSolution solution = bearings_.solve(problem_, at_rest, from);
-  // What the steps left of the rates of closed contacts is kept, unless rates of dependent contacts then contradict
-  // each other: a stack that touches floor and ceiling.
+  // Closed contacts keep the rates that steps have left in them, unless the rates of dependent contacts then contradict
+  // each other (a stack that touches floor and ceiling).
   const bool ends_drift = solution.outcome == complementarity::LcpOutcome::no_solution;
   for (std::size_t i = 0; i < touching.size() && ends_drift; ++i)
     problem_.who[i].a_n = touching[i].before, problem_.who[i].let_go = false;
@@ -46,7 +46,7 @@ complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, c
     TouchingContact& c = touching[i];
     const Participant& p = problem_.who[i];
     c.impulse = p.N;
-    // From the complementarity itself where the impulse acts: -e u- exactly, without the round-off of D L.
+    // Where the impulse acts, the complementarity gives -e u- exactly, without the round-off of D L.
     if (system.model().contacts[c.contact].joint)
       c.after = c.before;
     else if (c.was_closed && ends_drift)

@@ -1,10 +1,11 @@
-// The directions in which the contacts of an impact strike and rub, and how the system answers impulses along them.
+// The directions in which the contacts of an impact strike and rub, and the response of the system to impulses along
+// them.
 //
 //     dv = jump P,   change of the rates = A P        P [N s] along the normals, then the tangents of contacts with
 //     friction
 //
-// A is the Delassus matrix, with bilateral rows held. Closed contacts have the rate 0: what theirs is beside it is
-// round-off.
+// A is the Delassus matrix, with bilateral rows held. The rates of closed contacts are set to 0: they are round-off and
+// drift.
 #pragma once
 
 #include <vector>
@@ -16,7 +17,7 @@ namespace trammel::simulate {
 
 class ImpactDirections {
  public:
-  // Of all that touch, at the system's point. Fills in `slip_before`, `island` and `speed`.
+  // For all contacts that touch, at the system's point. Sets their `slip_before`, `island` and `speed`.
   void prepare(model::AssembledSystem& system, std::vector<TouchingContact>& touching);
 
   Mat jump, A;

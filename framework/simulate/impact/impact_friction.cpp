@@ -5,7 +5,7 @@
 namespace trammel::simulate {
 namespace {
 
-// With which a contact begins an impact.
+// The speed with which a contact begins an impact.
 double speed_of(const TouchingContact& c) {
   if (c.without_collision) return c.slip_before.norm();
   return c.was_closed ? 0 : std::max(0.0, -c.before);

@@ -15,7 +15,7 @@ Law law_of(const model::Model& model, double at_rest, const std::vector<Touching
   return law;
 }
 
-// Beside what a slip of this size moves.
+// True if an impulse moves more than a slip of size at_rest would.
 bool has_impulse(const std::vector<TouchingContact>& touching) {
   return std::any_of(touching.begin(), touching.end(), [](const TouchingContact& c) {
     return c.impulse > 0 && (c.slip_after - c.slip_before).norm() > 100 * vanishing_approach * c.slip_before.norm();

@@ -15,14 +15,14 @@ namespace trammel::simulate {
 namespace {
 
 constexpr double round_off =
-    1e-9;  // of the work that impulses and rates of an impact can do; what solutions may be off by
+    1e-9;  // error of solutions, relative to the work that impulses and rates of an impact can do
 
 double work_at_most(const TouchingContact& c) {
   return 0.5 * (c.impulse * (std::abs(c.before) + std::abs(c.after)) +
                 c.friction.norm() * (c.slip_before.norm() + c.slip_after.norm()));
 }
 
-// Of the contacts of an island.
+// Sums over the contacts of an island.
 struct Work {
   double gain = 0, at_most = 0, of_rest = 0;
   bool creates(double kinetic) const {

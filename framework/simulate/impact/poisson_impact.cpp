@@ -1,6 +1,5 @@
-// Why energy never grows without friction, whatever the e_i <= 1. The compression takes N_C . A N_C/2, since N_C . u_C
-// = 0. With
-// N_E = e N_C + dN, dN . u+ = 0 and u+ = u_C + A N_E the expansion gives
+// Why energy never grows without friction, for any e_i <= 1: the compression takes N_C . A N_C/2, since N_C . u_C = 0.
+// With N_E = e N_C + dN, dN . u+ = 0 and u+ = u_C + A N_E the expansion gives
 //
 //     N_E . (u_C + u+)/2 = N_E . u+ - N_E . A N_E/2     and     N_E . u+ = e N_C . u+ <= N_C . u+ = N_C . A N_E,
 //

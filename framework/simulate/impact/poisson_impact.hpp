@@ -4,15 +4,13 @@
 //     expansion     0 <= N_E - e N_C  complementary to  u+ >= 0                u+ = u_C + A (N_E, T_E)
 //
 // N_C, N_E [N s] are normal impulses, u gap rates [m/s]. In each phase friction is one Coulomb decision, judged by the
-// slip at its end:
-// |T| <= mu_0 N where s = 0, T = -mu N s/|s| elsewhere. Of the expansion's impulse e N_C is given, and what it needs
-// beyond that keeps contacts from closing again. N_E = e N_C + dN enters as two forces at one point, one given and one
-// to be found: their cones add up to the cone of N_E. Closed contacts have e = 0.
+// slip at its end: |T| <= mu_0 N where s = 0, T = -mu N s/|s| elsewhere. In the expansion the impulse e N_C is given;
+// the additional impulse dN keeps contacts from closing again. N_E = e N_C + dN enters as two forces at one point, one
+// given and one sought: their cones add up to the cone of N_E. Closed contacts have e = 0.
 //
 // Without friction and with one contact it is Newton's law, u+ = -e u-. Energy may grow where friction reverses a slip;
 // without friction it never does (poisson_impact.cpp). F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral
-// Contacts, 1996;
-// there a part of the tangential impulse is given back as well, here none.
+// Contacts, 1996; they also give back a part of the tangential impulse, which is not done here.
 #pragma once
 
 #include <vector>
@@ -24,7 +22,7 @@ namespace trammel::simulate {
 
 class PoissonImpact {
  public:
-  // As Impact::solve.
+  // Arguments and result as in Impact::solve.
   [[nodiscard]] complementarity::ContactSolution solve(model::AssembledSystem& system, double at_rest,
                                                        std::vector<TouchingContact>& touching, Vec& dv);
 

@@ -7,8 +7,8 @@
 namespace trammel::simulate {
 namespace {
 
-// [m/s] What a closed contact keeps of the rate that the steps left it: its gap's rate counts from there, as in the
-// impact before.
+// [m/s] The rate that steps have left in a closed contact. It keeps this rate; its gap rate is counted from there, as
+// in the impact before.
 double drift(const TouchingContact& c) {
   return c.was_closed ? c.before : 0;
 }
@@ -24,7 +24,7 @@ Participant participant(const model::ContactEntry& entry, const TouchingContact&
   return p;
 }
 
-// To `c` what was found for it.
+// Adds the impulses found to `c`.
 void add(const Participant& p, TouchingContact& c) {
   const double normal = p.unilateral ? p.N * (c.after - drift(c) + p.a_n) : 0;
   const double lost = c.energy_lost() - 0.5 * (normal + p.T.dot(c.slip_after + p.a_t));

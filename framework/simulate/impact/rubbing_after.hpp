@@ -1,10 +1,9 @@
-// Friction of joints' bearings right after an impact of contacts that knows none: what the energetic and Poisson's law
-// leave to it.
+// Friction in joints directly after an impact by the energetic or Poisson's law, which do not contain it.
 //
-// The loads are those of both impacts together (bearing_impulses.hpp). Every gap comes in with the rate that the impact
-// left it, also where it opened a contact that was closed. Contacts that friction presses again give way without
-// restitution, so this takes energy only: with F its impulses, u its rates at the end, the change is F . u - F
-// . A F/2, where N u_n = 0 and T . u_t <= 0.
+// The loads are those of both impacts together (bearing_impulses.hpp). Every gap starts with the rate that the impact
+// left, also of closed contacts that the impact opened. Contacts that friction presses again yield without restitution,
+// so this only takes energy: with its impulses F and the rates u at the end, the change is F . u - F . A F/2, where N
+// u_n = 0 and T . u_t <= 0.
 #pragma once
 
 #include <vector>
@@ -16,8 +15,8 @@ namespace trammel::simulate {
 
 class RubbingAfter {
  public:
-  // `touching` and `dv` come in as the impact leaves them, with the joints that rub. The system is at `state`, before
-  // the impact.
+  // On entry `touching` and `dv` are the result of the impact and include the joints with friction. The system is at
+  // `state`, before the impact.
   [[nodiscard]] complementarity::ContactSolution solve(model::AssembledSystem& system, const State& state,
                                                        double at_rest, std::vector<TouchingContact>& touching, Vec& dv);
 

@@ -10,10 +10,10 @@ using complementarity::LcpOutcome;
 
 namespace {
 
-// Of the largest rate: slips that are none, in the plane and in space, where the direction of a slip turns the faster
-// the slower it is.
+// Of the largest rate: slips that count as 0, in the plane and in space. In space the direction of a slip turns the
+// faster the slower it is.
 constexpr double no_slip = 1e-11, no_slip_in_space = 1e-9;
-// Of the largest rate: what may be left of an impact that had not ended without a report.
+// Of the largest rate: a larger rate left at the end of an unfinished impact is reported.
 constexpr double worth_reporting = 1e-3;
 
 }  // namespace
@@ -59,7 +59,7 @@ bool SpringImpact::finished() const {
   return true;
 }
 
-// Springs in balance with each other or with friction: nothing changes any more.
+// True if springs balance each other or friction: nothing changes any more.
 bool SpringImpact::wedged() {
   derivative(state(), dy_);
   for (const Contact& c : contacts_) {
@@ -83,7 +83,7 @@ void SpringImpact::end_compression(std::size_t i) {
   x_[at] = std::sqrt(c.x_0 * c.x_0 + c.e * c.e * (x_[at] * x_[at] - c.x_0 * c.x_0));
   c.compresses = false;
   c.presses = x_[at] > 0;
-  // What is left of the rate, where an event is located to a few units of `tolerance`.
+  // Removes the rest of the rate: an event is located to a few units of `tolerance`.
   if (A_(c.normal, c.normal) > 0 && std::abs(u_[c.normal]) <= 10 * negligible * v_)
     P_[c.normal] = std::max(0.0, P_[c.normal] - u_[c.normal] / A_(c.normal, c.normal));
 }

@@ -1,28 +1,28 @@
-// Energetic restitution for any number of contacts with friction: each contact is a spring, and nothing else moves
-// while they push.
+// Energetic restitution for any number of contacts with friction: each contact is a spring, and positions are frozen
+// while the springs push.
 //
 //     u = u- + A P       rates of gaps and slips [m/s], P impulses [N s], A the Delassus matrix, frozen
 //     dP_n/dtau = F = k x,   dx/dtau = -u_n     where x > 0 or u_n < 0 (it presses);   F = 0 elsewhere
 //     dP_t/dtau = T          |T| <= mu_0 F where s = 0 (it sticks),  T = -mu F s/|s| elsewhere
 //
-// Where a compression ends (u_n reaches 0) a part 1 - e^2 of the work that this compression has stored is lost, and the
-// spring keeps the rest: k x^2/2 becomes k x_0^2/2 + e^2 k (x^2 - x_0^2)/2, with x_0 from before this compression. A
-// contact that is pressed again compresses again. It ends where no spring pushes and no gap closes.
+// Where a compression ends (u_n reaches 0), a part 1 - e^2 of the work that this compression has stored is lost and the
+// spring keeps the rest: k x^2/2 becomes k x_0^2/2 + e^2 k (x^2 - x_0^2)/2, where x_0 is the compression at its begin.
+// A contact that is pressed again compresses again. The impact ends when no spring pushes and no gap closes.
 //
-// All springs have the same stiffness k; P does not depend on how large it is. Of a single contact it is Stronge's
+// All springs have the same stiffness k; P does not depend on its value. For a single contact this is Stronge's
 // hypothesis (Proc. R. Soc. A 431, 169 (1990)), since the rates follow from P_n alone: Routh's construction in the
-// plane, in space the hodograph of Keller (J. Appl. Mech. 53, 1 (1986)). Of several, the distributing law of Liu, Zhao,
-// Brogliato (Proc. R. Soc. A 464, 3193 (2008)) for equal linear springs, but that the loss happens at the end of
-// compression: so springs do not stiffen as e becomes small.
+// plane, the hodograph of Keller in space (J. Appl. Mech. 53, 1 (1986)). For several contacts it is the distributing
+// law of Liu, Zhao, Brogliato (Proc. R. Soc. A 464, 3193 (2008)) for equal linear springs, with one difference: the
+// loss happens at the end of compression, so that springs do not become stiff as e becomes small.
 //
-// Guarantee, whatever the contacts' number, friction and dependence: each normal's work is -(1 - e^2) times the work of
-// its compressions, friction takes energy only, so the energy never grows. Forces along normals are given at each
-// instant, so friction always has a solution (Painleve's paradox does not arise). Springs that friction or other
-// contacts keep compressed when all has come to rest give nothing back. What is left at the end, as where walls without
-// clearance return a body for ever, is ended by an impact without restitution, which takes energy only.
+// Guarantee, for any number of contacts, friction and dependent rows: the work of each normal force is -(1 - e^2) times
+// the work of its compressions and friction takes energy only, so the energy never grows. The normal forces are given
+// at each instant, so friction always has a solution (Painleve's paradox does not arise). Springs that friction or
+// other contacts keep compressed when all has come to rest give nothing back. Some impacts do not end, as where walls
+// without clearance return a body for ever; an impact without restitution, which takes energy only, ends them.
 //
-// Between events (a rate, slip or spring reaches 0, friction its bound) it is a smooth differential equation; midpoint
-// steps extrapolated to order 12 (Gragg, Bulirsch, Stoer) follow it to round-off.
+// Between events (a rate, slip or spring reaches 0, or friction its bound) the course is a smooth differential
+// equation. Midpoint steps extrapolated to order 12 (Gragg, Bulirsch, Stoer) follow it to round-off.
 #pragma once
 
 #include <vector>
@@ -40,44 +40,44 @@ struct SpringContact {
 
 class SpringImpact {
  public:
-  // `u`: rates before. `tangents`: of a contact, 1 or 2.
+  // `u`: rates before the impact. `tangents`: of a contact, 1 or 2.
   SpringImpact(std::vector<SpringContact> contacts, const Mat& A, const Vec& u, int tangents);
 
   // `no_solution`: gaps close on bodies that cannot give way.
   [[nodiscard]] complementarity::ContactSolution run();
 
   const Vec& impulses() const { return P_; }
-  // The same, except for the shares of contacts that stick together, which here are in their cones.
+  // The same impulses, except that the forces of contacts that stick together are chosen inside their friction cones.
   const Vec& admissible_impulses() const { return admissible_; }
   Vec rates() const { return u_before_ + A_ * P_; }
-  // By contact [J]: what its spring took in all compressions; what was lost there, in the normal direction and in
-  // friction.
+  // By contact [J]: the energy that its spring took in all compressions; the losses there in the normal direction and
+  // by friction.
   const Vec& compressed() const { return compressed_; }
   const Vec& lost_normal() const { return lost_normal_; }
   const Vec& lost_friction() const { return lost_friction_; }
-  // Work of normal forces that the end took [J], counted as lost: what springs still held, of contacts that friction or
-  // others keep wedged, and what ended the last approaches.
+  // [J] Work of normal forces taken at the end, counted as lost: the energy of springs that friction or others keep
+  // compressed, and the work that ended the last approaches.
   double taken_at_end() const { return taken_at_end_; }
   bool cut_short() const { return cut_short_; }  // ended without restitution, after `most_phases`
   static constexpr int most_phases = 1000;
 
  private:
-  // Of the largest rate: what an event's margin may be below 0, what is left at the end, and what moves wedged contacts
-  // no more.
+  // Of the largest rate: how far an event's margin may be below 0; rates that count as 0 at the end; rates that count
+  // as 0 for wedged contacts.
   static constexpr double tolerance = 1e-13, negligible = 1e-12, still = 1e-9;
   enum class Tangent { none, sticks, slides };
   struct Contact : SpringContact {
     bool presses = false, compresses = false;
-    double x_0 = 0;  // where this compression began
+    double x_0 = 0;  // compression where this compression began
     Tangent mode = Tangent::none;
-    Eigen::Vector2d direction = Eigen::Vector2d::Zero();  // of its slip, while that is too slow to have one
-    bool slid = false;                                    // it has been faster than that
+    Eigen::Vector2d direction = Eigen::Vector2d::Zero();  // of its slip, kept while the slip is too slow to have one
+    bool slid = false;                                    // its slip has been faster than that
   };
 
   bool finished() const;
   bool wedged();
   void begin_phase();
-  bool advance_to_event();  // false: none comes
+  bool advance_to_event();  // false: there is none
   void handle_events();
   void handle_normal(std::size_t i);
   void press(std::size_t i);
@@ -101,7 +101,7 @@ class SpringImpact {
   void take(const Vec& y);
   Vec state() const;
 
-  // Events: negative margins. Of the smallest, and of each contact.
+  // Events are negative margins. `Margins`: the smallest one, and those of each contact.
   struct Margins {
     double normal = 0, tangent = 0;
   };
@@ -122,9 +122,9 @@ class SpringImpact {
   int t_;
   Eigen::Index n_ = 0, m_ = 0;
   double v_ = 0, k_ = 1,
-         slow_ = 0;  // [m/s] the largest rate; stiffness, here of a period 2 pi; slips without direction
+         slow_ = 0;  // [m/s] largest rate; stiffness, here for a period of 2 pi; slips below this have no direction
   Vec x_, P_, admissible_, lost_friction_, lost_normal_, compressed_;
-  // Forces of those that stick: f_S = hold_ f.
+  // Forces of sticking contacts: f_S = hold_ f.
   std::vector<Eigen::Index> sticking_;
   Mat hold_;
   bool dependent_ = false;

@@ -1,4 +1,4 @@
-// The course of an impact between two events, and where the next event is: midpoint steps, extrapolated.
+// The course of an impact between two events, and the location of the next event, by extrapolated midpoint steps.
 #include "simulate/impact/spring_impact.hpp"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ void SpringImpact::derivative(const Vec& y, Vec& dy) {
   }
 }
 
-// Whether a slip in space has turned by more than 60 degrees against u: then it has passed 0, where friction jumps.
+// True if a slip in space has turned by more than 60 degrees from u: it has then passed 0, where friction jumps.
 bool SpringImpact::turned_from(const Vec& u) const {
   for (const Contact& c : contacts_) {
     if (t_ == 1 || !c.presses || c.mode != Tangent::slides || !c.slid) continue;
@@ -66,7 +66,7 @@ bool SpringImpact::turned_from(const Vec& u) const {
   return false;
 }
 
-// False: friction jumps on the way.
+// False: friction jumps within the step.
 bool SpringImpact::midpoint(const Vec& y, double h, int n, Vec& y_end) {
   const double d = h / n;
   derivative(y, dy_);
@@ -84,7 +84,7 @@ bool SpringImpact::midpoint(const Vec& y, double h, int n, Vec& y_end) {
   return smooth && !turned_from(u);
 }
 
-// The estimated error, in parts of `step_error`.
+// Returns the estimated error in units of `step_error`.
 double SpringImpact::extrapolate(const Vec& y, double h, Vec& y_end) {
   std::vector<Vec> row(columns), last(columns);
   for (int j = 0; j < columns; ++j) {
@@ -107,7 +107,7 @@ double SpringImpact::extrapolate(const Vec& y, double h, Vec& y_end) {
   return error / step_error;
 }
 
-// A margin that is negative within the step only, judged by the cubic through its ends.
+// True if a margin is negative only within the step, by the cubic through its ends.
 bool SpringImpact::dips_within(const Vec& y, double h, const Vec& y_end) {
   Vec slope, slope_end;
   derivative(y, slope), derivative(y_end, slope_end);
@@ -118,8 +118,8 @@ bool SpringImpact::dips_within(const Vec& y, double h, const Vec& y_end) {
   return std::min({margin(between(0.25)), margin(between(0.5)), margin(between(0.75))}) < -tolerance;
 }
 
-// The first event within h, by the method of Illinois; the margin ends between 1 and 9 tolerances below 0. Returns its
-// time, and its state in `y_end`, which comes in as that after h, with the margin `at_end`.
+// Finds the first event within h by the Illinois method; the margin ends between 1 and 9 tolerances below 0. Returns
+// its time. `y_end` is the state after h on entry, with the margin `at_end`, and the state at the event on return.
 double SpringImpact::locate(const Vec& y, double h, double at_end, Vec& y_end) {
   const double aim = 5 * tolerance;
   Vec inside;
@@ -197,7 +197,7 @@ void SpringImpact::all_margins(const Vec& y, std::vector<Margins>& margins) {
     }
   }
   if (!dependent_) return;
-  // Of dependent contacts these friction forces are one choice of many.
+  // Friction forces of dependent contacts are not unique.
   const auto too_large = [](const Contact& c, const Margins& m) {
     return c.presses && c.mode == Tangent::sticks && m.tangent < -tolerance;
   };

@@ -1,4 +1,4 @@
-// The end of an impact: what springs still hold is lost, what still approaches is stopped without restitution.
+// The end of an impact: energy left in springs is lost, remaining approaches are stopped without restitution.
 #include "simulate/impact/spring_impact.hpp"
 
 #include <algorithm>
@@ -43,8 +43,8 @@ double SpringImpact::fastest_approach() const {
   return fastest;
 }
 
-// An impact without restitution, if possible with friction. `yields`: what a contact gives way, of the largest entry of
-// A, so that round-off in the rates of dependent contacts is no contradiction.
+// An impact without restitution, with friction if that has a solution. `yields`: compliance of a contact, relative to
+// the largest entry of A, so that round-off in the rates of dependent contacts is no contradiction.
 ContactSolution SpringImpact::end_approaches(double yields) {
   const Vec u = rates();
   const Mat A = A_ + yields * A_.diagonal().maxCoeff() * Mat::Identity(m_, m_);
@@ -74,11 +74,11 @@ ContactSolution SpringImpact::end_approaches(double yields) {
   return solution;
 }
 
-// The friction impulses of contacts that stick together are one choice of many: where it leaves a cone, the least one
-// that does not.
+// The friction impulses of contacts that stick together are not unique. If they leave a friction cone, takes the
+// admissible impulses of least norm.
 void SpringImpact::share_sticking_forces() {
   admissible_ = P_;
-  for (const Contact& c : contacts_) admissible_[c.normal] = std::max(0.0, P_[c.normal]);  // but for round-off it is
+  for (const Contact& c : contacts_) admissible_[c.normal] = std::max(0.0, P_[c.normal]);  // negative by round-off only
   bool outside = false;
   std::vector<Eigen::Index> rows;
   for (const Contact& c : contacts_) {

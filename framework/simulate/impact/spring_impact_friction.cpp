@@ -1,4 +1,4 @@
-// Which contacts stick and slide while springs push, and the forces that hold those that stick.
+// Decides which contacts stick and slide while springs push, and computes the forces that hold those that stick.
 #include "linear/dense/decompositions.hpp"
 #include "simulate/impact/spring_impact.hpp"
 
@@ -11,9 +11,9 @@ using complementarity::LcpOutcome;
 
 namespace {
 
-// In units of the springs' time: how far ahead the forces are looked at where contacts begin to push.
+// In units of the springs' time: where contacts begin to push, the forces this much later are used.
 constexpr double ahead = 1e-6;
-// Of the largest pivot: rows that depend on others leave round-off.
+// Of the largest pivot: smaller pivots are round-off of dependent rows.
 constexpr double dependence = 1e-10;
 
 Eigen::CompleteOrthogonalDecomposition<Mat> decomposed(const Mat& A) {
@@ -48,7 +48,7 @@ std::vector<Eigen::Index> SpringImpact::sticking_rows() const {
   return rows;
 }
 
-// Whether any forces in the cones hold all that stick, at the forces f.
+// True if some forces inside the cones hold all sticking contacts under the forces f.
 bool SpringImpact::some_forces_hold(const Vec& f) const {
   std::vector<std::size_t> sticking;
   for (std::size_t i = 0; i < contacts_.size(); ++i)
@@ -63,7 +63,7 @@ bool SpringImpact::some_forces_hold(const Vec& f) const {
   return a.lpNorm<Eigen::Infinity>() <= 1e-9 * b.lpNorm<Eigen::Infinity>();
 }
 
-// Those without slip stick or begin to slide, as the forces a moment later decide.
+// Contacts without slip stick or begin to slide, by the forces a moment later.
 void SpringImpact::choose_tangents() {
   std::vector<std::size_t> resting;
   Vec F = Vec::Zero(m_), f = Vec::Zero(m_);
@@ -109,8 +109,8 @@ void SpringImpact::choose_tangents() {
   }
 }
 
-// Friction at its bound that no look ahead tells to slide: the contact whose bound is exceeded most slides against its
-// friction.
+// Friction is at its bound and the look ahead has found no slip: the contact that exceeds its bound most slides against
+// its friction.
 void SpringImpact::force_slip() {
   hold_sticking();
   derivative(state(), dy_);
@@ -130,7 +130,7 @@ void SpringImpact::begin_phase() {
   if (P_.isZero(0)) choose_tangents();
   hold_sticking();
   if (sticking_.empty()) return;
-  // What is left of their slip.
+  // Removes the rest of their slip.
   const Vec s = u_(sticking_);
   const Mat A_SS = A_(sticking_, sticking_);
   const Vec P = -decomposed(A_SS).solve(s);

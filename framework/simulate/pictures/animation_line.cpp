@@ -31,7 +31,7 @@ void append_columns(const Columns& points, std::string& out) {
   out += ']';
 }
 
-// Entries of one object, opened by the first of them: a scene without contacts has no "contacts" in its lines.
+// Entries of one object. The first entry opens it: without contacts a line has no "contacts".
 class Entries {
  public:
   Entries(const char* key, std::string& out) : key_(key), out_(out) {}
@@ -68,7 +68,7 @@ bool has_plane(const ContactEntry& contact) {
          (!contact.surface || contact.surface->against == model::SurfaceSide::Against::plane);
 }
 
-// Where the contact pushes, and the direction in which it pushes its first side; none for joint rows as limits.
+// Where and in which direction the contact pushes its first side; none for joint rows as limits.
 struct Push {
   Vec3 at, normal;
 };

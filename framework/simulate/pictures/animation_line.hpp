@@ -1,4 +1,4 @@
-// A line of animation.ndjson: what is to be seen at one time, in world axes [m, N], five digits.
+// A line of animation.ndjson: the visible things at one time, in world axes [m, N], five digits.
 //
 //     {"t": 0.18, "shapes": {"beam": [[x, y], ...]},                   outlines of bodies
 //      "faces": {"plate": {"points": [...], "values": [...], "quads": [[a, b, c, d, outline], ...]}},
@@ -26,7 +26,7 @@ class AnimationLine {
  public:
   explicit AnimationLine(const model::Model& model);
   bool possible() const { return possible_; }  // some body is drawn
-  // The system has been moved to the state.
+  // The system must be at `state`.
   void append(model::AssembledSystem& system, const State& state, std::string& out);
 
  private:
@@ -52,7 +52,7 @@ class AnimationLine {
   FaceMesh mesh_;
 };
 
-// What does not move: {"space", "planes": [{"contact", "point", "normal"}], "balls": {"ball.com": radius},
+// The things that do not move: {"space", "planes": [{"contact", "point", "normal"}], "balls": {"ball.com": radius},
 // "joints": {"hinge": number of rows}, "face_values": {"plate": "von Mises stress on the top [Pa]"}}.
 nlohmann::ordered_json still_picture(model::AssembledSystem& system);
 

@@ -84,7 +84,7 @@ class Shallow : public nlohmann::json_sax<json> {
   int depth_ = 0;
 };
 
-// Nothing, if it is no CBOR or nested without end.
+// Null if the text is no CBOR or is nested without end.
 template <class Bytes>
 std::optional<json> decoded(const Bytes& bytes) {
   Shallow shallow;
@@ -150,7 +150,7 @@ void JsonArchive::operator()(std::string_view name, std::string& value) {
   transfer(name, value);
 }
 
-// As 64 bits: JSON would lose the payload of NaN.
+// As 64 bits: JSON would lose the payload of a NaN.
 void JsonArchive::operator()(std::string_view name, double& value) {
   auto bits = std::bit_cast<std::uint64_t>(value);
   transfer(name, bits);

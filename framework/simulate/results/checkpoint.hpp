@@ -30,10 +30,10 @@ class JsonArchive final : public Archive {
   void operator()(std::string_view name, std::string& value) override;
   void operator()(std::string_view name, Vec& value) override;
 
-  // An object of its own, for a component whose names might repeat ours.
+  // An object inside this one, for a component whose names might repeat ours.
   JsonArchive nested(std::string_view name);
-  // Vectors whose names end in _q, _v, _a or _lambda (a number may follow) have the system's lengths nq, nv, nv and nc,
-  // or none yet; those that also begin with now_ are never empty. Throws std::length_error.
+  // Vectors whose names end in _q, _v, _a or _lambda (a number may follow) must have the system's lengths nq, nv, nv
+  // and nc, or be empty; those that also begin with now_ must not be empty. Throws std::length_error.
   void require_lengths(const Sizes& sizes) const;
   bool reading() const { return direction_ == Direction::read; }
 
@@ -44,7 +44,7 @@ class JsonArchive final : public Archive {
   Direction direction_;
 };
 
-// Of everything in the scene except simulate.until: a run may be resumed with a later end.
+// Hash of everything in the scene except simulate.until: a run may be resumed with a later end.
 std::uint64_t resume_hash(const scene::Value& root);
 
 // The previous file stays as checkpoint.previous.cbor beside it.
@@ -54,7 +54,7 @@ nlohmann::json read_checkpoint(const std::filesystem::path& file, std::uint64_t 
 
 nlohmann::json decode_checkpoint(const std::string& bytes, const std::filesystem::path& file, std::uint64_t scene_hash);
 
-// For a checkpoint that reads well but does not fit.
+// Throws a SceneError about a checkpoint that is well formed and does not fit.
 [[noreturn]] void refuse_checkpoint(const std::filesystem::path& file, const std::string& why);
 
 }  // namespace trammel::simulate

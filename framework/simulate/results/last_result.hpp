@@ -1,5 +1,5 @@
-// The result.json of a process that can no longer allocate: its memory is exhausted, it crashed, or a step does not
-// return. Prepared when the run starts; it has status and reason and no figures.
+// Writes the result.json of a process that can no longer allocate: its memory is exhausted, it crashed, or a step does
+// not return. Prepared at the start of the run; it contains status and reason and no figures.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@ namespace trammel::simulate {
 
 class LastResult {
  public:
-  // `head`: what every result.json of this run begins with.
+  // `head`: the beginning of every result.json of this run.
   LastResult(const std::filesystem::path& folder, nlohmann::ordered_json head);
 
-  // For a signal handler: no allocation, nothing thrown. What cannot be written is left out.
+  // Safe in a signal handler: no allocation, no exception. Text that cannot be written is left out.
   void write(const char* status, std::string_view reason) const noexcept;
 
  private:

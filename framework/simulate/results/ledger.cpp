@@ -11,7 +11,7 @@ namespace {
 
 using Balance = model::AssembledSystem::Balance;
 
-constexpr double little = 1e-16;  // of the energy: round-off in a single step
+constexpr double little = 1e-16;  // of the energy: round-off of a single step
 
 double size(const Balance& p) {
   return std::abs(p.drives) + std::abs(p.dampers) + std::abs(p.contacts) + std::abs(p.constraints) +
@@ -21,7 +21,7 @@ double size(const Balance& p) {
 double supply(const Balance& p) {
   return p.drives + p.constraints + p.markers;
 }
-// Steps that the cubic through their ends does not follow: of high order, or with steps of the method's own in them.
+// True for methods whose steps the cubic through their ends does not follow: high order, or inner steps of their own.
 bool resolves_long_steps(const Traits& traits) {
   return traits.order > 4 || traits.order == 0;
 }
@@ -60,7 +60,7 @@ void Ledger::step(const State& now, const State& next) {
   step_begin_ = totals(), step_ = next.t - now.t;
   end_ = balance(next.t, next.q, next.v, next.lambda);
   g_dot_end_ = system_.g_dot();
-  // Rows do work at the level of round-off, which is not worth an evaluation.
+  // Work of rows at the level of round-off is not worth an evaluation.
   const double work = (size(now_) + size(end_)) * (next.t - now.t);
   if (work > little * energy_scale_) energy_scale_ = std::max(energy_scale_, kinetic(next.v));
   const bool matters = work > 1e-12 * energy_scale_;
@@ -118,8 +118,8 @@ void Ledger::integrate_by_dense_output(const State& now, const State& next) {
   }
 }
 
-// Fills middle_. The mean of lambda at the ends, of second order and without oscillations within the step, is used only
-// where lambda has no power.
+// Fills middle_. lambda is the mean of both ends, which is of second order and ignores oscillations within the step; it
+// is used only where lambda has no power.
 void Ledger::evaluate_inside(const State& now, const State& next, double theta) {
   const double power = size(now_) + size(end_);
   double work_of_reactions = std::abs(now_.constraints) + std::abs(end_.constraints);
@@ -138,8 +138,8 @@ void Ledger::evaluate_inside(const State& now, const State& next, double theta) 
   middle_.constraints += off_rows(lambda_, theta);
 }
 
-// The power of contacts' rows that the interpolated motion violates between two states on them; the true motion does
-// not.
+// Power of contacts' rows that the interpolated motion violates between two states on the rows. The true motion does
+// not violate them.
 double Ledger::off_rows(const Vec& lambda, double theta) {
   const auto n = lambda.size() - system_.held_rows();
   if (n == 0) return 0;
@@ -164,7 +164,7 @@ Ledger::Totals Ledger::totals_inside(double theta) const {
     if (between_.swings()) return from + theta * (to - from);
     return from + share * (to - from) + at_begin * power_begin + at_end * power_end;
   };
-  // The powers at the step's begin are in end_ since the last swap.
+  // end_ has the powers at the step's begin since the last swap.
   return {between(step_begin_.supplied, end.supplied, supply(end_), supply(now_)),
           between(step_begin_.dissipated, end.dissipated, dissipation(end_), dissipation(now_))};
 }

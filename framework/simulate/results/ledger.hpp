@@ -8,10 +8,10 @@
 //   - by Simpson's rule with the state in the middle (between_states.hpp);
 //   - by Lobatto's rule with five points for integrators of order above four with dense output;
 //   - by the integrator's own quadrature in steps longer than the oscillations in them.
-// Inside a step nothing is evaluated while all powers are round-off and nothing slides with friction (friction may have
-// no power at both ends of a step, such as from a reversal of the slip to the opening of the contact). `numerical` is
-// the remainder: the errors of the integrator, of the quadrature and of corrections. A row that is switched on while
-// its contact moves (`rebound: constrained`) does work too; it counts as supplied by constraints.
+// Inside a step nothing is evaluated if all powers are round-off and nothing slides with friction. (Friction may have
+// no power at both ends of a step and some inside, such as from a reversal of the slip to the opening of the contact.)
+// `numerical` is the remainder: errors of the integrator and of the quadrature, and corrections. A row that is switched
+// on while its contact moves (`rebound: constrained`) does work too, which counts as supplied by constraints.
 #pragma once
 
 #include <vector>
@@ -27,8 +27,8 @@ class Ledger {
  public:
   Ledger(model::AssembledSystem& system, Integrator& integrator);
 
-  void start(const State& state);    // the energy to begin with; restart follows once a and lambda are known
-  void restart(const State& state);  // powers at `state`, after a jump
+  void start(const State& state);    // sets the initial energy; restart follows once a and lambda are known
+  void restart(const State& state);  // computes the powers at `state`, after a jump
   void step(const State& now, const State& next);
   void impact(int contact, double energy) { impacts_[contact] += energy; }
   void moving_rows(double supplied) { constraints_ += supplied; }
@@ -38,17 +38,18 @@ class Ledger {
     double supplied = 0, dissipated = 0;  // [J] since the start
   };
   Totals totals() const { return {supplied(), dissipated()}; }
-  // At t + theta h of the last step: the cubic through totals and powers at its ends, a line in steps that swing.
+  // At t + theta h of the last step: by the cubic through totals and powers at its ends, by a line if steps are longer
+  // than oscillations.
   Totals totals_inside(double theta) const;
 
   double energy_start() const { return energy_start_; }
-  double energy() const { return energy_start_ + supplied() + refinements_ - dissipated(); }  // due by now
+  double energy() const { return energy_start_ + supplied() + refinements_ - dissipated(); }  // expected now
   double supplied() const { return drives_ + constraints_ + markers_; }
   double dissipated() const { return impact_total() + contacts_ + friction_.sum() + dampers_; }
   double drives() const { return drives_; }
   double constraints() const { return constraints_; }
   double markers() const { return markers_; }
-  double refinements() const { return refinements_; }  // gained where coordinates were replaced
+  double refinements() const { return refinements_; }  // [J] gained by replacing coordinates
   double dampers() const { return dampers_; }
   const Vec& friction() const { return friction_; }  // by contact
   double contact_damping() const { return contacts_; }
@@ -73,7 +74,7 @@ class Ledger {
   DenseOutput* dense_;  // of a smooth method of high order, or none
   model::AssembledSystem::Balance now_, middle_, end_;
   double energy_start_ = 0, drives_ = 0, constraints_ = 0, markers_ = 0, dampers_ = 0, contacts_ = 0;  // [J]
-  double energy_scale_ = 0;  // [J] what round-off is measured by: the start's energy, or the largest kinetic one since
+  double energy_scale_ = 0;  // [J] reference of round-off: the initial energy, or the largest kinetic energy since
   double refinements_ = 0;   // [J]
   Vec friction_;
   std::vector<double> impacts_;

@@ -61,18 +61,18 @@ int shortened(const std::filesystem::path& path, long long keep) {
   fail("shorten", path, error);
 }
 
-// A name that leads nowhere else: whatever had it is gone.
+// Opens a file that is new: removes whatever has this name, also a link.
 int new_file(const std::filesystem::path& path) {
   ::unlink(path.c_str());
   return open_file(path, O_CREAT | O_EXCL);
 }
 
-// 0 or the error; file systems that cannot do it are no error.
+// 0 or the error. A file system that cannot synchronise is no error.
 int sync_to_disk(int file) {
   return ::fdatasync(file) == 0 || errno == EINVAL || errno == EROFS || errno == ENOSYS ? 0 : errno;
 }
 
-// The names in it.
+// Synchronises the folder's entries.
 void sync_folder(const std::filesystem::path& folder) {
   const int number = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (number < 0) return;
@@ -97,7 +97,7 @@ LogFile::LogFile(const std::filesystem::path& path, const LogPart& keep)
 }
 
 LogFile::~LogFile() {
-  flush();  // best effort: if it fails, the run has told so before
+  flush();  // best effort: the run has reported a failure before
 }
 
 void LogFile::append(std::string_view text) {

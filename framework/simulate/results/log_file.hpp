@@ -1,9 +1,10 @@
 // Files of the results folder: append-only logs that survive a kill, and files that are renamed into place when
-// complete. No symbolic link is followed: whoever can write into a folder does not decide which other files of the user
-// are overwritten.
+// complete. Symbolic links are not followed: otherwise another user with write access to the folder could choose which
+// files are overwritten.
 //
-// A full disk costs only lines that are not yet written, never half a line or lines already written: a log removes the
-// line that it could not finish, keeps the rest in memory, and may be tried again. A Reserve keeps room for the end.
+// If the disk is full, only lines that are not yet written are lost, never half a line or a line already written: a log
+// removes the line that it could not finish, keeps the rest in memory, and may try again. A Reserve keeps room for the
+// end.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +16,7 @@
 
 namespace trammel::simulate {
 
-// A result could not be written: names the file and the system's reason.
+// A result could not be written. The text names the file and the system's reason.
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -42,21 +43,21 @@ struct LogPart {
 
 class LogFile {
  public:
-  // Starts a new file, or continues after its part `keep`.
+  // Starts a new file, or continues an existing one after its part `keep`.
   explicit LogFile(const std::filesystem::path& path);
   LogFile(const std::filesystem::path& path, const LogPart& keep);
   ~LogFile();
 
   void append(std::string_view text);        // whole lines
-  std::string& buffer() { return buffer_; }  // to format into; then `appended`
-  // Writes a full buffer. Throws nothing, so that a record is at least complete in memory; see `problem`.
+  std::string& buffer() { return buffer_; }  // to format into; then call `appended`
+  // Writes the buffer if it is full. Does not throw, so that a record is at least complete in memory; see `problem`.
   void appended();
-  bool flush();  // false: `problem` tells, and what could not be written is kept for another try
+  bool flush();                                            // false: see `problem`; the rest is kept for another try
   const std::string& problem() const { return problem_; }  // of the last try to write; empty: none
   std::string name() const { return path_.filename().string(); }
   long long unwritten_lines() const;
   LogPart part() const;  // all of it, written or not
-  bool sync();           // `flush`, and then what is written survives a loss of power, too
+  bool sync();           // `flush`, and the file survives a loss of power
   // Writes the buffer up to the last whole line. Safe in a signal handler.
   void rescue() const noexcept;
 
@@ -68,20 +69,20 @@ class LogFile {
 };
 
 // Room on the disk, taken when a run starts and given back when the disk is full, so that the last lines, the
-// checkpoint and the result still find some. It has no name in the folder and vanishes with the process.
+// checkpoint and the result still fit. The reserving file has no name in the folder and vanishes with the process.
 class Reserve {
  public:
-  // Throws OutputError if there is less room; a file system that cannot promise room gives none and is no error.
+  // Throws OutputError if there is less room. A file system that cannot reserve room is no error.
   Reserve(const std::filesystem::path& folder, long long bytes);
 
  private:
   Descriptor file_;
 };
 
-// Why a log does not begin with this part any more, as after a loss of power; empty: it does.
+// Why a log no longer begins with this part, as after a loss of power; empty: it does.
 std::string damage_of(const std::filesystem::path& path, const LogPart& part);
 
-// Writes a temporary file beside `path` and renames it: readers see the old content or the new, nothing between, also
+// Writes a temporary file beside `path` and renames it: readers see the old or the new content, nothing between, also
 // after a loss of power. With `before` the old content stays under that name.
 void write_whole(const std::filesystem::path& path, std::string_view content, const std::filesystem::path& before = {});
 

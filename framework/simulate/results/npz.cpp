@@ -60,7 +60,7 @@ std::string_view bytes_of(const NpzFile::Shape& shape, std::span<const T> values
   return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
 
-// The code points of a text in UTF-8; a byte that is none stands for itself.
+// The code points of a UTF-8 text; a byte that is not UTF-8 stands for itself.
 std::u32string code_points(const std::string& text) {
   std::u32string points;
   for (std::size_t i = 0; i < text.size();) {
@@ -76,7 +76,7 @@ std::u32string code_points(const std::string& text) {
   return points;
 }
 
-// What local and central headers share: version, flags, method (stored), date, checksum.
+// The fields common to local and central headers: version, flags, method (stored), date, checksum.
 void put_common(std::string& bytes, std::uint32_t checksum) {
   put16(bytes, version), put16(bytes, 0), put16(bytes, 0);
   put32(bytes, no_date);
@@ -110,7 +110,7 @@ void NpzFile::add_member(std::string_view name, const std::string& header, std::
   checksum.process_bytes(header.data(), header.size());
   checksum.process_bytes(data.data(), data.size());
   const Member member{std::string(name) + ".npy", header.size() + data.size(), bytes_.size(), checksum.checksum()};
-  // Sizes are always in the ZIP64 field, as numpy.savez has them.
+  // Sizes are always written in the ZIP64 field, as by numpy.savez.
   put32(bytes_, 0x04034b50);
   put_common(bytes_, member.checksum);
   put32(bytes_, largest_32), put32(bytes_, largest_32);

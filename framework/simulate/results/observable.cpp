@@ -30,7 +30,7 @@ void add_marker(const std::string& name, MarkerRef marker, const Model& model, C
 
 using WorldVector = std::function<Vec3(Moment&)>;
 
-// In the plane its one number; in space its length, and the vector in world axes.
+// In the plane the one number of a vector; in space its length, and the vector in world axes.
 void add_tangential(const std::string& name, Space space, const WorldVector& vector, Choices& choices) {
   if (space == Space::planar) {
     choices.emplace_back(name, [=](Moment& m) { return vector(m)[0]; });
@@ -109,7 +109,7 @@ Choices all_choices(const Model& model) {
   return choices;
 }
 
-// A column computed from others: "=rod.angle - crank.angle".
+// A column computed from other observables: "=rod.angle - crank.angle".
 Value derived(const std::string& name, const std::string& text, const scene::Formula& formula, const Choices& choices) {
   std::vector<Value> inputs;
   for (const int i : formula.uses()) inputs.push_back(choices[std::size_t(i)].second);

@@ -7,7 +7,7 @@
 //     energy.kinetic potential elastic total                     [J]
 //
 // or {"of": "block.com.x", "relative_to": "table.origin", "since_start": true}: a marker's motion as seen from another
-// one (relative_motion.hpp), with "since_start" less its value at the start.
+// one (relative_motion.hpp); with "since_start" minus its initial value.
 #pragma once
 
 #include <functional>
@@ -22,8 +22,8 @@
 
 namespace trammel::simulate {
 
-// The system moved to one state of the solution; accelerations and multipliers are solved for when first asked for,
-// from the equations of motion, whatever the integrator keeps.
+// The system at one state of the solution. Accelerations and multipliers are solved from the equations of motion at the
+// first use, whatever the integrator keeps.
 class Moment {
  public:
   Moment(model::AssembledSystem& system, const State& state) : system_(system), state_(state) {
@@ -47,14 +47,14 @@ class Moment {
 struct Column {
   std::string name;  // in the header
   std::function<double(Moment&)> value;
-  bool since_start = false;  // less the value at the start; so from begin_columns on
+  bool since_start = false;  // minus the value at the start, from begin_columns on
   Quantity quantity = {};
 };
 
 // The columns "record" asks for, in scene order; unknown names are reported with the nearest.
 std::vector<Column> read_observables(const scene::Value& root, const model::Model& model, scene::Problems& problems);
 
-// Passes the state that the run starts from to the columns, also when it resumes.
+// Passes the initial state of the run to the columns, also when the run resumes.
 void begin_columns(std::vector<Column>& columns, model::AssembledSystem& system, const State& start);
 
 }  // namespace trammel::simulate

@@ -1,4 +1,4 @@
-// What a column of the results is: unit, meaning, and the path of the scene that it belongs to.
+// Unit and meaning of a column of the results, and the path in the scene to which it belongs.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@ struct Quantity {
   std::string path;     // "bodies.beam", "contacts.tip"; empty: of the whole system
 };
 
-// Of an observable: "beam.tip.y", "contacts.tip.gap", "beam.angle". All unit "" where nothing is known.
+// For an observable: "beam.tip.y", "contacts.tip.gap", "beam.angle". The unit is "" if nothing is known.
 Quantity observable_quantity(std::string_view observable, const model::Model& model);
-// Of a column of series.csv that is always there: t, energies, norms.
+// For a column of series.csv that is always present: t, energies, norms.
 Quantity fixed_quantity(std::string_view column);
-// Of a column of events.csv.
+// For a column of events.csv.
 Quantity event_quantity(std::string_view column);
 
 }  // namespace trammel::simulate

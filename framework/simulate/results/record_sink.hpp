@@ -1,4 +1,4 @@
-// Where a run's records and events go: to files (Recorder), or to memory (study/cases/series.hpp).
+// Destination of a run's records and events: files (Recorder) or memory (study/cases/series.hpp).
 #pragma once
 
 #include "simulate/results/contact_event.hpp"
@@ -10,7 +10,7 @@ namespace trammel::simulate {
 class RecordSink {
  public:
   virtual ~RecordSink() = default;
-  // At multiples of record.every; the system may be left at any point. `steps`: accepted so far.
+  // Called at multiples of record.every; may move the system. `steps`: accepted so far.
   virtual void row(model::AssembledSystem& system, const State& state, const Ledger::Totals& books,
                    long long steps) = 0;
   virtual void event(const ContactEvent& event) = 0;

@@ -123,7 +123,7 @@ std::vector<LogFile*> Recorder::files() {
 }
 
 void Recorder::flush() {
-  for (LogFile* file : files()) file->flush();  // each: one may still find room
+  for (LogFile* file : files()) file->flush();  // each of them: one may still have room
   check();
 }
 

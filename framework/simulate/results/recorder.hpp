@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "simulate/pictures/animation_line.hpp"
-#include "simulate/results/event_line.hpp"
 #include "simulate/pictures/field_line.hpp"
+#include "simulate/results/event_line.hpp"
 #include "simulate/results/log_file.hpp"
 #include "simulate/results/observable.hpp"
 #include "simulate/results/record_sink.hpp"
@@ -19,15 +19,15 @@ struct ConstraintNorms {
   double acceleration = 0;  // of G a - gamma with the integrator's own a
   void raise_to(const ConstraintNorms& other);
 };
-// The system has been moved to the state.
+// The system must be at `state`.
 ConstraintNorms constraint_norms(model::AssembledSystem& system, const State& state, Vec& scratch);
 
 class Recorder final : public RecordSink {
  public:
-  enum class Books { kept, none };  // kept: rows tell the energy supplied and dissipated
+  enum class Books { kept, none };  // kept: rows contain the energy supplied and dissipated
   struct Lengths {
     LogPart series, events, animation, fields;
-    long long field_times = 0;  // done with
+    long long field_times = 0;  // number of field times already passed
   };
   // A new folder's logs, or those of an interrupted run shortened to `keep`. The first row at or after each of
   // `field_times`, which ascend, goes to fields.ndjson, too.
@@ -38,13 +38,13 @@ class Recorder final : public RecordSink {
            long long steps = 0) override;
   void event(const ContactEvent& event) override;
   void event(const RefineEvent& event) override;
-  void flush();                  // throws OutputError once all files were tried
-  void sync();                   // the same, and to the disk itself
-  void check() const;            // throws OutputError if a file could not take what it was given; nothing is lost yet
+  void flush();                  // throws OutputError, after trying all files
+  void sync();                   // the same, and synchronises the disk
+  void check() const;            // throws OutputError if a file could not take its lines; nothing is lost yet
   std::string missing();         // which files lack how many lines that could not be written; empty: none
-  void rescue() const noexcept;  // for a signal handler: whole lines still in memory go out
+  void rescue() const noexcept;  // for a signal handler: writes whole lines that are still in memory
   Lengths lengths() const;
-  // Why the logs in a folder do not begin with `keep` any more; empty: they do.
+  // Why the logs in a folder no longer begin with `keep`; empty: they do.
   static std::string damage(const std::filesystem::path& folder, const Lengths& keep);
 
  private:

@@ -1,4 +1,4 @@
-// The changes by a refinement, as written to events.csv.
+// The changes made by a refinement, as written to events.csv.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ struct RefineEvent {
   struct Side {
     Sizes sizes;  // of the body: nq, nv
     Energy energy;
-    std::optional<Momentum> momentum;  // of bodies that know it
+    std::optional<Momentum> momentum;  // of bodies with HasMomentum
   };
   double t = 0;
   int body = 0;

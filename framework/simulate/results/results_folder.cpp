@@ -70,7 +70,7 @@ int open_locked(const fs::path& folder) {
     refuse(folder, why);
   };
   if (::access(folder.c_str(), W_OK | X_OK) != 0) close_and_refuse(std::strerror(errno));
-  // File systems that know no locks give none.
+  // Some file systems know no locks and give none.
   if (::flock(number, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     close_and_refuse("another run writes there at this moment");
   return number;
@@ -92,7 +92,7 @@ nlohmann::json json_of(const fs::path& file) {
 bool is_checkpoint(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(file, error))) return false;
-  constexpr int key_and_value = 64;  // the last of its entries, which are in the order of their names
+  constexpr int key_and_value = 64;  // in the order of their names; holds the last entry
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   in.seekg(std::max<std::streamoff>(0, std::streamoff(in.tellg()) - key_and_value));
   return std::string(std::istreambuf_iterator<char>(in), {}).find("trammel_checkpoint") != std::string::npos;
@@ -112,7 +112,7 @@ std::optional<Analysis> analysis_in(const fs::path& folder) {
 
 }  // namespace
 
-// Each command begins with one of these, so that a folder of one that was killed has it, too.
+// Each command begins by writing one of these files, so a folder of a killed command has one, too.
 bool shows_results(const fs::path& folder) {
   for (const auto& [name, key] : {std::pair("scene.resolved.json", "trammel"),
                                   std::pair("result.json", "trammel_result"), std::pair("modes.json", "trammel_result"),

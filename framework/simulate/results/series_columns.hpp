@@ -12,14 +12,14 @@ namespace trammel::simulate {
 
 constexpr std::array<std::string_view, 4> energy_columns = {"energy_kinetic", "energy_potential", "energy_elastic",
                                                             "energy_total"};
-// Only for motions: E_start + supplied - dissipated is the energy expected at t (ledger.hpp).
+// In motions only: E_start + supplied - dissipated is the energy expected at t (ledger.hpp).
 constexpr std::array<std::string_view, 2> book_columns = {"energy_supplied", "energy_dissipated"};
 constexpr std::array<std::string_view, 3> norm_columns = {"constraint_position", "constraint_velocity",
                                                           "constraint_acceleration"};
-// Only for motions: accepted steps so far.
+// In motions only: accepted steps so far.
 constexpr std::array<std::string_view, 1> step_columns = {"steps"};
 
-// No observed column may have such a name.
+// No observed column may have one of these names.
 constexpr bool is_fixed_column(std::string_view name) {
   const auto holds = [name](const auto& columns) {
     return std::find(columns.begin(), columns.end(), name) != columns.end();

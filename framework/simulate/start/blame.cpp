@@ -40,7 +40,7 @@ plugin::PluginError blame(const Setup& setup, const model::CallSite& site, doubl
   return step ? error.in_step(*step) : error;
 }
 
-// The component is not known: a check after each call would cost as much as the cheapest calls.
+// The component is unknown: a check after each call would cost as much as the cheapest calls.
 void require_arithmetic(plugin::ProcessSettings& settings, const Setup& setup, double t, long long step) {
   const std::string fault = plugin::arithmetic_fault();
   if (fault.empty()) return;
@@ -71,7 +71,7 @@ void rethrow_blamed(const Setup& setup, const model::CallSite& site, const scene
   } catch (const OutsideDomain& e) {
     throw scene::SceneError({problem_of(e, site, root, t)});
   } catch (...) {
-    if (!site.origin && setup.integrator_origin.file.empty()) throw;  // statics: nobody else can be meant
+    if (!site.origin && setup.integrator_origin.file.empty()) throw;  // statics: no other component can be meant
     throw blame(setup, site, t, std::nullopt);
   }
 }

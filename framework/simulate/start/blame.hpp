@@ -1,4 +1,4 @@
-// Which plugin an exception came from.
+// Finds the plugin from which an exception came.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,15 @@
 
 namespace trammel::simulate {
 
-// Inside a catch block; see `blaming`.
+// To be called in a catch block; see `blaming`.
 [[noreturn]] void rethrow_blamed(const Setup& setup, const model::CallSite& site, const scene::Value& root, double t);
 
-// Inside a catch block: what was thrown, as the fault of the component that was being called, or of the integrator if
-// none was. Without a step outside a run.
+// To be called in a catch block: the exception as the fault of the component that was being called, or of the
+// integrator if there was none. `steps` is empty outside a run.
 plugin::PluginError blame(const Setup& setup, const model::CallSite& site, double t, std::optional<long long> step);
 
-// Lets the framework's own exceptions pass, among them named errors of scenes and plugins; blames all others.
-// For calls into a model that is no run yet.
+// Calls a function. Exceptions of the framework pass, among them named errors of scenes and plugins; all others are
+// blamed on a component. For calls into a model before its run.
 template <class Call>
 void blaming(const Setup& setup, const model::AssembledSystem& system, const scene::Value& root, double t, Call call) {
   try {
@@ -30,13 +30,13 @@ void blaming(const Setup& setup, const model::AssembledSystem& system, const sce
   }
 }
 
-// Inside a catch block of OutsideDomain: its message, charged to the component that was being called. `said` alone:
-// "forces.s: its ...".
+// To be called in a catch block of OutsideDomain: its message with the component that was being called. `said` gives
+// the text alone: "forces.s: its ...".
 std::string said(const OutsideDomain& outside, const model::CallSite& site);
 scene::Problem problem_of(const OutsideDomain& outside, const model::CallSite& site, const scene::Value& root,
                           double t);
-// Throws PluginError if a component has changed the arithmetic settings of the process, and restores them: otherwise
-// numbers would be wrong.
+// Throws PluginError if a component has changed the arithmetic settings of the process, which would make numbers wrong,
+// and restores them.
 void require_arithmetic(plugin::ProcessSettings& settings, const Setup& setup, double t, long long step);
 
 }  // namespace trammel::simulate

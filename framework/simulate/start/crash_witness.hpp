@@ -1,6 +1,6 @@
-// Which component to name when the process crashes or hangs inside a plugin, and how records are saved then. A signal
-// handler cannot allocate or call into the program, so everything that it may need is prepared here while plugins are
-// called. The component being called is the breadcrumb that the assembled system leaves.
+// Remembers which component to name when the process crashes or hangs inside a plugin, and how to save the records
+// then. A signal handler cannot allocate or call into the program, so everything that it may need is prepared while
+// plugins are called. The component being called is the breadcrumb that the assembled system leaves.
 #pragma once
 
 #include <atomic>
@@ -20,8 +20,8 @@ class CrashWitness {
     const double* t = nullptr;         // [s]
     const long long* steps = nullptr;  // accepted so far; null: outside a run
   };
-  // From here to `leave` the arguments live, the recorder perhaps not yet. The call around the component's is what
-  // plugin::Breadcrumb says, and in a run without one the integrator's step.
+  // The arguments must live until `leave`; the recorder may still be missing. The interface call is in
+  // plugin::Breadcrumb; without a breadcrumb the culprit is the integrator's step.
   void follow(const Setup& setup, const model::AssembledSystem& system, Clock clock);
   void record_with(const Recorder& recorder, const LastResult& result) {
     recorder_ = &recorder;
@@ -31,7 +31,7 @@ class CrashWitness {
 
   // --- for the signal handler: no allocation, nothing thrown ---
   struct Culprit {
-    const plugin::Origin* origin = nullptr;  // null: nobody is known to be called
+    const plugin::Origin* origin = nullptr;  // null: no called component is known
     const char* call = "";
     std::optional<double> t;
     std::optional<long long> step;
@@ -50,7 +50,7 @@ class CrashWitness {
   const LastResult* result_ = nullptr;
 };
 
-// A witness, if there is one, follows while this lives.
+// Makes a witness, if there is one, follow during the object's lifetime.
 class Watch {
  public:
   Watch(CrashWitness* witness, const Setup& setup, const model::AssembledSystem& system, CrashWitness::Clock clock)

@@ -15,9 +15,9 @@ namespace {
 
 constexpr int most_steps = 300;
 constexpr double tau_first = 1e-3;  // [s]
-constexpr double tau_last = 100;    // of 1 s, or of the time of a fall through the scene where that is longer
-constexpr double settled = 1e-14;   // of the coordinates' sizes and places: round-off
-constexpr double far_off = 1e6;     // of their sizes
+constexpr double tau_last = 100;    // relative to 1 s, or to the time of a fall through the scene if that is longer
+constexpr double settled = 1e-14;   // relative to the coordinates' sizes and places: round-off
+constexpr double far_off = 1e6;     // relative to their sizes
 
 class StaticEquilibrium {
  public:
@@ -45,7 +45,7 @@ class StaticEquilibrium {
       const double change = found ? sizes.largest(dq_) : 0;
       if (!std::isfinite(change) || change > far_off * sizes.place) return false;
       if (found && change <= settled * sizes.place) {
-        if (tau < slow_) {  // small because damped, perhaps
+        if (tau < slow_) {  // perhaps small only because of the damping
           tau *= 10;
           continue;
         }
@@ -54,7 +54,8 @@ class StaticEquilibrium {
         unbalanced = look(state_.q);
         continue;
       }
-      // The unbalanced acceleration along itself as predicted by the linearised equations, and after the step.
+      // Component of the unbalanced acceleration along itself: predicted by the linearised equations, and after the
+      // step.
       const double noise = 1e-12 * scale_, with_forces = found ? a_.dot(mass_times(dq_)) : -1;
       const double promised = unbalanced > noise ? with_forces / (unbalanced * tau * tau) : 0;
       const double next = found ? look(q_next) : 0;
@@ -89,7 +90,7 @@ class StaticEquilibrium {
                : std::string("nothing can move");
   }
 
-  // q' of the equilibrium; see the header. `state.q` is settled. A text: which direction has no rate.
+  // Finds q' of the equilibrium (see the header). `state.q` is settled. Returns the direction without a rate, if any.
   std::optional<std::string> follow() {
     look(state_.q);
     contacts_.carry_along();
@@ -118,8 +119,8 @@ class StaticEquilibrium {
       if (change <= settled * speed) return {};
       if (i == 0) before = change;
       if ((i + 1) % slow != 0) continue;
-      // Round-off; or a motion against soft springs, which less damping finds. Without stiffness it accelerates without
-      // end.
+      // Either the changes are round-off, or the motion works against weak springs, which less damping finds. Without
+      // stiffness it accelerates without end.
       if (change <= inexact * speed) return {};
       if (!(change < before)) return undetermined(dv);
       before = change, tau *= 10;
@@ -199,11 +200,12 @@ class StaticEquilibrium {
     return true;
   }
 
-  // The least change of q that satisfies the rows: violations left by a turn would count as a step against the forces.
+  // The least change of q that satisfies the rows. (Violations left by a turn would count as a step against the
+  // forces.)
   void onto_rows(Vec& q) {
     State s{state_.t, q, zero_v_, {}, {}};
     const model::CoordinateSizes sizes = system_.coordinate_sizes();
-    // Rows are in metres or, of angles, in radians.
+    // Rows are in metres, or in radians for angles.
     model::positions_onto_rows(system_, s, {.allowed = settled * std::min(1.0, sizes.length) * sizes.place, .most = 5});
     q = s.q;
   }
@@ -224,7 +226,7 @@ class StaticEquilibrium {
   RestingContacts contacts_;
   TurnCounts turns_;
   Vec a_, lambda_, dq_, residual_;
-  double scale_ = 0, slow_ = 1;  // slow_: [s]
+  double scale_ = 0, slow_ = 1;  // slow_ [s]
 };
 
 }  // namespace

@@ -16,8 +16,8 @@
 namespace trammel::simulate {
 namespace {
 
-// What "nearest" weighs: masses, and with contacts what the bodies store at 1 rad/s too, so that a beam that reaches
-// into a plane is turned out of it and not bent.
+// The metric of "nearest": the masses, and with contacts also the elastic energy at 1 rad/s, so that a beam that
+// reaches into a plane is turned out of it and not bent.
 constexpr Blend by_mass_and_stiffness = {1, 0, 1};
 
 bool project_position(model::AssembledSystem& system, State& s, Blend nearest = model::by_mass) {
@@ -31,7 +31,7 @@ bool project_velocity(model::AssembledSystem& system, State& s) {
   return system.g_dot().norm() < allowed;
 }
 
-// Contacts with rows whose gap is below 0 by more than a scene's digits.
+// Contacts with rows whose gap is negative by more than the digits of a scene.
 std::vector<int> penetrated(model::AssembledSystem& system, const State& s) {
   system.move_to(s.t, s.q, s.v);
   ContactScale scale(system.model());
@@ -44,8 +44,8 @@ std::vector<int> penetrated(model::AssembledSystem& system, const State& s) {
   return all;
 }
 
-// Moves the state to the nearest one in which the penetrating contacts touch and the joints hold. Contacts that
-// penetrate then are added, so this ends. False: none was found.
+// Moves the state to the nearest one in which the penetrating contacts touch and the joints' rows are satisfied.
+// Contacts that penetrate then are added, so this ends. False: no such state was found.
 bool project_out_of_contacts(model::AssembledSystem& system, State& s) {
   const model::Modes before = system.modes();
   model::Modes touching = before;
@@ -77,13 +77,13 @@ std::string moves(model::AssembledSystem& system, const State& from, const State
   return text;
 }
 
-// At the first joint or body of a conflict.
+// The problem, at the first joint or body of a conflict.
 scene::Problem problem_at(const std::vector<std::string>& paths, const scene::Value& root, std::string message) {
   const scene::Value* at = paths.empty() ? nullptr : root.at_path(paths.front());
   return (at ? *at : root).problem(std::move(message));
 }
 
-// Why no consistent state was found, and which joints and bodies are to blame.
+// Why no consistent state was found, with the joints and bodies to blame.
 scene::Problem contradiction(model::AssembledSystem& system, const State& start, const scene::Value& root) {
   const Conflict conflict = smallest_conflict(system, start);
   const std::vector<std::string>& paths = conflict.paths;
@@ -107,14 +107,14 @@ void check_directions(model::AssembledSystem& system, const State& s, const scen
                       row + 1, joint.rows)));
 }
 
-// Rows that are satisfied and still require accelerations that no motion has.
+// Reports rows that are satisfied and still require accelerations that no motion has.
 void check_motion(model::AssembledSystem& system, const State& s, const scene::Value& root, scene::Problems& problems) {
   Vec a, lambda, missed;
   system.move_to(s.t, s.q, s.v);
   try {
     system.accelerate({}, a, lambda);
   } catch (const model::NotSolvable&) {
-    return;  // the run's own first solution says so, with its time
+    return;  // the run reports it at its first solution, with the time
   }
   system.constraint_acceleration(a, missed);
   const double off = missed.norm();

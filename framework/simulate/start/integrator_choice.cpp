@@ -11,13 +11,14 @@
 namespace trammel::simulate {
 namespace {
 
-// Of an explicit method, each about a radian of what is fastest, of a system of `few` coordinates at most; a step of
-// more costs more.
+// Limit of the evaluations of an explicit method, about one per radian of the fastest motion, for at most `few`
+// coordinates; with more coordinates each step costs more.
 constexpr double most_evaluations = 1e6, few = 10;
-// Of elements: their fast waves are in motion, by loads and blows, and a tolerance that sees them follows them.
+// Systems of more coordinates consist of elements. Loads and blows keep their fast waves in motion, and a tight
+// tolerance would resolve these waves.
 constexpr int many = 100;
-// Of rows that dop853 stabilises at 10 1/s (its delta and epsilon): they bound its steps, whatever moves. A run that is
-// longer than so many times a tenth of a second is of slower motions.
+// dop853 stabilises rows at 10 1/s (its delta and epsilon), which limits its steps for any motion. A run that is longer
+// than `most_of_stabilisation` tenths of a second has slower motions.
 constexpr double stabilised_at = 10, most_of_stabilisation = 1e4;  // [1/s]
 
 struct Choice {
@@ -76,7 +77,7 @@ void take(const Choice& choice, Setup& setup, plugin::Registry& registry, scene:
   setup.integrator = std::move(made.component);
   setup.integrator_origin = std::move(made.origin);
   setup.integrator_type = parameters.root().find("type")->text();
-  // `absolute` 0: in the scene's own unit, as where a scene gives a tolerance itself.
+  // `absolute` 0: in the scene's own unit, as for a tolerance that a scene gives.
   setup.settings.step.tolerance = setup.settings.contact_step.tolerance = {choice.tolerance, 0};
 }
 
@@ -88,7 +89,7 @@ void choose_integrator(Setup& setup, model::AssembledSystem& system, const std::
   try {
     fastest = fastest_motion(system, setup.initial);
   } catch (const model::NotSolvable&) {
-    return;  // the run tells, with its time
+    return;  // the run reports it, with its time
   }
   const MassRatio ratio = mass_ratio(*setup.model, setup.initial);
   const Choice& choice = before.empty() ? fitting(fastest, ratio, setup) : named(before);

@@ -8,16 +8,16 @@
 //     the same, tolerance 1e-5             with more than 100 coordinates: waves through elements are always in motion
 //                                          (1e-5 m on a steel plate of 326 under a ball) and would be resolved at 1e-7
 //
-// Decided from the model at its start (fastest_motion.hpp) and the duration of the run, so the same scene always has
-// the same integrator. A resumed run, whose end may have moved, keeps its integrator.
+// The choice follows from the model at its start (fastest_motion.hpp) and the duration of the run, so the same scene
+// always has the same integrator. A resumed run, whose end may have moved, keeps its integrator.
 #pragma once
 
 #include "simulate/start/setup.hpp"
 
 namespace trammel::simulate {
 
-// Replaces the first of these, which `setup` has, if another one fits better, or if a resumed run had another, `before`
-// (empty: not resumed); setup.choice states the choice and its reason.
+// `setup` has the first of these. Replaces it if another one fits better, or if the resumed run had another one,
+// `before` (empty: not resumed). setup.choice states the choice and its reason.
 void choose_integrator(Setup& setup, model::AssembledSystem& system, const std::string& before,
                        plugin::Registry& registry, scene::Problems& problems);
 

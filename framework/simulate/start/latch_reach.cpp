@@ -25,13 +25,13 @@ class Approach {
     sizes_ = system.coordinate_sizes();
   }
 
-  // The gap that is reached from q, which is near the rows.
+  // Reduces the gap from q, which is near the rows.
   End from(Vec q) {
     constexpr int most_steps = 200;
-    constexpr double enough = 1e-5;       // of the first gap
-    constexpr double least_sine = 1e-4;   // of the gap's gradient to the rows: a gap within 1e-8 of the stationary one
-    constexpr double least_change = 0.1;  // of what a step should bring
-    double longest = 0.1;                 // change of a coordinate in a step, in its size
+    constexpr double enough = 1e-5;       // of the first gap: counts as reached
+    constexpr double least_sine = 1e-4;   // of the angle between the gap's gradient and the rows: stationary to 1e-8
+    constexpr double least_change = 0.1;  // of the linear prediction of a step
+    double longest = 0.1;                 // change of a coordinate in a step, relative to its size
     if (!restore(q)) return End::unknown;
     const double first = gap_;
     for (int i = 0; i < most_steps; ++i) {
@@ -55,7 +55,7 @@ class Approach {
   double gap() const { return gap_; }
 
  private:
-  // q onto the rows, and its gap.
+  // Moves q onto the rows and computes its gap.
   bool restore(Vec& q) {
     system_.set_modes(open_);
     State s{t_, q, Vec::Zero(system_.sizes().nv), {}, {}};
@@ -67,8 +67,8 @@ class Approach {
     return found && std::isfinite(gap_);
   }
 
-  // closing_: the change of least norm that keeps the rows and reduces the gap by 1. Returns the sine of the angle
-  // between the gap's gradient and the rows.
+  // Sets closing_ to the change of least norm that keeps the rows and reduces the gap by 1. Returns the sine of the
+  // angle between the gap's gradient and the rows.
   double closing_direction(const Vec& q) {
     model::Modes held = open_;
     held.contacts[std::size_t(contact_)].closed = true;
@@ -83,7 +83,7 @@ class Approach {
     if (!system_.correct(still, wanted, closing_, mu, Factors::projection))
       return std::numeric_limits<double>::quiet_NaN();
     system_.add_rows_times(1, closing_, change);
-    // Else it counts as one of the rows.
+    // Otherwise the gap's gradient counts as one of the rows.
     const bool closes = (change + wanted).lpNorm<Eigen::Infinity>() < 1e-3;
     return closes ? 1 / (gradient.norm() * closing_.norm()) : 0;
   }
@@ -115,7 +115,7 @@ bool rows_depend_on_time(model::AssembledSystem& system, const State& start, dou
   return false;
 }
 
-// [m, rad] Empty: it can lock, or this is not known.
+// [m, rad] The smallest gap of a latch that cannot lock; empty: it can, or this is unknown.
 std::optional<double> nearest_if_never(model::AssembledSystem& system, const State& start, int contact) {
   double nearest = std::numeric_limits<double>::infinity();
   for (int attempt = 0; attempt < 4; ++attempt) {

@@ -16,7 +16,7 @@ namespace {
 using scene::Problems;
 using scene::Value;
 
-// The first of some instants at which the law or one of its derivatives is no number, and which of them.
+// The first of some instants at which the law or one of its derivatives is not finite, and which of them.
 std::optional<std::pair<double, const char*>> find_not_finite(const TimeFunction& law, int derivatives, double begin,
                                                               double end) {
   constexpr int parts = 256;
@@ -49,7 +49,7 @@ void check(const Value& component, const plugin::Entry& entry, double begin, dou
   }
 }
 
-// A table ends with its records. The scene must state the continuation: a record of 30 s in a run of 40 s may be a
+// A table ends with its last record. The scene must state how it continues: a record of 30 s in a run of 40 s may be a
 // mistake.
 void check_span(const Value& table, double begin, double end, Problems& problems) {
   Problems ignored;  // reported when the component was made

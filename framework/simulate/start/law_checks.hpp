@@ -1,5 +1,5 @@
-// Laws of time must be defined throughout the run, and those whose derivatives enter the equations of motion must be
-// differentiable: the length of a rod, the place of a base.
+// Checks that laws of time are defined throughout the run, and that those whose derivatives enter the equations of
+// motion (the length of a rod, the place of a base) are differentiable.
 #pragma once
 
 #include "plugin/parameters.hpp"

@@ -42,7 +42,7 @@ void read_integrator(const Value& root, plugin::Registry& registry, Setup& setup
                                   registry, problems);
 }
 
-// Pictures are asked for: some body must have fields.
+// If fields are to be recorded, some body must have them.
 void check_fields(const Value& root, const model::Model& model, plugin::Registry& registry, Problems& problems) {
   const Value* asked = root.at_path("record.fields");
   if (!asked || FieldLine(model).possible()) return;
@@ -89,7 +89,7 @@ void read_corrections(const Value& root, plugin::Registry& registry, Setup& setu
   }
 }
 
-// The start must be inside every component's domain. Other failures there are reported by the run, with time and
+// Throws if the start is outside a component's domain. The run itself reports other failures there, with time and
 // results.
 void check_domain(model::AssembledSystem& system, const State& start) {
   try {
@@ -101,7 +101,7 @@ void check_domain(model::AssembledSystem& system, const State& start) {
   }
 }
 
-// Finds the state to start from: the first calls of bodies, joints, forces and contacts.
+// Finds the initial state. This makes the first calls of bodies, joints, forces and contacts.
 void find_start(Setup& setup, model::AssembledSystem& system, const Value& root, Problems& problems) {
   State start;
   start.t = setup.settings.start;
@@ -117,8 +117,8 @@ void find_start(Setup& setup, model::AssembledSystem& system, const Value& root,
   begin_columns(setup.columns, system, setup.initial);
 }
 
-// From the start alone, so that a resumed run has the same.
-void tell_unit(Setup& setup, model::AssembledSystem& system) {
+// Gives the integrator the scene's length as its unit, from the start alone so that a resumed run has the same.
+void set_length_unit(Setup& setup, model::AssembledSystem& system) {
   auto* const own = dynamic_cast<OwnTolerances*>(setup.integrator.get());
   if (!own) return;
   system.move_to(setup.initial.t, setup.initial.q, setup.initial.v);
@@ -163,7 +163,7 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purp
                                           setup.initial, registry, problems);
     if (purpose == Purpose::motion && !root.find("integrator"))
       choose_integrator(setup, system, chosen_before, registry, problems);
-    tell_unit(setup, system);
+    set_length_unit(setup, system);
     for (std::string& sentence : turned_boundaries(system, setup.initial, setup.settings.until))
       setup.warnings.push_back(std::move(sentence));
   });

@@ -13,8 +13,8 @@
 #include "plugin/identity.hpp"
 #include "plugin/plugin_error.hpp"
 #include "plugin/registry.hpp"
-#include "simulate/results/observable.hpp"
 #include "run/settings.hpp"
+#include "simulate/results/observable.hpp"
 
 namespace trammel::simulate {
 
@@ -25,8 +25,8 @@ struct Setup {
   std::unique_ptr<Integrator> integrator;
   plugin::Origin integrator_origin;
   std::string integrator_type;
-  std::string chosen;  // by Trammel, for a scene that names no integrator (integrator_choice.hpp); else empty
-  std::string choice;  // the same in full, and why
+  std::string chosen;  // name of the integrator that Trammel chose (integrator_choice.hpp); empty: the scene names one
+  std::string choice;  // the choice in full, with its reason
   struct LevelCorrection {
     Correction::Level level;
     std::unique_ptr<Correction> correction;
@@ -37,12 +37,12 @@ struct Setup {
   std::vector<Column> columns;
   State initial;
   std::vector<std::string> warnings;
-  std::vector<plugin::Identity> plugins;  // loaded for this scene, as their files were then
+  std::vector<plugin::Identity> plugins;  // loaded for this scene, with their files at that time
 };
 
-// Throws SceneError, PluginError. Statics needs no integrator, makes none and no corrections.
-// The witness, if any, is told of the model while it is asked for its first state. `chosen_before` is the Setup::chosen
-// of the run that is resumed.
+// Throws SceneError, PluginError. Statics needs no integrator and makes no integrator and no corrections. The witness,
+// if any, follows the model while it is asked for its initial state. `chosen_before` is Setup::chosen of the run that
+// is resumed.
 Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purpose = Purpose::motion,
              CrashWitness* witness = nullptr, const std::string& chosen_before = "");
 

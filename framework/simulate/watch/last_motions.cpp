@@ -23,15 +23,15 @@ std::vector<std::string> largest(std::vector<std::pair<double, std::string>> all
   return names;
 }
 
-// Twice the kinetic energy that each coordinate has of dv (nv), at the state `system` was moved to: a measure in which
-// metres and radians add up.
+// Twice the kinetic energy of each coordinate of dv (nv), at the point of `system`: a measure that can add metres and
+// radians.
 Vec energies(model::AssembledSystem& system, const Vec& dv) {
   Vec momentum = Vec::Zero(dv.size());
   system.add_mass_times(1, dv, momentum);
   return dv.cwiseProduct(momentum);
 }
 
-// The sentence with the bodies that have the largest parts of the sum (nv) in the place of its {}.
+// The sentence, with the bodies that have the largest parts of the sum (nv) inserted at its {}.
 std::string made_by(fmt::format_string<std::string> sentence, const model::AssembledSystem& system, const Vec& parts) {
   const double all = parts.sum();
   std::vector<std::pair<double, std::string>> bodies;
@@ -57,7 +57,7 @@ void LastMotions::take(const ContactEvent& event) {
 std::string LastMotions::contributors(model::AssembledSystem& system, const LastTrial& trial) const {
   const auto& [now, next, h, error_parts, iterated] = trial;
   if (error_parts.size() > 0) return made_by("the error of the last trial is that of {}", system, error_parts);
-  const bool tried = next.a.size() == system.sizes().nv && now.a.size() == next.a.size();  // not at the start yet
+  const bool tried = next.a.size() == system.sizes().nv && now.a.size() == next.a.size();  // empty at the start
   if (!tried || !next.q.allFinite() || !next.v.allFinite() || !next.a.allFinite()) return "";
   if (iterated) {
     State balanced = next;
@@ -85,7 +85,7 @@ std::string LastMotions::worst_rows(model::AssembledSystem& system, const State&
                      fmt::join(largest(groups), ", "));
 }
 
-// By its present gap and rate, which need not be what follows.
+// By its present gap and rate; the motion may change them.
 std::string LastMotions::next_closing(model::AssembledSystem& system, const State& now, double until) const {
   double soonest = until - now.t;
   int which = -1;

@@ -1,6 +1,6 @@
-// What happened before a run cannot go on, for its message: the last step sizes, the events before and after, the
-// bodies that make the error or the residual of the step that failed, or whose velocities change most in it, and the
-// joints whose rows are met worst at its end.
+// What happened before a run could not go on, for its message: the last step sizes, the events before and after, the
+// bodies with the largest part of the error or residual of the failed step, or with the largest change of velocity in
+// it, and the joints whose rows are violated most at its end.
 #pragma once
 
 #include <array>
@@ -19,18 +19,18 @@ struct LastTrial {
   const State& now;
   const State& next;
   double h;
-  const Vec& error_parts;  // (nv) Tolerance::parts of its error; empty: it was not its error that was refused
-  bool iterated;           // its method iterates, and found no solution: `next` is the last iterate
+  const Vec& error_parts;  // (nv) Tolerance::parts of its error; empty: it was not rejected for its error
+  bool iterated;           // the method iterates and did not converge: `next` is its last iterate
 };
 
 class LastMotions {
  public:
   void take(double h);  // an accepted step [s]
   void take(const ContactEvent& event);
-  // Sentences about the trial, each after "; ". `until` [s]: an event that is expected later is none of the run's.
+  // Sentences about the trial, each after "; ". An event expected after `until` [s] is not mentioned.
   std::string say(model::AssembledSystem& system, const LastTrial& trial, double until) const;
   void archive(Archive& a);
-  bool fits(std::size_t contacts) const {  // what was read
+  bool fits(std::size_t contacts) const {  // the archive that was read
     return event_contact_ < int(contacts) && event_kind_ >= 0 && event_kind_ <= int(ContactEvent::Kind::reversal);
   }
 

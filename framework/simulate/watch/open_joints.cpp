@@ -10,10 +10,10 @@
 namespace trammel::simulate {
 namespace {
 
-constexpr double apart = 0.1;  // of the size, and of 1 rad
+constexpr double apart = 0.1;  // relative to the size, and to 1 rad
 constexpr std::size_t most_told = 3;
 
-// Of each body, the diagonal of the box around its markers [m].
+// [m] The diagonal of the box around the markers of each body.
 std::vector<double> extents(model::AssembledSystem& system) {
   std::vector<double> all;
   for (int body = 0; body < int(system.model().bodies.size()); ++body) {
@@ -34,7 +34,7 @@ std::vector<double> extents(model::AssembledSystem& system) {
 
 }  // namespace
 
-// Of the others from the first [m].
+// [m] The largest distance of the other markers from the first.
 double OpenJoints::distance(model::AssembledSystem& system, const std::vector<model::MarkerRef>& markers) {
   double largest = 0;
   if (markers.empty()) return largest;
@@ -51,14 +51,14 @@ void OpenJoints::measure(model::AssembledSystem& system, double otherwise, doubl
     if (const model::BodyEntry& body = model.bodies[i]; body.rows > 0)
       joints_.push_back({{"bodies." + body.name, body.row, body.rows}, {}, extent[i]});
   for (const model::JointEntry& joint : model.joints) {
-    // What its rows are off by is not its size.
+    // Violations of its rows do not count as its size.
     double size = distance(system, joint.markers) - system.g().segment(joint.row, joint.rows).norm();
     for (const model::MarkerRef marker : joint.markers)
       if (marker.body >= 0) size = std::max(size, extent[std::size_t(marker.body)]);
     joints_.push_back({{"joints." + joint.name, joint.row, joint.rows}, joint.markers, size});
   }
   // A point that is computed in two ways has no length, only the round-off of its place. If everything is in one point,
-  // nothing has a length; then 1 m.
+  // nothing has a length; then 1 m is used.
   for (Joint& joint : joints_)
     if (!(joint.size > round_off)) joint.size = otherwise > round_off ? otherwise : 1;
 }
@@ -72,7 +72,7 @@ std::string OpenJoints::description(model::AssembledSystem& system, const State&
   std::vector<Open> open;
   const Vec& g = system.g();
   for (const Joint& joint : joints_) {
-    // Most are far from it. A row's g is at least half of its violation.
+    // Most joints are far from it. The g of a row is at least half of its violation.
     const double said = g.segment(joint.rows.first, joint.rows.count).lpNorm<Eigen::Infinity>();
     if (!(said > 0.5 * apart * std::min(1.0, joint.size))) continue;
     Open worst{&joint.rows.path, 0, {}};

@@ -1,9 +1,11 @@
 // Joints that have come apart: rows violated by more than a tenth of the size of what they connect.
 //
-// A method that does not end its steps on the rows violates them by its error, and drifts without stabilisation; the
+// A method that does not end its steps on the rows violates them by its error, and without stabilisation it drifts; the
 // user judges that by the norms. But if a rod is a tenth too long, or a hinge open by a tenth of its bodies' length,
-// the run no longer simulates the mechanism of the scene. Lengths are compared with the larger of the joint's bodies
-// (the extent of its markers), or with the distance of the joint's markers if that is more; angles with 1 rad.
+// the run no longer simulates the mechanism of the scene. Lengths are compared with the largest extent of the markers
+// of the joint's bodies, or with the distance of the joint's markers if that is more; angles with 1 rad.
+// At the system's point, where the rows are satisfied; to be called once, and again after each new layout. `otherwise`
+// [m] is the size of bodies without extent in joints without a length, which is a length up to `round_off` [m].
 #pragma once
 
 #include <string>
@@ -20,7 +22,7 @@ class OpenJoints {
   // At the system's point, where the rows hold; once, and again after each new layout. `otherwise` [m] is the size of
   // bodies without extent in joints without a length, that is, of at most `round_off` [m].
   void measure(model::AssembledSystem& system, double otherwise, double round_off);
-  // "joints.crank by 0.25 m, joints.axis by 0.3 rad", the worst few; empty: none. At the state, where the system is.
+  // "joints.crank by 0.25 m, joints.axis by 0.3 rad", the worst few; empty: none. The system is at `state`.
   std::string description(model::AssembledSystem& system, const State& state) const;
 
  private:

@@ -16,7 +16,7 @@ namespace trammel::simulate {
 class TheoryWatch {
  public:
   explicit TheoryWatch(const model::Model& model);
-  // Why no body could have this shape; empty: they could.
+  // Why no body could have this shape; empty: it is possible.
   [[nodiscard]] std::string look(double t, const Vec& q);
   std::vector<std::string> warnings() const;
   void archive(Archive& a);

@@ -6,16 +6,16 @@
 
 #include <trammel/counts_turns.hpp>
 
-#include "system/assembled_system.hpp"
 #include "simulate/results/checkpoint.hpp"
+#include "system/assembled_system.hpp"
 
 namespace trammel::simulate {
 
 class TurnCounts {
  public:
   explicit TurnCounts(model::AssembledSystem& system);
-  // Moves the system to the state if any component counts turns. Throws RunFailed, naming the component that cannot
-  // follow.
+  // Moves the system to the state if any component counts turns. Throws RunFailed with the name of a component that
+  // cannot count any further.
   void follow(double t, const Vec& q, const Vec& v);
   void archive(JsonArchive& a);
 
