@@ -18,16 +18,17 @@
 namespace trammel::complementarity {
 namespace {
 
-// Of the largest entry of A: what a contact yields per unit of its force where several solutions are to be told apart.
-// Where rows depend on each other the first are larger than what Lemke's method perturbs, so that it ends where springs
-// do.
+// Relative to the largest entry of A: compliances of the contacts, tried in this order; a compliance selects one of
+// several solutions. If rows depend on each other, the first ones exceed the perturbation of Lemke's method, so that it
+// ends where springs do.
 constexpr double compliances[] = {1e-10, 0.0}, dependent_compliances[] = {1e-6, 1e-8, 1e-10, 0.0};
-// Accelerations that are none, in parts of all, from which exact modes are sought. Those of contacts that yield are off
-// by the round-off of pivoting, some 1e-10: what rests, taken to slide, can lead to another solution, a wedge.
+// Relative to the largest: accelerations that count as 0 when exact modes are sought. Those of compliant contacts carry
+// the round-off of pivoting, about 1e-10; a contact at rest that is taken to slide can lead to another solution, a
+// wedge.
 constexpr double judged_at_rest[] = {1e-8, 1e-12};
-// A violation that is round-off of A F, of 1e-4 of its shares: nothing better is looked for.
+// A violation as small is the round-off of A F (1e-4 of its terms): no better solution is sought.
 constexpr double round_off = 1e-11;
-// Contacts whose modes are searched at most, and how many sets of modes.
+// Largest number of contacts whose modes are searched, and of sets of modes.
 constexpr std::size_t few_contacts = 24, few_round_contacts = 4;
 constexpr int most_nodes = 20000;
 
@@ -96,8 +97,8 @@ class Cascade {
     return A_ + yields * A_.diagonal().maxCoeff() * Mat::Identity(A_.rows(), A_.cols());
   }
 
-  // Newton's method on the cones. With contacts that yield it comes to the one of several solutions that springs have,
-  // from which the way to the rigid ones is short.
+  // Newton's method on the cones. Compliant contacts lead it to that of several solutions which springs have; from
+  // there the rigid solution is near.
   bool try_cones(double yields, const Vec& start, int rounds = 40) {
     Vec F = start;
     if (yields > 0) {
@@ -108,8 +109,8 @@ class Cascade {
     return accept(F) && found;
   }
 
-  // With the share of equal springs, exactly: where the rows that carry also resist forces along their self-stress,
-  // these are 0.
+  // Exact shares of equal springs: adds a stiffness against forces along the self-stress of the carrying rows, which
+  // makes these forces 0.
   bool try_springs(double yields, const Vec& nearby) {
     const Vec a = compliant(yields) * nearby + b_;
     const CarryingRows carrying =
@@ -124,8 +125,9 @@ class Cascade {
     return solve_cones(points_, springs, b_, F) && accept(F);
   }
 
-  // Keeps it if it is the best so far, once it is exact or else, where that fails, as it is. In space directions of
-  // slip are better known before: the better one. True: no better one is needed.
+  // Keeps the exact solution near `nearby` if it is the best so far, or `nearby` itself if there is no exact one. In
+  // space the directions of slip may be known better before, so the better of both counts. True: no better one is
+  // needed.
   bool accept(const Vec& nearby) { return accept(nearby, A_ * nearby + b_); }
   bool accept(const Vec& nearby, const Vec& a) {
     for (const double off : judged_at_rest) {
@@ -145,7 +147,7 @@ class Cascade {
     best_ = F;
   }
 
-  // Forces so large that the round-off of A F alone is of b's size are none: Painleve's critical coefficient.
+  // True if A F has lost b in round-off: such forces are no solution (Painleve's critical coefficient).
   bool lost_in_round_off(const Vec& F) const {
     constexpr double eps = std::numeric_limits<double>::epsilon();
     return eps * (A_.cwiseAbs() * F.cwiseAbs()).maxCoeff() > 1e-4 * b_.lpNorm<Eigen::Infinity>();
@@ -165,9 +167,9 @@ class Cascade {
   double least_ = std::numeric_limits<double>::infinity();
 };
 
-// What the conditions say is 0.
+// Sets to 0 what is 0 by the conditions.
 void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a) {
-  // Of accelerations; of a force it is what makes as much, less where bodies are light.
+  // Round-off of accelerations. That of a force is the force which causes it, smaller where bodies are light.
   const double little = 1e-13 * (b.lpNorm<Eigen::Infinity>() + (A.cwiseAbs() * F.cwiseAbs()).lpNorm<Eigen::Infinity>());
   for (const ContactPoint& p : points) {
     double N = p.given;
@@ -188,7 +190,7 @@ void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, cons
       T.setZero();
       continue;
     }
-    // Where what a_t asks for is beyond the bound it slides; else it is held, and a_t is round-off.
+    // If the force that a_t asks for exceeds the bound, the contact slides; otherwise it is held, and a_t is round-off.
     const double stiff = A.block(p.tangent, p.tangent, p.tangents, p.tangents).trace() / p.tangents;
     const Vec asked = stiff > 0 ? Vec(T - a_t / stiff) : Vec(T);
     const bool slides = stiff * asked.norm() > stiff * bound + 10 * little;

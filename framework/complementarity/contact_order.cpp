@@ -8,7 +8,7 @@
 namespace trammel::complementarity {
 namespace {
 
-// Irregular weights, so that sums of different numbers differ.
+// Irregular weights: sums of different numbers then differ.
 constexpr double weights[] = {1,
                               0.7548776662466927,
                               0.5698402909980532,
@@ -21,7 +21,7 @@ double relative(double x, double size) {
   return size > 0 ? x / size : 0;
 }
 
-// Without units; logarithms, since masses may differ by many powers of ten.
+// Without units; as logarithms, since masses may differ by many powers of ten.
 double own_number(const ContactPoint& p, const Mat& A, double stiff, double load) {
   const auto size = [stiff](double x) { return x > 0 ? std::log(x / stiff) : 0; };
   double number = weights[0] * p.coefficient + weights[1] * p.ratio[0] + weights[2] * p.ratio[1];
@@ -37,7 +37,7 @@ double own_number(const ContactPoint& p, const Mat& A, double stiff, double load
   return number;
 }
 
-// What a vector of forces or accelerations has at a contact.
+// A number for the entries of a contact in a vector of forces or accelerations.
 double entries(const ContactPoint& p, const Vec& x) {
   const double size = x.lpNorm<Eigen::Infinity>();
   double number = p.normal >= 0 ? relative(x[p.normal], size) : 0;

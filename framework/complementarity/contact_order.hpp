@@ -1,13 +1,13 @@
-// An order of contacts that depends on what they are, not on how they are named.
+// Orders contacts by their properties, not by their names.
 //
-// Problems with friction may have several solutions, and which one an algorithm ends in depends on the order of its
-// rows. So contacts are sorted by numbers that move with them when they are permuted: their own stiffness, coefficient
-// and load, how their normal and tangents are coupled, by whose sign the two feet of a symmetric block differ, and
-// their entries of A b and A A b, which tell how they are coupled with others. Contacts with the same numbers look
-// alike. They keep the order that they come in, and no rule could do better.
-// An example: two contacts, without tangents of their own here, whose normal forces obey  a_1 = N_1 + 2 N_2 - 1,  a_2 =
-// 2 N_1 + N_2 - 1  by friction that slides. Of its solutions (1, 0), (0, 1) and (1/3, 1/3) only the last is the same
-// when the two are exchanged, and it is the one that no stiff law settles in: what yields a little runs away from it.
+// Problems with friction may have several solutions, and the one that an algorithm finds depends on the order of its
+// rows. Therefore contacts are sorted by numbers that do not depend on their order: their own stiffness, coefficient
+// and load; the coupling of their normal and tangents, whose sign distinguishes the two feet of a symmetric block; and
+// their entries of A b and A A b, which contain the coupling with others. Contacts with the same numbers look alike;
+// they keep their order, and no rule could do better.
+// An example: two contacts whose normal forces obey a_1 = N_1 + 2 N_2 - 1, a_2 = 2 N_1 + N_2 - 1 because of sliding
+// friction. Of the solutions (1, 0), (0, 1) and (1/3, 1/3) only the last is unchanged when the contacts are exchanged,
+// and it is the one at which no stiff law settles: compliant contacts depart from it.
 #pragma once
 
 #include <vector>
@@ -24,11 +24,11 @@ class OrderedContacts {
   const std::vector<ContactPoint>& points() const { return points_; }
   const Mat& A() const { return A_; }
   const Vec& b() const { return b_; }
-  Vec as_named(const Vec& x) const;  // forces or accelerations in the order that the contacts came in
+  Vec as_named(const Vec& x) const;  // forces or accelerations in the original order
 
  private:
   std::vector<ContactPoint> points_;
-  std::vector<Eigen::Index> rows_;  // of each row the one that it was
+  std::vector<Eigen::Index> rows_;  // original row of each row
   Mat A_;
   Vec b_;
 };

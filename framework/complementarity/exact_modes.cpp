@@ -13,7 +13,7 @@ namespace {
 using Tangent = ContactRole::Tangent;
 using Eigen::Index;
 
-constexpr double mode_tolerance = 1e-12;  // of the forces and of the accelerations
+constexpr double mode_tolerance = 1e-12;  // relative to the forces and to the accelerations
 
 Eigen::Vector2d along_tangents(const Vec& x, const ContactPoint& p) {
   Eigen::Vector2d both = Eigen::Vector2d::Zero();
@@ -36,7 +36,7 @@ std::vector<ContactRole> roles_of(const std::vector<ContactPoint>& points, const
     const Eigen::Vector2d a_t = along_tangents(a, p);
     const bool moves = a_t.norm() > nothing;
     role.tangent = moves ? Tangent::slides : Tangent::sticks;
-    // A force near its bound has the direction with more digits.
+    // Near its bound the direction of the force has more digits.
     const bool bound = N > no_force && along_tangents(F, p).norm() > 0.5 * p.coefficient * N;
     if (moves) role.ratio = p.coefficient * (bound ? along_tangents(F, p) : Eigen::Vector2d(-a_t)).normalized();
   }
@@ -58,8 +58,8 @@ class ExactModes {
     return true;
   }
 
-  // Of implied rows 0, where their angle to the basis is all that they differ by. Accelerations along different rows
-  // are compared by the lengths of the rows.
+  // Accelerations along implied rows are set to 0 if they differ by no more than the rows' angle to the basis.
+  // Accelerations along different rows are compared in units of the rows' lengths.
   Vec accelerations() const {
     const Vec length = A_.diagonal().cwiseSqrt();
     double fastest = 0;
@@ -72,8 +72,7 @@ class ExactModes {
   }
 
  private:
-  // Forces and modes that do not contradict each other. False: it found none, or came to modes for the second time,
-  // from where it would go round and round.
+  // Iterates until forces and modes agree. False: it found none, or the modes repeat.
   bool settle_modes() {
     const int most = 6 * int(points_.size()) + 20;
     std::vector<std::vector<ContactRole>> tried;
@@ -86,8 +85,8 @@ class ExactModes {
     return false;
   }
 
-  // How contacts share must not depend on the modes that were tried on the way: once more from those that the
-  // accelerations show, with all contacts closed that do not part and all tangents sticking that do not move.
+  // The shares must not depend on the modes tried before: forms them again, with all contacts closed that do not part
+  // and all tangents sticking that do not move.
   void share_by_accelerations() {
     const std::vector<ContactRole> on_the_way = roles_;
     roles_ = roles_of(points_, F_, a_, mode_tolerance * acceleration_scale());
@@ -123,7 +122,8 @@ class ExactModes {
   }
 
   double normal_force(std::size_t i) const { return points_[i].normal >= 0 ? F_[points_[i].normal] : points_[i].given; }
-  // What contradicts a force, as the acceleration that it makes: forces of light bodies are small.
+  // The acceleration that contradicts a contact's mode. (A contradicting force counts as the acceleration that it
+  // causes, because forces of light bodies are small.)
   double pull(std::size_t i) const {
     const int normal = points_[i].normal;
     return normal >= 0 ? -A_(normal, normal) * F_[normal] : 0;
@@ -133,8 +133,8 @@ class ExactModes {
     return A_(p.tangent, p.tangent) * (along_tangents(F_, p).norm() - p.coefficient * std::max(0.0, normal_force(i)));
   }
 
-  // Contacts that may share otherwise, for they do not slide and their resultants alone matter, and the columns of
-  // their forces.
+  // Contacts whose shares may be changed, because they do not slide and only their resultants matter; `columns`:
+  // columns of their forces.
   std::vector<SharingContact> sharing_contacts(std::vector<Index>& columns) const {
     const auto column_of = [&](int row) {
       Index k = 0;
@@ -166,14 +166,15 @@ class ExactModes {
     return true;
   }
 
-  // By the least admissible forces, where springs would pull or leave a cone. Resultants are corrected for what K and
-  // the projections leave of the accelerations: round-off of forces that may be many times those that accelerate.
+  // Takes the least admissible forces where springs would pull or leave a cone. Resultants are corrected by the
+  // accelerations that K and the projections leave: round-off of forces that may be many times larger than those that
+  // accelerate.
   void share_admissibly(const CarryingEquations& equations) {
     if (springs_are_admissible()) return;
     if (!share_beside_sliding(equations) && carrying_.sliding_shares) share_with_sliding();
   }
 
-  // Those that slide keep springs' share. False: none is admissible.
+  // Sliding contacts keep the shares of springs. False: there are no admissible shares.
   bool share_beside_sliding(const CarryingEquations& equations) {
     std::vector<Index> columns;
     const std::vector<SharingContact> sharing = sharing_contacts(columns);
@@ -191,7 +192,8 @@ class ExactModes {
     return true;
   }
 
-  // Along self-stresses of the forces, n + p t of what slides: they leave all accelerations as they are.
+  // Changes shares along self-stresses of the force directions, n + p t for sliding contacts, which leave all
+  // accelerations unchanged.
   void share_with_sliding() {
     std::vector<Index> columns;
     std::vector<SharingContact> sharing = sharing_contacts(columns);
@@ -230,7 +232,7 @@ class ExactModes {
     F_ = F, a_ = a;
   }
 
-  // The mode that is contradicted most, as an acceleration. False: none is.
+  // Changes the mode with the largest contradicting acceleration. False: there is none.
   bool change_worst() {
     double worst = mode_tolerance * acceleration_scale();
     std::size_t who = points_.size();
@@ -284,7 +286,7 @@ class ExactModes {
     if (p.slides()) role.ratio = p.ratio;
   }
 
-  // What an idle contact would carry as a spring among those that carry: K times the forces along the basis.
+  // The force that an idle contact would have as a spring among the carrying ones: K times the forces along the basis.
   double spring_force(int row) const {
     const auto& [basis, implied, K] = carrying_.rows;
     const auto found = std::find(implied.begin(), implied.end(), Index(row));

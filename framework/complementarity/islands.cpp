@@ -27,7 +27,7 @@ void add(const ContactPoint& p, Island& island) {
   for (int k = 0; k < p.tangents; ++k) island.rows.push_back(p.tangent + k);
 }
 
-// The contacts of each, by index.
+// The contacts of each island, by index.
 std::vector<std::vector<std::size_t>> members_of_islands(const std::vector<ContactPoint>& points, const Mat& A) {
   std::vector<std::vector<std::size_t>> all;
   std::vector<bool> found(points.size(), false);

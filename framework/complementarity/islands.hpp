@@ -1,5 +1,5 @@
-// Contacts that act on each other, directly or through others: a chain of entries of A that are not 0. Each island is a
-// problem of its own.
+// Contacts that act on each other, directly or through others (a chain of non-zero entries of A), form an island. Each
+// island is a problem of its own.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace trammel::complementarity {
 
-// Of each contact: the number of its island, less than the number of contacts.
+// For each contact: the number of its island, less than the number of contacts.
 std::vector<std::size_t> island_of_each(const std::vector<ContactPoint>& points, const Mat& A);
 
 struct Island {
-  std::vector<ContactPoint> points;  // with rows of its own
-  std::vector<Eigen::Index> rows;    // of A, by row of its own
+  std::vector<ContactPoint> points;  // with rows of the island
+  std::vector<Eigen::Index> rows;    // row of A for each row of the island
 };
 std::vector<Island> islands(const std::vector<ContactPoint>& points, const Mat& A);
 

@@ -14,11 +14,12 @@ using Eigen::Index;
 using Eigen::Vector2d;
 using Kind = DecidedMode::Kind;
 
-// What equations must miss to count as contradictory, of the size of b [1].
+// [1] Relative to b: a smaller residual of the equations does not prove a contradiction.
 constexpr double contradictory = 1e-8;
-// Cosine of a column with what equations miss that is round-off.
+// Cosine between a column and the residual that counts as round-off.
 constexpr double no_slope = 1e-9;
-// What is missed proves that there are no forces up to so many times those that make accelerations of the size of b.
+// The residual then proves that there are no forces up to this many times those that cause accelerations of the size of
+// b.
 constexpr double excluded = 1e4;
 constexpr int sides = 8;  // of the polygon around the disk
 
@@ -26,7 +27,7 @@ Vector2d direction(double angle) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-// B x = d for x >= 0. F = F_x x; each row is one of a, or a sum.
+// B x = d for x >= 0. F = F_x x; each row is an acceleration or a sum.
 class Relaxation {
  public:
   Relaxation(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, const std::vector<DecidedMode>& modes)
@@ -58,19 +59,19 @@ class Relaxation {
   }
 
  private:
-  using Slack = std::vector<std::pair<Index, double>>;  // entries of one column
+  using Slack = std::vector<std::pair<Index, double>>;  // (row, entry) of one column
   struct Sum {
-    Index first, count;  // these x together are 1
+    Index first, count;  // the sum of these x is 1
   };
 
-  // A F_x; round-off is no stiffness: Painleve's critical coefficient.
+  // A F_x without round-off, which is no stiffness (Painleve's critical coefficient).
   static Mat without_round_off(const Mat& A, const Mat& F_x) {
     const Mat product = A * F_x, size = A.cwiseAbs() * F_x.cwiseAbs();
     return (product.array().abs() > 1e-12 * size.array()).select(product, 0.0);
   }
 
-  // By Farkas' lemma the rest r = d - B x proves it: d.r > 0, and no column has a component along r, or one so small
-  // that only forces without measure could make up for r.
+  // By Farkas' lemma the residual r = d - B x is a proof that there is no solution: d.r > 0, and no column has a
+  // component along r, or one so small that only excessive forces could cancel r.
   static RelaxedForces::Verdict verdict(const Mat& B, const Vec& d, const Vec& x, double missed) {
     if (missed <= contradictory) return RelaxedForces::Verdict::found;
     Vec rest = d - B * x;
@@ -81,7 +82,7 @@ class Relaxation {
     return RelaxedForces::Verdict::none;
   }
 
-  // To the columns in use, of which B x leaves round-off.
+  // Makes the residual orthogonal to the columns in use, whose B x leaves round-off.
   static void make_orthogonal(const Mat& B, const Vec& x, Vec& rest) {
     std::vector<Index> used;
     for (Index j = 0; j < x.size(); ++j)

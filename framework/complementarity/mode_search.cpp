@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 using Kind = DecidedMode::Kind;
 using Verdict = RelaxedForces::Verdict;
 
-constexpr double zero = 1e-9;                         // of the size of b [1]
+constexpr double zero = 1e-9;                         // relative to b [1]
 constexpr double narrowest = std::numbers::pi / 180;  // [rad]
 
 Vector2d part(const Vec& x, const ContactPoint& p) {
@@ -41,7 +41,7 @@ class Search {
 
   double stiffness(int row) const { return A_(row, row); }
 
-  // How far what was found for the contact is from each of its modes: the sum of all that would be 0.
+  // For each mode of the contact: how far the forces found are from it, as the sum of all terms that would be 0.
   std::vector<Choice> choices(std::size_t i, const RelaxedForces& found) const {
     const ContactPoint& p = points_[i];
     const double N = p.normal >= 0 ? found.F[p.normal] : p.given,
@@ -69,7 +69,7 @@ class Search {
     return stiffness(p.tangent) * (T - p.coefficient * N * e).norm() + (a_t + a_t.norm() * e).norm();
   }
 
-  // Off its law; of an undecided one, off the nearest mode.
+  // Distance of the forces from the contact's law; for an undecided contact, from the nearest mode.
   double off(std::size_t i, const RelaxedForces& found) const {
     const ContactPoint& p = points_[i];
     if (modes_[i].kind == Kind::undecided && !(p.held() && p.tangents == 2)) return choices(i, found).front().off;

@@ -1,11 +1,11 @@
-// All modes of a few contacts: open, sticking, sliding, by branch and bound. Complete: it finds forces that obey
-// contact_point.hpp wherever there are some, and "none" is a proof, of forces up to a bound: those that accelerate,
-// each alone and all of these added, by less than 1e4 times b. Larger ones, which balance each other, are within what
-// round-off of A may hide (mode_relaxation.hpp).
+// Searches all modes of a few contacts (open, sticking, sliding) by branch and bound. Complete: it finds forces that
+// obey contact_point.hpp if there are any, and otherwise proves that there are none up to a bound: forces that
+// accelerate, each alone and all added, by less than 1e4 times b. Larger forces that balance each other are within the
+// round-off of A (mode_relaxation.hpp).
 //
-// A contact without a mode yet is relaxed (mode_relaxation.hpp). Where what is left has no forces, no completion of
-// these modes has, and none is looked at. In space the directions that a contact slides in are quarters of the circle
-// first, then halves of those, down to a degree; the round cone's own Newton method goes on from what is found there.
+// A contact without a mode yet is relaxed (mode_relaxation.hpp). If the relaxation has no forces, no completion of
+// these modes has any, and none is examined. In space the directions of a sliding contact are first quarters of the
+// circle, then halves of those, down to a degree; Newton's method on the round cone continues from the result.
 #pragma once
 
 #include <functional>
@@ -16,9 +16,8 @@
 
 namespace trammel::complementarity {
 
-// `accept(F)` judges what is found; the search goes on where it says no. no_solution: proved up to that bound, as
-// nothing comes nearer than 1e-8 of the size of b. gave_up: after `most_nodes`, or where something came so near and was
-// not accepted.
+// `accept(F)` judges a solution; the search continues if it returns false. no_solution: proved up to that bound, since
+// nothing comes nearer than 1e-8 of b. gave_up: after `most_nodes`, or if something came so near and was not accepted.
 LcpOutcome search_modes(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, int most_nodes,
                         const std::function<bool(const Vec&)>& accept);
 

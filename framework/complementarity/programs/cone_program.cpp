@@ -229,9 +229,9 @@ class InteriorPoint {
   double free_ = 0, ds_ = 0;
   Blocks W_, W_inverse_, yields_;
   Mat GWY_, K_;
-  double weight_ = 0;  // of u u^T beside K
+  double weight_ = 0;  // of u u^T, added to K
   Vec by_s_;
-  Eigen::LDLT<Mat> ldlt_;  // its diagonal pivots are the largest of all, which digits need where cones are thin
+  Eigen::LDLT<Mat> ldlt_;  // pivots on the largest diagonal entry, which thin cones need for accuracy
 };
 
 }  // namespace

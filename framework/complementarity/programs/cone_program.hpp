@@ -3,9 +3,9 @@
 //     minimise  x.D x / 2 - s,     G x + u s = r,     x in the cones x_0 >= |x_1|, one after the other;   D >= 0
 //     diagonal
 //
-// s is free, and left out where u is empty. By a primal-dual interior point method with Nesterov and Todd's scaling and
-// Mehrotra's correction (Vandenberghe, The CVXOPT linear and quadratic cone program solvers, 2010). It does not ask
-// that cones are wide or that the program has a solution inside of them, and ends at round-off.
+// s is free, and left out if u is empty. Solved by a primal-dual interior point method with the scaling of Nesterov and
+// Todd and the correction of Mehrotra (Vandenberghe, The CVXOPT linear and quadratic cone program solvers, 2010). It
+// works for thin cones and for programs without an interior solution, and ends at round-off.
 #pragma once
 
 #include <vector>

@@ -5,11 +5,10 @@
 //
 //     unilateral normal:  0 <= N complementary to a_n >= 0           given: N is known, and in b already
 //     resting tangents:   |T| <= c N,  T = -c N a_t/|a_t| where a_t is not 0
-//     sliding tangents:   T = p N                                    (with a given N it is in b already: leave it out)
+//     sliding tangents:   T = p N                                    (with a given N it is part of b)
 //
 // A is the Delassus matrix: symmetric, positive semi-definite, singular where contacts are dependent. In an impact F
-// are impulses
-// [N s] and a velocities [m/s].
+// are impulses [N s] and a velocities [m/s].
 #pragma once
 
 #include <vector>
@@ -33,15 +32,14 @@ struct ContactPoint {
   bool slides() const { return kind == Tangent::sliding && normal >= 0 && tangent >= 0; }
 };
 
-// The largest violation of these conditions by F: the natural map |min(A_nn N, a_n)| of the normals, |T - Pi(T - a_t /
-// A_tt)| A_tt of the tangents, Pi onto the disk |T| <= c N. Relative to b and to 1e-4 of the shares of F in A F, whose
-// round-off it has.
-// `nothing`: a violation as large is 1e-9, however small b is.
+// The largest violation of these conditions by F: for normals the natural map |min(A_nn N, a_n)|; for tangents |T -
+// Pi(T - a_t / A_tt)| A_tt, where Pi projects onto the disk |T| <= c N. Relative to b and to 1e-4 of the terms of A F,
+// which carry its round-off. `nothing`: a violation of this size counts as 1e-9, however small b is.
 double violation(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, const Vec& F, double nothing = 0);
-// The same with the accelerations that F makes, where those of rows that follow from others are corrected.
+// The same for accelerations `a` in which those along implied rows were corrected.
 double violation(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, const Vec& F, const Vec& a,
                  double nothing);
-// What counts as a solution.
+// A solution violates the conditions by no more.
 constexpr double largest_violation = 1e-9;
 
 }  // namespace trammel::complementarity

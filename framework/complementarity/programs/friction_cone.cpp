@@ -103,7 +103,7 @@ class Cones {
       }
       if (!smaller) {
         evaluate(F);
-        // Round-off of A F is all that is left.
+        // Only round-off of A F is left.
         return phi_.lpNorm<Eigen::Infinity>() <= 1e-12 * (scale_ + F.lpNorm<Eigen::Infinity>());
       }
       F = trial;

@@ -11,13 +11,13 @@
 namespace trammel::complementarity {
 namespace {
 
-// Entries of a column that are no pivots, and ratios that are equal, but for round-off of earlier pivots.
+// Relative: entries of a column that are no pivots, and ratios that are equal, up to round-off of earlier pivots.
 constexpr double no_pivot = 1e-11, same_ratio = 1e-10;
-// Of the least number in q: every ratio is then another one, so that degenerate problems cannot cycle.
+// Relative to the least number in q: makes all ratios different, so that degenerate problems cannot cycle.
 constexpr double perturbation = 1e-8, round_off = 1e-14;
 constexpr int pivots_to_renew = 40;
 
-// Between 1 and 2, in no order.
+// Irregular numbers between 1 and 2.
 double irregular(int i) {
   constexpr double golden = 0.6180339887498949;
   return 1 + std::fmod((i + 1) * golden, 1.0);
@@ -49,8 +49,8 @@ class Tableau {
   int complement(int variable) const { return variable < n_ ? variable + int(n_) : variable - int(n_); }
   const std::vector<int>& basis() const { return basis_; }
 
-  // The row that leaves when `variable` enters: of the least ratio, of equal ones that with the largest pivot; the
-  // covering variable before all others, for that ends the method. -1: none, a ray.
+  // The row that leaves when `variable` enters: that with the least ratio; among equal ratios the one with the largest
+  // pivot; the covering variable before all others, because that ends the method. -1: none, a ray.
   int leaving_row(int variable) {
     entering_ = rows_.col(column_of_[std::size_t(variable)]);
     const double least_pivot = no_pivot * std::max(1.0, entering_.lpNorm<Eigen::Infinity>());
@@ -73,8 +73,8 @@ class Tableau {
     return rows_.col(perturbed()).minCoeff(&row) < 0 ? int(row) : -1;
   }
 
-  // Exchanges the variable with that of the row, which is returned. Decisions look at the entering column and at the
-  // right sides alone: where these are no numbers the method ends (`finite`).
+  // Exchanges the variable with that of the row, which is returned. Decisions use only the entering column and the
+  // right sides; if these are not finite the method ends (`finite`).
   int pivot(int row, int variable) {
     const Index column = column_of_[std::size_t(variable)];
     entering_ = rows_.col(column);
@@ -99,7 +99,7 @@ class Tableau {
  private:
   using Index = Eigen::Index;
   Index perturbed() const { return n_ + 2; }
-  // No right side is negative but for round-off.
+  // A negative right side is round-off.
   double ratio(Index i) const { return std::max(0.0, rows_(i, perturbed())) / entering_[i]; }
   void place(int variable, Index column) {
     columns_[std::size_t(column)] = variable;
@@ -112,8 +112,8 @@ class Tableau {
     return variable < n_ ? Vec(Vec::Unit(n_, variable)) : Vec(-M_.col(variable - n_));
   }
 
-  // From the beginning, without the round-off of the pivots: the equations of those w that are not basic tell the basic
-  // z, and the others the basic w.
+  // Recomputes the tableau from the original problem, without the round-off of the pivots: the equations of non-basic w
+  // give the basic z, the other equations the basic w.
   void renew() {
     std::vector<Index> of_z, of_w, left, equations;  // rows of basic z and w; equations without and with a basic w
     std::vector<bool> basic(std::size_t(n_), false);
@@ -173,14 +173,14 @@ LcpOutcome solve_lcp(const Mat& M, const Vec& q, Vec& z, Vec& w) {
     w = q;
     return LcpOutcome::solved;
   }
-  if (n == 1) {  // one contact, nearly always
+  if (n == 1) {  // one contact, the usual case
     if (!(M(0, 0) > 0)) return LcpOutcome::no_solution;
     z[0] = -q[0] / M(0, 0);
     return LcpOutcome::solved;
   }
   Tableau tableau(M, q);
   const int first = tableau.first_row();
-  if (first < 0) {  // below 0 by round-off alone
+  if (first < 0) {  // negative by round-off only
     w = q.cwiseMax(0);
     return LcpOutcome::solved;
   }
@@ -198,7 +198,7 @@ LcpOutcome solve_lcp(const Mat& M, const Vec& q, Vec& z, Vec& w) {
       polish(M, q, z);
       w = M * z + q;
       for (int i = 0; i < n; ++i)
-        if (z[i] > 0) w[i] = 0;  // complementary by construction; what is left is round-off
+        if (z[i] > 0) w[i] = 0;  // complementary by construction; the value is round-off
       return LcpOutcome::solved;
     }
     entering = tableau.complement(left);

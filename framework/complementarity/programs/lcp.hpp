@@ -2,11 +2,12 @@
 //
 //     w = M z + q,   w >= 0,   z >= 0,   w . z = 0
 //
-// In contact mechanics M (n x n) is the Delassus matrix, z the impulses or normal forces, w what opens. Lemke's
-// complementary pivoting with covering vector 1 (Cottle, Pang, Stone 1992, algorithm 4.4.5). The ratio test sees q with
-// a small irregular addition, which makes every pivot unique, so degenerate problems (dependent contacts, q with zeros)
-// cannot cycle; the solution is that of q itself. It ends in a solution, if there is one, for every copositive-plus M:
-// all positive semi-definite ones, so every frictionless impact. P-matrices have exactly one solution.
+// In contact mechanics M (n x n) is the Delassus matrix, z the impulses or normal forces, w the rates of opening.
+// Lemke's complementary pivoting with covering vector 1 (Cottle, Pang, Stone 1992, algorithm 4.4.5). The ratio test
+// uses q plus a small irregular vector, which makes every pivot unique, so that degenerate problems (dependent
+// contacts, q with zeros) cannot cycle; the solution is that of q itself. It finds a solution, if there is one, for
+// every copositive-plus M: all positive semi-definite ones, so every frictionless impact. P-matrices have exactly one
+// solution.
 #pragma once
 
 #include <trammel/types.hpp>

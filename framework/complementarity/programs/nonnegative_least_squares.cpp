@@ -25,14 +25,14 @@ class ActiveSet {
       const int j = entering();
       if (j < 0) break;
       state_[std::size_t(j)] = State::positive;
-      if (!least_squares() || !(z_[position_of(j)] > 0)) {  // dependent on the others but for round-off
+      if (!least_squares() || !(z_[position_of(j)] > 0)) {  // dependent on the others up to round-off
         state_[std::size_t(j)] = State::refused;
         continue;
       }
       while (!all_positive()) {
         back_to_feasible();
         if (least_squares()) continue;
-        z_ = x_(positive_);  // dependent by round-off: no better than it is
+        z_ = x_(positive_);  // dependent up to round-off: no improvement
         break;
       }
       take();
@@ -78,7 +78,7 @@ class ActiveSet {
   }
   bool all_positive() const { return z_.size() == 0 || z_.minCoeff() > 0; }
 
-  // As far towards z as x stays >= 0; what reaches 0 first leaves.
+  // Moves towards z as far as x stays >= 0; the entry that reaches 0 first leaves the set.
   void back_to_feasible() {
     double part = 1;
     for (std::size_t k = 0; k < positive_.size(); ++k)

@@ -30,7 +30,7 @@ void PolyhedralCone::lay_out(const std::vector<ContactPoint>& points, int sides)
   }
 }
 
-// With R the rows that are asked for, e_n and d_k:  M = R (A + compliance) P + what ties beta and lambda.
+// With R the rows of interest (e_n and d_k): M = R (A + compliance) P plus the terms that couple beta and lambda.
 PolyhedralCone::PolyhedralCone(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, double compliance,
                                int sides) {
   lay_out(points, sides);
@@ -65,7 +65,7 @@ PolyhedralCone::PolyhedralCone(const std::vector<ContactPoint>& points, const Ma
   const Mat compliant = A / stiff + compliance * Mat::Identity(m, m);
   M_.noalias() += R * (compliant * P_);
   q_.noalias() += R * (b / largest);
-  // Round-off is no stiffness: Painleve's critical coefficient.
+  // Round-off is no stiffness (Painleve's critical coefficient).
   for (std::size_t i = 0; i < points.size(); ++i)
     if (const int N = places_[i].normal;
         N >= 0 && std::abs(M_(N, N)) <= 1e-12 * A(points[i].normal, points[i].normal) / stiff)

@@ -1,7 +1,7 @@
 // The problem of contact_point.hpp with a polygon in place of the friction disk, as a linear complementarity problem.
 //
-// Of each contact held by friction, with directions d_k of its tangents, to and fro in the plane (where the polygon is
-// exact) and evenly around in space:
+// For each contact with friction, with directions d_k in its tangents: both signs in the plane (where the polygon is
+// exact), evenly distributed in space:
 //
 //     T = sum_k beta_k d_k,                              z = (N, beta_1 .. beta_m, lambda)
 //     0 <= N       complementary to  a_n                 >= 0
@@ -13,8 +13,8 @@
 // contacts that still approach, b.F < 0 (Anitescu, Potra, Nonlinear Dyn. 14, 231 (1997)). Sliding contacts, T = p N,
 // lose this: there may be no solution (Painleve), and Lemke's method may miss one.
 //
-// Several solutions: contacts as springs of the same small compliance, a + compliance F in place of a, relative to A,
-// choose. Then dependent contacts share as equal springs do, and no forces arise that only press against each other.
+// Among several solutions a small compliance of all contacts, a + compliance F in place of a (relative to A), selects
+// one: dependent contacts then share as equal springs do, and no forces arise that only press against each other.
 #pragma once
 
 #include <vector>
@@ -26,7 +26,7 @@ namespace trammel::complementarity {
 
 class PolyhedralCone {
  public:
-  // `sides`: directions in space.
+  // `sides`: number of directions in space.
   PolyhedralCone(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, double compliance, int sides = 8);
 
   // Accelerations are in units of the largest of b, forces in units that make A's largest entry 1.
@@ -35,7 +35,7 @@ class PolyhedralCone {
   Vec forces(const Vec& z) const { return unit_force_ * (P_ * z); }  // F
 
  private:
-  // Variables of one contact: where its N, its betas and its lambda are; -1: none.
+  // Indices of the variables N, beta and lambda of one contact; -1: none.
   struct Place {
     int normal = -1, first_beta = -1, betas = 0, lambda = -1;
   };

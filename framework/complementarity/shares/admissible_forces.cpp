@@ -8,10 +8,10 @@
 namespace trammel::complementarity {
 namespace {
 
-constexpr int most_iterations = 60;  // where there are such forces
-// From where they may be none: it takes more only where cones are thin, which the interior point method minds less.
+constexpr int most_iterations = 60;  // if such forces exist
+// If none may exist. More iterations are needed only for thin cones, which the interior point method handles better.
 constexpr int first_iterations = 20;
-// Of lambda: what the interior point method misses where there are none.
+// Relative to lambda: a larger residual of the interior point method shows that there are none.
 constexpr double none = 1e-6;
 constexpr double round_off_of_lambda = 1e-14;  // of lambda
 
@@ -22,7 +22,7 @@ class DualNewton {
     begin();
   }
 
-  // As springs share without cones.
+  // Starts with the shares of springs, without cones.
   void begin() {
     const Mat all = E_ * E_.transpose();
     size_ = all.trace() / double(std::max<Eigen::Index>(1, all.rows()));
@@ -40,9 +40,8 @@ class DualNewton {
   }
 
  private:
-  // A step of Newton's method, shortened until the function falls; where the piece is flat, along what is missed, as
-  // far as it falls.
-  // False: it does not fall.
+  // A step of Newton's method, shortened until the function decreases; where the piece is flat, a step along the
+  // residual as far as the function decreases. False: it does not decrease.
   bool step() {
     const Mat H = curvature();
     const Vec from = y_, left = missed_;
@@ -85,7 +84,7 @@ class DualNewton {
     return sum;
   }
 
-  // Onto its cone, or its disk where N is given.
+  // Projects onto the contact's cone, or onto its disk if N is given.
   void project(const SharingContact& c) {
     const double T = length(c, pushed_);
     double bound = c.coefficient * c.given;
@@ -101,7 +100,7 @@ class DualNewton {
       for (const Eigen::Index k : c.tangents) F_[k] *= bound / T;
   }
 
-  // max over the cones of F . x - |F|^2/2 at x = E^T y; without what given normal forces are worth.
+  // max over the cones of F . x - |F|^2/2 at x = E^T y, without the terms of given normal forces.
   double conjugate() const { return F_.dot(pushed_) - 0.5 * F_.squaredNorm(); }
 
   // E dPi/dx E^T, where dPi/dx = L L^T, contact by contact.
@@ -110,13 +109,14 @@ class DualNewton {
     Eigen::Index used = 0;
     for (const SharingContact& c : contacts_) add_columns(c, EL, used);
     Mat H = Mat::Zero(E_.rows(), E_.rows());
-    if (used == 0) return H;  // which Eigen's rankUpdate does not bear
+    if (used == 0) return H;  // Eigen's rankUpdate fails for no columns
     H.selfadjointView<Eigen::Lower>().rankUpdate(EL.leftCols(used));
     H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
     return H;
   }
 
-  // Inside its cone it is free; on the side it moves along the edge, and turns with what pushes it.
+  // A force inside its cone moves freely; one on the boundary moves along the edge and turns with the force that pushes
+  // it.
   void add_columns(const SharingContact& c, Mat& EL, Eigen::Index& used) const {
     const double T = length(c, pushed_), mu = c.coefficient;
     const double a = c.normal >= 0 ? pushed_[c.normal] : c.given;

@@ -10,7 +10,7 @@ namespace {
 using Tangent = ContactRole::Tangent;
 using Eigen::Index;
 
-// Of a row's own stiffness: less is none.
+// Relative to a row's own stiffness: a smaller pivot counts as 0.
 constexpr double singular = 1e-12;
 
 Vec sliding_under_given_forces(const std::vector<ContactPoint>& points, const std::vector<ContactRole>& roles,

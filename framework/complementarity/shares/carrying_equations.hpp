@@ -2,7 +2,8 @@
 //
 //     a_R = A_R F + b_R = 0 along the basis,     F = F_0 + W share lambda
 //
-// W: the unknowns along rows, and T = p N where a contact slides. F_0: friction that slides under a given normal force.
+// W: rows of the unknowns, and T = p N where a contact slides. F_0: friction of contacts that slide under a given
+// normal force.
 #pragma once
 
 #include "complementarity/shares/carrying_rows.hpp"
@@ -15,11 +16,11 @@ class CarryingEquations {
   CarryingEquations(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b,
                     const std::vector<ContactRole>& roles, const CarryingRows& carrying);
 
-  // False: they have no or many solutions, as at Painleve's critical coefficient.
+  // False: they have no solution or many, as at Painleve's critical coefficient.
   bool regular() const;
-  double least_pivot() const;  // of rows in their own unit
+  double least_pivot() const;  // with rows in their own units
   Vec forces() const;          // F
-  // The change of lambda that cancels what is left of these accelerations along the basis.
+  // The change of lambda that cancels the remaining accelerations `a` along the basis.
   Vec correction(const Vec& a) const;
 
  private:

@@ -49,7 +49,7 @@ CarryingRows carrying_rows(const std::vector<ContactPoint>& points, const Mat& A
   CarryingRows result;
   result.rows = find_basis(A, carrying, idle);
   const auto& [basis, implied, K] = result.rows;
-  Mat shares = K;  // of what carries
+  Mat shares = K;  // of the carrying contacts
   for (std::size_t i = 0; i < implied.size(); ++i)
     if (std::find(idle.begin(), idle.end(), implied[i]) != idle.end()) shares.row(Index(i)).setZero();
   const Index n = Index(basis.size());
@@ -68,7 +68,7 @@ CarryingRows carrying_rows(const std::vector<ContactPoint>& points, const Mat& A
 
 namespace {
 
-// Contacts tied by what depends on what: trees, each known by its root.
+// Contacts connected by dependent rows: trees, each identified by its root.
 class Ties {
  public:
   explicit Ties(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t(0)); }

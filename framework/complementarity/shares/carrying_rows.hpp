@@ -1,9 +1,9 @@
-// How closed contacts carry: the rows R of what they hold, normals that are closed and tangents that stick.
+// How closed contacts carry their resultants. Their rows R: normals that are closed and tangents that stick.
 //
-// Where rows depend on each other only the resultants of their forces are determined (row_basis.hpp). They share those
-// as equal springs do, F_R of least norm; where that pulls or leaves a cone, by the admissible forces of least norm
-// (admissible_forces.hpp). A contact that slides makes a difference by how it shares, since its friction follows: those
-// that would pull are idle, closed without a force, until their spring would press.
+// If rows depend on each other, only the resultants of their forces are determined (row_basis.hpp). They are shared as
+// by equal springs, F_R of least norm; if such a force would pull or leave a cone, by the admissible forces of least
+// norm (admissible_forces.hpp). The shares of a sliding contact affect the motion, since its friction follows from
+// them: sliding contacts that would pull are idle, closed without a force, until their spring would press.
 #pragma once
 
 #include <vector>
@@ -13,11 +13,11 @@
 
 namespace trammel::complementarity {
 
-// What one contact does.
+// The role of one contact.
 struct ContactRole {
   enum class Tangent { none, sticks, slides };
   bool closed = false;
-  bool idle = false;  // closed, its row follows from others, and it carries nothing
+  bool idle = false;  // closed without a force; its row follows from others
   Tangent tangent = Tangent::none;
   Eigen::Vector2d ratio = Eigen::Vector2d::Zero();  // slides: T / N
   bool operator==(const ContactRole&) const = default;
@@ -27,16 +27,16 @@ struct CarryingRows {
   RowBasis rows;  // idle normals are among the implied ones
   Mat share;      // (basis, then implied) x basis: F = share lambda of least norm, that of idle ones 0
   std::vector<bool> indeterminate;  // by contact: part of a self-stress
-  bool sliding_shares = false;      // a contact that slides is among those
+  bool sliding_shares = false;      // a sliding contact is among those
 };
 CarryingRows carrying_rows(const std::vector<ContactPoint>& points, const Mat& A,
                            const std::vector<ContactRole>& roles);
 
-// Forces of least norm by their resultants, F = share lambda, (basis, then implied) x basis; rows of `shares` are those
-// of K, or 0 where an implied one is idle.
+// Forces of least norm for their resultants, F = share lambda, (basis, then implied) x basis. `shares` is K with zero
+// rows for idle contacts.
 Mat least_norm_shares(const Mat& shares);
 
-// Contacts that share with each other, by their rows: indices into A, those of each contact together.
+// Contacts that share resultants, by their rows: indices into A, with those of each contact together.
 struct SharingGroup {
   std::vector<Eigen::Index> basis, implied;
   Mat K, share;

@@ -1,5 +1,5 @@
-// Q^T E: as many combinations of the rows of E as are independent, up to what makes rows dependent (row_basis.hpp). Its
-// null space is that of E.
+// Q^T E: a largest set of independent combinations of the rows of E, up to the tolerance of row_basis.hpp. It has the
+// same null space as E.
 #pragma once
 
 #include <trammel/types.hpp>

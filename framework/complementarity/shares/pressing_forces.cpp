@@ -11,11 +11,11 @@ namespace trammel::complementarity {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Of A with its diagonal scaled to 1: less than this is left of a contact that depends on those that carry [1].
+// Relative to A with its diagonal scaled to 1: a smaller pivot shows that a contact depends on the carrying ones [1].
 constexpr double dependent = 1e-13;
-// Of accelerations: round-off, and what a proof that nothing gives way must exceed.
+// Relative to accelerations: round-off, and the least approach that proves that nothing gives way.
 constexpr double round_off = 1e-14, certain = 1e-9;
-// Of the forces that accelerations ask for, A's diagonal being 1.
+// Relative to the forces that accelerations ask for, with A's diagonal scaled to 1.
 constexpr double endless = 1e10;
 
 class PrincipalPivoting {
@@ -60,7 +60,7 @@ class PrincipalPivoting {
 
   bool carries(Eigen::Index j) const { return std::find(carrying_.begin(), carrying_.end(), j) != carrying_.end(); }
 
-  // The force j, until its contact no longer approaches. False: it grows without bound.
+  // Raises the force j until its contact no longer approaches. False: it grows without bound.
   bool raise(Eigen::Index j) {
     for (;;) {
       const Mat among = A_(carrying_, carrying_);
@@ -74,7 +74,7 @@ class PrincipalPivoting {
       for (Eigen::Index k = 0; k < yields.size(); ++k)
         if (yields[k] > 0 && x_[carrying_[std::size_t(k)]] < room * yields[k])
           first = k, room = x_[carrying_[std::size_t(k)]] / yields[k];
-      // A room as large is that of a force which falls by round-off only.
+      // If a force decreases only by round-off, the possible step is as large as this.
       const bool unbounded = wanted == infinity && !(room <= endless * b_.lpNorm<Eigen::Infinity>());
       if (unbounded) return end_of(j, yields, approach);
       const double by = std::min(wanted, room);
@@ -90,7 +90,7 @@ class PrincipalPivoting {
     return true;
   }
 
-  // Nothing gives way: a proof, unless the approach is round-off of dependent contacts.
+  // If nothing gives way, this is a proof, unless the approach is round-off of dependent contacts.
   bool end_of(Eigen::Index j, const Vec& yields, double approach) {
     if (approach <= certain * b_.lpNorm<Eigen::Infinity>()) {
       x_[j] = 0;
@@ -104,7 +104,7 @@ class PrincipalPivoting {
     return false;
   }
 
-  // The forces of those that carry, without the round-off of the way there.
+  // Computes the forces of the carrying contacts again, without the round-off of the updates.
   void settle() {
     if (carrying_.empty()) return;
     const Mat among = A_(carrying_, carrying_);

@@ -9,9 +9,9 @@
 namespace trammel::complementarity {
 namespace {
 
-constexpr double no_share = 1e-9;  // of K, rows at length one
+constexpr double no_share = 1e-9;  // of K, for rows of length one
 
-// Cholesky with diagonal pivoting, the rows of `order` only.
+// Cholesky factorisation with diagonal pivoting of the rows in `order`.
 class PivotedCholesky {
  public:
   explicit PivotedCholesky(const Mat& A, double least_share = round_off_of_shares)

@@ -8,7 +8,7 @@ namespace trammel::complementarity {
 
 using Eigen::Index;
 
-// Each contact is unloaded to x_0 = N - s, and s by what is left of `most`: s + x = most.
+// Each contact is unloaded to x_0 = N - s, where s is bounded by `most`: s + x = most.
 double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda) {
   Vec F_s = Vec::Zero(E.cols());  // dF/ds
   for (const SharingContact& c : contacts)
