@@ -6,7 +6,7 @@ namespace trammel::numerics {
 
 namespace {
 
-// The power of two next to 1/size.
+// The power of two nearest to 1/size.
 double inverse_power(double size) {
   int exponent = 0;
   if (!(size > 0) || !std::isfinite(size)) return 1;
@@ -23,7 +23,7 @@ double inverse_root_power(double size) {
 
 }  // namespace
 
-// D by the largest entry of each column of S, E by that of each column of D W^T.
+// D scales by the largest entry of each column of S, E by that of each column of D W^T.
 void FrontalIterationKkt::find_scale() {
   const Eigen::SparseMatrix<double>& A = full_.matrix();
   const int *const starts = A.outerIndexPtr(), *const rows = A.innerIndexPtr();
@@ -49,7 +49,8 @@ bool FrontalIterationKkt::factorise_sum() {
   return fronts_.factorise(A);
 }
 
-// Dependent rows show in the pivots of their columns. Only a warning, given early; the rows' own decomposition decides.
+// Dependent rows give small pivots in their columns. This is only an early warning; the decomposition of the rows
+// decides.
 bool FrontalIterationKkt::pivots_are_safe() const {
   for (Eigen::Index j = nv_; j < scale_.size(); ++j)
     if (!(std::abs(fronts_.pivot(j)) > safe_pivot_ * fronts_.largest(j))) return false;

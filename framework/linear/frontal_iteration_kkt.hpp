@@ -3,16 +3,16 @@
 //     [S W^T] [x]   [b]
 //     [G  0 ] [y] = [c]        S nv x nv; G and W: nc x nv
 //
-// front by front (frontal_factors.hpp): a plate of thousands of coordinates, a chain of thousands of links. The columns
-// of S are scaled to the size of one, and with them those of W, so that pivots tell dependent rows whatever the masses
-// and units are:
+// by elimination in fronts (frontal_factors.hpp): a plate of thousands of coordinates, a chain of thousands of links.
+// The columns of S are scaled to size one, and those of W with them, so that pivots show dependent rows for any masses
+// and units:
 //
-//     [D S D    D W^T E] [D^-1 x]   [D b]        D, E diagonal, of powers of two: scaling does not round
+//     [D S D    D W^T E] [D^-1 x]   [D b]        D, E diagonal, of powers of two, which cause no rounding
 //     [E G D       0   ] [E^-1 y] = [E c]
 //
-// Where rows depend on each other, or exchanges within fronts do not serve, by the slower sparse LU of
-// sparse_iteration_kkt.hpp, unscaled: y is then of minimum norm, and what is singular beyond the rows is told. The
-// pattern is analysed when it widens: once per mesh, and as contacts reach what they have not touched.
+// If rows depend on each other, or exchanges within fronts are not sufficient, the slower sparse LU of
+// sparse_iteration_kkt.hpp takes over, unscaled: y is then of minimum norm, and other singularities are reported. The
+// pattern is analysed when it grows: once per mesh, and when contacts reach new places.
 #pragma once
 
 #include <trammel/types.hpp>
@@ -26,10 +26,10 @@ namespace trammel::numerics {
 
 class FrontalIterationKkt {
  public:
-  // The sum of S, W^T and G; what it is given before the first `factorise` to reserve stays.
+  // The sum of S, W^T and G. Entries added before the first `factorise` reserve places that are kept.
   SparseSum& sum() { return full_; }
-  // `additions()` adds all of it to the sum; it may be run twice. `independent()`: whether the rows are, asked where
-  // small pivots make it doubtful.
+  // `additions()` adds everything to the sum; it may be run twice. `independent()` returns whether the rows are
+  // independent; it is called where small pivots leave this open.
   template <class Independent, class Additions>
   void factorise(int nv, int nc, Independent&& independent, Additions&& additions) {
     full_.fill(nv + nc, additions);
@@ -57,8 +57,8 @@ class FrontalIterationKkt {
   FrontalFactors fronts_;
   SparseIterationKkt fallback_;
   bool by_fronts_ = false, finite_ = true;
-  int nv_ = 0, analysed_ = 0;  // analysed_: patterns
-  double safe_pivot_ = 1e-5;   // beside its column
+  int nv_ = 0, analysed_ = 0;  // analysed_: number of patterns analysed
+  double safe_pivot_ = 1e-5;   // relative to its column
   Vec scale_;                  // D and E
   Vec right_, solution_;
   Levers levers_;

@@ -13,12 +13,12 @@ namespace trammel::numerics {
 
 namespace {
 
-// Shares of multipliers in the rows' accelerations that are so many times what is left of them take their digits with
-// them: of a light body between heavy ones.
+// If the parts of multipliers in the rows' accelerations are this many times larger than their sum, their digits are
+// lost in it: a light body between heavy ones.
 constexpr double cancelling = 1e6;
 
-// The pivots of G M^-1 G^T over its diagonal are squares of those sines, row by row against the rows before. They are
-// only a warning, given early; the decomposition decides.
+// The pivots of G M^-1 G^T relative to its diagonal are squares of those sines, for each row against the rows before.
+// They are only an early warning; the decomposition decides.
 bool pivots_are_safe(const Cholesky& factors, const Mat& matrix, double tolerance) {
   const double safe = 100 * tolerance * tolerance;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
@@ -26,10 +26,11 @@ bool pivots_are_safe(const Cholesky& factors, const Mat& matrix, double toleranc
   return true;
 }
 
-// Columns of angles as displacements at their levers; others, too, are shortened to one.
+// Rows with columns of angles replaced by displacements at their levers; other columns longer than one are shortened to
+// one.
 struct WithoutLevers {
   Mat G;
-  double longest = 1;  // [m] of levers that are not known, and no less
+  double longest = 1;  // [m] of unknown levers, and the least value of others
 
   WithoutLevers(const Mat& rows, const Levers& levers) : G(rows) {
     if (G.rows() == 0) return;
@@ -40,13 +41,13 @@ struct WithoutLevers {
       if (!levers) longest = std::max(longest, lever);
     }
   }
-  // What rows are off by is less of a length where levers are long.
+  // Violations of rows are smaller relative to longer levers.
   double tolerance(double of_rows) const { return std::max(rank_tolerance_at(0), of_rows / longest); }
 };
 
-// Of the rows at length one, whose pivots are sines of angles to the rows before: masses and units, and the lengths of
-// rows near a singular position, must not make independent rows look alike. Pivoting asks for the longest of the
-// columns: of a system without velocities it is given one of zeros, which reaches as little.
+// Decomposition of the rows scaled to length one, whose pivots are sines of angles to the rows before: masses, units
+// and the lengths of rows near a singular position must not make independent rows look alike. Pivoting needs at least
+// one column: a system without velocities gets a column of zeros, which has the same range.
 Eigen::ColPivHouseholderQR<Mat> decomposed(const WithoutLevers& rows, const Vec& lengths, double tolerance) {
   Mat unit = Mat::Zero(rows.G.rows(), std::max<Eigen::Index>(rows.G.cols(), 1));
   unit.leftCols(rows.G.cols()) = rows.G;
@@ -58,7 +59,7 @@ Eigen::ColPivHouseholderQR<Mat> decomposed(const WithoutLevers& rows, const Vec&
   return qr;
 }
 
-// A basis of what G reaches, nc x rank; of rows that hold nothing it has no columns.
+// A basis of the range of G, nc x rank; without columns if the rows are all 0.
 Mat range_of_rows(const Mat& G, double tolerance, const Levers& levers) {
   const WithoutLevers rows(G, levers);
   const Vec lengths = rows.G.rowwise().norm();
@@ -113,9 +114,9 @@ void MassKkt::change_rows(const Mat& G, const Mat& W, double rank_tolerance) {
   if (redundant_) merge_rows(G, rank_tolerance);
 }
 
-// A decomposition with pivoting alone would leave U uncertain by what the rows part by, differently from call to call:
-// then the accelerations were no smooth function of the state, and a Runge-Kutta method of second order. A step of the
-// power method, with the square of that, takes it to round-off.
+// A decomposition with pivoting leaves U uncertain by the deviations of dependent rows, differently from call to call.
+// The accelerations would then be no smooth function of the state, and a Runge-Kutta method would have second order. A
+// step of the power method, which squares that uncertainty, takes it to round-off.
 void MassKkt::merge_rows(const Mat& G, double rank_tolerance) {
   merged_ = orthonormal(schur_ * range_of(G, rank_tolerance));
   if (merged_.cols() == 0) return;
@@ -124,7 +125,7 @@ void MassKkt::merge_rows(const Mat& G, double rank_tolerance) {
   cod_.compute(merged_rows);
 }
 
-// Its pivots are of the order of the squares of those sines too, and of its own round-off.
+// The pivots are of the order of the squares of those sines, or of their round-off.
 void MassKkt::complement(const Mat& W, double rank_tolerance) {
   constexpr double round_off = 1e-10;
   const double dependent = rank_tolerance * rank_tolerance;
@@ -151,7 +152,7 @@ bool MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   return x.allFinite() && y.allFinite();
 }
 
-// From z = L^-1 b:  z := z - B^T y,  B z = c. A second correction where the first one took the digits with it.
+// From z = L^-1 b:  z := z - B^T y,  B z = c. A second correction follows if the first one lost digits.
 void MassKkt::hold_rows(const Vec& c, Vec& z, Vec& y) {
   struct Equations {
     MassKkt& kkt;
@@ -181,7 +182,7 @@ void MassKkt::hold_rows(const Vec& c, Vec& z, Vec& y) {
   if (!std::isfinite(left)) y.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
-// The same of the combinations that stand for redundant rows. Rows that hold nothing leave z as it is.
+// The same for the combinations that replace redundant rows. Rows that are all 0 leave z unchanged.
 void MassKkt::hold_merged_rows(const Vec& c, Vec& z, Vec& y) {
   if (merged_.cols() == 0) {
     y.setConstant(schur_.allFinite() && c.allFinite() ? 0 : std::numeric_limits<double>::quiet_NaN());
@@ -193,7 +194,7 @@ void MassKkt::hold_merged_rows(const Vec& c, Vec& z, Vec& y) {
   add_transposed_product(-1, B_, y, z);
 }
 
-// From x = b. x is z = L^T x before the last line:  z = L^-1 b - B^T y,  B z = c;  or with C for the first B.
+// From x = b. Before the last line x is z = L^T x:  z = L^-1 b - B^T y,  B z = c;  or with C for the first B.
 void MassKkt::solve_with_rows(const Vec& c, Vec& x, Vec& y) {
   with_mass([&](auto& mass) { mass.solve_lower(x); });
   if (coupled_) {
@@ -220,8 +221,8 @@ Mat& IterationKkt::begin(Eigen::Index nv, Eigen::Index nc) {
 
 namespace {
 
-// In the columns from `first` on. A pivot is compared with its own column, so unlike scales of S and G make none small;
-// the largest entry of all is asked first, which is cheaper and nearly always enough.
+// In the columns from `first` on. A pivot is compared with its own column, so different scales of S and G make none
+// small. The largest entry of the matrix is tried first, which is cheaper and nearly always sufficient.
 bool has_small_pivot(const Lu& lu, const Mat& matrix, Eigen::Index first, double smallest) {
   const double largest = matrix.cwiseAbs().maxCoeff();
   const auto is_safe = [&](Eigen::Index j, double scale) { return std::abs(lu.pivot(j)) > smallest * scale; };
@@ -242,7 +243,7 @@ bool IterationKkt::factorise(const Mat& W, const Mat& G, double rank_tolerance) 
   finite_ = true;
   if (full_.rows() == 0) return true;
   lu_.compute(full_);
-  // Dependent rows show in the columns of W. Only a warning, given early; the rows' own decomposition decides.
+  // Dependent rows show in the columns of W. This is only an early warning; the decomposition of the rows decides.
   if (has_small_pivot(lu_, full_, nv_, 100 * rank_tolerance)) {
     finite_ = full_.allFinite();
     if (!finite_) return false;
@@ -259,7 +260,7 @@ bool IterationKkt::factorise(const Mat& W, const Mat& G, double rank_tolerance) 
   return finite_;
 }
 
-// False: they are independent.
+// False: the rows are independent.
 bool IterationKkt::merge_rows(const Mat& W, const Mat& G, double rank_tolerance) {
   const Mat range = range_of(G, rank_tolerance);
   const auto rank = range.cols();
@@ -294,8 +295,8 @@ bool IterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   } else {
     if (!right_.allFinite()) return false;
     solution_ = cod_.solve(right_);
-    // A least-squares answer that leaves a residual is no solution; unless it is round-off of positions of the order of
-    // 1.
+    // A least-squares solution with a residual is no solution, unless the residual is round-off of positions of the
+    // order of 1.
     const Vec residual = full_ * solution_ - right_;
     const double noise = 1e-13, S = full_.topLeftCorner(nv_, nv_).lpNorm<Eigen::Infinity>();
     const double G = std::max(1.0, full_.bottomLeftCorner(rows, nv_).lpNorm<Eigen::Infinity>());

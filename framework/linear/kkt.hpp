@@ -4,15 +4,16 @@
 //     [G  0 ] [y] = [c]        S: nv x nv, G and W: nc x nv
 //
 // Two factorisations, by what S is:
+// Two factorisations, by the kind of S:
 //  - Mass: S = M symmetric positive definite. Cholesky of M and of the Schur complement G M^-1 G^T, whose pivots warn
-//    of redundant rows; those are solved by orthogonal decompositions of G L^-T: x stays unique, and the condition
-//    number is not squared. With W other than G (sliding friction) the complement G M^-1 W^T is factorised as it is, by
-//    LU, redundant or singular ones orthogonally. M may be sparse.
-//  - Iteration: S any dense matrix (a sparse one: frontal_iteration_kkt.hpp). LU of the whole with row pivoting. If it
-//    is singular beyond redundant rows, the minimum-norm solution.
-// Of redundant rows combinations U^T G are taken in their place, U an orthonormal basis of their range: y = U z is of
-// minimum norm, and what of c is outside the range, which no x reaches, is left. Storage is kept from one factorisation
-// to the next: no allocation at constant sizes while rows are independent.
+//    of redundant rows. Redundant rows are solved by orthogonal decompositions of G L^-T: x stays unique, and the
+//    condition number is not squared. With W other than G (sliding friction) the complement G M^-1 W^T is factorised by
+//    LU, or orthogonally if it is redundant or singular. M may be sparse.
+//  - Iteration: S any dense matrix (sparse: frontal_iteration_kkt.hpp). LU of the whole with row pivoting. If it is
+//    singular beyond redundant rows, the minimum-norm solution.
+// Redundant rows are replaced by the combinations U^T G, where U is an orthonormal basis of their range: y = U z is of
+// minimum norm, and the part of c outside the range, which no x reaches, is ignored. Storage is kept from one
+// factorisation to the next: no allocation at constant sizes while rows are independent.
 #pragma once
 
 #include <functional>
@@ -27,17 +28,18 @@
 
 namespace trammel::numerics {
 
-// Below which sine of the angle to the others a row counts as dependent on them, for rows that are off by `violation`
-// (max norm of g, of lengths of order one). Redundant rows are dependent only where they hold: otherwise they part by
-// the violation, and must not pass for new ones. Not more than ten times that: a long chain's own rows are dependent
-// but for n^-2. (Where branches of motion cross, rows part by the distance from the crossing, over which a violation
-// shifts the state by itself; slopes on the rows pass there, RungeKutta::Rows.)
+// The sine of the angle to the other rows below which a row counts as dependent on them, if rows are violated by
+// `violation` (max norm of g, for lengths of order one). Redundant rows are exactly dependent only where they are
+// satisfied: elsewhere they differ by the violation, and must not count as new rows. Not more than ten times the
+// violation: a long chain's own rows are dependent up to n^-2. (Where branches of motion cross, rows differ by the
+// distance from the crossing, over which a violation itself shifts the state; RungeKutta::Rows with slopes on the rows
+// pass such points.)
 double rank_tolerance_at(double violation);
-// What a row has of an angle is a lever [m], which would make rows in metres look alike where levers are long, and rows
-// of a mechanism in micrometres where they are short: angles are taken times their levers. The levers of the columns, 1
-// of those that are none; null: not known. Asked for only where rows may be dependent.
+// The entry of a row for an angle is a lever [m]. Long levers would make rows in metres look alike, and short ones the
+// rows of a mechanism in micrometres; therefore angles are taken times their levers. Levers of the columns, 1 for other
+// coordinates; null: unknown. Called only where rows may be dependent.
 using Levers = std::function<const Vec&()>;
-// Of the rows at length one: masses and units must not make independent rows look alike.
+// Rank of the rows scaled to length one: masses and units must not make independent rows look alike.
 Eigen::Index rank_of_rows(const Mat& G, double tolerance, const Levers& levers = {});
 
 class MassKkt {
@@ -48,13 +50,13 @@ class MassKkt {
   bool factorise(const Mat& M, const Mat& G) { return factorise(M, G, G); }
   bool factorise(const Eigen::SparseMatrix<double>& M, const Mat& G, const Mat& W,
                  double rank_tolerance = rank_tolerance_at(0));
-  // Keeps the factors of M, takes new rows. W may be the same object as G.
+  // Keeps the factors of M and takes new rows. W may be the same object as G.
   void change_rows(const Mat& G, const Mat& W, double rank_tolerance = rank_tolerance_at(0));
   void change_rows(const Mat& G) { change_rows(G, G); }
   // False: x or y is not finite.
   bool solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
   bool redundant() const { return redundant_; }
-  // Of the determinant of G M^-1 W^T: 1 with W = G; 0: nearly singular, or its rows are dependent.
+  // Sign of the determinant of G M^-1 W^T: 1 with W = G; 0: nearly singular, or dependent rows.
   int sign() const { return redundant_ ? 0 : coupled_ && B_.rows() > 0 ? schur_lu_.sign() : 1; }
 
  private:
@@ -76,7 +78,7 @@ class MassKkt {
   Mat B_;       // G L^-T (nc x nv)
   Mat C_;       // W L^-T, where W is not G
   Mat schur_;   // B B^T or B C^T
-  Mat merged_;  // U, nc x rank, while redundant; the rank may be 0
+  Mat merged_;  // U, nc x rank, if rows are redundant; the rank may be 0
   Lu schur_lu_;
   Cholesky schur_cholesky_;
   Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
@@ -101,7 +103,7 @@ class IterationKkt {
   Mat range_of(const Mat& G, double tolerance) const;
 
   Mat full_;
-  Mat merged_;  // U, nc x rank, while rows are redundant
+  Mat merged_;  // U, nc x rank, if rows are redundant
   Lu lu_;
   Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
   Vec right_, solution_;

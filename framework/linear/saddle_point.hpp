@@ -11,17 +11,17 @@
 //     SparseIterationKkt    any, sparse        sparse       LU of the whole (sparse_iteration_kkt.hpp)
 //     FrontalIterationKkt   any, sparse        sparse       LU of the whole in fronts (frontal_iteration_kkt.hpp)
 //
-// A solver analyses the pattern within `factorise`, when it differs from the one before: contacts change it, and no
-// caller has to know when. tests/linear/saddle_point.cpp tests these promises on every solver:
+// A solver analyses the pattern within `factorise` if it differs from the one before: contacts change it, and no caller
+// has to know when. tests/linear/saddle_point.cpp tests these promises on every solver:
 //  - x and y solve both equations to round-off, whatever the units of masses and rows (SparseIterationKkt: rows of
 //    similar length).
-//  - Rows may be redundant: x and W^T y are unique. Which rows are, and their rank nc - |those rows|, is a question
-//    about G alone: `dependent_rows` (sparse/dependent_rows.hpp) answers it for all solvers.
-//  - Multipliers of redundant rows are those of minimum norm, sum_i y_i^2, rows in the units in which they are given;
-//    of SparseMassKkt once `minimise_norm`, of FrontalKkt once LeastMultipliers has made them so.
-//  - Solving twice, or factorising again after another system, also of another pattern, gives the same bits: a run that
-//    is resumed goes on as one that was not cut.
-//  - What cannot be solved is reported: `factorise` or `solve` returns false, never true with a NaN in x or y.
+//  - Rows may be redundant: x and W^T y are unique. Which rows are redundant, and so the rank, is a property of G
+//    alone: `dependent_rows` (sparse/dependent_rows.hpp) finds them for all solvers.
+//  - Multipliers of redundant rows are those of minimum norm, sum_i y_i^2, with rows in the units in which they are
+//    given; SparseMassKkt makes them so in `minimise_norm`, FrontalKkt by LeastMultipliers.
+//  - Solving twice, or factorising again after another system, also with another pattern, gives the same bits: a
+//    resumed run continues like an uninterrupted one.
+//  - Failure is reported: `factorise` or `solve` returns false, never true with a NaN in x or y.
 #pragma once
 
 #include <concepts>
@@ -30,7 +30,7 @@
 
 namespace trammel::numerics {
 
-// `Matrices`: what S, G and W are given as. False: singular, or not finite.
+// `Matrices`: the types of S, G and W. False: singular, or not finite.
 template <class Solver, class... Matrices>
 concept FactorisesSaddlePoints = requires(Solver solver, const Matrices&... matrices) {
   { solver.factorise(matrices...) } -> std::same_as<bool>;

@@ -12,14 +12,15 @@ namespace trammel::numerics {
 
 namespace {
 
-// Of S's and G's scales. Large beside its round-off, so that corrections converge; its square root is the singular
-// value, relative to the largest, below which rows count as redundant. A chain's own rows must not, whose softest falls
-// with the square of their number: among few rows alone soft ones are those of a singular position.
+// eps relative to the scales of S and G. It is large compared with round-off, so that corrections converge; its square
+// root is the singular value, relative to the largest, below which rows count as redundant. The rows of a chain must
+// not count: their smallest singular value falls with the square of their number, so few and many rows have different
+// limits. In systems of few rows small singular values belong to a singular position.
 constexpr int long_from = 200;
 constexpr double regularisation(int nc) {
   return nc < long_from ? 1e-10 : 1e-12;
 }
-// Redundant rows part by no more than this where they are violated, the largest rank tolerance of kkt.hpp.
+// The largest rank tolerance of kkt.hpp: redundant rows that are violated differ by no more.
 constexpr double parting = 1e-2;
 
 }  // namespace
@@ -35,7 +36,7 @@ bool SparseIterationKkt::factorise(const Eigen::SparseMatrix<double>& full, int 
     for (Eigen::SparseMatrix<double>::InnerIterator it(full, j); it; ++it)
       (it.row() < nv ? S : G) = std::max(it.row() < nv ? S : G, std::abs(it.value()));
   const double of_rows = S > 0 ? regularisation(nc) * G * G / S : 0;
-  eps_ = G > 0 ? of_rows : 1;  // rows that hold nothing have no scale
+  eps_ = G > 0 ? of_rows : 1;  // rows that are all 0 have no scale
   for (int i = 0; i < nc; ++i) regular_.coeffRef(nv + i, nv + i) -= eps_;
   regular_.makeCompressed();
   failed_ = redundant_ = soft_ = false;
@@ -47,8 +48,9 @@ bool SparseIterationKkt::factorise(const Eigen::SparseMatrix<double>& full, int 
   return !failed_;
 }
 
-// eps^2 (C + eps)^-2 y, C = G S^-1 W^T, keeps of y what lies in the rows' null space, and little else. The matrix takes
-// (0, -r) to (-S^-1 W^T y, y) with y = (C + eps)^-1 r: the head is what the tail does to x.
+// eps^2 (C + eps)^-2 y with C = G S^-1 W^T: keeps the part of y in the null space of the rows, and little else. The
+// matrix maps (0, -r) to (-S^-1 W^T y, y) with y = (C + eps)^-1 r: the head of the solution is the change of x by its
+// tail.
 void SparseIterationKkt::find_null_part(const Eigen::Ref<const Vec>& y) {
   null_part_.setZero(nv_ + y.size());
   null_part_.tail(y.size()) = y;
@@ -58,7 +60,7 @@ void SparseIterationKkt::find_null_part(const Eigen::Ref<const Vec>& y) {
   }
 }
 
-// Whether that part, of entries in no order, changes when it is taken again. It does not where rows are redundant or
+// Does the null part of an irregular y change when it is taken again? It does not if the rows are redundant or
 // independent.
 void SparseIterationKkt::judge_rows(int nc) {
   constexpr double golden = 0.61803398874989485, noticed = 1e-5;
@@ -73,8 +75,8 @@ void SparseIterationKkt::judge_rows(int nc) {
   soft_ = (null_part_.tail(nc) - residual_).norm() > least;
 }
 
-// Solutions leave their round-off over eps along the rows' null space, and so do the passes themselves.
-// Forces stay balanced where rows depend on others but for a little: x follows.
+// Removes the null part of y: solutions, and the passes themselves, leave their round-off over eps there. x is changed
+// accordingly, so that forces stay balanced if rows are only nearly dependent.
 void SparseIterationKkt::minimise_norm(int nc) {
   constexpr int passes = 2;
   for (int pass = 0; pass < passes; ++pass) {
@@ -99,10 +101,10 @@ double SparseIterationKkt::solve_and_refine() {
   return refine(Equations{*this}, {.most = 40, .enough = 1e-15 * right_.norm(), .falls = 0.9}).residual;
 }
 
-// Soft rows are taken for redundant, all the more the softer they are: c does not ask for them, and y does nothing
-// along them.
+// Nearly dependent rows count as redundant the more, the smaller their singular value is: their part of c is ignored,
+// and y does not act along them.
 double SparseIterationKkt::solve_without_soft_rows(int nc) {
-  constexpr int passes = 3;  // each leaves of rows with sigma^2 < eps/10 a fifth at most
+  constexpr int passes = 3;  // rows with sigma^2 < eps/10 keep at most a fifth in each
   for (int i = 0; i < passes; ++i) {
     find_null_part(right_.tail(nc));
     right_.tail(nc) -= null_part_.tail(nc);
@@ -127,14 +129,14 @@ bool SparseIterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   y = solution_.tail(c.size());
   if (!solution_.allFinite()) return false;
   if (reached) return true;
-  // What no x reaches is left: where redundant rows differ, by round-off or as far as Newton's iteration still has to
-  // go. Each solution has added it to y, along the rows' null space.
+  // The part of c that no x reaches: redundant rows differ by round-off, or by the distance that Newton's iteration
+  // still has to go. Each solution has added it to y, in the null space of the rows.
   if (!soft_ && eps_ > 0) y += solves_ / eps_ * residual_.tail(c.size());
   const double of_rows = residual_.tail(c.size()).norm();
   const double of_forces = residual_.head(nv_).norm();
   residual_.head(nv_).setZero();
   right_.noalias() = full_.transpose() * residual_;
-  // Reactions larger than what they balance, as near a singular position, leave their round-off.
+  // Near a singular position reactions are larger than the forces that they balance, and leave their round-off.
   const double size = full_.norm(), round_off = 1e-13 * size + 16 * eps * size * y.norm();
   return of_forces <= 1e-6 * b.norm() + round_off && right_.head(nv_).norm() <= parting * of_rows;
 }

@@ -11,23 +11,25 @@ namespace trammel::numerics {
 
 namespace {
 
-// The complement serves as it is down to this sine of a row's angle to others: its square above round-off by 1e10.
+// The complement is used down to this sine of a row's angle to others: its square exceeds round-off by 1e10.
 constexpr double safe_sine = 1e-3;
-// And down to this eigenvalue of the whole, S's diagonal scaled to 1: round-off of its rows, 1e-13, over the root is
-// 2e-9 of accelerations.
+// And down to this smallest eigenvalue of S with its diagonal scaled to 1: the round-off of its rows, 1e-13, divided by
+// the root is 2e-9 of the accelerations.
 constexpr double soft_chain = 2e-9;
-// Forces on a few bodies, or masses of many sizes, leave other round-off, which tells less of the softest direction.
-// Below this, accelerations that the second correction still changes by more than this part of them are not trusted: of
-// 594 loads on masts and 48 beams of graded masses it was 100 times their error at least.
+// Forces on a few bodies, or masses of very different sizes, leave other round-off, which shows less of the softest
+// direction. Below this eigenvalue, accelerations that the second correction still changes by more than
+// `trusted_change` are not trusted. (In 594 loads on masts and 48 beams of graded masses that change was at least 100
+// times the error.)
 constexpr double may_be_soft = 1e-6, trusted_change = 1e-7;
-// Redundant rows whose right sides part by more than this, beside the accelerations, contradict each other: no x
-// reaches them, and the nearest c that one does stands for them, as in all other solvers. Drift within a run's
-// tolerance leaves less, and fronts then take the rows that they have not found dependent, which differs by no more.
-// Corrections of rows alone (b = 0) are repeated until only round-off is left, all of which contradicts itself.
+// Redundant rows whose right sides differ by more than this, relative to the accelerations, contradict each other: no x
+// reaches them, and the nearest reachable c replaces them, as in all other solvers. Drift within a run's tolerance is
+// smaller; fronts then use the rows that they have not found dependent, which differ by no more. Corrections of rows
+// alone (b = 0) are repeated until only round-off is left, which always contradicts itself.
 constexpr double contradiction = 1e-6;
-// Of rows as springs, where fronts contradict each other. Less leaves more rounding of the elimination, more leaves
-// more directions free, which follow the rounding of rows and forces. Accelerations of a hoop of 10,000 bays from 30 to
-// 88 degrees are exact to 7e-10 by 1e-9, 1.3e-10 by 1e-10, 4e-11 by 1e-11, 4e-10 by 1e-12.
+// eps of rows as springs, where fronts contradict each other. A smaller value leaves more rounding of the elimination;
+// a larger one leaves more directions free, which then follow the rounding of rows and forces. Errors of the
+// accelerations of a hoop of 10,000 bays from 30 to 88 degrees: 7e-10 with eps = 1e-9, 1.3e-10 with 1e-10, 4e-11 with
+// 1e-11, 4e-10 with 1e-12.
 constexpr double of_springs = 1e-10;
 
 }  // namespace
@@ -44,10 +46,10 @@ bool SparseMassKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, Metr
   return complement_.factorise(bodies, masses_, nc, least_sine) || factorise_fronts(bodies);
 }
 
-// Constant rows of pins in natural coordinates: of a mast or hoop half of all rows.
+// True if enough constant rows of pins in natural coordinates merge unknowns: half of all rows in a mast or hoop.
 bool SparseMassKkt::rows_merge_unknowns(const std::vector<BodyBlock>& bodies, int nc) {
   if (places_.are_of(bodies, nc)) return merging_;
-  constexpr int enough = 4;  // of so many rows one
+  constexpr int enough = 4;  // one row of so many must merge unknowns
   places_.take(bodies, nc);
   fronts_failed_ = springs_judged_ = false;
   return merging_ = enough * MergedUnknowns::count_constant_rows(bodies, nc) >= nc && nc > 0;
@@ -67,8 +69,8 @@ bool SparseMassKkt::factorise_fronts(const std::vector<BodyBlock>& bodies) {
     redundant_ = fronts_.dependent() > 0;
     return true;
   }
-  // Either a mass is not positive definite, which springs find, too, or what contradicting rows leave of the masses is
-  // not.
+  // Either a mass is not positive definite, which springs will find too, or contradicting rows have left masses that
+  // are not.
   fronts_failed_ = true;
   return factorise_springs(bodies);
 }
@@ -85,21 +87,21 @@ void SparseMassKkt::solve_by_fronts(const std::vector<BodyBlock>& bodies, const 
     bool holds = fronts_.solve(bodies, b, c, x, y);
     if (fronts_.missed() > contradiction && !b.isZero(0)) {
       Vec reachable = c;
-      minimise_norm(bodies, reachable);  // perpendicular to the null space of G^T: in the range of G
+      minimise_norm(bodies, reachable);  // perpendicular to the null space of G^T, so in the range of G
       holds = fronts_.solve(bodies, b, reachable, x, y);
     }
     if (holds && !springs_are_better(bodies, b, c, x)) return;
     fronts_failed_ = true;
-    if (!holds) factorise_springs(bodies);  // the masses were positive definite before
+    if (!holds) factorise_springs(bodies);  // masses were positive definite before
   }
   fronts_.solve_springs(bodies, eps_, b, c, x, y);
 }
 
-// Where accelerations miss dependent rows by more than round-off of those rows alone, round-off from far around a ring
-// is between them (hoops of 400 bays: 1e-13, of 1000 1e-11 to 1e-9; masts of any length 3e-16), and moves x some
-// thousand times as much. If springs differ by no more than that, it is what the fronts have lost; by more, as of long
-// masts, it is what springs leave free. Rows that miss more contradict each other by drift. Found out once for these
-// rows.
+// True if springs are more exact than the fronts, for these rows. If accelerations violate dependent rows by more than
+// the rows' own round-off, round-off from the way around a ring has come between the rows (hoops of 400 bays: 1e-13, of
+// 1000 bays 1e-11 to 1e-9; masts of any length 3e-16) and changes x by some thousand times as much. If the solution by
+// springs differs by no more than that, the fronts have lost these digits; if it differs by more, as in long masts,
+// springs leave directions free. Rows with larger violations contradict each other by drift.
 bool SparseMassKkt::springs_are_better(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, const Vec& x) {
   constexpr double round_off = 1e-13, drift = 5e-8, moves = 1e4;
   const double missed = fronts_.missed();
@@ -139,9 +141,9 @@ struct SparseMassKkt::ByComplement {
     add_rows_times(bodies, 1, x, kkt.residual_);
     return left = kkt.residual_.lpNorm<Eigen::Infinity>();
   }
-  // Multipliers along a chain add up to accelerations a million times those that are left. Their round-off does not
-  // fall by corrections, but the first one takes away what is smooth of it, to which a soft mechanism yields: 1e-9 of a
-  // mast's accelerations.
+  // Along a chain, multipliers add up to accelerations a million times larger than the result. Corrections do not
+  // reduce their round-off, but the first one removes its smooth part, which affects a soft mechanism: 1e-9 of the
+  // accelerations of a mast.
   double round_off() { return of_forces = 4 * eps * kkt.complement_.largest_share(y); }
   double correction() {
     const bool last = left <= round_off();
@@ -159,10 +161,10 @@ struct SparseMassKkt::ByComplement {
   }
 };
 
-// False: the mechanism is too soft for it, which may leave no trace in any single pivot. The second correction tells:
-// it answers to what the first has left, round-off, which S^-1 enlarges most in the softest direction. Of chains and
-// masts of 1000 to 80,000 rows under their own weight and springs that is within 5 % of their least eigenvalue. Or the
-// factors are of other rows, too far off for corrections to come closer.
+// False: the mechanism is too soft for the complement, which no single pivot has to show, or the factors belong to rows
+// so different that corrections do not converge. The second correction shows softness: its right side is round-off,
+// which S^-1 amplifies most in the softest direction. For chains and masts of 1000 to 80,000 rows under their own
+// weight and springs the estimate is within 5 % of the smallest eigenvalue.
 bool SparseMassKkt::solve_by_complement(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x,
                                         Vec& y) {
   y.setZero(nc_);
@@ -182,7 +184,7 @@ bool SparseMassKkt::is_soft(double softness, const Vec& x) const {
   return softness < soft_chain || change > trusted_change * x.lpNorm<Eigen::Infinity>();
 }
 
-// Springs have found theirs already: the method of multipliers takes steps in the range of the rows.
+// Springs have found these already: the method of multipliers takes steps in the range of the rows.
 void SparseMassKkt::minimise_norm(const std::vector<BodyBlock>& bodies, Vec& y) {
   if (!redundant_ || route_ != Route::fronts) return;
   if (!least_known_) least_.factorise(bodies, nc_, rank_tolerance_);

@@ -9,13 +9,13 @@ namespace trammel::numerics {
 
 namespace {
 
-// f(n), known to the compiler for bodies of few velocities.
+// Calls f(n) with n as a compile-time constant for bodies of few velocities.
 template <class F>
 void with_size(Eigen::Index n, F&& f) {
   if (!with_few(n, f)) f(n);
 }
 
-// f of each, whose rows are fetched ahead.
+// Calls f for each body; the rows of later bodies are prefetched.
 template <class F>
 void for_each(const std::vector<BodyBlock>& bodies, F&& f) {
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -48,7 +48,7 @@ void add_rows_times(const std::vector<BodyBlock>& bodies, double c, const Vec& x
 
 namespace {
 
-// Summed in registers where n is known.
+// Sums in registers if n is a compile-time constant.
 void add_columns(const BodyBlock& body, const Mat& columns, double c, const Vec& y, Vec& r) {
   double* const of_body = r.data() + body.v0;
   const auto add = [&](auto n, double* sum) {

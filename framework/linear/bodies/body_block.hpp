@@ -7,21 +7,21 @@
 
 namespace trammel::numerics {
 
-// What one body contributes: its mass and the rows of G that touch it.
+// The part of one body: its mass and its columns of the rows of G that touch it.
 struct BodyBlock {
-  int v0 = 0;                  // place of its velocities
+  int v0 = 0;                  // index of its first velocity
   bool constant_mass = false;  // known never to change
   std::vector<int> rows;       // ascending
-  Mat Gt;                      // n x rows.size(): those rows of G, transposed, its own columns
+  Mat Gt;                      // n x rows.size(): its columns of those rows of G, transposed
   Mat M;                       // n x n
-  std::vector<char> constant;  // of each row, whether it never changes; empty: of none is that known
-  Mat Wt;                      // of W, where it is not G
+  std::vector<char> constant;  // by row: known never to change; empty: none is
+  Mat Wt;                      // the same part of W, where it is not G
 };
 
-// G's part, for reading or writing soon (fetch.hpp).
+// Prefetches the body's part of G (prefetch.hpp).
 void prefetch_rows(const BodyBlock& body);
 
-// rc += c G x,  r += c G^T y,  r += c W^T y,  r += c M a. Rows beyond the length of rc or y are left out.
+// rc += c G x,  r += c G^T y,  r += c W^T y,  r += c M a. Rows beyond the length of rc or y are skipped.
 void add_rows_times(const std::vector<BodyBlock>& bodies, double c, const Vec& x, Vec& rc);
 void add_rows_force(const std::vector<BodyBlock>& bodies, double c, const Vec& y, Vec& r);
 void add_reaction(const std::vector<BodyBlock>& bodies, double c, const Vec& y, Vec& r);

@@ -52,7 +52,7 @@ void MergedUnknowns::take_none(int nv, int nc) {
   count_ = nv, idle_ = 0;
 }
 
-// A forest of rows that merge; what closes a circle is idle.
+// Builds a forest of merging rows; a row that would close a cycle is idle.
 void MergedUnknowns::join(const std::vector<BodyBlock>& bodies, const std::vector<Difference>& rows) {
   std::vector<int> parent(merged_.size());
   std::iota(parent.begin(), parent.end(), 0);
@@ -77,7 +77,7 @@ void MergedUnknowns::join(const std::vector<BodyBlock>& bodies, const std::vecto
   number(at);
 }
 
-// Each tree is walked from its root.
+// Numbers the trees, each from its root.
 void MergedUnknowns::number(const std::vector<std::vector<Link>>& at) {
   links_.clear();
   count_ = 0;
@@ -98,7 +98,7 @@ void MergedUnknowns::number(const std::vector<std::vector<Link>>& at) {
   }
 }
 
-bool MergedUnknowns::hold(const std::vector<BodyBlock>& bodies) const {
+bool MergedUnknowns::still_hold(const std::vector<BodyBlock>& bodies) const {
   for (const std::array<Place, 2>& row : places_) {
     double sum = 0;
     for (const Place& place : row) {

@@ -1,9 +1,9 @@
-// Unknowns that rows of the form a (x_i - x_j) = c make one: coordinates of points that joints hold together.
+// Unknowns that rows of the form a (x_i - x_j) = c merge into one: coordinates of points that joints hold together.
 //
-//     x_j = X_u(j) + o_j        u(j) the merged unknown, o_j what the rows' right sides add up to on the way to j
+//     x_j = X_u(j) + o_j        u(j): the merged unknown, o_j: sum of c/a along the tree from its root to j
 //
-// Such rows leave a system of bodies in natural coordinates with as many unknowns as its points have, and no round-off.
-// A row between unknowns that others have merged already says nothing new: it is idle.
+// Then a system of bodies in natural coordinates has only the unknowns of its points, without round-off. A row between
+// unknowns that are already merged adds no information: it is idle.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@ namespace trammel::numerics {
 class MergedUnknowns {
  public:
   void find(const std::vector<BodyBlock>& bodies, int nv, int nc);  // among the first nc rows
-  // Rows of that form that are known to keep it.
+  // Number of rows that are known to keep that form.
   static int count_constant_rows(const std::vector<BodyBlock>& bodies, int nc);
-  void take_none(int nv, int nc);                         // each unknown stays by itself
-  bool hold(const std::vector<BodyBlock>& bodies) const;  // the rows found are of that form still
+  void take_none(int nv, int nc);                               // no unknowns are merged
+  bool still_hold(const std::vector<BodyBlock>& bodies) const;  // the rows found still have that form
 
   int count() const { return count_; }
   int of(int j) const { return merged_[std::size_t(j)]; }
@@ -27,14 +27,14 @@ class MergedUnknowns {
   int idle() const { return idle_; }
 
   void offsets(const Vec& c, Vec& o) const;
-  // The rows' multipliers into y, from r = b - M x - G^T y without them, which is used up.
+  // Writes the rows' multipliers to y, from r = b - M x - G^T y without them; r is overwritten.
   void multipliers(Vec& r, Vec& y) const;
 
  private:
   // x_to = x_from +- c/a; roots of the trees come first.
   struct Link {
     int from, to, row;
-    double a;  // of x_to in the row
+    double a;  // coefficient of x_to in the row
   };
   struct Place {
     std::size_t body = 0;
@@ -55,7 +55,7 @@ class MergedUnknowns {
   std::vector<int> merged_;
   std::vector<char> takes_;
   std::vector<Link> links_;
-  std::vector<std::array<Place, 2>> places_;  // of the rows taken that may change
+  std::vector<std::array<Place, 2>> places_;  // of the merging rows that may change
   int count_ = 0, idle_ = 0;
 };
 

@@ -7,7 +7,7 @@ namespace trammel::numerics {
 
 namespace {
 
-constexpr int border = -1;  // behind the rows of each body
+constexpr int border = -1;  // separator after the rows of each body
 
 }  // namespace
 

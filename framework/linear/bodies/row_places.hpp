@@ -1,4 +1,5 @@
-// Which rows touch which bodies: what is laid out once, for elimination orders and fronts, lasts as long as this does.
+// Which rows touch which bodies. Elimination orders and fronts are laid out once and remain valid as long as this
+// stays.
 #pragma once
 
 #include <vector>
@@ -10,11 +11,12 @@ namespace trammel::numerics {
 class RowPlaces {
  public:
   void take(const std::vector<BodyBlock>& bodies, int nc);
-  bool are_of(const std::vector<BodyBlock>& bodies, int nc) const;  // the first nc rows, and all bodies' rows
+  // True if the first nc rows, and all rows of the bodies, are the same as in `take`.
+  bool are_of(const std::vector<BodyBlock>& bodies, int nc) const;
 
  private:
   int nc_ = -1;
-  std::vector<int> rows_;  // body by body, with a border behind each
+  std::vector<int> rows_;  // body by body, each followed by a separator
 };
 
 }  // namespace trammel::numerics

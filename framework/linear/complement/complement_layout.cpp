@@ -4,8 +4,8 @@
 #include <map>
 #include <numeric>
 
-#include "linear/order/elimination_tree.hpp"
 #include "linear/dense/prefetch.hpp"
+#include "linear/order/elimination_tree.hpp"
 
 namespace trammel::numerics {
 
@@ -15,8 +15,8 @@ namespace {
 constexpr EliminationTree::Costs costs{.along = 1, .front = 300, .entry = 1};
 
 struct Nodes {
-  std::vector<std::vector<int>> rows;       // of each
-  std::vector<std::vector<int>> of_bodies;  // those that touch each
+  std::vector<std::vector<int>> rows;       // of each node
+  std::vector<std::vector<int>> of_bodies;  // nodes that touch each body
 };
 
 Nodes join_rows(const std::vector<std::span<const int>>& rows_of_bodies, int nc) {
@@ -36,7 +36,7 @@ Nodes join_rows(const std::vector<std::span<const int>>& rows_of_bodies, int nc)
   return nodes;
 }
 
-// A body's share goes to the first front that eliminates one of its rows.
+// The block of a body belongs to the first front that eliminates one of its rows.
 std::vector<std::vector<int>> bodies_of(const std::vector<EliminationTree::Front>& fronts, const Nodes& nodes,
                                         const std::vector<std::span<const int>>& rows_of_bodies, int nc) {
   std::vector<std::size_t> front_of(static_cast<std::size_t>(nc));
@@ -53,7 +53,7 @@ std::vector<std::vector<int>> bodies_of(const std::vector<EliminationTree::Front
   return bodies;
 }
 
-// Parts of a row of numbers that are taken for a while.
+// Allocates parts of an array of numbers and takes them back.
 class Places {
  public:
   struct Part {
@@ -78,7 +78,7 @@ class Places {
 
 }  // namespace
 
-bool ComplementLayout::holds(const std::vector<BodyBlock>& bodies, int nc) const {
+bool ComplementLayout::is_built_for(const std::vector<BodyBlock>& bodies, int nc) const {
   if (nc != nc_ || bodies.size() != of_bodies_.size()) return false;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     look_ahead(k, bodies.size(),
@@ -111,10 +111,10 @@ void ComplementLayout::find(const std::vector<BodyBlock>& bodies, int nc) {
   place_.resize(static_cast<std::size_t>(nc));
   L_ = 0, largest_ = 0;
   Places places;
-  std::vector<Places::Part> R;  // of each front
+  std::vector<Places::Part> R;  // for each front
   for (const EliminationTree::Front& of : tree.fronts()) {
     std::vector<int> rows;
-    // In the order of elimination, which all fronts share.
+    // In the order of elimination, the same in all fronts.
     const auto add = [&](std::vector<int> members) {
       std::sort(members.begin(), members.end(), [&](int a, int b) { return tree.place(a) < tree.place(b); });
       for (const int node : members)

@@ -1,10 +1,10 @@
-// In which fronts the rows of bodies are eliminated from G M^-1 G^T, and where each number of a body's share goes.
+// In which fronts the rows of bodies are eliminated from G M^-1 G^T, and where each number of a body's block goes.
 //
-// A body couples all rows that touch it: its share goes to the front (elimination_tree.hpp) that eliminates the first
-// of them. Rows between the same bodies, as those of a joint, make one node of the tree. Follows from which rows touch
-// which bodies alone.
+// A body couples all rows that touch it: its block is added to the front (elimination_tree.hpp) that eliminates the
+// first of them. Rows between the same bodies, such as those of a joint, form one node of the tree. The layout depends
+// only on which rows touch which bodies.
 //
-// What fronts need lies in memory in the order of use: long chains are read from end to end.
+// The data of fronts lie in memory in the order of use, so that long chains are read contiguously.
 #pragma once
 
 #include <cstddef>
@@ -21,23 +21,24 @@ class ComplementLayout {
   struct List {
     std::size_t begin = 0, count = 0;
   };
-  // What a body or a child adds to a front: a matrix on some of its rows, in the order of elimination.
+  // A contribution of a body or a child to a front: a matrix on some of its rows, in the order of elimination.
   struct Share {
     int of = 0;   // body, or front
-    List order;   // which of the body's rows they are
-    List places;  // which of the front's
+    List order;   // indices of these rows among the body's rows
+    List places;  // their indices in the front
   };
-  // A front's matrix has a column for each row of G it eliminates, L, and then for each of its boundary, R; all in
-  // whole packs (packs.hpp). R's place serves other fronts once the parent has taken it: it stays in the cache.
+  // A front's matrix has a column for each row of G that it eliminates (L), then one for each row of its boundary (R),
+  // all padded to whole SIMD packs (simd_columns.hpp). The memory of R is reused by other fronts after the parent has
+  // added it, so that it stays in the cache.
   struct Front {
     int eliminated = 0, size = 0;
     List rows, bodies, children;
-    std::size_t L = 0, R = 0;  // where its numbers begin in those of all fronts
+    std::size_t L = 0, R = 0;  // offset of its numbers among those of all fronts
     Eigen::Index stride() const { return padded(size); }
   };
 
-  // Of the first nc rows.
-  bool holds(const std::vector<BodyBlock>& bodies, int nc) const;
+  // True if the layout was made for the first nc rows of these bodies.
+  bool is_built_for(const std::vector<BodyBlock>& bodies, int nc) const;
   void find(const std::vector<BodyBlock>& bodies, int nc);
 
   const std::vector<Front>& fronts() const { return fronts_; }                                // children first
@@ -64,7 +65,7 @@ class ComplementLayout {
   std::vector<int> numbers_;
   std::vector<List> of_bodies_;  // in rows_
   std::vector<int> rows_;
-  std::vector<int> place_;  // of a row in the front at hand
+  std::vector<int> place_;  // index of a row in the present front
   std::size_t L_ = 0, R_ = 0;
   int largest_ = 0;
 };

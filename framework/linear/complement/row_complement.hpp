@@ -1,14 +1,13 @@
 // S = G M^-1 G^T of many bodies, the Schur complement of the rows, and its factors L D L^T.
 //
-// A sum over bodies, each giving a block on the rows that touch it. It is never formed as a whole: bodies' shares go
-// right to the fronts (complement_layout.hpp) that eliminate their rows (F) and leave a matrix on their boundary (B) to
-// the front above:
+// S is a sum over bodies of one block on the rows that touch the body. It is never formed as a whole: the blocks are
+// added directly to the fronts (complement_layout.hpp) that eliminate their rows (F) and leave an update matrix on
+// their boundary (B) to the front above:
 //
 //     [S_FF S_BF^T]  =  [L_FF  ] [D  ] [L_FF^T L_BF^T]
 //     [S_BF S_BB  ]     [L_BF 1] [  R] [            1]
 //
-// Of a chain of 100 links with five rows each this takes half of the time of Eigen's simplicial factors (22 instead of
-// 46 us; a solve 6.1 instead of 7.8).
+// Timings beside Eigen's simplicial factors: tools/bench/README.md.
 #pragma once
 
 #include <span>
@@ -24,15 +23,14 @@ namespace trammel::numerics {
 
 class RowComplement {
  public:
-  // Of the first nc rows. False: a pivot is no more than the square of `least_sine` beside its diagonal, the sine of
-  // its row's angle to those eliminated before; the factors are not complete then.
+  // For the first nc rows. False: a pivot, relative to its diagonal entry, is at most the square of `least_sine`; it is
+  // the square of the sine of the row's angle to the rows eliminated before. The factors are then incomplete.
   [[nodiscard]] bool factorise(const std::vector<BodyBlock>& bodies, const BodyMasses& masses, int nc,
                                double least_sine = 0);
-  // Of y = S^-1 r: a mean of the eigenvalues of S with its diagonal scaled to 1 (a Rayleigh quotient), so no less than
-  // the least.
-  // Close to it where r has some of its direction: inverse iteration brings that out.
+  // For y = S^-1 r: a mean of the eigenvalues of S with its diagonal scaled to 1 (a Rayleigh quotient), so no less than
+  // the smallest one, and close to it if r has a component in its direction, which inverse iteration amplifies.
   double softness(const Vec& r, const Vec& y) const { return r.dot(y) / y.cwiseAbs2().dot(diagonal_); }
-  // |S_ii y_i|
+  // max |S_ii y_i|
   double largest_share(const Vec& y) const { return diagonal_.cwiseProduct(y).lpNorm<Eigen::Infinity>(); }
   void solve(const Vec& r, Vec& y);  // y = S^-1 r, not in place
 
@@ -50,11 +48,11 @@ class RowComplement {
   void solve_upper_of_many(const Front& front, Vec& y);
 
   ComplementLayout layout_;
-  Vec L_, R_;     // of all fronts; on L's diagonal, which is 1, D^-1
+  Vec L_, R_;     // of all fronts; the diagonal of L, which is 1, stores D^-1
   Vec diagonal_;  // of S
   double least_square_sine_ = 0;
   Vec work_;
-  // Of one body, in the order of elimination: Y = G C^-T, M = C C^T, below them padded rows of zeros; Y Y^T.
+  // Of one body, in the order of elimination: Y = G C^-T with M = C C^T, with padding rows of zeros, and Y Y^T.
   Vec Y_, product_;
 };
 

@@ -33,7 +33,7 @@ bool Cholesky::compute(const Mat& M) {
   return factorise_by_columns();
 }
 
-// Of any size: hundreds of bodies that nothing ties cost no more each than one.
+// For any size: hundreds of bodies that nothing couples cost no more than one by one.
 bool Cholesky::invert_diagonal(const Mat& M) {
   n_ = M.rows();
   root_ = M.diagonal().cwiseSqrt();
@@ -61,7 +61,7 @@ void Cholesky::find_zeros(const Mat& M) {
     first_[std::size_t(i)] = j;
   }
   if (first_ == first_before_) return;
-  U_.setIdentity();  // what is no longer written is 0
+  U_.setIdentity();  // for entries that are no longer written
   Eigen::Index end = 0;
   for (Eigen::Index j = 0; j < n_; ++j) {
     for (Eigen::Index i = std::max(end, j); i < n_; ++i)
@@ -70,7 +70,7 @@ void Cholesky::find_zeros(const Mat& M) {
   }
 }
 
-// As by columns, which are in registers.
+// As by columns, with all columns in registers.
 bool Cholesky::factorise_few() {
   double *const L = L_.data(), *const LD = U_.data();
   bool positive = true;
@@ -97,7 +97,7 @@ bool Cholesky::factorise_few() {
   return positive;
 }
 
-// Each column less what those before it contribute, then divided by its pivot.
+// Subtracts the contributions of earlier columns from each column and divides it by its pivot.
 bool Cholesky::factorise_by_columns() {
   const Eigen::Index n = n_, stride = L_.rows();
   double *const L = L_.data(), *const U = U_.data();
@@ -119,7 +119,7 @@ bool Cholesky::factorise_by_columns() {
   return true;
 }
 
-// By columns. A known number is taken out before the loop runs over its place, too.
+// By columns. A solved entry is read before the loop overwrites its place.
 void Cholesky::solve_lower(Eigen::Ref<Vec> x) {
   if (in_blocks()) return blocks_.matrixL().solveInPlace(x);
   if (diagonal_) return void(x.array() *= inverse_root_.head(n_).array());
@@ -139,7 +139,7 @@ void Cholesky::solve_lower(Eigen::Ref<Vec> x) {
   }
 }
 
-// A part of the rows at a time, each by its columns: less what those before it contribute.
+// A part of the rows at a time, each by columns: subtracts the contributions of earlier columns.
 void Cholesky::solve_lower_of_rows(Eigen::Ref<Mat> X) const {
   if (X.rows() == 0) return;
   if (in_blocks()) return blocks_.matrixU().solveInPlace<Eigen::OnTheRight>(X);

@@ -1,10 +1,10 @@
 // M = C C^T of a symmetric positive definite matrix, dense, and the triangular solves with C.
 //
-// C = L D^1/2 with M = L D L^T: so no root stands between one column and the next. Plain loops by columns (packs.hpp):
-// for a few dozen unknowns Eigen's decomposition costs three times as much (it works by rows and also keeps a norm).
-// Larger matrices are left to Eigen's blocked algorithm, which wins by its use of the cache.
+// C = L D^1/2 with M = L D L^T, which keeps square roots out of the loop over columns. Plain loops by columns
+// (simd_columns.hpp) are several times faster than Eigen's decomposition for a few dozen unknowns. Larger matrices are
+// left to Eigen's blocked algorithm, which uses the cache better.
 //
-// In each row the factors keep the zeros before M's first entry, which loops leave out: bodies one after the other are
+// In each row the factors keep the zeros before M's first entry, and loops skip them: bodies one after the other are
 // blocks.
 #pragma once
 
@@ -40,7 +40,7 @@ class Cholesky {
   bool factorise_few();
 
   Eigen::Index n_ = 0;
-  bool diagonal_ = false;  // M is, as of rigid bodies in the coordinates of their centres
+  bool diagonal_ = false;  // M is diagonal, as for rigid bodies in the coordinates of their centres
   Mat L_, U_;              // L and D L^T, of few unknowns L D; columns padded; on their other sides anything
   Vec inverse_, root_, inverse_root_;  // of D
   // Row i of L is 0 before column first_[i], and so column j from row end_[j] on.

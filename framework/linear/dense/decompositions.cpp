@@ -1,4 +1,4 @@
-// The orthogonal decompositions of the header; the others are sources of their own, so that no step takes long.
+// The orthogonal decompositions of the header. The others are sources of their own, to keep each compilation short.
 #include "linear/dense/decompositions.hpp"
 
 namespace Eigen {

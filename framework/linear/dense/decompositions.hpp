@@ -1,8 +1,9 @@
 // Eigen's decompositions of dense matrices, instantiated once: in decompositions.cpp, triangular_factors.cpp and
 // eigenvalues.cpp.
 //
-// Each costs a compiler 5 to 10 s wherever it is used. Sources that include this header in place of <Eigen/QR> and its
-// like use them as usual; no time is saved where the argument is an expression: store it in a Mat or Vec first.
+// Each costs a compiler 5 to 10 s wherever it is used. Sources include this header in place of <Eigen/QR> and the like
+// and use the decompositions as usual. It saves time only if the argument is no expression: store it in a Mat or Vec
+// first.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -28,7 +29,7 @@ extern template class SelfAdjointEigenSolver<Mat>;
 extern template class GeneralizedSelfAdjointEigenSolver<Mat>;
 extern template class EigenSolver<Mat>;
 
-// A class's instantiation leaves out its members that are templates.
+// An instantiation of a class does not instantiate its member templates.
 extern template LLT<Mat>& LLT<Mat>::compute(const EigenBase<Mat>&);
 extern template LDLT<Mat>& LDLT<Mat>::compute(const EigenBase<Mat>&);
 extern template SelfAdjointEigenSolver<Mat>& SelfAdjointEigenSolver<Mat>::compute(const EigenBase<Mat>&, int);
@@ -46,8 +47,8 @@ extern template void LDLT<Mat>::_solve_impl(const Vec&, Vec&) const;
 
 namespace trammel::numerics {
 
-// Of the orthogonal factor Q (m x m): its first columns, an orthonormal basis of what the decomposed matrix reaches if
-// they are as many as its rank; and its last ones, a basis of the orthogonal complement. m x count.
+// Columns of the orthogonal factor Q (m x m), m x count. The first ones, as many as the rank, are an orthonormal basis
+// of the range of the decomposed matrix; the last ones are a basis of the orthogonal complement.
 Mat first_columns_of_q(const Eigen::ColPivHouseholderQR<Mat>& qr, Eigen::Index count);
 Mat last_columns_of_q(const Eigen::ColPivHouseholderQR<Mat>& qr, Eigen::Index count);
 

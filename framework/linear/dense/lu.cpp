@@ -47,7 +47,7 @@ void Lu::eliminate() {
     }
     const double inverse = inverse_pivots_[j] = 1 / column[j];
     if (column[j] == 0 || j + 1 == n) continue;
-    // Multipliers of the rows below the pivot, 0 for those above, which are done.
+    // Multipliers of the rows below the pivot; 0 for the finished rows above.
     const Eigen::Index first = pack_of(j + 1);
     const Pack below = rows_from(j + 1);
     pack_at(multipliers + first) = inverse * below * pack_at(column + first);
@@ -75,7 +75,7 @@ int Lu::sign() const {
   return sign;
 }
 
-// Forward and back, by columns. A known number is taken out before the loop runs over its place, too.
+// Forward and backward substitution by columns. A solved entry is read before the loop overwrites its place.
 void Lu::solve(const Vec& b, Vec& x) {
   if (in_blocks()) {
     x = blocks_.solve(b);

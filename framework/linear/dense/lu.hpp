@@ -1,7 +1,7 @@
 // P A = L U by Gaussian elimination with row pivoting, dense, and the solves with it.
 //
-// Plain loops by columns (packs.hpp): up to 20 unknowns Eigen's blocked algorithm takes over twice as long for the
-// factors, and one and a half times as long for a solve. Larger matrices are left to it.
+// Plain loops by columns (simd_columns.hpp) are faster than Eigen's blocked algorithm for a few dozen unknowns
+// (tools/bench/README.md). Larger matrices are left to Eigen.
 #pragma once
 
 #include <vector>

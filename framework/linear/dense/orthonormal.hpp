@@ -1,11 +1,11 @@
-// Uses of Eigen's orthogonal decompositions that cost a compiler seconds each.
+// Functions with Eigen's orthogonal decompositions, each of which takes seconds to compile.
 #pragma once
 
 #include "linear/dense/decompositions.hpp"
 
 namespace trammel::numerics {
 
-// An orthonormal basis of what independent columns reach, of the columns' size.
+// An orthonormal basis of the range of independent columns; it has the size of `columns`.
 Mat orthonormal(const Mat& columns);
 
 // x of least norm with A^T x = b, in the least-squares sense; A is the decomposed matrix.

@@ -11,7 +11,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// What Eigen's arrays of four are not: sure to stay in registers.
+// Unlike Eigen's arrays of four, this type certainly stays in registers.
 using Four = double [[gnu::vector_size(32)]];
 using AnyFour = double [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]];
 static_assert(pack == 4);
@@ -39,7 +39,7 @@ inline void subtract_tile(Index depth, Index stride, const double* A, const doub
     for (int i = 0; i < packs; ++i) four(C + j * stride + pack * i) -= sum[i][j];
 }
 
-// The lower triangle of A, whose columns are `stride` apart. Loops over rows begin with the pack that holds the
+// The lower triangle of A, whose columns are `stride` apart. Loops over rows begin with the pack that contains the
 // diagonal.
 struct Lower {
   double* A;
@@ -58,9 +58,9 @@ struct Lower {
       subtract_tile<1, columns>(depth, stride, at(i, first), at(j, first), at(i, j));
   }
 
-  // A(i, j) -= sum_p A(i, p) A(j, p), p of the columns from first to before begin, j from there to before end
+  // A(i, j) -= sum_p A(i, p) A(j, p) for columns p in [first, begin) and j in [begin, end)
   void subtract_products(Index first, Index begin, Index end) const {
-    constexpr Index most_depth = 64;  // of columns: as many as there are pages and lines at hand
+    constexpr Index most_depth = 64;  // columns at a time, so that their memory pages and cache lines stay available
     for (Index p = first; p < begin; p += most_depth) {
       const Index depth = std::min(most_depth, begin - p);
       Index j = begin;
@@ -70,7 +70,7 @@ struct Lower {
     }
   }
 
-  // Columns j to before j + m: the square on the diagonal, then all rows below it.
+  // Columns [j, j + m): the square block on the diagonal, then all rows below it.
   template <int m>
   bool factorise_few(Index j) const {
     double L[m][m], inverse[m];

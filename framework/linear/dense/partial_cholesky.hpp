@@ -1,12 +1,12 @@
-// The first k columns of the factor of a dense symmetric matrix, positive definite there, and what they leave of the
-// rest:
+// The first k columns of the Cholesky factor of a dense symmetric matrix whose leading k x k block is positive
+// definite, and the Schur complement S:
 //
 //     [A_11 A_21^T]  =  [L_11  ] [L_11^T L_21^T]
 //     [A_21 A_22  ]     [L_21 1] [         S   ]
 //
-// In place, lower triangles alone; what stands above them is lost. Columns are halved again and again, so that nearly
-// all of the work is products of tiles that fit into registers (Andersen, Wasniewski, Gustavson, ACM Trans. Math.
-// Softw. 27 (2001), 214).
+// In place, lower triangles only; the entries above them are overwritten. Columns are halved recursively, so that
+// nearly all of the work is products of tiles that fit into registers (Andersen, Wasniewski, Gustavson, ACM Trans.
+// Math. Softw. 27 (2001), 214).
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +15,8 @@
 
 namespace trammel::numerics {
 
-// From column to column, for n rows: whole packs, an odd number of them, so that columns do not meet in the same lines
-// of the cache.
+// Distance between columns of n rows: an odd number of whole packs, so that columns do not compete for the same cache
+// lines.
 constexpr Eigen::Index column_stride(Eigen::Index n) {
   return padded(n) | pack;
 }

@@ -1,7 +1,5 @@
-// Loops over many bodies whose numbers lie apart in memory: from there they come in 80 to 100 ns, which is longer than
-// the work on them takes. Asked for a few bodies ahead they come meanwhile; of 10,000 units of a truss a step takes 80
-// ms so instead of
-// 112.
+// Prefetching for loops over many bodies whose numbers are scattered in memory: an access to memory takes longer than
+// the work on the data. Timings: tools/bench/README.md.
 #pragma once
 
 #include <algorithm>
@@ -9,16 +7,15 @@
 
 namespace trammel::numerics {
 
-// For reading or writing soon. The empty statement is an effect without which calls count as idle and are left out
-// (GCC).
+// Prefetches for reading or writing. (The empty asm statement keeps GCC from removing calls as having no effect.)
 inline void prefetch(const void* place, std::size_t bytes) {
   constexpr std::size_t line = 64;
   for (std::size_t at = 0; at < bytes; at += line) __builtin_prefetch(static_cast<const char*>(place) + at);
   asm volatile("");
 }
 
-// The same for loops that go down: falling lines without a gap come as fast as rising ones, others at half of that. A
-// way down through the fronts of 10,000 units of a prismatic mast takes 2.0 ms so instead of 4.1.
+// The same for loops that run backwards: the processor fetches contiguous descending lines as fast as ascending ones,
+// others at half the speed.
 inline void prefetch_down(const void* place, std::size_t bytes) {
   constexpr std::size_t line = 64;
   for (std::size_t left = bytes; left > 0; left -= std::min(line, left))
@@ -26,7 +23,7 @@ inline void prefetch_down(const void* place, std::size_t bytes) {
   asm volatile("");
 }
 
-// Of the i-th of n: f of one a few places on.
+// In step i of n: calls f(i + 4), the prefetch distance, if that is less than n.
 template <class F>
 void look_ahead(std::size_t i, std::size_t n, F&& f) {
   constexpr std::size_t ahead = 4;

@@ -1,5 +1,5 @@
-// Products with matrices X of few rows and any number of columns, as the rows of constraints are: loops over the
-// columns, with what belongs to one of them in registers. For more rows Eigen's products are as fast, unless each
+// Products with matrices X of few rows and any number of columns, such as the rows of constraints: loops over the
+// columns, with the values of one column in registers. For more rows Eigen's products are as fast, unless each row
 // touches few of the columns.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace trammel::numerics {
 
-// Calls f with the number of rows, known to the compiler. False: they are more than `few`, or none.
+// Calls f with the number of rows as a compile-time constant. False: there are more than `few`, or none.
 template <int m = few, class F>
 bool with_few(Eigen::Index rows, F&& f) {
   if constexpr (m > 0) {
@@ -46,9 +46,9 @@ inline void add_transposed_product(double c, const Mat& X, const Vec& y, Vec& x)
   if (!with_few(X.rows(), of_few)) x.noalias() += c * (X.transpose() * y);
 }
 
-// Calls f(number, first) for parts of m that follow one another: eights, then at most one of 4, 2 and 1, their numbers
-// known to the compiler. What a part needs stays in registers, where loops over all m rows at once would be kept in
-// memory.
+// Splits m into consecutive parts, eights and then at most one of 4, 2 and 1, and calls f(number, first) with the
+// number as a compile-time constant. The values of a part stay in registers; a loop over all m rows at once would keep
+// them in memory.
 template <Eigen::Index part = few, class F>
 void in_parts(Eigen::Index m, F&& f, Eigen::Index first = 0) {
   for (; first + part <= m; first += part) f(std::integral_constant<Eigen::Index, part>(), first);
@@ -66,7 +66,7 @@ Eigen::Map<const PartOfRows<part>> part_at(const double* x) {
   return Eigen::Map<const PartOfRows<part>>(x);
 }
 
-// S = X Y^T of rows that are mostly 0, as those of many bodies are: for each number of Y a column of X.
+// S = X Y^T for Y with mostly zero entries, as for many bodies: adds a column of X for each non-zero entry of Y.
 inline void multiply_sparse_rows(const Mat& X, const Mat& Y, Mat& S) {
   S.setZero();
   for (Eigen::Index j = 0; j < Y.cols(); ++j)

@@ -1,10 +1,9 @@
 // Iterative refinement of a solution of A x = b by approximate factors of A (Wilkinson 1963; Higham, Accuracy and
 // Stability of Numerical Algorithms, chapter 12):
 //
-//     r = b - A x by A itself,   solve for dx by the factors,   x := x + dx          until nothing is gained any more
+//     r = b - A x by A itself,   solve for dx by the factors,   x := x + dx          until there is no further gain
 //
-// What differs from solver to solver is the size in which r and dx are measured, and what is worth another correction;
-// the loop is the same.
+// Solvers differ in the norm of r and dx and in their criterion for another correction; the loop is the same.
 #pragma once
 
 #include <concepts>
@@ -13,15 +12,15 @@
 namespace trammel::numerics {
 
 struct Refinement {
-  int most;            // corrections
-  double enough;       // r is no more: no further correction
-  double falls = 0.5;  // r falls to less than this part of the one before, else it is round-off; infinity: not asked
-  double settled = 0;  // after a correction of no more than this, x is as good as the factors can make it
-  double contracts = std::numeric_limits<double>::infinity();  // a correction of no less does not converge: not applied
+  int most;            // largest number of corrections
+  double enough;       // no further correction if r is at most this
+  double falls = 0.5;  // r must fall below this part of the last one, otherwise it is round-off; infinity: no such test
+  double settled = 0;  // a correction of at most this size is the last one
+  double contracts = std::numeric_limits<double>::infinity();  // a larger correction diverges and is not applied
 };
 
-// Of one solution. residual: evaluates r; correction: dx for this r; apply: x := x + dx. Both sizes are the equations'
-// own, as relative as they make them.
+// The equations of one solution. residual: evaluates r and returns its size; correction: solves for dx and returns its
+// size; apply: x := x + dx. Each class chooses the scale of both sizes.
 template <class Equations>
 concept Refinable = requires(Equations& equations) {
   { equations.residual() } -> std::same_as<double>;

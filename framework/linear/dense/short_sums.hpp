@@ -1,5 +1,4 @@
-// Sums along a few numbers, as fronts have them: 4 to 30, where the calls around a general product would cost more than
-// its work.
+// Sums of a few numbers, as in fronts: 4 to 30, for which the calls around a general product cost more than its work.
 #pragma once
 
 #include <trammel/types.hpp>
@@ -8,12 +7,12 @@
 
 namespace trammel::numerics {
 
-// y += a x, which do not overlap
+// y += a x; x and y do not overlap.
 inline void add(int n, double a, const double* __restrict x, double* __restrict y) {
   for (int i = 0; i < n; ++i) y[i] += a * x[i];
 }
 
-// In the same order wherever x and y lie in memory: every run rounds alike.
+// Adds in a fixed order, whatever the alignment of x and y, so that every run rounds alike.
 inline double dot(int n, const double* x, const double* y) {
   Pack sum = Pack::Zero();
   int i = 0;

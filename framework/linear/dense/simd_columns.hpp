@@ -1,11 +1,9 @@
-// Loops over columns in whole packs of four numbers, for factorisations of a few dozen unknowns.
+// Loops over columns in whole SIMD packs of four numbers, for factorisations of a few dozen unknowns.
 //
-// Loops over the rows as they stand spend much of their time on the numbers left over behind the last pack, and on
-// packs that read what two earlier ones wrote. So matrices are kept with padded columns, and each loop begins with the
-// pack that holds the first row wanted; what it does to the rows before and to the padding must not matter. Of 7, 11,
-// 15 unknowns LU's factors take 134, 278, 515 ns so, instead of 154, 359, 689, and a solve 75, 110, 151 instead of 97,
-// 163, 224 (Xeon
-// 2.5 GHz).
+// Loops over the rows as they are spend much of their time on the numbers after the last whole pack, and on packs that
+// read what two earlier ones wrote. Therefore matrices have padded columns, and each loop begins with the pack that
+// contains its first row; its effect on the rows before, and on the padding, must not matter. Timings:
+// tools/bench/README.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,19 +30,18 @@ inline Eigen::Map<const Pack> pack_at(const double* x) {
   return Eigen::Map<const Pack>(x);
 }
 
-// In the pack of row i: 1 from that row on, 0 before.
+// For the pack of row i: 1 from that row on, 0 before.
 inline Eigen::Map<const Pack> rows_from(Eigen::Index i) {
   static constexpr double step[] = {0, 0, 0, 1, 1, 1, 1};
   return pack_at(step + pack - 1 - i % pack);
 }
 
-// So few unknowns that loops over them leave no trace when their number is known to the compiler: what is being solved
-// for stays in registers. Cholesky's factors and a solve with them take 120 instead of 197 ns so for 7 unknowns. Fewer
-// are filled up with 1 on the diagonal.
+// For so few unknowns the compiler unrolls loops of fixed length completely, and the solution stays in registers.
+// Smaller systems are filled up with 1 on the diagonal.
 inline constexpr int few = 8;
 
-// A, m x m with m <= n, with the identity's rows and columns behind its own. (n goes down to m, which so is known,
-// too.)
+// Copies A (m x m, m <= n) and fills up with rows and columns of the identity. (The recursion reduces n to m, which is
+// then a compile-time constant.)
 template <int n = few>
 void copy_few(const double* A, Eigen::Index m, double* to) {
   if constexpr (n > 1)
@@ -72,14 +69,14 @@ inline void add_product(double c, const Mat& A, const Vec& x, Vec& y) {
 
 class FewNumbers {
  public:
-  // The first n are x[0], x[1], ... or x[order[0]], x[order[1]], ...; the others 0.
+  // The first n numbers are x[0], x[1], ... or x[order[0]], x[order[1]], ...; the others are 0.
   FewNumbers(Eigen::Index n, const double* x) {
     for (int i = 0; i < few; ++i) y_[i] = i < n ? x[i] : 0;
   }
   FewNumbers(Eigen::Index n, const double* x, const Eigen::Index* order) {
     for (int i = 0; i < few; ++i) y_[i] = i < n ? x[order[i]] : 0;
   }
-  // L with 1 on the diagonal, columns `few` apart: y := L^-1 y,  y := L^-T y,  y := U^-1 y
+  // L has a unit diagonal and columns `few` apart: y := L^-1 y,  y := L^-T y,  y := U^-1 y
   void solve_lower(const double* L) {
 #pragma GCC unroll 8
     for (int j = 0; j < few; ++j)
@@ -112,7 +109,7 @@ class FewNumbers {
   double y_[few];
 };
 
-// y -= c x in the packs of rows first to end - 1
+// y -= c x in the packs that contain rows [first, end)
 inline void subtract(double c, const double* x, double* y, Eigen::Index first, Eigen::Index end) {
   for (Eigen::Index i = pack_of(first); i < end; i += pack) pack_at(y + i) -= c * pack_at(x + i);
 }

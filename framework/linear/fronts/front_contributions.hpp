@@ -1,9 +1,8 @@
-// What bodies give to the fronts' own rows and masses: of each source (front_layout.hpp) a column of G^T or M, copied
-// from the bodies, where they lie apart.
+// Contributions of bodies to the fronts' rows and masses: for each source (front_layout.hpp) a column of G^T or M,
+// copied from the bodies, which are scattered in memory.
 //
-// Those known never to change are copied once, and kept once where they are alike. In a truss all pins and masses are a
-// few kinds: of a prismatic mast 0.3 of 2.9 kB a unit are left, which a solution reads three times; 10,000 units take a
-// tenth less time a step.
+// Contributions that never change are copied once, and stored once if they are equal: in a truss all pins and masses
+// are of a few kinds.
 #pragma once
 
 #include <string>
@@ -17,25 +16,25 @@ namespace trammel::numerics {
 class FrontContributions {
  public:
   using Source = FrontLayout::Source;
-  // Places for all sources of a layout, and constant rows as they are now.
+  // Allocates places for all sources of a layout, and copies the present constant rows.
   void build(const FrontLayout& layout, const std::vector<BodyBlock>& bodies);
-  // Constant masses as they are now, where build was called since the last time.
+  // Copies the present constant masses if `build` was called since the last time.
   void place_masses(const FrontLayout& layout, const std::vector<BodyBlock>& bodies);
-  // Numbers of the layout's i-th source.
+  // The numbers of the layout's i-th source.
   const double* of(std::size_t i) const { return numbers_.data() + places_[i]; }
-  // The same; if it changes, as the bodies have it now.
+  // The same; a source that may change is first copied from the body.
   const double* update(std::size_t i, const Source& source, const std::vector<BodyBlock>& bodies);
-  // Those of a front that change, for reading soon.
+  // Prefetches the changing numbers of a front.
   void prefetch(std::size_t front) const;
 
  private:
   using Known =
-      std::unordered_map<std::string, int>;  // places by the bytes there: 0 and -0 stay apart, and NaN is itself
+      std::unordered_map<std::string, int>;  // places by their bytes, which distinguish 0 from -0 and allow NaN
   int place(const double* numbers, std::size_t count, Known& known);
 
   std::vector<int> places_;          // of sources, in numbers_
-  std::vector<std::size_t> fronts_;  // where those of each begin, and the end
-  std::vector<double> numbers_;      // those that change, front by front; constant ones
+  std::vector<std::size_t> fronts_;  // index of each front's first source, and the end
+  std::vector<double> numbers_;      // changing ones, front by front; then constant ones
   bool masses_placed_ = false;
 };
 

@@ -7,7 +7,7 @@ namespace trammel::numerics {
 
 namespace {
 
-// Measured on trusses: of masts a unit a front, of hoops two.
+// Measured on trusses: fronts of one unit for masts, of two units for hoops.
 constexpr EliminationTree::Costs costs_of_bodies{.front = 400, .entry = 2};
 
 void make_set(std::vector<int>& x) {
@@ -46,7 +46,7 @@ void FrontLayout::extend(const std::vector<BodyBlock>& bodies) {
   place(bodies, point);
 }
 
-// Merged unknowns of the same bodies are one point: they have the same neighbours.
+// Merged unknowns of the same bodies form one point: they have the same neighbours.
 std::vector<int> FrontLayout::find_points(const std::vector<BodyBlock>& bodies, std::vector<int>& weight) const {
   std::vector<std::vector<int>> bodies_of(static_cast<std::size_t>(merged_.count()));
   for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -145,7 +145,7 @@ int FrontLayout::place_map(std::vector<int> map, KnownMaps& known) {
   return found->second;
 }
 
-// How many the front has then.
+// Returns the number of the front's unknowns.
 int FrontLayout::take_unknowns(const Front& front, const std::vector<int>& points,
                                const std::vector<std::vector<int>>& of_point, std::vector<int>& column) {
   for (const int p : points)

@@ -1,10 +1,10 @@
-// Which fronts a saddle-point system of bodies is eliminated in, and what each is made of (frontal_kkt.hpp has the
-// equations).
+// The fronts in which a saddle-point system of bodies is eliminated, and the contents of each (equations:
+// frontal_kkt.hpp).
 //
-// Rows between equal coordinates merge unknowns (merged_unknowns.hpp). Merged unknowns of the same bodies are one
-// point; bodies and the other rows are the cliques of points that the tree is built of (elimination_tree.hpp). A row or
-// a body's mass belongs to the first front that eliminates one of its points. Rows may begin to tell of points that
-// they did not before: then all is laid out anew.
+// Rows between equal coordinates merge unknowns (merged_unknowns.hpp). Merged unknowns of the same bodies form one
+// point; bodies and the other rows are the cliques of points for the tree (elimination_tree.hpp). A row or a body's
+// mass belongs to the first front that eliminates one of its points. A row may later gain an entry for another point:
+// then everything is laid out again.
 #pragma once
 
 #include <map>
@@ -20,55 +20,55 @@ namespace trammel::numerics {
 
 class FrontLayout {
  public:
-  // A column of a body's Gt, which is part of a row of the front; or, of row -1, a body's mass. `map`: the front's
-  // column for each of the body's velocities, `size` of them from v0 on; -1: none.
+  // A column of a body's Gt, which is part of a row of the front; or, with row -1, a body's mass. `map`: the front's
+  // column for each of the body's `size` velocities from v0 on; -1: none.
   struct Source {
     int body, column, row, map = 0, size = 0, v0 = 0;
     bool constant = false;  // known never to change
   };
   struct Child {
-    int front, map;  // the parent's column for each of its boundary
+    int front, map;  // map: the parent's column for each of its boundary
   };
   struct Range {
     int begin = 0, end = 0;
   };
   struct Front {
-    int eliminated = 0, unknowns = 0;  // the rest is the boundary
+    int eliminated = 0, unknowns = 0;  // the other unknowns are the boundary
     int first_unknown = 0, first_row = 0;
-    int own_rows = 0, most_rows = 0;  // most: with those of all children
+    int own_rows = 0, most_rows = 0;  // most_rows: with those of all children
     Range rows, masses, children;
     int boundary() const { return unknowns - eliminated; }
   };
 
-  // Whether rows between equal coordinates merge unknowns, or are rows like the others.
+  // Whether rows between equal coordinates merge unknowns, or are treated like other rows.
   enum class Unknowns { merged, apart };
-  // Of the first nc rows, where they do not vanish now.
+  // For the first nc rows, with the points at which they do not vanish now.
   void build(const std::vector<BodyBlock>& bodies, int nc, Unknowns = Unknowns::merged);
-  // And where they did not before.
+  // Adds the points at which they did not vanish before.
   void extend(const std::vector<BodyBlock>& bodies);
-  // Was built before, of these rows' places.
-  bool know(const std::vector<BodyBlock>& bodies, int nc) const { return rows_of_bodies_.are_of(bodies, nc); }
-  bool holds(const std::vector<BodyBlock>& bodies) const { return merged_.hold(bodies); }
+  // True if the layout was built for these rows and bodies.
+  bool is_built_for(const std::vector<BodyBlock>& bodies, int nc) const { return rows_of_bodies_.are_of(bodies, nc); }
+  bool merges_still_hold(const std::vector<BodyBlock>& bodies) const { return merged_.still_hold(bodies); }
 
   const MergedUnknowns& merged() const { return merged_; }
   const std::vector<Front>& fronts() const { return fronts_; }  // children first
   std::size_t all_unknowns() const { return unknowns_.size(); }
   std::size_t all_own_rows() const { return own_rows_.size(); }
   const int* unknowns(const Front& front) const { return unknowns_.data() + front.first_unknown; }
-  int own_row(std::size_t i) const { return own_rows_[i]; }     // those of a front from first_row on
-  std::span<const Source> sources() const { return sources_; }  // front by front, of each rows before masses
+  int own_row(std::size_t i) const { return own_rows_[i]; }     // rows of a front, from its first_row on
+  std::span<const Source> sources() const { return sources_; }  // front by front, rows before masses
   std::span<const Source> rows(const Front& front) const { return part(sources_, front.rows); }
   std::span<const Source> masses(const Front& front) const { return part(sources_, front.masses); }
   std::span<const Child> children(const Front& front) const { return part(children_, front.children); }
   const int* map(int at) const { return maps_.data() + at; }
 
  private:
-  // What each front is made of.
+  // The contents of each front.
   struct Parts {
     std::vector<std::vector<int>> rows;
     std::vector<std::vector<Source>> sources, masses;
   };
-  using KnownMaps = std::map<std::vector<int>, int>;  // and where they are
+  using KnownMaps = std::map<std::vector<int>, int>;  // with their positions
   int place_map(std::vector<int> map, KnownMaps& known);
   template <class T>
   static std::span<const T> part(const std::vector<T>& all, Range range) {
@@ -86,11 +86,11 @@ class FrontLayout {
   int nc_ = -1;
   RowPlaces rows_of_bodies_;
   MergedUnknowns merged_;
-  std::vector<std::vector<int>> points_of_row_;  // where it was ever found not to vanish
+  std::vector<std::vector<int>> points_of_row_;  // at which it was ever found not to vanish
   EliminationTree tree_;
   std::vector<Front> fronts_;
   std::vector<int> unknowns_, own_rows_;
-  std::vector<int> maps_;  // of many fronts, where these are alike
+  std::vector<int> maps_;  // maps of fronts, stored once if they are equal
   std::vector<Source> sources_;
   std::vector<Child> children_;
 };

@@ -37,7 +37,7 @@ void FrontalCholesky::assemble(const FrontalPattern& pattern, const Front& front
   }
 }
 
-// L_FF over L_BF in store_, S on the stack.
+// Stores L_FF and L_BF in store_, and S on the stack.
 void FrontalCholesky::keep(const Front& front) {
   const Index n = front.size, k = front.eliminated, stride = column_stride(n);
   const double* column = work_.data();

@@ -1,12 +1,12 @@
-// P A P^T = L L^T of a large symmetric positive definite matrix most of whose entries are 0, front by front, and the
-// solves with it.
+// P A P^T = L L^T for a large sparse symmetric positive definite matrix, by elimination in fronts, and the solves with
+// it.
 //
 // A front's unknowns (frontal_pattern.hpp; F), with its boundary (B):
 //
 //     [A_FF A_FB]  =  [L_FF  ] [L_FF^T L_BF^T]       S goes to the front above
 //     [A_BF A_BB]     [L_BF 1] [            S]
 //
-// Half of the work and of the memory of frontal_lu.hpp. Reads and keeps lower triangles alone.
+// Half of the work and of the memory of frontal_lu.hpp. Reads and stores lower triangles only.
 #pragma once
 
 #include "linear/fronts/frontal_pattern.hpp"
@@ -25,8 +25,8 @@ class FrontalCholesky {
   void assemble(const FrontalPattern& pattern, const Front& front, const double* values);
   void keep(const Front& front);
 
-  // Aligned as Eigen's own: sums over pieces of them then round alike in every run. stack_: the S that are still to be
-  // taken.
+  // Aligned like Eigen's own storage, so that sums over parts of them round alike in every run. stack_: update matrices
+  // S that no parent has added yet.
   Vec store_, work_, stack_, y_;
   std::size_t stored_ = 0, top_ = 0;
 };

@@ -23,15 +23,15 @@ void FrontalFactors::measure(const Sparse& A) {
       largest_(j) = std::max(largest_(j), std::abs(A.valuePtr()[k]));
 }
 
-// Symmetric, with a positive diagonal. As the columns are gone through, they meet the upper entries of each later
-// column in order.
+// True if A is symmetric with a positive diagonal. In a sweep over the columns, the upper entries of each column meet
+// the lower ones in order.
 bool FrontalFactors::may_be_definite(const Sparse& A) {
   constexpr double rounding = 64 * eps;
   const int *const starts = A.outerIndexPtr(), *const rows = A.innerIndexPtr();
   const double* const values = A.valuePtr();
   mirrored_.assign(starts, starts + A.cols());
   for (Index j = 0; j < A.cols(); ++j) {
-    int k = mirrored_[std::size_t(j)];  // the upper entries are behind
+    int k = mirrored_[std::size_t(j)];  // the upper entries follow
     if (!(values[k] > 0)) return false;
     while (++k < starts[j + 1]) {
       const double other = values[mirrored_[std::size_t(rows[k])]++];
@@ -60,7 +60,7 @@ bool FrontalFactors::solve(const Sparse& A, const Vec& b, Vec& x) {
     const Sparse& A;
     const Vec& b;
     Vec& x;
-    // Of the largest sum that could have been rounded.
+    // Relative to the largest sum that could have been rounded.
     double residual() {
       Vec& r = factors.residual_;
       r = b;
@@ -72,7 +72,7 @@ bool FrontalFactors::solve(const Sparse& A, const Vec& b, Vec& x) {
     double correction() { return factors.substitute(factors.residual_), 1; }
     void apply() { x += factors.residual_; }
   };
-  constexpr double round_off = 64 * eps, good = 1e-10;  // of the equations
+  constexpr double round_off = 64 * eps, good = 1e-10;  // relative to the equations
   x = b;
   substitute(x);
   return refine(Equations{*this, A, b, x}, {.most = 10, .enough = round_off}).residual <= good;

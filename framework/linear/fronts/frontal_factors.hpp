@@ -1,8 +1,8 @@
-// Factors of a large matrix most of whose entries are 0, and solutions that satisfy its equations to round-off.
+// Factors of a large sparse matrix, and solutions that satisfy its equations to round-off.
 //
-// Cholesky's where A is symmetric and positive definite, else LU. A sum of blocks is symmetric to the rounding of the
-// sum: so far it may deviate. That decides about the work alone, as a small pivot does: a solution is corrected by what
-// A itself leaves of the equations until that is round-off, and where it does not become so this says no.
+// By Cholesky's method if A is symmetric and positive definite, otherwise by LU. A sum of blocks is symmetric up to the
+// rounding of the sum, and this is tolerated. Both the choice and a small pivot affect only the work: a solution is
+// corrected by the residual with A itself until that is round-off; if it does not become so, `solve` returns false.
 #pragma once
 
 #include "linear/fronts/frontal_cholesky.hpp"

@@ -12,7 +12,7 @@ namespace trammel::numerics {
 
 namespace {
 
-// Rows that vanish are in no front.
+// Number of rows that vanish: they are in no front.
 int rows_of_nothing(const FrontLayout& layout, int nc) {
   int apart = 0;
   for (int i = 0; i < nc; ++i) apart += layout.merged().takes(i) ? 0 : 1;
@@ -31,7 +31,7 @@ bool FrontalKkt::factorise(const std::vector<BodyBlock>& bodies, int nc, bool id
 }
 
 void FrontalKkt::lay_out(const std::vector<BodyBlock>& bodies, int nc, bool springs) {
-  const bool known = know(bodies, nc) && layout_.holds(bodies);
+  const bool known = is_built_for(bodies, nc) && layout_.merges_still_hold(bodies);
   if (known && springs == springs_) return;
   springs_ = springs;
   if (!known) layout_.build(bodies, nc);
@@ -81,7 +81,7 @@ void FrontalKkt::place_store(const std::vector<BodyBlock>& bodies) {
   place_of_.resize(std::size_t(unknowns));
 }
 
-// Places of one size each, the last one left first.
+// Places of equal size; the last one released is used first.
 void FrontalKkt::place_passed_on() {
   std::size_t size = 0;
   std::map<int, std::vector<std::size_t>> left;
@@ -120,7 +120,7 @@ FrontalKkt::Below FrontalKkt::passed_by(const FrontLayout::Child& child) {
   return {nb, at.passed, K, K + nb * nb, store_.data() + at.factors};
 }
 
-// Where the front's factors go, now that is known how many rows tell of what.
+// Allocates the front's factors, after the ranks of its rows are known.
 FrontalKkt::Parts FrontalKkt::place_factors(std::size_t k, int pivots, int passed) {
   Place& at = places_[k];
   at.pivots = pivots, at.passed = passed, at.factors = stored_;
@@ -129,21 +129,20 @@ FrontalKkt::Parts FrontalKkt::place_factors(std::size_t k, int pivots, int passe
   return p;
 }
 
-// What sum_rows will read of bodies.
+// Prefetches what sum_rows will read from bodies.
 void FrontalKkt::prefetch_rows(std::size_t k, const std::vector<BodyBlock>& bodies) const {
   for (const FrontLayout::Source& source : layout_.rows(layout_.fronts()[k]))
     if (!source.constant)
       prefetch(bodies[std::size_t(source.body)].Gt.data() + source.column * source.size, source.size * sizeof(double));
 }
 
-// Where factors will be written, about as many as those of front k before: a step of 10,000 units of a prismatic mast
-// takes 335 ms so instead of 365.
+// Prefetches the memory of the factors, presumably of about the same size as those of front k before.
 void FrontalKkt::prefetch_place_for_factors(std::size_t k) const {
   const std::size_t left = std::size_t(store_.size()) - stored_;
   prefetch(store_.data() + stored_, std::min(stored_ - places_[k].factors, left) * sizeof(double));
 }
 
-// C: the front's own rows at length one, then those of its children. False: a row is not of the pattern any more.
+// Forms C: the front's own rows at length one, then those of its children. False: a row no longer fits the pattern.
 bool FrontalKkt::sum_rows(std::size_t k, const std::vector<BodyBlock>& bodies) {
   const FrontLayout::Front& front = layout_.fronts()[k];
   Place& at = places_[k];
@@ -181,9 +180,8 @@ bool FrontalKkt::sum_rows(std::size_t k, const std::vector<BodyBlock>& bodies) {
   return true;
 }
 
-// Rows that tell nothing of the front's unknowns go up, as far as they are independent. Then S = R^-1 (R_12 R_1B) in
-// their place, and
-// P beside it.
+// Rows without a component along the front's unknowns are passed to the parent if they are independent. Then S = R^-1
+// (R_12 R_1B) is stored in their place, with P beside it.
 void FrontalKkt::eliminate_rows(std::size_t k) {
   const FrontLayout::Front& front = layout_.fronts()[k];
   const int m = places_[k].all_rows, F = front.eliminated, width = RowElimination::width(m, front.unknowns);
@@ -207,7 +205,7 @@ void FrontalKkt::eliminate_rows(std::size_t k) {
   }
 }
 
-// K, in the order of the front's columns now.
+// Forms K, in the present order of the front's columns.
 void FrontalKkt::sum_masses(std::size_t k, const std::vector<BodyBlock>& bodies) {
   const FrontLayout::Front& front = layout_.fronts()[k];
   const Parts p = parts(k);

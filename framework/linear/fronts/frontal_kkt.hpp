@@ -1,32 +1,30 @@
-// The saddle-point system of many bodies by elimination of its rows, which are not squared against round-off and may be
-// redundant:
+// The saddle-point system of many bodies by elimination of its rows, which may be redundant; the rows are not squared.
 //
-//     [M G^T] [x]   [b]        x: least (x - M^-1 b) in the norm of M, of those that keep the rows
+//     [M G^T] [x]   [b]        x minimises |x - M^-1 b| in the norm of M among all x that satisfy the rows
 //     [G  0 ] [y] = [c]
 //
-// Rows between equal coordinates merge unknowns (merged_unknowns.hpp); the others and the masses are summed up front by
-// front (elimination_tree.hpp). In a front, F the unknowns it eliminates and B its boundary, C the rows and K the
-// masses known there:
+// Rows between equal coordinates merge unknowns (merged_unknowns.hpp); the other rows and the masses are summed front
+// by front (elimination_tree.hpp). In a front, F are the unknowns that it eliminates and B its boundary, C the rows and
+// K the masses assembled there:
 //
 //     Q^T [C_F C_B] = [R  *   *]      Householder with column pivoting, rows at length one: r rows are pivots in F,
-//                     [0  0  C'']     the rest concern B alone and go to the parent, or depend on others
-//     x_1 = P c - S (x_2, x_B)        the r unknowns, by R: P = R^-1 Q_1^T;  K' = K restricted to that
+//                     [0  0  C'']     the other rows concern B only and go to the parent, or are dependent
+//     x_1 = P c - S (x_2, x_B)        the r unknowns, by R: P = R^-1 Q_1^T;  K' = K restricted to these motions
 //     K'' = K'_BB - K'_B2 K'_22^-1 K'_2B      the free unknowns x_2, by Cholesky;  to the parent
 //
-// front_layout.hpp has which fronts there are, row_elimination.hpp a front's rows, frontal_solve.cpp the solutions. The
-// rank is decided in each front, among rows of nearby units, where independent rows of a long chain differ clearly:
-// singular values of the whole, which fall with n^-2 or n^-3, decide nothing. Only what goes on from front to front is
-// rounded. y: of dependent rows the combinations found get 0; it is a solution, not the one of minimum norm.
+// front_layout.hpp has the fronts, row_elimination.hpp the rows of a front, frontal_solve.cpp the solutions. The rank
+// is decided in each front, among rows of neighbouring units, where independent rows of a long chain differ clearly.
+// Singular values of the whole matrix fall with n^-2 or n^-3 and decide nothing. Only what passes from front to front
+// is rounded. Multipliers: the dependent combinations found get 0, so y is a solution, but not the one of minimum norm.
 //
-// Where round-off has come between rows that depend on each other, on a long way around, rows are springs
-// (frontal_springs.cpp):
+// If round-off has come between rows that depend on each other over a long way around a ring, the rows are replaced by
+// stiff springs (frontal_springs.cpp):
 //
-//     (M + k G^T G) dx = r_b + k G^T r_c,   dy = k (G dx - r_c)        r: what is left of b and c
+//     (M + k G^T G) dx = r_b + k G^T r_c,   dy = k (G dx - r_c)        r: residuals of both equations
 //
-// repeated, which is the method of multipliers. Its steps lie in the range of the rows, contradictions are balanced in
-// least squares, and what rows tell by less than 1/sqrt(k) of M comes slowly or not at all. y is of minimum norm, but
-// for b =
-// 0.
+// which is repeated (the method of multipliers). Its steps lie in the range of the rows, contradictions are balanced in
+// least squares, and components that rows see by less than 1/sqrt(k) of M converge slowly or not at all. y is of
+// minimum norm, except for b = 0.
 #pragma once
 
 #include <vector>
@@ -39,46 +37,47 @@ namespace trammel::numerics {
 
 class FrontalKkt {
  public:
-  // Of the first nc rows; `identity`: in place of M. False: a mass is not positive definite. `rank_tolerance` as in
+  // For the first nc rows; `identity` replaces M. False: a mass is not positive definite. `rank_tolerance` as in
   // kkt.hpp.
   [[nodiscard]] bool factorise(const std::vector<BodyBlock>& bodies, int nc, bool identity, double rank_tolerance);
-  // Refined with the residuals of the equations until x does not change any more. False: it does not come to that. Then
-  // rows that depend on others were taken for independent ones: round-off has come between them on a long way around.
+  // Refined with the residuals of the equations until x does not change any more. False: this does not converge,
+  // because rows that depend on others were taken for independent ones: round-off has come between them over a long way
+  // around.
   [[nodiscard]] bool solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);
-  // The same with rows as springs: eps = 1/k, or 0 if a mass is not positive definite; and the solution with it.
-  // `softness` is eps in the unit of the least mass's inverse.
+  // The same with rows as springs: returns eps = 1/k, or 0 if a mass is not positive definite; and the solution with
+  // it. `softness` is eps in the unit of the least mass's inverse.
   [[nodiscard]] double factorise_springs(const std::vector<BodyBlock>& bodies, int nc, bool identity, double softness);
   void solve_springs(const std::vector<BodyBlock>& bodies, double eps, const Vec& b, const Vec& c, Vec& x, Vec& y);
-  int dependent() const { return dependent_; }  // rows
+  int dependent() const { return dependent_; }  // number of dependent rows
   bool redundant() const { return dependent_ > 0; }
-  // By what the last solution misses rows, of length one, that depend on others, relative to x; round-off of a row's
-  // own products is 0.
+  // The residual of the last solution in dependent rows of length one, relative to x; 0 if it is round-off of a row's
+  // own products.
   double missed() const { return missed_; }
-  // Was factorised before, in these rows' places.
-  bool know(const std::vector<BodyBlock>& bodies, int nc) const { return layout_.know(bodies, nc); }
+  // True if it was factorised before for these rows and bodies.
+  bool is_built_for(const std::vector<BodyBlock>& bodies, int nc) const { return layout_.is_built_for(bodies, nc); }
 
  private:
-  // Where a front's numbers are, and what its rows came to.
+  // Where the data of a front are, and the ranks of its rows.
   struct Place {
-    std::size_t factors = 0;  // in store_, one front's behind the other's
-    std::size_t K = 0;        // in passed_on_: the parent takes it, and its place is free again
+    std::size_t factors = 0;  // offset in store_, front after front
+    std::size_t K = 0;        // offset in passed_on_; free again after the parent has added it
     int all_rows = 0, pivots = 0, passed = 0;
   };
-  // A front by the names above: m rows, n unknowns, r pivots by rows and `rest` not, of those `free` and the nb of the
-  // boundary.
+  // A front by the names above: m rows, n unknowns, r pivots by rows and `rest` other unknowns, of which `free` are
+  // eliminated here and nb are the boundary.
   struct Parts {
     int m, n, r, rest, free, nb, passed;
-    const int *unknowns, *columns;     // columns: of the unknowns, those that rows tell first
-    double *SP, *Q;                    // by rows: S beside P; of the rows passed on Q_2^T
+    const int *unknowns, *columns;     // columns: permutation of the unknowns, pivots of the rows first
+    double *SP, *Q;                    // by rows: S beside P; Q_2^T of the rows passed on
     double *W, *LV, *K11;              // W by rows; LV: L above V^T, by columns
-    double *K, *up;                    // for the parent: K''; rows of length one
-    double *t, *z, *u, *passed_right;  // of a right side
+    double *K, *up;                    // for the parent: K''; its rows, of length one
+    double *t, *z, *u, *passed_right;  // parts of a right side
     double* S(int i) const { return SP + i * (rest + m); }
     double* P(int i) const { return SP + i * (rest + m) + rest; }
   };
   Parts parts(std::size_t front);
   Parts place_factors(std::size_t front, int pivots, int passed);
-  // What a child has for its parent, by the same names.
+  // The data of a child for its parent, by the same names.
   struct Below {
     int nb, passed;
     const double *K, *up;
@@ -129,7 +128,7 @@ class FrontalKkt {
   std::vector<double> scale_;  // of own rows
   FrontContributions pieces_;
   std::vector<int> place_of_;  // of each of a front's unknowns in its columns
-  // Own rows at length one without their zeros, row after row; only with springs.
+  // Non-zero entries of own rows of length one, row after row; only with springs.
   struct Entry {
     int unknown;
     double value;
@@ -137,7 +136,7 @@ class FrontalKkt {
   std::vector<Entry> entries_;
   std::vector<std::size_t> entries_end_;
   Vec rows_, K_;  // C and K of one front
-  // Of merged unknowns and own rows at length one: right sides, what is left of them, solution, its corrections.
+  // For merged unknowns and own rows of length one: right sides, residuals, solution, corrections.
   Vec B_, C_, b_, c_, X_, Y_, dX_, dY_;
   Vec w_, scratch_, offset_, left_, left_rows_;
 };

@@ -18,8 +18,7 @@ Eigen::Map<Mat> matrix(double* at, int rows, int columns) {
   return Eigen::Map<Mat>(at, rows, columns);
 }
 
-// In fronts of so many unknowns a column's loop is quicker than an expression of Eigen's (11 to 44 unknowns, of chains:
-// half the time).
+// In fronts of up to this many unknowns a loop over a column is faster than Eigen's expression.
 constexpr int small_front = 64;
 
 // to[i] -= c from[i]
@@ -27,8 +26,7 @@ void subtract(double c, const double* from, int n, double* to) {
   for (int i = 0; i < n; ++i) to[i] -= c * from[i];
 }
 
-// P F_FF = L U with rows exchanged within F, L_BF and U_FB beside them, S in the corner; `rows` comes to the order of
-// the rows.
+// P F_FF = L U with row exchanges within F, L_BF and U_FB, and S in the corner; `rows` receives the order of the rows.
 void eliminate_columns(double* F, int n, int k, int* rows) {
   for (int j = 0; j < k; ++j) {
     double* const column = F + std::ptrdiff_t(j) * n;
@@ -39,7 +37,7 @@ void eliminate_columns(double* F, int n, int k, int* rows) {
       std::swap(rows[j], rows[largest]);
       for (int c = 0; c < n; ++c) std::swap(F[std::ptrdiff_t(c) * n + j], F[std::ptrdiff_t(c) * n + largest]);
     }
-    if (column[j] == 0) continue;  // the caller refuses it
+    if (column[j] == 0) continue;  // the caller rejects it
     const double inverse = 1 / column[j];
     for (int i = j + 1; i < n; ++i) column[i] *= inverse;
     for (int c = j + 1; c < n; ++c) {

@@ -1,12 +1,12 @@
-// P A = L U of a large matrix most of whose entries are 0, front by front, and the solves with it.
+// P A = L U of a large sparse matrix by elimination in fronts, and the solves with it.
 //
 // A front's unknowns (frontal_pattern.hpp; F), with its boundary (B):
 //
-//     [A_FF A_FB]  =  [L_F      ] [U_F  U_FB]       rows are exchanged within F;  S goes to the front above
+//     [A_FF A_FB]  =  [L_F      ] [U_F  U_FB]       row exchanges within F only;  S goes to the front above
 //     [A_BF A_BB]     [L_BF   1 ] [      S  ]
 //
-// Exchanges within F alone may meet a small pivot where A is regular, or come close to it: solutions want to be
-// corrected by their residuals (frontal_factors.hpp).
+// Exchanges within F only may meet a small pivot although A is regular: solutions have to be corrected by their
+// residuals (frontal_factors.hpp).
 #pragma once
 
 #include "linear/fronts/frontal_pattern.hpp"
@@ -28,11 +28,11 @@ class FrontalLu {
   void eliminate_in_blocks(int k, int* rows, Eigen::Map<Mat>& F);
   bool eliminate(const FrontalPattern& pattern, const Front& front, const Vec& largest, Eigen::Map<Mat>& F);
 
-  // Aligned as Eigen's own: sums over pieces of them then round alike in every run. store_: of each front L_F and U_F
-  // over L_BF, then U_FB. stack_: the S that are still to be taken.
+  // Aligned like Eigen's own storage, so that sums over parts of them round alike in every run. store_: for each front
+  // L_F and U_F over L_BF, then U_FB. stack_: update matrices S that no parent has added yet.
   Vec store_, work_, stack_;
   std::size_t stored_ = 0, top_ = 0;
-  std::vector<int> exchanged_;  // of each front: which row of F comes to which place
+  std::vector<int> exchanged_;  // by front: the row of F at each place
   Vec pivots_, y_;
 };
 

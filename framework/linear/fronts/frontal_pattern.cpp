@@ -14,7 +14,7 @@ using Index = Eigen::Index;
 
 constexpr EliminationTree::Costs costs_of_entries{.along = 1, .front = 10000, .entry = 20};  // measured on plates
 
-// Children right before their parent, depth first.
+// Depth first, the children of a front directly before it.
 std::vector<int> post_order(const EliminationTree& tree) {
   const std::vector<EliminationTree::Front>& fronts = tree.fronts();
   std::vector<char> has_parent(fronts.size(), 0);
@@ -39,7 +39,7 @@ std::pair<const int*, const int*> neighbours(const FrontalPattern::Sparse& A, in
   return {A.innerIndexPtr() + A.outerIndexPtr()[j], A.innerIndexPtr() + A.outerIndexPtr()[j + 1]};
 }
 
-// The node of each unknown, which is one of its unknowns: those with the same neighbours.
+// The node of each unknown, named by one of its unknowns: unknowns with the same neighbours form a node.
 std::vector<int> find_nodes(const FrontalPattern::Sparse& A) {
   const auto n = std::size_t(A.cols());
   std::vector<int> order(n), node(n);
@@ -57,15 +57,15 @@ std::vector<int> find_nodes(const FrontalPattern::Sparse& A) {
   return node;
 }
 
-// The power of two below the size of a row's entries in a node. Its steps are not where sizes usually are, at 1 and at
-// powers of two: round-off shall not decide.
+// The power of two below the size of a row's entries in a node. The limits between classes avoid the usual sizes, 1 and
+// powers of two, so that round-off does not decide.
 int size_class(double square) {
   return square > 0 ? std::ilogb(1.7 * square) : std::numeric_limits<int>::min();
 }
 
 }  // namespace
 
-// Of each unknown with a 0 on the diagonal the node that takes it in: one with room left, in which its row is largest.
+// For each unknown with a 0 on the diagonal, the node that it joins: one with room left in which its row is largest.
 // -1: it stays by itself.
 std::vector<int> FrontalPattern::find_partners(const Sparse& A) const {
   std::vector<char> has_diagonal(nodes_.size(), 0);
@@ -141,7 +141,7 @@ void FrontalPattern::lay_out(const EliminationTree& tree, const std::vector<std:
   for (const int f : post_order(tree)) {
     const EliminationTree::Front& of = tree.fronts()[std::size_t(f)];
     Front front{.unknowns = unknowns_.size()};
-    // In the order of elimination, which all fronts share: what goes up from one then stays in order.
+    // In the order of elimination, the same in all fronts: the boundary of a child is then in order in its parent.
     const auto add = [&](std::vector<int> nodes) {
       std::sort(nodes.begin(), nodes.end(), [&](int a, int b) { return tree.place(a) < tree.place(b); });
       for (const int node : nodes)

@@ -1,5 +1,6 @@
-// The solutions of frontal_kkt.hpp: right sides go up from front to front, unknowns and multipliers come down. They are
-// refined where the fronts are, in merged unknowns and rows at length one.
+// The solutions of frontal_kkt.hpp: right sides are passed up from front to front (forward sweep), unknowns and
+// multipliers down (backward sweep). They are refined in the unknowns of the fronts: merged unknowns and rows of length
+// one.
 #include <algorithm>
 #include <limits>
 
@@ -41,7 +42,7 @@ void FrontalKkt::forward(std::size_t k) {
   for (int j = p.free; j < rest; ++j) b_(p.unknowns[p.columns[r + j]]) = b[j];
 }
 
-// x_2 = L^-T (z - V x_B),  x_1 = t - S x_r,  y = P^T (u - W x_r) and what the parent gives to rows passed on.
+// x_2 = L^-T (z - V x_B),  x_1 = t - S x_r,  y = P^T (u - W x_r) plus the parent's part for rows passed on.
 void FrontalKkt::backward(std::size_t k, Vec& X, Vec& Y) {
   const FrontLayout::Front& front = layout_.fronts()[k];
   const Parts p = parts(k);
@@ -75,7 +76,7 @@ void FrontalKkt::prefetch_factors(std::size_t k, Way way) {
   way == Way::up ? prefetch(begin, bytes) : prefetch_down(begin, bytes);
 }
 
-// From b_ and c_; b_ is used up.
+// From b_ and c_; b_ is overwritten.
 void FrontalKkt::solve_once(Vec& X, Vec& Y) {
   X.resize(b_.size()), Y.resize(c_.size());
   for (std::size_t k = 0; k < places_.size(); ++k) {
@@ -100,7 +101,7 @@ bool FrontalKkt::refine() {
   struct Equations {
     FrontalKkt& kkt;
     double apart, size = 0;
-    // Judged by its corrections alone: what is left of soft directions does not show in the equations.
+    // Judged by the corrections only: errors in soft directions do not show in the residual.
     double residual() { return kkt.find_residuals(), 1; }
     double correction() {
       kkt.solve_once(kkt.dX_, kkt.dY_);
@@ -110,7 +111,7 @@ bool FrontalKkt::refine() {
     }
     void apply() { kkt.X_ += kkt.dX_, kkt.Y_ += kkt.dY_; }
   };
-  constexpr double good = 1e-7, lost = 1e-6;  // corrections: leave their square; too large to count on
+  constexpr double good = 1e-7, lost = 1e-6;  // of corrections: leaves an error of its square; too large to be trusted
   constexpr Refinement by_corrections{
       .most = 4, .enough = 0, .falls = std::numeric_limits<double>::infinity(), .settled = good, .contracts = 0.1};
   b_ = B_, c_ = C_;
@@ -121,7 +122,7 @@ bool FrontalKkt::refine() {
   return refined.correction <= lost;
 }
 
-// What was left before the last correction is more, and often little enough.
+// The residual before the last correction is an upper bound and often small enough.
 double FrontalKkt::find_missed(double size) {
   constexpr double of_products = 1e-14;
   const auto missed = [&] { return c_.size() > 0 ? c_.lpNorm<Eigen::Infinity>() / size : 0; };
@@ -190,7 +191,7 @@ void FrontalKkt::find_residuals() {
   }
 }
 
-// B_ and C_; offset_: of x from the merged unknowns.
+// Forms B_ and C_, and offset_, the part of x that the rows of merged unknowns prescribe.
 void FrontalKkt::merge(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c) {
   const MergedUnknowns& merged = layout_.merged();
   merged.offsets(c, offset_);
@@ -210,7 +211,7 @@ void FrontalKkt::merge(const std::vector<BodyBlock>& bodies, const Vec& b, const
   for (Eigen::Index i = 0; i < C_.size(); ++i) C_(i) = rows(layout_.own_row(std::size_t(i))) * scale_[std::size_t(i)];
 }
 
-// x and y from X_ and Y_, and the multipliers of the rows that merge: what is left of b - M x - G^T y.
+// x and y from X_ and Y_; the multipliers of merging rows are the residual b - M x - G^T y.
 void FrontalKkt::expand(const Vec& b, Vec& x, Vec& y) {
   const MergedUnknowns& merged = layout_.merged();
   x = offset_;

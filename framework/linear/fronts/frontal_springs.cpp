@@ -1,6 +1,5 @@
-// Rows as springs in the fronts of frontal_kkt.hpp. No row is pivots from others: a front eliminates all its unknowns
-// by the masses,
-// K + k C^T C of them, C its own rows.
+// Rows as stiff springs in the fronts of frontal_kkt.hpp. No row gives a pivot: a front eliminates all of its unknowns
+// from K + k C^T C, where C are its own rows.
 #include <algorithm>
 #include <numeric>
 
@@ -56,11 +55,11 @@ void FrontalKkt::add_springs(std::size_t f) {
       if (row[j] != 0) add(n - j, stiffness_ * row[j], row + j, K_.data() + j * n + j);
 }
 
-// With each solution x comes to satisfy the rows better and y to push as hard as that takes. It ends where what is
-// left, if it shrinks on as the rows' violation does, is nothing: what would still change, ever more slowly, is
-// rounding of the rows in directions they hardly tell. The second solution refines the first one, y as it was: rounded
-// k times as large as the masses, that would push in directions that rows hardly tell and forget it slowly. Later ones
-// are small.
+// The method of multipliers: each solution reduces the violation of the rows by x, and y approaches their forces. It
+// ends when the remaining change, if it decreases at the rate of the violation, is negligible: changes that would
+// continue ever more slowly are rounding of the rows in directions that they hardly see. The second solution refines
+// the first one with y unchanged: its residual, rounded at k times the size of the masses, would enter y in such
+// directions and decay slowly. Later ones are small.
 void FrontalKkt::approach(double k) {
   constexpr int most = 40;
   constexpr double settled = 1e-10, slow = 0.9, visible = 1e-6;
@@ -78,7 +77,7 @@ void FrontalKkt::approach(double k) {
     X_ += dX_;
     change = dX_.lpNorm<Eigen::Infinity>();
   }
-  // What rows contradict each other by pushes without effect. Nobody asks for y where rows alone are corrected.
+  // Contradictions of rows add a part without effect to y. No caller needs y if rows alone are corrected (b = 0).
   if (!B_.isZero(0) && k * c_.lpNorm<Eigen::Infinity>() > visible * Y_.lpNorm<Eigen::Infinity>())
     remove_null_part(k, Y_);
 }
@@ -97,8 +96,8 @@ void FrontalKkt::push_by_rows(double k, bool taken) {
   subtract_masses_times(X_, b_);
 }
 
-// 1 - k G (M + k G^T G)^-1 G^T keeps the null part of Y and shrinks the rest; applied twice it leaves nothing else.
-// Round-off asks for more passes.
+// 1 - k G (M + k G^T G)^-1 G^T keeps the null part of Y and reduces the rest; applied twice it leaves only the null
+// part. Round-off requires more passes.
 void FrontalKkt::remove_null_part(double k, Vec& Y) {
   for (int pass = 0; pass < 3; ++pass) {
     left_rows_ = Y;

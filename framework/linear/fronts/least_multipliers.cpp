@@ -9,11 +9,11 @@
 namespace trammel::numerics {
 
 void LeastMultipliers::factorise(const std::vector<BodyBlock>& bodies, int nc, double rank_tolerance) {
-  if (!layout_.know(bodies, nc)) layout_.build(bodies, nc, FrontLayout::Unknowns::apart);
+  if (!layout_.is_built_for(bodies, nc)) layout_.build(bodies, nc, FrontLayout::Unknowns::apart);
   while (!eliminate(bodies, rank_tolerance)) layout_.extend(bodies);
 }
 
-// False: a row is not of the pattern any more.
+// False: a row no longer fits the pattern.
 bool LeastMultipliers::eliminate(const std::vector<BodyBlock>& bodies, double rank_tolerance) {
   const std::vector<FrontLayout::Front>& fronts = layout_.fronts();
   fronts_.assign(fronts.size(), {});
@@ -49,7 +49,7 @@ int LeastMultipliers::rows_of(const FrontLayout::Front& front) const {
   return int(m);
 }
 
-// C: own rows at length one, then those of the children, which are not needed any more.
+// Forms C: own rows of length one, then those of the children, which are released.
 bool LeastMultipliers::sum_rows(std::size_t k, const std::vector<BodyBlock>& bodies, int m, Vec& C) {
   const FrontLayout::Front& front = layout_.fronts()[k];
   const int n = front.unknowns, width = RowElimination::width(m, n);

@@ -10,8 +10,8 @@ namespace trammel::numerics {
 
 namespace {
 
-// Columns' squares lose digits as the shares of rows above are taken from them: below this part of the longest that was
-// measured they are measured anew.
+// Squares of columns lose digits when the parts of eliminated rows are subtracted: below this part of the longest
+// measured one they are computed again.
 constexpr double digits_left = 1e-4;
 
 }  // namespace
@@ -24,8 +24,8 @@ RowElimination::Rank RowElimination::run(int F, double tolerance, int* columns, 
   return {pivots, eliminate(F, n_, pivots, tolerance, nullptr, scratch)};
 }
 
-// Of columns first ... last - 1 on the rows from `begin` on, while one is longer than the tolerance; how many.
-// `columns`: they come first.
+// Eliminates columns [first, last) from row `begin` on while a column's norm exceeds the tolerance; returns the rank.
+// `columns`: their permutation, pivots first.
 int RowElimination::eliminate(int first, int last, int begin, double tolerance, int* columns, double* scratch) {
   double* const squares = scratch;
   double safe = 0;
@@ -51,7 +51,7 @@ int RowElimination::eliminate(int first, int last, int begin, double tolerance, 
   return at - begin;
 }
 
-// Squares of columns first ... last - 1 on the rows from `begin` on.
+// Squares of the norms of columns [first, last) from row `begin` on.
 void RowElimination::measure(int begin, int first, int last, double* squares) const {
   std::fill(squares + first, squares + last, 0.0);
   for (int i = begin; i < m_; ++i)
@@ -70,11 +70,11 @@ void RowElimination::bring_forward(int j, int first, int* columns) {
   std::swap(columns[j], columns[first]);
 }
 
-// Column j on rows begin ... m - 1 becomes (beta, 0 ... 0). v stays in it until all others have been reflected. Rows
-// that column j does not meet stay as they are: of masts a quarter.
+// Reflects column j on rows [begin, m) to (beta, 0 ... 0). v stays in it until all other columns have been reflected.
+// Rows in which column j is 0 are skipped: a quarter of them in masts.
 void RowElimination::reflect(int j, int begin, double norm, double* scratch) {
   double* const along = scratch + padded(n_);
-  const int first = std::min(begin, F_);  // nothing in columns before counts there
+  const int first = std::min(begin, F_);  // earlier columns are no longer needed there
   double* const top = row(begin);
   const double head = top[j], beta = head > 0 ? -norm : norm, tau = 1 / (beta * (head - beta));
   top[j] = head - beta;

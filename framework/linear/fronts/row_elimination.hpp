@@ -1,12 +1,11 @@
 // The rows of a front, eliminated by Householder reflections with column pivoting:
 //
-//     Q^T [C_F C_B 1] P = [R  *   *   Q_1^T]      columns of F first, the longest first; then those of B, in the rest
-//     of the rows,
-//                         [0  0  C''  Q_2^T]      where they are: not permuted
+//     Q^T [C_F C_B 1] P = [R  *   *   Q_1^T]      P: pivots among the columns of F first, the longest first;
+//                         [0  0  C''  Q_2^T]      then columns of B are eliminated in the other rows, in place
 //
-// A column counts while it is longer than the tolerance; rows have length one. C is kept by rows: a reflection then
-// combines rows as long as the front is wide, which the processor does by several numbers at once. Q^T is kept as such,
-// since a product with it waits for nothing, where one reflection waits for the other.
+// A column counts while its norm exceeds the tolerance; rows have length one. C is stored by rows: a reflection then
+// combines rows as long as the front is wide, in SIMD operations. Q^T is stored explicitly, because its products are
+// independent of each other, whereas successive reflections are not.
 #pragma once
 
 #include <trammel/types.hpp>
@@ -17,14 +16,15 @@ namespace trammel::numerics {
 
 class RowElimination {
  public:
-  // C of m rows, `width` numbers each: n of the front, m of the identity, for which there are zeros yet, and zeros.
+  // C: m rows of `width` numbers each: n of the front, m zeros for the identity, and padding zeros.
   RowElimination(double* C, int m, int n) : C_(C), m_(m), n_(n), width_(width(m, n)) {}
-  static int width(int m, int n) { return int(padded(n + m)); }  // whole packs
+  static int width(int m, int n) { return int(padded(n + m)); }  // padded to whole packs
 
   struct Rank {
-    int pivots = 0, passed = 0;  // rows that tell of F, and of the others those that tell of B; the rest tell nothing
+    int pivots = 0;  // rank of the rows in F
+    int passed = 0;  // rank of the other rows in B, where they are passed on; rows beyond that are dependent
   };
-  // The first F columns; `columns`: where each came from. `scratch`: 2 width numbers.
+  // Eliminates the first F columns. `columns`: original index of each. `scratch`: 2 width numbers.
   Rank run(int F, double tolerance, int* columns, double* scratch);
 
  private:

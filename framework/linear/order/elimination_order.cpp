@@ -22,7 +22,7 @@ Graph graph_of(const std::vector<std::vector<int>>& cliques, std::size_t nodes) 
 
 namespace {
 
-// Breadth first from `first`, neighbours of low degree first; appended to `order`.
+// Breadth first from `first`, neighbours of low degree first; appends to `order`.
 void walk(const Graph& graph, int first, std::vector<char>& seen, std::vector<int>& order) {
   std::size_t next = order.size();
   order.push_back(first);
@@ -38,7 +38,7 @@ void walk(const Graph& graph, int first, std::vector<char>& seen, std::vector<in
 
 }  // namespace
 
-// From an end of each connected part: where two walks, each from the last node of the one before, have led.
+// From an end of each connected part, which two walks find, each from the last node of the one before.
 std::vector<int> along(const Graph& graph) {
   std::vector<int> order;
   std::vector<char> seen(graph.size(), 0), tried(graph.size(), 0);

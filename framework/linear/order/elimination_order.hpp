@@ -15,8 +15,8 @@ Graph graph_of(const std::vector<std::vector<int>>& cliques, std::size_t nodes);
 std::vector<int> along(const Graph& graph);
 // Approximate minimum degree.
 std::vector<int> of_minimum_degree(const Graph& graph);
-// Nested dissection (George, SIAM J. Numer. Anal. 10 (1973), 345), for graphs wide both ways: a few nodes that keep two
-// halves apart come last, and so on within the halves. `weight`: unknowns of each node.
+// Nested dissection (George, SIAM J. Numer. Anal. 10 (1973), 345), for graphs that are wide in two directions: a few
+// nodes that separate two halves come last, and so on within the halves. `weight`: unknowns of each node.
 std::vector<int> by_dissection(const Graph& graph, const std::vector<int>& weight);
 
 }  // namespace trammel::numerics

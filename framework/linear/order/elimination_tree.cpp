@@ -8,11 +8,11 @@ namespace trammel::numerics {
 
 namespace {
 
-// Where the order along the graph takes no more than so many times the work by degrees, halves would not save any, but
-// take long to find (4 s of a mast with 10,000 units).
+// If the order along the graph takes at most this many times the work of minimum degree, dissection would save nothing;
+// it is slow to compute for large graphs.
 constexpr double wide = 3;
 
-// What each node leaves as its boundary, by place in the order, ascending; the first of it is the parent.
+// The boundary that each node leaves, as ascending places in the order; its first node is the parent.
 struct Elimination {
   std::vector<int> order, place;
   Graph boundary;
@@ -69,7 +69,7 @@ void EliminationTree::build(const std::vector<std::vector<int>>& cliques, const 
     const double size = eliminated + boundary;
     return work_of(eliminated, boundary) + costs.entry * size * size + costs.front;
   };
-  // A node at place k begins as a front of its own and unites with those of its children where that is cheaper.
+  // The node at place k begins as a front of its own and is united with those of its children where that is cheaper.
   struct Open {
     std::vector<int> places, children;
     double eliminated = 0;

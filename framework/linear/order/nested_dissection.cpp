@@ -1,6 +1,6 @@
-// Halves of a graph with few edges between them are found on coarser and coarser graphs, whose vertices stand for pairs
-// of the finer one's, and improved on the way back (Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998), 359). Nothing is
-// drawn at random.
+// Halves of a graph with few edges between them are found on successively coarser graphs, whose vertices stand for
+// pairs of vertices of the finer graph, and improved on the way back (Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998),
+// 359). Nothing is random.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -15,10 +15,10 @@ namespace {
 
 using Sides = std::vector<char>;  // 0 or 1, of each vertex
 
-constexpr int few_vertices = 60;      // are halved as they are
-constexpr double most_of_all = 0.56;  // in one half, by weight
+constexpr int few_vertices = 60;      // graphs of so few are halved directly
+constexpr double most_of_all = 0.56;  // largest part in one half, by weight
 
-// A vertex has a weight, edges are tied: by so many of the finest graph's.
+// A graph whose vertices and edges have weights: how many vertices and edges of the finest graph each stands for.
 struct Ties {
   std::vector<int> weight, start = {0}, to, tie;
   int size() const { return int(weight.size()); }
@@ -29,7 +29,7 @@ struct Ties {
   }
 };
 
-// Each vertex goes with the neighbour it is tied to most closely. `into`: which vertex each becomes part of.
+// Unites each vertex with the neighbour of the heaviest edge. `into`: the coarse vertex of each vertex.
 Ties coarsened(const Ties& fine, std::vector<int>& into) {
   into.assign(std::size_t(fine.size()), -1);
   std::vector<std::pair<int, int>> pairs;
@@ -70,9 +70,8 @@ int cut(const Ties& graph, const Sides& side) {
   return twice / 2;
 }
 
-// Vertices change sides one by one, best first, also where that is a loss at first; what was best is kept (Fiduccia,
-// Mattheyses,
-// Design Automation Conf. 1982). False: nothing was gained.
+// Moves vertices to the other side one by one, best first, also if that is a loss at first; keeps the best state
+// (Fiduccia, Mattheyses, Design Automation Conf. 1982). False: there was no gain.
 bool improve(const Ties& graph, Sides& side) {
   constexpr std::size_t patience = 60;  // moves without a gain
   const auto n = std::size_t(graph.size());
@@ -114,7 +113,7 @@ bool improve(const Ties& graph, Sides& side) {
   return most_gained > 0;
 }
 
-// Half of all, nearest to `first`.
+// The half of all vertices that is nearest to `first`.
 Sides grown(const Ties& graph, int first) {
   Sides side(std::size_t(graph.size()), 0);
   std::vector<int> front = {first};
@@ -159,9 +158,9 @@ class Dissection {
       : graph_(graph), weight_(weight), place_(graph.size(), -1) {}
 
   void order(const std::vector<int>& nodes, std::vector<int>& order) {
-    constexpr std::size_t few_nodes = 40;  // are left to their degrees
+    constexpr std::size_t few_nodes = 40;  // so few are ordered by minimum degree
     const Ties ties = within(nodes);
-    std::vector<int> parts[3];  // the third keeps the others apart
+    std::vector<int> parts[3];  // the third separates the other two
     if (nodes.size() > few_nodes) part(nodes, ties, parts);
     if (parts[0].empty() || parts[1].empty()) return order_by_degree(nodes, ties, order);
     this->order(parts[0], order);
@@ -183,7 +182,7 @@ class Dissection {
     return ties;
   }
 
-  // Those of one half that have neighbours in the other keep the rest apart.
+  // Nodes of one half that have neighbours in the other half separate the rest.
   static void part(const std::vector<int>& nodes, const Ties& ties, std::vector<int>* parts) {
     const Sides side = halved(ties);
     std::vector<char> at_cut(nodes.size(), 0);
@@ -213,7 +212,7 @@ class Dissection {
 }  // namespace
 
 std::vector<int> by_dissection(const Graph& graph, const std::vector<int>& weight) {
-  // What most are tied to keeps nothing apart and comes last.
+  // Nodes with very many neighbours separate nothing; they come last.
   const double many = 10 * std::sqrt(double(graph.size())) + 16;
   std::vector<int> nodes, last, order;
   for (int i = 0; i < int(graph.size()); ++i) (double(graph[std::size_t(i)].size()) > many ? last : nodes).push_back(i);

@@ -10,8 +10,9 @@ namespace trammel::numerics {
 
 namespace {
 
-// Beside a row's length 1. Entries of round-off are left out. R's diagonal where no row has come to yet is below it: a
-// row that is a sum of others times large numbers, as in long hoops, would seem new by eps times these.
+// Relative to a row of length 1. Entries below `round_off` are left out. `eps` is R's diagonal where there is no row
+// yet: it must be below round-off, because a row that is a sum of others times large numbers, as in long hoops, seems
+// new by eps times these numbers.
 constexpr double round_off = 1e-15, eps = 1e-17;
 
 std::vector<std::vector<int>> columns_of_rows(const SparseRows& G) {
@@ -27,8 +28,9 @@ std::vector<int> places(const std::vector<int>& order) {
   return place;
 }
 
-// R^T R = G^T G + eps^2 1 of the rows taken. Of a row r each rotation with R's row k makes its diagonal longer, all
-// together by sqrt(1 + r (R^T R)^-1 r^T); times eps that is the length of r's part perpendicular to the rows before.
+// R^T R = G^T G + eps^2 1 for the rows taken. For a new row r, the rotations with the rows of R lengthen their
+// diagonals by a total factor of sqrt(1 + r (R^T R)^-1 r^T); times eps this is the length of r's component
+// perpendicular to the rows before.
 class Triangle {
  public:
   explicit Triangle(int columns)
@@ -37,12 +39,12 @@ class Triangle {
         of_row_(rows_.size(), 0.0),
         is_active_(rows_.size(), 0) {}
 
-  // An entry of the next row, which has length 1.
+  // Sets an entry of the next row, which has length 1.
   void put(int place, double value) {
     touch(place);
     left_[std::size_t(place)] += value;
   }
-  // Takes that row, or leaves R as it is if no more than `tolerance` of it is new.
+  // Adds that row, or leaves R unchanged if its new component is at most `tolerance`.
   bool take(double tolerance) {
     before_.clear();
     double part = eps;
@@ -74,8 +76,8 @@ class Triangle {
     is_active_[std::size_t(k)] = 0;
     return k;
   }
-  // Row k of R and what is left of the row, so that the latter has no part at k any more. Returns how many times as
-  // long the diagonal is then.
+  // Rotates row k of R with the rest of the new row, which then has no entry at k. Returns the factor by which the
+  // diagonal grows.
   double rotate(int k, Row& row) {
     if (row.empty()) row.push_back({k, eps});
     const double r = row.front().value, a = left_[std::size_t(k)], length = std::hypot(r, a);
@@ -95,9 +97,9 @@ class Triangle {
     return length / r;
   }
 
-  std::vector<Row> rows_;     // of R, by the place of their diagonal; empty: eps alone
-  std::vector<Row> before_;   // those that the row at hand has changed, each once
-  std::vector<double> left_;  // of the row at hand, at its active places
+  std::vector<Row> rows_;     // of R, by the place of their diagonal; empty: eps only
+  std::vector<Row> before_;   // those that the present row has changed, each once
+  std::vector<double> left_;  // of the present row, at its active places
   std::vector<double> of_row_;
   std::vector<char> is_active_;
   std::vector<int> active_;  // a heap, the first place on top

@@ -1,9 +1,9 @@
-// Which rows of a sparse matrix depend on the rows before them.
+// Finds the rows of a sparse matrix that depend on the rows before them.
 //
-// Row after row is rotated into a triangle R, whose columns are in an order that leaves few entries (George, Heath,
-// Linear Algebra Appl. 34 (1980), 69; by dissection each row meets few others on its way, also in long chains). R grows
-// less by a row the more it depends on those before it. Rotations do not square the condition number: of masts and
-// hoops of thousands of units, whose own rows are dependent but for 1e-8, those that are redundant are told exactly.
+// Row after row is rotated into a triangle R. The order of its columns keeps it sparse (George, Heath, Linear Algebra
+// Appl. 34 (1980), 69; with nested dissection each row meets few others, also in long chains). A row enlarges R the
+// less, the more it depends on the rows before. Rotations do not square the condition number: in masts and hoops of
+// thousands of units, whose independent rows are dependent up to 1e-8, exactly the redundant rows are found.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ namespace trammel::numerics {
 
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
-// Ascending. `tolerance`: sine of a row's angle to those before it, from which on it counts.
+// Indices, ascending. `tolerance`: a row counts as independent if the sine of its angle to those before exceeds it.
 std::vector<int> dependent_rows(const SparseRows& G, double tolerance);
 
 }  // namespace trammel::numerics

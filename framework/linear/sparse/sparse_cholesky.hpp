@@ -1,4 +1,4 @@
-// M = C C^T of a sparse symmetric positive definite matrix, and the triangular solves with C.
+// M = C C^T for a sparse symmetric positive definite matrix, and the triangular solves with C.
 //
 // C = P^T L with P M P^T = L L^T, P of approximate minimum degree. The order is found once for a pattern.
 #pragma once

@@ -11,7 +11,7 @@ bool have_one_pattern(const Eigen::SparseMatrix<double>& A, const Eigen::SparseM
 }
 
 void SparseSum::begin(int n) {
-  const bool resized = matrix_.rows() != n;  // the diagonal has no place then, even where nothing is added
+  const bool resized = matrix_.rows() != n;  // then the diagonal has no places, even if nothing is added
   if (resized) {
     matrix_.resize(n, n);
     singles_.clear(), pieces_.clear(), places_.clear(), at_.clear();
@@ -58,7 +58,7 @@ bool SparseSum::is(const Piece& piece, const Places& rows, const Places& columns
   return same;
 }
 
-// As the next piece, and last.
+// Notes the block as the next and last piece.
 void SparseSum::note(const Places& rows, const Places& columns) {
   other_ = true;
   if (next_piece_ < pieces_.size()) {
@@ -84,7 +84,7 @@ bool SparseSum::look_up(const Piece& piece) {
     for (int r = 0; r < piece.runs; ++r, ++at) {
       const int first = rows[runs[r]], length = runs[r + 1] - runs[r];
       const Eigen::Index found = find(first, columns[j]);
-      // All of the run are there if its last is, so many places on.
+      // All entries of a run have places if its last one is stored at the right distance.
       const bool whole = found != nowhere && found + length <= matrix_.outerIndexPtr()[columns[j] + 1] &&
                          matrix_.innerIndexPtr()[found + length - 1] == first + length - 1;
       if (!whole) return false;
@@ -100,7 +100,7 @@ void SparseSum::add(const Places& rows, const Places& columns, Matrix::Block blo
     if (!look_up(pieces_.back())) missing_ = true;
   }
   const Piece& piece = pieces_[next_piece_++];
-  if (missing_) return;  // all is summed once more
+  if (missing_) return;  // the whole sum is repeated
   const int* const runs = places_.data() + piece.places + piece.rows + piece.columns;
   const int* at = at_.data() + piece.at;
   for (int j = 0; j < piece.columns; ++j) {
@@ -129,10 +129,10 @@ void SparseSum::reserve(const Places& rows, const Places& columns) {
 
 namespace {
 
-// The symmetric n x n pattern of all blocks. `each(f)` calls f(rows, how many, columns, how many).
+// Makes the symmetric n x n pattern of all blocks. `each(f)` calls f(rows, number, columns, number).
 template <class Each>
 Eigen::SparseMatrix<double> pattern_of(std::size_t n, Each&& each) {
-  // By column, what each block that touches it ties to it.
+  // By column: the rows that each block couples to it.
   struct Tied {
     const int* with;
     int count;

@@ -1,12 +1,12 @@
-// A sparse matrix that is summed from blocks again and again in much the same order: a mesh, cell by cell.
+// A sparse matrix that is summed repeatedly from blocks in much the same order: a mesh, cell by cell.
 //
 //     A = sum_e P_e^T B_e Q_e       B_e: dense, on some rows and columns of A
 //
-// Each block's places are noted the first time, with where its entries are stored: neighbouring rows together, so that
-// a cell of 16 nodes needs 192 places for 2304 entries. Later sums only compare the rows and columns. From the first
-// block on that is another than last time (contacts wander), all are looked up, and the pattern becomes that of the
-// blocks that there are now, beside what is reserved: it depends on this sum and not on earlier ones, so that a run
-// that is resumed eliminates in the same order. The pattern is symmetric and has the diagonal.
+// The first sum notes the places of each block and where its entries are stored, neighbouring rows together: a cell of
+// 16 nodes needs 192 places for 2304 entries. Later sums only compare the rows and columns. From the first block that
+// differs from the last sum (contacts move) all blocks are looked up again, and the pattern becomes that of the present
+// blocks and the reserved places: it depends on this sum only and not on earlier ones, so that a resumed run eliminates
+// in the same order. The pattern is symmetric and includes the diagonal.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ bool have_one_pattern(const Eigen::SparseMatrix<double>& A, const Eigen::SparseM
 
 class SparseSum {
  public:
-  // `additions()` calls the functions below, of this object; it may be run twice. n x n.
+  // `additions()` calls the functions below on this object; it may be run twice. n x n.
   template <class Additions>
   void fill(int n, Additions&& additions) {
     begin(n);
@@ -45,14 +45,14 @@ class SparseSum {
     const Eigen::Index at = singles_[next_single_++].at;
     if (at != nowhere) values_[at] += value;
   }
-  // These have places from now on, whether a block comes to them or not.
+  // Reserves these places permanently, whether or not a block is added there.
   void reserve(const Places& rows, const Places& columns);
 
   // entry(i, j) *= d_i d_j
   void scale(const Vec& d);
 
   const Eigen::SparseMatrix<double>& matrix() const { return matrix_; }
-  int patterns() const { return patterns_; }  // so far
+  int patterns() const { return patterns_; }  // number of patterns so far
 
  private:
   static constexpr Eigen::Index nowhere = -1;
@@ -60,8 +60,8 @@ class SparseSum {
     int i, j;
     Eigen::Index at;  // in values_
   };
-  // In places_: rows, columns, and the first of each run of neighbouring rows, with the end. In at_: where each run is
-  // stored, column by column.
+  // Indices in places_: rows, columns, and the first of each run of neighbouring rows, with the end. In at_: where each
+  // run is stored, column by column.
   struct Piece {
     int rows, columns, runs;
     std::size_t places, at;
@@ -69,7 +69,7 @@ class SparseSum {
 
   void begin(int n);
   bool finished();     // false: the same blocks as last time
-  bool fit_pattern();  // to these blocks; false: it does already
+  bool fit_pattern();  // to the present blocks; false: it fits already
   void add_new(int i, int j, double value);
   void note(const Places& rows, const Places& columns);
   bool look_up(const Piece& piece);
@@ -83,7 +83,7 @@ class SparseSum {
   std::vector<int> places_, reserved_places_, at_;
   std::size_t next_single_ = 0, next_piece_ = 0;
   bool missing_ = false;  // an entry has no place
-  bool other_ = false;    // a block is not that of last time
+  bool other_ = false;    // a block differs from that of the last sum
   int patterns_ = 0;
 };
 
