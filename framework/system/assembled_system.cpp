@@ -200,7 +200,7 @@ void AssembledSystem::add_rows_force(double c, const Vec& mu, Vec& r) {
 }
 
 namespace {
-constexpr int most_loads = 50;  // iterations of Newton's method for the bearings' loads; it takes 1 to 4
+constexpr int most_loads = 50;  // iterations of Newton's method for the bearings' loads; 1 to 4 are usual
 }
 
 void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {

@@ -20,7 +20,7 @@
 
 namespace trammel::model {
 
-struct CarriedFrom;  // tangent.hpp
+struct CarriedFrom;  // see tangent.hpp
 
 class AssembledSystem final : public System, public HasRigidMotions {
  public:
@@ -56,9 +56,10 @@ class AssembledSystem final : public System, public HasRigidMotions {
   void set_modes(const Modes& modes);
   void lay_out();  // after a new layout of the model: discards all results, keeps modes and counts
   const Modes& modes() const;
-  int row(ContactDirection direction) const;  // in g; -1: open, sliding, implied by other rows, or compliant
-  int held_rows() const;                      // number of first rows in g: bodies, joints, locked contacts
-  void initial(Vec& q, Vec& v) const;         // from the bodies' parameters
+  // in g; -1: it has no row (open, sliding, implied by other rows, or compliant)
+  int row(ContactDirection direction) const;
+  int held_rows() const;               // number of first rows in g: bodies, joints, locked contacts
+  void initial(Vec& q, Vec& v) const;  // from the bodies' parameters
   // For statics: v = 0 at all points, markers that follow a law of time are at rest at their position, and contacts
   // stick by rows whatever their friction law. Set the modes again afterwards.
   void hold_still(bool still);
@@ -67,7 +68,7 @@ class AssembledSystem final : public System, public HasRigidMotions {
   // exact.
   void factorise_with_stress(const CarriedFrom& carried, const Vec& lambda);
 
-  // At the point of the last move_to. Each evaluates only what it needs.
+  // These functions refer to the point of the last move_to. Each evaluates only what it needs.
   double gap(int contact);
   double gap_rate(int contact);
   double rate(ContactDirection direction);                        // [m/s] of the gap, or slip velocity
@@ -77,9 +78,9 @@ class AssembledSystem final : public System, public HasRigidMotions {
   // friction cone, they share by the least admissible forces, if there are any.
   double normal_force(int contact, const Vec& lambda);        // [N] >= 0 compressive; for a joint: load of its bearings
   Tangential friction_force(int contact, const Vec& lambda);  // [N] on A
-  // How a contact shares rows in the current modes.
+  // Whether and how a contact shares rows in the current modes.
   struct Sharing {
-    bool shared = false;     // its normal, or a tangent that sticks
+    bool shared = false;     // its normal, or a tangent that sticks, depends on rows of other contacts
     bool as_spring = false;  // it slides or is idle: its share affects the motion
     bool idle = false;       // closed, but without load in the present distribution of forces
     int group = -1;          // in modes().shared
@@ -88,7 +89,7 @@ class AssembledSystem final : public System, public HasRigidMotions {
   // [N] for each contact of a group: by how much it can be unloaded until no admissible forces give the same
   // resultants; negative if there are none already.
   double spare_load(int group, const Vec& lambda);
-  double largest_load(int group, const Vec& lambda);  // of their forces [N]
+  double largest_load(int group, const Vec& lambda);  // [N] the largest of their forces
   // [m/s^2] the largest acceleration along the implied directions for an acceleration of the system: 0 as long as they
   // are implied.
   double departure(int group, const Vec& a);
@@ -96,12 +97,14 @@ class AssembledSystem final : public System, public HasRigidMotions {
   double spring_force(int contact, const Vec& lambda);
   Tangential slip(int contact);                             // [m/s]; of contacts with friction
   Tangential slip_acceleration(int contact, const Vec& a);  // [m/s^2]
-  Vec3 along_tangents(int contact, const Tangential& x);    // along the tangent; in space in world axes
-  int tangents(int contact) const;                          // 1, or 2 in space but for a joint's
-  void anchor(int contact, ContactMode& mode);              // what holds it at this place
-  // A step has become the solution, and the system is at its end: slip is measured from its direction there, in space,
-  // and what a round body rolls from its place there. Rolling in space is no function of the configuration; within a
-  // step the rotation stands for it to the second order, and joins the rates exactly.
+  // in the plane and of a joint one number; in space in world axes
+  Vec3 along_tangents(int contact, const Tangential& x);
+  int tangents(int contact) const;  // 1 in the plane and of a joint, 2 in space
+  // stores the present coordinates along the tangents, at which the contact sticks
+  void anchor(int contact, ContactMode& mode);
+  // To be called after a step was accepted, with the system at its end. In space slip is measured from its direction
+  // there, and the rolling of a round body from its orientation there. (Rolling in space is no function of the
+  // configuration. Within a step the rotation replaces it to second order, with exact rates.)
   void step_taken();
   // Velocity jump by impulses on contacts with active bilateral rows (M dv + G_b^T L_b = sum_i n_i L_i): column i of
   // `jump` is dv for a unit impulse along directions[i], and delassus(i, j) the change of the rate of directions[i] by
@@ -109,8 +112,8 @@ class AssembledSystem final : public System, public HasRigidMotions {
   void impulse_response(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus);
   // True if rows were redundant at the last `accelerate`: lambda is not unique.
   bool redundant() const;
-  // Of the determinant of the equations for the forces at the last `accelerate`, of that without friction: it changes
-  // where friction that slides leaves them no solution (Painleve's critical state). 0: not known.
+  // Sign of the determinant of the equations for the forces at the last `accelerate`, relative to that without
+  // friction: it changes where sliding friction leaves them no solution (Painleve's critical state). 0: unknown.
   int sign() const;
   // [rad/s] The highest initial frequency after impulses along the given directions: with the response x to one of
   // them, omega^2 = x K x / x M x (Rayleigh's quotient; K: stiffness, with active bilateral rows). 0: no restoring
@@ -128,7 +131,7 @@ class AssembledSystem final : public System, public HasRigidMotions {
   const Balance& balance(const Vec& lambda);  // valid until the next call
   // True if something slides with friction, at any speed: its power may be 0 at both ends of a step and not in between.
   bool rubs() const;
-  bool rubs_by_reactions() const;                              // with a multiplier as normal force
+  bool rubs_by_reactions() const;                              // the normal force of some friction is a multiplier
   void constraint_acceleration(const Vec& a, Vec& r);          // G a - gamma
   Eigen::SparseMatrix<double, Eigen::RowMajor> sparse_rows();  // G, without entries that are 0
   // S += c_m M + c_d D + c_k K + c_1 1, the matrix of `factorise` (nv x nv).
@@ -136,9 +139,9 @@ class AssembledSystem final : public System, public HasRigidMotions {
   Eigen::SparseMatrix<double> sparse_tangent(Blend c, const Vec& a, const Vec& lambda);
 
   const Motion& motion(MarkerRef marker);     // at the current point
-  CoordinateSizes coordinate_sizes();         // with the place at the current point
+  CoordinateSizes coordinate_sizes();         // with `place` of the current point
   const Motion& contact_marker(int contact);  // marker A; for a surface its deepest point
-  Vec3 velocity_apart(int contact);           // of marker A less that of marker B
+  Vec3 velocity_apart(int contact);           // of marker A relative to marker B
   // Largest pressure of a body's closed contacts on each patch of its surface [Pa]; empty: none is closed.
   std::vector<double> surface_pressure(int body);
   bool has_surface_contact(int body) const;  // a closed one

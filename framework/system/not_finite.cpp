@@ -1,4 +1,4 @@
-// The first component whose result at the point is not finite, asked one by one.
+// Finds the first component whose result at the point is not finite, by asking one after the other.
 #include "system/parts.hpp"
 
 namespace trammel::model {

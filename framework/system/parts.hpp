@@ -1,4 +1,5 @@
-// The parts of an AssembledSystem, each of which knows those above it: the point, what is there, and the factors.
+// The parts of an AssembledSystem, each of which knows those before it: the point, its contacts, the equations, the
+// factors.
 #pragma once
 
 #include <memory>

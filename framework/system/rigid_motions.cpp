@@ -1,5 +1,5 @@
-// A body's momentum is p = R^T M v with its velocities R as part of one rigid body, so R = M^-1 (dp/dv)^T: body by
-// body, and exact for bodies whose coordinates hold those motions.
+// A body's momentum is p = R^T M v, where R are its velocities in rigid motions of the system, so R = M^-1 (dp/dv)^T:
+// computed body by body, and exact for bodies whose coordinates contain those motions.
 #include <algorithm>
 
 #include "linear/dense/decompositions.hpp"
@@ -8,7 +8,7 @@
 namespace trammel::model {
 namespace {
 
-// Column j: what M makes of the j-th velocity of all bodies at once.
+// Column j: M times the j-th velocity of all bodies at once.
 Mat columns_of_mass(AssembledSystem& system) {
   int most = 0;
   for (const BodyEntry& body : system.model().bodies) most = std::max(most, body.nv);

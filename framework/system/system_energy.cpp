@@ -33,8 +33,8 @@ Energy AssembledSystem::energy() {
 
 namespace {
 
-// w . V_t: the power of a wrench on a marker with the motion V_t = V - J v prescribed by a law of time, which is no
-// power on coordinates. A remainder of V at round-off counts as 0.
+// w . V_t: the power of a wrench on a marker by the part V_t = V - J v of its motion that a law of time prescribes; it
+// does not act on coordinates. A remainder of V at round-off counts as 0.
 double power_of_law(const Motion& marker, const Vec& v, int v0, const Wrench& wrench) {
   double power = 0;
   const Eigen::Index columns = marker.J.cols();
@@ -53,8 +53,8 @@ double power_of_law(const Motion& marker, const Vec& v, int v0, const Wrench& wr
 
 }  // namespace
 
-// Along the motion d(energy)/dt equals the power of all wrenches on coordinates. Their power on markers with V_t (a
-// base that follows a law) leaves the system there and counts as supplied with the opposite sign.
+// Along the motion d(energy)/dt equals the power of all wrenches on coordinates. Their power on V_t of markers (a base
+// that follows a law) leaves the system there and counts as supplied with the opposite sign.
 const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
   Parts& p = *parts_;
   Point& at = p.at;
@@ -103,20 +103,20 @@ const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
     const Tangential ratio = contacts.friction_ratio(i);
     const Tangential slip = contacts.entry(i).friction ? contacts.slip(i) : Tangential(Tangential::Zero());
     if (contacts.entry(i).restitution) {
-      // The power of its rows, below, is its whole power except for sliding friction: that of the force it is told to
-      // have, which need not be a spring's. Of rows at rest, or without friction, it has none.
+      // The power of its rows is computed below. Only sliding friction is counted here, by the force that the friction
+      // law uses, which need not be that of a spring. Resting and frictionless contacts have none.
       if (const double per_force = ratio.dot(slip); per_force != 0)
         sum.friction(i) = -p.shares.force_along({i, 0}, lambda) * per_force;
       continue;
     }
-    if (contacts.in_joint(i)) {  // likewise
+    if (contacts.in_joint(i)) {  // the same
       sum.friction(i) = -p.friction.load(i, lambda) * ratio.dot(slip);
       continue;
     }
     const ContactForce* law = contacts.entry(i).force;
     const double gap = r.g(0), rate = contacts.rate(i, 0), approach = contacts.mode(i).approach_speed;
     at.called(contacts.entry(i).origin, "normal");
-    // What the law gives beyond its elastic part, which is its value at rest.
+    // The damping part of the law: its force minus its value at rest.
     const double normal = law->normal(gap, rate, approach);
     sum.contacts -= (normal - law->normal(gap, 0, approach)) * rate;
     const Tangential friction = ratio * normal + p.resting.force(i);

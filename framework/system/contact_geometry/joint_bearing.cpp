@@ -1,5 +1,5 @@
-// The motion that a joint leaves free, along which it rubs: the one tangent. Row 0 stays 0; what would be the normal
-// force follows from the joint's own rows (system/point/joint_friction.cpp).
+// The free motion of a joint with friction, which is its one tangent. Row 0 stays 0; the normal force follows from the
+// joint's own rows (system/point/joint_friction.cpp).
 #include "system/contact_geometry/contact_geometry.hpp"
 
 namespace trammel::model {

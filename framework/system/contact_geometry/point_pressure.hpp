@@ -42,7 +42,7 @@ class PointPressure {
   explicit PointPressure(const ContactEntry& entry)
       : force_(entry.force), by_points_(entry.surface->by_points), friction_(entry.surface->friction) {}
 
-  // Fills weight, N and F of a point that represents `area`, and adds it to the sums.
+  // Fills weight, N and F of a point that represents `area`, and adds them to the sums.
   void ask(PressedPoint& at, double area, double approach_speed, PressureSums& sums) const {
     at.weight = by_points_->weight(area);
     at.N = force_->normal(at.gap, at.rate, approach_speed);

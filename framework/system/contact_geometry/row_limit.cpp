@@ -1,4 +1,4 @@
-// A joint's row that may have one sign only: gap = side g. It has no tangents that a law could act along.
+// A joint's row that may have one sign only: gap = side g. It has no tangents for a friction law.
 #include "system/contact_geometry/contact_geometry.hpp"
 #include "system/markers/reaction_tangent.hpp"
 

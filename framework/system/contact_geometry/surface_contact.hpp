@@ -15,10 +15,10 @@
 
 namespace trammel::model {
 
-// Its one row is that of the gap, and `rows` finds the motions in the slots of surfaces.
+// It has one row, that of the gap; `rows` finds the motions in the slots of surfaces.
 class SurfaceContact : public ContactGeometry {
  public:
-  // Everything below is there.
+  // Evaluates everything below at the point.
   virtual void press(const Point& point, double approach_speed) = 0;
 
   virtual const PressureSums& sums() const = 0;
@@ -38,7 +38,7 @@ class SurfaceContact : public ContactGeometry {
 
   CallSite call() const final { return {&entry_.origin, "normal"}; }
   int tangents() const final { return 2; }  // a surface is in space
-  // It has no forces along rows: add_tangent has all of its derivatives.
+  // There are no forces along rows: add_tangent has all derivatives.
   void add_reaction_tangent(const Point&, const Rows&, const Eigen::Vector3d&, double, Matrix&) final {}
 
  protected:

@@ -27,7 +27,7 @@ namespace {
 using V3 = Eigen::Vector3d;
 using M3 = Eigen::Matrix3d;
 using SurfacePointChange = PointChange<Eigen::Dynamic>;
-using Along = Eigen::Matrix<double, 2, Eigen::Dynamic>;  // dxi by some variables
+using Along = Eigen::Matrix<double, 2, Eigen::Dynamic>;  // dxi per change of some variables
 
 struct Box {
   V3 low, high;
@@ -168,7 +168,7 @@ class SurfaceOnSurface final : public SurfaceContact {
     Eigen::Index point = 0;
     V3 x = V3::Zero();
     Eigen::Vector2d at_B = Eigen::Vector2d::Zero();
-    // Filled if it is pressed:
+    // The following are filled if the point is pressed:
     SurfaceJet y;
     V3 u = V3::Zero();
     Vec v_B;
@@ -177,7 +177,7 @@ class SurfaceOnSurface final : public SurfaceContact {
 
   Vec q_of_other(const Point& point) const { return point.q.segment(other_.q0, other_.nq); }
 
-  // Finds the deepest of A's points and all with a negative gap; once per point of the system.
+  // Finds the deepest point of A and all points with a negative gap, once per point of the system.
   void look(const Point& point) {
     if (number_ == point.number) return;
     number_ = point.number;
@@ -275,8 +275,8 @@ class SurfaceOnSurface final : public SurfaceContact {
   double reach_;
   int slot_A_, slot_B_;
   long long number_ = -1;
-  std::vector<Box> boxes_;       // around B's patches
-  std::vector<int> candidates_;  // among them
+  std::vector<Box> boxes_;       // around each patch of B
+  std::vector<int> candidates_;  // indices of these patches
   Touch deepest_;
   std::vector<Touch> touches_;
   PressureSums sums_;

@@ -89,7 +89,7 @@ void BodyBlocks::add_reaction(int body, int row, const Motion& marker, const Row
   add(block, row, marker, H, block.Wt);
 }
 
-// A corrected step uses the same factors twice: for the projection of velocities and for the accelerations.
+// A corrected step uses the same factors twice (to project velocities and for the accelerations), so they are shared.
 std::size_t BodyBlocks::factors_for(const Kept& store, const MassSystem& of) const {
   for (std::size_t k = 0; k < mass_factors_.size(); ++k)
     if (mass_factors_[k].made && mass_factors_[k].of == of) return k;
@@ -154,7 +154,7 @@ bool BodyBlocks::factorise_dense(Kept& store, int nc, double rank_tolerance) con
   return store.dense.factorise(M, G, W, rank_tolerance);
 }
 
-// W^T and G beside S.
+// Adds W^T and G to the matrix of S.
 void BodyBlocks::add_rows_to(numerics::SparseSum& sum, bool sliding) {
   for (const BodyBlock& block : bodies_) {
     const numerics::SparseSum::Places velocities{nullptr, block.v0, int(block.M.rows())};

@@ -23,8 +23,8 @@ class BodyBlocks {
 
   explicit BodyBlocks(const Model& model);
 
-  // Rows first .. first + count - 1 of g are between these bodies (-1: the ground). Call in ascending order; masses are
-  // kept.
+  // Rows [first, first + count) of g are between these bodies (-1: the ground). To be called in ascending order; masses
+  // are kept.
   struct Tie {
     int first, count;
     bool constant;
@@ -34,25 +34,25 @@ class BodyBlocks {
 
   std::vector<numerics::BodyBlock>& bodies() { return bodies_; }
   Mat& mass(std::size_t body) { return bodies_[body].M; }
-  void prefetch_rows(std::size_t body) const;  // where its own rows go
-  // Rows of G are set, or cleared and then added to; they persist.
+  void prefetch_rows(std::size_t body) const;  // prefetches the memory of its own rows
+  // Rows of G are set, or cleared and then added to; they stay until the next change.
   void clear_rows(int body, int row, Eigen::Index n);
   void add_rows(int body, int row, const Motion& marker, const RowsOf& H);  // G(row + i, :) += (H J)_i
   void set_own_rows(std::size_t body, const Mat& G);                        // of one body
-  void couple();                                                            // W = G, to which terms can be added:
+  void couple();                                                            // sets W = G, to which terms can be added:
   void add_reaction(int body, int row, const Motion& marker, const RowsOf& H);
 
-  // One stored factorisation: of M or the identity with W = G, or of any S and W. Redundant rows together with sliding
-  // friction use a dense factorisation, because the sparse LU cannot solve least-squares problems.
+  // One stored factorisation: of M or the identity with W = G, or of any S and W. Redundant rows with sliding friction
+  // use a dense factorisation, because the sparse LU cannot solve least-squares problems.
   struct Kept {
     enum class By { mass, iteration, dense } by = By::mass;
     std::size_t mass = 0;  // in mass_factors_
-    bool passing = false;  // asked for only where they were made
+    bool passing = false;  // needed only at the point at which they were made
     numerics::FrontalIterationKkt iteration;
     numerics::MassKkt dense;
   };
   std::array<Kept, 3> kept;
-  // Factors of M or the identity and G; `at` is the count of changes of the configuration, on which they depend.
+  // Determines factors of M or the identity and G; `at` counts changes of the configuration.
   struct MassSystem {
     long long at = -1;
     int nc = 0;
@@ -60,12 +60,12 @@ class BodyBlocks {
     double rank_tolerance = 0;
     bool operator==(const MassSystem&) const = default;
   };
-  // False: a body's mass is not positive definite. `constant`: the masses never change. `sliding`: with W, otherwise G
-  // alone.
+  // False: a body's mass is not positive definite. `constant`: the masses never change. `sliding`: with W, otherwise
+  // with G only.
   bool factorise_mass(Kept& store, const MassSystem& of, bool constant, bool sliding);
   void factorise_identity(Kept& store, const MassSystem& of) { factorise(store, of, false); }
   bool redundant(const Kept& store) const { return mass_factors_[store.mass].kkt.redundant(); }
-  // `add_tangent(S)` adds all of S; it may be run twice. `sliding`: with W, else G alone.
+  // `add_tangent(S)` adds the whole of S; it may be run twice. `sliding`: with W, otherwise with G only.
   template <class AddTangent>
   void factorise_tangent(Kept& store, int nc, bool sliding, AddTangent&& add_tangent) {
     store.by = Kept::By::iteration;
@@ -79,13 +79,13 @@ class BodyBlocks {
         });
   }
   [[nodiscard]] bool solve(Kept& store, const Vec& b, const Vec& c, Vec& x, Vec& y);  // false: not solvable
-  // Multipliers of redundant rows become those of minimum norm, where `solve` has left others.
+  // Makes multipliers of redundant rows those of minimum norm, if `solve` has not done so.
   void minimise_norm(Kept& store, Vec& y);
 
  private:
   struct MassFactors {
     MassSystem of;
-    bool used = false, made = false, masses_made = false;  // masses_made: it contains the bodies' mass factors
+    bool used = false, made = false, masses_made = false;  // masses_made: contains factors of the bodies' masses
     numerics::SparseMassKkt kkt;
   };
   bool factorise(Kept& store, const MassSystem& of, bool constant);
@@ -97,8 +97,8 @@ class BodyBlocks {
   const Model& model_;
   std::vector<numerics::BodyBlock> bodies_;
   std::array<MassFactors, std::tuple_size_v<decltype(kept)>>
-      mass_factors_;  // one serves all stores that ask for the same
-  Mat G_;             // of one body, to be added
+      mass_factors_;  // shared by all stores with the same MassSystem
+  Mat G_;             // of one body, before it is added
 };
 
 }  // namespace trammel::model

@@ -11,15 +11,17 @@ namespace trammel::model {
 class ConstantRows {
  public:
   void clear();
-  void add_row(int row, double g_0);                                // the following markers and entries belong to it
-  void add_marker();                                                // the following entries belong to it
+  // begins a row: the following markers and entries belong to it
+  void add_row(int row, double g_0);
+  // begins a marker: the following entries belong to it
+  void add_marker();
   void add_entry(int coordinate, int velocity, double derivative);  // 0 is not stored
   // Writes the rows to their positions. Sums are formed marker by marker, so that coinciding points give exactly 0.
   void evaluate(const Vec& q, const Vec& v, Vec& g, Vec& g_dot, Vec& gamma) const;
 
  private:
   struct Row {
-    int row, end;  // end of its markers
+    int row, end;  // end of the row's markers
     double g_0;
   };
   struct Entry {
@@ -27,7 +29,7 @@ class ConstantRows {
     double derivative;
   };
   std::vector<Row> rows_;
-  std::vector<int> markers_;  // ends of their entries
+  std::vector<int> markers_;  // end of each marker's entries
   std::vector<Entry> entries_;
 };
 

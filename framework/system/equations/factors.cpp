@@ -6,7 +6,7 @@ namespace trammel::model {
 
 namespace {
 
-// Bodies with fewer coordinates are coupled by all of them.
+// In bodies with fewer coordinates a marker is assumed to depend on all of them.
 constexpr int few_coordinates = 30;
 
 Eigen::SparseMatrix<double> sparse_identity(int n) {
@@ -74,7 +74,7 @@ void FactorsAtPoint::factorise_identity(Store store) {
 
 void FactorsAtPoint::factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda, bool with_friction,
                                        const CarriedFrom* carried) {
-  ++counts_.jacobian_evaluations;  // once, although a sparse sum is filled twice the first time
+  ++counts_.jacobian_evaluations;  // counts once, although a sparse sum is filled twice the first time
   ++counts_.factorizations;
   Kept& kept = kept_[store];
   kept.symmetric = false;
@@ -119,7 +119,7 @@ void FactorsAtPoint::minimise_norm(Store store, Vec& lambda) {
   if (blocks_) blocks_->minimise_norm(blocks_->kept[store], lambda);
 }
 
-// A sphere moves over a surface: the pattern includes all patches from the start, so that it does not change.
+// A sphere moves over a surface: reserves all patches from the start, so that the pattern does not change.
 void FactorsAtPoint::reserve_contacts() {
   for (std::size_t i = 0; i < std::size_t(contacts_.count()); ++i) {
     const auto& side = at_.model->contacts[i].surface;
@@ -135,7 +135,7 @@ void FactorsAtPoint::reserve_contacts() {
   }
 }
 
-// The coordinates that move the rows' markers, including entries that are 0 at present.
+// Adds the coordinates that move the rows' markers, including entries that are 0 at present.
 void FactorsAtPoint::add_rows_to(numerics::SparseSum& sum, bool sliding) {
   const Mat &G = rows_.G(), &reaction = sliding ? rows_.W() : G;
   const auto add = [&](int row, int count) {

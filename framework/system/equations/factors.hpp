@@ -14,35 +14,35 @@ namespace trammel::model {
 
 class FactorsAtPoint {
  public:
-  // Those of System::Factors, and that for accelerations at the point.
+  // The stores of System::Factors, and one for accelerations at the point.
   enum Store : std::size_t { iteration, projection, at_point };
 
   FactorsAtPoint(Point& at, ContactsAtPoint& contacts, RowsAtPoint& rows, MassAndForceAtPoint& masses,
                  TangentAtPoint& tangent, BodyBlocks* blocks, bool sparse, Counts& counts);
 
-  // The rows must be there. With friction: W, otherwise G alone.
+  // The rows must be evaluated. With friction: W, otherwise G only.
   [[nodiscard]] bool factorise_mass(Store store, bool with_friction);  // false: M is not positive definite
   void factorise_identity(Store store);
   void factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda, bool with_friction,
                          const CarriedFrom* carried = nullptr);
   [[nodiscard]] bool solve(Store store, const Vec& b, const Vec& c, Vec& x, Vec& y);  // false: not solvable
   bool redundant(Store store) const;             // true if rows were redundant at the last factorise_mass
-  int sign(Store store) const;                   // MassKkt's; 0: not known
-  void minimise_norm(Store store, Vec& lambda);  // of redundant rows, in blocks
+  int sign(Store store) const;                   // MassKkt's; 0: unknown
+  void minimise_norm(Store store, Vec& lambda);  // of redundant rows, if bodies are in blocks
 
  private:
-  // M or the identity alone has a cheaper, symmetric factorisation.
+  // If S is M or the identity only, a cheaper, symmetric factorisation is used.
   struct Kept {
-    bool symmetric = false;  // of M or the identity alone
+    bool symmetric = false;  // of M or the identity only
     numerics::MassKkt mass;
-    bool mass_factorised = false;  // for constant mass matrices: once
+    bool mass_factorised = false;  // constant mass matrices are factorised once
     numerics::IterationKkt iteration;
-    numerics::FrontalIterationKkt sparse;  // used instead with sparse storage
+    numerics::FrontalIterationKkt sparse;  // used instead of the dense factors in sparse storage
   };
   void factorise_sparse(Kept& store, Blend c, const Vec& a, const Vec& lambda, bool sliding,
                         const CarriedFrom* carried);
   void reserve_contacts();
-  void add_rows_to(numerics::SparseSum& sum, bool sliding);  // W^T and G beside S
+  void add_rows_to(numerics::SparseSum& sum, bool sliding);  // adds W^T and G to the matrix of S
 
   Point& at_;
   ContactsAtPoint& contacts_;
@@ -53,7 +53,7 @@ class FactorsAtPoint {
   bool sparse_;
   Counts& counts_;
   std::array<Kept, 3> kept_;
-  std::vector<int> row_places_;  // column indices and values of a few rows
+  std::vector<int> row_places_;  // column indices and values of the present rows
   std::vector<double> row_numbers_;
 };
 

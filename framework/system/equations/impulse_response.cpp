@@ -53,7 +53,7 @@ ImpulseResponse::Solver ImpulseResponse::with_joints_held() {
   return solver([held](const Vec& b, const Vec& c, Vec& x, Vec& y) { held->solve(b, c, x, y); });
 }
 
-// Directions that the joints fix: their remaining response is round-off.
+// Clears directions that the joints fix: their remaining response is round-off.
 void ImpulseResponse::clear_held(const Mat& N, Mat& jump, Mat& delassus) {
   constexpr double round_off = 1e-12;
   const Vec masses = masses_.diagonal();

@@ -1,5 +1,5 @@
-// What impulses on contacts do to the velocities at the point, with the rows of bodies, joints and locked contacts
-// active: M dv + G_b^T L_b = impulse, G_b dv = 0.
+// The changes of the velocities at the point by impulses on contacts, with the rows of bodies, joints and locked
+// contacts active: M dv + G_b^T L_b = impulse, G_b dv = 0.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ class ImpulseResponse {
                   BodyBlocks* blocks, bool sparse)
       : at_(at), contacts_(contacts), rows_(rows), masses_(masses), blocks_(blocks), sparse_(sparse) {}
 
-  // The rows must be there. Column i of `jump` is dv for a unit impulse along directions[i], and delassus(i, j) the
+  // The rows must be evaluated. Column i of `jump` is dv for a unit impulse along directions[i], and delassus(i, j) the
   // change of the rate of directions[i] by a unit impulse along directions[j]. Throws NotSolvable.
   void respond(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus);
   // A pseudo-random velocity that the joints permit.

@@ -12,15 +12,15 @@ namespace trammel::model {
 
 class MassAndForceAtPoint {
  public:
-  // `blocks`: M in them; else dense, or sparse.
+  // M is in `blocks` if not null, otherwise dense or sparse.
   MassAndForceAtPoint(Point& at, ContactsAtPoint& contacts, BodyBlocks* blocks, bool sparse, Counts& counts);
 
-  void moved();          // to another point
-  void forget_forces();  // f depends on more than the point
+  void moved();          // the point has changed
+  void forget_forces();  // to be called when something other than the point changes f
   const Vec& force();
   void evaluate_mass();
-  const Mat& dense() const { return M_; }               // after evaluate_mass, where it is stored like this
-  const auto& sparse() const { return sum_.matrix(); }  // likewise
+  const Mat& dense() const { return M_; }               // after evaluate_mass, in dense storage
+  const auto& sparse() const { return sum_.matrix(); }  // after evaluate_mass, in sparse storage
   void add_times(double c, const Vec& a, Vec& r);       // r += c M a
   Vec diagonal();
 
@@ -38,7 +38,7 @@ class MassAndForceAtPoint {
   bool mass_fresh_ = false;
   bool bodies_fresh_ = false, force_fresh_ = false;  // f contains the bodies' part; f is complete
   Mat M_;
-  numerics::SparseSum sum_;  // in place of M
+  numerics::SparseSum sum_;  // of the bodies' masses, in sparse storage
   Vec f_;
   Wrench on_A_, on_B_;
 };

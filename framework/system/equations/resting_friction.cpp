@@ -16,13 +16,14 @@ bool RestingFriction::decides(int contact) const {
   return std::find(resting_.begin(), resting_.end(), contact) != resting_.end();
 }
 
-// The problem of Zhang and Wang 2017, (32)-(39), with A = W_T^T P W_T; P: inverse of the mass on the null space of the
-// rows. What rows hold already, as beside a foot that sticks by rows, takes no friction: P leaves round-off of it.
+// The problem of Zhang and Wang 2017, (32)-(39), with A = W_T^T P W_T, where P is the inverse of the mass on the null
+// space of the rows. A direction that rows hold already, as beside a foot that sticks by rows, has no friction: P
+// leaves round-off of it.
 void RestingFriction::add_to(Vec& a, Vec& lambda) {
   const int nv = at_.model->sizes.nv, nc = rows_.count();
   const Eigen::Index m = contacts_.tangents(resting_.front()), n = m * Eigen::Index(resting_.size());
   Mat response(nv, n), reaction(nc, n), columns = Mat::Zero(nv, n);
-  constexpr double held = 1e-9;  // what the rows leave of a force along the tangent
+  constexpr double held = 1e-9;  // part of a force along the tangent that rows leave
   Vec b(n), column, x, y, left, T, a_t;
   std::vector<complementarity::ContactPoint> points;
   for (Eigen::Index k = 0; k < n; ++k) {

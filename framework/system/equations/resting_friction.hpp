@@ -1,4 +1,4 @@
-// Friction of contacts at rest whose law is decided in every evaluation (lcp_every_step): no rows hold them.
+// Friction of contacts at rest whose law is decided in every evaluation (lcp_every_step) and that have no rows.
 #pragma once
 
 #include <vector>
@@ -15,8 +15,9 @@ class RestingFriction {
   void lay_out(std::vector<int> contacts);
   bool none() const { return resting_.empty(); }
   bool decides(int contact) const;
-  Tangential force(int contact) const { return forces_.col(contact); }  // [N] at the last `add_to`; else 0
-  // Adds what it does to the accelerations without it, and to the multipliers. Throws NotSolvable.
+  // [N] at the last `add_to`; 0 for other contacts
+  Tangential force(int contact) const { return forces_.col(contact); }
+  // Adds the effect of this friction to the accelerations and to the multipliers. Throws NotSolvable.
   void add_to(Vec& a, Vec& lambda);
 
  private:

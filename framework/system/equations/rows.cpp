@@ -19,7 +19,7 @@ RowsAtPoint::RowsAtPoint(Point& at, ContactsAtPoint& contacts, JointFriction& fr
   lay_out(at_.model->sizes.nc, at_.model->sizes.nc);
 }
 
-// With many bodies, constant rows are stored.
+// Sorts joints for cache locality; with many bodies, separates those with constant rows.
 void RowsAtPoint::order_joints() {
   const auto stands = [this](const JointEntry& joint) {
     const auto* linear = dynamic_cast<const LinearRows*>(joint.joint.get());
@@ -108,7 +108,7 @@ void RowsAtPoint::evaluate_contact(int i) {
   const auto row_of = [&](int direction) { return contacts_.loads.place({i, direction}).row; };
   coupled_ = coupled_ || (!contacts_.entry(i).force && contacts_.friction_ratio(i) != Tangential::Zero());
   if (row_of(0) < 0 && row_of(1) < 0 && row_of(2) < 0) return;
-  const Rows& of_contact = contacts_.rows(i);  // before its motions, which it determines on surfaces
+  const Rows& of_contact = contacts_.rows(i);  // before the motions, which it determines on surfaces
   const Slots& slots = contacts_.slots(i);
   const Seen seen = at_.motions(slots);
   if (const int row = row_of(0); row >= 0) {
@@ -142,7 +142,7 @@ void RowsAtPoint::place_constant_rows() {
     at_.called(entry.origin, "rows");
     rows_.resize(entry.rows, at_.model->world.space, slots.count);
     entry.joint->rows_between(0, Motions(seen.data(), std::size_t(slots.count)), rows_);
-    for (int k = 0; k < slots.count; ++k)  // from 0, as it was laid out
+    for (int k = 0; k < slots.count; ++k)  // sums from 0, in the order of the layout
       blocks_->add_rows(at_.chain.body(slots[k]), entry.row, motions[std::size_t(k)], {rows_.H(k), 0, entry.rows});
     for (int row = 0; row < entry.rows; ++row) {
       constant_rows_.add_row(entry.row + row, rows_.g(row));

@@ -17,19 +17,20 @@ class RowsAtPoint {
  public:
   RowsAtPoint(Point& at, ContactsAtPoint& contacts, JointFriction& friction, BodyBlocks* blocks);
 
-  // For the contacts' modes: `held` rows are bilateral in impacts and come first.
+  // For the contacts' modes: the first `held` of `count` rows are bilateral in impacts.
   void lay_out(int count, int held);
   int count() const { return count_; }
   int held() const { return held_; }
 
-  bool evaluate();  // false: they were there
+  bool evaluate();  // false: they were evaluated already
   void forget() { fresh_ = false; }
   const Vec& g() const { return g_; }
   const Vec& g_dot() const { return g_dot_; }
   const Vec& gamma() const { return gamma_; }
-  const Mat& G() const { return G_; }                      // not in blocks
-  const Mat& W() const { return W_; }                      // likewise, if coupled
-  bool coupled() const { return coupled_; }                // sliding friction depends on a row's force: W is not G
+  const Mat& G() const { return G_; }  // not in blocks
+  const Mat& W() const { return W_; }  // not in blocks; only if coupled
+  // sliding friction depends on the force of a row, so W differs from G
+  bool coupled() const { return coupled_; }
   void couple();                                           // forms W
   void unload_bearings();                                  // W with unloaded bearings
   bool load_bearings(const Vec& lambda);                   // W at these multipliers; false: W^T lambda did not change
@@ -37,9 +38,9 @@ class RowsAtPoint {
   void add_force(double c, const Vec& y, Vec& r) const;    // r += c G^T y
   void add_reaction(double c, const Vec& lambda, Vec& r);  // r += c W^T lambda
   Eigen::SparseMatrix<double, Eigen::RowMajor> sparse() const;  // G, without entries that are 0
-  double rank_tolerance() const;                                // by what the rows are violated
+  double rank_tolerance() const;                                // from the violation of the rows (rank_tolerance_at)
 
-  CallSite find_not_finite();  // of joints
+  CallSite find_not_finite();  // among joints
 
  private:
   void order_joints();
@@ -47,7 +48,7 @@ class RowsAtPoint {
   void place_constant_rows();
   void evaluate_own_rows(const BodyEntry& body);
   void evaluate_contact(int i);
-  // Rows first .. first + n - 1 of r between these markers become the rows from `row` on.
+  // Rows [first, first + n) of r between these markers become the rows from `row` on.
   void place(const Rows& r, const Slots& slots, const Seen& motions, Eigen::Index first, Eigen::Index n, int row);
   void add_to_reaction(int slot, int row, const Mat6& H);
 
@@ -56,7 +57,7 @@ class RowsAtPoint {
   JointFriction& friction_;
   BodyBlocks* blocks_;                        // null: dense
   std::vector<std::size_t> joint_order_;      // sorted by their first bodies, for cache locality
-  std::vector<std::size_t> constant_joints_;  // not in joint_order_: their rows are linear in the coordinates
+  std::vector<std::size_t> constant_joints_;  // rows linear in the coordinates; not in joint_order_
   std::vector<std::size_t> constrained_;      // bodies with their own rows
   ConstantRows constant_rows_;
   bool constant_rows_placed_ = false;  // in `blocks_`

@@ -12,10 +12,10 @@ namespace {
 
 using Eigen::Index;
 
-// Relative to the rates of the motion. Entries of K below 1e-9 are neglected (complementarity/shares/row_basis.cpp),
-// which limits its accuracy.
+// Relative to the rates of the motion: K is still valid. Entries of K below 1e-9 are neglected
+// (complementarity/shares/row_basis.cpp), which limits its accuracy.
 constexpr double same = 1e-8;
-// Relative to the terms of a rate, if joints fix the direction.
+// Relative to the terms of a rate: joints fix the direction.
 constexpr double round_off = 1e-12;
 
 }  // namespace
@@ -32,7 +32,7 @@ void SharedRowsAtPoint::evaluate_rows() {
 bool SharedRowsAtPoint::follow() {
   std::vector<SharedRows>& groups = contacts_.modes.shared;
   if (groups.empty()) return false;
-  evaluate_rows();  // which comes here itself if the shares affect the motion
+  evaluate_rows();  // calls this function itself if the shares affect the motion
   if (std::exchange(followed_at_, at_.configuration) == at_.configuration) return false;
   const Vec some = response_.some_motion();
   bool changed = false;
@@ -78,7 +78,7 @@ void SharedRowsAtPoint::renew(int group) {
   Mat jump, A;
   response_.respond(all, jump, A);
   const Mat K = complementarity::implied_by(A, basis, implied);
-  if (!K.allFinite()) return;  // the basis has become dependent: handled by the solver for accelerations
+  if (!K.allFinite()) return;  // the basis has become dependent; the solver for accelerations handles this
   Mat shares = K;
   for (Index i = 0; i < K.rows(); ++i)
     if (shared.share.row(Index(basis.size()) + i).isZero(0)) shares.row(i).setZero();  // idle
@@ -102,7 +102,7 @@ const ContactLoads& SharedRowsAtPoint::prepared(int group, const Vec& lambda) {
   return contacts_.loads;
 }
 
-// As many combinations of velocities as are independent.
+// Independent combinations of velocities, as many as there are.
 Mat SharedRowsAtPoint::moved_with_sliding(int group) {
   std::vector<ContactDirection> all = contacts_.loads.members(group);
   const auto members = Index(all.size());
@@ -112,7 +112,7 @@ Mat SharedRowsAtPoint::moved_with_sliding(int group) {
   Mat jump, A;
   evaluate_rows();
   response_.respond(all, jump, A);
-  // Accelerations along the directions themselves: those of coordinates have units of their own.
+  // Uses accelerations along the directions: those of coordinates have different units.
   Mat moved(A.rows(), members + Index(sliding.size()));
   moved.leftCols(members) = A.leftCols(members);
   Index column = members, from = members;

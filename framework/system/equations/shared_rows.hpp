@@ -20,25 +20,25 @@ class SharedRowsAtPoint {
       : at_(at), contacts_(contacts), friction_(friction), rows_(rows), response_(response) {}
 
   void lay_out();        // for the contacts' modes
-  void evaluate_rows();  // with the shares on which W depends
+  void evaluate_rows();  // with the shares if W depends on them
   bool follow();         // updates K and the shares at this point; true if some have changed
 
   double force_along(ContactDirection d, const Vec& lambda);   // [N] of a closed contact that does not slide
-  double spring_force(int contact, const Vec& lambda);         // [N] of an idle one if it shared as a spring
+  double spring_force(int contact, const Vec& lambda);         // [N] of an idle contact if it shared as a spring
   const ContactLoads& prepared(int group, const Vec& lambda);  // with the resultants of a group
   Mat moved_with_sliding(int group);                           // ContactLoads::solve_with_sliding
 
  private:
   struct Rate {
-    double sum = 0, terms = 0;  // terms: sum of the terms' absolute values
+    double sum = 0, terms = 0;  // terms: sum of the absolute values of the terms
   };
   Rate rate_by(ContactDirection d, const Vec& some);
   bool still_implied(const SharedRows& group, const Vec& some);
   void renew(int group);
   ContactLoads::Bounds bounds(int contact, const Vec& lambda);
-  const ContactLoads& solved(int group, const Vec& lambda);  // with its forces
+  const ContactLoads& solved(int group, const Vec& lambda);  // with the forces of its contacts
 
-  // Where `loads` has the forces of a group: contacts are asked for theirs one after the other.
+  // The system's point at which `loads` has the forces of a group. Contacts ask for theirs one after the other.
   struct SolvedAt {
     long long point = -1, configuration = -1;
     Vec lambda;
@@ -49,7 +49,7 @@ class SharedRowsAtPoint {
   RowsAtPoint& rows_;
   ImpulseResponse& response_;
   std::vector<SolvedAt> solved_at_;  // by group
-  long long followed_at_ = -1;       // the configuration where K and the shares were last updated
+  long long followed_at_ = -1;       // the configuration at which K and the shares were last updated
 };
 
 }  // namespace trammel::model

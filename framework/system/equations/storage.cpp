@@ -25,7 +25,7 @@ Eigen::SparseMatrix<double> first_mass(const Model& model) {
 
 // The pattern of the mass shows which coordinates of a body are coupled.
 Storage storage_for(const Model& model) {
-  constexpr int least_unknowns = 150;  // for sparse storage to be faster, measured on plates
+  constexpr int least_unknowns = 150;  // below this number dense storage is faster, measured on plates
   constexpr double filled = 0.2;
   if (BodyBlocks::worthwhile(model)) return Storage::blocks;
   const double n = model.sizes.nv;

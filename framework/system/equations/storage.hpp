@@ -5,8 +5,8 @@
 
 namespace trammel::model {
 
-// Dense matrices; sparse M and S with dense rows, for bodies of many coordinates; or blocks by bodies with sparse
-// factorisations, for many bodies tied by rows. automatic: by what is measured to be quicker (storage_for).
+// Dense matrices; sparse M and S with dense rows, for bodies with many coordinates; or blocks by bodies with sparse
+// factorisations, for many bodies coupled by rows. automatic: the one that was measured to be fastest (storage_for).
 enum class Storage { automatic, dense, sparse, blocks };
 Storage storage_for(const Model& model);
 

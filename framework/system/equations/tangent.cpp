@@ -145,7 +145,7 @@ void TangentAtPoint::add_contact(int i, Blend c, const Vec& lambda, Matrix& S) {
     for (int n = 0; n < contacts_.tangents(i); ++n)
       if (damping(m, n) != 0) add(1 + n, damping(m, n), [&](int k) -> Wrench { return r.H(k).row(1 + m); });
   if (c.c_k == 0) return;
-  Eigen::Vector3d F;  // one of friction's two parts is 0: what slides has no rows
+  Eigen::Vector3d F;  // one of the two parts of friction is 0: a sliding contact has no rows in its tangents
   F << pull, pull_beside * ratio;
   for (int m = 1; m <= contacts_.tangents(i); ++m)
     if (const int row = contacts_.loads.place({i, m}).row; row >= 0) F[m] += lambda(row);

@@ -19,7 +19,7 @@ class TangentAtPoint {
   TangentAtPoint(Point& at, ContactsAtPoint& contacts, JointFriction& friction)
       : at_(at), contacts_(contacts), friction_(friction) {}
 
-  // Adds S, exactly where components give derivatives, else by differences. `carried`: K with those stresses; null:
+  // Adds S, exactly if components give derivatives, otherwise by differences. `carried`: K with these stresses; null:
   // exact.
   void add(Blend c, const Vec& a, const Vec& lambda, Matrix& S, const CarriedFrom* carried = nullptr);
 

@@ -1,14 +1,16 @@
-// The sizes on which a scene changes, by coordinate: what counts as a small change of a coordinate is a part of its
-// size, whatever the unit of lengths and wherever the scene stands.
+// The size of each coordinate: the change of it over which a scene changes. A small change of a coordinate is a part of
+// its size, in any unit of length and at any place of the scene.
 //
-// Where the scene starts:
+// From the initial state:
 //
-//     L: the largest extent of the body by its markers, or distance to what a joint or force ties it to; without one
-//        the scene's largest, without that the place of its markers, without that 1 m
+//     L: the largest extent of the body by its markers, or its distance to what a joint or force connects it to; if
+//     that is 0, the largest L of the scene; if that is 0, the distance of its markers from the origin; if that is 0, 1
+//     m
 //     size of coordinate i: the smallest of L / |dx/dq_i| and 1 rad / |dtheta/dq_i| of the body's markers
 //
-// A place has L, an angle 1 rad. Central differences, too, step by parts of these: of eps^(1/3), where round-off and
-// truncation balance; of coordinates far from the origin eps is the round-off of the place against the size.
+// So a place has the size L, an angle 1 rad. The steps of central differences are parts of these sizes too: eps^(1/3),
+// where round-off and truncation balance; for coordinates far from the origin eps is the round-off of the place
+// relative to the size.
 #pragma once
 
 #include <algorithm>
@@ -21,29 +23,31 @@ namespace trammel::model {
 
 inline constexpr double difference_share = 6e-6;  // of a size
 
-// Of a place or angle `at` that changes other numbers by way of a body's motion.
+// Step for a place or angle `at` that changes other numbers through a body's motion.
 inline double difference_step(double size, double at = 0) {
   const double round_off = std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(at) / size);
   return size * std::max(difference_share, std::cbrt(round_off));
 }
 
-// Of a place that is moved by an exact number: no less than its digits.
+// Step for a place that enters a function exactly: at least 512 units of its round-off.
 inline double exact_difference_step(double size, double at) {
   return std::max(difference_share * size, 512 * std::numeric_limits<double>::epsilon() * std::abs(at));
 }
 
 struct CoordinateSizes {
   Vec of;  // by velocity coordinate [m, rad]
-  // What one row has of a coordinate that turns a body is a lever; the body's extent [m], 1 of other coordinates.
+  // A row's entry for a coordinate that turns a body is a lever. By velocity coordinate: the body's extent [m] if it
+  // turns the body, 1 otherwise.
   Vec levers;
-  double length = 1;  // the scene's [m]
-  double place = 1;  // the largest coordinate of a place or angle in its sizes, 1 at least: what round-off is a part of
+  double length = 1;  // [m] of the scene
+  // Largest coordinate in units of its size, at least 1: reference of round-off.
+  double place = 1;
 
-  // In sizes.
+  // Largest change in units of the sizes.
   double largest(const Vec& dq) const { return dq.size() > 0 ? dq.cwiseQuotient(of).lpNorm<Eigen::Infinity>() : 0; }
-  // Of a force: the work over a size [N m].
+  // [N m] Largest work of a force over the size of a coordinate.
   double largest_work(const Vec& f) const { return f.size() > 0 ? f.cwiseProduct(of).lpNorm<Eigen::Infinity>() : 0; }
-  // By which dq is multiplied to be a step of a central difference.
+  // The factor that makes dq a step of a central difference.
   double difference_step(const Vec& dq) const { return model::difference_step(1, place) / largest(dq); }
 };
 

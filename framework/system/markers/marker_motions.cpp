@@ -126,7 +126,7 @@ const Motion& MarkerMotions::motion(int index, double t, const Vec& q, const Vec
   return motion;
 }
 
-// What others ask for, too, is kept for them.
+// A motion that others use as well is stored for them.
 const Motion& MarkerMotions::motion_in_passing(int index, std::size_t k, double t, const Vec& q, const Vec& v) {
   const Slot& slot = slots_[std::size_t(index)];
   if (slot.shared < 0 || slot.uses > 1) return motion(index, t, q, v);
@@ -135,7 +135,7 @@ const Motion& MarkerMotions::motion_in_passing(int index, std::size_t k, double 
   return motion;
 }
 
-// The marker's motion where the scene starts.
+// Position of the marker at the start of the scene.
 Vec3 MarkerMotions::start_of(MarkerRef ref, Motion& m) const {
   const auto body = std::size_t(ref.body);
   if (ref.body < 0) {
@@ -190,7 +190,7 @@ void MarkerMotions::measure() {
 void MarkerMotions::measure(int body, double L, double extent) {
   const BodyEntry& entry = model_.bodies[std::size_t(body)];
   const int markers = int(entry.body->markers().size());
-  Vec moves = Vec::Zero(entry.nv);  // in parts of L and of 1 rad
+  Vec moves = Vec::Zero(entry.nv);  // relative to L and to 1 rad
   Vec turning = Vec::Zero(entry.nv);
   Motion m;
   for (int k = 0; k < markers; ++k) {
@@ -208,7 +208,7 @@ void MarkerMotions::measure(int body, double L, double extent) {
   for (const Coordinates::Part& part : entry.parts) {
     for (int j = iv; j < iv + part.nv; ++j) {
       const bool flat = part.kind == Coordinates::Kind::flat;
-      // What moves no marker is a place like others, or a turn.
+      // A coordinate that moves no marker counts as a place, or as a rotation.
       if (!(moves(j) > 0)) moves(j) = flat ? 1 / L : 1;
       if (extent > 0 && (!flat || turning(j) == markers)) sizes_->levers(entry.v0 + j) = extent;
     }

@@ -19,7 +19,7 @@ namespace trammel::model {
 
 class MarkerMotions {
  public:
-  // Bodies that are asked for motions are named at `site` meanwhile.
+  // While a body computes motions, `site` names it.
   MarkerMotions(const Model& model, CallSite& site);
 
   // A slot is the index of a marker in use.
@@ -36,10 +36,10 @@ class MarkerMotions {
   void hold_still(bool still) { still_ = still, ++point_; }
   bool held_still() const { return still_; }
   const Motion& motion(int slot, double t, const Vec& q, const Vec& v);
-  // The same for temporary use as marker k of a joint: the next call may overwrite it.
+  // The same for temporary use as marker k of a joint: the next call may overwrite the result.
   const Motion& motion_in_passing(int slot, std::size_t k, double t, const Vec& q, const Vec& v);
-  void prefetch(int slot) const { numerics::prefetch(&kept_[std::size_t(slot)], 256); }  // its place and velocity
-  // By the bodies' markers where the scene starts, once for all: the model's own, whatever has happened since.
+  void prefetch(int slot) const { numerics::prefetch(&kept_[std::size_t(slot)], 256); }  // its position and velocity
+  // Sizes from the initial state of the model, computed once.
   const CoordinateSizes& sizes();
   Motion motion_at_zero(int slot) const;  // q = 0, v = 0, t = 0
   const Motion& last_motion(int slot) const { return kept_[std::size_t(slot)].motion; }
@@ -49,7 +49,7 @@ class MarkerMotions {
 
   // f += c J^T wrench
   void add_wrench(int slot, const Wrench& wrench, double c, Vec& f) const;
-  // G(row + i, :) += (H J)_i, J of this motion
+  // G(row + i, :) += (H J)_i with J of this motion
   void add_rows(int slot, const Motion& motion, int row, const RowsOf& H, Mat& G) const;
   // S(dofs, dofs') += c J^T D J' for a twist x twist matrix D between two slots
   void add_pair(int slot, int other, const Mat6& D, double c, Matrix& S);
@@ -86,7 +86,7 @@ class MarkerMotions {
   void evaluate(const Slot& slot, double t, const Vec& q, const Vec& v, Motion& motion) const;
   void evaluate_linear(int slot, const Vec& q, const Vec& v);
   void keep_linear(int slot);
-  // The same for a matrix of the body alone.
+  // The same for a matrix of this body only.
   void add_to_body(int slot, double t, const Vec& q, const Wrench& F, double c, Matrix& of_body);
 
   template <class Call>

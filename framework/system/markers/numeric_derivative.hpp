@@ -40,7 +40,7 @@ void tangent_differences(const BodyEntry& entry, const Vec& q, const Vec& sizes,
   }
 }
 
-// block(:, j) = d function(v)/dv_j, by parts of the velocity and of the size in 1 s.
+// block(:, j) = d function(v)/dv_j; steps are parts of the velocity and of the size per second.
 template <class Function>
 void velocity_differences(const Vec& v, const Vec& sizes, Function&& function, Mat& block) {
   Vec moved = v, plus, minus;

@@ -32,13 +32,13 @@ void displace(const Motion& from, int i, double s, Motion& to) {
   to.R = turn * from.R;
 }
 
-// On which wrenches change: the distance of the markers, or the scene's length where they lie on each other; their
-// speed and spin, or this length and 1 rad in 1 s.
+// Scales over which wrenches change: the distance of the markers, or the scene's length if they coincide; their speed
+// and angular velocity, but at least this length and 1 rad per second.
 struct PairSizes {
   double length, speed, spin;
 };
 PairSizes sizes_of(const std::vector<Motion>& markers, double scene) {
-  constexpr double one_point = 1e-6;  // of the scene
+  constexpr double one_point = 1e-6;  // relative to the scene
   double apart = 0, speed = 0, spin = 1;
   for (const Motion& m : markers) {
     const auto dim = m.x.size();
@@ -90,7 +90,8 @@ void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double
   } else {
     const PairSizes size = sizes_of(now, chain.sizes().length);
     std::vector<Mat6> by(n);
-    // by[k]: derivative of the wrench on marker k by component i of what `move` changes and returns.
+    // by[k]: derivative of the wrench on marker k by component i of the pose or velocity that `move` changes; `move`
+    // returns the step.
     const auto difference = [&](std::size_t moved, auto&& move) {
       for (Mat6& block : by) block.setZero(twist, twist);
       for (int i = 0; i < twist; ++i) {

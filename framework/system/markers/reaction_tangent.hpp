@@ -11,8 +11,8 @@ namespace trammel::model {
 struct ConstraintReaction {
   const Constraint& constraint;
   const ReactionTangent* exact;  // null: by differences of the rows
-  std::span<const int> slots;    // of its markers
-  const Vec6& lambda;            // of its rows alone
+  std::span<const int> slots;    // of the constraint's markers
+  const Vec6& lambda;            // of the constraint's rows
 };
 void add_reaction_tangent(const ConstraintReaction& reaction, MarkerMotions& chain, double t, const Vec& q,
                           const Vec& v, double c, Matrix& S);

@@ -10,7 +10,7 @@
 
 namespace trammel::model {
 
-// Calls f(3) in the plane, f(6) in space.
+// Calls f(3) in the plane, f(6) in space, as compile-time constants.
 template <class F>
 void with_twist(Eigen::Index size, F&& f) {
   if (size == 3)
@@ -19,13 +19,13 @@ void with_twist(Eigen::Index size, F&& f) {
     f(std::integral_constant<int, 6>());
 }
 
-// Rows first .. first + n - 1 of H
+// Rows [first, first + n) of H.
 struct RowsOf {
   const Mat6& H;
   Eigen::Index first, n;
 };
 
-// The wrench on a marker of forces along rows H: `normal` along the first, `friction` along those that follow.
+// The wrench on a marker by forces along the rows H: `normal` along the first, `friction` along the following ones.
 inline Wrench pressed_by(const Mat6& H, double normal, const Eigen::Vector2d& friction) {
   Wrench wrench(H.cols());
   with_twist(H.cols(), [&](auto twist) {

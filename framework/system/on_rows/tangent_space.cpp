@@ -6,7 +6,7 @@
 namespace trammel::simulate {
 namespace {
 
-// Column by column.
+// A matrix from products with unit vectors, column by column.
 template <class Add>
 Mat transposed(const Sizes& n, Add&& add) {
   Mat all(n.nv, n.nc);
@@ -19,7 +19,7 @@ Mat transposed(const Sizes& n, Add&& add) {
   return all;
 }
 
-// A basis of the columns' orthogonal complement, orthonormal over the sizes of its rows.
+// A basis of the orthogonal complement of the columns, orthonormal in units of the sizes of its rows.
 Mat complement(Mat columns, const Vec& sizes, double rank_tolerance) {
   columns = sizes.asDiagonal() * columns;
   for (Eigen::Index i = 0; i < columns.cols(); ++i)

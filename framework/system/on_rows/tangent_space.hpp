@@ -1,5 +1,5 @@
-// The null spaces of the rows G and of the reactions W at the system's point. Their bases are orthonormal in the sizes
-// of the coordinates: the same in any unit of lengths, places beside angles.
+// The null spaces of the rows G and of the reactions W at the system's point. Their bases are orthonormal in units of
+// the sizes of the coordinates, so they do not depend on the unit of length.
 #pragma once
 
 #include "system/assembled_system.hpp"
@@ -8,9 +8,9 @@ namespace trammel::simulate {
 
 struct TangentSpace {
   model::CoordinateSizes sizes;
-  Mat Z;                 // G Z = 0: nv x m; Z over the sizes is orthonormal
+  Mat Z;                 // G Z = 0: nv x m; orthonormal in units of the sizes
   Mat left;              // W left = 0; Z itself unless sliding friction couples rows
-  bool sliding = false;  // W is not G
+  bool sliding = false;  // W differs from G
   int redundant = 0;     // number of redundant rows
 };
 TangentSpace tangent_space(model::AssembledSystem& system);  // throws model::NotSolvable

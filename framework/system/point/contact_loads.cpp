@@ -9,7 +9,8 @@
 namespace trammel::model {
 namespace {
 
-constexpr double carried = 1e-9;  // of their resultants: what is missed where the last forces are about to be lost
+// relative to the resultants: residual that counts as carried where the last admissible forces are about to vanish
+constexpr double carried = 1e-9;
 
 }  // namespace
 
@@ -92,7 +93,7 @@ double ContactLoads::scale(const Group& group) const {
   return largest;
 }
 
-// The smaller distance of a contact's force from tension and from the side of its friction cone.
+// The least distance of a contact's force from zero and from the side of its friction cone.
 double ContactLoads::slack(const Group& group) const {
   const Vec forces = group.shared();
   double least = std::numeric_limits<double>::infinity();
@@ -121,7 +122,7 @@ std::vector<complementarity::SharingContact> ContactLoads::sharing(const Group& 
   return contacts;
 }
 
-// Where none have the resultants, springs' forces stay, until the event that follows from it.
+// If no admissible forces have these resultants, the forces of springs stay until the event that follows.
 bool ContactLoads::share_admissibly(Group& group, const Sharing& sharing) {
   if (sharing.contacts.empty()) return true;
   const Vec resultants = sharing.E * group.forces(sharing.directions);

@@ -1,13 +1,13 @@
 // Forces of closed contacts from the multipliers: the positions of their rows in g, and how dependent contacts share
 // forces.
 //
-//     F = -lambda of its row;   of shared rows F = share (-lambda of the basis)
+//     F = -lambda of its row;   for shared rows F = share (-lambda of the basis)
 //
-// Where that pulls or leaves a friction cone, dependent contacts carry the same resultants by other forces
-// (complementarity/shares/admissible_forces.hpp), as long as there are some. Those that slide do not: their friction,
-// and with it the motion, follows from their share as springs. Nor do those that are idle. The others share what these
-// leave of the resultants. Where they cannot, those that slide take part along the direction of their force, n + p t:
-// only forces that leave the motion as it is.
+// If such a force pulls or leaves a friction cone, dependent contacts carry the same resultants by other forces
+// (complementarity/shares/admissible_forces.hpp), as long as there are any. Exceptions are sliding contacts, whose
+// share as springs determines their friction and so the motion, and idle ones: the others share the rest of the
+// resultants. If they cannot, sliding contacts take part along the directions of their forces, n + p t, by forces that
+// leave the motion unchanged.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ namespace trammel::model {
 
 class ContactLoads {
  public:
-  // The position of one direction of a contact.
+  // The place of one direction of a contact in the multipliers.
   struct Place {
     int row = -1;    // in g
     int group = -1;  // in Modes::shared
@@ -54,25 +54,25 @@ class ContactLoads {
     begin(group, lambda);
     for (Member& member : groups_[std::size_t(group)].members) member.bounds = bounds(member.contact);
   }
-  // The forces of all contacts of a group. False: there are no admissible ones, springs' stay.
+  // The forces of all contacts of a group. False: there are no admissible ones, and those of springs stay.
   template <class BoundsOf>
   [[nodiscard]] bool solve(int group, const Vec& lambda, BoundsOf&& bounds) {
     prepare(group, lambda, bounds);
     Group& g = groups_[std::size_t(group)];
     return slack(g) >= -round_off * scale(g) || share_admissibly(g, {sharing(g), g.directions, g.E});
   }
-  // After that, with those that slide; E: what moves, by the forces of the members, then by each that slides along n +
-  // p t.
+  // To be called then: includes sliding contacts. E: the motion caused by the forces of the members, then by that of
+  // each sliding contact along n + p t.
   void solve_with_sliding(int group, const Mat& E);
   double load(const Place& place) const { return groups_[std::size_t(place.group)].forces[place.index]; }
   // True if it slides or is idle.
   bool shares_as_spring(int contact, int group) const;
-  // [N] by how much each other contact can be unloaded, after `prepare`: complementarity/shares/spare_load.hpp.
+  // [N] How much each of the other contacts can be unloaded, after `prepare`: complementarity/shares/spare_load.hpp.
   double spare_load(int group) const;
   double spare_load_with_sliding(int group, const Mat& E) const;
   std::vector<ContactDirection> members(int group) const;
-  bool sliding_shares() const;      // some decide the motion
-  void form_resultants(int group);  // once its K has changed
+  bool sliding_shares() const;      // some shares affect the motion
+  void form_resultants(int group);  // to be called after its K has changed
   double largest_load(int group) const { return scale(groups_[std::size_t(group)]); }
 
  private:
@@ -85,17 +85,17 @@ class ContactLoads {
     std::vector<Member> members;           // contacts that do not share as springs
     std::vector<Eigen::Index> directions;  // of the members, in (basis, implied)
     Mat E;                                 // maps the members' forces to their independent resultants
-    Vec forces;                            // of all [N]
+    Vec forces;                            // of all contacts [N]
     Vec resultants;                        // of the members [N]
     Vec shared() const { return forces(directions); }
   };
-  // Contacts whose forces may move, the places of these in (basis, implied), and what depends on them.
+  // Contacts whose forces may change, the places of these forces in (basis, implied), and their resultants.
   struct Sharing {
     std::vector<complementarity::SharingContact> contacts;
     std::vector<Eigen::Index> directions;
     Mat E;
   };
-  static constexpr double round_off = 1e-12;  // of the forces
+  static constexpr double round_off = 1e-12;  // relative to the forces
   Eigen::Index basis_size(int group) const { return Eigen::Index(modes_->shared[std::size_t(group)].basis.size()); }
   void lay_out_group(int group);
   void begin(int group, const Vec& lambda);

@@ -1,4 +1,4 @@
-// The discrete state of contacts: which are closed, stick or slide, and which of their rows are in g.
+// The discrete state of contacts: which of them are closed, stick or slide, and which of their rows are in g.
 #pragma once
 
 #include <vector>
@@ -37,10 +37,9 @@ struct ContactDirection {
 // multipliers are minus the resultants of all these contacts. Implied directions have no rows.
 struct SharedRows {
   std::vector<ContactDirection> basis, implied;
-  Eigen::MatrixXd K;      // implied x basis: g_implied = K g_basis + a combination of the joints' rows
-  Eigen::MatrixXd share;  // (basis, implied) x basis: forces of least norm per resultant; 0 for idle contacts
-  std::vector<int>
-      sliding;  // sliding contacts among them: their friction, and with it the motion, depends on their share
+  Eigen::MatrixXd K;         // implied x basis: g_implied = K g_basis + a combination of the joints' rows
+  Eigen::MatrixXd share;     // (basis, implied) x basis: forces of least norm per resultant; 0 for idle contacts
+  std::vector<int> sliding;  // sliding contacts among them: their friction, and so the motion, depends on their share
   bool operator==(const SharedRows&) const = default;
 };
 

@@ -19,7 +19,7 @@ ContactsAtPoint::ContactsAtPoint(Point& at) : at_(at) {
 void ContactsAtPoint::set_modes(const Modes& new_modes) {
   modes = new_modes;
   loads.lay_out(modes);
-  for (Surface& surface : surfaces_) surface.point = -1;  // approach speeds may be others
+  for (Surface& surface : surfaces_) surface.point = -1;  // approach speeds may have changed
 }
 
 bool ContactsAtPoint::locks(int i) const {
@@ -93,7 +93,7 @@ SlipDirection ContactsAtPoint::slip_direction(int i) {
   return {slip(i), mode(i).direction, mode(i).slow};
 }
 
-// How the friction law is asked for a figure.
+// Evaluates the friction law, with its component named in the call site.
 template <class Call>
 double ContactsAtPoint::ask_friction(int i, const char* name, Call call) {
   return call_inside(at_.site, entry(i).friction_origin, name, call);

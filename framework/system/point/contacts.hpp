@@ -1,5 +1,5 @@
-// The contacts at the point: gap, rates, slip, and the ratio of friction to normal force; in these modes. What closed
-// contacts carry by multipliers is known to SharedRowsAtPoint.
+// The contacts at the point: gap, rates, slip, and the ratio of friction to normal force, in the present modes.
+// SharedRowsAtPoint has the forces of closed contacts by multipliers.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ class ContactsAtPoint {
   ContactsAtPoint(const ContactsAtPoint&) = delete;  // `loads` refers to `modes`
   ContactsAtPoint& operator=(const ContactsAtPoint&) = delete;
 
-  void set_modes(const Modes& modes);  // after that, `loads` needs the rows
+  void set_modes(const Modes& modes);  // `loads` then needs the rows
 
   int count() const { return int(slots_.size()); }
   const ContactEntry& entry(int i) const { return at_.model->contacts[std::size_t(i)]; }
@@ -26,28 +26,28 @@ class ContactsAtPoint {
   const Slots& slots(int i) const { return slots_[std::size_t(i)]; }
   int tangents(int i) const { return geometry(i).tangents(); }
   bool in_joint(int i) const { return entry(i).joint.has_value(); }
-  bool locks(int i) const;  // closed, and never released: its row counts as a joint's
+  bool locks(int i) const;  // closed permanently: its row counts as a joint's
 
   const Rows& rows(int i);                            // of its geometry
   double rate(int i, int row);                        // [m/s]
   double acceleration(int i, int row, const Vec& a);  // [m/s^2]
   Tangential slip(int i);                             // [m/s]
-  Tangential friction_ratio(int i);                   // F_t / F_n while sliding; 0 where rows or nothing hold it
+  Tangential friction_ratio(int i);                   // F_t / F_n while sliding; 0 if rows or nothing hold it
   Eigen::Matrix2d friction_damping(int i);            // -d(F_t / F_n)/d(slip velocity) [s/m]
-  double law_normal(int i);                           // [N] of its ContactForce
-  Tangential displacement(int i);                     // g along the tangents, from the mode's anchor
-  void anchor(int i, ContactMode& mode);              // what holds it at this place
-  // In space, at the end of a step: slip is measured from its direction there, what rolls from its place there; true:
-  // rows are measured anew.
+  double law_normal(int i);                           // [N] by its ContactForce
+  Tangential displacement(int i);                     // coordinates along the tangents, from the mode's anchor
+  void anchor(int i, ContactMode& mode);              // stores the present coordinates along the tangents in the mode
+  // At the end of a step in space: slip is measured from its present direction, rolling from the present orientation.
+  // True: rows have changed.
   bool follow_slip();
 
-  SurfaceContact* surface_of(int i) const { return surfaces_[std::size_t(i)].contact; }  // null: it acts at one point
+  // null: the contact acts at one point
+  SurfaceContact* surface_of(int i) const { return surfaces_[std::size_t(i)].contact; }
   bool on_surface(int i) const { return surface_of(i) != nullptr; }
-  SurfaceContact& surface(int i);  // pressed at this point
+  SurfaceContact& surface(int i);  // evaluated at this point
   bool presses_surface(int i, int body) const;
 
-  // The contacts on which a multiplier of this row acts: its own, and sliding ones that share with it, by their
-  // friction.
+  // Contacts whose force the multiplier of this row contributes to: its own contact, and sliding contacts in its group.
   std::vector<int> acting_with(ContactDirection d) const;
   // Calls use(direction, row in g) in the order of rows, except for contacts that have locked.
   template <class Use>
@@ -58,7 +58,7 @@ class ContactsAtPoint {
   }
 
   Modes modes;
-  ContactLoads loads;  // the contacts' rows in g, and their forces
+  ContactLoads loads;  // positions of the contacts' rows in g, and the forces of closed contacts
 
  private:
   struct OfContact {
@@ -72,12 +72,12 @@ class ContactsAtPoint {
   };
   void evaluate(int i, OfContact& into);
   SlipDirection slip_direction(int i);
-  Eigen::Matrix3d seen_from_B(int i);  // A's orientation
+  Eigen::Matrix3d seen_from_B(int i);  // orientation of A in axes of B
   template <class Call>
   double ask_friction(int i, const char* name, Call call);
 
   Point& at_;
-  std::vector<std::unique_ptr<ContactGeometry>> geometries_;  // by contact, as all of these
+  std::vector<std::unique_ptr<ContactGeometry>> geometries_;  // by contact
   std::vector<Slots> slots_;
   std::vector<OfContact> rows_;
   std::vector<Surface> surfaces_;

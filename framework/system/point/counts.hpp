@@ -1,4 +1,4 @@
-// What the evaluations of a system cost, independent of the machine.
+// The cost of the evaluations of a system, independent of the machine.
 #pragma once
 
 namespace trammel::model {

@@ -25,7 +25,7 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-// Calls use(first row, rows) for each bearing.
+// Calls use(first row, number of rows) for each bearing.
 template <class Use>
 void for_each_bearing(const Bearings& bearings, Use&& use) {
   int first = 0;
@@ -99,7 +99,7 @@ bool JointFriction::unload() {
 }
 
 JointFriction::Loaded JointFriction::load_with(const Vec& lambda) {
-  // The load of a lightly loaded joint is limited by the round-off of larger loads in other joints.
+  // The load of a lightly loaded joint is as inexact as the round-off of the largest multiplier.
   const double largest = lambda.size() > 0 ? lambda.lpNorm<Eigen::Infinity>() : 0;
   Loaded loaded;
   for (Bearing& b : bearings_) {
@@ -143,8 +143,7 @@ CallSite JointFriction::find_not_finite() {
 
 namespace {
 
-// The force along the slip on both markers: of a sticking row, or sliding friction from the loads by the joint's
-// multipliers.
+// The force along the slip on both markers: of a sticking row, or sliding friction by the loads of the bearings.
 class SlipForce final : public MarkerWrenches {
  public:
   SlipForce(const JointEntry& joint, const BearingJoint& bearing, double t, const Vec6& lambda, double ratio,

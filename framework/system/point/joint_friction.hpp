@@ -24,15 +24,15 @@ class JointFriction {
   bool none() const { return bearings_.empty(); }
   const JointEntry& joint_of(int contact) const;
   double load(int contact, const Vec& lambda);  // N [N]
-  const Vec6& load_by_row(int contact) const;   // n, for which W is formed
-  bool unload();                                // n = 0; false: it was
+  const Vec6& load_by_row(int contact) const;   // n, with which W is formed
+  bool unload();                                // sets n = 0; false: it was 0
   struct Loaded {
-    bool changed = false;  // n: W is another
-    bool far = false;      // n . lambda before was not N(lambda)
+    bool changed = false;  // n has changed, and so has W
+    bool far = false;      // n . lambda differed from N(lambda) before
   };
-  Loaded load_with(const Vec& lambda);  // n at these multipliers, of joints that slide
+  Loaded load_with(const Vec& lambda);  // updates n for these multipliers, for sliding joints
   [[noreturn]] void fail_without_loads();
-  // S += c_k K + c_d D of the friction, or of the row that holds the joint.
+  // S += c_k K + c_d D of the friction, or of the row by which the joint sticks.
   void add_tangent(int contact, Blend c, const Vec& lambda, Matrix& S);
   CallSite find_not_finite();
 
@@ -45,7 +45,7 @@ class JointFriction {
     Vec6 load_by_row = {};  // n
   };
   Bearing& bearing(int contact);  // at this point
-  bool slides(int contact);       // with friction
+  bool slides(int contact);       // and has friction
 
   Point& at_;
   ContactsAtPoint& contacts_;

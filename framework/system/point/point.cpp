@@ -61,7 +61,7 @@ void Point::add_row_force(const Slots& slots, const Rows& r, int row, double c, 
   for (int k = 0; k < slots.count; ++k) chain.add_wrench(slots[k], r.H(k).row(row).transpose(), c, sum);
 }
 
-// Where a body's numbers begin, whose length only it knows.
+// Prefetches the beginning of a body's numbers; only the body knows their extent.
 void Point::prefetch(const BodyEntry& body) const {
   constexpr std::size_t as_a_rule = 192;
   numerics::prefetch(body.body.get(), as_a_rule);

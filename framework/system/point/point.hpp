@@ -1,4 +1,4 @@
-// Where a system is: t, q, v, and the motions of its markers there. All other parts are evaluated at this point.
+// The system's point: t, q, v, and the motions of its markers. All other parts are evaluated at this point.
 #pragma once
 
 #include <array>
@@ -24,10 +24,10 @@ using Seen = std::array<const Motion*, Rows::most_markers>;  // null: no such ma
 
 struct Point {
   explicit Point(std::shared_ptr<const Model> model);
-  Point(const Point&) = delete;  // `chain` names bodies at `site`
+  Point(const Point&) = delete;  // `chain` refers to `site`
   Point& operator=(const Point&) = delete;
 
-  bool move_to(double t, const Vec& q, const Vec& v);  // false: it is there
+  bool move_to(double t, const Vec& q, const Vec& v);  // false: it is there already
   void hold_still(bool still);
 
   auto q_of(const BodyEntry& body) const { return q.segment(body.q0, body.nq); }
@@ -37,7 +37,7 @@ struct Point {
   const Motion& motion(int slot) { return chain.motion(slot, t, q, v); }
   Seen motions(const Slots& slots);
   Seen motions_in_passing(const Slots& slots);  // valid until the next such call
-  // n rows between the first `count` of these markers
+  // Evaluates n rows between the first `count` of these markers.
   void evaluate(const Constraint& constraint, int n, const Seen& motions, int count, Rows& into) const;
   void add_row_force(const Slots& slots, const Rows& r, int row, double c, Vec& f) const;  // f += c J^T H^T
   // Calls use(entry, index in v) for the entries of this row of G.
@@ -57,9 +57,9 @@ struct Point {
   void returned() { site.origin = nullptr; }
 
   std::shared_ptr<const Model> model;
-  CallSite site;  // before `chain`
+  CallSite site;  // must precede `chain`
   MarkerMotions chain;
-  // Those of forces lie next to each other in memory: of many bodies most joints' markers may not be asked for.
+  // Slots of forces lie next to each other in memory, because with many bodies most joints' markers are not evaluated.
   std::vector<Slots> forces, joints;
 
   double t = 0;

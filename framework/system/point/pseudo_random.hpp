@@ -1,5 +1,5 @@
-// Pseudo-random numbers, the same in every run: a direction or position in general position, not special by a symmetry
-// of the model. In practice no non-zero row is orthogonal to them.
+// Pseudo-random numbers, equal in every run: a direction or position that no symmetry of the model distinguishes. In
+// practice no non-zero row is orthogonal to them.
 #pragma once
 
 #include <cmath>
