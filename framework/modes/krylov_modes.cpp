@@ -16,10 +16,11 @@ using Complex = std::complex<double>;
 using CVec = Eigen::VectorXcd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr int block = 8;              // more than the six rigid motions of a free body
-constexpr int most_blocks = 60;       // beyond those that `count` fills
-constexpr double accuracy = 1e-9;     // of theta, by its residual
-constexpr double below_mean = 1e-7;   // sigma against omega^2 of a random motion, which is near that of the stiffest
+constexpr int block = 8;           // more than the six rigid motions of a free body
+constexpr int most_blocks = 60;    // beyond those that `count` fills
+constexpr double accuracy = 1e-9;  // of theta, by its residual
+// sigma relative to omega^2 of a random motion, which is near that of the stiffest motion
+constexpr double below_mean = 1e-7;
 constexpr double independent = 1e-8;  // least part of a direction outside the basis
 
 // [K W^T; G 0] and its parts at the state.
@@ -175,7 +176,7 @@ std::vector<Pair> converge(KrylovBasis<Operator>& basis, int count, Pairs&& pair
       fmt::format("the lowest {} modes did not converge in {} vectors; ask for fewer", count, basis.size()));
 }
 
-// Of a random motion within the rows.
+// Of a random motion that satisfies the rows.
 struct Mean {
   double omega2;   // [1/s^2]
   double damping;  // |D x| / |M x| [1/s]

@@ -6,8 +6,8 @@
 //                theta = 1/(lambda - sigma),  w = lambda x,  sigma > 0
 //
 // The system's own factorisation applies each inverse within G x = 0, with its storage and its treatment of redundant
-// rows. Blocks are needed for multiple eigenvalues, which symmetric plates and free bodies have: a single vector finds
-// the copies by round-off alone. Therefore neither ARPACK nor Spectra is used.
+// rows. Blocks are needed for multiple eigenvalues, which symmetric plates and free bodies have: iterations with a
+// single vector, as in ARPACK and Spectra, find the copies by round-off only.
 #pragma once
 
 #include "modes/normal_modes.hpp"

@@ -62,7 +62,7 @@ class AtState {
     return largest;
   }
 
-  // Z' by the rows' rates at neighbouring places.
+  // Z' from the rows' rates at neighbouring states.
   Mat carried(const Mat& Z, const Mat& turned) {
     Mat Z_dot = Mat::Zero(n_.nv, Z.cols());
     if (n_.nc == 0) return Z_dot;

@@ -11,9 +11,9 @@
 //     D_r = Z^T (M (Z' + Y) + D Z)
 //     K_r = Z^T (M Y' + D Y + K Z),        Z^T M Z'' = -Z'^T M Z' - Z^T M' Z'
 //
-// Without these terms the rotation of a pendulum that passes its lowest point would make it too stiff. The coefficients
-// of a steady motion are constant and need no freezing: steady_linearisation.hpp. With sliding contacts W differs from
-// G, and Z^T on the left is then the null space of W.
+// Without these terms a pendulum that passes its lowest point would be too stiff by its rotation. The coefficients of a
+// steady motion are constant and need no freezing: steady_linearisation.hpp. With sliding contacts W differs from G,
+// and Z^T on the left is replaced by the null space of W.
 #pragma once
 
 #include <trammel/integrator.hpp>

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 constexpr int most_unknowns = 120;  // of dense differences
 constexpr int most_newton_steps = 20;
 constexpr double balanced = 1e-11;          // of the forces
-constexpr double near = 0.1;                // of velocities
+constexpr double near = 0.1;                // relative change of velocities
 constexpr double phases[] = {0, 0.7, 1.9};  // of a coordinate's size at the largest velocity
 
 double largest(const Vec& x) {
@@ -114,10 +114,10 @@ std::optional<State> nearest_steady(model::AssembledSystem& system, const FlatTu
 }
 
 bool onto_rows(model::AssembledSystem& system, State& s, std::function<Vec(const State&, const Vec&)> along) {
-  constexpr double off = 1e-10;  // of the coordinates' sizes: less than the search tells apart
+  constexpr double off = 1e-10;  // relative to the coordinates' sizes: less than the search distinguishes
   system.move_to(s.t, s.q, s.v);
   const model::CoordinateSizes sizes = system.coordinate_sizes();
-  // Rows are in metres or, of angles, in radians.
+  // Rows are in metres, or in radians for angles.
   const double allowed = off * std::min(1.0, sizes.length) * sizes.place;
   return model::positions_onto_rows(system, s, {.allowed = allowed, .most = 10, .along = std::move(along)}) &&
          model::velocities_onto_rows(system, s);

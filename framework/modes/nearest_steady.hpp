@@ -1,5 +1,4 @@
-// The steady motion nearest to a state that is not quite one: a top in precession whose rate was written with a few
-// digits.
+// The steady motion nearest to a state that is nearly one: a precessing top whose rate was written with a few digits.
 //
 // The unknowns are q and v within the rows, and Omega. The accelerations must be those of the turning frame at the
 // state and at two later times of the motion; otherwise a rotor that does not spin about its axis would be accepted.
@@ -17,7 +16,7 @@
 
 namespace trammel::simulate {
 
-// None: the method does not converge, or the velocities of its result differ by 10 % or more.
+// Empty: the method does not converge, or the velocities of its result differ by 10 % or more.
 std::optional<State> nearest_steady(model::AssembledSystem& system, const FlatTurning& flat, const State& state,
                                     const Eigen::Vector3d& rate);
 

@@ -60,8 +60,8 @@ std::vector<bool> drifts_of(const Mat& K, double noise, double speed, double s, 
   return drifts;
 }
 
-// A body that nothing restrains rests or drifts in the world, so it rotates as seen from the frame: a double lambda = i
-// Omega, which round-off eps splits by sqrt(eps).
+// An unrestrained body rests or drifts in the world, so it rotates as seen from the frame: a double lambda = i Omega,
+// which round-off eps splits by sqrt(eps).
 Complex without_drift(Complex lambda, double frame_rate) {
   const Complex round(0, frame_rate);
   return std::abs(lambda - round) <= 1e-6 * frame_rate ? round : lambda;
@@ -157,7 +157,7 @@ Spectrum dense_modes(const Linearisation& l, int count) {
       const Complex lambda = omega2 < 0 ? Complex(omega, 0) : Complex(0, omega);
       spectrum.modes.push_back(made_mode(lambda, l.Z * u.y.col(i).cast<Complex>(), zero, fastest));
     }
-    // Weaker than the round-off of differences against the slowest of its motions.
+    // Weaker damping is round-off of differences relative to the slowest of the motions.
     spectrum.damped = decay > 1e-8 * slowest;
   }
   if (spectrum.damped) {

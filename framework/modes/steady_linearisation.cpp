@@ -20,7 +20,7 @@ double largest_entry(const Mat& x) {
   return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0;
 }
 
-// Where M is 1.
+// A in coordinates in which M is the identity.
 Mat normalised(const Eigen::LLT<Mat>& mass, const Mat& A) {
   const Mat half = mass.matrixL().solve(A);
   return mass.matrixL().solve(half.transpose()).transpose();

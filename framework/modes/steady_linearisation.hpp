@@ -4,9 +4,9 @@
 //
 //     M_r = Z^T M Z,   D_r = Z^T (M (Z' + Y) + D Z),   K_r = Z^T (M Y' + D Y + K Z)
 //
-// with the system's D and K of the steady accelerations. The coefficients are constant where the frame sees a system
-// that does not change: a rotor with an axis of symmetry may spin in it, another may not. That is looked at: they are
-// compared with those some way on along the motion. Frequencies are those seen from the frame.
+// with the system's D and K for the accelerations of the steady motion. The coefficients are constant if the system
+// does not change as seen from the frame: a rotor with an axis of symmetry may spin in it, another may not. This is
+// verified by comparing them with those at a later time of the motion. Frequencies are those seen from the frame.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace trammel::simulate {
 
-// In the first of the motion's frames that sees constant coefficients; none: in no frame are they constant.
+// In the first of the motion's frames in which the coefficients are constant; empty: there is no such frame.
 std::optional<Linearisation> linearise_steady(model::AssembledSystem& system, const SteadyMotion& motion);
 
 // M_r, D_r and K_r; `s` with the a and lambda of the steady motion.

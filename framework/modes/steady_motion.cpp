@@ -19,16 +19,15 @@ using model::CoordinateSizes;
 
 constexpr int most_iterations = 30;
 constexpr double settled = 1e-13;  // of the coordinates' sizes
-// [1/s^2] of M in the iteration matrix: what nothing holds and nothing pushes, as the angle of a rotor, keeps its
-// place.
+// [1/s^2] Factor of M in the iteration matrix: coordinates without stiffness and load, such as the angle of a rotor,
+// keep their values.
 constexpr double damping = 1e-6;
-constexpr double far = 0.5;  // of velocities: another motion than the one that was meant
-// Forces that are left over, against those there are: of a state that is written with a few digits less than doubles
-// have.
+constexpr double far = 0.5;  // of velocities: a larger change leads to another motion than the intended one
+// Unbalanced forces relative to all forces, of a state that is written with a few digits less than doubles have.
 constexpr double unbalanced = 1e-8;
 
-// M a - f + W^T lambda with the accelerations of the steady motion, and what its terms are, by their work over the
-// coordinates' sizes [N m].
+// M a - f + W^T lambda with the accelerations of the steady motion, and the size of its terms, measured by their work
+// over the coordinates' sizes [N m].
 struct Balance {
   Vec left_over;
   double left = 0, terms = 0;
@@ -42,7 +41,7 @@ Balance balance(model::AssembledSystem& system, const State& s) {
   system.add_mass_times(1, s.v, momentum);
   system.add_reaction(1, s.lambda, held);
   const Vec& f = system.f();
-  // Where nothing pushes, what it takes to turn the momentum counts: gyroscopic forces may all vanish.
+  // Without other forces the rate of change of the momentum counts: gyroscopic forces may all vanish.
   const CoordinateSizes sizes = system.coordinate_sizes();
   const auto work = [&](const Vec& force) { return sizes.largest_work(force); };
   const double terms = std::max({work(Ma), work(f), work(held), 1e-4 * work(momentum) * sizes.largest(s.v)});
@@ -88,7 +87,7 @@ SteadyMotion steady_as_it_is(model::AssembledSystem& system, const FlatTurning& 
   return motion;
 }
 
-// Newton's method seen from the world: v as it is, a = 0.
+// Newton's method as seen from the world: v unchanged, a = 0.
 std::optional<std::string> settle_in_the_world(model::AssembledSystem& system, State& s) {
   const Vec zero = Vec::Zero(system.sizes().nv);
   Vec r, q, dq, dv, dlambda, unused;
@@ -112,7 +111,7 @@ std::optional<std::string> settle_in_the_world(model::AssembledSystem& system, S
       s.v += dv;
       system.move_to(s.t, s.q, s.v);
     }
-    // At the end of the digits steps no longer shrink.
+    // At round-off steps no longer decrease.
     const double size = sizes.place;
     if (change <= settled * size || (change <= 1e-9 * size && change >= before)) return {};
     before = change;
@@ -120,7 +119,7 @@ std::optional<std::string> settle_in_the_world(model::AssembledSystem& system, S
   return fmt::format("Newton's method did not settle in {} iterations", most_iterations);
 }
 
-// Newton's method seen from a turning frame, with K_r of the linearised equations.
+// Newton's method as seen from a rotating frame, with K_r of the linearised equations.
 class InFrame {
  public:
   InFrame(model::AssembledSystem& system, const FlatTurning& flat, const Vector3d& rate)
@@ -135,7 +134,7 @@ class InFrame {
       const TangentSpace space = tangent_space(system_);
       const TurningFrame frame(system_.model(), flat_, s, rate_);
       const Mat K = coefficients_in(system_, frame, s, space.Z, space.left).K;
-      Eigen::CompleteOrthogonalDecomposition<Mat> least;  // what nothing holds keeps its place
+      Eigen::CompleteOrthogonalDecomposition<Mat> least;  // coordinates without stiffness keep their values
       least.setThreshold(1e-9);
       least.compute(K);
       const Vec along_rows = -space.left.transpose() * left_over, dq = space.Z * least.solve(along_rows);
@@ -193,7 +192,7 @@ std::variant<SteadyMotion, std::string> find_steady_motion(model::AssembledSyste
     s.a = Vec::Zero(s.v.size());
     if (s.v.isZero(0)) return SteadyMotion{s, {Vector3d::Zero()}, 0};
     if (SteadyMotion motion = steady_as_it_is(system, flat, s); !motion.rates.empty()) return motion;
-    why = "the one that Newton's method came to does not last";
+    why = "the motion that Newton's method found does not last";
   }
   if (state.v.isZero(0)) return *why;
   std::vector<Vector3d> rates = body_rates(system.model(), state);

@@ -45,7 +45,7 @@ Mat angular_momenta(const model::BodyEntry& body, int rotations, double t, const
   return p;
 }
 
-// The velocities of a body that turns with the world are M^-1 p; linear in places.
+// The velocities of a body that rotates with the world, M^-1 p, as linear functions of the places.
 std::array<Mat, 3> turning_of(const model::BodyEntry& body, Space space, double t, const Vec& q) {
   Mat M = Mat::Zero(body.nv, body.nv);
   Matrix into = Matrix::onto(M);
@@ -172,8 +172,8 @@ std::vector<Vector3d> body_rates(const model::Model& model, const State& at) {
   const bool planar = model.world.space == Space::planar;
   for_each_part(model, [&](std::size_t b, bool rotation, int q0, int v0, int nv) {
     if (rotation) add(orientation(at.q.data() + q0) * Vector3d(at.v.segment<3>(v0)));
-    // In the plane a turn is a flat coordinate: the one with angular momentum about the body's own centre, the third of
-    // a rigid body.
+    // In the plane a rotation is a flat coordinate: the one with angular momentum about the body's own centre, the
+    // third coordinate of a rigid body.
     if (planar && model.bodies[b].momentum && nv == 3) add({0, 0, at.v(v0 + 2)});
   });
   return all;

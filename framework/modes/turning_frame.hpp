@@ -1,6 +1,6 @@
-// Coordinates of a configuration that is fixed in a frame which turns at a constant rate Omega.
+// Coordinates of a configuration that is fixed in a frame that rotates at a constant rate Omega.
 //
-// Some coordinates are places in the world's axes, some are turns in a body's own axes, some are neither (angles of
+// Some coordinates are places in the world's axes, some are rotations in a body's own axes, some are neither (angles of
 // hinges, amplitudes of modes). An increment x of the configuration that is fixed in the frame has
 //
 //     x' = B x          places: Omega x x;   turns in body axes: (R^T Omega - omega) x x;   others: 0
@@ -19,10 +19,10 @@
 
 namespace trammel::simulate {
 
-// x' of a body's flat coordinates for 1 rad/s about each of the world's axes; empty: they do not turn.
+// x' of a body's flat coordinates for 1 rad/s about each of the world's axes; empty: they do not rotate.
 using FlatTurning = std::vector<std::array<Mat, 3>>;
-// Derived from the bodies' momentum, which gives their velocities in a rotation of the world. Bodies without this
-// ability are treated as coordinates that do not turn. Exact for coordinates that are places.
+// Derived from the bodies' momentum, which gives their velocities in a rotation of the world. Bodies without
+// HasMomentum are treated as coordinates that do not rotate. Exact for coordinates that are places.
 FlatTurning flat_turning(model::AssembledSystem& system, double t, const Vec& q);
 
 class TurningFrame {
@@ -32,7 +32,7 @@ class TurningFrame {
 
   Mat carried(const Mat& x) const;  // B x
   Mat turned(const Mat& x) const;   // E x
-  // A vector fixed in the frame, and the steady motion itself, tau [s] later.
+  // A vector that is fixed in the frame, and the steady motion itself, `tau` [s] later.
   Mat after(double tau, const Mat& x) const;
   State after(double tau) const;  // t, q, v
 
@@ -40,8 +40,8 @@ class TurningFrame {
   struct Part {
     bool rotation;
     int q0, v0, nv;
-    Mat by_rate;                     // of places: x' = by_rate x; empty: they do not turn
-    Eigen::Vector3d rate, relative;  // of turns, in body axes: Omega, omega - Omega
+    Mat by_rate;                     // for places: x' = by_rate x; empty: they do not rotate
+    Eigen::Vector3d rate, relative;  // for rotations, in body axes: Omega, omega - Omega
   };
   const State& at_;
   double speed_;  // |Omega|
@@ -49,7 +49,7 @@ class TurningFrame {
   std::vector<Part> parts_;
 };
 
-// Of the bodies that turn about themselves [rad/s], world axes, each once.
+// [rad/s] The different angular velocities of rotating bodies, world axes.
 std::vector<Eigen::Vector3d> body_rates(const model::Model& model, const State& at);
 
 }  // namespace trammel::simulate

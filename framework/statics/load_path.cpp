@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "run/run_failed.hpp"
 #include "simulate/start/equilibrium.hpp"
 #include "statics/mechanism.hpp"
 #include "system/equations/tangent.hpp"
-#include "run/run_failed.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -51,7 +51,7 @@ void LoadPath::advance() {
   steps_.push_back(now_);
 }
 
-// The bodies' parameters need not be an equilibrium, for instance under weight or on a spring.
+// The bodies' parameters need not be in equilibrium, for instance under weight or on a spring.
 void LoadPath::begin() {
   system_.move_to(settings_.start, start_, zero_);
   contacts_.close_what_may_push();
@@ -64,7 +64,7 @@ void LoadPath::begin() {
   keep(std::move(first));
 }
 
-// Starts where a motion with friction would end.
+// Starts in the state of rest in which a motion with friction would end.
 bool LoadPath::solve_from_rest(Point& first) {
   State rest = state_;
   rest.t = settings_.start, rest.q = start_;
@@ -75,7 +75,7 @@ bool LoadPath::solve_from_rest(Point& first) {
   contacts_.close_what_may_push();
   first = {settings_.start, rest.q, {}};
   Vec a;
-  system_.accelerate({}, a, first.lambda);  // nothing accelerates: what holds a pendulum is its stiffness
+  system_.accelerate({}, a, first.lambda);  // at rest there is no acceleration; a pendulum is held by its stiffness
   return solve(first, nullptr) == Failure::none;
 }
 
@@ -134,7 +134,8 @@ void LoadPath::by_arc() {
   }
   if ((state_.t - settings_.until) * step >= 0) {
     part_ = std::abs(step);
-    passed_.erase(passed_.begin(), passed_.end() - 1);  // the path may have turned in t: no polynomial goes through it
+    // the path may have turned in t: no polynomial passes through it
+    passed_.erase(passed_.begin(), passed_.end() - 1);
     by_load(settings_.until);
   } else if (steps_.size() > std::size_t(arcs_per_step * settings_.load_steps)) {
     throw RunFailed(fmt::format("{} arcs along the path have not led to t = {}: the last equilibrium is at t = {:.6g}",
@@ -142,7 +143,7 @@ void LoadPath::by_arc() {
   }
 }
 
-// A failed trial leaves no trace in the large vectors.
+// A failed trial changes no large vector.
 LoadPath::Failure LoadPath::solve(Point& trial, const Arc* arc) {
   const double load = load_, extent = extent_;
   const Failure failure = balance_with_contacts(trial, arc);
@@ -150,7 +151,7 @@ LoadPath::Failure LoadPath::solve(Point& trial, const Arc* arc) {
   return failure;
 }
 
-// With rows of contacts closed where they push.
+// With rows of contacts that are closed where they push.
 LoadPath::Failure LoadPath::balance_with_contacts(Point& trial, const Arc* arc) {
   for (;;) {
     if (trial.lambda.size() != system_.sizes().nc) {
@@ -207,7 +208,7 @@ bool LoadPath::unbalance(const Point& at) {
   return now_.unbalanced <= settings_.load_tolerance && g <= std::max(1e-14, settled * extent_);
 }
 
-// One Newton step at the system's point with r_; stresses are extrapolated from `from` by the last increment dq, which
+// One Newton step at the system's point with r_. Stresses are extrapolated from `from` by the last increment dq, which
 // is replaced by the new one.
 bool LoadPath::correct(Point& at, const Arc* arc, const Vec& from, Vec& dq) {
   system_.factorise_with_stress({from, dq}, at.lambda);
@@ -230,7 +231,7 @@ bool LoadPath::correct(Point& at, const Arc* arc, const Vec& from, Vec& dq) {
   return std::isfinite(at.t);
 }
 
-// dq/dt and dlambda/dt along the equilibria, at one of them.
+// dq/dt and dlambda/dt along the equilibria, at `at`.
 bool LoadPath::along_t(const Point& at, Vec& q_by_t, Vec& lambda_by_t) {
   system_.move_to(at.t, at.q, zero_);
   system_.factorise({0, 0, 1}, zero_, at.lambda);

@@ -1,20 +1,20 @@
-// Statics: equilibria under loads that grow, one after another.
+// Statics: equilibria under growing loads, one after another.
 //
 //     r(t, q, lambda) = -f(t, q) + G^T lambda = 0,    g(t, q) = 0        everything at rest, t the load parameter
 //
-// Whatever in the scene depends on t is scaled by it: "pressure": "=1e5*t", a law of a joint, a table. Contacts push as
-// resting_contacts.hpp says, without friction.
+// Everything in the scene that depends on t is scaled by it: "pressure": "=1e5*t", a law of a joint, a table. Contacts
+// push as described in resting_contacts.hpp, without friction.
 //
 // The polynomial through the last equilibria predicts a load step; Newton's method corrects it, K dq + G^T dlambda =
 // -r, G dq = -g, with stresses extrapolated linearly in bodies that offer it (CarriedStress). It has converged when |r|
 // <= tolerance * load and g is round-off, or when dq is; the load is the largest |f| at the start configuration, or
 // |G^T lambda|, so far. A step that fails is halved repeatedly; the parts grow again while they converge easily.
 //
-// Soft motions may be lost in the round-off of stiff ones: a strip 10^4 times as long as wide is 10^16 times as soft in
-// bending along it as across, beyond the digits of K. Forces keep these digits. So where all else fails and a motion
-// without resistance is found, each of Newton's increments is computed with differences of r along it, by Anderson
-// acceleration of steps with the factors of K + shift M, which are accurate except for the softest motions. The parts
-// of a load step are halved as before. It has converged when dq is small, or round-off that shrinks no further; the
+// Soft motions may be lost in the round-off of stiff ones: a strip 10^4 times as long as wide is 10^16 times softer in
+// bending along its length than across, beyond the digits of K. Forces keep these digits. If all else fails and a
+// motion without resistance is found, each Newton increment is computed with differences of r along it, by Anderson
+// acceleration of steps with the factors of K + shift M, which are accurate except for the softest motions. Parts of a
+// load step are halved as before. This has converged when dq is small, or is round-off that decreases no further; the
 // remaining r is recorded, and a warning is given.
 //
 // Past a limit point the load must fall. With arc length t is an unknown, and a step has the length ds along the path's
@@ -30,8 +30,8 @@
 
 #include <trammel/integrator.hpp>
 
-#include "simulate/contact/resting_contacts.hpp"
 #include "run/settings.hpp"
+#include "simulate/contact/resting_contacts.hpp"
 #include "simulate/watch/theory_watch.hpp"
 #include "simulate/watch/turn_counts.hpp"
 
@@ -43,14 +43,15 @@ struct LoadStep {
   int iterations = 0;     // of Newton's method, those of failed attempts included
   int parts = 0;          // equilibria that were passed on the way, itself included
   double unbalanced = 0;  // |r| over the load
-  double by_forces = 0;   // largest displacement of the last increment, where forces tell it; 0 where K does
+  double by_forces = 0;   // largest displacement of the last increment, if it was computed by forces; 0 if by K
 };
 
 class LoadPath {
  public:
   LoadPath(model::AssembledSystem& system, const Settings& settings, const State& start);
 
-  // To the next equilibrium, the first of them at the start. Throws RunFailed: there is none; the last one is kept.
+  // Computes the next equilibrium; the first one is at the start. Throws RunFailed if there is none; the last one is
+  // kept.
   void advance();
   bool at_end() const { return !passed_.empty() && passed_.back().t == settings_.until; }
   const State& state() const { return state_; }
@@ -78,8 +79,8 @@ class LoadPath {
   Failure balance(Point& trial, const Arc* arc);  // with the contacts' rows as they are
   Failure balance_by_forces(Point& trial);
   Failure correct_by_forces(const Point& at, Vec& dq, Vec& dlambda);
-  Vec reaction(const Point& at);    // G^T lambda; the system is there, with its f and g
-  bool unbalance(const Point& at);  // r_ and g of the system; true: in equilibrium
+  Vec reaction(const Point& at);    // G^T lambda, with the system at `at` and its f and g evaluated
+  bool unbalance(const Point& at);  // computes r_ and the system's g; true: in equilibrium
   bool correct(Point& at, const Arc* arc, const Vec& from, Vec& dq);
   bool along_t(const Point& at, Vec& q_by_t, Vec& lambda_by_t);
   bool along_t_with_factors(const Point& at, Vec& q_by_t, Vec& lambda_by_t);

@@ -10,12 +10,12 @@ namespace trammel::simulate {
 
 namespace {
 
-// Of the largest omega^2: above the round-off of K and what passes for singular, as little above as may be.
+// Relative to the largest omega^2: just above the round-off of K and what counts as singular.
 constexpr double shift = 1e-14;
-// Of the largest displacement: increments that are small enough, and those that may be the round-off of forces.
+// Relative to the largest displacement: increments that are small enough, and those that may be round-off of forces.
 constexpr double small = 1e-10, nearly_small = 1e-6;
 constexpr double inexact = 1e-5;  // of an increment; Newton's next step corrects the rest
-// As many as there are motions softer than the shift, and some.
+// The number of motions softer than the shift, and some more.
 constexpr int most_steps = 60;
 
 constexpr double far_away = 1e6;  // [m, rad]: a motion without any resistance under a load
@@ -26,7 +26,7 @@ double largest(const Vec& x) {
 
 }  // namespace
 
-// From now on all equilibria are computed this way, if it may succeed.
+// From now on all equilibria are computed in this way, if it can succeed.
 bool LoadPath::turn_to_forces(const Point& from) {
   if (by_forces_ || !find_mechanism(system_, from.t, from.q)) return false;
   return by_forces_ = true;
@@ -46,7 +46,7 @@ LoadPath::Failure LoadPath::balance_by_forces(Point& trial) {
     const double change = largest(dq);
     if (!(change < far_away)) return Failure::diverged;
     extent_ = std::max(extent_, change);
-    const bool round_off = change >= least && change <= nearly_small * extent_;  // shrinks no further
+    const bool round_off = change >= least && change <= nearly_small * extent_;  // decreases no further
     if (change > 2 * least && !round_off) return Failure::diverged;
     least = std::min(least, change);
     system_.retract(trial.q, dq, q);

@@ -21,7 +21,7 @@ double mass_norm(model::AssembledSystem& system, const Vec& x) {
   return std::sqrt(std::max(0.0, x.dot(mass_times(system, x))));
 }
 
-// Of length 1 in the mass's norm, with the system at rest at q.
+// A pseudo-random motion of length 1 in the mass's norm, with the system at rest at q.
 Vec unrelated_motion(model::AssembledSystem& system, double t, const Vec& q) {
   const Vec zero = Vec::Zero(system.sizes().nv);
   system.move_to(t, q, zero);
@@ -72,8 +72,8 @@ std::optional<std::string> find_mechanism(model::AssembledSystem& system, double
   }
   if (!loose) return {};
   return fmt::format(
-      "bodies.{} is a mechanism: it can move without resistance, or with less than the round-off of what it is "
-      "stiffest in; hold it by a joint, an edge or a spring",
+      "bodies.{} is a mechanism: it can move without resistance, or with less than the round-off of its stiffest "
+      "motion; hold it by a joint, an edge or a spring",
       loose->name);
 }
 

@@ -35,7 +35,7 @@ std::uint64_t from_hex(const json& text) {
   return std::stoull(text.get<std::string>(), nullptr, 16);
 }
 
-// Quoted if it holds what CSV gives a meaning to (RFC 4180).
+// Quoted if it contains characters with a meaning in CSV (RFC 4180).
 std::string cell(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == text.npos) return text;
   std::string quoted = "\"";

@@ -1,4 +1,4 @@
-// What a study keeps of one case: a line of cases.ndjson, a row of study.csv.
+// The data that a study keeps of one case: a line of cases.ndjson, a row of study.csv.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,9 @@ struct CaseRecord {
 CaseRecord record_of(const Study& study, std::size_t index, std::uint64_t key, const CaseResult& result);
 
 std::string to_line(const CaseRecord& record);                 // JSON, ends with a new line
-std::optional<CaseRecord> from_line(const std::string& line);  // nothing: damaged
+std::optional<CaseRecord> from_line(const std::string& line);  // empty: damaged
 
-// By case. Of several of one case the last one counts.
+// By case. If a case has several records, the last one counts.
 using CaseRecords = std::map<std::size_t, CaseRecord>;
 
 // study.csv and study.npz, the same bytes for the same records: no times are in them.

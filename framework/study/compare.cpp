@@ -24,7 +24,7 @@ constexpr double all_digits = 17;
 
 struct Difference {
   std::string file, where, a, b;        // where: "row 12 (t = 0.011), column theta", or a JSON path
-  std::optional<double> digits, least;  // shared by the first pair; by the worst pair of the file
+  std::optional<double> digits, least;  // shared digits: of the first pair; of the worst pair of the file
   std::size_t count = 0;                // of values that differ
 };
 
@@ -34,7 +34,7 @@ std::optional<double> number(const std::string& text) {
   return text.empty() || end != text.c_str() + text.size() ? std::nullopt : std::optional(x);
 }
 
-// Relative to the larger one, or to `scale` if that is more.
+// Digits relative to the larger number, or to `scale` if that is more.
 std::optional<double> digits(const std::string& a, const std::string& b, double scale) {
   const auto x = number(a), y = number(b);
   if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) return std::nullopt;
@@ -49,7 +49,7 @@ void note(Difference& d, const std::string& where, const std::string& a, const s
   if (shared && d.least) d.least = std::min(*d.least, *shared);
 }
 
-// The largest size of the numbers in each column: what is round-off there shares no digits, and is no difference.
+// The largest magnitude in each column: numbers that are round-off relative to it share no digits and do not differ.
 std::vector<double> scales(std::istream& table) {
   std::vector<double> all;
   for (std::string line; std::getline(table, line);) {
@@ -150,7 +150,7 @@ Difference compare_file(const fs::path& a, const fs::path& b) {
   return compare_bytes(in_a, in_b);
 }
 
-// What a command wrote for itself, not for a reader.
+// A file of the command's own, not for a reader.
 bool is_result(const fs::path& file) {
   const std::string name = file.filename().string();
   return !name.starts_with("checkpoint") && name != "cases.ndjson" && !name.ends_with(".tmp") &&
@@ -180,7 +180,7 @@ json plugin_hashes(const json& head) {
   return hashes;
 }
 
-// How each was made: lines "scene_hash: a, b".
+// Differences in how they were made: lines "scene_hash: a, b".
 json making(const json& a, const json& b) {
   json all = json::array();
   const auto add = [&](const std::string& what, const json& x, const json& y) {
@@ -234,7 +234,7 @@ Comparison compare(const fs::path& a, const fs::path& b) {
   for (const std::string& name : in_b)
     if (!in_a.contains(name)) only.push_back({{"file", name}, {"in", b.string()}});
   std::stable_partition(differences.begin(), differences.end(),
-                        [](const Difference& d) { return d.file.ends_with(".csv"); });  // what a reader asks first
+                        [](const Difference& d) { return d.file.ends_with(".csv"); });  // readers look at tables first
   result.equal = differences.empty() && only.empty();
   json list = json::array();
   for (const Difference& d : differences) {
@@ -254,7 +254,7 @@ Comparison compare(const fs::path& a, const fs::path& b) {
   if (!result.equal && made.empty()) result.text += "Both were made alike: the same scene, program and plugins.\n";
   result.text.pop_back();
   result.json = json{{"equal", result.equal}, {"differences", list}, {"only", only}, {"made", made}}.dump(
-      2, ' ', false, json::error_handler_t::replace);  // damaged files have bytes that are no text
+      2, ' ', false, json::error_handler_t::replace);  // damaged files may contain bytes that are no text
   return result;
 }
 

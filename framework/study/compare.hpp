@@ -1,9 +1,9 @@
-// What differs between two results folders: files, the first row and column, by how many digits, and what differs in
-// how they were made.
+// Compares two results folders: files, the first different row and column, the number of equal digits, and how the
+// results were made.
 //
-// Times of computing, dates and command lines differ always and do not count. In tables (CSV) and lines of JSON
-// (NDJSON) the first difference is told by row and column, and over the whole file the largest: the digits that two
-// numbers share are -log10(|a - b| / max(|a|, |b|)), 17 at most.
+// Times of computing, dates and command lines always differ and do not count. In tables (CSV) and lines of JSON
+// (NDJSON) the first difference is reported by row and column, and the largest one of the whole file. The digits that
+// two numbers share are -log10(|a - b| / max(|a|, |b|)), 17 at most.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 namespace trammel::study {
 
 struct Comparison {
-  bool equal = true;  // of results; how they were made may differ
+  bool equal = true;  // of the results; the way they were made may differ
   std::string text, json;
 };
 

@@ -1,5 +1,5 @@
-// cases.ndjson: the cases that are finished, a line each, in the order they ended. It survives a kill; half a line at
-// its end is removed.
+// cases.ndjson: the finished cases, one per line, in the order in which they ended. It survives a kill; an incomplete
+// last line is removed.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ std::vector<CaseRecord> read_journal(const std::filesystem::path& folder);
 
 class Journal {
  public:
-  // Goes on after the last whole line of the folder's journal. Throws OutputError.
+  // Continues after the last complete line of the folder's journal. Throws OutputError.
   explicit Journal(const std::filesystem::path& folder);
   void add(const std::string& line);  // written at once
  private:

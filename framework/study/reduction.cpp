@@ -112,7 +112,7 @@ class ReferenceTable {
     return false;
   }
 
-  // Of a file outside the study's folder nothing is shown.
+  // Content of a file outside the study's folder is not shown.
   std::string quoted(const std::string& cell) const {
     return quotable_ ? fmt::format("\"{}\"", scene::shortened(cell)) : "something else";
   }

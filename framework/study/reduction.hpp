@@ -2,8 +2,9 @@
 //
 //     final, initial        the last record, the first
 //     max, min, max_abs     over the records, and the value of one record: no interpolation
-//     mean, rms             over the time, by the trapezoidal rule; rms less "reference", if given: a number, or
-//                           {"file": "measured.csv", "column": "theta"}, linear between its rows
+//     mean, rms             over the time, by the trapezoidal rule; rms of the difference to "reference", if given: a
+//     number,
+//                           or {"file": "measured.csv", "column": "theta"}, linear between its rows
 //     first_crossing        [s] the first time at which "level" is crossed in "direction" (up, down or any), linear
 //                           between records; NaN: never
 #pragma once

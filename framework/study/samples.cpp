@@ -8,7 +8,7 @@
 namespace trammel::study {
 namespace {
 
-// Of 53 bits, in [0, 1): std::uniform_real_distribution differs between libraries.
+// A number of 53 bits in [0, 1). (std::uniform_real_distribution differs between libraries.)
 double uniform(std::mt19937_64& generator) {
   return double(generator() >> 11) * 0x1p-53;
 }

@@ -3,9 +3,9 @@
 //     "figures": [{"title": "Figure 2: HHT, e = 0", "observe": "theta",
 //                  "cases": {"scene": "../hht.json", "parameters.e": 0}, "scale": "log", "time": "log"}]
 //
-// "observe": a column of series.csv or a list. "cases": those that have these values, null for a path that a case
-// leaves as it is; or a list, of which a case must meet one; without it all. "scale" of the column and of the time:
-// linear, if not given.
+// "observe": a column of series.csv or a list of columns. "cases": selects those with these values (null: a path that a
+// case leaves unchanged), or with one of several sets of values in a list; without it all cases. "scale" of the column
+// and "time": linear if not given.
 #pragma once
 
 #include <string>

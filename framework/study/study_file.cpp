@@ -21,7 +21,8 @@ using scene::Problems;
 using scene::Value;
 using Type = Value::Type;
 
-constexpr std::size_t most_cases = 10'000'000, most_dimensions = 3000;  // of Boost's table of Sobol's numbers: 3667
+// limit of Boost's table for Sobol's sequence: 3667
+constexpr std::size_t most_cases = 10'000'000, most_dimensions = 3000;
 
 const std::string scene_path = "scene";  // in "vary": no path of a scene
 
@@ -89,7 +90,7 @@ std::vector<std::string> read_values(const Value& value, Problems& problems) {
   return texts;
 }
 
-// What names the value of a path in case i.
+// The place in the file that gives the value of a path in case i.
 const Value& place_of(const Value& vary, std::size_t i, const std::string& path) {
   const Value& one = vary.type() == Type::array ? vary.items()[i] : vary;
   const Value* named = one.find(path);
@@ -260,7 +261,7 @@ void Study::read_vary(const Value& root, Problems& problems) {
   }
 }
 
-// Each path by itself, with each scene that has it, so that all that are wrong are told at their places.
+// Checks each path alone, with each scene that has it, so that all wrong ones are reported at their places.
 void Study::check_against_scenes(Problems& problems) const {
   const Value &root = definition_.root(), &vary = *root.find("vary");
   const Value *common = root.find("scene"), *set = root.find("set");
@@ -270,7 +271,8 @@ void Study::check_against_scenes(Problems& problems) const {
       continue;
     }
     const SceneSource source(scene_files_[which]);
-    check_observed(source.with(), which, problems);  // a scene that is wrong by itself is told as by `trammel validate`
+    // an error of the scene itself is reported as by `trammel validate`
+    check_observed(source.with(), which, problems);
     const auto check = [&](const Value& at, const std::string& path, const std::string& value) {
       try {
         source.with({{path, value}});

@@ -42,7 +42,7 @@ class Study {
 
   std::size_t size() const { return cases_.size(); }
   const std::vector<std::string>& paths() const { return paths_; }
-  // In the order of paths(); of a list of cases, "" where a case leaves a path as it is.
+  // in the order of paths(); "" where a case of a list leaves a path unchanged
   const std::vector<std::string>& values(std::size_t i) const { return cases_[i]; }
   std::vector<scene::Override> overrides(std::size_t i) const;
   const std::vector<Reduction>& reductions() const { return reductions_; }
@@ -53,7 +53,7 @@ class Study {
   const std::vector<StudyFigure>& figures() const { return figures_; }
   std::string title() const;  // empty: it has none
   std::string resolved() const { return definition_.resolved(); }
-  // Of what decides the outcome of a case: the scene, the program's commit, values and reductions.
+  // Hash of everything that decides the outcome of a case: the scene, the program's commit, values and reductions.
   std::uint64_t key(std::size_t i, std::uint64_t scene_hash) const;
 
  private:

@@ -16,7 +16,7 @@ namespace trammel::study {
 namespace {
 
 constexpr std::size_t most_rows = 200, most_curves = 12;
-constexpr std::size_t most_numbers = 40'000;  // of a case's series, reduced to extremes beyond
+constexpr std::size_t most_numbers = 40'000;  // of a case's series; longer ones are reduced to extremes
 
 bool varies(const Study& study, const std::vector<std::size_t>& cases, std::size_t path) {
   for (const std::size_t i : cases)
@@ -24,7 +24,7 @@ bool varies(const Study& study, const std::vector<std::size_t>& cases, std::size
   return false;
 }
 
-// What tells a case from the others: "hht, alpha = -0.15".
+// The values that distinguish a case from the others: "hht, alpha = -0.15".
 std::string label(const Study& study, const std::vector<std::size_t>& cases, std::size_t i) {
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < study.paths().size(); ++k) {
@@ -64,7 +64,7 @@ std::vector<StudyFigure> figures_of(const Study& study) {
   return all;
 }
 
-// A logarithmic axis shows no 0, such as a norm of rows while none is closed.
+// A logarithmic axis cannot show 0, such as a norm of rows while no contact is closed.
 void remove_zeros(report::Curve& curve, const StudyFigure& figure) {
   std::erase_if(curve.points,
                 [&](const report::Point& p) { return (figure.log && !(p.y > 0)) || (figure.log_time && !(p.x > 0)); });
@@ -95,7 +95,7 @@ report::Figure over_time(const StudyContent& content, const StudyFigure& wanted)
   return figure;
 }
 
-// Of one number that varies: each reduction over it.
+// If one number varies: each reduction as a function of it.
 std::vector<report::Figure> over_the_number(const StudyContent& content) {
   std::vector<report::Figure> all;
   if (content.study.paths().size() != 1) return all;

@@ -1,4 +1,4 @@
-// study.json, study.csv and study.npz of the records that are there.
+// Writes study.json, study.csv and study.npz from the present records.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct StudyContent {
   const Study& study;
   std::filesystem::path folder;  // of the results
   std::string file;              // of the study, absolute
-  std::uint64_t scene_hash = 0;  // of the scene without the cases' values
+  std::uint64_t scene_hash = 0;  // of the scene without the values of cases
   Shard shard;
   CaseRecords records;
   nlohmann::ordered_json made;  // provenance
@@ -24,7 +24,7 @@ struct StudyContent {
 // Cases of the shard that have no record.
 std::vector<std::size_t> missing(const StudyContent& content);
 nlohmann::ordered_json to_json(const StudyContent& content, const char* status);
-// Writes all files; the summary tells what came out.
+// Writes all files; the summary states the outcome.
 StudyReport write_results(const StudyContent& content, bool interrupted);
 
 }  // namespace trammel::study

@@ -54,7 +54,7 @@ class Cases {
     return result;
   }
 
-  // What the cases need, once, before processes are forked.
+  // Loads the components of the cases once, before processes are forked.
   void load_components() const {
     std::set<std::size_t> loaded;
     for (std::size_t i = 0; i < study_.size() && loaded.size() < sources_.size(); ++i) {
@@ -62,7 +62,7 @@ class Cases {
       try {
         const scene::Scene of_case = scene(i);
         simulate::set_up(of_case, registry_, simulate::purpose_of(of_case.root()));
-      } catch (const std::exception&) {  // the case itself tells
+      } catch (const std::exception&) {  // the case itself reports it
       }
     }
   }
@@ -73,7 +73,7 @@ class Cases {
   std::vector<SceneSource> sources_;
 };
 
-// Folders of cases are replaced as a whole. Not touched: a folder of that name that is somebody's own, or a link.
+// Folders of cases are replaced as a whole, but not a link or a folder of that name that is somebody's own.
 void refuse_cases_of_others(const fs::path& out) {
   const fs::file_status cases = fs::symlink_status(out / cases_folder);
   if (!fs::exists(cases) || (simulate::shows_results(out) && !fs::is_symlink(cases))) return;
@@ -88,7 +88,7 @@ fs::path folder_of(const fs::path& out, std::size_t i) {
   return out / cases_folder / std::to_string(i);
 }
 
-// Folders of the shard's cases that are not among the records: of an older study, or unfinished.
+// Removes folders of the shard's cases without a record: of an older study, or unfinished.
 void remove_others(const fs::path& out, const Shard& shard, const CaseRecords& records) {
   std::error_code error;
   std::vector<fs::path> others;
@@ -121,7 +121,7 @@ class StudyRun {
     finished_ = content_.records.size(), all_ = finished_ + tasks.size();
     bool whole = run(tasks, journal);
     if (whole && !again_.empty()) {
-      const std::vector<std::size_t> second = std::exchange(again_, {});  // once: what ended them may end all
+      const std::vector<std::size_t> second = std::exchange(again_, {});  // only once: what ended them may end all
       whole = run(second, journal);
     }
     return write_results(content_, !whole);
@@ -171,7 +171,7 @@ class StudyRun {
 
 void copy_case(const fs::path& from, const fs::path& to) {
   std::error_code none;
-  if (!fs::exists(from, none) || fs::equivalent(from, to, none)) return;  // it was refused; it is there
+  if (!fs::exists(from, none) || fs::equivalent(from, to, none)) return;  // it was refused, or is there already
   fs::create_directories(to);
   fs::copy(from, to, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
 }

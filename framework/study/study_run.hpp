@@ -45,8 +45,8 @@ struct StudyReport {
 StudyReport run_study(const Study& study, const std::string& file, plugin::Registry& registry,
                       const StudyOptions& options);
 
-// Of folders of run_study with the same study. Throws FolderRefused if they do not belong together. Missing cases are
-// named, and make the study incomplete.
+// `folders` are results of run_study for the same study. Throws FolderRefused if they do not belong together. Missing
+// cases are named and make the study incomplete.
 StudyReport merge_studies(const std::vector<std::filesystem::path>& folders, const StudyOptions& options);
 
 // Runs three cases; a sentence for a person, and as JSON.

@@ -31,8 +31,8 @@ class Correction : public Component {
   virtual void archive(Archive&) {}
 };
 
-// Ability of corrections that need the momentum of every body (HasMomentum in body.hpp): scenes with a body that does
-// not tell its own are refused.
+// Ability of corrections that need the momentum of every body (HasMomentum in body.hpp). Scenes with a body without
+// this ability are refused.
 class NeedsMomentum {
  public:
   virtual ~NeedsMomentum();

@@ -10,8 +10,8 @@
 namespace trammel {
 
 struct FaceMesh {
-  // Four points in turn, and which of the lines after them (from the k-th to the next: bit k) lie on the outline of an
-  // element, to be drawn.
+  // A quadrilateral by four points in order. Bit k of `outline`: the line from the k-th point to the next lies on the
+  // outline of an element and is drawn.
   struct Quad {
     std::array<int, 4> points;
     int outline = 0;

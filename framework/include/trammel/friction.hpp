@@ -28,8 +28,8 @@ class SetValuedFriction : public Component {
   virtual double static_coefficient() const = 0;              // mu_0
   virtual double kinetic_coefficient(double slip) const = 0;  // mu(|s|) <= mu_0
   virtual Decide decide() const = 0;
-  // [m/s] sticks below this slip; 0: the scene decides, below round-off for `at_events`, else what steps leave of rates
-  // that are held.
+  // [m/s] The contact sticks below this slip. 0: chosen from the scene: at the level of round-off for `at_events`,
+  // otherwise at the rates that steps leave in directions that are held.
   virtual double stick_speed() const = 0;
 };
 

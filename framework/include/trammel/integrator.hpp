@@ -19,9 +19,10 @@ struct State {
   Vec q, v, a, lambda;
 };
 
-// Claims of a method. Each of them is measured by tests. What a method does not take is refused before the run, by the
-// scene's line and with the names of the methods that take it; `trammel list --matrix` shows all of them. What follows
-// from abilities (error control, dense output, a history that survives new coordinates) is not claimed again.
+// Claims of a method. Each of them is measured by tests. A scene that needs something that the method does not take is
+// refused before the run, with the scene's line and the names of methods that take it; `trammel list --matrix` shows
+// all combinations. Properties that follow from abilities (error control, dense output, a history that survives new
+// coordinates) are not claimed again.
 struct Traits {
   // Of q and v with constant steps, constraints included. 0: the error does not depend on h, because the method takes
   // steps of its own inside each step, to tolerances that are its parameters.
@@ -66,9 +67,9 @@ class Integrator : public Component {
 struct Tolerance {
   double relative = 1e-6;
   double absolute = 1e-6;
-  double absolute_rate = 0;  // [m/s, rad/s] of velocities, where it is more than `absolute`
-  // (nv) If set, error_norm leaves each coordinate's part of the sum of squares there: what the message of a run that
-  // cannot keep the tolerance names.
+  double absolute_rate = 0;  // [m/s, rad/s] for velocities, if it is larger than `absolute`
+  // (nv) If set, error_norm stores each coordinate's part of the sum of squares there. A run that cannot keep the
+  // tolerance names the largest ones.
   Vec* parts = nullptr;
 };
 

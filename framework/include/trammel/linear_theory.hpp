@@ -1,4 +1,4 @@
-// What theory says of a method on a linear oscillator; measured maps are drawn beside it (`trammel stability`).
+// What theory says about a method on a linear oscillator; `trammel stability` draws it beside measurements.
 #pragma once
 
 #include <complex>

@@ -1,5 +1,5 @@
-// Ability of integrators with tolerances of their own as parameters: an absolute one that the scene leaves out is meant
-// in the scene's unit of length, as that of the Simulator's error control is.
+// Ability of integrators with tolerances of their own as parameters. An absolute tolerance that the scene leaves out is
+// relative to the scene's length, like that of the Simulator's error control.
 #pragma once
 
 namespace trammel {
@@ -7,8 +7,8 @@ namespace trammel {
 class OwnTolerances {
  public:
   virtual ~OwnTolerances();
-  // [m] The scene's length at its start, 1 at most; called once, before the first `restart`. Tests that make a method
-  // without a scene leave it out: 1.
+  // [m] The scene's length at its start, at most 1; called once, before the first `restart`. Not called (length 1)
+  // where tests make a method without a scene.
   virtual void in_unit(double length) = 0;
 };
 

@@ -7,11 +7,11 @@
 //
 // Use it once per library, outside any anonymous namespace. It exports a byte section and one C function:
 //
-//   .trammel               a magic line, then key=value lines: the properties that must agree in plugin and host
-//                          before C++ objects may be exchanged, and what the code needs of the processor. Which
-//                          compiler was used is only told: compilers agree on layouts, and on one another's
-//                          standard library. The host reads them from the file, so that no code of
-//                          an incompatible library is executed. The section survives strip and --gc-sections. Its last
+//   .trammel               a magic line, then key=value lines: the properties that must agree in plugin and host before
+//                          C++ objects may be exchanged, and the extensions of the processor that the code needs. The
+//                          compiler's name is for information only: compilers agree on layouts, and on one another's
+//                          standard library. The host reads the section from the file, so that no code of an
+//                          incompatible library is executed. The section survives strip and --gc-sections. Its last
 //                          line is reserved for a checksum of the library's code, written by trammel_add_plugin and
 //                          `trammel seal`: a file that was damaged afterwards is refused before it is loaded. A library
 //                          without a checksum is loaded without this check.
@@ -77,8 +77,8 @@ using Declarations = std::vector<Declaration>;
 #define TRAMMEL_EIGEN_STORAGE "column-major"
 #endif
 
-// Extensions of the processor that the library's code may use. All that compilers use of themselves and that a
-// processor may lack is in the list; the names are those of __builtin_cpu_supports.
+// Extensions of the processor that the library's code may use: all those that compilers use by themselves and that a
+// processor may lack. The names are those of __builtin_cpu_supports.
 #if defined(__SSSE3__)
 #define TRAMMEL_SSSE3 " ssse3"
 #else

@@ -110,7 +110,7 @@ class CaseRun {
       result_.reason = fmt::format("interrupted at t = {:.9g} s", t);
       return true;
     }
-    if (++since_clock_ < 16) return false;  // reading it takes longer than a short step
+    if (++since_clock_ < 16) return false;  // reading the clock takes longer than a short step
     since_clock_ = 0;
     if (thread_cpu_now() - began_ < options_.cpu_limit) return false;
     result_.status = Status::too_long;

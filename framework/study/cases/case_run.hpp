@@ -24,13 +24,13 @@
 namespace trammel::study {
 
 struct CaseOptions {
-  double cpu_limit = std::numeric_limits<double>::infinity();  // [s] of the simulation; then `too_long`
+  double cpu_limit = std::numeric_limits<double>::infinity();  // [s] of the simulation; a longer run is `too_long`
   SeriesSink::Keep keep = SeriesSink::Keep::observed;
-  // Relative to the largest speed at the start, or that of the start's acceleration over the run: v is moved by that
-  // part of it along the acceleration there, which rows at rest allow.
+  // v is moved along the acceleration at the start, which rows at rest allow, by this part of the largest speed at the
+  // start, or of the speed that this acceleration gives over the run.
   double perturbation = 0;
-  std::optional<State> start;    // from there, as if the run had come there
-  std::optional<double> enough;  // [s] a run that passes it is done
+  std::optional<State> start;    // starts here, as if the run had reached this state
+  std::optional<double> enough;  // [s] a run that passes this time is done
   simulate::Interrupt* interrupt = nullptr;
   simulate::CrashWitness* witness = nullptr;
 };
@@ -54,13 +54,13 @@ struct CaseResult {
   std::string reason;
   std::uint64_t scene_hash = 0;
   std::string integrator;  // type
-  Series series;           // up to where the run came
+  Series series;           // up to the time that the run reached
   std::vector<simulate::ContactEvent> events;
   CaseCounts counts;
   double t_end = 0;                           // [s] reached
   double cpu = 0, cpu_set_up = 0;             // [s] of the simulation; of set-up
   double energy_start = 0, energy_drift = 0;  // [J] energy_drift: what no cause explains (ledger.hpp)
-  double relative_drift = 0;                  // of a run that is done: Simulator::relative_drift
+  double relative_drift = 0;                  // of a finished run: Simulator::relative_drift
   double dissipated = 0;                      // [J] by named causes
   std::vector<std::string> warnings;
 
@@ -68,7 +68,7 @@ struct CaseResult {
 };
 const char* to_string(CaseResult::Status status);
 
-// A scene of statics gives its equilibria, a row each.
+// A scene of statics gives its equilibria, one per row.
 CaseResult run_case(const scene::Scene& scene, plugin::Registry& registry, const CaseOptions& options = {});
 
 double thread_cpu_now();  // [s]

@@ -1,4 +1,4 @@
-// A value of a scene as JSON text, its expressions unevaluated: what `--set` takes.
+// A value of a scene as JSON text with unevaluated expressions, as `--set` takes it.
 #pragma once
 
 #include <string>

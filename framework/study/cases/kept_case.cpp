@@ -39,7 +39,7 @@ CaseResult::Status status_of(simulate::Status status) {
 }
 
 CaseCounts counts_of(const json& result) {
-  const json& n = result.contains("counts") ? result.at("counts") : result;  // of statics: few, and not in a group
+  const json& n = result.contains("counts") ? result.at("counts") : result;  // of statics: few, not in a group
   const auto count = [&](const char* name) { return n.value(name, 0LL); };
   CaseCounts all{count("steps"),          count("contact_steps"),        count("rejected"),
                  count("locating_steps"), count("residual_evaluations"), count("jacobian_evaluations"),
@@ -63,7 +63,7 @@ void run(CaseResult& result, const scene::Scene& scene, plugin::Registry& regist
   result.t_end = all.at("t_end"), result.cpu = all.at("cpu_time_s");
   result.warnings = all.at("warnings").get<std::vector<std::string>>();
   if (!statics) result.integrator = all.at("integrator"), result.energy_drift = all.at("energy_drift");
-  if (result.done()) result.series = series_of(folder);  // of one that failed, on a full disk, there may be none
+  if (result.done()) result.series = series_of(folder);  // a failed case on a full disk may have none
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ CaseResult run_kept_case(const scene::Scene& scene, plugin::Registry& registry, 
   } catch (const std::exception& e) {
     ended(std::filesystem::exists(folder / "result.json", error) ? Status::failed : Status::refused, e.what());
   }
-  if (result.status == Status::refused) std::filesystem::remove(folder, error);  // if it is empty
+  if (result.status == Status::refused) std::filesystem::remove(folder, error);  // only if it is empty
   return result;
 }
 

@@ -1,4 +1,4 @@
-// A case with its results folder: a run as `trammel run` or `trammel static` makes it, told as one in memory.
+// A case with its results folder: a run as by `trammel run` or `trammel static`, with the same result as one in memory.
 #pragma once
 
 #include <filesystem>

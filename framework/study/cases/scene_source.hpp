@@ -1,4 +1,4 @@
-// A scene that is run many times with other values: its text is read once.
+// A scene that is run many times with different values: its text is read once.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ class SceneSource {
   // Reads the file. `base`: overrides of every case. Throws SceneError.
   explicit SceneSource(std::string file, std::vector<scene::Override> base = {});
 
-  // The scene with `more` applied after those of the base; equal to what `trammel run --set` reads. Throws SceneError.
+  // The scene with `more` applied after the base; equal to what `trammel run --set` reads. Throws SceneError.
   scene::Scene with(const std::vector<scene::Override>& more = {}) const;
   const std::string& file() const { return file_; }
   const std::vector<scene::Override>& base() const { return base_; }

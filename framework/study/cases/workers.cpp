@@ -28,7 +28,7 @@ struct Header {
 };
 constexpr long long none = -1;
 
-// What processes share: the next task, and which one each worker is at.
+// Memory shared by the processes: the next task, and the present task of each worker.
 class Board {
  public:
   explicit Board(std::size_t workers) : size_(sizeof(std::atomic<long long>) * (workers + 1)) {
@@ -53,7 +53,7 @@ void write_all(int to, const void* data, std::size_t size) {
   while (size > 0) {
     const ssize_t n = ::write(to, p, size);
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) ::_exit(1);  // nobody reads any more
+    if (n <= 0) ::_exit(1);  // the reader has gone
     p += n, size -= std::size_t(n);
   }
 }
@@ -127,7 +127,7 @@ class Crew {
     std::vector<std::size_t> who;
     for (std::size_t i = 0; i < workers_.size(); ++i)
       if (workers_[i].process > 0) all.push_back({workers_[i].from, POLLIN, 0}), who.push_back(i);
-    constexpr int look = 50;  // [ms] at the interrupt
+    constexpr int look = 50;  // [ms] interval at which the interrupt is checked
     if (::poll(all.data(), all.size(), look) <= 0) return;
     for (std::size_t k = 0; k < all.size(); ++k)
       if (all[k].revents && !receive(workers_[who[k]])) ended(who[k]);
@@ -186,7 +186,7 @@ class Crew {
                                              WEXITSTATUS(status));
   }
 
-  // Whole answers that are in the pipes already.
+  // Reads complete answers that are already in the pipes.
   void drain() {
     for (Worker& worker : workers_) {
       if (worker.process <= 0) continue;

@@ -1,4 +1,4 @@
-// Tasks on all cores, in forked processes that share what was loaded before: the registry, the scene's text.
+// Tasks on all cores, in forked processes that share what was loaded before: the registry and the scene's text.
 //
 // Each worker takes the next task, and its answer, a string of bytes, comes back through a pipe. A task that ends its
 // worker (a crash of a plugin) is reported and the others go on in a new worker. Answers come in any order.
@@ -15,7 +15,7 @@ namespace trammel::study {
 struct Lost {
   std::size_t task = 0;
   std::string why;       // "its process was ended by signal 11"
-  bool outside = false;  // by SIGKILL or SIGTERM: somebody else, or the system short of memory; may be tried again
+  bool outside = false;  // by SIGKILL or SIGTERM: from outside, or for lack of memory; may be tried again
 };
 
 struct Workers {
@@ -23,12 +23,13 @@ struct Workers {
   std::function<std::string(std::size_t task)> work;                 // in a worker
   std::function<void(std::size_t task, const std::string&)> answer;  // here
   std::function<void(const Lost&)> lost;                             // here
-  simulate::Interrupt* interrupt = nullptr;                          // ends the workers: tasks under way have no answer
+  // ends the workers; their present tasks get no answer
+  simulate::Interrupt* interrupt = nullptr;
 
   // False: interrupted. Throws std::system_error if no process can be made.
   bool run(std::span<const std::size_t> tasks) const;
 };
 
-int cores_at_hand();  // that this process may use
+int cores_at_hand();  // number of cores that this process may use
 
 }  // namespace trammel::study

@@ -41,7 +41,7 @@ std::vector<Part> optional_parts(const SceneSource& source, plugin::Registry& re
   return all;
 }
 
-// Why the scene cannot be set up with the change; empty: it can. What is observed of a part needs the part.
+// Why the scene cannot be set up with the change; empty: it can. An observable of a part requires the part.
 std::string refusal(const SceneSource& source, plugin::Registry& registry, const Part& part) {
   const std::string observe = "record.observe.";
   try {
@@ -59,7 +59,7 @@ std::string refusal(const SceneSource& source, plugin::Registry& registry, const
   }
 }
 
-// The scene with each of the parts left out, and first of all as it is, for its own time under the same conditions.
+// Runs the scene without each of the parts, and first the complete scene, for its time under the same conditions.
 std::vector<CaseResult> run_all(const Batch& batch, std::vector<Part>& parts) {
   std::vector<Overrides> cases = {{}};
   for (Part& part : parts)
@@ -69,7 +69,7 @@ std::vector<CaseResult> run_all(const Batch& batch, std::vector<Part>& parts) {
 }
 
 CaseResult own_run(const SceneSource& source, plugin::Registry& registry) {
-  simulate::set_up(source.with(), registry);  // SceneError: a run that failed is another thing
+  simulate::set_up(source.with(), registry);  // SceneError, which differs from a failed run
   CaseResult own = run_case(source.with(), registry);
   if (!own.done()) throw std::runtime_error("the scene itself does not run to its end: " + own.reason);
   if (own.series.names.empty())
@@ -87,7 +87,7 @@ void judge(Part& part, const CaseResult& result, const Measure& measure) {
   part.difference = std::max(e.max, e.multipliers), part.worst = e.worst;
 }
 
-// Of rungs of one ladder the cheapest that keeps the target.
+// Among rungs of one ladder the cheapest one that keeps the target.
 std::vector<Part> candidates(const std::vector<Part>& parts, double target) {
   std::vector<Part> cheap;
   for (const Part& part : parts)
@@ -106,7 +106,7 @@ std::vector<Part> candidates(const std::vector<Part>& parts, double target) {
   return cheap;
 }
 
-// All candidates at once; while that misses the target the one that matters most comes back.
+// Leaves out all candidates at once; while that misses the target, the most important one is restored.
 void find_smallest(Ablation& a, const SceneSource& source, plugin::Registry& registry, const Measure& measure,
                    const CaseOptions& options) {
   for (a.left_out = candidates(a.parts, a.target); !a.left_out.empty(); a.left_out.pop_back()) {

@@ -1,9 +1,9 @@
-// What each optional part of a scene is worth: what its results change and what time is saved when it is left out, and
-// the smallest scene that keeps a target.
+// The value of each optional part of a scene: how the results change and what time is saved if it is left out; and the
+// smallest scene that keeps a target.
 //
-// Optional are forces, contacts, joints, friction, corrections, gravity, and rungs of the components' fidelity
-// parameters (trammel/fidelity.hpp). What "for" repeats is one part. Differences are those of study/trade/errors.hpp,
-// with the scene's own run as reference.
+// Optional parts are forces, contacts, joints, friction, corrections, gravity, and rungs of the components' fidelity
+// parameters (trammel/fidelity.hpp). Components repeated by "for" are one part. Differences are those of
+// study/trade/errors.hpp, with the scene's own run as reference.
 #pragma once
 
 #include <string>
@@ -20,12 +20,12 @@ struct Part {
   double difference = 0;     // largest scaled change of the observables
   std::string worst;         // the observable that changes most
   double cpu = 0;            // [s] without it
-  std::string failure = "";  // why the scene does not run without it, or needs it for what it observes; empty: it does
+  std::string failure = "";  // why the scene does not run, or cannot be observed, without it; empty: it runs
 };
 
 struct Ablation {
   double cpu = 0;           // [s] of the scene as it is
-  std::vector<Part> parts;  // those that matter least first
+  std::vector<Part> parts;  // the least important first
   double target = 0;
   std::vector<Part> left_out;  // of the smallest scene that keeps the target
   double difference = 0;       // of that scene, run with all of these left out at once

@@ -21,7 +21,7 @@ using End = RemedySearch::End;
 
 constexpr double past = 0.01;                        // of the run
 constexpr double tolerance = 1e-8;                   // of other methods
-constexpr double times_the_run = 3, least_time = 3;  // of a search: parts of the run's CPU time; [s]
+constexpr double times_the_run = 3, least_time = 3;  // limit of a search: parts of the run's CPU time; least limit [s]
 
 std::vector<Remedy> remedies(const SceneSource& source, plugin::Registry& registry) {
   const FinerSteps finer = finer_steps(source, registry);
@@ -63,7 +63,7 @@ class Trials {
  private:
   bool go_on(Remedy remedy, std::size_t i, const std::optional<State>& from) {
     if (interrupt_ && interrupt_->heed()) return end(End::interrupted);
-    // Half of what is left: one slow trial does not keep the others from being tried.
+    // Each trial gets half of the remaining time: a slow one does not prevent the others.
     const double left = search_.cpu_limit - search_.cpu;
     if (left < 0.02 * search_.cpu_limit) return end(End::out_of_time);
     const CaseResult result = run(remedy.overrides, from, left / 2);
@@ -94,7 +94,7 @@ class Trials {
   plugin::Registry& registry_;
   double failed_at_, start_ = 0, enough_ = 0;
   simulate::Interrupt* interrupt_;
-  std::vector<bool> known_;  // which changes the scene accepts, by place in the list
+  std::vector<bool> known_;  // which changes the scene accepts, by index in the list
   RemedySearch search_;
 };
 

@@ -1,4 +1,4 @@
-// One change of a scene that failed with which it gets past the place of the failure: tried, not guessed.
+// Finds, by trials, one change with which a failed scene passes the time of its failure.
 #pragma once
 
 #include <optional>
@@ -36,21 +36,21 @@ struct RemedySearch {
   double from = 0;                // [s] where the last trials began
   double cpu = 0, cpu_limit = 0;  // [s] taken and given
 
-  std::string sentence() const;  // for a person
+  std::string sentence() const;  // for the user
   nlohmann::ordered_json to_json() const;
 };
 
-// A share of its CPU time that a failed run may spend on the search, and the least that it may [s].
+// [s] CPU time that a failed run may spend on the search.
 double search_limit(double cpu_of_run);
 
-// Tries finer steps, rows projected, other methods, and more events, each in a process of its own: from the last good
-// state, and if nothing helps there from the start. A change helps if the run passes the failure by a hundredth of its
-// time, and by as much as lies between the last good state and the failure, and the method has not changed the energy
-// there by more than Simulator::unexplained.
+// Tries finer steps, projected rows, other methods, and more events, each in a process of its own: from the last good
+// state, and if nothing helps there, from the start. A change helps if the run passes the failure by a hundredth of its
+// time, and by the time between the last good state and the failure, and if the method has not changed the energy there
+// by more than Simulator::unexplained.
 RemedySearch find_remedy(const SceneSource& source, plugin::Registry& registry, const Failure& failure,
                          const SearchLimits& limits);
 
-// Into result.json of the failed run; returns its new text.
+// Writes it to result.json of the failed run; returns the file's new text.
 std::string record(const RemedySearch& search, const std::filesystem::path& folder);
 
 }  // namespace trammel::study

@@ -19,9 +19,9 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr double parted = 0.1;             // of a scale: the two motions have nothing more to say of each other
-constexpr double second_tolerance = 1e-8;  // of the other method: below what a run is usually asked for
-constexpr double least_cpu = 0.2;          // [s] of a repetition: below it the price of one does not matter
+constexpr double parted = 0.1;             // relative to a scale: beyond this the two motions are unrelated
+constexpr double second_tolerance = 1e-8;  // of the other method: tighter than a run usually asks for
+constexpr double least_cpu = 0.2;          // [s] of a repetition: cheaper ones need no limit
 
 struct Repeated {
   Repetition as_told;
@@ -47,7 +47,7 @@ class Verifier {
   Verifier(const SceneSource& source, plugin::Registry& registry, const CaseResult& run, double price)
       : source_(source), registry_(registry), run_(run), left_(std::max(price * run.cpu, least_cpu)) {}
 
-  // Whether it came to the end.
+  // True if it reached the end.
   bool repeat(const std::string& what, const Overrides& change, double share) {
     CaseOptions options;
     options.cpu_limit = std::max(left_, 0.0);

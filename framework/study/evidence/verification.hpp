@@ -1,8 +1,8 @@
-// How far a finished run can be trusted: the same scene again with finer steps and by a method of another family.
+// How far a finished run can be trusted: repeats the scene with finer steps and with a method of another family.
 //
 //     finer steps    h/2, or a tolerance ten times smaller; with a method of order p the difference to it is
 //                    1 - 2^-p of the error of the run (Richardson)
-//     other method   shares no formula with the first, which shows errors that steps do not: of events, of the method
+//     other method   shares no formula with the first; shows errors that smaller steps do not: of events, of the method
 //
 // The larger of the two differences is the estimate. Repetitions end after `price` times the CPU time of the run.
 #pragma once
@@ -20,7 +20,7 @@ namespace trammel::study {
 
 struct Repetition {
   std::string what;       // "hht_alpha with step 5e-05 s"
-  std::string failure;    // empty: it came to the end
+  std::string failure;    // empty: it reached the end
   double cpu = 0;         // [s]
   double difference = 0;  // largest, divided by scales, until trusted_until
 };
@@ -36,17 +36,17 @@ struct ObservableError {
 struct Verification {
   std::vector<Repetition> repetitions;
   std::vector<ObservableError> observables;
-  double trusted_until = 0;      // [s] from there on the repetitions part by more than a tenth of a scale
+  double trusted_until = 0;      // [s] after this time the repetitions differ by more than a tenth of a scale
   double end = 0;                // [s] of the run
-  double price = 0;              // CPU time of all repetitions, in times that of the run
+  double price = 0;              // CPU time of all repetitions, relative to that of the run
   std::optional<double> target;  // of error/scale
   bool met() const;              // every estimate meets the target, to the end
 
-  std::vector<std::string> sentences() const;  // for a person, the verdict first
+  std::vector<std::string> sentences() const;  // for the user, the verdict first
   nlohmann::ordered_json to_json() const;
 };
 
-// `run`: what the run gave; `cpu` [s] its cost. Throws SceneError.
+// `run`: the result of the run; `cpu` [s] its cost. Throws SceneError.
 Verification verify(const SceneSource& source, plugin::Registry& registry, const CaseResult& run,
                     std::optional<double> target, double price = 3);
 

@@ -13,7 +13,7 @@ using simulate::ContactEvent;
 constexpr int all_starts = 16, fewest = 4;
 constexpr double apart = 1e-10;
 
-// In a fixed order; what a run does not have is left out.
+// In a fixed order; values that a run does not have are left out.
 std::vector<std::pair<std::string, double>> marks_of(const CaseResult& r) {
   std::vector<std::pair<std::string, double>> marks;
   double lost = 0;
@@ -59,7 +59,7 @@ bool Distribution::alike() const {
 
 std::vector<Distribution> compare_ensembles(const Overrides& choice, double choice_cpu, const Overrides& reference,
                                             double reference_cpu, const Measure& measure, Runner& run) {
-  // Half of what is left, but the fewest if all of it is needed.
+  // Takes half of the remaining time, or all of it if the fewest starts need it.
   const double pair = choice_cpu + reference_cpu;
   const int half = int(run.left() / (2 * pair)),
             affordable = half < fewest && run.left() > fewest * pair ? fewest : half;

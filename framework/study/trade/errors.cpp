@@ -7,8 +7,8 @@
 namespace trammel::study {
 namespace {
 
-// constant: an observable that varies by less of its size is a constant of the motion. nothing: one smaller than that
-// part of the largest is the round-off of 0.
+// constant: an observable whose variation relative to its size is less is a constant of the motion. nothing: an
+// observable smaller than this part of the largest one is the round-off of 0.
 constexpr double constant = 1e-6, nothing = 1e-8;
 
 // By what the scene writes: contacts.tip.force, joints.pin.reaction, beam.tip.ay.
@@ -50,7 +50,7 @@ Measure::Measure(const CaseResult& reference, const std::vector<std::string>& ob
   }
   const double largest = *std::max_element(scales_.begin(), scales_.end());
   for (double& scale : scales_) scale = std::max(scale, nothing * largest);
-  if (columns_.empty()) columns_ = multipliers_;  // nothing else is asked for
+  if (columns_.empty()) columns_ = multipliers_;  // only multipliers are observed
 }
 
 double Measure::off(const Series& a, const Series& b, std::size_t row, std::size_t column) const {

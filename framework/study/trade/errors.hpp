@@ -1,10 +1,10 @@
 // Errors of observables against a reference, at the times of the records.
 //
 // Each observable is divided by its scale, the largest |x - x(start)| of the reference, or |x| if x varies by less than
-// a millionth of that, and at least 1e-8 of the largest scale: what should be 0 is not judged by its round-off. Records
-// that lie within a hundredth of their distance from an impact do not count: a velocity jumps there, and on which side
-// of the jump a record falls says nothing of the error. Multipliers (contact forces, reactions, accelerations), which a
-// method finds with other digits than positions, have their own maximum.
+// a millionth of that, and at least 1e-8 of the largest scale, so that round-off of a zero is not judged. Records
+// within a hundredth of their interval from an impact do not count: a velocity jumps there, and a record before the
+// jump in one run and after it in the other shows no error. Multipliers (contact forces, reactions, accelerations),
+// which a method finds with fewer digits than positions, have a maximum of their own.
 #pragma once
 
 #include <limits>
@@ -16,14 +16,14 @@
 
 namespace trammel::study {
 
-// The error of a run that did not get to its end.
+// The error of a run that did not reach its end.
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Error {
   double max = 0, rms = 0;  // of positions, velocities, energies
   double multipliers = 0;   // max
   std::string worst;        // observable at which max is
-  double t = 0;             // [s] when
+  double t = 0;             // [s] time of max
 };
 
 class Measure {
@@ -31,7 +31,7 @@ class Measure {
   // `observed`: names of columns that count; empty: all. `scene` says what each observes.
   Measure(const CaseResult& reference, const std::vector<std::string>& observed, const scene::Scene& scene);
 
-  // Over the records until `until` [s]; infinite if the run did not get there.
+  // Over the records until `until` [s]; infinite if the run did not reach that time.
   Error error(const Series& series, const Series& reference, double until) const;
   Error error(const Series& series, double until) const { return error(series, reference_.series, until); }
   // The last record before which two runs differ by no more than `limit` at all records; the end if they never do.

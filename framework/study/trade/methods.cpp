@@ -31,7 +31,7 @@ json own_integrator(const scene::Scene& scene) {
   return value && value->type() == scene::Value::Type::object ? json::parse(json_text(*value)) : json();
 }
 
-// With what the scene says of it the method must accept: rows, contacts, friction. Empty: it does.
+// Why the method does not accept the scene's rows, contacts or friction; empty: it does.
 std::string refusal(const SceneSource& source, plugin::Registry& registry, const Method& method) {
   try {
     const scene::Scene scene = source.with(method.overrides(6));
@@ -54,7 +54,7 @@ void describe(Method& method, plugin::Registry& registry) {
   if (method.tolerances.empty()) method.dial = Method::Dial::step;
 }
 
-// [s] the scene's own fixed step, or one for its records.
+// [s] the scene's own fixed step, or a step derived from its records.
 double usual_step(const json& own, const simulate::Settings& settings) {
   if (own.is_object() && own.contains("step") && own["step"].is_number()) return own["step"];
   const double thousandth = (settings.until - settings.start) / 1000;

@@ -21,14 +21,14 @@ struct Method {
   std::string family;  // methods of different families share no formula: what two of them agree on is trusted
   int order = 1;
   Dial dial = Dial::tolerance;
-  bool own = false;                          // with the parameters that the scene gives it
+  bool own = false;                          // with the parameters given in the scene
   std::string integrator;                    // its JSON object without steps
   double step = 0, contact_step = 0;         // [s] for fixed steps; contact_step 0: none
   std::vector<std::string> tolerances = {};  // the method's own parameters; then `step` stays as it is
 
   int levels() const { return dial == Dial::tolerance ? 19 : 10; }
-  double asked(int level) const;            // tolerance, or step [s]
-  std::string setting(int level) const;     // "tolerance 3.2e-06", for a person
+  double asked(int level) const;            // the tolerance, or the step [s]
+  std::string setting(int level) const;     // "tolerance 3.2e-06", for the user
   std::string with_level(int level) const;  // the JSON object with steps
   std::string with_tolerance(double tolerance) const;
   Overrides overrides(int level) const { return {{"integrator", with_level(level)}}; }
@@ -43,7 +43,7 @@ struct Methods {
   std::vector<Refusal> refused;
 };
 
-// Asks each integrator that is installed whether it takes the scene.
+// The installed integrators that accept the scene.
 Methods methods_for(const SceneSource& source, plugin::Registry& registry);
 
 }  // namespace trammel::study

@@ -38,8 +38,8 @@ class ReferenceSearch {
   }
 
  private:
-  // The method of highest order of each family, at a moderate tolerance: first the families of high order, the others
-  // if two of those do not come through.
+  // Runs the method of highest order of each family, at a moderate tolerance: first the families of high order, the
+  // others if fewer than two of those reach the end.
   void begin() {
     constexpr int high = 4;
     try_families([](const Method& method) { return method.order >= high; });
@@ -65,7 +65,7 @@ class ReferenceSearch {
     return {{"integrator", method.with_tolerance(tolerance)}};
   }
 
-  // First the one of highest order that came through, then the one of another family that agrees best with it.
+  // Chooses the method of highest order that reached the end, then the one of another family that agrees best with it.
   bool choose(std::string& why) {
     std::string reasons;
     for (const ReferenceRun& one : tried_) {
@@ -82,7 +82,7 @@ class ReferenceSearch {
       if (!one.result.done() || one.method.family == first_->method.family) continue;
       const double agreed = measure.agree_until(one.result.series, first_->result.series, target_ / 10);
       const double off = measure.error(one.result.series, agreed).max;
-      // Later is better; then closer.
+      // Agreement for longer is better; then closer agreement.
       const double merit = agreed - 1e-9 * off;
       if (merit > best) best = merit, second_ = one;
     }

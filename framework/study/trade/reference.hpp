@@ -1,7 +1,7 @@
 // A reference that finds itself: two methods of unrelated families, tightened until they agree.
 //
-// What they share is trusted, and no error below ten times their disagreement is claimed. The search takes a quarter of
-// the budget at most.
+// Digits in which they agree are trusted, and no error below ten times their disagreement is claimed. The search takes
+// a quarter of the budget at most.
 #pragma once
 
 #include <optional>
@@ -23,13 +23,13 @@ struct ReferenceRun {
 struct TradeReference {
   ReferenceRun first, second;  // errors are measured against the first
   double disagreement = 0;     // largest scaled difference until trusted_until
-  double parts_at = 0;         // [s] from there on they differ by more than the target; the end: never
+  double parts_at = 0;         // [s] time after which they differ by more than the target; the end: never
   double trusted_until = 0;    // [s] the last record before they differ by more than a tenth of the target
-  bool chaotic = false;        // they part before the end
+  bool chaotic = false;        // they differ by more than the target before the end
   double floor() const { return 10 * disagreement; }
 };
 
-// Nothing: no two families came through; `why` tells.
+// Empty: no two families reached the end; `why` has the reason.
 std::optional<TradeReference> find_reference(const Methods& methods, Runner& run, double target,
                                              const std::vector<std::string>& observed, std::string& why);
 

@@ -13,8 +13,9 @@
 namespace trammel::study {
 namespace {
 
-constexpr double usual_target = 1e-4;  // for the horizon, where none is given
-constexpr double on_front = 1.5;       // times the cheapest: repeated for its spread
+constexpr double usual_target = 1e-4;  // for the horizon, if none is given
+// settings that take less than this many times the cheapest are repeated for the spread of their times
+constexpr double on_front = 1.5;
 
 class Trade {
  public:
@@ -61,8 +62,8 @@ class Trade {
     if (options_.target) choose(wp, measure);
   }
 
-  // The cheapest whose claim holds against both references. The second is of another family than the first, so that no
-  // choice is judged by its own kind alone.
+  // Chooses the cheapest setting whose claim holds against both references. The second reference is of another family
+  // than the first, so that no setting is judged by its own family only.
   void choose(const WorkPrecision& wp, const Measure& measure) {
     std::vector<std::pair<double, std::pair<std::size_t, int>>> meeting;
     for (std::size_t i = 0; i < wp.courses().size(); ++i)
@@ -88,7 +89,7 @@ class Trade {
     }
   }
 
-  // The references may be off as well, and on the same side: by their floor, ten times what they disagree.
+  // The references may be wrong as well, on the same side, by their floor: ten times their disagreement.
   double claimed(const CaseResult& result, const Measure& measure) const {
     const TradeReference& r = *content_.reference;
     const double measured = std::max(measure.error(result.series, r.trusted_until).max,
@@ -155,7 +156,7 @@ class Trade {
     take_cheaper(result, measure);
   }
 
-  // Of each ladder the cheapest rung that leaves room; all together must meet the target, by a run of their own.
+  // Takes the cheapest rung of each ladder that leaves room; a run with all of them must meet the target.
   void take_cheaper(const CaseResult& result, const Measure& measure) {
     Choice& choice = *content_.choice;
     std::vector<const RungResult*> usable;
@@ -183,7 +184,7 @@ class Trade {
     if (!r.chaotic) return;
     begin("comparing distributions beyond the horizon");
     const Method& method = r.first.method;
-    const double tolerance = std::max(r.first.tolerance, loosest_reference);  // no trajectory is asked for
+    const double tolerance = std::max(r.first.tolerance, loosest_reference);  // no trajectory has to be resolved
     const double cpu = r.first.result.cpu * std::pow(r.first.tolerance / tolerance, 1.0 / (method.order + 1));
     content_.distributions = compare_ensembles(content_.choice->overrides, content_.choice->cpu,
                                                {{"integrator", method.with_tolerance(tolerance)}}, cpu, measure, run_);

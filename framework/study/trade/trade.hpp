@@ -1,5 +1,5 @@
-// Speed against accuracy on a user's own scene: which method and which model are cheapest for the accuracy that is
-// asked for, and how far that can be trusted.
+// Speed against accuracy on a user's own scene: the cheapest method and model for a required accuracy, and how far the
+// result can be trusted.
 //
 //     reference -> work and precision of the methods -> the choice -> fidelity of the model -> verified -> trade.json
 #pragma once
@@ -26,14 +26,14 @@ struct TradeOptions {
   int jobs = 0;
   simulate::Interrupt* interrupt = nullptr;
   std::vector<std::string> command;
-  // The share of the budget that is spent, and what is done now; after each run.
+  // Called after each run: the part of the budget that is spent, and the present activity.
   std::function<void(double spent, const std::string&)> progress;
 };
 
 struct Choice {
   std::string integrator;       // the setting, for a person
   Overrides overrides;          // of the scene
-  double error = 0;             // claimed: measured, and what the references leave open
+  double error = 0;             // claimed: the measured error plus the floor of the references
   double cpu = 0, own_cpu = 0;  // [s] of the choice, and of the scene as it is
   double own_error = 0;
   bool own_done = false;

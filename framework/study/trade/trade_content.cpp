@@ -214,7 +214,7 @@ report::Page page_of(const TradeContent& c, const std::string& title) {
   return page;
 }
 
-// A null for each member that `base` has and `over` has not: an include merges objects of one type.
+// Adds a null for each member that `base` has and `over` lacks, because an include merges objects of one type.
 void remove_others(const json& base, json& over) {
   for (const auto& [key, value] : base.items()) {
     if (!over.contains(key))
@@ -224,7 +224,7 @@ void remove_others(const json& base, json& over) {
   }
 }
 
-// The overrides as a file that "include" takes after the scene.
+// The overrides as a file to be included after the scene.
 json override_file(const TradeContent& c) {
   json all = json::object();
   const scene::Scene scene = c.source.with();

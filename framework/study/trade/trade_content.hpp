@@ -1,4 +1,4 @@
-// What a trade has found, and its files: trade.json, trade.csv, choice.json, scene.chosen.json.
+// The results of a trade, and its files: trade.json, trade.csv, choice.json, scene.chosen.json.
 #pragma once
 
 #include "study/trade/ensemble.hpp"
@@ -6,7 +6,7 @@
 
 namespace trammel::study {
 
-// Three errors that a user mixes up, scaled alike.
+// Three errors that are easily confused, in the same scale.
 struct SeparateErrors {
   double integration = 0;            // the choice against the reference, contacts resolved finely in both
   std::optional<double> contact;     // what a finer treatment of contacts changes; scenes without contacts have none
@@ -19,7 +19,7 @@ struct TradeContent {
   Methods methods;
   std::optional<TradeReference> reference;
   std::string no_reference;  // why
-  double target = 0;         // what the search aimed at: not below the references' floor
+  double target = 0;         // of the search: not below the references' floor
   std::vector<Course> courses;
   int search_runs = 0, full_grid = 0;
   std::optional<Choice> choice;

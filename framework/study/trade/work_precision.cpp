@@ -10,12 +10,13 @@ namespace {
 constexpr int most_runs = 6;  // of one method
 constexpr double dear = 3;    // times the cheapest so far
 
-// Of log10 of the error a level: a tolerance falls by 10^0.5, and so does an error that is proportional to it; a step
-// is halved.
+// Expected change of log10 of the error per level: a tolerance falls by 10^0.5, and so does an error that is
+// proportional to it; a step is halved.
 double expected_slope(const Method& method) {
   return method.dial == Method::Dial::tolerance ? -0.5 : -method.order * std::log10(2.0);
 }
-// Of log10 of the cost a level: steps of a method of order p grow with the tolerance to the power -1/(p + 1).
+// Change of log10 of the cost per level: the steps of a method of order p grow with the tolerance to the power -1/(p +
+// 1).
 double cost_slope(const Method& method) {
   return method.dial == Method::Dial::tolerance ? 0.5 / (method.order + 1) : std::log10(2.0);
 }
@@ -71,7 +72,7 @@ std::optional<std::pair<std::size_t, int>> WorkPrecision::best(double target) co
   return found;
 }
 
-// From the nearest level that was run, also if it was stopped as too long.
+// Extrapolates from the nearest level that was run, also if it was stopped as too long.
 double WorkPrecision::expected_cost(const Course& course, int level) const {
   if (course.samples.empty()) return 0;
   const auto near = std::min_element(
@@ -125,7 +126,7 @@ std::optional<int> WorkPrecision::next_level(const Course& course, double target
     const int at = b ? meets : fails;
     guess = at + (std::log10(target) - logarithm(from->error.max)) / slope;
   } else {
-    guess = fails + 3;  // it failed: tighter
+    guess = fails + 3;  // unknown after a failure: a tighter one
   }
   return std::clamp(int(std::ceil(guess)), fails + 1, meets - 1);
 }
@@ -143,7 +144,7 @@ void WorkPrecision::search(double target) {
         which.emplace_back(i, *level);
     }
     drop_dear(which, target);
-    // The rest is for the model and for what the choice is verified by.
+    // The rest of the budget is for the model and for verifying the choice.
     if (which.empty() || run_.left() < 0.35 * run_.budget() || run_.interrupted()) return;
     const auto found = best(target);
     const double share = run_.left() / double(2 * which.size());

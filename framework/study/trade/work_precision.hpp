@@ -26,7 +26,7 @@ struct Sample {
   Error error;
   CaseCounts counts;
   Timing cpu;
-  bool deceived = false;  // finished with an error above ten times the tolerance that was asked for
+  bool deceived = false;  // finished with an error above ten times its tolerance
   bool done() const { return status == CaseResult::Status::done; }
 };
 
@@ -43,11 +43,11 @@ class WorkPrecision {
 
   void search(double target);
   void scan(int stride);
-  // Five interleaved repetitions of those that may be on the front: cheaper than `factor` times the best.
+  // Runs five interleaved repetitions of the settings that may be on the front: cheaper than `factor` times the best.
   void repeat(double target, double factor);
 
   const std::vector<Course>& courses() const { return courses_; }
-  // The cheapest that meets the target.
+  // The cheapest setting that meets the target.
   std::optional<std::pair<std::size_t, int>> best(double target) const;
   const Sample& sample(std::pair<std::size_t, int> which) const {
     return courses_[which.first].samples.at(which.second);
@@ -57,7 +57,7 @@ class WorkPrecision {
 
  private:
   std::optional<int> next_level(const Course& course, double target) const;
-  double expected_cost(const Course& course, int level) const;  // [s]; 0: nothing is known
+  double expected_cost(const Course& course, int level) const;  // [s]; 0: unknown
   void drop_dear(std::vector<std::pair<std::size_t, int>>& which, double target);
   void run(const std::vector<std::pair<std::size_t, int>>& which, double limit);
   Sample sample_of(const Method& method, int level, const CaseResult& result) const;

@@ -11,17 +11,18 @@
 //     C_1 = gamma - 1/2 + delta,   C_q = beta + delta/2 - 1/6,
 //     C_v = (delta (2 alpha_m - 1) + gamma (1 + 2 delta) - 1/3)/2
 //
-// Of modes that are too fast for the step, h omega >> 1, this is not the error: their accelerations ring from step to
-// step, and e_v does not decrease with h, so that the step would shrink until it resolves them. Where the error exceeds
-// the tolerance, it is filtered by the iteration matrix S = M + c_v D + c_q K of the step's end (Hairer, Wanner,
-// Solving ODEs II, IV.8, after Shampine):
+// For modes that are too fast for the step, h omega >> 1, this is not the error: their accelerations oscillate from
+// step to step, and e_v does not decrease with h, so that the step would shrink until it resolves them. If the error
+// exceeds the tolerance, it is filtered by the iteration matrix S = M + c_v D + c_q K of the step's end (Hairer,
+// Wanner, Solving ODEs II, IV.8, after Shampine):
 //
-//     [S G^T; G 0] (x, mu) = (M e, G e)      of a mode  x = e/(1 + z), z = c_q omega^2
+//     [S G^T; G 0] (x, mu) = (M e, G e)      for a mode  x = e/(1 + z), z = c_q omega^2
 //     e_q -> x,   e_v -> x + (e - x) z^(-1/2) where z > 1
 //
-// e_q of a mode that rings by A is then its displacement, A/omega^2; and h times e_v of one that rings by V in v is
-// V/omega, the oscillation that it would become in shorter steps. What the step resolves, z < 1, keeps its e_v, and its
-// e_q but for a part of (omega h)^2, as little as the next term of the estimate.
+// For a mode that oscillates with amplitude A in the accelerations, e_q becomes its displacement, A/omega^2; for one
+// with amplitude V in v, h times e_v becomes V/omega, the oscillation that it would have in shorter steps. Modes that
+// the step resolves, z < 1, keep their e_v, and their e_q up to a part of (omega h)^2, which is as small as the next
+// term of the estimate.
 //
 // Near a change of rank, round-off of the position and velocity rows enters a divided by h: see error_along_rows.hpp.
 #pragma once
@@ -39,7 +40,7 @@ class NewmarkError {
   void restart(const State& now);
   void accept(const State& next);
   double operator()(System& s, const State& now, const State& next, const Tolerance& tolerance);
-  // Of the accepted point before the last, and the step from there; empty just after a restart.
+  // a at the accepted point before the last one, and the size of the step from there; empty just after a restart.
   const Vec& a_before() const { return a_before_; }
   double h_before() const { return h_before_; }
   int order() const { return first_ == 0 || !of_velocities_ ? 3 : 2; }

@@ -24,8 +24,8 @@ Declare<Method> newmark_parameters(Declare<Method> method) {
                   .max = 1e-2,
                   .usual_max = 1e-8,
                   .above_min = true,
-                  .doc = "of Newton's iteration, relative to the size of q and v; an error left of a hundredth of the "
-                         "step's own, by the change of its acceleration, is enough in any case"})
+                  .doc = "of Newton's iteration, relative to the size of q and v; a remaining error of a hundredth of "
+                         "the step's own error, by the change of its acceleration, is sufficient in any case"})
       .parameter("max_iterations", &Method::max_iterations,
                  {.min = 1, .max = 100, .usual_max = 30, .doc = "of Newton, before a step is rejected"});
 }

@@ -39,19 +39,18 @@ class NewmarkStep {
   // Predicts lambda_{n+1} = lambda_n and a_{n+1} = a_n. c_q [s^2] >= 0 and c_v [s] > 0 are the weights of a_{n+1}
   // above.
   void begin(const System& s, const State& now, double h, double c_q, double c_v, State& next);
-  // Predicts a_{n+1} by the line through a_{n-1} and a_n; `ratio` is this step over the last one. Keeps a_n if a
-  // changes too fast: extrapolation would enlarge a mode that rings from step to step. The first increment then is the
-  // second difference of a, which measures the step's own error (newmark_error.hpp); Newton's iteration ends at a small
-  // share of it.
+  // Predicts a_{n+1} by the line through a_{n-1} and a_n; `ratio` is the size of this step over that of the last one.
+  // Keeps a_n if a changes too fast: extrapolation would amplify a mode that oscillates from step to step. The first
+  // increment is then the second difference of a, which measures the step's own error (newmark_error.hpp); Newton's
+  // iteration ends at a small part of it.
   void extrapolate(const State& now, const Vec& a_before, double ratio, State& next);
   bool iterating() const { return newton.iterating(); }
   // Computes next.q and next.v from next.a and moves the system to that point.
   void move(System& s, const State& now, State& next);
   // One Newton increment of a, lambda and pi; none if r only confirms that the iteration has converged. `blend` makes S
-  // the derivative of r by a; r includes + W^T lambda.
-  // The prediction a_{n+1} = a_n is useless if modes oscillate that are too fast for the step (after a refinement or an
-  // impact): if a_n moves q further than v_n and this changes the forces by more than M a_n. In that case the first
-  // call replaces a_{n+1} so that q moves along v_n.
+  // the derivative of r by a; r includes + W^T lambda. The first call replaces the prediction a_{n+1} = a_n, by one
+  // that moves q along v_n, if a_n moves q further than v_n and this changes the forces by more than M a_n: then modes
+  // oscillate that are too fast for the step (after a refinement or an impact).
   void correct(System& s, Blend blend, const Vec& r, State& next);
   // Satisfies the rows to round-off; next.q and next.v belong to the last a.
   Outcome finish(System& s, const State& now, State& next);
@@ -67,7 +66,7 @@ class NewmarkStep {
   bool misled(System& s, const Vec& r);  // the prediction by a_n is useless
   bool at_round_off(System& s, const Vec& r);
   bool matters(System& s, const Vec& r);
-  bool doubtful(System& s, const Vec& r);  // the factors may hide what is left of r
+  bool doubtful(System& s, const Vec& r);  // the factors may hide an error in r
 
   double c_q_ = 0, c_v_ = 0;
   double size_q_ = 0, size_v_ = 0;      // scales of q and v
@@ -77,7 +76,7 @@ class NewmarkStep {
   Factors of_pi_ = Factors::iteration;  // projection if W != G
   double moved_ = 0;                    // of q since the factors were made, like change_each_
   double h_ = 0;
-  bool doubted_ = false;  // the iteration has converged, if the next r does not matter
+  bool doubted_ = false;  // the iteration has converged, unless the next r contradicts
   bool leads_ = false;    // a_n moves q further than v_n, by lead_
   Vec pi_, dpi_, zero_;   // empty if there is no pi; zero_ is empty if there are no rows
   Vec increment_, lead_, da_, dlambda_, rc_, mu_;

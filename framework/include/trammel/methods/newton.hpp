@@ -3,9 +3,9 @@
 // The factors of the first iterate are reused as long as the increments decrease fast. With theta the ratio of two
 // successive increments, the remaining error is about theta/(1 - theta) times the last increment (Hairer, Wanner,
 // Solving ODEs II, IV.8). The iteration ends when this is below `tolerance`, or when the increments have reached
-// round-off and decrease no further. If the first increment measures the step's own error, as from a prediction of the
-// method's order, a remaining error of
-// `share_of_first` of it is enough, too: more iterations do not improve the step.
+// round-off and decrease no further. If the first increment measures the step's own error, as it does after a
+// prediction of the method's order, a remaining error of `share_of_first` times that increment is sufficient, too: more
+// iterations do not improve the step.
 //
 //     newton.start(share_of_first);
 //     while (newton.iterating()) {
@@ -39,8 +39,8 @@ class Newton {
   // round-off only.
   void judge(double change, bool at_round_off);
   bool first() const { return iterations_ == 0; }
-  // Goes on with new factors after it has converged: the caller doubts those of an earlier iterate; or ends there after
-  // all.
+  // Continues with new factors after the iteration has converged, because the caller doubts the factors of an earlier
+  // iterate.
   void renew() { state_ = State::iterating, wants_factors_ = true; }
   void confirm() { state_ = State::converged; }
   double rate() const { return rate_; }  // theta of the last two increments; 1 after a single increment

@@ -46,9 +46,9 @@ class RungeKutta {
   //    accelerations wrong by d / theta^2, and a smaller step does not help.) It needs two factorisations per stage.
   //  - null_space: the equations of the quasi-velocities u, with an M-orthonormal basis N of null(G) at the start,
   //        u = N^T M v,   v = N u + M^-1 G^T y with y from G(t, q) v + g_t = 0,   u' = N^T M a,   and q likewise.
-  //    The u of a sum of slopes is the sum of their u, so that N is never formed: a sum is projected onto the rows
-  //    along M^-1 G^T, with the same factors in the whole step. It needs one more factorisation per step. If no such v
-  //    is near, as beyond a change of rank, the step uses the projected slopes.
+  //    The u of a sum of slopes is the sum of their u, so N is never formed: a sum is projected onto the rows along
+  //    M^-1 G^T, with the same factors in the whole step. It needs one more factorisation per step. If there is no such
+  //    v nearby, as beyond a change of rank, the step uses the projected slopes.
   enum class Rows { baumgarte, projected, null_space };
   Rows rows = Rows::baumgarte;
   bool projects() const { return rows != Rows::baumgarte; }
@@ -87,7 +87,7 @@ class RungeKutta {
   // --- The last step. Its slopes: those of the stages, that of the end, then those added by add_stage ---
   int slopes() const { return filled_; }
   double h() const { return h_; }
-  // Makes the step from `now` to `next` the last step: repeats it if another one was tried since. False: it was
+  // Makes the step from `now` to `next` the last step, by repeating it if another one was tried since. False: it was
   // rejected.
   [[nodiscard]] bool recall(System& s, const State& now, const State& next);
   // Adds the slope at now.t + c h; `row` has one weight per existing slope. False: there is none, and nothing is added.

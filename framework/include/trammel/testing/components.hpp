@@ -55,7 +55,7 @@ struct BodyStates {
 };
 std::vector<Check> body_checks(const MakerOf<Body>& make, const BodyStates& states = {});
 
-// Whether the reaction acts on A. It does not for a load, which acts on B only, nor for gears, whose bearings carry
+// Whether the reaction acts on A. It does not for a load, which acts on B only, and for gears, whose bearings carry
 // part of it.
 enum class Reaction { on_A, outside };
 std::vector<Check> joint_checks(const MakerOf<Constraint>& make, Space space = Space::planar,

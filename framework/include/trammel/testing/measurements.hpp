@@ -49,7 +49,7 @@ struct Amplification {
 Amplification amplification(const Maker& method, double Omega);  // x'' = -Omega^2 x, h = 1
 // x'' + 2 zeta Omega x' + Omega^2 x = 0, h = 1
 Amplification amplification(const Maker& method, double Omega, double zeta);
-// Of a particle under the row q = 0, from positions and velocities off the row, h = 1: how its violation shrinks.
+// For a particle with the row q = 0, started off the row in position and velocity, h = 1: how its violation shrinks.
 Amplification row_amplification(const Maker& method);
 
 enum class Axis { imaginary, negative_real };  // x'' = -z^2 x, and v' = -z v, h = 1
@@ -65,8 +65,8 @@ struct ConstraintDrift {
 };
 ConstraintDrift constraint_drift(const Maker& method, const Problem& problem, int n);
 
-// The estimate of the error of each step beside the true one, both as root mean squares over q and v and over the steps
-// of a run with steps h, and again with h/2, h/4, ... over the same time. Of methods that hold rows by positions alone
+// The estimated error of each step beside the true one, both as root mean squares over q and v and over the steps of a
+// run with steps h, and again with h/2, h/4, ... over the same time. For methods that satisfy rows by positions only,
 // over q.
 struct EstimateFit {
   struct Run {
@@ -80,7 +80,7 @@ struct EstimateFit {
 };
 EstimateFit measure_estimate(const Maker& method, const Problem& problem, double h, int runs = 3);
 
-// Equal bit for bit, NaN equal to nothing.
+// Equal bit for bit; NaN equals nothing.
 bool same_bits(const Vec& a, const Vec& b);
 bool same_bits(const State& a, const State& b);
 
@@ -114,10 +114,10 @@ std::vector<Check> integrator_checks(const Maker& method, const IntegratorClaims
 Report check_order(const Maker& method, const Problem& problem, double order, int n, double tolerance = 0.2);
 // The stability limit on the axis equals `limit` with a relative error of 1e-3.
 Report check_stability(const Maker& method, Axis axis, double limit);
-// The estimate of the local error, where there is one, has its error_order() and is near the true error on a motion of
-// `omega` [rad/s] with steps h to h/4: 0.9 to 1.1 times it, if it is of higher order than the method (with rows up to 4
-// times, as what lies across them is estimated and then removed); else, the error of an embedded method of lower order,
-// 1 to 100/(omega h)^(order + 1 - error_order) times it.
+// The estimate of the local error, if there is one, has its error_order() and is near the true error on a motion of
+// `omega` [rad/s] with steps h to h/4. If it is of higher order than the method: 0.9 to 1.1 times the true error (with
+// rows up to 4 times, since the part across them is estimated and then removed). If it is the error of an embedded
+// method of lower order: 1 to 100/(omega h)^(order + 1 - error_order) times.
 Report check_estimate(const Maker& method, const Problem& problem, double omega, double h);
 Report check_energy(const Maker& method, const Problem& problem, int n, double allowed);
 // The rows are satisfied to 1e-9 where the method's traits claim so, otherwise within `allowed`.
