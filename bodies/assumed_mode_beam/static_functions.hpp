@@ -6,15 +6,15 @@
 //
 //     x^2  (moment),   3 L x^2 - x^3  (shear force),   x  (normal force),
 //
-// each taken less its share of the modes, s - sum_i c_i Phi_i, which leaves the span as it is and makes it orthogonal
+// each minus its projection on the modes, s - sum_i c_i Phi_i, which leaves the span unchanged and makes it orthogonal
 // to them in the mass. Modes are eigenfunctions, so it is orthogonal to them in the stiffness, too:
 //
 //     int s'' Phi_i'' dx = b_i^4 int s Phi_i dx        (the boundary terms vanish: Phi_i'' = Phi_i''' = 0 at L)
 //
-// The two transverse ones are combined so that they are orthogonal in both to one another. So M and K of the undeformed
-// beam stay diagonal, and all else treats these functions as further modes. What is left to the modes has b^-4 times
-// the coefficients it had (l^-2 of axial ones), and the errors fall as 1/N^9 under a moment, 1/N^11 under a shear
-// force, 1/N^5 under a normal force.
+// The two transverse ones are combined so that they are orthogonal to one another in both. So M and K of the undeformed
+// beam stay diagonal, and all other code treats these functions as further modes. The remaining coefficients of the
+// modes are smaller by b^-4 (axial: l^-2), and the errors fall as 1/N^9 under a moment, 1/N^11 under a shear force,
+// 1/N^5 under a normal force.
 #pragma once
 
 #include <array>

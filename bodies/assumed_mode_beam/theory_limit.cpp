@@ -1,17 +1,17 @@
 // How far the beam may bend.
 //
-// In the arc length x of an axis that does not stretch, u_y' = sin psi with the angle psi of the axis, so that u_x' =
-// cos psi - 1, and the curvature is psi'. The beam takes u_x' = -u_y'^2/2 (coupling full; 0 in the others), psi = atan
-// u_y' and psi' = u_y''. With s the slope at the tip, what is off first against the elastica is:
+// In the arc length x of an inextensible axis, u_y' = sin psi with the angle psi of the axis, so that u_x' = cos psi -
+// 1, and the curvature is psi'. The beam uses u_x' = -u_y'^2/2 (coupling full; 0 in the others), psi = atan u_y' and
+// psi' = u_y''. With the slope s at the tip, the first errors relative to the elastica are:
 //
-//     full           the displacement: by 16/35 s^2 of it under a force across the tip, 11/12 s^2 under a moment;
+//     full           the displacement: 16/35 s^2 of it under a force across the tip, 11/12 s^2 under a moment;
 //                    the angle: 4/3 s^2
 //     linear, none   the foreshortening: 2/5 s of the displacement under a force, 1/3 s under a moment
 //
 // No angle has a sine larger than 1.
 //
-// A moment M at the tip turns it by M L/(EI). Modes turn it by M sum_i Phi_i'(L)^2/k_i, with k_i their stiffnesses:
-// about 4/(pi^2 N) of it is missing, since none of them has a moment there.
+// A moment M at the tip turns it by M L/(EI). Modes turn it by M sum_i Phi_i'(L)^2/k_i with their stiffnesses k_i:
+// about 4/(pi^2 N) of the rotation is missing, since no mode has a moment there.
 #include <cmath>
 
 #include "beam.hpp"

@@ -11,8 +11,7 @@
 // Two points have no orientation: markers have the world's axes, which do not turn with the bar. Moments on them, and
 // joints and forces that hold or measure their axes, are refused (NeedsOrientation). Forces at points off the ends do
 // turn the bar. Source: J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994,
-// sections 2.1.3 and
-// 4.2.
+// sections 2.1.3 and 4.2.
 #include <array>
 #include <cmath>
 
@@ -34,10 +33,10 @@ struct Bar : Body,
              ObservedUnits,
              Drawn,
              HasMomentum {
-  // Of every evaluation, next to each other in memory.
+  // Data of every evaluation, next to each other in memory.
   Space space_ = Space::planar;
   double L_ = 0;
-  Eigen::Vector2d weight_;  // [kg] that gravity finds at each end
+  Eigen::Vector2d weight_;  // [kg] part of the mass at each end, for gravity
   Vec3 gravity_;
 
   double mass_ = 0;

@@ -67,9 +67,9 @@ struct MovingBase : Body, Drawn {
         Vector3d(x.second, y.second, z.second) + alpha.cross(rho) + omega.cross(omega.cross(rho));
     motion.angle = phi.value;
     if (space_ == Space::planar)
-      tell<2>(place, R, velocity, omega, acceleration, alpha, motion);
+      set_motion<2>(place, R, velocity, omega, acceleration, alpha, motion);
     else
-      tell<3>(place, R, velocity, omega, acceleration, alpha, motion);
+      set_motion<3>(place, R, velocity, omega, acceleration, alpha, motion);
   }
 
   // Spokes from the origin to each marker.
@@ -85,8 +85,8 @@ struct MovingBase : Body, Drawn {
  private:
   // Its components in a scene of D dimensions; the plane turns about z.
   template <int D>
-  static void tell(const Vector3d& place, const Matrix3d& R, const Vector3d& velocity, const Vector3d& omega,
-                   const Vector3d& acceleration, const Vector3d& alpha, Motion& motion) {
+  static void set_motion(const Vector3d& place, const Matrix3d& R, const Vector3d& velocity, const Vector3d& omega,
+                         const Vector3d& acceleration, const Vector3d& alpha, Motion& motion) {
     constexpr int turns = D == 2 ? 1 : 3, twist = D + turns;
     motion.x.resize(D), motion.R.resize(D, D), motion.V.resize(twist), motion.bias.resize(twist);
     motion.x.head<D>() = place.head<D>();

@@ -5,10 +5,11 @@
 //
 //     m x'' = f_x,      I omega' + omega x I omega = m_b          I [kg m^2] about the centre of mass, constant
 //
-// A marker at r in body axes sits at x + rho, rho = R r; with a the world axes of the rates omega (1, or the columns of
-// R)
+// A marker at r in body axes is at x + rho, rho = R r. With a, the world axes of the rates omega (1, or the columns of
+// R),
 //     V = (x' + (a omega) x rho, a omega),    bias = ((a omega) x ((a omega) x rho), 0),    J = [I  a x rho; 0  a]
 // since a' omega = 0. Sources: Shabana, Dynamics of Multibody Systems (plane); Featherstone, Rigid Body Dynamics
+// Algorithms, section 2 (space).
 // Algorithms, section 2 (space).
 #pragma once
 

@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-// The least of some calls [s].
+// [s] The least time of several calls.
 double least_time(const std::function<void()>& call) {
   constexpr double enough = 5e-5;
   double least = std::numeric_limits<double>::infinity(), all = 0;

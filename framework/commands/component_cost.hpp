@@ -1,4 +1,4 @@
-// What each kind of component costs in one evaluation of the equations.
+// The cost of each kind of component in one evaluation of the equations.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,9 +9,10 @@
 
 namespace trammel::simulate {
 
-// [{"component": "rigid_body", "kind": "body", "count": 4, "microseconds": all four}, ...], the dearest first. One
-// component of each type is measured for a fraction of a millisecond at the state: bodies mass and force, joints their
-// rows, forces their wrench, contacts gap and gap rate with their markers. Empty if a component has no answer there.
+// [{"component": "rigid_body", "kind": "body", "count": 4, "microseconds": all four}, ...], the most expensive first.
+// One component of each type is measured for a fraction of a millisecond at the state: mass and force of bodies, rows
+// of joints, wrenches of forces, gap and gap rate of contacts with their markers. Empty if a component has no answer
+// there.
 nlohmann::ordered_json component_costs(model::AssembledSystem& system, const State& state);
 
 }  // namespace trammel::simulate

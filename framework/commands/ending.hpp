@@ -1,4 +1,4 @@
-// How a computation that throws ends: with a reason in its results, and by an exception where somebody is to blame.
+// How a computation that throws ends: with a reason in its results, and with an exception if somebody is to blame.
 #pragma once
 
 #include <exception>
@@ -16,7 +16,8 @@ struct Ending {
   enum class Cause { rows, output, scene, other };
   Cause cause = Cause::other;
   std::string reason;
-  std::exception_ptr thrown;  // to throw once the results are written; null: the computation has failed, no more
+  // to throw after the results are written; null: the computation has failed, nobody is to blame
+  std::exception_ptr thrown;
 };
 
 // Where the computation stands.

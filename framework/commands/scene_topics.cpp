@@ -183,7 +183,7 @@ Topic events() {
         {Kind::latch, "a latch locked for good: as impact"}})
     kinds += plugin::aligned(to_string(kind), 14, what);
   return {
-      "events", "what events.csv tells: impacts, openings, sticking, latches, refinements",
+      "events", "the content of events.csv: impacts, openings, sticking, latches, refinements",
       fmt::format(R"page(events
   events.csv has a line an event: t [s], kind, component (its path in the scene), and a column for each figure,
   in SI units, empty where an event has none.

@@ -30,7 +30,7 @@ struct RunOptions {
   bool resume = false;                            // continue from out/checkpoint.cbor
   Interrupt* interrupt = nullptr;                 // from a signal handler: stop after this step, keep everything
   std::vector<std::string> command;               // the words of the command line, for result.json
-  CrashWitness* witness = nullptr;                // told what a handler of crashes needs
+  CrashWitness* witness = nullptr;                // follows the run for a handler of crashes
   std::function<void(const Progress&)> progress;  // called about ten times a second of wall-clock time
   std::function<void(const std::string&)> warn;   // called at once for warnings that matter before the run ends
 };

@@ -109,7 +109,7 @@ class StaticRun {
     return all;
   }
 
-  // Of the worst step that forces told: what is left may be nothing but the round-off of what is stiffest, or more.
+  // About the worst step that was computed by forces: the remaining r may be round-off of the stiffest motion, or more.
   std::vector<std::string> warnings() const {
     std::vector<std::string> all = setup_.warnings;
     const std::vector<std::string> of_path = path_.warnings();

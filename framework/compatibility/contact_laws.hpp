@@ -1,4 +1,4 @@
-// What the laws of one contact, or of the friction in one joint, need and allow.
+// The needs and limits of the laws of one contact, or of the friction in one joint.
 #pragma once
 
 #include <vector>
@@ -13,9 +13,9 @@ struct ContactLaws {
   explicit ContactLaws(const model::ContactEntry& contact);
 
   std::vector<Need> needs() const;
-  // Impacts at the end of the step that passed the crossing: a step that follows a tolerance may end far behind it.
+  // Impacts at the end of the step that passed the crossing: an error-controlled step may end far behind it.
   bool needs_fixed_steps() const;
-  // Why not; null: they do.
+  // Why they cannot; null: they can.
   const char* why_not_in_statics() const;
   const char* why_not_in_modes() const;
 

@@ -1,5 +1,5 @@
-// The forms of a component: with every parameter at its default, and with each other value of each of its choices. What
-// a component can do often depends on a choice: the formulation of a method, the moment at which a law decides.
+// The forms of a component: with every parameter at its default, and with each other value of each of its choices. The
+// abilities of a component often depend on a choice: the formulation of a method, the time at which a law decides.
 #pragma once
 
 #include <memory>
@@ -18,16 +18,16 @@ struct Form {
   std::string name() const;  // "hht_alpha", "hht_alpha with formulation index3"
 };
 
-// The form with all defaults first. Where a planar scene's `prepare` asks for more parameters, it is the component
-// without them; choices that `prepare` refuses alone are left out.
+// The form with all defaults first. If `prepare` asks for more parameters in a planar scene, it is the component
+// without them; single choices that `prepare` refuses are left out.
 std::vector<Form> forms(const plugin::Entry& entry);
 
-// Of these forms the first and those that differ from it by what `tell` returns.
-template <class Tell>
-std::vector<Form> that_differ(const std::vector<Form>& all, Tell tell) {
+// The first of these forms, and those with another value of `property`.
+template <class Property>
+std::vector<Form> that_differ(const std::vector<Form>& all, Property property) {
   std::vector<Form> kept;
   for (const Form& form : all)
-    if (kept.empty() || tell(*form.component) != tell(*kept.front().component)) kept.push_back(form);
+    if (kept.empty() || property(*form.component) != property(*kept.front().component)) kept.push_back(form);
   return kept;
 }
 

@@ -14,7 +14,7 @@ std::string those_that_take(Need need, plugin::Registry& registry) {
   return names_that<Integrator>(registry, Kind::integrator, [need](const Integrator& one) { return takes(one, need); });
 }
 
-// The choice of the scene without which the same method takes it; empty: there is none.
+// The choice in the scene without which the same method accepts it; empty: there is none.
 std::string refusing_choice(const ChosenIntegrator& chosen, Need need, plugin::Registry& registry) {
   const std::vector<Form> all = forms(registry.find(Kind::integrator, chosen.type));
   const auto taken = [need](const Form& form) { return takes(dynamic_cast<const Integrator&>(*form.component), need); };

@@ -18,11 +18,11 @@ struct ChosenIntegrator {
   const std::string& type;
 };
 
-// Everything that is known before there is a state.
+// Checks everything that is known without a state.
 void check_integrator(const ChosenIntegrator& chosen, const model::Model& model, const simulate::Settings& settings,
                       plugin::Registry& registry, scene::Problems& problems);
 
-// Rows that depend on each other at the start.
+// Checks rows that depend on each other at the start.
 void check_redundant_rows(const ChosenIntegrator& chosen, model::AssembledSystem& system, const State& start,
                           plugin::Registry& registry, scene::Problems& problems);
 

@@ -25,12 +25,12 @@ std::vector<const plugin::Entry*> of_kind(Kind kind, plugin::Registry& registry)
   return found;
 }
 
-// All forms of all components of a kind that differ by what `tell` returns.
-template <class Tell>
-std::vector<Form> forms_of(Kind kind, plugin::Registry& registry, Tell tell) {
+// Forms of all components of a kind; of each component those that differ in `property`.
+template <class Property>
+std::vector<Form> forms_of(Kind kind, plugin::Registry& registry, Property property) {
   std::vector<Form> all;
   for (const plugin::Entry* entry : of_kind(kind, registry)) {
-    const std::vector<Form> some = that_differ(forms(*entry), tell);
+    const std::vector<Form> some = that_differ(forms(*entry), property);
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;
@@ -115,7 +115,7 @@ ParameterValue plausible(const Parameter& parameter) {
   }
 }
 
-// In a spatial scene. What `prepare` asks for by name it gets; null if that does not help.
+// The component in a spatial scene. Parameters that `prepare` asks for by name are given; null if that does not help.
 std::unique_ptr<Component> prepared_in_space(const plugin::Entry& entry) {
   const World world{.space = Space::spatial, .gravity = Vec3::Zero(3)};
   std::vector<std::pair<const Parameter*, ParameterValue>> given;

@@ -1,6 +1,6 @@
-// The matrix of support: which integrator takes what, which laws of contact and friction go together and what they
-// need, what corrections correct, what bodies bring. It follows from the components alone, by the rules that also
-// refuse scenes.
+// The matrix of all combinations: what each integrator accepts, which laws of contact and friction can be combined and
+// what they need, what corrections correct, what bodies need and offer. It is derived from the components, by the rules
+// that also refuse scenes.
 #pragma once
 
 #include <optional>
@@ -26,9 +26,9 @@ struct IntegratorForm {
 // A contact law alone, with a friction law, or a friction law in a joint (no contact).
 struct LawPair {
   std::optional<Form> contact, friction;
-  std::string why_not;       // why they do not go together; empty: they do
+  std::string why_not;       // why they cannot be combined; empty: they can
   std::vector<Need> needs;   // of the integrator
-  bool fixed_steps = false;  // and nothing else
+  bool fixed_steps = false;  // fixed steps only
   std::string why_no_statics, why_no_modes;
 };
 
@@ -40,7 +40,7 @@ struct CorrectionForm {
 
 struct BodyKind {
   std::string type;
-  bool rows = false, refines = false;  // needs them of the integrator
+  bool rows = false, refines = false;  // the integrator must accept them
   bool rotations = false;              // in a spatial scene
   bool momentum = false, exact_tangent = false, surface = false, fields = false, theory_limit = false;
 };

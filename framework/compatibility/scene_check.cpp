@@ -9,7 +9,7 @@ namespace {
 
 using Why = const char* (ContactLaws::*)() const;
 
-// Where the scene has the law that is refused: the friction, or the contact.
+// The place in the scene of the refused law: the friction, or the contact.
 const scene::Value& place(const model::ContactEntry& contact, bool of_friction, const scene::Value& root) {
   const scene::Value* value = root.at_path(contact.path() + (of_friction ? ".friction" : ""));
   return value ? *value : root;
@@ -63,7 +63,7 @@ void check_momentum(const Correction& correction, const scene::Value& value, con
   for (const model::BodyEntry& body : model.bodies)
     if (body.nv > 0 && !dynamic_cast<const HasMomentum*>(body.body.get()))
       return problems.error(value.problem(fmt::format(
-          "it needs the momentum of every body, and bodies.{} does not tell its own; bodies that do: {}", body.name,
+          "it needs the momentum of every body, and bodies.{} does not give its own; bodies that do: {}", body.name,
           names_that<HasMomentum>(registry, Kind::body, [](const HasMomentum&) { return true; }))));
 }
 

@@ -1,11 +1,11 @@
 // Refuses combinations of laws, corrections and bodies that cannot work in an analysis.
 #pragma once
 
+#include <trammel/correction.hpp>
 #include "compatibility/neighbours.hpp"
 #include "model/model.hpp"
 #include "run/settings.hpp"
 #include "scene/value.hpp"
-#include <trammel/correction.hpp>
 
 namespace trammel::compatibility {
 
@@ -18,7 +18,7 @@ void check_modes(const model::Model& model, const scene::Value& root, plugin::Re
 void check_steps(const model::Model& model, const simulate::Settings& settings, const scene::Value& root,
                  scene::Problems& problems);
 
-// A correction that needs the momentum of bodies of which one does not tell it.
+// A correction that needs the momentum of every body, with a body without HasMomentum.
 void check_momentum(const Correction& correction, const scene::Value& value, const model::Model& model,
                     plugin::Registry& registry, scene::Problems& problems);
 

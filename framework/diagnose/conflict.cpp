@@ -26,8 +26,8 @@ class RowSelection {
   RowSelection(model::AssembledSystem& system, const RowTolerance& allowed, std::vector<RowGroup> groups)
       : system_(system), allowed_(allowed), groups_(std::move(groups)) {}
 
-  // Positions, then velocities and accelerations, which are linear. The part of the velocities that the rows do not
-  // require must not count: where the rank is about to change, no motion may continue with it.
+  // Tests positions, then velocities and accelerations, which are linear. Velocities that the rows do not require must
+  // not count: where the rank is about to change, no motion may continue with them.
   bool can_hold(State s) const {
     if (!find_positions(s)) return false;
     const Vec v = s.v;
@@ -88,7 +88,7 @@ class RowSelection {
   }
 
   // x of least norm with G x = r, in the least-squares sense. Angles count as displacements at their levers, and rows
-  // by their length, so that what is dependent does not hang on the unit of lengths.
+  // relative to their length, so that dependence does not depend on the unit of length.
   Vec minimum_norm(const Vec& r) const {
     Vec x = Vec::Zero(system_.sizes().nv);
     if (r.size() == 0) return x;
@@ -130,8 +130,9 @@ class RowSelection {
   std::vector<RowGroup> groups_;
 };
 
-// By how much each row is missed after steps of Newton's method over all of them: in positions, or else in velocities,
-// or else in accelerations. What was only off holds then, what conflicts does not. Empty: all hold.
+// The violation of each row after steps of Newton's method with all of them: in positions, otherwise in velocities,
+// otherwise in accelerations. Rows that were merely inaccurate are then satisfied, conflicting rows are not. Empty: all
+// are satisfied.
 Vec missed_rows(model::AssembledSystem& system, const RowTolerance& allowed, State s) {
   model::positions_onto_rows(system, s, {.metric = model::by_coordinates, .allowed = allowed.length, .most = 20});
   if (system.g().norm() > allowed.length) return system.g();
@@ -152,7 +153,7 @@ int group_of(int row, const std::vector<RowGroup>& groups) {
   return int(after - groups.begin());
 }
 
-// The groups' numbers, outwards from `worst`: those that share columns of G with the ones before.
+// The groups ordered outwards from `worst`: each shares columns of G with earlier ones.
 std::vector<int> outwards(const SparseRows& G, const std::vector<RowGroup>& groups, int worst) {
   std::vector<std::vector<int>> of_column(static_cast<std::size_t>(G.cols()));
   std::vector<int> order = {worst};
@@ -179,7 +180,7 @@ std::vector<RowGroup> conflicting(model::AssembledSystem& system, const RowToler
   return RowSelection(system, allowed, groups).can_hold(start) ? std::vector<RowGroup>() : groups;
 }
 
-// More and more groups around `worst`, until they cannot hold. None: those of `most_rows` rows can.
+// Adds groups around `worst` until they cannot be satisfied together. Empty: those of `most_rows` rows can.
 std::vector<RowGroup> conflict_around(int worst, model::AssembledSystem& system, const RowTolerance& allowed,
                                       const State& start, const std::vector<RowGroup>& all) {
   system.move_to(start.t, start.q, start.v);
@@ -195,7 +196,7 @@ std::vector<RowGroup> conflict_around(int worst, model::AssembledSystem& system,
   return {};
 }
 
-// A subset such that without any `apart` neighbours of it the others can be satisfied. Half of the groups are left out
+// A subset such that the others can be satisfied without any `apart` neighbours of it. Half of the groups are left out
 // at a time, then fewer, because only few of many rows conflict.
 std::vector<RowGroup> smallest_of(std::vector<RowGroup> conflict, std::size_t& apart, model::AssembledSystem& system,
                                   const RowTolerance& allowed, const State& start) {

@@ -17,15 +17,15 @@
 namespace trammel::simulate {
 
 struct Conflict {
-  std::vector<std::string> paths;  // of joints and bodies in the order of their rows; empty: all can hold
+  std::vector<std::string> paths;  // of joints and bodies in the order of their rows; empty: there is no conflict
   bool smallest = true;            // false: with some neighbours, or only the row with the largest residual
   bool empty() const { return paths.empty(); }
 };
 Conflict smallest_conflict(model::AssembledSystem& system, const State& start);
-// What to say of it, if there is one: "joints.a, joints.b prescribe motions that contradict each other; without ...",
-// and its parts.
+// The message about a conflict: "joints.a, joints.b prescribe motions that contradict each other; without ...", and its
+// parts.
 std::string description(const Conflict& conflict);
-std::string names(const Conflict& conflict);   // of many the first and last
+std::string names(const Conflict& conflict);   // if there are many, the first and last ones
 std::string remark(const Conflict& conflict);  // "; without any one of them the rest can hold"
 
 }  // namespace trammel::simulate

@@ -59,7 +59,7 @@ class Operators {
   }
 
  private:
-  // The same vector every time; a mode is perpendicular to it only by chance.
+  // The same vector every time; a mode could be perpendicular to it only by chance.
   static Vec uneven(Eigen::Index n) {
     Vec x(n);
     for (Eigen::Index i = 0; i < n; ++i) x[i] = std::sin(1 + 1.7 * double(i) + 0.1 * double(i) * double(i));
@@ -71,7 +71,7 @@ class Operators {
   Vec a_, lambda_, no_rows_, zero_, mu_, momentum_;
 };
 
-// Of the kinetic energy of x.
+// The body with the largest part of the kinetic energy of x.
 int body_of_most_energy(Operators& operators, const model::Model& model, const Vec& x) {
   const Vec p = operators.momentum(x);
   int most = -1;

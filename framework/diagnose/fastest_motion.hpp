@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <string>
 
-#include "system/assembled_system.hpp"
 #include "run/settings.hpp"
+#include "system/assembled_system.hpp"
 
 namespace trammel::simulate {
 
@@ -23,7 +23,7 @@ struct FastestMotion {
   double rate() const { return std::max(frequency, decay); }
 };
 
-// Leaves the system at rest there, its projection's factors there. Throws model::NotSolvable.
+// Leaves the system and the factors of its projection at this state at rest. Throws model::NotSolvable.
 FastestMotion fastest_motion(model::AssembledSystem& system, const State& state);
 
 // "bodies.b swings at 1.4e+07 rad/s"

@@ -8,7 +8,7 @@
 namespace trammel::simulate {
 namespace {
 
-// Which bodies are connected: each points to another of its group, or is its first.
+// Groups of connected bodies: each body refers to another one of its group, or is its first.
 class Groups {
  public:
   explicit Groups(std::size_t bodies) : first_(bodies) { std::iota(first_.begin(), first_.end(), 0); }
@@ -30,7 +30,7 @@ MassRatio mass_ratio(const model::Model& model, const State& state) {
   for (const model::JointEntry& joint : model.joints) {
     int before = -1;
     for (const model::MarkerRef& marker : joint.markers) {
-      if (marker.body < 0) continue;  // the ground ties nothing
+      if (marker.body < 0) continue;  // the ground connects nothing
       if (before >= 0) groups.join(before, marker.body);
       before = marker.body;
     }

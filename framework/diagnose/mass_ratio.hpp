@@ -1,7 +1,7 @@
-// Light bodies that rows tie to heavy ones. The force on the heavy one, lambda, has a round-off of eps lambda, so the
-// light one's acceleration has an error of eps lambda / m_light: a large part of it if the ratio exceeds 1e7. Error
-// estimates of explicit methods then enforce very short steps, unless they measure motions along the rows alone (`rows:
-// projected`).
+// Light bodies connected to heavy ones by rows. The force on the heavy one, lambda, has a round-off of eps lambda, so
+// the acceleration of the light one has an error of eps lambda / m_light, which is a large part of it if the ratio
+// exceeds 1e7. Error estimates of explicit methods then enforce very short steps, unless they measure motions along the
+// rows only (`rows: projected`).
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace trammel::simulate {
 
-// The largest ratio among bodies that joints tie, directly or through others; only bodies that state their mass count.
+// The largest ratio among bodies that joints connect, directly or through others; only bodies with HasMomentum count.
 struct MassRatio {
   int light = -1, heavy = -1;             // bodies; -1: there is none
   double light_mass = 0, heavy_mass = 0;  // [kg]

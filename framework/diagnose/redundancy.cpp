@@ -13,7 +13,8 @@ namespace trammel::simulate {
 
 namespace {
 
-// Angles as displacements at their levers: rows of a mechanism of any size then differ alike.
+// Rows with angles replaced by displacements at their levers, so that the rank does not depend on the size of the
+// mechanism.
 Eigen::SparseMatrix<double, Eigen::RowMajor> rows_without_levers(model::AssembledSystem& system) {
   return system.sparse_rows() * system.coordinate_sizes().levers.cwiseInverse().asDiagonal();
 }
@@ -42,7 +43,7 @@ std::string description(const RedundantRows& here) {
 
 namespace {
 
-// By row: whether some self-stress, G^T lambda = 0, has a component in it.
+// By row: true if some self-stress, G^T lambda = 0, has a component in it.
 std::vector<bool> in_self_stress(const Mat& G) {
   Eigen::ColPivHouseholderQR<Mat> qr;
   qr.setThreshold(rank_tolerance);

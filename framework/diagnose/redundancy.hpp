@@ -8,8 +8,8 @@
 
 #include <trammel/integrator.hpp>
 
-#include "system/assembled_system.hpp"
 #include "scene/value.hpp"
+#include "system/assembled_system.hpp"
 
 namespace trammel::simulate {
 
@@ -20,11 +20,11 @@ struct RedundantRows {
   std::vector<int> rows;  // its redundant rows, counted from 0
   int of = 0;             // number of its rows
 };
-// In the scene's order, at the state; its positions should hold.
+// In the scene's order, at the state, whose positions should satisfy the rows.
 std::vector<RedundantRows> redundant_rows(model::AssembledSystem& system, const State& state);
 // "joints.hinge: rows 4, 5 of 5 follow from the rows before".
 std::string description(const RedundantRows& rows);
-// Warns of joints that rub and whose reactions, and so their friction, are one choice of many.
+// Warns about joints with friction whose reactions are not unique, and so their friction.
 void check_bearing_loads(model::AssembledSystem& system, const State& state, const scene::Value& root,
                          scene::Problems& problems);
 

@@ -56,7 +56,7 @@ BodyRows own_rows(const model::BodyEntry& body, double t, const Vec& q, const Ve
   return rows;
 }
 
-// Only natural coordinates are projected onto their rows; the rows of other bodies are given as they are.
+// Rows of natural coordinates are scaled to lengths; the rows of other bodies are given as they are.
 std::vector<RowOffset> own_row_offsets(const model::BodyEntry& body, const State& state) {
   const Vec v = state.v.segment(body.v0, body.nv);
   Vec q = state.q.segment(body.q0, body.nq);

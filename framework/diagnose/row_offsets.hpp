@@ -1,12 +1,13 @@
 // Violations of rows, in metres and radians.
 //
-// A row is scaled to be a length or an angle near g = 0: (|d|^2/L - L)/2 for a rod, sin(delta) for an axis. Further
-// away the violation follows from s, the row's gradient by the motion of a marker, which is 1 where the row holds:
+// A row is scaled to be a length or an angle near g = 0: (|d|^2/L - L)/2 for a rod, sin(delta) for an axis. Farther
+// away the violation follows from s, the row's gradient by the motion of a marker, which is 1 where the row is
+// satisfied:
 //
 //     |d| - L = 2 g/(1 + s),   s = |d|/L        delta = atan2(g, s),   s = cos(delta)        their rates: g_dot/s
 //
-// Rows of a body are treated alike, with s relative to the gradient where they hold. Rows between more than two
-// markers, whose scale depends on the scene, are given as they are.
+// Rows of a body are treated alike, with s relative to the gradient where they are satisfied. Rows between more than
+// two markers, whose scale depends on the scene, are given as they are.
 #pragma once
 
 #include <vector>
@@ -22,15 +23,15 @@ struct RowOffset {
   bool angle = false;
 };
 
-// At the state, where the system is.
+// The system is at `state`.
 std::vector<RowOffset> row_offsets(model::AssembledSystem& system, const model::RowGroup& rows, const State& state);
 RowOffset row_offset(model::AssembledSystem& system, const model::RowLimit& limit, double t);
 
-// Those of a joint that no motion of its markers changes in first order, as where markers coincide that must have a
-// distance. They hold nothing there, and do as soon as the markers part: no equations of motion.
+// Rows of a joint that no motion of its markers changes in first order, such as the distance of coinciding markers.
+// They have no effect there, but act as soon as the markers part: there are no equations of motion.
 std::vector<int> rows_without_direction(model::AssembledSystem& system, const model::JointEntry& joint, double t);
 
-// The norms of all, without their kinds: (m, rad) and (m/s, rad/s).
+// The norms of all rows, without distinction of units: (m, rad) and (m/s, rad/s).
 struct Offset {
   double position = 0, velocity = 0;
 };

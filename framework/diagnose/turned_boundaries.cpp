@@ -12,9 +12,9 @@
 namespace trammel::simulate {
 namespace {
 
-constexpr double little = 1e-3;       // a missing part that is not worth a word
+constexpr double little = 1e-3;       // a smaller missing part is not reported
 constexpr double least_lever = 1e-2;  // of the scene's length
-constexpr double beside = 0.1;        // by how many sizes of a coordinate, and of one in a second
+constexpr double beside = 0.1;        // distance in sizes of a coordinate, and of one per second
 
 std::optional<NaturalBoundary::Slow> slow(const model::Model& model, const model::MarkerRef& marker) {
   if (marker.body < 0) return {};
@@ -23,7 +23,7 @@ std::optional<NaturalBoundary::Slow> slow(const model::Model& model, const model
   return found && found->missing > little ? found : std::nullopt;
 }
 
-// Of a twist or wrench: its part in the angles, beside the one in the places.
+// True if the angular part of a twist or wrench matters compared with its linear part.
 bool turns(const Vec6& twist, Eigen::Index dim, double length) {
   const double angles = twist.tail(twist.size() - dim).norm(), places = twist.head(dim).norm();
   return angles > least_lever * length * places;
@@ -83,7 +83,7 @@ class Turned {
       force.force->wrench(t, A, B, on_A, on_B);
       return turns(of_A ? on_A : on_B, dim, sizes_.length);
     } catch (const std::exception&) {
-      return false;  // outside what a component has an answer for
+      return false;  // the component has no answer there
     }
   }
 

@@ -1,9 +1,9 @@
-// Markers that joints or forces turn although the functions of their body have no moment there (NaturalBoundary).
+// Markers that a joint or force turns although the functions of their body have no moment there (NaturalBoundary).
 //
-//     a joint turns a marker if a row of it has a part of H in the marker's angles;
-//     a force does if its wrench has a moment there, at the start or at a place, speed and time beside it
+//     a joint turns a marker if H of one of its rows has an angular part at the marker;
+//     a force does if its wrench has a moment there, at the start or at a place, speed and time nearby
 //
-// Of rows and wrenches with a part in the places too, levers below a hundredth of the scene's length do not count.
+// If a row or wrench also has a linear part, levers below a hundredth of the scene's length do not count.
 #pragma once
 
 #include <string>

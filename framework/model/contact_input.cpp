@@ -246,7 +246,7 @@ class ContactInput {
                 "against "
                 "a sphere [\"BODY.MARKER\", \"SPHERE.CENTRE\"] with \"reaches\": {\"type\": \"distance\", \"length\": "
                 "radius}"));
-    // Points that the surface chooses represent unequal areas; only a law with the area as weight can use them.
+    // Points chosen by the surface represent unequal areas; only a law weighted by area can use them.
     constexpr double no_sphere = std::numeric_limits<double>::infinity();
     if (on_surface && entry.surface->against != SurfaceSide::Against::sphere &&
         std::isinf(points_law->spacing(no_sphere)) && points_law->weight(1) == points_law->weight(2))

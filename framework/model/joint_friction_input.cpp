@@ -33,7 +33,7 @@ bool can_rub(const BearingJoint* bearing, const ContactEntry& entry, const World
   else if (bearing->driven())
     problems.error(friction.problem(
         "the joint's motion follows a law of time, so that friction could not hold it; a smooth law, such as "
-        "regularized_coulomb, tells what the drive has to overcome"));
+        "regularized_coulomb, gives the force that the drive has to overcome"));
   else
     return true;
   return false;

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_frames = 4000;
 
-// Where the lines of a file begin, its last end included.
+// The positions at which lines end, and so the next ones begin.
 std::vector<long long> line_ends(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::vector<long long> ends = {0};
@@ -65,7 +65,7 @@ const Json& part(const Json& line, const char* key) {
   return found == line.end() ? none : *found;
 }
 
-// Bytes that a line takes as a frame.
+// Number of bytes that a line takes as a frame.
 std::size_t bytes_of(const Json& line) {
   std::size_t points = part(line, "joints").size() + part(line, "balls").size(), values = 0;
   for (const auto& [name, shape] : part(line, "shapes").items()) points += shape.size();
@@ -143,7 +143,7 @@ class Frames {
     }
   }
 
-  // A new layout where the line has other parts than the one before.
+  // Begins a new layout if the line has other parts than the one before.
   void lay_out(const Json& line) {
     Json bodies = Json::array(), faces = Json::array(), joints = Json::array(), balls = Json::array();
     for (const auto& [name, shape] : part(line, "shapes").items())
@@ -189,7 +189,7 @@ class Frames {
   Json layouts_ = Json::array();
 };
 
-// Of the first point that the line draws.
+// Dimension of the first point that the line draws.
 int dimension_of(const Json& line) {
   for (const auto& [name, shape] : part(line, "shapes").items())
     if (!shape.empty()) return int(shape.front().size());

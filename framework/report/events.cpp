@@ -24,7 +24,7 @@ Json value_of(const std::string& cell) {
   return cell;
 }
 
-// Those of the first three columns, and of the others that hold something.
+// The first three columns, and those of the others that have values.
 std::vector<std::size_t> used(const std::vector<std::vector<std::string>>& rows, std::size_t columns) {
   std::vector<std::size_t> all;
   for (std::size_t c = 0; c < columns; ++c) {

@@ -35,7 +35,7 @@ std::string escaped(string_view text) {
   return all;
 }
 
-// JSON inside of a script element: a text of the scene cannot end the element, because "<" stands as an escape.
+// JSON inside a script element: a text of the scene cannot end the element, because "<" is escaped.
 std::string embedded(const Json& data) {
   std::string all;
   for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) c == '<' ? all += "\\u003c" : all += c;

@@ -9,7 +9,7 @@
 
 namespace trammel::report {
 
-// What the file needs beside the common scripts.
+// What the file needs in addition to the common scripts.
 enum class Needs { page, runs };
 
 // `data`: {"kind": ..., ...}, as assets/main.js reads it. Throws std::runtime_error if the program was built without

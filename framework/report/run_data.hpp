@@ -1,4 +1,4 @@
-// What a report shows of one results folder.
+// The data of a report on one results folder.
 #pragma once
 
 #include <filesystem>

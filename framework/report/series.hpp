@@ -1,6 +1,5 @@
-// series.csv for a report. A long one is reduced: each interval of rows becomes two, with the least and the largest
-// value of every column in the order in which they come. So no extreme is lost, and a plot looks as it would with all
-// rows.
+// series.csv for a report. A long one is reduced: each interval of rows becomes two rows with the least and the largest
+// value of every column, in the order in which they occur. So no extreme is lost, and a plot looks as with all rows.
 #pragma once
 
 #include <filesystem>

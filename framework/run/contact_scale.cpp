@@ -23,7 +23,7 @@ void take_marker(const Motion& marker, Scale& scale) {
   scale.motion = std::max(scale.motion, velocity(marker).cwiseAbs().maxCoeff());
 }
 
-// Of the others from the first [m].
+// [m] The largest distance of the other markers from the first.
 double extent(model::AssembledSystem& system, const std::vector<model::MarkerRef>& markers) {
   double largest = 0;
   for (const model::MarkerRef marker : markers)
@@ -53,14 +53,15 @@ void Scale::raise_to(const Scale& other) {
   gravity = std::max(gravity, other.gravity);
 }
 
-// Of gravity, and of a motion at this speed through this length. A gap may begin at any size; then the place bounds it.
+// Round-off of gravity, and of the acceleration of a motion at this speed over this length. A gap may be huge at the
+// start; then `place` limits the length.
 double Scale::no_acceleration() const {
   const double way = std::max(gaps_and_bodies, place);
   return 1e-12 * std::max(gravity, way > 0 ? speed * speed / way : 0);
 }
 
-// Bodies at rest shake by the round-off of the weight that contacts hold, and turn by as much over their size: no less
-// is asked for, but of velocities always their relative part of the scene's speed.
+// Bodies at rest shake by the round-off of the weight that contacts hold, and turn by this divided by their size. A
+// smaller error cannot be required; the relative part of the scene's speed always applies to velocities.
 Tolerance Scale::in_own_unit(const Tolerance& tolerance, double every) const {
   if (tolerance.absolute > 0) return tolerance;
   const double way = std::max(speed, motion) * every + gravity * every * every;
@@ -78,7 +79,7 @@ double Scale::error_of_position(const Tolerance& tolerance) const {
 
 namespace {
 
-// Bodies are joined to sets; each is named by one of its bodies.
+// Joins bodies to sets, each named by one of its bodies.
 class Islands {
  public:
   explicit Islands(std::size_t bodies) : parent_(bodies) { std::iota(parent_.begin(), parent_.end(), std::size_t(0)); }
@@ -156,7 +157,7 @@ void ContactScale::take_body(model::AssembledSystem& system, int body) {
   }
 }
 
-// `off`: by which rows between them do not hold, and which is no length.
+// `off`: the violation of the rows between them, which is no length.
 void ContactScale::take_distances(model::AssembledSystem& system, const std::vector<model::MarkerRef>& markers,
                                   double off) {
   if (markers.empty()) return;
@@ -198,9 +199,10 @@ void ContactScale::take_all(model::AssembledSystem& system) {
   for (int body = 0; body < int(model.bodies.size()); ++body) take_body(system, body);
   for (const model::JointEntry& joint : model.joints)
     take_distances(system, joint.markers, system.g().segment(joint.row, joint.rows).norm());
-  for (const model::ForceEntry& force : model.forces)  // where a force from outside acts from says nothing
+  // the place at which a force from outside is given has no meaning
+  for (const model::ForceEntry& force : model.forces)
     if (!force.from_outside) take_distances(system, {force.A, force.B}, 0);
-  for (std::size_t i = 0; i < own_.size(); ++i)  // one may strike it
+  for (std::size_t i = 0; i < own_.size(); ++i)  // any body may strike it
     islands_[island_of_contact_[i]].take_speed(system.velocity_apart(int(i)));
   for (Scale& island : islands_) {
     island.take_fall();
@@ -217,7 +219,7 @@ void ContactScale::take_contacts(model::AssembledSystem& system) {
 Scale ContactScale::of(int contact) const {
   Scale scale = islands_[island_of_contact_[std::size_t(contact)]];
   scale.raise_to(own_[std::size_t(contact)]);
-  // Where joints rub, a scene may have no length but the gaps of others.
+  // If joints rub, a scene may have no length except the gaps of other contacts.
   if (scale.gaps_and_bodies == 0) scale.gaps_and_bodies = scene_.gaps_and_bodies;
   return scale;
 }

@@ -1,6 +1,6 @@
-// The size of a scene, in space and speed, which decides what of a contact is round-off. All grow only, so that what
-// counts as touching does not change back. A scene scaled by any factor behaves alike, and so does one that is moved,
-// or that moves as a whole: place and motion count only by their round-off.
+// The size of a scene in space and speed, which decides what is round-off at a contact. Sizes only grow, so that what
+// counts as touching does not change back. A scene scaled by any factor behaves alike; so does one that is displaced,
+// or moves as a whole: place and motion count only by their round-off.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace trammel::simulate {
 
-// What counts where sizes are these.
+// The sizes, and the thresholds derived from them.
 struct Scale {
   double gaps_and_bodies =
       0;  // [m] the largest gap so far, extent of a body, or distance between the markers of a joint or force
@@ -26,46 +26,46 @@ struct Scale {
   double gravity = 0;  // [m/s^2]
 
   double length() const { return gaps_and_bodies > 0 ? gaps_and_bodies : place; }
-  // What the difference of two coordinates may be off by [m].
+  // [m] Error of the difference of two coordinates.
   double resolution() const { return 4 * std::numeric_limits<double>::epsilon() * place; }
-  // No more than that apart is one point, computed in two ways; at the origin, by terms of the order of 1 m.
+  // [m] Two points no farther apart are one point, computed in two ways; at the origin, from terms of the order of 1 m.
   double one_point() const { return std::max(resolution(), 1e-14); }
-  // What the difference of two velocities may be off by [m/s]: each is a sum over a body's coordinates.
+  // [m/s] Error of the difference of two velocities, each of which is a sum over a body's coordinates.
   double speed_resolution() const { return 16 * std::numeric_limits<double>::epsilon() * motion; }
   // Nearer than this is touching [m], slower is at rest [m/s], less is no acceleration [m/s^2].
   double touching() const { return 1e-12 * gaps_and_bodies + resolution(); }
   double at_rest() const { return 1e-12 * speed + speed_resolution(); }
   double no_acceleration() const;
-  // Slower than this may be what the steps leave of the rates of rows that they hold [m/s].
+  // [m/s] Rates up to this may have been left by the steps in rows that they hold.
   double drift() const { return 1e-6 * speed + speed_resolution(); }
-  // Slip in space that has no direction [m/s] (system/point/slip.hpp); impacts slower than that have no rebound unless
-  // the law says so.
+  // [m/s] A slower slip in space has no direction (system/point/slip.hpp); slower impacts have no rebound unless the
+  // law gives a speed.
   double slow() const { return 1e-7 * speed + speed_resolution(); }
-  // The digits to which positions and velocities are written in a scene.
+  // The accuracy to which positions and velocities are written in a scene.
   double written_length() const { return 1e-9 * length() + resolution(); }
   double written_speed() const { return 1e-9 * speed + speed_resolution(); }
 
-  // A tolerance without `absolute` (0) is meant in the scene's own unit: `absolute` then is `relative` times the
-  // length, 1 at most; that of velocities is larger where round-off shakes bodies at rest by more. `every` [s] makes a
-  // length of a speed where the scene has none.
+  // A tolerance without `absolute` (0) is relative to the scene: `absolute` becomes `relative` times the length, 1 m at
+  // most; for velocities it is larger if round-off shakes bodies at rest by more. If the scene has no length, speed
+  // times `every` [s] replaces it.
   Tolerance in_own_unit(const Tolerance& tolerance, double every) const;
-  // What steps under this tolerance leave a position off by [m].
+  // [m] Error of a position after steps with this tolerance.
   double error_of_position(const Tolerance& tolerance) const;
 
   void take_length(double length);
-  void take_speed(const Vec3& difference);  // of velocities
-  void take_fall();                         // the speed that gravity gives along the length
+  void take_speed(const Vec3& difference);  // a difference of velocities
+  void take_fall();                         // takes the speed that gravity gives over the length
   void raise_to(const Scale& other);
 };
 
-// Each contact's own scale, so that a plane far off decides nothing for the others: its gap, place and speed, and the
-// extents, distances of joined markers and speeds at the start of all bodies of its island, which are tied to its own
-// or may strike it.
+// The scale of each contact, so that a distant plane does not affect the others: its own gap, place and speed, and the
+// extents, distances of joined markers and initial speeds of all bodies in its island, which are connected to its
+// bodies or may strike them.
 class ContactScale {
  public:
   explicit ContactScale(const model::Model& model);
-  void take_all(model::AssembledSystem& system);       // all markers, at the system's point
-  void take_contacts(model::AssembledSystem& system);  // those of contacts
+  void take_all(model::AssembledSystem& system);       // from all markers, at the system's point
+  void take_contacts(model::AssembledSystem& system);  // from the markers of contacts
 
   Scale of(int contact) const;
   const Scale& scene() const { return scene_; }  // the largest of all
@@ -76,9 +76,9 @@ class ContactScale {
   void take_body(model::AssembledSystem& system, int body);
   void take_distances(model::AssembledSystem& system, const std::vector<model::MarkerRef>& markers, double off);
   void take_contact(model::AssembledSystem& system, int contact);
-  // Bodies that joints, forces or contacts connect; the ground connects none.
+  // Islands: sets of bodies that joints, forces or contacts connect; the ground connects none.
   std::vector<std::size_t> island_of_body_, island_of_contact_;
-  std::vector<Scale> islands_;  // without gaps; the last one is of what acts on no body
+  std::vector<Scale> islands_;  // without gaps; the last one is for contacts that act on no body
   std::vector<Scale> own_;      // by contact: its gap and speed, and the places and motions of its markers
   Scale scene_;
 };

@@ -1,4 +1,4 @@
-// A request to stop that comes from a signal handler and is heeded between steps.
+// A request to stop, set by a signal handler and obeyed between steps.
 #pragma once
 
 #include <atomic>
@@ -10,9 +10,9 @@ class Interrupt {
   // For a signal handler.
   void request() noexcept { requested_ = true; }
   bool requested() const noexcept { return requested_; }
-  bool heeded() const noexcept { return heeded_; }  // the run stops by itself, and writes its results
+  bool heeded() const noexcept { return heeded_; }  // the run stops by itself and writes its results
 
-  // For the run: whether it is to stop.
+  // To be called by the run: true if it has to stop.
   bool heed() noexcept {
     if (!requested_.load(std::memory_order_relaxed)) return false;
     heeded_ = true;

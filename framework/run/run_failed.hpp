@@ -12,8 +12,8 @@ class RunFailed : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Because a component answered with numbers that are not finite. Simulation tells whose fault it is: the plugin's, or
-// that of a law of time in the scene, such as sqrt(1-t).
+// A component returned numbers that are not finite. `ending` (commands/ending.hpp) decides whose fault it is: the
+// plugin's, or that of a law of time in the scene, such as sqrt(1-t).
 class NotFinite : public RunFailed {
  public:
   NotFinite(const std::string& when, const model::CallSite& where) : RunFailed(when), site_(where) {}
@@ -23,7 +23,7 @@ class NotFinite : public RunFailed {
   model::CallSite site_;
 };
 
-// Because the integrator's step came back with something that cannot be the next state. what() says with what.
+// The integrator's step returned something that cannot be the next state; what() names it.
 class BadStep : public RunFailed {
  public:
   using RunFailed::RunFailed;

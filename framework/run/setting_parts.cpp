@@ -75,13 +75,13 @@ Part step() {
        "hht_alpha with errors below 1e-7 a step, "
        "which damps what is fast beside the rest, where the fastest motion goes through more than a million radians in "
        "the run (of n > 10 coordinates 10/n million; of more than 100 the errors are below 1e-5). The summary, "
-       "'trammel explain' and \"integrator_choice\" in result.json tell which and why.",
+       "'trammel explain' and \"integrator_choice\" in result.json give the choice and its reason.",
        "A run whose error-controlled steps are far shorter than its records need says so after some seconds, with what "
        "makes them so short and what cures it. \"newton_iterations\" in result.json counts the points at which an "
        "implicit method solved for increments of the motion, rejected steps and those that locate events among them; "
        "solutions for the rows alone are not counted.",
        "A step must be at least 16 units in the last place of the largest |t| of the run (7.1e-15 s for 2 s): t + h "
-       "tells smaller ones apart badly or not at all."}};
+       "loses smaller ones in rounding."}};
 }
 
 Part simulate() {

@@ -10,6 +10,6 @@
 namespace trammel::simulate {
 
 const std::vector<plugin::Part>& setting_parts();
-const plugin::Part& setting_part(std::string_view name);  // one that is there
+const plugin::Part& setting_part(std::string_view name);  // the name must exist
 
 }  // namespace trammel::simulate

@@ -38,7 +38,7 @@ double number(const Value& object, const plugin::Part& part, const char* key, do
   return fallback;
 }
 
-// The least step that a run can take [s]: t + h has to tell it from 0, and from its neighbours to a few per cent.
+// The least step that a run can take [s]: t + h must differ from t, with h accurate to a few per cent.
 struct Resolution {
   double least, at;  // [s] at this t
   bool admits(const Value& value, double h, Problems& problems) const {

@@ -33,7 +33,8 @@ struct Settings {
   double start = 0, until = 0;      // [s]
   double every = 0;                 // [s] between records
   std::vector<double> field_times;  // [s] of pictures, ascending
-  double contact_hold = 0;          // [s] contact_step goes on so long after an event: the flights within a bounce
+  // [s] contact_step continues so long after an event, for flights within one visible bounce
+  double contact_hold = 0;
   double chatter_steps = 3;         // a rebound that lasts fewer fixed steps sticks; 0: never
   long long event_limit = 1000000;  // in a thousandth of the run
   // Treatment of the state that the bodies' parameters give: checked against the joints, projected onto them, or moved

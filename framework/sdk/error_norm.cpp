@@ -12,7 +12,7 @@ namespace {
 // Methods of order 8 that keep errors of about 1e-9 have the longest steps: half the amplitude of an oscillation.
 // Shorter steps are judged more strictly.
 constexpr double steps_in_a_motion = 2;
-// Rows that are stabilised, at about this rate [1/s], make accelerations of the round-off of coordinates.
+// Rows that are stabilised at about this rate [1/s] turn round-off of coordinates into accelerations.
 constexpr double stabilised = 1;
 
 double largest_of(const Vec& a, const Vec& b) {

@@ -23,7 +23,7 @@ void NewmarkError::restart(const State& now) {
   a_ = now.a;
   a_before_.resize(0);
   along_rows_.forget();
-  // Used in some steps only.
+  // Scratch vectors that only some steps use.
   for (Vec* scratch : {&slow_q_, &slow_v_, &fast_, &momentum_}) scratch->resize(now.a.size());
   for (Vec* scratch : {&of_rows_, &mu_}) scratch->resize(now.lambda.size());
 }
@@ -70,7 +70,7 @@ double NewmarkError::operator()(System& s, const State& now, const State& next, 
   });
 }
 
-// Of e_q_ and e_v. Motions that are too fast for the step matter only where the whole error is too large.
+// The norm of e_q_ and e_v. Modes that are too fast for the step are filtered only if the whole error is too large.
 double NewmarkError::norm(System& s, const State& now, const State& next, const Vec& e_v, const Tolerance& tolerance) {
   const double whole = error_norm(e_q_, e_v, now, next, tolerance);
   if (whole <= 1 || e_v.size() == 0) return whole;

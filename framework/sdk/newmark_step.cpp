@@ -11,14 +11,13 @@ namespace trammel {
 
 namespace {
 
-// Of the first increment from an extrapolated prediction. Methods of second order have a local error of v of 0.1 to
-// 0.25 of that
-// increment, so that what Newton's iteration leaves is within a hundredth of it.
+// Relative to the first increment after an extrapolated prediction. Methods of second order have a local error of v of
+// 0.1 to 0.25 times that increment, so the error left by Newton's iteration is within a hundredth of it.
 constexpr double share_of_first = 1e-3;
-// An acceleration that changes by more than this part of itself in a step is not extrapolated; nor from a step so much
-// shorter.
+// An acceleration that changes by more than the part `smooth` of itself in a step is not extrapolated; nor is one from
+// a step that was shorter by more than `longest_ahead`.
 constexpr double smooth = 0.5, longest_ahead = 4;
-// Levers are shorter than the unit of length: rows turn by so much more than their coordinates move.
+// Levers may be shorter than the unit of length: rows may turn by this factor more than their coordinates move.
 constexpr double turns = 10;
 
 double largest(const Vec& x) {
@@ -127,9 +126,9 @@ bool NewmarkStep::correct_rows(System& s, const Vec& r, State& next) {
   return true;
 }
 
-// Stabilised, of rows that hold but for the iteration's last increment. q takes nothing of what v takes, for then G
-// stays, and with it the velocity rows are linear: one pass meets them, where increments of a turn them by h times the
-// angular velocity.
+// Stabilised form, for rows that are satisfied up to the iteration's last increment. v is corrected alone: q, and so G,
+// stays, which makes the velocity rows linear, and one pass satisfies them. (Increments of a would turn the rows by h
+// times the angular velocity.)
 bool NewmarkStep::correct_rows_alone(System& s, State& next) {
   if (formulation == Formulation::index3) return correct_rows(s, zero_, next);
   rc_ = s.g();
@@ -155,8 +154,8 @@ void NewmarkStep::measure_change(const State& next) {
   moved_ += change_each_;
 }
 
-// c_q a of a mode changes its force by omega^2 c_q M a: by more than M a if the step is too long for the mode, whatever
-// its phase.
+// c_q a of a mode changes its force by omega^2 c_q M a, which exceeds M a if the step is too long for the mode, at any
+// phase.
 bool NewmarkStep::misled(System& s, const Vec& r) {
   if (!leads_) return false;
   leads_ = false;
@@ -180,7 +179,7 @@ bool NewmarkStep::at_round_off(System& s, const Vec& r) {
   return relative(dv, size_v_) <= newton.tolerance || c_v_ * dv <= little * change_q_ * size_q_;
 }
 
-// More than a small share of the first increment's momentum M da, and no round-off.
+// True if r exceeds a small part of the first increment's momentum M da, and round-off.
 bool NewmarkStep::matters(System& s, const Vec& r) {
   if (largest(r) <= 64 * eps * largest(s.f())) return false;
   momentum_.setZero(r.size());
@@ -188,9 +187,9 @@ bool NewmarkStep::matters(System& s, const Vec& r) {
   return largest(r) > share_of_first * largest(momentum_);
 }
 
-// A spring that the prediction stretches by d has the stiffness k d/L across itself, which c_q multiplies. Factors of
-// that point then hide what r leaves to the soft motions across a stiff spring, and the iteration seems to have
-// converged. True if r matters and stiffness takes up a part of it, r = -(M da + stiffness) in the last increment.
+// A spring that the prediction stretches by d has the lateral stiffness k d/L, which c_q multiplies. Factors of that
+// point then hide the part of r along soft motions across a stiff spring, and the iteration seems to have converged.
+// True if r matters and stiffness takes up a part of it, r = -(M da + stiffness) in the last increment.
 bool NewmarkStep::doubtful(System& s, const Vec& r) {
   constexpr double little = 0.1;
   left_ = r;
@@ -220,7 +219,7 @@ void NewmarkStep::correct(System& s, Blend blend, const Vec& r, State& next) {
 Outcome NewmarkStep::finish(System& s, const State& now, State& next) {
   if (!newton.converged()) return newton.outcome();
   if (s.sizes().nc > 0) {
-    // The rows alone cost no force. Their factors are wrong by what q has moved since.
+    // Correcting the rows alone needs no force. Their factors are wrong by the motion of q since.
     double change = 0, missed = 0;
     int passes = 0;
     do {

@@ -1,4 +1,4 @@
-// Room for rows of joints, contacts and bodies.
+// Allocates the rows of joints, contacts and bodies.
 #include <type_traits>
 
 #include <trammel/body.hpp>
@@ -6,7 +6,7 @@
 
 namespace trammel {
 
-// All the room there is: stores of a number known when compiling take a fifth of the time of memset.
+// Clears the whole storage: stores of a compile-time size are much faster than memset.
 void Rows::resize(int n, Space space, int markers) {
   const auto clear = [](auto& x, auto... size) {
     x.resize(size...);

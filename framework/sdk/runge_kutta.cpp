@@ -57,8 +57,8 @@ bool RungeKutta::keep_null_space(System& s, const State& now) {
 bool RungeKutta::onto_rows(System& s, double t) {
   constexpr int most_iterations = 20;
   constexpr double in_place = 1e-3, well = 0.1, reach = 0.25;
-  // Rows are differences of coordinates. Slow from here on is their round-off; with kept factors it may be those'
-  // reach.
+  // Rows are differences of coordinates. From this violation on, slow convergence is round-off of the coordinates, or
+  // the limit of the kept factors.
   const double of_place = on_manifold_.lpNorm<Eigen::Infinity>();
   const double near_round_off = kept_ ? 1e-14 * std::max(1.0, of_place) : std::max(1e-9, 1e-14 * of_place);
   const double lost = std::max(1e-6, 1e-13 * of_place);

@@ -15,7 +15,7 @@ double spectral_radius(const std::vector<std::complex<double>>& roots) {
   return largest;
 }
 
-// Of a row or a motion: where a step is rejected the method does not go on, as if it were unstable.
+// Of a row or a motion; a rejected step counts as unstable.
 template <class Measure>
 double radius_of(Measure&& measure) {
   try {

@@ -19,7 +19,7 @@ using study::CaseOptions;
 using study::CaseResult;
 using study::Overrides;
 
-constexpr double unbounded = 10;  // times the energies of the accurate run
+constexpr double unbounded = 10;  // relative to the energies of the accurate run
 constexpr double exact_tolerance = 1e-8;
 constexpr int shortest = 14;   // halvings of the longest step, a tenth of the run
 constexpr int bisections = 7;  // to a hundredth
@@ -43,7 +43,7 @@ class StepSearch {
     options_.keep = study::SeriesSink::Keep::energies;
   }
 
-  // Empty: there is a reference.
+  // Why there is no reference; empty: there is one.
   std::string find_reference() {
     Overrides change = change_;
     change.push_back({"integrator", json{{"type", "dop853"}, {"step", {{"tolerance", exact_tolerance}}}}.dump()});
@@ -72,8 +72,8 @@ class StepSearch {
   double energy_ = 0;
 };
 
-// [rad/s] about the start, or about the equilibrium if nothing swings there, as about a pendulum held level; 0:
-// nowhere.
+// [rad/s] Highest frequency about the start, or about the equilibrium if nothing swings at the start (a pendulum held
+// level); 0: nothing swings at either.
 double highest_frequency(const simulate::Setup& setup) {
   model::AssembledSystem system(setup.model);
   if (const double omega = simulate::fastest_motion(system, setup.initial).frequency; omega > 0) return omega;
@@ -81,7 +81,7 @@ double highest_frequency(const simulate::Setup& setup) {
   try {
     return simulate::find_equilibrium(system, rest) ? 0 : simulate::fastest_motion(system, rest).frequency;
   } catch (const std::exception&) {
-    return 0;  // a component has no answer on the way there
+    return 0;  // a component has no answer on the way to the equilibrium
   }
 }
 

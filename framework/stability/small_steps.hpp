@@ -1,4 +1,4 @@
-// How a method holds the pendulum's row at ever smaller steps. Formulations that divide positions by h^2 (index 3)
+// How a method satisfies the pendulum's row at ever smaller steps. Formulations that divide positions by h^2 (index 3)
 // amplify the round-off of g: lambda then carries noise of about 1e-16/(beta h^2), and a fixed tolerance is never met.
 // Formulations with velocity rows do not.
 // Source of the estimate: Petzold, Lotstedt, SIAM J. Sci. Stat. Comput. 7 (1986) 720-733.

@@ -13,8 +13,8 @@ std::complex<double> exact_factor(double Omega, double zeta) {
   return std::exp(z);
 }
 
-// The one with the argument of a motion forwards: roots come in conjugate pairs. Where there is a pair that oscillates,
-// real roots are the method's own: the exact factor turns many times with Omega and passes near any of them.
+// The root with the argument of the forward motion: roots come in conjugate pairs. If some pair oscillates, real roots
+// are the method's own: the exact factor turns many times with Omega and passes near any of them.
 std::complex<double> principal(std::vector<std::complex<double>> roots, std::complex<double> exact) {
   constexpr double round_off = 1e-12;
   const auto real = [](std::complex<double> root) { return std::abs(root.imag()) <= round_off * std::abs(root); };

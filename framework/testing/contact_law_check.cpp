@@ -88,7 +88,7 @@ Report slope_is_the_derivative(const TriedLaw& l) {
     for (const double part : {0.2, 0.6, 1.0})
       for (const double rate : {-1.0, -0.3, 0.1, 0.4}) {
         const double gap = -part * l.depth, v = rate * l.claims.speed, h_gap = 0.02 * -gap, h_rate = 0.1 * std::abs(v);
-        // Where a law cuts a pull to 0 there is a kink.
+        // Where a law limits a pull to 0 there is a kink.
         const double least = std::min(
             {l.normal(gap - h_gap, v), l.normal(gap + h_gap, v), l.normal(gap, v - h_rate), l.normal(gap, v + h_rate)});
         if (least == 0) continue;
@@ -107,7 +107,7 @@ Report energy_never_grows(const TriedLaw& l) {
   return compare("energy never grows over an impact", [&](Comparison& c) {
     const double h = l.depth / l.claims.speed / 4000;
     const auto a = [&](double x, double v) { return l.normal(x, v) / l.claims.mass; };
-    // From just inside, and not over the step that ends outside: a law may jump at the touch.
+    // From just inside, without the step that ends outside: a law may jump at the touch.
     double x = -1e-9 * l.depth, v = -l.claims.speed, gain = 0;
     double least = l.claims.mass * v * v / 2 + l.law->potential(x);
     for (int i = 0; i < 400000; ++i) {
@@ -121,7 +121,7 @@ Report energy_never_grows(const TriedLaw& l) {
       gain = std::max(gain, energy - least);
       least = std::min(least, energy);
     }
-    // Of the method: 4000^-2.5 where the force starts as a power of the depth, and where a cut law lets go.
+    // Error of the method: 4000^-2.5 where the force starts as a power of the depth, and where a limited law releases.
     c.within(gain / l.energy, 0, 1e-7, "gain over the energy of the approach");
   });
 }

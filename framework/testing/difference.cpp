@@ -55,7 +55,7 @@ void Comparison::derivative(const Vec& claimed, const Difference& d, const std::
                    fmt::format("{}, entry {}: differences do not converge ({:.6g} with error {:.1e}): not smooth, "
                                "or tried over too large a range",
                                where, k, d.value(k), d.error(k)));
-    // Two columns of the extrapolation may agree by chance: an error below 1e-11 of the change tells nothing.
+    // Two columns of the extrapolation may agree by chance: an error below 1e-11 of the change proves nothing.
     const double allowed = 20 * d.error(k) + 16 * d.round_off(k) + 1e-11 * scale + noise + 1e-300;
     keep(std::abs(claimed(k) - d.value(k)) / allowed, [&] {
       return fmt::format("{}, entry {}: {:.10g}, by differences {:.10g} within {:.1e}", where, k, claimed(k),

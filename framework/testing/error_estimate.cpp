@@ -1,12 +1,11 @@
-// Whether the error estimate of a method estimates: beside the true local error, over runs with steps h, h/2, h/4.
+// Checks the error estimate of a method against the true local error, over runs with steps h, h/2, h/4.
 //
-//     ratio = rms over the steps of the estimate / rms of the error          order p of the method, p_e = error_order()
-//     of the estimate
+//     ratio = rms over the steps of the estimate / rms of the error      p: order of the method, p_e = error_order()
 //
-// p_e > p: the estimate is the leading term of the error, so the ratio tends to 1 and is off by O(omega h).
+// p_e > p: the estimate is the leading term of the error, so the ratio tends to 1 with a deviation of O(omega h).
 // p_e <= p: it is the error of an embedded method of lower order, so the ratio grows by 1/(omega h)^(p + 1 - p_e) and
-// is at least 1. Rows: what lies across them is estimated, and then removed by methods that hold rows: there the ratio
-// may be larger, not less.
+// is at least 1. With rows, the part of the error across them is estimated, and then removed by methods that satisfy
+// rows: there the ratio may be larger, not smaller.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -19,7 +18,7 @@
 namespace trammel {
 namespace {
 
-// The method's own accelerations forget how they began, and a history is filled.
+// After these steps the method's accelerations have forgotten their start, and a history is filled.
 constexpr int steps_before = 40, steps_counted = 40;
 
 double mean_square(const Vec& e) {
@@ -27,12 +26,12 @@ double mean_square(const Vec& e) {
          double(2 * e.size());  // of the q and v of as many coordinates, as error_norm.hpp counts them
 }
 
-// Rows are held by positions alone: the velocities ripple about what rows allow, and are not estimated.
+// Rows satisfied by positions only: the velocities oscillate across the rows and are not estimated.
 bool positions_alone(const Traits& traits) {
   return traits.holds_position && !traits.holds_velocity;
 }
 
-// A flow that starts with the ripple leaves the rows: it is compared with the one along them.
+// A flow that starts with this oscillation leaves the rows: it is compared with the flow along them.
 State without_ripple(System& s, State now) {
   s.move_to(now.t, now.q, now.v);
   if (now.lambda.size() == 0) return now;
@@ -47,7 +46,7 @@ struct Squares {
   double estimated = 0, true_ = 0;
 };
 
-// Over n * steps_counted steps of h / n, from the same time on for each n.
+// Over n * steps_counted steps of h / n, from the same time for each n.
 Squares add_up(Integrator& method, ErrorEstimate& estimate, const Problem& problem, double h, int n) {
   h /= n;
   const auto system = problem.system(), flow = problem.system();
@@ -106,7 +105,7 @@ Report check_estimate(const Maker& make, const Problem& problem, double omega, d
   const bool rows = problem.solution(0).lambda.size() > 0;
   const int lower = make()->traits().order + 1 - fit.claimed_order;
   if (lower <= 0) {
-    // Across rows lies as much as along them, or a few times that where the motion turns.
+    // The part across rows is as large as that along them, or a few times larger where the motion turns.
     const double least = 0.9, most = rows ? 4 : 1.1, ratio = fit.runs.back().ratio();
     report.claim(fmt::format("the estimate is {} to {} times the error", least, most), least <= ratio && ratio <= most,
                  fmt::format("found {:.4f}", ratio));

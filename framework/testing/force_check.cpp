@@ -106,7 +106,7 @@ Report turns_with_the_scene(const TriedForce& f) {
   });
 }
 
-// Central differences of a kink converge, to the mean of its slopes: both sides are asked.
+// Central differences converge at a kink, to the mean of its slopes; therefore both sides are evaluated.
 Report has_a_derivative(const TriedForce& f) {
   return compare("wrenches have a derivative by pose and velocity", [&](Comparison& c) {
     const int n = twist_size(f.space);
@@ -132,7 +132,7 @@ Report has_a_derivative(const TriedForce& f) {
   });
 }
 
-// Of forces that offer it.
+// For forces with exact derivatives.
 Report wrench_tangent_is_exact(const TriedForce& f) {
   return compare("the exact derivatives are those of the wrenches", [&](Comparison& c) {
     const auto* exact = dynamic_cast<const WrenchTangent*>(f.force.get());
@@ -170,7 +170,7 @@ Report wrench_tangent_is_exact(const TriedForce& f) {
   });
 }
 
-// Of a marker that may be a point, which has no axes.
+// For a marker that may be a point, which has no axes.
 Report force_axes_count_only_where_said(const TriedForce& f) {
   return compare("a marker's orientation counts only where NeedsOrientation says so", [&](Comparison& c) {
     const auto* needs = dynamic_cast<const NeedsOrientation*>(f.force.get());

@@ -138,7 +138,7 @@ Report reactions_balance(const TriedJoint& j) {
   });
 }
 
-// Of joints that offer it.
+// For joints with exact derivatives.
 Report reaction_tangent_is_that_of_the_wrenches(const TriedJoint& j) {
   return compare("the reaction's derivative is that of H^T lambda", [&](Comparison& c) {
     const Vec6 lambda = Vec::LinSpaced(j.joint->row_count(j.space), 1.5, -0.7);
@@ -170,7 +170,7 @@ Report reaction_tangent_is_that_of_the_wrenches(const TriedJoint& j) {
   });
 }
 
-// Of markers whose axes stand still.
+// For markers whose axes do not turn.
 Report rows_are_linear_if_claimed(const TriedJoint& j) {
   return compare("between points the rows are g_0 + H x with constant H, where LinearRows says so", [&](Comparison& c) {
     const auto* claims = dynamic_cast<const LinearRows*>(j.joint.get());
@@ -206,7 +206,7 @@ Report rows_are_linear_if_claimed(const TriedJoint& j) {
   });
 }
 
-// Of a marker that may be a point, which has no axes.
+// For a marker that may be a point, which has no axes.
 Report joint_axes_count_only_where_said(const TriedJoint& j) {
   return compare("a marker's orientation counts only where NeedsOrientation says so", [&](Comparison& c) {
     const auto* needs = dynamic_cast<const NeedsOrientation*>(j.joint.get());

@@ -67,7 +67,7 @@ TEST(MomentumCorrection, NamesTheBodyThatDoesNotTellItsOwn) {
   json all = with_body("assumed_mode_beam");
   all["integrator"] = {{"type", "hht_alpha"}, {"step", 1e-3}};
   all["corrections"]["energy"] = {{"type", "energy"}, {"keeps", "momentum"}};
-  EXPECT_THAT(refusal_of(all), AllOf(HasSubstr("corrections.energy"), HasSubstr("bodies.b does not tell its own"),
+  EXPECT_THAT(refusal_of(all), AllOf(HasSubstr("corrections.energy"), HasSubstr("bodies.b does not give its own"),
                                      HasSubstr("rigid_body"), Not(HasSubstr("assumed_mode_beam"))));
 }
 

@@ -46,7 +46,7 @@ Exit exit_of(StudyReport::Status status) {
   }
 }
 
-Exit told(const Arguments& arguments, const StudyReport& report, const std::filesystem::path* folder) {
+Exit reported(const Arguments& arguments, const StudyReport& report, const std::filesystem::path* folder) {
   if (arguments.has(kJson.name))
     print_json_text(report.json);
   else if (!arguments.has(kQuiet.name))
@@ -78,7 +78,7 @@ Exit merge(const Arguments& arguments) {
   study::StudyOptions options = options_of(arguments);
   options.out = arguments.last("--out");
   const simulate::ResultsFolder folder(options.out, simulate::Analysis::study);
-  return told(arguments, study::merge_studies(folders, options), &options.out);
+  return reported(arguments, study::merge_studies(folders, options), &options.out);
 }
 
 Exit run_study(const Arguments& arguments) {
@@ -88,7 +88,7 @@ Exit run_study(const Arguments& arguments) {
   const study::Study study = study::Study::load(arguments.operand(), overrides_of(arguments));
   plugin::Registry registry;
   load_plugins(arguments, registry);
-  if (arguments.has(kEstimate.name)) return told(arguments, study::estimate_study(study, registry), nullptr);
+  if (arguments.has(kEstimate.name)) return reported(arguments, study::estimate_study(study, registry), nullptr);
   study::StudyOptions options = options_of(arguments);
   const std::string ending =
       options.shard.of > 1 ? fmt::format("_{}_of_{}", options.shard.index, options.shard.of) : "";
@@ -101,7 +101,7 @@ Exit run_study(const Arguments& arguments) {
   };
   const StudyReport report = study::run_study(study, arguments.operand(), registry, options);
   bar.clear();
-  return told(arguments, report, &options.out);
+  return reported(arguments, report, &options.out);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // The loader has written the addresses of the functions that a library calls into its tables (R_X86_64_JUMP_SLOT,
-// R_X86_64_GLOB_DAT of the System V ABI); here those of malloc and its like are replaced by functions that count.
+// R_X86_64_GLOB_DAT of the System V ABI). Here those of malloc and related functions are replaced by functions that
+// count.
 #include "testing/kit/allocation_count.hpp"
 
 #include <elf.h>
@@ -61,7 +62,7 @@ void* counting(std::string_view name) {
 
 #if defined(__x86_64__)
 
-// What the dynamic section says of a library's relocations.
+// Contents of the dynamic section about a library's relocations.
 struct Tables {
   const ElfW(Sym) * symbols = nullptr;
   const char* names = nullptr;

@@ -51,7 +51,7 @@ struct Check {
   Words words;
   Level level = Level::quick;
   std::function<Report(const Subject&)> find_out;
-  // Why the subject is not asked, such as an ability that it declares not to have; "": it is asked.
+  // Why the check does not apply to the subject, such as an ability that it does not have; "": it applies.
   std::function<std::string(const Subject&)> left_out = {};
 };
 

@@ -1,4 +1,5 @@
-// Work in child processes, each with a time limit: what crashes, hangs, ends the process or prints takes nobody along.
+// Work in child processes, each with a time limit: a job that crashes, hangs, ends its process or prints affects no
+// other.
 #pragma once
 
 #include <chrono>

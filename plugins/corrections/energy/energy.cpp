@@ -51,7 +51,7 @@ class EnergyCorrection final : public Correction, public NeedsMomentum {
     }
     if (keeps == Keeps::momentum) {
       if (!find_free_motions(s, state))
-        return Outcome::reject("the energy's correction keeps momentum, and the system cannot tell its own");
+        return Outcome::reject("the energy's correction keeps momentum, and the system does not give its own");
       v_r_ = free_ * (free_.transpose() * mass_times(s, n_));
       n_ -= v_r_;
       carried += kinetic(s, v_r_);

@@ -134,7 +134,7 @@ Checks set_valued_friction_checks() {
       {friction_claim("never-drives", "Friction acts against the slip.", "mu(|s|) >= 0", "F_t = -mu(|s|) F_n s/|s|."),
        Level::quick, sliding_never_drives},
       {friction_claim("decides-by-a-speed", "There is a speed below which it sticks.", "0 <= stick speed < infinity",
-                      "sticks below this slip; 0: the scene decides"),
+                      "The contact sticks below this slip. 0: chosen from the scene"),
        Level::quick, decides_by_a_speed}};
 }
 

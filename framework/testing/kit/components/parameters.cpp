@@ -79,15 +79,15 @@ Report outside_is_refused(const Subject& s) {
       Json object = Json::parse(s.form.entry);
       const double outside = low ? bound - step : bound + step;
       set_at(object, p.name, p.type == Parameter::Type::integer ? Json(std::llround(outside)) : Json(outside));
-      std::string told;
+      std::string refusal;
       try {
         make_from(s.entry, object.dump(), s.form.world);
       } catch (const scene::SceneError& e) {
-        told = e.what();
+        refusal = e.what();
       }
-      if (told.find(p.name) == told.npos)
+      if (refusal.find(p.name) == refusal.npos)
         report.claim(fmt::format("{} = {} is refused by name", p.name, outside), false,
-                     told.empty() ? "it was accepted" : told);
+                     refusal.empty() ? "it was accepted" : refusal);
     }
   }
   report.claim("values outside their range are refused by name", report.holds);
@@ -135,9 +135,9 @@ Report are_declared_in_full(const Subject& s) {
                d.source.empty() ? "there is no .source(...)" : "");
   for (const Parameter& p : d.parameters) {
     const std::string name = "parameter " + p.name;
-    // A name and a unit may say it all: {"length": 1}, in m.
-    const bool told = *p.traits.doc || std::string(p.traits.unit) != "1" || !p.choices.empty();
-    if (!told) report.claim(name + " has a doc or a unit", false);
+    // A name and a unit may be sufficient: {"length": 1}, in m.
+    const bool documented = *p.traits.doc || std::string(p.traits.unit) != "1" || !p.choices.empty();
+    if (!documented) report.claim(name + " has a doc or a unit", false);
     const ParameterValue fallback = plugin::default_of(s.entry, p);
     if (p.traits.required) continue;
     double x = std::nan("");
@@ -146,7 +146,7 @@ Report are_declared_in_full(const Subject& s) {
     if (x < p.traits.min || x > p.traits.max || (p.traits.above_min && x == p.traits.min))
       report.claim(name + " has its default inside its range", false, fmt::format("{} is outside", x));
   }
-  report.claim("parameters tell what they are, and their defaults are inside their ranges", report.holds);
+  report.claim("parameters are documented, and their defaults are inside their ranges", report.holds);
   return report;
 }
 
