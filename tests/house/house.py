@@ -68,6 +68,19 @@ def every_room_has_a_readme_of_one_screen(source, _):
             yield f"{readme.relative_to(source)} is longer than a screen (75 lines)"
 
 
+def readmes_name_every_source(source, _):
+    # "spring_impact*" in a README names all sources whose names begin like that.
+    for folder in folders_with_code(source):
+        readme = folder / "README.md"
+        if folder.parts[-2:] == ("testing", "problems") or "include" in folder.parts or not readme.exists():
+            continue
+        text = readme.read_text()
+        prefixes = tuple(re.findall(r"`(\w+)\*`", text))
+        for name in sorted({f.stem for f in folder.iterdir() if f.suffix in CODE}):
+            if not re.search(rf"\b{name}\b", text) and not (prefixes and name.startswith(prefixes)):
+                yield f"{readme.relative_to(source)} does not name {name}"
+
+
 def components(program):
     """{kind: [name, ...]} as `trammel list` prints them."""
     kinds, kind = {}, None
