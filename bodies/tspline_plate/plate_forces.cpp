@@ -29,7 +29,7 @@ void add_block(const Cell& cell, const double* block, Matrix& S) {
 
 }  // namespace
 
-// Axes do not mix but where an edge holds a direction of its own.
+// Axes are independent unless an edge holds a direction of its own.
 void TsplinePlate::mass(double, In, Matrix& M) const {
   int dofs[most_functions];
   using View = Eigen::Map<const Mat, 0, Eigen::OuterStride<>>;

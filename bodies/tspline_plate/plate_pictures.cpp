@@ -30,8 +30,8 @@ std::string_view TsplinePlate::unit(int observable) const {
 
 namespace {
 
-// Corners are numbered through, four a patch, as in `corners`. The way over edges and seams from one to another, both
-// included.
+// Corners are numbered patch by patch, four in each, as in `corners`. The path over edges and seams from one corner to
+// another, both included.
 std::vector<int> way(const Multipatch& basis, const std::vector<Seam>& seams, int from, int to) {
   const auto place_of = [&](int corner) {
     const Box<double> range = basis.range(corner / 4);

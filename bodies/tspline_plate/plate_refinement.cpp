@@ -19,7 +19,8 @@ class MeshTransfer final : public Transfer {
   void v(In old, Out fresh) const override { move(old, fresh); }
 
  private:
-  // To all displacements, to the new control points, and back to the coordinates that are kept, components themselves.
+  // Transfers all displacements: from the coordinates to the old control points, to the new ones, and to the kept
+  // coordinates, which are components of them.
   void move(In old, Out fresh) const {
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
     Vec u(3 * points_.cols());
@@ -60,7 +61,7 @@ void divide_alike(std::vector<TMesh>& meshes, const std::vector<Seam>& seams, co
   }
 }
 
-// Operators of the patches one below the other.
+// Operators of the patches as blocks.
 Sparse in_blocks(const std::vector<Sparse>& blocks) {
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::Index row = 0, column = 0;
@@ -109,8 +110,8 @@ std::unique_ptr<Transfer> TsplinePlate::refine_elements_in(const std::vector<Box
   return std::make_unique<MeshTransfer>(std::move(before), mesh_->coordinates, in_blocks(operators));
 }
 
-// In the reference: to the nearest parameters of an element of the same patch; of another to the nearest of a grid of
-// points.
+// In the reference: the nearest parameters in an element of the same patch; in another patch those of the nearest point
+// of a grid.
 double TsplinePlate::distance(const Eigen::Vector2d& from, const Box<double>& element) const {
   const Vec rest = Vec::Zero(mesh_->coordinates.coordinates());
   const auto reference = [&](double u, double v) { return place(*mesh_, surface_point(*mesh_, u, v), rest).r; };
@@ -154,7 +155,7 @@ std::vector<Box<double>> TsplinePlate::indicated(In q, std::span<const double> c
   return result;
 }
 
-// Named elements are split once; those that the plate finds by itself as often as the levels allow.
+// Elements given by the scene are split once; those chosen by the plate as often as the levels allow.
 std::vector<Box<double>> TsplinePlate::chosen(double t, In q, const RefineCause& cause) const {
   const bool step = cause.contact.empty();
   if (indicator != Indicator::none) return step ? indicated(q, cause.pressure) : std::vector<Box<double>>{};

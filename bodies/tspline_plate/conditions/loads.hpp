@@ -10,8 +10,8 @@
 
 #include <trammel/matrix.hpp>
 
-#include "tspline_plate/shell/cell_forces.hpp"
 #include "tspline_plate/conditions/edge.hpp"
+#include "tspline_plate/shell/cell_forces.hpp"
 #include "tspline_plate/shell/surface_point.hpp"
 
 namespace trammel::plate {
@@ -29,8 +29,8 @@ void add_edge_moment(const Discretisation& mesh, const Edge& edge, const std::ve
 void add_edge_moment_tangent(const Discretisation& mesh, const Edge& edge, const std::vector<EdgePoint>& points,
                              double moment, In q, double c, Matrix& S);
 
-// += pressure times int R_I a_1 x a_2 into the cell's forces, and c times minus its derivative into a block of size
-// 3 functions, column-major.
+// Adds pressure times int R_I a_1 x a_2 to the cell's forces, and c times minus its derivative to a block of size 3
+// functions, column-major.
 void add_pressure(const Cell& cell, const CellVectors& u, double pressure, CellVectors& f);
 void add_pressure_tangent(const Cell& cell, const CellVectors& u, double pressure, double c, double* block);
 

@@ -13,9 +13,9 @@ namespace {
 using Vector3 = Eigen::Vector3d;
 
 constexpr double known_to =
-    1e-8;  // conditions of symmetry and of seams that end here say part of the same, up to round-off
+    1e-8;  // conditions of symmetry and of seams that end here overlap with these, up to round-off
 
-// The arms from the point to the second row, and the two of them that the others are told by.
+// The arms from the point to the second row, and the two of them that determine the others.
 struct Arms {
   std::vector<Vector3> arm;
   std::size_t a = 0, b = 0;

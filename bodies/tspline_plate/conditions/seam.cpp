@@ -64,7 +64,7 @@ std::vector<double> edge_knots(const TMesh& mesh, const Edge& edge, bool reverse
   return result;
 }
 
-// Those of `all` that `others` lack.
+// Those of `all` that are not in `others`.
 std::vector<double> lacking(const std::vector<double>& all, std::vector<double> others) {
   std::vector<double> result;
   for (double s : all) {
@@ -175,7 +175,7 @@ void join(const Multipatch& basis, const Points& points, const Seam& seam, Elimi
   const double ratio = speed_ratio(a, b, seam);
   for (std::size_t j = 0; j < n; ++j) {
     const double to_a = a.f(j), to_b = ratio * b.f(j);
-    // Round corners where four patches meet one such condition follows from the others, up to the round-off of the
+    // At corners where four patches meet, one such condition follows from the others, up to the round-off of the
     // reference.
     for (int axis = 0; axis < 3; ++axis)
       e.hold({{a.net.component(a.rows.edge[j], axis), to_a + to_b},

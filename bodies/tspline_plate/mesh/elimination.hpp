@@ -21,12 +21,13 @@ class Elimination {
  public:
   explicit Elimination(int components) : relation_(std::size_t(components)), held_(std::size_t(components), false) {}
 
-  void hold(std::vector<Term> condition, double known_to = 1e-12);  // relative to the largest coefficient
+  // known_to: accuracy relative to the largest coefficient
+  void hold(std::vector<Term> condition, double known_to = 1e-12);
   void hold(int component) { hold({{component, 1}}); }
-  void finish();  // no conditions afterwards
+  void finish();  // no conditions may follow
 
   int coordinates() const { return int(kept_.size()); }
-  const std::vector<int>& kept() const { return kept_; }  // the component that each coordinate is
+  const std::vector<int>& kept() const { return kept_; }  // the component of u that each coordinate is
   // u of a component as a sum over coordinates.
   const std::vector<Term>& terms(int component) const { return relation_[std::size_t(component)]; }
 

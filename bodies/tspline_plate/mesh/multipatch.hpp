@@ -1,6 +1,6 @@
 // The functions of several patches as one set.
 //
-// Patches lie side by side in the plane of parameters, each in a range of u of its own, so that (u, v) alone tells the
+// Patches lie side by side in the plane of parameters, each in a range of u of its own, so that (u, v) determines the
 // patch. Functions, cells and elements are numbered patch by patch.
 #pragma once
 
@@ -30,7 +30,7 @@ class Multipatch {
  private:
   std::vector<TsplineBasis> patches_;
   std::vector<BezierCell> cells_;
-  std::vector<int> first_function_, first_cell_;  // and behind the last patch their numbers
+  std::vector<int> first_function_, first_cell_;  // and, after the last patch, their numbers
 };
 
 }  // namespace trammel::plate

@@ -12,7 +12,7 @@ namespace trammel::plate {
 
 namespace {
 
-constexpr double nested = 1e-11;  // round-off of sums of some ten terms of order one, with room
+constexpr double nested = 1e-11;  // round-off of sums of about ten terms of order one, with a margin
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 Sparse by_dual_functionals(const TsplineBasis& coarse, const TsplineBasis& fine) {

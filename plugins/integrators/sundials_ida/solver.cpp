@@ -87,7 +87,7 @@ void Segment::evaluate(double t, Eigen::Index nq, Vec& q, Vec& v) const {
 Solver::Solver(const Tolerances& tolerances) : tolerances_(tolerances) {}
 Solver::~Solver() = default;
 
-// What `call` throws is kept for after the library's return; a shorter step may stay inside a component's domain.
+// An exception of `call` is kept until the library has returned; a shorter step may stay inside a component's domain.
 template <class Call>
 int Solver::guarded(Call&& call) {
   try {

@@ -38,7 +38,7 @@ using namespace trammel;
 // costs half a per cent.
 constexpr long long most_internal_steps = 4096;
 
-// Tells states apart bit for bit.
+// A checksum that distinguishes states bit for bit.
 std::uint64_t checksum(const State& state) {
   std::uint64_t hash = 14695981039346656037u;  // FNV-1a
   const auto add = [&hash](const Vec& x) {
