@@ -86,10 +86,12 @@ class ExactModes {
   }
 
   // The shares must not depend on the modes tried before: forms them again, with all contacts closed that do not part
-  // and all tangents sticking that do not move.
+  // and all tangents sticking that do not move. But if sliding contacts share, contacts that are idle or at their bounds
+  // in the nearby solution stay so: equal springs led there, and with springs' shares alone there may be no solution.
   void share_by_accelerations() {
     const std::vector<ContactRole> on_the_way = roles_;
     roles_ = roles_of(points_, F_, a_, mode_tolerance * acceleration_scale());
+    keep_beside_sliding(on_the_way);
     const auto same = [](const ContactRole& x, const ContactRole& y) {
       return x.closed == y.closed && x.idle == y.idle && x.tangent == y.tangent;
     };
@@ -97,6 +99,27 @@ class ExactModes {
     const Vec F = F_, a = a_;
     const double nothing = largest_violation * acceleration_scale();
     if (!settle_modes() || !((a_ - a).lpNorm<Eigen::Infinity>() <= nothing)) F_ = F, a_ = a;
+  }
+
+  void keep_beside_sliding(const std::vector<ContactRole>& on_the_way) {
+    const auto slides = [](const ContactRole& r) { return r.tangent == Tangent::slides; };
+    if (std::none_of(roles_.begin(), roles_.end(), slides)) return;
+    const CarryingRows carrying = carrying_rows(points_, A_, roles_);
+    if (!carrying.sliding_shares) return;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      ContactRole& role = roles_[i];
+      const ContactRole& before = on_the_way[i];
+      if (!carrying.indeterminate[i] || !role.closed || points_[i].normal < 0) continue;
+      if (!before.closed || before.idle)
+        make_idle(role);
+      else if (before.tangent == Tangent::slides && role.tangent == Tangent::sticks)
+        role.tangent = Tangent::slides, role.ratio = before.ratio;
+    }
+  }
+
+  static void make_idle(ContactRole& role) {
+    role.idle = true;
+    if (role.tangent == Tangent::sticks) role.tangent = Tangent::none;
   }
 
   double acceleration_scale() const {
@@ -110,9 +133,16 @@ class ExactModes {
     if (!equations.regular()) return false;
     F_ = equations.forces();
     a_ = A_ * F_ + b_;
-    if (!F_.allFinite()) return false;
+    if (!F_.allFinite() || idle_ones_are_needed()) return false;
     share_admissibly(equations);
     return true;
+  }
+
+  // Rows of idle contacts that do not follow from those that carry.
+  bool idle_ones_are_needed() const {
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (roles_[i].idle && F_[points_[i].normal] != 0) return true;
+    return false;
   }
 
   Index row_at(Index k) const {
@@ -257,10 +287,8 @@ class ExactModes {
       }
       if (p.normal >= 0)
         consider(i, pull(i), [&](ContactRole& r) {
-          if (carrying_.indeterminate[i] && carrying_.sliding_shares)
-            r.idle = true;
-          else
-            r.closed = false;
+          if (carrying_.indeterminate[i] && carrying_.sliding_shares) return make_idle(r);
+          r.closed = false;
           if (r.tangent == Tangent::sticks) r.tangent = Tangent::none;
         });
       if (!p.held()) continue;

@@ -6,7 +6,8 @@
 //
 // A mode that its own forces contradict is changed, one at a time: a contact that pulls opens, one that approaches
 // closes, one whose force leaves its cone slides, one whose force would drive its slip sticks. The nearby solution may
-// have any small error.
+// have any small error. If sliding contacts share, contacts without a force stay idle and those at their bounds stay
+// there.
 #pragma once
 
 #include <vector>

@@ -131,5 +131,50 @@ TEST(BlocksInTandem, PushEachOtherByForcesThatContactsHave) {
   }
 }
 
+// On a floor, of different heights, one pushed against the other: it carries a part of the other's weight by friction,
+// until that is at its bound.
+TEST(BlocksInTandem, ArePushedByForcesThatContactsHave) {
+  std::mt19937 random(2190);
+  const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+  int moved = 0;
+  for (int i = 0; i < 200; ++i) {
+    json s = {{"trammel", 1},
+              {"space", "planar"},
+              {"gravity", {0, -g}},
+              {"simulate", {{"until", 0.02}}},
+              {"record", {{"every", 0.01}, {"observe", {{"v", "b0.com.vx"}}}}}};
+    const double h[] = {any(0.1, 0.3), any(0.1, 0.3)}, mu_between = any(0.2, 0.6);
+    double x = 0;
+    for (int b = 0; b < 2; ++b) {
+      const double w = any(0.08, 0.15), m = std::pow(10, any(-1, 1)), mu = any(0.2, 0.6);
+      const std::string name = fmt::format("b{}", b);
+      s["bodies"][name] = {{"type", "rigid_body"},
+                           {"mass", m},
+                           {"inertia", m * (w * w + h[b] * h[b]) / 12},
+                           {"position", {x + w / 2, h[b] / 2}},
+                           {"markers",
+                            {{"bl", {-w / 2, -h[b] / 2}},
+                             {"br", {w / 2, -h[b] / 2}},
+                             {"tl", {-w / 2, h[b] / 2}},
+                             {"tr", {w / 2, h[b] / 2}}}}};
+      for (const char* corner : {"bl", "br"})
+        s["contacts"][name + corner] =
+            contact(fmt::format("{}.{}", name, corner), {{"point", {0, 0}}, {"normal", {0, 1}}}, mu);
+      x += w;
+    }
+    s["contacts"]["low"] = contact("b1.bl", {{"point", {0, 0}}, {"normal", {1, 0}}, {"on", "b0.br"}}, mu_between);
+    s["contacts"]["high"] =
+        h[1] < h[0] ? contact("b1.tl", {{"point", {0, 0}}, {"normal", {1, 0}}, {"on", "b0.br"}}, mu_between)
+                    : contact("b0.tr", {{"point", {0, 0}}, {"normal", {-1, 0}}, {"on", "b1.bl"}}, mu_between);
+    const double push = any(5, 100);
+    s["forces"]["push"] = {{"type", "load"}, {"on", "b0.com"}, {"force", {{"x", fmt::format("={}", push)}}}};
+    const Finished run = run_text(s.dump());
+    SCOPED_TRACE(i);
+    expect_trusted(run);
+    moved += run.end("v") > 1e-3;
+  }
+  EXPECT_GT(moved, 60);
+}
+
 }  // namespace
 }  // namespace trammel::test
