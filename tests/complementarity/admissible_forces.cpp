@@ -70,5 +70,26 @@ TEST(SpareLoad, IsNotNegativeWhereForcesAreInsideTheirCones) {
     }
 }
 
+// Where no admissible forces have the resultants, those with the least spare load have them, each beyond its cone by no
+// more than that.
+TEST(SpareLoad, IsThatOfForcesWithTheResultants) {
+  std::mt19937 random(53);
+  std::normal_distribution<double> any;
+  int beyond = 0;
+  for (const double mu : {1e-2, 0.3, 2.0})
+    for (int i = 0; i < 200; ++i) {
+      Loaded loaded = random_loads(random, mu);
+      if (i % 2) loaded.resultants = Vec::NullaryExpr(loaded.E.rows(), [&] { return any(random); });
+      Vec F;
+      const double spare = spare_load(loaded.contacts, loaded.E, loaded.resultants, &F);
+      EXPECT_LE((loaded.E * F - loaded.resultants).norm(), 1e-13 * F.norm()) << mu << ", " << i;
+      for (const SharingContact& c : loaded.contacts)
+        EXPECT_LE(F(c.tangents).norm(), mu * (F[c.normal] - spare) + 1e-8 * (F.norm() + std::abs(spare)))
+            << mu << ", " << i;
+      beyond += spare < 0;
+    }
+  EXPECT_GT(beyond, 100);
+}
+
 }  // namespace
 }  // namespace trammel::complementarity

@@ -150,6 +150,8 @@ std::size_t tangents(const SharingContact& c) {
   return c.coefficient > 0 ? c.tangents.size() : 0;
 }
 
+}  // namespace
+
 Vec forces_of(const std::vector<SharingContact>& contacts, const Vec& x, Eigen::Index columns) {
   Vec F = Vec::Zero(columns);
   Eigen::Index first = 0;
@@ -160,8 +162,6 @@ Vec forces_of(const std::vector<SharingContact>& contacts, const Vec& x, Eigen::
   }
   return F;
 }
-
-}  // namespace
 
 ConeProgram sharing_program(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda) {
   ConeProgram program;

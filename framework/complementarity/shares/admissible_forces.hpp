@@ -29,6 +29,9 @@ struct SharingContact {
 // rows of G are the given normal forces.
 ConeProgram sharing_program(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda);
 
+// The forces F (`columns` of them) that such an x stands for.
+Vec forces_of(const std::vector<SharingContact>& contacts, const Vec& x, Eigen::Index columns);
+
 // Fills F; returns |E F - lambda|, which is round-off if such forces exist. `nearby`: y for a lambda nearby, or empty;
 // on return y for this lambda.
 double admissible_forces(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec& F,

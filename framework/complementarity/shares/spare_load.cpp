@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "complementarity/programs/cone_program.hpp"
+#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 
 using Eigen::Index;
 
 // Each contact is unloaded to x_0 = N - s, where s is bounded by `most`: s + x = most.
-double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda) {
+double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec* F) {
   Vec F_s = Vec::Zero(E.cols());  // dF/ds
   for (const SharingContact& c : contacts)
     if (c.normal >= 0) F_s[c.normal] = 1;
@@ -27,7 +28,13 @@ double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, con
   G.topLeftCorner(rows, columns) = program.G;
   G(rows, columns) = 1;
   program.G = std::move(G);
-  return size * solve_cone_program(program).s;
+  const ConeSolution solution = solve_cone_program(program);
+  if (F) {
+    *F = size * (forces_of(contacts, solution.x.head(columns), E.cols()) + solution.s * F_s);
+    const Vec missed = lambda - E * *F;
+    *F += Eigen::CompleteOrthogonalDecomposition<Mat>(E).solve(missed);
+  }
+  return size * solution.s;
 }
 
 }  // namespace trammel::complementarity

@@ -3,7 +3,8 @@
 //     maximise s,     E F = lambda,     |T| <= c (N - s)  at each contact
 //
 // Negative if no admissible forces have these resultants; a continuous function of them. Limited to `most` of them,
-// because s is unbounded for contacts that press against each other. Solved by cone_program.hpp.
+// because s is unbounded for contacts that press against each other. Solved by cone_program.hpp. If s < 0, the forces F
+// of the solution are those that leave their cones least.
 #pragma once
 
 #include "complementarity/shares/admissible_forces.hpp"
@@ -12,7 +13,7 @@ namespace trammel::complementarity {
 
 constexpr double most = 10;
 
-// [N], accurate to 1e-11 of the forces.
-double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda);
+// [N], accurate to 1e-11 of the forces. Fills F, if it is not null.
+double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec* F = nullptr);
 
 }  // namespace trammel::complementarity

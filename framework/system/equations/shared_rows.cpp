@@ -131,9 +131,10 @@ const ContactLoads& SharedRowsAtPoint::solved(int group, const Vec& lambda) {
   if (at.point == at_.number && at.configuration == at_.configuration && at.lambda.size() == lambda.size() &&
       at.lambda == lambda)
     return loads;
-  const bool found = loads.solve(group, lambda, [&](int contact) { return bounds(contact, lambda); });
+  bool found = loads.solve(group, lambda, [&](int contact) { return bounds(contact, lambda); });
   if (!found && !contacts_.modes.shared[std::size_t(group)].sliding.empty())
-    loads.solve_with_sliding(group, moved_with_sliding(group));
+    found = loads.solve_with_sliding(group, moved_with_sliding(group));
+  if (!found) loads.solve_beyond_cones(group);
   at = {at_.number, at_.configuration, lambda};
   return loads;
 }

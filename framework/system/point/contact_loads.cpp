@@ -122,7 +122,7 @@ std::vector<complementarity::SharingContact> ContactLoads::sharing(const Group& 
   return contacts;
 }
 
-// If no admissible forces have these resultants, the forces of springs stay until the event that follows.
+// False: no admissible forces have these resultants.
 bool ContactLoads::share_admissibly(Group& group, const Sharing& sharing) {
   if (sharing.contacts.empty()) return true;
   const Vec resultants = sharing.E * group.forces(sharing.directions);
@@ -152,8 +152,15 @@ ContactLoads::Sharing ContactLoads::with_sliding(int group, const Mat& E) const 
   return all;
 }
 
-void ContactLoads::solve_with_sliding(int group, const Mat& E) {
-  share_admissibly(groups_[std::size_t(group)], with_sliding(group, E));
+bool ContactLoads::solve_with_sliding(int group, const Mat& E) {
+  return share_admissibly(groups_[std::size_t(group)], with_sliding(group, E));
+}
+
+void ContactLoads::solve_beyond_cones(int group) {
+  Group& g = groups_[std::size_t(group)];
+  Vec shared;
+  complementarity::spare_load(sharing(g), g.E, g.resultants, &shared);
+  g.forces(g.directions) = shared;
 }
 
 double ContactLoads::spare_load_with_sliding(int group, const Mat& E) const {

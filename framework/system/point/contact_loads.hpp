@@ -7,7 +7,8 @@
 // (complementarity/shares/admissible_forces.hpp), as long as there are any. Exceptions are sliding contacts, whose
 // share as springs determines their friction and so the motion, and idle ones: the others share the rest of the
 // resultants. If they cannot, sliding contacts take part along the directions of their forces, n + p t, by forces that
-// leave the motion unchanged.
+// leave the motion unchanged. If even these do not exist, at the instant of the event that follows, the forces that
+// leave their cones least are taken.
 #pragma once
 
 #include <array>
@@ -54,7 +55,7 @@ class ContactLoads {
     begin(group, lambda);
     for (Member& member : groups_[std::size_t(group)].members) member.bounds = bounds(member.contact);
   }
-  // The forces of all contacts of a group. False: there are no admissible ones, and those of springs stay.
+  // The forces of all contacts of a group. False: there are no admissible ones.
   template <class BoundsOf>
   [[nodiscard]] bool solve(int group, const Vec& lambda, BoundsOf&& bounds) {
     prepare(group, lambda, bounds);
@@ -62,8 +63,10 @@ class ContactLoads {
     return slack(g) >= -round_off * scale(g) || share_admissibly(g, {sharing(g), g.directions, g.E});
   }
   // To be called then: includes sliding contacts. E: the motion caused by the forces of the members, then by that of
-  // each sliding contact along n + p t.
-  void solve_with_sliding(int group, const Mat& E);
+  // each sliding contact along n + p t. False: there are still no admissible forces.
+  [[nodiscard]] bool solve_with_sliding(int group, const Mat& E);
+  // To be called then: the forces that leave their cones least, which hold until the event that follows.
+  void solve_beyond_cones(int group);
   double load(const Place& place) const { return groups_[std::size_t(place.group)].forces[place.index]; }
   // True if it slides or is idle.
   bool shares_as_spring(int contact, int group) const;

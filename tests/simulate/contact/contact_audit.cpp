@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "simulate/contact/contact_audit.hpp"
+#include "simulate/contact/contact_problem.hpp"
 #include "simulate/start/setup.hpp"
 #include "support/made.hpp"
 #include "support/run_scene.hpp"
@@ -28,17 +29,29 @@ std::string beside(double mass, double lift, double push, bool on_block) {
                      mass, lift, push, on_block ? R"(, "on": "block.com")" : "");
 }
 
-// With all contacts closed, and the ball held by friction.
-std::vector<std::string> told(const std::string& scene) {
+// With all contacts closed, and these held by friction.
+std::vector<std::string> told(const std::string& scene, const std::vector<int>& held) {
   simulate::Setup setup = simulate::set_up(scene::Scene::parse(scene, "test.json"), registry());
   model::AssembledSystem system(setup.model);
   model::Modes modes{.contacts = std::vector<model::ContactMode>(2), .shared = {}};
-  for (model::ContactMode& mode : modes.contacts) mode.closed = true;
+  simulate::ContactProblem problem;
+  for (int i = 0; i < 2; ++i) {
+    modes.contacts[std::size_t(i)].closed = true;
+    problem.who.emplace_back().contact = i;
+  }
   State state = setup.initial;
   system.set_modes(modes);
   system.move_to(state.t, state.q, state.v);
-  modes.contacts[0].friction = model::ContactMode::Friction::stick;
-  system.anchor(0, modes.contacts[0]);
+  for (const int i : held) {
+    modes.contacts[std::size_t(i)].friction = model::ContactMode::Friction::stick;
+    problem.who[std::size_t(i)].tangent = simulate::Participant::Tangent::resting;
+    system.anchor(i, modes.contacts[std::size_t(i)]);
+  }
+  model::Modes open{.contacts = std::vector<model::ContactMode>(2), .shared = {}};
+  system.set_modes(open);
+  system.move_to(state.t, state.q, state.v);
+  problem.prepare(system);
+  modes.shared = problem.shared_rows(modes);
   system.set_modes(modes);
   system.move_to(state.t, state.q, state.v);
   system.accelerate({}, state.a, state.lambda);
@@ -53,10 +66,11 @@ std::vector<std::string> told(const std::string& scene) {
 TEST(ContactAudit, TellsAPullAndAFrictionBeyondItsBoundBesideAnyForceElsewhere) {
   for (const bool on_block : {false, true})
     for (const double mass : {1e-3, 1.0, 1e3, 1e6, 1e9}) {
-      EXPECT_THAT(told(beside(mass, 0.005, 0.002, on_block)), IsEmpty()) << mass;
-      EXPECT_THAT(told(beside(mass, 0.012, 0, on_block)), ElementsAre(HasSubstr("contacts.ball pulled with 0.002 N")))
+      EXPECT_THAT(told(beside(mass, 0.005, 0.002, on_block), {0}), IsEmpty()) << mass;
+      EXPECT_THAT(told(beside(mass, 0.012, 0, on_block), {0}),
+                  ElementsAre(HasSubstr("contacts.ball pulled with 0.002 N")))
           << mass;
-      EXPECT_THAT(told(beside(mass, 0.005, 0.003, on_block)),
+      EXPECT_THAT(told(beside(mass, 0.005, 0.003, on_block), {0}),
                   ElementsAre(HasSubstr("the friction of contacts.ball was 0.0005 N beyond its bound")))
           << mass;
     }
@@ -66,7 +80,28 @@ TEST(ContactAudit, TellsAPullAndAFrictionBeyondItsBoundBesideAnyForceElsewhere) 
 TEST(ContactAudit, DoesNotTellRoundOff) {
   for (const bool on_block : {false, true})
     for (const double part : {-1e-15, 0.0, 1e-15})
-      EXPECT_THAT(told(beside(1, 0.01 * (1 + part), 0, on_block)), IsEmpty()) << part;
+      EXPECT_THAT(told(beside(1, 0.01 * (1 + part), 0, on_block), {0}), IsEmpty()) << part;
+}
+
+// A block on two feet of 5 N, which can hold 1 N and 3 N; springs of equal stiffness would hold 2 N each. Where the push
+// is no more than both can, nothing is told; where it is, by how little.
+TEST(ContactAudit, TellsOfFeetThatCannotHoldByHowLittleAllOfThemFail) {
+  const auto pushed = [](double push) {
+    return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -10],
+  "bodies": {{"block": {{"type": "rigid_body", "mass": 1, "inertia": 1, "position": [0, 0],
+             "markers": {{"left": [-1, 0], "right": [1, 0]}}}}}},
+  "forces": {{"load": {{"type": "load", "on": "block.com", "force": {{"x": {:.17g}}}}}}},
+  "contacts": {{"left": {{"type": "constraint_method", "friction": {{"type": "coulomb", "static": 0.2, "kinetic": 0.2}},
+                        "between": ["block.left", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}},
+               "right": {{"type": "constraint_method", "friction": {{"type": "coulomb", "static": 0.6, "kinetic": 0.6}},
+                         "between": ["block.right", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}}}},
+  "simulate": {{"until": 1}}, "record": {{"every": 1, "observe": {{"x": "block.com.x"}}}}}})",
+                       push);
+  };
+  EXPECT_THAT(told(pushed(4 - 1e-9), {0, 1}), IsEmpty());
+  EXPECT_THAT(told(pushed(4 + 4e-6), {0, 1}),
+              ElementsAre(HasSubstr("the friction of contacts.right was 3e-06 N beyond its bound"),
+                          HasSubstr("carry 5e-06 N more than they can")));
 }
 
 }  // namespace
