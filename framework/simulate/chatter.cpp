@@ -62,14 +62,19 @@ ContactModes::Brief ContactModes::too_brief(const State& state, const ContactCha
   bool slips = false;
   for (Participant& p : problem_.who)
     if (p.tangent == Tangent::sliding && beginning_to_slip(p)) p.tangent = Tangent::resting, slips = true;
-  if (slips || candidates_.size() > at_rest_now) judge_brief(at_rest_now, brief);
+  if (slips || candidates_.size() > at_rest_now) judge_brief(state, at_rest_now, brief);
   system_.set_modes(before_);
   system_.move_to(state.t, state.q, state.v);
   return brief;
 }
 
-void ContactModes::judge_brief(std::size_t at_rest_now, Brief& brief) {
+// At the velocities that they would have at rest: those that end ask for accelerations, omega^2 r of a table that rocks,
+// that no forces of contacts which depend on each other have.
+void ContactModes::judge_brief(const State& state, std::size_t at_rest_now, Brief& brief) {
   problem_.prepare(system_);
+  Vec change;
+  problem_.come_to_rest(system_, change);
+  system_.move_to(state.t, state.q, state.v + change);
   accelerate_participants();
   do {
     if (problem_.solve(nothing()).outcome != LcpOutcome::solved) return;

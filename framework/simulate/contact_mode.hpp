@@ -158,7 +158,7 @@ class ContactModes {
     std::size_t first() const;  // that falls or stops; their number if there is none
   };
   Brief too_brief(const State& state, const ContactChanges& changes);
-  void judge_brief(std::size_t at_rest_now, Brief& brief);
+  void judge_brief(const State& state, std::size_t at_rest_now, Brief& brief);
   bool separates(const TouchingContact& c) const;
   bool begins_to_slip(const TouchingContact& c) const;
   const TouchingContact* beginning_to_slip(const Participant& p) const;

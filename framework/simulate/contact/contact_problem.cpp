@@ -243,6 +243,18 @@ std::vector<double> ContactProblem::slip_beside_others(const Vec& rates) const {
   return all;
 }
 
+void ContactProblem::come_to_rest(model::AssembledSystem& system, Vec& dv) const {
+  std::vector<Eigen::Index> held;
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    if (points_[i].normal >= 0) held.push_back(points_[i].normal);
+    if (who[i].tangent != Participant::Tangent::resting) continue;
+    for (int k = 0; k < points_[i].tangents; ++k) held.push_back(points_[i].tangent + k);
+  }
+  const Mat A = delassus_(held, held);
+  const Vec lost = -rates(system)(held);
+  dv.noalias() = jump_(Eigen::all, held) * Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost);
+}
+
 void ContactProblem::end_slip(Vec& dv) const {
   std::vector<Eigen::Index> held;
   Vec slip = Vec::Zero(Eigen::Index(directions_.size()));

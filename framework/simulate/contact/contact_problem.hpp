@@ -59,6 +59,8 @@ class ContactProblem {
   std::vector<double> slip_beside_others(const Vec& rates) const;
   // The least change of v that ends the slip `a_t` of all tangents at rest and leaves the unilateral normals alone.
   void end_slip(Vec& dv) const;
+  // The least change of v that ends the rates of all unilateral normals and of all tangents at rest; after `prepare`.
+  void come_to_rest(model::AssembledSystem& system, Vec& dv) const;
   // Unilateral participants without a force that the others keep closed: their rows depend on those of pressing
   // contacts.
   std::vector<bool> kept_closed(double nothing) const;
