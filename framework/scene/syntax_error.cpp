@@ -34,6 +34,24 @@ std::size_t utf8_length(std::string_view text) {
   return length;
 }
 
+// Quotes that word processors put in place of " and '.
+bool is_typographic_quote(std::string_view text) {
+  for (const char* quote : {"\u2018", "\u2019", "\u201A", "\u201C", "\u201D", "\u201E", "\u00AB", "\u00BB"})
+    if (text.starts_with(quote)) return true;
+  return false;
+}
+
+std::string in_lower_case(std::string_view word) {
+  std::string lower(word);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return lower;
+}
+
+bool names_no_number(std::string_view word) {
+  const std::string lower = in_lower_case(word);
+  return lower == "nan" || lower == "inf" || lower == "infinity";
+}
+
 // Recursive descent over the grammar of JSON; each function returns false once the error is found.
 class Scanner {
  public:
@@ -99,9 +117,22 @@ class Scanner {
         return fault(i_, "found #; a comment begins with // here, or stands between /* and */");
       case '/':
         return fault(i_, "found a single /; a comment begins with //, or stands between /* and */");
+      case '=':
+        return fault(i_, fmt::format("an expression is a string: \"{}\"", bare_text()));
       default:
+        if (is_typographic_quote(text_.substr(i_)))
+          return fault(i_, fmt::format("found {}, expected the plain double quote \": strings and keys stand in these",
+                                       found()));
         return fault(i_, fmt::format("found {}, expected {}", found(), expected));
     }
+  }
+
+  // What stands here up to the end of the value or of the line.
+  std::string bare_text() const {
+    const std::size_t end = std::min(text_.find_first_of(",}]\"\r\n", i_), text_.size());
+    std::string_view text = text_.substr(i_, end - i_);
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
+    return shortened(text);
   }
 
   bool value() {
@@ -129,15 +160,18 @@ class Scanner {
     while (is_word(here())) ++i_;
     const std::string_view word = text_.substr(begin, i_ - begin);
     if (word == "true" || word == "false" || word == "null") return true;
-    std::string lower(word);
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    if (lower == "nan" || lower == "inf" || lower == "infinity")
-      return fault(begin, fmt::format("{} is no number of a scene; leave the key out if there is no limit", word));
+    const std::string lower = in_lower_case(word);
+    if (names_no_number(word)) return no_number(begin);
     for (const char* literal : {"true", "false", "null"})
       if (lower == literal) return fault(begin, fmt::format("found {}; it is written {}", word, literal));
     if (lower == "none") return fault(begin, "found None; it is written null, or leave the key out");
     return fault(begin, fmt::format("found {0}; a text stands in double quotes: \"{0}\", an expression too: \"=...\"",
                                     shortened(word)));
+  }
+
+  bool no_number(std::size_t begin) {
+    return fault(begin, fmt::format("{} is no number of a scene; leave the key out if there is no limit",
+                                    text_.substr(begin, i_ - begin)));
   }
 
   bool digits() {
@@ -154,8 +188,11 @@ class Scanner {
     };
     if (here() == '-') ++i_;
     const std::size_t whole = i_;
-    if (!digits())
+    if (!digits()) {
+      while (is_word(here())) ++i_;
+      if (names_no_number(text_.substr(whole, i_ - whole))) return no_number(begin);
       return wrong(here() == '.' ? "expected a digit before the point: 0.5" : "expected a digit after the sign");
+    }
     if (text_[whole] == '0' && i_ > whole + 1) return wrong("a number does not begin with a 0 before other digits");
     if (here() == '.' && (++i_, !digits())) return wrong("expected a digit behind the point: 1.0");
     if (here() == 'e' || here() == 'E') {
@@ -190,27 +227,54 @@ class Scanner {
 
   bool escape() {
     const std::size_t begin = i_++;
-    if (here() == 'u') {
-      for (int k = 0; k < 4; ++k)
-        if (++i_, !std::isxdigit(static_cast<unsigned char>(here())))
-          return fault(begin, "expected four hexadecimal digits behind \\u");
-      return true;
-    }
+    if (here() == 'u') return code_unit(begin);
     if (!at_end() && std::string_view("\"\\/bfnrt").find(here()) != std::string_view::npos) return true;
     return fault(begin, "no such escape: a backslash is written \\\\, a quote \\\"");
+  }
+
+  // \uXXXX; a character beyond 16 bits takes two, the first of D800 to DBFF, the second of DC00 to DFFF.
+  bool code_unit(std::size_t begin) {
+    unsigned code = 0;
+    if (!hexadecimal(code)) return fault(begin, "expected four hexadecimal digits behind \\u");
+    const auto within = [&](unsigned low, unsigned high) { return low <= code && code <= high; };
+    const char* half = "this is half of a character: \\uD800 to \\uDBFF and \\uDC00 to \\uDFFF stand in pairs";
+    if (within(0xDC00, 0xDFFF)) return fault(begin, half);
+    if (!within(0xD800, 0xDBFF)) return true;
+    if (!text_.substr(i_ + 1).starts_with("\\u")) return fault(begin, half);
+    i_ += 2;
+    if (!hexadecimal(code) || !within(0xDC00, 0xDFFF)) return fault(begin, half);
+    return true;
+  }
+
+  // Four digits behind this position; ends at the last of them.
+  bool hexadecimal(unsigned& code) {
+    code = 0;
+    for (int k = 0; k < 4; ++k) {
+      ++i_;
+      if (!std::isxdigit(static_cast<unsigned char>(here()))) return false;
+      const char digit = char(std::tolower(static_cast<unsigned char>(here())));
+      code = 16 * code + unsigned(digit <= '9' ? digit - '0' : digit - 'a' + 10);
+    }
+    return true;
   }
 
   bool object() {
     const std::size_t opened = i_++;
     bracket_ = opened;
-    std::optional<std::size_t> comma;
+    last_key_.reset();
+    std::optional<std::size_t> comma, last;
     for (;;) {
       if (!skip_blanks()) return false;
-      if (here() == '}') return comma ? comma_too_much(*comma, '}') : close();
-      if (here() == ',') return comma_too_much(i_, ',');
+      if (here() == '}') return comma ? comma_too_much(*comma, "}") : close();
+      if (here() == ',') return comma_too_much(i_, comma ? "another" : "the first key");
       bracket_ = opened;
-      if (!key() || !skip_blanks() || !value()) return false;
+      last_key_ = last;
+      last = i_;
+      if (!key()) return false;
+      last_key_ = last;
+      if (!skip_blanks() || !value()) return false;
       bracket_ = opened;
+      last_key_ = last;
       const std::size_t end = i_;
       if (!skip_blanks()) return false;
       if (here() == '}') return close();
@@ -245,18 +309,24 @@ class Scanner {
   bool array() {
     const std::size_t opened = i_++;
     bracket_ = opened;
+    last_key_.reset();
     std::optional<std::size_t> comma;
     for (;;) {
       if (!skip_blanks()) return false;
-      if (here() == ']') return comma ? comma_too_much(*comma, ']') : close();
-      if (here() == ',') return comma_too_much(i_, ',');
+      if (here() == ']') return comma ? comma_too_much(*comma, "]") : close();
+      if (here() == ',') return comma_too_much(i_, comma ? "another" : "the first value");
       if (here() == '}') return other_bracket(']');
       if (!value()) return false;
       bracket_ = opened;
+      last_key_.reset();
       const std::size_t end = i_;
       if (!skip_blanks()) return false;
       if (here() == ']') return close();
-      if (here() == ':') return fault(i_, "found : in an array; named values stand in an object: {\"key\": value}");
+      if (here() == ':')
+        return fault(i_,
+                     fmt::format("found : in an array, the [ of {} is not closed by ] before it; named values stand "
+                                 "in an object: {{\"key\": value}}",
+                                 line_of(opened)));
       if (here() != ',') return no_comma(end, opened, ']');
       comma = i_++;
     }
@@ -267,7 +337,7 @@ class Scanner {
     return true;
   }
 
-  bool comma_too_much(std::size_t comma, char before) {
+  bool comma_too_much(std::size_t comma, const char* before) {
     return fault(comma, fmt::format("there is a comma too much here, before {}", before));
   }
 
@@ -278,16 +348,21 @@ class Scanner {
     }
     if (here() == '}' || here() == ']') return other_bracket(closing);
     if (here() == ';') return fault(i_, "found ;, expected a comma");
+    if (std::isdigit(static_cast<unsigned char>(text_[end - 1])) && std::isalpha(static_cast<unsigned char>(here())))
+      return fault(i_, fmt::format("found {} behind a number, expected a comma or {}: a unit does not stand there",
+                                   found(), closing));
     if (here() == '"' || here() == '{' || here() == '[' || here() == '-' || is_word(here()))
       return fault(end, fmt::format("a comma is missing here, before {}", next_text()));
-    return stray("a comma");
+    return stray(closing == '}' ? "a comma or }" : "a comma or ]");
   }
 
   // The following string or word, verbatim.
-  std::string next_text() const {
-    if (here() != '"') return found();
-    const std::size_t end = text_.find_first_of("\"\n", i_ + 1);
-    return shortened(text_.substr(i_, end == std::string_view::npos ? end : end + (text_[end] == '"') - i_));
+  std::string next_text() const { return here() == '"' ? text_of(i_) : found(); }
+
+  // The string that begins at `begin`, verbatim.
+  std::string text_of(std::size_t begin) const {
+    const std::size_t end = text_.find_first_of("\"\n", begin + 1);
+    return shortened(text_.substr(begin, end == std::string_view::npos ? end : end + (text_[end] == '"') - begin));
   }
 
   bool other_bracket(char expected) {
@@ -297,12 +372,15 @@ class Scanner {
 
   bool unclosed(const std::string& expected) {
     if (depth_ == 0 || bracket_ >= text_.size()) return fault(i_, fmt::format("the text ends, expected {}", expected));
-    return fault(bracket_, fmt::format("the text ends before the {} that begins here is closed", text_[bracket_]));
+    std::string message = fmt::format("the text ends before the {} that begins here is closed", text_[bracket_]);
+    if (last_key_) message += fmt::format("; the last key in it is {} of {}", text_of(*last_key_), line_of(*last_key_));
+    return fault(bracket_, message);
   }
 
   std::string_view text_;
   std::size_t i_ = 0;
   std::size_t bracket_ = std::string_view::npos;  // the innermost open bracket
+  std::optional<std::size_t> last_key_;           // its last key, of an object
   int depth_ = 0;
   std::optional<SyntaxError> error_;
 };

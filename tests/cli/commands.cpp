@@ -68,6 +68,13 @@ TEST(Commands, AnswerAComponentWhoseNameIsTooLongForAFile) {
   EXPECT_THAT(validated.err, HasSubstr("integrator.type: no integrator \"xxx"));
 }
 
+TEST(Commands, DescribeNamesTheNearestPage) {
+  EXPECT_THAT(trammel({"describe", "marker"}).err, HasSubstr("Did you mean \"markers\""));
+  EXPECT_THAT(trammel({"describe", "tabel"}).err, HasSubstr("Did you mean \"table\""));
+  EXPECT_THAT(trammel({"describe", "simulation"}).err, HasSubstr("Did you mean \"simulate\""));
+  EXPECT_THAT(trammel({"describe", "lod"}).err, HasSubstr("Did you mean \"load\""));
+}
+
 TEST(Commands, TradeTakesAWholeNumberOfProcesses) {
   for (const char* jobs : {"0", "-1", "0.5", "2.5", "1e12", "two"}) {
     const auto result = trammel({"trade", kPendulum, "--jobs", jobs});

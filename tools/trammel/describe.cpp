@@ -1,4 +1,5 @@
 // trammel describe NAME: the manual page of a component, of a part of a scene, or of the scene language.
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,10 +13,19 @@
 #include "plugin/describe.hpp"
 #include "plugin/describe_json.hpp"
 #include "run/setting_parts.hpp"
+#include "scene/suggestion.hpp"
 
 namespace trammel::tool {
 
 namespace {
+
+// The page on the scene language with the nearest name, unless a component's is nearer.
+std::string nearest_page(const std::string& name, const std::vector<std::string>& pages, plugin::Registry& registry) {
+  std::vector<std::string> all = pages;
+  for (const plugin::Entry* entry : registry.all()) all.push_back(entry->declaration.name);
+  const std::string nearest = scene::nearest(name, all);
+  return std::find(pages.begin(), pages.end(), nearest) == pages.end() ? std::string() : nearest;
+}
 
 // The page as text, or the same as an object of pages.
 class Pages {
@@ -78,6 +88,9 @@ Exit describe(const Arguments& arguments) {
       if (entry->declaration.kind == Kind::integrator) command = "trade";
     }
   } catch (const plugin::UnknownComponent& unknown) {
+    if (const std::string page = nearest_page(arguments.operand(), names, registry); !page.empty())
+      throw UsageError(fmt::format("no component \"{}\". Did you mean \"{}\", a page on the scene language?",
+                                   arguments.operand(), page));
     throw UsageError(fmt::format("{}. Of the scene language: {}", unknown.what(), fmt::join(names, ", ")));
   }
   return end(arguments, pages, command);

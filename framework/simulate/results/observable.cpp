@@ -9,6 +9,7 @@
 
 #include "model/scene_keys.hpp"
 #include "scene/expression.hpp"
+#include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
 #include "simulate/results/relative_motion.hpp"
 #include "simulate/results/series_columns.hpp"
@@ -228,7 +229,10 @@ std::vector<Column> read_observables(const scene::Value& root, const Model& mode
   MotionReader motions(model, problems);
   for (const auto& [name, value] : observe->members()) {
     if (name.empty() || name.find_first_of(",\"\n\r") != std::string::npos)
-      problems.error(value.problem(fmt::format("\"{}\" cannot be a column's name", name)));
+      problems.error(
+          value.problem(fmt::format("\"{}\" cannot be a column's name, which is not empty and holds no comma, "
+                                    "double quote or end of line: they separate the columns of series.csv",
+                                    scene::shortened(name))));
     if (is_fixed_column(name))
       problems.error(value.problem(fmt::format("series.csv has a column \"{}\" always; choose another name", name)));
     if (value.type() == scene::Value::Type::object) {
