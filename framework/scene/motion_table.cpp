@@ -16,9 +16,11 @@
 namespace trammel::scene {
 namespace {
 
-constexpr std::size_t fewest_rows = 4;  // of a table
+constexpr std::size_t fewest_rows = 4;                        // of a table
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // which spreadsheets put before UTF-8
 
 using Cells = std::vector<std::string_view>;
+using Header = std::vector<std::string>;  // names of columns
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blank = " \t\r";
@@ -39,6 +41,19 @@ std::size_t find_unquoted(std::string_view line, std::string_view characters, st
 std::string_view unquoted(std::string_view cell) {
   const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
   return quoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+}
+
+// A double quote within a name in double quotes is written twice.
+Header header_of(const Cells& cells) {
+  Header header;
+  for (const std::string_view cell : cells) {
+    std::string& name = header.emplace_back();
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      name += cell[i];
+      if (cell.substr(i).starts_with("\"\"")) ++i;
+    }
+  }
+  return header;
 }
 
 // Splits at commas if there are any, else at semicolons, else at blanks. A cell may be in double quotes.
@@ -126,17 +141,19 @@ class Table {
   bool read_rows() {
     int line_number = 0;
     bool first = true;
-    for (std::size_t at = 0; at < text_.size();) {
+    for (std::size_t at = text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; at < text_.size();) {
       const auto end = std::min(text_.find('\n', at), text_.size());
       const auto line = trimmed(std::string_view(text_).substr(at, end - at));
       at = end + 1;
       ++line_number;
       if (line.empty() || line.starts_with('#')) continue;
+      if (std::count(line.begin(), line.end(), '"') % 2 != 0)
+        return complain(line_number, "a double quote is not closed on its line");
       const Cells cells = cells_of(line);
       if (std::exchange(first, false)) {
         const bool names =
             std::none_of(cells.begin(), cells.end(), [](auto cell) { return number_of_cell(cell).has_value(); });
-        const Cells header = names ? cells : Cells();
+        const Header header = names ? header_of(cells) : Header();
         if (!find_column("time", 1, header, cells.size(), time_) ||
             !find_column("column", 2, header, cells.size(), column_))
           return false;
@@ -149,10 +166,11 @@ class Table {
     return complain(line_number, fmt::format("found {} rows, expected at least {}", t_.size(), fewest_rows));
   }
 
-  bool refuse_time_as_data(const Cells& header) {
+  bool refuse_time_as_data(const Header& header) {
     const Value* column = object_.find("column");
     const Value* named = column ? column : object_.find("time");
-    const std::string which = header.empty() ? fmt::format("{}", time_ + 1) : fmt::format("\"{}\"", header[time_]);
+    const bool by_name = quotable_ && !header.empty();
+    const std::string which = by_name ? fmt::format("\"{}\"", header[time_]) : fmt::format("{}", time_ + 1);
     problems_.error(
         (named ? *named : object_)
             .problem(fmt::format("column {} of {} is taken for the time and for what moves; \"time\" is column 1 "
@@ -162,7 +180,7 @@ class Table {
   }
 
   // A column by its name in the header or its number from 1; the index from 0.
-  bool find_column(const char* key, int fallback, const Cells& header, std::size_t count, std::size_t& index) {
+  bool find_column(const char* key, int fallback, const Header& header, std::size_t count, std::size_t& index) {
     const Value* value = object_.find(key);
     if (value && value->type() == Value::Type::text && !value->text().starts_with("=")) {
       const auto found = std::find(header.begin(), header.end(), value->text());
@@ -174,11 +192,10 @@ class Table {
         return false;
       }
       if (found != header.end()) return true;
-      const std::vector<std::string> names(header.begin(), header.end());
       problems_.error(value->problem(
           header.empty() ? fmt::format("{} has no line that names its columns, so give a number from 1", file_)
                          : fmt::format("{} has no column \"{}\"{}", file_, value->text(),
-                                       quotable_ ? did_you_mean(value->text(), names) : "")));
+                                       quotable_ ? did_you_mean(value->text(), header) : "")));
       return false;
     }
     const std::optional<int> number = value ? value->read_integer(problems_) : fallback;

@@ -127,7 +127,8 @@ TEST_F(Hostile, NothingOfFilesOutsideIsQuoted) {
   for (const json& scene :
        {json{{"include", "../key"}}, json{{"include", "../key.json"}}, json{{"include", "link.json"}},
         table({{"table", "../key"}}), table({{"table", "../key.csv"}}), table({{"table", "link.json"}}),
-        table({{"table", "../key.csv"}, {"column", "hunter"}})}) {
+        table({{"table", "../key.csv"}, {"column", "hunter"}}), table({{"table", "../key.csv"}, {"time", 2}}),
+        table({{"table", "../key"}, {"column", 1}}), table({{"table", "link.json"}, {"time", 1}, {"column", 1}})}) {
     write(scene, "scenes/scene.json");
     EXPECT_THAT(error_of("scenes/scene.json"), Not(HasSubstr(secret))) << scene;
   }

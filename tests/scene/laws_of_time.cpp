@@ -222,6 +222,16 @@ TEST(MotionTable, FindsColumnsByNameAndByNumber) {
   }
 }
 
+// As spreadsheets write them: names in quotes with separators and quotes within, lines that end with CR LF, a byte order mark.
+TEST(MotionTable, NamesOfColumnsMayBeInDoubleQuotes) {
+  for (const char* entry : {R"({"table": "quake.csv", "time": "t, s", "column": "the \"x\""})",
+                            R"({"table": "quake.csv", "time": "t, s", "column": 2})"}) {
+    const Read read_ = read("\xEF\xBB\xBF\"t, s\",\"the \"\"x\"\"\"\r\n\"0\",0\r\n1,\"1\"\r\n2,0\r\n3,4\r\n", entry);
+    ASSERT_TRUE(read_.law) << read_.problems;
+    EXPECT_NEAR((*read_.law)(3), 4, 1e-14);
+  }
+}
+
 TEST(MotionTable, MayBeSeparatedByBlanks) {
   const Read read_ = read("0.0   1\n  1.0\t2 \n2.0 3\n3.0 4\n", R"({"table": "quake.csv", "holds": "accelerations"})");
   ASSERT_TRUE(read_.law) << read_.problems;
@@ -260,6 +270,8 @@ INSTANTIATE_TEST_SUITE_P(
               "has more than one column \"x\"; give the number of the one that is meant, from 1"},
         Wrong{"t,t,x\n0,0,1\n1,1,2\n2,0,3\n3,0,4\n", R"({"table": "quake.csv", "time": "t", "column": "x"})",
               "has more than one column \"t\""},
+        Wrong{"\"t,x\n0,0\n1,1\n2,0\n3,0\n", R"({"table": "quake.csv"})",
+              "quake.csv:1:1: x: a double quote is not closed on its line"},
         Wrong{good, R"({"table": "quake.csv", "column": 3})", "found column 3, but"},
         Wrong{good, R"({"table": "quake.csv", "time": 0})", "found column 0, but"},
         Wrong{good, R"({"table": "quake.csv", "holds": "acceleration"})",
