@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "scene/shortened.hpp"
+
 namespace trammel::plugin {
 
 namespace {
@@ -21,7 +23,7 @@ std::string text(const Origin& origin, const std::string& call, const std::strin
   if (t) text += fmt::format(" at t = {} s", *t);
   if (step) text += fmt::format(", step {}", *step);
   if (!call.empty()) text += ": ";
-  return text + cause;
+  return scene::printable(text + cause);  // names and causes come from the library
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "plugin/breadcrumb.hpp"
 #include "plugin/fingerprint.hpp"
+#include "plugin/left_out.hpp"
 #include "plugin/library_section.hpp"
 #include "plugin/process_place.hpp"
 #include "plugin/process_settings.hpp"
@@ -19,6 +20,7 @@
 #include "plugin/seal.hpp"
 #include "scene/files.hpp"
 #include "scene/no_memory.hpp"
+#include "scene/shortened.hpp"
 #include "scene/suggestion.hpp"
 
 namespace trammel::plugin {
@@ -49,10 +51,10 @@ fs::path users_folder() {
 }
 
 // Executes the library's code.
-const Declarations& open(const std::string& file) {
+const Declarations& open(const std::string& file, const char* call) {
   namespace dll = boost::dll;
   const Origin origin{file, "", ""};
-  const Breadcrumb goes_on(origin, "loading it");  // may still end the process here, in spite of the rehearsal
+  const Breadcrumb goes_on(origin, call);  // may still end the process here, in spite of the rehearsal
   const ProcessSettings settings;
   const ProcessPlace place;
   dll::shared_library library;
@@ -91,7 +93,8 @@ const char* article(std::string_view kind) {
 // Checks errors in declarations that the builder's types cannot exclude.
 void require_sound(const Declaration& declaration, const std::string& file) {
   const auto refuse = [&](const std::string& cause) {
-    throw PluginError(file, fmt::format("{} \"{}\": {}", to_string(declaration.kind), declaration.name, cause));
+    throw PluginError(
+        file, fmt::format("{} \"{}\": {}", to_string(declaration.kind), scene::shortened(declaration.name), cause));
   };
   if (!is_name(declaration.name)) refuse("a component's name has lower-case letters, digits and _ only");
   for (auto p = declaration.parameters.begin(); p != declaration.parameters.end(); ++p) {
@@ -172,6 +175,10 @@ bool Registry::is_trusted(const fs::path& path) const {
 }
 
 void Registry::load(const fs::path& library) {
+  load(library, "loading it");
+}
+
+void Registry::load(const fs::path& library, const char* call) {
   const std::string file = full_path(library);
   if (std::find(files_.begin(), files_.end(), file) != files_.end()) return;
   const auto section = library_section(file, ".trammel");
@@ -181,7 +188,7 @@ void Registry::load(const fs::path& library) {
   if (const std::string missing = missing_extensions(*section); !missing.empty()) throw PluginError(file, missing);
   require_seal(file, *section);
   rehearse(file);
-  add(open(file), file);
+  add(open(file, call), file);
   files_.push_back(file);
 }
 
@@ -225,7 +232,10 @@ void Registry::load_folders() {
   failures_.clear();
   for (const fs::path& folder : folders_)
     for (const fs::path& file : libraries_in(folder)) try {
-        if (library_section(file, ".trammel")) load(file);  // a folder may contain other libraries, too
+        if (!library_section(file, ".trammel")) continue;  // a folder may contain other libraries, too
+        if (is_left_out(full_path(file)))
+          throw PluginError(full_path(file), "it ends the program when it is loaded, though not when it is tried out");
+        load(file, loading_with_its_folder());
       } catch (const PluginError& e) {
         failures_.push_back(e);
       }

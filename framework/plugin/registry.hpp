@@ -72,6 +72,7 @@ class Registry {
 
  private:
   const Entry* loaded(Kind kind, std::string_view name) const;
+  void load(const std::filesystem::path& library, const char* call);
   void look_for(std::string_view name);
   void load_folders();
   bool is_trusted(const std::filesystem::path& path) const;

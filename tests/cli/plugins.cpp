@@ -12,6 +12,7 @@ namespace fs = std::filesystem;
 using cli::trammel;
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 const fs::path kPlugins = fs::path(TRAMMEL_BUILD_DIR) / "tests/plugins";
@@ -225,6 +226,26 @@ TEST_F(Plugin, ThatFailsTheSecondTimeItIsLoadedIsNamed) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__)
+// A library that a folder brings along costs only its own components.
+TEST_F(Plugin, ThatFailsTheSecondTimeItIsLoadedDoesNotStopItsFolder) {
+  const fs::path libraries = folder.path() / "libraries";
+  fs::create_directory(libraries);
+  for (const char* name : {"ends_the_second_time.so", "crashes_the_second_time.so", "changes_process.so"})
+    fs::copy_file(kPlugins / name, libraries / name);
+  for (const bool as_json : {false, true}) {
+    std::vector<std::string> words = {"list", "--plugin", libraries.string()};
+    if (as_json) words.push_back("--json");
+    const auto listed = trammel(words, {.folder = folder.path(), .environment = {{"TRAMMEL_TEST_FILE", "mark"}}});
+    EXPECT_EQ(listed.exit_code, 0) << listed.err;
+    EXPECT_THAT(listed.out, HasSubstr("changes_process"));
+    EXPECT_THAT(listed.out, HasSubstr("rigid_body"));
+    EXPECT_THAT(listed.out, Not(HasSubstr("fails_the_second_time")));
+    EXPECT_TRUE(!as_json || json::accept(listed.out)) << listed.out;
+    for (const char* name : {"ends_the_second_time.so", "crashes_the_second_time.so"})
+      EXPECT_THAT(as_json ? listed.out + listed.err : listed.err, HasSubstr(name));
+  }
+}
+
 TEST_F(Plugin, WhoseGlobalsCrashAtTheEndSpoilsNoResult) {
   for (const std::vector<std::string>& settings :
        {std::vector<std::string>{}, {"corrections.position=crashes_at_the_end"}}) {

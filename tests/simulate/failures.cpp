@@ -73,6 +73,8 @@ constexpr std::pair<const char*, const char*> changes[] = {
     {"a", "it left a with 0 numbers; expected 2"},
     {"lambda", "it left lambda with 100 numbers; expected 0"},
     {"t", "it changed the time to 1e+09 s; expected 0.03 s"},
+    {"nan_in_q", "it left numbers that are not finite"},
+    {"nan_in_v", "it left numbers that are not finite"},
     {"rounding", "numbers are no longer rounded to nearest"},
 #if defined(__SSE2__)
     {"denormals", "numbers below 2.2e-308 (denormals) have become 0"},

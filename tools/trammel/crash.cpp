@@ -11,9 +11,11 @@
 #include <new>
 #include <string_view>
 
+#include "input.hpp"
 #include "last_words.hpp"
 #include "no_memory.hpp"
 #include "plugin/breadcrumb.hpp"
+#include "plugin/left_out.hpp"
 
 namespace trammel::tool {
 
@@ -22,6 +24,7 @@ namespace {
 // Handlers of signals and of the program's end have no other way to learn it.
 std::atomic<bool> in_the_midst = false;
 pid_t this_process = 0;                   // not a child that rehearses a library
+char* const* arguments = nullptr;         // of main
 std::array<char, 1 << 16> handler_stack;  // a run that overflowed its own stack leaves none
 
 const char* what_happened(int signal) {
@@ -44,10 +47,19 @@ bool on_another_thread() {
   return ::syscall(SYS_gettid) != ::getpid();
 }
 
+// A library that its folder brought along, and not the user, is no reason to end. Returns if it was another, or if there
+// is no other way than to report it.
+void leave_out(const simulate::CrashWitness::Culprit& who) {
+  if (!who.origin || who.call != plugin::loading_with_its_folder() || ::getpid() != this_process) return;
+  ::dup2(json_output(), STDOUT_FILENO);
+  plugin::start_again_without(who.origin->file.c_str(), arguments);
+}
+
 // Reports which component ended the process and how, and ends it.
 [[noreturn]] void tell_and_end(std::string_view how) {
   const simulate::CrashWitness::Culprit who = witness().culprit();
   const bool by_thread = on_another_thread();
+  if (!by_thread) leave_out(who);
   Line line;
   if (by_thread)
     line.add("a thread that a plugin started ended the program");
@@ -89,7 +101,8 @@ void ends_by_itself() {
   in_the_midst = false;
 }
 
-void watch_for_crashes() {
+void watch_for_crashes(char* const* words) {
+  arguments = words;
   this_process = ::getpid();
   in_the_midst = true;
   std::atexit(on_exit);

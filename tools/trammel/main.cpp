@@ -144,7 +144,7 @@ int main(int argc, char** argv) {
     speak_json();
   }
   watch_for_lack_of_memory();
-  watch_for_crashes();
+  watch_for_crashes(argv);
   // A file that meets its size limit is then an error of the write, with results kept, and not the end of the process.
   std::signal(SIGXFSZ, SIG_IGN);
   const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);

@@ -1,6 +1,7 @@
 // A correction that, the third time, changes what is not its own: the size of a part of the state, the time, or the
 // arithmetic of the process.
 #include <cfenv>
+#include <cmath>
 #include <string>
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -30,6 +31,8 @@ struct SpoiltCorrection final : Correction {
     if (how == "a") state.a.setZero(0);
     if (how == "lambda") state.lambda.setZero(100);
     if (how == "t") state.t = 1e9;
+    if (how == "nan_in_q") state.q[0] = std::nan("");
+    if (how == "nan_in_v") state.v[0] = std::nan("");
     if (how == "rounding") std::fesetround(FE_UPWARD);
 #if defined(__SSE2__)
     if (how == "denormals") _mm_setcsr(_mm_getcsr() | 0x8040);  // flush to zero, denormals are zero
@@ -45,4 +48,4 @@ struct SpoiltCorrection final : Correction {
 TRAMMEL_PLUGIN(correction<SpoiltCorrection>("spoilt_correction", "changes what is not its own")
                    .source("none")
                    .parameter("how", &SpoiltCorrection::how,
-                              {.doc = "nothing, q, v, a, lambda, t, rounding, denormals, traps"}))
+                              {.doc = "nothing, q, v, a, lambda, t, nan_in_q, nan_in_v, rounding, denormals, traps"}))
