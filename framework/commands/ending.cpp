@@ -66,6 +66,7 @@ Ending ending(const Setup& setup, const scene::Value& root, const RunPoint& at) 
   } catch (const scene::SceneError& e) {
     return {Cause::scene, e.what(), std::current_exception()};
   } catch (const std::bad_alloc& e) {
+    plugin::note_lack_of_memory();
     return {Cause::other, at.words + plugin::out_of_memory_message(e), nullptr};
   } catch (...) {
     return blamed(blame(setup, at.call, at.t, at.step));

@@ -7,6 +7,8 @@
 
 #include <trammel/outside_domain.hpp>
 
+#include "plugin/out_of_memory.hpp"
+
 namespace trammel::plugin {
 
 PassesThroughPlugins::~PassesThroughPlugins() = default;
@@ -21,6 +23,7 @@ void rethrow_as_plugin_error(const Origin& origin, const char* call, std::option
   } catch (const OutsideDomain&) {
     throw;  // an error of the scene
   } catch (const std::bad_alloc&) {
+    note_lack_of_memory();
     throw;
   } catch (const std::exception& e) {
     throw PluginError(origin, call, fmt::format("it threw: {}", e.what()), t);

@@ -22,6 +22,10 @@ class OutOfMemory final : public std::bad_alloc {
   char text_[80];  // needs no allocation
 };
 
+// From here on a crash is its consequence: a matrix of Eigen that could not grow frees its old block twice.
+void note_lack_of_memory() noexcept;
+bool lacked_memory() noexcept;
+
 inline const char* out_of_memory_message(const std::bad_alloc& error) noexcept {
   return dynamic_cast<const OutOfMemory*>(&error) ? error.what() : "out of memory";
 }

@@ -246,6 +246,16 @@ TEST_F(Plugin, ThatFailsTheSecondTimeItIsLoadedDoesNotStopItsFolder) {
   }
 }
 
+// Eigen leaves a vector that could not grow with the address of a block that is free, and what destroys it crashes.
+TEST_F(Plugin, ThatAsksForTooMuchMemoryEndsTheRunWithThatMessage) {
+  const auto result = run(kPlugins / "spoilt_correction.so",
+                          {R"(corrections={"position": {"type": "spoilt_correction", "how": "memory"}})"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("out of memory"));
+  EXPECT_THAT(result.err, Not(HasSubstr("SIG")));
+  EXPECT_EQ(recorded_status(), "failed");
+}
+
 TEST_F(Plugin, WhoseGlobalsCrashAtTheEndSpoilsNoResult) {
   for (const std::vector<std::string>& settings :
        {std::vector<std::string>{}, {"corrections.position=crashes_at_the_end"}}) {

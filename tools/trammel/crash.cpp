@@ -16,6 +16,7 @@
 #include "no_memory.hpp"
 #include "plugin/breadcrumb.hpp"
 #include "plugin/left_out.hpp"
+#include "plugin/out_of_memory.hpp"
 
 namespace trammel::tool {
 
@@ -74,6 +75,7 @@ void leave_out(const simulate::CrashWitness::Culprit& who) {
 
 void on_crash(int signal) {
   std::signal(signal, SIG_DFL);  // a second crash, in here, ends the process
+  if (plugin::lacked_memory()) end_without_memory(std::bad_alloc());
   tell_and_end(what_happened(signal));
 }
 

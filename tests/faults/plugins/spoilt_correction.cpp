@@ -28,6 +28,7 @@ struct SpoiltCorrection final : Correction {
   void spoil(State& state) const {
     if (how == "q") state.q.resize(1);
     if (how == "v") state.v.setZero(5);
+    if (how == "memory") state.v.resize(Eigen::Index(1) << 45);
     if (how == "a") state.a.setZero(0);
     if (how == "lambda") state.lambda.setZero(100);
     if (how == "t") state.t = 1e9;
@@ -48,4 +49,4 @@ struct SpoiltCorrection final : Correction {
 TRAMMEL_PLUGIN(correction<SpoiltCorrection>("spoilt_correction", "changes what is not its own")
                    .source("none")
                    .parameter("how", &SpoiltCorrection::how,
-                              {.doc = "nothing, q, v, a, lambda, t, nan_in_q, nan_in_v, rounding, denormals, traps"}))
+                              {.doc = "nothing, q, v, a, lambda, t, nan_in_q, nan_in_v, memory, rounding, denormals, traps"}))
