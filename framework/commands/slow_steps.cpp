@@ -24,7 +24,8 @@ double radians_that_account(bool implicit, const Tolerance& tolerance) {
 
 std::string cause(const FastestMotion& fastest, const Setup& setup, Simulator& simulator, double h) {
   const bool implicit = setup.integrator->traits().implicit, on_rows = setup.integrator->traits().holds_position;
-  if (const MassRatio ratio = mass_ratio(*setup.model, simulator.state()); ratio.is_large() && !on_rows)
+  const MassRatio ratio = mass_ratio(*setup.model, simulator.state());
+  if (ratio.is_large() && !on_rows)
     return fmt::format("{}; \"rows\": \"projected\" in the integrator takes long steps there",
                        description(ratio, *setup.model));
   const bool stabilises = !implicit && !on_rows && simulator.system().sizes().nc > 0;
@@ -34,6 +35,11 @@ std::string cause(const FastestMotion& fastest, const Setup& setup, Simulator& s
         "integrator takes longer ones",
         stabilised_at);
   const std::string what = description(fastest, *setup.model);
+  if (ratio.is_large() && fastest.rate() * h < accounts_for)
+    return fmt::format(
+        "{}, where round-off leaves few digits of accelerations and the error control follows it; a looser tolerance "
+        "does not: \"step\": {{\"tolerance\": {:.0e}}}",
+        description(ratio, *setup.model), 1e3 * setup.settings.step.tolerance.relative);
   if (fastest.rate() * h < radians_that_account(implicit, setup.settings.step.tolerance))
     return fmt::format(
         "{}, which asks for none so short, with {} events so far; a looser tolerance takes longer ones, or fixed "

@@ -146,7 +146,8 @@ class Compiler {
     } else if (starts_name(c)) {
       name();
     } else {
-      fail(fmt::format("found '{}', expected a number, a name or '('", c));
+      fail(
+          fmt::format("found '{}', expected a number, a name or '('{}", c, c == '*' ? "; a power is written x^2" : ""));
     }
   }
 

@@ -70,6 +70,17 @@ std::string begun_with(std::string_view word, const std::vector<std::string>& ca
   return found;
 }
 
+// The shortest candidate that has the word as its last part: "rod.pin" for "pin".
+std::string ended_with(std::string_view word, const std::vector<std::string>& candidates) {
+  std::string found;
+  for (const std::string& candidate : candidates)
+    if (candidate.size() > word.size() + 1 && candidate[candidate.size() - word.size() - 1] == '.' &&
+        same_letters(word, std::string_view(candidate).substr(candidate.size() - word.size())) &&
+        (found.empty() || candidate.size() < found.size()))
+      found = candidate;
+  return found;
+}
+
 }  // namespace
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
@@ -85,7 +96,8 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   const double size = double(std::max(word.size(), found.size()));
   const double near = std::min(std::max(2.0, size / 3), size / 2);
   if (best <= near && best < double(word.size())) return found;
-  return begun_with(word, candidates);
+  const std::string begun = begun_with(word, candidates);
+  return begun.empty() && !word.empty() ? ended_with(word, candidates) : begun;
 }
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {

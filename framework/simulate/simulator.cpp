@@ -144,8 +144,15 @@ double Simulator::relative_drift() {
 // because it goes on growing; that of a damping method overshoots once and falls (HHT-alpha at h omega = 1e5: by 5e4).
 void Simulator::judge_energy() {
   const double drift = relative_drift();
-  if (!std::isfinite(drift)) find_culprit(0);
-  const bool runs_away = !(drift < 1e3) && (last_row_ || !(drift < drift_before_));
+  if (!std::isfinite(drift)) {
+    find_culprit(0);
+    throw RunFailed(
+        fmt::format("at t = {:.9g} s, step {}: the energy left the range of numbers: lengths, speeds, masses or "
+                    "stiffnesses are too "
+                    "large, or the solution diverged",
+                    now_.t, statistics_.steps));
+  }
+  const bool runs_away = drift >= 1e3 && (last_row_ || drift >= drift_before_);
   drift_before_ = std::max(drift, 1e3);
   if (drift <= unexplained) last_good_ = now_;
   if (runs_away)

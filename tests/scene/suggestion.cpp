@@ -29,4 +29,12 @@ TEST(DidYouMean, ShowsTheNearestOfALongListAndHowManyMoreThereAre) {
   EXPECT_THAT(text, HasSubstr(" and 14 more. Did you mean \"energy.total\"?"));
 }
 
+TEST(DidYouMean, KnowsANameByItsLastPart) {
+  const std::vector<std::string> names = {"ground", "rod.com", "rod.pin", "contacts.floor.force"};
+  EXPECT_THAT(did_you_mean("pin", names), HasSubstr("Did you mean \"rod.pin\"?"));
+  EXPECT_THAT(did_you_mean("floor.force", names), HasSubstr("Did you mean \"contacts.floor.force\"?"));
+  EXPECT_THAT(did_you_mean("in", names), Not(HasSubstr("Did you mean")));
+  EXPECT_THAT(did_you_mean("", names), Not(HasSubstr("Did you mean")));
+}
+
 }  // namespace

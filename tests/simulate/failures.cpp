@@ -11,6 +11,7 @@ namespace trammel::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 // sqrt(0.505 - t): not a number from then on.
 const Overrides breaks_at_0505 = {
@@ -232,6 +233,15 @@ TEST(InconsistentStart, OfABeamInsideAPlaneIsTurnedOutAndNotBent) {
   ASSERT_TRUE(run.done()) << run.report.reason;
   EXPECT_NEAR(run.series.at("tip_y").front(), 0, 1e-10);
   EXPECT_NEAR(run.series.at("theta").front(), 0, 1e-4);
+}
+
+TEST(Energy, BeyondTheRangeOfNumbersIsTold) {
+  const Finished run = run_text(R"({"trammel": 1, "space": "planar", "gravity": [0, 0],
+    "bodies": {"mass": {"type": "rigid_body", "mass": 1, "inertia": 1, "angular_velocity": 1e160}},
+    "integrator": {"type": "runge_kutta_4", "step": 1e-3}, "simulate": {"until": 1}, "record": {"every": 1}})");
+  EXPECT_EQ(run.report.status, simulate::Status::failed);
+  EXPECT_THAT(run.report.reason, HasSubstr("the energy left the range of numbers"));
+  EXPECT_THAT(run.report.reason, Not(HasSubstr("nan")));
 }
 
 // A spring of omega = 10/s: steps beyond the method's limit make energy of nothing, however finite it is.

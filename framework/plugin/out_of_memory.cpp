@@ -1,0 +1,19 @@
+#include "plugin/out_of_memory.hpp"
+
+#include <atomic>
+
+namespace trammel::plugin {
+
+namespace {
+std::atomic<bool> lacking = false;  // a handler of signals asks for it
+}
+
+void note_lack_of_memory() noexcept {
+  lacking = true;
+}
+
+bool lacked_memory() noexcept {
+  return lacking;
+}
+
+}  // namespace trammel::plugin
