@@ -244,6 +244,41 @@ TEST(Energy, BeyondTheRangeOfNumbersIsTold) {
   EXPECT_THAT(run.report.reason, Not(HasSubstr("nan")));
 }
 
+// Falls through less than the digits in which a scene is written are no motion, whatever the size.
+TEST(Energy, OfAnOpeningWithinTheDigitsOfASceneIsNoReasonToWarn) {
+  for (const double size : {1e-3, 1.0, 1e3, 1e6})
+    for (const double gap : {1e-9, 1e-10}) {
+      const Finished run = run_text(fmt::format(
+          R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+        "bodies": {{"block": {{"type": "rigid_body", "mass": 1, "inertia": {0}, "position": [0, {1:.17g}],
+          "markers": {{"l": [-{2}, -{2}], "r": [{2}, -{2}]}}}}}},
+        "contacts": {{
+          "l": {{"type": "constraint_method", "between": ["block.l", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}},
+          "r": {{"type": "constraint_method", "between": ["block.r", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}}}},
+        "integrator": {{"type": "dop853", "step": {{"tolerance": 1e-9}}}},
+        "simulate": {{"until": {3}}}, "record": {{"every": {4}}}}})",
+          size * size / 6, size * (0.5 + gap), size / 2, std::sqrt(size), std::sqrt(size) / 20));
+      ASSERT_TRUE(run.done()) << run.report.reason;
+      EXPECT_TRUE(run.result["warnings"].empty()) << size << " m, " << gap << ": " << run.result["warnings"];
+    }
+}
+
+// A swing that the method damps is told of at any place: potential energies count from the origin.
+TEST(Energy, ThatTheMethodTakesIsToldWhereverTheSceneStands) {
+  for (const double place : {0.0, 1e6, 1e8}) {
+    const Finished run = run_text(fmt::format(
+        R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+      "bodies": {{"mass": {{"type": "point_mass", "mass": 1, "position": [0, {:.17g}]}}}},
+      "forces": {{"spring": {{"type": "spring_damper", "between": [{{"point": [0, {:.17g}]}}, "mass.point"],
+        "stiffness": 100, "length": 1}}}},
+      "integrator": {{"type": "hht_alpha", "alpha": -0.3, "step": 0.1}},
+      "simulate": {{"until": 10}}, "record": {{"every": 1}}}})",
+        place - 1, place));
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    EXPECT_THAT(run.result["warnings"].dump(), HasSubstr("the method itself changed the energy")) << place;
+  }
+}
+
 // A spring of omega = 10/s: steps beyond the method's limit make energy of nothing, however finite it is.
 TEST(UnstableSteps, EndTheRunInsteadOfResults) {
   const auto spring = [](const char* integrator, double h) {
