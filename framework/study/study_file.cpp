@@ -121,6 +121,8 @@ Study Study::restore(const std::string& text, const std::string& file) {
 void Study::read(Problems& problems) {
   const Value& root = definition_.root();
   if (root.type() != Type::object) return problems.error(root.problem("expected a study: an object"));
+  if (const Value* scene = root.find("trammel"); scene && !root.find("study"))
+    return problems.error(scene->problem("this file is a scene, and no study: trammel run takes it"));
   model::check_keys(root,
                     {"study", "title", "scene", "set", "mode", "vary", "count", "seed", "reduce", "keep", "figures",
                      "parameters", "include"},

@@ -68,6 +68,29 @@ TEST(Commands, AnswerAComponentWhoseNameIsTooLongForAFile) {
   EXPECT_THAT(validated.err, HasSubstr("integrator.type: no integrator \"xxx"));
 }
 
+TEST(Commands, NameAFileOfAnotherKind) {
+  const cli::TemporaryFolder folder;
+  cli::write_file(folder.path() / "study.json", R"({"study": 1, "scene": "x.json", "vary": {"parameters.L": [1, 2]}})");
+  cli::write_file(folder.path() / "result.json", R"({"trammel_result": 1, "plugins": [{"name": "x"}]})");
+  for (const char* command : {"run", "validate", "explain", "static", "modes"}) {
+    const auto of_study = trammel({command, "study.json"}, {.folder = folder.path()});
+    EXPECT_EQ(of_study.exit_code, 2) << command;
+    EXPECT_THAT(of_study.err, HasSubstr("study.json:1:11: study: this file is a study, and no scene")) << command;
+    const auto of_result = trammel({command, "result.json"}, {.folder = folder.path()});
+    EXPECT_EQ(of_result.exit_code, 2) << command;
+    EXPECT_THAT(of_result.err, HasSubstr("this file is the result of a run, and no scene")) << command;
+  }
+  const auto scene = trammel({"study", kPendulum});
+  EXPECT_EQ(scene.exit_code, 2);
+  EXPECT_THAT(scene.err, HasSubstr("this file is a scene, and no study: trammel run takes it"));
+}
+
+TEST(Commands, AnswerAMethodThatThereIsNotAsBadInput) {
+  const auto result = trammel({"stability", "hht"});
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("Did you mean \"hht_alpha\""));
+}
+
 TEST(Commands, DescribeNamesTheNearestPage) {
   EXPECT_THAT(trammel({"describe", "marker"}).err, HasSubstr("Did you mean \"markers\""));
   EXPECT_THAT(trammel({"describe", "tabel"}).err, HasSubstr("Did you mean \"table\""));

@@ -24,10 +24,27 @@ std::vector<scene::Override> overrides_of(const Arguments& arguments) {
   return overrides;
 }
 
+namespace {
+
+// Files of another kind are told as such, and not by each of their keys.
+void require_scene(const scene::Value& root) {
+  if (root.find("trammel")) return;
+  if (const scene::Value* study = root.find("study"))
+    throw scene::SceneError({study->problem("this file is a study, and no scene: trammel study takes it")});
+  if (const scene::Value* result = root.find("trammel_result"))
+    throw scene::SceneError(
+        {result->problem("this file is the result of a run, and no scene; scene.resolved.json "
+                         "beside it is the scene")});
+}
+
+}  // namespace
+
 scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override> more) {
   std::vector<scene::Override> overrides = overrides_of(arguments);
   overrides.insert(overrides.end(), more.begin(), more.end());
-  return scene::Scene::load(arguments.operand(), overrides);
+  scene::Scene scene = scene::Scene::load(arguments.operand(), overrides);
+  require_scene(scene.root());
+  return scene;
 }
 
 void load_plugins(const Arguments& arguments, plugin::Registry& registry) {

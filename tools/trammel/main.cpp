@@ -118,6 +118,8 @@ int run_program(const std::string& program, std::span<const std::string> words) 
     return fail(Exit::bad_input, error.problems(), error.what());
   } catch (const UsageError& error) {
     return fail(Exit::bad_input, problem(error), fmt::format("trammel: {}", error.what()));
+  } catch (const plugin::UnknownComponent& error) {
+    return fail(Exit::bad_input, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (const simulate::FolderRefused& error) {
     return fail(Exit::bad_input, problem(error), fmt::format("trammel: {}", error.what()));
   } catch (const plugin::PluginError& error) {
