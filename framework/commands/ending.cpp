@@ -7,7 +7,7 @@
 
 #include <trammel/outside_domain.hpp>
 
-#include "plugin/out_of_memory.hpp"
+#include "plugin/process/out_of_memory.hpp"
 #include "run/run_failed.hpp"
 #include "simulate/results/log_file.hpp"
 #include "simulate/start/blame.hpp"

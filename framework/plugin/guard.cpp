@@ -7,7 +7,7 @@
 
 #include <trammel/outside_domain.hpp>
 
-#include "plugin/out_of_memory.hpp"
+#include "plugin/process/out_of_memory.hpp"
 
 namespace trammel::plugin {
 

@@ -12,7 +12,7 @@
 #include <trammel/types.hpp>
 
 #include "plugin/plugin_error.hpp"
-#include "plugin/process_settings.hpp"
+#include "plugin/process/settings.hpp"
 
 namespace trammel::plugin {
 

@@ -12,10 +12,10 @@
 
 #include "plugin/breadcrumb.hpp"
 #include "plugin/fingerprint.hpp"
-#include "plugin/left_out.hpp"
 #include "plugin/library_section.hpp"
-#include "plugin/process_place.hpp"
-#include "plugin/process_settings.hpp"
+#include "plugin/process/left_out.hpp"
+#include "plugin/process/place.hpp"
+#include "plugin/process/settings.hpp"
 #include "plugin/rehearsal.hpp"
 #include "plugin/seal.hpp"
 #include "scene/files.hpp"

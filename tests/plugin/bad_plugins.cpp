@@ -13,7 +13,7 @@
 #include <trammel/integrator.hpp>
 
 #include "plugin/parameters.hpp"
-#include "plugin/process_settings.hpp"
+#include "plugin/process/settings.hpp"
 #include "plugin/rehearsal.hpp"
 #include "registry_of_test.hpp"
 #include "test_library.hpp"

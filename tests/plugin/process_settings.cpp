@@ -1,4 +1,4 @@
-#include "plugin/process_settings.hpp"
+#include "plugin/process/settings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -222,7 +222,8 @@ TEST(MotionTable, FindsColumnsByNameAndByNumber) {
   }
 }
 
-// As spreadsheets write them: names in quotes with separators and quotes within, lines that end with CR LF, a byte order mark.
+// As spreadsheets write them: names in quotes with separators and quotes within, CR LF at the ends of lines, and a byte
+// order mark.
 TEST(MotionTable, NamesOfColumnsMayBeInDoubleQuotes) {
   for (const char* entry : {R"({"table": "quake.csv", "time": "t, s", "column": "the \"x\""})",
                             R"({"table": "quake.csv", "time": "t, s", "column": 2})"}) {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "plugin/plugin_error.hpp"
-#include "plugin/process_settings.hpp"
+#include "plugin/process/settings.hpp"
 
 #include "support/run_scene.hpp"
 #include "support/scenes.hpp"

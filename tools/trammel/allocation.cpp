@@ -5,7 +5,7 @@
 #include <new>
 
 #include "no_memory.hpp"
-#include "plugin/out_of_memory.hpp"
+#include "plugin/process/out_of_memory.hpp"
 
 // Sanitizers bring their own.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

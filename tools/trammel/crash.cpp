@@ -15,8 +15,8 @@
 #include "last_words.hpp"
 #include "no_memory.hpp"
 #include "plugin/breadcrumb.hpp"
-#include "plugin/left_out.hpp"
-#include "plugin/out_of_memory.hpp"
+#include "plugin/process/left_out.hpp"
+#include "plugin/process/out_of_memory.hpp"
 
 namespace trammel::tool {
 
@@ -48,8 +48,8 @@ bool on_another_thread() {
   return ::syscall(SYS_gettid) != ::getpid();
 }
 
-// A library that its folder brought along, and not the user, is no reason to end. Returns if it was another, or if there
-// is no other way than to report it.
+// A library that its folder brought along, and not the user, is no reason to end. Returns if it was another, or if
+// there is no other way than to report it.
 void leave_out(const simulate::CrashWitness::Culprit& who) {
   if (!who.origin || who.call != plugin::loading_with_its_folder() || ::getpid() != this_process) return;
   ::dup2(json_output(), STDOUT_FILENO);

@@ -4,7 +4,7 @@
 
 #include <new>
 
-#include "plugin/out_of_memory.hpp"
+#include "plugin/process/out_of_memory.hpp"
 
 namespace trammel::tool {
 

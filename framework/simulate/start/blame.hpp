@@ -6,7 +6,7 @@
 
 #include <trammel/outside_domain.hpp>
 
-#include "plugin/process_settings.hpp"
+#include "plugin/process/settings.hpp"
 #include "simulate/start/setup.hpp"
 #include "system/assembled_system.hpp"
 

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "plugin/process_settings.hpp"
+#include "plugin/process/settings.hpp"
 #include "testing/kit/components/common.hpp"
 #include "testing/kit/exercise.hpp"
 

@@ -1,4 +1,4 @@
-#include "plugin/left_out.hpp"
+#include "plugin/process/left_out.hpp"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "plugin/out_of_memory.hpp"
+#include "plugin/process/out_of_memory.hpp"
 
 #include <atomic>
 

@@ -1,4 +1,4 @@
-#include "plugin/process_place.hpp"
+#include "plugin/process/place.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
