@@ -103,26 +103,33 @@ class Cascade {
     Vec F = start;
     if (yields > 0) {
       if (!solve_cones(points_, compliant(yields), b_, F, rounds)) return false;
-      if (dependent_ && try_springs(yields, F)) return true;
+      Vec springs;
+      if (dependent_ && try_springs(compliant(yields) * F + b_, F, springs) && accept(springs)) return true;
     }
     const bool found = solve_cones(points_, A_, b_, F, rounds);
     return accept(F) && found;
   }
 
   // Exact shares of equal springs: adds a stiffness against forces along the self-stress of the carrying rows, which
-  // makes these forces 0.
-  bool try_springs(double yields, const Vec& nearby) {
-    const Vec a = compliant(yields) * nearby + b_;
-    const CarryingRows carrying =
-        carrying_rows(points_, A_, roles_of(points_, nearby, a, 1e-8 * b_.lpNorm<Eigen::Infinity>()));
+  // makes these forces 0. Rows of idle contacts resist their forces alone, so these are 0 as well. `a`: accelerations of
+  // `nearby`.
+  bool try_springs(const Vec& a, const Vec& nearby, Vec& F) {
+    std::vector<ContactRole> roles = roles_of(points_, nearby, a, 1e-8 * b_.lpNorm<Eigen::Infinity>());
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (const int row = points_[i].normal; row >= 0 && !(nearby[row] > 0)) roles[i] = {};
+    CarryingRows carrying = carrying_rows(points_, A_, roles);
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (!roles[i].closed && follows(A_, carrying.rows.basis, points_[i].normal))
+        roles[i].closed = roles[i].idle = true;
+    carrying = carrying_rows(points_, A_, roles);
     std::vector<Eigen::Index> rows = carrying.rows.basis;
     rows.insert(rows.end(), carrying.rows.implied.begin(), carrying.rows.implied.end());
     const Eigen::Index n = Eigen::Index(rows.size());
     Mat springs = A_;
     springs(rows, rows) +=
         A_.diagonal().maxCoeff() * (Mat::Identity(n, n) - carrying.share * carrying.rows.resultants());
-    Vec F = nearby;
-    return solve_cones(points_, springs, b_, F) && accept(F);
+    F = nearby;
+    return solve_cones(points_, springs, b_, F);
   }
 
   // Keeps the exact solution near `nearby` if it is the best so far, or `nearby` itself if there is no exact one. In
@@ -131,9 +138,12 @@ class Cascade {
   bool accept(const Vec& nearby) { return accept(nearby, A_ * nearby + b_); }
   bool accept(const Vec& nearby, const Vec& a) {
     for (const double off : judged_at_rest) {
-      Vec exact = nearby, a_exact = a;
-      if (make_exact(points_, A_, b_, off, exact, a_exact)) keep(exact, a_exact);
-      if (!round_ && least_ <= round_off) return true;
+      Vec exact = nearby, a_exact = a, springs;
+      if (!make_exact(points_, A_, b_, off, exact, a_exact)) continue;
+      keep(exact, a_exact);
+      if (round_ && dependent_ && least_ > round_off && try_springs(a_exact, exact, springs))
+        keep(springs, A_ * springs + b_);
+      if ((!round_ || dependent_) && least_ <= round_off) return true;
     }
     if (round_ || least_ > largest_violation) keep(nearby, A_ * nearby + b_);
     return least_ <= round_off;

@@ -57,5 +57,29 @@ TEST(SlidingFeet, ShareAsEqualSpringsWhetherTheOtherHoldsOrSlips) {
   EXPECT_GT(slips, 30);
 }
 
+// The others then are those that springs leave.
+TEST(SlidingFeet, ThatSpringsWouldLiftAreIdleAsThoseOfStiffSprings) {
+  std::mt19937 random(268);
+  std::uniform_real_distribution<double> any(-1, 1);
+  int idle = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Problem rigid = turning_box(0.4 + 0.1 * any(random), 0.4 + 0.1 * any(random), 0.5, 0.5,
+                                      {4 * any(random), 4 * any(random), any(random)},
+                                      {0.3 * any(random), 0.3 * any(random), 0.4 * any(random)});
+    Problem stiff = rigid;
+    const double soft = 1e-7;
+    stiff.A.diagonal().array() += soft * rigid.A.diagonal().maxCoeff();
+    const Answer answer = solve(rigid), springs = solve(stiff);
+    ASSERT_EQ(answer.outcome, LcpOutcome::solved) << i;
+    EXPECT_LE(offence(rigid, answer.F, answer.a), little(rigid, answer.F)) << i;
+    if (springs.outcome != LcpOutcome::solved) continue;
+    EXPECT_LE((answer.F - springs.F).norm(), 1e4 * soft * springs.F.norm()) << i << "\n"
+                                                                            << answer.F.transpose() << "\n"
+                                                                            << springs.F.transpose();
+    for (const ContactPoint& p : rigid.points) idle += answer.F[p.normal] == 0 && answer.a[p.normal] == 0;
+  }
+  EXPECT_GT(idle, 50);
+}
+
 }  // namespace
 }  // namespace trammel::complementarity

@@ -30,7 +30,7 @@ Problem pushed_blocks(std::mt19937& random) {
   return bodies.problem("pushed blocks");
 }
 
-// But not all that press: those then share by the least admissible forces, which are not those of springs with friction.
+// But not all that press: those then share by the least admissible forces, which springs with friction do not have.
 bool some_are_at_bounds(const Problem& problem, const Vec& F) {
   bool bound = false, within = false;
   for (const ContactPoint& p : problem.points) {
