@@ -12,7 +12,7 @@ using Tangent = Participant::Tangent;
 
 // Rule 11. Forces and accelerations below `undecided` times the error of a solution cannot be distinguished from 0.
 // They can be for the state a moment later: after `moment_later` of the time in which the scene crosses its length, at
-// its speed or by its accelerations. Little else has changed by then.
+// its speed or by its accelerations, or in which a slip ends. Little else has changed by then.
 constexpr double undecided = 10, moment_later = 1e-4;
 
 // x / |x|; the direction of the first tangent if x is 0.
@@ -288,18 +288,30 @@ bool ContactModes::in_balance(double violation) const {
   });
 }
 
+// [s] The time in which the scene crosses its length, or in which a slip ends. At the system's point, where a_ are the
+// accelerations.
+double ContactModes::time_of_change() {
+  const Scale& scene = scale_.scene();
+  const double speed = std::max(scene.speed, std::sqrt(largest_ * scene.length()));
+  double least = speed > 0 ? scene.length() / speed : 0;
+  for (const Participant& p : problem_.who) {
+    if (p.tangent != Tangent::sliding) continue;
+    const double slip = system_.slip(p.contact).norm(), change = system_.slip_acceleration(p.contact, a_).norm();
+    if (slip > scale_.of(p.contact).at_rest() && slip < least * change) least = slip / change;
+  }
+  return least;
+}
+
 // Rule 11: decides by the state a moment later.
 complementarity::ContactSolution ContactModes::decide_by_what_follows(const State& state, ContactChanges changes,
                                                                       bool jumped,
                                                                       complementarity::ContactSolution so_far) {
   using complementarity::LcpOutcome;
-  const Scale& scene = scale_.scene();
-  const double speed = std::max(scene.speed, std::sqrt(largest_ * scene.length()));
-  const double moment = speed > 0 ? moment_later * scene.length() / speed : 0;  // [s]
   const model::Modes decided = modes_;
   system_.set_modes(so_far.outcome == LcpOutcome::solved ? modes_ : before_);
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
+  const double moment = moment_later * time_of_change();
   State later = state;
   later.t += moment;
   system_.retract(state.q, moment * state.v + 0.5 * moment * moment * a_, later.q);

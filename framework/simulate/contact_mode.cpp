@@ -22,6 +22,23 @@ constexpr double least_approach = 1e-6;
 // forces.
 constexpr double opened_by_error = 1e-6;
 
+bool is_idle(const model::Modes& modes, int contact) {
+  return std::any_of(modes.shared.begin(), modes.shared.end(), [&](const model::SharedRows& group) {
+    const auto row = [contact](const model::ContactDirection& d) { return d.contact == contact && d.row == 0; };
+    const auto k = std::find_if(group.implied.begin(), group.implied.end(), row) - group.implied.begin();
+    return k < std::ssize(group.implied) && group.share.row(std::ssize(group.basis) + k).isZero(0);
+  });
+}
+
+// Whether the same contacts carry and slide.
+bool carry_alike(const model::Modes& a, const model::Modes& b) {
+  for (std::size_t i = 0; i < a.contacts.size(); ++i) {
+    const bool same = a.contacts[i].closed == b.contacts[i].closed && a.contacts[i].friction == b.contacts[i].friction;
+    if (!same || is_idle(a, int(i)) != is_idle(b, int(i))) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool ContactModes::any_closed() const {
@@ -44,7 +61,10 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   losses_.clear();
   lost_elsewhere_ = 0;
   find_bearings();
-  if (jumped) strike(state, changes);
+  if (jumped) {
+    const auto impact = strike(state, changes);
+    if (impact.outcome != LcpOutcome::solved) fail_without_impact(state.t, impact);
+  }
   lock(state, changes, events);
   find_candidates(changes);
   auto solution =
@@ -107,10 +127,25 @@ complementarity::ContactSolution ContactModes::strike_without_collision(State& s
   }
   for (TouchingContact& c : touching_) c.without_collision = true, c.raised = changes.raised;
   for (TouchingContact& c : bearings_) c.without_collision = true;
-  strike(state, changes);
+  const auto impact = strike(state, changes);
+  if (impact.outcome != LcpOutcome::solved) {
+    const auto others = changes.locked ? decide_otherwise(state, changes) : impact;
+    if (others.outcome != LcpOutcome::solved) fail_without_impact(state.t, impact);
+    return others;
+  }
   lock(state, changes, events);
   find_candidates(changes);
   return decide(state, changes, true);
+}
+
+// Rule 8: in other modes than those whose forces grow beyond all bounds, as they are beyond that state.
+complementarity::ContactSolution ContactModes::decide_otherwise(const State& state, const ContactChanges& changes) {
+  for (TouchingContact& c : touching_) c.without_collision = false;
+  find_candidates(changes);
+  gather(state, changes, false);
+  const auto solution = decide_by_what_follows(state, changes, false, {LcpOutcome::gave_up, 0});
+  if (solution.outcome == LcpOutcome::solved && carry_alike(modes_, before_)) return {LcpOutcome::gave_up, 0};
+  return solution;
 }
 
 void ContactModes::append_impacts(double t, bool without_collision, std::vector<ContactEvent>& events) const {
@@ -170,7 +205,7 @@ void ContactModes::find_bearings() {
     if (rubs_in_impacts(system_.model().contacts[i])) bearings_.push_back({.contact = i, .was_closed = true});
 }
 
-void ContactModes::strike(State& state, const ContactChanges& changes) {
+complementarity::ContactSolution ContactModes::strike(State& state, const ContactChanges& changes) {
   const double kinetic_before = system_.energy().kinetic;
   v_before_ = state.v;
   Brief brief;
@@ -179,7 +214,10 @@ void ContactModes::strike(State& state, const ContactChanges& changes) {
     all = touching_;
     all.insert(all.end(), bearings_.begin(), bearings_.end());
     const auto solution = impact_.solve(system_, state, at_rest(all), all, dv_);
-    if (solution.outcome != LcpOutcome::solved) fail_without_impact(state.t, solution);
+    if (solution.outcome != LcpOutcome::solved) {
+      state.v = v_before_;
+      return solution;
+    }
     std::copy_n(all.begin(), touching_.size(), touching_.begin());
     std::copy_n(all.begin() + std::ptrdiff_t(touching_.size()), bearings_.size(), bearings_.begin());
     state.v = v_before_ + dv_;
@@ -202,6 +240,7 @@ void ContactModes::strike(State& state, const ContactChanges& changes) {
     lost_elsewhere_ -= c.energy_lost();
   }
   impact_warnings_.check(state.t, kinetic_before, at_rest(all), all, impact_.cut_short());
+  return {LcpOutcome::solved, 0};
 }
 
 // Rule 9.

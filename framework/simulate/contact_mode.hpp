@@ -43,8 +43,9 @@
 //  8. Rigid contacts may have no solution with finite forces (Painleve's rod), or forces that grow beyond all bounds as
 //     that state is approached (event_location.hpp rejects controlled steps past it). Then an impact without collision
 //     stops or turns the slip: rule 1 with nothing approaching, in which dependent contacts, none of which could part
-//     alone, yield a little. If this impact has no solution, the run ends with a message; so it does if modes
-//     contradict each other at one instant (Simulator).
+//     alone, yield a little. If this impact has no solution, other contacts may carry from there on (a table whose feet
+//     share otherwise as its slip turns). If they cannot, the run ends with a message; so it does if modes contradict
+//     each other at one instant (Simulator).
 //  9. A contact that never releases (a latch) locks after rule 1 if it touches without a rate. It is no candidate; its
 //     row is held like a joint's from then on, through the decision that follows and all later impacts.
 // 10. Joints with friction take part like compliant contacts; their normal force is the load of their bearings. This
@@ -150,7 +151,8 @@ class ContactModes {
   void toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events);
   void find_touching(const ContactChanges& changes);
   void find_bearings();
-  void strike(State& state, const ContactChanges& changes);
+  [[nodiscard]] complementarity::ContactSolution strike(State& state, const ContactChanges& changes);
+  [[nodiscard]] complementarity::ContactSolution decide_otherwise(const State& state, const ContactChanges& changes);
   // By index of the touching contacts: `falls`, the separation after the impact is too short to follow; `stops`, the
   // slip.
   struct Brief {
@@ -182,6 +184,7 @@ class ContactModes {
   std::vector<Participant*> held_at_bounds(const State& state);
   void hold(const std::vector<Participant*>& held);
   bool in_balance(double violation) const;
+  double time_of_change();
   [[nodiscard]] complementarity::ContactSolution decide_by_what_follows(const State& state, ContactChanges changes,
                                                                         bool jumped,
                                                                         complementarity::ContactSolution so_far);

@@ -83,8 +83,8 @@ TEST(ContactAudit, DoesNotTellRoundOff) {
       EXPECT_THAT(told(beside(1, 0.01 * (1 + part), 0, on_block), {0}), IsEmpty()) << part;
 }
 
-// A block on two feet of 5 N, which can hold 1 N and 3 N; springs of equal stiffness would hold 2 N each. Where the push
-// is no more than both can, nothing is told; where it is, by how little.
+// A block on two feet of 5 N, which can hold 1 N and 3 N; springs of equal stiffness would hold 2 N each. Where the
+// push is no more than both can, nothing is told; where it is, by how little.
 TEST(ContactAudit, TellsOfFeetThatCannotHoldByHowLittleAllOfThemFail) {
   const auto pushed = [](double push) {
     return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -10],
