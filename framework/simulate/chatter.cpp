@@ -68,8 +68,8 @@ ContactModes::Brief ContactModes::too_brief(const State& state, const ContactCha
   return brief;
 }
 
-// At the velocities that they would have at rest: those that end ask for accelerations, omega^2 r of a table that rocks,
-// that no forces of contacts which depend on each other have.
+// At the velocities that they would have at rest: those that end ask for accelerations, omega^2 r of a table that
+// rocks, that no forces of contacts which depend on each other have.
 void ContactModes::judge_brief(const State& state, std::size_t at_rest_now, Brief& brief) {
   problem_.prepare(system_);
   Vec change;
