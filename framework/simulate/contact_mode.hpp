@@ -49,16 +49,16 @@
 //  9. A contact that never releases (a latch) locks after rule 1 if it touches without a rate. It is no candidate; its
 //     row is held like a joint's from then on, through the decision that follows and all later impacts.
 // 10. Joints with friction take part like compliant contacts; their normal force is the load of their bearings. This
-// load depends on the forces sought, so the problem is solved in rounds (bearing_decision.cpp). In impacts they rub
-// under the impulses of their reactions (bearing_impulses.hpp). A joint that locks itself while it slides has no finite
-// forces: it jams by rule 8. Rounds that find no modes prove nothing.
+//     load depends on the forces sought, so the problem is solved in rounds (bearing_decision.cpp). In impacts they rub
+//     under the impulses of their reactions (bearing_impulses.hpp). A joint that locks itself while it slides has no
+//     finite forces: it jams by rule 8. Rounds that find no modes prove nothing.
 // 11. Rule 3 may not decide which contacts press: a contact that was closed has neither force nor acceleration, and the
-// others do not hold it (a stack below a ceiling that begins to tip), or no solution is found to round-off. Then the
-// same problem is solved for the state a moment later. If that has no solution, rule 8 applies.
+//     others do not hold it (a stack below a ceiling that begins to tip), or no solution is found to round-off. Then
+//     the same problem is solved for the state a moment later. If that has no solution, rule 8 applies.
 // 12. The friction of a contact at rest may be at its bound while its tangents depend on rows of other contacts, some
-// of which slide (blocks that push each other along a channel). The shares of springs (complementarity/shares) would
-// exceed the bound, and other shares would give another motion. Such a contact keeps T = mu N like one that slides,
-// without a slip. If mu < mu_0 it has let go (rule 6), and all modes are decided again.
+//     of which slide (blocks that push each other along a channel). The shares of springs (complementarity/shares)
+//     would exceed the bound, and other shares would give another motion. Such a contact keeps T = mu N like one that
+//     slides, without a slip. If mu < mu_0 it has let go (rule 6), and all modes are decided again.
 //
 // `rebound: constrained` makes candidates of contacts that separate at e u-. `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0. `onset: next_step` only changes when an event is seen.
