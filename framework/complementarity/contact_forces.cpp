@@ -111,8 +111,8 @@ class Cascade {
   }
 
   // Exact shares of equal springs: adds a stiffness against forces along the self-stress of the carrying rows, which
-  // makes these forces 0. Rows of idle contacts resist their forces alone, so these are 0 as well. `a`: accelerations of
-  // `nearby`.
+  // makes these forces 0. Rows of idle contacts resist their forces alone, so these are 0 as well. `a`: accelerations
+  // of `nearby`.
   bool try_springs(const Vec& a, const Vec& nearby, Vec& F) {
     std::vector<ContactRole> roles = roles_of(points_, nearby, a, 1e-8 * b_.lpNorm<Eigen::Infinity>());
     for (std::size_t i = 0; i < points_.size(); ++i)

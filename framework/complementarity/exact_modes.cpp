@@ -86,8 +86,9 @@ class ExactModes {
   }
 
   // The shares must not depend on the modes tried before: forms them again, with all contacts closed that do not part
-  // and all tangents sticking that do not move. But if sliding contacts share, contacts that are idle or at their bounds
-  // in the nearby solution stay so: equal springs led there, and with springs' shares alone there may be no solution.
+  // and all tangents sticking that do not move. But if sliding contacts share, contacts that are idle or at their
+  // bounds in the nearby solution stay so: equal springs led there, and with springs' shares alone there may be no
+  // solution.
   void share_by_accelerations() {
     const std::vector<ContactRole> on_the_way = roles_;
     roles_ = roles_of(points_, F_, a_, mode_tolerance * acceleration_scale());

@@ -114,9 +114,9 @@ void Simulator::record_due(RecordSink& recorder) {
 }
 
 // [J] Energy that counts as none in this scene: 1e-8 of the energy of its masses at its speed, which a fall through its
-// length gives, or a nanojoule if nothing has a speed. That is ten times the energy of a fall through the last digits of
-// a scene: a contact that is closed at the start may be off by those, and the stabilisation of its row closes it in steps
-// of any length.
+// length gives, or a nanojoule if nothing has a speed. That is ten times the energy of a fall through the last digits
+// of a scene: a contact that is closed at the start may be off by those, and the stabilisation of its row closes it in
+// steps of any length.
 double Simulator::little_energy() {
   constexpr double little = 1e-8, nanojoule = 1e-9;
   const double speed = std::max(scale_.scene().speed, scale_.scene().motion);
