@@ -1,6 +1,7 @@
 #include "report/report.hpp"
 
 #include <algorithm>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -49,7 +50,8 @@ Json page_of(const Json& json) {
   return pages.empty() ? Json(nullptr) : joined(pages);
 }
 
-// Of a folder's JSON files the first with a page; null: there is none.
+// The page of the file, or of the first of a folder's JSON files that has one. A file that is no JSON, such as a scene
+// with comments, has none. null: there is none.
 Json page_in(const fs::path& what) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -61,7 +63,8 @@ Json page_in(const fs::path& what) {
     files = {what};
   }
   for (const fs::path& file : files) {
-    Json page = page_of(json_file(file));
+    std::ifstream in(file, std::ios::binary);
+    Json page = page_of(Json::parse(in, nullptr, false));
     if (!page.is_null()) return page;
   }
   return nullptr;
@@ -105,11 +108,10 @@ std::string report(const std::vector<fs::path>& what) {
   }
   Json page = page_in(what.front());
   if (page.is_null())
-    throw ReportRefused(
-        fmt::format("{} holds no results: expected a folder of 'trammel run', 'static' or 'modes', or a JSON file with "
-                    "a \"page\", as "
-                    "'trammel check', 'trade', 'study' and 'stability' write it",
-                    what.front().string()));
+    throw ReportRefused(fmt::format(
+        "{} holds no results: expected a folder of 'trammel run', 'static' or 'modes', or a JSON file with a "
+        "\"page\", as 'trammel check', 'trade', 'study' and 'stability' write it",
+        what.front().string()));
   const std::string title = page.value("title", "Trammel");
   return html_file(title, {{"kind", "page"}, {"page", std::move(page)}}, Needs::page);
 }
