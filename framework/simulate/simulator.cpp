@@ -114,17 +114,22 @@ void Simulator::record_due(RecordSink& recorder) {
 }
 
 // [J] Energy that counts as none in this scene: 1e-8 of the energy of its masses at its speed, which a fall through its
-// length gives, or a nanojoule if nothing has a speed. That is ten times the energy of a fall through the last digits
+// length gives, or of the work of the present forces over its length if that is more: without gravity, what loads hold
+// at rest has no speed. A nanojoule if there is neither. That is ten times the energy of a fall through the last digits
 // of a scene: a contact that is closed at the start may be off by those, and the stabilisation of its row closes it in
 // steps of any length.
 double Simulator::little_energy() {
   constexpr double little = 1e-8, nanojoule = 1e-9;
-  const double speed = std::max(scale_.scene().speed, scale_.scene().motion);
-  if (!(speed > 0) || now_.v.size() == 0) return nanojoule;
+  if (now_.v.size() == 0) return nanojoule;
+  const Scale& scene = scale_.scene();
+  const double speed = std::max(scene.speed, scene.motion);
   const Vec rates = system_.coordinate_sizes().levers.cwiseInverse();  // of a speed of 1 m/s
   scratch_.setZero(now_.v.size());
   system_.add_mass_times(1, rates, scratch_);
-  return little * scratch_.cwiseProduct(rates).lpNorm<Eigen::Infinity>() * speed * speed;
+  const double moving = scratch_.cwiseProduct(rates).lpNorm<Eigen::Infinity>() * speed * speed;
+  const double work = system_.f().cwiseProduct(rates).lpNorm<Eigen::Infinity>() * scene.length();
+  const double energy = std::max(moving, work);
+  return energy > 0 ? little * energy : nanojoule;
 }
 
 // Largest energy that known causes can have set in motion so far: the initial energy, and the energy that fell, came in

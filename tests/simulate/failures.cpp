@@ -263,6 +263,27 @@ TEST(Energy, OfAnOpeningWithinTheDigitsOfASceneIsNoReasonToWarn) {
     }
 }
 
+// Without gravity, a block that loads press on a plane has no speed; round-off of its rows is no energy.
+TEST(Energy, OfWhatLoadsHoldAtRestIsNoReasonToWarn) {
+  for (const double force : {1e-6, 1.0, 1e6})
+    for (const char* press : {"-10", "-20*t", "-10-sin(5*t)"}) {
+      const Finished run = run_text(fmt::format(
+          R"({{"trammel": 1, "space": "planar", "parameters": {{"F": {0}}},
+        "bodies": {{"block": {{"type": "rigid_body", "mass": 1, "inertia": 0.01, "position": [0, 0.1],
+          "markers": {{"l": [-0.1, -0.1], "r": [0.1, -0.1]}}}}}},
+        "contacts": {{
+          "l": {{"type": "constraint_method", "between": ["block.l", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}],
+            "friction": {{"type": "coulomb", "static": 0.6, "kinetic": 0.5}}}},
+          "r": {{"type": "constraint_method", "between": ["block.r", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}],
+            "friction": {{"type": "coulomb", "static": 0.6, "kinetic": 0.5}}}}}},
+        "forces": {{"push": {{"type": "load", "on": "block.com", "force": {{"x": "=3*F*t", "y": "=({1})*F"}}}}}},
+        "simulate": {{"until": 1}}, "record": {{"every": 0.01}}}})",
+          force, press));
+      ASSERT_TRUE(run.done()) << run.report.reason;
+      EXPECT_TRUE(run.result["warnings"].empty()) << force << " N, " << press << ": " << run.result["warnings"];
+    }
+}
+
 // A swing that the method damps is told of at any place: potential energies count from the origin.
 TEST(Energy, ThatTheMethodTakesIsToldWhereverTheSceneStands) {
   for (const double place : {0.0, 1e6, 1e8}) {
