@@ -41,8 +41,8 @@ bool continues_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
 }
 
-// Recursive descent. sum: product {+- product}; product: unary {*/ unary}; unary: -unary | power; power: atom [^
-// unary].
+// Compiles by recursive descent over the grammar
+//     sum: product {+- product}    product: unary {*/ unary}    unary: -unary | power    power: atom [^ unary]
 class Compiler {
  public:
   // Called with a dotted name. True: it is a quantity, whose value is inserted before each evaluation.

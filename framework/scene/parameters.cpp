@@ -43,8 +43,8 @@ class Evaluation {
     return expression(value);
   }
 
-  // {"by": "=mesh", "values": {"coarse": 4, "fine": 16}, "otherwise": 8}: selects by the value of another
-  // parameter, a text.
+  // {"by": "=mesh", "values": {"coarse": 4, "fine": 16}, "otherwise": 8}: selects by the text value of
+  // another parameter.
   std::optional<Result> choice(const Value& value) {
     const Value *by = value.find("by"), *values = value.find("values"), *otherwise = value.find("otherwise");
     if (!by || !values || values->type() != Value::Type::object) {

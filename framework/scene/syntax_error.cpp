@@ -10,7 +10,7 @@
 namespace trammel::scene {
 namespace {
 
-constexpr int deepest = 200;  // the parser refuses deeper nesting before it asks here
+constexpr int deepest = 200;  // the parser refuses deeper nesting before it calls this scanner
 
 bool is_word(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '$';
@@ -380,7 +380,7 @@ class Scanner {
   std::string_view text_;
   std::size_t i_ = 0;
   std::size_t bracket_ = std::string_view::npos;  // the innermost open bracket
-  std::optional<std::size_t> last_key_;           // its last key, of an object
+  std::optional<std::size_t> last_key_;           // the last key in it, if it is an object
   int depth_ = 0;
   std::optional<SyntaxError> error_;
 };

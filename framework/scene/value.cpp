@@ -295,7 +295,7 @@ void Builder::finish(Value& value, const std::string& path,
   finish(value, {"", parameters}, path, alone, sum);
 }
 
-// `siblings`: of the value before, which serves this one too if both are of one file.
+// `siblings`: those of the previous value; they are shared if both values are in the same file.
 void Builder::finish(Value& value, const Family& family, std::string name,
                      std::shared_ptr<const Value::Siblings>& siblings, std::size_t& size) {
   if (!siblings || siblings->file != value.file())

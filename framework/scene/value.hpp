@@ -108,7 +108,7 @@ class Value {
   friend class Builder;
   // What the values of one array or object have in common, so that millions of values take little memory.
   struct Siblings {
-    std::string file, path;                        // that they are written in; of the array or object
+    std::string file, path;                        // the file that contains them; the path of the array or object
     std::shared_ptr<const Parameters> parameters;  // of the whole scene
   };
   const Parameters* parameters() const { return siblings_ ? siblings_->parameters.get() : nullptr; }
@@ -116,8 +116,8 @@ class Value {
   std::variant<Null, bool, double, std::string, Items, Members> content_;
   std::shared_ptr<const Siblings> siblings_;
   int line_ = 0, column_ = 0;
-  std::string name_;                                 // among them: a key, or "[3]"
-  std::shared_ptr<const std::vector<int>> by_name_;  // members in the order of their names, of a large finished object
+  std::string name_;                                 // a key of the object, or "[3]" in an array
+  std::shared_ptr<const std::vector<int>> by_name_;  // only in large finished objects: members sorted by name
 };
 
 struct Override {
