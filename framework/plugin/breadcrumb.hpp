@@ -11,8 +11,8 @@ struct PresentCall {
 };
 PresentCall present_call() noexcept;
 
-// To be called once. From then on a process that a plugin forks within a call ends where that call would return: the
-// run is its parent's, and both would write to the same files.
+// Call this once. From then on a process that a plugin forks within a call ends where that call would return: the run
+// belongs to its parent, and both would write to the same files.
 void end_forks_of_calls() noexcept;
 
 // Marks a call in progress during its lifetime; its destructor restores the enclosing call.

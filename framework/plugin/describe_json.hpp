@@ -7,8 +7,8 @@
 
 namespace trammel::plugin {
 
-// kind, name, summary, source, file, markers, observables, keys, and of each parameter name, what is expected, default,
-// unit, limits, choices and doc.
+// An object with kind, name, summary, source, file, parameters, markers, observables and keys. Each parameter has its
+// name, what is expected, default, unit, limits, choices and doc.
 nlohmann::ordered_json describe_json(const Entry& entry);
 nlohmann::ordered_json describe_json(const Part& part);
 

@@ -12,8 +12,8 @@ std::string_view host_fingerprint();
 // Returns "" if a plugin with this fingerprint can be used, else a text that names each difference with both values:
 //     eigen_align: the plugin has 32, this program 16
 // The SDK's major numbers must be equal, and the plugin's minor number must not be newer than the host's. The compiler
-// may be another one: GCC and clang follow the same Itanium C++ ABI. So may the release of libstdc++: its ABI has been
-// one since GCC 5 for each value of string_abi; what a newer release has in addition, the loader asks for by symbol
+// may be another one: GCC and clang follow the same Itanium C++ ABI. So may the release of libstdc++: since GCC 5 its
+// ABI is the same for each value of string_abi, and the loader checks the additions of newer releases by symbol
 // versions. Another set of extensions is no difference, because Eigen's alignment is pinned.
 std::string mismatch(std::string_view plugin, std::string_view host);
 

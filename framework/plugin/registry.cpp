@@ -221,7 +221,7 @@ const Entry* Registry::loaded(Kind kind, std::string_view name) const {
 // NAME.so of every folder, not only of the first: two libraries with the same name are an error.
 void Registry::look_for(std::string_view name) {
   if (!is_name(name) || !names_looked_for_.emplace(name).second) return;
-  std::error_code error;  // a name may be longer than a file's
+  std::error_code error;  // a component's name may be too long for a file name
   for (const fs::path& folder : folders_)
     if (const fs::path file = folder / (std::string(name) + extension); fs::exists(file, error)) load(file);
 }

@@ -1,7 +1,7 @@
 // Finds components in shared libraries.
 //
 // The search path consists of the arguments of `search`, TRAMMEL_PLUGIN_PATH, the user's folder
-// ($XDG_DATA_HOME/trammel/plugins, by default ~/.local/share/trammel/plugins) and the installed folder; never of the
+// ($XDG_DATA_HOME/trammel/plugins, by default ~/.local/share/trammel/plugins) and the installed folder; never the
 // current folder. A library in the search path is loaded immediately. A folder is searched when a component is
 // requested: component NAME is expected in NAME.so; the folder's other libraries are loaded only if it is not found
 // there. Thus a run loads only the libraries that its scene names. Libraries are never unloaded, because objects,
@@ -67,7 +67,8 @@ class Registry {
   const std::vector<PluginError>& failures() const { return failures_; }
   // The libraries loaded so far, in order.
   const std::vector<std::string>& files() const { return files_; }
-  // Of these, each as its file was when first asked for: many scenes of one process do not read it again.
+  // Their identities. Each file is read only when this is first called after it was loaded: many scenes of one process
+  // do not read it again.
   const std::vector<Identity>& identities();
 
  private:
@@ -81,8 +82,8 @@ class Registry {
 
   std::vector<std::filesystem::path> folders_;
   std::vector<std::unique_ptr<Entry>> entries_;
-  std::vector<std::string> files_;  // canonical
-  std::vector<Identity> identities_;  // of the first of files_
+  std::vector<std::string> files_;    // canonical
+  std::vector<Identity> identities_;  // of the first files in files_
   std::set<std::string, std::less<>> names_looked_for_;
   bool folders_loaded_ = false, scene_plugins_allowed_ = false;
   std::vector<PluginError> failures_;

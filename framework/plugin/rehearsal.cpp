@@ -103,7 +103,7 @@ void prepare_child(int pipe_end) {
   // that they are still running.
   report_to = ::fcntl(pipe_end, F_DUPFD, 200);
   if (report_to < 0) report_to = ::dup(pipe_end);
-  // A library that writes to everything spoils no file of the program and is not ended by a pipe that somebody closes.
+  // A library that writes to every descriptor then damages no file of the program, and no closed pipe ends it.
   ::close_range(STDERR_FILENO + 1, unsigned(report_to) - 1, 0);
   ::close_range(unsigned(report_to) + 1, ~0U, 0);
   if (const int silence = ::open("/dev/null", O_RDWR); silence >= 0)

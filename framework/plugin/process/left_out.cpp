@@ -13,10 +13,10 @@ namespace trammel::plugin {
 
 namespace {
 
-constexpr std::string_view variable = "TRAMMEL_LEFT_OUT=";  // lines, a library each
+constexpr std::string_view variable = "TRAMMEL_LEFT_OUT=";  // the value has one library per line
 constexpr const char* name = "TRAMMEL_LEFT_OUT";
 
-// A handler cannot allocate.
+// Static, because a signal handler cannot allocate.
 std::array<char, 1 << 16> setting;
 std::array<char*, 1 << 12> environment;
 
@@ -28,7 +28,7 @@ bool append(std::size_t& size, std::string_view text) {
   return true;
 }
 
-// The present value, which getenv would look for with a lock.
+// The current value. Not by getenv, which may take a lock.
 std::string_view left_out_so_far() {
   for (char** entry = ::environ; entry && *entry; ++entry)
     if (std::string_view(*entry).starts_with(variable)) return std::string_view(*entry).substr(variable.size());
@@ -50,7 +50,7 @@ bool copy_environment() {
 }  // namespace
 
 const char* loading_with_its_folder() noexcept {
-  static constexpr char call[] = "loading it";  // told from other calls by its address
+  static constexpr char call[] = "loading it";  // compared by address
   return call;
 }
 
@@ -71,7 +71,7 @@ void start_again_without(const char* library, char* const* arguments) noexcept {
   if (!append(size, variable) || !append(size, before) || !append(size, before.empty() ? "" : "\n") ||
       !append(size, library) || !copy_environment())
     return;
-  sigset_t mask;  // within a handler its signal is blocked, and would be in the new program
+  sigset_t mask;  // a handler's signal is blocked, and would still be in the new program
   sigemptyset(&mask);
   sigprocmask(SIG_SETMASK, &mask, nullptr);
   ::execve("/proc/self/exe", arguments, environment.data());

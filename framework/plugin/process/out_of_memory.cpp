@@ -5,7 +5,7 @@
 namespace trammel::plugin {
 
 namespace {
-std::atomic<bool> lacking = false;  // a handler of signals asks for it
+std::atomic<bool> lacking = false;  // read by a signal handler
 }
 
 void note_lack_of_memory() noexcept {

@@ -22,7 +22,7 @@ class OutOfMemory final : public std::bad_alloc {
   char text_[80];  // needs no allocation
 };
 
-// From here on a crash is its consequence: a matrix of Eigen that could not grow frees its old block twice.
+// From here on a crash counts as its consequence: an Eigen matrix that could not grow frees its old block twice.
 void note_lack_of_memory() noexcept;
 bool lacked_memory() noexcept;
 

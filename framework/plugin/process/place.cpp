@@ -6,7 +6,7 @@
 
 namespace trammel::plugin {
 
-// A folder that cannot be opened, as one that was removed, is not returned to.
+// A folder that cannot be opened, for example because it was removed, is not restored.
 ProcessPlace::ProcessPlace() : folder_(::open(".", O_PATH | O_DIRECTORY | O_CLOEXEC)), mask_(::umask(0)) {
   ::umask(mode_t(mask_));
 }

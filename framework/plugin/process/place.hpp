@@ -1,5 +1,5 @@
-// The working folder, by which names of files are found, and the access that new files get: a library may change both
-// while it is loaded, and results would go elsewhere.
+// The working folder, which relative file names refer to, and the access rights of new files (umask). A library may
+// change both while it is loaded; results would then be written to the wrong place.
 #pragma once
 
 namespace trammel::plugin {
