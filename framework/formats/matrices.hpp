@@ -18,11 +18,11 @@ struct Matrices {
   std::vector<std::string> velocities;  // names of dq: "beam[0]"; of the rows of M, D, K, Z and the columns of G
   std::vector<std::string> rows;        // names of the rows of G: "joints.hinge[0]", "contacts.tip.normal"
 };
-// `state` with its a and lambda, the system in its modes. Throws like `linearise`.
+// At `state`, which includes a and lambda, with the system's contacts in its modes. Throws like `linearise`.
 Matrices matrices(model::AssembledSystem& system, const State& state);
 
-// FILE.npz with all of them, and for each FILE_M.mtx, ... (Matrix Market), FILE_velocities.txt and FILE_rows.txt with a
-// name a line. An ending .npz or .mtx of `file` is left out.
+// Writes FILE.npz with all matrices, each also as FILE_M.mtx, ... (Matrix Market), and the names, one per line, to
+// FILE_velocities.txt and FILE_rows.txt. FILE is `file` without an ending .npz or .mtx.
 void write_matrices(const std::filesystem::path& file, const Matrices& matrices);
 
 }  // namespace trammel::formats

@@ -1,4 +1,4 @@
-// `trammel run --format NAME`: the results once more, for another tool.
+// `trammel run --format NAME`: converts the results for another tool.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@ namespace trammel::formats {
 
 struct RunFormat {
   std::string_view name, summary;
-  // Writes beside the results in `folder`; gives the file to open. Throws std::runtime_error.
+  // Writes beside the results in `folder`; returns the file to open. Throws std::runtime_error.
   std::filesystem::path (*write)(const std::filesystem::path& folder);
 };
 std::span<const RunFormat> run_formats();

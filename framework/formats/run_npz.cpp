@@ -1,5 +1,5 @@
-// series.npz: an array for each column of series.csv under its name, and "columns", "units" of the same order.
-// events.npz: the columns of events.csv, texts and numbers; a figure that an event does not have is NaN.
+// series.npz: one array per column of series.csv, under its name, and "columns" and "units" in the order of the columns.
+// events.npz: the columns of events.csv, texts and numbers; a number that an event does not have is NaN.
 #include <limits>
 
 #include <nlohmann/json.hpp>

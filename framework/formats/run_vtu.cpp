@@ -1,4 +1,4 @@
-// VTK's XML files: animation.pvd and fields.pvd name a .vtu of each time, in the folder vtu/.
+// VTK's XML files: animation.pvd and fields.pvd list one .vtu per time, in the folder vtu/.
 //
 //     animation   outlines of bodies as polylines and faces as quadrilaterals; cell data "body", the body's number;
 //                 point data "values" of faces (NaN on outlines)
@@ -30,7 +30,7 @@ constexpr int polyline = 4, quadrilateral = 9, vertex = 1;  // vtkCellType
 // Points, cells and data of one time.
 class Grid {
  public:
-  // In the plane z = 0. Gives the point's index.
+  // z = 0 in planar scenes. Returns the point's index.
   long long point(const Json& place) {
     for (std::size_t i = 0; i < 3; ++i)
       fmt::format_to(std::back_inserter(points_), "{} ", i < place.size() ? place[i].get<double>() : 0.0);
@@ -43,7 +43,7 @@ class Grid {
     fmt::format_to(std::back_inserter(bodies_), "{} ", body);
     ++n_cells_;
   }
-  // For the points from the last call on: NaN for those in between.
+  // Values of the last points added, one number each; earlier points that have no value yet get NaN.
   void values(const std::string& name, const Json& numbers) {
     Field& field = fields_[name];
     fill(field, n_points_ - (long long)(numbers.size()));
@@ -117,7 +117,7 @@ std::string animation_grid(const Json& line) {
   return grid.xml();
 }
 
-// The points of an element lie row by row: `along` in a row.
+// The points of an element are given row by row, `along` points per row.
 void add_patch(Grid& grid, const Json& patch, const Json& names, int body) {
   const auto along = patch.at("along").get<long long>();
   const auto count = (long long)(patch.at("points").size());
