@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_frames = 4000;
 
-// The positions at which lines end, and so the next ones begin.
+// The positions just after each end of line, where the next line begins; first 0.
 std::vector<long long> line_ends(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::vector<long long> ends = {0};

@@ -1,5 +1,5 @@
-// animation.ndjson for a report: some of its lines, as many as fit, with places as 16-bit numbers in the box that
-// contains them all (a step is 1/65535 of its longest side).
+// animation.ndjson for a report: as many of its lines as fit, with coordinates as 16-bit numbers in the box that
+// contains all points (a unit is 1/65535 of its longest side).
 //
 //     {"frames": n, "total": lines of the file, "stride": lines from one frame to the next, "dimension": 2 or 3,
 //      "times": f64, "low": [x, y, z], "step": metres per unit,
@@ -19,8 +19,8 @@
 
 namespace trammel::report {
 
-// Null without the file. Throws std::runtime_error naming file and line for a line that is no JSON; a last one that was
-// cut off is left out.
+// Returns null if the file does not exist. Throws std::runtime_error naming file and line if a line is not JSON, but
+// skips a last line that was cut off.
 nlohmann::ordered_json read_animation(const std::filesystem::path& file, std::size_t most_bytes);
 
 }  // namespace trammel::report

@@ -5,7 +5,7 @@
 
 namespace trammel::report {
 
-// "report.css", "figure.js", "dygraph.min.js", ...; empty: there is no such file, or dygraphs was not there at the build.
+// "report.css", "figure.js", "dygraph.min.js", ...; empty if there is no such file, or no dygraphs when it was built.
 std::string_view asset(std::string_view name);
 
 }  // namespace trammel::report

@@ -8,7 +8,7 @@
 
 namespace trammel::report {
 
-// Throws std::runtime_error naming the file, and line and column of what is no JSON.
+// Throws std::runtime_error naming the file and, if it is not JSON, line and column of the error.
 nlohmann::ordered_json json_file(const std::filesystem::path& file);
 
 // The value at a path of keys; null: there is none.

@@ -56,7 +56,7 @@ struct Page {
 nlohmann::ordered_json to_json(const Page& page);
 // Sentences and tables for a terminal; figures are left out.
 std::string text(const Page& page);
-// One HTML file that asks for nothing else.
+// One HTML file that loads nothing else.
 std::string html(const Page& page);
 
 }  // namespace trammel::report

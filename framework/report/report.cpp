@@ -22,7 +22,7 @@ bool has(const fs::path& folder, const char* file) {
   return fs::exists(folder / file, error);
 }
 
-// One page of several, of `trammel check` on a library: each figure and table named after its page.
+// Joins the pages of `trammel check` on a library into one. Sentences and titles begin with the title of their page.
 Json joined(const std::vector<Json>& pages) {
   if (pages.size() == 1) return pages.front();
   Json all = {{"title", fmt::format("{} components", pages.size())}};

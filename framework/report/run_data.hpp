@@ -15,12 +15,12 @@ struct Room {
   Room shared_by(std::size_t runs) const { return {series / runs, animation / runs, events / runs + 1}; }
 };
 
-// Of `trammel run` or `trammel static`: {"name", "result", "scene", "series": {"columns": [{"name", "unit", "meaning",
-// "path", "data": f64}], "rows", "interval"}, "events", "animation", "missing": [sentences]}. A folder without
-// result.json, of a run that was killed, is shown as far as it goes.
+// For a folder of `trammel run` or `trammel static`: {"name", "result", "scene", "series": {"columns": [{"name", "unit", "meaning",
+// "path", "data": f64}], "rows", "interval"}, "events", "animation", "missing": [sentences]}. Of a
+// run that was killed, whose folder has no result.json, the existing files are shown.
 nlohmann::ordered_json run_data(const std::filesystem::path& folder, const Room& room);
 
-// Of `trammel modes`: {"name", "result", "shapes": [{"mode", "bodies": [{"name", "at": [[x, y], ...], "re", "im"}]}]}.
+// For a folder of `trammel modes`: {"name", "result", "shapes": [{"mode", "bodies": [{"name", "at": [[x, y], ...], "re", "im"}]}]}.
 nlohmann::ordered_json modes_data(const std::filesystem::path& folder);
 
 }  // namespace trammel::report

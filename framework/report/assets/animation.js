@@ -20,7 +20,7 @@ class Animation {
     this.value = new Float32Array(Math.max(1, ...this.layouts.map((l) => l.values)));
   }
 
-  // The value that a part of all values exceeds: colours are not spent on a few peaks.
+  // The value that the fraction `part` of all values exceeds: as the end of the colour scale it leaves out a few peaks.
   value_exceeded_by(part) {
     const sample = [], stride = Math.max(1, Math.floor(this.values.length / 20000));
     for (let k = 0; k < this.values.length; k += stride) sample.push(this.values[k]);
@@ -82,7 +82,7 @@ class Animation {
     return Math.max(0, Math.min(this.frames - 1, first_from(this.t, t + 1e-12 * Math.abs(t)) - (this.t[0] >= t ? 0 : 1)));
   }
 
-  // Fills `place` (3 numbers a point) and `value`; gives the layout and the frame at or before t.
+  // Fills `place` (3 numbers a point) and `value`; returns the layout and the frame at or before t.
   at(t) {
     const frame = this.frame_at(t), layout = this.layout_of[frame];
     const next = Math.min(frame + 1, this.frames - 1), same = this.layout_of[next] === layout && next > frame;

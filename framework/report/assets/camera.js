@@ -1,4 +1,4 @@
-// From places in the world to pixels: in the plane a scale and a centre, in space an orthographic view that is orbited
+// Maps points of the world to pixels: in the plane by a scale and a centre, in space by an orthographic view that turns
 // about a centre, z up.
 
 class Camera {
@@ -17,7 +17,7 @@ class Camera {
     this.tilt = 0.42;
   }
 
-  // The size that is to fit into the picture [m], from where the view begins.
+  // The size of the box as seen from the initial direction [m], which must fit into the picture.
   extent() {
     const side = this.box[0].map((x, i) => this.box[1][i] - x);
     if (!this.spatial) return [side[0], side[1]];

@@ -10,7 +10,7 @@ class Clock {
     this.listeners = [];
   }
 
-  // One at which the whole takes about ten seconds: 1, 2 or 5 times a power of ten.
+  // The speed at which the whole run takes about ten seconds: 1, 2 or 5 times a power of ten.
   usual_speed() {
     const rough = (this.end - this.begin) / 10, power = 10 ** Math.floor(Math.log10(rough));
     return Number((power * [1, 2, 5, 10].find((m) => m * power >= rough * 0.999)).toPrecision(1));

@@ -23,6 +23,6 @@ function at_its_width(of, draw) {
     const now = Math.round(of.clientWidth);
     if (now > 0 && now !== width) draw((width = now));
   };
-  // In the next frame: what is drawn changes sizes, which the observer may not see while it reports.
+  // Draws in the next frame, because drawing changes sizes, which must not happen while the observer reports.
   new ResizeObserver(() => requestAnimationFrame(look)).observe(of);
 }

@@ -1,4 +1,4 @@
-// Draws what the data are. Whatever is wrong with them is shown in place of what could not be drawn.
+// Draws the report that the data's "kind" names. An error is shown in place of the part that could not be drawn.
 
 function show_error(root, error) {
   root.append(element("section", { class: "card error-box", role: "alert" },

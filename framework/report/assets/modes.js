@@ -28,7 +28,7 @@ class ModeShape {
     return most > 0 ? this.size() / 6 / most : 1;
   }
 
-  // Of the mechanism at rest [m]; of a single point 1, so that it is seen to move.
+  // The size of the mechanism at rest [m]; 1 for a single point, so that its motion is visible.
   size() {
     const [low, high] = this.still_box();
     return Math.max(...high.map((x, i) => x - low[i])) || 1;

@@ -224,7 +224,7 @@ class Painter {
     }
   }
 
-  // Its fill, with a hair's breadth of its own colour around it against gaps, then the lines of the element.
+  // The fill, with a thin border of the same colour that closes gaps, then the lines of the element.
   quad({ quad, outline, colour }, tint) {
     const c = this.context, { seen } = this;
     c.beginPath();
@@ -269,7 +269,7 @@ class Painter {
       if (!(size > 1e-9 * largest)) continue;
       const [dx, dy] = this.camera.direction(force), flat = Math.hypot(dx, dy);
       if (!(flat > 0)) continue;
-      // Foreshortened as the picture does it; a tenth of the largest is still seen.
+      // Foreshortened like the picture; at least about a tenth of the longest, so that small forces are visible.
       const length = longest * Math.max(0.12, size / largest) * (flat / (size * this.camera.scale));
       this.arrow(x, y, (dx / flat) * length, (dy / flat) * length, contact ? colour_of(1) : colour_of(3));
     }

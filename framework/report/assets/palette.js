@@ -1,5 +1,5 @@
 // Colours that remain distinct for colour-blind readers (Okabe and Ito, 2008), each with a mark and a dash of its own, so
-// that no curve is told by its colour alone. Yellow is left out: on white it is hardly seen.
+// that no curve is identified by its colour alone. Yellow is left out: on white it is hardly visible.
 
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f"];
 const DASHES = ["", "7 3", "2 3", "9 3 2 3", "4 2", "12 4", "1 2"];

@@ -69,7 +69,7 @@ function energy_plots(runs) {
 
 function balance(run, r, several) {
   const [total, supplied, lost] = ["energy_total", "energy_supplied", "energy_dissipated"].map((n) => run.series.values(n));
-  if (!total || !supplied || run.series.interval > 1) return null; // of reduced rows the extremes are at different times
+  if (!total || !supplied || run.series.interval > 1) return null; // reduced rows hold extremes from different times
   const values = total.map((e, i) => e - (total[0] + supplied[i] - lost[i]));
   return { name: several ? run.name : "balance", t: run.series.t, values, colour: colour_of(r), dash: [] };
 }

@@ -2,7 +2,7 @@
 
 const is_number = (text) => text === "" || /^[-+]?[\d.,]+(e[-+]?\d+)?\s*%?$/i.test(String(text).trim());
 
-// columns: [{name, unit}]; rows: texts. `on_row(k)`: rows answer to clicks and Enter.
+// columns: [{name, unit}]; rows: texts. `on_row(k)` is called when row k is clicked or Enter is pressed on it.
 function table_element(columns, rows, on_row) {
   const numeric = columns.map((_, c) => rows.length > 0 && rows.every((row) => is_number(row[c] ?? "")));
   const kind = (c) => (numeric[c] ? "number" : null);

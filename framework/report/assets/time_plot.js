@@ -87,7 +87,7 @@ class TimePlot {
     return this.logarithmic ? logarithmic_ticks(low, high, Math.max(2, wanted)).filter((t) => t.text) : linear_ticks(low, high, wanted);
   }
 
-  // On a logarithmic axis at least a decade, so that what hardly changes looks so; null: what the values take.
+  // The range of a logarithmic axis: at least a decade, so that small changes look small; null: the range of the values.
   wide_range() {
     let low = Infinity, high = 0;
     for (const { values } of this.curves)
