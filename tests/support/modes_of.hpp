@@ -20,13 +20,13 @@ struct Modes {
     for (std::size_t i = 0; i < count(); ++i) all.push_back(kind(i));
     return all;
   }
-  std::vector<double> oscillations() const {  // [rad/s] of those that neither grow nor stand still, ascending
+  std::vector<double> oscillations() const {  // [rad/s] frequencies of modes of the kind "oscillation", ascending
     std::vector<double> all;
     for (std::size_t i = 0; i < count(); ++i)
       if (kind(i) == "oscillation") all.push_back(frequency(i));
     return all;
   }
-  double growth() const {  // [1/s] of the one that grows fastest
+  double growth() const {  // [1/s] rate of the fastest growing mode; 0: none grows
     double most = 0;
     for (std::size_t i = 0; i < count(); ++i) most = std::max(most, real(i));
     return most;

@@ -40,7 +40,7 @@ Logs run_in_pieces(const scene::Scene& scene, long long stride) {
     logs.cuts_in_contact += piece.in_contact;
   }
   for (const char* work : {"factorizations", "residual_evaluations"})
-    logs.data.erase(work);  // each piece begins with some
+    logs.data.erase(work);  // the start of each piece adds some
   logs.series = read_text(folder.path() / "series.csv");
   logs.events = read_text(folder.path() / "events.csv");
   logs.fields = read_text(folder.path() / "fields.ndjson");

@@ -1,4 +1,4 @@
-// A run cut after so many steps and resumed, again and again, through checkpoints as a file holds them.
+// Runs a scene in pieces: each is cut after a number of steps and resumed from its checkpoint as a file holds it.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace trammel::test {
 
-// One piece of a run: a fresh set-up, resumed from `data` if there is any, for so many steps.
+// One piece of a run: a fresh set-up, resumed from `data` unless that is empty, for `most_steps` steps at most.
 struct Piece {
   bool ended = false;
   bool in_contact = false;
@@ -21,13 +21,13 @@ Piece run_piece(const scene::Scene& scene, const std::filesystem::path& folder, 
                 simulate::Recorder::Lengths& lengths, long long most_steps);
 
 struct Logs {
-  std::string series, events, fields;  // as the files; no fields were asked for: empty
+  std::string series, events, fields;  // contents of the files; `fields` is empty if the scene records none
   nlohmann::json data;
   long long steps = 0;
   int cuts_in_contact = 0;
 };
 
-// Cut after every `stride` steps.
+// Cuts the run after every `stride` steps.
 Logs run_in_pieces(const scene::Scene& scene, long long stride);
 
 }  // namespace trammel::test
