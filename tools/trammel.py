@@ -10,8 +10,8 @@
 
     trammel.validate(scene); trammel.study("study.json"); trammel.trade("scenes/beam_impact.json")
 
-A scene is a path, or a dict. Values to set are named by their paths: "parameters.N", or parameters__N as a keyword. What is wrong
-with a scene is a `SceneError`, whose `problems` name file, line, column and path.
+A scene is a path, or a dict. Values to set are named by their paths: "parameters.N", or parameters__N as a keyword. An invalid
+scene raises a `SceneError`, whose `problems` name file, line, column and path.
 
 The program is the one that TRAMMEL names, else the one beside this file's repository (build/bin/trammel), else the one on the PATH.
 """
@@ -51,7 +51,7 @@ class Problem:
 
 
 class TrammelError(Exception):
-    """The program refused or failed; `problems` say why, as far as they have a place."""
+    """The program refused or failed; `problems` lists the causes that have a place in a file."""
 
     def __init__(self, message, problems=()):
         super().__init__(message)
@@ -108,7 +108,7 @@ def _overrides(values):
 
 
 def _scene_file(scene, folder):
-    """The path of a scene or study; a dict is written into the folder, and files that it names are those of this process's folder."""
+    """The path of a scene or study; a dict is written into the folder; files that it names are relative to the working folder."""
     if not isinstance(scene, dict):
         return Path(scene)
 
@@ -142,7 +142,7 @@ def _run(command, scene, out, values):
 
 
 def run(scene, *, out=None, **values):
-    """Runs a scene with some of its values set; the Result. Without `out` the files vanish with the Result."""
+    """Runs a scene with some of its values set and returns the Result. Without `out` its files are deleted with it."""
     return _run("run", scene, out, values)
 
 
@@ -276,7 +276,7 @@ def _read_events(file):
 
 
 def _mapped(file):
-    """The arrays of numbers in an .npz of stored members, mapped: only what is looked at is read."""
+    """The arrays of numbers in an .npz of stored members, mapped into memory: only what is used is read."""
     arrays = {}
     with zipfile.ZipFile(file) as archive, open(file, "rb") as raw:
         for member in archive.infolist():

@@ -1,4 +1,4 @@
-"""Claims of a paper, each judged by numbers that the runs computed: @CLAIMS(text, where, paper, why) before the judge.
+"""Claims of a paper, each judged by numbers that the runs computed: @CLAIMS(text, where, paper, why) decorates the judge.
 
 `expected` is the verdict that the program is known to give, "yes" if nothing else; another one fails tools/reproduce. `why`
 explains in words: every figure is computed by the judge, whose comments give the reason of its tolerances.

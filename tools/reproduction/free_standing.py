@@ -23,11 +23,11 @@ BEST = case("cost", integrator__step__tolerance=1e-12)
 SMALL = 1e-3  # [m] of a figure's axis of some metres: what drifts by more is seen to drift
 
 def drift(result, period):
-    """Over the last period."""
+    """The drift over the last period."""
     return result["x_xd"][-1] - result.at(result.t[-1] - period, "x_xd")
 
 def error(result, best):
-    """The largest difference at the times of both."""
+    """The largest difference of x_xd at intervals of 0.1 s."""
     return max(abs(result.at(t, "x_xd") - best.at(t, "x_xd")) for t in np.arange(0, 10.05, 0.1))
 
 def displacements(results):

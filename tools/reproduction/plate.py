@@ -28,14 +28,14 @@ def tip_error(result):
     return float(np.hypot(result["tip_x"][-1] - TIP[0], result["tip_z"][-1] - TIP[1]))
 
 def stress_errors(result):
-    """At the middle of the inner and the outer edge, of Lame's solution."""
+    """Errors relative to Lame's solution at the middle of the inner and of the outer edge."""
     return {side: result[side][-1] / exact - 1 for side, exact in RING_EXACT.items()}
 
 def apart(one, other, column, until):
     return max(abs(one.at(t, column) - other.at(t, column)) for t in np.arange(0, until, 0.002))
 
 def coordinates(result):
-    """Of the plate, at the end: 3 are the ball's."""
+    """The number of the plate's coordinates at the end, without the ball's 3."""
     return max(result.info["sizes"], key=lambda size: size["t"])["nq"] - 3
 
 def rollup(results):

@@ -12,12 +12,12 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 def trammel(*words):
-    """Exit code 1 is no error here: a run has failed, and is judged later."""
+    """Runs a command. Exit code 1 is no error here: a run has failed, and is judged later."""
     ended = subprocess.run([os.environ["TRAMMEL"], *map(str, words)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     if ended.returncode not in (0, 1):
         raise SystemExit(f"tools/reproduce: trammel {' '.join(map(str, words))}\n{ended.stderr}")
 
-class Case(NamedTuple):  # the one of a study that has these values
+class Case(NamedTuple):  # the case of a study that has these values
     study: str
     values: tuple
     may_fail: bool  # a claim says that this run breaks down
@@ -29,14 +29,14 @@ def case(study, may_fail=False, **values):
     return Case(study, tuple((path.replace("__", "."), json.dumps(value)) for path, value in values.items()), may_fail)
 
 def same(cell, value):
-    """A cell of study.csv, in which texts have no quotes, and a value's JSON."""
+    """Compares a cell of study.csv, in which texts have no quotes, with a value as JSON."""
     try:
         return json.loads(cell) == json.loads(value)
     except json.JSONDecodeError:
         return cell == json.loads(value)
 
 class Result:
-    """What a case left: columns of series.csv (`result["theta"]`), events, and result.json in `info`."""
+    """The results of a case: columns of series.csv (`result["theta"]`), events, and result.json in `info`."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -52,11 +52,11 @@ class Result:
         return self.columns[name]
 
     def at(self, t, column):
-        """At the record nearest to t."""
+        """The column's value at the record nearest to t."""
         return self[column][np.argmin(abs(self.t - t))]
 
 class Results:
-    """Of all studies, by case. `rows`: those of study.csv, of each study."""
+    """The results of all studies, by case. `rows`: the rows of each study's study.csv."""
 
     def __init__(self, system, out, jobs, alone):
         """Runs one study after the other. alone: those whose times are compared, one case at a time."""
@@ -81,7 +81,7 @@ class Results:
         return rows[0]
 
     def failures(self):
-        """Of cases that no claim expects to fail."""
+        """The failures of cases that no claim expects to fail."""
         expected = {(one.study, self.row(one)["case"]) for one in self.used if one.may_fail}
         return [f"{study}, case {row['case']}: {row['reason']}" for study, rows in self.rows.items() for row in rows
                 if row["status"] != "done" and (study, row["case"]) not in expected]

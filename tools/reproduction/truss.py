@@ -40,7 +40,7 @@ LOCKS = {(energy, h): case("lock", corrections=corrected(NORM, NORM, energy), in
          for energy in (False, True) for h in (16e-3, 8e-3, 4e-3)}
 
 class Of:
-    """What is read off the run of one of the methods: largest violations, and the exponents of t with which they grow."""
+    """Results of the run of one of the methods: largest violations, and the exponents of t with which they grow."""
 
     def __init__(self, results, label):
         self.run = r = results[METHODS[label]]
@@ -52,7 +52,7 @@ class Of:
         self.phase = (r["theta"][last] - QUARTER[0]) / QUARTER[1]  # [s] its error there
 
     def growth(self, y):
-        """From the first tenth of the run to its end."""
+        """The exponent of t with which y grows from the first tenth of the run to its end."""
         tenth = self.run.t < self.run.t[-1] / 10
         return float(np.log10(np.nanmax(np.maximum(y, 1e-17)) / np.nanmax(np.where(tenth, np.maximum(y, 1e-17), np.nan))))
 

@@ -1,6 +1,6 @@
-// operator new that reports the size requested when there is no memory; the program's libraries and plugins use it,
-// too. A large block that is missing leaves room for small ones, and its exception takes the usual way. Where a small
-// one is missing, nothing can be allocated any more: the process ends with a message that was prepared.
+// An operator new that reports the requested size when there is no memory; the program's libraries and plugins use it,
+// too. If a large block is missing, there is room for small ones, and its exception is handled as usual. If a small one
+// is missing, nothing can be allocated any more: the process ends with a prepared message.
 #include <cstdlib>
 #include <new>
 

@@ -18,7 +18,7 @@ inline constexpr Option kFormat{
 class BesideResults {
  public:
   explicit BesideResults(const Arguments& arguments);  // throws UsageError: no such format
-  // The results stand, whatever becomes of these; a failure is said on standard error.
+  // A failure is reported on standard error; the results are not affected.
   void write(const std::filesystem::path& folder, bool quiet) const;
 
  private:

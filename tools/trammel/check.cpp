@@ -186,7 +186,7 @@ kit::Verdicts verdicts_of(const Arguments& a, kit::Request request, const kit::S
   }
 }
 
-// The measured page costs minutes and executes the plugin's code: in a child, too.
+// Measuring the page takes minutes and executes the plugin's code, so it runs in a child process, too.
 report::Page page_of(const kit::Request& request, const kit::Surveyed& component, const kit::Verdicts& verdicts) {
   report::Page page = kit::verdict_page(verdicts);
   const kit::Ending ending = kit::run_in_child({[&] {

@@ -22,7 +22,7 @@ namespace trammel::tool {
 
 namespace {
 
-// Handlers of signals and of the program's end have no other way to learn it.
+// True until the program ends normally (ends_by_itself). Global, because handlers have no other access.
 std::atomic<bool> in_the_midst = false;
 pid_t this_process = 0;                   // not a child that rehearses a library
 char* const* arguments = nullptr;         // of main
@@ -48,8 +48,8 @@ bool on_another_thread() {
   return ::syscall(SYS_gettid) != ::getpid();
 }
 
-// A library that its folder brought along, and not the user, is no reason to end. Returns if it was another, or if
-// there is no other way than to report it.
+// Starts the program again without the library if it was loaded only because it lies in a searched folder. Returns if
+// the library was named, or if the program cannot be started again: then the crash must be reported.
 void leave_out(const simulate::CrashWitness::Culprit& who) {
   if (!who.origin || who.call != plugin::loading_with_its_folder() || ::getpid() != this_process) return;
   ::dup2(json_output(), STDOUT_FILENO);
@@ -74,7 +74,7 @@ void leave_out(const simulate::CrashWitness::Culprit& who) {
 }
 
 void on_crash(int signal) {
-  std::signal(signal, SIG_DFL);  // a second crash, in here, ends the process
+  std::signal(signal, SIG_DFL);  // a second crash, in this handler, ends the process
   if (plugin::lacked_memory()) end_without_memory(std::bad_alloc());
   tell_and_end(what_happened(signal));
 }

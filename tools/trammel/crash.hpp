@@ -5,10 +5,10 @@
 
 namespace trammel::tool {
 
-// Installs the handlers, those of crashes unless somebody watches already (a sanitizer). `words` are main's: the
-// program starts again without a library that crashes and that nobody has named (plugin/process/left_out.hpp).
+// Installs the handlers; a crash signal that already has a handler, such as a sanitizer's, keeps it. `words` are
+// main's: the program starts again without a library that crashes and was not named (plugin/process/left_out.hpp).
 void watch_for_crashes(char* const* words);
-// From here on the program ends normally: exit() is no longer charged to a plugin.
+// To be called before the program ends normally: exit() is no longer charged to a plugin.
 void ends_by_itself();
 
 }  // namespace trammel::tool

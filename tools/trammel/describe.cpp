@@ -27,7 +27,7 @@ std::string nearest_page(const std::string& name, const std::vector<std::string>
   return std::find(pages.begin(), pages.end(), nearest) == pages.end() ? std::string() : nearest;
 }
 
-// The page as text, or the same as an object of pages.
+// Prints pages as text, or collects them for one JSON object.
 class Pages {
  public:
   explicit Pages(bool as_json) : as_json_(as_json) {}
@@ -56,7 +56,7 @@ class Pages {
   nlohmann::ordered_json pages_ = nlohmann::ordered_json::array();
 };
 
-// `command`: what one does with a scene that names it.
+// `command`: the next command for a scene that names the described component.
 Exit end(const Arguments& arguments, const Pages& pages, const char* command = "validate") {
   const Exit exit = pages.end();
   fmt::print("{}", arguments.has(kJson.name) ? "" : "\n");

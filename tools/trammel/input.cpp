@@ -26,7 +26,7 @@ std::vector<scene::Override> overrides_of(const Arguments& arguments) {
 
 namespace {
 
-// Files of another kind are told as such, and not by each of their keys.
+// Reports a file of another kind as such, instead of an error for each of its keys.
 void require_scene(const scene::Value& root) {
   if (root.find("trammel")) return;
   if (const scene::Value* study = root.find("study"))
@@ -84,7 +84,7 @@ void keep_output_for_json() {
 }
 
 void print_json(const nlohmann::ordered_json& object) {
-  // Names of files need not be UTF-8; what is not is replaced, so that the output stays JSON.
+  // File names need not be UTF-8; invalid bytes are replaced, so that the output stays JSON.
   print_json_text(object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 

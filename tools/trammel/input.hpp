@@ -12,10 +12,10 @@
 
 namespace trammel::tool {
 
-// Those of --set. Throws UsageError.
+// The overrides given by --set. Throws UsageError.
 std::vector<scene::Override> overrides_of(const Arguments& arguments);
 
-// The operand with its --set overrides, then `more`. Throws scene::SceneError.
+// Loads the operand's scene with the --set overrides, then `more`. Throws scene::SceneError.
 scene::Scene load_scene(const Arguments& arguments, std::vector<scene::Override> more = {});
 
 // Adds the libraries and folders given by --plugin; --allow-scene-plugins lets the scene name its own. Throws
@@ -24,11 +24,11 @@ void load_plugins(const Arguments& arguments, plugin::Registry& registry);
 
 // The option's value, a number > 0. Throws UsageError.
 double positive(const Arguments& arguments, const Option& option);
-// Of an option's value or a part of it, a whole number from 1 to 999999. Throws UsageError.
+// Reads `text`, an option's value or a part of it, as a whole number from 1 to 999999. Throws UsageError.
 int whole_number(const Option& option, const std::string& text, const char* expected);
 
-// With --json standard output carries one object and nothing else: from here on what plugins print goes to standard
-// error, and `print_json` and `print_json_text` to where standard output led.
+// With --json standard output carries one object and nothing else. After this call plugins' output goes to standard
+// error, and `print_json` and `print_json_text` write to the original standard output.
 void keep_output_for_json();
 int json_output();  // the descriptor
 

@@ -65,7 +65,7 @@ void on_alarm(int) {
 }  // namespace
 
 simulate::Interrupt& watch_for_interrupts() {
-  std::signal(SIGPIPE, SIG_IGN);  // a reader of messages that goes away ends no run
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe of messages must not end the run
   struct sigaction action = {};
   action.sa_flags = SA_RESTART | SA_ONSTACK;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGALRM}) sigaddset(&action.sa_mask, signal);

@@ -1,6 +1,6 @@
 // Ctrl-C, SIGTERM, SIGHUP and SIGXCPU (the limit of CPU time) ask the run to stop after its current step. A step that
-// does not return is ended by the second Ctrl-C or SIGTERM, or some seconds after the first signal; records so far are
-// kept then, too.
+// does not return is ended by the second Ctrl-C or SIGTERM, or some seconds after the first signal; the records
+// so far are kept in both cases.
 #pragma once
 
 #include "run/interrupt.hpp"

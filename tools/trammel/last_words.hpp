@@ -15,7 +15,7 @@ namespace trammel::tool {
 // The witness that handlers ask for the state of the run.
 simulate::CrashWitness& witness();
 
-// From here on the last words are a JSON object on standard output.
+// After this call the last words are a JSON object on standard output.
 void speak_json();
 
 // Text in a fixed place. What does not fit is cut off.

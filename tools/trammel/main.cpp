@@ -1,7 +1,8 @@
 // trammel: the command-line program. Finds the command, and turns every failure into one exit code and one
 // message.
 //
-// Exit codes: 0 done, 1 the run failed (results kept), 2 bad input, 3 bad plugin, 130 interrupted (resumable).
+// Exit codes: 0 done, 1 the run failed (results kept), 2 bad input, 3 bad plugin, 75 ended by a batch system (to be
+// started again), 130 interrupted (resumable).
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -100,7 +101,8 @@ void report(const std::vector<scene::Problem>& problems, const char* text, bool 
   print_json({{"status", "error"}, {"problems", all}});
 }
 
-// A file opened later would become one of them if it were closed, and messages would go into the results.
+// Opens closed standard descriptors on /dev/null. Otherwise a file opened later would get such a number, and messages
+// would be written into the results.
 void open_standard_descriptors() {
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(standard, F_GETFD) < 0 && errno == EBADF && ::open("/dev/null", O_RDWR) < 0) return;
@@ -147,7 +149,7 @@ int main(int argc, char** argv) {
   }
   watch_for_lack_of_memory();
   watch_for_crashes(argv);
-  // A file that meets its size limit is then an error of the write, with results kept, and not the end of the process.
+  // A file that reaches its size limit then gives a write error, with results kept, and does not end the process.
   std::signal(SIGXFSZ, SIG_IGN);
   const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   int code = run_program(argc > 0 ? argv[0] : "trammel", words);

@@ -10,7 +10,7 @@ namespace trammel::tool {
 
 namespace {
 
-// troff reads '\' and a '.' or "'" at the begin of a line as its own; '-' would become a hyphen.
+// troff interprets '\', and '.' or "'" at the start of a line; '-' would become a hyphen.
 std::string troff(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
@@ -34,7 +34,7 @@ std::string page_of(const Command& command) {
   return text;
 }
 
-// What a word stands for, by the name that the help gives it.
+// The shell's completion of an option's value, which the help calls `value`.
 const char* completed_by(std::string_view value) {
   if (value == "SCENE") return "_trammel_files .json";
   if (value == "DIR") return "_trammel_files /";

@@ -1,4 +1,4 @@
-// What an installation says of the commands, from their declarations.
+// The manual page and the shell completion of an installation, from the declarations of the commands.
 #pragma once
 
 #include <string>

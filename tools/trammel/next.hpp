@@ -10,9 +10,9 @@
 
 namespace trammel::tool {
 
-// `words` of a shell; NAME and SCENE are for the user to fill in. `carried` options are passed on as they were given.
-// Prints nothing with --json or --quiet. It is advice: what the command has found is printed by then, so for want of
-// memory it is left out.
+// `words` are those of a shell command; the user fills in NAME and SCENE. `carried` options are passed on as they were
+// given. Prints nothing with --json or --quiet. The line is only advice: the command's findings are already printed, so
+// it is left out if there is no memory.
 void print_next(const Arguments& arguments, std::initializer_list<std::string_view> words,
                 std::initializer_list<Option> carried = {}) noexcept;
 

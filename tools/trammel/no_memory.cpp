@@ -6,7 +6,8 @@ namespace trammel::tool {
 
 namespace {
 
-// A handler has no other way to learn it. None: an aligned block, which the library's own operator new was asked for.
+// The missing block; global, because a handler has no other access. Null: an aligned block, whose operator new is the
+// standard library's.
 const plugin::OutOfMemory* noted = nullptr;
 
 void end() {

@@ -1,5 +1,5 @@
-// A lack of memory is charged to no component, and no message can be built then: the process ends with one that is
-// ready, exit code 1, and the records so far; result.json says "failed".
+// A lack of memory is not charged to a component, and no message can be built then: the process ends with a prepared
+// message and exit code 1; the records so far are kept, and result.json says "failed".
 #pragma once
 
 #include <new>

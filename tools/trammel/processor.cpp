@@ -1,5 +1,5 @@
-// The instructions that this program was built for, asked of the processor before anything else: on an older one the
-// first instruction it does not know would end the process without a word (SIGILL), maybe already in an initialiser of
+// Checks, before anything else, that the processor has the instructions that this program was built for. On an older
+// one the first unknown instruction would end the process without a message (SIGILL), perhaps in an initialiser of
 // libtrammel. This file is compiled for the oldest x86-64, and the loader calls the functions of an executable's
 // .preinit_array before the initialisers of all libraries. It uses nothing that could come from another file.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
@@ -13,7 +13,7 @@ bool has(int present) {
   return present != 0;
 }
 
-// What -march=x86-64-v2 and -v3 add, as far as compilers use it of themselves.
+// What -march=x86-64-v2 and -v3 add, as far as compilers use it without being asked.
 bool processor_suffices() {
   constexpr int level = TRAMMEL_ARCH_LEVEL;
   __builtin_cpu_init();

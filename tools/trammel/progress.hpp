@@ -1,4 +1,4 @@
-// Progress where people wait, on standard error: a bar on a terminal, drawn anew at each call; elsewhere a line a
+// The progress of long commands on standard error: a bar that each call redraws on a terminal, otherwise one line per
 // minute.
 #pragma once
 
@@ -21,7 +21,7 @@ class ProgressBar {
   // the first call.
   void draw(double done, const std::string& what);
   void draw(const simulate::Progress& progress);
-  void clear();  // for a line of text; the next call draws it again
+  void clear();  // makes room for a line of text; the next call draws the bar again
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -29,7 +29,7 @@ class ProgressBar {
   bool wanted_, terminal_;
   bool begun_ = false, drawn_ = false;
   Clock::time_point began_, lined_;  // the first call; the last line
-  double done_began_ = 0;            // of the first call; after a resume not 0
+  double done_began_ = 0;            // `done` of the first call; not 0 after a resume
 };
 
 }  // namespace trammel::tool

@@ -124,7 +124,7 @@ Exit run_scene(const Arguments& arguments) {
     if (report.no_motion && !quiet) {
       try {
         find_remedy(arguments, registry, report, options.out);
-      } catch (const std::exception& e) {  // no process can be made, or no file be written
+      } catch (const std::exception& e) {  // no process can be started, or no file can be written
         fmt::print(stderr, "The search for a remedy failed: {}\n", e.what());
       }
     }

@@ -55,7 +55,7 @@ std::vector<study::Overrides> changes_of(const Arguments& arguments) {
   return changes;
 }
 
-// The operand may be the library of one integrator, as that of `trammel check`.
+// The operand may be a library with one integrator, as for `trammel check`.
 std::string integrator_in(const std::string& operand, plugin::Registry& registry) {
   if (std::error_code error; !std::filesystem::is_regular_file(operand, error)) return operand;
   plugin::Registry alone(plugin::Registry::Start::empty);

@@ -34,7 +34,7 @@ study::Shard shard_of(const Arguments& arguments) {
   return shard;
 }
 
-// SIGTERM and the limit of CPU time are a batch system's: it starts the task again.
+// SIGTERM and the limit of CPU time come from a batch system, which starts the task again.
 Exit exit_of(StudyReport::Status status) {
   switch (status) {
     case StudyReport::Status::done:

@@ -1,4 +1,4 @@
-// trammel --version [--json]: by what a result was made, and the hash of every plugin that is found.
+// trammel --version [--json]: the program and how it was built, and the hash of every plugin library that is found.
 #pragma once
 
 namespace trammel::tool {
