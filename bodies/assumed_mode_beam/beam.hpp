@@ -92,8 +92,8 @@ class AssumedModeBeam final : public Body,
   std::optional<Slow> under_moment(int marker) const override;
 
  private:
-  // Coefficients in the inertia basis of L = X0 + Phi_x A, F = 1/2 B^T H B, X = L - F, Y = Phi_y B, and the rows
-  // p_i = (H B)_i; behind those of F and p their integrals with Phi_x, as in the rows of H. On the stack: no
+  // Coefficients in the inertia basis of L = X0 + Phi_x A, F = 1/2 B^T H B, X = L - F, Y = Phi_y B, and the rows p_i =
+  // (H B)_i. Those of F and p are followed by their integrals with Phi_x, like the rows of H. On the stack: no
   // allocation, and several threads may use one beam.
   struct Deformation {
     alignas(64) double L[InertiaBasis::most], X[InertiaBasis::most], Y[InertiaBasis::most];
@@ -162,7 +162,7 @@ class AssumedModeBeam final : public Body,
   std::optional<InertiaBasis> basis_;
   Vec marker_x_;  // [m] places of the markers along the beam
   std::vector<PointShape> marker_shapes_, outline_shapes_;
-  Mat slopes_;              // Phi_y' at places close enough to see the shortest wave, by rows
+  Mat slopes_;              // Phi_y' at places close enough to resolve the shortest wave, one row each
   double mass_ = 0;         // rho S L
   double S0_ = 0, I0_ = 0;  // int X0 dm, int X0^2 dm
   Vec Sx_, Sy_;             // int Phi_x dm, int Phi_y dm

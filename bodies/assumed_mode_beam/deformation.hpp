@@ -48,7 +48,7 @@ void AssumedModeBeam::deform(const Sizes& s, In q, Deformation& at) const {
   for (int k = 0; k < s.size; ++k) at.X[k] = at.L[k] - at.F[k];
 }
 
-// P = p Bd, with its integrals with Phi_x behind the coefficients.
+// P = p Bd: its coefficients, followed by its integrals with Phi_x.
 template <class Sizes>
 void AssumedModeBeam::shortening_rate(const Sizes& s, const Deformation& at, const double* Bd, double* P) const {
   if (s.size > 0)

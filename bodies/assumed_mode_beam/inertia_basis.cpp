@@ -6,7 +6,7 @@ namespace trammel::beam {
 
 namespace {
 
-// Orthonormal columns that span those of `columns` to this share of each one's length.
+// The orthonormal columns span those of `columns` up to errors of this fraction of each column's length.
 constexpr double round_off = 1e-14;
 
 Mat orthonormal_span(Mat columns, const Vec& lengths) {

@@ -21,8 +21,8 @@ namespace trammel::beam {
 
 inline constexpr int most_modes = 40;  // of each kind
 inline constexpr int most_functions = most_modes + most_static;
-// Stations for functions with up to N modes a factor: integrals of four slopes have 4 N half waves, and 5.5 N points
-// give them to round-off.
+// Number of stations for functions of up to N modes: products of four slopes have up to 4 N half waves, which 5.5 N
+// points integrate to round-off.
 constexpr int stations_for(int N) {
   return (11 * N + 1) / 2 + 4;
 }
@@ -46,7 +46,8 @@ class InertiaBasis {
   const double* phi_y() const { return functions_.data() + (2 + axial_) * size_; }
 
   // Rows H_ij of length row(): the coefficients, up to size(), and from there on the integrals int Phi_x,a H_ij dm.
-  // Only j <= i is kept (N = 9 so fits the first cache): row j of these starts at H(i) + j row(), and H(i + 1) follows.
+  // Only j <= i is kept (N = 9 then fits the first cache): row j of these starts at H(i) + j row(), and H(i + 1)
+  // follows.
   int row() const { return row_; }
   const double* H(int i) const { return half_H_.data() + std::ptrdiff_t(i) * (i + 1) / 2 * row_; }
   // All rows H_i1 to H_iN.

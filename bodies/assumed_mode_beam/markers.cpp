@@ -69,7 +69,8 @@ void AssumedModeBeam::motion(int marker, double, In q, In v, Motion& motion) con
   motion.bias << c * b1 - s * b2, s * b1 + c * b2, -2 * at.slope * tilt * tilt * slope_rate * slope_rate;
 }
 
-// J^T F by q, F = (force, moment) fixed in the world; force in the beam's axes is b, with db/dtheta = (b_2, -b_1).
+// The derivative of J^T F by q, with F = (force, moment) fixed in the world; the force in the beam's axes is b, with
+// db/dtheta = (b_2, -b_1).
 void AssumedModeBeam::add_reaction_derivative(int marker, double, In q, const Wrench& F, double c, Matrix& S) const {
   const PointShape& shape = marker_shapes_[std::size_t(marker)];
   const Point at = point(shape, q);

@@ -8,7 +8,7 @@ namespace trammel::beam {
 
 namespace {
 
-// f(the i-th of both)
+// f of the i-th function: modes first, then static functions.
 template <class Modes, class Statics, class F>
 double of_function(const Modes& modes, const Statics& statics, int i, F&& f) {
   const auto k = std::size_t(i);

@@ -12,7 +12,7 @@
 
 namespace trammel::beam {
 
-// The functions that the deformation is a sum of: modes, and behind them static functions where the beam has such.
+// The functions whose sum is the deformation: the modes, followed by the static functions, if there are any.
 struct Shape {
   double L = 0, hub_radius = 0;
   std::vector<AxialMode> axial;

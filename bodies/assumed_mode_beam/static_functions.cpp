@@ -46,8 +46,7 @@ Bending combination(double a, const Bending& first, double b, const Bending& sec
   return s;
 }
 
-// s_1 = (x/L)^2 and s_2 = 3 (x/L)^2 - (x/L)^3 without their shares of the modes, which are, by parts with Phi =
-// Phi''''/b^4,
+// s_1 = (x/L)^2 and s_2 = 3 (x/L)^2 - (x/L)^3 minus their projections on the modes. By parts, with Phi = Phi''''/b^4,
 //     int x^2 Phi dx = 2 Phi'(L)/b^4,   int x^3 Phi dx = 6 (L Phi'(L) - Phi(L))/b^4.
 std::array<Bending, 2> beyond_the_modes(double L, const std::vector<BendingMode>& modes) {
   const double L2 = L * L, L3 = L2 * L;

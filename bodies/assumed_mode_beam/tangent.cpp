@@ -66,7 +66,7 @@ void AssumedModeBeam::prepare_tangent(const Sizes& z, In q, TangentPoint& t) con
   }
 }
 
-// Rows A and B by A and B.
+// The rows of A and B, differentiated by A and B.
 template <class Sizes>
 void AssumedModeBeam::add_modal_tangent(const Sizes& z, const TangentPoint& t, Matrix& whole) const {
   Matrix S = whole.from(i_A_, i_A_);
@@ -98,7 +98,7 @@ void AssumedModeBeam::add_modal_tangent(const Sizes& z, const TangentPoint& t, M
   }
 }
 
-// Column and row theta.
+// The column and the row of theta.
 template <class Sizes>
 void AssumedModeBeam::add_turning_tangent(const Sizes& z, const TangentPoint& t, Matrix& whole) const {
   Matrix S = whole.from(i_A_, i_A_);
@@ -153,7 +153,7 @@ void AssumedModeBeam::add_turning_tangent(const Sizes& z, const TangentPoint& t,
   S.add(z.theta, z.theta, c.c_m * turning_inertia(z, t.A, t.B, t.at) + 2 * c.c_d * x_xd - c.c_k * t.b.dot(t.X));
 }
 
-// Rows and columns of the origin: R int U dm, and J^T R^T.
+// The rows and columns of the origin: R int U dm, and J^T R^T.
 void AssumedModeBeam::add_origin_tangent(const TangentPoint& t, Matrix& S) const {
   const InertiaBasis& basis = *basis_;
   const Blend c = t.c;

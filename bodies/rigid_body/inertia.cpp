@@ -15,7 +15,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Of density 1.
+// A homogeneous body of density 1.
 struct Shape {
   const char* parameter;
   double volume;
@@ -92,7 +92,7 @@ void check_physical(const Matrix3d& I, Space space, const char* parameter) {
   if (!(moments(0) > 0))
     throw ParameterError(parameter,
                          fmt::format("the least principal moment is {:.6g} kg m^2, expected > 0", moments(0)));
-  // A flat body meets the bound exactly, in numbers rounded to a few digits.
+  // A flat body lies exactly on the bound, and its numbers may be rounded to a few digits.
   if (moments(2) > (moments(0) + moments(1)) * (1 + 1e-6))
     throw ParameterError(parameter,
                          fmt::format("no body has principal moments {:.6g}, {:.6g}, {:.6g} kg m^2: the largest "

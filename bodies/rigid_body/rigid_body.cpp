@@ -159,7 +159,7 @@ struct RigidBody : Body,
       if (orientation_->size() != 4)
         throw ParameterError("orientation",
                              fmt::format("found {} numbers, expected a quaternion [w, x, y, z]", orientation_->size()));
-      const Eigen::Vector4d p(orientation_->data());  // stableNorm of a Vec reads its copy at an alignment it has not
+      const Eigen::Vector4d p(orientation_->data());  // stableNorm of a Vec would read a copy at a wrong alignment
       if (!(p.stableNorm() > 0)) throw ParameterError("orientation", "the quaternion is zero; expected [w, x, y, z]");
       return p.stableNormalized();
     }

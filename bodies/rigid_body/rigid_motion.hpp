@@ -10,7 +10,6 @@
 //     V = (x' + (a omega) x rho, a omega),    bias = ((a omega) x ((a omega) x rho), 0),    J = [I  a x rho; 0  a]
 // since a' omega = 0. Sources: Shabana, Dynamics of Multibody Systems (plane); Featherstone, Rigid Body Dynamics
 // Algorithms, section 2 (space).
-// Algorithms, section 2 (space).
 #pragma once
 
 #include <cmath>

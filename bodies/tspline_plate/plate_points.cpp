@@ -115,11 +115,12 @@ std::vector<Eigen::Vector2d> same_pole(const Discretisation& mesh, const std::ve
   return result;
 }
 
-// Behind the seams that a point lies on; from a pole in several directions.
+// Points from which the search continues: across the seams that a point lies on, and around a pole in several
+// directions.
 std::vector<Eigen::Vector2d> ways_on(const Discretisation& mesh, const std::vector<Seam>& seams,
                                      const Eigen::Vector2d& at) {
   constexpr int directions = 8;    // in each patch
-  constexpr double beside = 1e-3;  // the pole, of the patch
+  constexpr double beside = 1e-3;  // the pole, as a fraction of the patch
   std::vector<Eigen::Vector2d> result;
   for (const Seam& seam : seams) std::ranges::copy(other_sides(mesh.basis, seam, at), std::back_inserter(result));
   const auto turning = turning_at_pole(mesh, at);

@@ -83,7 +83,7 @@ Eigen::Vector3d snapped(Eigen::Vector3d direction) {
 // Where an edge ends in a pole of the surface, its own tangent across vanishes there; a little before it does not.
 constexpr double before_pole = 1.0 / 64;  // of the way to the middle of the edge
 
-// In the surface, across the edge: the normal of the plane of symmetry.
+// The direction in the surface across the edge: the normal of the plane of symmetry.
 Eigen::Vector3d across_edge(const PatchNet& net, const Edge& edge, int anchor) {
   double at = abscissa(net.basis, edge, anchor);
   Tangents t = tangents(net, on_edge(net.basis, edge, at));
@@ -97,7 +97,7 @@ Eigen::Vector3d across_edge(const PatchNet& net, const Edge& edge, int anchor) {
   return snapped((across - across.dot(run) * run).normalized());
 }
 
-// At a pole, where the edge is one point, by the tangent that opens next to it.
+// The surface normal. At a pole, where the edge is one point, it follows from r_uv, the tangent just beside the pole.
 Eigen::Vector3d normal(const Tangents& t, const Edge& edge) {
   const bool along_u = edge.direction == 1;
   const Eigen::Vector3d &run = along_u ? t.u : t.v, &across = along_u ? t.v : t.u;

@@ -38,7 +38,7 @@ struct PatchNet {
 };
 
 struct EdgeRows {
-  std::vector<int> edge, second;  // anchors of the patch, along the edge, partners at the same place
+  std::vector<int> edge, second;  // anchors of the patch along the edge; partners have the same index
 };
 EdgeRows rows(const TsplineBasis& basis, const Edge& edge);
 int corner_anchor(const TsplineBasis& basis, const Corner& corner);  // which the surface passes through

@@ -4,7 +4,7 @@
 //
 // r_across = 3 sum N_j w_e f (P_s - P_e) / W along the edge, f as in seam.hpp; with u added it is that of the reference
 // under one linear map, so the tangents at the point stay in one plane. Two points of the second row in different
-// directions determine B and with it the others. Round a full turn these are C1 polar splines (Toshniwal, Speleers,
+// directions determine B and with it the others. Around a full turn these are C1 polar splines (Toshniwal, Speleers,
 // Hiemstra, Hughes, CMAME 316, 2017).
 #pragma once
 

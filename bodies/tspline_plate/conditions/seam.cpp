@@ -16,7 +16,7 @@ PatchNet net_of(const Multipatch& basis, const Points& points, int patch) {
   return {basis.patch(patch), points, basis.first_function(patch)};
 }
 
-// Along the edge from 0 to 1 and in the parameter of the mesh.
+// Converts a position along the edge, from 0 to 1, to the parameter of the mesh, and back.
 double from_unit(const TMesh& mesh, const Edge& edge, double s) {
   const auto& k = mesh.knots(1 - edge.direction);
   return k.front() + s * (k.back() - k.front());
@@ -51,7 +51,7 @@ double size_of(const Points& points) {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
-// Knots at which a line reaches the edge, from 0 to 1 and, where they stand twice, twice.
+// Knots at which a line reaches the edge, from 0 to 1; double knots are listed twice.
 std::vector<double> edge_knots(const TMesh& mesh, const Edge& edge, bool reversed) {
   const int along = 1 - edge.direction, border = edge.high ? mesh.edges().lines(edge.direction) - 1 - degree : degree;
   std::vector<double> result;
@@ -115,7 +115,7 @@ struct Side {
   }
 };
 
-// b of the header.
+// The ratio b of seam.hpp.
 double speed_ratio(const Side& a, const Side& b, const Seam& seam) {
   constexpr double somewhere = 0.37;  // away from poles at the ends
   if (a.normal(somewhere).dot(b.normal(seam.reversed ? 1 - somewhere : somewhere)) < 0)

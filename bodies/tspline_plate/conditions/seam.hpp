@@ -22,7 +22,7 @@ enum class Continuity { C0, C1 };
 struct PatchEdge {
   int patch;
   Edge edge;
-  std::string name;  // as the scene says it: "roof.u1", or "u1" where there is one patch
+  std::string name;  // as in the scene: "roof.u1", or "u1" where there is one patch
 };
 
 struct Seam {

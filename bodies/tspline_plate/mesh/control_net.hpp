@@ -1,7 +1,7 @@
 // A patch of surface: a T-mesh with a weighted control point at every anchor, and the shapes it can start from.
 //
-// Rings, cylinders and spheres are exact up to the largest arc of one rational cubic, beyond a spline's
-// (planar_curve.hpp). They are made of as few elements as that takes and then refined, which keeps the surface.
+// Rings, cylinders and spheres are exact up to the largest arc of one rational cubic; longer arcs are splines
+// (planar_curve.hpp). They are made of as few elements as possible and then refined, which keeps the surface.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -19,14 +19,14 @@ struct ControlNet {
   Points points;
 };
 
-// Where a shape stands: columns are its x, y and z axis.
+// Position and orientation of a shape: columns are its x, y and z axis.
 struct Frame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
 // All on the unit square of parameters. Angles in rad, about the frame's z axis from its x axis. `knots` are those of
-// the arc from - to, where it is longer than one rational cubic; latitudes are at most `largest_arc`.
+// the arc from - to, if it is longer than one rational cubic; latitudes are at most `largest_arc`.
 using Knots = std::span<const double>;
 ControlNet rectangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& along_u, const Eigen::Vector3d& along_v);
 ControlNet ring(const Frame& frame, double inner, double outer, double from, double to, Knots knots = {});  // v round

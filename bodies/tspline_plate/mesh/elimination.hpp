@@ -1,7 +1,7 @@
 // Coordinates q that remain under linear conditions on the displacements: u = B q.
 //
-// u are the three displacements of every control point (3 n). Each condition  sum c_k u_k = 0  removes the component
-// with the largest coefficient (of equals the last) by the others, so conditions along the axes just delete columns,
+// u are the three displacements of every control point (3 n). Each condition sum c_k u_k = 0 expresses the component
+// with the largest coefficient (the last of equals) by the others, so conditions along the axes just delete columns,
 // and q are always components of u themselves. A condition that follows from those before it, as far as its
 // coefficients are known, is ignored.
 #pragma once

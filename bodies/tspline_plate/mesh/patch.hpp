@@ -45,7 +45,7 @@ struct Patch final : Component {
   Eigen::Vector3d edge_load(std::size_t k, const Eigen::Vector3d& outward) const;  // dead [N/m]
   bool has_edge_load(std::size_t k) const;
 
-  // Throw ParameterError, of parameters as they are named here.
+  // Throw ParameterError with the parameter's name within the patch.
   void check() const;
   ControlNet net() const;
 

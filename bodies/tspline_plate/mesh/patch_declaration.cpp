@@ -1,4 +1,4 @@
-// The parameters of a patch: of the plate itself if it has but one.
+// The parameters of a patch. They are those of the plate itself if it has only one patch.
 #include "tspline_plate/mesh/patch.hpp"
 
 namespace trammel::plate {

@@ -25,8 +25,8 @@ struct PlanarCurve {
 
 PlanarCurve line(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 
-// Of radius 1 about the origin, angles in rad from the x axis. `knots` (0 to 1) are a spline's. Throws
-// std::invalid_argument: they are too few.
+// An arc of radius 1 about the origin, with angles in rad from the x axis. `knots` (0 to 1) are those of a spline.
+// Throws std::invalid_argument if there are too few.
 PlanarCurve arc(double from, double to, std::span<const double> knots);
 
 }  // namespace trammel::plate

@@ -29,7 +29,7 @@ std::optional<int> turning_at_pole(const Discretisation& mesh, const Eigen::Vect
 }
 
 Eigen::Vector2d beside_pole(const Discretisation& mesh, const Eigen::Vector2d& at) {
-  constexpr double far = 1e-6;  // of the patch, into it
+  constexpr double far = 1e-6;  // of the way to the middle of the patch
   if (!turning_at_pole(mesh, at)) return at;
   const auto [low, high] = mesh.basis.range(mesh.basis.patch_at(at.x()));
   const Eigen::Vector2d middle((low[0] + high[0]) / 2, (low[1] + high[1]) / 2);

@@ -10,7 +10,7 @@ namespace trammel::plate {
 
 // The parameter that turns about the pole, 0 u or 1 v; none: `at` is no pole.
 std::optional<int> turning_at_pole(const Discretisation& mesh, const Eigen::Vector2d& at);
-// `at` itself where there is none, else a millionth of the patch away.
+// `at`; if it is a pole, the point a millionth of the way from it to the middle of the patch.
 Eigen::Vector2d beside_pole(const Discretisation& mesh, const Eigen::Vector2d& at);
 
 }  // namespace trammel::plate

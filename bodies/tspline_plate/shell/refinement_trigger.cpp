@@ -45,7 +45,7 @@ const Box<double>* find(const std::vector<Box<double>>& boxes, const Eigen::Vect
   return found == boxes.end() ? nullptr : &*found;
 }
 
-// Rounded, as a split may follow a neighbour's line a little off the middle.
+// Rounded, because a split may follow a neighbour's line that is a little off the middle.
 int level(const Box<double>& box, const Box<double>& first) {
   int most = 0;
   for (std::size_t d : {0, 1})

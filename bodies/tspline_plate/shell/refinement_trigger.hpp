@@ -14,14 +14,14 @@
 namespace trammel::plate {
 
 enum class Indicator { none, energy_density, curvature_jump, contact_pressure };
-// Of those that follow from the plate's own shape.
+// An indicator that depends on the plate's shape alone: energy_density, curvature_jump.
 double indicate(Indicator indicator, const Cell& cell, const CellVectors& u);
 
 // The elements of a mesh that may still be split, and the cells they consist of.
 class Splittable {
  public:
   Splittable() = default;
-  // `first`: elements of the first mesh; none finer than `levels` halvings of theirs.
+  // `first`: elements of the first mesh, which may be halved up to `levels` times.
   Splittable(const Multipatch& basis, const std::vector<Box<double>>& first, int levels);
 
   const std::vector<Box<double>>& elements() const { return elements_; }

@@ -62,7 +62,7 @@ struct MovingFrame {
   Matrix3 W2() const { return e1 * (n / d).transpose(); }
 };
 
-// omega' while a_1' = v1 and a_2' = v2 stay: the derivative of omega's components, as omega x omega = 0.
+// omega' at constant a_1' = v1 and a_2' = v2: the derivative of omega's components, as omega x omega = 0.
 Vector3 angular_bias(const MovingFrame& f, const Vector3& a2, const Vector3& v1, const Vector3& v2,
                      const Vector3& omega) {
   const Vector3 n_rate = omega.cross(f.n), e1_rate = omega.cross(f.e1), e2_rate = omega.cross(f.e2);

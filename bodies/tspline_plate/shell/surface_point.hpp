@@ -4,7 +4,7 @@
 //     omega = W_1 a_1' + W_2 a_2'
 //     W_1 = -s/(l d) e_1 n^T - 1/l e_2 n^T + 1/l n e_2^T,      W_2 = 1/d e_1 n^T
 //
-// zeta [m] is the height over the mid-surface. Derivatives use that every frame vector turns with omega.
+// zeta [m] is the height over the mid-surface. The derivatives use the fact that every frame vector turns with omega.
 #pragma once
 
 #include <trammel/marker.hpp>
