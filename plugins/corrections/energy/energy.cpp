@@ -91,7 +91,7 @@ class EnergyCorrection final : public Correction, public NeedsMomentum {
       s.add_rows_times(1, free_.col(j), Gr_);
       moved.col(j) = Gr_;
     }
-    // Where rows are off, they are between points as far apart.
+    // A row that is violated by g acts between points that are g apart, so a permitted rotation r has |G r| up to g.
     const double held = std::max(1e-9, 10 * s.g().lpNorm<Eigen::Infinity>()) * free_.cwiseAbs().maxCoeff();
     const Eigen::JacobiSVD<Mat> svd(moved, Eigen::ComputeFullV);
     const auto rank = (svd.singularValues().array() > held).count();

@@ -1,4 +1,4 @@
-// The convergence of the sweeps of a step, and the error that they leave of the prediction.
+// The convergence of the sweeps of a step, and the part of the prediction's error that they leave.
 //
 // The change by a sweep is r times the change by the sweep before; r is O(h) with dampers, O(h^2) with springs. It is
 // observed in steps with two sweeps; if steps take one sweep, every twentieth step takes a second one to observe it.

@@ -95,8 +95,8 @@ bool Equations::factors_at(const Point& at, double c) {
 }
 
 // Rows that depend on each other leave a part of the multipliers free: no equation restores it, and the extrapolation
-// of each step would enlarge its round-off. It is what is left beside the multipliers of minimum norm with the same
-// force; the factors must be those of the point.
+// of each step would enlarge its round-off. It is the difference from the multipliers of minimum norm
+// with the same force; the factors must be those of the point.
 void Equations::find_redundant_part(const Vec& multipliers, Vec& part) {
   r_.setZero(nv_);
   system_->add_rows_force(-1, multipliers, r_);
@@ -104,7 +104,7 @@ void Equations::find_redundant_part(const Vec& multipliers, Vec& part) {
   if (system_->correct(r_, zero_rows_, change_, dmu_, Factors::projection)) part = multipliers - dmu_;
 }
 
-// xi_b_: the increment of q that b_1 / c stands for, with the change of N(q) by it; off_: what leaves the manifold.
+// xi_b_: the increment of q that belongs to b_1 / c, with the change of N(q) by it; off_: the part off the manifold.
 void Equations::measure_tangent(const double* b) {
   const View b_1(b, nq_);
   if (flat_) {
@@ -126,7 +126,8 @@ void Equations::measure_tangent(const double* b) {
   off_ -= moved_;
 }
 
-// What the increment xi_b of q changes of G v + g_t. Of the rest of xi it is of the order h |v|/length of what is kept.
+// turned_: the change of G v + g_t by the increment xi_b of q. The change by the rest of xi is left out; it is of the
+// order of h |v|/length, relative to the kept terms.
 void Equations::measure_turning() {
   turned_.setZero(nc_);
   if (!(xi_b_.lpNorm<Eigen::Infinity>() > eps * at_.q.lpNorm<Eigen::Infinity>())) return;
@@ -189,7 +190,7 @@ bool Equations::solve(const double* b, double* x) {
   return result.allFinite();
 }
 
-// q moves by modified Newton iterations with the factors of where it was.
+// Moves q by modified Newton iterations with the factors of its first value.
 bool Equations::settle_positions(System& s, double t, Vec& q, Vec& v) {
   constexpr int most_iterations = 10;
   double before = std::numeric_limits<double>::infinity();
@@ -214,7 +215,7 @@ bool Equations::project(System& s, double t, Vec& q, Vec& v) {
   s.move_to(t, q, v);
   s.factorise({}, zero_, zero_rows_, Factors::projection);
   if (!settle_positions(s, t, q, v)) return false;
-  constexpr int passes = 3;  // the factors are off by what q moved; then round-off
+  constexpr int passes = 3;  // the factors are those of q before it moved; the last passes only reduce round-off
   for (int pass = 0; pass < passes; ++pass) {
     rc_ = s.g_dot();
     if (!(rc_.lpNorm<Eigen::Infinity>() > eps * v.lpNorm<Eigen::Infinity>())) break;

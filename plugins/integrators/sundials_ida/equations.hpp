@@ -13,8 +13,8 @@
 //     [S W^T; G 0] (xi, dlambda/c^2) = (b_2 + (c M + D) z, b_5)/(c^2, 1),   S = M + D/c + K/c^2,   z = c xi_b - dpi
 //     dv = c (xi - xi_b) + dpi
 //
-// In the first iteration b_1 is large, so xi_b needs d(G v)/dq, D and dN/dq, which are taken as differences. Of the
-// rest of xi they are left out where that is of the order h |v|/length of what is kept.
+// In the first iteration b_1 is large, so xi_b needs d(G v)/dq, D and dN/dq, which are taken as differences. For the
+// rest of xi they are left out if they are of the order of h |v|/length, relative to the kept terms.
 #pragma once
 
 #include <trammel/integrator.hpp>
@@ -23,9 +23,9 @@ namespace trammel::ida {
 
 class Equations {
  public:
-  // Of the system that all functions below work on, with its state of consistent a and lambda.
+  // Begins with this system, which all functions below use; it is at a state with consistent a and lambda.
   void restart(System& s);
-  void use(System& s);  // the same system, of which others may have replaced the factors
+  void use(System& s);  // the same system, whose factors others may have replaced
 
   Eigen::Index size() const { return nc_ > 0 ? nq_ + 2 * nv_ + 2 * nc_ : nq_ + nv_; }
   Eigen::Index differential() const { return nq_ + nv_; }  // they come first
@@ -57,7 +57,7 @@ class Equations {
   System* system_ = nullptr;
   Eigen::Index nq_ = 0, nv_ = 0, nc_ = 0;
   bool flat_ = true;                     // q' = v
-  bool stale_ = true;                    // the System's factors may be of others
+  bool stale_ = true;                    // the System's factors may belong to others
   Point at_, set_up_;                    // of the last residual, of the last factorisation
   double c_ = 1;                         // of the last factorisation
   Vec applied_;                          // -f + W^T lambda at at_

@@ -101,8 +101,8 @@ int Solver::guarded(Call&& call) {
   }
 }
 
-// The root mean square over q and v alone, though the library divides by the number of all unknowns. Multipliers follow
-// from q and v: they are not judged.
+// The weights make the library's norm, which divides by the number of all unknowns, the root mean square over q and v.
+// Multipliers follow from q and v and are not part of the error test.
 int Solver::of_weights(const double* y, double* weights) const {
   constexpr double not_judged = 1e-30;
   const Eigen::Index judged = equations_.differential(), all = equations_.size();
@@ -112,7 +112,7 @@ int Solver::of_weights(const double* y, double* weights) const {
   return 0;
 }
 
-// [s] So short that the first step changes y by half of what may be its error: it is of first order.
+// [s] A step that changes y by half of the allowed error: it is this short because the first step is of first order.
 double Solver::first_step(const State& now) const {
   constexpr double most = 1e-3;
   double sum = 0;
@@ -160,8 +160,8 @@ void Solver::restart(System& s, const State& now) {
     IDASetId(ida.memory, ida.kind);
     IDASetSuppressAlg(ida.memory, SUNTRUE);  // index 2
     IDASetMaxOrd(ida.memory, tolerances_.max_order);
-    // The multipliers are not in the error test, so what Newton's iteration leaves of them would go on to the next
-    // steps' predictions. IDA's own value, 0.33 of the tolerance, costs more steps than it saves iterations.
+    // The multipliers are not in the error test, so the error that Newton's iteration leaves in them would enter the
+    // predictions of the next steps. IDA's own value, 0.33 of the tolerance, costs more steps than it saves iterations.
     IDASetNonlinConvCoef(ida.memory, 1e-3);
     if (tolerances_.max_step > 0) IDASetMaxStep(ida.memory, tolerances_.max_step);
     ida.factors->content = this;

@@ -17,7 +17,7 @@ struct Tolerances {
   double max_step = 0;  // [s] 0: none
 };
 
-// The solution inside one internal step, the polynomial that IDA itself interpolates by:
+// The solution inside one internal step, by the polynomial with which IDA itself interpolates:
 //     y(t) = sum_j c_j (t - end)^j / j!,   begin <= t <= end,   y = (q, v)
 struct Segment {
   double begin = 0, end = 0;
@@ -34,8 +34,8 @@ class Solver {
 
   // Starts at `now`, with the first order.
   void restart(System& s, const State& now);
-  // One internal step; Equations::use was called since others used the system. On success `segment` is the solution in
-  // it. After a failure IDA stays at its last point. Throws what the system threw.
+  // Takes one internal step; Equations::use must have been called if others have used the system. On success `segment`
+  // is the solution in it. After a failure IDA stays at its last point. Throws what the system threw.
   Outcome advance(Segment& segment);
 
   Equations& equations() { return equations_; }

@@ -6,9 +6,9 @@
 // last accepted state. A trial within the tape is answered by it, so trials leave no trace, bit for bit. The result is
 // moved onto the rows, and a and lambda are solved for there; neither flows back into IDA.
 //
-//     accept     the tape before the step is forgotten. A state that no trial has given (a correction changed it)
-//                restarts IDA there
-//     restart    IDA begins anew with the first order, as after every `most_internal_steps` internal steps
+//     accept     the tape before the step is forgotten. A state that no trial has given, because a correction
+//                changed it, restarts IDA there
+//     restart    IDA begins again with the first order, as after every `most_internal_steps` internal steps
 //     archive    the state of the last restart and the number of internal steps since: they are repeated when a run
 //                resumes, which gives the same bits
 //
@@ -34,8 +34,8 @@ namespace {
 
 using namespace trammel;
 
-// Before IDA begins anew: bounds what a resumed run repeats. A beginning costs some twenty internal steps, so this
-// costs half a per cent.
+// After this many internal steps IDA begins again, which bounds what a resumed run repeats. A beginning costs about
+// twenty internal steps, so this costs half a per cent.
 constexpr long long most_internal_steps = 4096;
 
 // A checksum that distinguishes states bit for bit.
@@ -136,7 +136,7 @@ class SundialsIda final : public Integrator, public DenseOutput, public HasFidel
     if (now.v.size() > 0) start(s, State(now));
   }
 
-  // A state that is off the rows, as after an impact at the end of a step, has no solution beside it.
+  // Projects first: a state off the rows, as after an impact at the end of a step, has no solution through it.
   void start(System& s, State now) {
     solver_->equations().restart(s);
     const State given = now;
@@ -153,7 +153,7 @@ class SundialsIda final : public Integrator, public DenseOutput, public HasFidel
     return Outcome::accept();
   }
 
-  // A failure beyond the tape stays: IDA is where it was, and would fail again.
+  // A failure beyond the tape is kept: IDA stays where it was and would fail again.
   Outcome extend(System& s, double t) {
     if (tape_.empty() || tape_.end() < t) solver_->equations().use(s);
     while (tape_.empty() || tape_.end() < t) {
@@ -176,7 +176,7 @@ class SundialsIda final : public Integrator, public DenseOutput, public HasFidel
     return outcome;
   }
 
-  // IDA begins anew at the tape's end.
+  // IDA begins again at the end of the tape.
   bool begin_later(System& s) {
     later_.t = tape_.end();
     later_.q.resize(s.sizes().nq);
@@ -206,9 +206,9 @@ class SundialsIda final : public Integrator, public DenseOutput, public HasFidel
 
   std::unique_ptr<ida::Solver> solver_;
   ida::Tape tape_;
-  State base_;                    // where IDA began, not after the last accepted state
+  State base_;                    // where IDA last began, not later than the last accepted state
   long long steps_ = 0;           // internal ones since then
-  State later_;                   // where it began anew since
+  State later_;                   // where it began again, later than base_
   long long steps_of_later_ = 0;  // internal ones from base_ to later_; 0: there is none
   bool asleep_ = true;            // IDA has not begun; an archive may have been read
   long long steps_to_repeat_ = 0;

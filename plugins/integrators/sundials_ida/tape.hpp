@@ -12,7 +12,8 @@ namespace trammel::ida {
 class Tape {
  public:
   void clear() { first_ = count_ = 0; }
-  // Memory for the segments of as many coordinates, so that the steps ask for none: of small systems for hundreds.
+  // Allocates segments for this number of coordinates, so that steps need not: 256 for small systems, 16 for large
+  // ones.
   void reserve(Eigen::Index coordinates, int max_order) {
     constexpr std::size_t numbers = 1 << 17, fewest = 16, most = 256;
     const auto each = std::max<std::size_t>(1, std::size_t(coordinates) * std::size_t(max_order + 1));
@@ -23,7 +24,7 @@ class Tape {
   bool empty() const { return count_ == 0; }
   double end() const { return segments_[first_ + count_ - 1].end; }  // not empty
 
-  // The next segment, to be filled; `keep` makes it a part of the tape. Segments are used again: no memory is asked for
+  // The next segment, to be filled; `keep` makes it a part of the tape. Segments are reused: nothing is allocated
   // once there are enough.
   Segment& next() {
     if (first_ + count_ == segments_.size()) segments_.emplace_back();
