@@ -59,8 +59,7 @@ const Value::Parameter* find_parameter(const Value::Parameters& parameters, std:
 // Replaces bodies, joints, forces and contacts with "for" by their copies (repeat.cpp). Throws SceneError.
 void repeat_units(Value& root, const Value::Parameters& parameters);
 
-// The tree as a JSON text that Scene reads back. Files beside the scene that it names (tables, plugins) become absolute
-// paths.
+// The tree as a JSON text that Scene reads back. Names of other files (tables, plugins) become absolute paths.
 std::string written(const Value& root);
 
 // Returns a warning for each parameter that was set but is not used in the scene, directly or through another

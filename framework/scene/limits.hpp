@@ -12,7 +12,7 @@ inline constexpr int nested = 100;               // arrays and objects; includes
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // libFuzzer's name; under its sanitizers more take minutes and 10 GB
 inline constexpr std::size_t values = 1'000'000;
 #else
-// Of the scene after repetition; a mast of 100,000 units has 26 million. They take about 150 bytes each.
+// Values of a scene after repetition; a mast of 100,000 units has 26 million. Each takes about 150 bytes.
 inline constexpr std::size_t values = 30'000'000;
 #endif
 inline constexpr std::size_t bytes_of_a_value = 64;  // longer texts, names and paths count as more values

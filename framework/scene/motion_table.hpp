@@ -17,7 +17,7 @@
 
 namespace trammel::scene {
 
-// A cell of a table of numbers: finite, and nothing else but blanks.
+// The number in a cell of a table; none if the cell holds anything but a finite number and blanks.
 std::optional<double> number_of_cell(std::string_view cell);
 
 // Problems in the table are reported with its file and line.

@@ -127,7 +127,7 @@ class Scanner {
     }
   }
 
-  // What stands here up to the end of the value or of the line.
+  // The text from here to the end of the value or of the line.
   std::string bare_text() const {
     const std::size_t end = std::min(text_.find_first_of(",}]\"\r\n", i_), text_.size());
     std::string_view text = text_.substr(i_, end - i_);
@@ -246,7 +246,7 @@ class Scanner {
     return true;
   }
 
-  // Four digits behind this position; ends at the last of them.
+  // Reads four digits after this position; ends at the last of them.
   bool hexadecimal(unsigned& code) {
     code = 0;
     for (int k = 0; k < 4; ++k) {

@@ -138,7 +138,7 @@ Lookup lookup_in(const Value::Parameters* parameters) {
   };
 }
 
-// Runs `compile` on the expression behind "="; a failure becomes a problem that quotes it.
+// Runs `compile` on the expression after "="; a failure becomes a problem that quotes it.
 template <class Compile>
 auto compiled(const Value& value, Problems& problems, Compile compile)
     -> std::optional<decltype(compile(std::string_view()))> {
