@@ -122,7 +122,7 @@ std::string describe(const Parameter& parameter, const ParameterValue& fallback,
   return line;
 }
 
-// The keys that the framework reads beside the component's parameters, except "type".
+// The keys that the framework reads in addition to the component's parameters, except "type".
 std::string describe_keys(Kind kind) {
   const auto keys = framework_keys(kind).subspan(1);
   if (keys.empty()) return "";

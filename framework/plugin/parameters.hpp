@@ -26,7 +26,7 @@ std::unique_ptr<Component> make(const Entry& entry, const scene::Value& object,
                                 std::span<const FrameworkKey> framework_keys, const World& world,
                                 scene::Problems& problems);
 
-// Whether a number is in the declared range; if not, a problem. Outside the usual range it is a warning.
+// True if a number is in the declared range; otherwise reports a problem. Outside the usual range it reports a warning.
 bool in_range(const scene::Value& value, double x, const Parameter& declared, scene::Problems& problems);
 
 // Reports a ParameterError at the parameter's value or, if it is missing, at the object that should contain it.

@@ -1,5 +1,5 @@
 // A figure of a page: curves and points over linear or logarithmic axes, as SVG. The point nearest to the pointer, or
-// the one reached by the arrow keys, shows its note. Runs that gave no y stand as crosses in a strip above the plot.
+// the one reached by the arrow keys, shows its note. Runs without a y are drawn as crosses in a strip above the plot.
 
 const STRIP = 22; // height for failures [px]
 

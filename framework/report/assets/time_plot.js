@@ -45,7 +45,7 @@ class TimePlot {
     return element("li", {}, button);
   }
 
-  // One table for all curves; curves on times of their own leave gaps in each other's rows, over which lines go on.
+  // One table for all curves. Curves with different times leave gaps in each other's columns; lines continue across them.
   rows([low, high]) {
     const pixels = Math.max(100, this.place.clientWidth);
     const positive = (rows) => {
