@@ -1,4 +1,4 @@
-// `trammel modes` in this process, for the tests of it.
+// Runs `trammel modes` in this process, for its tests.
 #pragma once
 
 #include <vector>

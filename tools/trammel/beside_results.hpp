@@ -1,5 +1,5 @@
-// What is written beside the results of a run or a static analysis, to look at them or for other tools: --report,
-// --format.
+// Writes additional files beside the results of a run or a static analysis: a report (--report), and formats of other
+// tools (--format).
 #pragma once
 
 #include <filesystem>

@@ -17,7 +17,7 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   bool wanted() const { return wanted_; }
-  // `done` in [0, 1]; `what` stands behind it: "12 of 40 runs". The time left follows from the share and the time since
+  // `done` in [0, 1]; `what` is printed after it: "12 of 40 runs". The time left follows from the share and the time since
   // the first call.
   void draw(double done, const std::string& what);
   void draw(const simulate::Progress& progress);

@@ -1,4 +1,4 @@
-// trammel schema: the JSON Schema of scenes made of the components at hand, for editors.
+// trammel schema: the JSON Schema of scenes with the available components, for editors.
 #include <fmt/format.h>
 
 #include "arguments.hpp"
