@@ -107,7 +107,7 @@ double AssumedModeBeam::observe(int observable, double, In q, In v) const {
     default:
       break;
   }
-  const int i = observable - 4, modes = n_axial_ + N_;  // A and B stand side by side, as the names do
+  const int i = observable - 4, modes = n_axial_ + N_;  // A and B follow each other in q, like their names
   return i < modes ? q(i_A_ + i) : v(i_A_ + i - modes);
 }
 

@@ -18,7 +18,7 @@
 
 namespace trammel::beam {
 
-// What the tangent is made of at one point.
+// The terms of the tangent at one point (t, q, v, a).
 struct AssumedModeBeam::TangentPoint {
   Blend c;
   double w, w_dot, k1, k2;

@@ -51,7 +51,7 @@ struct Turning<3> {
   static constexpr int nq = 4, nv = 3;
   using Rate = Vector3d;
   using Matrix = Matrix3d;
-  // Of the direction of p: a Runge-Kutta stage is off the unit sphere by its error.
+  // The rotation of p / |p|: the p of a Runge-Kutta stage is off the unit sphere by the error of the stage.
   static Matrix3d rotation(const double* p) {
     return Eigen::Quaterniond(p[0], p[1], p[2], p[3]).normalized().toRotationMatrix();
   }

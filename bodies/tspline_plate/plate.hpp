@@ -6,7 +6,7 @@
 //
 // q are displacements of control points, 0 in the reference, without those that the edges hold (elimination.hpp).
 // Kiendl, Bletzinger, Linhard, Wuechner, CMAME 198, 2009; Wang, Cui, Yu, Lan, Lu, Chinese Journal of Theoretical and
-// Applied Mechanics 53(8), 2021. The paper's formulas are lost in the copy at hand; these are Kiendl's.
+// Applied Mechanics 53(8), 2021. The latter's formulas are missing in the available print; these are Kiendl's.
 #pragma once
 
 #include <optional>

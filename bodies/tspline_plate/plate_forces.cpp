@@ -177,7 +177,7 @@ void TsplinePlate::add_tangent(double t, In q, In v, In, Blend c, Matrix& S) con
   if (c.c_k != 0) add_load_tangent(t, q, c.c_k, S);
 }
 
-// At rest, where damping has no stress.
+// The plate is at rest here, so damping has no stress.
 void TsplinePlate::add_tangent_with_stress_from(double t, In q, In q_from, In dq, double c, Matrix& S) const {
   double block[most_components * most_components];
   CellVectors u;

@@ -56,7 +56,7 @@ Tangents tangents(const PatchNet& net, const Eigen::Vector2d& at);
 void hold_edge(const PatchNet& net, const Edge& edge, const std::string& condition, Elimination& elimination);
 void hold_corner(const PatchNet& net, const Corner& corner, const std::string& condition, Elimination& elimination);
 
-// "xz" and the like: the components, 0 to 2. Empty: the text is something else.
+// "xz" and the like: the components, 0 to 2. Empty for any other text.
 std::vector<int> axes_in(const std::string& text);
 
 }  // namespace trammel::plate

@@ -18,7 +18,7 @@ namespace trammel::plate {
 
 struct EdgePoint {
   SurfacePoint point;
-  double length;    // of the reference that it stands for [m]
+  double length;    // of the part of the reference edge that it represents [m]
   Vector3 outward;  // nu of the reference
 };
 std::vector<EdgePoint> edge_points(const Discretisation& mesh, int patch, const Edge& edge);

@@ -1,4 +1,4 @@
-// Which unit pieces of the lines of an axis-aligned T-mesh are drawn, in index space.
+// The unit pieces of lines that are drawn in an axis-aligned T-mesh, in index space.
 //
 // Lines of direction 0 are u = const, of direction 1 v = const; each direction counts its lines 0, 1, 2, ... A line of
 // direction d runs along the other axis 1 - d; its piece s lies between lines s and s + 1 of that direction. A point of
@@ -28,7 +28,7 @@ class EdgeMap {
     return piece >= 0 && piece < lines(1 - d) - 1 && pieces_[std::size_t(d)][at(d, line, piece)] != 0;
   }
   void draw(int d, int line, int from, int to);
-  void insert_line(int d, int after);  // a new line behind `after`, nothing of it drawn
+  void insert_line(int d, int after);  // a new line next to `after`, without drawn pieces
 
   // A piece of this line begins or ends where it meets line `across` of the other direction.
   bool touches(int d, int line, int across) const { return edge(d, line, across - 1) || edge(d, line, across); }

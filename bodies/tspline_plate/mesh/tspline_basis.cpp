@@ -77,7 +77,7 @@ int TsplineBasis::cell_at(double u, double v) const {
   const auto line = [this](int d, double x) {
     const auto& k = mesh_.knots(d);
     const int i = int(std::upper_bound(k.begin(), k.end(), x) - k.begin()) - 1;
-    // The last inner line with an area behind it.
+    // The last line that is followed by a piece of non-zero length.
     const int last = int(std::lower_bound(k.begin(), k.end(), k.back()) - k.begin()) - 1;
     return std::clamp(i, degree, last);
   };

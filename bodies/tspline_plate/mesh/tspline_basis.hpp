@@ -45,7 +45,7 @@ class TsplineBasis {
   const Eigen::VectorXd& weights() const { return weights_; }
   const std::vector<BezierCell>& cells() const { return cells_; }
 
-  // The cell of a point of the patch; on a line the one behind it.
+  // The cell that contains a point of the patch; for a point on a line, the cell at higher parameters.
   int cell_at(double u, double v) const;
   // B_i, without weights, by the functions of the cell.
   void blending(int cell, double u, double v, Eigen::VectorXd& B) const;

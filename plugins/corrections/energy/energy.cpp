@@ -56,7 +56,7 @@ class EnergyCorrection final : public Correction, public NeedsMomentum {
       n_ -= v_r_;
       carried += kinetic(s, v_r_);
     }
-    constexpr double round_off = 1e-20;  // relative to T, of the part of v beside v_r
+    constexpr double round_off = 1e-20;  // relative to T, of the part of v outside v_r
     const double free = kinetic(s, n_), enough = std::max(least * largest_, round_off * energy.kinetic);
     if (!(free > enough) || !(due - carried > enough)) return Outcome::accept();
     state.v += (std::sqrt((due - carried) / free) - 1) * n_;

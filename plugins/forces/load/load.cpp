@@ -39,7 +39,7 @@ struct Load : Force, WrenchTangent, NeedsOrientation {
   double potential(double, const Motion&, const Motion&) const override { return 0; }
   Power power(double t, const Motion&, const Motion& B) const override { return {.supplied = at(t, B).dot(B.V)}; }
 
-  // What is fixed in the marker's axes turns with them.
+  // A load that is fixed in the marker's axes turns with them.
   void add_wrench_tangent(double t, const Motion&, const Motion& B, PairTangent& K, PairTangent&) const override {
     if (frame == Frame::world) return;
     const Wrench w = at(t, B);

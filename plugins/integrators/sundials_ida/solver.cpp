@@ -15,7 +15,7 @@ namespace {
 
 constexpr int recoverable = 1, fatal = -1;
 
-// What IDA's codes mean for a step; texts that live as long as the program.
+// The meaning of IDA's codes for a step. The texts live as long as the program.
 const char* meaning(int flag) {
   switch (flag) {
     case IDA_ERR_FAIL:
