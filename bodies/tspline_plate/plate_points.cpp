@@ -213,10 +213,10 @@ void TsplinePlate::bounds(int patch, In q, Vec3& low, Vec3& high) const {
 
 namespace {
 
-// The points along one side of a cell, from 0 to 1. If their spacing is limited, midpoints of equal parts, which
-// integrate functions that are no polynomials (the rim of the area that a sphere touches) as well as any rule; otherwise
-// four Gauss points, which are exact for products of two cubics, so that a uniform pressure gives a uniform
-// displacement.
+// The points along one side of a cell, from 0 to 1. With a limited spacing they are the midpoints of equal parts, which
+// integrate functions that are no polynomials (the rim of the area that a sphere touches) as well as any rule.
+// Otherwise they are four Gauss points, which are exact for products of two cubics, so that a uniform pressure gives a
+// uniform displacement.
 Quadrature along_side(double length, double spacing) {
   if (!std::isfinite(spacing)) return gauss_legendre(4, 0, 1);
   const int n = std::max(1, int(std::ceil(length / spacing - 1e-6)));  // a spacing that fits up to round-off is taken
