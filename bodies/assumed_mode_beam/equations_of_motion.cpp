@@ -107,8 +107,7 @@ void AssumedModeBeam::add_force(const Sizes& s, In q, In v, const Deformation& a
     products(s.size, s.N, Rows{b.phi_y(), s.size}, P, P_y);
   }
   const double *F_x = at.F + s.size, *D_x = D + s.size;
-  double f_A[most_functions],
-      f_B[most_functions];  // complete before f is written, because f may be the memory that is read
+  double f_A[most_functions], f_B[most_functions];  // complete before f is written, which might be what is read
   for (int i = 0; i < s.n_axial; ++i)
     f_A[i] = D_x[i] + 2 * w * y_x[i] + w * w * (Dx_(i) + mass_ / 2 * A[i] - F_x[i]) + g(0) * Sx_(i) - K1_(i) * A[i];
   for (int i = 0; i < s.N; ++i)

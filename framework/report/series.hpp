@@ -15,8 +15,8 @@ struct Series {
   long long interval = 1;                    // rows that became two; 1: all rows are here
 };
 
-// At most `most_numbers` values, but up to 200 rows in any case. Throws std::runtime_error naming file and line for a row that holds
-// anything but numbers. A last line that was cut off, as in a run that was killed, is skipped.
+// At most `most_numbers` values, but up to 200 rows in any case. Throws std::runtime_error naming file and line for a
+// row that holds anything but numbers. A last line that was cut off, as in a run that was killed, is skipped.
 Series read_series(const std::filesystem::path& file, std::size_t most_numbers);
 
 }  // namespace trammel::report
