@@ -114,22 +114,26 @@ void Simulator::record_due(RecordSink& recorder) {
 }
 
 // [J] Energy that counts as none in this scene: 1e-8 of the energy of its masses at its speed, which a fall through its
-// length gives, or of the work of the present forces over its length if that is more: without gravity, what loads hold
-// at rest has no speed. A nanojoule if there is neither. That is ten times the energy of a fall through the last digits
-// of a scene: a contact that is closed at the start may be off by those, and the stabilisation of its row closes it in
-// steps of any length.
-double Simulator::little_energy() {
+// length gives, or of `work` if that is more; a nanojoule if there is neither. That is ten times the energy of a fall
+// through the last digits of a scene: a contact that is closed at the start may be off by those, and the stabilisation
+// of its row closes it in steps of any length.
+double Simulator::little_energy(double work) {
   constexpr double little = 1e-8, nanojoule = 1e-9;
   if (now_.v.size() == 0) return nanojoule;
-  const Scale& scene = scale_.scene();
-  const double speed = std::max(scene.speed, scene.motion);
+  const double speed = std::max(scale_.scene().speed, scale_.scene().motion);
   const Vec rates = system_.coordinate_sizes().levers.cwiseInverse();  // of a speed of 1 m/s
   scratch_.setZero(now_.v.size());
   system_.add_mass_times(1, rates, scratch_);
   const double moving = scratch_.cwiseProduct(rates).lpNorm<Eigen::Infinity>() * speed * speed;
-  const double work = system_.f().cwiseProduct(rates).lpNorm<Eigen::Infinity>() * scene.length();
   const double energy = std::max(moving, work);
   return energy > 0 ? little * energy : nanojoule;
+}
+
+// [J] The largest work of a present force over the scene's length. Without gravity, what loads hold at rest has no
+// speed.
+double Simulator::work_over_length() {
+  const Vec rates = system_.coordinate_sizes().levers.cwiseInverse();
+  return system_.f().cwiseProduct(rates).lpNorm<Eigen::Infinity>() * scale_.scene().length();
 }
 
 // Largest energy that known causes can have set in motion so far: the initial energy, and the energy that fell, came in
@@ -142,11 +146,13 @@ void Simulator::take_moved(const Energy& energy, const Ledger::Totals& totals) {
 }
 
 // The energy without a cause, relative to the energy moved. A small addend keeps round-off of a system at rest from
-// counting.
+// counting. The work of the forces costs an evaluation, so it is asked for only where it decides.
 double Simulator::relative_drift() {
   take_moved(energy_at_state(), ledger_.totals());
   constexpr double round_off = 1e-12;  // of energies, which count from a place that may be far off
-  return std::abs(energy_drift()) / (most_moved_ + little_energy() + round_off * std::abs(ledger_.energy_start()));
+  const double drift = std::abs(energy_drift()), moved = most_moved_ + round_off * std::abs(ledger_.energy_start());
+  const double without_work = drift / (moved + little_energy(0));
+  return without_work > unexplained ? drift / (moved + little_energy(work_over_length())) : without_work;
 }
 
 // A method that is unstable at its step may return finite but meaningless numbers for long. Its energy shows this

@@ -88,7 +88,8 @@ class Simulator {
   double record_time(long long k) const;
   void record_due(RecordSink& recorder);
   void take_moved(const Energy& energy, const Ledger::Totals& totals);
-  double little_energy();
+  double little_energy(double work);
+  double work_over_length();
   void judge_energy();
   void measure_joints();
   void judge_joints(const State& state);
