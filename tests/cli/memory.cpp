@@ -22,6 +22,9 @@ cli::Result within(long kibibytes, const std::string& words, const std::filesyst
 class OutOfMemory : public testing::TestWithParam<const char*> {};
 
 TEST_P(OutOfMemory, IsAnErrorWithASize) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "AddressSanitizer takes more address space than these limits leave";
+#endif
   const cli::TemporaryFolder folder;
   int ended = 0;
   // From what the program itself takes to a few times as much: reading, set-up and the run meet the limit, each
