@@ -8,7 +8,7 @@
 # What a unity build asks of sources: helpers in unnamed namespaces have names of their own within a room. Locals may have the
 # name of another source's helper, so -Wshadow, which would warn of that, is left to builds without unity.
 set(TRAMMEL_BATCH_SIZE 60000)  # [bytes] of sources
-# Many templates a line: half as much, so that no batch takes more than 23 s or 1.1 GB.
+# Many templates a line: half as much, so that no batch takes more than 18 s or 1.2 GB.
 set(TRAMMEL_HEAVY_ROOMS assumed_mode_beam modes sdk system/contact_geometry testing)
 
 # trammel_unity(TARGET ROOM SOURCE...): the sources, in their order, in batches that no other room is part of.

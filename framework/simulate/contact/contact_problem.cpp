@@ -243,27 +243,28 @@ std::vector<double> ContactProblem::slip_beside_others(const Vec& rates) const {
   return all;
 }
 
-void ContactProblem::come_to_rest(model::AssembledSystem& system, Vec& dv) const {
-  std::vector<Eigen::Index> held;
+std::vector<Eigen::Index> ContactProblem::rows_at_rest() const {
+  std::vector<Eigen::Index> rows;
   for (std::size_t i = 0; i < who.size(); ++i) {
-    if (points_[i].normal >= 0) held.push_back(points_[i].normal);
+    if (points_[i].normal >= 0) rows.push_back(points_[i].normal);
     if (who[i].tangent != Participant::Tangent::resting) continue;
-    for (int k = 0; k < points_[i].tangents; ++k) held.push_back(points_[i].tangent + k);
+    for (int k = 0; k < points_[i].tangents; ++k) rows.push_back(points_[i].tangent + k);
   }
+  return rows;
+}
+
+void ContactProblem::come_to_rest(model::AssembledSystem& system, Vec& dv) const {
+  const std::vector<Eigen::Index> held = rows_at_rest();
   const Mat A = delassus_(held, held);
   const Vec lost = -rates(system)(held);
   dv.noalias() = jump_(Eigen::all, held) * Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost);
 }
 
 void ContactProblem::end_slip(Vec& dv) const {
-  std::vector<Eigen::Index> held;
+  const std::vector<Eigen::Index> held = rows_at_rest();
   Vec slip = Vec::Zero(Eigen::Index(directions_.size()));
-  for (std::size_t i = 0; i < who.size(); ++i) {
-    if (points_[i].normal >= 0) held.push_back(points_[i].normal);
-    if (who[i].tangent != Participant::Tangent::resting) continue;
-    for (int k = 0; k < points_[i].tangents; ++k) held.push_back(points_[i].tangent + k);
-    along(slip, points_[i]) = who[i].a_t.head(points_[i].tangents);
-  }
+  for (std::size_t i = 0; i < who.size(); ++i)
+    if (who[i].tangent == Participant::Tangent::resting) along(slip, points_[i]) = who[i].a_t.head(points_[i].tangents);
   const auto end = [&](const std::vector<Eigen::Index>& rows) {
     const Mat A = delassus_(rows, rows);
     const Vec lost = -slip(rows), impulses = Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost);

@@ -78,6 +78,7 @@ class ContactProblem {
     std::size_t who;
     Eigen::Index direction;
   };
+  std::vector<Eigen::Index> rows_at_rest() const;  // unilateral normals, and tangents at rest
   complementarity::ContactSolution solve_once(const Mat& A, double nothing);
   Mat yielding() const;  // the Delassus matrix of contacts that are not quite rigid
   double push(const Pushed& p) const { return who[p.who].ratio[0] * who[p.who].given; }  // [N]
