@@ -50,10 +50,6 @@ struct RunReport {
 // Throws scene::SceneError for bad input, plugin::PluginError for a plugin that misbehaves (results so far are kept).
 RunReport run(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options);
 
-// Equilibria under loads that follow t, from simulate.start to simulate.until, a record each (load_path.hpp); writes
-// series.csv, animation.ndjson, fields.ndjson and result.json. Throws like run.
-RunReport run_static(const scene::Scene& scene, plugin::Registry& registry, const RunOptions& options);
-
 // Reads everything and builds the model without running; throws like run. Returns warnings, a line each.
 std::string validate(const scene::Scene& scene, plugin::Registry& registry, CrashWitness* witness = nullptr);
 

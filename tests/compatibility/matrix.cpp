@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "statics/static_run.hpp"
 #include "support/modes_of.hpp"
 #include "support/run_scene.hpp"
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "statics/static_run.hpp"
 #include "support/run_scene.hpp"
 
 namespace trammel::test {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "commands/modal_analysis.hpp"
+#include "modes/modal_analysis.hpp"
 #include "run_scene.hpp"
 
 namespace trammel::test {

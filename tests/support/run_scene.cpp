@@ -1,4 +1,5 @@
 #include "support/run_scene.hpp"
+#include "statics/static_run.hpp"
 
 #include <unistd.h>
 

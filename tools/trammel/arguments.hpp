@@ -72,22 +72,14 @@ inline constexpr Option kAllowScenePlugins{
 inline constexpr Option kJobs{"--jobs", "N", "processes; default: one for each core that this process may use"};
 inline constexpr Option kJson{"--json", "", "print one JSON object on standard output and nothing else"};
 
-// One function per file of the same name.
+// One function per file of the same name; others are in analyses/commands.hpp.
 Command run_command();
-Command static_command();
-Command modes_command();
 Command report_command();
 Command validate_command();
-Command explain_command();
-Command study_command();
-Command trade_command();
-Command compare_command();
 Command list_command();
 Command describe_command();
 Command schema_command();
 Command seal_command();
-Command check_command();
 Command new_command();
-Command stability_command();
 
 }  // namespace trammel::tool

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analyses.hpp"
 #include "arguments.hpp"
 #include "crash.hpp"
 #include "input.hpp"
@@ -30,27 +31,45 @@ namespace trammel::tool {
 
 namespace {
 
-const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {run_command(),     static_command(), modes_command(),     validate_command(),
-                                           explain_command(), report_command(), study_command(),     trade_command(),
-                                           compare_command(), list_command(),   describe_command(),  schema_command(),
-                                           new_command(),     check_command(),  stability_command(), seal_command()};
+// Those that need no library beside the program.
+const std::vector<Command>& own_commands() {
+  static const std::vector<Command> own = {run_command(),      validate_command(), report_command(), list_command(),
+                                           describe_command(), schema_command(),   new_command(),    seal_command()};
+  return own;
+}
+
+std::vector<Command> all_commands() {
+  std::vector<Command> all = own_commands();
+  all.insert(all.end(), analyses().commands.begin(), analyses().commands.end());
   return all;
+}
+
+void print_help(const std::vector<Command>& commands) {
+  for (const Command& command : commands)
+    fmt::print("  trammel {:<20} {}\n", fmt::format("{} {}", command.name, command.operand), command.summary);
 }
 
 void print_help() {
   fmt::print("Trammel simulates flexible multibody systems with contact.\n\n");
-  for (const Command& command : commands())
-    fmt::print("  trammel {:<20} {}\n", fmt::format("{} {}", command.name, command.operand), command.summary);
+  print_help(own_commands());
+  try {
+    print_help(analyses().commands);
+  } catch (const AnalysesMissing& missing) {
+    fmt::print("\nThe others are missing: {}\n", missing.what());
+  }
   fmt::print("\n'trammel COMMAND --help' shows a command's options.\n");
 }
 
+const Command* find_command(const std::vector<Command>& commands, const std::string& name) {
+  const auto found = std::ranges::find(commands, name, &Command::name);
+  return found == commands.end() ? nullptr : &*found;
+}
+
 const Command& find_command(const std::string& name) {
+  if (const Command* own = find_command(own_commands(), name)) return *own;
+  if (const Command* analysis = find_command(analyses().commands, name)) return *analysis;
   std::vector<std::string> names;
-  for (const Command& command : commands()) {
-    if (command.name == name) return command;
-    names.emplace_back(command.name);
-  }
+  for (const Command& command : all_commands()) names.emplace_back(command.name);
   throw UsageError(fmt::format("there is no command '{}'{}", name, scene::did_you_mean(name, names)));
 }
 
@@ -69,7 +88,7 @@ Exit dispatch(const std::string& program, std::span<const std::string> words) {
     return Exit::done;
   }
   if (words.size() == 1 && (words[0] == "manual" || words[0] == "completion")) {  // for an installation
-    fmt::print("{}", words[0] == "manual" ? manual_page(commands()) : bash_completion(commands()));
+    fmt::print("{}", words[0] == "manual" ? manual_page(all_commands()) : bash_completion(all_commands()));
     return Exit::done;
   }
   const Command& command = find_command(words[0]);

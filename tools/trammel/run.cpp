@@ -1,11 +1,12 @@
 // trammel run SCENE: simulate and write the results folder.
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "analyses.hpp"
+#include "analyses/after_run.hpp"
 #include "arguments.hpp"
 #include "beside_results.hpp"
 #include "commands/simulation.hpp"
@@ -16,8 +17,6 @@
 #include "progress.hpp"
 #include "results_folder.hpp"
 #include "scene/suggestion.hpp"
-#include "study/evidence/remedy.hpp"
-#include "study/evidence/verification.hpp"
 
 namespace trammel::tool {
 
@@ -27,8 +26,6 @@ namespace fs = std::filesystem;
 
 constexpr Option kVerify{"--verify", "",
                          "run again with finer steps and by another method: an error for every observable"};
-constexpr Option kVerifyTarget{"--target", "X",
-                               "of --verify: the error wanted, in parts of what an observable changes"};
 constexpr Option kResume{"--resume", "DIR", "continue the interrupted run whose results are in DIR"};
 
 fs::path folder_of_run(const Arguments& arguments) {
@@ -56,41 +53,6 @@ std::string continuation(const Arguments& arguments, const fs::path& folder) {
   return command;
 }
 
-study::SceneSource source_of(const Arguments& arguments) {
-  return study::SceneSource(arguments.operand(), overrides_of(arguments));
-}
-
-void verify(const Arguments& arguments, plugin::Registry& registry, const scene::Scene& scene, const fs::path& folder,
-            bool quiet) {
-  std::optional<double> target;
-  if (arguments.has(kVerifyTarget.name)) target = positive(arguments, kVerifyTarget);
-  const study::CaseResult done = study::read_run(folder, scene);
-  const study::Verification verification = study::verify(source_of(arguments), registry, done, target);
-  study::record(verification, folder);
-  if (quiet) return;
-  print_line(fmt::format("Verified at {:.2g} times the run's own cost:", verification.price));
-  for (const std::string& sentence : verification.sentences()) print_line("  " + sentence);
-}
-
-// What to change after a failure.
-void find_remedy(const Arguments& arguments, plugin::Registry& registry, simulate::RunReport& report,
-                 const fs::path& folder) {
-  constexpr double long_wait = 5;  // [s]
-  const double limit = study::search_limit(report.cpu);
-  if (limit > long_wait)
-    fmt::print(stderr,
-               "Trying changes of the scene that get past there, for {:.0f} s of CPU time at most (Ctrl-C ends "
-               "the search)\n",
-               limit);
-  const study::RemedySearch search = study::find_remedy(source_of(arguments), registry, {report.t, report.last_good},
-                                                        {limit, &watch_for_interrupts()});
-  std::string sets;
-  if (search.remedy)
-    for (const scene::Override& o : search.remedy->overrides) sets += " --set " + shell_quoted(o.path + "=" + o.value);
-  fmt::print(stderr, "{}{}{}\n", search.sentence(), sets.empty() ? "" : ":", sets);
-  report.result_json = study::record(search, folder);
-}
-
 Exit run_scene(const Arguments& arguments) {
   const bool json = arguments.has("--json");
   const bool quiet = arguments.has("--quiet");
@@ -98,6 +60,7 @@ Exit run_scene(const Arguments& arguments) {
   options.out = folder_of_run(arguments);
   options.resume = arguments.has("--resume");
   const BesideResults beside(arguments);
+  if (arguments.has(kVerify.name)) analyses();  // missing is said before the run, not after it
   const scene::Scene scene = load_scene(arguments);
   plugin::Registry registry;
   load_plugins(arguments, registry);
@@ -123,7 +86,7 @@ Exit run_scene(const Arguments& arguments) {
     fmt::print(stderr, "trammel: {}\nResults up to there are in {}\n", report.reason, options.out.string());
     if (report.no_motion && !quiet) {
       try {
-        find_remedy(arguments, registry, report, options.out);
+        analyses().find_remedy(arguments, registry, report, options.out);
       } catch (const std::exception& e) {  // no process can be started, or no file can be written
         fmt::print(stderr, "The search for a remedy failed: {}\n", e.what());
       }
@@ -131,7 +94,7 @@ Exit run_scene(const Arguments& arguments) {
   }
   if (json) print_json_text(report.result_json);
   if (arguments.has(kVerify.name) && report.status == simulate::Status::done)
-    verify(arguments, registry, scene, options.out, json || quiet);
+    analyses().verify(arguments, registry, scene, options.out, json || quiet);
   beside.write(options.out, json || quiet);
   switch (report.status) {
     case simulate::Status::done:

@@ -8,6 +8,7 @@
 #include "commands/simulation.hpp"
 #include "report/series.hpp"
 #include "simulate/start/setup.hpp"
+#include "statics/static_run.hpp"
 
 namespace trammel::study {
 namespace {

@@ -1,6 +1,7 @@
 // fields.ndjson: what a body shows over its elements, at the times that the scene names.
 #include <gmock/gmock.h>
 
+#include "statics/static_run.hpp"
 #include "support/run_scene.hpp"
 #include "support/scenes.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "statics/static_run.hpp"
 #include "support/run_scene.hpp"
 
 namespace trammel::test {

@@ -1,5 +1,6 @@
-// `trammel static`: equilibria under growing loads from the first line to the last: set-up, load path, records,
-// results.
+// From the first line to the last: set-up, load path, records, results.
+#include "statics/static_run.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <ctime>
@@ -9,7 +10,6 @@
 
 #include "commands/ending.hpp"
 #include "commands/run_records.hpp"
-#include "commands/simulation.hpp"
 #include "simulate/start/blame.hpp"
 #include "statics/load_path.hpp"
 

@@ -1,4 +1,4 @@
-#include "commands/modal_analysis.hpp"
+#include "modes/modal_analysis.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/result.hpp"
-#include "formats/matrices.hpp"
 #include "compatibility/scene_check.hpp"
 #include "modes/krylov_modes.hpp"
+#include "modes/matrix_files.hpp"
 #include "modes/mode_shapes.hpp"
 #include "modes/normal_modes.hpp"
 #include "modes/steady_linearisation.hpp"
@@ -293,8 +293,8 @@ RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, c
   const std::clock_t began = std::clock();
   Posed posed(scene, registry, options);
   if (const auto n = posed.state().q.size(); options.matrices && n > null_space_limit)
-    throw RunFailed(fmt::format("--matrices writes dense matrices: {} coordinates are too many, {} at most", n,
-                                null_space_limit));
+    throw RunFailed(
+        fmt::format("--matrices writes dense matrices: {} coordinates are too many, {} at most", n, null_space_limit));
   try {
     const Spectrum spectrum = spectrum_of(posed, options);
     Outcomes outcomes;
@@ -311,7 +311,7 @@ RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, c
     write_whole(options.out / "modes.json", done.result_json);
     write_whole(options.out / "modes.csv", report.csv());
     write_whole(options.out / "shapes.csv", shapes_csv(posed.system(), posed.state(), spectrum.modes));
-    if (options.matrices) formats::write_matrices(*options.matrices, formats::matrices(posed.system(), posed.state()));
+    if (options.matrices) write_matrices(*options.matrices, matrices(posed.system(), posed.state()));
     done.summary = report.summary(options.out);
     return done;
   } catch (...) {

@@ -1,4 +1,4 @@
-#include "formats/matrices.hpp"
+#include "modes/matrix_files.hpp"
 
 #include <array>
 #include <iterator>
@@ -9,7 +9,7 @@
 #include "simulate/results/log_file.hpp"
 #include "simulate/results/npz.hpp"
 
-namespace trammel::formats {
+namespace trammel::simulate {
 
 namespace {
 
@@ -115,4 +115,4 @@ void write_matrices(const fs::path& file, const Matrices& m) {
   simulate::write_whole(base + "_rows.txt", fmt::format("{}\n", fmt::join(m.rows, "\n")));
 }
 
-}  // namespace trammel::formats
+}  // namespace trammel::simulate

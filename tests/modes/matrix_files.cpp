@@ -1,7 +1,7 @@
 // Matrices of a linearisation as files, read back as text.
 #include <filesystem>
 
-#include "commands/modal_analysis.hpp"
+#include "modes/modal_analysis.hpp"
 #include "support/run_scene.hpp"
 
 namespace trammel {

@@ -17,8 +17,8 @@ struct ModesOptions {
   std::optional<double> at;                   // [s]
   std::optional<std::filesystem::path> from;  // a results folder with a checkpoint
   bool steady = false;
-  std::optional<std::filesystem::path> matrices;  // formats/matrices.hpp
-  std::vector<std::string> command;  // as in RunOptions
+  std::optional<std::filesystem::path> matrices;  // matrix_files.hpp
+  std::vector<std::string> command;               // as in RunOptions
   Interrupt* interrupt = nullptr;
   CrashWitness* witness = nullptr;
 };

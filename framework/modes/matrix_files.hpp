@@ -1,7 +1,7 @@
 // The matrices of a linearisation, for other tools.
 //
 //     M dv' + D dv + K dq + G^T dlambda = 0,   G dq = 0        all coordinates; dq: increments as velocities (nv)
-//     M_r y'' + D_r y' + K_r y = 0,            dq = Z y        independent ones (modes/linearisation.hpp)
+//     M_r y'' + D_r y' + K_r y = 0,            dq = Z y        independent ones (linearisation.hpp)
 //     (y, y')' = A (y, y')                                     A = [0 1; -M_r^-1 K_r  -M_r^-1 D_r]
 #pragma once
 
@@ -11,7 +11,7 @@
 
 #include "modes/linearisation.hpp"
 
-namespace trammel::formats {
+namespace trammel::simulate {
 
 struct Matrices {
   Mat M, D, K, G, M_r, D_r, K_r, Z, A;
@@ -25,4 +25,4 @@ Matrices matrices(model::AssembledSystem& system, const State& state);
 // FILE_velocities.txt and FILE_rows.txt. FILE is `file` without an ending .npz or .mtx.
 void write_matrices(const std::filesystem::path& file, const Matrices& matrices);
 
-}  // namespace trammel::formats
+}  // namespace trammel::simulate

@@ -3,13 +3,13 @@
 
 #include "arguments.hpp"
 #include "beside_results.hpp"
-#include "commands/simulation.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "last_words.hpp"
 #include "next.hpp"
 #include "progress.hpp"
 #include "results_folder.hpp"
+#include "statics/static_run.hpp"
 
 namespace trammel::tool {
 

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "arguments.hpp"
-#include "commands/modal_analysis.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "last_words.hpp"
+#include "modes/modal_analysis.hpp"
 #include "next.hpp"
 #include "results_folder.hpp"
 

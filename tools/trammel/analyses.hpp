@@ -1,0 +1,31 @@
+// The analyses: commands that do more with a scene than run it once, in a library of their own, lib/libtrammel_commands.so.
+// It is loaded when one of them is asked for, so a run neither loads nor waits for the build of what it does not need.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+#include "arguments.hpp"
+#include "commands/simulation.hpp"
+
+namespace trammel::tool {
+
+struct Analyses {
+  std::vector<Command> commands;
+  // What `trammel run` may do after its run: --verify, and after a failure what to change.
+  void (*verify)(const Arguments& arguments, plugin::Registry& registry, const scene::Scene& scene,
+                 const std::filesystem::path& folder, bool quiet);
+  void (*find_remedy)(const Arguments& arguments, plugin::Registry& registry, simulate::RunReport& report,
+                      const std::filesystem::path& folder);
+};
+
+// The library is not built, or cannot be loaded.
+struct AnalysesMissing : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Loads the library at the first call. Throws AnalysesMissing.
+const Analyses& analyses();
+
+}  // namespace trammel::tool
