@@ -13,7 +13,7 @@ BUILD = pathlib.Path(os.environ.get("TRAMMEL_BUILD_DIR", ROOT / "build"))
 
 
 def build(*options):
-    subprocess.run([ROOT / "tools/build", *options, "trammel_program", "plugins/all", "bodies/all"], check=True, stdout=sys.stderr)
+    subprocess.run([ROOT / "tools/build", *options, "trammel_product"], check=True, stdout=sys.stderr)
 
 
 def pin():
