@@ -7,9 +7,9 @@
 //     own rows: G = dg/dq, dg/dt = G v + g_t, d(G v + g_t)/dt = G a - gamma along the path, K = d(G^T lambda)/dq
 #include <set>
 
+#include <trammel/decompositions.hpp>
 #include <trammel/fields.hpp>
 
-#include "linear/dense/decompositions.hpp"
 #include "testing/body_under_test.hpp"
 
 namespace trammel {

@@ -9,12 +9,12 @@
 
 #include <stdexcept>
 
+#include <trammel/decompositions.hpp>
 #include <trammel/linear_rows.hpp>
 #include <trammel/needs_orientation.hpp>
 #include <trammel/testing/components.hpp>
 #include <trammel/testing/markers.hpp>
 
-#include "linear/dense/decompositions.hpp"
 #include "testing/difference.hpp"
 
 namespace trammel {

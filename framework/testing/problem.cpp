@@ -5,7 +5,7 @@
 // (Golub and Van Loan, section 5.5), derivatives by central differences. It shares no code with the framework's
 // assembly, so that an integrator fails for its own reasons only.
 //
-// Not linear/dense/decompositions.hpp: the kit counts what a method and libtrammel allocate, and must not count this.
+// Not trammel/decompositions.hpp: the kit counts what a method and libtrammel allocate, and must not count this.
 #include <Eigen/Dense>
 #include <cmath>
 

@@ -12,9 +12,8 @@
 #include <cmath>
 #include <limits>
 
+#include <trammel/decompositions.hpp>
 #include <trammel/testing/measurements.hpp>
-
-#include "linear/dense/decompositions.hpp"
 
 namespace trammel {
 namespace {

@@ -1,5 +1,6 @@
-// The analyses: commands that do more with a scene than run it once, in a library of their own, lib/libtrammel_commands.so.
-// It is loaded when one of them is asked for, so a run neither loads nor waits for the build of what it does not need.
+// The analyses: commands that do more with a scene than run it once. They are in a library of their own,
+// lib/libtrammel_commands.so, which is loaded when one of them is asked for: a run neither loads what it does not need,
+// nor waits until that is built.
 #pragma once
 
 #include <filesystem>
