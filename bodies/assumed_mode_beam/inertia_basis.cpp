@@ -1,6 +1,6 @@
 #include "inertia_basis.hpp"
 
-#include <Eigen/QR>
+#include <trammel/decompositions.hpp>
 
 namespace trammel::beam {
 
@@ -15,7 +15,7 @@ Mat orthonormal_span(Mat columns, const Vec& lengths) {
   const Eigen::Index most = std::min(columns.rows(), columns.cols());
   Eigen::Index rank = 0;
   while (rank < most && std::abs(qr.matrixQR()(rank, rank)) > round_off) ++rank;
-  return qr.householderQ() * Mat::Identity(columns.rows(), rank);
+  return first_columns_of_q(qr, rank);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include <trammel/decompositions.hpp>
 #include <trammel/quadrature.hpp>
 
 namespace trammel::beam {
@@ -64,7 +64,7 @@ std::array<Bending, 2> beyond_the_modes(double L, const std::vector<BendingMode>
 
 std::vector<Bending> static_bending(double L, const std::vector<BendingMode>& modes) {
   const std::array<Bending, 2> s = beyond_the_modes(L, modes);
-  Eigen::Matrix2d mass = Eigen::Matrix2d::Zero(), stiffness = mass;
+  Mat mass = Mat::Zero(2, 2), stiffness = mass;
   const Quadrature rule = rule_for(modes.size(), L);
   for (Eigen::Index g = 0; g < rule.x.size(); ++g) {
     const double x = rule.x(g), w = rule.weight(g);
@@ -74,9 +74,8 @@ std::vector<Bending> static_bending(double L, const std::vector<BendingMode>& mo
   }
   // Scaled alike, otherwise the smaller one loses digits.
   const Eigen::Vector2d scale = mass.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::Matrix2d K = scale.asDiagonal() * stiffness * scale.asDiagonal(),
-                        M = scale.asDiagonal() * mass * scale.asDiagonal();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> solver(K, M);
+  const Mat K = scale.asDiagonal() * stiffness * scale.asDiagonal(), M = scale.asDiagonal() * mass * scale.asDiagonal();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Mat> solver(K, M);
   std::vector<Bending> both;
   for (int k = 0; k < 2; ++k) {
     const Eigen::Vector2d y = std::sqrt(L) * scale.cwiseProduct(solver.eigenvectors().col(k));

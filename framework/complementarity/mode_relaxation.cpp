@@ -4,8 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include <trammel/decompositions.hpp>
+
 #include "complementarity/programs/nonnegative_least_squares.hpp"
-#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 namespace {

@@ -7,8 +7,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <trammel/decompositions.hpp>
+
 #include "diagnose/redundancy.hpp"
-#include "linear/dense/decompositions.hpp"
 #include "run/row_tolerance.hpp"
 #include "system/on_rows/onto_rows.hpp"
 
@@ -103,7 +104,7 @@ class RowSelection {
     Eigen::CompleteOrthogonalDecomposition<Mat> decomposition;
     decomposition.setThreshold(rank_tolerance);
     decomposition.compute(G);
-    const Vec of_columns = decomposition.solve(r.cwiseQuotient(length));
+    const Vec of_unit_rows = r.cwiseQuotient(length), of_columns = decomposition.solve(of_unit_rows);
     x(columns) = of_columns.cwiseProduct(per_lever);
     return x;
   }

@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
+
 #include "linear/sparse/dependent_rows.hpp"
 
 namespace trammel::simulate {

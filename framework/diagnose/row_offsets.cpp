@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace trammel::simulate {
 namespace {

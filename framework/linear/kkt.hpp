@@ -19,10 +19,10 @@
 #include <functional>
 #include <variant>
 
+#include <trammel/decompositions.hpp>
 #include <trammel/types.hpp>
 
 #include "linear/dense/cholesky.hpp"
-#include "linear/dense/decompositions.hpp"
 #include "linear/dense/lu.hpp"
 #include "linear/sparse/sparse_cholesky.hpp"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <Eigen/SparseCore>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace trammel::simulate {
 namespace {

@@ -5,7 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
+
 #include "system/on_rows/onto_rows.hpp"
 #include "system/on_rows/tangent_space.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace trammel::simulate {
 namespace {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
+
 #include "system/on_rows/tangent_space.hpp"
 
 namespace trammel::simulate {

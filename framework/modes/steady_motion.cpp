@@ -6,7 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
+
 #include "modes/nearest_steady.hpp"
 #include "modes/steady_linearisation.hpp"
 #include "system/on_rows/tangent_space.hpp"
@@ -63,7 +64,7 @@ Vector3d least_rate(model::AssembledSystem& system, const FlatTurning& flat, con
   least.setThreshold(1e-9);
   least.compute(by_rate);
   if (least.rank() == 0) return Vector3d::Zero();
-  const Vec rate_of_least = least.solve(per_size.cwiseProduct(s.a));
+  const Vec a = per_size.cwiseProduct(s.a), rate_of_least = least.solve(a);
   const Vector3d rate = rate_of_least;
   return rate.norm() <= 1e-12 * per_size.cwiseProduct(s.v).lpNorm<Eigen::Infinity>() ? Vector3d(Vector3d::Zero())
                                                                                      : rate;

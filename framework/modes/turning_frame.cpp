@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace trammel::simulate {
 namespace {

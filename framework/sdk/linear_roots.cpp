@@ -1,6 +1,5 @@
+#include <trammel/decompositions.hpp>
 #include <trammel/methods/linear_roots.hpp>
-
-#include "linear/dense/decompositions.hpp"
 
 namespace trammel {
 

@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
+
 #include "simulate/contact_mode.hpp"
 
 namespace trammel::simulate {

@@ -5,7 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
+
 #include "simulate/contact/law_speeds.hpp"
 
 namespace trammel::simulate {

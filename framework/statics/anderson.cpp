@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace trammel::numerics {
 

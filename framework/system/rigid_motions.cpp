@@ -2,7 +2,8 @@
 // computed body by body, and exact for bodies whose coordinates contain those motions.
 #include <algorithm>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
+
 #include "system/assembled_system.hpp"
 
 namespace trammel::model {

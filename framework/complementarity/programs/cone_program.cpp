@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace trammel::complementarity {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace trammel::complementarity {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace trammel::complementarity {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace trammel::complementarity {
 namespace {

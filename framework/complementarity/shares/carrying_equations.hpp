@@ -6,8 +6,9 @@
 // normal force.
 #pragma once
 
+#include <trammel/decompositions.hpp>
+
 #include "complementarity/shares/carrying_rows.hpp"
-#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 

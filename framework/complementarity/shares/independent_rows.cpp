@@ -1,6 +1,6 @@
 #include "complementarity/shares/independent_rows.hpp"
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace trammel::complementarity {
 namespace {
@@ -13,7 +13,7 @@ Mat independent_rows(const Mat& E) {
   Eigen::ColPivHouseholderQR<Mat> qr;
   qr.setThreshold(dependent_column);
   qr.compute(E);
-  return numerics::first_columns_of_q(qr, qr.rank()).transpose() * E;
+  return first_columns_of_q(qr, qr.rank()).transpose() * E;
 }
 
 }  // namespace trammel::complementarity

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include <trammel/decompositions.hpp>
+
 #include "complementarity/programs/cone_program.hpp"
-#include "linear/dense/decompositions.hpp"
 
 namespace trammel::complementarity {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "linear/dense/few_rows.hpp"
 #include "linear/dense/prefetch.hpp"
-#include "linear/dense/products_of_few_rows.hpp"
 
 namespace trammel::numerics {
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "linear/dense/few_rows.hpp"
 #include "linear/dense/prefetch.hpp"
-#include "linear/dense/products_of_few_rows.hpp"
 #include "linear/dense/simd_columns.hpp"
 
 namespace trammel::numerics {

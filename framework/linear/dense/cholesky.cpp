@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linear/dense/products_of_few_rows.hpp"
+#include "linear/dense/few_rows.hpp"
 #include "linear/dense/simd_columns.hpp"
 
 namespace trammel::numerics {

@@ -1,5 +1,5 @@
 // The orthogonal decompositions of the header. The others are sources of their own, to keep each compilation short.
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace Eigen {
 
@@ -12,7 +12,7 @@ template void CompleteOrthogonalDecomposition<Mat>::_solve_impl(const Mat&, Mat&
 
 }  // namespace Eigen
 
-namespace trammel::numerics {
+namespace trammel {
 
 Mat first_columns_of_q(const Eigen::ColPivHouseholderQR<Mat>& qr, Eigen::Index count) {
   return qr.householderQ() * Mat::Identity(qr.rows(), count);
@@ -24,4 +24,4 @@ Mat last_columns_of_q(const Eigen::ColPivHouseholderQR<Mat>& qr, Eigen::Index co
   return basis;
 }
 
-}  // namespace trammel::numerics
+}  // namespace trammel

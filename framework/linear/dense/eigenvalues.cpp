@@ -1,5 +1,5 @@
 // The eigenvalue decompositions of decompositions.hpp.
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace Eigen {
 

@@ -6,9 +6,9 @@
 
 #include <vector>
 
+#include <trammel/decompositions.hpp>
 #include <trammel/types.hpp>
 
-#include "linear/dense/decompositions.hpp"
 #include "linear/dense/simd_columns.hpp"
 
 namespace trammel::numerics {

@@ -1,7 +1,7 @@
 // Functions with Eigen's orthogonal decompositions, each of which takes seconds to compile.
 #pragma once
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace trammel::numerics {
 

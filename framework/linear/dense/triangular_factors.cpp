@@ -1,5 +1,5 @@
 // The LU and Cholesky decompositions of decompositions.hpp.
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace Eigen {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "linear/dense/few_rows.hpp"
 #include "linear/dense/prefetch.hpp"
-#include "linear/dense/products_of_few_rows.hpp"
 #include "linear/dense/refinement.hpp"
 #include "linear/dense/short_sums.hpp"
 #include "linear/fronts/frontal_kkt.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 #include "linear/fronts/row_elimination.hpp"
 

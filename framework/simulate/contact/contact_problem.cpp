@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include <trammel/decompositions.hpp>
+
 #include "complementarity/exact_modes.hpp"
 #include "complementarity/islands.hpp"
 #include "complementarity/shares/carrying_equations.hpp"
-#include "linear/dense/decompositions.hpp"
 
 namespace trammel::simulate {
 namespace {

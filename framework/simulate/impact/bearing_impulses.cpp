@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace trammel::simulate {
 namespace {
@@ -64,7 +64,7 @@ void BearingImpulses::prepare(model::AssembledSystem& system, const State& state
     if (const int row = system.row(directions[k]); row >= 0) on_rows[row] = 1;
     system.add_reaction(1, on_rows, left);
     system.add_mass_times(-1, jump.col(Eigen::Index(k)), left);
-    reaction_.col(Eigen::Index(k)) = reactions.solve(left);
+    reaction_.col(Eigen::Index(k)) = Vec(reactions.solve(left));
   }
   system.set_modes(before);
   system.move_to(state.t, state.q, state.v);

@@ -1,6 +1,7 @@
 #include "simulate/impact/energetic_impact.hpp"
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
+
 #include "simulate/impact/spring_impact.hpp"
 
 namespace trammel::simulate {

@@ -1,8 +1,9 @@
 // Decides which contacts stick and slide while springs push, and computes the forces that hold those that stick.
-#include "linear/dense/decompositions.hpp"
 #include "simulate/impact/spring_impact.hpp"
 
 #include <cmath>
+
+#include <trammel/decompositions.hpp>
 
 namespace trammel::simulate {
 

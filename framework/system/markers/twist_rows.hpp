@@ -6,7 +6,7 @@
 
 #include <trammel/marker.hpp>
 
-#include "linear/dense/products_of_few_rows.hpp"
+#include "linear/dense/few_rows.hpp"
 
 namespace trammel::model {
 

@@ -1,6 +1,7 @@
 #include "system/on_rows/tangent_space.hpp"
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
+
 #include "linear/kkt.hpp"
 
 namespace trammel::simulate {
@@ -29,7 +30,7 @@ Mat complement(Mat columns, const Vec& sizes, double rank_tolerance) {
   Eigen::ColPivHouseholderQR<Mat> qr;
   qr.setThreshold(rank_tolerance);
   qr.compute(columns);
-  return sizes.asDiagonal() * numerics::last_columns_of_q(qr, n - qr.rank());
+  return sizes.asDiagonal() * last_columns_of_q(qr, n - qr.rank());
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "linear/dense/decompositions.hpp"
+#include <trammel/decompositions.hpp>
 
 namespace trammel::model {
 namespace {
@@ -59,7 +59,7 @@ void ContactLoads::form_resultants(int group) {
   E << Mat::Identity(n, n), rows.K.transpose();
   const Mat of_members = E(Eigen::all, g.directions);
   const Eigen::ColPivHouseholderQR<Mat> qr(of_members);
-  g.E = numerics::first_columns_of_q(qr, qr.rank()).transpose() * of_members;
+  g.E = first_columns_of_q(qr, qr.rank()).transpose() * of_members;
 }
 
 bool ContactLoads::shares_as_spring(int contact, int group) const {

@@ -8,11 +8,10 @@
 // v, or the kinetic energy if the bases are orthonormal in M. Momenta change by a term of second order in the
 // correction. Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), section 4. Dense: the cost grows with the cube
 // of the sizes.
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include <trammel/correction.hpp>
+#include <trammel/decompositions.hpp>
 #include <trammel/plugin.hpp>
 
 namespace {
@@ -59,7 +58,7 @@ class NullSpaceRotation final : public Correction {
       if (metric == Metric::mass) s.add_mass_times(1, unit, column), M.col(j) = column;
       s.add_rows_times(1, unit, row), B_.col(j) = row;
     }
-    if (metric == Metric::mass) L_ = M.llt().matrixL();
+    if (metric == Metric::mass) L_ = Eigen::LLT<Mat>(M).matrixL();
     B_ = L_.triangularView<Eigen::Lower>().solve(B_.transpose()).transpose();
   }
 

@@ -8,8 +8,7 @@
 // to the true acceleration as a remaining force. The cost is O(nv^3).
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <trammel/decompositions.hpp>
 
 #include <trammel/integrator.hpp>
 

@@ -1,9 +1,8 @@
-// Eigen's decompositions of dense matrices, instantiated once: in decompositions.cpp, triangular_factors.cpp and
-// eigenvalues.cpp.
+// Eigen's decompositions of dense matrices, instantiated once, in libtrammel.
 //
 // Each costs a compiler 5 to 10 s wherever it is used. Sources include this header in place of <Eigen/QR> and the like
-// and use the decompositions as usual. It saves time only if the argument is no expression: store it in a Mat or Vec
-// first.
+// and use the decompositions as usual. It saves time only if neither argument nor result is an expression, such as a
+// product, a column or a matrix of fixed size: store it in a Mat or Vec first.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -45,11 +44,11 @@ extern template void LDLT<Mat>::_solve_impl(const Vec&, Vec&) const;
 
 }  // namespace Eigen
 
-namespace trammel::numerics {
+namespace trammel {
 
 // Columns of the orthogonal factor Q (m x m), m x count. The first ones, as many as the rank, are an orthonormal basis
 // of the range of the decomposed matrix; the last ones are a basis of the orthogonal complement.
 Mat first_columns_of_q(const Eigen::ColPivHouseholderQR<Mat>& qr, Eigen::Index count);
 Mat last_columns_of_q(const Eigen::ColPivHouseholderQR<Mat>& qr, Eigen::Index count);
 
-}  // namespace trammel::numerics
+}  // namespace trammel
