@@ -31,6 +31,7 @@
 #include "simulate/results/ledger.hpp"
 #include "simulate/results/recorder.hpp"
 #include "simulate/step_control.hpp"
+#include "simulate/watch/energy_watch.hpp"
 #include "simulate/watch/last_motions.hpp"
 #include "simulate/watch/open_joints.hpp"
 #include "simulate/watch/theory_watch.hpp"
@@ -71,50 +72,70 @@ class Simulator {
   std::vector<std::string> doubts() const;
   const ContactAudit& audit() const { return audit_; }
   Energy energy_at_state();
-  Energy last_energy();                        // at the end of a run; NaN if a component can no longer give its energy
-  double energy_drift();                       // [J] change of energy that no cause in the ledger explains
-  double relative_drift();                     // its absolute value relative to the energy moved
-  static constexpr double unexplained = 0.05;  // a larger relative_drift makes a run doubtful
+  Energy last_energy();     // at the end of a run; NaN if a component can no longer give its energy
+  double energy_drift();    // [J] change of energy that no cause in the ledger explains
+  double relative_drift();  // its absolute value relative to the energy moved (energy_watch.hpp)
   // After a failure: the bodies that move most, the last steps and the nearest events (last_motions.hpp).
   std::string circumstances();
   // Joints and bodies whose rows cannot be satisfied near the last state or a step later; empty: none are known.
   Conflict conflict();
 
  private:
+  struct Trial {
+    explicit Trial(const StepControl::Proposal& proposed) : proposal(proposed), h(proposed.h) {}
+    bool shortened() const { return h < proposal.h; }
+
+    StepControl::Proposal proposal;
+    double h;  // [s] the proposed step, or the part of it up to an event
+    EventLocation::Found found = EventLocation::Found::nothing;
+    double error = 0;  // <= 1: within the tolerance
+  };
+  struct TouchingAtStart {
+    ContactChanges pressing, striking;
+  };
+  TouchingAtStart touching_at_start();
   StepControl& control() { return in_contact_ || now_.t < hold_until_ ? contact_control_ : free_control_; }
   void archive_bodies(JsonArchive& a);
   void archive_state(Archive& a);
   void require_state_fits() const;  // throws std::out_of_range
   double record_time(long long k) const;
   void record_due(RecordSink& recorder);
-  void take_moved(const Energy& energy, const Ledger::Totals& totals);
-  double little_energy(double work);
-  double work_over_length();
   void judge_energy();
   void measure_joints();
   void judge_joints(const State& state);
   bool contradictory(const ConstraintNorms& norms);
   bool near_the_end_of_numbers() const;
-  bool try_step(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
-  bool step_and_examine(const StepControl::Proposal& proposal, double& h, EventLocation::Found& found, double& error);
+  bool try_step(Trial& trial);
+  bool step_and_examine(Trial& trial);
+  bool within_tolerance(Trial& trial);
+  bool examine_contacts(Trial& trial);
+  // False, or the run fails: no shorter step is left.
+  bool refuse(const Trial& trial, const char* reason);
+  bool refuse_not_finite(const Trial& trial);
+  void complete(const Trial& trial, RecordSink& recorder);
+  void accept(const Trial& trial);
+  void take_exact_time(const Trial& trial);
+  void count(const Trial& trial);
+  void measure_rows(double h);
   bool locks_here();
   bool near_critical_state();
   bool passes_infinity(const ContactChanges& changes);
   void jam(RecordSink& recorder, double h);
   void look_at_theories();
-  void refuse(const StepControl::Proposal& proposal, const char* reason);
-  std::string when(double h) const;
+  std::string here() const;          // "at t = 1 s, step 100": the last accepted one
+  std::string when(double h) const;  // "at t = 1 s, step 101 of 0.01 s": the one that was tried
   [[noreturn]] void fail(double h, const std::string& why) const;
   [[noreturn]] void fail_for_error(double h, Tolerance tolerance);
   void find_culprit(double h);
   [[noreturn]] void fail_not_finite(double h);
   void step_ledger_and_correct();
   Outcome corrected(const LevelCorrection& entry, const Correction::Step& step);
-  void accept(double h, bool shortened, const StepControl::Proposal& proposal, double error);
   void record_inside(RecordSink& recorder);
   void settle(const ContactChanges& changes);
   void guard_against_standstill(double h, double wanted, int contact);
   void guard_against_storm(int contact);  // contact: the last one; -1: unknown
+  std::string last_of(int contact) const;
+  std::vector<int> struck_contacts() const;
   void write_events(RecordSink& recorder);
   void refine(RecordSink& recorder, int contact);
   void at_new_modes();
@@ -131,6 +152,7 @@ class Simulator {
   ContactModes modes_;
   EventLocation location_;
   Ledger ledger_;
+  EnergyWatch energy_;
   ContactAudit audit_;
   CoarseThresholds thresholds_;
   Refinement refinement_;
@@ -147,12 +169,9 @@ class Simulator {
   bool iterated_ = false;
   bool in_contact_ = false;
   double step_limit_ = std::numeric_limits<double>::infinity();   // [s] ContactModes::step_limit
-  double drift_before_ = 1e3;                                     // at the last record; at least 1e3
   double hold_until_ = -std::numeric_limits<double>::infinity();  // [s] contact steps are used until then
   long long records_ = 0;                                         // rows written
   bool last_row_ = false;                                         // the row at the end is written
-  Energy energy_start_;
-  double most_moved_ = 0;  // [J] largest up to the last record
   double window_start_ = 0;
   long long window_events_ = 0;
   bool locked_ = false;  // no step from here is so short that sliding contacts have finite forces

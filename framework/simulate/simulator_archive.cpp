@@ -117,8 +117,6 @@ void Simulator::archive_bodies(JsonArchive& a) {
 }
 
 void Simulator::archive_state(Archive& a) {
-  a("start_kinetic", energy_start_.kinetic), a("start_potential", energy_start_.potential);
-  a("start_elastic", energy_start_.elastic);
   a("t", now_.t), a("q", now_.q), a("v", now_.v), a("a", now_.a), a("lambda", now_.lambda);
   const model::Model& model = system_.model();
   model::Modes modes = system_.modes();
@@ -141,8 +139,7 @@ void Simulator::archive_state(Archive& a) {
   scale_.archive(a);
   audit_.archive(a, model.contacts.size());
   thresholds_.archive(a);
-  a("hold_until", hold_until_), a("step_limit", step_limit_), a("drift_before", drift_before_);
-  a("most_moved", most_moved_);
+  a("hold_until", hold_until_), a("step_limit", step_limit_);
   a("records", records_), a("last_row", last_row_), a("window_start", window_start_),
       a("window_events", window_events_), a("standing", standing_);
   model::Counts& counts = system_.counts();
@@ -151,6 +148,7 @@ void Simulator::archive_state(Archive& a) {
   free_control_.archive(a, "step_");
   contact_control_.archive(a, "contact_step_");
   ledger_.archive(a);
+  energy_.archive(a);
   statistics_.archive(a);
   location_.archive(a);
   modes_.impact_warnings().archive(a, model.contacts.size());

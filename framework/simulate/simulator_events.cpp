@@ -50,43 +50,46 @@ void Simulator::restart_all_but_integrator() {
   statistics_.note_sizes(now_.t, system_.sizes());
 }
 
+// ", the last of contacts.tip"
+std::string Simulator::last_of(int contact) const {
+  return contact < 0 ? "" : ", the last of " + system_.model().contacts[std::size_t(contact)].path();
+}
+
 // Events in a row that hardly advance t are a contradiction in the model, not a motion: its modes exclude each other.
 void Simulator::guard_against_standstill(double h, double wanted, int contact) {
   standing_ = h <= 64 * eps * (std::abs(now_.t) + wanted) ? standing_ + 1 : 0;
   const int contacts = int(system_.model().contacts.size());
   if (standing_ <= 100 + 10 * contacts) return;
   throw RunFailed(fmt::format(
-      "at t = {:.9g} s, step {}: {} events in a row without progress in time{}: the contacts' modes contradict each "
-      "other, as "
-      "they do where much friction leaves no motion of rigid contacts; a compliant law, such as continuous_force, has "
-      "one",
-      now_.t, statistics_.steps, standing_,
-      contact < 0 ? "" : fmt::format(", the last of {}", system_.model().contacts[contact].path())));
+      "{}: {} events in a row without progress in time{}: the contacts' modes contradict each other, as they do where "
+      "much friction leaves no motion of rigid contacts; a compliant law, such as continuous_force, has one",
+      here(), standing_, last_of(contact)));
 }
 
 void Simulator::guard_against_storm(int contact) {
   const double window = (settings_.until - settings_.start) * 1e-3;
   if (now_.t > window_start_ + window) window_start_ = now_.t, window_events_ = 1;
   if (window_events_ <= settings_.event_limit) return;
-  throw RunFailed(fmt::format(
-      "event storm at t = {:.9g} s, step {}: more than {} events within {:.3g} s{}; raise capture_speed of that "
-      "contact, "
-      "or simulate.event_limit if they are real",
-      now_.t, statistics_.steps, settings_.event_limit, now_.t - window_start_,
-      contact < 0 ? "" : fmt::format(", the last of {}", system_.model().contacts[contact].path())));
+  throw RunFailed(
+      fmt::format("event storm {}: more than {} events within {:.3g} s{}; raise capture_speed of that contact, or "
+                  "simulate.event_limit if they are real",
+                  here(), settings_.event_limit, now_.t - window_start_, last_of(contact)));
 }
 
 // An impact after which the contact stays closed is two events but one blow.
 void Simulator::write_events(RecordSink& recorder) {
   for (const ContactEvent& event : events_) recorder.event(event), last_motions_.take(event);
-  if (refinement_.possible()) {
-    std::vector<int> struck;
-    for (const ContactEvent& event : events_)
-      if (event.kind == ContactEvent::Kind::close || event.kind == ContactEvent::Kind::impact)
-        if (std::find(struck.begin(), struck.end(), event.contact) == struck.end()) struck.push_back(event.contact);
-    for (const int contact : struck) refine(recorder, contact);
-  }
+  if (refinement_.possible())
+    for (const int contact : struck_contacts()) refine(recorder, contact);
   events_.clear();
+}
+
+std::vector<int> Simulator::struck_contacts() const {
+  std::vector<int> struck;
+  for (const ContactEvent& event : events_)
+    if (event.kind == ContactEvent::Kind::close || event.kind == ContactEvent::Kind::impact)
+      if (std::find(struck.begin(), struck.end(), event.contact) == struck.end()) struck.push_back(event.contact);
+  return struck;
 }
 
 // `contact`: the one that has just closed, -1 after a step.

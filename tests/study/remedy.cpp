@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "simulate/simulator.hpp"
+#include "simulate/watch/energy_watch.hpp"
 #include "study/evidence/remedy.hpp"
 
 #include "support/run_scene.hpp"
@@ -102,7 +102,7 @@ TEST_P(Remedied, GetsPastItsFailureWithTheChangeThatIsNamed) {
   options.enough = search.remedy->passes;
   const CaseResult whole = run_case(failed.source->with(search.remedy->overrides), failed.registry, options);
   EXPECT_TRUE(whole.done()) << whole.reason;
-  EXPECT_LT(whole.relative_drift, simulate::Simulator::unexplained);
+  EXPECT_LT(whole.relative_drift, simulate::EnergyWatch::unexplained);
 }
 
 // Runge-Kutta bears omega h = 2.83: steps of 0.05 s are too long for 100 rad/s, and so are steps of 0.033 s, which

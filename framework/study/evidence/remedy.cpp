@@ -72,7 +72,7 @@ class Trials {
     if (result.status == CaseResult::Status::refused) return true;
     if (i >= known_.size()) known_.resize(i + 1);
     if (!known_[i]) known_[i] = true, ++search_.tried;
-    if (!result.done() || !(result.t_end > failed_at_) || result.relative_drift > simulate::Simulator::unexplained)
+    if (!result.done() || !(result.t_end > failed_at_) || result.relative_drift > simulate::EnergyWatch::unexplained)
       return true;
     remedy.from = search_.from, remedy.passes = result.t_end;
     search_.remedy = std::move(remedy);

@@ -46,7 +46,7 @@ double search_limit(double cpu_of_run);
 // Tries finer steps, projected rows, other methods, and more events, each in a process of its own: from the last good
 // state, and if nothing helps there, from the start. A change helps if the run passes the failure by a hundredth of its
 // time, and by the time between the last good state and the failure, and if the method has not changed the energy there
-// by more than Simulator::unexplained.
+// by more than EnergyWatch::unexplained.
 RemedySearch find_remedy(const SceneSource& source, plugin::Registry& registry, const Failure& failure,
                          const SearchLimits& limits);
 
