@@ -1,7 +1,8 @@
 // Judges in each recorded state how much energy the method itself has made or taken.
 //
 //     drift          = E - E_expected                       E_expected: what the causes in the ledger explain
-//     moved          = E_kin,0 + |E_el,0| + |E_pot - E_pot,0| + |supplied| + |refinements| + dissipated, its largest yet
+//     moved          = E_kin,0 + |E_el,0| + |E_pot - E_pot,0| + |supplied| + |refinements| + dissipated, the largest
+//                      so far
 //     relative drift = |drift| / (moved + little)
 //
 // `moved` is the largest energy that known causes can have set in motion. What a base brings in and takes out again
