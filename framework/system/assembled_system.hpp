@@ -156,6 +156,7 @@ class AssembledSystem final : public System, public HasRigidMotions {
 
  private:
   struct Parts;
+  class PowerByCause;
   std::unique_ptr<Parts> parts_;
 };
 
