@@ -56,36 +56,40 @@ void AssumedModeBeam::prepare(const World& world) {
   N_ = transverse_modes + (static_transverse ? 2 : 0);
   check_parameters(world);
   gravity_ = world.gravity;
-  const int n_axial = n_axial_, N = N_;
+  place_coordinates();
+  const Shape shape = functions();
+  integrate_inertia(shape);
+  integrate_stiffness(shape);
+  place_markers(shape);
+  const Vec slope_x = Vec::LinSpaced(std::max(33, 4 * N_ + 1), 0, length);
+  slopes_ = Mat::NullaryExpr(slope_x.size(), N_,
+                             [&](Eigen::Index k, Eigen::Index i) { return shape.slope_y(int(i), slope_x(k)); });
+  name_observables();
+}
 
+void AssumedModeBeam::place_coordinates() {
   n_ = 0;
   if (free) i_o_ = 0, n_ = 2;
   if (!clamped) i_theta_ = n_++;
   i_A_ = n_;
-  i_B_ = i_A_ + n_axial;
-  n_ = i_B_ + N;
+  i_B_ = i_A_ + n_axial_;
+  n_ = i_B_ + N_;
+}
 
+Shape AssumedModeBeam::functions() const {
   Shape shape{length, hub_radius, {}, {}, {}, {}};
   for (int i = 1; i <= axial_modes; ++i) shape.axial.emplace_back(i, length);
   for (int i = 1; i <= transverse_modes; ++i) shape.transverse.emplace_back(i, length);
   if (static_axial) shape.static_axial = {static_stretching(length, shape.axial)};
   if (static_transverse) shape.static_transverse = static_bending(length, shape.transverse);
-  const bool foreshortening = coupling == Coupling::full;
+  return shape;
+}
+
+void AssumedModeBeam::integrate_inertia(const Shape& shape) {
+  const int n_axial = n_axial_, N = N_;
   const double line_density = density * area;
   const Quadrature rule = gauss_legendre(stations_for(std::max(n_axial, N)), 0, length);
-  basis_.emplace(shapes_at(shape, rule.x, foreshortening), line_density * rule.weight);
-
-  marker_names_ = {"root", "tip"};
-  Vec marker_x(2 + Eigen::Index(extra_markers.size()));
-  marker_x.head<2>() << 0, length;
-  for (const auto& [name, x] : extra_markers) {
-    marker_x(Eigen::Index(marker_names_.size())) = x;
-    marker_names_.push_back(name);
-  }
-  marker_x_ = marker_x;
-  marker_shapes_ = shapes_at(shape, marker_x, foreshortening);
-  outline_shapes_ = shapes_at(shape, Vec::LinSpaced(outline_points, 0, length), foreshortening);
-
+  basis_.emplace(shapes_at(shape, rule.x, foreshortens()), line_density * rule.weight);
   const Mat& integrals = basis_->integrals();
   const auto with_x = integrals.middleCols(2, n_axial), with_y = integrals.rightCols(N);
   mass_ = line_density * length;
@@ -101,25 +105,37 @@ void AssumedModeBeam::prepare(const World& world) {
   Mxy_.topRows(n_axial) = with_y.middleRows(2, n_axial);
   Myx_ = Mat::Zero(padded(N), n_axial);
   Myx_.topRows(N) = with_x.bottomRows(N);
-  K1_.resize(n_axial), K2_.resize(N);
-  for (int i = 0; i < axial_modes; ++i)
-    K1_(i) = youngs_modulus * area * std::pow(shape.axial[std::size_t(i)].wave_number(), 2) * length / 2;
-  for (int i = axial_modes; i < n_axial; ++i)
-    K1_(i) = youngs_modulus * area * shape.static_axial[std::size_t(i - axial_modes)].stiffness;
-  for (int i = 0; i < transverse_modes; ++i)
-    K2_(i) = youngs_modulus * second_moment * std::pow(shape.transverse[std::size_t(i)].wave_number(), 4) * length;
+}
 
-  for (int i = transverse_modes; i < N; ++i)
-    K2_(i) = youngs_modulus * second_moment * shape.static_transverse[std::size_t(i - transverse_modes)].stiffness;
+// Of modes: int_0^L (Phi_x')^2 dx = k^2 L / 2 and int_0^L (Phi_y'')^2 dx = k^4 L, k the wave number.
+void AssumedModeBeam::integrate_stiffness(const Shape& shape) {
+  const double EA = youngs_modulus * area, EI = youngs_modulus * second_moment;
+  K1_.resize(n_axial_), K2_.resize(N_);
+  int i = 0;
+  for (const AxialMode& mode : shape.axial) K1_(i++) = EA * std::pow(mode.wave_number(), 2) * length / 2;
+  for (const auto& function : shape.static_axial) K1_(i++) = EA * function.stiffness;
+  i = 0;
+  for (const BendingMode& mode : shape.transverse) K2_(i++) = EI * std::pow(mode.wave_number(), 4) * length;
+  for (const auto& function : shape.static_transverse) K2_(i++) = EI * function.stiffness;
+}
 
-  const Vec slope_x = Vec::LinSpaced(std::max(33, 4 * N + 1), 0, length);
-  slopes_ = Mat::NullaryExpr(slope_x.size(), N,
-                             [&](Eigen::Index k, Eigen::Index i) { return shape.slope_y(int(i), slope_x(k)); });
+void AssumedModeBeam::place_markers(const Shape& shape) {
+  marker_names_ = {"root", "tip"};
+  marker_x_.resize(2 + Eigen::Index(extra_markers.size()));
+  marker_x_.head<2>() << 0, length;
+  for (const auto& [name, x] : extra_markers) {
+    marker_x_(Eigen::Index(marker_names_.size())) = x;
+    marker_names_.push_back(name);
+  }
+  marker_shapes_ = shapes_at(shape, marker_x_, foreshortens());
+  outline_shapes_ = shapes_at(shape, Vec::LinSpaced(outline_points, 0, length), foreshortens());
+}
 
+void AssumedModeBeam::name_observables() {
   observable_names_ = {"angle", "angular_velocity", "tip_axial", "tip_transverse"};
   for (const char* suffix : {"", "_rate"}) {
-    for (int i = 1; i <= n_axial; ++i) observable_names_.push_back(fmt::format("axial{}_{}", suffix, i));
-    for (int i = 1; i <= N; ++i) observable_names_.push_back(fmt::format("transverse{}_{}", suffix, i));
+    for (int i = 1; i <= n_axial_; ++i) observable_names_.push_back(fmt::format("axial{}_{}", suffix, i));
+    for (int i = 1; i <= N_; ++i) observable_names_.push_back(fmt::format("transverse{}_{}", suffix, i));
   }
 }
 

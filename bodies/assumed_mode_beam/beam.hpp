@@ -145,6 +145,13 @@ class AssumedModeBeam final : public Body,
   void add_uncoupled_tangent(In q, Blend c, Matrix& S) const;
   double uncoupled_kinetic_energy(In v) const;
 
+  void place_coordinates();
+  Shape functions() const;
+  void integrate_inertia(const Shape& shape);
+  void integrate_stiffness(const Shape& shape);
+  void place_markers(const Shape& shape);
+  void name_observables();
+  bool foreshortens() const { return coupling == Coupling::full; }
   void check_parameters(const World& world) const;
   void check_amplitudes(const char* name, const std::vector<double>& given, int functions) const;
 
