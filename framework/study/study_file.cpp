@@ -196,67 +196,84 @@ void Study::read_list(const Value& list, Problems& problems) {
   if (list.items().empty()) problems.error(list.problem("found an empty list, expected cases"));
 }
 
-void Study::read_vary(const Value& root, Problems& problems) {
-  const Value &vary = *root.find("vary"), *mode = root.find("mode");
-  std::string name = vary.type() == Type::array ? "list" : "grid";
+// The mode's name; nothing: there is no such mode.
+std::optional<std::string> Study::read_mode(const Value& root, Problems& problems) const {
+  const Value* mode = root.find("mode");
+  std::string name = root.find("vary")->type() == Type::array ? "list" : "grid";
   if (mode) name = mode->read_text(problems).value_or(name);
-  if (std::find(modes().begin(), modes().end(), name) == modes().end())
-    return problems.error(mode->problem(fmt::format("found \"{}\"{}", name, scene::did_you_mean(name, modes()))));
-  const bool sampled = name == "random" || name == "sobol";
+  if (std::find(modes().begin(), modes().end(), name) != modes().end()) return name;
+  problems.error(mode->problem(fmt::format("found \"{}\"{}", name, scene::did_you_mean(name, modes()))));
+  return std::nullopt;
+}
+
+void Study::read_vary(const Value& root, Problems& problems) {
+  const Value& vary = *root.find("vary");
+  const std::optional<std::string> mode = read_mode(root, problems);
+  if (!mode) return;
+  const bool sampled = mode == "random" || mode == "sobol";
   for (const char* key : {"count", "seed"})
     if (const Value* given = root.find(key); given && !sampled)
       problems.error(given->problem("only \"random\" and \"sobol\" have one"));
-  if (name == "list") {
+  if (mode == "list") {
     if (vary.type() != Type::array) return problems.error(vary.problem("expected a list of cases"));
     return read_list(vary, problems);
   }
   if (vary.type() != Type::object)
     return problems.error(vary.problem(fmt::format("found {}, expected values by dotted path", vary.type_name())));
   if (vary.members().empty()) return problems.error(vary.problem("found nothing that varies"));
-  std::vector<std::vector<std::string>> lists;
+  for (const auto& [path, value] : vary.members()) paths_.push_back(path);
+  sampled ? read_samples(root, *mode, problems) : read_combinations(vary, *mode, problems);
+}
+
+void Study::read_samples(const Value& root, const std::string& mode, Problems& problems) {
+  const Value& vary = *root.find("vary");
   std::vector<Range> ranges;
-  for (const auto& [path, value] : vary.members()) {
-    paths_.push_back(path);
-    if (!sampled) {
-      lists.push_back(read_values(value, problems));
-    } else if (const auto range = read_range(value, false, problems)) {
-      ranges.push_back(range->first);
-    }
-  }
+  for (const auto& [path, value] : vary.members())
+    if (const auto range = read_range(value, false, problems)) ranges.push_back(range->first);
   if (!problems.empty()) return;
-  if (sampled) {
-    const Value *count = root.find("count"), *seed = root.find("seed");
-    if (!count) return problems.error(root.problem("has no \"count\": the number of samples"));
-    const auto n = read_count(*count, problems);
-    const auto start = seed ? seed->read_integer(problems) : std::optional<int>();
-    if (paths_.size() > most_dimensions) problems.error(vary.problem("has too many paths to sample"));
-    if (!n || !problems.empty()) return;
-    const auto points =
-        name == "random" ? random_points(*n, ranges.size(), std::uint64_t(start.value_or(1)))
-                         : sobol_points(*n, ranges.size(), start ? std::optional(std::uint64_t(*start)) : std::nullopt);
-    for (const auto& point : points) {
-      auto& values = cases_.emplace_back();
-      for (std::size_t k = 0; k < ranges.size(); ++k) values.push_back(fmt::format("{}", ranges[k].at(point[k])));
-    }
-    return;
+  const Value *count = root.find("count"), *seed = root.find("seed");
+  if (!count) return problems.error(root.problem("has no \"count\": the number of samples"));
+  const auto n = read_count(*count, problems);
+  const auto start = seed ? seed->read_integer(problems) : std::optional<int>();
+  if (paths_.size() > most_dimensions) problems.error(vary.problem("has too many paths to sample"));
+  if (!n || !problems.empty()) return;
+  const auto points =
+      mode == "random" ? random_points(*n, ranges.size(), std::uint64_t(start.value_or(1)))
+                       : sobol_points(*n, ranges.size(), start ? std::optional(std::uint64_t(*start)) : std::nullopt);
+  for (const auto& point : points) {
+    auto& values = cases_.emplace_back();
+    for (std::size_t k = 0; k < ranges.size(); ++k) values.push_back(fmt::format("{}", ranges[k].at(point[k])));
   }
+}
+
+void Study::read_combinations(const Value& vary, const std::string& mode, Problems& problems) {
+  std::vector<std::vector<std::string>> lists;
+  for (const auto& [path, value] : vary.members()) lists.push_back(read_values(value, problems));
+  if (!problems.empty()) return;
+  mode == "zip" ? combine_one_of_each(vary, lists, problems) : combine_each_with_each(vary, lists, problems);
+}
+
+void Study::combine_one_of_each(const Value& vary, const std::vector<std::vector<std::string>>& lists,
+                                Problems& problems) {
+  const std::size_t length = lists[0].size();
+  for (std::size_t k = 1; k < lists.size(); ++k)
+    if (lists[k].size() != length)
+      problems.error(vary.members()[k].second.problem(
+          fmt::format("has {} values, \"{}\" has {}: \"zip\" takes one of each", lists[k].size(), paths_[0], length)));
+  if (!problems.empty()) return;
+  for (std::size_t i = 0; i < length; ++i) {
+    auto& values = cases_.emplace_back();
+    for (const auto& list : lists) values.push_back(list[i]);
+  }
+}
+
+void Study::combine_each_with_each(const Value& vary, const std::vector<std::vector<std::string>>& lists,
+                                   Problems& problems) {
   std::vector<std::size_t> lengths;
   double product = 1;
   for (const auto& list : lists) lengths.push_back(list.size()), product *= double(list.size());
   if (product > double(most_cases))
     return problems.error(vary.problem(fmt::format("a grid of {} cases; {} are the most", product, most_cases)));
-  if (name == "zip") {
-    for (std::size_t k = 1; k < lists.size(); ++k)
-      if (lengths[k] != lengths[0])
-        problems.error(vary.members()[k].second.problem(
-            fmt::format("has {} values, \"{}\" has {}: \"zip\" takes one of each", lengths[k], paths_[0], lengths[0])));
-    if (!problems.empty()) return;
-    for (std::size_t i = 0; i < lengths[0]; ++i) {
-      auto& values = cases_.emplace_back();
-      for (const auto& list : lists) values.push_back(list[i]);
-    }
-    return;
-  }
   for (const auto& tuple : grid(lengths)) {
     auto& values = cases_.emplace_back();
     for (std::size_t k = 0; k < lists.size(); ++k) values.push_back(lists[k][tuple[k]]);

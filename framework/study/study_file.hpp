@@ -60,7 +60,14 @@ class Study {
   explicit Study(scene::Scene definition);
   void read(scene::Problems& problems);
   void read_vary(const scene::Value& root, scene::Problems& problems);
+  std::optional<std::string> read_mode(const scene::Value& root, scene::Problems& problems) const;
   void read_list(const scene::Value& list, scene::Problems& problems);
+  void read_samples(const scene::Value& root, const std::string& mode, scene::Problems& problems);
+  void read_combinations(const scene::Value& vary, const std::string& mode, scene::Problems& problems);
+  void combine_one_of_each(const scene::Value& vary, const std::vector<std::vector<std::string>>& lists,
+                           scene::Problems& problems);
+  void combine_each_with_each(const scene::Value& vary, const std::vector<std::vector<std::string>>& lists,
+                              scene::Problems& problems);
   void read_scenes(const scene::Value& root, scene::Problems& problems);
   void check_against_scenes(scene::Problems& problems) const;
   void read_figures(const scene::Value& root, scene::Problems& problems);

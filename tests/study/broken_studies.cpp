@@ -146,5 +146,21 @@ TEST(BrokenReference, IsRefusedAtItsLineAndColumn) {
               testing::AllOf(HasSubstr(at(4, 1)), HasSubstr("less than the one in the row before")));
 }
 
+// The limit of cases holds for a grid: lists of 4000 values zip to 4000 cases.
+TEST(Study, ZipsListsThatWouldMakeTooLargeAGrid) {
+  const test::Folder folder;
+  std::filesystem::create_directories(folder.path());
+  std::filesystem::copy_file(TRAMMEL_SOURCE_DIR "/scenes/tour/01_pendulum.json", folder.path() / "pendulum.json");
+  const std::string file = folder.path() / "study.json", range = R"({"from": 1, "to": 2, "count": 4000})";
+  const auto study = [&](const char* mode) {
+    std::ofstream(file) << fmt::format(R"({{"study": 1, "scene": "pendulum.json", "mode": "{}",
+ "vary": {{"parameters.L": {}, "parameters.m": {}}}}})",
+                                       mode, range, range);
+    return Study::load(file);
+  };
+  EXPECT_EQ(study("zip").size(), 4000u);
+  EXPECT_THROW(study("grid"), scene::SceneError);
+}
+
 }  // namespace
 }  // namespace trammel::study
