@@ -189,70 +189,101 @@ Mean mean_of(Pencil& pencil, Eigen::Index n) {
   return {omega2 > 0 && std::isfinite(omega2) ? omega2 : 1, (pencil.D * x).norm() / Mx.norm()};
 }
 
-}  // namespace
-
-Spectrum krylov_modes(model::AssembledSystem& system, const State& state, int count) {
-  Mat unused = Mat::Zero(system.sizes().nv, 1);
-  const bool turns = add_turning(system.model(), state.v, unused, unused) || system.sizes().nc > 0;
+void require_at_rest(const model::AssembledSystem& system, const State& state) {
+  const Sizes sizes = system.sizes();
+  Mat unused = Mat::Zero(sizes.nv, 1);
+  const bool turns = add_turning(system.model(), state.v, unused, unused) || sizes.nc > 0;
   if (turns && !state.v.isZero(0))
     throw model::NotSolvable(
         fmt::format("a model of {} coordinates is too large for the modes of a state in motion; those of "
                     "a state at rest can be found",
-                    system.sizes().nv));
-  Pencil pencil(system, state);
-  const Eigen::Index n = system.sizes().nv;
-  const Mean mean = mean_of(pencil, n);
-  const double shift = below_mean * mean.omega2;
-  const double noise = noise_of_stiffness(system.model());
-  const double fastest = std::sqrt(mean.omega2);
-  Spectrum spectrum;
-  const auto keep = [&](const std::vector<Pair>& pairs, const auto& basis) {
-    for (const Pair& p : pairs) {
-      const CVec x = basis.vector(p.y).head(n);
-      const bool slow = std::norm(p.lambda) <= shift;
-      spectrum.modes.push_back(made_mode(p.lambda, x, slow && pencil.no_stiffness(x, noise), fastest));
-    }
-  };
+                    sizes.nv));
+}
 
-  spectrum.damped = !pencil.symmetric() || mean.damping > 1e-8 * std::sqrt(shift);
-  if (!spectrum.damped) {
-    pencil.factorise({shift, 0, 1});
-    InverseIteration T{pencil};
-    KrylovBasis<InverseIteration> basis(T, n);
-    const std::vector<Pair> pairs = converge(basis, count, [&](const Mat& H) {
-      const Mat symmetric = (H + H.transpose()) / 2;
-      const Eigen::SelfAdjointEigenSolver<Mat> solver(symmetric);
-      std::vector<Pair> all;
-      for (Eigen::Index i = 0; i < H.rows(); ++i) {
-        const double theta = solver.eigenvalues()(i), omega2 = 1 / theta - shift, omega = std::sqrt(std::abs(omega2));
-        if (theta == 0) continue;
-        all.push_back(
-            {omega2 < 0 ? Complex(omega, 0) : Complex(0, omega), theta, solver.eigenvectors().col(i).cast<Complex>()});
-      }
-      return all;
-    });
-    keep(pairs, basis);
-    return spectrum;
+// (K - lambda^2 M) x = 0 by theta = 1 / (omega^2 + shift).
+std::vector<Pair> undamped_pairs(const Mat& H, double shift) {
+  const Mat symmetric = (H + H.transpose()) / 2;
+  const Eigen::SelfAdjointEigenSolver<Mat> solver(symmetric);
+  std::vector<Pair> all;
+  for (Eigen::Index i = 0; i < H.rows(); ++i) {
+    const double theta = solver.eigenvalues()(i), omega2 = 1 / theta - shift, omega = std::sqrt(std::abs(omega2));
+    if (theta == 0) continue;
+    all.push_back(
+        {omega2 < 0 ? Complex(omega, 0) : Complex(0, omega), theta, solver.eigenvectors().col(i).cast<Complex>()});
+  }
+  return all;
+}
+
+// Of each complex pair the one with a positive imaginary part, by theta = 1 / (lambda - sigma).
+std::vector<Pair> damped_pairs(const Mat& H, double sigma) {
+  const Eigen::EigenSolver<Mat> solver(H);
+  const auto thetas = solver.eigenvalues();
+  const Eigen::MatrixXcd vectors = solver.eigenvectors();
+  std::vector<Pair> all;
+  for (Eigen::Index i = 0; i < H.rows(); ++i) {
+    if (thetas(i) == 0.0) continue;
+    const Complex lambda = sigma + 1.0 / thetas(i);
+    if (lambda.imag() >= 0) all.push_back({lambda, thetas(i), vectors.col(i)});
+  }
+  return all;
+}
+
+class LowestModes {
+ public:
+  LowestModes(model::AssembledSystem& system, const State& state, int count)
+      : pencil_(system, state),
+        n_(system.sizes().nv),
+        count_(count),
+        mean_(mean_of(pencil_, n_)),
+        shift_(below_mean * mean_.omega2),
+        noise_(noise_of_stiffness(system.model())) {}
+
+  Spectrum find() {
+    spectrum_.damped = !pencil_.symmetric() || mean_.damping > 1e-8 * std::sqrt(shift_);
+    spectrum_.damped ? find_damped() : find_undamped();
+    return spectrum_;
   }
 
-  const double sigma = std::sqrt(shift);
-  pencil.factorise({sigma * sigma, sigma, 1});
-  FirstOrder T{pencil, sigma};
-  KrylovBasis<FirstOrder> basis(T, 2 * n);
-  const std::vector<Pair> pairs = converge(basis, count, [&](const Mat& H) {
-    const Eigen::EigenSolver<Mat> solver(H);
-    const auto thetas = solver.eigenvalues();
-    const Eigen::MatrixXcd vectors = solver.eigenvectors();
-    std::vector<Pair> all;
-    for (Eigen::Index i = 0; i < H.rows(); ++i) {
-      if (thetas(i) == 0.0) continue;
-      const Complex lambda = sigma + 1.0 / thetas(i);
-      if (lambda.imag() >= 0) all.push_back({lambda, thetas(i), vectors.col(i)});
+ private:
+  void find_undamped() {
+    pencil_.factorise({shift_, 0, 1});
+    InverseIteration T{pencil_};
+    KrylovBasis<InverseIteration> basis(T, n_);
+    keep(converge(basis, count_, [&](const Mat& H) { return undamped_pairs(H, shift_); }), basis);
+  }
+
+  void find_damped() {
+    const double sigma = std::sqrt(shift_);
+    pencil_.factorise({sigma * sigma, sigma, 1});
+    FirstOrder T{pencil_, sigma};
+    KrylovBasis<FirstOrder> basis(T, 2 * n_);
+    keep(converge(basis, count_, [&](const Mat& H) { return damped_pairs(H, sigma); }), basis);
+  }
+
+  template <class Basis>
+  void keep(const std::vector<Pair>& pairs, const Basis& basis) {
+    for (const Pair& p : pairs) {
+      const CVec x = basis.vector(p.y).head(n_);
+      const bool slow = std::norm(p.lambda) <= shift_;
+      spectrum_.modes.push_back(
+          made_mode(p.lambda, x, slow && pencil_.no_stiffness(x, noise_), std::sqrt(mean_.omega2)));
     }
-    return all;
-  });
-  keep(pairs, basis);
-  return spectrum;
+  }
+
+  Pencil pencil_;
+  Eigen::Index n_;
+  int count_;
+  Mean mean_;
+  double shift_;  // [1/s^2] where the inverse iteration converges fastest: omega^2 = -shift
+  double noise_;
+  Spectrum spectrum_;
+};
+
+}  // namespace
+
+Spectrum krylov_modes(model::AssembledSystem& system, const State& state, int count) {
+  require_at_rest(system, state);
+  return LowestModes(system, state, count).find();
 }
 
 }  // namespace trammel::simulate
