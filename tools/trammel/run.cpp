@@ -28,6 +28,11 @@ constexpr Option kVerify{"--verify", "",
                          "run again with finer steps and by another method: an error for every observable"};
 constexpr Option kResume{"--resume", "DIR", "continue the interrupted run whose results are in DIR"};
 
+struct Output {
+  bool json, quiet;
+  bool texts() const { return !json && !quiet; }
+};
+
 fs::path folder_of_run(const Arguments& arguments) {
   if (!arguments.has("--resume")) return results_folder(arguments);
   if (arguments.has("--out"))
@@ -53,9 +58,48 @@ std::string continuation(const Arguments& arguments, const fs::path& folder) {
   return command;
 }
 
+// Simulates, with warnings and progress on standard error.
+simulate::RunReport simulate_visibly(const scene::Scene& scene, plugin::Registry& registry,
+                                     simulate::RunOptions options, const Output& output) {
+  ProgressBar bar(output.texts());
+  if (!output.quiet)
+    options.warn = [&bar](const std::string& warning) {
+      bar.clear();
+      fmt::print(stderr, "trammel: warning: {}\n", warning);
+    };
+  if (bar.wanted()) options.progress = [&bar](const simulate::Progress& progress) { bar.draw(progress); };
+  return simulate::run(scene, registry, options);
+}
+
+void explain_failure(const Arguments& arguments, plugin::Registry& registry, simulate::RunReport& report,
+                     const fs::path& folder, bool quiet) {
+  fmt::print(stderr, "trammel: {}\nResults up to there are in {}\n", report.reason, folder.string());
+  if (!report.no_motion || quiet) return;
+  try {
+    analyses().find_remedy(arguments, registry, report, folder);
+  } catch (const std::exception& e) {  // no process can be started, or no file can be written
+    fmt::print(stderr, "The search for a remedy failed: {}\n", e.what());
+  }
+}
+
+// Names what to do next.
+Exit conclude(const Arguments& arguments, simulate::Status status, const fs::path& folder) {
+  switch (status) {
+    case simulate::Status::done:
+      if (!arguments.has(kReport.name)) print_next(arguments, {"trammel", "report", folder.native()});
+      return Exit::done;
+    case simulate::Status::failed:
+      return Exit::failed;
+    case simulate::Status::interrupted:
+      fmt::print(stderr, "trammel: interrupted; results are in {}, continue with: {}\n", folder.string(),
+                 continuation(arguments, folder));
+      return Exit::interrupted;
+  }
+  return Exit::failed;
+}
+
 Exit run_scene(const Arguments& arguments) {
-  const bool json = arguments.has("--json");
-  const bool quiet = arguments.has("--quiet");
+  const Output output{arguments.has("--json"), arguments.has("--quiet")};
   simulate::RunOptions options;
   options.out = folder_of_run(arguments);
   options.resume = arguments.has("--resume");
@@ -69,45 +113,16 @@ Exit run_scene(const Arguments& arguments) {
   options.command = arguments.command_line();
   options.interrupt = &watch_for_interrupts();
   options.witness = &witness();
-  simulate::RunReport report;
-  {
-    ProgressBar bar(!json && !quiet);
-    if (!quiet)
-      options.warn = [&bar](const std::string& warning) {
-        bar.clear();
-        fmt::print(stderr, "trammel: warning: {}\n", warning);
-      };
-    if (bar.wanted()) options.progress = [&bar](const simulate::Progress& progress) { bar.draw(progress); };
-    report = simulate::run(scene, registry, options);
-  }
+  simulate::RunReport report = simulate_visibly(scene, registry, options, output);
 
-  if (!json && !quiet) print_line(report.summary);
-  if (report.status == simulate::Status::failed) {
-    fmt::print(stderr, "trammel: {}\nResults up to there are in {}\n", report.reason, options.out.string());
-    if (report.no_motion && !quiet) {
-      try {
-        analyses().find_remedy(arguments, registry, report, options.out);
-      } catch (const std::exception& e) {  // no process can be started, or no file can be written
-        fmt::print(stderr, "The search for a remedy failed: {}\n", e.what());
-      }
-    }
-  }
-  if (json) print_json_text(report.result_json);
+  if (output.texts()) print_line(report.summary);
+  if (report.status == simulate::Status::failed)
+    explain_failure(arguments, registry, report, options.out, output.quiet);
+  if (output.json) print_json_text(report.result_json);
   if (arguments.has(kVerify.name) && report.status == simulate::Status::done)
-    analyses().verify(arguments, registry, scene, options.out, json || quiet);
-  beside.write(options.out, json || quiet);
-  switch (report.status) {
-    case simulate::Status::done:
-      if (!arguments.has(kReport.name)) print_next(arguments, {"trammel", "report", options.out.native()});
-      return Exit::done;
-    case simulate::Status::failed:
-      return Exit::failed;
-    case simulate::Status::interrupted:
-      fmt::print(stderr, "trammel: interrupted; results are in {}, continue with: {}\n", options.out.string(),
-                 continuation(arguments, options.out));
-      return Exit::interrupted;
-  }
-  return Exit::failed;
+    analyses().verify(arguments, registry, scene, options.out, !output.texts());
+  beside.write(options.out, !output.texts());
+  return conclude(arguments, report.status, options.out);
 }
 
 }  // namespace
