@@ -127,6 +127,29 @@ double Solver::first_step(const State& now) const {
   return rate * most > 0.5 ? 0.5 / rate : most;
 }
 
+// What the library calls: `self` is the solver.
+struct Solver::Callbacks {
+  static int residual(double t, N_Vector y, N_Vector y_dot, N_Vector F, void* self) {
+    Solver& solver = *static_cast<Solver*>(self);
+    return solver.guarded([&] {
+      return solver.equations_.residual(t, N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot), N_VGetArrayPointer(F));
+    });
+  }
+  static int weights(N_Vector y, N_Vector weights, void* self) {
+    return static_cast<Solver*>(self)->of_weights(N_VGetArrayPointer(y), N_VGetArrayPointer(weights));
+  }
+  static int factorise(double t, double c, N_Vector y, N_Vector y_dot, N_Vector, SUNMatrix, void* self, N_Vector,
+                       N_Vector, N_Vector) {
+    Solver& solver = *static_cast<Solver*>(self);
+    return solver.guarded(
+        [&] { return solver.equations_.factorise(t, c, N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot)); });
+  }
+  static int solve(SUNLinearSolver factors, SUNMatrix, N_Vector x, N_Vector b, double) {
+    Solver& solver = *static_cast<Solver*>(factors->content);
+    return solver.guarded([&] { return solver.equations_.solve(N_VGetArrayPointer(b), N_VGetArrayPointer(x)); });
+  }
+};
+
 void Solver::restart(System& s, const State& now) {
   equations_.restart(s);
   const Eigen::Index size = equations_.size();
@@ -137,47 +160,32 @@ void Solver::restart(System& s, const State& now) {
   }
   Library& ida = *ida_;
   equations_.start(now, N_VGetArrayPointer(ida.y), N_VGetArrayPointer(ida.y_dot));
-  if (!anew) {
+  if (anew)
+    set_up(now.t);
+  else
     IDAReInit(ida.memory, now.t, ida.y, ida.y_dot);
-  } else {
-    IDAInit(
-        ida.memory,
-        [](double t, N_Vector y, N_Vector y_dot, N_Vector F, void* self) {
-          Solver& solver = *static_cast<Solver*>(self);
-          return solver.guarded([&] {
-            return solver.equations_.residual(t, N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot),
-                                              N_VGetArrayPointer(F));
-          });
-        },
-        now.t, ida.y, ida.y_dot);
-    IDASetUserData(ida.memory, this);
-    IDASetErrFile(ida.memory, nullptr);
-    IDAWFtolerances(ida.memory, [](N_Vector y, N_Vector weights, void* self) {
-      return static_cast<Solver*>(self)->of_weights(N_VGetArrayPointer(y), N_VGetArrayPointer(weights));
-    });
-    double* const kind = N_VGetArrayPointer(ida.kind);
-    for (Eigen::Index i = 0; i < size; ++i) kind[i] = i < equations_.differential() ? 1 : 0;
-    IDASetId(ida.memory, ida.kind);
-    IDASetSuppressAlg(ida.memory, SUNTRUE);  // index 2
-    IDASetMaxOrd(ida.memory, tolerances_.max_order);
-    // The multipliers are not in the error test, so the error that Newton's iteration leaves in them would enter the
-    // predictions of the next steps. IDA's own value, 0.33 of the tolerance, costs more steps than it saves iterations.
-    IDASetNonlinConvCoef(ida.memory, 1e-3);
-    if (tolerances_.max_step > 0) IDASetMaxStep(ida.memory, tolerances_.max_step);
-    ida.factors->content = this;
-    ida.factors->ops->solve = [](SUNLinearSolver factors, SUNMatrix, N_Vector x, N_Vector b, double) {
-      Solver& solver = *static_cast<Solver*>(factors->content);
-      return solver.guarded([&] { return solver.equations_.solve(N_VGetArrayPointer(b), N_VGetArrayPointer(x)); });
-    };
-    IDASetLinearSolver(ida.memory, ida.factors, ida.matrix);
-    IDASetJacFn(ida.memory, [](double t, double c, N_Vector y, N_Vector y_dot, N_Vector, SUNMatrix, void* self,
-                               N_Vector, N_Vector, N_Vector) {
-      Solver& solver = *static_cast<Solver*>(self);
-      return solver.guarded(
-          [&] { return solver.equations_.factorise(t, c, N_VGetArrayPointer(y), N_VGetArrayPointer(y_dot)); });
-    });
-  }
   IDASetInitStep(ida.memory, first_step(now));
+}
+
+void Solver::set_up(double t) {
+  Library& ida = *ida_;
+  IDAInit(ida.memory, Callbacks::residual, t, ida.y, ida.y_dot);
+  IDASetUserData(ida.memory, this);
+  IDASetErrFile(ida.memory, nullptr);
+  IDAWFtolerances(ida.memory, Callbacks::weights);
+  double* const kind = N_VGetArrayPointer(ida.kind);
+  for (Eigen::Index i = 0; i < equations_.size(); ++i) kind[i] = i < equations_.differential() ? 1 : 0;
+  IDASetId(ida.memory, ida.kind);
+  IDASetSuppressAlg(ida.memory, SUNTRUE);  // index 2
+  IDASetMaxOrd(ida.memory, tolerances_.max_order);
+  // The multipliers are not in the error test, so the error that Newton's iteration leaves in them would enter the
+  // predictions of the next steps. IDA's own value, 0.33 of the tolerance, costs more steps than it saves iterations.
+  IDASetNonlinConvCoef(ida.memory, 1e-3);
+  if (tolerances_.max_step > 0) IDASetMaxStep(ida.memory, tolerances_.max_step);
+  ida.factors->content = this;
+  ida.factors->ops->solve = Callbacks::solve;
+  IDASetLinearSolver(ida.memory, ida.factors, ida.matrix);
+  IDASetJacFn(ida.memory, Callbacks::factorise);
 }
 
 Outcome Solver::advance(Segment& segment) {

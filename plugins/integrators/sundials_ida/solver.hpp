@@ -42,6 +42,8 @@ class Solver {
 
  private:
   struct Library;
+  struct Callbacks;
+  void set_up(double t);  // the library, for the first step from t
   int of_weights(const double* y, double* weights) const;
   double first_step(const State& now) const;
   template <class Call>
@@ -51,7 +53,6 @@ class Solver {
   Equations equations_;
   std::exception_ptr thrown_;
   std::unique_ptr<Library> ida_;
-  Vec y_, y_dot_;
 };
 
 }  // namespace trammel::ida
