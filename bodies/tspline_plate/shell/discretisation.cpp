@@ -76,52 +76,65 @@ void Discretisation::number_coordinates(Cell& cell) const {
 }
 
 void Discretisation::integrate(const PlateData& data) {
-  lumped = Vec::Zero(basis.size());
-  area = Vec::Zero(basis.size());
-  ShapeValues s;
   const double surface_density = data.density * data.section.thickness;
+  area = Vec::Zero(basis.size());
   for (int c = 0; c < int(basis.cells().size()); ++c) {
-    const BezierCell& bezier = basis.cells()[std::size_t(c)];
     Cell& cell = cells.emplace_back();
-    cell.functions = int(bezier.functions.size());
-    if (cell.functions > most_functions)
-      throw std::invalid_argument(fmt::format(
-          "{} functions overlap in one cell, {} is the most; choose the closure both", cell.functions, most_functions));
-    cell.padded = (cell.functions + 3) / 4 * 4;
-    cell.nodes = bezier.functions;
-    number_coordinates(cell);
-
-    const auto n = std::size_t(cell.padded);
-    const CellRule elastic = rule_on(bezier.parameters, data.quadrature);
-    cell.shape.assign(5 * n * elastic.at.size(), 0);
-    cell.value.assign(n * elastic.at.size(), 0);
-    for (std::size_t p = 0; p < elastic.at.size(); ++p) {
-      const auto& at = elastic.at[p];
-      basis.evaluate(c, at.x(), at.y(), s);
-      const Eigen::VectorXd* rows[] = {&s.R_u, &s.R_v, &s.R_uu, &s.R_vv, &s.R_uv};
-      for (std::size_t k = 0; k < 5; ++k) std::copy_n(rows[k]->data(), rows[k]->size(), &cell.shape[(5 * p + k) * n]);
-      std::copy_n(s.R.data(), s.R.size(), &cell.value[p * n]);
-      ReferencePoint& reference = cell.points.emplace_back();
-      if (!reference.set(tangents_of(s, points, cell.nodes), data.section))
-        throw std::invalid_argument(
-            fmt::format("the surface is degenerate at (u, v) = ({}, {}): its tangents are parallel", at.x(), at.y()));
-      cell.weight.push_back(elastic.weight[p] * reference.area);
-    }
-
-    cell.mass.assign(n * n, 0);
-    const CellRule inertia = rule_on(bezier.parameters, mass_points);
-    for (std::size_t p = 0; p < inertia.at.size(); ++p) {
-      basis.evaluate(c, inertia.at[p].x(), inertia.at[p].y(), s);
-      const Vectors5 y = tangents_of(s, points, cell.nodes);
-      const double dA = inertia.weight[p] * Vector3(y.row(0)).cross(Vector3(y.row(1))).norm();
-      for (int i = 0; i < cell.functions; ++i) {
-        area(cell.nodes[std::size_t(i)]) += dA * s.R(i);
-        for (int j = 0; j < cell.functions; ++j)
-          cell.mass[std::size_t(i) * n + std::size_t(j)] += surface_density * dA * s.R(i) * s.R(j);
-      }
-    }
+    connect(c, cell);
+    sample_shapes(c, data, cell);
+    integrate_mass(c, surface_density, cell);
   }
   lumped = surface_density * area;
+}
+
+void Discretisation::connect(int c, Cell& cell) const {
+  const BezierCell& bezier = basis.cells()[std::size_t(c)];
+  cell.functions = int(bezier.functions.size());
+  if (cell.functions > most_functions)
+    throw std::invalid_argument(fmt::format("{} functions overlap in one cell, {} is the most; choose the closure both",
+                                            cell.functions, most_functions));
+  cell.padded = (cell.functions + 3) / 4 * 4;
+  cell.nodes = bezier.functions;
+  number_coordinates(cell);
+}
+
+// At the quadrature points of the elastic part.
+void Discretisation::sample_shapes(int c, const PlateData& data, Cell& cell) const {
+  const auto n = std::size_t(cell.padded);
+  const CellRule rule = rule_on(basis.cells()[std::size_t(c)].parameters, data.quadrature);
+  cell.shape.assign(5 * n * rule.at.size(), 0);
+  cell.value.assign(n * rule.at.size(), 0);
+  ShapeValues s;
+  for (std::size_t p = 0; p < rule.at.size(); ++p) {
+    const Eigen::Vector2d& at = rule.at[p];
+    basis.evaluate(c, at.x(), at.y(), s);
+    const Eigen::VectorXd* rows[] = {&s.R_u, &s.R_v, &s.R_uu, &s.R_vv, &s.R_uv};
+    for (std::size_t k = 0; k < 5; ++k) std::copy_n(rows[k]->data(), rows[k]->size(), &cell.shape[(5 * p + k) * n]);
+    std::copy_n(s.R.data(), s.R.size(), &cell.value[p * n]);
+    ReferencePoint& reference = cell.points.emplace_back();
+    if (!reference.set(tangents_of(s, points, cell.nodes), data.section))
+      throw std::invalid_argument(
+          fmt::format("the surface is degenerate at (u, v) = ({}, {}): its tangents are parallel", at.x(), at.y()));
+    cell.weight.push_back(rule.weight[p] * reference.area);
+  }
+}
+
+// Adds the cell's part to `area` also.
+void Discretisation::integrate_mass(int c, double surface_density, Cell& cell) {
+  const auto n = std::size_t(cell.padded);
+  cell.mass.assign(n * n, 0);
+  const CellRule rule = rule_on(basis.cells()[std::size_t(c)].parameters, mass_points);
+  ShapeValues s;
+  for (std::size_t p = 0; p < rule.at.size(); ++p) {
+    basis.evaluate(c, rule.at[p].x(), rule.at[p].y(), s);
+    const Vectors5 y = tangents_of(s, points, cell.nodes);
+    const double dA = rule.weight[p] * Vector3(y.row(0)).cross(Vector3(y.row(1))).norm();
+    for (int i = 0; i < cell.functions; ++i) {
+      area(cell.nodes[std::size_t(i)]) += dA * s.R(i);
+      for (int j = 0; j < cell.functions; ++j)
+        cell.mass[std::size_t(i) * n + std::size_t(j)] += surface_density * dA * s.R(i) * s.R(j);
+    }
+  }
 }
 
 }  // namespace trammel::plate

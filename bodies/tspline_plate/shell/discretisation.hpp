@@ -8,8 +8,8 @@
 
 #include "tspline_plate/mesh/control_net.hpp"
 #include "tspline_plate/mesh/elimination.hpp"
-#include "tspline_plate/shell/material_point.hpp"
 #include "tspline_plate/mesh/multipatch.hpp"
+#include "tspline_plate/shell/material_point.hpp"
 
 namespace trammel::plate {
 
@@ -62,7 +62,10 @@ class Discretisation {
   static std::vector<TsplineBasis> functions_of(const std::vector<ControlNet>& patches);
   static Points points_of(const std::vector<ControlNet>& patches);
   void integrate(const PlateData& data);
+  void connect(int c, Cell& cell) const;
   void number_coordinates(Cell& cell) const;
+  void sample_shapes(int c, const PlateData& data, Cell& cell) const;
+  void integrate_mass(int c, double surface_density, Cell& cell);
 };
 
 }  // namespace trammel::plate
