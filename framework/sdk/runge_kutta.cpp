@@ -51,55 +51,82 @@ bool RungeKutta::keep_null_space(System& s, const State& now) {
   return true;
 }
 
-// Projection onto the rows by a modified Newton iteration. `projected`: the first factors have an error of the order of
-// the violation; the second ones, near the solution, are used until the end. With the factors of the step's start each
-// iteration reduces the violation by a factor of order h; the projection fails if it converges too slowly.
-bool RungeKutta::onto_rows(System& s, double t) {
-  constexpr int most_iterations = 20;
-  constexpr double in_place = 1e-3, well = 0.1, reach = 0.25;
-  // Rows are differences of coordinates. From this violation on, slow convergence is round-off of the coordinates, or
-  // the limit of the kept factors.
-  const double of_place = on_manifold_.lpNorm<Eigen::Infinity>();
-  const double near_round_off = kept_ ? 1e-14 * std::max(1.0, of_place) : std::max(1e-9, 1e-14 * of_place);
-  const double lost = std::max(1e-6, 1e-13 * of_place);
-  zero_.setZero(s.sizes().nv);
-  no_force_.setZero(s.sizes().nc);
-  double factorised_at = std::numeric_limits<double>::infinity(), before = 0, violation = 0;
-  // False: converged, or at round-off.
-  const auto remains = [&](int i, const Vec& off, double size) {
-    right_ = off;
-    before = violation;
-    violation = right_.lpNorm<Eigen::Infinity>();
-    return violation > round_off * size && !(i > 0 && violation > 0.5 * before && violation < near_round_off * size);
-  };
-  const auto solve = [&](int i, double off, double size) {
-    const auto shrinks_less_than = [&](double factor) {
-      return i > 0 && violation > factor * before && violation > near_round_off * size;
-    };
-    if (kept_) {
-      if (shrinks_less_than(reach)) return false;
-    } else if (off < factorised_at && (factorised_at > in_place || shrinks_less_than(well))) {
-      s.factorise({1, 0, 0}, zero_, no_force_, Factors::projection);
-      factorised_at = off;
+// Projection of on_manifold_ and held_v_ onto the rows by a modified Newton iteration. `projected`: the first factors
+// have an error of the order of the violation; the second ones, near the solution, are used until the end. With the
+// factors of the step's start each iteration reduces the violation by a factor of order h; the projection fails if it
+// converges too slowly.
+class RungeKutta::OntoRows {
+ public:
+  OntoRows(RungeKutta& method, System& s, double t) : m_(method), s_(s), t_(t) {
+    // Rows are differences of coordinates. From this violation on, slow convergence is round-off of the coordinates, or
+    // the limit of the kept factors.
+    const double of_place = m_.on_manifold_.lpNorm<Eigen::Infinity>();
+    near_round_off_ = m_.kept_ ? 1e-14 * std::max(1.0, of_place) : std::max(1e-9, 1e-14 * of_place);
+    lost_ = std::max(1e-6, 1e-13 * of_place);
+    m_.zero_.setZero(s.sizes().nv);
+    m_.no_force_.setZero(s.sizes().nc);
+  }
+
+  [[nodiscard]] bool move_position() {
+    for (int i = 0; i < most_iterations; ++i) {
+      s_.move_to(t_, m_.on_manifold_, m_.held_v_);
+      if (!remains(i, s_.g(), 1)) break;
+      if (!solve(i, violation_, 1)) return false;
+      s_.retract(m_.on_manifold_, m_.change_, m_.q_);
+      m_.on_manifold_.swap(m_.q_);
     }
-    return s.correct(zero_, right_, change_, mu_, Factors::projection);
-  };
-  for (int i = 0; i < most_iterations; ++i) {
-    s.move_to(t, on_manifold_, held_v_);
-    if (!remains(i, s.g(), 1)) break;
-    if (!solve(i, violation, 1)) return false;
-    s.retract(on_manifold_, change_, q_);
-    on_manifold_.swap(q_);
+    return violation_ <= lost_;
   }
-  if (!(violation <= lost)) return false;
-  const double off = violation, speed = std::max(1.0, held_v_.lpNorm<Eigen::Infinity>());
-  for (int i = 0; i < most_iterations; ++i) {
-    s.move_to(t, on_manifold_, held_v_);
-    if (!remains(i, s.g_dot(), speed)) break;
-    if (!solve(i, off, speed)) return false;
-    held_v_ += change_;
+
+  [[nodiscard]] bool move_velocity() {
+    const double off = violation_, speed = std::max(1.0, m_.held_v_.lpNorm<Eigen::Infinity>());
+    for (int i = 0; i < most_iterations; ++i) {
+      s_.move_to(t_, m_.on_manifold_, m_.held_v_);
+      if (!remains(i, s_.g_dot(), speed)) break;
+      if (!solve(i, off, speed)) return false;
+      m_.held_v_ += m_.change_;
+    }
+    return true;
   }
-  return within_range(on_manifold_) && within_range(held_v_);
+
+ private:
+  static constexpr int most_iterations = 20;
+
+  // False: converged, or at round-off.
+  bool remains(int i, const Vec& off, double size) {
+    m_.right_ = off;
+    before_ = violation_;
+    violation_ = m_.right_.lpNorm<Eigen::Infinity>();
+    const bool stalls = i > 0 && violation_ > 0.5 * before_ && violation_ < near_round_off_ * size;
+    return violation_ > round_off * size && !stalls;
+  }
+
+  bool shrinks_less_than(double factor, int i, double size) const {
+    return i > 0 && violation_ > factor * before_ && violation_ > near_round_off_ * size;
+  }
+
+  // `off`: the violation of the positions.
+  [[nodiscard]] bool solve(int i, double off, double size) {
+    constexpr double in_place = 1e-3, well = 0.1, reach = 0.25;
+    if (m_.kept_) {
+      if (shrinks_less_than(reach, i, size)) return false;
+    } else if (off < factorised_at_ && (factorised_at_ > in_place || shrinks_less_than(well, i, size))) {
+      s_.factorise({1, 0, 0}, m_.zero_, m_.no_force_, Factors::projection);
+      factorised_at_ = off;
+    }
+    return s_.correct(m_.zero_, m_.right_, m_.change_, m_.mu_, Factors::projection);
+  }
+
+  RungeKutta& m_;
+  System& s_;
+  double t_;
+  double near_round_off_, lost_;  // [m, rad]
+  double factorised_at_ = std::numeric_limits<double>::infinity(), before_ = 0, violation_ = 0;
+};
+
+bool RungeKutta::onto_rows(System& s, double t) {
+  OntoRows newton(*this, s, t);
+  return newton.move_position() && newton.move_velocity() && within_range(on_manifold_) && within_range(held_v_);
 }
 
 void RungeKutta::combine(const double* weights, int n, Vec& dq, Vec& dv) const {

@@ -114,6 +114,7 @@ class RungeKutta {
   void step_inside(System& s, const State& now, const State& next, double theta, State& at);
 
  private:
+  class OntoRows;
   Outcome all_stages(System& s, const State& now, double h, State& next);
   Outcome end(System& s, State& next);
   [[nodiscard]] bool keep_null_space(System& s, const State& now);  // false: nothing to keep
