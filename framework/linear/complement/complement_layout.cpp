@@ -53,6 +53,23 @@ std::vector<std::vector<int>> bodies_of(const std::vector<EliminationTree::Front
   return bodies;
 }
 
+EliminationTree eliminate(const Nodes& nodes) {
+  std::vector<int> weight;
+  for (const std::vector<int>& rows : nodes.rows) weight.push_back(int(rows.size()));
+  EliminationTree tree;
+  tree.build(nodes.of_bodies, weight, costs);
+  return tree;
+}
+
+// The rows of nodes in the order of elimination, the same in all fronts.
+std::vector<int> rows_in_order(std::vector<int> members, const Nodes& nodes, const EliminationTree& tree) {
+  std::sort(members.begin(), members.end(), [&](int a, int b) { return tree.place(a) < tree.place(b); });
+  std::vector<int> rows;
+  for (const int node : members)
+    rows.insert(rows.end(), nodes.rows[std::size_t(node)].begin(), nodes.rows[std::size_t(node)].end());
+  return rows;
+}
+
 // Allocates parts of an array of numbers and takes them back.
 class Places {
  public:
@@ -92,6 +109,25 @@ bool ComplementLayout::is_built_for(const std::vector<BodyBlock>& bodies, int nc
 }
 
 void ComplementLayout::find(const std::vector<BodyBlock>& bodies, int nc) {
+  take_rows(bodies, nc);
+  std::vector<std::span<const int>> rows_of_bodies;
+  for (const List& of_body : of_bodies_) rows_of_bodies.push_back(part(rows_, of_body));
+  const Nodes nodes = join_rows(rows_of_bodies, nc);
+  const EliminationTree tree = eliminate(nodes);
+  const std::vector<std::vector<int>> bodies_of_fronts = bodies_of(tree.fronts(), nodes, rows_of_bodies, nc);
+  Places places;
+  std::vector<Places::Part> R;  // for each front
+  for (const EliminationTree::Front& of : tree.fronts()) {
+    Front& front = add_front(rows_in_order(of.eliminated, nodes, tree), rows_in_order(of.boundary, nodes, tree),
+                             bodies_of_fronts[fronts_.size()], of.children);
+    front.R = R.emplace_back(places.take(std::size_t(front.stride() * (front.size - front.eliminated)))).begin;
+    for (const int child : of.children) places.give_back(R[std::size_t(child)]);
+  }
+  R_ = places.numbers();
+}
+
+// The rows of each body; without fronts.
+void ComplementLayout::take_rows(const std::vector<BodyBlock>& bodies, int nc) {
   nc_ = nc;
   of_bodies_.clear(), rows_.clear();
   for (const BodyBlock& body : bodies) {
@@ -99,40 +135,24 @@ void ComplementLayout::find(const std::vector<BodyBlock>& bodies, int nc) {
     of_bodies_.push_back({rows_.size(), std::size_t(end - body.rows.begin())});
     rows_.insert(rows_.end(), body.rows.begin(), end);
   }
-  std::vector<std::span<const int>> rows_of_bodies;
-  for (const List& of_body : of_bodies_) rows_of_bodies.push_back(part(rows_, of_body));
-  const Nodes nodes = join_rows(rows_of_bodies, nc);
-  std::vector<int> weight;
-  for (const std::vector<int>& rows : nodes.rows) weight.push_back(int(rows.size()));
-  EliminationTree tree;
-  tree.build(nodes.of_bodies, weight, costs);
-  const std::vector<std::vector<int>> shares = bodies_of(tree.fronts(), nodes, rows_of_bodies, nc);
   fronts_.clear(), shares_.clear(), numbers_.clear();
   place_.resize(static_cast<std::size_t>(nc));
   L_ = 0, largest_ = 0;
-  Places places;
-  std::vector<Places::Part> R;  // for each front
-  for (const EliminationTree::Front& of : tree.fronts()) {
-    std::vector<int> rows;
-    // In the order of elimination, the same in all fronts.
-    const auto add = [&](std::vector<int> members) {
-      std::sort(members.begin(), members.end(), [&](int a, int b) { return tree.place(a) < tree.place(b); });
-      for (const int node : members)
-        rows.insert(rows.end(), nodes.rows[std::size_t(node)].begin(), nodes.rows[std::size_t(node)].end());
-      return int(rows.size());
-    };
-    Front front;
-    front.L = L_;
-    front.eliminated = add(of.eliminated), front.size = add(of.boundary);
-    front.rows = keep(rows);
-    place_shares(front, shares[fronts_.size()], of.children);
-    front.R = R.emplace_back(places.take(std::size_t(front.stride() * (front.size - front.eliminated)))).begin;
-    for (const int child : of.children) places.give_back(R[std::size_t(child)]);
-    L_ += std::size_t(front.stride() * front.eliminated);
-    largest_ = std::max(largest_, front.size);
-    fronts_.push_back(front);
-  }
-  R_ = places.numbers();
+}
+
+ComplementLayout::Front& ComplementLayout::add_front(std::vector<int> eliminated, const std::vector<int>& boundary,
+                                                     const std::vector<int>& bodies, const std::vector<int>& children) {
+  Front front;
+  front.eliminated = int(eliminated.size());
+  std::vector<int>& rows = eliminated;
+  rows.insert(rows.end(), boundary.begin(), boundary.end());
+  front.size = int(rows.size());
+  front.rows = keep(rows);
+  place_shares(front, bodies, children);
+  front.L = L_;
+  L_ += std::size_t(front.stride() * front.eliminated);
+  largest_ = std::max(largest_, front.size);
+  return fronts_.emplace_back(front);
 }
 
 ComplementLayout::List ComplementLayout::keep(const std::vector<int>& numbers) {

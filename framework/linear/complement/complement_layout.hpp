@@ -56,6 +56,9 @@ class ComplementLayout {
   static std::span<const T> part(const std::vector<T>& of, List list) {
     return {of.data() + list.begin, list.count};
   }
+  void take_rows(const std::vector<BodyBlock>& bodies, int nc);
+  Front& add_front(std::vector<int> eliminated, const std::vector<int>& boundary, const std::vector<int>& bodies,
+                   const std::vector<int>& children);
   List keep(const std::vector<int>& numbers);
   void place_shares(Front& front, const std::vector<int>& bodies, const std::vector<int>& children);
 
