@@ -212,7 +212,7 @@ std::vector<ExplainedPart> explain(const scene::Scene& scene, plugin::Registry& 
   Text text;
   built(text, scene, registry, setup);
   model::AssembledSystem system(setup.model);
-  const Watch watch(witness, setup, system, {&setup.initial.t, nullptr});
+  const WitnessScope scope(witness, setup, system, {&setup.initial.t, nullptr});
   blaming(setup, system, scene.root(), setup.initial.t, [&] {
     std::vector<RedundantRows> rows;
     if (setup.model->sizes.nc > 0) rows = redundant_rows(system, setup.initial);

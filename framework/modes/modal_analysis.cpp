@@ -59,13 +59,13 @@ class Posed {
 
  private:
   void pose(const scene::Scene& scene, const ModesOptions& options) {
-    const auto watch = [&] {
-      watch_.emplace(options.witness, setup_, system(), CrashWitness::Clock{&state_.t, nullptr});
+    const auto follow = [&] {
+      scope_.emplace(options.witness, setup_, system(), CrashWitness::Clock{&state_.t, nullptr});
     };
     if (!setup_.integrator)
-      of_statics(options, watch);
+      of_statics(options, follow);
     else
-      in_motion(scene, options, watch);
+      in_motion(scene, options, follow);
     TheoryWatch theories(system().model());
     if (options.steady) {
       if (!state_.v.isZero(0) && state_.v.size() > undamped_limit)
@@ -85,11 +85,11 @@ class Posed {
     for (const std::string& warning : theories.warnings()) setup_.warnings.push_back(warning);
   }
 
-  template <class Watching>
-  void of_statics(const ModesOptions& options, Watching watch) {
+  template <class Follow>
+  void of_statics(const ModesOptions& options, Follow follow) {
     if (options.from) throw RunFailed("--from needs a scene with an integrator: statics write no checkpoints");
     statics_.emplace(setup_.model);
-    watch();
+    follow();
     model::Modes open;
     open.contacts.resize(setup_.model->contacts.size());
     statics_->set_modes(open);
@@ -107,12 +107,12 @@ class Posed {
     }
   }
 
-  template <class Watching>
-  void in_motion(const scene::Scene& scene, const ModesOptions& options, Watching watch) {
+  template <class Follow>
+  void in_motion(const scene::Scene& scene, const ModesOptions& options, Follow follow) {
     std::vector<Simulator::LevelCorrection> corrections;
     for (const auto& c : setup_.corrections) corrections.push_back({c.level, c.correction.get(), &c.origin});
     simulator_.emplace(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
-    watch();
+    follow();
     const std::optional<fs::path> folder = options.from ? options.from
                                            : options.at ? std::optional(options.out / run_to_state)
                                                         : std::nullopt;
@@ -146,7 +146,7 @@ class Posed {
   State state_;
   SteadyMotion motion_;
   std::string what_;
-  std::optional<Watch> watch_;  // last: it refers to the members above
+  std::optional<WitnessScope> scope_;  // last: it refers to the members above
 };
 
 double hertz(double angular) {

@@ -34,13 +34,13 @@ struct Scale {
   double speed_resolution() const { return 16 * std::numeric_limits<double>::epsilon() * motion; }
   // Nearer than this is touching [m], slower is at rest [m/s], less is no acceleration [m/s^2].
   double touching() const { return 1e-12 * gaps_and_bodies + resolution(); }
-  double at_rest() const { return 1e-12 * speed + speed_resolution(); }
+  double rest_speed() const { return 1e-12 * speed + speed_resolution(); }
   double no_acceleration() const;
   // [m/s] Rates up to this may have been left by the steps in rows that they hold.
   double drift() const { return 1e-6 * speed + speed_resolution(); }
   // [m/s] A slower slip in space has no direction (system/point/slip.hpp); slower impacts have no rebound unless the
   // law gives a speed.
-  double slow() const { return 1e-7 * speed + speed_resolution(); }
+  double least_speed() const { return 1e-7 * speed + speed_resolution(); }
   // The accuracy to which positions and velocities are written in a scene.
   double written_length() const { return 1e-9 * length() + resolution(); }
   double written_speed() const { return 1e-9 * speed + speed_resolution(); }

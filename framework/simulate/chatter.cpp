@@ -26,13 +26,13 @@ bool ContactModes::cannot_follow(int contact, double separation, double accelera
 
 bool ContactModes::separates(const TouchingContact& c) const {
   const bool rebounds = c.restitution > 0 && c.restitution < 1 && c.impulse > 0;  // with e = 1 flights do not shrink
-  return rebounds || (c.was_closed && c.impulse == 0 && c.after > scale_.of(c.contact).at_rest());
+  return rebounds || (c.was_closed && c.impulse == 0 && c.after > scale_.of(c.contact).rest_speed());
 }
 
 // It stuck, and the impact made it slip. (An impact is decided by impulses; the finite load contributes none.)
 bool ContactModes::begins_to_slip(const TouchingContact& c) const {
   return c.was_closed && before_.contacts[c.contact].friction == Friction::stick &&
-         c.slip_after.norm() > scale_.of(c.contact).at_rest();
+         c.slip_after.norm() > scale_.of(c.contact).rest_speed();
 }
 
 const TouchingContact* ContactModes::beginning_to_slip(const Participant& p) const {
@@ -78,7 +78,7 @@ void ContactModes::judge_brief(const State& state, std::size_t at_rest_now, Brie
   system_.move_to(state.t, state.q, state.v + change);
   accelerate_participants();
   do {
-    if (problem_.solve(nothing()).outcome != LcpOutcome::solved) return;
+    if (problem_.solve(least_acceleration()).outcome != LcpOutcome::solved) return;
   } while (let_fast_slips_go());
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     const Participant& p = problem_.who[i];
@@ -94,8 +94,8 @@ void ContactModes::judge_brief(const State& state, std::size_t at_rest_now, Brie
 
 bool ContactModes::stops_at_once(std::size_t participant) const {
   const Participant& p = problem_.who[participant];
-  return p.a_t.norm() <= nothing() && cannot_follow(p.contact, beginning_to_slip(p)->slip_after.norm(),
-                                                    -problem_.deceleration_to_spare(participant));
+  return p.a_t.norm() <= least_acceleration() && cannot_follow(p.contact, beginning_to_slip(p)->slip_after.norm(),
+                                                               -problem_.deceleration_to_spare(participant));
 }
 
 // Contacts whose slip friction does not end at once slide instead of resting. True if there are any: the forces are to
@@ -131,18 +131,19 @@ bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
 // Ends the separations and slips that the impact of others caused and that are too short to follow. Returns the energy
 // that this takes [J].
 double ContactModes::end_rocking(State& state, const Brief& brief) {
-  const auto at_rest = [this](const TouchingContact& c) { return scale_.of(c.contact).at_rest(); };
+  const auto rest_speed = [this](const TouchingContact& c) { return scale_.of(c.contact).rest_speed(); };
   std::vector<bool> rests = brief.falls;
   bool any = true;
   double taken = 0;
-  for (std::size_t i = 0; i < touching_.size(); ++i) rests[i] = rests[i] || touching_[i].after <= at_rest(touching_[i]);
+  for (std::size_t i = 0; i < touching_.size(); ++i)
+    rests[i] = rests[i] || touching_[i].after <= rest_speed(touching_[i]);
   while (any) {
     taken += take_rates(state, rests, brief.stops);
     any = false;
     for (std::size_t i = 0; i < touching_.size(); ++i) {
       TouchingContact& c = touching_[i];
       c.after = rests[i] ? 0 : system_.gap_rate(c.contact);
-      if (c.after < -at_rest(c)) rests[i] = any = true;
+      if (c.after < -rest_speed(c)) rests[i] = any = true;
     }
   }
   return taken;
@@ -156,7 +157,7 @@ double ContactModes::take_rates(State& state, const std::vector<bool>& rests, co
     const TouchingContact& c = touching_[i];
     if (!rests[i]) continue;
     held.push_back({c.contact, 0});
-    const bool sticks = stops[i] || c.slip_after.norm() <= scale_.of(c.contact).at_rest();
+    const bool sticks = stops[i] || c.slip_after.norm() <= scale_.of(c.contact).rest_speed();
     if (system_.model().contacts[c.contact].coulomb && sticks)
       for (int k = 1; k <= system_.tangents(c.contact); ++k) held.push_back({c.contact, k});
   }

@@ -56,17 +56,17 @@ void ContactModes::find_candidates(const ContactChanges& changes) {
   for (const TouchingContact& c : touching_) scale = std::max({scale, std::abs(c.before), c.slip_before.norm()});
   const double jump = 1e-9 * scale;  // [m/s] round-off of the impact
   for (const TouchingContact& c : touching_) {
-    const double at_rest = jump + scale_.of(c.contact).at_rest();
+    const double rest_speed = jump + scale_.of(c.contact).rest_speed();
     const bool constrained = c.impulse > 0 && treatment(c.contact).rebound == Restitution::Rebound::constrained;
     // A closed contact may have kept the rate that the steps left in it, or have lost it with others (rule 2).
-    const bool rests = std::abs(c.after) <= at_rest || (c.was_closed && std::abs(c.after - c.before) <= at_rest);
+    const bool rests = std::abs(c.after) <= rest_speed || (c.was_closed && std::abs(c.after - c.before) <= rest_speed);
     const bool released = contains(changes.released, c.contact) && c.impulse == 0 && !shared_before_[c.contact];
     if ((rests || constrained) && !released) candidates_.push_back(c.contact);
   }
 }
 
-double ContactModes::slow(int contact) const {
-  return system_.model().world.space == Space::spatial ? scale_.of(contact).slow() : 0;
+double ContactModes::least_slip(int contact) const {
+  return system_.model().world.space == Space::spatial ? scale_.of(contact).least_speed() : 0;
 }
 
 double ContactModes::stick_speed(int contact) const {
@@ -76,11 +76,11 @@ double ContactModes::stick_speed(int contact) const {
 // [m/s] Slip across its former direction that counts as none; with fixed steps also what a tenth of a step takes away.
 double ContactModes::unresolved(int contact, const State& state) {
   const model::ContactMode& mode = before_.contacts[contact];
-  if (!steps_.fixed || system_.tangents(contact) == 1) return mode.slow;
-  return std::max(mode.slow, 0.1 * *steps_.fixed * system_.slip_acceleration(contact, state.a).norm());
+  if (!steps_.fixed || system_.tangents(contact) == 1) return mode.least_slip;
+  return std::max(mode.least_slip, 0.1 * *steps_.fixed * system_.slip_acceleration(contact, state.a).norm());
 }
 
-double ContactModes::nothing() const {
+double ContactModes::least_acceleration() const {
   return std::max(scale_.scene().no_acceleration(), 1e-12 * largest_);
 }
 
@@ -100,14 +100,14 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
   if (p.mu_0 == 0) return;
   const model::ContactMode& before = before_.contacts[p.contact];
   const bool was_closed = before.closed && before.friction != Friction::none;
-  double at_rest = stick_speed(p.contact);
+  double rest_speed = stick_speed(p.contact);
   if (jumped)
     for (const TouchingContact& c : touching_)
-      at_rest = std::max({at_rest, 1e-9 * std::abs(c.before), 1e-9 * c.slip_before.norm()});
-  bool rests = speed <= at_rest;
+      rest_speed = std::max({rest_speed, 1e-9 * std::abs(c.before), 1e-9 * c.slip_before.norm()});
+  bool rests = speed <= rest_speed;
   p.direction = direction_of(slip);
   if (was_closed && !jumped) {
-    const model::SlipDirection goes(slip, before.direction, before.slow);
+    const model::SlipDirection goes(slip, before.direction, before.least_slip);
     const bool stopped = contains(changes.stopped, p.contact);
     rests = before.friction == Friction::stick || (stopped && std::abs(goes.across()) <= unresolved(p.contact, state));
     if (!stopped) p.direction = goes.unit();
@@ -145,7 +145,7 @@ void ContactModes::gather(const State& state, const ContactChanges& changes, boo
     add_friction(state, p, changes, jumped);
     mode.friction = p.tangent == Tangent::sliding ? Friction::slide : Friction::none;
     mode.direction = p.direction;
-    mode.slow = slow(i);
+    mode.least_slip = least_slip(i);
     if (p.tangent == Tangent::resting) problem_.who.push_back(p);
   }
 }
@@ -168,8 +168,8 @@ bool ContactModes::stop_with_others(ContactChanges& changes) {
     if (!system_.model().contacts[contact].coulomb) continue;
     const double speed = system_.slip(contact).norm();
     const Scale scale = scale_.of(contact);
-    const bool held = beside[i] <= (joints ? scale.drift() : scale.at_rest());
-    if (speed < slid.slow || (held && speed <= scale.drift())) changes.stopped.push_back(contact);
+    const bool held = beside[i] <= (joints ? scale.drift() : scale.rest_speed());
+    if (speed < slid.least_slip || (held && speed <= scale.drift())) changes.stopped.push_back(contact);
   }
   return changes.stopped.size() > before;
 }
@@ -191,7 +191,7 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes) {
   bool more = false;
   for (int i = 0; i < int(before_.contacts.size()); ++i) {
     if (!before_.contacts[i].closed || before_.contacts[i].friction != Friction::slide) continue;
-    if (contains(changes.stopped, i) || system_.slip(i).norm() > scale_.of(i).at_rest()) continue;
+    if (contains(changes.stopped, i) || system_.slip(i).norm() > scale_.of(i).rest_speed()) continue;
     changes.stopped.push_back(i);
     more = true;
   }
@@ -222,9 +222,9 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
 }
 
 complementarity::ContactSolution ContactModes::take_verdicts() {
-  const complementarity::ContactSolution solution = problem_.solve(nothing());
+  const complementarity::ContactSolution solution = problem_.solve(least_acceleration());
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
-  const std::vector<bool> kept_closed = problem_.kept_closed(nothing(solution.violation));
+  const std::vector<bool> kept_closed = problem_.kept_closed(least_acceleration(solution.violation));
   for (std::size_t i = 0; i < problem_.who.size(); ++i) take_verdict(problem_.who[i], kept_closed[i]);
   find_shares();
   return solution;
@@ -267,14 +267,14 @@ void ContactModes::hold(const std::vector<Participant*>& held) {
     model::ContactMode& mode = modes_.contacts[p->contact];
     mode.friction = Friction::slide;
     mode.direction = -direction_of(p->T);
-    mode.slow = slow(p->contact);
+    mode.least_slip = least_slip(p->contact);
     p->ratio = -p->mu * mode.direction;
   }
   if (!held.empty()) find_shares();
 }
 
-double ContactModes::nothing(double violation) const {
-  return std::max(nothing(), undecided * violation * largest_);
+double ContactModes::least_acceleration(double violation) const {
+  return std::max(least_acceleration(), undecided * violation * largest_);
 }
 
 // Rule 11: `violation`, the error of the solution, leaves open which contacts press.
@@ -284,7 +284,7 @@ bool ContactModes::in_balance(double violation) const {
   return std::any_of(problem_.who.begin(), problem_.who.end(), [&](const Participant& p) {
     const bool opens = before_.contacts[p.contact].closed && !modes_.contacts[p.contact].closed;
     const bool just_presses = p.N > 0 && p.N <= undecided * violation * largest;
-    return p.unilateral && (just_presses || (opens && p.a_n <= nothing(violation)));
+    return p.unilateral && (just_presses || (opens && p.a_n <= least_acceleration(violation)));
   });
 }
 
@@ -297,7 +297,7 @@ double ContactModes::time_of_change() {
   for (const Participant& p : problem_.who) {
     if (p.tangent != Tangent::sliding) continue;
     const double slip = system_.slip(p.contact).norm(), change = system_.slip_acceleration(p.contact, a_).norm();
-    if (slip > scale_.of(p.contact).at_rest() && slip < least * change) least = slip / change;
+    if (slip > scale_.of(p.contact).rest_speed() && slip < least * change) least = slip / change;
   }
   return least;
 }
@@ -345,9 +345,9 @@ void ContactModes::take_verdict(const Participant& p, bool kept_closed) {
   if (!mode.closed || p.tangent == Tangent::none || !system_.model().contacts[p.contact].coulomb) return;
   mode.friction = Friction::slide;
   mode.direction = p.direction;
-  mode.slow = slow(p.contact);
+  mode.least_slip = least_slip(p.contact);
   if (p.tangent == Tangent::sliding) return;
-  if (p.a_t.norm() > nothing()) {
+  if (p.a_t.norm() > least_acceleration()) {
     mode.direction = direction_of(p.a_t);
   } else if (p.yielded && p.T.norm() > (1 - 1e-6) * p.mu * p.N) {  // slides, too slowly to be seen
     mode.direction = -direction_of(p.T);

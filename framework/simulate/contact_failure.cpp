@@ -39,7 +39,7 @@ bool ContactModes::blocked(const std::vector<Participant>& who) const {
   }
   if (without_friction.who.empty()) return false;
   without_friction.prepare(system_);
-  return without_friction.solve(nothing()).outcome == LcpOutcome::no_solution;
+  return without_friction.solve(least_acceleration()).outcome == LcpOutcome::no_solution;
 }
 
 void ContactModes::fail_without_solution(const char* what, double t, const complementarity::ContactSolution& solution,

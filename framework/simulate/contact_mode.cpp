@@ -49,27 +49,49 @@ bool ContactModes::any_closed() const {
 }
 
 void ContactModes::settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events) {
-  const int n = int(system_.model().contacts.size());
-  system_.move_to(state.t, state.q, state.v);
-  before_ = modes_ = system_.modes();
-  shared_before_.resize(std::size_t(n));
-  for (int i = 0; i < n; ++i) shared_before_[std::size_t(i)] = system_.sharing(i).shared;
-  keep_forces(state);
+  begin(state);
   toggle(state, changes.toggled, events);
   find_touching(changes);
-  const auto approaches = [this](const TouchingContact& c) { return c.before < -scale_.of(c.contact).at_rest(); };
-  const bool jumped = !changes.struck.empty() && std::any_of(touching_.begin(), touching_.end(), approaches);
-  losses_.clear();
-  lost_elsewhere_ = 0;
   find_bearings();
+  const bool jumped = !changes.struck.empty() && any_approaches();
   if (jumped) {
     const auto impact = strike(state, changes);
     if (impact.outcome != LcpOutcome::solved) fail_without_impact(state.t, impact);
   }
   lock(state, changes, events);
+  auto solution = decide_with_doubts(state, changes, jumped);
+  const bool without_collision = solution.outcome == LcpOutcome::no_solution;
+  if (without_collision) solution = strike_without_collision(state, changes, jumped, events);
+  if (solution.outcome != LcpOutcome::solved) fail_without_balance(state.t, solution);
+  take_approach_speeds(changes);
+  append_impacts(state.t, without_collision, events);
+  finish(state, carries_forces(changes) && state.a.size() == system_.sizes().nv);  // the start has no a yet
+  for (const TouchingContact& c : touching_) append_normal_event(state, c, events);
+  append_friction_events(state, events);
+}
+
+void ContactModes::begin(const State& state) {
+  system_.move_to(state.t, state.q, state.v);
+  before_ = modes_ = system_.modes();
+  shared_before_.resize(system_.model().contacts.size());
+  for (std::size_t i = 0; i < shared_before_.size(); ++i) shared_before_[i] = system_.sharing(int(i)).shared;
+  keep_forces(state);
+  losses_.clear();
+  lost_elsewhere_ = 0;
+}
+
+bool ContactModes::any_approaches() const {
+  return std::any_of(touching_.begin(), touching_.end(),
+                     [this](const TouchingContact& c) { return c.before < -scale_.of(c.contact).rest_speed(); });
+}
+
+// Rules 3 to 7; where the problem at this instant leaves doubts, by what follows. No solution: an impact without
+// collision follows.
+complementarity::ContactSolution ContactModes::decide_with_doubts(State& state, const ContactChanges& changes,
+                                                                  bool jumped) {
   find_candidates(changes);
-  auto solution =
-      changes.locked ? complementarity::ContactSolution{LcpOutcome::no_solution, 0} : decide(state, changes, jumped);
+  if (changes.locked) return {LcpOutcome::no_solution, 0};
+  auto solution = decide(state, changes, jumped);
   if (solution.outcome == LcpOutcome::solved && changes_sign_by_infinity(state, changes)) {
     ContactChanges others = changes;
     others.released.clear();
@@ -78,21 +100,20 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   }
   const bool undecided = solution.outcome == LcpOutcome::gave_up ||
                          (solution.outcome == LcpOutcome::solved && in_balance(solution.violation));
-  if (undecided) solution = decide_by_what_follows(state, changes, jumped, solution);
-  const bool without_collision = solution.outcome == LcpOutcome::no_solution;
-  if (without_collision) solution = strike_without_collision(state, changes, jumped, events);
-  if (solution.outcome != LcpOutcome::solved) fail_without_balance(state.t, solution);
-  bool carry = false;
-  for (const TouchingContact& c : touching_) {
-    const bool struck = contains(changes.struck, c.contact);
-    carry = carry || ((struck || contains(changes.released, c.contact)) &&
-                      treatment(c.contact).restart == Restitution::Restart::carry);
-    if (struck || (!c.was_closed && c.impulse > 0)) modes_.contacts[c.contact].approach_speed = -c.before;
-  }
-  append_impacts(state.t, without_collision, events);
-  finish(state, carry && state.a.size() == system_.sizes().nv);  // the start has no a yet
-  for (const TouchingContact& c : touching_) append_normal_event(state, c, events);
-  append_friction_events(state, events);
+  return undecided ? decide_by_what_follows(state, changes, jumped, solution) : solution;
+}
+
+void ContactModes::take_approach_speeds(const ContactChanges& changes) {
+  for (const TouchingContact& c : touching_)
+    if (contains(changes.struck, c.contact) || (!c.was_closed && c.impulse > 0))
+      modes_.contacts[c.contact].approach_speed = -c.before;
+}
+
+bool ContactModes::carries_forces(const ContactChanges& changes) const {
+  return std::any_of(touching_.begin(), touching_.end(), [&](const TouchingContact& c) {
+    return (contains(changes.struck, c.contact) || contains(changes.released, c.contact)) &&
+           treatment(c.contact).restart == Restitution::Restart::carry;
+  });
 }
 
 // The force of a sliding contact may change its sign through infinity (Painleve's critical state): without the force
@@ -214,7 +235,7 @@ complementarity::ContactSolution ContactModes::strike(State& state, const Contac
   for (;;) {
     all = touching_;
     all.insert(all.end(), bearings_.begin(), bearings_.end());
-    const auto solution = impact_.solve(system_, state, at_rest(all), all, dv_);
+    const auto solution = impact_.solve(system_, state, rest_speed(all), all, dv_);
     if (solution.outcome != LcpOutcome::solved) {
       state.v = v_before_;
       return solution;
@@ -240,7 +261,7 @@ complementarity::ContactSolution ContactModes::strike(State& state, const Contac
     losses_.push_back({c.contact, c.energy_lost()});
     lost_elsewhere_ -= c.energy_lost();
   }
-  impact_warnings_.check(state.t, kinetic_before, at_rest(all), all, impact_.cut_short());
+  impact_warnings_.check(state.t, kinetic_before, rest_speed(all), all, impact_.cut_short());
   return {LcpOutcome::solved, 0};
 }
 
@@ -249,7 +270,7 @@ void ContactModes::lock(State& state, const ContactChanges& changes, std::vector
   model::Modes held = before_;
   const auto locked = [&](const TouchingContact& c) {
     if (!locks(c.contact) || !(contains(changes.struck, c.contact) || c.impulse > 0) ||
-        c.after > scale_.of(c.contact).at_rest())
+        c.after > scale_.of(c.contact).rest_speed())
       return false;
     held.contacts[c.contact].closed = modes_.contacts[c.contact].closed = true;
     modes_.contacts[c.contact].approach_speed = -c.before;
@@ -272,10 +293,10 @@ double ContactModes::capture_speed(int contact) const {
   return simulate::capture_speed(system_.model().contacts[contact], scale_.of(contact));
 }
 
-double ContactModes::at_rest(const std::vector<TouchingContact>& contacts) const {
-  double slow = 0;
-  for (const TouchingContact& c : contacts) slow = std::max(slow, scale_.of(c.contact).at_rest());
-  return slow;
+double ContactModes::rest_speed(const std::vector<TouchingContact>& contacts) const {
+  double largest = 0;
+  for (const TouchingContact& c : contacts) largest = std::max(largest, scale_.of(c.contact).rest_speed());
+  return largest;
 }
 
 double ContactModes::distance_from_critical(const State& state) {

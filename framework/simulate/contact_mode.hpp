@@ -31,9 +31,10 @@
 //     contacts whose slip has just reached 0. A contact at rest sticks where mu_0 (mu, once it has let go) suffices;
 //     otherwise it slides in the direction in which it accelerates. In space a slip may turn instead of stopping. Its
 //     zero is located along the direction that it had where the step began (system/point/slip.hpp). If the slip across
-//     that direction is then more than `slow`, it has turned, and slides on in its new direction; otherwise it counts
-//     as rest. So a slip that falls below `slow`, 1e-7 of the scene's speed, passes through rest. Fixed steps do not
-//     resolve the end of a slip that turns: with them, also the slip that a tenth of a step takes away counts as rest.
+//     that direction is then more than `least_slip`, it has turned, and slides on in its new direction; otherwise it
+//     counts as rest. So a slip that falls below `least_slip`, 1e-7 of the scene's speed, passes through rest. Fixed
+//     steps do not resolve the end of a slip that turns: with them, also the slip that a tenth of a step takes away
+//     counts as rest.
 //  6. A contact whose friction reaches its bound lets go: mu decides at once, reduced by a part of 1e-8 so that
 //     friction does not hold it exactly at the bound where mu = mu_0. It slides, or opens where sliding would need a
 //     pulling force (large mu). All other contacts at rest are checked at the same instant.
@@ -122,8 +123,8 @@ class ContactModes {
   ImpactWarnings& impact_warnings() { return impact_warnings_; }
   const ImpactWarnings& impact_warnings() const { return impact_warnings_; }
 
-  double nothing() const;                  // [m/s^2] a smaller one counts as no acceleration
-  double nothing(double violation) const;  // of a solution found with this violation
+  double least_acceleration() const;                  // [m/s^2] a smaller one counts as no acceleration
+  double least_acceleration(double violation) const;  // of a solution found with this violation
   // How near the forces of sliding contacts are to having no solution: the least pivot of their equations relative to
   // that without friction; 0 at Painleve's critical state, 1 far from it.
   double distance_from_critical(const State& state);
@@ -143,6 +144,12 @@ class ContactModes {
   using Friction = model::ContactMode::Friction;
   using Kind = ContactEvent::Kind;
 
+  void begin(const State& state);
+  bool any_approaches() const;
+  [[nodiscard]] complementarity::ContactSolution decide_with_doubts(State& state, const ContactChanges& changes,
+                                                                    bool jumped);
+  void take_approach_speeds(const ContactChanges& changes);
+  bool carries_forces(const ContactChanges& changes) const;
   bool changes_sign_by_infinity(const State& state, const ContactChanges& changes);
   [[nodiscard]] complementarity::ContactSolution strike_without_collision(State& state, const ContactChanges& changes,
                                                                           bool jumped,
@@ -200,8 +207,8 @@ class ContactModes {
   void append_normal_event(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
   void append_friction_events(const State& state, std::vector<ContactEvent>& events);
   double stick_speed(int contact) const;
-  double slow(int contact) const;
-  double at_rest(const std::vector<TouchingContact>& contacts) const;  // [m/s] the largest of their thresholds
+  double least_slip(int contact) const;
+  double rest_speed(const std::vector<TouchingContact>& contacts) const;  // [m/s] the largest of their thresholds
   double unresolved(int contact, const State& state);
   void keep_forces(const State& state);
   void carry_forces(Vec& lambda) const;

@@ -1,9 +1,9 @@
 // Finds the first event of a contact inside a trial step, and shortens the step to it.
 //
-// Each contact is watched through functions that are positive until their event:
+// Each contact has event functions, which are positive until their event:
 //     approach   open contact                    gap
 //     leave      compliant contact in touch      -gap
-//     press      closed contact (Restitution)    its normal force N; a locked one is not watched
+//     press      closed contact (Restitution)    its normal force N; a locked one has none
 //     hold       sticking contact                mu_0 N - |T|, T the friction that holds it
 //     idle       closed without a force         minus the force that it would carry as a spring
 //     unload     contacts that share rows        their spare load
@@ -30,9 +30,9 @@
 //
 // Forces come from the equations of motion at the step's end. Methods that satisfy neither position nor velocity rows
 // work on the level of accelerations: there lambda itself, with their stabilisation, is that force. If rows are
-// redundant, lambda is not unique: contacts that share rows are watched together by their spare load
+// redundant, lambda is not unique: contacts that share rows have one function, their spare load
 // (AssembledSystem::spare_load), and the complementarity problem decides which of them opens (contact_mode.hpp). If one
-// of them slides, its share affects the motion, and each is watched for itself. An implied direction has no row in g,
+// of them slides, its share affects the motion, and each has its own. An implied direction has no row in g,
 // so nothing holds it once it no longer follows from the basis: a support moves by a law of its own, or bodies turn out
 // of a singular position. This shows first in its acceleration.
 #pragma once
@@ -52,7 +52,7 @@ class EventLocation {
  public:
   EventLocation(model::AssembledSystem& system, Integrator& integrator, ContactModes& modes, const ContactScale& scale);
 
-  bool watches() const { return !system_.model().contacts.empty(); }
+  bool has_contacts() const { return !system_.model().contacts.empty(); }
   void restart(const State& now);  // modes or state changed
 
   enum class Found { nothing, event, step_refused, step_too_long, passes_infinity, not_finite };
@@ -72,74 +72,81 @@ class EventLocation {
 
  private:
   enum class Kind { approach, leave, press, hold, slide, idle, unload, follow, load };
-  struct Watch {
+  struct EventFunction {
     int contact;
     Kind kind;
-    bool at_ends = false;     // judged at the ends of steps only, never located
-    double noise = 0;         // values up to this one count as 0 at first, and just after the event
-    double force_before = 0;  // one step before now
-    double bound = 0;         // [N] at the last evaluation: the bound of friction, or the largest force of a group
-    double steepest = 0;      // slide: largest rate of change of the slip since it began [m/s^2]
-    bool reported = false;    // it had the last event
-    int group = -1;           // unload, follow: in Modes::shared
-    double little = 0;        // smaller deficits are ignored: [N] unload, hold, [m/s^2] follow
-    int bearing = -1;         // load: index among the bearings with a signed load
-    double side = 1;          // load: 1 or -1
-    double slow_for = 0;      // [s] slide in space: how long it has been without a direction (system/point/slip.hpp)
-    double pushed = 0;        // [m/s^2] slide in space: its largest acceleration in that time
+    bool at_ends = false;       // judged at the ends of steps only, never located
+    double noise = 0;           // values up to this one count as 0 at first, and just after the event
+    double force_before = 0;    // one step before now
+    double bound = 0;           // [N] at the last evaluation: the bound of friction, or the largest force of a group
+    double steepest = 0;        // slide: largest rate of change of the slip since it began [m/s^2]
+    bool reported = false;      // it had the last event
+    int group = -1;             // unload, follow: in Modes::shared
+    double little = 0;          // smaller deficits are ignored: [N] unload, hold, [m/s^2] follow
+    int bearing = -1;           // load: index among the bearings with a signed load
+    double side = 1;            // load: 1 or -1
+    double undirected_for = 0;  // [s] slide in space: how long it has been without a direction (system/point/slip.hpp)
+    double pushed = 0;          // [m/s^2] slide in space: its largest acceleration in that time
   };
   using Value = numerics::ValueAndSlope;  // slopes of forces and accelerations are not known
   struct Suspect {
-    int watch;
+    int function;
     double high;       // [s] length of a step after which the event has happened
     Value at_high;     // the function there
     double about = 0;  // [s] estimate of the crossing
   };
   struct Cubic;
 
-  void watch_all();
-  void watch(int contact);
-  bool watched_group(int group) const;
-  void watch_friction(int contact, bool as_one);
-  void watch_loads(int contact);
+  void set_up_functions();
+  void add_functions(int contact);
+  bool has_group(int group) const;
+  void add_friction(int contact, bool as_one);
+  void add_loads(int contact);
   void allow_for_critical_friction();
-  void choose_sides(const std::vector<Watch>& before);
-  bool by_force(int w) const {
-    const Kind kind = watches_[w].kind;
+  void choose_sides(const std::vector<EventFunction>& before);
+  bool by_force(int k) const {
+    const Kind kind = functions_[k].kind;
     return kind == Kind::press || kind == Kind::hold || kind == Kind::idle || kind == Kind::unload ||
            kind == Kind::load;
   }
-  bool has_slope(int w) const { return !by_force(w) && watches_[w].kind != Kind::follow; }
-  bool slow(const Watch& watch);
-  bool stalls(double h, const State& next, int w);
-  void measure_slow(double h, const State& next, Watch& watch);
-  double force(Watch& watch, double t, const Vec& lambda);
+  bool has_slope(int k) const { return !by_force(k) && functions_[k].kind != Kind::follow; }
+  bool lacks_direction(const EventFunction& function);
+  bool stalls(double h, const State& next, int k);
+  void measure_undirected(double h, const State& next, EventFunction& function);
+  double force(EventFunction& function, double t, const Vec& lambda);
   double little_force(int group);
   double little_friction(int contact);
   Value slide(int contact, const Vec& a);
   int evaluate(const State& state, std::vector<Value>& values);  // AssembledSystem::sign, or 0 without forces
-  Value value(int w, const State& state, bool& accelerated);
-  bool just_handled(int w) const { return now_[w].f <= watches_[w].noise; }
-  bool happened(int w, const Value& end) const;
-  Value step_to(const State& now, double h, int w);
+  Value value(int k, const State& state, bool& accelerated);
+  bool just_handled(int k) const { return now_[k].f <= functions_[k].noise; }
+  bool happened(int k, const Value& end) const;
+  Value step_to(const State& now, double h, int k);
   bool hides(const State& now, double h, const State& next);
   bool swings_matter(const std::vector<Value>& values, double h) const;
   bool hides_gap(double h);
   bool hides_force(double h);
-  bool dips(const State& now, double h, const State& next, int w, Suspect& suspect);
-  bool returns(const State& now, double h, int w, Suspect& suspect);
-  bool worth_slopes(int w, double h) const;
-  double force_slope(const State& state, double dt, int w);
-  double slope_at_end(const State& state, double dt, int w, double h, std::vector<double>& slopes);
+  bool dips(const State& now, double h, const State& next, int k, Suspect& suspect);
+  bool returns(const State& now, double h, int k, Suspect& suspect);
+  bool worth_slopes(int k, double h) const;
+  double force_slope(const State& state, double dt, int k);
+  double slope_at_end(const State& state, double dt, int k, double h, std::vector<double>& slopes);
   template <class Each>
   void force_slopes(const State& state, double dt, Each&& each);
   void find_suspects(const State& now, double h, const State& next);
   void earliest_first(std::vector<Suspect>& suspects) const;
+  struct Located {
+    int function;
+    double h;  // [s] length of the step to its event
+  };
+  Located locate_first(const State& now, double h);
   double locate(const State& now, const Suspect& suspect);
+  void shorten(const State& now, double h_event, double& h, State& next);
+  void forget_trials();
   double same_instant(int contact) const;
   void collect();
-  void report(int w);
-  void wait_longer(const Watch& before, const Value& now, Watch& watch) const;
+  void report(int k);
+  void wait_longer(const EventFunction& before, const Value& now, EventFunction& function) const;
 
   model::AssembledSystem& system_;
   Integrator& integrator_;
@@ -147,7 +154,7 @@ class EventLocation {
   const ContactScale& scale_;
   BetweenStates between_states_;
   bool own_force_;  // the integrator's lambda is the force of the contact
-  std::vector<Watch> watches_;
+  std::vector<EventFunction> functions_;
   std::vector<model::ContactMode> modes_before_;  // at the last restart
   std::vector<Value> now_, next_, probe_;
   int sign_ = 0, sign_next_ = 0;  // AssembledSystem::sign at the points of now_ and next_

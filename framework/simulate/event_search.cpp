@@ -12,8 +12,8 @@ constexpr double inside = 0.3819660112501051;
 
 // In space a slip ends by steps that leave a fifth of it. Near its zero the stiffness mu N/|s| across it is more than
 // an explicit method can bear; round-off there would become a turn.
-bool overshoots(double begin, double end, double slow) {
-  return begin > 10 * slow && end < 0.2 * begin;
+bool overshoots(double begin, double end, double least) {
+  return begin > 10 * least && end < 0.2 * begin;
 }
 
 }  // namespace
@@ -59,16 +59,16 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
   longest_ = std::max(longest_, h);
   if (h < 1e-6 * longest_) return false;
   bool gaps = false, forces = false;
-  for (int w = 0; w < int(watches_.size()); ++w) {
-    if (watches_[w].kind == Kind::slide && system_.tangents(watches_[w].contact) > 1 &&
-        overshoots(now_[w].f, next_[w].f, system_.modes().contacts[watches_[w].contact].slow))
+  for (int k = 0; k < int(functions_.size()); ++k) {
+    if (functions_[k].kind == Kind::slide && system_.tangents(functions_[k].contact) > 1 &&
+        overshoots(now_[k].f, next_[k].f, system_.modes().contacts[functions_[k].contact].least_slip))
       return true;
     // A step longer than swings allow, in which a slip has become steeper than ever before.
-    if (watches_[w].kind == Kind::slide && std::abs(next_[w].slope) > 4 * watches_[w].steepest &&
-        std::abs(next_[w].slope) * h > now_[w].f && now_[w].f > watches_[w].noise)
+    if (functions_[k].kind == Kind::slide && std::abs(next_[k].slope) > 4 * functions_[k].steepest &&
+        std::abs(next_[k].slope) * h > now_[k].f && now_[k].f > functions_[k].noise)
       return true;
-    if (watches_[w].at_ends || watches_[w].kind == Kind::slide || watches_[w].kind == Kind::follow) continue;
-    (by_force(w) ? forces : gaps) = true;
+    if (functions_[k].at_ends || functions_[k].kind == Kind::slide || functions_[k].kind == Kind::follow) continue;
+    (by_force(k) ? forces : gaps) = true;
   }
   if (gaps || (forces && h_before_ == 0)) {
     between_states_.at(now, next, inside, between_);
@@ -80,24 +80,24 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
 // True if swings within steps of length h could hide an event: of a force, or of a gap that is small for its rate.
 bool EventLocation::swings_matter(const std::vector<Value>& values, double h) const {
   constexpr double far = 20;
-  for (int w = 0; w < int(watches_.size()); ++w) {
-    if (watches_[w].at_ends || watches_[w].kind == Kind::slide) continue;
-    if (by_force(w) || values[w].f < far * h * std::abs(values[w].slope)) return true;
+  for (int k = 0; k < int(functions_.size()); ++k) {
+    if (functions_[k].at_ends || functions_[k].kind == Kind::slide) continue;
+    if (by_force(k) || values[k].f < far * h * std::abs(values[k].slope)) return true;
   }
   return false;
 }
 
 bool EventLocation::hides_gap(double h) {
   system_.move_to(between_.t, between_.q, between_.v);
-  for (int w = 0; w < int(watches_.size()); ++w) {
-    if (watches_[w].at_ends || watches_[w].kind == Kind::slide || watches_[w].kind == Kind::follow || by_force(w))
+  for (int k = 0; k < int(functions_.size()); ++k) {
+    if (functions_[k].at_ends || functions_[k].kind == Kind::slide || functions_[k].kind == Kind::follow || by_force(k))
       continue;
-    const Value &begin = now_[w], &end = next_[w];
+    const Value &begin = now_[k], &end = next_[k];
     const Cubic cubic{0, h, begin.f, end.f, begin.slope, end.slope};
-    const double there = (watches_[w].kind == Kind::leave ? -1 : 1) * system_.gap(watches_[w].contact);
+    const double there = (functions_[k].kind == Kind::leave ? -1 : 1) * system_.gap(functions_[k].contact);
     const double off = std::abs(there - cubic.value(inside)), size = std::max(std::abs(begin.f), std::abs(end.f));
     if (off > 0.05 * size && 4 * off > std::min({begin.f, end.f, there}) &&
-        off > scale_.of(watches_[w].contact).touching())
+        off > scale_.of(functions_[k].contact).touching())
       return true;
   }
   return false;
@@ -111,39 +111,39 @@ bool EventLocation::hides_force(double h) {
     evaluate(between_, probe_);
     probed_ = true;
   }
-  for (int w = 0; w < int(watches_.size()); ++w) {
-    if (watches_[w].at_ends || !by_force(w)) continue;
-    const double size = std::max({std::abs(now_[w].f), std::abs(next_[w].f), watches_[w].bound});
-    const double straight = h_before_ == 0 ? now_[w].f + inside * (next_[w].f - now_[w].f)
-                                           : now_[w].f + (now_[w].f - watches_[w].force_before) * (h / h_before_);
-    const double found = h_before_ == 0 ? probe_[w].f : next_[w].f;
-    if (std::abs(found - straight) > std::max(0.5 * size, watches_[w].little)) return true;
+  for (int k = 0; k < int(functions_.size()); ++k) {
+    if (functions_[k].at_ends || !by_force(k)) continue;
+    const double size = std::max({std::abs(now_[k].f), std::abs(next_[k].f), functions_[k].bound});
+    const double straight = h_before_ == 0 ? now_[k].f + inside * (next_[k].f - now_[k].f)
+                                           : now_[k].f + (now_[k].f - functions_[k].force_before) * (h / h_before_);
+    const double found = h_before_ == 0 ? probe_[k].f : next_[k].f;
+    if (std::abs(found - straight) > std::max(0.5 * size, functions_[k].little)) return true;
   }
   return false;
 }
 
 // True if the function is negative within the step and not at its ends.
-bool EventLocation::dips(const State& now, double h, const State& next, int w, Suspect& suspect) {
-  const bool force = by_force(w), may_have_kink = !force || system_.model().contacts[watches_[w].contact].joint;
-  Cubic cubic{0, h, now_[w].f, next_[w].f, now_[w].slope, next_[w].slope};
-  if (cubic.F_high <= 0 || (force && just_handled(w))) return false;
-  if (just_handled(w) && cubic.S_low <= 0) return false;
+bool EventLocation::dips(const State& now, double h, const State& next, int k, Suspect& suspect) {
+  const bool force = by_force(k), may_have_kink = !force || system_.model().contacts[functions_[k].contact].joint;
+  Cubic cubic{0, h, now_[k].f, next_[k].f, now_[k].slope, next_[k].slope};
+  if (cubic.F_high <= 0 || (force && just_handled(k))) return false;
+  if (just_handled(k) && cubic.S_low <= 0) return false;
   if (force) {
-    if (!worth_slopes(w, h)) return false;
-    cubic.S_low = slope_at_end(now, 1e-3 * h, w, h, begin_slopes_);
-    cubic.S_high = slope_at_end(next, -1e-3 * h, w, h, end_slopes_);
+    if (!worth_slopes(k, h)) return false;
+    cubic.S_low = slope_at_end(now, 1e-3 * h, k, h, begin_slopes_);
+    cubic.S_high = slope_at_end(next, -1e-3 * h, k, h, end_slopes_);
   }
   for (int probes = 0; probes < 6; ++probes) {
     if (!cubic.dips()) return false;
     const bool near = cubic.minimum <= 0.25 * std::min(cubic.F_low, cubic.F_high);
     if (!near && !(may_have_kink && cubic.tangents_cross())) return false;
     const double at = cubic.at;
-    const Value there = step_to(now, at, w);
-    if (there.f < 0 && happened(w, there)) {
+    const Value there = step_to(now, at, k);
+    if (there.f < 0 && happened(k, there)) {
       suspect.high = at, suspect.at_high = there;
       return true;
     }
-    const double slope = force ? force_slope(trial_, 1e-3 * h, w) : there.slope;
+    const double slope = force ? force_slope(trial_, 1e-3 * h, k) : there.slope;
     if (slope < 0)
       cubic.low = at, cubic.F_low = there.f, cubic.S_low = slope;
     else
@@ -153,47 +153,48 @@ bool EventLocation::dips(const State& now, double h, const State& next, int w, S
 }
 
 // A gap that an event has just left at 0 with rate u and acceleration A < 0 closes again after about -2 u/A.
-bool EventLocation::returns(const State& now, double h, int w, Suspect& suspect) {
-  if (by_force(w) || watches_[w].kind == Kind::slide || !just_handled(w) || !(now_[w].slope > 0)) return false;
+bool EventLocation::returns(const State& now, double h, int k, Suspect& suspect) {
+  if (by_force(k) || functions_[k].kind == Kind::slide || !just_handled(k) || !(now_[k].slope > 0)) return false;
   system_.move_to(now.t, now.q, now.v);
-  const double A = (watches_[w].kind == Kind::leave ? -1 : 1) * system_.acceleration({watches_[w].contact, 0}, now.a);
-  const double at = -2.5 * now_[w].slope / A;
+  const double A =
+      (functions_[k].kind == Kind::leave ? -1 : 1) * system_.acceleration({functions_[k].contact, 0}, now.a);
+  const double at = -2.5 * now_[k].slope / A;
   if (!(A < 0 && at < h)) return false;
-  const Value there = step_to(now, at, w);
-  if (!happened(w, there)) return false;
+  const Value there = step_to(now, at, k);
+  if (!happened(k, there)) return false;
   suspect.high = at, suspect.at_high = there;
   return true;
 }
 
 // Each slope of a force costs a solution of the equations of motion. It is worth it if the force is so small, compared
 // with its change and the curvature of its last three values, that it could have crossed 0 and come back.
-bool EventLocation::worth_slopes(int w, double h) const {
-  const double least = std::min(now_[w].f, next_[w].f), change = next_[w].f - now_[w].f;
+bool EventLocation::worth_slopes(int k, double h) const {
+  const double least = std::min(now_[k].f, next_[k].f), change = next_[k].f - now_[k].f;
   if (h_before_ == 0 && !probed_) return true;
   // Of a parabola. Its distance to the chord inside the step stands for the value one step before.
-  const double bend = h_before_ == 0 ? (probe_[w].f - now_[w].f - inside * change) * 2 / (inside * (1 - inside))
-                                     : change - (now_[w].f - watches_[w].force_before) * (h / h_before_);
+  const double bend = h_before_ == 0 ? (probe_[k].f - now_[k].f - inside * change) * 2 / (inside * (1 - inside))
+                                     : change - (now_[k].f - functions_[k].force_before) * (h / h_before_);
   return least < 0.5 * (std::abs(change) + std::abs(bend));
 }
 
-double EventLocation::force_slope(const State& state, double dt, int w) {
+double EventLocation::force_slope(const State& state, double dt, int k) {
   double slope = 0;
   force_slopes(state, dt,
-               [&](double sign, double t, const Vec& lambda) { slope += sign * force(watches_[w], t, lambda) / dt; });
+               [&](double sign, double t, const Vec& lambda) { slope += sign * force(functions_[k], t, lambda) / dt; });
   return slope;
 }
 
 // Computes the slopes of all forces for which they are worth it.
-double EventLocation::slope_at_end(const State& state, double dt, int w, double h, std::vector<double>& slopes) {
+double EventLocation::slope_at_end(const State& state, double dt, int k, double h, std::vector<double>& slopes) {
   if (slopes.empty()) {
-    slopes.resize(watches_.size());
+    slopes.resize(functions_.size());
     force_slopes(state, dt, [&](double sign, double t, const Vec& lambda) {
-      for (int i = w; i < int(watches_.size()); ++i)
-        if (by_force(i) && !watches_[i].at_ends && worth_slopes(i, h))
-          slopes[i] += sign * force(watches_[i], t, lambda) / dt;
+      for (int i = k; i < int(functions_.size()); ++i)
+        if (by_force(i) && !functions_[i].at_ends && worth_slopes(i, h))
+          slopes[i] += sign * force(functions_[i], t, lambda) / dt;
     });
   }
-  return slopes[w];
+  return slopes[k];
 }
 
 // Calls each(-1, t, lambda) at the state, then each(1, t + dt, lambda) at the state extrapolated by its velocity and

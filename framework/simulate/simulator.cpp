@@ -187,7 +187,7 @@ bool Simulator::step_and_examine(Trial& trial) {
   if (!outcome) return refuse(trial, outcome.reason());
   if (!next_.q.allFinite() || !next_.v.allFinite() || !next_.a.allFinite()) return refuse_not_finite(trial);
   if (control().controlled() && !within_tolerance(trial)) return false;
-  return !location_.watches() || examine_contacts(trial);
+  return !location_.has_contacts() || examine_contacts(trial);
 }
 
 bool Simulator::within_tolerance(Trial& trial) {
@@ -258,7 +258,7 @@ void Simulator::accept(const Trial& trial) {
     control().accepted(trial.proposal, trial.error);
   count(trial);
   if (system_.sizes().nc > 0) measure_rows(trial.h);
-  if (location_.watches()) {
+  if (location_.has_contacts()) {
     scale_.take_contacts(system_);
     location_.accept(trial.h, next_);
   }

@@ -30,7 +30,7 @@ void archive_tangential(Archive& a, const std::string& name, model::ContactMode&
     std::copy(flat.begin(), flat.end(), x.data());
   };
   numbers("direction", mode.direction);
-  a(name + "slow", mode.slow);
+  a(name + "slow", mode.least_slip);
   numbers("anchor", mode.anchor);
   numbers("rolled_from", mode.rolled_from);
 }

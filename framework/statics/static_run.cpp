@@ -27,7 +27,7 @@ class StaticRun {
         setup_(set_up(scene, registry, Purpose::statics, options.witness)),
         records_(scene, options, setup_),
         system_(setup_.model),
-        watch_(options.witness, setup_, system_, {&setup_.settings.start, nullptr}),
+        scope_(options.witness, setup_, system_, {&setup_.settings.start, nullptr}),
         path_(system_, setup_.settings, setup_.initial) {}
 
   RunReport operator()() {
@@ -152,7 +152,7 @@ class StaticRun {
   Setup setup_;
   RunRecords records_;
   model::AssembledSystem system_;
-  Watch watch_;  // of those above
+  WitnessScope scope_;  // of those above
   LoadPath path_;
   Energy energy_start_, energy_;
   RunReport report_;

@@ -65,7 +65,7 @@ void AssembledSystem::set_modes(const Modes& modes) {
     };
     if (!contacts.locks(i) && mode.closed && entry.restitution) add_row(0);
     const bool sticks = mode.closed && mode.friction == ContactMode::Friction::stick;
-    const bool by_rows = sticks && (p.at.chain.held_still() || !entry.coulomb ||
+    const bool by_rows = sticks && (p.at.markers.held_still() || !entry.coulomb ||
                                     entry.coulomb->decide() == SetValuedFriction::Decide::at_events);
     if (sticks && !by_rows) resting.push_back(i);
     for (int k = 1; k <= contacts.tangents(i) && by_rows; ++k) add_row(k);
@@ -282,7 +282,7 @@ Eigen::SparseMatrix<double> AssembledSystem::sparse_tangent(Blend c, const Vec& 
 }
 
 CoordinateSizes AssembledSystem::coordinate_sizes() {
-  CoordinateSizes sizes = parts_->at.chain.sizes();
+  CoordinateSizes sizes = parts_->at.markers.sizes();
   for (const BodyEntry& body : model().bodies) {
     int iq = body.q0, iv = body.v0;
     for (const Coordinates::Part& part : body.parts) {
@@ -295,7 +295,7 @@ CoordinateSizes AssembledSystem::coordinate_sizes() {
 }
 
 const Motion& AssembledSystem::motion(MarkerRef marker) {
-  return parts_->at.motion(parts_->at.chain.slot(marker));
+  return parts_->at.motion(parts_->at.markers.slot(marker));
 }
 
 int AssembledSystem::sign() const {

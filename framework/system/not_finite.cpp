@@ -23,11 +23,11 @@ CallSite find_in_body(const BodyEntry& entry, const Point& at) {
 }
 
 CallSite find_in_markers(Point& at) {
-  for (int slot = 0; slot < at.chain.slots(); ++slot) {
-    if (at.chain.body(slot) < 0 || at.chain.on_surface(slot)) continue;
+  for (int slot = 0; slot < at.markers.slots(); ++slot) {
+    if (at.markers.body(slot) < 0 || at.markers.on_surface(slot)) continue;
     const Motion& m = at.motion(slot);
     if (!m.x.allFinite() || !m.V.allFinite() || !m.bias.allFinite() || !m.J.allFinite())
-      return {&at.model->bodies[std::size_t(at.chain.body(slot))].origin, "motion"};
+      return {&at.model->bodies[std::size_t(at.markers.body(slot))].origin, "motion"};
   }
   return {};
 }

@@ -143,7 +143,7 @@ double AssembledSystem::highest_frequency(const std::vector<ContactDirection>& d
 const Motion& AssembledSystem::contact_marker(int contact) {
   Parts& p = *parts_;
   const int slot = p.contacts.slots(contact).A;
-  if (p.at.chain.on_surface(slot)) p.contacts.rows(contact);  // computes the nearest point
+  if (p.at.markers.on_surface(slot)) p.contacts.rows(contact);  // computes the nearest point
   return p.at.motion(slot);
 }
 

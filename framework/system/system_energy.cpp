@@ -115,10 +115,10 @@ class AssembledSystem::PowerByCause {
     sum_.dampers += power.dissipated;
   }
 
-  bool may_follow_law(int slot) const { return at_.chain.body(slot) >= 0 && !at_.chain.linear(slot); }
+  bool may_follow_law(int slot) const { return at_.markers.body(slot) >= 0 && !at_.markers.linear(slot); }
   void add_moved_by_law(int slot, const Wrench& wrench) {
     if (may_follow_law(slot))
-      sum_.markers -= power_of_law(at_.motion(slot), at_.v, at_.chain.first_velocity(slot), wrench);
+      sum_.markers -= power_of_law(at_.motion(slot), at_.v, at_.markers.first_velocity(slot), wrench);
   }
 
   void add_surface(int i) {

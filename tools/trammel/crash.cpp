@@ -23,7 +23,7 @@ namespace trammel::tool {
 namespace {
 
 // True until the program ends normally (ends_by_itself). Global, because handlers have no other access.
-std::atomic<bool> in_the_midst = false;
+std::atomic<bool> running = false;
 pid_t this_process = 0;                   // not a child that rehearses a library
 char* const* arguments = nullptr;         // of main
 std::array<char, 1 << 16> handler_stack;  // a run that overflowed its own stack leaves none
@@ -57,7 +57,7 @@ void leave_out(const simulate::CrashWitness::Culprit& who) {
 }
 
 // Reports which component ended the process and how, and ends it.
-[[noreturn]] void tell_and_end(std::string_view how) {
+[[noreturn]] void report_and_end(std::string_view how) {
   const simulate::CrashWitness::Culprit who = witness().culprit();
   const bool by_thread = on_another_thread();
   if (!by_thread) leave_out(who);
@@ -76,11 +76,11 @@ void leave_out(const simulate::CrashWitness::Culprit& who) {
 void on_crash(int signal) {
   std::signal(signal, SIG_DFL);  // a second crash, in this handler, ends the process
   if (plugin::lacked_memory()) end_without_memory(std::bad_alloc());
-  tell_and_end(what_happened(signal));
+  report_and_end(what_happened(signal));
 }
 
 void on_exit() {
-  if (in_the_midst && ::getpid() == this_process) tell_and_end("it ended the program (exit), which no plugin may");
+  if (running && ::getpid() == this_process) report_and_end("it ended the program (exit), which no plugin may");
 }
 
 [[noreturn]] void on_terminate() {
@@ -91,22 +91,22 @@ void on_exit() {
   } catch (const std::exception& e) {
     Line how;
     how.add("it threw where no exception may leave: {}", e.what());
-    tell_and_end(how.text());
+    report_and_end(how.text());
   } catch (...) {
   }
-  tell_and_end("it ended the program (std::terminate)");
+  report_and_end("it ended the program (std::terminate)");
 }
 
 }  // namespace
 
 void ends_by_itself() {
-  in_the_midst = false;
+  running = false;
 }
 
 void watch_for_crashes(char* const* words) {
   arguments = words;
   this_process = ::getpid();
-  in_the_midst = true;
+  running = true;
   std::atexit(on_exit);
   std::at_quick_exit(on_exit);
   std::set_terminate(on_terminate);

@@ -26,7 +26,7 @@ double now() {
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
-[[noreturn]] void end_in_the_midst(const char* why) {
+[[noreturn]] void end_at_once(const char* why) {
   const simulate::CrashWitness::Culprit who = witness().culprit();
   Line line;
   line.add("interrupted");
@@ -53,13 +53,13 @@ void on_request(int signal) {
     interrupt.request();
     ::alarm(patience);
   } else if (insists(signal)) {
-    end_in_the_midst("by a second signal");
+    end_at_once("by a second signal");
   }
   errno = error;
 }
 
 void on_alarm(int) {
-  if (!interrupt.heeded()) end_in_the_midst("5 s after the signal");
+  if (!interrupt.heeded()) end_at_once("5 s after the signal");
 }
 
 }  // namespace

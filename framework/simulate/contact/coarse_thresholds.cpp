@@ -29,7 +29,7 @@ bool rebounds(const Restitution& law, double capture_speed) {
 
 std::string of_impacts(const model::ContactEntry& contact, const Scale& scale, double fastest) {
   const double capture = capture_speed(contact, scale);
-  if (!(fastest > scale.at_rest()) || fastest > capture || !rebounds(*contact.restitution, capture)) return "";
+  if (!(fastest > scale.rest_speed()) || fastest > capture || !rebounds(*contact.restitution, capture)) return "";
   if (contact.restitution->treatment().capture_speed > 0)
     return fmt::format(
         "no impact of {} was faster than its capture_speed of {:.3g} m/s, the fastest had {:.3g} m/s: none had a "

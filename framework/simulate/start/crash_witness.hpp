@@ -51,17 +51,18 @@ class CrashWitness {
 };
 
 // Makes a witness, if there is one, follow during the object's lifetime.
-class Watch {
+class WitnessScope {
  public:
-  Watch(CrashWitness* witness, const Setup& setup, const model::AssembledSystem& system, CrashWitness::Clock clock)
+  WitnessScope(CrashWitness* witness, const Setup& setup, const model::AssembledSystem& system,
+               CrashWitness::Clock clock)
       : witness_(witness) {
     if (witness_) witness_->follow(setup, system, clock);
   }
-  ~Watch() {
+  ~WitnessScope() {
     if (witness_) witness_->leave();
   }
-  Watch(const Watch&) = delete;
-  Watch& operator=(const Watch&) = delete;
+  WitnessScope(const WitnessScope&) = delete;
+  WitnessScope& operator=(const WitnessScope&) = delete;
 
  private:
   CrashWitness* witness_;

@@ -155,7 +155,7 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purp
   problems.throw_if_any();
   setup.plugins = registry.identities();
   model::AssembledSystem system(setup.model);
-  const Watch watch(witness, setup, system, {&setup.settings.start, nullptr});
+  const WitnessScope scope(witness, setup, system, {&setup.settings.start, nullptr});
   blaming(setup, system, root, setup.settings.start, [&] {
     find_start(setup, system, root, problems);
     if (setup.integrator)

@@ -47,8 +47,8 @@ class CaseRun {
     std::vector<simulate::Simulator::LevelCorrection> corrections;
     for (const auto& c : setup_.corrections) corrections.push_back({c.level, c.correction.get(), &c.origin});
     simulate::Simulator simulator(setup_.model, *setup_.integrator, setup_.settings, std::move(corrections));
-    const simulate::Watch watch(options_.witness, setup_, simulator.system(),
-                                {&simulator.state().t, &simulator.statistics().steps});
+    const simulate::WitnessScope scope(options_.witness, setup_, simulator.system(),
+                                       {&simulator.state().t, &simulator.statistics().steps});
     try {
       if (options_.perturbation != 0) perturb(simulator.system());
       simulator.start(setup_.initial);

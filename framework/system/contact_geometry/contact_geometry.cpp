@@ -9,12 +9,12 @@ Eigen::Vector2d ContactGeometry::coordinates_from(const Eigen::Vector2d& anchor,
 }
 
 std::unique_ptr<ContactGeometry> make_contact_geometry(const Model& model, const ContactEntry& entry,
-                                                       MarkerMotions& chain) {
-  if (entry.joint) return joint_bearing(model, entry, chain);
-  if (entry.limit) return row_limit(model, entry, chain);
-  if (!entry.surface) return marker_on_plane(model, entry, chain);
-  return entry.surface->against == SurfaceSide::Against::surface ? surface_on_surface(model, entry, chain)
-                                                                 : surface_on_marker(model, entry, chain);
+                                                       MarkerMotions& markers) {
+  if (entry.joint) return joint_bearing(model, entry, markers);
+  if (entry.limit) return row_limit(model, entry, markers);
+  if (!entry.surface) return marker_on_plane(model, entry, markers);
+  return entry.surface->against == SurfaceSide::Against::surface ? surface_on_surface(model, entry, markers)
+                                                                 : surface_on_marker(model, entry, markers);
 }
 
 }  // namespace trammel::model

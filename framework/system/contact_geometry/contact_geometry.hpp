@@ -46,14 +46,15 @@ class ContactGeometry {
 
 // Chooses the pairing of a contact.
 std::unique_ptr<ContactGeometry> make_contact_geometry(const Model& model, const ContactEntry& entry,
-                                                       MarkerMotions& chain);
+                                                       MarkerMotions& markers);
 
 // The pairings.
-std::unique_ptr<ContactGeometry> marker_on_plane(const Model& model, const ContactEntry& entry, MarkerMotions& chain);
-std::unique_ptr<ContactGeometry> row_limit(const Model& model, const ContactEntry& entry, MarkerMotions& chain);
-std::unique_ptr<ContactGeometry> joint_bearing(const Model& model, const ContactEntry& entry, MarkerMotions& chain);
-std::unique_ptr<ContactGeometry> surface_on_marker(const Model& model, const ContactEntry& entry, MarkerMotions& chain);
+std::unique_ptr<ContactGeometry> marker_on_plane(const Model& model, const ContactEntry& entry, MarkerMotions& markers);
+std::unique_ptr<ContactGeometry> row_limit(const Model& model, const ContactEntry& entry, MarkerMotions& markers);
+std::unique_ptr<ContactGeometry> joint_bearing(const Model& model, const ContactEntry& entry, MarkerMotions& markers);
+std::unique_ptr<ContactGeometry> surface_on_marker(const Model& model, const ContactEntry& entry,
+                                                   MarkerMotions& markers);
 std::unique_ptr<ContactGeometry> surface_on_surface(const Model& model, const ContactEntry& entry,
-                                                    MarkerMotions& chain);
+                                                    MarkerMotions& markers);
 
 }  // namespace trammel::model

@@ -8,21 +8,21 @@ namespace {
 
 class SlipInJoint final : public ContactGeometry {
  public:
-  SlipInJoint(const Model& model, const ContactEntry& entry, MarkerMotions& chain)
+  SlipInJoint(const Model& model, const ContactEntry& entry, MarkerMotions& markers)
       : bearing_(*entry.joint->bearing),
         joint_(model.joints[std::size_t(entry.joint->joint)]),
         space_(model.world.space),
-        chain_(chain),
-        A_(chain.slot(entry.A)),
-        B_(chain.slot(entry.B)) {}
+        markers_(markers),
+        A_(markers.slot(entry.A)),
+        B_(markers.slot(entry.B)) {}
 
   std::vector<int> slots() const override { return {A_, B_}; }
   CallSite call() const override { return {&joint_.origin, "slip_row"}; }
 
   void rows(const Point& at, Rows& rows) override {
-    const Motion& A = chain_.motion(A_, at.t, at.q, at.v);
+    const Motion& A = markers_.motion(A_, at.t, at.q, at.v);
     slip_.resize(1, space_);
-    bearing_.slip_row(at.t, A, chain_.motion(B_, at.t, at.q, at.v), slip_);
+    bearing_.slip_row(at.t, A, markers_.motion(B_, at.t, at.q, at.v), slip_);
     rows.g(1) = slip_.g(0), rows.g_t(1) = slip_.g_t(0), rows.gamma(1) = slip_.gamma(0);
     for (int k = 0; k < 2; ++k) rows.H(k).row(1) = slip_.H(k).row(0);
   }
@@ -39,15 +39,15 @@ class SlipInJoint final : public ContactGeometry {
   const BearingJoint& bearing_;
   const JointEntry& joint_;
   Space space_;
-  MarkerMotions& chain_;
+  MarkerMotions& markers_;
   int A_, B_;
   Rows slip_;
 };
 
 }  // namespace
 
-std::unique_ptr<ContactGeometry> joint_bearing(const Model& model, const ContactEntry& entry, MarkerMotions& chain) {
-  return std::make_unique<SlipInJoint>(model, entry, chain);
+std::unique_ptr<ContactGeometry> joint_bearing(const Model& model, const ContactEntry& entry, MarkerMotions& markers) {
+  return std::make_unique<SlipInJoint>(model, entry, markers);
 }
 
 }  // namespace trammel::model

@@ -10,25 +10,25 @@ namespace {
 
 class MarkerOnPlane final : public ContactGeometry {
  public:
-  MarkerOnPlane(const Model& model, const ContactEntry& entry, MarkerMotions& chain)
+  MarkerOnPlane(const Model& model, const ContactEntry& entry, MarkerMotions& markers)
       : plane_(entry.geometry),
         origin_(entry.origin),
-        chain_(chain),
+        markers_(markers),
         tangents_(dimension(model.world.space) - 1),
-        A_(chain.slot(entry.A)),
-        B_(chain.slot(entry.B)) {}
+        A_(markers.slot(entry.A)),
+        B_(markers.slot(entry.B)) {}
 
   std::vector<int> slots() const override { return {A_, B_}; }
   CallSite call() const override { return {&origin_, "normal"}; }
 
   void rows(const Point& at, Rows& rows) override {
-    const Motion& A = chain_.motion(A_, at.t, at.q, at.v);
-    contact_rows(plane_, A, chain_.motion(B_, at.t, at.q, at.v), rows.g.size() > 1, rows);
+    const Motion& A = markers_.motion(A_, at.t, at.q, at.v);
+    contact_rows(plane_, A, markers_.motion(B_, at.t, at.q, at.v), rows.g.size() > 1, rows);
   }
 
   void add_reaction_tangent(const Point& at, const Rows& rows, const Eigen::Vector3d& F, double c, Matrix& S) override {
-    chain_.add_reaction_derivative(A_, at.t, at.q, pressed_by(rows.H_A, F[0], F.tail<2>()), c, S);
-    chain_.add_reaction_derivative(B_, at.t, at.q, pressed_by(rows.H_B, F[0], F.tail<2>()), c, S);
+    markers_.add_reaction_derivative(A_, at.t, at.q, pressed_by(rows.H_A, F[0], F.tail<2>()), c, S);
+    markers_.add_reaction_derivative(B_, at.t, at.q, pressed_by(rows.H_B, F[0], F.tail<2>()), c, S);
   }
 
   int tangents() const override { return tangents_; }
@@ -50,14 +50,15 @@ class MarkerOnPlane final : public ContactGeometry {
  private:
   const PointOnPlane& plane_;
   const plugin::Origin& origin_;
-  MarkerMotions& chain_;
+  MarkerMotions& markers_;
   int tangents_, A_, B_;
 };
 
 }  // namespace
 
-std::unique_ptr<ContactGeometry> marker_on_plane(const Model& model, const ContactEntry& entry, MarkerMotions& chain) {
-  return std::make_unique<MarkerOnPlane>(model, entry, chain);
+std::unique_ptr<ContactGeometry> marker_on_plane(const Model& model, const ContactEntry& entry,
+                                                 MarkerMotions& markers) {
+  return std::make_unique<MarkerOnPlane>(model, entry, markers);
 }
 
 }  // namespace trammel::model

@@ -23,24 +23,24 @@ using Change = MarkerPointChange;
 template <class Partner>
 class SurfaceOnMarker final : public SurfaceContact {
  public:
-  SurfaceOnMarker(const Model& model, const ContactEntry& entry, MarkerMotions& chain)
+  SurfaceOnMarker(const Model& model, const ContactEntry& entry, MarkerMotions& markers)
       : SurfaceContact(entry),
-        chain_(chain),
+        markers_(markers),
         points_(model.bodies[std::size_t(entry.surface->body)], *entry.surface->by_points,
                 Partner::marker_is_A ? entry.geometry.radius : std::numeric_limits<double>::infinity()),
         pressure_(entry),
-        marker_(chain.slot(Partner::marker_is_A ? entry.A : entry.B)),
-        surface_(chain.surface_slot(entry.surface->body)) {}
+        marker_(markers.slot(Partner::marker_is_A ? entry.A : entry.B)),
+        surface_(markers.surface_slot(entry.surface->body)) {}
 
   std::vector<int> slots() const override {
     return Partner::marker_is_A ? std::vector{marker_, surface_} : std::vector{surface_, marker_};
   }
 
   void rows(const Point& point, Rows& rows) override {
-    const Motion& marker = chain_.motion(marker_, point.t, point.q, point.v);
+    const Motion& marker = markers_.motion(marker_, point.t, point.q, point.v);
     if constexpr (Partner::marker_is_A) {
       surface_row(entry_.geometry.radius + points_.half_thickness(), marker,
-                  chain_.nearest(surface_, marker.x, point.t, point.q, point.v), rows);
+                  markers_.nearest(surface_, marker.x, point.t, point.q, point.v), rows);
     } else {
       PointOnPlane sheet = entry_.geometry;
       sheet.radius = points_.half_thickness();
@@ -78,7 +78,7 @@ class SurfaceOnMarker final : public SurfaceContact {
   std::optional<OnMarker> on_marker() const override { return OnMarker{marker_, on_marker_}; }
 
   void add_force(Vec& f) const override {
-    chain_.add_wrench(marker_, on_marker_, 1, f);
+    markers_.add_wrench(marker_, on_marker_, 1, f);
     by_patch([&](const SurfacePatch& patch, auto first, auto last) {
       SurfacePoints::OnNodes nodes = SurfacePoints::OnNodes::Zero(3, patch.R.cols());
       for (auto touch = first; touch != last; ++touch)
@@ -89,8 +89,8 @@ class SurfaceOnMarker final : public SurfaceContact {
 
   void add_tangent(const Point& point, double c_k, double c_d, Matrix& S) override {
     const Partner other = partner(point);
-    const Motion& marker = chain_.last_motion(marker_);
-    const bool marker_moves = chain_.body(marker_) >= 0;
+    const Motion& marker = markers_.last_motion(marker_);
+    const bool marker_moves = markers_.body(marker_) >= 0;
     Mat6 on_itself = Mat6::Zero(6, 6);
     Change by;
     by_patch([&](const SurfacePatch& patch, auto first, auto last) {
@@ -119,12 +119,12 @@ class SurfaceOnMarker final : public SurfaceContact {
       }
       points_.add_square(patch, square, S);
       if (!marker_moves) return;
-      const int v0 = chain_.first_velocity(marker_);
+      const int v0 = markers_.first_velocity(marker_);
       points_.add_columns(patch, marker.J.transpose() * on_the_marker, v0, marker.dofs, S);
       points_.add_rows(patch, by_marker * marker.J, v0, marker.dofs, S);
     });
-    chain_.add_pair(marker_, marker_, on_itself, 1, S);
-    if (c_k != 0) chain_.add_reaction_derivative(marker_, point.t, point.q, -on_marker_, c_k, S);
+    markers_.add_pair(marker_, marker_, on_itself, 1, S);
+    if (c_k != 0) markers_.add_reaction_derivative(marker_, point.t, point.q, -on_marker_, c_k, S);
   }
 
   void raise_pressure(int body, std::vector<double>& of_patch) const override {
@@ -157,7 +157,7 @@ class SurfaceOnMarker final : public SurfaceContact {
 
   static constexpr double sign() { return Partner::marker_is_A ? -1 : 1; }  // of F on a point
   Partner partner(const Point& point) {
-    return {entry_.geometry, chain_.motion(marker_, point.t, point.q, point.v), points_.half_thickness()};
+    return {entry_.geometry, markers_.motion(marker_, point.t, point.q, point.v), points_.half_thickness()};
   }
 
   // Calls f(patch, first touch, one past the last) for each patch with touches.
@@ -183,12 +183,12 @@ class SurfaceOnMarker final : public SurfaceContact {
       for (Eigen::Index k = 0; k < x.rows(); ++k)
         if (const double gap = other.gap(x.row(k)); gap < least) least = gap, patch = i, which = k;
     }
-    Motion& motion = chain_.surface_motion(surface_);
+    Motion& motion = markers_.surface_motion(surface_);
     points_.motion(points_.patch(patch), which, point.q, point.v, motion);
     return motion;
   }
 
-  MarkerMotions& chain_;
+  MarkerMotions& markers_;
   SurfacePoints points_;
   PointPressure pressure_;
   int marker_, surface_;
@@ -201,10 +201,10 @@ class SurfaceOnMarker final : public SurfaceContact {
 }  // namespace
 
 std::unique_ptr<ContactGeometry> surface_on_marker(const Model& model, const ContactEntry& entry,
-                                                   MarkerMotions& chain) {
+                                                   MarkerMotions& markers) {
   if (entry.surface->against == SurfaceSide::Against::sphere)
-    return std::make_unique<SurfaceOnMarker<PressingSphere>>(model, entry, chain);
-  return std::make_unique<SurfaceOnMarker<PressingPlane>>(model, entry, chain);
+    return std::make_unique<SurfaceOnMarker<PressingSphere>>(model, entry, markers);
+  return std::make_unique<SurfaceOnMarker<PressingPlane>>(model, entry, markers);
 }
 
 }  // namespace trammel::model

@@ -65,23 +65,23 @@ Along slide(const SurfaceJet& y, const V3& d) {
 
 class SurfaceOnSurface final : public SurfaceContact {
  public:
-  SurfaceOnSurface(const Model& model, const ContactEntry& entry, MarkerMotions& chain)
+  SurfaceOnSurface(const Model& model, const ContactEntry& entry, MarkerMotions& markers)
       : SurfaceContact(entry),
         side_(*entry.surface),
-        chain_(chain),
+        markers_(markers),
         points_(model.bodies[std::size_t(entry.surface->body)], *entry.surface->by_points,
                 std::numeric_limits<double>::infinity()),
         other_(model.bodies[std::size_t(entry.surface->other)]),
         pressure_(entry),
         reach_(points_.half_thickness() + other_.surface->half_thickness()),
-        slot_A_(chain.surface_slot(entry.surface->body)),
-        slot_B_(chain.surface_slot(entry.surface->other)) {}
+        slot_A_(markers.surface_slot(entry.surface->body)),
+        slot_B_(markers.surface_slot(entry.surface->other)) {}
 
   std::vector<int> slots() const override { return {slot_A_, slot_B_}; }
 
   void rows(const Point& point, Rows& rows) override {
     look(point);
-    Motion &A = chain_.surface_motion(slot_A_), &B = chain_.surface_motion(slot_B_);
+    Motion &A = markers_.surface_motion(slot_A_), &B = markers_.surface_motion(slot_B_);
     points_.motion(points_.patch(deepest_.patch), deepest_.point, point.q, point.v, A);
     motion_of_other(point, B);
     surface_row(reach_, A, B, rows);
@@ -268,7 +268,7 @@ class SurfaceOnSurface final : public SurfaceContact {
   }
 
   const SurfaceSide& side_;
-  MarkerMotions& chain_;
+  MarkerMotions& markers_;
   SurfacePoints points_;
   const BodyEntry& other_;
   PointPressure pressure_;
@@ -286,8 +286,8 @@ class SurfaceOnSurface final : public SurfaceContact {
 }  // namespace
 
 std::unique_ptr<ContactGeometry> surface_on_surface(const Model& model, const ContactEntry& entry,
-                                                    MarkerMotions& chain) {
-  return std::make_unique<SurfaceOnSurface>(model, entry, chain);
+                                                    MarkerMotions& markers) {
+  return std::make_unique<SurfaceOnSurface>(model, entry, markers);
 }
 
 }  // namespace trammel::model

@@ -27,7 +27,7 @@ FactorsAtPoint::FactorsAtPoint(Point& at, ContactsAtPoint& contacts, RowsAtPoint
       blocks_(blocks),
       sparse_(sparse),
       counts_(counts) {
-  const numerics::Levers levers = [&chain = at_.chain]() -> const Vec& { return chain.sizes().levers; };
+  const numerics::Levers levers = [&markers = at_.markers]() -> const Vec& { return markers.sizes().levers; };
   for (Kept& each : kept_)
     each.mass.measure_by(levers), each.iteration.measure_by(levers), each.sparse.measure_by(levers);
   if (blocks_) {
@@ -124,7 +124,7 @@ void FactorsAtPoint::reserve_contacts() {
   for (std::size_t i = 0; i < std::size_t(contacts_.count()); ++i) {
     const auto& side = at_.model->contacts[i].surface;
     if (!side || side->against == SurfaceSide::Against::surface) continue;
-    const int A = at_.chain.body(contacts_.slots(int(i)).A), B = at_.chain.body(contacts_.slots(int(i)).B);
+    const int A = at_.markers.body(contacts_.slots(int(i)).A), B = at_.markers.body(contacts_.slots(int(i)).B);
     if (A < 0 || B < 0 || A == B) continue;
     const auto range = [this](int body) {
       const BodyEntry& entry = at_.model->bodies[std::size_t(body)];
@@ -154,8 +154,8 @@ void FactorsAtPoint::add_rows_to(numerics::SparseSum& sum, bool sliding) {
   };
   const auto add_places = [&](const Slots& slots) {
     for (int k = 0; k < slots.count; ++k) {
-      if (at_.chain.body(slots[k]) < 0) continue;
-      const int v0 = at_.chain.first_velocity(slots[k]);
+      if (at_.markers.body(slots[k]) < 0) continue;
+      const int v0 = at_.markers.first_velocity(slots[k]);
       for (const int dof : at_.motion(slots[k]).dofs) row_places_.push_back(v0 + dof);
     }
   };

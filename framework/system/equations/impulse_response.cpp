@@ -46,7 +46,7 @@ ImpulseResponse::Solver ImpulseResponse::with_joints_held() {
         [held, this](const Vec& b, const Vec& c, Vec& x, Vec& y) { held->solve(blocks_->bodies(), b, c, x, y); });
   }
   const auto held = std::make_shared<numerics::MassKkt>();
-  held->measure_by([&chain = at_.chain]() -> const Vec& { return chain.sizes().levers; });
+  held->measure_by([&markers = at_.markers]() -> const Vec& { return markers.sizes().levers; });
   const Mat G = rows_.G().topRows(joint_rows);
   if (!(sparse_ ? held->factorise(masses_.sparse(), G, G) : held->factorise(masses_.dense(), G)))
     throw NotSolvable("the mass matrix is not positive definite");

@@ -77,15 +77,15 @@ const Vec& MassAndForceAtPoint::force() {
   const int twist = twist_size(at_.model->world.space);
   for (std::size_t i = 0; i < at_.forces.size(); ++i) {
     numerics::look_ahead(i, at_.forces.size(), [&](std::size_t next) {
-      at_.chain.prefetch(at_.forces[next].A), at_.chain.prefetch(at_.forces[next].B);
+      at_.markers.prefetch(at_.forces[next].A), at_.markers.prefetch(at_.forces[next].B);
     });
     const int A = at_.forces[i].A, B = at_.forces[i].B;
     at_.called(at_.model->forces[i].origin, "wrench");
     on_A_.setZero(twist);
     on_B_.setZero(twist);
     at_.model->forces[i].force->wrench(at_.t, at_.motion(A), at_.motion(B), on_A_, on_B_);
-    at_.chain.add_wrench(A, on_A_, 1, f_);
-    at_.chain.add_wrench(B, on_B_, 1, f_);
+    at_.markers.add_wrench(A, on_A_, 1, f_);
+    at_.markers.add_wrench(B, on_B_, 1, f_);
   }
   for (int i = 0; i < contacts_.count(); ++i)
     if (contacts_.entry(i).force && contacts_.mode(i).closed) add_contact(i);
@@ -101,7 +101,7 @@ void MassAndForceAtPoint::add_contact(int i) {
   const double N = contacts_.law_normal(i);
   const Tangential ratio = contacts_.friction_ratio(i);
   const Slots& slots = contacts_.slots(i);
-  for (int k = 0; k < slots.count; ++k) at_.chain.add_wrench(slots[k], pressed_by(r.H(k), 1, ratio), N, f_);
+  for (int k = 0; k < slots.count; ++k) at_.markers.add_wrench(slots[k], pressed_by(r.H(k), 1, ratio), N, f_);
 }
 
 void MassAndForceAtPoint::add_times(double c, const Vec& a, Vec& r) {

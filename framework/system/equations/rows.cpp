@@ -61,7 +61,7 @@ void RowsAtPoint::lay_out(int count, int held) {
     BodyBlocks::Tie& one = ties.emplace_back(BodyBlocks::Tie{row, 1, false, {}});
     for (const int i : contacts_.acting_with(d)) {
       const Slots& slots = contacts_.slots(i);
-      for (int k = 0; k < slots.count; ++k) one.bodies.push_back(at_.chain.body(slots[k]));
+      for (int k = 0; k < slots.count; ++k) one.bodies.push_back(at_.markers.body(slots[k]));
     }
   });
   std::sort(ties.begin(), ties.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -136,20 +136,20 @@ void RowsAtPoint::place_constant_rows() {
     std::array<Motion, Rows::most_markers> motions;
     std::array<const Motion*, Rows::most_markers> seen{};
     for (std::size_t k = 0; k < std::size_t(slots.count); ++k) {
-      motions[k] = at_.chain.motion_at_zero(slots[int(k)]);
+      motions[k] = at_.markers.motion_at_zero(slots[int(k)]);
       seen[k] = &motions[k];
     }
     at_.called(entry.origin, "rows");
     rows_.resize(entry.rows, at_.model->world.space, slots.count);
     entry.joint->rows_between(0, Motions(seen.data(), std::size_t(slots.count)), rows_);
     for (int k = 0; k < slots.count; ++k)  // sums from 0, in the order of the layout
-      blocks_->add_rows(at_.chain.body(slots[k]), entry.row, motions[std::size_t(k)], {rows_.H(k), 0, entry.rows});
+      blocks_->add_rows(at_.markers.body(slots[k]), entry.row, motions[std::size_t(k)], {rows_.H(k), 0, entry.rows});
     for (int row = 0; row < entry.rows; ++row) {
       constant_rows_.add_row(entry.row + row, rows_.g(row));
       for (int k = 0; k < slots.count; ++k) {
-        if (at_.chain.body(slots[k]) < 0) continue;
+        if (at_.markers.body(slots[k]) < 0) continue;
         const Motion& m = motions[std::size_t(k)];
-        const BodyEntry& body = at_.model->bodies[std::size_t(at_.chain.body(slots[k]))];
+        const BodyEntry& body = at_.model->bodies[std::size_t(at_.markers.body(slots[k]))];
         constant_rows_.add_marker();
         for (std::size_t j = 0; j < m.dofs.size(); ++j)
           constant_rows_.add_entry(body.q0 + m.dofs[j], body.v0 + m.dofs[j],
@@ -167,14 +167,14 @@ void RowsAtPoint::place(const Rows& r, const Slots& slots, const Seen& motions, 
     g_dot_(row + i) = r.g_t(first + i);
     gamma_(row + i) = r.gamma(first + i);
   }
-  for (int k = 0; k < slots.count && blocks_; ++k) blocks_->clear_rows(at_.chain.body(slots[k]), row, n);
+  for (int k = 0; k < slots.count && blocks_; ++k) blocks_->clear_rows(at_.markers.body(slots[k]), row, n);
   for (int k = 0; k < slots.count; ++k) {
     const Motion& m = *motions[std::size_t(k)];
     add_motion({r.H(k), first, n}, m, g_dot_.data() + row, gamma_.data() + row);
     if (blocks_)
-      blocks_->add_rows(at_.chain.body(slots[k]), row, m, {r.H(k), first, n});
+      blocks_->add_rows(at_.markers.body(slots[k]), row, m, {r.H(k), first, n});
     else
-      at_.chain.add_rows(slots[k], m, row, {r.H(k), first, n}, G_);
+      at_.markers.add_rows(slots[k], m, row, {r.H(k), first, n}, G_);
   }
 }
 
@@ -233,9 +233,9 @@ void RowsAtPoint::couple() {
 
 void RowsAtPoint::add_to_reaction(int slot, int row, const Mat6& H) {
   if (blocks_)
-    blocks_->add_reaction(at_.chain.body(slot), row, at_.motion(slot), {H, 0, H.rows()});
+    blocks_->add_reaction(at_.markers.body(slot), row, at_.motion(slot), {H, 0, H.rows()});
   else
-    at_.chain.add_rows(slot, at_.motion(slot), row, {H, 0, H.rows()}, W_);
+    at_.markers.add_rows(slot, at_.motion(slot), row, {H, 0, H.rows()}, W_);
 }
 
 void RowsAtPoint::unload_bearings() {
@@ -292,7 +292,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> RowsAtPoint::sparse() const {
 }
 
 double RowsAtPoint::rank_tolerance() const {
-  return numerics::rank_tolerance_at(g_.size() ? g_.lpNorm<Eigen::Infinity>() / at_.chain.sizes().length : 0);
+  return numerics::rank_tolerance_at(g_.size() ? g_.lpNorm<Eigen::Infinity>() / at_.markers.sizes().length : 0);
 }
 
 CallSite RowsAtPoint::find_not_finite() {

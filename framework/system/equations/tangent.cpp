@@ -37,7 +37,7 @@ void TangentAtPoint::add(Blend c, const Vec& a, const Vec& lambda, Matrix& S, co
     const ForceEntry& force = model.forces[i];
     at_.called(force.origin, force.tangent ? "add_wrench_tangent" : "wrench");
     const std::array<int, 2> both = {at_.forces[i].A, at_.forces[i].B};
-    add_wrench_tangent(at_.chain, both, at_.t, at_.q, at_.v, ForceWrench(*force.force, force.tangent, at_.t), -c.c_k,
+    add_wrench_tangent(at_.markers, both, at_.t, at_.q, at_.v, ForceWrench(*force.force, force.tangent, at_.t), -c.c_k,
                        -c.c_d, S);
   }
   for (std::size_t i = 0; i < at_.joints.size() && c.c_k != 0; ++i) add_joint(i, c.c_k, lambda, S);
@@ -73,7 +73,7 @@ void TangentAtPoint::add_body_by_differences(const BodyEntry& body, Blend c, con
     Matrix alone = Matrix::onto(M);
     body.body->mass(at_.t, place, alone);
   };
-  const Vec sizes = at_.chain.sizes().of.segment(body.v0, body.nv);
+  const Vec sizes = at_.markers.sizes().of.segment(body.v0, body.nv);
   Mat M, block;
   at_.called(body.origin, "mass");
   body.body->mass(at_.t, q, S);
@@ -112,7 +112,7 @@ void TangentAtPoint::add_joint(std::size_t i, double c_k, const Vec& lambda, Mat
   const auto slots = at_.joints[i].all();
   const Vec6 own = lambda.segment(joint.row, joint.rows);
   const auto used = std::span(slots).first(std::size_t(at_.joints[i].count));
-  add_reaction_tangent({*joint.joint, joint.tangent, used, own}, at_.chain, at_.t, at_.q, at_.v, c_k, S);
+  add_reaction_tangent({*joint.joint, joint.tangent, used, own}, at_.markers, at_.t, at_.q, at_.v, c_k, S);
 }
 
 void TangentAtPoint::add_contact(int i, Blend c, const Vec& lambda, Matrix& S) {
@@ -124,7 +124,7 @@ void TangentAtPoint::add_contact(int i, Blend c, const Vec& lambda, Matrix& S) {
   const auto add = [&](int row, double weight, auto&& along) {
     for (int k = 0; k < slots.count; ++k)
       for (int l = 0; l < slots.count; ++l)
-        at_.chain.add_pair(slots[k], slots[l], along(k) * r.H(l).row(row), weight, S);
+        at_.markers.add_pair(slots[k], slots[l], along(k) * r.H(l).row(row), weight, S);
   };
   // W^T lambda: the force of the row, or -f of the law, plus sliding friction
   double pull = 0, pull_beside = 0;

@@ -52,12 +52,12 @@ PairSizes sizes_of(const std::vector<Motion>& markers, double scene) {
 
 }  // namespace
 
-void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
+void add_wrench_tangent(MarkerMotions& markers, std::span<const int> slots, double t, const Vec& q, const Vec& v,
                         const MarkerWrenches& wrenches, double c_k, double c_d, Matrix& S) {
   const std::size_t n = slots.size();
   std::vector<Motion> now(n), probe;
   std::vector<const Motion*> seen(n);
-  for (std::size_t k = 0; k < n; ++k) now[k] = chain.motion(slots[k], t, q, v);
+  for (std::size_t k = 0; k < n; ++k) now[k] = markers.motion(slots[k], t, q, v);
   probe = now;
   for (std::size_t k = 0; k < n; ++k) seen[k] = &probe[k];
   const auto twist = now[0].V.size();
@@ -68,11 +68,11 @@ void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double
   };
   const auto turns = [&](std::size_t moved) { return c_k != 0 && !now[moved].V.isZero(0); };
   const auto add_by_pose = [&](std::size_t k, std::size_t moved, const Mat6& D) {
-    chain.add_pair(slots[k], slots[moved], D, c_k, S);
+    markers.add_pair(slots[k], slots[moved], D, c_k, S);
   };
   const auto add_by_velocity = [&](std::size_t k, std::size_t moved, const Mat6& D) {
-    if (c_d != 0) chain.add_pair(slots[k], slots[moved], D, c_d, S);
-    if (turns(moved)) chain.add_rate_pair(slots[k], slots[moved], D, t, q, v, c_k, S);
+    if (c_d != 0) markers.add_pair(slots[k], slots[moved], D, c_d, S);
+    if (turns(moved)) markers.add_rate_pair(slots[k], slots[moved], D, t, q, v, c_k, S);
   };
 
   PairTangent K, D;
@@ -83,12 +83,12 @@ void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double
       return k == 0 ? (moved == 0 ? of.AA : of.AB) : (moved == 0 ? of.BA : of.BB);
     };
     for (std::size_t moved = 0; moved < n; ++moved) {
-      if (chain.body(slots[moved]) < 0) continue;
+      if (markers.body(slots[moved]) < 0) continue;
       for (std::size_t k = 0; k < n && c_k != 0; ++k) add_by_pose(k, moved, block(K, k, moved));
       for (std::size_t k = 0; k < n; ++k) add_by_velocity(k, moved, block(D, k, moved));
     }
   } else {
-    const PairSizes size = sizes_of(now, chain.sizes().length);
+    const PairSizes size = sizes_of(now, markers.sizes().length);
     std::vector<Mat6> by(n);
     // by[k]: derivative of the wrench on marker k by component i of the pose or velocity that `move` changes; `move`
     // returns the step.
@@ -104,7 +104,7 @@ void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double
       }
     };
     for (std::size_t moved = 0; moved < n; ++moved) {
-      if (chain.body(slots[moved]) < 0) continue;
+      if (markers.body(slots[moved]) < 0) continue;
       if (c_k != 0) {
         difference(moved, [&](Motion& m, int i, double sign) {
           const bool place = i < m.x.size();
@@ -124,7 +124,7 @@ void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double
   }
   if (c_k == 0) return;
   evaluate(plus);
-  for (std::size_t k = 0; k < n; ++k) chain.add_reaction_derivative(slots[k], t, q, plus[k], c_k, S);
+  for (std::size_t k = 0; k < n; ++k) markers.add_reaction_derivative(slots[k], t, q, plus[k], c_k, S);
 }
 
 }  // namespace trammel::model

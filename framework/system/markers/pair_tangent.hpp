@@ -19,7 +19,7 @@ class MarkerWrenches {
   // For two markers: adds the derivatives by poses and velocities to blocks of zeros. False: there are no exact ones.
   virtual bool exact_tangent(Motions, PairTangent& /*K*/, PairTangent& /*D*/) const { return false; }
 };
-void add_wrench_tangent(MarkerMotions& chain, std::span<const int> slots, double t, const Vec& q, const Vec& v,
+void add_wrench_tangent(MarkerMotions& markers, std::span<const int> slots, double t, const Vec& q, const Vec& v,
                         const MarkerWrenches& wrenches, double c_k, double c_d, Matrix& S);
 
 }  // namespace trammel::model

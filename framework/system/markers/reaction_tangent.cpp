@@ -28,27 +28,27 @@ class Reaction final : public MarkerWrenches {
 
 }  // namespace
 
-void add_reaction_tangent(const ConstraintReaction& reaction, MarkerMotions& chain, double t, const Vec& q,
+void add_reaction_tangent(const ConstraintReaction& reaction, MarkerMotions& markers, double t, const Vec& q,
                           const Vec& v, double c, Matrix& S) {
   const auto& [constraint, exact, slots, lambda] = reaction;
-  const Motion& A = chain.motion(slots[0], t, q, v);
+  const Motion& A = markers.motion(slots[0], t, q, v);
   const Space space = A.x.size() == 2 ? Space::planar : Space::spatial;
-  if (!exact) return add_wrench_tangent(chain, slots, t, q, v, Reaction(constraint, t, lambda, space), c, 0, S);
-  const Motion& B = chain.motion(slots[1], t, q, v);
+  if (!exact) return add_wrench_tangent(markers, slots, t, q, v, Reaction(constraint, t, lambda, space), c, 0, S);
+  const Motion& B = markers.motion(slots[1], t, q, v);
   const auto twist = A.V.size();
   PairTangent by;
   for (Mat6* block : {&by.AA, &by.AB, &by.BA, &by.BB}) block->setZero(twist, twist);
   exact->add_reaction_tangent(t, A, B, lambda, by);
-  chain.add_pair(slots[0], slots[0], by.AA, c, S);
-  chain.add_pair(slots[0], slots[1], by.AB, c, S);
-  chain.add_pair(slots[1], slots[0], by.BA, c, S);
-  chain.add_pair(slots[1], slots[1], by.BB, c, S);
+  markers.add_pair(slots[0], slots[0], by.AA, c, S);
+  markers.add_pair(slots[0], slots[1], by.AB, c, S);
+  markers.add_pair(slots[1], slots[0], by.BA, c, S);
+  markers.add_pair(slots[1], slots[1], by.BB, c, S);
   Rows rows;
   rows.resize(constraint.row_count(space), space);
   const Motion* const both[] = {&A, &B};
   constraint.rows_between(t, both, rows);
-  chain.add_reaction_derivative(slots[0], t, q, rows.H_A.transpose() * lambda, c, S);
-  chain.add_reaction_derivative(slots[1], t, q, rows.H_B.transpose() * lambda, c, S);
+  markers.add_reaction_derivative(slots[0], t, q, rows.H_A.transpose() * lambda, c, S);
+  markers.add_reaction_derivative(slots[1], t, q, rows.H_B.transpose() * lambda, c, S);
 }
 
 }  // namespace trammel::model

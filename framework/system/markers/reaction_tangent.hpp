@@ -14,7 +14,7 @@ struct ConstraintReaction {
   std::span<const int> slots;    // of the constraint's markers
   const Vec6& lambda;            // of the constraint's rows
 };
-void add_reaction_tangent(const ConstraintReaction& reaction, MarkerMotions& chain, double t, const Vec& q,
+void add_reaction_tangent(const ConstraintReaction& reaction, MarkerMotions& markers, double t, const Vec& q,
                           const Vec& v, double c, Matrix& S);
 
 }  // namespace trammel::model

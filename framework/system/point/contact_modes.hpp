@@ -18,7 +18,7 @@ struct ContactMode {
   enum class Friction { none, stick, slide };
   Friction friction = Friction::none;
   Tangential direction = Tangential::Zero();  // slide: unit vector, the slip's direction at the step's start
-  double slow = 0;                            // [m/s] slide, in space: slip across `direction` below this counts as 0
+  double least_slip = 0;                      // [m/s] slide, in space: slip across `direction` below this counts as 0
   Tangential anchor = Tangential::Zero();     // [m] stick: coordinates along the tangents
   // Stick of a round body in space: A's orientation in B's axes when `anchor` was set, the reference for rolling.
   Eigen::Matrix3d rolled_from = Eigen::Matrix3d::Identity();

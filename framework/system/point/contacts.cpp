@@ -7,7 +7,7 @@ namespace trammel::model {
 
 ContactsAtPoint::ContactsAtPoint(Point& at) : at_(at) {
   for (const ContactEntry& entry : at_.model->contacts) {
-    const auto& geometry = geometries_.emplace_back(make_contact_geometry(*at_.model, entry, at_.chain));
+    const auto& geometry = geometries_.emplace_back(make_contact_geometry(*at_.model, entry, at_.markers));
     slots_.push_back(slots_from(geometry->slots()));
     surfaces_.push_back({dynamic_cast<SurfaceContact*>(geometry.get())});
   }
@@ -90,7 +90,7 @@ Tangential ContactsAtPoint::slip(int i) {
 }
 
 SlipDirection ContactsAtPoint::slip_direction(int i) {
-  return {slip(i), mode(i).direction, mode(i).slow};
+  return {slip(i), mode(i).direction, mode(i).least_slip};
 }
 
 // Evaluates the friction law, with its component named in the call site.
@@ -105,7 +105,7 @@ Tangential ContactsAtPoint::friction_ratio(int i) {
     const Tangential s = slip(i);
     const double mu =
         ask_friction(i, "kinetic_coefficient", [&] { return entry.coulomb->kinetic_coefficient(s.norm()); });
-    return -mu * SlipDirection(s, mode(i).direction, mode(i).slow).unit();
+    return -mu * SlipDirection(s, mode(i).direction, mode(i).least_slip).unit();
   }
   if (!entry.smooth || mode(i).friction == ContactMode::Friction::stick) return Tangential::Zero();
   const Tangential s = slip(i);
@@ -155,7 +155,7 @@ bool ContactsAtPoint::follow_slip() {
     if (!mode.closed || mode.friction == ContactMode::Friction::none || tangents(i) == 1) continue;
     if (mode.friction == ContactMode::Friction::slide) {
       const Tangential s = slip(i);
-      if (s.dot(mode.direction) > mode.slow) mode.direction = s.normalized();
+      if (s.dot(mode.direction) > mode.least_slip) mode.direction = s.normalized();
     } else if (geometry(i).rolls()) {
       anchor(i, mode);
       rolled = true;

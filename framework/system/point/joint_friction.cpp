@@ -190,7 +190,7 @@ void JointFriction::add_tangent(int contact, Blend c, const Vec& lambda, Matrix&
     const double weight = c.c_d * damping * load(contact, lambda);
     for (int k = 0; k < slots.count; ++k)
       for (int l = 0; l < slots.count; ++l)
-        at_.chain.add_pair(slots[k], slots[l], r.H(k).row(1).transpose() * r.H(l).row(1), weight, S);
+        at_.markers.add_pair(slots[k], slots[l], r.H(k).row(1).transpose() * r.H(l).row(1), weight, S);
   }
   const int row = contacts_.loads.place({contact, 1}).row;
   const double ratio = contacts_.friction_ratio(contact)[0], held = row >= 0 ? lambda(row) : 0;
@@ -200,7 +200,7 @@ void JointFriction::add_tangent(int contact, Blend c, const Vec& lambda, Matrix&
   const SlipForce force(joint, *contacts_.entry(contact).joint->bearing, at_.t, lambda.segment(joint.row, joint.rows),
                         ratio, held);
   const std::array<int, 2> both = {slots.A, slots.B};
-  add_wrench_tangent(at_.chain, both, at_.t, at_.q, at_.v, force, c.c_k, 0, S);
+  add_wrench_tangent(at_.markers, both, at_.t, at_.q, at_.v, force, c.c_k, 0, S);
 }
 
 }  // namespace model

@@ -11,10 +11,10 @@ Slots slots_from(const std::vector<int>& slots) {
   return all;
 }
 
-Point::Point(std::shared_ptr<const Model> m) : model(std::move(m)), chain(*model, site) {
-  const auto slots_of = [&](const std::vector<MarkerRef>& markers) {
+Point::Point(std::shared_ptr<const Model> m) : model(std::move(m)), markers(*model, site) {
+  const auto slots_of = [&](const std::vector<MarkerRef>& refs) {
     std::vector<int> each;
-    for (const MarkerRef& marker : markers) each.push_back(chain.slot(marker));
+    for (const MarkerRef& ref : refs) each.push_back(markers.slot(ref));
     return slots_from(each);
   };
   for (const ForceEntry& entry : model->forces) forces.push_back(slots_of({entry.A, entry.B}));
@@ -29,12 +29,12 @@ bool Point::move_to(double t_new, const Vec& q_new, const Vec& v_new) {
   q = q_new;
   v = v_new;
   ++number;
-  chain.new_point();
+  markers.new_point();
   return true;
 }
 
 void Point::hold_still(bool still) {
-  chain.hold_still(still);
+  markers.hold_still(still);
   if (number > 0) ++number;  // otherwise there is no point yet
   ++configuration;
 }
@@ -48,7 +48,7 @@ Seen Point::motions(const Slots& slots) {
 Seen Point::motions_in_passing(const Slots& slots) {
   Seen seen{};
   for (int k = 0; k < slots.count; ++k)
-    seen[std::size_t(k)] = &chain.motion_in_passing(slots[k], std::size_t(k), t, q, v);
+    seen[std::size_t(k)] = &markers.motion_in_passing(slots[k], std::size_t(k), t, q, v);
   return seen;
 }
 
@@ -58,7 +58,7 @@ void Point::evaluate(const Constraint& constraint, int n, const Seen& motions, i
 }
 
 void Point::add_row_force(const Slots& slots, const Rows& r, int row, double c, Vec& sum) const {
-  for (int k = 0; k < slots.count; ++k) chain.add_wrench(slots[k], r.H(k).row(row).transpose(), c, sum);
+  for (int k = 0; k < slots.count; ++k) markers.add_wrench(slots[k], r.H(k).row(row).transpose(), c, sum);
 }
 
 // Prefetches the beginning of a body's numbers; only the body knows their extent.

@@ -24,7 +24,7 @@ using Seen = std::array<const Motion*, Rows::most_markers>;  // null: no such ma
 
 struct Point {
   explicit Point(std::shared_ptr<const Model> model);
-  Point(const Point&) = delete;  // `chain` refers to `site`
+  Point(const Point&) = delete;  // `markers` refers to `site`
   Point& operator=(const Point&) = delete;
 
   bool move_to(double t, const Vec& q, const Vec& v);  // false: it is there already
@@ -34,7 +34,7 @@ struct Point {
   auto v_of(const BodyEntry& body) const { return v.segment(body.v0, body.nv); }
   ContactGeometry::Point here() const { return {t, q, v, number}; }
 
-  const Motion& motion(int slot) { return chain.motion(slot, t, q, v); }
+  const Motion& motion(int slot) { return markers.motion(slot, t, q, v); }
   Seen motions(const Slots& slots);
   Seen motions_in_passing(const Slots& slots);  // valid until the next such call
   // Evaluates n rows between the first `count` of these markers.
@@ -44,9 +44,9 @@ struct Point {
   template <class Use>
   void for_each_entry(const Slots& slots, const Rows& r, int row, Use&& use) {
     for (int k = 0; k < slots.count; ++k) {
-      if (chain.body(slots[k]) < 0) continue;
+      if (markers.body(slots[k]) < 0) continue;
       const Motion& m = motion(slots[k]);
-      const int v0 = chain.first_velocity(slots[k]);
+      const int v0 = markers.first_velocity(slots[k]);
       for_each_column({r.H(k), row, 1}, m.J,
                       [&](Eigen::Index j, const double* along, auto) { use(*along, v0 + m.dofs[std::size_t(j)]); });
     }
@@ -57,8 +57,8 @@ struct Point {
   void returned() { site.origin = nullptr; }
 
   std::shared_ptr<const Model> model;
-  CallSite site;  // must precede `chain`
-  MarkerMotions chain;
+  CallSite site;  // must precede `markers`
+  MarkerMotions markers;
   // Slots of forces lie next to each other in memory, because with many bodies most joints' markers are not evaluated.
   std::vector<Slots> forces, joints;
 

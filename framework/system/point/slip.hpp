@@ -5,12 +5,12 @@
 //
 // With x = s . d and y = s . p, p perpendicular to d (in the plane y = 0 and d = +1 or -1),
 //
-//     e = (X d + y p) / |X d + y p|,   X = max(|x|, slow)
+//     e = (X d + y p) / |X d + y p|,   X = max(|x|, least)
 //
-// e equals s/|s| while the slip turns by less than a right angle in the step, x > slow. If the step goes beyond that,
+// e equals s/|s| while the slip turns by less than a right angle in the step, x > least. If the step goes beyond that,
 // friction still acts against d, as in the plane, so that x decreases through 0 and its zero can be located. There the
-// contact either is at rest, |y| <= slow, or the slip has turned and d is set again (contact_mode.hpp). `slow` also
-// bounds the stiffness mu F_n / |s| across the slip.
+// contact either is at rest, |y| <= least, or the slip has turned and d is set again (contact_mode.hpp). `least` [m/s]
+// also bounds the stiffness mu F_n / |s| across the slip.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ using Tangential = Eigen::Vector2d;
 
 class SlipDirection {
  public:
-  SlipDirection(const Tangential& s, const Tangential& d, double slow)
-      : d_(d), p_(-d[1], d[0]), x_(s.dot(d)), y_(s.dot(p_)), slow_(slow), X_(std::max(std::abs(x_), slow)) {}
+  SlipDirection(const Tangential& s, const Tangential& d, double least)
+      : d_(d), p_(-d[1], d[0]), x_(s.dot(d)), y_(s.dot(p_)), least_(least), X_(std::max(std::abs(x_), least)) {}
 
   double along() const { return x_; }
   double across() const { return y_; }
@@ -38,13 +38,13 @@ class SlipDirection {
   Eigen::Matrix2d slope() const {
     const double R = std::hypot(X_, y_);
     if (R == 0) return Eigen::Matrix2d::Zero();
-    const double X_x = std::abs(x_) > slow_ ? std::copysign(1.0, x_) : 0;
+    const double X_x = std::abs(x_) > least_ ? std::copysign(1.0, x_) : 0;
     return (y_ * d_ - X_ * p_) * (y_ * X_x * d_ - X_ * p_).transpose() / (R * R * R);
   }
 
  private:
   Tangential d_, p_;
-  double x_, y_, slow_, X_;
+  double x_, y_, least_, X_;
 };
 
 }  // namespace trammel::model

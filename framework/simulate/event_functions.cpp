@@ -1,0 +1,187 @@
+// The functions whose zeros are events: which ones the present modes have, and their values.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "simulate/contact/signed_loads.hpp"
+#include "simulate/event_location.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+using Friction = model::ContactMode::Friction;
+
+}  // namespace
+
+void EventLocation::set_up_functions() {
+  for (int i = 0; i < int(system_.model().contacts.size()); ++i) add_functions(i);
+  const std::vector<model::SharedRows>& shared = system_.modes().shared;
+  for (std::size_t group = 0; group < shared.size(); ++group)
+    functions_.push_back({.contact = shared[group].implied.front().contact, .kind = Kind::follow, .group = int(group)});
+}
+
+void EventLocation::add_functions(int contact) {
+  const model::ContactEntry& entry = system_.model().contacts[contact];
+  const model::ContactMode& mode = system_.modes().contacts[contact];
+  if (entry.joint) {
+    add_loads(contact);
+    return add_friction(contact, false);
+  }
+  if (!mode.closed) {
+    const bool at_ends = entry.restitution && entry.restitution->treatment().onset == Restitution::Onset::next_step;
+    functions_.push_back(
+        {.contact = contact, .kind = Kind::approach, .at_ends = at_ends, .noise = scale_.of(contact).touching()});
+    return;
+  }
+  if (entry.restitution && entry.restitution->treatment().release == Restitution::Release::never) return;
+  const model::AssembledSystem::Sharing sharing = system_.sharing(contact);
+  const bool as_one = sharing.group >= 0 && !sharing.as_spring;
+  if (as_one && !has_group(sharing.group))
+    functions_.push_back({.contact = contact, .kind = Kind::unload, .group = sharing.group});
+  if (entry.force)
+    functions_.push_back({.contact = contact, .kind = Kind::leave, .noise = scale_.of(contact).touching()});
+  else if (!as_one)
+    functions_.push_back({.contact = contact, .kind = sharing.idle ? Kind::idle : Kind::press});
+  add_friction(contact, as_one);
+}
+
+// `as_one`: the spare load of those that share rows with it covers the force that holds it.
+void EventLocation::add_friction(int contact, bool as_one) {
+  const model::ContactEntry& entry = system_.model().contacts[contact];
+  const model::ContactMode& mode = system_.modes().contacts[contact];
+  if (mode.friction == Friction::slide)
+    functions_.push_back({.contact = contact, .kind = Kind::slide, .noise = scale_.of(contact).rest_speed()});
+  else if (mode.friction == Friction::stick && !as_one)
+    functions_.push_back({.contact = contact,
+                          .kind = Kind::hold,
+                          .at_ends = entry.coulomb->decide() == SetValuedFriction::Decide::every_evaluation});
+}
+
+// Loads of a sticking joint bound the friction that holds it; those of a sliding joint decide its motion.
+void EventLocation::add_loads(int contact) {
+  if (system_.modes().contacts[contact].friction == Friction::none) return;
+  const int count = count_signed_loads(system_.model(), contact);
+  for (int k = 0; k < count; ++k) functions_.push_back({.contact = contact, .kind = Kind::load, .bearing = k});
+}
+
+// Sets the side on which bearings press: the present one, or the other one if the load has just passed through 0.
+void EventLocation::choose_sides(const std::vector<EventFunction>& before) {
+  for (std::size_t k = 0; k < functions_.size(); ++k) {
+    EventFunction& function = functions_[k];
+    if (function.kind != Kind::load) continue;
+    const bool passed = before.size() == functions_.size() && before[k].reported;
+    function.side = passed ? -before[k].side : now_[k].f < 0 ? -1 : 1;
+    now_[k].f *= function.side;
+    function.noise = std::max(modes_.friction_noise(function.contact), 1e-12 * function.bound);
+  }
+}
+
+// Friction that holds exactly at its bound (equal blocks that brake as one) leaves no spare load, up to round-off. It
+// must not hide a loss of load of the other contacts.
+void EventLocation::allow_for_critical_friction() {
+  for (std::size_t k = 0; k < functions_.size(); ++k) {
+    EventFunction& function = functions_[k];
+    if (function.kind != Kind::unload) continue;
+    const double more = std::max(0.0, 1e-9 * function.bound - function.little);
+    function.little += more, now_[k].f += more;
+  }
+}
+
+bool EventLocation::has_group(int group) const {
+  return std::any_of(functions_.begin(), functions_.end(),
+                     [group](const EventFunction& f) { return f.group == group; });
+}
+
+double EventLocation::little_force(int group) {
+  const model::SharedRows& shared = system_.modes().shared[std::size_t(group)];
+  std::vector<model::ContactDirection> all = shared.basis;
+  all.insert(all.end(), shared.implied.begin(), shared.implied.end());
+  return modes_.force_noise(all);
+}
+
+// Of a compliant contact that only touches: its depth is round-off, and so is its force.
+double EventLocation::little_friction(int contact) {
+  const model::ContactEntry& entry = system_.model().contacts[std::size_t(contact)];
+  if (!entry.force || !entry.coulomb) return 0;
+  const double approach = system_.modes().contacts[std::size_t(contact)].approach_speed;
+  return entry.coulomb->static_coefficient() * entry.force->normal(-scale_.of(contact).touching(), 0, approach);
+}
+
+EventLocation::Value EventLocation::slide(int contact, const Vec& a) {
+  const model::Tangential& direction = system_.modes().contacts[contact].direction;
+  return {direction.dot(system_.slip(contact)), direction.dot(system_.slip_acceleration(contact, a))};
+}
+
+// At the system's point.
+bool EventLocation::lacks_direction(const EventFunction& function) {
+  return function.kind == Kind::slide && system_.tangents(function.contact) > 1 &&
+         system_.slip(function.contact).norm() < system_.modes().contacts[std::size_t(function.contact)].least_slip;
+}
+
+// A slip that stays below `least_slip` for ten times the time in which its acceleration would pass it is held: friction
+// whose direction is not resolved there acts as a stiff damper that other sticking contacts balance. At the system's
+// point, the end of the step.
+bool EventLocation::stalls(double h, const State& next, int k) {
+  const EventFunction& function = functions_[std::size_t(k)];
+  if (!lacks_direction(function)) return false;
+  const double pushed = std::max(function.pushed, system_.slip_acceleration(function.contact, next.a).norm());
+  return (function.undirected_for + h) * pushed >
+         10 * system_.modes().contacts[std::size_t(function.contact)].least_slip;
+}
+
+void EventLocation::measure_undirected(double h, const State& next, EventFunction& function) {
+  if (!lacks_direction(function)) {
+    function.undirected_for = function.pushed = 0;
+    return;
+  }
+  function.undirected_for += h;
+  function.pushed = std::max(function.pushed, system_.slip_acceleration(function.contact, next.a).norm());
+}
+
+double EventLocation::force(EventFunction& function, double t, const Vec& lambda) {
+  if (function.kind == Kind::idle) return -system_.spring_force(function.contact, lambda);
+  if (function.kind == Kind::unload) {
+    function.bound = system_.largest_load(function.group, lambda);
+    return function.little + system_.spare_load(function.group, lambda);
+  }
+  const double N = system_.normal_force(function.contact, lambda);
+  if (function.kind == Kind::load) {
+    function.bound = N;
+    return function.side * signed_loads(system_, function.contact, t, lambda)[std::size_t(function.bearing)];
+  }
+  if (function.kind == Kind::hold)
+    function.bound = system_.model().contacts[function.contact].coulomb->static_coefficient() * N;
+  return function.kind == Kind::press ? N : function.bound - system_.friction_force(function.contact, lambda).norm();
+}
+
+int EventLocation::evaluate(const State& state, std::vector<Value>& values) {
+  system_.move_to(state.t, state.q, state.v);
+  values.resize(functions_.size());
+  bool accelerated = false;
+  for (std::size_t k = 0; k < functions_.size(); ++k) values[k] = value(int(k), state, accelerated);
+  return accelerated ? system_.sign() : 0;
+}
+
+// The function at `state`, the system's point. `accelerated`: a_ and lambda_ have been solved at this point.
+EventLocation::Value EventLocation::value(int k, const State& state, bool& accelerated) {
+  const auto accelerate = [&] {
+    if (!std::exchange(accelerated, true)) system_.accelerate({}, a_, lambda_);
+  };
+  EventFunction& function = functions_[std::size_t(k)];
+  if (function.kind == Kind::slide) return slide(function.contact, state.a);
+  if (function.kind == Kind::follow) {
+    accelerate();
+    return {function.little - system_.departure(function.group, a_), 0};
+  }
+  if (!by_force(k)) {
+    const double sign = function.kind == Kind::leave ? -1 : 1;
+    return {sign * system_.gap(function.contact), sign * system_.gap_rate(function.contact)};
+  }
+  if (function.kind == Kind::hold && function.at_ends)
+    return {scale_.of(function.contact).no_acceleration() - system_.slip_acceleration(function.contact, state.a).norm(),
+            0};
+  if (!own_force_) accelerate();
+  return {force(function, state.t, own_force_ ? state.lambda : lambda_), 0};
+}
+
+}  // namespace trammel::simulate
