@@ -85,6 +85,27 @@ TEST_P(EveryIntegrator, ResumesFromItsArchiveBitForBit) {
   EXPECT_TRUE(same_bits(end, again));
 }
 
+TEST_P(EveryIntegrator, RestartsLikeAFreshOne) {
+  Posed s(problems::pendulum_with_rod()), t(problems::pendulum_with_rod());
+  auto used = method(), fresh = method();
+  const State start = s.start();
+  used->restart(s, start);
+  advance(*used, s, start, 4e-3, 7);
+  used->restart(s, start), fresh->restart(t, start);
+  State now = start, next, of_fresh;
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(used->step(s, now, 5e-3, next));
+    ASSERT_TRUE(fresh->step(t, now, 5e-3, of_fresh));
+    EXPECT_TRUE(same_bits(next, of_fresh)) << i;
+    if (auto* estimate = dynamic_cast<ErrorEstimate*>(used.get())) {
+      auto& of_other = dynamic_cast<ErrorEstimate&>(*fresh);
+      EXPECT_EQ(estimate->error(s, now, next, {}), of_other.error(t, now, of_fresh, {})) << i;
+    }
+    used->accept(s, now, next), fresh->accept(t, now, of_fresh);
+    now = next;
+  }
+}
+
 TEST_P(EveryIntegrator, KeepsItsAccuracyWhenRowsComeAndGo) {
   // The rod is taken off for a while (free flight, exactly known) and put back; against small steps of dop853.
   const auto flown = [](Integrator& m, double h) {
@@ -186,6 +207,40 @@ TEST_P(NewmarkFamily, NeedsThreeResidualsAndOneFactorisationAStepOnNonlinearOsci
   EXPECT_EQ(factorisations, 1000);
   // Each residual asks for f, and for its size when it judges the round-off.
   EXPECT_LE(evaluations, 2 * 3000 + 2000);
+}
+
+// f = 1 + t: the line through the last two accelerations is exact, whatever the sizes of the steps.
+TEST_P(NewmarkFamily, NeedsOneResidualWhereAccelerationsChangeLinearly) {
+  int evaluations = 0;
+  Posed s(particle([&](double t, const Vec&, const Vec&) { return ++evaluations, Vec::Constant(1, 1 + t); }));
+  auto method = make(GetParam().name, GetParam().settings);
+  State now = s.start(), next;
+  method->restart(s, now);
+  now = advance(*method, s, now, 0.1, 1);
+  for (const double h : {0.05, 0.15, 0.1, 0.1, 0.02}) {
+    evaluations = 0;
+    now = advance(*method, s, now, h, 1);
+    // The numerical tangent asks four times: at two places and two velocities.
+    EXPECT_EQ(evaluations, 1 + 4) << h;
+  }
+}
+
+// Its matrix includes the damping, of which 5 times as much as of the mass acts in this step.
+TEST_P(NewmarkFamily, SolvesLinearEquationsByOneIncrement) {
+  int evaluations = 0;
+  Problem counted = oscillators({2}, 5);
+  counted.force = [&, force = counted.force](double t, const Vec& q, const Vec& v) {
+    return ++evaluations, force(t, q, v);
+  };
+  Posed s(counted);
+  auto method = make(GetParam().name, GetParam().settings);
+  const State start = s.start();
+  method->restart(s, start);
+  evaluations = 0;
+  advance(*method, s, start, 1, 1);
+  // The residual of a_n, which leads astray, the one to be solved for, and the one that finds nothing left; the size of
+  // forces, beside which that is nothing.
+  EXPECT_EQ(evaluations, 4);
 }
 
 // At rest any acceleration leads further than the velocity does; of a slow motion it is the best guess all the same.
