@@ -24,7 +24,7 @@ double largest_of(const Vec& a, const Vec& b) {
 double error_norm(const Vec& e_q, const Vec& e_v, const State& now, const State& next, const Tolerance& tolerance) {
   const Eigen::Index n = e_v.size();
   if (n == 0) return 0;
-  const double ahead = steps_in_a_motion * std::abs(next.t - now.t);
+  const double ahead = steps_in_a_motion * (next.t - now.t);
   const bool flat = now.q.size() == n;
   const double all_q = largest_of(now.q, next.q), round_off_q = 4 * eps * all_q;
   const double round_off_v = 4 * eps * largest_of(now.v, next.v);

@@ -56,7 +56,6 @@ void NewmarkStep::begin(const System& s, const State& now, double h, double c_q,
   next.t = now.t + h;
   next.a = now.a;
   h_ = h;
-  moved_ = 0;
   doubted_ = false;
   find_lead(now, now.a);
   next.lambda = now.lambda;

@@ -17,9 +17,7 @@ void Newton::start(double share_of_first) {
   state_ = State::iterating;
   wants_factors_ = true;
   iterations_ = 0;
-  last_change_ = 0;
   rate_ = 1;
-  reason_ = "";
 }
 
 void Newton::judge(double change, bool at_round_off) {
@@ -36,7 +34,7 @@ void Newton::judge(double change, bool at_round_off) {
     state_ = State::converged;
     return;
   }
-  if (iterations_ > 2 && rate_before > 1 && rate_ > 1 && change > hopeless)
+  if (rate_before > 1 && rate_ > 1 && change > hopeless)
     return fail("Newton's iteration did not converge");
   if (iterations_ >= max_iterations) return fail("Newton's iteration did not converge");
   wants_factors_ = !first && rate_ > 0.3;

@@ -66,12 +66,17 @@ TEST(ErrorAlongRows, LeavesWhatIsAlongTheRows) {
   EXPECT_LE((e - 2 * along).norm(), 1e-14);  // some roundings of numbers about 3
 }
 
-TEST(ErrorAlongRows, LeavesEverythingWhereThereAreNoRows) {
-  const Problem problem = problems::pendulum();
+TEST(ErrorAlongRows, LeavesEverythingWhereThereAreNoRowsAndEvaluatesNothing) {
+  Problem problem = problems::pendulum();
+  int evaluations = 0;
+  problem.mass = [&, M = problem.M](const Vec&) { return ++evaluations, M; };
   const auto system = problem.system();
+  const State at = problem.solution(0);
+  evaluations = 0;
   Vec e = Vec::Constant(1, 3);
-  ErrorAlongRows().project(*system, problem.solution(0), e);
+  ErrorAlongRows().project(*system, at, e);
   EXPECT_EQ(e[0], 3);
+  EXPECT_EQ(evaluations, 0);
 }
 
 }  // namespace

@@ -65,6 +65,15 @@ TEST(ErrorNorm, MeasuresACoordinateByItselfWhereAStepIsManySwingsLong) {
   EXPECT_NEAR(norm(0.01, 0, 0.5, 1e3, 1, {.relative = 1e-3, .absolute = 0}), expected, 1e-11 * expected);
 }
 
+TEST(ErrorNorm, MeasuresACoordinateByItselfAtTheLargerEnd) {
+  const Tolerance relative{.relative = 1e-3, .absolute = 0};
+  const State near = at(0, vec(0.1), vec(1e3)), far = at(1, vec(-0.5), vec(1e3));
+  const double expected = 0.01 / (1e-3 * 0.5) / std::sqrt(2);
+  EXPECT_NEAR(error_norm(vec(0.01), vec(0), near, far, relative), expected, 1e-11 * expected);
+  const State back = at(2, vec(0.1), vec(1e3));
+  EXPECT_NEAR(error_norm(vec(0.01), vec(0), far, back, relative), expected, 1e-11 * expected);
+}
+
 TEST(ErrorNorm, MeasuresRotationsByTheLargestEntry) {
   // q has four numbers, v three: the entries of q do not belong to those of v.
   const Vec q = Eigen::Vector4d(0.1, 0.8, 0.5, 0.1), v = Vec::Constant(3, 100);
