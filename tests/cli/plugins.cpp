@@ -366,7 +366,7 @@ TEST_F(Plugin, ThatReturnsNanIsNamedWithTheTime) {
 // Whichever call throws, and whoever asked for it: a joint asks for motions of bodies, a contact for its friction law.
 TEST_F(Plugin, ThatThrowsIsNamedInEveryCallOfEveryInterface) {
   const std::string scene = R"({"trammel": 1, "space": "planar", "gravity": [0, -9.81],
-    "bodies": {"b": {"type": "throwing_body"}, "c": {"type": "throwing_body"}, "p": {"type": "point_mass", "mass": 1, "velocity": [1, 0]}},
+    "bodies": {"b": {"type": "throwing_body"}, "c": {"type": "throwing_body"}, "p": {"type": "point_mass", "mass": 1, "velocity": [1, -0.1]}},
     "joints": {"j": {"type": "throwing_joint", "between": ["ground", "b.point"]}},
     "forces": {"f": {"type": "throwing_force", "between": ["ground", "c.point"]}},
     "contacts": {"k": {"type": "throwing_contact", "friction": {"type": "throwing_friction"},
@@ -374,7 +374,7 @@ TEST_F(Plugin, ThatThrowsIsNamedInEveryCallOfEveryInterface) {
     "integrator": {"type": "hht_alpha", "alpha": -0.1, "step": 1e-3}, "simulate": {"until": 0.01}})";
   cli::write_file(folder.path() / "throws.json", scene);
   struct Case {
-    const char *path, *kind, *call;
+    const char *path, *kind, *call, *when = "";
   };
   for (const Case& c : {Case{"bodies.b", "body throwing_body", "mass"},
                         {"bodies.b", "body throwing_body", "force"},
@@ -389,12 +389,13 @@ TEST_F(Plugin, ThatThrowsIsNamedInEveryCallOfEveryInterface) {
                         {"forces.f", "force throwing_force", "potential"},
                         {"forces.f", "force throwing_force", "power"},
                         {"contacts.k", "contact throwing_contact", "normal"},
+                        {"contacts.k", "contact throwing_contact", "normal", " at rest"},
                         {"contacts.k", "contact throwing_contact", "potential"},
                         {"contacts.k", "contact throwing_contact", "slope"},
                         {"contacts.k.friction", "friction throwing_friction", "ratio"},
                         {"contacts.k.friction", "friction throwing_friction", "slope"}}) {
     const auto result = trammel({"run", "throws.json", "--plugin", (kPlugins / "throws_in.so").string(), "--set",
-                                 std::string(c.path) + ".in=" + c.call},
+                                 std::string(c.path) + ".in=" + c.call + c.when},
                                 {.folder = folder.path()});
     EXPECT_EQ(result.exit_code, 3) << c.path << ", " << c.call << ": " << result.err;
     EXPECT_THAT(result.err, HasSubstr(std::string(c.kind) + " (" + c.path + "): " + c.call)) << result.err;

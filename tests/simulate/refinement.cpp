@@ -80,6 +80,16 @@ TEST(Refinement, HappensAtTheInstantOfTheContactThatCausesIt) {
   EXPECT_EQ(refinement(run).t, impacts.front().t);
 }
 
+TEST(Refinement, ThatGivesNoNumbersEndsTheRunAndIsNamed) {
+  for (const char* spoils : {"q", "v"}) {
+    const Finished run = run_text(
+        scene(fmt::format(R"("speed": 0.5, "stretch": 0.1, "at_time": 0.1, "spoils": "{}")", spoils), "", rk4));
+    EXPECT_EQ(run.report.status, simulate::Status::failed) << spoils;
+    EXPECT_NE(run.report.reason.find("the refinement of bar gave numbers that are not finite"), std::string::npos)
+        << run.report.reason;
+  }
+}
+
 TEST(Refinement, IsReportedWithTheSizesInTheResult) {
   const Finished run = run_text(flying(rk4));
   const auto sizes = run.result.at("sizes");

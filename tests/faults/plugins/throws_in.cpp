@@ -90,8 +90,9 @@ struct ThrowingForce : Fault, Force {
 };
 
 struct ThrowingContact : Fault, ContactForce {
-  double normal(double gap, double, double) const override {
+  double normal(double gap, double rate, double) const override {
     call("normal");
+    if (rate == 0) call("normal at rest");  // which only the balance of energy asks for
     return gap < 0 ? -1e4 * gap : 0;
   }
   double potential(double gap) const override {

@@ -6,6 +6,7 @@
 // neither the shape nor the velocity field, and mass, momentum and energies stay to round-off.
 #include <array>
 #include <limits>
+#include <string>
 
 #include <trammel/body.hpp>
 #include <trammel/plugin.hpp>
@@ -16,18 +17,23 @@ using namespace trammel;
 
 // Old nodes keep their values, new ones between them take the mean.
 struct Halving : Transfer {
-  void q(In old, Out fresh) const override {
+  explicit Halving(const std::string& what) : spoils(what) {}
+  std::string spoils;
+
+  void q(In old, Out fresh) const override { halve(old, fresh, spoils == "q"); }
+  void v(In old, Out fresh) const override { halve(old, fresh, spoils == "v"); }
+  static void halve(In old, Out fresh, bool spoilt) {
     for (Eigen::Index i = 0; i < old.size(); ++i) fresh(2 * i) = old(i);
     for (Eigen::Index i = 0; i + 1 < old.size(); ++i) fresh(2 * i + 1) = 0.5 * (old(i) + old(i + 1));
+    if (spoilt) fresh(1) = std::numeric_limits<double>::quiet_NaN();
   }
-  void v(In old, Out fresh) const override { q(old, fresh); }
 };
 
 struct RefiningBar : Body, Refinable, HasMomentum {
   int elements = 4;
   double length = 1, mass_ = 1, stiffness = 100, speed = 0, stretch = 0;
   double at_time = std::numeric_limits<double>::infinity();
-  std::string at_contact;
+  std::string at_contact, spoils;
 
   Coordinates coordinates() const override { return Coordinates::flat(elements + 1); }
   void initial(Out q, Out v) const override {
@@ -80,7 +86,7 @@ struct RefiningBar : Body, Refinable, HasMomentum {
   std::unique_ptr<Transfer> refine(double, In, In, const RefineCause&) override {
     refined_ = true;
     elements *= 2;
-    return std::make_unique<Halving>();
+    return std::make_unique<Halving>(spoils);
   }
   void archive(Archive& a) override { a("elements", elements), a("refined", refined_); }
 
@@ -99,4 +105,5 @@ TRAMMEL_PLUGIN(body<RefiningBar>("refining_bar", "elastic bar along x that halve
                    .parameter("stretch", &RefiningBar::stretch, {.doc = "strain at the start"})
                    .parameter("at_time", &RefiningBar::at_time,
                               {.unit = "s", .doc = "refines at the first step's end from then"})
-                   .parameter("at_contact", &RefiningBar::at_contact, {.doc = "refines when this contact closes"}))
+                   .parameter("at_contact", &RefiningBar::at_contact, {.doc = "refines when this contact closes"})
+                   .parameter("spoils", &RefiningBar::spoils, {.doc = "q or v: the refinement gives NaN in it"}))
