@@ -2,6 +2,7 @@
 
 #include <trammel/methods/runge_kutta.hpp>
 #include <trammel/testing/archive.hpp>
+#include <trammel/testing/problems.hpp>
 
 namespace trammel {
 namespace {
@@ -53,6 +54,17 @@ TEST(RungeKuttaError, GoesOnInAResumedRunAndBeginsAnewWithAMotion) {
   EXPECT_EQ(error(resumed, 1.05, 0.05, 1000), 0.5);
   resumed.forget();
   EXPECT_EQ(error(resumed, 1.1, 0.05, 1000), 1000);
+}
+
+TEST(RungeKuttaError, BeginsAnewWithAMotion) {
+  RungeKutta method = on_rows();
+  error(method, 1, 0.1, 1000);
+  ASSERT_EQ(error(method, 1, 0.05, 1000), 0.5);
+  const Problem problem = problems::pendulum_with_rod();
+  const auto system = problem.system();
+  Slope slope;
+  method.begin(*system, problem.solution(0), slope);
+  EXPECT_EQ(error(method, 1.05, 0.05, 1000), 1000);
 }
 
 }  // namespace

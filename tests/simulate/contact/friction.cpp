@@ -272,6 +272,26 @@ TEST(RigidBlockOnTwoFeet, SlidesWhenThePullExceedsBothBounds) {
   EXPECT_NEAR(run.end("x") - run.series.at("x")[0], std::pow(1.3 - 0.981, 3), 1e-9);
 }
 
+// Points on one floor, at 1 m/s and 0.5 m/s: that the slower one stops is no reason for the other to do so.
+TEST(SlidingPoints, StopEachAtItsOwnTimeAndPlace) {
+  const double mu = 0.3, g = 9.81;
+  const Finished run = run_text(R"({"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+    "bodies": {"slow": {"type": "point_mass", "mass": 1, "position": [0, 0], "velocity": [0.5, 0]},
+               "fast": {"type": "point_mass", "mass": 1, "position": [0, 0], "velocity": [1, 0]}},
+    "contacts": {"slow": {"type": "constraint_method", "between": ["slow.point", {"plane": {"point": [0, 0], "normal": [0, 1]}}],
+                          "friction": {"type": "coulomb", "static": 0.3, "kinetic": 0.3}},
+                 "fast": {"type": "constraint_method", "between": ["fast.point", {"plane": {"point": [0, 0], "normal": [0, 1]}}],
+                          "friction": {"type": "coulomb", "static": 0.3, "kinetic": 0.3}}},
+    "simulate": {"until": 0.5}, "record": {"every": 0.1, "observe": {"slow": "slow.point.x", "fast": "fast.point.x"}}})");
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  const auto stops = run.of_kind("stick");
+  ASSERT_EQ(stops.size(), 2u);
+  EXPECT_NEAR(stops[0].t, 0.5 / (mu * g), 1e-9);
+  EXPECT_NEAR(stops[1].t, 1 / (mu * g), 1e-9);
+  EXPECT_NEAR(run.end("slow"), 0.25 / (2 * mu * g), 1e-9);
+  EXPECT_NEAR(run.end("fast"), 1 / (2 * mu * g), 1e-9);
+}
+
 // Painleve's rod of m = l = 1, its tip on the floor sliding to -x at 1 m/s.
 std::string rod(double theta, double mu, double omega) {
   const double c = std::cos(theta), s = std::sin(theta);
