@@ -99,14 +99,29 @@ TEST(RowsOfRungeKutta, OfAFastMotionNeedNoMorePoints) {
   EXPECT_LE(points(1e6), points(1));
 }
 
+// An error across the rod, and one along its circle.
+TEST(RowsOfRungeKutta, AreLeftOutOfTheErrorAlongThem) {
+  Posed s(problems::pendulum_with_rod());
+  const State at = s.start();
+  const Vec none = Vec::Zero(2), along = Eigen::Vector2d(-at.q[1], at.q[0]);
+  RungeKutta method({1, nullptr, nullptr, nullptr});
+  const Tolerance one{.relative = 0, .absolute = 1};
+  const auto norm = [&](RungeKutta::Part part, Vec e_v) { return method.norm(s, at, at, none, e_v, part, one); };
+  EXPECT_NEAR(norm(RungeKutta::Part::whole, 3 * at.q + 2 * along), std::sqrt(13 / 4.0), 1e-14);
+  EXPECT_NEAR(norm(RungeKutta::Part::along_rows, 3 * at.q + 2 * along), 1, 1e-14);
+}
+
 struct Stepped {
   State next;
   int factorisations;
 };
-Stepped step_of(const char* name, const std::string& rows, double h) {
+// Of the pendulum whose pivot is at `x`.
+Stepped step_of(const char* name, const std::string& rows, double h, double x = 0) {
   int points = 0;
   Problem p = problems::pendulum_with_rod(1, 4);
-  p.rows = [&, of = p.rows](double t, const Vec& q, const Vec& v) { return ++points, of(t, q, v); };
+  const Eigen::Vector2d pivot(x, 0);
+  p.rows = [&, of = p.rows](double t, const Vec& q, const Vec& v) { return ++points, of(t, q - pivot, v); };
+  p.exact = [&, of = p.exact](double t, Vec& q, Vec& v) { of(t, q, v), q += pivot; };
   Posed posed(p);
   kit::Failing counted(posed, kit::Failing::How::singular);
   auto method = make(name, {{"rows", rows}});
@@ -122,6 +137,7 @@ Stepped step_of(const char* name, const std::string& rows, double h) {
 TEST(NullSpace, NeedsOneFactorisationAStep) {
   for (const char* name : {"runge_kutta_4", "dormand_prince"}) {
     EXPECT_EQ(step_of(name, "null_space", 0.01).factorisations, 1) << name;
+    EXPECT_EQ(step_of(name, "null_space", 0.01, 1e4).factorisations, 1) << name << ", far from the origin";
     EXPECT_GE(step_of(name, "projected", 0.01).factorisations, 4) << name;
   }
 }
