@@ -206,6 +206,20 @@ TEST_P(DenseOutputOf, LooksIntoTheStepItIsGivenAfterOtherTrials) {
   EXPECT_TRUE(same_bits(before.q, after.q) && same_bits(before.v, after.v));
 }
 
+TEST_P(DenseOutputOf, StaysOnTheManifold) {
+  Posed s(problems::heavy_top());
+  auto method = make(GetParam().name);
+  auto& dense = dynamic_cast<DenseOutput&>(*method);
+  const State now = s.start();
+  State next, at;
+  method->restart(s, now);
+  ASSERT_TRUE(method->step(s, now, 0.02, next));
+  for (const double theta : {0.2, 0.5, 0.9}) {
+    dense.interpolate(s, now, next, theta, at);
+    EXPECT_NEAR(at.q.norm(), 1, 1e-15);
+  }
+}
+
 TEST_P(DenseOutputOf, TellsStepsApartWhoseAccelerationsAgree) {
   Posed s(oscillators({0}));  // no force: every step ends with the same acceleration
   auto method = make(GetParam().name);
