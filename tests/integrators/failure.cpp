@@ -44,6 +44,7 @@ class FailingSystem : public testing::TestWithParam<Form> {
       if (auto* dense = dynamic_cast<DenseOutput*>(method.get()))
         for (const double theta : {0.3, 0.7}) {
           dense->interpolate(system, now, next, theta, inside);
+          EXPECT_NEAR(inside.t, now.t + theta * h, 1e-15);
           const bool state = inside.q.allFinite() && inside.v.allFinite();
           EXPECT_TRUE(state || system.has_failed()) << n;
           if (state) {
