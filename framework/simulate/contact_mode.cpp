@@ -22,6 +22,8 @@ constexpr double least_approach = 1e-6;
 // Of the accelerations. A contact that has just opened departs as slowly as its force passed 0, up to the round-off of
 // forces.
 constexpr double opened_by_error = 1e-6;
+// Of the coefficients of friction: how far the state may be from that at which joints lock.
+constexpr double locked_by_error = 1e-7;
 
 bool is_idle(const model::Modes& modes, int contact) {
   return std::any_of(modes.shared.begin(), modes.shared.end(), [&](const model::SharedRows& group) {
@@ -147,9 +149,15 @@ complementarity::ContactSolution ContactModes::strike_without_collision(State& s
     append_impacts(state.t, false, events);
     find_touching({});
   }
-  for (TouchingContact& c : touching_) c.without_collision = true, c.raised = changes.raised;
-  for (TouchingContact& c : bearings_) c.without_collision = true;
-  const auto impact = strike(state, changes);
+  const auto strike_with = [&](double raised) {
+    for (TouchingContact& c : touching_) c.without_collision = true, c.raised = raised;
+    for (TouchingContact& c : bearings_) c.without_collision = true, c.raised = raised;
+    return strike(state, changes);
+  };
+  auto impact = strike_with(changes.raised);
+  // Steps may end a little before the state at which joints lock.
+  if (changes.locked && impact.outcome == LcpOutcome::gave_up && changes.raised < locked_by_error)
+    impact = strike_with(locked_by_error);
   if (impact.outcome != LcpOutcome::solved) {
     const auto others = changes.locked ? decide_otherwise(state, changes) : impact;
     if (others.outcome != LcpOutcome::solved) fail_without_impact(state.t, impact);

@@ -14,8 +14,10 @@ using complementarity::LcpOutcome;
 constexpr int most_rounds = 60;
 // Of the largest load: largest difference between two rounds, some units of the round-off of a solution.
 constexpr double settled = 1e-13;
-// Of the largest load: step of the differences. The function is piecewise linear, or nearly so.
+// Of the largest load: step of the differences. The function is piecewise linear, or nearly so: they are taken on that
+// side of N to which the rounds go, so that they belong to its piece also where N is next to a kink.
 constexpr double difference = 1e-6;
+constexpr double shortest_step = 1e-3;  // of Newton's method
 // Of the largest load by an impulse: a smaller load is round-off of the reactions.
 constexpr double no_load = 1e-9;
 
@@ -126,21 +128,34 @@ ContactSolution BearingImpulses::solve(ContactProblem& problem, double at_rest, 
     return loads(asked, applied + reaction(problem.who));
   };
   const auto n = Eigen::Index(bearings_.size());
-  Vec N = Vec::Constant(n, from == From::held ? large_load(asked) : 0);
-  for (int round = 0; round < most_rounds; ++round) {
-    const Vec next = follow(N);
-    if (solution.outcome != LcpOutcome::solved) return solution;
-    if ((next - N).lpNorm<Eigen::Infinity>() <= settled * next.lpNorm<Eigen::Infinity>()) return solution;
-    Vec step = next - N;
-    if (round >= 10) {  // Newton's method
-      Mat slope = Mat::Identity(n, n);
-      const double d = difference * std::max(N.maxCoeff(), next.maxCoeff());
-      for (Eigen::Index j = 0; j < n; ++j) slope.col(j) -= (follow(N + d * Vec::Unit(n, j)) - next) / d;
-      step = Vec(Eigen::FullPivLU<Mat>(slope).solve(step));
-      if (!step.allFinite()) step = next - N;
+  const auto missed = [&](const Vec& N, const Vec& next) {
+    return (next - N).lpNorm<Eigen::Infinity>() / std::max(next.lpNorm<Eigen::Infinity>(), 1e-300);
+  };
+  const auto newton_step = [&](const Vec& N, const Vec& next) {
+    Mat slope = Mat::Identity(n, n);
+    const double size = difference * std::max(N.maxCoeff(), next.maxCoeff());
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const double d = next[j] < N[j] && N[j] > size ? -size : size;
+      slope.col(j) -= (follow(N + d * Vec::Unit(n, j)) - next) / d;
     }
-    N = (N + step).cwiseMax(0);
+    const Vec step = Eigen::FullPivLU<Mat>(slope).solve(next - N);
+    return step.allFinite() ? step : Vec(next - N);
+  };
+  Vec N = Vec::Constant(n, from == From::held ? large_load(asked) : 0);
+  Vec next = follow(N);
+  for (int round = 0; round < most_rounds; ++round) {
+    if (solution.outcome != LcpOutcome::solved) return solution;
+    const double left = missed(N, next);
+    if (left <= settled) return solution;
+    const bool newton = round >= 10;
+    const Vec from_here = N, step = newton ? newton_step(N, next) : Vec(next - N);
+    for (double part = 1; part > shortest_step; part /= 2) {
+      N = (from_here + part * step).cwiseMax(0);
+      next = follow(N);
+      if (!newton || solution.outcome != LcpOutcome::solved || missed(N, next) < left) break;
+    }
   }
+  solution.violation = missed(N, next);
   solution.outcome = LcpOutcome::gave_up;
   return solution;
 }

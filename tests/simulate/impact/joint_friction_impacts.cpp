@@ -280,5 +280,47 @@ TEST(AGuide, IsTheLimitOfTwoPinsInAChannelAsItsClearanceVanishes) {
   }
 }
 
+// Three bars with journals that rub; the end of the last one slides over a rough floor until the chain locks itself.
+// Where it does, friction as it is has no impact yet that stops it, and a little more has one.
+TEST(AChainOfJournals, ThatLocksItselfOnAFloorGoesOnAfterAnImpact) {
+  const auto bar = [](double mass, double length, double x, double y, double angle) {
+    return fmt::format(R"({{"type": "rigid_body", "mass": {}, "inertia": {}, "position": [{}, {}], "angle": {},
+                            "markers": {{"a": [0, {}], "b": [0, {}]}}}})",
+                       mass, mass * length * length / 12, x, y, angle, length / 2, -length / 2);
+  };
+  struct Bar {
+    double mass, length, angle;
+  };
+  for (const double mu : {0.48, 0.4958483209149854, 0.5}) {
+    std::string bodies;
+    double x = 0, y = 0;
+    int i = 0;
+    for (const Bar& b : {Bar{1.166, 0.423, -0.962}, Bar{2.486, 0.551, -1.313}, Bar{1.2136, 0.318, 1.3316}}) {
+      const double dx = b.length * std::sin(b.angle), dy = -b.length * std::cos(b.angle);
+      bodies +=
+          fmt::format("{}\"p{}\": {}", i > 0 ? ", " : "", i, bar(b.mass, b.length, x + dx / 2, y + dy / 2, b.angle));
+      x += dx, y += dy, ++i;
+    }
+    const auto journal = [](const char* a, const char* b, double mu_kinetic) {
+      return fmt::format(R"({{"type": "revolute", "between": ["{}", "{}"], "radius": 0.03,
+                              "friction": {{"type": "coulomb", "static": 0.29, "kinetic": {}}}}})",
+                         a, b, mu_kinetic);
+    };
+    const Finished run = run_text(fmt::format(
+        R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81], "bodies": {{{}}},
+             "joints": {{"j0": {}, "j1": {}, "j2": {}}},
+             "contacts": {{"floor": {{"type": "constraint_method", "restitution": 0.4,
+                           "friction": {{"type": "coulomb", "static": {:.17g}, "kinetic": {:.17g}}},
+                           "between": ["p2.b", {{"plane": {{"point": [0, {:.17g}], "normal": [0, 1]}}}}]}}}},
+             "simulate": {{"until": 1}}, "record": {{"every": 0.1, "observe": {{"x": "p2.com.x"}}}}}})",
+        bodies, journal("ground", "p0.a", 0.29), journal("p0.b", "p1.a", 0.232), journal("p1.b", "p2.a", 0.29), mu, mu,
+        y - 0.046));
+    ASSERT_TRUE(run.done()) << mu << ": " << run.report.reason;
+    for (const char* joint : {"joints.j0", "joints.j1", "joints.j2", "floor"})
+      if (run.result["energy_dissipated"]["impact"].contains(joint))
+        EXPECT_GE(run.result["energy_dissipated"]["impact"][joint], -round_off) << mu << joint;
+  }
+}
+
 }  // namespace
 }  // namespace trammel::test
