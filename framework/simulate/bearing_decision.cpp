@@ -87,7 +87,7 @@ complementarity::ContactSolution ContactModes::decide_with_bearings(const State&
       if (system_.model().contacts[who[i].contact].joint) who[i].given = problem_.who[i].given;
     problem_.who = std::move(who);
     modes_ = open;
-    const complementarity::ContactSolution solution = take_verdicts();
+    const complementarity::ContactSolution solution = take_verdicts(state);
     if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
     const model::Modes* last = had.empty() ? nullptr : &had.back();
     if (last && agree(modes_, *last)) return solution;

@@ -11,9 +11,14 @@ namespace {
 using Tangent = Participant::Tangent;
 
 // Rule 11. Forces and accelerations below `undecided` times the error of a solution cannot be distinguished from 0.
-// They can be for the state a moment later: after `moment_later` of the time in which the scene crosses its length, at
+// They can be for the state a moment later: after a part of the time in which the scene crosses its length, at
 // its speed or by its accelerations, or in which a slip ends. Little else has changed by then.
-constexpr double undecided = 10, moment_later = 1e-4;
+constexpr double undecided = 10;
+// A later state is asked if an earlier one leaves it open, too.
+constexpr double moments_later[] = {1e-4, 1e-3, 1e-2};
+
+// Of the largest force. Contacts with less force may be idle.
+constexpr double most_error_of_forces = 1e-6;
 
 // x / |x|; the direction of the first tangent if x is 0.
 Tangential direction_of(const Tangential& x) {
@@ -213,29 +218,120 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
     system_.move_to(state.t, state.q, state.v);
     accelerate_participants();
     if (has_bearings()) return decide_with_bearings(state);
-    const complementarity::ContactSolution solution = take_verdicts();
+    const complementarity::ContactSolution solution = take_verdicts(state);
     if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
     const std::vector<Participant*> held = held_at_bounds(state);
-    if (!let_go(held)) return hold(held), solution;
+    if (!let_go(held)) return hold(state, held), solution;
     open_all(modes_);
   }
 }
 
-complementarity::ContactSolution ContactModes::take_verdicts() {
+complementarity::ContactSolution ContactModes::take_verdicts(const State& state) {
   const complementarity::ContactSolution solution = problem_.solve(least_acceleration());
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
   const std::vector<bool> kept_closed = problem_.kept_closed(least_acceleration(solution.violation));
   for (std::size_t i = 0; i < problem_.who.size(); ++i) take_verdict(problem_.who[i], kept_closed[i]);
-  find_shares();
+  find_shares(state);
+  open_pulling_ones(state);
   return solution;
 }
 
-void ContactModes::find_shares() {
-  problem_.find_idle(modes_);
+// Which contacts without a force are idle matters, because the springs' shares of the others affect the motion. The
+// forces of the problem leave this open: they may be 0 by a self-stress that sliding contacts share, and their error is
+// unknown where they are much larger than what accelerates (a wedge). So contacts with a little more force are idle
+// too, or none is, if the forces in these modes could not be exerted otherwise.
+void ContactModes::find_shares(const State& state) {
+  constexpr double round_off = complementarity::largest_violation, no_contact = -1;
+  const model::Modes decided = modes_;
+  double least = share(round_off);
+  const auto idle = [](const Participant& p) { return p.idle; };
+  const bool any = std::any_of(problem_.who.begin(), problem_.who.end(), idle);
+  if ((!any && !(least <= most_error_of_forces)) || can_be_exerted(state)) return;
+  while (least <= most_error_of_forces) {
+    modes_ = decided;
+    least = share(least);
+    if (can_be_exerted(state)) return;
+  }
+  modes_ = decided;
+  share(no_contact);
+  if (can_be_exerted(state)) return;
+  modes_ = decided;
+  share(round_off);
+}
+
+double ContactModes::share(double none) {
+  const double least = problem_.find_idle(modes_, none);
   for (const Participant& p : problem_.who)  // without a force there is no friction
     if (model::ContactMode& mode = modes_.contacts[p.contact]; p.idle && mode.friction == Friction::stick)
       mode.friction = Friction::none;
   modes_.shared = problem_.shared_rows(modes_);
+  while (open_loose_ones()) modes_.shared = problem_.shared_rows(modes_);
+  return least;
+}
+
+// A contact without a force stays closed only as long as the others hold it.
+bool ContactModes::open_loose_ones() {
+  const std::vector<bool> held = problem_.held_by_others(modes_);
+  bool any = false;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    Participant& p = problem_.who[i];
+    if (!p.idle || held[i]) continue;
+    model::ContactMode& mode = modes_.contacts[p.contact];
+    p.idle = mode.closed = false;
+    mode.friction = Friction::none;
+    any = true;
+  }
+  return any;
+}
+
+// A contact whose force in the solution may be its error pulls if its row makes this force exact. It opens, if it parts
+// then.
+void ContactModes::open_pulling_ones(const State& state) {
+  double largest = 0;
+  for (const Participant& p : problem_.who) largest = std::max(largest, p.N);
+  const auto is_faint = [&](const Participant& p) {
+    return p.unilateral && !p.idle && p.N > 0 && p.N <= most_error_of_forces * largest;
+  };
+  if (std::none_of(problem_.who.begin(), problem_.who.end(), is_faint)) return;
+  accelerate_in(modes_, state);
+  const model::Modes decided = modes_;
+  std::vector<int> opened;
+  for (const Participant& p : problem_.who) {
+    if (!is_faint(p) || locks(p.contact) || !(system_.normal_force(p.contact, lambda_) < 0)) continue;
+    modes_.contacts[p.contact].closed = false;
+    modes_.contacts[p.contact].friction = Friction::none;
+    opened.push_back(p.contact);
+  }
+  if (opened.empty()) return;
+  find_shares(state);
+  accelerate_in(modes_, state);
+  const auto parts = [this](int contact) { return system_.acceleration({contact, 0}, a_) >= 0; };
+  if (std::all_of(opened.begin(), opened.end(), parts)) return;
+  modes_ = decided;
+  find_shares(state);
+}
+
+void ContactModes::accelerate_in(const model::Modes& modes, const State& state) {
+  system_.set_modes(modes);
+  system_.move_to(state.t, state.q, state.v);
+  system_.accelerate({}, a_, lambda_);
+}
+
+// Whether the forces in these modes push and stay in their cones.
+bool ContactModes::can_be_exerted(const State& state) {
+  accelerate_in(modes_, state);
+  double largest = 0, worst = 0;
+  for (const Participant& p : problem_.who) {
+    const model::ContactMode& mode = modes_.contacts[p.contact];
+    if (!mode.closed || !p.unilateral) continue;
+    const double N = system_.normal_force(p.contact, lambda_);
+    largest = std::max(largest, std::abs(N));
+    worst = std::max(worst, -N);
+    if (mode.friction != Friction::stick) continue;
+    const double bound = system_.model().contacts[p.contact].coulomb->static_coefficient() * std::max(0.0, N);
+    worst = std::max(worst, system_.friction_force(p.contact, lambda_).norm() - bound);
+  }
+  return worst <= most_error_of_forces * largest;
 }
 
 // Rule 12: the contacts at rest whose friction is at its bound while a group with sliding members cannot carry its
@@ -262,7 +358,7 @@ std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
 }
 
 // Rule 12: they keep T = mu N, as if they slid.
-void ContactModes::hold(const std::vector<Participant*>& held) {
+void ContactModes::hold(const State& state, const std::vector<Participant*>& held) {
   for (Participant* p : held) {
     model::ContactMode& mode = modes_.contacts[p->contact];
     mode.friction = Friction::slide;
@@ -270,7 +366,7 @@ void ContactModes::hold(const std::vector<Participant*>& held) {
     mode.least_slip = least_slip(p->contact);
     p->ratio = -p->mu * mode.direction;
   }
-  if (!held.empty()) find_shares();
+  if (!held.empty()) find_shares(state);
 }
 
 double ContactModes::least_acceleration(double violation) const {
@@ -296,8 +392,10 @@ double ContactModes::time_of_change() {
   double least = speed > 0 ? scene.length() / speed : 0;
   for (const Participant& p : problem_.who) {
     if (p.tangent != Tangent::sliding) continue;
-    const double slip = system_.slip(p.contact).norm(), change = system_.slip_acceleration(p.contact, a_).norm();
-    if (slip > scale_.of(p.contact).rest_speed() && slip < least * change) least = slip / change;
+    const Tangential slip = system_.slip(p.contact), change = system_.slip_acceleration(p.contact, a_);
+    if (!(slip.dot(change) < 0)) continue;  // it has just begun
+    const double speed = slip.norm();
+    if (speed > scale_.of(p.contact).rest_speed() && speed < least * change.norm()) least = speed / change.norm();
   }
   return least;
 }
@@ -311,17 +409,21 @@ complementarity::ContactSolution ContactModes::decide_by_what_follows(const Stat
   system_.set_modes(so_far.outcome == LcpOutcome::solved ? modes_ : before_);
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
-  const double moment = moment_later * time_of_change();
-  State later = state;
-  later.t += moment;
-  system_.retract(state.q, moment * state.v + 0.5 * moment * moment * a_, later.q);
-  later.v += moment * a_;
-  system_.move_to(later.t, later.q, later.v);
+  const double time = time_of_change();
+  const Vec a = a_;
   changes.released.clear();
-  find_candidates(changes);
-  const complementarity::ContactSolution solution = decide(later, changes, jumped);
-  system_.move_to(state.t, state.q, state.v);
-  if (solution.outcome != LcpOutcome::gave_up) return solution;
+  for (const double part : moments_later) {
+    const double moment = part * time;
+    State later = state;
+    later.t += moment;
+    system_.retract(state.q, moment * state.v + 0.5 * moment * moment * a, later.q);
+    later.v += moment * a;
+    system_.move_to(later.t, later.q, later.v);
+    find_candidates(changes);
+    const complementarity::ContactSolution solution = decide(later, changes, jumped);
+    system_.move_to(state.t, state.q, state.v);
+    if (solution.outcome != LcpOutcome::gave_up) return solution;
+  }
   modes_ = decided;
   return so_far;
 }

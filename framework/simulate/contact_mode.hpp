@@ -2,7 +2,7 @@
 // accelerations decide.
 //
 // Rules for set-valued contacts (Restitution) at an event at time t. ContactModes::settle applies 1, 2 and 9, then 3 to
-// 7 with 10 and 12 as one problem, then 11, then 8; other files refer to them by number.
+// 7 with 10, 12 and 13 as one problem, then 11, then 8; other files refer to them by number.
 //  1. Impact: every contact that touches and closes strikes, together with all that touch or are closed
 //     (impact_laws.hpp).
 //  2. Capture (chatter.cpp): an impact slower than capture_speed has e = 0. So has a rebound with e < 1 that the steps
@@ -55,11 +55,16 @@
 //     finite forces: it jams by rule 8. Rounds that find no modes prove nothing.
 // 11. Rule 3 may not decide which contacts press: a contact that was closed has neither force nor acceleration, and the
 //     others do not hold it (a stack below a ceiling that begins to tip), or no solution is found to round-off. Then
-//     the same problem is solved for the state a moment later. If that has no solution, rule 8 applies.
+//     the same problem is solved for the state a moment later, or later still if that leaves it open. If it has no
+//     solution, rule 8 applies.
 // 12. The friction of a contact at rest may be at its bound while its tangents depend on rows of other contacts, some
 //     of which slide (blocks that push each other along a channel). The shares of springs (complementarity/shares)
 //     would exceed the bound, and other shares would give another motion. Such a contact keeps T = mu N like one that
 //     slides, without a slip. If mu < mu_0 it has let go (rule 6), and all modes are decided again.
+// 13. A contact without a force stays closed (idle) only while rows of contacts that carry hold it. Where these are
+//     about to depend on each other (a stack that becomes a strut), they do not, and it opens. Which contacts are idle
+//     affects the motion if others slide, so the forces in the modes decided are computed: if they pull or leave a
+//     cone, contacts whose force may be an error count as idle, too, or else none does.
 //
 // `rebound: constrained` makes candidates of contacts that separate at e u-. `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0. `onset: next_step` only changes when an event is seen.
@@ -186,10 +191,15 @@ class ContactModes {
   bool stop_with_others(ContactChanges& changes);
   bool end_drift(State& state, ContactChanges& changes);
   [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped);
-  [[nodiscard]] complementarity::ContactSolution take_verdicts();
-  void find_shares();
+  [[nodiscard]] complementarity::ContactSolution take_verdicts(const State& state);
+  void find_shares(const State& state);
+  double share(double none);
+  bool open_loose_ones();
+  bool can_be_exerted(const State& state);
+  void open_pulling_ones(const State& state);
+  void accelerate_in(const model::Modes& modes, const State& state);
   std::vector<Participant*> held_at_bounds(const State& state);
-  void hold(const std::vector<Participant*>& held);
+  void hold(const State& state, const std::vector<Participant*>& held);
   bool in_balance(double violation) const;
   double time_of_change();
   [[nodiscard]] complementarity::ContactSolution decide_by_what_follows(const State& state, ContactChanges changes,

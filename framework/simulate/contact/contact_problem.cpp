@@ -24,6 +24,10 @@ Eigen::VectorBlock<Vec> along(Vec& x, const complementarity::ContactPoint& p) {
 // (`least_share` is its square).
 constexpr double most_changed = 1e3, least_share = 1e-6;
 
+// Rates of the rows that carry appear as many times in a row that follows from them. If there are more, the carrying rows
+// are about to depend on each other (a strut that becomes upright), and they do not hold the other one.
+constexpr double most_times = 1e3;
+
 // Static or kinetic coefficient.
 double bound_of(const Participant& p) {
   if (p.yielded) return (1 - 1e-8) * p.mu;
@@ -156,14 +160,34 @@ std::vector<bool> ContactProblem::kept_closed(double nothing) const {
   return kept;
 }
 
-void ContactProblem::find_idle(const model::Modes& modes) {
+double ContactProblem::find_idle(const model::Modes& modes, double none) {
+  for (Participant& p : who) p.idle = false;
   const std::vector<complementarity::ContactRole> role = roles(modes);
   const complementarity::CarryingRows carrying = complementarity::carrying_rows(points_, delassus_, role);
-  double largest = 0;
+  double largest = 0, least = 1;
   for (const Participant& p : who) largest = std::max(largest, p.N);
-  const double none = complementarity::largest_violation * largest;
-  for (std::size_t i = 0; i < who.size() && carrying.sliding_shares; ++i)
-    who[i].idle = role[i].closed && who[i].unilateral && carrying.indeterminate[i] && who[i].N <= none;
+  for (std::size_t i = 0; i < who.size() && carrying.sliding_shares; ++i) {
+    if (!role[i].closed || !who[i].unilateral || !carrying.indeterminate[i]) continue;
+    const double part = largest > 0 ? who[i].N / largest : 0;
+    who[i].idle = part <= none;
+    if (!who[i].idle) least = std::min(least, part);
+  }
+  return least;
+}
+
+std::vector<bool> ContactProblem::held_by_others(const model::Modes& modes) const {
+  const complementarity::CarryingRows carrying = complementarity::carrying_rows(points_, delassus_, roles(modes));
+  const auto& [basis, implied, K] = carrying.rows;
+  const Vec length = delassus_.diagonal().cwiseSqrt();
+  std::vector<bool> held(who.size(), false);
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    if (!who[i].idle) continue;
+    const auto row = std::find(implied.begin(), implied.end(), Eigen::Index(points_[i].normal)) - implied.begin();
+    if (row == std::ssize(implied)) continue;
+    const double times = K.row(row).transpose().cwiseProduct(length(basis)).lpNorm<1>();
+    held[i] = times <= most_times * length[points_[i].normal];
+  }
+  return held;
 }
 
 std::vector<model::SharedRows> ContactProblem::shared_rows(const model::Modes& modes) const {

@@ -149,15 +149,17 @@ double SharedRowsAtPoint::force_along(ContactDirection d, const Vec& lambda) {
   return contacts_.law_normal(d.contact);
 }
 
+// K y / (1 + K S K^T) if the others' forces are S y. It is continuous where K passes infinity, because the rows that
+// carry come to depend on each other.
 double SharedRowsAtPoint::spring_force(int contact, const Vec& lambda) {
   follow();
   const ContactLoads::Place& place = contacts_.loads.place({contact, 0});
   const SharedRows& shared = contacts_.modes.shared[std::size_t(place.group)];
   const auto n = int(shared.basis.size());
-  double sum = 0;
-  for (int k = 0; k < n; ++k)
-    sum += shared.K(place.index - n, k) * contacts_.loads.spring(shared.basis[std::size_t(k)], lambda);
-  return sum;
+  Vec along_basis(n);
+  for (int k = 0; k < n; ++k) along_basis[k] = contacts_.loads.spring(shared.basis[std::size_t(k)], lambda);
+  const Vec follows = shared.K.row(place.index - n);
+  return follows.dot(along_basis) / (1 + follows.dot(shared.share.topRows(n) * follows));
 }
 
 }  // namespace trammel::model

@@ -15,6 +15,7 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double g = 10;  // [m/s^2]
 
@@ -115,6 +116,55 @@ TEST(StackBelowACeiling, TakesNoStepOverThePoleOfItsForces) {
   ASSERT_TRUE(loose.done()) << loose.report.reason;
   for (const char* v : {"v0", "v1", "v2", "v3"}) EXPECT_NEAR(loose.end(v), tight.end(v), 1e-4) << v;
   EXPECT_GT(tight.end("v3"), 0.3);
+}
+
+// The lower block is pushed from under the upper one, until a force at the floor passes below one at the ceiling. The
+// normals that carry depend on each other there: the idle ones follow from them by factors that grow without bounds and
+// change their signs. The forces stay finite.
+TEST(StackBelowACeiling, PassesTheStateInWhichItsContactsThatCarryAreAStrut) {
+  struct Pushed {
+    Layer lower, upper;
+    double mu_0, mu;      // of the ceiling
+    double force, below;  // [N], [m] below the middle of the lower block
+    double x, error;      // [m] where that block is at the end; what the looser tolerance changes
+  };
+  for (const Pushed& p : {Pushed{{0.244, 0.164, 0.247, 0, 0.209, 0.209},
+                                 {0.274, 0.074, 0.888, 0.0252, 0.122, 0.102},
+                                 0.23,
+                                 0.23,
+                                 11.51,
+                                 0.0262,
+                                 1.2879,
+                                 2e-4},
+                          Pushed{{0.12, 0.17, 1.193, 0, 0.392, 0.392},
+                                 {0.238, 0.103, 0.338, -0.0169, 0.214, 0.18},
+                                 0.615,
+                                 0.597,
+                                 99.45,
+                                 0.032,
+                                 0.161577,
+                                 1e-6},
+                          Pushed{{0.162, 0.183, 0.869, 0, 0.664, 0.664},
+                                 {0.166, 0.154, 0.182, 0.0061, 0.162, 0.137},
+                                 0.602,
+                                 0.602,
+                                 219.7,
+                                 0.0348,
+                                 10.4567,
+                                 1e-4}}) {
+    SCOPED_TRACE(p.force);
+    json s = below_a_ceiling({p.lower, p.upper}, p.mu_0, p.mu, 0);
+    s["bodies"]["b0"]["markers"]["push"] = {0, -p.below};
+    s["forces"]["push"] = {{"type", "load"}, {"on", "b0.push"}, {"force", {{"x", fmt::format("={}", p.force)}}}};
+    s["record"]["observe"]["x"] = "b0.com.x";
+    for (const double tolerance : {1e-12, 1e-9}) {
+      const Finished run = run_text(
+          s.dump(), {{"integrator", fmt::format(R"({{"type": "dop853", "step": {{"tolerance": {}}}}})", tolerance)}});
+      ASSERT_TRUE(run.done()) << run.report.reason;
+      EXPECT_THAT(run.result["warnings"].dump(), Not(HasSubstr("not to be trusted"))) << tolerance;
+      EXPECT_NEAR(run.end("x"), p.x, p.error) << tolerance;
+    }
+  }
 }
 
 }  // namespace
