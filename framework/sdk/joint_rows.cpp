@@ -282,7 +282,15 @@ void JointRows::add_reaction_tangent(double t, const Motion& A, const Motion& B,
 }
 
 Quaterniond smallest_rotation(const Vector3d& from, const Vector3d& to) {
-  return Quaterniond::FromTwoVectors(from, to);
+  const Vector3d a = from.normalized(), b = to.normalized();
+  const double twice_w = (a + b).norm();  // 2 cos(angle/2)
+  constexpr double nearly_opposite = 1e-6;
+  if (twice_w < nearly_opposite) {  // half a turn about a normal of a, then the small rotation that is left
+    const Vector3d n = a.unitOrthogonal();
+    return smallest_rotation(-a, b) * Quaterniond(0, n.x(), n.y(), n.z());
+  }
+  const Vector3d part = a.cross(b) / twice_w;
+  return Quaterniond(twice_w / 2, part.x(), part.y(), part.z()).normalized();
 }
 
 }  // namespace trammel

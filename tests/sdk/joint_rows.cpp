@@ -1,5 +1,7 @@
 #include <trammel/joint_rows.hpp>
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <trammel/component.hpp>
@@ -30,6 +32,20 @@ TEST(UnitQuaternion, IsThatOfFourNumbersOfAnySize) {
   for (const double size : {1e-200, 1.0, 1e200}) {
     const Eigen::Quaterniond p = unit_quaternion(world, {3 * size, 0, 4 * size, 0}, "orientation");
     EXPECT_NEAR((p.coeffs() - Eigen::Vector4d(0, 0.8, 0, 0.6)).norm(), 0, 1e-15) << size;  // (x, y, z, w)
+  }
+}
+
+TEST(SmallestRotation, TurnsADirectionToAnyOther) {
+  const Eigen::Vector3d from(1, 2, -2), normal = from.unitOrthogonal();
+  for (const double left : {0.0, 1e-16, 1e-12, 1e-9, 1e-7, 1e-6, 1e-5, 1e-3, 0.1, 1.0, 2.0, M_PI}) {  // of half a turn
+    const Eigen::Vector3d to = 5 * (Eigen::AngleAxisd(M_PI - left, normal) * from);
+    const Eigen::Quaterniond turn = smallest_rotation(from, to);
+    EXPECT_NEAR(turn.norm(), 1, 1e-15) << left;
+    // Its axis is a x b, whose errors are those of round-off over the angle that is left.
+    EXPECT_NEAR((turn * from.normalized() - to.normalized()).norm(), 0,
+                left > 1e-6 ? 1e-15 / std::min(left, 1.0) : 1e-15)
+        << left;
+    EXPECT_NEAR(Eigen::AngleAxisd(turn).angle(), M_PI - left, 2e-6) << left;
   }
 }
 
