@@ -304,50 +304,59 @@ class ExactModes {
     double worst = 0;
     std::size_t who = points_.size();
     ContactRole wanted;
-    const auto consider = [&](std::size_t i, double amount, double least, auto&& change) {
-      if (!(amount > worst && amount > least)) return;
-      worst = amount;
-      who = i;
-      wanted = roles_[i];
-      change(wanted);
+    const auto consider = [&](std::size_t i, double amount, double least,
+                              ContactRole (ExactModes::*changed)(std::size_t) const) {
+      if (amount > worst && amount > least) worst = amount, who = i, wanted = (this->*changed)(i);
     };
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const ContactPoint& p = points_[i];
       const ContactRole& role = roles_[i];
       if (!role.closed) {
-        consider(i, -a_[p.normal], nothing, [&](ContactRole& r) { close(i, r); });
-        continue;
+        consider(i, -a_[p.normal], nothing, &ExactModes::closed);
+      } else if (role.idle) {
+        consider(i, A_(p.normal, p.normal) * spring_force(p.normal), nothing, &ExactModes::closed);
+      } else {
+        if (p.normal >= 0) consider(i, pull(i), nothing, &ExactModes::released);
+        if (p.held() && role.tangent == Tangent::sticks)
+          consider(i, beyond_cone(i), no_slip[Index(i)], &ExactModes::sliding);
+        if (p.held() && role.tangent == Tangent::slides && normal_force(i) > 0)
+          consider(i, along_tangents(a_, p).dot(role.ratio.normalized()), no_slip[Index(i)], &ExactModes::sticking);
       }
-      if (role.idle) {
-        consider(i, A_(p.normal, p.normal) * spring_force(p.normal), nothing, [&](ContactRole& r) { close(i, r); });
-        continue;
-      }
-      if (p.normal >= 0)
-        consider(i, pull(i), nothing, [&](ContactRole& r) {
-          if (carrying_.indeterminate[i] && carrying_.sliding_shares) return make_idle(r);
-          r.closed = false;
-          if (r.tangent == Tangent::sticks) r.tangent = Tangent::none;
-        });
-      if (!p.held()) continue;
-      if (role.tangent == Tangent::sticks)
-        consider(i, beyond_cone(i), no_slip[Index(i)], [&](ContactRole& r) {
-          r.tangent = Tangent::slides;
-          r.ratio = p.coefficient * along_tangents(F_, p).normalized();
-        });
-      if (role.tangent == Tangent::slides && normal_force(i) > 0)
-        consider(i, along_tangents(a_, p).dot(role.ratio.normalized()), no_slip[Index(i)],
-                 [](ContactRole& r) { r.tangent = Tangent::sticks; });
     }
     if (who < points_.size()) roles_[who] = wanted;
     return worst;
   }
 
-  void close(std::size_t i, ContactRole& role) const {
+  // The roles to which contacts change.
+  ContactRole closed(std::size_t i) const {
     const ContactPoint& p = points_[i];
+    ContactRole role = roles_[i];
     role.closed = true;
     role.idle = false;
     role.tangent = p.slides() ? Tangent::slides : p.held() ? Tangent::sticks : Tangent::none;
     if (p.slides()) role.ratio = p.ratio;
+    return role;
+  }
+  ContactRole released(std::size_t i) const {
+    ContactRole role = roles_[i];
+    if (carrying_.indeterminate[i] && carrying_.sliding_shares) {
+      make_idle(role);
+      return role;
+    }
+    role.closed = false;
+    if (role.tangent == Tangent::sticks) role.tangent = Tangent::none;
+    return role;
+  }
+  ContactRole sliding(std::size_t i) const {
+    ContactRole role = roles_[i];
+    role.tangent = Tangent::slides;
+    role.ratio = points_[i].coefficient * along_tangents(F_, points_[i]).normalized();
+    return role;
+  }
+  ContactRole sticking(std::size_t i) const {
+    ContactRole role = roles_[i];
+    role.tangent = Tangent::sticks;
+    return role;
   }
 
   // The force that an idle contact would have as a spring among the carrying ones: K times the forces along the basis.
