@@ -83,6 +83,8 @@ class SpringImpact {
   void press(std::size_t i);
   void end_compression(std::size_t i);
   void choose_tangents();
+  std::vector<std::size_t> choose_sliding(Vec& F, Vec& f);
+  Vec beginning_slips(const std::vector<std::size_t>& resting, const Vec& F, const Vec& f) const;
   void hold_sticking();
   void force_slip();
   [[nodiscard]] complementarity::ContactSolution close();

@@ -66,27 +66,47 @@ bool SpringImpact::some_forces_hold(const Vec& f) const {
 
 // Contacts without slip stick or begin to slide, by the forces a moment later.
 void SpringImpact::choose_tangents() {
-  std::vector<std::size_t> resting;
   Vec F = Vec::Zero(m_), f = Vec::Zero(m_);
-  std::vector<Eigen::Index> rows;
+  const std::vector<std::size_t> resting = choose_sliding(F, f);
+  if (resting.empty()) return;
+  const double largest = F.maxCoeff();
+  if (largest > 0) F /= largest, f /= largest;
+  const Vec a = beginning_slips(resting, F, f);
+  for (std::size_t j = 0; j < resting.size(); ++j) {
+    Contact& c = contacts_[resting[j]];
+    const Vec begins = a.segment(Eigen::Index(j) * t_, t_);
+    c.slid = false;
+    c.mode = begins.isZero(0) ? Tangent::sticks : Tangent::slides;
+    if (c.mode == Tangent::slides) c.direction.head(t_) = begins.normalized();
+  }
+}
+
+// Contacts with a slip slide. Fills in the normal forces F and all known forces f a moment later; returns the contacts
+// with friction and without slip.
+std::vector<std::size_t> SpringImpact::choose_sliding(Vec& F, Vec& f) {
+  std::vector<std::size_t> resting;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     Contact& c = contacts_[i];
     if (c.presses) f[c.normal] = F[c.normal] = k_ * std::max(0.0, x_[Eigen::Index(i)] - ahead * u_[c.normal]);
     c.mode = Tangent::none;
     if (!rubs(c)) continue;
     const Vec s = slip(c, u_);
-    if (s.norm() > 2 * slow_) {
-      c.mode = Tangent::slides, c.slid = true;
-      c.direction.head(t_) = s.normalized();
-      f.segment(c.tangent, t_) = -c.mu * F[c.normal] * s.normalized();
+    if (!(s.norm() > 2 * slow_)) {
+      resting.push_back(i);
       continue;
     }
-    resting.push_back(i);
-    for (int k = 0; k < t_; ++k) rows.push_back(c.tangent + k);
+    c.mode = Tangent::slides, c.slid = true;
+    c.direction.head(t_) = s.normalized();
+    f.segment(c.tangent, t_) = -c.mu * F[c.normal] * s.normalized();
   }
-  if (resting.empty()) return;
-  const double largest = F.maxCoeff();
-  if (largest > 0) F /= largest, f /= largest;
+  return resting;
+}
+
+// The accelerations along the tangents of resting contacts, with mu_0 as long as they stick and mu once they slide.
+Vec SpringImpact::beginning_slips(const std::vector<std::size_t>& resting, const Vec& F, const Vec& f) const {
+  std::vector<Eigen::Index> rows;
+  for (const std::size_t i : resting)
+    for (int k = 0; k < t_; ++k) rows.push_back(contacts_[i].tangent + k);
   const Vec b = (A_ * f)(rows);
   Vec T, a = Vec::Zero(b.size());
   std::vector<bool> let_go(resting.size(), false);
@@ -101,13 +121,7 @@ void SpringImpact::choose_tangents() {
       settled = settled && c.mu == c.mu_0;
     }
   }
-  for (std::size_t j = 0; j < resting.size(); ++j) {
-    Contact& c = contacts_[resting[j]];
-    const Vec begins = a.segment(Eigen::Index(j) * t_, t_);
-    c.slid = false;
-    c.mode = begins.isZero(0) ? Tangent::sticks : Tangent::slides;
-    if (c.mode == Tangent::slides) c.direction.head(t_) = begins.normalized();
-  }
+  return a;
 }
 
 // Friction is at its bound and the look ahead has found no slip: the contact that exceeds its bound most slides against
