@@ -103,21 +103,41 @@ void LoadPath::by_arc() {
   const Point& last = passed_.back();
   Vec q_by_t, lambda_by_t;
   if (!along_t(last, q_by_t, lambda_by_t)) fail(last.t, Failure::singular);
-  const double n = std::max(1.0, double(zero_.size()));
   const double step = (settings_.until - settings_.start) / settings_.load_steps;
-  if (s2_ == 0) {
-    s2_ = q_by_t.squaredNorm() / n;
-    part_ = step * std::sqrt(2 * s2_);
-    last_arc_ = {zero_, 1, 0};
-    if (s2_ == 0) return by_load(settings_.until);  // nothing moves
+  if (s2_ == 0 && !begin_arcs(q_by_t, step)) return by_load(settings_.until);  // nothing moves
+  take_arc(arc_along(q_by_t), lambda_by_t, step * std::sqrt(2 * s2_));
+  if ((state_.t - settings_.until) * step >= 0) {
+    part_ = std::abs(step);
+    // the path may have turned in t: no polynomial passes through it
+    passed_.erase(passed_.begin(), passed_.end() - 1);
+    by_load(settings_.until);
+  } else if (steps_.size() > std::size_t(arcs_per_step * settings_.load_steps)) {
+    throw RunFailed(fmt::format("{} arcs along the path have not led to t = {}: the last equilibrium is at t = {:.6g}",
+                                steps_.size(), settings_.until, state_.t));
   }
-  const double longest = step * std::sqrt(2 * s2_);
+}
+
+// The first arc weighs q and t alike. False: no coordinate moves.
+bool LoadPath::begin_arcs(const Vec& q_by_t, double step) {
+  s2_ = q_by_t.squaredNorm() / mean_count();
+  part_ = step * std::sqrt(2 * s2_);
+  last_arc_ = {zero_, 1, 0};
+  return s2_ != 0;
+}
+
+// Along the path, on from the last arc and not back.
+LoadPath::Arc LoadPath::arc_along(const Vec& q_by_t) const {
+  const double n = mean_count();
   double scale = 1 / std::sqrt(q_by_t.squaredNorm() / n + s2_);
-  if (last_arc_.n_q.dot(q_by_t) / n + s2_ * last_arc_.n_t < 0) scale = -scale;  // goes on, does not turn back
-  Arc arc{scale * q_by_t, scale, part_};
+  if (last_arc_.n_q.dot(q_by_t) / n + s2_ * last_arc_.n_t < 0) scale = -scale;
+  return {scale * q_by_t, scale, part_};
+}
+
+void LoadPath::take_arc(Arc arc, const Vec& lambda_by_t, double longest) {
+  const Point& last = passed_.back();
   for (;;) {
     arc.length = part_;
-    Point trial{last.t + arc.n_t * part_, {}, last.lambda + part_ * scale * lambda_by_t};
+    Point trial{last.t + arc.n_t * part_, {}, last.lambda + part_ * arc.n_t * lambda_by_t};
     system_.retract(last.q, part_ * arc.n_q, trial.q);
     const int before = now_.iterations;
     const Failure failure = solve(trial, &arc);
@@ -129,17 +149,7 @@ void LoadPath::by_arc() {
     const int taken = now_.iterations - before;
     part_ = taken > hard ? part_ / 2 : taken <= easy ? std::min(longest, 1.5 * part_) : part_;
     last_arc_ = arc;
-    keep(std::move(trial));
-    break;
-  }
-  if ((state_.t - settings_.until) * step >= 0) {
-    part_ = std::abs(step);
-    // the path may have turned in t: no polynomial passes through it
-    passed_.erase(passed_.begin(), passed_.end() - 1);
-    by_load(settings_.until);
-  } else if (steps_.size() > std::size_t(arcs_per_step * settings_.load_steps)) {
-    throw RunFailed(fmt::format("{} arcs along the path have not led to t = {}: the last equilibrium is at t = {:.6g}",
-                                steps_.size(), settings_.until, state_.t));
+    return keep(std::move(trial));
   }
 }
 
@@ -220,7 +230,7 @@ bool LoadPath::correct(Point& at, const Arc* arc, const Vec& from, Vec& dq) {
     Vec moved, q_by_t, lambda_by_t;
     system_.difference(at.q, last.q, moved);
     if (!along_t_with_factors(at, q_by_t, lambda_by_t)) return false;
-    const double n = std::max(1.0, double(zero_.size()));
+    const double n = mean_count();
     const double missing = arc->length - arc->n_q.dot(moved + dq) / n - s2_ * arc->n_t * (at.t - last.t);
     const double dt = missing / (arc->n_q.dot(q_by_t) / n + s2_ * arc->n_t);
     dq += dt * q_by_t, dlambda += dt * lambda_by_t, at.t += dt;

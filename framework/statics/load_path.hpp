@@ -24,6 +24,7 @@
 // passed the end; one load step then returns to it.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <string>
 #include <vector>
@@ -67,11 +68,17 @@ class LoadPath {
     Vec n_q;
     double n_t, length;
   };
+  double mean_count() const {
+    return std::max(1.0, double(zero_.size()));
+  }  // coordinates: |q|^2 / n is their mean square
   enum class Failure { none, too_many_iterations, singular, diverged };
 
   void begin();
   void by_load(double t);
   void by_arc();
+  bool begin_arcs(const Vec& q_by_t, double step);
+  Arc arc_along(const Vec& q_by_t) const;
+  void take_arc(Arc arc, const Vec& lambda_by_t, double longest);
   bool solve_from_rest(Point& first);
   bool turn_to_forces(const Point& from);
   Failure solve(Point& trial, const Arc* arc);
