@@ -194,6 +194,57 @@ class MotionReader {
   scene::Problems& problems_;
 };
 
+// A column by its form: the motion of a marker, a formula of observables, an observable.
+class ColumnReader {
+ public:
+  ColumnReader(const Model& model, scene::Problems& problems)
+      : model_(model), problems_(problems), choices_(all_choices(model)), motions_(model, problems) {
+    for (const auto& choice : choices_) names_.push_back(choice.first);
+  }
+
+  void check_name(const std::string& name, const scene::Value& value) {
+    if (name.empty() || name.find_first_of(",\"\n\r") != std::string::npos)
+      problems_.error(
+          value.problem(fmt::format("\"{}\" cannot be a column's name, which is not empty and holds no comma, "
+                                    "double quote or end of line: they separate the columns of series.csv",
+                                    scene::shortened(name))));
+    if (is_fixed_column(name))
+      problems_.error(value.problem(fmt::format("series.csv has a column \"{}\" always; choose another name", name)));
+  }
+
+  std::optional<Column> read(const std::string& name, const scene::Value& value) {
+    using Type = scene::Value::Type;
+    if (value.type() == Type::object) return motions_.read(name, value);
+    if (value.type() == Type::text && value.text().starts_with("=")) return formula(name, value);
+    return observable(name, value);
+  }
+
+ private:
+  std::optional<Column> formula(const std::string& name, const scene::Value& value) {
+    const auto formula = value.read_formula(names_, problems_);
+    if (!formula) return {};
+    return Column{name, derived(name, value.text(), *formula, choices_), false, {"", value.text(), ""}};
+  }
+
+  std::optional<Column> observable(const std::string& name, const scene::Value& value) {
+    const auto what = value.read_text(problems_);
+    if (!what) return {};
+    const auto found = std::find(names_.begin(), names_.end(), *what);
+    if (found == names_.end()) {
+      problems_.error(value.problem(fmt::format("no observable \"{}\"{}", *what, scene::did_you_mean(*what, names_))));
+      return {};
+    }
+    return Column{name, choices_[std::size_t(found - names_.begin())].second, false,
+                  observable_quantity(*what, model_)};
+  }
+
+  const Model& model_;
+  scene::Problems& problems_;
+  Choices choices_;
+  MotionReader motions_;
+  std::vector<std::string> names_;
+};
+
 }  // namespace
 
 const Energy& Moment::energy() {
@@ -223,35 +274,10 @@ std::vector<Column> read_observables(const scene::Value& root, const Model& mode
         observe->problem(fmt::format("found {}, expected {{\"column\": \"beam.tip.y\", ...}}", observe->type_name())));
     return columns;
   }
-  Choices choices = all_choices(model);
-  std::vector<std::string> names;
-  for (const auto& choice : choices) names.push_back(choice.first);
-  MotionReader motions(model, problems);
+  ColumnReader reader(model, problems);
   for (const auto& [name, value] : observe->members()) {
-    if (name.empty() || name.find_first_of(",\"\n\r") != std::string::npos)
-      problems.error(
-          value.problem(fmt::format("\"{}\" cannot be a column's name, which is not empty and holds no comma, "
-                                    "double quote or end of line: they separate the columns of series.csv",
-                                    scene::shortened(name))));
-    if (is_fixed_column(name))
-      problems.error(value.problem(fmt::format("series.csv has a column \"{}\" always; choose another name", name)));
-    if (value.type() == scene::Value::Type::object) {
-      if (auto column = motions.read(name, value)) columns.push_back(std::move(*column));
-      continue;
-    }
-    if (value.type() == scene::Value::Type::text && value.text().starts_with("=")) {
-      if (const auto formula = value.read_formula(names, problems))
-        columns.push_back({name, derived(name, value.text(), *formula, choices), false, {"", value.text(), ""}});
-      continue;
-    }
-    const auto what = value.read_text(problems);
-    if (!what) continue;
-    const auto found = std::find(names.begin(), names.end(), *what);
-    if (found == names.end())
-      problems.error(value.problem(fmt::format("no observable \"{}\"{}", *what, scene::did_you_mean(*what, names))));
-    else
-      columns.push_back(
-          {name, choices[std::size_t(found - names.begin())].second, false, observable_quantity(*what, model)});
+    reader.check_name(name, value);
+    if (auto column = reader.read(name, value)) columns.push_back(std::move(*column));
   }
   return columns;
 }
