@@ -213,49 +213,66 @@ std::string line_of(const Difference& d) {
   return text + "\n";
 }
 
+json json_of(const Difference& d) {
+  json one = {{"file", d.file}, {"where", d.where}, {"a", d.a}, {"b", d.b}, {"count", d.count}};
+  if (d.digits) one["digits"] = *d.digits;
+  if (d.least) one["fewest_digits"] = *d.least;
+  return one;
+}
+
+struct FolderDifferences {
+  std::vector<Difference> differences;  // of files in both folders; tables first, which readers look at first
+  json only = json::array();            // files of one folder
+};
+
+FolderDifferences differences_of(const fs::path& a, const fs::path& b) {
+  FolderDifferences found;
+  const std::set<std::string> in_a = files(a), in_b = files(b);
+  for (const std::string& name : in_a) {
+    if (!in_b.contains(name)) {
+      found.only.push_back({{"file", name}, {"in", a.string()}});
+      continue;
+    }
+    Difference d = compare_file(a / name, b / name);
+    d.file = name;
+    if (d.count > 0) found.differences.push_back(d);
+  }
+  for (const std::string& name : in_b)
+    if (!in_a.contains(name)) found.only.push_back({{"file", name}, {"in", b.string()}});
+  std::stable_partition(found.differences.begin(), found.differences.end(),
+                        [](const Difference& d) { return d.file.ends_with(".csv"); });
+  return found;
+}
+
+std::string text_of(const FolderDifferences& found, const json& made) {
+  std::string text;
+  for (const Difference& d : found.differences) text += line_of(d);
+  for (const json& one : found.only)
+    text += fmt::format("{}: only in {}\n", one["file"].get<std::string>(), one["in"].get<std::string>());
+  const bool equal = text.empty();
+  if (equal) text += "The results are equal.\n";
+  for (const json& one : made)
+    text += fmt::format("made with another {}: {} and {}\n", one["what"].get<std::string>(), one["a"].dump(),
+                        one["b"].dump());
+  if (!equal && made.empty()) text += "Both were made alike: the same scene, program and plugins.\n";
+  text.pop_back();
+  return text;
+}
+
 }  // namespace
 
 Comparison compare(const fs::path& a, const fs::path& b) {
   for (const fs::path& folder : {a, b})
     if (!fs::is_directory(folder)) throw simulate::FolderRefused(fmt::format("{} is no folder", folder.string()));
-  const std::set<std::string> in_a = files(a), in_b = files(b);
-  std::vector<Difference> differences;
-  json only = json::array();
-  Comparison result;
-  for (const std::string& name : in_a) {
-    if (!in_b.contains(name)) {
-      only.push_back({{"file", name}, {"in", a.string()}});
-      continue;
-    }
-    Difference d = compare_file(a / name, b / name);
-    d.file = name;
-    if (d.count > 0) differences.push_back(d);
-  }
-  for (const std::string& name : in_b)
-    if (!in_a.contains(name)) only.push_back({{"file", name}, {"in", b.string()}});
-  std::stable_partition(differences.begin(), differences.end(),
-                        [](const Difference& d) { return d.file.ends_with(".csv"); });  // readers look at tables first
-  result.equal = differences.empty() && only.empty();
-  json list = json::array();
-  for (const Difference& d : differences) {
-    result.text += line_of(d);
-    json one = {{"file", d.file}, {"where", d.where}, {"a", d.a}, {"b", d.b}, {"count", d.count}};
-    if (d.digits) one["digits"] = *d.digits;
-    if (d.least) one["fewest_digits"] = *d.least;
-    list.push_back(one);
-  }
-  for (const json& one : only)
-    result.text += fmt::format("{}: only in {}\n", one["file"].get<std::string>(), one["in"].get<std::string>());
-  if (result.equal) result.text += "The results are equal.\n";
+  const FolderDifferences found = differences_of(a, b);
   const json made = making(head_of(a), head_of(b));
-  for (const json& one : made)
-    result.text += fmt::format("made with another {}: {} and {}\n", one["what"].get<std::string>(), one["a"].dump(),
-                               one["b"].dump());
-  if (!result.equal && made.empty()) result.text += "Both were made alike: the same scene, program and plugins.\n";
-  result.text.pop_back();
-  result.json = json{{"equal", result.equal}, {"differences", list}, {"only", only}, {"made", made}}.dump(
-      2, ' ', false, json::error_handler_t::replace);  // damaged files may contain bytes that are no text
-  return result;
+  const bool equal = found.differences.empty() && found.only.empty();
+  json list = json::array();
+  for (const Difference& d : found.differences) list.push_back(json_of(d));
+  return {.equal = equal,
+          .text = text_of(found, made),
+          .json = json{{"equal", equal}, {"differences", list}, {"only", found.only}, {"made", made}}.dump(
+              2, ' ', false, json::error_handler_t::replace)};  // damaged files may contain bytes that are no text
 }
 
 }  // namespace trammel::study

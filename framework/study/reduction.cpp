@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -169,6 +170,26 @@ bool crosses(double before, double after, Direction way) {
   return (up && way != Direction::down) || (down && way != Direction::up);
 }
 
+template <class Combine>
+double fold(const std::vector<double>& x, double first, Combine&& combine) {
+  return std::accumulate(x.begin(), x.end(), first, combine);
+}
+
+// By the trapezoidal rule.
+double mean(const std::vector<double>& t, const std::vector<double>& x) {
+  double sum = 0, whole = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) sum += (x[i] + x[i - 1]) / 2 * (t[i] - t[i - 1]), whole += t[i] - t[i - 1];
+  return whole > 0 ? sum / whole : x[0];
+}
+
+double first_crossing(const std::vector<double>& t, const std::vector<double>& x, double level, Direction way) {
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    const double before = x[i - 1] - level, after = x[i] - level;
+    if (crosses(before, after, way)) return t[i - 1] + (t[i] - t[i - 1]) * before / (before - after);
+  }
+  return unknown;
+}
+
 }  // namespace
 
 double Reference::at(double time) const {
@@ -183,40 +204,26 @@ double Reference::at(double time) const {
 double Reduction::of(const Series& s) const {
   const auto column = observe == "t" ? std::optional<std::size_t>() : s.column(observe);
   if (s.rows() == 0 || (!column && observe != "t")) return unknown;
-  const auto x = [&](std::size_t i) { return column ? s.at(i, *column) : s.t[i]; };
-  const std::size_t last = s.rows() - 1;
-  double result = as == As::max || as == As::min ? x(0) : 0, whole = 0;
+  std::vector<double> x(s.rows());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = column ? s.at(i, *column) : s.t[i];
   switch (as) {
     case As::final:
-      return x(last);
+      return x.back();
     case As::initial:
-      return x(0);
+      return x.front();
     case As::max:
-      for (std::size_t i = 0; i <= last; ++i) result = std::max(result, x(i));
-      return result;
+      return fold(x, x.front(), [](double largest, double y) { return std::max(largest, y); });
     case As::min:
-      for (std::size_t i = 0; i <= last; ++i) result = std::min(result, x(i));
-      return result;
+      return fold(x, x.front(), [](double least, double y) { return std::min(least, y); });
     case As::max_abs:
-      for (std::size_t i = 0; i <= last; ++i) result = std::max(result, std::abs(x(i)));
-      return result;
+      return fold(x, 0, [](double largest, double y) { return std::max(largest, std::abs(y)); });
     case As::mean:
-    case As::rms: {
-      const auto y = [&](std::size_t i) {
-        const double off = x(i) - (as == As::rms ? reference.at(s.t[i]) : 0);
-        return as == As::rms ? off * off : off;
-      };
-      for (std::size_t i = 1; i <= last; ++i)
-        result += (y(i) + y(i - 1)) / 2 * (s.t[i] - s.t[i - 1]), whole += s.t[i] - s.t[i - 1];
-      result = whole > 0 ? result / whole : y(0);
-      return as == As::rms ? std::sqrt(result) : result;
-    }
+      return mean(s.t, x);
+    case As::rms:
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] -= reference.at(s.t[i]), x[i] *= x[i];
+      return std::sqrt(mean(s.t, x));
     case As::first_crossing:
-      for (std::size_t i = 1; i <= last; ++i) {
-        const double before = x(i - 1) - level, after = x(i) - level;
-        if (crosses(before, after, direction)) return s.t[i - 1] + (s.t[i] - s.t[i - 1]) * before / (before - after);
-      }
-      return unknown;
+      return first_crossing(s.t, x, level, direction);
   }
   return unknown;
 }
