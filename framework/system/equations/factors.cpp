@@ -135,47 +135,50 @@ void FactorsAtPoint::reserve_contacts() {
   }
 }
 
-// Adds the coordinates that move the rows' markers, including entries that are 0 at present.
+// Rows with the coordinates that move their markers, including entries that are 0 at present.
 void FactorsAtPoint::add_rows_to(numerics::SparseSum& sum, bool sliding) {
   const Mat &G = rows_.G(), &reaction = sliding ? rows_.W() : G;
-  const auto add = [&](int row, int count) {
-    std::sort(row_places_.begin(), row_places_.end());
-    row_places_.erase(std::unique(row_places_.begin(), row_places_.end()), row_places_.end());
-    const int n = int(row_places_.size());
-    const numerics::SparseSum::Places these{nullptr, at_.model->sizes.nv + row, count},
-        columns{row_places_.data(), 0, n};
-    row_numbers_.resize(std::size_t(count) * std::size_t(n));
-    Eigen::Map<Mat> block(row_numbers_.data(), count, n), transposed(row_numbers_.data(), n, count);
-    for (int j = 0; j < n; ++j) block.col(j) = G.col(row_places_[std::size_t(j)]).segment(row, count);
-    sum.add(these, columns, block, 1);
-    for (int j = 0; j < n; ++j)
-      transposed.row(j) = reaction.col(row_places_[std::size_t(j)]).segment(row, count).transpose();
-    sum.add(columns, these, transposed, 1);
-  };
-  const auto add_places = [&](const Slots& slots) {
-    for (int k = 0; k < slots.count; ++k) {
-      if (at_.markers.body(slots[k]) < 0) continue;
-      const int v0 = at_.markers.first_velocity(slots[k]);
-      for (const int dof : at_.motion(slots[k]).dofs) row_places_.push_back(v0 + dof);
-    }
-  };
   for (const BodyEntry& entry : at_.model->bodies) {
     if (entry.rows == 0) continue;
     row_places_.clear();
     for (int j = entry.v0; j < entry.v0 + entry.nv; ++j)
       if (entry.nv <= few_coordinates || !G.col(j).segment(entry.row, entry.rows).isZero(0)) row_places_.push_back(j);
-    add(entry.row, entry.rows);
+    add_rows_at_places(sum, reaction, entry.row, entry.rows);
   }
   for (std::size_t i = 0; i < at_.joints.size(); ++i) {
     row_places_.clear();
     add_places(at_.joints[i]);
-    add(at_.model->joints[i].row, at_.model->joints[i].rows);
+    add_rows_at_places(sum, reaction, at_.model->joints[i].row, at_.model->joints[i].rows);
   }
   contacts_.for_each_row([&](ContactDirection d, int row) {
     row_places_.clear();
     for (const int i : contacts_.acting_with(d)) add_places(contacts_.slots(i));
-    add(row, 1);
+    add_rows_at_places(sum, reaction, row, 1);
   });
+}
+
+void FactorsAtPoint::add_places(const Slots& slots) {
+  for (int k = 0; k < slots.count; ++k) {
+    if (at_.markers.body(slots[k]) < 0) continue;
+    const int v0 = at_.markers.first_velocity(slots[k]);
+    for (const int dof : at_.motion(slots[k]).dofs) row_places_.push_back(v0 + dof);
+  }
+}
+
+// Rows of G and columns of the reactions, at the coordinates row_places_.
+void FactorsAtPoint::add_rows_at_places(numerics::SparseSum& sum, const Mat& reaction, int row, int count) {
+  const Mat& G = rows_.G();
+  std::sort(row_places_.begin(), row_places_.end());
+  row_places_.erase(std::unique(row_places_.begin(), row_places_.end()), row_places_.end());
+  const int n = int(row_places_.size());
+  const numerics::SparseSum::Places rows{nullptr, at_.model->sizes.nv + row, count}, columns{row_places_.data(), 0, n};
+  row_numbers_.resize(std::size_t(count) * std::size_t(n));
+  Eigen::Map<Mat> block(row_numbers_.data(), count, n), transposed(row_numbers_.data(), n, count);
+  for (int j = 0; j < n; ++j) block.col(j) = G.col(row_places_[std::size_t(j)]).segment(row, count);
+  sum.add(rows, columns, block, 1);
+  for (int j = 0; j < n; ++j)
+    transposed.row(j) = reaction.col(row_places_[std::size_t(j)]).segment(row, count).transpose();
+  sum.add(columns, rows, transposed, 1);
 }
 
 }  // namespace trammel::model

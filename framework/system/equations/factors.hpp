@@ -43,6 +43,8 @@ class FactorsAtPoint {
                         const CarriedFrom* carried);
   void reserve_contacts();
   void add_rows_to(numerics::SparseSum& sum, bool sliding);  // adds W^T and G to the matrix of S
+  void add_places(const Slots& slots);
+  void add_rows_at_places(numerics::SparseSum& sum, const Mat& reaction, int row, int count);
 
   Point& at_;
   ContactsAtPoint& contacts_;
