@@ -144,8 +144,15 @@ class ContactInput {
       if (side.other < 0) return false;
       entry.geometry = PointOnPlane(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ());
     }
-    const std::string& name = model_.bodies[std::size_t(body)].name;
-    if (entry.B.body == body) {
+    if (!other_may_touch(side, second, contact, entry)) return false;
+    entry.surface = std::move(side);
+    return true;
+  }
+
+  // Whether what stands against the surface is another body's, and one that points can slide on.
+  bool other_may_touch(const SurfaceSide& side, const Value& second, const Value& contact, const ContactEntry& entry) {
+    const std::string& name = model_.bodies[std::size_t(side.body)].name;
+    if (entry.B.body == side.body) {
       problems_.error(contact.problem(
           is_plane(second)
               ? fmt::format("this plane is carried by bodies.{}, whose surface is to touch it", name)
@@ -158,7 +165,6 @@ class ContactInput {
       problems_.error(second.problem("points of another surface cannot slide on this one; name it first"));
       return false;
     }
-    entry.surface = std::move(side);
     return true;
   }
 
