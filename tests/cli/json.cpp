@@ -21,6 +21,41 @@ json object_of(std::vector<std::string> words) {
   return json::parse(result.out);
 }
 
+TEST(JsonOutput, OfARunIsOneObjectAndNothingElse) {
+  const cli::TemporaryFolder folder;
+  const auto result = trammel({"run", cli::bounce, "--json"}, {.folder = folder.path()});
+  EXPECT_EQ(result.exit_code, 0);
+  const json object = json::parse(result.out);  // throws on anything after the object
+  EXPECT_TRUE(object.is_object());
+  EXPECT_EQ(object, json::parse(cli::read_file(folder.path() / "out/bounce/result.json")));
+  EXPECT_EQ(object["status"], "done");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST(JsonOutput, OfBadInputHoldsEveryProblemWithItsPlace) {
+  const auto result =
+      trammel({"validate", "several_problems.json", "--json"}, {.folder = cli::scenes.parent_path() / "cases"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err, "");
+  const json object = json::parse(result.out);
+  EXPECT_EQ(object["status"], "error");
+  EXPECT_EQ(object["problems"].size(), 4u);
+  for (const json& problem : object["problems"]) {
+    EXPECT_EQ(problem["file"], "several_problems.json");
+    EXPECT_GT(problem["line"], 1);
+    EXPECT_GT(problem["column"], 1);
+    EXPECT_NE(problem["path"], "");
+    EXPECT_NE(problem["message"], "");
+  }
+}
+
+TEST(JsonOutput, OfAMistakeOnTheCommandLineIsAnObjectToo) {
+  const auto result = trammel({"run", cli::bounce, "--json", "--ot", "x"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(json::parse(result.out)["status"], "error");
+  EXPECT_EQ(result.err, "");
+}
+
 TEST(JsonOutput, OfExplainHasTheSectionsOfItsText) {
   const json told = object_of({"explain", cli::bounce});
   std::vector<std::string> titles;

@@ -14,6 +14,7 @@ namespace cli {
 // Scenes that are run in a moment.
 inline const std::filesystem::path scenes = std::filesystem::path(TRAMMEL_SOURCE_DIR) / "tests/cli/scenes";
 inline const std::string bounce = (scenes / "bounce.json").string();
+inline const std::string pendulum = (scenes / "pendulum.json").string();
 
 struct Setting {
   std::filesystem::path folder = ".";                                 // working folder of the child
@@ -51,6 +52,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+std::vector<std::string> lines(const std::string& text);
 std::string read_file(const std::filesystem::path& file);
 void write_file(const std::filesystem::path& file, const std::string& text);
 
