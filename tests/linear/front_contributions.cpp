@@ -74,6 +74,19 @@ TEST(FrontContributions, TakesThoseThatChangeAnewAndConstantOnesOnce) {
   EXPECT_EQ(pieces.update(2, 0, bodies)[0], 0.3);
 }
 
+TEST(FrontContributions, PlacesMassesOnceForALayoutAndAnewForAnother) {
+  std::vector<BodyBlock> bodies = three_bodies();
+  Pieces pieces(bodies);
+  bodies[0].M(0, 0) = 7;
+  pieces.pieces.place_masses(pieces.layout, bodies);
+  EXPECT_EQ(pieces.of(0, -1)[0], 3) << "it was there";
+  pieces.layout.build(bodies, 1);
+  pieces.pieces.build(pieces.layout, bodies);
+  pieces.pieces.place_masses(pieces.layout, bodies);
+  EXPECT_EQ(pieces.of(0, -1)[0], 7);
+  EXPECT_EQ(pieces.of(1, -1)[0], 3);
+}
+
 // An order by value would find it equal to any number, and hide it.
 TEST(FrontContributions, DoesNotTakeAnythingForNotANumber) {
   std::vector<BodyBlock> bodies = three_bodies();
