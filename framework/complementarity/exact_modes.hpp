@@ -18,9 +18,6 @@ namespace trammel::complementarity {
 
 // The role of each contact in a solution; accelerations below `nothing` count as 0.
 std::vector<ContactRole> roles_of(const std::vector<ContactPoint>& points, const Vec& F, const Vec& a, double nothing);
-// The same, with the accelerations along tangents that count as 0 by contact.
-std::vector<ContactRole> roles_of(const std::vector<ContactPoint>& points, const Vec& F, const Vec& a, double nothing,
-                                  const Vec& no_slip);
 
 // Changes F to the exact solution; `a` are its accelerations, wrong by at most `nearby` of them, possibly of compliant
 // contacts. False: it found none. On return `a` are the accelerations of the exact F, with 0 along rows that follow

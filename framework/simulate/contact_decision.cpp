@@ -449,8 +449,7 @@ void ContactModes::take_verdict(const Participant& p, bool kept_closed) {
   mode.direction = p.direction;
   mode.least_slip = least_slip(p.contact);
   if (p.tangent == Tangent::sliding) return;
-  const double no_slip = std::max(scale_.of(p.contact).no_acceleration(), p.no_slip);
-  if (p.a_t.norm() > std::min(least_acceleration(), no_slip)) {
+  if (p.a_t.norm() > least_acceleration()) {
     mode.direction = direction_of(p.a_t);
   } else if (p.yielded && p.T.norm() > (1 - 1e-6) * p.mu * p.N) {  // slides, too slowly to be seen
     mode.direction = -direction_of(p.T);
