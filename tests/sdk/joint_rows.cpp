@@ -43,7 +43,7 @@ TEST(SmallestRotation, TurnsADirectionToAnyOther) {
     EXPECT_NEAR(turn.norm(), 1, 1e-15) << left;
     // Its axis is a x b, whose errors are those of round-off over the angle that is left.
     EXPECT_NEAR((turn * from.normalized() - to.normalized()).norm(), 0,
-                left > 1e-6 ? 1e-15 / std::min(left, 1.0) : 1e-15)
+                left > 5e-7 ? 1e-15 / std::min(left, 1.0) : 1e-15)
         << left;
     EXPECT_NEAR(Eigen::AngleAxisd(turn).angle(), M_PI - left, 2e-6) << left;
   }

@@ -107,8 +107,8 @@ Vec3 unit_axis(const Vec3& axis, const char* parameter);
 Eigen::Vector3d spatial_axis(const World&, const std::optional<Vec3>& axis, const char* parameter,
                              const Eigen::Vector3d& otherwise = Eigen::Vector3d::UnitZ());
 Eigen::Quaterniond unit_quaternion(const World&, const std::vector<double>& wxyz, const char* parameter);
-// The smallest rotation that turns the direction `from` to `to`; half a turn about some normal if they are opposite, to a millionth.
-// As Eigen's FromTwoVectors, whose singular value decomposition takes 10 s to compile.
+// The smallest rotation that turns the direction `from` to `to`; half a turn about some normal if they are opposite, to
+// a millionth. As Eigen's FromTwoVectors, whose singular value decomposition takes 10 s to compile.
 Eigen::Quaterniond smallest_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace trammel

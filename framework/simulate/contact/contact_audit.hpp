@@ -4,8 +4,8 @@
 //
 // The scale of the round-off are the forces that act on the contact itself (force_noise.hpp). Contacts that share rows
 // are checked together (AssembledSystem::spare_load). A violation becomes a warning: the run cannot be trusted there.
-// The audit also keeps when contacts were statically indeterminate: closed with rows that depend on each other, so that
-// their forces are not unique (complementarity/shares/carrying_rows.hpp).
+// The audit also keeps when contacts were statically indeterminate: closed with rows that depend on each other, so
+// that their forces are not unique (complementarity/shares/carrying_rows.hpp).
 #pragma once
 
 #include <map>

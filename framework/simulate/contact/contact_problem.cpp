@@ -24,8 +24,8 @@ Eigen::VectorBlock<Vec> along(Vec& x, const complementarity::ContactPoint& p) {
 // (`least_share` is its square).
 constexpr double most_changed = 1e3, least_share = 1e-6;
 
-// Rates of the rows that carry appear as many times in a row that follows from them. If there are more, the carrying rows
-// are about to depend on each other (a strut that becomes upright), and they do not hold the other one.
+// Rates of the rows that carry appear as many times in a row that follows from them. If there are more, the carrying
+// rows are about to depend on each other (a strut that becomes upright), and they do not hold the other one.
 constexpr double most_times = 1e3;
 
 // Static or kinetic coefficient.
