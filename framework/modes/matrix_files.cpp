@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <trammel/decompositions.hpp>
+
 #include "simulate/results/log_file.hpp"
 #include "simulate/results/npz.hpp"
 
@@ -84,7 +86,7 @@ Matrices matrices(model::AssembledSystem& system, const State& state) {
   const Eigen::Index m = l.M.rows();
   all.A = Mat::Zero(2 * m, 2 * m);
   if (m > 0) {
-    const auto M = l.M.partialPivLu();
+    const Eigen::PartialPivLU<Mat> M(l.M);
     all.A.topRightCorner(m, m).setIdentity();
     all.A.bottomLeftCorner(m, m) = -M.solve(l.K);
     all.A.bottomRightCorner(m, m) = -M.solve(l.D);

@@ -14,33 +14,33 @@
 
 namespace Eigen {
 
-using trammel::Mat;
-using trammel::Vec;
-
-extern template class HouseholderQR<Mat>;
-extern template class ColPivHouseholderQR<Mat>;
-extern template class CompleteOrthogonalDecomposition<Mat>;
-extern template class FullPivLU<Mat>;
-extern template class PartialPivLU<Mat>;
-extern template class LLT<Mat>;
-extern template class LDLT<Mat>;
-extern template class SelfAdjointEigenSolver<Mat>;
-extern template class GeneralizedSelfAdjointEigenSolver<Mat>;
-extern template class EigenSolver<Mat>;
+extern template class HouseholderQR<trammel::Mat>;
+extern template class ColPivHouseholderQR<trammel::Mat>;
+extern template class CompleteOrthogonalDecomposition<trammel::Mat>;
+extern template class FullPivLU<trammel::Mat>;
+extern template class PartialPivLU<trammel::Mat>;
+extern template class LLT<trammel::Mat>;
+extern template class LDLT<trammel::Mat>;
+extern template class SelfAdjointEigenSolver<trammel::Mat>;
+extern template class GeneralizedSelfAdjointEigenSolver<trammel::Mat>;
+extern template class EigenSolver<trammel::Mat>;
 
 // An instantiation of a class does not instantiate its member templates.
-extern template LLT<Mat>& LLT<Mat>::compute(const EigenBase<Mat>&);
-extern template LDLT<Mat>& LDLT<Mat>::compute(const EigenBase<Mat>&);
-extern template SelfAdjointEigenSolver<Mat>& SelfAdjointEigenSolver<Mat>::compute(const EigenBase<Mat>&, int);
-extern template EigenSolver<Mat>& EigenSolver<Mat>::compute(const EigenBase<Mat>&, bool);
+extern template LLT<trammel::Mat>& LLT<trammel::Mat>::compute(const EigenBase<trammel::Mat>&);
+extern template LDLT<trammel::Mat>& LDLT<trammel::Mat>::compute(const EigenBase<trammel::Mat>&);
+extern template SelfAdjointEigenSolver<trammel::Mat>& SelfAdjointEigenSolver<trammel::Mat>::compute(
+    const EigenBase<trammel::Mat>&, int);
+extern template EigenSolver<trammel::Mat>& EigenSolver<trammel::Mat>::compute(const EigenBase<trammel::Mat>&, bool);
 
-extern template void ColPivHouseholderQR<Mat>::_solve_impl(const Vec&, Vec&) const;
-extern template void CompleteOrthogonalDecomposition<Mat>::_solve_impl(const Vec&, Vec&) const;
-extern template void CompleteOrthogonalDecomposition<Mat>::_solve_impl(const Mat&, Mat&) const;
-extern template void FullPivLU<Mat>::_solve_impl(const Vec&, Vec&) const;
-extern template void LLT<Mat>::_solve_impl(const Vec&, Vec&) const;
-extern template void LLT<Mat>::_solve_impl(const Mat&, Mat&) const;
-extern template void LDLT<Mat>::_solve_impl(const Vec&, Vec&) const;
+extern template void ColPivHouseholderQR<trammel::Mat>::_solve_impl(const trammel::Vec&, trammel::Vec&) const;
+extern template void CompleteOrthogonalDecomposition<trammel::Mat>::_solve_impl(const trammel::Vec&,
+                                                                                trammel::Vec&) const;
+extern template void CompleteOrthogonalDecomposition<trammel::Mat>::_solve_impl(const trammel::Mat&,
+                                                                                trammel::Mat&) const;
+extern template void FullPivLU<trammel::Mat>::_solve_impl(const trammel::Vec&, trammel::Vec&) const;
+extern template void LLT<trammel::Mat>::_solve_impl(const trammel::Vec&, trammel::Vec&) const;
+extern template void LLT<trammel::Mat>::_solve_impl(const trammel::Mat&, trammel::Mat&) const;
+extern template void LDLT<trammel::Mat>::_solve_impl(const trammel::Vec&, trammel::Vec&) const;
 
 }  // namespace Eigen
 

@@ -25,7 +25,7 @@
 // Version of these headers. Major: a virtual function or a type's layout changed. Minor: abilities were added
 // (CHANGES.md).
 #define TRAMMEL_SDK_MAJOR 6
-#define TRAMMEL_SDK_MINOR 0
+#define TRAMMEL_SDK_MINOR 1
 
 namespace trammel {
 using Declarations = std::vector<Declaration>;

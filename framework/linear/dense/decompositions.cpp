@@ -3,6 +3,9 @@
 
 namespace Eigen {
 
+using trammel::Mat;
+using trammel::Vec;
+
 template class HouseholderQR<Mat>;
 template class ColPivHouseholderQR<Mat>;
 template class CompleteOrthogonalDecomposition<Mat>;

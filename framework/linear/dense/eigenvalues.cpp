@@ -3,6 +3,9 @@
 
 namespace Eigen {
 
+using trammel::Mat;
+using trammel::Vec;
+
 template class SelfAdjointEigenSolver<Mat>;
 template class GeneralizedSelfAdjointEigenSolver<Mat>;
 template class EigenSolver<Mat>;

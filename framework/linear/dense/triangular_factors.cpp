@@ -3,6 +3,9 @@
 
 namespace Eigen {
 
+using trammel::Mat;
+using trammel::Vec;
+
 template class FullPivLU<Mat>;
 template class PartialPivLU<Mat>;
 template class LLT<Mat>;
