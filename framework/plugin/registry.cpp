@@ -38,9 +38,9 @@ std::string full_path(const fs::path& file) {
   return (error ? fs::absolute(file) : path).string();
 }
 
-// <prefix>/lib/trammel for <prefix>/lib/libtrammel.so; the same in a build folder.
+// <prefix>/lib/trammel beside <prefix>/lib/libtrammel.so; the same in a build folder.
 fs::path installed_folder() {
-  return fs::path(boost::dll::this_line_location().parent_path().string()) / "trammel";
+  return libraries_folder() / "trammel";
 }
 
 // Empty if there is none.
@@ -120,6 +120,10 @@ std::vector<fs::path> libraries_in(const fs::path& folder) {
 
 Origin Entry::origin(std::string scene_path) const {
   return {file, fmt::format("{} {}", to_string(declaration.kind), declaration.name), std::move(scene_path)};
+}
+
+fs::path libraries_folder() {
+  return fs::path(boost::dll::this_line_location().parent_path().string());
 }
 
 Registry::Registry(Start start) {

@@ -89,4 +89,7 @@ class Registry {
   std::vector<PluginError> failures_;
 };
 
+// Where libtrammel.so is, and with it the other libraries of the program.
+std::filesystem::path libraries_folder();
+
 }  // namespace trammel::plugin

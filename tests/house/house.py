@@ -14,7 +14,7 @@ def code_files(folder):
 
 
 def rooms(source):
-    """The rooms of libtrammel, lowest first, from framework/CMakeLists.txt."""
+    """The rooms of libtrammel and libtrammel_analyses, lowest first, from framework/CMakeLists.txt."""
     text = (source / "framework/CMakeLists.txt").read_text()
     return re.search(r"set\(TRAMMEL_ROOMS([^)]*)\)", text).group(1).split()
 
@@ -35,7 +35,7 @@ def rooms_include_only_lower_rooms(source, _):
                 if other in order and order.index(other) > order.index(room):
                     yield f"{file.relative_to(source)} includes {included}, which is in a higher room"
                 elif other not in order and included != "trammel_commit.hpp":
-                    yield f"{file.relative_to(source)} includes {included}, which is in no room of libtrammel"
+                    yield f"{file.relative_to(source)} includes {included}, which is in no room"
 
 
 def every_folder_is_a_room(source, _):

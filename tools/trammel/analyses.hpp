@@ -1,10 +1,12 @@
 // The analyses: commands that do more with a scene than run it once. They are in a library of their own,
-// lib/libtrammel_commands.so, which is loaded when one of them is asked for: a run neither loads what it does not need,
-// nor waits until that is built.
+// libtrammel_commands.so beside libtrammel.so, which is loaded when one of them is asked for: a run neither loads what
+// it does not need, nor waits until that is built.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include "arguments.hpp"
@@ -12,8 +14,12 @@
 
 namespace trammel::tool {
 
+// Known without the library.
+inline constexpr std::array<std::string_view, 8> kAnalyses{"static", "modes",   "explain", "study",
+                                                           "trade",  "compare", "check",   "stability"};
+
 struct Analyses {
-  std::vector<Command> commands;
+  std::vector<Command> commands;  // as named above
   // What `trammel run` may do after its run: --verify, and after a failure what to change.
   void (*verify)(const Arguments& arguments, plugin::Registry& registry, const scene::Scene& scene,
                  const std::filesystem::path& folder, bool quiet);

@@ -70,6 +70,8 @@ inline constexpr Option kPlugin{"--plugin", "LIB", "a plugin library, or a folde
 inline constexpr Option kAllowScenePlugins{
     "--allow-scene-plugins", "", "load the libraries that the scene names under \"plugins\": their code runs"};
 inline constexpr Option kJobs{"--jobs", "N", "processes; default: one for each core that this process may use"};
+inline constexpr Option kVerifyTarget{"--target", "X",
+                                      "of --verify: the error wanted, in parts of what an observable changes"};
 inline constexpr Option kJson{"--json", "", "print one JSON object on standard output and nothing else"};
 
 // One function per file of the same name; others are in analyses/commands.hpp.

@@ -55,21 +55,18 @@ void print_help() {
   try {
     print_help(analyses().commands);
   } catch (const AnalysesMissing& missing) {
-    fmt::print("\nThe others are missing: {}\n", missing.what());
+    fmt::print("\n{}\n", missing.what());
   }
   fmt::print("\n'trammel COMMAND --help' shows a command's options.\n");
 }
 
-const Command* find_command(const std::vector<Command>& commands, const std::string& name) {
-  const auto found = std::ranges::find(commands, name, &Command::name);
-  return found == commands.end() ? nullptr : &*found;
-}
-
 const Command& find_command(const std::string& name) {
-  if (const Command* own = find_command(own_commands(), name)) return *own;
-  if (const Command* analysis = find_command(analyses().commands, name)) return *analysis;
-  std::vector<std::string> names;
-  for (const Command& command : all_commands()) names.emplace_back(command.name);
+  const bool is_analysis = std::ranges::find(kAnalyses, name) != kAnalyses.end();
+  const std::vector<Command>& commands = is_analysis ? analyses().commands : own_commands();
+  const auto found = std::ranges::find(commands, name, &Command::name);
+  if (found != commands.end()) return *found;
+  std::vector<std::string> names(kAnalyses.begin(), kAnalyses.end());
+  for (const Command& command : own_commands()) names.emplace_back(command.name);
   throw UsageError(fmt::format("there is no command '{}'{}", name, scene::did_you_mean(name, names)));
 }
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "analyses.hpp"
-#include "analyses/after_run.hpp"
 #include "arguments.hpp"
 #include "beside_results.hpp"
 #include "commands/simulation.hpp"

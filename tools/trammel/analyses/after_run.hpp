@@ -8,9 +8,6 @@
 
 namespace trammel::tool {
 
-inline constexpr Option kVerifyTarget{"--target", "X",
-                                      "of --verify: the error wanted, in parts of what an observable changes"};
-
 // Runs the scene again, by finer steps and by another method; adds an error for each observable to the results.
 void verify(const Arguments& arguments, plugin::Registry& registry, const scene::Scene& scene,
             const std::filesystem::path& folder, bool quiet);
