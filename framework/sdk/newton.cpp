@@ -34,8 +34,7 @@ void Newton::judge(double change, bool at_round_off) {
     state_ = State::converged;
     return;
   }
-  if (rate_before > 1 && rate_ > 1 && change > hopeless)
-    return fail("Newton's iteration did not converge");
+  if (rate_before > 1 && rate_ > 1 && change > hopeless) return fail("Newton's iteration did not converge");
   if (iterations_ >= max_iterations) return fail("Newton's iteration did not converge");
   wants_factors_ = !first && rate_ > 0.3;
   last_change_ = change;

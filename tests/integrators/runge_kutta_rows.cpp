@@ -7,8 +7,7 @@
 namespace trammel::test {
 namespace {
 
-// A particle with the row of a problem, at (x, y) with the velocity (1, 0.5): where it is projected to, and at what
-// cost.
+// A particle on the row of a problem, at (x, y) with the velocity (1, 0.5): where it is projected to, at what cost.
 struct Projected {
   bool possible = false;
   Vec q, v;

@@ -103,6 +103,19 @@ void expect_solved(const Mat& S, RowComplement& complement) {
   EXPECT_LT((S * y - r).norm(), 1e-14 * S.norm() * y.norm());
 }
 
+// The last joint holds the last body to the ground, then to the body before it, and to the ground again: only that body
+// has rows more, or fewer, than before.
+TEST(RowComplement, FollowsRowsThatComeToABodyAndLeaveIt) {
+  Joints to_ground = chain(4), to_body = chain(4);
+  to_ground.back().first = -1;
+  RowComplement complement;
+  for (const Joints& joints : {to_ground, to_body, to_ground}) {
+    const Mechanism m(4, 6, joints, 3);
+    ASSERT_TRUE(complement.factorise(m.bodies, m.masses, m.nc, 1e-7));
+    expect_solved(m.dense(m.nc), complement);
+  }
+}
+
 TEST_P(RowComplementOf, SolvesAsTheWholeMatrix) {
   const Mechanism m = mechanism();
   RowComplement complement;

@@ -12,8 +12,8 @@
 namespace trammel::test {
 namespace {
 
-// Painleve's rod of m = l = 1, whose tip slides to -x and finds no finite force, and a ball of 1 kg that strikes
-// another floor, not before: both at `speed`.
+// Painleve's rod of m = l = 1, whose tip slides to -x and finds no finite force, and a ball of 1 kg that strikes a
+// floor of its own: both at `speed`.
 simulate::Setup rod_and_ball(double speed) {
   const double theta = std::atan(2.0);
   return simulate::set_up(scene::Scene::parse(fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, 0],
