@@ -103,6 +103,21 @@ void expect_solved(const Mat& S, RowComplement& complement) {
   EXPECT_LT((S * y - r).norm(), 1e-14 * S.norm() * y.norm());
 }
 
+// Two rows of one body at an angle: its sine decides, not its square.
+TEST(RowComplement, RefusesRowsAtLessThanTheLeastSine) {
+  const auto factorised = [](double angle) {
+    std::vector<BodyBlock> bodies(1);
+    bodies[0].M = Mat::Identity(2, 2);
+    bodies[0].Gt = Eigen::Matrix2d{{1, std::cos(angle)}, {0, std::sin(angle)}};
+    bodies[0].rows = {0, 1};
+    BodyMasses masses;
+    masses.take_identity(bodies);
+    return RowComplement().factorise(bodies, masses, 2, 1e-4);
+  };
+  EXPECT_TRUE(factorised(2e-4));
+  EXPECT_FALSE(factorised(0.5e-4));
+}
+
 // The last joint holds the last body to the ground, then to the body before it, and to the ground again: only that body
 // has rows more, or fewer, than before.
 TEST(RowComplement, FollowsRowsThatComeToABodyAndLeaveIt) {
