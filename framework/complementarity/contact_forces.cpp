@@ -180,7 +180,8 @@ class Cascade {
 // Sets to 0 what is 0 by the conditions.
 void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a) {
   // Round-off of accelerations. That of a force is the force which causes it, smaller where bodies are light.
-  const double little = 1e-13 * (b.lpNorm<Eigen::Infinity>() + (A.cwiseAbs() * F.cwiseAbs()).lpNorm<Eigen::Infinity>());
+  const Vec from_forces = A.cwiseAbs() * F.cwiseAbs(), terms = b.cwiseAbs() + from_forces;
+  const double little = 1e-13 * (b.lpNorm<Eigen::Infinity>() + from_forces.lpNorm<Eigen::Infinity>());
   for (const ContactPoint& p : points) {
     double N = p.given;
     if (p.normal >= 0) {
@@ -200,10 +201,13 @@ void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, cons
       T.setZero();
       continue;
     }
-    // If the force that a_t asks for exceeds the bound, the contact slides; otherwise it is held, and a_t is round-off.
+    // If the force that a_t asks for exceeds the bound, the contact slides; otherwise it is held, and a_t is round-off,
+    // that of the terms along its own tangents.
     const double stiff = A.block(p.tangent, p.tangent, p.tangents, p.tangents).trace() / p.tangents;
     const Vec asked = stiff > 0 ? Vec(T - a_t / stiff) : Vec(T);
-    const bool slides = stiff * asked.norm() > stiff * bound + 10 * little;
+    const bool slides =
+        stiff * asked.norm() >
+        stiff * bound + 1e-12 * scale_of_slip(terms.segment(p.tangent, p.tangents).maxCoeff(), 1e13 * little);
     if (!slides) a_t.setZero();
     if (slides)
       T = bound * asked.normalized();

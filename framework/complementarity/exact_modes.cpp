@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "complementarity/shares/admissible_forces.hpp"
 #include "complementarity/shares/carrying_equations.hpp"
@@ -24,6 +25,11 @@ Eigen::Vector2d along_tangents(const Vec& x, const ContactPoint& p) {
 }  // namespace
 
 std::vector<ContactRole> roles_of(const std::vector<ContactPoint>& points, const Vec& F, const Vec& a, double nothing) {
+  return roles_of(points, F, a, nothing, Vec::Constant(Index(points.size()), nothing));
+}
+
+std::vector<ContactRole> roles_of(const std::vector<ContactPoint>& points, const Vec& F, const Vec& a, double nothing,
+                                  const Vec& no_slip) {
   std::vector<ContactRole> roles;
   const double no_force = mode_tolerance * F.lpNorm<Eigen::Infinity>();
   for (const ContactPoint& p : points) {
@@ -34,7 +40,7 @@ std::vector<ContactRole> roles_of(const std::vector<ContactPoint>& points, const
     if (p.slides()) role.tangent = Tangent::slides, role.ratio = p.ratio;
     if (!p.held()) continue;
     const Eigen::Vector2d a_t = along_tangents(a, p);
-    const bool moves = a_t.norm() > nothing;
+    const bool moves = a_t.norm() > no_slip[Index(roles.size()) - 1];
     role.tangent = moves ? Tangent::slides : Tangent::sticks;
     // Near its bound the direction of the force has more digits.
     const bool bound = N > no_force && along_tangents(F, p).norm() > 0.5 * p.coefficient * N;
@@ -72,17 +78,31 @@ class ExactModes {
   }
 
  private:
-  // Iterates until forces and modes agree. False: it found none, or the modes repeat.
+  struct Settled {
+    std::vector<ContactRole> roles;
+    Vec F, a;
+    CarryingRows carrying;
+  };
+
+  // Iterates until forces and modes agree, for friction to the round-off of each contact's own accelerations. If this
+  // is not reached, that of the largest counts.
+  // False: it found none, or the modes repeat.
   bool settle_modes() {
     const int most = 6 * int(points_.size()) + 20;
     std::vector<std::vector<ContactRole>> tried;
+    std::optional<Settled> settled;
     for (int i = 0; i < most; ++i) {
-      if (std::find(tried.begin(), tried.end(), roles_) != tried.end()) return false;
+      if (std::find(tried.begin(), tried.end(), roles_) != tried.end()) break;
       tried.push_back(roles_);
-      if (!find_forces()) return false;
-      if (!change_worst()) return true;
+      if (!find_forces()) break;
+      const double contradicted = change_worst();
+      if (contradicted == 0) return true;
+      if (contradicted <= mode_tolerance * acceleration_scale() && !settled)
+        settled = Settled{tried.back(), F_, a_, carrying_};
     }
-    return false;
+    if (!settled) return false;
+    roles_ = settled->roles, F_ = settled->F, a_ = settled->a, carrying_ = settled->carrying;
+    return true;
   }
 
   // The shares must not depend on the modes tried before: forms them again, with all contacts closed that do not part
@@ -91,7 +111,7 @@ class ExactModes {
   // solution.
   void share_by_accelerations() {
     const std::vector<ContactRole> on_the_way = roles_;
-    roles_ = roles_of(points_, F_, a_, mode_tolerance * acceleration_scale());
+    roles_ = roles_of(points_, F_, a_, mode_tolerance * acceleration_scale(), mode_tolerance * own_scales());
     keep_beside_sliding(on_the_way);
     const auto same = [](const ContactRole& x, const ContactRole& y) {
       return x.closed == y.closed && x.idle == y.idle && x.tangent == y.tangent;
@@ -126,6 +146,21 @@ class ExactModes {
   double acceleration_scale() const {
     if (b_.size() == 0) return 0;
     return b_.lpNorm<Eigen::Infinity>() + (A_.cwiseAbs() * F_.cwiseAbs()).maxCoeff();
+  }
+
+  // By contact, of the accelerations along its tangents.
+  Vec own_scales() const {
+    const Vec terms = b_.cwiseAbs() + A_.cwiseAbs() * F_.cwiseAbs();
+    const double largest = acceleration_scale();
+    Vec scales = Vec::Zero(Index(points_.size()));
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const ContactPoint& p = points_[i];
+      if (p.tangent < 0) continue;
+      const double own = scale_of_slip(terms.segment(p.tangent, p.tangents).maxCoeff(), largest);
+      const double error_of_shares = 10 * A_(p.tangent, p.tangent) * F_.lpNorm<Eigen::Infinity>();
+      scales[Index(i)] = std::min(largest, std::max(own, error_of_shares));
+    }
+    return scales;
   }
 
   bool find_forces() {
@@ -189,10 +224,11 @@ class ExactModes {
 
   bool springs_are_admissible() const {
     const double little = mode_tolerance * acceleration_scale();
+    const Vec no_slip = mode_tolerance * own_scales();
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const ContactRole& role = roles_[i];
       if (!carrying_.indeterminate[i] || !role.closed || role.idle || role.tangent == Tangent::slides) continue;
-      if (pull(i) > little || (role.tangent == Tangent::sticks && beyond_cone(i) > little)) return false;
+      if (pull(i) > little || (role.tangent == Tangent::sticks && beyond_cone(i) > no_slip[Index(i)])) return false;
     }
     return true;
   }
@@ -263,31 +299,34 @@ class ExactModes {
     F_ = F, a_ = a;
   }
 
-  // Changes the mode with the largest contradicting acceleration. False: there is none.
-  bool change_worst() {
-    double worst = mode_tolerance * acceleration_scale();
+  // Changes the mode with the largest contradicting acceleration, which is returned. 0: there is none.
+  double change_worst() {
+    const double nothing = mode_tolerance * acceleration_scale();
+    const Vec no_slip = mode_tolerance * own_scales();
+    double worst = 0;
     std::size_t who = points_.size();
     ContactRole wanted;
-    const auto consider = [&](std::size_t i, double amount, ContactRole (ExactModes::*changed)(std::size_t) const) {
-      if (amount > worst) worst = amount, who = i, wanted = (this->*changed)(i);
+    const auto consider = [&](std::size_t i, double amount, double least,
+                              ContactRole (ExactModes::*changed)(std::size_t) const) {
+      if (amount > worst && amount > least) worst = amount, who = i, wanted = (this->*changed)(i);
     };
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const ContactPoint& p = points_[i];
       const ContactRole& role = roles_[i];
       if (!role.closed) {
-        consider(i, -a_[p.normal], &ExactModes::closed);
+        consider(i, -a_[p.normal], nothing, &ExactModes::closed);
       } else if (role.idle) {
-        consider(i, A_(p.normal, p.normal) * spring_force(p.normal), &ExactModes::closed);
+        consider(i, A_(p.normal, p.normal) * spring_force(p.normal), nothing, &ExactModes::closed);
       } else {
-        if (p.normal >= 0) consider(i, pull(i), &ExactModes::released);
-        if (p.held() && role.tangent == Tangent::sticks) consider(i, beyond_cone(i), &ExactModes::sliding);
+        if (p.normal >= 0) consider(i, pull(i), nothing, &ExactModes::released);
+        if (p.held() && role.tangent == Tangent::sticks)
+          consider(i, beyond_cone(i), no_slip[Index(i)], &ExactModes::sliding);
         if (p.held() && role.tangent == Tangent::slides && normal_force(i) > 0)
-          consider(i, along_tangents(a_, p).dot(role.ratio.normalized()), &ExactModes::sticking);
+          consider(i, along_tangents(a_, p).dot(role.ratio.normalized()), no_slip[Index(i)], &ExactModes::sticking);
       }
     }
-    if (who == points_.size()) return false;
-    roles_[who] = wanted;
-    return true;
+    if (who < points_.size()) roles_[who] = wanted;
+    return worst;
   }
 
   // The roles to which contacts change.

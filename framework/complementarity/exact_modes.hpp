@@ -16,8 +16,17 @@
 
 namespace trammel::complementarity {
 
+// Which of two scales of accelerations counts for the round-off along a contact's tangents: that of its own terms if
+// the largest of all, that of a light body which is pushed or spins, is many times as large.
+inline double scale_of_slip(double own, double largest) {
+  return largest > 100 * own ? own : largest;
+}
+
 // The role of each contact in a solution; accelerations below `nothing` count as 0.
 std::vector<ContactRole> roles_of(const std::vector<ContactPoint>& points, const Vec& F, const Vec& a, double nothing);
+// The same, with the accelerations along tangents that count as 0 by contact.
+std::vector<ContactRole> roles_of(const std::vector<ContactPoint>& points, const Vec& F, const Vec& a, double nothing,
+                                  const Vec& no_slip);
 
 // Changes F to the exact solution; `a` are its accelerations, wrong by at most `nearby` of them, possibly of compliant
 // contacts. False: it found none. On return `a` are the accelerations of the exact F, with 0 along rows that follow

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "complementarity/exact_modes.hpp"
 #include "simulate/contact/law_speeds.hpp"
 #include "simulate/contact_mode.hpp"
 
@@ -449,7 +450,9 @@ void ContactModes::take_verdict(const Participant& p, bool kept_closed) {
   mode.direction = p.direction;
   mode.least_slip = least_slip(p.contact);
   if (p.tangent == Tangent::sliding) return;
-  if (p.a_t.norm() > least_acceleration()) {
+  const double own = complementarity::scale_of_slip(p.no_slip, least_acceleration());
+  const double no_slip = std::min(least_acceleration(), std::max(scale_.of(p.contact).no_acceleration(), own));
+  if (p.a_t.norm() > no_slip) {
     mode.direction = direction_of(p.a_t);
   } else if (p.yielded && p.T.norm() > (1 - 1e-6) * p.mu * p.N) {  // slides, too slowly to be seen
     mode.direction = -direction_of(p.T);

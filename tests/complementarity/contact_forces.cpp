@@ -122,5 +122,24 @@ TEST(ContactForces, OfPainlevesRodWithTooMuchFrictionHaveNoSolution) {
   EXPECT_NEAR(F[0], 245.25, 1e-10);
 }
 
+// A foot of 10 N, which the acceleration asked for exceeds by 1e-9 of its friction, beside a light body in the same
+// island that is pushed 10^4 times as hard: what it begins to slide with is far below round-off of the other's.
+TEST(ContactForces, OfAFootThatBeginsToSlideAreFoundBesideALightBodyUnderALargeLoad) {
+  Mat A = Mat::Identity(3, 3);
+  A(0, 2) = A(2, 0) = 0.1;
+  const std::vector<ContactPoint> points{{.normal = 0, .tangent = 1, .kind = Tangent::resting, .coefficient = 0.5},
+                                         {.normal = 2}};
+  const double light = 1e5;  // [1/kg]
+  A(2, 2) = light;
+  Vec F, a;
+  for (const double excess : {5e-9, -5e-9}) {
+    const Vec b{{-10 - 0.1, 5 + excess, -light - 1}};
+    ASSERT_EQ(solve_contacts(points, A, b, F, a).outcome, LcpOutcome::solved);
+    EXPECT_NEAR(F[0], 10, 1e-10);
+    EXPECT_NEAR(F[1], -5 - std::min(excess, 0.0), 1e-10);
+    EXPECT_NEAR(a[1], std::max(excess, 0.0), 1e-10);
+  }
+}
+
 }  // namespace
 }  // namespace trammel::complementarity

@@ -15,6 +15,13 @@ namespace {
 // Of the forces that act on a contact, or of all energy that was lost: round-off, and the inaccuracy of located events.
 constexpr double little = 1e-8;
 
+// [N] A smaller force along a direction of the group accelerates nothing.
+double noise(model::AssembledSystem& system, const model::SharedRows& group, const ContactScale& scale) {
+  std::vector<model::ContactDirection> directions = group.basis;
+  directions.insert(directions.end(), group.implied.begin(), group.implied.end());
+  return judge_forces(system, directions, Vec::Zero(std::ssize(directions)), scale).noise.maxCoeff();
+}
+
 }  // namespace
 
 void ContactAudit::Worst::raise_to(int i, double when, double amount, double scale) {
@@ -30,7 +37,7 @@ void ContactAudit::look(model::AssembledSystem& system, const State& state, cons
   if (closed.empty()) return;
   Moment moment(system, state);
   const Vec& lambda = moment.lambda();
-  look_at_groups(system, state.t, lambda);
+  look_at_groups(system, state.t, lambda, scale);
   for (const int i : closed) {
     if (!system.sharing(i).shared) continue;
     const auto [span, added] = indeterminate_.try_emplace(i, Span{state.t, state.t});
@@ -77,11 +84,14 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
   }
 }
 
-void ContactAudit::look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda) {
+void ContactAudit::look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda,
+                                  const ContactScale& scale) {
   const std::vector<model::SharedRows>& shared = system.modes().shared;
-  for (std::size_t group = 0; group < shared.size(); ++group)
-    overloaded_.raise_to(shared[group].implied.front().contact, t, -system.spare_load(int(group), lambda),
-                         system.largest_load(int(group), lambda));
+  for (std::size_t group = 0; group < shared.size(); ++group) {
+    const double missing = -system.spare_load(int(group), lambda), largest = system.largest_load(int(group), lambda);
+    if (missing > little * largest && missing > noise(system, shared[group], scale))
+      overloaded_.raise_to(shared[group].implied.front().contact, t, missing, largest);
+  }
 }
 
 std::vector<std::string> ContactAudit::warnings(const model::Model& model, const Ledger& ledger) const {

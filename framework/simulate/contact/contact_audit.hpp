@@ -3,9 +3,10 @@
 //     N >= 0,   |T| <= mu_0 N  [N],   work of friction <= 0 [J]
 //
 // The scale of the round-off are the forces that act on the contact itself (force_noise.hpp). Contacts that share rows
-// are checked together (AssembledSystem::spare_load). A violation becomes a warning: the run cannot be trusted there.
-// The audit also keeps when contacts were statically indeterminate: closed with rows that depend on each other, so
-// that their forces are not unique (complementarity/shares/carrying_rows.hpp).
+// are checked together (AssembledSystem::spare_load); what they miss counts if it could accelerate a body. A violation
+// becomes a warning: the run cannot be trusted there. The audit also keeps when contacts were statically indeterminate:
+// closed with rows that depend on each other, so that their forces are not unique
+// (complementarity/shares/carrying_rows.hpp).
 #pragma once
 
 #include <map>
@@ -39,7 +40,7 @@ class ContactAudit {
   };
   void look_at_forces(model::AssembledSystem& system, const State& state, const std::vector<int>& closed,
                       const Vec& lambda, const ContactScale& scale);
-  void look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda);
+  void look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda, const ContactScale& scale);
 
   Worst pull_, beyond_cone_, overloaded_;
   std::map<int, Span> indeterminate_;

@@ -101,7 +101,8 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
     settled = true;
     for (std::size_t i = 0; i < who.size(); ++i) {
       Participant& p = who[i];
-      if (p.tangent != Participant::Tangent::resting || p.let_go || along(a_, points_[i]).norm() <= nothing) continue;
+      const double no_slip = complementarity::scale_of_slip(round_off_of_slip(points_[i]), nothing);
+      if (p.tangent != Participant::Tangent::resting || p.let_go || along(a_, points_[i]).norm() <= no_slip) continue;
       p.let_go = true;
       if (p.mu < p.mu_0) settled = false;
     }
@@ -114,8 +115,16 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
     if (points_[i].normal >= 0) p.N = F_[points_[i].normal], p.a_n = a_[points_[i].normal];
     if (const int n = points_[i].tangents; points_[i].tangent >= 0)
       p.T.head(n) = along(F_, points_[i]), p.a_t.head(n) = along(a_, points_[i]);
+    p.no_slip = round_off_of_slip(points_[i]);
   }
   return solution;
+}
+
+double ContactProblem::round_off_of_slip(const complementarity::ContactPoint& p) const {
+  if (p.tangent < 0) return 0;
+  const auto rows = Eigen::seqN(p.tangent, p.tangents);
+  const Vec terms = b_(rows).cwiseAbs() + delassus_(rows, Eigen::all).cwiseAbs() * F_.cwiseAbs();
+  return 1e-12 * terms.maxCoeff();
 }
 
 bool ContactProblem::let_approaches_vanish(double nothing) {

@@ -35,6 +35,7 @@ struct Participant {
   double N = 0, a_n = 0;
   bool idle = false;  // closed without a force, in a group with dependent rows of which some slide
   Tangential T = Tangential::Zero(), a_t = Tangential::Zero();
+  double no_slip = 0;  // |a_t| up to this is the round-off of its terms
 };
 
 class ContactProblem {
@@ -84,6 +85,7 @@ class ContactProblem {
   std::vector<Eigen::Index> rows_at_rest() const;  // unilateral normals, and tangents at rest
   complementarity::ContactSolution solve_once(const Mat& A, double nothing);
   Mat yielding() const;  // the Delassus matrix of contacts that are not quite rigid
+  double round_off_of_slip(const complementarity::ContactPoint& p) const;                // [m/s^2]
   double push(const Pushed& p) const { return who[p.who].ratio[0] * who[p.who].given; }  // [N]
   // False: no solution was found as the limit of vanishing approaches.
   [[nodiscard]] bool let_approaches_vanish(double nothing);
