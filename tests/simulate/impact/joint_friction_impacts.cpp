@@ -291,7 +291,7 @@ TEST(AChainOfJournals, ThatLocksItselfOnAFloorGoesOnAfterAnImpact) {
   struct Bar {
     double mass, length, angle;
   };
-  for (const double mu : {0.48, 0.4958483209149854, 0.5}) {
+  for (const double mu : {0.4958483209149854, 0.5}) {
     std::string bodies;
     double x = 0, y = 0;
     int i = 0;
