@@ -6,6 +6,8 @@
 
 #include <trammel/component.hpp>
 
+#include "scene/expression.hpp"
+
 namespace trammel {
 namespace {
 
@@ -33,6 +35,61 @@ TEST(UnitQuaternion, IsThatOfFourNumbersOfAnySize) {
     const Eigen::Quaterniond p = unit_quaternion(world, {3 * size, 0, 4 * size, 0}, "orientation");
     EXPECT_NEAR((p.coeffs() - Eigen::Vector4d(0, 0.8, 0, 0.6)).norm(), 0, 1e-15) << size;  // (x, y, z, w)
   }
+}
+
+// Markers at rest: A turned and moved, B at `d` from it in A's axes, turned by `relative` against A.
+struct Pair {
+  Motion A, B;
+};
+Pair pair_of(const Eigen::Vector3d& d, const Eigen::Quaterniond& relative) {
+  const Eigen::Quaterniond of_A(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 2).normalized()));
+  Pair pair;
+  pair.A.x = Eigen::Vector3d(3, 1, -2);
+  pair.A.R = of_A.toRotationMatrix();
+  pair.B.x = pair.A.x + of_A * d;
+  pair.B.R = (of_A * relative).toRotationMatrix();
+  for (Motion* m : {&pair.A, &pair.B}) m->V = m->bias = Vec::Zero(6);
+  return pair;
+}
+double largest_gap(const JointRows& list, double t, const Pair& pair) {
+  Rows rows;
+  rows.resize(list.count(), Space::spatial);
+  list.rows(t, pair.A, pair.B, rows);
+  return rows.g.lpNorm<Eigen::Infinity>();
+}
+TimeFunction law(const char* text) {
+  return scene::compile_time_function(text, [](std::string_view, int) { return 0.0; });
+}
+
+TEST(JointRows, AreZeroWhereTheirLawsSay) {
+  const Eigen::Vector3d n = Eigen::Vector3d(1, 2, -1).normalized(), across = n.unitOrthogonal();
+  const Eigen::Quaterniond Q(Eigen::AngleAxisd(0.4, Eigen::Vector3d(0, 0.6, 0.8)));
+  // Laws that are constant, zero at the start only, or neither.
+  for (const TimeFunction& p : {TimeFunction(0), TimeFunction(0.3), law("sin(t)"), law("0.2+t^2")})
+    for (const double t : {0.0, 0.8}) {
+      const Eigen::Quaterniond turned(Eigen::AngleAxisd(p(t), n));
+      const Pair held = pair_of(p(t) * n + 0.5 * across, turned * Q);
+      const Pair moved = pair_of((p(t) + 0.1) * n, Eigen::AngleAxisd(p(t) + 0.1, n) * Q);
+      for (const JointRows& list : {JointRows(Space::spatial).offset(n, p), JointRows(Space::spatial).angle(n, Q, p),
+                                    JointRows(Space::spatial).orientation(n, Q, p)}) {
+        EXPECT_NEAR(largest_gap(list, t, held), 0, 1e-15) << p.text() << " at " << t;
+        EXPECT_NEAR(largest_gap(list, t, moved), 0.1, 2e-4) << p.text() << " at " << t;  // sin(0.1) of an angle
+      }
+      const Pair tilted = pair_of(p(t) * n, turned * Eigen::AngleAxisd(0.1, across) * Q);
+      EXPECT_GT(largest_gap(JointRows(Space::spatial).orientation(n, Q, p), t, tilted), 0.07);
+    }
+}
+
+TEST(JointRows, SayWhichOrientationsTheyReadAndWhetherTheirAxesStay) {
+  const Vec3 n = Eigen::Vector3d::UnitX();
+  const JointRows offset = JointRows(Space::spatial).offset(n, 0.3),
+                  angle = JointRows(Space::spatial).angle(n, Eigen::Quaterniond::Identity(), law("sin(t)"));
+  EXPECT_TRUE(offset.needs_orientation(0));
+  EXPECT_FALSE(offset.needs_orientation(1));
+  EXPECT_TRUE(angle.needs_orientation(0));
+  EXPECT_TRUE(angle.needs_orientation(1));
+  EXPECT_TRUE(offset.linear());
+  EXPECT_FALSE(angle.linear());
 }
 
 TEST(SmallestRotation, TurnsADirectionToAnyOther) {
