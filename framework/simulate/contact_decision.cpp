@@ -1,10 +1,12 @@
-// Rules 3 to 7 of contact_mode.hpp: which contacts close, open, stick and slide, by the complementarity problem.
+// Rules 3 to 7 and 11 to 13 of contact_mode.hpp: which contacts close, open, stick and slide, by the complementarity
+// problem.
 #include <algorithm>
 #include <cmath>
 
 #include "complementarity/exact_modes.hpp"
 #include "simulate/contact/law_speeds.hpp"
 #include "simulate/contact_mode.hpp"
+#include "system/point/locks_itself.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -35,6 +37,10 @@ bool shares_tangents(const model::SharedRows& group, int contact) {
   const auto is = [contact](const model::ContactDirection& d) { return d.contact == contact && d.row > 0; };
   return std::any_of(group.basis.begin(), group.basis.end(), is) ||
          std::any_of(group.implied.begin(), group.implied.end(), is);
+}
+
+bool has_any(const std::vector<bool>& all) {
+  return std::find(all.begin(), all.end(), true) != all.end();
 }
 
 // Rule 12. Contacts held at their bounds let go where mu < mu_0. True if any does: all modes are to be decided again.
@@ -237,31 +243,49 @@ complementarity::ContactSolution ContactModes::take_verdicts(const State& state)
   return solution;
 }
 
-// Which contacts without a force are idle matters, because the springs' shares of the others affect the motion. The
-// forces of the problem leave this open: they may be 0 by a self-stress that sliding contacts share, and their error is
-// unknown where they are much larger than what accelerates (a wedge). So contacts with a little more force are idle
-// too, or none is, if the forces in these modes could not be exerted otherwise.
+// Rule 13. Which contacts without a force are idle matters, because the springs' shares of the others affect the
+// motion. The forces of the problem leave this open: they may be 0 by a self-stress that sliding contacts share, and
+// their error is unknown where they are much larger than what accelerates (a wedge). So contacts with a little more
+// force are idle too, or none is, if the forces in these modes could not be exerted otherwise. Each island is decided
+// for itself: a force that is an error in one is large in another.
 void ContactModes::find_shares(const State& state) {
   constexpr double round_off = complementarity::largest_violation, no_contact = -1;
   const model::Modes decided = modes_;
-  double least = share(round_off);
-  const auto idle = [](const Participant& p) { return p.idle; };
-  const bool any = std::any_of(problem_.who.begin(), problem_.who.end(), idle);
-  if ((!any && !(least <= most_error_of_forces)) || can_be_exerted(state)) return;
-  while (least <= most_error_of_forces) {
+  const std::vector<std::size_t> island = problem_.islands();
+  std::vector<double> none(problem_.who.size(), round_off), least = share(none);
+  std::vector<bool> doubtful(none.size());  // by island
+  for (std::size_t k = 0; k < least.size(); ++k) doubtful[k] = least[k] <= most_error_of_forces;
+  for (std::size_t i = 0; i < island.size(); ++i)
+    if (problem_.who[i].idle) doubtful[island[i]] = true;
+  const auto doubts_remain = [&] {
+    if (!has_any(doubtful)) return false;
+    const std::vector<bool> exerted = can_be_exerted(state);
+    for (std::size_t k = 0; k < exerted.size(); ++k) doubtful[k] = doubtful[k] && !exerted[k];
+    return has_any(doubtful);
+  };
+  const auto share_again = [&] {
     modes_ = decided;
-    least = share(least);
-    if (can_be_exerted(state)) return;
+    least = share(none);
+  };
+  while (doubts_remain()) {
+    bool more = false;
+    for (std::size_t k = 0; k < none.size(); ++k)
+      if (doubtful[k] && least[k] <= most_error_of_forces) none[k] = least[k], more = true;
+    if (!more) break;
+    share_again();
   }
-  modes_ = decided;
-  share(no_contact);
-  if (can_be_exerted(state)) return;
-  modes_ = decided;
-  share(round_off);
+  const auto share_doubtful = [&](double part) {
+    for (std::size_t k = 0; k < none.size(); ++k)
+      if (doubtful[k]) none[k] = part;
+    share_again();
+  };
+  if (!has_any(doubtful)) return;
+  share_doubtful(no_contact);
+  if (doubts_remain()) share_doubtful(round_off);
 }
 
-double ContactModes::share(double none) {
-  const double least = problem_.find_idle(modes_, none);
+std::vector<double> ContactModes::share(const std::vector<double>& none) {
+  const std::vector<double> least = problem_.find_idle(modes_, none);
   for (const Participant& p : problem_.who)  // without a force there is no friction
     if (model::ContactMode& mode = modes_.contacts[p.contact]; p.idle && mode.friction == Friction::stick)
       mode.friction = Friction::none;
@@ -270,7 +294,7 @@ double ContactModes::share(double none) {
   return least;
 }
 
-// A contact without a force stays closed only as long as the others hold it.
+// Rule 13. A contact without a force stays closed only as long as the others hold it.
 bool ContactModes::open_loose_ones() {
   const std::vector<bool> held = problem_.held_by_others(modes_);
   bool any = false;
@@ -285,54 +309,66 @@ bool ContactModes::open_loose_ones() {
   return any;
 }
 
-// A contact whose force in the solution may be its error pulls if its row makes this force exact. It opens, if it parts
-// then.
+// Rule 13. A contact whose force in the solution may be its error pulls if its row makes this force exact. It opens, if
+// it parts then; the contacts of one island together.
 void ContactModes::open_pulling_ones(const State& state) {
-  double largest = 0;
-  for (const Participant& p : problem_.who) largest = std::max(largest, p.N);
-  const auto is_faint = [&](const Participant& p) {
-    return p.unilateral && !p.idle && p.N > 0 && p.N <= most_error_of_forces * largest;
-  };
-  if (std::none_of(problem_.who.begin(), problem_.who.end(), is_faint)) return;
-  accelerate_in(modes_, state);
+  const std::vector<double> largest = problem_.largest_beside();
+  std::vector<std::size_t> faint;
+  for (std::size_t i = 0; i < largest.size(); ++i)
+    if (const Participant& p = problem_.who[i];
+        p.unilateral && !p.idle && p.N > 0 && p.N <= most_error_of_forces * largest[i])
+      faint.push_back(i);
+  if (faint.empty() || !has_forces_in(modes_, state)) return;
   const model::Modes decided = modes_;
-  std::vector<int> opened;
-  for (const Participant& p : problem_.who) {
-    if (!is_faint(p) || locks(p.contact) || !(system_.normal_force(p.contact, lambda_) < 0)) continue;
-    modes_.contacts[p.contact].closed = false;
-    modes_.contacts[p.contact].friction = Friction::none;
-    opened.push_back(p.contact);
+  const auto contact = [this](std::size_t i) { return problem_.who[i].contact; };
+  std::erase_if(faint,
+                [&](std::size_t i) { return locks(contact(i)) || !(system_.normal_force(contact(i), lambda_) < 0); });
+  const std::vector<std::size_t> island = problem_.islands();
+  for (std::vector<std::size_t>& opened = faint; !opened.empty();) {
+    for (const std::size_t i : opened) {
+      modes_.contacts[contact(i)].closed = false;
+      modes_.contacts[contact(i)].friction = Friction::none;
+    }
+    find_shares(state);
+    std::vector<bool> closes(problem_.who.size(), !has_forces_in(modes_, state));  // by island
+    for (const std::size_t i : opened)
+      if (!closes[island[i]] && !(system_.acceleration({contact(i), 0}, a_) >= 0)) closes[island[i]] = true;
+    if (std::erase_if(opened, [&](std::size_t i) { return closes[island[i]]; }) == 0) return;
+    modes_ = decided;
+    if (opened.empty()) find_shares(state);
   }
-  if (opened.empty()) return;
-  find_shares(state);
-  accelerate_in(modes_, state);
-  const auto parts = [this](int contact) { return system_.acceleration({contact, 0}, a_) >= 0; };
-  if (std::all_of(opened.begin(), opened.end(), parts)) return;
-  modes_ = decided;
-  find_shares(state);
 }
 
-void ContactModes::accelerate_in(const model::Modes& modes, const State& state) {
+// Sets a_ and lambda_. False if these modes have no finite forces, as where a joint locks itself: they are only tried.
+bool ContactModes::has_forces_in(const model::Modes& modes, const State& state) try {
   system_.set_modes(modes);
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
+  return a_.allFinite() && lambda_.allFinite();
+} catch (const model::LocksItself&) {
+  return false;
 }
 
-// Whether the forces in these modes push and stay in their cones.
-bool ContactModes::can_be_exerted(const State& state) {
-  accelerate_in(modes_, state);
-  double largest = 0, worst = 0;
-  for (const Participant& p : problem_.who) {
+// By island: whether the forces in these modes push and stay in their cones.
+std::vector<bool> ContactModes::can_be_exerted(const State& state) {
+  const std::vector<std::size_t> island = problem_.islands();
+  if (!has_forces_in(modes_, state)) return std::vector<bool>(island.size(), false);
+  std::vector<double> largest(island.size(), 0), worst(island.size(), 0);
+  for (std::size_t i = 0; i < island.size(); ++i) {
+    const Participant& p = problem_.who[i];
     const model::ContactMode& mode = modes_.contacts[p.contact];
     if (!mode.closed || !p.unilateral) continue;
     const double N = system_.normal_force(p.contact, lambda_);
-    largest = std::max(largest, std::abs(N));
-    worst = std::max(worst, -N);
+    double& most = worst[island[i]];
+    largest[island[i]] = std::max(largest[island[i]], std::abs(N));
+    most = std::max(most, -N);
     if (mode.friction != Friction::stick) continue;
     const double bound = system_.model().contacts[p.contact].coulomb->static_coefficient() * std::max(0.0, N);
-    worst = std::max(worst, system_.friction_force(p.contact, lambda_).norm() - bound);
+    most = std::max(most, system_.friction_force(p.contact, lambda_).norm() - bound);
   }
-  return worst <= most_error_of_forces * largest;
+  std::vector<bool> exerted;
+  for (std::size_t k = 0; k < island.size(); ++k) exerted.push_back(worst[k] <= most_error_of_forces * largest[k]);
+  return exerted;
 }
 
 // Rule 12: the contacts at rest whose friction is at its bound while a group with sliding members cannot carry its
@@ -394,9 +430,9 @@ double ContactModes::time_of_change() {
   for (const Participant& p : problem_.who) {
     if (p.tangent != Tangent::sliding) continue;
     const Tangential slip = system_.slip(p.contact), change = system_.slip_acceleration(p.contact, a_);
-    if (!(slip.dot(change) < 0)) continue;  // it has just begun
-    const double speed = slip.norm();
-    if (speed > scale_.of(p.contact).rest_speed() && speed < least * change.norm()) least = speed / change.norm();
+    if (!(slip.dot(change) < 0)) continue;  // it does not slow down
+    const double slips = slip.norm();
+    if (slips > scale_.of(p.contact).rest_speed() && slips < least * change.norm()) least = slips / change.norm();
   }
   return least;
 }

@@ -44,9 +44,10 @@
 //  8. Rigid contacts may have no solution with finite forces (Painleve's rod), or forces that grow beyond all bounds as
 //     that state is approached (event_location.hpp rejects controlled steps past it). Then an impact without collision
 //     stops or turns the slip: rule 1 with nothing approaching, in which dependent contacts, none of which could part
-//     alone, yield a little. If this impact has no solution, other contacts may carry from there on (a table whose feet
-//     share otherwise as its slip turns). If they cannot, the run ends with a message; so it does if modes contradict
-//     each other at one instant (Simulator).
+//     alone, yield a little. Friction counts as larger in it by what the state is short of that point; where joints
+//     have locked and the search for this impact gives up, by a part of 1e-7. If this impact has no solution, other
+//     contacts may carry from there on (a table whose feet share otherwise as its slip turns). If they cannot, the run
+//     ends with a message; so it does if modes contradict each other at one instant (Simulator).
 //  9. A contact that never releases (a latch) locks after rule 1 if it touches without a rate. It is no candidate; its
 //     row is held like a joint's from then on, through the decision that follows and all later impacts.
 // 10. Joints with friction take part like compliant contacts; their normal force is the load of their bearings. This
@@ -64,7 +65,9 @@
 // 13. A contact without a force stays closed (idle) only while rows of contacts that carry hold it. Where these are
 //     about to depend on each other (a stack that becomes a strut), they do not, and it opens. Which contacts are idle
 //     affects the motion if others slide, so the forces in the modes decided are computed: if they pull or leave a
-//     cone, contacts whose force may be an error count as idle, too, or else none does.
+//     cone, contacts whose force may be an error (up to 1e-6 of the largest of their island) count as idle, too, or
+//     else none does. A contact with such a force that pulls by its row in these modes opens, if its gap then
+//     accelerates apart (open_pulling_ones).
 //
 // `rebound: constrained` makes candidates of contacts that separate at e u-. `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0. `onset: next_step` only changes when an event is seen.
@@ -193,11 +196,11 @@ class ContactModes {
   [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped);
   [[nodiscard]] complementarity::ContactSolution take_verdicts(const State& state);
   void find_shares(const State& state);
-  double share(double none);
+  std::vector<double> share(const std::vector<double>& none);
   bool open_loose_ones();
-  bool can_be_exerted(const State& state);
+  std::vector<bool> can_be_exerted(const State& state);
   void open_pulling_ones(const State& state);
-  void accelerate_in(const model::Modes& modes, const State& state);
+  [[nodiscard]] bool has_forces_in(const model::Modes& modes, const State& state);
   std::vector<Participant*> held_at_bounds(const State& state);
   void hold(const State& state, const std::vector<Participant*>& held);
   bool in_balance(double violation) const;

@@ -169,17 +169,26 @@ std::vector<bool> ContactProblem::kept_closed(double nothing) const {
   return kept;
 }
 
-double ContactProblem::find_idle(const model::Modes& modes, double none) {
+std::vector<double> ContactProblem::largest_beside() const {
+  const std::vector<std::size_t> island = islands();
+  std::vector<double> of_island(who.size(), 0), all;
+  for (std::size_t i = 0; i < who.size(); ++i) of_island[island[i]] = std::max(of_island[island[i]], who[i].N);
+  for (const std::size_t k : island) all.push_back(of_island[k]);
+  return all;
+}
+
+std::vector<double> ContactProblem::find_idle(const model::Modes& modes, const std::vector<double>& none) {
   for (Participant& p : who) p.idle = false;
   const std::vector<complementarity::ContactRole> role = roles(modes);
   const complementarity::CarryingRows carrying = complementarity::carrying_rows(points_, delassus_, role);
-  double largest = 0, least = 1;
-  for (const Participant& p : who) largest = std::max(largest, p.N);
+  const std::vector<std::size_t> island = islands();
+  const std::vector<double> largest = largest_beside();
+  std::vector<double> least(who.size(), 1);
   for (std::size_t i = 0; i < who.size() && carrying.sliding_shares; ++i) {
     if (!role[i].closed || !who[i].unilateral || !carrying.indeterminate[i]) continue;
-    const double part = largest > 0 ? who[i].N / largest : 0;
-    who[i].idle = part <= none;
-    if (!who[i].idle) least = std::min(least, part);
+    const double part = largest[i] > 0 ? who[i].N / largest[i] : 0;
+    who[i].idle = part <= none[island[i]];
+    if (!who[i].idle) least[island[i]] = std::min(least[island[i]], part);
   }
   return least;
 }

@@ -68,10 +68,13 @@ class ContactProblem {
   // The least pivot of the equations of the forces in these modes, relative to that without the friction of sliding
   // contacts.
   double distance_from_critical(const model::Modes& modes) const;
+  // By participant: the largest normal force found in its island.
+  std::vector<double> largest_beside() const;
   // To be called after the modes are decided: finds the idle contacts, those whose force is up to `none` times the
-  // largest. Returns the least part of the largest force above `none` that a contact carries which could be idle.
-  // `shared_rows`: groups of closed contacts that depend on each other, and how they share their resultants.
-  double find_idle(const model::Modes& modes, double none);
+  // largest of their island. Returns the least part of the largest force above `none` that a contact carries which
+  // could be idle. Both by island. `shared_rows`: groups of closed contacts that depend on each other, and how they
+  // share their resultants.
+  std::vector<double> find_idle(const model::Modes& modes, const std::vector<double>& none);
   // By participant, afterwards: it is idle, and the rows of contacts that carry hold it.
   std::vector<bool> held_by_others(const model::Modes& modes) const;
   std::vector<model::SharedRows> shared_rows(const model::Modes& modes) const;

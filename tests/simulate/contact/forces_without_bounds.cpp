@@ -118,24 +118,40 @@ TEST(StackBelowACeiling, TakesNoStepOverThePoleOfItsForces) {
   EXPECT_GT(tight.end("v3"), 0.3);
 }
 
+struct Pushed {
+  Layer lower, upper;
+  double mu_0, mu;      // of the ceiling
+  double force, below;  // [N], [m] below the middle of the lower block
+  double x, error;      // [m] where that block is at the end; what the looser tolerance changes
+};
+
+const Pushed first_pushed = {{0.244, 0.164, 0.247, 0, 0.209, 0.209},
+                             {0.274, 0.074, 0.888, 0.0252, 0.122, 0.102},
+                             0.23,
+                             0.23,
+                             11.51,
+                             0.0262,
+                             1.2879,
+                             2e-4};
+
+json pushed_below_a_ceiling(const Pushed& p) {
+  json s = below_a_ceiling({p.lower, p.upper}, p.mu_0, p.mu, 0);
+  s["bodies"]["b0"]["markers"]["push"] = {0, -p.below};
+  s["forces"]["push"] = {{"type", "load"}, {"on", "b0.push"}, {"force", {{"x", fmt::format("={}", p.force)}}}};
+  s["record"]["observe"]["x"] = "b0.com.x";
+  return s;
+}
+
+Finished run_with_tolerance(const json& s, double tolerance) {
+  return run_text(s.dump(),
+                  {{"integrator", fmt::format(R"({{"type": "dop853", "step": {{"tolerance": {}}}}})", tolerance)}});
+}
+
 // The lower block is pushed from under the upper one, until a force at the floor passes below one at the ceiling. The
 // normals that carry depend on each other there: the idle ones follow from them by factors that grow without bounds and
 // change their signs. The forces stay finite.
 TEST(StackBelowACeiling, PassesTheStateInWhichItsContactsThatCarryAreAStrut) {
-  struct Pushed {
-    Layer lower, upper;
-    double mu_0, mu;      // of the ceiling
-    double force, below;  // [N], [m] below the middle of the lower block
-    double x, error;      // [m] where that block is at the end; what the looser tolerance changes
-  };
-  for (const Pushed& p : {Pushed{{0.244, 0.164, 0.247, 0, 0.209, 0.209},
-                                 {0.274, 0.074, 0.888, 0.0252, 0.122, 0.102},
-                                 0.23,
-                                 0.23,
-                                 11.51,
-                                 0.0262,
-                                 1.2879,
-                                 2e-4},
+  for (const Pushed& p : {first_pushed,
                           Pushed{{0.12, 0.17, 1.193, 0, 0.392, 0.392},
                                  {0.238, 0.103, 0.338, -0.0169, 0.214, 0.18},
                                  0.615,
@@ -153,17 +169,31 @@ TEST(StackBelowACeiling, PassesTheStateInWhichItsContactsThatCarryAreAStrut) {
                                  10.4567,
                                  1e-4}}) {
     SCOPED_TRACE(p.force);
-    json s = below_a_ceiling({p.lower, p.upper}, p.mu_0, p.mu, 0);
-    s["bodies"]["b0"]["markers"]["push"] = {0, -p.below};
-    s["forces"]["push"] = {{"type", "load"}, {"on", "b0.push"}, {"force", {{"x", fmt::format("={}", p.force)}}}};
-    s["record"]["observe"]["x"] = "b0.com.x";
-    for (const double tolerance : {1e-12, 1e-9}) {
-      const Finished run = run_text(
-          s.dump(), {{"integrator", fmt::format(R"({{"type": "dop853", "step": {{"tolerance": {}}}}})", tolerance)}});
+    for (const double tolerance : {1e-12, 1e-11, 1e-10, 1e-9}) {
+      const Finished run = run_with_tolerance(pushed_below_a_ceiling(p), tolerance);
       ASSERT_TRUE(run.done()) << run.report.reason;
       EXPECT_THAT(run.result["warnings"].dump(), Not(HasSubstr("not to be trusted"))) << tolerance;
       EXPECT_NEAR(run.end("x"), p.x, p.error) << tolerance;
     }
+  }
+}
+
+// A block at rest beside the stack, which does not touch it, is none of its forces, whatever it weighs.
+TEST(StackBelowACeiling, MovesTheSameBesideABodyOfAnyWeight) {
+  const double alone = run_with_tolerance(pushed_below_a_ceiling(first_pushed), 1e-12).end("x");
+  for (const double mass : {1.0, 1e8}) {
+    json s = pushed_below_a_ceiling(first_pushed);
+    s["bodies"]["beside"] = {{"type", "rigid_body"},
+                             {"mass", mass},
+                             {"inertia", mass},
+                             {"position", {10, 0.5}},
+                             {"markers", {{"l", {-0.5, -0.5}}, {"r", {0.5, -0.5}}}}};
+    for (const char* foot : {"l", "r"})
+      s["contacts"]["beside_" + std::string(foot)] =
+          rough_contact("beside." + std::string(foot), {{"point", {0, 0}}, {"normal", {0, 1}}}, 0.5, 0.5);
+    const Finished run = run_with_tolerance(s, 1e-12);
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    EXPECT_NEAR(run.end("x"), alone, first_pushed.error) << mass;
   }
 }
 
