@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -15,11 +16,14 @@ namespace {
 // Of the forces that act on a contact, or of all energy that was lost: round-off, and the inaccuracy of located events.
 constexpr double little = 1e-8;
 
-// [N] A smaller force along a direction of the group accelerates nothing.
+// [N] A smaller force along any direction of the group accelerates nothing.
 double noise(model::AssembledSystem& system, const model::SharedRows& group, const ContactScale& scale) {
   std::vector<model::ContactDirection> directions = group.basis;
   directions.insert(directions.end(), group.implied.begin(), group.implied.end());
-  return judge_forces(system, directions, Vec::Zero(std::ssize(directions)), scale).noise.maxCoeff();
+  double least = std::numeric_limits<double>::infinity();
+  for (const double each : judge_forces(system, directions, Vec::Zero(std::ssize(directions)), scale).noise)
+    if (each > 0) least = std::min(least, each);  // 0: nothing can move along it
+  return least;
 }
 
 }  // namespace
