@@ -60,9 +60,10 @@ void ContactModes::fail_without_solution(const char* what, double t, const compl
         "with so much friction a joint may lock itself",
         joints);
   else if (solution.outcome == LcpOutcome::gave_up)
-    why = fmt::format(
-        "was not found: the best try violates the contacts' conditions by {:.2g} of the forces, {:.0g} is asked for{}",
-        solution.violation, complementarity::largest_violation, compliant);
+    why = fmt::format("was not found: the best try violates the conditions of {} by {:.2g} of the forces{}{}",
+                      joints.empty() ? "the contacts" : "contacts and bearings", solution.violation,
+                      joints.empty() ? fmt::format(", {:.0g} is asked for", complementarity::largest_violation) : "",
+                      compliant);
   else if (blocked(who))
     of = of_contacts, why = "has no solution: they close on bodies that cannot give way";
   else
