@@ -149,7 +149,7 @@ double SharedRowsAtPoint::force_along(ContactDirection d, const Vec& lambda) {
   return contacts_.law_normal(d.contact);
 }
 
-// K y / (1 + K S K^T) if the others' forces are S y. It is continuous where K passes infinity, because the rows that
+// K S y / (1 + K S K^T) if the others' forces are S y. It is continuous where K passes infinity, because the rows that
 // carry come to depend on each other.
 double SharedRowsAtPoint::spring_force(int contact, const Vec& lambda) {
   follow();
