@@ -207,7 +207,8 @@ void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, cons
     const Vec asked = stiff > 0 ? Vec(T - a_t / stiff) : Vec(T);
     const bool slides =
         stiff * asked.norm() >
-        stiff * bound + 1e-12 * scale_of_slip(terms.segment(p.tangent, p.tangents).maxCoeff(), 1e13 * little);
+        stiff * bound +
+            round_off_of_slip * scale_of_slip(terms.segment(p.tangent, p.tangents).maxCoeff(), 1e13 * little);
     if (!slides) a_t.setZero();
     if (slides)
       T = bound * asked.normalized();

@@ -18,6 +18,7 @@ namespace trammel::complementarity {
 
 // Which of two scales of accelerations counts for the round-off along a contact's tangents: that of its own terms if
 // the largest of all, that of a light body which is pushed or spins, is many times as large.
+constexpr double round_off_of_slip = 1e-12;  // of that scale
 inline double scale_of_slip(double own, double largest) {
   return largest > 100 * own ? own : largest;
 }

@@ -471,6 +471,7 @@ void ContactModes::accelerate_participants() {
   largest_ = 0;
   for (Participant& p : problem_.who) {
     if (!p.unilateral) p.given = system_.normal_force(p.contact, lambda_);
+    p.least_slip = scale_.of(p.contact).no_acceleration();
     p.a_n = system_.acceleration({p.contact, 0}, a_);
     if (p.tangent != Tangent::none) p.a_t = system_.slip_acceleration(p.contact, a_);
     largest_ = std::max({largest_, std::abs(p.a_n), p.a_t.norm()});
@@ -486,9 +487,7 @@ void ContactModes::take_verdict(const Participant& p, bool kept_closed) {
   mode.direction = p.direction;
   mode.least_slip = least_slip(p.contact);
   if (p.tangent == Tangent::sliding) return;
-  const double own = complementarity::scale_of_slip(p.no_slip, least_acceleration());
-  const double no_slip = std::min(least_acceleration(), std::max(scale_.of(p.contact).no_acceleration(), own));
-  if (p.a_t.norm() > no_slip) {
+  if (p.a_t.norm() > p.no_slip) {
     mode.direction = direction_of(p.a_t);
   } else if (p.yielded && p.T.norm() > (1 - 1e-6) * p.mu * p.N) {  // slides, too slowly to be seen
     mode.direction = -direction_of(p.T);

@@ -101,8 +101,8 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
     settled = true;
     for (std::size_t i = 0; i < who.size(); ++i) {
       Participant& p = who[i];
-      const double no_slip = complementarity::scale_of_slip(round_off_of_slip(points_[i]), nothing);
-      if (p.tangent != Participant::Tangent::resting || p.let_go || along(a_, points_[i]).norm() <= no_slip) continue;
+      if (p.tangent != Participant::Tangent::resting || p.let_go) continue;
+      if (along(a_, points_[i]).norm() <= no_slip(i, nothing)) continue;
       p.let_go = true;
       if (p.mu < p.mu_0) settled = false;
     }
@@ -115,16 +115,19 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
     if (points_[i].normal >= 0) p.N = F_[points_[i].normal], p.a_n = a_[points_[i].normal];
     if (const int n = points_[i].tangents; points_[i].tangent >= 0)
       p.T.head(n) = along(F_, points_[i]), p.a_t.head(n) = along(a_, points_[i]);
-    p.no_slip = round_off_of_slip(points_[i]);
+    p.no_slip = no_slip(i, nothing);
   }
   return solution;
 }
 
-double ContactProblem::round_off_of_slip(const complementarity::ContactPoint& p) const {
+double ContactProblem::no_slip(std::size_t participant, double nothing) const {
+  const complementarity::ContactPoint& p = points_[participant];
   if (p.tangent < 0) return 0;
   const auto rows = Eigen::seqN(p.tangent, p.tangents);
   const Vec terms = b_(rows).cwiseAbs() + delassus_(rows, Eigen::all).cwiseAbs() * F_.cwiseAbs();
-  return 1e-12 * terms.maxCoeff();
+  const double round_off =
+      complementarity::scale_of_slip(complementarity::round_off_of_slip * terms.maxCoeff(), nothing);
+  return std::min(nothing, std::max(who[participant].least_slip, round_off));
 }
 
 bool ContactProblem::let_approaches_vanish(double nothing) {
@@ -159,7 +162,7 @@ std::vector<bool> ContactProblem::kept_closed(double nothing) const {
   for (std::size_t i = 0; i < who.size(); ++i) {
     const Participant& p = who[i];
     if (p.unilateral && p.N > 0) pressing.push_back(points_[i].normal);
-    const bool sticks = p.tangent == Participant::Tangent::resting && p.N > 0 && p.a_t.norm() <= nothing;
+    const bool sticks = p.tangent == Participant::Tangent::resting && p.N > 0 && p.a_t.norm() <= p.no_slip;
     for (int k = 0; k < points_[i].tangents && sticks; ++k) pressing.push_back(points_[i].tangent + k);
   }
   std::vector<bool> kept(who.size(), false);

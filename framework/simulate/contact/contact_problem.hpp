@@ -29,13 +29,14 @@ struct Participant {
   bool let_go = false;                        // resting: mu applies from the start; afterwards: mu_0 did not hold it
   bool yielded = false;  // resting, let go: its friction has reached its bound and does not hold it there
 
-  double vanishing = 0;  // an approach added to a_n; of several solutions its limit, as it vanishes, is taken
+  double least_slip = 0;  // resting: |a_t| up to this is no slip, whatever the round-off is
+  double vanishing = 0;   // an approach added to a_n; of several solutions its limit, as it vanishes, is taken
 
   // Found: force [N] or impulse [N s], and acceleration or velocity, along normal and tangents.
   double N = 0, a_n = 0;
   bool idle = false;  // closed without a force, in a group with dependent rows of which some slide
   Tangential T = Tangential::Zero(), a_t = Tangential::Zero();
-  double no_slip = 0;  // |a_t| up to this is the round-off of its terms
+  double no_slip = 0;  // |a_t| up to this is no slip
 };
 
 class ContactProblem {
@@ -88,7 +89,7 @@ class ContactProblem {
   std::vector<Eigen::Index> rows_at_rest() const;  // unilateral normals, and tangents at rest
   complementarity::ContactSolution solve_once(const Mat& A, double nothing);
   Mat yielding() const;  // the Delassus matrix of contacts that are not quite rigid
-  double round_off_of_slip(const complementarity::ContactPoint& p) const;                // [m/s^2]
+  double no_slip(std::size_t participant, double nothing) const;                         // [m/s^2]
   double push(const Pushed& p) const { return who[p.who].ratio[0] * who[p.who].given; }  // [N]
   // False: no solution was found as the limit of vanishing approaches.
   [[nodiscard]] bool let_approaches_vanish(double nothing);
