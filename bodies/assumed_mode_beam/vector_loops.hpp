@@ -10,15 +10,15 @@
 #include <cstddef>
 #include <type_traits>
 
+#include <trammel/simd.hpp>
+
 namespace trammel::beam {
 
 template <int n>
 using Fixed = std::integral_constant<int, n>;
 
-inline constexpr int pack = 4;
-constexpr int padded(int n) {
-  return (n + pack - 1) / pack * pack;
-}
+using simd::pack, simd::Pack, simd::pack_at, simd::padded, simd::total;
+
 template <int n>
 constexpr Fixed<padded(n)> padded(Fixed<n>) {
   return {};
@@ -44,18 +44,6 @@ struct ScatteredRows {
 
 namespace detail {
 
-using Pack = double [[gnu::vector_size(8 * pack)]];
-using AnyPack = double [[gnu::vector_size(8 * pack), gnu::aligned(8), gnu::may_alias]];
-
-inline const AnyPack& at(const double* x) {
-  return *reinterpret_cast<const AnyPack*>(x);
-}
-inline AnyPack& at(double* x) {
-  return *reinterpret_cast<AnyPack*>(x);
-}
-inline double total(const Pack& s) {
-  return (s[0] + s[2]) + (s[1] + s[3]);
-}
 // The totals of four packs.
 inline Pack totals(const Pack& s0, const Pack& s1, const Pack& s2, const Pack& s3) {
   const Pack low = __builtin_shufflevector(s0, s1, 0, 4, 2, 6) + __builtin_shufflevector(s0, s1, 1, 5, 3, 7);
@@ -75,15 +63,15 @@ inline void combine_packs(Count m, const Table& rows, int k, const double* c, St
     for (; j + 2 <= m; j += 2) {
       const double *x = rows[j] + k, *next = rows[j + 1] + k;
       for (int p = 0; p < packs; ++p) {
-        sum[p] += c[j] * at(x + pack * p);
-        second[p] += c[j + 1] * at(next + pack * p);
+        sum[p] += c[j] * pack_at(x + pack * p);
+        second[p] += c[j + 1] * pack_at(next + pack * p);
       }
     }
   for (; j < m; ++j) {
     const double* x = rows[j] + k;
-    for (int p = 0; p < packs; ++p) sum[p] += c[j] * at(x + pack * p);
+    for (int p = 0; p < packs; ++p) sum[p] += c[j] * pack_at(x + pack * p);
   }
-  for (int p = 0; p < packs; ++p) at(y + k + pack * p) = two_rows ? sum[p] + second[p] : sum[p];
+  for (int p = 0; p < packs; ++p) pack_at(y + k + pack * p) = two_rows ? sum[p] + second[p] : sum[p];
 }
 
 struct Zeros {
@@ -91,7 +79,7 @@ struct Zeros {
 };
 struct Numbers {
   const double* x;
-  Pack pack_at(int k) const { return at(x + k); }
+  Pack pack_at(int k) const { return simd::pack_at(x + k); }
 };
 
 template <class Start, class Length, class Count, class Table>
@@ -123,14 +111,14 @@ inline void combine_from(const double* start, Length n, Count m, const Table& ro
 // sum x y
 template <class Length>
 inline double dot(Length n, const double* x, const double* y) {
-  detail::Pack even{}, odd{};
+  Pack even{}, odd{};
   int k = 0;
   for (; k + 2 * pack <= n; k += 2 * pack) {
-    even += detail::at(x + k) * detail::at(y + k);
-    odd += detail::at(x + k + pack) * detail::at(y + k + pack);
+    even += pack_at(x + k) * pack_at(y + k);
+    odd += pack_at(x + k + pack) * pack_at(y + k + pack);
   }
-  if (k < n) even += detail::at(x + k) * detail::at(y + k);
-  return detail::total(even + odd);
+  if (k < n) even += pack_at(x + k) * pack_at(y + k);
+  return total(even + odd);
 }
 
 // out_i = rows_i . y  over m rows, four at a time; where fewer remain, the last is repeated into out's padding
@@ -139,15 +127,15 @@ inline void products(Length n, Count m, Rows rows, const double* y, double* out)
   const auto row = [&](int i) { return rows[std::min<int>(i, m - 1)]; };
   for (int i = 0; i < m; i += pack) {
     const double *x0 = row(i), *x1 = row(i + 1), *x2 = row(i + 2), *x3 = row(i + 3);
-    detail::Pack s0{}, s1{}, s2{}, s3{};
+    Pack s0{}, s1{}, s2{}, s3{};
     for (int k = 0; k < n; k += pack) {
-      const detail::Pack yk = detail::at(y + k);
-      s0 += detail::at(x0 + k) * yk;
-      s1 += detail::at(x1 + k) * yk;
-      s2 += detail::at(x2 + k) * yk;
-      s3 += detail::at(x3 + k) * yk;
+      const Pack yk = pack_at(y + k);
+      s0 += pack_at(x0 + k) * yk;
+      s1 += pack_at(x1 + k) * yk;
+      s2 += pack_at(x2 + k) * yk;
+      s3 += pack_at(x3 + k) * yk;
     }
-    detail::at(out + i) = detail::totals(s0, s1, s2, s3);
+    pack_at(out + i) = detail::totals(s0, s1, s2, s3);
   }
 }
 

@@ -6,8 +6,8 @@
 
 #include "linear/dense/eps.hpp"
 #include "linear/dense/orthonormal.hpp"
-#include "linear/dense/products_of_few_rows.hpp"
 #include "linear/dense/refinement.hpp"
+#include "linear/dense/row_products.hpp"
 
 namespace trammel::numerics {
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <trammel/quadrature.hpp>
+#include <trammel/simd.hpp>
 
 namespace trammel::plate {
 
@@ -93,7 +94,7 @@ void Discretisation::connect(int c, Cell& cell) const {
   if (cell.functions > most_functions)
     throw std::invalid_argument(fmt::format("{} functions overlap in one cell, {} is the most; choose the closure both",
                                             cell.functions, most_functions));
-  cell.padded = (cell.functions + 3) / 4 * 4;
+  cell.padded = simd::padded(cell.functions);
   cell.nodes = bezier.functions;
   number_coordinates(cell);
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "linear/dense/few_rows.hpp"
+#include "linear/dense/fixed_sizes.hpp"
 #include "linear/dense/prefetch.hpp"
 
 namespace trammel::numerics {
@@ -12,7 +12,7 @@ namespace {
 // Calls f(n) with n as a compile-time constant for bodies of few velocities.
 template <class F>
 void with_size(Eigen::Index n, F&& f) {
-  if (!with_few(n, f)) f(n);
+  if (!with_fixed_size(n, f)) f(n);
 }
 
 // Calls f for each body; the rows of later bodies are prefetched.
@@ -60,13 +60,13 @@ void add_columns(const BodyBlock& body, const Mat& columns, double c, const Vec&
       column += n;
     }
   };
-  const bool few = with_few(columns.rows(), [&](auto n) {
+  const bool fixed = with_fixed_size(columns.rows(), [&](auto n) {
     double sum[n];
     std::copy_n(of_body, int(n), sum);
     add(n, sum);
     std::copy_n(sum, int(n), of_body);
   });
-  if (!few) add(columns.rows(), of_body);
+  if (!fixed) add(columns.rows(), of_body);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "linear/dense/few_rows.hpp"
+#include "linear/dense/fixed_sizes.hpp"
 #include "linear/dense/prefetch.hpp"
 #include "linear/dense/simd_columns.hpp"
 
@@ -16,7 +16,7 @@ template <class Columns, class Rows>
 void multiply(const double* Y, Columns n, Rows m, double* S) {
   for (Eigen::Index j = 0; j < m; ++j)
     for (Eigen::Index i = pack_of(j); i < m; i += pack) {
-      Pack sum = Pack::Zero();
+      Pack sum{};
       for (Eigen::Index k = 0; k < n; ++k) sum += Y[k * m + j] * pack_at(Y + k * m + i);
       pack_at(S + j * m + i) = sum;
     }
@@ -25,11 +25,11 @@ void multiply(const double* Y, Columns n, Rows m, double* S) {
 // The lower triangle of Y Y^T, filled up to whole packs. Small sizes are compile-time constants.
 void products_of_rows(const Eigen::Map<Mat>& Y, double* S) {
   const Eigen::Index m = Y.rows();
-  const bool done = with_few(Y.cols(), [&](auto n) {
+  const bool done = with_fixed_size(Y.cols(), [&](auto n) {
     const auto of_packs = [&](auto packs) {
       multiply(Y.data(), n, std::integral_constant<Eigen::Index, packs * pack>(), S);
     };
-    if (!with_few<4>(m / pack, of_packs)) multiply(Y.data(), n, m, S);
+    if (!with_fixed_size<4>(m / pack, of_packs)) multiply(Y.data(), n, m, S);
   });
   if (!done) Eigen::Map<Mat>(S, m, m).noalias() = Y * Y.transpose();
 }
@@ -37,8 +37,8 @@ void products_of_rows(const Eigen::Map<Mat>& Y, double* S) {
 // Calls f(rows eliminated, distance between columns), with compile-time constants for small fronts.
 template <class F>
 void with_sizes(const ComplementLayout::Front& front, F&& f) {
-  const bool known = front.stride() <= 4 * pack && with_few(front.eliminated, [&](auto eliminated) {
-                       with_few<4>(front.stride() / pack, [&](auto packs) {
+  const bool known = front.stride() <= 4 * pack && with_fixed_size(front.eliminated, [&](auto eliminated) {
+                       with_fixed_size<4>(front.stride() / pack, [&](auto packs) {
                          f(eliminated, std::integral_constant<Eigen::Index, packs * pack>());
                        });
                      });
@@ -109,7 +109,7 @@ Eigen::Map<Mat> RowComplement::form_Y(const std::vector<BodyBlock>& bodies, cons
       for (Eigen::Index j = 0; j < n; ++j) Y.data()[j * stride + i] = inverse_roots[j] * row[j];
     }
   };
-  if (!with_few(body.Gt.rows(), copy)) copy(body.Gt.rows());
+  if (!with_fixed_size(body.Gt.rows(), copy)) copy(body.Gt.rows());
   Y.bottomRows(stride - m).setZero();
   if (const Cholesky* factors = masses.dense(std::size_t(share.of))) factors->solve_lower_of_rows(Y);
   return Y;
@@ -177,7 +177,7 @@ template <class Stride, class Factor>
 void subtract_columns(const double* columns, Stride stride, Eigen::Index count, Eigen::Index first, Factor&& c,
                       double* y) {
   for (Eigen::Index i = pack_of(first); i < stride; i += pack) {
-    Pack sum = Pack::Zero();
+    Pack sum{};
     for (Eigen::Index j = 0; j < count; ++j) sum += c(j) * pack_at(columns + j * stride + i);
     pack_at(y + i) -= sum;
   }
@@ -207,7 +207,7 @@ void RowComplement::solve_lower(const Front& front, Vec& y) {
 
 // y_F := L_FF^-T (D^-1 y_F - L_BF^T y_B)
 void RowComplement::solve_upper(const Front& front, Vec& y) {
-  if (front.eliminated > few) return solve_upper_of_many(front, y);
+  if (front.eliminated > most_unrolled) return solve_upper_of_many(front, y);
   with_sizes(front, [&](auto eliminated, auto stride) {
     const double* const L = L_.data() + front.L;
     const int* const rows = layout_.rows(front).data();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linear/dense/few_rows.hpp"
+#include "linear/dense/fixed_sizes.hpp"
 #include "linear/dense/simd_columns.hpp"
 
 namespace trammel::numerics {
@@ -24,9 +24,9 @@ bool Cholesky::compute(const Mat& M) {
     return blocks_.compute(M).info() == Eigen::Success && blocks_.matrixLLT().diagonal().allFinite();  // NaN: "success"
   }
   resize(n);
-  if (of_few()) {
-    copy_few(M.data(), n, U_.data());
-    return factorise_few();
+  if (unrolled()) {
+    copy_unrolled(M.data(), n, U_.data());
+    return factorise_unrolled();
   }
   find_zeros(M);
   for (Eigen::Index j = 0; j < n; ++j) std::copy(M.data() + j * n + j, M.data() + (j + 1) * n, &L_(j, j));
@@ -45,7 +45,7 @@ bool Cholesky::invert_diagonal(const Mat& M) {
 void Cholesky::resize(Eigen::Index n) {
   if (n_ == n && L_.rows() == padded(n) && inverse_.size() == L_.cols()) return;
   n_ = n;
-  const Eigen::Index stride = padded(n), columns = stride == few ? few : n;
+  const Eigen::Index stride = padded(n), columns = stride == most_unrolled ? most_unrolled : n;
   L_.setIdentity(stride, columns), U_.setIdentity(stride, columns);
   inverse_.setOnes(columns), root_.setOnes(columns), inverse_root_.setOnes(columns);
   rest_.setZero(stride);
@@ -71,27 +71,27 @@ void Cholesky::find_zeros(const Mat& M) {
 }
 
 // As by columns, with all columns in registers.
-bool Cholesky::factorise_few() {
+bool Cholesky::factorise_unrolled() {
   double *const L = L_.data(), *const LD = U_.data();
   bool positive = true;
 #pragma GCC unroll 8
-  for (int j = 0; j < few; ++j) {
+  for (int j = 0; j < most_unrolled; ++j) {
     const int first = j / int(pack);
-    Pack column[few / pack];
+    Pack column[most_unrolled / pack];
 #pragma GCC unroll 2
-    for (int p = first; p < few / pack; ++p) {
-      column[p] = pack_at(LD + j * few + p * pack);
+    for (int p = first; p < most_unrolled / pack; ++p) {
+      column[p] = pack_at(LD + j * most_unrolled + p * pack);
 #pragma GCC unroll 8
-      for (int k = 0; k < j; ++k) column[p] -= L[k * few + j] * pack_at(LD + k * few + p * pack);
+      for (int k = 0; k < j; ++k) column[p] -= L[k * most_unrolled + j] * pack_at(LD + k * most_unrolled + p * pack);
     }
     const double pivot = column[first][j % pack];
     positive &= pivot > 0 && std::isfinite(pivot);
     const double inverse = inverse_[j] = 1 / pivot;
     root_[j] = std::sqrt(pivot), inverse_root_[j] = inverse * root_[j];
 #pragma GCC unroll 2
-    for (int p = first; p < few / pack; ++p) {
-      pack_at(LD + j * few + p * pack) = column[p];
-      pack_at(L + j * few + p * pack) = column[p] * inverse;
+    for (int p = first; p < most_unrolled / pack; ++p) {
+      pack_at(LD + j * most_unrolled + p * pack) = column[p];
+      pack_at(L + j * most_unrolled + p * pack) = column[p] * inverse;
     }
   }
   return positive;
@@ -123,8 +123,8 @@ bool Cholesky::factorise_by_columns() {
 void Cholesky::solve_lower(Eigen::Ref<Vec> x) {
   if (in_blocks()) return blocks_.matrixL().solveInPlace(x);
   if (diagonal_) return void(x.array() *= inverse_root_.head(n_).array());
-  if (of_few()) {
-    FewNumbers y(n_, x.data());
+  if (unrolled()) {
+    UnrolledVector y(n_, x.data());
     y.solve_lower(L_.data());
     y.scale(inverse_root_.data());
     return y.copy_to(x.data(), n_);
@@ -144,7 +144,7 @@ void Cholesky::solve_lower_of_rows(Eigen::Ref<Mat> X) const {
   if (X.rows() == 0) return;
   if (in_blocks()) return blocks_.matrixU().solveInPlace<Eigen::OnTheRight>(X);
   const Eigen::Index m = X.rows(), stride = X.outerStride();
-  in_parts(m, [&](auto rows, Eigen::Index i) {
+  in_fixed_parts(m, [&](auto rows, Eigen::Index i) {
     double* const x = X.data() + i;
     for (Eigen::Index k = 0; k < n_; ++k) {
       PartOfRows<rows> rest = part_at<rows>(x + k * stride);
@@ -159,8 +159,8 @@ void Cholesky::solve_lower_of_rows(Eigen::Ref<Mat> X) const {
 void Cholesky::solve_transposed(Eigen::Ref<Vec> x) {
   if (in_blocks()) return blocks_.matrixU().solveInPlace(x);
   if (diagonal_) return void(x.array() = x.array() * root_.head(n_).array() * inverse_.head(n_).array());
-  if (of_few()) {
-    FewNumbers y(n_, x.data());
+  if (unrolled()) {
+    UnrolledVector y(n_, x.data());
     y.scale(inverse_root_.data());
     y.solve_transposed(L_.data());
     return y.copy_to(x.data(), n_);
@@ -176,8 +176,8 @@ void Cholesky::solve_transposed(Eigen::Ref<Vec> x) {
 
 void Cholesky::solve(Eigen::Ref<Vec> x) {
   if (diagonal_) return void(x.array() *= inverse_.head(n_).array());
-  if (of_few()) {
-    FewNumbers y(n_, x.data());
+  if (unrolled()) {
+    UnrolledVector y(n_, x.data());
     y.solve_lower(L_.data());
     y.scale(inverse_.data());
     y.solve_transposed(L_.data());

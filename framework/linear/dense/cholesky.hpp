@@ -32,12 +32,12 @@ class Cholesky {
 
  private:
   bool in_blocks() const { return n_ == 0 && !diagonal_; }
-  bool of_few() const { return L_.rows() == few; }
+  bool unrolled() const { return L_.rows() == most_unrolled; }
   bool invert_diagonal(const Mat& M);
   void resize(Eigen::Index n);
   void find_zeros(const Mat& M);
   bool factorise_by_columns();
-  bool factorise_few();
+  bool factorise_unrolled();
 
   Eigen::Index n_ = 0;
   bool diagonal_ = false;  // M is diagonal, as for rigid bodies in the coordinates of their centres

@@ -1,4 +1,4 @@
-// Loops over few rows whose number is known to the compiler, so that their values stay in registers.
+// Loops whose length is known to the compiler, so that their values stay in registers.
 #pragma once
 
 #include <type_traits>
@@ -9,11 +9,11 @@
 
 namespace trammel::numerics {
 
-// Calls f with the number of rows as a compile-time constant. False: there are more than `few`, or none.
-template <int m = few, class F>
-bool with_few(Eigen::Index rows, F&& f) {
+// Calls f(n) with n as a compile-time constant. False: n is more than `most_unrolled`, or 0.
+template <int m = most_unrolled, class F>
+bool with_fixed_size(Eigen::Index n, F&& f) {
   if constexpr (m > 0) {
-    if (rows != m) return with_few<m - 1>(rows, f);
+    if (n != m) return with_fixed_size<m - 1>(n, f);
     f(std::integral_constant<Eigen::Index, m>());
   }
   return m > 0;
@@ -22,10 +22,10 @@ bool with_few(Eigen::Index rows, F&& f) {
 // Splits m into consecutive parts, eights and then at most one of 4, 2 and 1, and calls f(number, first) with the
 // number as a compile-time constant. The values of a part stay in registers; a loop over all m rows at once would keep
 // them in memory.
-template <Eigen::Index part = few, class F>
-void in_parts(Eigen::Index m, F&& f, Eigen::Index first = 0) {
+template <Eigen::Index part = most_unrolled, class F>
+void in_fixed_parts(Eigen::Index m, F&& f, Eigen::Index first = 0) {
   for (; first + part <= m; first += part) f(std::integral_constant<Eigen::Index, part>(), first);
-  if constexpr (part > 1) in_parts<part / 2>(m, f, first);
+  if constexpr (part > 1) in_fixed_parts<part / 2>(m, f, first);
 }
 
 template <Eigen::Index part>

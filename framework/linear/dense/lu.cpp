@@ -18,13 +18,13 @@ void Lu::compute(const Mat& A) {
   }
   if (n_ != n) {
     n_ = n;
-    LU_.setIdentity(padded(n), of_few() ? few : n);
+    LU_.setIdentity(padded(n), unrolled() ? most_unrolled : n);
     rest_.setZero(LU_.rows()), y_.setZero(LU_.rows());
     inverse_pivots_.setOnes(LU_.cols());
     rows_.resize(std::size_t(n));
   }
-  if (of_few()) {
-    copy_few(A.data(), n, LU_.data());
+  if (unrolled()) {
+    copy_unrolled(A.data(), n, LU_.data());
   } else {
     for (Eigen::Index j = 0; j < n; ++j) std::copy_n(A.data() + j * n, n, LU_.data() + j * LU_.rows());
   }
@@ -85,8 +85,8 @@ void Lu::solve(const Vec& b, Vec& x) {
   const double* const data = LU_.data();
   double *const rest = rest_.data(), *const y = y_.data();
   x.resize(n);
-  if (of_few()) {
-    FewNumbers few_y(n, b.data(), rows_.data());
+  if (unrolled()) {
+    UnrolledVector few_y(n, b.data(), rows_.data());
     few_y.solve_lower(data);
     few_y.solve_upper(data, inverse_pivots_.data());
     return few_y.copy_to(x.data(), n);

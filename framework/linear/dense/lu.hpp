@@ -22,7 +22,7 @@ class Lu {
 
  private:
   bool in_blocks() const { return n_ == 0; }
-  bool of_few() const { return !in_blocks() && padded(n_) == few; }
+  bool unrolled() const { return !in_blocks() && padded(n_) == most_unrolled; }
   void eliminate();
 
   Eigen::Index n_ = 0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linear/dense/few_rows.hpp"
+#include "linear/dense/fixed_sizes.hpp"
 
 namespace trammel::numerics {
 
@@ -11,32 +11,20 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Unlike Eigen's arrays of four, this type certainly stays in registers.
-using Four = double [[gnu::vector_size(32)]];
-using AnyFour = double [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]];
-static_assert(pack == 4);
-
-inline AnyFour& four(double* x) {
-  return *reinterpret_cast<AnyFour*>(x);
-}
-inline const AnyFour& four(const double* x) {
-  return *reinterpret_cast<const AnyFour*>(x);
-}
-
 // C(i, j) -= sum_p A(i, p) B(j, p) for 4 `packs` rows i and `columns` columns j
 template <int packs, int columns>
 inline void subtract_tile(Index depth, Index stride, const double* A, const double* B, double* C) {
-  Four sum[packs][columns] = {};
+  Pack sum[packs][columns] = {};
   for (Index p = 0; p < depth; ++p, A += stride, B += stride) {
-    Four a[packs];
-    for (int i = 0; i < packs; ++i) a[i] = four(A + pack * i);
+    Pack a[packs];
+    for (int i = 0; i < packs; ++i) a[i] = pack_at(A + pack * i);
     for (int j = 0; j < columns; ++j) {
-      const Four b = {B[j], B[j], B[j], B[j]};
+      const Pack b = {B[j], B[j], B[j], B[j]};
       for (int i = 0; i < packs; ++i) sum[i][j] += a[i] * b;
     }
   }
   for (int j = 0; j < columns; ++j)
-    for (int i = 0; i < packs; ++i) four(C + j * stride + pack * i) -= sum[i][j];
+    for (int i = 0; i < packs; ++i) pack_at(C + j * stride + pack * i) -= sum[i][j];
 }
 
 // The lower triangle of A, whose columns are `stride` apart. Loops over rows begin with the pack that contains the
@@ -72,7 +60,7 @@ struct Lower {
 
   // Columns [j, j + m): the square block on the diagonal, then all rows below it.
   template <int m>
-  bool factorise_few(Index j) const {
+  bool factorise_unrolled(Index j) const {
     double L[m][m], inverse[m];
     for (int b = 0; b < m; ++b)
       for (int a = b; a < m; ++a) {
@@ -83,13 +71,13 @@ struct Lower {
         if (a == b) inverse[b] = 1 / L[b][b];
       }
     for (Index i = pack_of(j); i < n; i += pack) {
-      Four x[m];
+      Pack x[m];
       for (int b = 0; b < m; ++b) {
-        x[b] = four(at(i, j + b));
+        x[b] = pack_at(at(i, j + b));
         for (int p = 0; p < b; ++p) x[b] -= x[p] * L[b][p];
         x[b] *= inverse[b];
       }
-      for (int b = 0; b < m; ++b) four(at(i, j + b)) = x[b];
+      for (int b = 0; b < m; ++b) pack_at(at(i, j + b)) = x[b];
     }
     for (int b = 0; b < m; ++b)
       for (int a = b; a < m; ++a) *at(j + a, j + b) = L[a][b];
@@ -99,11 +87,11 @@ struct Lower {
   bool factorise(Index begin, Index end) const {
     const Index m = end - begin;
     bool definite = true;
-    if (m <= few) {
-      with_few(m, [&](auto known) { definite = factorise_few<int(known)>(begin); });
+    if (m <= most_unrolled) {
+      with_fixed_size(m, [&](auto known) { definite = factorise_unrolled<int(known)>(begin); });
       return definite;
     }
-    const Index half = begin + (m / 2 + few - 1) / few * few;
+    const Index half = begin + (m / 2 + most_unrolled - 1) / most_unrolled * most_unrolled;
     if (!factorise(begin, half)) return false;
     subtract_products(begin, half, end);
     return factorise(half, end);

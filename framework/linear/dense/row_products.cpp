@@ -1,6 +1,6 @@
-#include "linear/dense/products_of_few_rows.hpp"
+#include "linear/dense/row_products.hpp"
 
-#include "linear/dense/few_rows.hpp"
+#include "linear/dense/fixed_sizes.hpp"
 
 namespace trammel::numerics {
 
@@ -17,17 +17,17 @@ void multiply_sparse_rows(const Mat& X, const Mat& Y, Mat& S) {
 }  // namespace
 
 void add_rows_product(double c, const Mat& X, const Vec& x, Vec& y) {
-  const auto of_few = [&](auto m) {
+  const auto of_fixed = [&](auto m) {
     double sum[m] = {};
     for (Eigen::Index j = 0; j < X.cols(); ++j)
       for (Eigen::Index i = 0; i < m; ++i) sum[i] += X.data()[j * m + i] * x[j];
     for (Eigen::Index i = 0; i < m; ++i) y[i] += c * sum[i];
   };
-  if (!with_few(X.rows(), of_few)) y.noalias() += c * (X * x);
+  if (!with_fixed_size(X.rows(), of_fixed)) y.noalias() += c * (X * x);
 }
 
 void add_transposed_product(double c, const Mat& X, const Vec& y, Vec& x) {
-  const auto of_few = [&](auto m) {
+  const auto of_fixed = [&](auto m) {
     double factors[m];
     for (Eigen::Index i = 0; i < m; ++i) factors[i] = c * y[i];
     for (Eigen::Index j = 0; j < X.cols(); ++j) {
@@ -36,19 +36,19 @@ void add_transposed_product(double c, const Mat& X, const Vec& y, Vec& x) {
       x[j] += sum;
     }
   };
-  if (!with_few(X.rows(), of_few)) x.noalias() += c * (X.transpose() * y);
+  if (!with_fixed_size(X.rows(), of_fixed)) x.noalias() += c * (X.transpose() * y);
 }
 
 void multiply_rows(const Mat& X, const Mat& Y, Mat& S) {
   constexpr double mostly_zero = 0.2;
   const Eigen::Index m = X.rows(), p = Y.rows(), n = X.cols();
   S.resize(m, p);
-  if (m > few || p > few) {
+  if (m > most_unrolled || p > most_unrolled) {
     if (double((Y.array() != 0).count()) < mostly_zero * double(Y.size())) return multiply_sparse_rows(X, Y, S);
     return void(S.noalias() = X * Y.transpose());
   }
-  in_parts(m, [&](auto rows, Eigen::Index i) {
-    in_parts<4>(p, [&](auto columns, Eigen::Index k) {
+  in_fixed_parts(m, [&](auto rows, Eigen::Index i) {
+    in_fixed_parts<4>(p, [&](auto columns, Eigen::Index k) {
       PartOfRows<rows> sum[columns];
       for (PartOfRows<rows>& column : sum) column.setZero();
       const double *x = X.data() + i, *y = Y.data() + k;

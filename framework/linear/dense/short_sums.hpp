@@ -14,10 +14,10 @@ inline void add(int n, double a, const double* __restrict x, double* __restrict 
 
 // Adds in a fixed order, whatever the alignment of x and y, so that every run rounds alike.
 inline double dot(int n, const double* x, const double* y) {
-  Pack sum = Pack::Zero();
+  Pack sum{};
   int i = 0;
   for (; i + pack <= n; i += pack) sum += pack_at(x + i) * pack_at(y + i);
-  double all = sum.sum();
+  double all = total(sum);
   for (; i < n; ++i) all += x[i] * y[i];
   return all;
 }

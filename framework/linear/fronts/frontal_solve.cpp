@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "linear/dense/few_rows.hpp"
+#include "linear/dense/fixed_sizes.hpp"
 #include "linear/dense/prefetch.hpp"
 #include "linear/dense/refinement.hpp"
 #include "linear/dense/short_sums.hpp"
@@ -135,7 +135,7 @@ namespace {
 
 // from -= M x, both at unknowns[map[i]]
 void subtract_mass(const double* M, int size, const int* map, const int* unknowns, const double* x, double* from) {
-  const auto of_few = [&](auto n) {
+  const auto of_fixed = [&](auto n) {
     int at[n];
     double sum[n] = {};
     for (int i = 0; i < n; ++i) at[i] = unknowns[map[i]];
@@ -143,7 +143,7 @@ void subtract_mass(const double* M, int size, const int* map, const int* unknown
       for (int i = 0; i < n; ++i) sum[i] += M[j * n + i] * x[at[j]];
     for (int i = 0; i < n; ++i) from[at[i]] -= sum[i];
   };
-  if (with_few(size, of_few)) return;
+  if (with_fixed_size(size, of_fixed)) return;
   for (int j = 0; j < size; ++j)
     for (int i = 0; i < size; ++i) from[unknowns[map[i]]] -= M[j * size + i] * x[unknowns[map[j]]];
 }

@@ -1,7 +1,7 @@
 #include "system/equations/mass_and_force.hpp"
 
 #include "linear/dense/prefetch.hpp"
-#include "linear/dense/products_of_few_rows.hpp"
+#include "linear/dense/row_products.hpp"
 #include "linear/dense/simd_columns.hpp"
 
 namespace trammel::model {

@@ -5,7 +5,7 @@
 #include <trammel/linear_rows.hpp>
 
 #include "linear/dense/prefetch.hpp"
-#include "linear/dense/products_of_few_rows.hpp"
+#include "linear/dense/row_products.hpp"
 #include "linear/dense/simd_columns.hpp"
 #include "linear/kkt.hpp"
 

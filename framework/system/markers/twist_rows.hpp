@@ -6,7 +6,7 @@
 
 #include <trammel/marker.hpp>
 
-#include "linear/dense/few_rows.hpp"
+#include "linear/dense/fixed_sizes.hpp"
 
 namespace trammel::model {
 
@@ -42,7 +42,7 @@ inline void add_motion(const RowsOf& rows, const Motion& marker, double* rate, d
   const double *const H = rows.H.data() + rows.first, *const V = marker.V.data(), *const bias = marker.bias.data();
   const Eigen::Index stride = rows.H.rows();
   with_twist(marker.V.size(), [=](auto twist) {
-    numerics::with_few<6>(rows.n, [=](auto n) {
+    numerics::with_fixed_size<6>(rows.n, [=](auto n) {
       double along_V[n] = {}, along_bias[n] = {};
       for (int k = 0; k < twist; ++k)
         for (int i = 0; i < n; ++i) {
@@ -60,7 +60,7 @@ void for_each_column(const RowsOf& rows, const Jac& J, Add&& add) {
   const double* const H = rows.H.data() + rows.first;
   const Eigen::Index stride = rows.H.rows(), columns = J.cols();
   with_twist(J.rows(), [&](auto twist) {
-    numerics::with_few<6>(rows.n, [&](auto n) {
+    numerics::with_fixed_size<6>(rows.n, [&](auto n) {
       double h[n * twist];
       for (int k = 0; k < twist; ++k)
         for (int i = 0; i < n; ++i) h[k * n + i] = H[k * stride + i];
