@@ -38,9 +38,4 @@ void throw_not_finite(const Origin& origin, const char* call, double t, const ch
   throw PluginError(origin, call, fmt::format("it returned {} = {}; expected a finite number", name, value), t);
 }
 
-void throw_wrong_size(const Origin& origin, const char* call, double t, const char* what, Eigen::Index found,
-                      Eigen::Index expected) {
-  throw PluginError(origin, call, fmt::format("it returned {} with {} entries; expected {}", what, found, expected), t);
-}
-
 }  // namespace trammel::plugin

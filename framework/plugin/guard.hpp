@@ -39,8 +39,6 @@ decltype(auto) guard(const Origin& origin, const char* call, std::optional<doubl
 
 [[noreturn]] void throw_not_finite(const Origin&, const char* call, double t, const char* what, Eigen::Index entry,
                                    double value);
-[[noreturn]] void throw_wrong_size(const Origin&, const char* call, double t, const char* what, Eigen::Index found,
-                                   Eigen::Index expected);
 
 // `what` names the result in the message: "f", "kinetic energy".
 inline void require_finite(const Origin& origin, const char* call, double t, const char* what, double value) {
@@ -55,11 +53,6 @@ void require_finite(const Origin& origin, const char* call, double t, const char
     for (Eigen::Index j = 0, entry = 0; j < d.cols(); ++j)
       for (Eigen::Index i = 0; i < d.rows(); ++i, ++entry)
         if (!std::isfinite(d.coeff(i, j))) throw_not_finite(origin, call, t, what, entry, d.coeff(i, j));
-}
-
-inline void require_size(const Origin& origin, const char* call, double t, const char* what, Eigen::Index found,
-                         Eigen::Index expected) {
-  if (found != expected) throw_wrong_size(origin, call, t, what, found, expected);
 }
 
 }  // namespace trammel::plugin

@@ -29,7 +29,6 @@ class StepControl {
   StepControl(const StepChoice& choice, double every, int order, bool even = false);
 
   bool controlled() const { return !choice_.fixed; }
-  double fixed_step() const { return choice_.fixed.value_or(0); }
   const Tolerance& tolerance() const { return choice_.tolerance; }
 
   struct Proposal {

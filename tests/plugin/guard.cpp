@@ -85,12 +85,5 @@ TEST(RequireFinite, TakesAnEmptyVector) {
   EXPECT_EQ(error([] { require_finite(origin, "force", 0, "f", Vec()); }), "no error");
 }
 
-TEST(RequireSize, NamesBothSizes) {
-  EXPECT_EQ(
-      error([] { require_size(origin, "step", 0.5, "q", 3, 4); }),
-      "plugin /x/my_method.so: integrator my_method (integrator): step at t = 0.5 s: it returned q with 3 entries; "
-      "expected 4");
-}
-
 }  // namespace
 }  // namespace trammel::plugin

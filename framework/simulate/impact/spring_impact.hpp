@@ -109,7 +109,6 @@ class SpringImpact {
   };
   double margin(const Vec& y);
   void all_margins(const Vec& y, std::vector<Margins>& margins);
-  double least_sticking(const Vec& f, double F_scale) const;
   bool some_forces_hold(const Vec& f) const;
 
   bool rubs(const Contact& c) const { return c.presses && c.mu_0 > 0 && c.tangent >= 0; }

@@ -36,7 +36,6 @@ Report allocates_nothing(const Subject& s);
 Report energy_error_shrinks(const Subject& s);
 Report holds_its_rows(const Subject& s, const Problem& problem);
 Report is_stable_for_small_steps(const Subject& s);
-Report is_stable_for_any_step(const Subject& s);
 Report estimates_its_error(const Subject& s, const Problem& problem, double omega, double step);
 Report dense_output_meets_the_ends(const Subject& s);
 Report dense_output_has_an_order(const Subject& s);
