@@ -1,7 +1,7 @@
 """tools/run in a tree without a program: first_run.py PROGRAM SOURCE_FOLDER
 
-The build is a stand-in that makes a script which calls PROGRAM. A signal to tools/run reaches the scene that runs: the results up to
-there are kept, and the exit code is that of an interrupted run.
+The build is a stand-in that makes a script which calls PROGRAM. A signal to tools/run reaches the scene that runs: the
+results up to there are kept, and the exit code is that of an interrupted run.
 """
 import json
 import pathlib

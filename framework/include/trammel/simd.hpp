@@ -1,5 +1,5 @@
-// Packs of four numbers, which one SIMD instruction processes (two where the processor has no AVX): for inner loops whose
-// sums a compiler may not reorder by itself. Arrays are padded to whole packs; what stands in the padding must not matter.
+// Packs of four numbers, which one SIMD instruction processes (two without AVX): for inner loops whose sums a compiler
+// may not reorder by itself. Arrays are padded to whole packs; what stands in the padding must not matter.
 #pragma once
 
 #include <cstddef>
