@@ -52,7 +52,7 @@ class Pencil {
     for (Eigen::Index i = 0; i < difference.nonZeros(); ++i)
       apart = std::max(apart, std::abs(difference.valuePtr()[i]));
     for (Eigen::Index i = 0; i < K.nonZeros(); ++i) most = std::max(most, std::abs(K.valuePtr()[i]));
-    return apart <= 1e-9 * most;
+    return apart <= skew_by_differences * most;
   }
   // x^H K x is no more than the round-off of its terms.
   bool no_stiffness(const CVec& x, double noise) const {
@@ -239,7 +239,7 @@ class LowestModes {
         noise_(noise_of_stiffness(system.model())) {}
 
   Spectrum find() {
-    spectrum_.damped = !pencil_.symmetric() || mean_.damping > 1e-8 * std::sqrt(shift_);
+    spectrum_.damped = !pencil_.symmetric() || mean_.damping > no_damping * std::sqrt(shift_);
     spectrum_.damped ? find_damped() : find_undamped();
     return spectrum_;
   }

@@ -10,6 +10,8 @@
 namespace trammel::simulate {
 namespace {
 
+constexpr double noise_of_sums = 1e-12;  // of a stiffness without differences: round-off of the sums it is made of
+
 class AtState {
  public:
   AtState(model::AssembledSystem& system, const State& s) : system_(system), s_(s), n_(system.sizes()) {
@@ -41,7 +43,7 @@ class AtState {
     Mat turned = Mat::Zero(n_.nv, l.Z.cols());
     const bool turning = add_turning(model, s_.v, l.Z, turned);
     const Mat Z_dot = carried(l.Z, turned);
-    const bool carried_along = largest_in_sizes(Z_dot) > 1e-9 * sizes_.largest(s_.v);
+    const bool carried_along = largest_in_sizes(Z_dot) > noise_of_differences * sizes_.largest(s_.v);
     if (!carried_along && !turning) return;
     if (carried_along && sliding)
       throw model::NotSolvable("a contact slides while joints move: the modes of such a state are not defined here");
@@ -127,7 +129,7 @@ double noise_of_stiffness(const model::Model& model) {
   const auto exact = [](const auto& entry) { return entry.tangent != nullptr; };
   const bool all = model.forces.empty() && std::all_of(model.bodies.begin(), model.bodies.end(), exact) &&
                    std::all_of(model.joints.begin(), model.joints.end(), exact);
-  return all ? 1e-12 : 1e-9;
+  return all ? noise_of_sums : noise_of_differences;
 }
 
 Mat tangent(model::AssembledSystem& system, Blend blend, const State& state) {

@@ -22,11 +22,14 @@
 
 namespace trammel::simulate {
 
+// Of K and of rates that differences of forces and rows give: 27 times eps / difference_share.
+inline constexpr double noise_of_differences = 1e-9;
+
 struct Linearisation {
-  Mat M, D, K;          // m x m, of y
-  Mat Z;                // nv x m
-  int redundant = 0;    // rows
-  double noise = 1e-9;  // noise_of_stiffness
+  Mat M, D, K;                          // m x m, of y
+  Mat Z;                                // nv x m
+  int redundant = 0;                    // rows
+  double noise = noise_of_differences;  // noise_of_stiffness
   double speed =
       0;  // largest velocity of a steady motion (constant coefficients) in its coordinate's size [1/s]; else 0
   // [rad/s] of the frame in which y is measured, in the plane about the third axis; 0: the world.

@@ -33,6 +33,7 @@ using json = nlohmann::ordered_json;
 
 constexpr Eigen::Index null_space_limit = 1500, undamped_limit = 500,
                        damped_limit = 200;   // a few seconds of dense matrices
+constexpr double accelerates = 1e-6;         // [m/s^2, rad/s^2] less is not worth a line of the summary
 constexpr const char* run_to_state = "run";  // the folder below ours, of the run to the state that is analysed
 
 // The scene at the state that the options ask for, with contacts as they are there.
@@ -212,7 +213,7 @@ class Report {
     if (const Eigen::Vector3d& w = spectrum_.frame_rate; w.norm() > 0)
       line("frame", fmt::format("turns at ({:.9g}, {:.9g}, {:.9g}) rad/s; frequencies are those seen from it", w(0),
                                 w(1), w(2)));
-    if (size(s.a) > 1e-6 && spectrum_.frozen)
+    if (size(s.a) > accelerates && spectrum_.frozen)
       line("", fmt::format("not in equilibrium: it accelerates by up to {:.3g} (m/s^2, rad/s^2)", size(s.a)));
     line("freedom", spectrum_.degrees < 0
                         ? fmt::format("nv = {}, nc = {}", n.nv, n.nc)

@@ -19,6 +19,7 @@ constexpr int most_unknowns = 120;  // of dense differences
 constexpr int most_newton_steps = 20;
 constexpr double balanced = 1e-11;          // of the forces
 constexpr double near = 0.1;                // relative change of velocities
+constexpr double without_effect = 1e-7;     // pivots of J, of its largest: far above the noise of its differences
 constexpr double phases[] = {0, 0.7, 1.9};  // of a coordinate's size at the largest velocity
 
 double largest(const Vec& x) {
@@ -37,7 +38,7 @@ class Nearest {
     const Vec force = system_.f();
     Vec momentum = Vec::Zero(s.v.size());
     system_.add_mass_times(1, s.v, momentum);
-    work_ = std::max(sizes_.largest_work(force), 1e-4 * sizes_.largest_work(momentum) * speed_);
+    work_ = std::max(sizes_.largest_work(force), share_of_momentum * sizes_.largest_work(momentum) * speed_);
   }
 
   std::optional<State> operator()() {
@@ -57,7 +58,7 @@ class Nearest {
       }
       if (!J.allFinite()) return {};
       Eigen::CompleteOrthogonalDecomposition<Mat> least;
-      least.setThreshold(1e-7);
+      least.setThreshold(without_effect);
       least.compute(J);
       z -= least.solve(r);
       if (!(largest(z.tail(n - m)) < near)) return {};

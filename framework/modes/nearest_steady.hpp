@@ -16,6 +16,10 @@
 
 namespace trammel::simulate {
 
+// Forces are measured against all forces, and against this share of the momentum times the largest velocity: gyroscopic
+// forces may all vanish.
+inline constexpr double share_of_momentum = 1e-4;
+
 // Empty: the method does not converge, or the velocities of its result differ by 10 % or more.
 std::optional<State> nearest_steady(model::AssembledSystem& system, const FlatTurning& flat, const State& state,
                                     const Eigen::Vector3d& rate);

@@ -12,8 +12,15 @@ namespace {
 using Complex = std::complex<double>;
 using CVec = Eigen::VectorXcd;
 
+// Round-off eps splits a double eigenvalue by sqrt(eps) = 1.5e-8 of the size of the problem, more where vectors are
+// nearly parallel: a pair at 0 by less than this share of the fastest motion, one at i Omega by less than this share of
+// Omega.
+constexpr double split_at_zero = 1e-5, split_at_rotation = 1e-6;
+// Growth that counts as round-off: a share of the motion's own |lambda|, and of the fastest one's.
+constexpr double no_growth = 1e-9, round_off_of_fastest = 1e-13;
+
 bool symmetric(const Mat& A) {
-  return (A - A.transpose()).lpNorm<Eigen::Infinity>() <= 1e-9 * A.lpNorm<Eigen::Infinity>();
+  return (A - A.transpose()).lpNorm<Eigen::Infinity>() <= skew_by_differences * A.lpNorm<Eigen::Infinity>();
 }
 
 // |A x| is no more than the round-off of its terms.
@@ -54,7 +61,7 @@ std::vector<bool> drifts_of(const Mat& K, double noise, double speed, double s, 
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](Eigen::Index i, Eigen::Index j) { return std::abs(mu(i)) < std::abs(mu(j)); });
-  const double slow = 1e-5 * std::max(s * std::abs(mu(order.back())), speed);
+  const double slow = split_at_zero * std::max(s * std::abs(mu(order.back())), speed);
   const auto most = std::size_t(2 * (pivots.array() <= zero).count());
   for (std::size_t k = 0; k < most; ++k) drifts[std::size_t(order[k])] = s * std::abs(mu(order[k])) <= slow;
   return drifts;
@@ -64,7 +71,7 @@ std::vector<bool> drifts_of(const Mat& K, double noise, double speed, double s, 
 // which round-off eps splits by sqrt(eps).
 Complex without_drift(Complex lambda, double frame_rate) {
   const Complex round(0, frame_rate);
-  return std::abs(lambda - round) <= 1e-6 * frame_rate ? round : lambda;
+  return std::abs(lambda - round) <= split_at_rotation * frame_rate ? round : lambda;
 }
 
 // With lambda = s mu and columns of M scaled to 1: [0 1; -K/s^2 -D/s] (y, mu y) = mu (y, mu y).
@@ -126,7 +133,7 @@ Mode made_mode(Complex lambda, CVec x, bool zero, double fastest) {
   Eigen::Index largest = 0;
   if (x.size() > 0 && x.cwiseAbs().maxCoeff(&largest) > 0) x /= x(largest);
   if (zero) return {Mode::Kind::zero, 0, std::move(x)};
-  const double round_off = 1e-9 * std::abs(lambda) + 1e-13 * fastest;
+  const double round_off = no_growth * std::abs(lambda) + round_off_of_fastest * fastest;
   if (std::abs(lambda.real()) < round_off) lambda.real(0);
   const bool grows = lambda.real() > 0;
   const auto kind = lambda.imag() > 0 ? (grows ? Mode::Kind::flutter : Mode::Kind::oscillation)
@@ -157,8 +164,7 @@ Spectrum dense_modes(const Linearisation& l, int count) {
       const Complex lambda = omega2 < 0 ? Complex(omega, 0) : Complex(0, omega);
       spectrum.modes.push_back(made_mode(lambda, l.Z * u.y.col(i).cast<Complex>(), zero, fastest));
     }
-    // Weaker damping is round-off of differences relative to the slowest of the motions.
-    spectrum.damped = decay > 1e-8 * slowest;
+    spectrum.damped = decay > no_damping * slowest;
   }
   if (spectrum.damped) {
     spectrum.modes.clear();

@@ -14,6 +14,11 @@
 
 namespace trammel::simulate {
 
+// Skew part, of the largest entry, of a matrix that is symmetric but for its differences.
+inline constexpr double skew_by_differences = noise_of_differences;
+// Rates of decay below this share of the slowest motion's are round-off of differences.
+inline constexpr double no_damping = 1e-8;
+
 struct Mode {
   enum class Kind {
     zero,         // lambda = 0: neither restrained nor driven; a rigid motion

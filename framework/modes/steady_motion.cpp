@@ -19,13 +19,17 @@ using Eigen::Vector3d;
 using model::CoordinateSizes;
 
 constexpr int most_iterations = 30;
-constexpr double settled = 1e-13;  // of the coordinates' sizes
+constexpr double settled = 1e-13;      // of the coordinates' sizes
+constexpr double at_round_off = 1e-9;  // of the same: steps that are below this and no longer decrease
 // [1/s^2] Factor of M in the iteration matrix: coordinates without stiffness and load, such as the angle of a rotor,
 // keep their values.
 constexpr double damping = 1e-6;
 constexpr double far = 0.5;  // of velocities: a larger change leads to another motion than the intended one
 // Unbalanced forces relative to all forces, of a state that is written with a few digits less than doubles have.
 constexpr double unbalanced = 1e-8;
+// Pivots relative to the largest one: of the turning about an axis that turns nothing, of a stiffness that is 0.
+constexpr double turns_nothing = 1e-9, free_of_stiffness = 1e-9;
+constexpr double does_not_turn = 1e-12;  // least rate of a frame, of the largest velocity in sizes: round-off of a
 
 // M a - f + W^T lambda with the accelerations of the steady motion, and the size of its terms, measured by their work
 // over the coordinates' sizes [N m].
@@ -42,10 +46,10 @@ Balance balance(model::AssembledSystem& system, const State& s) {
   system.add_mass_times(1, s.v, momentum);
   system.add_reaction(1, s.lambda, held);
   const Vec& f = system.f();
-  // Without other forces the rate of change of the momentum counts: gyroscopic forces may all vanish.
   const CoordinateSizes sizes = system.coordinate_sizes();
   const auto work = [&](const Vec& force) { return sizes.largest_work(force); };
-  const double terms = std::max({work(Ma), work(f), work(held), 1e-4 * work(momentum) * sizes.largest(s.v)});
+  const double terms =
+      std::max({work(Ma), work(f), work(held), share_of_momentum * work(momentum) * sizes.largest(s.v)});
   const Vec left_over = Ma - f + held;
   return {left_over, work(left_over), terms};
 }
@@ -61,13 +65,14 @@ Vector3d least_rate(model::AssembledSystem& system, const FlatTurning& flat, con
     by_rate.col(k) = per_size.cwiseProduct(Vec(frame.turned(s.v)));
   }
   Eigen::CompleteOrthogonalDecomposition<Mat> least;
-  least.setThreshold(1e-9);
+  least.setThreshold(turns_nothing);
   least.compute(by_rate);
   if (least.rank() == 0) return Vector3d::Zero();
   const Vec a = per_size.cwiseProduct(s.a), rate_of_least = least.solve(a);
   const Vector3d rate = rate_of_least;
-  return rate.norm() <= 1e-12 * per_size.cwiseProduct(s.v).lpNorm<Eigen::Infinity>() ? Vector3d(Vector3d::Zero())
-                                                                                     : rate;
+  return rate.norm() <= does_not_turn * per_size.cwiseProduct(s.v).lpNorm<Eigen::Infinity>()
+             ? Vector3d(Vector3d::Zero())
+             : rate;
 }
 
 bool lasts(model::AssembledSystem& system, const FlatTurning& flat, const State& s, double tau, const Vector3d& rate) {
@@ -114,7 +119,7 @@ std::optional<std::string> settle_in_the_world(model::AssembledSystem& system, S
     }
     // At round-off steps no longer decrease.
     const double size = sizes.place;
-    if (change <= settled * size || (change <= 1e-9 * size && change >= before)) return {};
+    if (change <= settled * size || (change <= at_round_off * size && change >= before)) return {};
     before = change;
   }
   return fmt::format("Newton's method did not settle in {} iterations", most_iterations);
@@ -136,7 +141,7 @@ class InFrame {
       const TurningFrame frame(system_.model(), flat_, s, rate_);
       const Mat K = coefficients_in(system_, frame, s, space.Z, space.left).K;
       Eigen::CompleteOrthogonalDecomposition<Mat> least;  // coordinates without stiffness keep their values
-      least.setThreshold(1e-9);
+      least.setThreshold(free_of_stiffness);
       least.compute(K);
       const Vec along_rows = -space.left.transpose() * left_over, dq = space.Z * least.solve(along_rows);
       const double change = space.sizes.largest(dq), size = space.sizes.place;
@@ -146,7 +151,7 @@ class InFrame {
         return TurningFrame(system_.model(), flat_, at, rate_).turned(by);
       };
       if (!onto_rows(system_, s, along)) break;
-      if (change <= settled * size || (change <= 1e-9 * size && change >= before)) return {};
+      if (change <= settled * size || (change <= at_round_off * size && change >= before)) return {};
       before = change;
     }
     return fmt::format("Newton's method did not settle in {} iterations", most_iterations);

@@ -15,6 +15,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr int most_coordinates = 200;  // of a body: the cost grows with their cube
+constexpr double same_rate = 1e-9;     // of a rate: the bodies turn together but for round-off
 
 Quaterniond orientation(const double* q) {
   return Quaterniond(q[0], q[1], q[2], q[3]);
@@ -166,7 +167,7 @@ State TurningFrame::after(double tau) const {
 std::vector<Vector3d> body_rates(const model::Model& model, const State& at) {
   std::vector<Vector3d> all;
   const auto add = [&](const Vector3d& rate) {
-    const auto same = [&](const Vector3d& other) { return (other - rate).norm() <= 1e-9 * rate.norm(); };
+    const auto same = [&](const Vector3d& other) { return (other - rate).norm() <= same_rate * rate.norm(); };
     if (!rate.isZero(0) && std::none_of(all.begin(), all.end(), same)) all.push_back(rate);
   };
   const bool planar = model.world.space == Space::planar;
