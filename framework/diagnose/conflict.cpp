@@ -20,6 +20,8 @@ using model::RowGroup;
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 constexpr int most_rows = 1000;  // at a time: they are dense here, n^3 operations
+constexpr int most_newton_steps = 50;
+constexpr double well_within = 1e-3;  // of the allowed violation: Newton's method stops there
 
 // Rows of chosen joints and bodies.
 class RowSelection {
@@ -44,7 +46,7 @@ class RowSelection {
   bool find_positions(State& s) const {
     constexpr double least_step = 1e-2, least_gain = 0.1;
     double now = move_to(s, s.q);
-    for (int i = 0; i < 50 && now > 1e-3 * allowed_.length; ++i) {
+    for (int i = 0; i < most_newton_steps && now > well_within * allowed_.length; ++i) {
       const Vec dq = -minimum_norm(rows_of(system_.g()));
       double step = 1, then = 0;
       Vec q;

@@ -8,12 +8,13 @@
 
 #include <trammel/integrator.hpp>
 
+#include "linear/saddle_point.hpp"
 #include "scene/value.hpp"
 #include "system/assembled_system.hpp"
 
 namespace trammel::simulate {
 
-constexpr double rank_tolerance = 1e-7;  // sine of a row's angle to those before it
+constexpr double rank_tolerance = numerics::least_rank_tolerance;  // sine of a row's angle to those before it
 
 struct RedundantRows {
   std::string path;       // in the scene: "joints.hinge", "bodies.rod"

@@ -8,6 +8,10 @@
 namespace trammel::simulate {
 namespace {
 
+// Newton's method that moves a body alone onto its own rows: in the rows' unit, round-off of lengths of the order of 1.
+constexpr int most_own_steps = 20;
+constexpr double on_own_rows = 1e-12;
+
 RowOffset length(double g, double g_dot, double s) {
   constexpr double least = 1e-3;  // a rod of length 0 has no direction for its rate
   return {2 * g / (1 + s), s > least ? g_dot / s : g_dot, false};
@@ -62,7 +66,7 @@ std::vector<RowOffset> own_row_offsets(const model::BodyEntry& body, const State
   Vec q = state.q.segment(body.q0, body.nq);
   const BodyRows here = own_rows(body, state.t, q, v);
   BodyRows held = here;
-  for (int i = 0; body.nq == body.nv && i < 20 && held.g.norm() > 1e-12; ++i) {
+  for (int i = 0; body.nq == body.nv && i < most_own_steps && held.g.norm() > on_own_rows; ++i) {
     const Mat GGt = held.G * held.G.transpose();
     q -= held.G.transpose() * Eigen::LDLT<Mat>(GGt).solve(held.g);
     held = own_rows(body, state.t, q, v);

@@ -8,6 +8,7 @@
 #include "linear/dense/orthonormal.hpp"
 #include "linear/dense/refinement.hpp"
 #include "linear/dense/row_products.hpp"
+#include "linear/saddle_point.hpp"
 
 namespace trammel::numerics {
 
@@ -70,7 +71,7 @@ Mat range_of_rows(const Mat& G, double tolerance, const Levers& levers) {
 }  // namespace
 
 double rank_tolerance_at(double violation) {
-  return std::clamp(10 * violation, 1e-7, 1e-2);
+  return std::clamp(10 * violation, least_rank_tolerance, largest_rank_tolerance);
 }
 
 Eigen::Index rank_of_rows(const Mat& G, double tolerance, const Levers& levers) {
@@ -298,10 +299,11 @@ bool IterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
     // A least-squares solution with a residual is no solution, unless the residual is round-off of positions of the
     // order of 1.
     const Vec residual = full_ * solution_ - right_;
-    const double noise = 1e-13, S = full_.topLeftCorner(nv_, nv_).lpNorm<Eigen::Infinity>();
+    const double S = full_.topLeftCorner(nv_, nv_).lpNorm<Eigen::Infinity>();
     const double G = std::max(1.0, full_.bottomLeftCorner(rows, nv_).lpNorm<Eigen::Infinity>());
-    const bool round_off = residual.head(nv_).norm() <= noise * S && residual.tail(rows).norm() <= noise * G;
-    if (!(residual.norm() <= 1e-6 * right_.norm() || round_off)) return false;
+    const bool round_off = residual.head(nv_).norm() <= round_off_of_positions * S &&
+                           residual.tail(rows).norm() <= round_off_of_positions * G;
+    if (!(residual.norm() <= solved_share * right_.norm() || round_off)) return false;
   }
   x = solution_.head(nv_);
   if (redundant_)

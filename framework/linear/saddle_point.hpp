@@ -30,6 +30,12 @@
 
 namespace trammel::numerics {
 
+// Bounds of the sine of a row's angle to others below which it counts as dependent (rank_tolerance_at in kkt.hpp).
+inline constexpr double least_rank_tolerance = 1e-7, largest_rank_tolerance = 1e-2;
+// A singular system is solved if its residual is at most this share of the right side, or the round-off of positions of
+// the order of 1 that the matrix multiplies.
+inline constexpr double solved_share = 1e-6, round_off_of_positions = 1e-13;
+
 // `Matrices`: the types of S, G and W. False: singular, or not finite.
 template <class Solver, class... Matrices>
 concept FactorisesSaddlePoints = requires(Solver solver, const Matrices&... matrices) {

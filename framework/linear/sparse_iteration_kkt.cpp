@@ -6,6 +6,7 @@
 
 #include "linear/dense/eps.hpp"
 #include "linear/dense/refinement.hpp"
+#include "linear/saddle_point.hpp"
 #include "linear/sparse/sparse_sum.hpp"
 
 namespace trammel::numerics {
@@ -17,11 +18,15 @@ namespace {
 // not count: their smallest singular value falls with the square of their number, so few and many rows have different
 // limits. In systems of few rows small singular values belong to a singular position.
 constexpr int long_from = 200;
+constexpr double of_few_rows = 1e-10, of_many_rows = 1e-12;
 constexpr double regularisation(int nc) {
-  return nc < long_from ? 1e-10 : 1e-12;
+  return nc < long_from ? of_few_rows : of_many_rows;
 }
-// The largest rank tolerance of kkt.hpp: redundant rows that are violated differ by no more.
-constexpr double parting = 1e-2;
+// Redundant rows that are violated differ by no more.
+constexpr double parting = largest_rank_tolerance;
+// Corrections of a solution: until the residual is below round-off of the right side, or falls by less than a tenth.
+constexpr int most_corrections = 40;
+constexpr double below_round_off = 1e-15, falling = 0.9;
 
 }  // namespace
 
@@ -98,7 +103,9 @@ double SparseIterationKkt::solve_and_refine() {
   };
   solution_ = lu_.solve(right_);
   solves_ = 1;
-  return refine(Equations{*this}, {.most = 40, .enough = 1e-15 * right_.norm(), .falls = 0.9}).residual;
+  return refine(Equations{*this},
+                {.most = most_corrections, .enough = below_round_off * right_.norm(), .falls = falling})
+      .residual;
 }
 
 // Nearly dependent rows count as redundant the more, the smaller their singular value is: their part of c is ignored,
@@ -123,7 +130,7 @@ bool SparseIterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   right_ << b, c;
   if (right_.size() == 0) return x = b, y = c, true;
   const double left = soft_ ? solve_without_soft_rows(int(c.size())) : solve_and_refine();
-  const bool reached = left <= 1e-6 * right_.norm();
+  const bool reached = left <= solved_share * right_.norm();
   if (reached && redundant_ && !soft_) minimise_norm(int(c.size()));
   x = solution_.head(nv_);
   y = solution_.tail(c.size());
@@ -137,8 +144,8 @@ bool SparseIterationKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {
   residual_.head(nv_).setZero();
   right_.noalias() = full_.transpose() * residual_;
   // Near a singular position reactions are larger than the forces that they balance, and leave their round-off.
-  const double size = full_.norm(), round_off = 1e-13 * size + 16 * eps * size * y.norm();
-  return of_forces <= 1e-6 * b.norm() + round_off && right_.head(nv_).norm() <= parting * of_rows;
+  const double size = full_.norm(), round_off = round_off_of_positions * size + 16 * eps * size * y.norm();
+  return of_forces <= solved_share * b.norm() + round_off && right_.head(nv_).norm() <= parting * of_rows;
 }
 
 }  // namespace trammel::numerics

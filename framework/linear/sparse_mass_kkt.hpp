@@ -28,6 +28,7 @@
 #include "linear/complement/row_complement.hpp"
 #include "linear/fronts/frontal_kkt.hpp"
 #include "linear/fronts/least_multipliers.hpp"
+#include "linear/saddle_point.hpp"
 
 namespace trammel::numerics {
 
@@ -35,7 +36,8 @@ class SparseMassKkt {
  public:
   enum class Metric { mass, mass_of_before, identity };  // in place of M; mass_of_before keeps the factors
   // For the first nc rows. False: a body's mass is not positive definite. `rank_tolerance` as in kkt.hpp.
-  bool factorise(const std::vector<BodyBlock>& bodies, int nc, Metric metric, double rank_tolerance = 1e-7);
+  bool factorise(const std::vector<BodyBlock>& bodies, int nc, Metric metric,
+                 double rank_tolerance = least_rank_tolerance);
   // The bodies are those of `factorise`, or have moved a little since. For long chains that may be too far; then fronts
   // of the present bodies take over. False: x or y is not finite.
   bool solve(const std::vector<BodyBlock>& bodies, const Vec& b, const Vec& c, Vec& x, Vec& y);

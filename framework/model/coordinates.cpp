@@ -36,6 +36,11 @@ namespace model {
 
 namespace {
 
+// [rad] Below it the next term of the series of sin(x/2)/x, x^4/3840, is less than round-off.
+constexpr double small_angle = 1e-4;
+// Sine of half an angle below which arcsin(s)/s = 1 + s^2/6 differs from 1 by less than round-off.
+constexpr double small_sine = 1e-8;
+
 // Unit quaternions (w, x, y, z), world from body; omega and increments in body axes.
 Eigen::Quaterniond quaternion(const double* q) {
   return {q[0], q[1], q[2], q[3]};
@@ -48,7 +53,7 @@ void store(const Eigen::Quaterniond& p, double* q) {
 // exp of a rotation vector; the series keeps full accuracy through zero.
 Eigen::Quaterniond exponential(const Eigen::Vector3d& phi) {
   const double angle = phi.norm();
-  const double half = angle < 1e-4 ? 0.5 - angle * angle / 48 : std::sin(angle / 2) / angle;
+  const double half = angle < small_angle ? 0.5 - angle * angle / 48 : std::sin(angle / 2) / angle;
   const Eigen::Vector3d xyz = half * phi;
   return {std::cos(angle / 2), xyz.x(), xyz.y(), xyz.z()};
 }
@@ -57,7 +62,7 @@ Eigen::Quaterniond exponential(const Eigen::Vector3d& phi) {
 Eigen::Vector3d logarithm(Eigen::Quaterniond p) {
   if (p.w() < 0) p.coeffs() = -p.coeffs();
   const double sine = p.vec().norm();
-  const double factor = sine < 1e-8 ? 2.0 : 2 * std::atan2(sine, p.w()) / sine;
+  const double factor = sine < small_sine ? 2.0 : 2 * std::atan2(sine, p.w()) / sine;
   return factor * p.vec();
 }
 

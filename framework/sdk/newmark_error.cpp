@@ -6,6 +6,12 @@
 
 namespace trammel {
 
+namespace {
+
+constexpr double of_second_order = 1e-14;  // gamma - 1/2 + alpha_m - alpha_f of such a method: round-off of the sum
+
+}  // namespace
+
 void NewmarkError::set(double alpha_m, double alpha_f, double beta, double gamma, bool of_velocities) {
   of_velocities_ = of_velocities;
   const double delta = alpha_m - alpha_f;
@@ -13,7 +19,7 @@ void NewmarkError::set(double alpha_m, double alpha_f, double beta, double gamma
   c_q_ = beta * share;
   c_v_ = gamma * share;
   first_ = gamma - 0.5 + delta;
-  if (std::abs(first_) < 1e-14) first_ = 0;  // round-off of a method of second order
+  if (std::abs(first_) < of_second_order) first_ = 0;
   of_q_ = beta + delta / 2 - 1.0 / 6;
   of_v_ = (delta * (2 * alpha_m - 1) + gamma * (1 + 2 * delta) - 1.0 / 3) / 2;
 }

@@ -19,6 +19,11 @@ constexpr double share_of_first = 1e-3;
 constexpr double smooth = 0.5, longest_ahead = 4;
 // Levers may be shorter than the unit of length: rows may turn by this factor more than their coordinates move.
 constexpr double turns = 10;
+// Corrections of the rows alone, at the end of a step; each multiplies its error by `turns` times the motion, or less.
+constexpr int most_passes = 4;
+// Rows that are still missed by so much contradict each other: [m, rad], and of the largest place.
+constexpr double contradictory = 1e-8, contradictory_in_place = 1e-6;
+constexpr double most_noise = 1e-3;  // of the velocity: round-off of the positions over the step, of formulation index3
 
 double largest(const Vec& x) {
   return x.size() ? x.lpNorm<Eigen::Infinity>() : 0;
@@ -227,11 +232,12 @@ Outcome NewmarkStep::finish(System& s, const State& now, State& next) {
       if (next.v.size() == 0) break;  // rows that move nothing
       if (!correct_rows_alone(s, next)) return Outcome::reject("the iteration matrix is singular");
       change = formulation == Formulation::index3 ? change_each_ : std::max(change_each_, change_v_);
-    } while (change * std::min(newton.rate(), turns * moved_) > eps && ++passes < 4);
-    if (missed > std::max(1e-8, 1e-6 * size_q_)) return Outcome::reject("the joints' rows contradict each other");
+    } while (change * std::min(newton.rate(), turns * moved_) > eps && ++passes < most_passes);
+    if (missed > std::max(contradictory, contradictory_in_place * size_q_))
+      return Outcome::reject("the joints' rows contradict each other");
     // Position rows divide their round-off by h^2. Reject the step if that is not small compared with the velocity.
     const double noise = eps * size_q_ * c_v_ / std::max(c_q_, std::numeric_limits<double>::min());
-    if (formulation == Formulation::index3 && noise > 1e-3 * size_v_)
+    if (formulation == Formulation::index3 && noise > most_noise * size_v_)
       return Outcome::reject(
           "the step is too small for formulation index3: round-off of the positions outweighs the velocity");
   }

@@ -13,6 +13,11 @@ namespace {
 // its end. Near a change of rank the error of the accelerations is this violation divided by the square of the angle
 // between rows. Rows are independent down to an angle of 1e-7.
 constexpr double round_off = 1e-15;
+// Rows are differences of coordinates, whose round-off is a share of the largest place. From that violation on slow
+// convergence is round-off, or the limit of the kept factors; with new factors it is so from `stalling` [m, rad] on.
+constexpr double round_off_of_place = 1e-14, stalling = 1e-9;
+// A projection that leaves more has failed: [m, rad], and of the largest place.
+constexpr double most_left = 1e-6, most_left_of_place = 1e-13;
 
 // Far beyond the range of any model, and small enough that a model may form fourth powers.
 bool within_range(const Vec& x) {
@@ -58,11 +63,10 @@ bool RungeKutta::keep_null_space(System& s, const State& now) {
 class RungeKutta::OntoRows {
  public:
   OntoRows(RungeKutta& method, System& s, double t) : m_(method), s_(s), t_(t) {
-    // Rows are differences of coordinates. From this violation on, slow convergence is round-off of the coordinates, or
-    // the limit of the kept factors.
     const double of_place = m_.on_manifold_.lpNorm<Eigen::Infinity>();
-    near_round_off_ = m_.kept_ ? 1e-14 * std::max(1.0, of_place) : std::max(1e-9, 1e-14 * of_place);
-    lost_ = std::max(1e-6, 1e-13 * of_place);
+    near_round_off_ =
+        m_.kept_ ? round_off_of_place * std::max(1.0, of_place) : std::max(stalling, round_off_of_place * of_place);
+    lost_ = std::max(most_left, most_left_of_place * of_place);
     m_.zero_.setZero(s.sizes().nv);
     m_.no_force_.setZero(s.sizes().nc);
   }
