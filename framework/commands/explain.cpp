@@ -20,18 +20,25 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The least of several samples, each long enough for the clock [s].
+// A sample repeats a call for so long [s] that the clock's own time does not count, but not without end.
+constexpr int samples = 5, most_calls = 100000;
+constexpr double long_enough = 2e-3;
+// [s], and of each velocity: a second point whose evaluation costs the same.
+constexpr double next_to_it = 1e-12;
+constexpr double usual_step = 1e-4;  // [s] where the scene leaves the first step to the method
+
+// [s] The least of several samples.
 template <class Call>
 double least_time(Call call) {
   double least = std::numeric_limits<double>::infinity();
-  for (int sample = 0; sample < 5; ++sample) {
+  for (int sample = 0; sample < samples; ++sample) {
     int n = 0;
     const Clock::time_point begin = Clock::now();
     double passed = 0;
     do {
       call(), ++n;
       passed = std::chrono::duration<double>(Clock::now() - begin).count();
-    } while (passed < 2e-3 && n < 100000);
+    } while (passed < long_enough && n < most_calls);
     least = std::min(least, passed / n);
   }
   return least;
@@ -151,11 +158,11 @@ void costs(Text& text, Setup& setup, model::AssembledSystem& system) {
   system.set_modes(open);
   State now = setup.initial, next;
   // Alternates between two points, so that no result of the previous evaluation is reused.
-  const Vec beside = now.v + Vec::Constant(now.v.size(), 1e-12);
+  const Vec beside = now.v + Vec::Constant(now.v.size(), next_to_it);
   bool there = false;
   const auto move = [&] {
     there = !there;
-    system.move_to(there ? now.t + 1e-12 : now.t, now.q, there ? beside : now.v);
+    system.move_to(there ? now.t + next_to_it : now.t, now.q, there ? beside : now.v);
   };
   system.move_to(now.t, now.q, now.v);
   system.accelerate({}, now.a, now.lambda);
@@ -168,7 +175,7 @@ void costs(Text& text, Setup& setup, model::AssembledSystem& system) {
       text.line("gap and its rate of contacts.{}: {:.3g}", setup.model->contacts[i].name,
                 1e6 * least_time([&] { move(), system.gap(i), system.gap_rate(i); }));
   const StepChoice& choice = setup.settings.step;
-  const double h = choice.fixed ? *choice.fixed : choice.initial > 0 ? choice.initial : 1e-4;
+  const double h = choice.fixed ? *choice.fixed : choice.initial > 0 ? choice.initial : usual_step;
   {
     const plugin::Breadcrumb restarts(setup.integrator_origin, "restart");
     setup.integrator->restart(system, now);

@@ -35,6 +35,9 @@ double cpu_now() {
 constexpr double between_checkpoints = 2;      // [s] wall-clock
 constexpr double share_of_checkpoints = 0.05;  // of the time at most: checkpoints are rarer on a slow disk
 constexpr double between_progress = 0.1;       // [s]
+// [s] The clock is read after as many steps as take about this long, and after so many at the latest.
+constexpr double least_between_looks = 1e-3, most_between_looks = 4e-3;
+constexpr long long most_steps_between_looks = 1 << 16;
 
 class Run {
  public:
@@ -116,7 +119,7 @@ class Run {
     Clock::time_point checked = began, checkpointed = began, shown = began;
     double pause = between_checkpoints;
     SlowSteps slow_steps(simulator_->state().t, simulator_->statistics().steps);
-    long long stride = 1, since = 0;  // steps between readings of the clock, about 1 ms
+    long long stride = 1, since = 0;  // steps between readings of the clock
     for (;;) {
       const bool more = simulator_->advance(*records_.recorder());
       require_arithmetic(settings_, setup_, simulator_->state().t, step());
@@ -131,9 +134,9 @@ class Run {
       since = 0;
       const Clock::time_point now = Clock::now();
       const double passed = seconds(now - checked);
-      if (passed < 1e-3 && stride < (1 << 16))
+      if (passed < least_between_looks && stride < most_steps_between_looks)
         stride *= 2;
-      else if (passed > 4e-3 && stride > 1)
+      else if (passed > most_between_looks && stride > 1)
         stride /= 2;
       checked = now;
       if (const std::string slow = slow_steps.look(cpu_now() - cpu_start_, setup_, *simulator_); !slow.empty())

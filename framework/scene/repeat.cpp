@@ -25,7 +25,9 @@ namespace trammel::scene {
 namespace {
 
 constexpr std::array groups = {"bodies", "joints", "forces", "contacts"};
-constexpr double most_copies = 1e6;  // of one unit
+constexpr double most_copies = 1e6;    // of one unit
+constexpr double nearly_whole = 1e-9;  // off a whole number: round-off of an expression
+constexpr double largest_whole = 1e9;  // far above any number of copies
 
 using Counters = std::vector<std::pair<std::string, double>>;
 
@@ -157,7 +159,7 @@ class Repetition {
     try {
       const double value =
           evaluate(inner, [&](std::string_view name, int column) { return look_up(name, column, at); });
-      if (std::abs(value - std::round(value)) < 1e-9 && std::abs(value) < 1e9) {
+      if (std::abs(value - std::round(value)) < nearly_whole && std::abs(value) < largest_whole) {
         const auto whole = static_cast<long long>(std::round(value));
         return whole < 0 && in_expression ? fmt::format("({})", whole) : fmt::format("{}", whole);
       }

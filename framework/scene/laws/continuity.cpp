@@ -11,8 +11,10 @@ namespace {
 using Jet = TimeFunction::Jet;
 using Way = std::vector<double>;
 
+constexpr double continuous = 1e-9;  // of both values and of 1: round-off of a formula at neighbouring instants
+
 std::optional<Jump> compare(const Jet& before, const Jet& after, int derivatives, double t) {
-  const auto jumps = [](double a, double b) { return std::abs(b - a) > 1e-9 * (1 + std::abs(a) + std::abs(b)); };
+  const auto jumps = [](double a, double b) { return std::abs(b - a) > continuous * (1 + std::abs(a) + std::abs(b)); };
   if (jumps(before.value, after.value)) return Jump{t, 0, after.value - before.value};
   if (derivatives > 1 && jumps(before.rate, after.rate)) return Jump{t, 1, after.rate - before.rate};
   return {};

@@ -11,6 +11,9 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
+// Of the range of a column: its ends are one value, written with a few digits less than doubles have.
+constexpr double same_value = 1e-9;
+
 // Third and fourth derivative of a quintic piece at one of its ends, as  step + left (v_0, h a_0) + right (v_1, h a_1),
 // times h^2 and h^3.
 struct Bend {
@@ -88,7 +91,7 @@ std::vector<Vector2d> slopes_of_periodic_spline(const std::vector<double>& t, co
 
 bool ends_where_it_began(const std::vector<double>& x) {
   const auto [least, most] = std::minmax_element(x.begin(), x.end());
-  return std::abs(x.back() - x.front()) <= 1e-9 * (*most - *least);
+  return std::abs(x.back() - x.front()) <= same_value * (*most - *least);
 }
 
 // Second derivatives of the natural cubic spline through (t_i, y_i).
