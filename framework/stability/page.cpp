@@ -25,8 +25,12 @@ using report::Point;
 using report::Scale;
 using report::Table;
 
-constexpr double far = 1e3;  // omega h of the fastest mode tried
-constexpr double most = 8;   // of a region's boundary: beyond those of all methods known to the authors of this page
+constexpr double near = 1e-2, far = 1e3;  // omega h of the slowest and the fastest mode tried
+constexpr int points_of_map = 41;
+constexpr double longest_step = 1e-2, shortest_step = 1e-9;  // [s] of the pendulum
+constexpr int small_step_sizes = 8;                          // a decade each
+constexpr double least_drawn = 1e-17;  // relative error; an error of 0 has no place on a logarithmic axis
+constexpr double most = 8;  // of a region's boundary: beyond those of all methods known to the authors of this page
 constexpr int rays = 13;
 
 std::string number(double x) {
@@ -74,7 +78,7 @@ std::optional<double> distance(const std::vector<MapPoint>& map) {
 }
 
 void add_maps(Page& page, const IntegratorUnderTest& subject, const LinearTheory* theory) {
-  const std::vector<double> Omegas = logarithmic(1e-2, far, 41);
+  const std::vector<double> Omegas = logarithmic(near, far, points_of_map);
   const std::vector<MapPoint> map = spectral_map(subject.maker(), theory, 0, Omegas);
   page.figures.push_back(map_figure(
       "Spectral radius", "Undamped oscillator; above 1 the motion grows.", "spectral radius [1]", map,
@@ -166,7 +170,7 @@ void add_row_region(Page& page, const IntegratorUnderTest& subject, const Linear
 // --- Small steps ---
 
 void add_small_steps(Page& page, const IntegratorUnderTest& subject) {
-  const std::vector<double> steps = logarithmic(1e-2, 1e-9, 8);
+  const std::vector<double> steps = logarithmic(longest_step, shortest_step, small_step_sizes);
   Figure figure{.title = "Multipliers at small steps",
                 .caption =
                     "Largest relative error of lambda in ten steps of a pendulum with a rod; index 3 divides the "
@@ -178,7 +182,7 @@ void add_small_steps(Page& page, const IntegratorUnderTest& subject) {
     Curve curve{.name = formulation, .mark = Mark::line_and_points, .points = {}, .failures = {}};
     for (const SmallStep& s : small_steps(subject.maker({{"formulation", formulation}}), steps)) {
       if (s.rejected.empty())
-        curve.points.push_back({s.h, std::max(s.lambda_error, 1e-17), ""});
+        curve.points.push_back({s.h, std::max(s.lambda_error, least_drawn), ""});
       else
         curve.failures.push_back({s.h, 0, s.rejected});
     }

@@ -9,6 +9,10 @@ namespace trammel::stability {
 
 namespace {
 
+// The boundary is bracketed by steps of omega h of this length, then bisected to 3e-6.
+constexpr double bracket = 0.05;
+constexpr int bisections_of_boundary = 14;
+
 double spectral_radius(const std::vector<std::complex<double>>& roots) {
   double largest = 0;
   for (const std::complex<double> root : roots) largest = std::max(largest, std::abs(root));
@@ -52,13 +56,12 @@ std::vector<BoundaryPoint> region(const Measured& measured, const LinearTheory* 
 
 double boundary(const std::function<double(double)>& radius, double most) {
   const auto unstable = [&](double Omega) { return radius(Omega) > 1 + growth; };
-  constexpr double step = 0.05;
-  double low = 0, high = step;
+  double low = 0, high = bracket;
   while (!unstable(high)) {
     if (high >= most) return most;
-    low = high, high += step;
+    low = high, high += bracket;
   }
-  for (int i = 0; i < 14; ++i) (unstable((low + high) / 2) ? high : low) = (low + high) / 2;
+  for (int i = 0; i < bisections_of_boundary; ++i) (unstable((low + high) / 2) ? high : low) = (low + high) / 2;
   return high;
 }
 

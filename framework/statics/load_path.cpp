@@ -20,6 +20,8 @@ constexpr int easy = 6, hard = 12;            // iterations of a part after whic
 constexpr int arcs_per_step = 50;
 // Round-off of displacements and rows against the largest displacement.
 constexpr double settled = 1e-12;
+constexpr double satisfied = 1e-14;       // [m, rad] rows where nothing has moved yet: round-off
+constexpr double difference_in_t = 1e-6;  // of the path's length in t: step of central differences of the load
 
 }  // namespace
 
@@ -215,7 +217,7 @@ bool LoadPath::unbalance(const Point& at) {
   r_ = held - system_.f();
   const double g = system_.g().size() > 0 ? system_.g().lpNorm<Eigen::Infinity>() : 0;
   now_.unbalanced = load_ > 0 ? r_.norm() / load_ : 0;
-  return now_.unbalanced <= settings_.load_tolerance && g <= std::max(1e-14, settled * extent_);
+  return now_.unbalanced <= settings_.load_tolerance && g <= std::max(satisfied, settled * extent_);
 }
 
 // One Newton step at the system's point with r_. Stresses are extrapolated from `from` by the last increment dq, which
@@ -249,7 +251,7 @@ bool LoadPath::along_t(const Point& at, Vec& q_by_t, Vec& lambda_by_t) {
 }
 
 bool LoadPath::along_t_with_factors(const Point& at, Vec& q_by_t, Vec& lambda_by_t) {
-  const double dt = 1e-6 * std::abs(settings_.until - settings_.start);
+  const double dt = difference_in_t * std::abs(settings_.until - settings_.start);
   Vec r[2], g[2];
   for (const int side : {0, 1}) {
     system_.move_to(at.t + (side ? dt : -dt), at.q, zero_);

@@ -15,6 +15,9 @@ constexpr double shift = 1e-14;
 // Relative to the largest displacement: increments that are small enough, and those that may be round-off of forces.
 constexpr double small = 1e-10, nearly_small = 1e-6;
 constexpr double inexact = 1e-5;  // of an increment; Newton's next step corrects the rest
+// Step of central differences along an increment: this part of it, but a motion of that share of the largest
+// displacement at least, which stands out of the forces' round-off.
+constexpr double part_of_increment = 1e-3, least_motion = 1e-6;
 // The number of motions softer than the shift, and some more.
 constexpr int most_steps = 60;
 
@@ -78,7 +81,7 @@ LoadPath::Failure LoadPath::correct_by_forces(const Point& at, Vec& dq, Vec& dla
       dq = x.head(nv), dlambda = x.tail(nc);
       return Failure::none;
     }
-    const double part = std::max(1e-3, 1e-6 * extent_ / size);
+    const double part = std::max(part_of_increment, least_motion * extent_ / size);
     Vec r_at[2], g_at[2];
     for (const int side : {0, 1}) {
       const double to = side ? part : -part;

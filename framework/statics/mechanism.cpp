@@ -11,6 +11,12 @@ namespace trammel::simulate {
 
 namespace {
 
+constexpr double difference_in_q = 1e-6;  // [m, rad] the largest change of a coordinate in a difference of forces
+// omega^2 of a motion without resistance: of that of an unrelated motion, which is near the stiffest one's, the
+// round-off of K with a margin; and [1/s^2], where nothing is stiff.
+constexpr double without_resistance = 1e-12, least_stiffness = 1e-12;
+constexpr int inverse_iterations = 4;  // each leaves of other motions the ratio of the softest omega^2 to theirs
+
 Vec mass_times(model::AssembledSystem& system, const Vec& x) {
   Vec r = Vec::Zero(x.size());
   system.add_mass_times(1, x, r);
@@ -33,7 +39,7 @@ Vec unrelated_motion(model::AssembledSystem& system, double t, const Vec& q) {
 
 double stiffness_of_unrelated_motion(model::AssembledSystem& system, double t, const Vec& q) {
   const Vec x = unrelated_motion(system, t, q), zero = Vec::Zero(x.size());
-  const double step = 1e-6 / std::max(1e-300, x.lpNorm<Eigen::Infinity>());
+  const double step = difference_in_q / std::max(1e-300, x.lpNorm<Eigen::Infinity>());
   Vec ahead, behind, moved;
   for (const double side : {1.0, -1.0}) {
     system.retract(q, side * step * x, moved);
@@ -48,11 +54,11 @@ std::optional<std::string> find_mechanism(model::AssembledSystem& system, double
   const Vec lambda = Vec::Zero(system.sizes().nc);
   const double stiff = stiffness_of_unrelated_motion(system, t, q);
   if (!std::isfinite(stiff)) return {};
-  const double shift = std::max(1e-12 * stiff, 1e-12);
+  const double shift = std::max(without_resistance * stiff, least_stiffness);
   Vec x = unrelated_motion(system, t, q), mu;
   const Vec no_rows = Vec::Zero(system.sizes().nc);
   double growth = 0;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < inverse_iterations; ++i) {
     const Vec Mx = -mass_times(system, x);
     system.factorise({shift, 0, 1}, zero, lambda);
     Vec y;
