@@ -68,7 +68,7 @@ StepChoice read_step(const Value& value, const Resolution& resolution, Problems&
   }
   const plugin::Part& part = setting_part("step");
   check_part(value, part, {}, problems);
-  const double both = number(value, part, "tolerance", 1e-6, problems);
+  const double both = number(value, part, "tolerance", choice.tolerance.relative, problems);
   if (!value.find("tolerance") && !(value.find("relative") && value.find("absolute")))
     problems.error(value.problem("give \"tolerance\", or both \"relative\" and \"absolute\""));
   choice.tolerance.relative = number(value, part, "relative", both, problems);

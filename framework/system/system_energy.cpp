@@ -4,6 +4,12 @@
 
 namespace trammel::model {
 
+namespace {
+
+constexpr double round_off_of_motion = 1e-14;  // of V_t, of the terms of V - J v
+
+}  // namespace
+
 Energy AssembledSystem::energy() {
   Point& at = parts_->at;
   ContactsAtPoint& contacts = parts_->contacts;
@@ -45,7 +51,7 @@ double power_of_law(const Motion& marker, const Vec& v, int v0, const Wrench& wr
         const double part = marker.J.data()[i * columns + j] * v(v0 + marker.dofs[std::size_t(j)]);
         V_t -= part, size += std::abs(part);
       }
-      if (std::abs(V_t) > 1e-14 * size) power += wrench.data()[i] * V_t;
+      if (std::abs(V_t) > round_off_of_motion * size) power += wrench.data()[i] * V_t;
     }
   });
   return power;

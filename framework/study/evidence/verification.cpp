@@ -22,6 +22,7 @@ using json = nlohmann::ordered_json;
 constexpr double parted = 0.1;             // relative to a scale: beyond this the two motions are unrelated
 constexpr double second_tolerance = 1e-8;  // of the other method: tighter than a run usually asks for
 constexpr double least_cpu = 0.2;          // [s] of a repetition: cheaper ones need no limit
+constexpr double tick = 1e-9;              // [s] the clock's unit: no run counts as cheaper
 
 struct Repeated {
   Repetition as_told;
@@ -79,7 +80,7 @@ class Verifier {
       v.repetitions.push_back(r.as_told);
       if (r.result.done())
         v.repetitions.back().difference = Measure(r.result, {}, scene).error(run_.series, v.trusted_until).max;
-      v.price += r.as_told.cpu / std::max(run_.cpu, 1e-9);
+      v.price += r.as_told.cpu / std::max(run_.cpu, tick);
     }
     return v;
   }

@@ -12,6 +12,7 @@ using simulate::ContactEvent;
 
 constexpr int all_starts = 16, fewest = 4;
 constexpr double apart = 1e-10;
+constexpr double same_mean = 1e-9;  // relative: means of marks that do not spread, but for round-off
 
 // In a fixed order; values that a run does not have are left out.
 std::vector<std::pair<std::string, double>> marks_of(const CaseResult& r) {
@@ -54,7 +55,7 @@ struct Sum {
 
 bool Distribution::alike() const {
   const double error = std::sqrt((spread * spread + reference_spread * reference_spread) / std::max(starts, 1));
-  return std::abs(mean - reference_mean) <= 2 * error + 1e-9 * std::abs(reference_mean);
+  return std::abs(mean - reference_mean) <= 2 * error + same_mean * std::abs(reference_mean);
 }
 
 std::vector<Distribution> compare_ensembles(const Overrides& choice, double choice_cpu, const Overrides& reference,

@@ -10,6 +10,7 @@ namespace trammel::study {
 namespace {
 
 constexpr double loosest = loosest_reference, tightest = 1e-13, tighter = 1e-2;
+constexpr double tie = 1e-9;  // [s] of agreement per relative error: decides between those that agree equally long
 
 class ReferenceSearch {
  public:
@@ -83,7 +84,7 @@ class ReferenceSearch {
       const double agreed = measure.agree_until(one.result.series, first_->result.series, target_ / 10);
       const double off = measure.error(one.result.series, agreed).max;
       // Agreement for longer is better; then closer agreement.
-      const double merit = agreed - 1e-9 * off;
+      const double merit = agreed - tie * off;
       if (merit > best) best = merit, second_ = one;
     }
     if (second_) return true;

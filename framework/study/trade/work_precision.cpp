@@ -7,8 +7,10 @@
 namespace trammel::study {
 namespace {
 
-constexpr int most_runs = 6;  // of one method
-constexpr double dear = 3;    // times the cheapest so far
+constexpr int most_runs = 6;     // of one method
+constexpr double dear = 3;       // times the cheapest so far
+constexpr double exact = 1e-17;  // relative error; an error of 0 has no logarithm
+constexpr int most_levels = 19;  // of any dial
 
 // Expected change of log10 of the error per level: a tolerance falls by 10^0.5, and so does an error that is
 // proportional to it; a step is halved.
@@ -22,7 +24,7 @@ double cost_slope(const Method& method) {
 }
 
 double logarithm(double error) {
-  return std::log10(std::max(error, 1e-17));
+  return std::log10(std::max(error, exact));
 }
 
 }  // namespace
@@ -153,7 +155,7 @@ void WorkPrecision::search(double target) {
 }
 
 void WorkPrecision::scan(int stride) {
-  for (int level = 0; level < 19; level += stride) {
+  for (int level = 0; level < most_levels; level += stride) {
     std::vector<std::pair<std::size_t, int>> which;
     for (std::size_t i = 0; i < courses_.size(); ++i)
       if (level < courses_[i].method.levels() && courses_[i].ended.empty()) which.emplace_back(i, level);

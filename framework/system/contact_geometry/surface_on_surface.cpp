@@ -29,6 +29,8 @@ using M3 = Eigen::Matrix3d;
 using SurfacePointChange = PointChange<Eigen::Dynamic>;
 using Along = Eigen::Matrix<double, 2, Eigen::Dynamic>;  // dxi per change of some variables
 
+constexpr double no_determinant = 1e-12;  // of H, relative to |y_u|^2 |y_v|^2: round-off at a centre of curvature
+
 struct Box {
   V3 low, high;
 };
@@ -58,7 +60,7 @@ Along slide(const SurfaceJet& y, const V3& d) {
       right.row(a).setZero();
     }
   const double determinant = H.determinant();
-  if (!(determinant > 1e-12 * y.r_u.squaredNorm() * y.r_v.squaredNorm()))
+  if (!(determinant > no_determinant * y.r_u.squaredNorm() * y.r_v.squaredNorm()))
     return Along::Zero(2, 3 + m);  // a centre of curvature
   return H.inverse() * right;
 }
