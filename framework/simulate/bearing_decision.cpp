@@ -23,12 +23,13 @@
 namespace trammel::simulate {
 namespace {
 
-constexpr int most_rounds = 50;  // usually two or three are needed
+constexpr int most_rounds = 50;          // usually two or three are needed
+constexpr double same_direction = 1e-9;  // [rad] of slips, which follow from the loads: their round-off
 
 // The same state of contacts; in space slip may begin in a direction that follows from the loads.
 bool agree(const model::Modes& a, const model::Modes& b) {
   const auto same = [](const model::ContactMode& x, const model::ContactMode& y) {
-    return x.closed == y.closed && x.friction == y.friction && (x.direction - y.direction).norm() <= 1e-9;
+    return x.closed == y.closed && x.friction == y.friction && (x.direction - y.direction).norm() <= same_direction;
   };
   return std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(), same);
 }

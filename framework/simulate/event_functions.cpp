@@ -72,7 +72,7 @@ void EventLocation::choose_sides(const std::vector<EventFunction>& before) {
     const bool passed = before.size() == functions_.size() && before[k].reported;
     function.side = passed ? -before[k].side : now_[k].f < 0 ? -1 : 1;
     now_[k].f *= function.side;
-    function.noise = std::max(modes_.friction_noise(function.contact), 1e-12 * function.bound);
+    function.noise = std::max(modes_.friction_noise(function.contact), vanished_force * function.bound);
   }
 }
 
@@ -82,7 +82,7 @@ void EventLocation::allow_for_critical_friction() {
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     EventFunction& function = functions_[k];
     if (function.kind != Kind::unload) continue;
-    const double more = std::max(0.0, 1e-9 * function.bound - function.little);
+    const double more = std::max(0.0, critical_force * function.bound - function.little);
     function.little += more, now_[k].f += more;
   }
 }

@@ -13,6 +13,8 @@
 namespace trammel::simulate {
 namespace {
 
+constexpr double part_of_scale = 1e-3;  // of what counts as touching or at rest: a function located so near is at 0
+
 // Thrown and caught in this file: the integrator refused one of the steps that locate an event.
 struct StepRefused {};
 
@@ -62,7 +64,7 @@ void EventLocation::restart(const State& now) {
   // A contact begins to stick at its bound where its normal force begins at 0, and where mu = mu_0.
   for (int k = 0; k < int(functions_.size()); ++k)
     if (functions_[k].kind == Kind::hold && !functions_[k].at_ends &&
-        now_[k].f <= std::max(1e-9 * functions_[k].bound, functions_[k].little))
+        now_[k].f <= std::max(critical_force * functions_[k].bound, functions_[k].little))
       functions_[k].noise = std::max(modes_.friction_noise(functions_[k].contact), functions_[k].little);
 }
 
@@ -259,7 +261,7 @@ void EventLocation::collect() {
     const Scale scale = scale_.of(functions_[k].contact);
     const bool falls = end.slope < -scale.rest_speed();
     if (functions_[k].at_ends ? end.f < 0 && (by_force(k) || falls)
-        : by_force(k)         ? end.f <= 1e-12 * functions_[k].bound && !just_handled(k)
+        : by_force(k)         ? end.f <= vanished_force * functions_[k].bound && !just_handled(k)
         : functions_[k].kind == Kind::slide
             ? end.f <= functions_[k].noise && !just_handled(k) && end.slope < -scale.no_acceleration()
             : end.f <= same_instant(functions_[k].contact) && falls)
@@ -290,9 +292,8 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
     const auto f = [&](double h) { return step_to(now, h, k).f; };
     return numerics::narrow(f, {bracket.low, bracket.high, bracket.at_low.f, bracket.at_high.f}, resolution).high;
   }
-  // A thousandth of `same_instant`.
   const Scale scale = scale_.of(functions_[k].contact);
-  const double round_off = 1e-3 * (functions_[k].kind == Kind::slide ? scale.rest_speed() : scale.touching());
+  const double round_off = part_of_scale * (functions_[k].kind == Kind::slide ? scale.rest_speed() : scale.touching());
   return numerics::crossing([&](double h) { return step_to(now, h, k); }, bracket, resolution, round_off);
 }
 

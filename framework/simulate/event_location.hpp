@@ -48,6 +48,10 @@
 
 namespace trammel::simulate {
 
+// Relative to the bound of an event's force: a force that is 0 but for the sums it comes from, and the distance from a
+// bound at which a force may stand without an event, an error of loads.
+inline constexpr double vanished_force = 1e-12, critical_force = 1e-9;
+
 class EventLocation {
  public:
   EventLocation(model::AssembledSystem& system, Integrator& integrator, ContactModes& modes, const ContactScale& scale);

@@ -9,6 +9,10 @@ namespace {
 
 // The place in a step where `hides` looks: an irrational part, the golden section's, resonates with no period of a law.
 constexpr double inside = 0.3819660112501051;
+constexpr double off_ends = 1e-3;         // of an interval: a minimum nearer to an end counts as there, or as none
+constexpr double part_for_slopes = 1e-3;  // of the step: the difference in time that gives a force's slope
+constexpr double hides_nothing = 1e-6;    // of the longest step so far: shorter ones are of the location of events
+constexpr int most_probes = 6;
 
 // In space a slip ends by steps that leave a fifth of it. Near its zero the stiffness mu N/|s| across it is more than
 // an explicit method can bear; round-off there would become a turn.
@@ -32,8 +36,8 @@ struct EventLocation::Cubic {
     if (discriminant < 0) return false;
     const double root = std::sqrt(discriminant);
     double x = b >= 0 ? -2 * c / (b + root) : (root - b) / (2 * a);  // where the slope rises
-    if (S_low < 0 && S_high > 0) x = std::clamp(x, 1e-3, 1 - 1e-3);
-    if (!(x >= 1e-3 && x <= 1 - 1e-3)) return false;
+    if (S_low < 0 && S_high > 0) x = std::clamp(x, off_ends, 1 - off_ends);
+    if (!(x >= off_ends && x <= 1 - off_ends)) return false;
     at = low + h * x;
     minimum = value(x);
     return true;
@@ -57,7 +61,7 @@ struct EventLocation::Cubic {
 // True if the step is too long to show what the functions did within it.
 bool EventLocation::hides(const State& now, double h, const State& next) {
   longest_ = std::max(longest_, h);
-  if (h < 1e-6 * longest_) return false;
+  if (h < hides_nothing * longest_) return false;
   bool gaps = false, forces = false;
   for (int k = 0; k < int(functions_.size()); ++k) {
     if (functions_[k].kind == Kind::slide && system_.tangents(functions_[k].contact) > 1 &&
@@ -130,10 +134,10 @@ bool EventLocation::dips(const State& now, double h, const State& next, int k, S
   if (just_handled(k) && cubic.S_low <= 0) return false;
   if (force) {
     if (!worth_slopes(k, h)) return false;
-    cubic.S_low = slope_at_end(now, 1e-3 * h, k, h, begin_slopes_);
-    cubic.S_high = slope_at_end(next, -1e-3 * h, k, h, end_slopes_);
+    cubic.S_low = slope_at_end(now, part_for_slopes * h, k, h, begin_slopes_);
+    cubic.S_high = slope_at_end(next, -part_for_slopes * h, k, h, end_slopes_);
   }
-  for (int probes = 0; probes < 6; ++probes) {
+  for (int probes = 0; probes < most_probes; ++probes) {
     if (!cubic.dips()) return false;
     const bool near = cubic.minimum <= 0.25 * std::min(cubic.F_low, cubic.F_high);
     if (!near && !(may_have_kink && cubic.tangents_cross())) return false;
@@ -143,7 +147,7 @@ bool EventLocation::dips(const State& now, double h, const State& next, int k, S
       suspect.high = at, suspect.at_high = there;
       return true;
     }
-    const double slope = force ? force_slope(trial_, 1e-3 * h, k) : there.slope;
+    const double slope = force ? force_slope(trial_, part_for_slopes * h, k) : there.slope;
     if (slope < 0)
       cubic.low = at, cubic.F_low = there.f, cubic.S_low = slope;
     else

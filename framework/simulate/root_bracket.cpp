@@ -8,8 +8,17 @@
 
 namespace trammel::numerics {
 
+namespace {
+
+constexpr std::uintmax_t most_evaluations = 200;  // bisection from any bracket of doubles to its last bit: far fewer
+constexpr int most_trials = 200;                  // likewise, each with a cubic of at most `most_iterations`
+constexpr int most_iterations = 100;
+constexpr double narrowest = 1e-16;  // of the bracket that the cubic lies in: round-off
+
+}  // namespace
+
 Interval narrow(const std::function<double(double)>& f, const RootBracket& bracket, double resolution) {
-  std::uintmax_t evaluations = 200;  // bisection from any bracket of doubles to its last bit takes far fewer
+  std::uintmax_t evaluations = most_evaluations;
   const auto narrow_enough = [resolution](double low, double high) { return high - low <= resolution; };
   const auto [low, high] = boost::math::tools::toms748_solve(f, bracket.low, bracket.high, bracket.f_low,
                                                              bracket.f_high, narrow_enough, evaluations);
@@ -24,7 +33,7 @@ double crossing_of_cubic(const FallingBracket& b) {
     return ValueAndSlope{b.at_low.f + h * x * (S + x * (curve + x * twist)), h * (S + x * (2 * curve + 3 * x * twist))};
   };
   double low = 0, high = 1, x = b.at_low.f / (b.at_low.f - b.at_high.f);
-  for (int i = 0; i < 100 && high - low > 1e-16; ++i) {
+  for (int i = 0; i < most_iterations && high - low > narrowest; ++i) {
     const ValueAndSlope there = at(x);
     (there.f > 0 ? low : high) = x;
     const double newton = x - there.f / there.slope;
@@ -38,7 +47,7 @@ double crossing_of_cubic(const FallingBracket& b) {
 // new upper end.
 double crossing(const std::function<ValueAndSlope(double)>& f, FallingBracket b, double resolution, double round_off) {
   bool bisect = false;
-  for (int i = 0; i < 200 && b.high - b.low > resolution; ++i) {
+  for (int i = 0; i < most_trials && b.high - b.low > resolution; ++i) {
     if (b.at_high.f >= -round_off || -b.at_high.f <= resolution * -b.at_high.slope) break;
     const double slope = std::abs(b.at_low.f <= -b.at_high.f ? b.at_low.slope : b.at_high.slope);
     const double after = slope > 0 ? std::max(0.5 * resolution, 0.5 * round_off / slope) : 0.5 * resolution;

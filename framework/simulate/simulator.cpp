@@ -17,6 +17,7 @@ namespace trammel::simulate {
 namespace {
 
 constexpr std::size_t most_warnings = 20;
+constexpr double same_record = 1e-9;  // of the time between two records: times differ from their multiples by round-off
 
 int error_order(Integrator& integrator) {
   const auto* estimate = dynamic_cast<const ErrorEstimate*>(&integrator);
@@ -53,7 +54,7 @@ void Simulator::start(State initial) {
   now_ = std::move(initial);
   window_start_ = now_.t;
   if (now_.t > settings_.start)  // resumed from a checkpoint: earlier records are written
-    records_ = (long long)(std::ceil((now_.t - settings_.start) / settings_.every - 1e-9));
+    records_ = (long long)(std::ceil((now_.t - settings_.start) / settings_.every - same_record));
   turns_.follow(now_.t, now_.q, now_.v);
   look_at_theories();
   system_.move_to(now_.t, now_.q, now_.v);
@@ -94,12 +95,12 @@ void Simulator::resume() {
   if (!last_row_ || now_.t >= settings_.until) return;
   // The end has moved: go on with rows at their multiples. The row at the former end may not have been one of them.
   last_row_ = false;
-  if (settings_.start + double(records_ - 1) * settings_.every > now_.t + 1e-9 * settings_.every) --records_;
+  if (settings_.start + double(records_ - 1) * settings_.every > now_.t + same_record * settings_.every) --records_;
 }
 
 double Simulator::record_time(long long k) const {
   const double t = settings_.start + double(k) * settings_.every;
-  return t > settings_.until - 1e-9 * settings_.every ? settings_.until : t;
+  return t > settings_.until - same_record * settings_.every ? settings_.until : t;
 }
 
 // Writes the rows that are due at the present state.

@@ -13,6 +13,12 @@
 
 namespace trammel::simulate {
 
+namespace {
+
+constexpr double window_of_storm = 1e-3;  // of the run, in which simulate.event_limit holds
+
+}  // namespace
+
 void Simulator::settle(const ContactChanges& changes) {
   const std::size_t before = events_.size();
   modes_.settle(now_, changes, events_);
@@ -67,7 +73,7 @@ void Simulator::guard_against_standstill(double h, double wanted, int contact) {
 }
 
 void Simulator::guard_against_storm(int contact) {
-  const double window = (settings_.until - settings_.start) * 1e-3;
+  const double window = (settings_.until - settings_.start) * window_of_storm;
   if (now_.t > window_start_ + window) window_start_ = now_.t, window_events_ = 1;
   if (window_events_ <= settings_.event_limit) return;
   throw RunFailed(

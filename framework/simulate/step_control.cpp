@@ -9,6 +9,10 @@
 namespace trammel::simulate {
 namespace {
 constexpr int most_halvings = 10;  // of a fixed step that the method rejects
+// Of a step: what it may miss of the way to a stop, and a fixed step of an equal part of that way, for the round-off of
+// times must not cost a step of its own; and the shortening up to which a step does not count as cut.
+constexpr double nearly_there = 1e-10, equal_parts = 1e-9, not_cut = 1e-9;
+constexpr double least_error = 1e-4;  // of the tolerance: a smaller one lengthens the next step no further
 }  // namespace
 
 StepControl::StepControl(const StepChoice& choice, double every, int order, bool even)
@@ -28,7 +32,7 @@ StepControl::Proposal StepControl::propose(double t, double stop, double most) {
   constexpr int last_steps = 8;
   if (controlled() && !(even_ && left < last_steps * h)) {
     planned_ = 0;
-    if (h >= left * (1 - 1e-10)) return {left, stop};
+    if (h >= left * (1 - nearly_there)) return {left, stop};
     if (2 * h > left) return {left / 2, t + left / 2};
     return {h, t + h};
   }
@@ -42,7 +46,7 @@ StepControl::Proposal StepControl::propose(double t, double stop, double most) {
 void StepControl::plan(double t, double stop, double h) {
   const double length = stop - t;
   t0_ = t, stop_ = stop, planned_for_ = h, done_ = 0;
-  planned_ = std::max(1LL, static_cast<long long>(std::ceil(length / h - 1e-9)));
+  planned_ = std::max(1LL, static_cast<long long>(std::ceil(length / h - equal_parts)));
   h_ = length / double(planned_);
   const double rounding = 4 * eps * std::max(std::abs(stop), std::abs(t));
   if (std::abs(h_ - h) * double(planned_) <= rounding) h_ = h;
@@ -54,14 +58,14 @@ void StepControl::accepted(const Proposal& taken, double error) {
   halvings_ = 0;
   if (!controlled()) return;
   constexpr double worth_a_change = 1.25;
-  const double e = std::max(error, 1e-4), p = order_;
+  const double e = std::max(error, least_error), p = order_;
   double factor = std::clamp(0.9 * std::pow(e, -0.7 / p) * std::pow(error_before_, 0.4 / p), 0.2, 5.0);
   if (even_) {
     factor = std::min(0.9 * std::pow(std::max(e, error_before_), -1 / p), 5.0);
     if (factor < worth_a_change) factor = 1;
   }
   const double next = taken.h * factor;
-  const bool shortened = taken.h < std::min(wish_, choice_.most) * (1 - 1e-9);
+  const bool shortened = taken.h < std::min(wish_, choice_.most) * (1 - not_cut);
   wish_ = std::min(shortened ? std::max(next, wish_) : next, choice_.most);
   error_before_ = e;
 }

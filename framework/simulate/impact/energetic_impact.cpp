@@ -6,6 +6,12 @@
 
 namespace trammel::simulate {
 
+namespace {
+
+constexpr double stopped = 1e-3;  // of the vanishing approach, times the largest rate: far above errors of the course
+
+}  // namespace
+
 complementarity::ContactSolution EnergeticImpact::solve(model::AssembledSystem& system,
                                                         std::vector<TouchingContact>& touching, Vec& dv) {
   directions_.prepare(system, touching);
@@ -46,7 +52,7 @@ void EnergeticImpact::begin_without_collision(const std::vector<TouchingContact>
 
 void EnergeticImpact::let_approaches_vanish(const std::vector<TouchingContact>& touching, Vec& P, Vec& u,
                                             Vec& dv) const {
-  const double at_rest = 1e-3 * vanishing_approach * directions_.rates.lpNorm<Eigen::Infinity>();
+  const double at_rest = stopped * vanishing_approach * directions_.rates.lpNorm<Eigen::Infinity>();
   std::vector<Eigen::Index> held;
   bool any = false;
   for (std::size_t i = 0; i < touching.size(); ++i) {

@@ -14,8 +14,8 @@
 namespace trammel::simulate {
 namespace {
 
-constexpr double round_off =
-    1e-9;  // error of solutions, relative to the work that impulses and rates of an impact can do
+// Error of solutions, relative to the work that impulses and rates of an impact can do.
+constexpr double round_off = 1e-9;
 
 double work_at_most(const TouchingContact& c) {
   return 0.5 * (c.impulse * (std::abs(c.before) + std::abs(c.after)) +

@@ -12,6 +12,13 @@ namespace {
 constexpr double step_error = 2e-13;
 constexpr int columns = 6, order = 2 * columns;
 constexpr int most_steps = 20000;
+constexpr double least_error = 1e-30;  // of a step, relative to `step_error`: it lengthens the next one no further
+// Times in units of the springs': a step that is taken whatever its error; a way between events that is no progress; a
+// step that may hide an event inside; the longest step, and a course that does not end.
+constexpr double shortest = 1e-12, no_progress = 1e-12, may_hide = 1e-3, longest = 1e9, endless = 1e8;
+// Trials of the location of an event, the later ones by bisection; of the step: a bracket at round-off.
+constexpr int most_trials = 100, interpolations = 20;
+constexpr double narrowest = 1e-15;
 
 }  // namespace
 
@@ -125,9 +132,9 @@ double SpringImpact::locate(const Vec& y, double h, double at_end, Vec& y_end) {
   Vec inside;
   double lo = 0, hi = h, off = at_end + aim;  // of the margin from the aim, at hi
   double weight_lo = std::max(0.0, margin(y)) + aim, weight_hi = off;
-  for (int i = 0, side = 0; i < 100 && off < -4 * tolerance && hi - lo > 1e-15 * h; ++i) {
+  for (int i = 0, side = 0; i < most_trials && off < -4 * tolerance && hi - lo > narrowest * h; ++i) {
     double middle = hi - weight_hi * (hi - lo) / (weight_hi - weight_lo);
-    if (i > 20 || !(middle > lo && middle < hi)) middle = 0.5 * (lo + hi);
+    if (i > interpolations || !(middle > lo && middle < hi)) middle = 0.5 * (lo + hi);
     extrapolate(y, middle, inside);
     const double at = margin(inside) + aim;
     if (at <= 4 * tolerance) {
@@ -148,8 +155,8 @@ bool SpringImpact::advance_to_event() {
   double gone = 0;
   for (int step = 0; step < most_steps; ++step) {
     const double error = extrapolate(y, h_, y_end);
-    const double factor = std::clamp(0.9 * std::pow(std::max(error, 1e-30), -1.0 / (order - 1)), 0.2, 3.0);
-    if (!(error <= 1) && h_ > 1e-12) {
+    const double factor = std::clamp(0.9 * std::pow(std::max(error, least_error), -1.0 / (order - 1)), 0.2, 3.0);
+    if (!(error <= 1) && h_ > shortest) {
       h_ *= std::isfinite(error) ? factor : 0.2;
       continue;
     }
@@ -157,18 +164,18 @@ bool SpringImpact::advance_to_event() {
     if (at_end < -tolerance) {
       gone += locate(y, h_, at_end, y_end);
       take(y_end);
-      standing_ = gone > 1e-12 ? 0 : standing_ + 1;
+      standing_ = gone > no_progress ? 0 : standing_ + 1;
       return standing_ <= 50 + 10 * n_;
     }
-    if (h_ > 1e-3 && dips_within(y, h_, y_end)) {
+    if (h_ > may_hide && dips_within(y, h_, y_end)) {
       h_ /= 2;
       continue;
     }
     y = y_end;
     take(y);
     gone += h_;
-    h_ = std::min(h_ * factor, 1e9);
-    if (gone > 1e8 || finished() || wedged()) return gone <= 1e8;
+    h_ = std::min(h_ * factor, longest);
+    if (gone > endless || finished() || wedged()) return gone <= endless;
   }
   return false;
 }

@@ -15,7 +15,8 @@ using complementarity::LcpOutcome;
 
 namespace {
 
-constexpr double compliance = 1e-9;  // of the largest entry of A
+constexpr double compliance = 1e-9;    // of the largest entry of A
+constexpr double outside_cone = 1e-9;  // of its bound: beyond the round-off of a contact that slides
 
 }  // namespace
 
@@ -83,7 +84,8 @@ void SpringImpact::share_sticking_forces() {
   std::vector<Eigen::Index> rows;
   for (const Contact& c : contacts_) {
     if (c.tangent < 0 || c.mu_0 == 0) continue;
-    outside = outside || admissible_.segment(c.tangent, t_).norm() > c.mu_0 * admissible_[c.normal] * (1 + 1e-9);
+    outside =
+        outside || admissible_.segment(c.tangent, t_).norm() > c.mu_0 * admissible_[c.normal] * (1 + outside_cone);
     for (int k = 0; k < t_; ++k) rows.push_back(c.tangent + k);
   }
   if (!outside) return;

@@ -16,6 +16,8 @@ namespace {
 constexpr double ahead = 1e-6;
 // Of the largest pivot: smaller pivots are round-off of dependent rows.
 constexpr double dependence = 1e-10;
+// Accelerations that forces leave, of those without these forces: an error of the solution.
+constexpr double held_within = 1e-9;
 
 Eigen::CompleteOrthogonalDecomposition<Mat> decomposed(const Mat& A) {
   Eigen::CompleteOrthogonalDecomposition<Mat> qr;
@@ -61,7 +63,7 @@ bool SpringImpact::some_forces_hold(const Vec& f) const {
   Vec T, a;
   if (complementarity::solve_contacts(points, A_(sticking_, sticking_), b, T, a).outcome != LcpOutcome::solved)
     return false;
-  return a.lpNorm<Eigen::Infinity>() <= 1e-9 * b.lpNorm<Eigen::Infinity>();
+  return a.lpNorm<Eigen::Infinity>() <= held_within * b.lpNorm<Eigen::Infinity>();
 }
 
 // Contacts without slip stick or begin to slide, by the forces a moment later.

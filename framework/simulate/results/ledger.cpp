@@ -11,7 +11,9 @@ namespace {
 
 using Balance = model::AssembledSystem::Balance;
 
-constexpr double little = 1e-16;  // of the energy: round-off of a single step
+constexpr double little = 1e-16;            // of the energy: round-off of a single step
+constexpr double worth_more = 1e-12;        // of the energy: work of a step that more than its middle is evaluated for
+constexpr double work_by_reactions = 1e-9;  // of all power: more needs the multipliers inside the step
 
 double size(const Balance& p) {
   return std::abs(p.drives) + std::abs(p.dampers) + std::abs(p.contacts) + std::abs(p.constraints) +
@@ -63,7 +65,7 @@ void Ledger::step(const State& now, const State& next) {
   // Work of rows at the level of round-off is not worth an evaluation.
   const double work = (size(now_) + size(end_)) * (next.t - now.t);
   if (work > little * energy_scale_) energy_scale_ = std::max(energy_scale_, kinetic(next.v));
-  const bool matters = work > 1e-12 * energy_scale_;
+  const bool matters = work > worth_more * energy_scale_;
   const bool rubs = system_.rubs();
   if (OscillatingSteps* steps = between_.oscillating(); steps && (matters || rubs))
     integrate_by(*steps, now, next);
@@ -126,7 +128,7 @@ void Ledger::evaluate_inside(const State& now, const State& next, double theta) 
   system_.move_to(inside_.t, inside_.q, inside_.v);
   lambda_ = (1 - theta) * now.lambda + theta * next.lambda;
   const bool rubs = system_.rubs_by_reactions();
-  const auto matters = [&] { return rubs || work_of_reactions > 1e-9 * power; };
+  const auto matters = [&] { return rubs || work_of_reactions > work_by_reactions * power; };
   if (!matters()) {
     middle_ = system_.balance(lambda_);
     work_of_reactions += std::abs(middle_.constraints);

@@ -14,10 +14,13 @@ namespace trammel::simulate {
 namespace {
 
 constexpr int most_steps = 300;
-constexpr double tau_first = 1e-3;  // [s]
-constexpr double tau_last = 100;    // relative to 1 s, or to the time of a fall through the scene if that is longer
-constexpr double settled = 1e-14;   // relative to the coordinates' sizes and places: round-off
-constexpr double far_off = 1e6;     // relative to their sizes
+constexpr double tau_first = 1e-3;   // [s]
+constexpr double tau_least = 1e-12;  // [s] no shorter step makes progress
+constexpr double tau_last = 100;     // relative to 1 s, or to the time of a fall through the scene if that is longer
+constexpr double settled = 1e-14;    // relative to the coordinates' sizes and places: round-off
+constexpr double far_off = 1e6;      // relative to their sizes
+constexpr double balanced = 1e-12;   // of the largest unbalanced acceleration so far: round-off of forces
+constexpr double moment = 1e-4;      // [s] before and after, in the central difference of loads that depend on time
 
 class StaticEquilibrium {
  public:
@@ -56,14 +59,14 @@ class StaticEquilibrium {
       }
       // Component of the unbalanced acceleration along itself: predicted by the linearised equations, and after the
       // step.
-      const double noise = 1e-12 * scale_, with_forces = found ? a_.dot(mass_times(dq_)) : -1;
+      const double noise = balanced * scale_, with_forces = found ? a_.dot(mass_times(dq_)) : -1;
       const double promised = unbalanced > noise ? with_forces / (unbalanced * tau * tau) : 0;
       const double next = found ? look(q_next) : 0;
       const bool against = with_forces < 0 && unbalanced > noise;
       if (!found || against || !(std::abs(next - promised) <= 1.5 * unbalanced + noise)) {
         tau /= 4;
         look(state_.q);
-        if (tau < 1e-12) return false;
+        if (tau < tau_least) return false;
         continue;
       }
       const double shrunk = next > 0 ? unbalanced / next : 10;
@@ -95,7 +98,7 @@ class StaticEquilibrium {
     look(state_.q);
     contacts_.carry_along();
     look(state_.q);
-    const double dt = 1e-4;
+    const double dt = moment;
     constexpr int most = 120, slow = 40;
     constexpr double inexact = 1e-6;  // of v
     state_.v = zero_v_;

@@ -15,6 +15,9 @@ namespace trammel::simulate {
 namespace {
 
 constexpr int most_rows = 1000;
+constexpr int attempts = 4;              // from the start, and from places beside it
+constexpr double off_rows = 1e-9;        // of the coordinates' sizes: the gap is computed on the rows but for this
+constexpr double along_the_rows = 1e-3;  // of a change of the gap by 1: a direction that misses more is none
 
 class Approach {
  public:
@@ -59,7 +62,7 @@ class Approach {
   bool restore(Vec& q) {
     system_.set_modes(open_);
     State s{t_, q, Vec::Zero(system_.sizes().nv), {}, {}};
-    const double allowed = 1e-9 * std::min(1.0, sizes_.length) * sizes_.place;
+    const double allowed = off_rows * std::min(1.0, sizes_.length) * sizes_.place;
     const bool found =
         model::positions_onto_rows(system_, s, {.metric = model::by_coordinates, .allowed = allowed, .most = 10});
     q = s.q;
@@ -84,7 +87,7 @@ class Approach {
       return std::numeric_limits<double>::quiet_NaN();
     system_.add_rows_times(1, closing_, change);
     // Otherwise the gap's gradient counts as one of the rows.
-    const bool closes = (change + wanted).lpNorm<Eigen::Infinity>() < 1e-3;
+    const bool closes = (change + wanted).lpNorm<Eigen::Infinity>() < along_the_rows;
     return closes ? 1 / (gradient.norm() * closing_.norm()) : 0;
   }
 
@@ -118,7 +121,7 @@ bool rows_depend_on_time(model::AssembledSystem& system, const State& start, dou
 // [m, rad] The smallest gap of a latch that cannot lock; empty: it can, or this is unknown.
 std::optional<double> nearest_if_never(model::AssembledSystem& system, const State& start, int contact) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (int attempt = 0; attempt < 4; ++attempt) {
+  for (int attempt = 0; attempt < attempts; ++attempt) {
     Vec q = start.q;
     system.move_to(start.t, start.q, start.v);
     const Vec aside = model::pseudo_random(start.v.size(), 0.1, attempt);

@@ -16,6 +16,8 @@ namespace {
 using scene::Problems;
 using scene::Value;
 
+constexpr double end_of_table = 1e-12;  // of the run's times: round-off of a table's first and last time
+
 // The first of some instants at which the law or one of its derivatives is not finite, and which of them.
 std::optional<std::pair<double, const char*>> find_not_finite(const TimeFunction& law, int derivatives, double begin,
                                                               double end) {
@@ -56,7 +58,7 @@ void check_span(const Value& table, double begin, double end, Problems& problems
   const auto law = table.read_time_function(ignored);
   if (!law || !law->code()) return;
   const auto [first, last] = law->code()->span();
-  const double round_off = 1e-12 * std::max({std::abs(begin), std::abs(end), end - begin});
+  const double round_off = end_of_table * std::max({std::abs(begin), std::abs(end), end - begin});
   std::string misses;
   if (first > begin + round_off)
     misses = fmt::format("begins at t = {:.9g} s, but the run at t = {:.9g} s", first, begin);
