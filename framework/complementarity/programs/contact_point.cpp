@@ -9,6 +9,9 @@ namespace {
 
 using Tangential = Eigen::Vector2d;
 
+// Of the terms of A F, so that their round-off is below `largest_violation`, however much they cancel.
+constexpr double share_of_terms = 1e-4;
+
 Tangential part(const Vec& x, const ContactPoint& p) {
   Tangential both = Tangential::Zero();
   both.head(p.tangents) = x.segment(p.tangent, p.tangents);
@@ -45,8 +48,8 @@ double violation(const std::vector<ContactPoint>& points, const Mat& A, const Ve
                  double nothing) {
   if (b.size() == 0) return 0;
   if (!F.allFinite()) return std::numeric_limits<double>::infinity();
-  const double scale =
-      b.lpNorm<Eigen::Infinity>() + 1e-4 * (A.cwiseAbs() * F.cwiseAbs()).maxCoeff() + nothing / largest_violation;
+  const double scale = b.lpNorm<Eigen::Infinity>() + share_of_terms * (A.cwiseAbs() * F.cwiseAbs()).maxCoeff() +
+                       nothing / largest_violation;
   double worst = 0;
   for (const ContactPoint& p : points) worst = std::max(worst, off_law(p, A, F, a));
   return scale > 0 ? worst / scale : worst;

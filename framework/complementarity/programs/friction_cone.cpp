@@ -10,6 +10,13 @@ namespace {
 
 using Tangent = ContactPoint::Tangent;
 
+constexpr int most_newton_steps = 50, sweeps = 200;  // of Newton's method, and between two of its attempts
+// Of the natural map, relative to its terms: solved, and where the steps no longer decrease it, which is round-off of
+// A F.
+constexpr double solved_to = 1e-14, stalled_at = 1e-12;
+constexpr double shortest_part = 1e-3;   // of a step of Newton's method
+constexpr double least_decrease = 1e-4;  // of the predicted one (Armijo)
+
 class Cones {
  public:
   Cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b) : points_(points), A_(A), b_(b) {
@@ -28,7 +35,7 @@ class Cones {
     evaluate(F);
     for (int round = 0; round < rounds; ++round) {
       if (newton(F)) return true;
-      for (int i = 0; i < 200; ++i) sweep(F);
+      for (int i = 0; i < sweeps; ++i) sweep(F);
       evaluate(F);
     }
     return false;
@@ -84,27 +91,26 @@ class Cones {
   }
 
   bool solved(const Vec& F) const {
-    return phi_.lpNorm<Eigen::Infinity>() <= 1e-14 * (scale_ + F.lpNorm<Eigen::Infinity>());
+    return phi_.lpNorm<Eigen::Infinity>() <= solved_to * (scale_ + F.lpNorm<Eigen::Infinity>());
   }
 
   bool newton(Vec& F) {
     Vec trial;
     double size = phi_.norm();
-    for (int iteration = 0; iteration < 50; ++iteration) {
+    for (int iteration = 0; iteration < most_newton_steps; ++iteration) {
       if (solved(F)) return true;
       linearise(F);
       const Vec step = -Eigen::CompleteOrthogonalDecomposition<Mat>(J_).solve(phi_);
       if (!step.allFinite()) return false;
       bool smaller = false;
-      for (double part = 1; part > 1e-3 && !smaller; part /= 2) {
+      for (double part = 1; part > shortest_part && !smaller; part /= 2) {
         trial = F + part * step;
         evaluate(trial);
-        smaller = phi_.norm() < (1 - 1e-4 * part) * size;
+        smaller = phi_.norm() < (1 - least_decrease * part) * size;
       }
       if (!smaller) {
         evaluate(F);
-        // Only round-off of A F is left.
-        return phi_.lpNorm<Eigen::Infinity>() <= 1e-12 * (scale_ + F.lpNorm<Eigen::Infinity>());
+        return phi_.lpNorm<Eigen::Infinity>() <= stalled_at * (scale_ + F.lpNorm<Eigen::Infinity>());
       }
       F = trial;
       size = phi_.norm();

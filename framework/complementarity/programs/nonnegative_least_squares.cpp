@@ -9,6 +9,9 @@
 namespace trammel::complementarity {
 namespace {
 
+constexpr double no_descent = 1e-13;         // slope along a column of length 1, of |d|: round-off
+constexpr double dependent_columns = 1e-12;  // pivots of the columns of length 1
+
 class ActiveSet {
  public:
   ActiveSet(const Mat& B, const Vec& d, Vec& x)
@@ -47,9 +50,8 @@ class ActiveSet {
 
   // The column with the steepest descent, by its cosine with the residual; -1: none.
   int entering() const {
-    constexpr double none = 1e-13;
     int best = -1;
-    double steepest = none * d_.norm();
+    double steepest = no_descent * d_.norm();
     for (std::size_t j = 0; j < state_.size(); ++j) {
       if (state_[j] != State::zero) continue;
       const auto column = Eigen::Index(j);
@@ -64,7 +66,7 @@ class ActiveSet {
     for (std::size_t j = 0; j < state_.size(); ++j)
       if (state_[j] == State::positive) positive_.push_back(Eigen::Index(j));
     if (positive_.empty()) return z_.resize(0), true;
-    qr_.setThreshold(1e-12);
+    qr_.setThreshold(dependent_columns);
     const Vec scale = size_(positive_).cwiseInverse();
     const Mat columns = B_(Eigen::all, positive_) * scale.asDiagonal();
     qr_.compute(columns);

@@ -10,6 +10,8 @@ namespace {
 
 using Tangential = Eigen::Vector2d;
 
+constexpr double no_stiffness = 1e-12;  // of a contact's own: what the terms of its friction leave by round-off
+
 Tangential direction(int k, int betas) {
   const double angle = 2 * std::numbers::pi * k / betas;
   if (betas == 2) return {k == 0 ? 1 : -1, 0};
@@ -68,7 +70,7 @@ PolyhedralCone::PolyhedralCone(const std::vector<ContactPoint>& points, const Ma
   // Round-off is no stiffness (Painleve's critical coefficient).
   for (std::size_t i = 0; i < points.size(); ++i)
     if (const int N = places_[i].normal;
-        N >= 0 && std::abs(M_(N, N)) <= 1e-12 * A(points[i].normal, points[i].normal) / stiff)
+        N >= 0 && std::abs(M_(N, N)) <= no_stiffness * A(points[i].normal, points[i].normal) / stiff)
       M_(N, N) = 0;
 }
 

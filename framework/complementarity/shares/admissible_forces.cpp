@@ -14,6 +14,11 @@ constexpr int first_iterations = 20;
 // Relative to lambda: a larger residual of the interior point method shows that there are none.
 constexpr double none = 1e-6;
 constexpr double round_off_of_lambda = 1e-14;  // of lambda
+// What is added to the curvature, relative to that of all springs: against round-off, where pieces are nearly flat, and
+// for a step along the residual.
+constexpr double stiffenings[] = {1e-13, 1e-6, 1.0};
+constexpr double shortest_part = 1e-4;   // of a step of Newton's method
+constexpr double least_decrease = 1e-4;  // of the predicted one (Armijo)
 
 class DualNewton {
  public:
@@ -46,12 +51,13 @@ class DualNewton {
     const Mat H = curvature();
     const Vec from = y_, left = missed_;
     const double before = value_;
-    for (const double stiff : {1e-13, 1e-6, 1.0}) {
+    for (const double stiff : stiffenings) {
       const Mat stiffened = H + stiff * size_ * Mat::Identity(H.rows(), H.cols());
       const Vec direction = Eigen::LDLT<Mat>(stiffened).solve(left);
-      for (double part = 1; part > 1e-4; part /= 2) {
+      for (double part = 1; part > shortest_part; part /= 2) {
         evaluate(from + part * direction);
-        if (!(value_ <= before - 1e-4 * part * left.dot(direction) || missed_.norm() <= 0.5 * left.norm())) continue;
+        if (!(value_ <= before - least_decrease * part * left.dot(direction) || missed_.norm() <= 0.5 * left.norm()))
+          continue;
         if (part == 1 && stiff == 1) go_on(from, direction);
         return true;
       }

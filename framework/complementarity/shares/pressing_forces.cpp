@@ -17,11 +17,12 @@ constexpr double dependent = 1e-13;
 constexpr double round_off = 1e-14, certain = 1e-9;
 // Relative to the forces that accelerations ask for, with A's diagonal scaled to 1.
 constexpr double endless = 1e10;
+constexpr double no_give = 1e-8;  // root of an entry of its diagonal, of the largest root: below it A is not scaled
 
 class PrincipalPivoting {
  public:
   PrincipalPivoting(const Mat& A, const Vec& b) : scale_(A.diagonal().cwiseMax(0).cwiseSqrt()) {
-    const double least = 1e-8 * scale_.maxCoeff();
+    const double least = no_give * scale_.maxCoeff();
     for (double& s : scale_) s = s > least ? 1 / s : 1;
     A_ = scale_.asDiagonal() * A * scale_.asDiagonal();
     b_ = scale_.cwiseProduct(b);
