@@ -1,5 +1,6 @@
 // How the Runge-Kutta methods bring the points of their stages onto the rows, and what that costs.
 #include <trammel/methods/runge_kutta.hpp>
+#include <trammel/outside_domain.hpp>
 
 #include "support.hpp"
 #include "testing/kit/integrators/problems.hpp"
@@ -149,6 +150,27 @@ TEST(NullSpace, GivesWayToProjectionInAStepThatTurnsTheRowsFar) {
     EXPECT_TRUE(same_bits(by_null_space.next, by_projection.next)) << name;
     EXPECT_FALSE(same_bits(step_of(name, "null_space", 0.05).next, step_of(name, "projected", 0.05).next)) << name;
   }
+}
+
+// The next motion begins a quarter of a turn further and a little off the rod, where rows of the old place say nothing.
+TEST(NullSpace, OfAStepThatThrowsIsForgottenByTheNextMotion) {
+  Posed s(problems::pendulum_with_rod());
+  const State start = s.start();
+  State later = start;
+  later.q = 1.001 * Eigen::Vector2d(-start.q[1], start.q[0]);
+  const auto begun = [&](bool after_a_throw) {
+    RungeKutta method({1, nullptr, nullptr, nullptr});
+    method.rows = RungeKutta::Rows::null_space;
+    const auto trial = []() -> Outcome { throw OutsideDomain(""); };
+    if (after_a_throw) {
+      EXPECT_THROW((void)method.within_step(s, start, trial), OutsideDomain);
+    }
+    Slope slope;
+    method.begin(s, later, slope);
+    return slope.v;
+  };
+  ASSERT_EQ(begun(false).size(), 2);
+  EXPECT_EQ(begun(true), begun(false));
 }
 
 }  // namespace

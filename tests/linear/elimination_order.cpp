@@ -169,6 +169,34 @@ TEST(EliminationTree, TakesTheOrderOfLeastWork) {
   }
 }
 
+// A square of side x side nodes, of which the four corners of each cell are neighbours.
+struct Works {
+  double along, degree, halves, taken;  // of its orders and of the tree's
+};
+Works works_of(int side) {
+  Cliques cells;
+  for (int i = 0; i + side < side * side; ++i)
+    if ((i + 1) % side != 0) cells.push_back({i, i + 1, i + side, i + side + 1});
+  const auto n = std::size_t(side) * std::size_t(side);
+  const Graph graph = graph_of(cells, n);
+  EliminationTree tree;
+  tree.build(cells, ones(n), work_only);
+  std::vector<int> taken(n);
+  for (std::size_t node = 0; node < n; ++node) taken[std::size_t(tree.place(int(node)))] = int(node);
+  const auto work_of = [&](const std::vector<int>& order) { return fill_of(graph, order).work; };
+  return {work_of(along(graph)), work_of(of_minimum_degree(graph)), work_of(by_dissection(graph, ones(n))),
+          work_of(taken)};
+}
+
+TEST(EliminationTree, TakesHalvesOrMinimumDegreeWhereTheOrderAlongTheGraphTakesThreeTimesTheWork) {
+  const Works of_28 = works_of(28), of_40 = works_of(40);
+  EXPECT_GT(of_28.along, 3 * of_28.degree);
+  EXPECT_LT(of_28.halves, of_28.degree);
+  EXPECT_EQ(of_28.taken, of_28.halves);
+  EXPECT_LT(of_40.degree, of_40.halves);
+  EXPECT_EQ(of_40.taken, of_40.degree);
+}
+
 TEST(EliminationTree, TakesTheOrderAlongTheGraphWhereThatIsWorthItsWork) {
   const Graph graph = graph_of(grid(4, 60), 240);
   EliminationTree tree;

@@ -173,6 +173,16 @@ TEST(FrontalFactors, TakesSmallMatrices) {
   }
 }
 
+TEST(FrontalFactors, SolvesEquationsWhoseRightSideIsZero) {
+  for (const Mat& A : {grid(5, 1, 1), definite(grid(5, 1, 1))}) {
+    FrontalFactors factors;
+    ASSERT_TRUE(factorise(factors, A));
+    Vec x;
+    EXPECT_TRUE(factors.solve(sparse(A), Vec::Zero(A.rows()), x));
+    EXPECT_TRUE(x.isZero(0));
+  }
+}
+
 // As the sums of blocks leave it: solutions are those of A itself.
 TEST(FrontalFactors, TakesForSymmetricWhatIsButForRounding) {
   Mat A = definite(grid(10, 2, 1));

@@ -178,6 +178,35 @@ TEST(NewmarkStep, AcceptsRestUnderForcesThatRowsCarry) {
     }
 }
 
+// A row at the small angle theta, whose round-off is +d or -d by turns: y never settles: its first increment
+// is d/theta, which adds k d/theta to the force along x, the others are 2 d/theta. All lengths are 10 (x = 8 moves by 1 in the step).
+bool ends_where_a_row_is_at_round_off(double k, double d) {
+  constexpr double theta_of_row = 1e-6;
+  Springs springs{.k = Vec::Zero(2), .rest = Vec::Zero(2), .q = Eigen::Vector2d(8, 0), .v = Eigen::Vector2d(1, 0)};
+  springs.force = [k](const Vec& q) { return Eigen::Vector2d(k * q[1], 0); };
+  springs.rows = [&](const Vec& q, const Vec&) {
+    d = -d;
+    return Problem::Rows{Vec::Constant(1, theta_of_row * q[1] + d), Vec::Zero(1), Vec::Zero(1),
+                         Eigen::RowVector2d(0, theta_of_row)};
+  };
+  const auto s = springs.system();
+  Trapezoidal t(*s, springs.start(*s), 1);
+  t.begin();
+  t.iterate();
+  return t.step.newton.converged();
+}
+
+// In the second iteration the force that is left moves x by c_v^2 k d/theta, which is k/8 of the increment of y.
+TEST(NewmarkStep, EndsWhereForcesMoveLessThanAHundredthOfWhatTheRoundOffOfRowsMoves) {
+  EXPECT_TRUE(ends_where_a_row_is_at_round_off(0.076, 15 * eps));
+  EXPECT_FALSE(ends_where_a_row_is_at_round_off(0.088, 15 * eps));
+}
+
+TEST(NewmarkStep, TakesFourRoundOffsOfAllLengthsForThatOfRows) {
+  EXPECT_TRUE(ends_where_a_row_is_at_round_off(0.01, 19 * eps));  // g is 2 d
+  EXPECT_FALSE(ends_where_a_row_is_at_round_off(0.01, 22 * eps));
+}
+
 TEST(NewmarkStep, RejectsAPlaceBeyondAllNumbers) {
   const Springs free = one_spring(0, 0, 1e308);
   const auto s = free.system();

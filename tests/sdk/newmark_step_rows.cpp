@@ -80,6 +80,25 @@ TEST(NewmarkStep, AcceptsSatisfiedRowsThatMoveNothing) {
   EXPECT_FALSE(t.step.finish(*s, t.now, t.next));
 }
 
+// A motion about the origin. One increment leaves its velocity off the row, which `finish` corrects by reactions.
+TEST(NewmarkStep, KeepsTheBalanceOfForcesWhereItCorrectsRowsAlone) {
+  Springs springs{.k = Vec::Zero(2), .rest = Vec::Zero(2), .q = Eigen::Vector2d(1, 0), .v = Eigen::Vector2d(0, 1)};
+  springs.rows = [](const Vec& q, const Vec& v) {
+    return Problem::Rows{Vec::Constant(1, (q.squaredNorm() - 1) / 2), Vec::Zero(1), Vec::Constant(1, -v.squaredNorm()),
+                         q.transpose()};
+  };
+  const auto s = springs.system();
+  Trapezoidal t(*s, springs.start(*s), 0.1);
+  t.step.newton.tolerance = 0.1;
+  t.begin();
+  EXPECT_EQ(t.iterate(), 1);
+  const double left = t.residual().norm();
+  const Vec a = t.next.a;
+  ASSERT_TRUE(t.step.finish(*s, t.now, t.next));
+  EXPECT_GE((t.next.a - a).norm(), 10 * left);
+  EXPECT_LE(t.residual().norm(), 2 * left);
+}
+
 // First along a plane with friction, whose reactions are tilted, then along a wall without: positions are brought onto
 // the wall across it.
 TEST(NewmarkStep, ForgetsTheFactorsOfRowsThatHadFriction) {
