@@ -34,6 +34,15 @@ bool agree(const model::Modes& a, const model::Modes& b) {
   return std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(), same);
 }
 
+// A contact of a group may have opened in an impact. It has no row then.
+bool all_closed(const std::vector<model::SharedRows>& groups, const model::Modes& modes) {
+  const auto closed = [&](const model::ContactDirection& d) { return modes.contacts[std::size_t(d.contact)].closed; };
+  return std::all_of(groups.begin(), groups.end(), [&](const model::SharedRows& group) {
+    return std::all_of(group.basis.begin(), group.basis.end(), closed) &&
+           std::all_of(group.implied.begin(), group.implied.end(), closed);
+  });
+}
+
 }  // namespace
 
 bool ContactModes::has_bearings() const {
@@ -53,7 +62,6 @@ void ContactModes::load_bearings(const State& state, const model::Modes& modes) 
 
 void ContactModes::load_bearings_at_rest(const State& state, const model::Modes& open) {
   model::Modes at_rest = open;
-  at_rest.shared = before_.shared;
   for (const Participant& p : problem_.who) {
     model::ContactMode& mode = at_rest.contacts[p.contact];
     const bool joint = system_.model().contacts[p.contact].joint.has_value();
@@ -66,6 +74,7 @@ void ContactModes::load_bearings_at_rest(const State& state, const model::Modes&
     mode.friction = p.tangent == Participant::Tangent::resting ? Friction::stick : Friction::slide;
     mode.direction = p.direction;
   }
+  at_rest.shared = all_closed(before_.shared, at_rest) ? before_.shared : problem_.shared_rows(at_rest);
   load_bearings(state, at_rest);
 }
 

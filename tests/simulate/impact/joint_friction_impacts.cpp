@@ -330,5 +330,39 @@ TEST(AChainOfJournals, ThatLocksItselfOnAFloorGoesOnAfterAnImpact) {
   }
 }
 
+// A box slides on three feet, which share its weight, and carries a rod on a dry journal. A ball that falls on its
+// overhang lifts two of the feet off at once: those no longer share.
+TEST(ADryJournal, IsLoadedByWhatStillPressesAfterABlowThatLiftsFeetOff) {
+  const auto on_plane = [](const std::string& marker, double mu, const std::string& more) {
+    return fmt::format(R"({{"type": "constraint_method", "restitution": 0,
+                            "between": ["{}", {{"plane": {{"point": [0, 0], "normal": [0, 1]{}}}}}],
+                            "friction": {{"type": "coulomb", "static": {}, "kinetic": {}}}}})",
+                       marker, more, mu, mu);
+  };
+  for (const double x : {-0.6, -0.5, 0.5, 0.6}) {
+    const Finished run = run_text(fmt::format(
+        R"json({{"trammel": 1, "space": "planar", "gravity": [0, -10],
+             "bodies": {{
+               "box": {{"type": "rigid_body", "mass": 1, "inertia": 0.06, "position": [0, 0.1], "velocity": [1, 0],
+                        "markers": {{"l": [-0.4, -0.1], "m": [0, -0.1], "r": [0.4, -0.1], "pin": [0, 0.1]}}}},
+               "rod": {{"type": "rigid_body", "mass": 1, "inertia": 0.03, "angle": "=pi-0.9", "velocity": [1, 0],
+                        "position": ["=0.3*sin(0.9)", "=0.2+0.3*cos(0.9)"], "markers": {{"a": [0, 0.3]}}}},
+               "ball": {{"type": "point_mass", "mass": 1, "position": [{}, 0.25], "velocity": [1, 0]}}}},
+             "joints": {{"pin": {{"type": "revolute", "between": ["box.pin", "rod.a"], "radius": 0.05,
+                                 "friction": {{"type": "coulomb", "static": 0.5, "kinetic": 0.5}}}}}},
+             "contacts": {{"l": {}, "m": {}, "r": {}, "ball": {}}},
+             "simulate": {{"until": 0.15}}, "record": {{"every": 0.05, "observe": {{"x": "box.com.x"}}}}}})json",
+        x, on_plane("box.l", 0.2, ""), on_plane("box.m", 0.2, ""), on_plane("box.r", 0.2, ""),
+        on_plane("ball.point", 1, R"(, "on": "box.pin")")));
+    ASSERT_TRUE(run.done()) << x << ": " << run.report.reason;
+    EXPECT_TRUE(run.result["warnings"].empty()) << x << run.result["warnings"].dump();
+    std::vector<std::string> lifted;
+    for (const Event& event : run.of_kind("contact_open"))
+      if (std::abs(event.t - 0.1) < 1e-9) lifted.push_back(event.contact);
+    EXPECT_THAT(lifted, testing::UnorderedElementsAre(x < 0 ? "contacts.r" : "contacts.l", "contacts.m")) << x;
+    EXPECT_NEAR(run.result["energy_drift"], 0, 1e-9) << x;
+  }
+}
+
 }  // namespace
 }  // namespace trammel::test
