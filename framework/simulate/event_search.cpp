@@ -130,8 +130,10 @@ bool EventLocation::hides_force(double h) {
 bool EventLocation::dips(const State& now, double h, const State& next, int k, Suspect& suspect) {
   const bool force = by_force(k), may_have_kink = !force || system_.model().contacts[functions_[k].contact].joint;
   Cubic cubic{0, h, now_[k].f, next_[k].f, now_[k].slope, next_[k].slope};
-  if (cubic.F_high <= 0 || (force && just_handled(k))) return false;
-  if (just_handled(k) && cubic.S_low <= 0) return false;
+  if (cubic.F_high <= 0) return false;
+  // Contacts may hold at the instant of an event, exactly at their bound, and not after it.
+  if (force && just_handled(k) && cubic.F_high <= functions_[k].noise) return false;
+  if (!force && just_handled(k) && cubic.S_low <= 0) return false;
   if (force) {
     if (!worth_slopes(k, h)) return false;
     cubic.S_low = slope_at_end(now, part_for_slopes * h, k, h, begin_slopes_);
