@@ -43,5 +43,20 @@ TEST(OntoRows, EndsAtTheNearestStateToRoundOff) {
   EXPECT_NEAR(state.v[1], -3, 5e-15);
 }
 
+// A quarter of a turn from where the system was factorised last; the system is left at the state.
+TEST(OntoRows, ProjectsVelocitiesByTheFactorsOfTheirOwnPlace) {
+  const simulate::Setup setup =
+      bob_with(R"(, "joints": {"rod": {"type": "distance", "between": ["ground", "bob.point"], "length": 5}})");
+  model::AssembledSystem system(setup.model);
+  State state = setup.initial;
+  state.v = Vec{{4 + 0.3, -3 + 0.4}};
+  EXPECT_TRUE(model::velocities_onto_rows(system, state));
+  state.q = Vec{{-4, 3}}, state.v = Vec{{3 - 0.4, 4 + 0.3}};
+  EXPECT_TRUE(model::velocities_onto_rows(system, state));
+  EXPECT_NEAR(state.v[0], 3, 5e-15);
+  EXPECT_NEAR(state.v[1], 4, 5e-15);
+  EXPECT_NEAR(system.g_dot()[0], 0, 5e-15);
+}
+
 }  // namespace
 }  // namespace trammel::test
