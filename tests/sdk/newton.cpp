@@ -128,10 +128,13 @@ TEST(Newton, IsFastWhileIncrementsHalveAndIterationsAreLeft) {
   EXPECT_FALSE(newton.fast(0.01)) << "the last iteration";
 }
 
+// Large: more than a tenth.
 TEST(Newton, GivesUpWhenLargeIncrementsGrowTwiceInARow) {
-  const Newton newton = after({0.01, 0.2, 0.5});
-  EXPECT_FALSE(newton.iterating());
-  EXPECT_FALSE(newton.converged());
+  for (const Newton& newton : {after({0.01, 0.2, 0.5}), after({0.05, 0.06, 0.11})}) {
+    EXPECT_FALSE(newton.iterating());
+    EXPECT_FALSE(newton.converged());
+  }
+  EXPECT_TRUE(after({0.05, 0.06, 0.09}).iterating());
 }
 
 TEST(Newton, GoesOnAfterOneThatGrows) {

@@ -34,7 +34,8 @@ TEST_P(EveryTheory, IsWhatTheMethodDoes) {
   const auto method = under_test.maker()();
   for (const double zeta : {0.0, 0.05, 0.7})
     for (const MapPoint& p : spectral_map(under_test.maker(), &theory_of(method), zeta, logarithmic(1e-2, 1e3, 31))) {
-      if (p.theory->radius > 1 + growth) continue;
+      // A growing motion may end beyond the range of numbers: it need only grow by both.
+      if (p.theory->radius > 1 + growth && (!p.measured || p.measured->radius > 1 + growth)) continue;
       ASSERT_TRUE(p.measured) << "Omega " << p.Omega;
       EXPECT_NEAR(p.measured->radius, p.theory->radius, 1e-5) << "Omega " << p.Omega << ", zeta " << zeta;
     }
