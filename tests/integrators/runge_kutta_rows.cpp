@@ -22,6 +22,7 @@ Projected project(const RowsOf& of, double x, double y) {
   p.closed_form = false;
   p.M = Mat::Identity(2, 2);
   p.force = [](double, const Vec&, const Vec&) { return Vec::Zero(2); };
+  p.tangent = [](const Blend& c, const Vec&, const Vec&) -> Mat { return c.c_d * Mat{{1, 2}, {2, 9}}; };
   p.rows = [&](double, const Vec& q, const Vec& v) { return ++found.points, of(q, v); };
   p.exact = [&](double, Vec& q, Vec& v) { q = Eigen::Vector2d(x, y), v = Eigen::Vector2d(1, 0.5); };
   Posed posed(p);
@@ -48,7 +49,7 @@ const RowsOf circle = [](const Vec& q, const Vec&) { return row((q.squaredNorm()
 TEST(RowsOfRungeKutta, AreSatisfiedToRoundOffWithTwoFactorisations) {
   const Projected at = project(circle, 0.0, 1.01);
   ASSERT_TRUE(at.possible);
-  EXPECT_NEAR(at.q.norm(), 1, 1e-15);
+  EXPECT_NEAR((at.q - Eigen::Vector2d(0, 1)).norm(), 0, 1e-15);  // the shortest way, whatever the damping
   EXPECT_NEAR(at.q.dot(at.v), 0, 1e-15);
   EXPECT_EQ(at.factorisations, 2);
 }
