@@ -1,10 +1,46 @@
 #include "simulate/impact/impact.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulate/impact/impact_friction.hpp"
 
 namespace trammel::simulate {
+namespace {
+
+// Whether the impact without rebounds and drifts is another one.
+bool may_jam(complementarity::LcpOutcome outcome, const std::vector<TouchingContact>& touching) {
+  const auto rebounds = [](const TouchingContact& c) { return c.restitution > 0; };
+  return outcome == complementarity::LcpOutcome::no_solution ||
+         (outcome == complementarity::LcpOutcome::gave_up && std::any_of(touching.begin(), touching.end(), rebounds));
+}
+
+}  // namespace
+
+// Finds the islands that have no impulses as asked, each beside others without rebounds and drifts, which have some.
+complementarity::ContactSolution Impact::solve_jammed(const std::vector<Participant>& asked, double at_rest,
+                                                      BearingImpulses::From from,
+                                                      const std::vector<TouchingContact>& touching,
+                                                      std::vector<bool>& jams) {
+  const auto solve_as = [&](const std::vector<bool>& jammed) {
+    problem_.who = asked;
+    for (std::size_t i = 0; i < asked.size(); ++i)
+      if (jammed[i]) problem_.who[i].a_n = touching[i].before;
+    return bearings_.solve(problem_, at_rest, from);
+  };
+  std::vector<bool> judged(touching.size(), false);  // by island
+  for (const TouchingContact& each : touching) {
+    if (judged[each.island]) continue;
+    judged[each.island] = true;
+    std::vector<bool> others;
+    for (const TouchingContact& c : touching) others.push_back(c.island != each.island);
+    const bool alone = std::none_of(others.begin(), others.end(), [](bool other) { return other; });
+    if (!alone && solve_as(others).outcome == complementarity::LcpOutcome::solved) continue;
+    for (std::size_t i = 0; i < touching.size(); ++i) jams[i] = jams[i] || !others[i];
+  }
+  return solve_as(jams);
+}
+
 complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, const State& state, double at_rest,
                                                std::vector<TouchingContact>& touching, Vec& dv) {
   problem_.who.clear();
@@ -33,23 +69,21 @@ complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, c
         friction_in_impact(system.model().contacts[std::size_t(c.contact)], c, c.slip_before.norm());
     problem_.who[i].mu_0 = friction.mu_0, problem_.who[i].mu = friction.mu;
   }
+  const std::vector<Participant> asked = problem_.who;
+  std::vector<bool> jams(touching.size(), false);
   complementarity::ContactSolution solution = bearings_.solve(problem_, at_rest, from);
-  // Closed contacts keep the rates that steps have left in them, unless the rates of dependent contacts then contradict
-  // each other (a stack that touches floor and ceiling).
-  const bool ends_drift = solution.outcome == complementarity::LcpOutcome::no_solution;
-  for (std::size_t i = 0; i < touching.size() && ends_drift; ++i)
-    problem_.who[i].a_n = touching[i].before, problem_.who[i].let_go = false;
-  if (ends_drift) solution = bearings_.solve(problem_, at_rest, from);
+  if (may_jam(solution.outcome, touching)) solution = solve_jammed(asked, at_rest, from, touching, jams);
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
   problem_.jump(dv);
   for (std::size_t i = 0; i < touching.size(); ++i) {
     TouchingContact& c = touching[i];
     const Participant& p = problem_.who[i];
+    if (jams[i]) c.restitution = 0;
     c.impulse = p.N;
     // Where the impulse acts, the complementarity gives -e u- exactly, without the round-off of D L.
     if (system.model().contacts[c.contact].joint)
       c.after = c.before;
-    else if (c.was_closed && ends_drift)
+    else if (c.was_closed && jams[i])
       c.after = p.N > 0 ? 0 : p.a_n;
     else if (c.impulse > 0)
       c.after = c.was_closed ? c.before : -c.restitution * c.before;

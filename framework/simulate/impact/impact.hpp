@@ -8,6 +8,9 @@
 //
 // L_i, T_i [N s] are the impulses, e_i the restitution of the contact's law at approach speed -u_i-; slower than the
 // law's capture_speed e_i = 0.
+// Contacts may jam: no impulses part all of them at e_i u_i- (a disc that falls into a groove and that friction holds
+// there), or the rates that steps have left in dependent closed contacts contradict each other (a stack that touches
+// floor and ceiling). Then the contacts of this island have no rebound, e_i = 0, and end their rates.
 // The friction impulse is one Coulomb decision over the whole impact, judged by the slip at its end (Moreau): a slip
 // that stops and turns within the impact is not followed, and with e > 0 an eccentric impact may gain energy (Kane's
 // paradox), which is reported (impact_warnings.hpp). With the Delassus matrix D this is the problem of
@@ -62,6 +65,10 @@ class Impact {
                                                        double at_rest, std::vector<TouchingContact>& touching, Vec& dv);
 
  private:
+  complementarity::ContactSolution solve_jammed(const std::vector<Participant>& asked, double at_rest,
+                                                BearingImpulses::From from,
+                                                const std::vector<TouchingContact>& touching, std::vector<bool>& jams);
+
   ContactProblem problem_;
   BearingImpulses bearings_;
 };

@@ -249,5 +249,38 @@ TEST(KanesRod, LosesEnergyWhereFrictionHoldsAgainstTheSlipItBeganWith) {
   }
 }
 
+// A disc falls into a groove whose walls stand at `tilt` from the vertical: it leaves at e times its speed, or jams if
+// friction holds it, tan(tilt) < mu. Another disc far away rebounds at the same instant.
+TEST(ADiscInAGroove, ReboundsOrJamsAsItsFrictionHoldsItAndTheBooksBalance) {
+  constexpr double e = 0.5, fall = 0.05, g = 10;
+  for (const double tilt : {0.2, 0.4, 0.7})
+    for (const double mu : {0.1, 0.3, 0.6, 1.0}) {
+      const auto wall = [&](const char* disc, double x, double nx, double ny) {
+        return fmt::format(R"({{"type": "constraint_method", "restitution": {}, "radius": 0.1,
+                                "friction": {{"type": "coulomb", "static": {}, "kinetic": {}}}, "between": ["{}.com",
+                                {{"plane": {{"point": [{}, 0], "normal": [{:.17g}, {:.17g}]}}}}]}})",
+                           e, mu, mu, disc, x, nx, ny);
+      };
+      const auto disc = [](double x, double y) {
+        return fmt::format(R"({{"type": "rigid_body", "mass": 1, "inertia": 0.005, "position": [{}, {:.17g}]}})", x, y);
+      };
+      const double time = std::sqrt(2 * fall / g), sine = std::sin(tilt), cosine = std::cos(tilt);
+      const Finished run = run_text(fmt::format(
+          R"({{"trammel": 1, "space": "planar", "gravity": [0, {}], "bodies": {{"in": {}, "free": {}}},
+               "contacts": {{"left": {}, "right": {}, "floor": {}}},
+               "simulate": {{"until": {:.17g}}},
+               "record": {{"every": 0.05, "observe": {{"in": "in.com.vy", "free": "free.com.vy"}}}}}})",
+          -g, disc(0, 0.1 / sine + fall), disc(5, 0.1 + fall), wall("in", 0, cosine, sine),
+          wall("in", 0, -cosine, sine), wall("free", 5, 0, 1), time + 0.01));
+      ASSERT_TRUE(run.done()) << tilt << " " << mu << ": " << run.report.reason;
+      const double rebound = e * g * time - 0.01 * g;
+      EXPECT_NEAR(run.end("in"), std::tan(tilt) < mu ? 0 : rebound, 1e-9) << tilt << " " << mu;
+      EXPECT_NEAR(run.end("free"), rebound, 1e-9) << tilt << " " << mu;
+      EXPECT_NEAR(run.result["energy_supplied"]["constraints"], 0, 1e-12) << tilt << " " << mu;
+      EXPECT_NEAR(run.result["energy_drift"], 0, 1e-9) << tilt << " " << mu;
+      for (const Event& impact : run.of_kind("impact")) EXPECT_NEAR(impact.t, time, 1e-9) << tilt << " " << mu;
+    }
+}
+
 }  // namespace
 }  // namespace trammel::test
