@@ -6,7 +6,9 @@
 //     modes of the last round -> their exact loads (AssembledSystem::accelerate) -> problem with these loads given ->
 //     modes
 //
-// A joint that locks itself while it slides has no such load: it jams (rule 8).
+// A joint that locks itself while it slides has no such load: it jams (rule 8). Where everything rests, rounds prove
+// nothing by such modes: loads exist, since large ones hold all joints, and are found as in impacts
+// (impact/bearing_impulses.hpp, with forces for impulses).
 //
 // A round that gives the same modes again is the check: it has solved the whole problem with the loads of its own
 // solution. The first round uses the loads of modes in which everything rests that may rest; so a joint that could rest
@@ -18,9 +20,13 @@
 #include <algorithm>
 
 #include "simulate/contact_mode.hpp"
+#include "simulate/impact/bearing_impulses.hpp"
 #include "system/point/locks_itself.hpp"
 
 namespace trammel::simulate {
+
+using complementarity::LcpOutcome;
+
 namespace {
 
 constexpr int most_rounds = 50;          // usually two or three are needed
@@ -85,20 +91,67 @@ bool ContactModes::was_not_held(const Participant& p, const model::Modes* loads)
          (!loads || loads->contacts[p.contact].friction == Friction::stick);
 }
 
-complementarity::ContactSolution ContactModes::decide_with_bearings(const State& state) try {
-  std::vector<Participant> asked = problem_.who;
-  std::vector<bool> not_held(asked.size(), false);
+// Decides all modes with the joints' present loads given.
+complementarity::ContactSolution ContactModes::take_verdicts_under_loads(const State& state,
+                                                                         const std::vector<Participant>& asked,
+                                                                         const model::Modes& open) {
+  std::vector<Participant> who = asked;
+  for (std::size_t i = 0; i < who.size(); ++i)
+    if (system_.model().contacts[who[i].contact].joint) who[i].given = problem_.who[i].given;
+  problem_.who = std::move(who);
+  modes_ = open;
+  return take_verdicts(state);
+}
+
+// `asked`: participants none of which slides.
+complementarity::ContactSolution ContactModes::decide_bearings_at_rest(const State& state,
+                                                                       const std::vector<Participant>& asked,
+                                                                       const model::Modes& open) {
+  BearingImpulses bearings;
+  Vec a;
+  for (const auto from : {BearingImpulses::From::nothing, BearingImpulses::From::held}) try {
+      system_.set_modes(open);
+      system_.move_to(state.t, state.q, state.v);
+      system_.accelerate({}, a, lambda_);
+      const Vec applied = lambda_.head(system_.held_rows());
+      bearings.prepare(system_, state, asked);
+      problem_.who = asked;
+      if (bearings.solve(problem_, least_acceleration(), from, applied).outcome != LcpOutcome::solved) continue;
+      if (take_verdicts_under_loads(state, asked, open).outcome != LcpOutcome::solved) continue;
+      const model::Modes found = modes_;
+      load_bearings(state, found);
+      const auto solution = take_verdicts_under_loads(state, asked, open);
+      if (solution.outcome != LcpOutcome::solved || !agree(modes_, found)) continue;
+      bearings_undecided_ = false;
+      return solution;
+    } catch (const model::LocksItself&) {
+    }
+  bearings_undecided_ = true;
+  return {LcpOutcome::gave_up, 0};
+}
+
+complementarity::ContactSolution ContactModes::decide_with_bearings(const State& state) {
+  const std::vector<Participant> asked = problem_.who;
   const model::Modes open = modes_;
+  const auto rests = [](const Participant& p) { return p.tangent != Participant::Tangent::sliding; };
+  const bool all_rest = std::all_of(asked.begin(), asked.end(), rests);
+  try {
+    const auto solution = decide_in_rounds(state, asked, open);
+    if (solution.outcome != LcpOutcome::gave_up || !all_rest) return solution;
+  } catch (const model::LocksItself&) {
+    if (!all_rest) return {LcpOutcome::no_solution, 0};
+  }
+  return decide_bearings_at_rest(state, asked, open);
+}
+
+complementarity::ContactSolution ContactModes::decide_in_rounds(const State& state, std::vector<Participant> asked,
+                                                                const model::Modes& open) {
+  std::vector<bool> not_held(asked.size(), false);
   std::vector<model::Modes> had;  // found since the last joint let go
   load_bearings_at_rest(state, open);
   for (int round = 0; round < most_rounds; ++round) {
-    std::vector<Participant> who = asked;
-    for (std::size_t i = 0; i < who.size(); ++i)
-      if (system_.model().contacts[who[i].contact].joint) who[i].given = problem_.who[i].given;
-    problem_.who = std::move(who);
-    modes_ = open;
-    const complementarity::ContactSolution solution = take_verdicts(state);
-    if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
+    const complementarity::ContactSolution solution = take_verdicts_under_loads(state, asked, open);
+    if (solution.outcome != LcpOutcome::solved) return solution;
     const model::Modes* last = had.empty() ? nullptr : &had.back();
     if (last && agree(modes_, *last)) return solution;
     for (std::size_t i = 0; i < asked.size(); ++i) not_held[i] = not_held[i] || was_not_held(problem_.who[i], last);
@@ -113,9 +166,7 @@ complementarity::ContactSolution ContactModes::decide_with_bearings(const State&
     load_bearings(state, modes_);
   }
   bearings_undecided_ = true;
-  return {complementarity::LcpOutcome::gave_up, 0};
-} catch (const model::LocksItself&) {
-  return {complementarity::LcpOutcome::no_solution, 0};
+  return {LcpOutcome::gave_up, 0};
 }
 
 }  // namespace trammel::simulate

@@ -53,7 +53,8 @@
 // 10. Joints with friction take part like compliant contacts; their normal force is the load of their bearings. This
 //     load depends on the forces sought, so the problem is solved in rounds (bearing_decision.cpp). In impacts they rub
 //     under the impulses of their reactions (bearing_impulses.hpp). A joint that locks itself while it slides has no
-//     finite forces: it jams by rule 8. Rounds that find no modes prove nothing.
+//     finite forces: it jams by rule 8. Rounds that find no modes prove nothing; where everything rests, loads exist
+//     and are sought as in impacts.
 // 11. Rule 3 may not decide which contacts press: a contact that was closed has neither force nor acceleration, and the
 //     others do not hold it (a stack below a ceiling that begins to tip), or no solution is found to round-off. Then
 //     the same problem is solved for the state a moment later, or later still if that leaves it open. If it has no
@@ -211,6 +212,14 @@ class ContactModes {
   // For joints with friction (bearing_decision.cpp).
   bool has_bearings() const;
   [[nodiscard]] complementarity::ContactSolution decide_with_bearings(const State& state);
+  [[nodiscard]] complementarity::ContactSolution decide_in_rounds(const State& state, std::vector<Participant> asked,
+                                                                  const model::Modes& open);
+  [[nodiscard]] complementarity::ContactSolution decide_bearings_at_rest(const State& state,
+                                                                         const std::vector<Participant>& asked,
+                                                                         const model::Modes& open);
+  [[nodiscard]] complementarity::ContactSolution take_verdicts_under_loads(const State& state,
+                                                                           const std::vector<Participant>& asked,
+                                                                           const model::Modes& open);
   bool was_not_held(const Participant& p, const model::Modes* loads) const;
   void load_bearings_at_rest(const State& state, const model::Modes& open);
   void load_bearings(const State& state, const model::Modes& modes);
