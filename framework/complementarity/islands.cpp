@@ -56,6 +56,7 @@ std::vector<Island> islands(const std::vector<ContactPoint>& points, const Mat& 
   std::vector<Island> all;
   for (const std::vector<std::size_t>& members : members_of_islands(points, A)) {
     Island& island = all.emplace_back();
+    island.members = members;
     for (const std::size_t i : members) add(points[i], island);
   }
   return all;

@@ -14,6 +14,7 @@ std::vector<std::size_t> island_of_each(const std::vector<ContactPoint>& points,
 struct Island {
   std::vector<ContactPoint> points;  // with rows of the island
   std::vector<Eigen::Index> rows;    // row of A for each row of the island
+  std::vector<std::size_t> members;  // its contacts, by index, in the order of `points`
 };
 std::vector<Island> islands(const std::vector<ContactPoint>& points, const Mat& A);
 

@@ -68,6 +68,7 @@ class ContactScale {
   void take_contacts(model::AssembledSystem& system);  // from the markers of contacts
 
   Scale of(int contact) const;
+  std::size_t island(int contact) const { return island_of_contact_[std::size_t(contact)]; }
   const Scale& scene() const { return scene_; }  // the largest of all
 
   void archive(Archive& a);

@@ -78,7 +78,7 @@ void ContactModes::judge_brief(const State& state, std::size_t at_rest_now, Brie
   system_.move_to(state.t, state.q, state.v + change);
   accelerate_participants();
   do {
-    if (problem_.solve(least_acceleration()).outcome != LcpOutcome::solved) return;
+    if (problem_.solve().outcome != LcpOutcome::solved) return;
   } while (let_fast_slips_go());
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     const Participant& p = problem_.who[i];
@@ -94,8 +94,8 @@ void ContactModes::judge_brief(const State& state, std::size_t at_rest_now, Brie
 
 bool ContactModes::stops_at_once(std::size_t participant) const {
   const Participant& p = problem_.who[participant];
-  return p.a_t.norm() <= least_acceleration() && cannot_follow(p.contact, beginning_to_slip(p)->slip_after.norm(),
-                                                               -problem_.deceleration_to_spare(participant));
+  return p.a_t.norm() <= p.nothing && cannot_follow(p.contact, beginning_to_slip(p)->slip_after.norm(),
+                                                    -problem_.deceleration_to_spare(participant));
 }
 
 // Contacts whose slip friction does not end at once slide instead of resting. True if there are any: the forces are to

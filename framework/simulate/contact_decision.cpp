@@ -62,13 +62,19 @@ void ContactModes::open_all(model::Modes& modes) const {
   modes.shared.clear();
 }
 
+// [m/s] Round-off that the impact leaves in the rates of this contact: of the rates before it in its island.
+double ContactModes::error_of_impact(int contact) const {
+  double scale = 0;
+  for (const TouchingContact& c : touching_)
+    if (scale_.island(c.contact) == scale_.island(contact))
+      scale = std::max({scale, std::abs(c.before), c.slip_before.norm()});
+  return 1e-9 * scale;
+}
+
 void ContactModes::find_candidates(const ContactChanges& changes) {
   candidates_.clear();
-  double scale = 0;
-  for (const TouchingContact& c : touching_) scale = std::max({scale, std::abs(c.before), c.slip_before.norm()});
-  const double jump = 1e-9 * scale;  // [m/s] round-off of the impact
   for (const TouchingContact& c : touching_) {
-    const double rest_speed = jump + scale_.of(c.contact).rest_speed();
+    const double rest_speed = error_of_impact(c.contact) + scale_.of(c.contact).rest_speed();
     const bool constrained = c.impulse > 0 && treatment(c.contact).rebound == Restitution::Rebound::constrained;
     // A closed contact may have kept the rate that the steps left in it, or have lost it with others (rule 2).
     const bool rests = std::abs(c.after) <= rest_speed || (c.was_closed && std::abs(c.after - c.before) <= rest_speed);
@@ -92,8 +98,14 @@ double ContactModes::unresolved(int contact, const State& state) {
   return std::max(mode.least_slip, 0.1 * *steps_.fixed * system_.slip_acceleration(contact, state.a).norm());
 }
 
-double ContactModes::least_acceleration() const {
-  return std::max(scale_.scene().no_acceleration(), 1e-12 * largest_);
+double ContactModes::least_acceleration(int contact) const {
+  const double largest = largest_.empty() ? 0 : largest_[std::size_t(contact)];
+  return std::max(scale_.of(contact).no_acceleration(), 1e-12 * largest);
+}
+
+// Of a solution with the violation found.
+double ContactModes::least_acceleration(const Participant& p) const {
+  return std::max(p.nothing, undecided * p.violation * largest_[std::size_t(p.contact)]);
 }
 
 // Rule 5: whether the contact is at rest in the tangent, and its coefficients.
@@ -112,10 +124,7 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
   if (p.mu_0 == 0) return;
   const model::ContactMode& before = before_.contacts[p.contact];
   const bool was_closed = before.closed && before.friction != Friction::none;
-  double rest_speed = stick_speed(p.contact);
-  if (jumped)
-    for (const TouchingContact& c : touching_)
-      rest_speed = std::max({rest_speed, 1e-9 * std::abs(c.before), 1e-9 * c.slip_before.norm()});
+  const double rest_speed = std::max(stick_speed(p.contact), jumped ? error_of_impact(p.contact) : 0);
   bool rests = speed <= rest_speed;
   p.direction = direction_of(slip);
   if (was_closed && !jumped) {
@@ -213,7 +222,7 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes) {
 // Rules 3, 5, 6 and 7.
 complementarity::ContactSolution ContactModes::decide(State& state, ContactChanges changes, bool jumped) {
   bearings_undecided_ = false;
-  largest_ = 0;  // a value of an earlier event would be unknown to a resumed run
+  largest_.assign(modes_.contacts.size(), 0);  // values of an earlier event would be unknown to a resumed run
   do {
     gather(state, changes, jumped);
     open_all(modes_);
@@ -234,9 +243,11 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
 }
 
 complementarity::ContactSolution ContactModes::take_verdicts(const State& state) {
-  const complementarity::ContactSolution solution = problem_.solve(least_acceleration());
+  const complementarity::ContactSolution solution = problem_.solve();
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
-  const std::vector<bool> kept_closed = problem_.kept_closed(least_acceleration(solution.violation));
+  std::vector<double> nothing;
+  for (const Participant& p : problem_.who) nothing.push_back(least_acceleration(p));
+  const std::vector<bool> kept_closed = problem_.kept_closed(nothing);
   for (std::size_t i = 0; i < problem_.who.size(); ++i) take_verdict(problem_.who[i], kept_closed[i]);
   find_shares(state);
   open_pulling_ones(state);
@@ -406,29 +417,37 @@ void ContactModes::hold(const State& state, const std::vector<Participant*>& hel
   if (!held.empty()) find_shares(state);
 }
 
-double ContactModes::least_acceleration(double violation) const {
-  return std::max(least_acceleration(), undecided * violation * largest_);
-}
-
-// Rule 11: `violation`, the error of the solution, leaves open which contacts press.
-bool ContactModes::in_balance(double violation) const {
-  double largest = 0;
-  for (const Participant& p : problem_.who) largest = std::max(largest, p.N);
-  return std::any_of(problem_.who.begin(), problem_.who.end(), [&](const Participant& p) {
+// Rule 11. By participant: the error of the solution of its island leaves open which contacts press.
+std::vector<bool> ContactModes::in_balance() const {
+  if (problem_.who.empty()) return {};
+  const std::vector<double> largest = problem_.largest_beside();
+  const std::vector<std::size_t> island = problem_.islands();
+  std::vector<bool> open(problem_.who.size(), false), all;  // by island
+  for (std::size_t i = 0; i < problem_.who.size(); ++i) {
+    const Participant& p = problem_.who[i];
     const bool opens = before_.contacts[p.contact].closed && !modes_.contacts[p.contact].closed;
-    const bool just_presses = p.N > 0 && p.N <= undecided * violation * largest;
-    return p.unilateral && (just_presses || (opens && p.a_n <= least_acceleration(violation)));
-  });
+    const bool just_presses = p.N > 0 && p.N <= undecided * p.violation * largest[i];
+    if (p.unilateral && (just_presses || (opens && p.a_n <= least_acceleration(p)))) open[island[i]] = true;
+  }
+  for (const std::size_t k : island) all.push_back(open[k]);
+  return all;
 }
 
-// [s] The time in which the scene crosses its length, or in which a slip ends. At the system's point, where a_ are the
-// accelerations.
-double ContactModes::time_of_change() {
-  const Scale& scene = scale_.scene();
-  const double speed = std::max(scene.speed, std::sqrt(largest_ * scene.length()));
-  double least = speed > 0 ? scene.length() / speed : 0;
+// [s] The time in which these contacts cross the length of their scene, or in which a slip ends. At the system's point,
+// where a_ are the accelerations.
+double ContactModes::time_of_change(const std::vector<bool>& asked) {
+  double length = 0, speed = 0, largest = 0;
+  const auto is_asked = [&](const Participant& p) { return asked[std::size_t(p.contact)]; };
   for (const Participant& p : problem_.who) {
-    if (p.tangent != Tangent::sliding) continue;
+    if (!is_asked(p)) continue;
+    const Scale scale = scale_.of(p.contact);
+    length = std::max(length, scale.length()), speed = std::max(speed, scale.speed);
+    largest = std::max(largest, largest_[std::size_t(p.contact)]);
+  }
+  speed = std::max(speed, std::sqrt(largest * length));
+  double least = speed > 0 ? length / speed : 0;
+  for (const Participant& p : problem_.who) {
+    if (p.tangent != Tangent::sliding || !is_asked(p)) continue;
     const Tangential slip = system_.slip(p.contact), change = system_.slip_acceleration(p.contact, a_);
     if (!(slip.dot(change) < 0)) continue;  // it does not slow down
     const double slips = slip.norm();
@@ -437,16 +456,32 @@ double ContactModes::time_of_change() {
   return least;
 }
 
-// Rule 11: decides by the state a moment later.
+namespace {
+
+// Modes of the contacts that are not asked are those decided.
+void keep_others(const model::Modes& decided, const std::vector<bool>& asked, model::Modes& modes) {
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    if (!asked[i]) modes.contacts[i] = decided.contacts[i];
+  const auto is_asked = [&](const model::SharedRows& group) {
+    return asked[std::size_t(group.implied.front().contact)];
+  };
+  std::erase_if(modes.shared, [&](const model::SharedRows& group) { return !is_asked(group); });
+  for (const model::SharedRows& group : decided.shared)
+    if (!is_asked(group)) modes.shared.push_back(group);
+}
+
+}  // namespace
+
+// Rule 11: decides by the state a moment later. `asked`: contacts whose modes are open.
 complementarity::ContactSolution ContactModes::decide_by_what_follows(const State& state, ContactChanges changes,
-                                                                      bool jumped,
+                                                                      bool jumped, const std::vector<bool>& asked,
                                                                       complementarity::ContactSolution so_far) {
   using complementarity::LcpOutcome;
   const model::Modes decided = modes_;
   system_.set_modes(so_far.outcome == LcpOutcome::solved ? modes_ : before_);
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
-  const double time = time_of_change();
+  const double time = time_of_change(asked);
   const Vec a = a_;
   changes.released.clear();
   for (const double part : moments_later) {
@@ -459,6 +494,7 @@ complementarity::ContactSolution ContactModes::decide_by_what_follows(const Stat
     find_candidates(changes);
     const complementarity::ContactSolution solution = decide(later, changes, jumped);
     system_.move_to(state.t, state.q, state.v);
+    if (solution.outcome == LcpOutcome::solved) keep_others(decided, asked, modes_);
     if (solution.outcome != LcpOutcome::gave_up) return solution;
   }
   modes_ = decided;
@@ -468,13 +504,22 @@ complementarity::ContactSolution ContactModes::decide_by_what_follows(const Stat
 // Accelerations of the participants without the forces sought, and the given normal forces.
 void ContactModes::accelerate_participants() {
   system_.accelerate({}, a_, lambda_);
-  largest_ = 0;
-  for (Participant& p : problem_.who) {
+  const std::vector<std::size_t> island = problem_.islands();
+  std::vector<double> largest(island.size(), 0), least(island.size(), 0);  // by island
+  for (std::size_t i = 0; i < island.size(); ++i) {
+    Participant& p = problem_.who[i];
     if (!p.unilateral) p.given = system_.normal_force(p.contact, lambda_);
     p.least_slip = scale_.of(p.contact).no_acceleration();
     p.a_n = system_.acceleration({p.contact, 0}, a_);
     if (p.tangent != Tangent::none) p.a_t = system_.slip_acceleration(p.contact, a_);
-    largest_ = std::max({largest_, std::abs(p.a_n), p.a_t.norm()});
+    largest[island[i]] = std::max({largest[island[i]], std::abs(p.a_n), p.a_t.norm()});
+    least[island[i]] = std::max(least[island[i]], p.least_slip);
+  }
+  largest_.assign(modes_.contacts.size(), 0);
+  for (std::size_t i = 0; i < island.size(); ++i) {
+    Participant& p = problem_.who[i];
+    largest_[std::size_t(p.contact)] = largest[island[i]];
+    p.nothing = std::max(least[island[i]], 1e-12 * largest[island[i]]);
   }
 }
 

@@ -35,11 +35,11 @@ bool ContactModes::blocked(const std::vector<Participant>& who) const {
   for (const Participant& p : who) {
     if (!p.unilateral) continue;
     Participant& pressing = without_friction.who.emplace_back();
-    pressing.contact = p.contact, pressing.a_n = p.a_n;
+    pressing.contact = p.contact, pressing.a_n = p.a_n, pressing.nothing = p.nothing;
   }
   if (without_friction.who.empty()) return false;
   without_friction.prepare(system_);
-  return without_friction.solve(least_acceleration()).outcome == LcpOutcome::no_solution;
+  return without_friction.solve().outcome == LcpOutcome::no_solution;
 }
 
 void ContactModes::fail_without_solution(const char* what, double t, const complementarity::ContactSolution& solution,

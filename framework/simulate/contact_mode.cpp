@@ -28,8 +28,11 @@ constexpr double locked_by_error = 1e-7;
 bool is_idle(const model::Modes& modes, int contact) {
   return std::any_of(modes.shared.begin(), modes.shared.end(), [&](const model::SharedRows& group) {
     const auto row = [contact](const model::ContactDirection& d) { return d.contact == contact && d.row == 0; };
-    const auto k = std::find_if(group.implied.begin(), group.implied.end(), row) - group.implied.begin();
-    return k < std::ssize(group.implied) && group.share.row(std::ssize(group.basis) + k).isZero(0);
+    const auto has_no_share = [&](const std::vector<model::ContactDirection>& rows, std::ptrdiff_t first) {
+      const auto k = std::find_if(rows.begin(), rows.end(), row) - rows.begin();
+      return k < std::ssize(rows) && group.share.row(first + k).isZero(0);
+    };
+    return has_no_share(group.basis, 0) || has_no_share(group.implied, std::ssize(group.basis));
   });
 }
 
@@ -100,9 +103,14 @@ complementarity::ContactSolution ContactModes::decide_with_doubts(State& state, 
     find_candidates(others);
     solution = decide(state, others, jumped);
   }
-  const bool undecided = solution.outcome == LcpOutcome::gave_up ||
-                         (solution.outcome == LcpOutcome::solved && in_balance(solution.violation));
-  return undecided ? decide_by_what_follows(state, changes, jumped, solution) : solution;
+  if (solution.outcome == LcpOutcome::no_solution) return solution;
+  std::vector<bool> asked(modes_.contacts.size(), solution.outcome == LcpOutcome::gave_up);
+  if (solution.outcome == LcpOutcome::solved) {
+    const std::vector<bool> open = in_balance();
+    if (std::find(open.begin(), open.end(), true) == open.end()) return solution;
+    for (std::size_t i = 0; i < open.size(); ++i) asked[std::size_t(problem_.who[i].contact)] = open[i];
+  }
+  return decide_by_what_follows(state, changes, jumped, asked, solution);
 }
 
 void ContactModes::take_approach_speeds(const ContactChanges& changes) {
@@ -135,7 +143,7 @@ bool ContactModes::changes_sign_by_infinity(const State& state, const ContactCha
   return std::any_of(released.begin(), released.end(), [&](int contact) {
     const double scene = 1e12 * scale_.of(contact).no_acceleration();
     return !modes_.contacts[contact].closed &&
-           system_.acceleration({contact, 0}, a_) < -opened_by_error * std::max(largest_, scene);
+           system_.acceleration({contact, 0}, a_) < -opened_by_error * std::max(largest_[std::size_t(contact)], scene);
   });
 }
 
@@ -173,7 +181,8 @@ complementarity::ContactSolution ContactModes::decide_otherwise(const State& sta
   for (TouchingContact& c : touching_) c.without_collision = false;
   find_candidates(changes);
   gather(state, changes, false);
-  const auto solution = decide_by_what_follows(state, changes, false, {LcpOutcome::gave_up, 0});
+  const auto solution = decide_by_what_follows(state, changes, false, std::vector<bool>(modes_.contacts.size(), true),
+                                               {LcpOutcome::gave_up, 0});
   if (solution.outcome == LcpOutcome::solved && carry_alike(modes_, before_)) return {LcpOutcome::gave_up, 0};
   return solution;
 }
@@ -307,17 +316,29 @@ double ContactModes::rest_speed(const std::vector<TouchingContact>& contacts) co
   return largest;
 }
 
-double ContactModes::distance_from_critical(const State& state) {
+// The contacts that are closed, in their present modes.
+void ContactModes::prepare_present(const State& state) {
   system_.move_to(state.t, state.q, state.v);
   before_ = modes_ = system_.modes();
   shared_before_.assign(modes_.contacts.size(), false);
   candidates_.clear();
   for (int i = 0; i < int(modes_.contacts.size()); ++i)
-    if (modes_.contacts[i].closed && system_.model().contacts[i].restitution) candidates_.push_back(i);
+    if (modes_.contacts[i].closed && system_.model().contacts[i].restitution && !locks(i)) candidates_.push_back(i);
   gather(state, {}, false);
+  modes_ = before_;
   for (Participant& p : problem_.who) p.idle = system_.sharing(p.contact).idle;
   problem_.prepare(system_);
+}
+
+double ContactModes::distance_from_critical(const State& state) {
+  prepare_present(state);
   return problem_.distance_from_critical(before_);
+}
+
+void ContactModes::renew_bases(State& state) {
+  prepare_present(state);
+  modes_.shared = problem_.shared_rows(modes_);
+  finish(state, false);
 }
 
 double ContactModes::step_limit(const State& state) {

@@ -63,8 +63,9 @@
 //     of which slide (blocks that push each other along a channel). The shares of springs (complementarity/shares)
 //     would exceed the bound, and other shares would give another motion. Such a contact keeps T = mu N like one that
 //     slides, without a slip. If mu < mu_0 it has let go (rule 6), and all modes are decided again.
-// 13. A contact without a force stays closed (idle) only while rows of contacts that carry hold it. Where these are
-//     about to depend on each other (a stack that becomes a strut), they do not, and it opens. Which contacts are idle
+// 13. A contact without a force stays closed (idle) only while rows of contacts that carry hold it. Where these come
+//     to depend on each other (a stack that becomes a strut), they do not, and it opens: its force as a spring passes 0
+//     there, which locates that state. Which contacts are idle
 //     affects the motion if others slide, so the forces in the modes decided are computed: if they pull or leave a
 //     cone, contacts whose force may be an error (up to 1e-6 of the largest of their island) count as idle, too, or
 //     else none does. A contact with such a force that pulls by its row in these modes opens, if its gap then
@@ -100,14 +101,21 @@ struct ContactChanges {
   std::vector<int> toggled;   // ContactForce: force on or off
   std::vector<int> yielded;   // sticking contacts whose friction reached its bound
   std::vector<int> stopped;   // sliding contacts whose slip reached 0
+  bool leaning = false;       // rows in g have become nearly dependent: other ones are to hold the same contacts
   bool locked = false;        // sliding contacts have no finite forces from here on (rule 8)
   double raised = 0;          // friction then counts as larger by this part: the distance of the state from that point
+  bool only_leaning() const {
+    ContactChanges others = *this;
+    others.leaning = false;
+    return leaning && others.empty();
+  }
   bool empty() const {
-    return struck.empty() && released.empty() && toggled.empty() && yielded.empty() && stopped.empty() && !locked;
+    return struck.empty() && released.empty() && toggled.empty() && yielded.empty() && stopped.empty() && !leaning &&
+           !locked;
   }
   void clear() {
     struck.clear(), released.clear(), toggled.clear(), yielded.clear(), stopped.clear();
-    locked = false, raised = 0;
+    leaning = locked = false, raised = 0;
   }
 };
 
@@ -122,6 +130,8 @@ class ContactModes {
 
   // Applies the changes at `state`: v jumps, modes and sizes change, a and lambda are solved anew. Appends the events.
   void settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
+  // Modes stay as they are, and so do all forces; contacts that share rows take the best conditioned basis.
+  void renew_bases(State& state);
   // Energy lost in the last impacts [J]: through contacts, also closed ones; and elsewhere, through moving rows.
   struct Loss {
     int contact;
@@ -132,8 +142,7 @@ class ContactModes {
   ImpactWarnings& impact_warnings() { return impact_warnings_; }
   const ImpactWarnings& impact_warnings() const { return impact_warnings_; }
 
-  double least_acceleration() const;                  // [m/s^2] a smaller one counts as no acceleration
-  double least_acceleration(double violation) const;  // of a solution found with this violation
+  double least_acceleration(int contact) const;  // [m/s^2] a smaller one counts as no acceleration
   // How near the forces of sliding contacts are to having no solution: the least pivot of their equations relative to
   // that without friction; 0 at Painleve's critical state, 1 far from it.
   double distance_from_critical(const State& state);
@@ -154,6 +163,7 @@ class ContactModes {
   using Kind = ContactEvent::Kind;
 
   void begin(const State& state);
+  void prepare_present(const State& state);
   bool any_approaches() const;
   [[nodiscard]] complementarity::ContactSolution decide_with_doubts(State& state, const ContactChanges& changes,
                                                                     bool jumped);
@@ -188,6 +198,7 @@ class ContactModes {
   double take_rates(State& state, const std::vector<bool>& rests, const std::vector<bool>& stops);
   bool cannot_follow(int contact, double separation, double acceleration) const;
   void lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
+  double error_of_impact(int contact) const;
   void find_candidates(const ContactChanges& changes);
   void open_all(model::Modes& modes) const;
   void gather(const State& state, const ContactChanges& changes, bool jumped);
@@ -204,10 +215,11 @@ class ContactModes {
   [[nodiscard]] bool has_forces_in(const model::Modes& modes, const State& state);
   std::vector<Participant*> held_at_bounds(const State& state);
   void hold(const State& state, const std::vector<Participant*>& held);
-  bool in_balance(double violation) const;
-  double time_of_change();
+  double least_acceleration(const Participant& p) const;
+  std::vector<bool> in_balance() const;
+  double time_of_change(const std::vector<bool>& asked);
   [[nodiscard]] complementarity::ContactSolution decide_by_what_follows(const State& state, ContactChanges changes,
-                                                                        bool jumped,
+                                                                        bool jumped, const std::vector<bool>& asked,
                                                                         complementarity::ContactSolution so_far);
   // For joints with friction (bearing_decision.cpp).
   bool has_bearings() const;
@@ -261,7 +273,7 @@ class ContactModes {
   std::vector<Loss> losses_;
   double lost_elsewhere_ = 0;
   bool bearings_undecided_ = false;  // in the last decision no modes agreed with the loads of the bearings
-  double largest_ = 0;               // [m/s^2] of the accelerations without the forces sought
+  std::vector<double> largest_;      // [m/s^2] by contact: of the accelerations without the forces sought in its island
   Vec dv_, v_before_, a_, lambda_, lambda_before_;
 };
 

@@ -11,13 +11,19 @@ namespace {
 
 using Friction = model::ContactMode::Friction;
 
+// Rates of the rows in g appear at most as many times in the rows that follow from them, and so do drifts.
+constexpr double most_leverage = 10;
+
 }  // namespace
 
 void EventLocation::set_up_functions() {
   for (int i = 0; i < int(system_.model().contacts.size()); ++i) add_functions(i);
   const std::vector<model::SharedRows>& shared = system_.modes().shared;
-  for (std::size_t group = 0; group < shared.size(); ++group)
-    functions_.push_back({.contact = shared[group].implied.front().contact, .kind = Kind::follow, .group = int(group)});
+  for (std::size_t group = 0; group < shared.size(); ++group) {
+    const int contact = shared[group].implied.front().contact;
+    functions_.push_back({.contact = contact, .kind = Kind::follow, .group = int(group)});
+    functions_.push_back({.contact = contact, .kind = Kind::lean, .at_ends = true, .group = int(group)});
+  }
 }
 
 void EventLocation::add_functions(int contact) {
@@ -35,7 +41,7 @@ void EventLocation::add_functions(int contact) {
   }
   if (entry.restitution && entry.restitution->treatment().release == Restitution::Release::never) return;
   const model::AssembledSystem::Sharing sharing = system_.sharing(contact);
-  const bool as_one = sharing.group >= 0 && !sharing.as_spring;
+  const bool as_one = sharing.shared && !sharing.as_spring;
   if (as_one && !has_group(sharing.group))
     functions_.push_back({.contact = contact, .kind = Kind::unload, .group = sharing.group});
   if (entry.force)
@@ -173,6 +179,7 @@ EventLocation::Value EventLocation::value(int k, const State& state, bool& accel
     accelerate();
     return {function.little - system_.departure(function.group, a_), 0};
   }
+  if (function.kind == Kind::lean) return {most_leverage - system_.leverage(function.group), 0};
   if (!by_force(k)) {
     const double sign = function.kind == Kind::leave ? -1 : 1;
     return {sign * system_.gap(function.contact), sign * system_.gap_rate(function.contact)};

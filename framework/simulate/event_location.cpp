@@ -50,7 +50,7 @@ void EventLocation::restart(const State& now) {
   set_up_functions();
   for (EventFunction& each : functions_) {
     if (each.kind == Kind::unload) each.little = little_force(each.group);
-    if (each.kind == Kind::follow) each.little = 10 * modes_.least_acceleration();
+    if (each.kind == Kind::follow) each.little = 10 * modes_.least_acceleration(each.contact);
     if (each.kind == Kind::hold) each.little = little_friction(each.contact);
   }
   next_.resize(functions_.size()), probe_.resize(functions_.size());
@@ -58,6 +58,9 @@ void EventLocation::restart(const State& now) {
   allow_for_critical_friction();
   choose_sides(before);
   for (EventFunction& function : functions_) measure_undirected(0, now, function);
+  for (std::size_t k = 0; k < before.size() && before.size() == functions_.size(); ++k)
+    if (functions_[k].kind == Kind::follow)  // a change of bases does not know the accelerations without forces
+      functions_[k].little = std::max(functions_[k].little, before[k].little);
   for (std::size_t k = 0; k < functions_.size(); ++k) functions_[k].steepest = std::abs(now_[k].slope);
   for (std::size_t k = 0; k < before.size() && before.size() == functions_.size(); ++k)
     wait_longer(before[k], now_[k], functions_[k]);
@@ -121,7 +124,9 @@ EventLocation::Value EventLocation::step_to(const State& now, double h, int k) {
 void EventLocation::find_suspects(const State& now, double h, const State& next) {
   for (int k = 0; k < int(functions_.size()); ++k) {
     Suspect suspect{k, h, next_[k]};
-    if (functions_[k].at_ends) {
+    if (functions_[k].kind == Kind::lean) {
+      if (next_[k].f < -functions_[k].noise) at_end_.push_back(k);
+    } else if (functions_[k].at_ends) {
       if (next_[k].f < 0 && (by_force(k) || next_[k].slope < -scale_.of(functions_[k].contact).rest_speed()))
         at_end_.push_back(k);
     } else if (happened(k, next_[k]) || dips(now, h, next, k, suspect) || returns(now, h, k, suspect)) {
@@ -216,6 +221,10 @@ void EventLocation::shorten(const State& now, double h_event, double& h, State& 
 // again when several times as much is missing.
 void EventLocation::wait_longer(const EventFunction& before, const Value& now, EventFunction& function) const {
   if (function.kind == Kind::load) return;
+  if (function.kind == Kind::lean) {  // there is no better basis
+    if (now.f < 0) function.noise = 2 * std::abs(now.f);
+    return;
+  }
   function.noise = std::max(function.noise, before.noise);
   if (before.reported || now.f < 0)
     function.noise = std::max({function.noise, function.little, 2 * std::abs(now.f), 4 * before.noise});
@@ -237,6 +246,9 @@ void EventLocation::report(int k) {
     case Kind::unload:
     case Kind::follow:
       return add(changes_.released);
+    case Kind::lean:
+      changes_.leaning = true;
+      return;
     case Kind::hold:
       return add(changes_.yielded);
     case Kind::load:  // all modes are decided again
@@ -260,6 +272,7 @@ void EventLocation::collect() {
     const Value& end = next_[k];
     const Scale scale = scale_.of(functions_[k].contact);
     const bool falls = end.slope < -scale.rest_speed();
+    if (functions_[k].kind == Kind::lean) continue;  // the modes that follow have rows of their own
     if (functions_[k].at_ends ? end.f < 0 && (by_force(k) || falls)
         : by_force(k)         ? end.f <= vanished_force * functions_[k].bound && !just_handled(k)
         : functions_[k].kind == Kind::slide

@@ -8,6 +8,7 @@
 //     idle       closed without a force         minus the force that it would carry as a spring
 //     unload     contacts that share rows        their spare load
 //     follow     contacts that share rows        a small acceleration minus that of an implied direction
+//     lean       contacts that share rows        how far the rows in g are from depending on each other
 //     slide      sliding contact                 slip velocity along its direction where the step began
 //     load       bearing of a joint that rubs    its load, on the side on which it presses (signed_loads.hpp)
 // In space a slip without a direction that other contacts hold back has also stopped, although it crosses no zero
@@ -75,7 +76,7 @@ class EventLocation {
   void archive(Archive& a);
 
  private:
-  enum class Kind { approach, leave, press, hold, slide, idle, unload, follow, load };
+  enum class Kind { approach, leave, press, hold, slide, idle, unload, follow, lean, load };
   struct EventFunction {
     int contact;
     Kind kind;
@@ -113,7 +114,8 @@ class EventLocation {
     return kind == Kind::press || kind == Kind::hold || kind == Kind::idle || kind == Kind::unload ||
            kind == Kind::load;
   }
-  bool has_slope(int k) const { return !by_force(k) && functions_[k].kind != Kind::follow; }
+  bool has_slope(int k) const { return !by_force(k) && !of_rows(k); }
+  bool of_rows(int k) const { return functions_[k].kind == Kind::follow || functions_[k].kind == Kind::lean; }
   bool lacks_direction(const EventFunction& function);
   bool stalls(double h, const State& next, int k);
   void measure_undirected(double h, const State& next, EventFunction& function);

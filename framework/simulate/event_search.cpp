@@ -71,7 +71,7 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
     if (functions_[k].kind == Kind::slide && std::abs(next_[k].slope) > 4 * functions_[k].steepest &&
         std::abs(next_[k].slope) * h > now_[k].f && now_[k].f > functions_[k].noise)
       return true;
-    if (functions_[k].at_ends || functions_[k].kind == Kind::slide || functions_[k].kind == Kind::follow) continue;
+    if (functions_[k].at_ends || functions_[k].kind == Kind::slide || of_rows(k)) continue;
     (by_force(k) ? forces : gaps) = true;
   }
   if (gaps || (forces && h_before_ == 0)) {
@@ -94,7 +94,7 @@ bool EventLocation::swings_matter(const std::vector<Value>& values, double h) co
 bool EventLocation::hides_gap(double h) {
   system_.move_to(between_.t, between_.q, between_.v);
   for (int k = 0; k < int(functions_.size()); ++k) {
-    if (functions_[k].at_ends || functions_[k].kind == Kind::slide || functions_[k].kind == Kind::follow || by_force(k))
+    if (functions_[k].at_ends || functions_[k].kind == Kind::slide || of_rows(k) || by_force(k))
       continue;
     const Value &begin = now_[k], &end = next_[k];
     const Cubic cubic{0, h, begin.f, end.f, begin.slope, end.slope};

@@ -37,6 +37,12 @@ void Simulator::settle(const ContactChanges& changes) {
   at_new_modes();
 }
 
+// No event: only the rows in g change, and no force.
+void Simulator::renew_bases() {
+  modes_.renew_bases(now_);
+  at_new_modes();
+}
+
 void Simulator::at_new_modes() {
   integrator_.restart(system_, now_);
   restart_all_but_integrator();

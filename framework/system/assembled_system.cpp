@@ -299,7 +299,7 @@ const Motion& AssembledSystem::motion(MarkerRef marker) {
 }
 
 int AssembledSystem::sign() const {
-  return parts_->factors.sign(FactorsAtPoint::at_point);
+  return parts_->factors.sign(FactorsAtPoint::at_point) * parts_->shares.sign();
 }
 
 bool AssembledSystem::redundant() const {

@@ -93,6 +93,8 @@ class AssembledSystem final : public System, public HasRigidMotions {
   // [m/s^2] the largest acceleration along the implied directions for an acceleration of the system: 0 as long as they
   // are implied.
   double departure(int group, const Vec& a);
+  // How many times the rates of the rows in g appear in an implied one.
+  double leverage(int group);
   // [N] of an idle contact: its force if it shared as a spring; it starts to carry when this rises through 0.
   double spring_force(int contact, const Vec& lambda);
   Tangential slip(int contact);                             // [m/s]; of contacts with friction

@@ -48,7 +48,7 @@ AssembledSystem::Sharing AssembledSystem::sharing(int contact) const {
   for (int k = 0; k < 3; ++k) {
     const ContactLoads::Place& place = loads.place({contact, k});
     if (place.group < 0) continue;
-    sharing.shared = true;
+    sharing.shared = sharing.shared || loads.depends(place);
     sharing.group = place.group;
     sharing.as_spring = loads.shares_as_spring(contact, place.group);
     sharing.idle = sharing.idle || (k == 0 && loads.shares(place).isZero(0));
@@ -77,6 +77,10 @@ double AssembledSystem::departure(int group, const Vec& a) {
   for (const ContactDirection& d : modes().shared[std::size_t(group)].implied)
     most = std::max(most, std::abs(acceleration(d, a)));
   return most;
+}
+
+double AssembledSystem::leverage(int group) {
+  return parts_->shares.leverage(group);
 }
 
 int AssembledSystem::tangents(int contact) const {

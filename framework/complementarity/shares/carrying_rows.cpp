@@ -1,7 +1,9 @@
 #include "complementarity/shares/carrying_rows.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 #include <trammel/decompositions.hpp>
 
@@ -35,6 +37,22 @@ Mat least_norm_shares(const Mat& shares) {
   Mat share(n + shares.rows(), n);
   share << alone, shares * alone;
   return share;
+}
+
+Mat least_norm_shares(const Mat& resultants, const std::vector<bool>& idle) {
+  std::vector<Index> carrying;
+  for (std::size_t k = 0; k < idle.size(); ++k)
+    if (!idle[k]) carrying.push_back(Index(k));
+  Mat share = Mat::Zero(resultants.cols(), resultants.rows());
+  const Mat of_carrying = resultants(Eigen::all, carrying);
+  const Mat one = Mat::Identity(resultants.rows(), resultants.rows());
+  const Mat found = Eigen::CompleteOrthogonalDecomposition<Mat>(of_carrying).solve(one);
+  share(carrying, Eigen::all) = found;
+  return share;
+}
+
+double force_as_spring(const Mat& among, const Vec& resultants) {
+  return Eigen::CompleteOrthogonalDecomposition<Mat>(among).solve(resultants)[among.cols() - 1];
 }
 
 CarryingRows carrying_rows(const std::vector<ContactPoint>& points, const Mat& A,
@@ -114,6 +132,22 @@ std::vector<SharingGroup> sharing_groups(const std::vector<ContactPoint>& points
     groups.push_back(std::move(group));
   }
   return groups;
+}
+
+std::optional<SharingGroup> group_with_idle(const Mat& A, const std::vector<Index>& rows,
+                                            const std::vector<Index>& idle) {
+  const auto has_no_share = [&](Index row) { return std::find(idle.begin(), idle.end(), row) != idle.end(); };
+  std::vector<Index> carrying;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(carrying), [&](Index row) { return !has_no_share(row); });
+  RowBasis best = find_basis(A, rows);
+  if (find_basis(A, carrying).basis.size() != best.basis.size()) return {};
+  std::vector<bool> is_idle;
+  for (const auto* part : {&best.basis, &best.implied})
+    for (const Index row : *part) is_idle.push_back(has_no_share(row));
+  SharingGroup group;
+  group.share = least_norm_shares(best.resultants(), is_idle);
+  group.basis = std::move(best.basis), group.implied = std::move(best.implied), group.K = std::move(best.K);
+  return group;
 }
 
 }  // namespace trammel::complementarity

@@ -6,6 +6,7 @@
 // them: sliding contacts that would pull are idle, closed without a force, until their spring would press.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "complementarity/programs/contact_point.hpp"
@@ -35,6 +36,12 @@ CarryingRows carrying_rows(const std::vector<ContactPoint>& points, const Mat& A
 // Forces of least norm for their resultants, F = share lambda, (basis, then implied) x basis. `shares` is K with zero
 // rows for idle contacts.
 Mat least_norm_shares(const Mat& shares);
+// The same for any basis: `resultants` is E, `idle` tells which of its columns have no force.
+Mat least_norm_shares(const Mat& resultants, const std::vector<bool>& idle);
+// The force that an idle contact would have as one more equal spring, for forces F: that of the last column of `among`,
+// whose others are the columns of E of the contacts that carry. It is continuous, and 0, where these come to depend on
+// each other.
+double force_as_spring(const Mat& among, const Vec& resultants);
 
 // Contacts that share resultants, by their rows: indices into A, with those of each contact together.
 struct SharingGroup {
@@ -44,5 +51,10 @@ struct SharingGroup {
 };
 std::vector<SharingGroup> sharing_groups(const std::vector<ContactPoint>& points, const std::vector<ContactRole>& roles,
                                          const CarryingRows& carrying);
+// One group of all these rows, on their best conditioned basis. Rows of idle contacts, which have no share, hold the
+// motion as well as the others, and go on doing so where the rows that carry come to depend on each other. Nothing is
+// returned if the others do not carry all resultants.
+std::optional<SharingGroup> group_with_idle(const Mat& A, const std::vector<Eigen::Index>& rows,
+                                            const std::vector<Eigen::Index>& idle);
 
 }  // namespace trammel::complementarity

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include <trammel/decompositions.hpp>
 
@@ -58,7 +60,7 @@ void ContactProblem::prepare(model::AssembledSystem& system) {
   system.impulse_response(directions_, jump_, delassus_);
 }
 
-complementarity::ContactSolution ContactProblem::solve_once(const Mat& A, double nothing) {
+complementarity::ContactSolution ContactProblem::solve_once(const Mat& A) {
   for (std::size_t i = 0; i < who.size(); ++i) {
     const Participant& p = who[i];
     complementarity::ContactPoint& point = points_[i];
@@ -68,20 +70,53 @@ complementarity::ContactSolution ContactProblem::solve_once(const Mat& A, double
     else if (p.tangent == Participant::Tangent::sliding)
       point.kind = complementarity::ContactPoint::Tangent::sliding, point.ratio = p.ratio;
   }
-  return complementarity::solve_contacts(points_, A, b_, F_, a_, nothing);
+  return solve_islands(A);
+}
+
+complementarity::ContactSolution ContactProblem::solve_islands(const Mat& A) {
+  F_.setZero(b_.size());
+  a_.setZero(b_.size());
+  complementarity::ContactSolution all{complementarity::LcpOutcome::solved, 0};
+  Vec F, a;
+  for (const complementarity::Island& island : complementarity::islands(points_, A)) {
+    double nothing = 0;
+    for (const std::size_t i : island.members) nothing = std::max(nothing, who[i].nothing);
+    const Mat A_island = A(island.rows, island.rows);
+    const Vec b_island = b_(island.rows);
+    const complementarity::ContactSolution one =
+        complementarity::solve_contacts(island.points, A_island, b_island, F, a, nothing);
+    for (const std::size_t i : island.members) who[i].violation = one.violation;
+    if (one.outcome != complementarity::LcpOutcome::solved) {
+      F_.setZero(), a_.setZero();
+      return one;
+    }
+    all.violation = std::max(all.violation, one.violation);
+    F_(island.rows) = F;
+    a_(island.rows) = a;
+  }
+  return all;
 }
 
 // Contacts that depend on each other, as a stack between floor and ceiling, cannot all part again. They yield a little:
 // for the impulses that end a slip, by a thousandth of their approach, so that no slip outlasts the approach.
 Mat ContactProblem::yielding() const {
-  double approach = 0;
-  for (const Participant& p : who) approach = std::max(approach, p.vanishing);
   Mat A = delassus_;
-  A.diagonal() *= 1 + 1e-3 * approach / b_.lpNorm<Eigen::Infinity>();
+  for (const complementarity::Island& island : complementarity::islands(points_, delassus_)) {
+    double approach = 0;
+    for (const std::size_t i : island.members) approach = std::max(approach, who[i].vanishing);
+    const double largest = b_(island.rows).lpNorm<Eigen::Infinity>();
+    for (const Eigen::Index k : island.rows)
+      if (largest > 0) A(k, k) *= 1 + 1e-3 * approach / largest;
+  }
   return A;
 }
 
 complementarity::ContactSolution ContactProblem::solve(double nothing) {
+  for (Participant& p : who) p.nothing = nothing;
+  return solve();
+}
+
+complementarity::ContactSolution ContactProblem::solve() {
   b_.resize(Eigen::Index(directions_.size()));
   for (std::size_t i = 0; i < who.size(); ++i) {
     if (points_[i].normal >= 0) b_[points_[i].normal] = who[i].a_n - who[i].vanishing;
@@ -91,9 +126,9 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
   for (const Pushed& p : pushed_) b_ += push(p) * delassus_.col(p.direction);
   complementarity::ContactSolution solution;
   for (bool settled = false; !settled;) {
-    solution = solve_once(delassus_, nothing);
+    solution = solve_once(delassus_);
     const bool approach = std::any_of(who.begin(), who.end(), [](const Participant& p) { return p.vanishing > 0; });
-    if (solution.outcome != complementarity::LcpOutcome::solved && approach) solution = solve_once(yielding(), nothing);
+    if (solution.outcome != complementarity::LcpOutcome::solved && approach) solution = solve_once(yielding());
     // Without a solution for a vanishing approach, contacts that do not approach may still have one.
     if (solution.outcome == complementarity::LcpOutcome::no_solution && approach)
       solution.outcome = complementarity::LcpOutcome::gave_up;
@@ -102,12 +137,12 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
     for (std::size_t i = 0; i < who.size(); ++i) {
       Participant& p = who[i];
       if (p.tangent != Participant::Tangent::resting || p.let_go) continue;
-      if (along(a_, points_[i]).norm() <= no_slip(i, nothing)) continue;
+      if (along(a_, points_[i]).norm() <= no_slip(i)) continue;
       p.let_go = true;
       if (p.mu < p.mu_0) settled = false;
     }
   }
-  if (!let_approaches_vanish(nothing)) solution.outcome = complementarity::LcpOutcome::gave_up;
+  if (!let_approaches_vanish()) solution.outcome = complementarity::LcpOutcome::gave_up;
   for (const Pushed& p : pushed_) F_[p.direction] = push(p);
   for (std::size_t i = 0; i < who.size(); ++i) {
     Participant& p = who[i];
@@ -115,13 +150,14 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
     if (points_[i].normal >= 0) p.N = F_[points_[i].normal], p.a_n = a_[points_[i].normal];
     if (const int n = points_[i].tangents; points_[i].tangent >= 0)
       p.T.head(n) = along(F_, points_[i]), p.a_t.head(n) = along(a_, points_[i]);
-    p.no_slip = no_slip(i, nothing);
+    p.no_slip = no_slip(i);
   }
   return solution;
 }
 
-double ContactProblem::no_slip(std::size_t participant, double nothing) const {
+double ContactProblem::no_slip(std::size_t participant) const {
   const complementarity::ContactPoint& p = points_[participant];
+  const double nothing = who[participant].nothing;
   if (p.tangent < 0) return 0;
   const auto rows = Eigen::seqN(p.tangent, p.tangents);
   const Vec terms = b_(rows).cwiseAbs() + delassus_(rows, Eigen::all).cwiseAbs() * F_.cwiseAbs();
@@ -130,14 +166,23 @@ double ContactProblem::no_slip(std::size_t participant, double nothing) const {
   return std::min(nothing, std::max(who[participant].least_slip, round_off));
 }
 
-bool ContactProblem::let_approaches_vanish(double nothing) {
+bool ContactProblem::let_approaches_vanish() {
   bool any = false;
   for (std::size_t i = 0; i < who.size(); ++i)
     if (who[i].vanishing > 0) any = true, b_[points_[i].normal] += who[i].vanishing;
   if (!any) return true;
-  a_ = delassus_ * F_ + b_;
-  if (!complementarity::make_exact(points_, delassus_, b_, 1e-4, F_, a_)) return false;
-  return complementarity::violation(points_, delassus_, b_, F_, a_, nothing) <= complementarity::largest_violation;
+  for (const complementarity::Island& island : complementarity::islands(points_, delassus_)) {
+    double nothing = 0;
+    for (const std::size_t i : island.members) nothing = std::max(nothing, who[i].nothing);
+    const Mat A = delassus_(island.rows, island.rows);
+    const Vec b = b_(island.rows);
+    Vec F = F_(island.rows), a = A * F + b;
+    if (!complementarity::make_exact(island.points, A, b, 1e-4, F, a)) return false;
+    if (!(complementarity::violation(island.points, A, b, F, a, nothing) <= complementarity::largest_violation))
+      return false;
+    F_(island.rows) = F, a_(island.rows) = a;
+  }
+  return true;
 }
 
 std::vector<complementarity::ContactRole> ContactProblem::roles(const model::Modes& modes) const {
@@ -157,7 +202,7 @@ std::vector<complementarity::ContactRole> ContactProblem::roles(const model::Mod
   return roles;
 }
 
-std::vector<bool> ContactProblem::kept_closed(double nothing) const {
+std::vector<bool> ContactProblem::kept_closed(const std::vector<double>& nothing) const {
   std::vector<Eigen::Index> pressing;
   for (std::size_t i = 0; i < who.size(); ++i) {
     const Participant& p = who[i];
@@ -167,7 +212,7 @@ std::vector<bool> ContactProblem::kept_closed(double nothing) const {
   }
   std::vector<bool> kept(who.size(), false);
   for (std::size_t i = 0; i < who.size(); ++i)
-    if (who[i].unilateral && who[i].N == 0 && who[i].a_n <= nothing)
+    if (who[i].unilateral && who[i].N == 0 && who[i].a_n <= nothing[i])
       kept[i] = complementarity::follows(delassus_, pressing, points_[i].normal);
   return kept;
 }
@@ -187,7 +232,13 @@ std::vector<double> ContactProblem::find_idle(const model::Modes& modes, const s
   const std::vector<std::size_t> island = islands();
   const std::vector<double> largest = largest_beside();
   std::vector<double> least(who.size(), 1);
-  for (std::size_t i = 0; i < who.size() && carrying.sliding_shares; ++i) {
+  std::vector<bool> sliding_shares(who.size(), false);  // by island
+  for (std::size_t i = 0; i < who.size(); ++i)
+    if (carrying.indeterminate[i] && who[i].unilateral &&
+        role[i].tangent == complementarity::ContactRole::Tangent::slides)
+      sliding_shares[island[i]] = true;
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    if (!sliding_shares[island[i]]) continue;
     if (!role[i].closed || !who[i].unilateral || !carrying.indeterminate[i]) continue;
     const double part = largest[i] > 0 ? who[i].N / largest[i] : 0;
     who[i].idle = part <= none[island[i]];
@@ -211,33 +262,78 @@ std::vector<bool> ContactProblem::held_by_others(const model::Modes& modes) cons
   return held;
 }
 
+// Contacts that carry may come to depend on others, or on each other, as bodies slide: all rows of an island with idle
+// contacts are one group, which of them depend on each other at present does not matter.
+std::vector<complementarity::SharingGroup> ContactProblem::groups_with_idle(
+    const std::vector<complementarity::ContactRole>& role, std::vector<bool>& in_them) const {
+  using Tangent = complementarity::ContactRole::Tangent;
+  std::vector<complementarity::SharingGroup> groups;
+  in_them.assign(who.size(), false);
+  for (const complementarity::Island& island : complementarity::islands(points_, delassus_)) {
+    std::vector<Eigen::Index> rows, idle;
+    std::vector<std::size_t> sliding;
+    for (const std::size_t i : island.members) {
+      const complementarity::ContactPoint& p = points_[i];
+      if (role[i].closed && p.normal >= 0) {
+        rows.push_back(p.normal);
+        if (role[i].idle) idle.push_back(p.normal);
+        if (role[i].tangent == Tangent::slides) sliding.push_back(i);
+      }
+      for (int k = 0; k < p.tangents && role[i].tangent == Tangent::sticks; ++k) rows.push_back(p.tangent + k);
+    }
+    if (idle.empty()) continue;
+    std::optional<complementarity::SharingGroup> group = complementarity::group_with_idle(delassus_, rows, idle);
+    if (!group) continue;
+    group->sliding = std::move(sliding);
+    groups.push_back(std::move(*group));
+    for (const std::size_t i : island.members) in_them[i] = true;
+  }
+  return groups;
+}
+
 std::vector<model::SharedRows> ContactProblem::shared_rows(const model::Modes& modes) const {
   const std::vector<complementarity::ContactRole> role = roles(modes);
-  const complementarity::CarryingRows carrying = complementarity::carrying_rows(points_, delassus_, role);
   const auto directions = [this](const std::vector<Eigen::Index>& rows) {
     std::vector<model::ContactDirection> all;
     for (const Eigen::Index row : rows) all.push_back(directions_[std::size_t(row)]);
     return all;
   };
   std::vector<model::SharedRows> groups;
-  for (const complementarity::SharingGroup& group : complementarity::sharing_groups(points_, role, carrying)) {
+  const auto add = [&](const complementarity::SharingGroup& group) {
     groups.push_back({directions(group.basis), directions(group.implied), group.K, group.share, {}});
     for (const std::size_t i : group.sliding) groups.back().sliding.push_back(who[i].contact);
+  };
+  std::vector<bool> with_idle;
+  for (const complementarity::SharingGroup& group : groups_with_idle(role, with_idle)) add(group);
+  std::vector<int> of_others;
+  for (std::size_t i = 0; i < who.size(); ++i)
+    if (!with_idle[i]) of_others.push_back(who[i].contact);
+  const complementarity::CarryingRows carrying = complementarity::carrying_rows(points_, delassus_, role);
+  for (const complementarity::SharingGroup& group : complementarity::sharing_groups(points_, role, carrying)) {
+    const int contact = directions_[std::size_t(group.implied.front())].contact;
+    if (std::find(of_others.begin(), of_others.end(), contact) != of_others.end()) add(group);
   }
   return groups;
 }
 
 double ContactProblem::distance_from_critical(const model::Modes& modes) const {
-  std::vector<complementarity::ContactRole> role = roles(modes);
-  const complementarity::CarryingRows carrying = complementarity::carrying_rows(points_, delassus_, role);
-  const auto least_pivot = [&] {
-    const Vec none = Vec::Zero(delassus_.rows());
-    return complementarity::CarryingEquations(points_, delassus_, none, role, carrying).least_pivot();
-  };
-  const double without_friction = least_pivot();
-  for (std::size_t i = 0; i < who.size(); ++i)
-    if (role[i].tangent == complementarity::ContactRole::Tangent::slides) role[i].ratio = who[i].ratio;
-  return without_friction > 0 ? least_pivot() / without_friction : 1;
+  const std::vector<complementarity::ContactRole> role = roles(modes);
+  double least = 1;
+  for (const complementarity::Island& island : complementarity::islands(points_, delassus_)) {
+    std::vector<complementarity::ContactRole> own;
+    for (const std::size_t i : island.members) own.push_back(role[i]);
+    const Mat A = delassus_(island.rows, island.rows);
+    const complementarity::CarryingRows carrying = complementarity::carrying_rows(island.points, A, own);
+    const auto least_pivot = [&] {
+      const Vec none = Vec::Zero(A.rows());
+      return complementarity::CarryingEquations(island.points, A, none, own, carrying).least_pivot();
+    };
+    const double without_friction = least_pivot();
+    for (std::size_t k = 0; k < own.size(); ++k)
+      if (own[k].tangent == complementarity::ContactRole::Tangent::slides) own[k].ratio = who[island.members[k]].ratio;
+    if (without_friction > 0) least = std::min(least, least_pivot() / without_friction);
+  }
+  return least;
 }
 
 double ContactProblem::acceleration_without(std::size_t participant) const {
@@ -289,37 +385,50 @@ std::vector<double> ContactProblem::slip_beside_others(const Vec& rates) const {
   return all;
 }
 
-std::vector<Eigen::Index> ContactProblem::rows_at_rest() const {
-  std::vector<Eigen::Index> rows;
+// By island: unilateral normals, and tangents at rest.
+std::vector<std::vector<Eigen::Index>> ContactProblem::islands_at_rest() const {
+  const std::vector<std::size_t> island = islands();
+  std::vector<std::vector<Eigen::Index>> rows(who.size());
   for (std::size_t i = 0; i < who.size(); ++i) {
-    if (points_[i].normal >= 0) rows.push_back(points_[i].normal);
+    std::vector<Eigen::Index>& own = rows[island[i]];
+    if (points_[i].normal >= 0) own.push_back(points_[i].normal);
     if (who[i].tangent != Participant::Tangent::resting) continue;
-    for (int k = 0; k < points_[i].tangents; ++k) rows.push_back(points_[i].tangent + k);
+    for (int k = 0; k < points_[i].tangents; ++k) own.push_back(points_[i].tangent + k);
   }
+  std::erase_if(rows, [](const std::vector<Eigen::Index>& own) { return own.empty(); });
   return rows;
 }
 
 void ContactProblem::come_to_rest(model::AssembledSystem& system, Vec& dv) const {
-  const std::vector<Eigen::Index> held = rows_at_rest();
-  const Mat A = delassus_(held, held);
-  const Vec lost = -rates(system)(held);
-  dv.noalias() = jump_(Eigen::all, held) * Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost);
+  const Vec all = rates(system);
+  dv.setZero(jump_.rows());
+  for (const std::vector<Eigen::Index>& held : islands_at_rest()) {
+    const Mat A = delassus_(held, held);
+    const Vec lost = -all(held);
+    dv.noalias() += jump_(Eigen::all, held) * Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost);
+  }
 }
 
 void ContactProblem::end_slip(Vec& dv) const {
-  const std::vector<Eigen::Index> held = rows_at_rest();
   Vec slip = Vec::Zero(Eigen::Index(directions_.size()));
   for (std::size_t i = 0; i < who.size(); ++i)
     if (who[i].tangent == Participant::Tangent::resting) along(slip, points_[i]) = who[i].a_t.head(points_[i].tangents);
-  const auto end = [&](const std::vector<Eigen::Index>& rows) {
-    const Mat A = delassus_(rows, rows);
-    const Vec lost = -slip(rows), impulses = Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost);
-    dv.noalias() = jump_(Eigen::all, rows) * impulses;
-    return Vec(delassus_(Eigen::all, rows) * impulses);  // changes of rates [m/s]
-  };
-  const double drift = slip(held).lpNorm<Eigen::Infinity>();
-  if (end(held).lpNorm<Eigen::Infinity>() > most_changed * drift)
-    end(complementarity::well_conditioned_rows(delassus_, held, least_share));
+  dv.setZero(jump_.rows());
+  for (const std::vector<Eigen::Index>& held : islands_at_rest()) {
+    const auto impulses = [&](const std::vector<Eigen::Index>& rows) {
+      const Mat A = delassus_(rows, rows);
+      const Vec lost = -slip(rows);
+      return Vec(Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost));
+    };
+    std::vector<Eigen::Index> ended = held;
+    Vec P = impulses(ended);
+    const double changed = (delassus_(Eigen::all, ended) * P).lpNorm<Eigen::Infinity>();  // rates [m/s]
+    if (changed > most_changed * slip(held).lpNorm<Eigen::Infinity>()) {
+      ended = complementarity::well_conditioned_rows(delassus_, held, least_share);
+      P = impulses(ended);
+    }
+    dv.noalias() += jump_(Eigen::all, ended) * P;
+  }
 }
 
 }  // namespace trammel::simulate

@@ -29,6 +29,7 @@ struct Participant {
   bool let_go = false;                        // resting: mu applies from the start; afterwards: mu_0 did not hold it
   bool yielded = false;  // resting, let go: its friction has reached its bound and does not hold it there
 
+  double nothing = 0;     // accelerations or velocities up to this count as 0 in its island
   double least_slip = 0;  // resting: |a_t| up to this is no slip, whatever the round-off is
   double vanishing = 0;   // an approach added to a_n; of several solutions its limit, as it vanishes, is taken
 
@@ -36,7 +37,8 @@ struct Participant {
   double N = 0, a_n = 0;
   bool idle = false;  // closed without a force, in a group with dependent rows of which some slide
   Tangential T = Tangential::Zero(), a_t = Tangential::Zero();
-  double no_slip = 0;  // |a_t| up to this is no slip
+  double no_slip = 0;    // |a_t| up to this is no slip
+  double violation = 0;  // of the solution of its island
 };
 
 class ContactProblem {
@@ -44,8 +46,10 @@ class ContactProblem {
   std::vector<Participant> who;
 
   void prepare(model::AssembledSystem& system);  // finds their directions, at the system's point
-  // On entry `a_n` and `a_t` of each participant are its accelerations without the forces sought. Values up to
-  // `nothing` count as 0.
+  // On entry `a_n` and `a_t` of each participant are its accelerations without the forces sought. Islands are solved
+  // apart, and no number of one counts in another.
+  [[nodiscard]] complementarity::ContactSolution solve();
+  // The same, with one `nothing` for all.
   [[nodiscard]] complementarity::ContactSolution solve(double nothing);
   // [m/s^2] Acceleration of the gap of a unilateral participant without its own force; after `solve`.
   double acceleration_without(std::size_t participant) const;
@@ -64,8 +68,8 @@ class ContactProblem {
   // The least change of v that ends the rates of all unilateral normals and of all tangents at rest; after `prepare`.
   void come_to_rest(model::AssembledSystem& system, Vec& dv) const;
   // Unilateral participants without a force that the others keep closed: their rows depend on those of pressing
-  // contacts.
-  std::vector<bool> kept_closed(double nothing) const;
+  // contacts. `nothing`: by participant.
+  std::vector<bool> kept_closed(const std::vector<double>& nothing) const;
   // The least pivot of the equations of the forces in these modes, relative to that without the friction of sliding
   // contacts.
   double distance_from_critical(const model::Modes& modes) const;
@@ -86,13 +90,16 @@ class ContactProblem {
     std::size_t who;
     Eigen::Index direction;
   };
-  std::vector<Eigen::Index> rows_at_rest() const;  // unilateral normals, and tangents at rest
-  complementarity::ContactSolution solve_once(const Mat& A, double nothing);
-  Mat yielding() const;  // the Delassus matrix of contacts that are not quite rigid
-  double no_slip(std::size_t participant, double nothing) const;                         // [m/s^2]
+  std::vector<std::vector<Eigen::Index>> islands_at_rest() const;
+  std::vector<complementarity::SharingGroup> groups_with_idle(const std::vector<complementarity::ContactRole>& role,
+                                                              std::vector<bool>& in_them) const;
+  complementarity::ContactSolution solve_once(const Mat& A);
+  complementarity::ContactSolution solve_islands(const Mat& A);
+  Mat yielding() const;                           // the Delassus matrix of contacts that are not quite rigid
+  double no_slip(std::size_t participant) const;  // [m/s^2]
   double push(const Pushed& p) const { return who[p.who].ratio[0] * who[p.who].given; }  // [N]
   // False: no solution was found as the limit of vanishing approaches.
-  [[nodiscard]] bool let_approaches_vanish(double nothing);
+  [[nodiscard]] bool let_approaches_vanish();
   // Rows hold only what is decided at events: a foot whose friction is decided in each evaluation has no row to share.
   std::vector<complementarity::ContactRole> roles(const model::Modes& modes) const;
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <trammel/decompositions.hpp>
+
 #include "complementarity/shares/carrying_rows.hpp"
 #include "complementarity/shares/independent_rows.hpp"
 
@@ -79,11 +81,12 @@ void SharedRowsAtPoint::renew(int group) {
   response_.respond(all, jump, A);
   const Mat K = complementarity::implied_by(A, basis, implied);
   if (!K.allFinite()) return;  // the basis has become dependent; the solver for accelerations handles this
-  Mat shares = K;
-  for (Index i = 0; i < K.rows(); ++i)
-    if (shared.share.row(Index(basis.size()) + i).isZero(0)) shares.row(i).setZero();  // idle
+  std::vector<bool> idle;
+  for (Index k = 0; k < shared.share.rows(); ++k) idle.push_back(shared.share.row(k).isZero(0));
   shared.K = K;
-  shared.share = complementarity::least_norm_shares(shares);
+  const bool any_idle = std::find(idle.begin(), idle.end(), true) != idle.end();
+  shared.share = any_idle ? complementarity::least_norm_shares(shared.resultants(), idle)
+                          : complementarity::least_norm_shares(K);
   contacts_.loads.form_resultants(group);
 }
 
@@ -149,17 +152,37 @@ double SharedRowsAtPoint::force_along(ContactDirection d, const Vec& lambda) {
   return contacts_.law_normal(d.contact);
 }
 
-// K S y / (1 + K S K^T) if the others' forces are S y. It is continuous where K passes infinity, because the rows that
-// carry come to depend on each other.
 double SharedRowsAtPoint::spring_force(int contact, const Vec& lambda) {
   follow();
   const ContactLoads::Place& place = contacts_.loads.place({contact, 0});
   const SharedRows& shared = contacts_.modes.shared[std::size_t(place.group)];
-  const auto n = int(shared.basis.size());
-  Vec along_basis(n);
-  for (int k = 0; k < n; ++k) along_basis[k] = contacts_.loads.spring(shared.basis[std::size_t(k)], lambda);
-  const Vec follows = shared.K.row(place.index - n);
-  return follows.dot(along_basis) / (1 + follows.dot(shared.share.topRows(n) * follows));
+  const Mat E = shared.resultants();
+  std::vector<Index> among;
+  for (Index k = 0; k < E.cols(); ++k)
+    if (!shared.share.row(k).isZero(0)) among.push_back(k);
+  among.push_back(place.index);
+  Vec resultants(E.rows());
+  for (Index k = 0; k < E.rows(); ++k) resultants[k] = -lambda(contacts_.loads.row_of_basis(place.group, int(k)));
+  return complementarity::force_as_spring(E(Eigen::all, among), resultants);
+}
+
+double SharedRowsAtPoint::leverage(int group) {
+  follow();
+  return contacts_.modes.shared[std::size_t(group)].K.rowwise().lpNorm<1>().maxCoeff();
+}
+
+int SharedRowsAtPoint::sign() {
+  follow();
+  int sign = 1;
+  for (const SharedRows& shared : contacts_.modes.shared) {
+    std::vector<Index> carrying;
+    for (Index k = 0; k < shared.share.rows(); ++k)
+      if (!shared.share.row(k).isZero(0)) carrying.push_back(k);
+    if (std::ssize(carrying) == shared.share.rows() || std::ssize(carrying) != shared.K.cols()) continue;
+    const Mat E = shared.resultants()(Eigen::all, carrying);
+    if (Eigen::PartialPivLU<Mat>(E).determinant() < 0) sign = -sign;
+  }
+  return sign;
 }
 
 }  // namespace trammel::model

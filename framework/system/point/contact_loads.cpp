@@ -54,10 +54,7 @@ void ContactLoads::form_resultants(int group) {
   Group& g = groups_[std::size_t(group)];
   if (g.directions.empty()) return;
   const SharedRows& rows = modes_->shared[std::size_t(group)];
-  const Eigen::Index n = basis_size(group);
-  Mat E(n, n + rows.K.rows());
-  E << Mat::Identity(n, n), rows.K.transpose();
-  const Mat of_members = E(Eigen::all, g.directions);
+  const Mat of_members = rows.resultants()(Eigen::all, g.directions);
   const Eigen::ColPivHouseholderQR<Mat> qr(of_members);
   g.E = first_columns_of_q(qr, qr.rank()).transpose() * of_members;
 }

@@ -68,6 +68,11 @@ class ContactLoads {
   // To be called then: the forces that leave their cones least, which hold until the event that follows.
   void solve_beyond_cones(int group);
   double load(const Place& place) const { return groups_[std::size_t(place.group)].forces[place.index]; }
+  // True if its row depends on others of its group at present.
+  bool depends(const Place& place) const {
+    const SharedRows& rows = modes_->shared[std::size_t(place.group)];
+    return place.index >= rows.K.cols() || !rows.K.col(place.index).isZero(0);
+  }
   // True if it slides or is idle.
   bool shares_as_spring(int contact, int group) const;
   // [N] How much each of the other contacts can be unloaded, after `prepare`: complementarity/shares/spare_load.hpp.

@@ -34,14 +34,23 @@ struct ContactDirection {
 };
 
 // Closed contacts whose rows depend on each other (complementarity/shares/row_basis.hpp). The basis has rows in g; its
-// multipliers are minus the resultants of all these contacts. Implied directions have no rows.
+// multipliers are minus the resultants of all these contacts. Implied directions have no rows. Idle contacts may be in
+// the basis.
 struct SharedRows {
   std::vector<ContactDirection> basis, implied;
   Eigen::MatrixXd K;         // implied x basis: g_implied = K g_basis + a combination of the joints' rows
   Eigen::MatrixXd share;     // (basis, implied) x basis: forces of least norm per resultant; 0 for idle contacts
   std::vector<int> sliding;  // sliding contacts among them: their friction, and so the motion, depends on their share
+
+  Eigen::MatrixXd resultants() const;  // E = [1 K^T]: basis x (basis, implied)
   bool operator==(const SharedRows&) const = default;
 };
+
+inline Eigen::MatrixXd SharedRows::resultants() const {
+  Eigen::MatrixXd E(K.cols(), K.cols() + K.rows());
+  E << Eigen::MatrixXd::Identity(K.cols(), K.cols()), K.transpose();
+  return E;
+}
 
 struct Modes {
   std::vector<ContactMode> contacts;
