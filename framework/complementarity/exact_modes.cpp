@@ -361,12 +361,15 @@ class ExactModes {
     return role;
   }
 
-  // The force that an idle contact would have as a spring among the carrying ones: K times the forces along the basis.
+  // The force that an idle contact would have as one more spring among the carrying ones, K S y / (1 + K S K^T) for
+  // their forces S y. It stays finite where they come to depend on each other and K grows without bounds.
   double spring_force(int row) const {
     const auto& [basis, implied, K] = carrying_.rows;
     const auto found = std::find(implied.begin(), implied.end(), Index(row));
     if (found == implied.end()) return 0;
-    return K.row(found - implied.begin()).dot(F_(basis));
+    const Vec follows = K.row(found - implied.begin());
+    const Mat share = carrying_.share.topRows(Index(basis.size()));
+    return follows.dot(F_(basis)) / (1 + follows.dot(share * follows));
   }
 
   const std::vector<ContactPoint>& points_;
