@@ -181,8 +181,8 @@ TEST(NewmarkStep, AcceptsRestUnderForcesThatRowsCarry) {
 }
 
 // A row at the small angle theta, whose round-off is +d or -d by turns: y never settles. Its first increment is
-// d/theta, which adds k d/theta to the force along x; the others are 2 d/theta. All lengths are 10, of which x = 8 moves
-// by 1 in the step.
+// d/theta, which adds k d/theta to the force along x; the others are 2 d/theta. All lengths are 10, of which x = 8
+// moves by 1 in the step.
 bool ends_where_a_row_is_at_round_off(double k, double d) {
   constexpr double theta_of_row = 1e-6;
   Springs springs{.k = Vec::Zero(2), .rest = Vec::Zero(2), .q = Eigen::Vector2d(8, 0), .v = Eigen::Vector2d(1, 0)};
