@@ -109,6 +109,8 @@ complementarity::ContactSolution ContactModes::decide_bearings_at_rest(const Sta
                                                                        const model::Modes& open) {
   BearingImpulses bearings;
   Vec a;
+  double nothing = 0;
+  for (const Participant& p : asked) nothing = std::max(nothing, p.nothing);
   for (const auto from : {BearingImpulses::From::nothing, BearingImpulses::From::held}) try {
       system_.set_modes(open);
       system_.move_to(state.t, state.q, state.v);
@@ -116,7 +118,7 @@ complementarity::ContactSolution ContactModes::decide_bearings_at_rest(const Sta
       const Vec applied = lambda_.head(system_.held_rows());
       bearings.prepare(system_, state, asked);
       problem_.who = asked;
-      if (bearings.solve(problem_, least_acceleration(), from, applied).outcome != LcpOutcome::solved) continue;
+      if (bearings.solve(problem_, nothing, from, applied).outcome != LcpOutcome::solved) continue;
       if (take_verdicts_under_loads(state, asked, open).outcome != LcpOutcome::solved) continue;
       const model::Modes found = modes_;
       load_bearings(state, found);
