@@ -1,6 +1,7 @@
 #include <trammel/joint_rows.hpp>
 
 #include <cmath>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -78,6 +79,82 @@ TEST(JointRows, AreZeroWhereTheirLawsSay) {
       const Pair tilted = pair_of(p(t) * n, turned * Eigen::AngleAxisd(0.1, across) * Q);
       EXPECT_GT(largest_gap(JointRows(Space::spatial).orientation(n, Q, p), t, tilted), 0.07);
     }
+}
+
+// Markers with constant twists, so that g'' = -gamma.
+Pair moving_pair(Space space, double t) {
+  const Eigen::Vector3d w_A(0.3, -0.5, 0.7), w_B(-0.4, 0.6, 1.1), v_A(1, 2, -0.5), v_B(-0.3, 0.8, 1.2);
+  Pair pair = pair_of(Eigen::Vector3d(0.4, -0.7, 0.9), Eigen::Quaterniond(0.8, 0, 0.6, 0));
+  const auto move = [&](Motion& m, const Eigen::Vector3d& v, const Eigen::Vector3d& w) {
+    if (space == Space::spatial) {
+      m.x += t * v;
+      m.R = Mat(Eigen::AngleAxisd(t * w.norm(), w.normalized()).toRotationMatrix() * m.R);
+      m.V << v, w;
+      return;
+    }
+    m.x = Vec(m.x.head(2) + t * v.head(2));
+    m.angle = 0.2 * v.x() + t * w.z();
+    m.R = Mat(Eigen::Rotation2Dd(m.angle).toRotationMatrix());
+    m.V = Eigen::Vector3d(v.x(), v.y(), w.z());
+  };
+  move(pair.A, v_A, w_A), move(pair.B, v_B, w_B);
+  return pair;
+}
+
+TEST(JointRows, HaveTheRatesAndAccelerationsOfTheirValues) {
+  const Eigen::Vector3d n = Eigen::Vector3d(1, 2, -1).normalized();
+  const Eigen::Quaterniond Q(Eigen::AngleAxisd(0.4, Eigen::Vector3d(0, 0.6, 0.8)));
+  constexpr double t = 0.8, s = 1e-4;  // s^2 = 1e-8 of numbers near 1; round-off 1e-16/s^2 = 1e-8
+  for (const Space space : {Space::planar, Space::spatial}) {
+    const Vec3 axis = space == Space::planar ? Vec3(Eigen::Vector2d(0.6, 0.8)) : Vec3(n);
+    for (const JointRows& list :
+         {JointRows(space).same_point(), JointRows(space).offset(axis, law("sin(t)")), JointRows(space).across(axis),
+          JointRows(space).parallel(n, n), JointRows(space).orientation(axis, Q, law("0.2+t^2"))}) {
+      const auto at = [&](double time, const Pair& pair) {
+        Rows rows;
+        rows.resize(list.count(), space);
+        list.rows(time, pair.A, pair.B, rows);
+        return rows;
+      };
+      const Pair now = moving_pair(space, t);
+      const Rows rows = at(t, now);
+      const Vec before = at(t - s, moving_pair(space, t - s)).g, after = at(t + s, moving_pair(space, t + s)).g;
+      const Vec rate = rows.H_A * now.A.V + rows.H_B * now.B.V + rows.g_t;
+      EXPECT_NEAR((rate - (after - before) / (2 * s)).norm(), 0, 1e-6);
+      EXPECT_NEAR((rows.gamma + (after - 2 * rows.g + before) / (s * s)).norm(), 0, 1e-6);
+    }
+  }
+}
+
+TEST(JointRows, AreAsManyAsTheFreedomsThatTheyTake) {
+  const Eigen::Quaterniond none = Eigen::Quaterniond::Identity();
+  for (const auto& [space, point, across, parallel, orientation] :
+       {std::tuple(Space::planar, 2, 1, 0, 1), {Space::spatial, 3, 2, 2, 3}}) {
+    const Vec3 n = Vec::Unit(dimension(space), 0);
+    EXPECT_EQ(JointRows(space).same_point().count(), point);
+    EXPECT_EQ(JointRows(space).across(n).count(), across);
+    EXPECT_EQ(JointRows(space).parallel(Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitX()).count(), parallel);
+    EXPECT_EQ(JointRows(space).orientation(n, none, 0).count(), orientation);
+  }
+}
+
+TEST(JointRows, AcrossALineLetMarkersMoveAlongItOnly) {
+  const Eigen::Vector3d n = Eigen::Vector3d(1, 2, -1).normalized(), e = n.unitOrthogonal();
+  const JointRows list = JointRows(Space::spatial).across(n);
+  const auto gap = [&](const Eigen::Vector3d& d) {
+    return largest_gap(list, 0, pair_of(d, Eigen::Quaterniond::Identity()));
+  };
+  EXPECT_NEAR(gap(0.5 * n), 0, 1e-15);
+  for (const Eigen::Vector3d& off : {e, Eigen::Vector3d(n.cross(e))}) EXPECT_GE(gap(0.5 * n + 0.1 * off), 0.07);
+}
+
+TEST(JointRows, OfAnAngleGrowAsBTurnsAboutTheAxis) {
+  const Eigen::Vector3d n = Eigen::Vector3d(1, 2, -1).normalized();
+  const Pair turned = pair_of(Eigen::Vector3d::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(0.1, n)));
+  Rows rows;
+  rows.resize(1, Space::spatial);
+  JointRows(Space::spatial).angle(n, Eigen::Quaterniond::Identity(), 0).rows(0, turned.A, turned.B, rows);
+  EXPECT_NEAR(rows.g[0], std::sin(0.1), 1e-15);
 }
 
 TEST(JointRows, SayWhichOrientationsTheyReadAndWhetherTheirAxesStay) {
