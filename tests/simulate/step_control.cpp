@@ -91,6 +91,30 @@ TEST(FixedSteps, ThatNoLongerMoveTheTimeAreGivenUp) {
   EXPECT_TRUE(steps.too_small(t));
 }
 
+TEST(FixedSteps, ThatHalvesMakeTooShortToMoveTheTimeAreGivenUp) {
+  StepControl steps(fixed(0.01), every, 1);
+  const double t = 1e13;  // 0.002 are one unit in the last place
+  for (int halvings = 0; halvings < 4; ++halvings) {
+    const StepControl::Proposal proposal = steps.propose(t, t + 1, infinity);
+    EXPECT_FALSE(steps.too_small(t)) << halvings;
+    steps.rejected(proposal.h);
+  }
+  EXPECT_TRUE(steps.too_small(t));  // 0.0006
+}
+
+TEST(FixedSteps, EndAtTheStopItself) {
+  const double h = 1.0 / 49;
+  ASSERT_NE(49 * h, 1);
+  StepControl steps(fixed(h), every, 1);
+  double t = 0;
+  for (int i = 0; i < 49; ++i) {
+    const StepControl::Proposal proposal = steps.propose(t, 1, infinity);
+    steps.accepted(proposal, 0);
+    t = proposal.t_next;
+  }
+  EXPECT_EQ(t, 1);
+}
+
 TEST(FixedSteps, AreAsLongAsBeforeOnceAHalvedOneIsTaken) {
   StepControl steps(fixed(0.125), every, 1);
   const StepControl::Proposal whole = steps.propose(0, 1, infinity);
