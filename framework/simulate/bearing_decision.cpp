@@ -40,13 +40,22 @@ bool agree(const model::Modes& a, const model::Modes& b) {
   return std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(), same);
 }
 
-// A contact of a group may have opened in an impact. It has no row then.
-bool all_closed(const std::vector<model::SharedRows>& groups, const model::Modes& modes) {
-  const auto closed = [&](const model::ContactDirection& d) { return modes.contacts[std::size_t(d.contact)].closed; };
+// A contact of a group may have opened in an impact, and one that stuck may slide after it: their rows are gone.
+bool all_have_rows(const std::vector<model::SharedRows>& groups, const model::Modes& modes) {
+  const auto has_row = [&](const model::ContactDirection& d) {
+    const model::ContactMode& mode = modes.contacts[std::size_t(d.contact)];
+    return mode.closed && (d.row == 0 || mode.friction == model::ContactMode::Friction::stick);
+  };
   return std::all_of(groups.begin(), groups.end(), [&](const model::SharedRows& group) {
-    return std::all_of(group.basis.begin(), group.basis.end(), closed) &&
-           std::all_of(group.implied.begin(), group.implied.end(), closed);
+    return std::all_of(group.basis.begin(), group.basis.end(), has_row) &&
+           std::all_of(group.implied.begin(), group.implied.end(), has_row);
   });
+}
+
+void take_tangent(const Participant& p, model::ContactMode& mode) {
+  using Friction = model::ContactMode::Friction;
+  mode.friction = p.tangent == Participant::Tangent::resting ? Friction::stick : Friction::slide;
+  mode.direction = p.direction;
 }
 
 }  // namespace
@@ -77,10 +86,15 @@ void ContactModes::load_bearings_at_rest(const State& state, const model::Modes&
     }
     mode.closed = true;
     if (!system_.model().contacts[p.contact].coulomb || p.tangent == Participant::Tangent::none) continue;
-    mode.friction = p.tangent == Participant::Tangent::resting ? Friction::stick : Friction::slide;
-    mode.direction = p.direction;
+    take_tangent(p, mode);
   }
-  at_rest.shared = all_closed(before_.shared, at_rest) ? before_.shared : problem_.shared_rows(at_rest);
+  at_rest.shared = before_.shared;
+  if (!all_have_rows(before_.shared, at_rest)) {  // the groups of friction as it is now, also of the other contacts
+    for (const Participant& p : problem_.who)
+      if (system_.model().contacts[p.contact].coulomb && p.tangent != Participant::Tangent::none)
+        take_tangent(p, at_rest.contacts[p.contact]);
+    at_rest.shared = problem_.shared_rows(at_rest);
+  }
   load_bearings(state, at_rest);
 }
 
