@@ -1,5 +1,6 @@
 #include <trammel/simd.hpp>
 
+#include <cstddef>
 #include <numeric>
 #include <vector>
 
@@ -11,6 +12,7 @@ TEST(Simd, PaddedIsTheNextMultipleOfFour) {
   EXPECT_EQ(padded(0), 0);
   for (int n = 1; n <= 4; ++n) EXPECT_EQ(padded(n), 4);
   EXPECT_EQ(padded(5L), 8L);
+  EXPECT_EQ(padded(std::size_t{9}), std::size_t{12});
 }
 
 // Whatever the alignment of the numbers: they start at any of them.

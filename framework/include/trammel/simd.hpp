@@ -1,23 +1,23 @@
 // Packs of four numbers, which one SIMD instruction processes (two without AVX): for inner loops whose sums a compiler
-// may not reorder by itself. Arrays are padded to whole packs; what stands in the padding must not matter.
+// may not reorder by itself. Arrays are padded to whole packs: with 0 where packs are summed, with anything finite
+// elsewhere. Functions that are not inline take packs by reference: by value, their calling convention depends on AVX.
 #pragma once
 
-#include <cstddef>
+#include <concepts>
 
 namespace trammel::simd {
 
 inline constexpr int pack = 4;  // numbers
 
 // n, rounded up to whole packs
-constexpr int padded(int n) {
-  return (n + pack - 1) / pack * pack;
-}
-constexpr std::ptrdiff_t padded(std::ptrdiff_t n) {
+template <std::integral Integer>
+constexpr Integer padded(Integer n) {
   return (n + pack - 1) / pack * pack;
 }
 
-using Pack = double [[gnu::vector_size(8 * pack)]];  // stays in registers
-using PackInMemory = double [[gnu::vector_size(8 * pack), gnu::aligned(8), gnu::may_alias]];
+// In this form, and not as [[gnu::vector_size]], Clang takes the attributes, too.
+typedef double Pack __attribute__((vector_size(8 * pack)));
+typedef double PackInMemory __attribute__((vector_size(8 * pack), aligned(8), may_alias));
 
 inline const PackInMemory& pack_at(const double* x) {
   return *reinterpret_cast<const PackInMemory*>(x);

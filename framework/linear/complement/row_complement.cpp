@@ -132,7 +132,7 @@ double* RowComplement::column(const Front& front, Eigen::Index j) {
 // positive number counts as 0. U = D [L_FF^T L_BF^T] is needed only here.
 void RowComplement::eliminate(const Front& front) {
   with_sizes(front, [&](auto eliminated, auto stride) {
-    const Eigen::Index above = padded(eliminated);
+    const Eigen::Index above = padded(Eigen::Index(eliminated));
     double *const L = L_.data() + front.L, *const R = R_.data() + front.R, *const U = product_.data();
     const std::span<const int> rows = layout_.rows(front);
     for (Eigen::Index j = 0; j < front.size; ++j) {
@@ -198,7 +198,7 @@ void RowComplement::solve_lower(const Front& front, Vec& y) {
       const double known = y[rows[j]] = rest[j];
       subtract(known, L + j * stride, rest, j + 1, eliminated);
     }
-    for (Eigen::Index i = eliminated; i < padded(eliminated); ++i) rest[i] = 0;
+    for (Eigen::Index i = eliminated; i < padded(Eigen::Index(eliminated)); ++i) rest[i] = 0;
     subtract_columns(
         L, stride, eliminated, eliminated, [&](Eigen::Index j) { return y[rows[j]]; }, rest);
     for (Eigen::Index i = eliminated; i < front.size; ++i) y[rows[i]] += rest[i];

@@ -9,7 +9,7 @@
 
 namespace trammel::numerics {
 
-// Calls f(n) with n as a compile-time constant. False: n is more than `most_unrolled`, or 0.
+// Calls f(n) with n as a compile-time constant. False: n is more than m, or 0.
 template <int m = most_unrolled, class F>
 bool with_fixed_size(Eigen::Index n, F&& f) {
   if constexpr (m > 0) {
@@ -19,9 +19,9 @@ bool with_fixed_size(Eigen::Index n, F&& f) {
   return m > 0;
 }
 
-// Splits m into consecutive parts, eights and then at most one of 4, 2 and 1, and calls f(number, first) with the
-// number as a compile-time constant. The values of a part stay in registers; a loop over all m rows at once would keep
-// them in memory.
+// Splits m into consecutive parts of `part` and then at most one of each of its halves (4, 2, 1), and calls
+// f(number, first) with the number as a compile-time constant. The values of a part stay in registers; a loop over all
+// m rows at once would keep them in memory.
 template <Eigen::Index part = most_unrolled, class F>
 void in_fixed_parts(Eigen::Index m, F&& f, Eigen::Index first = 0) {
   for (; first + part <= m; first += part) f(std::integral_constant<Eigen::Index, part>(), first);
