@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A sample repeats a call for so long [s] that the clock's own time does not count, but not without end.
+// A sample repeats a call for so long [s] that the clock's own time does not count, at most `most_calls` times.
 constexpr int samples = 5, most_calls = 100000;
 constexpr double long_enough = 2e-3;
 // [s], and of each velocity: a second point whose evaluation costs the same.

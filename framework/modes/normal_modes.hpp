@@ -14,9 +14,10 @@
 
 namespace trammel::simulate {
 
-// Skew part, of the largest entry, of a matrix that is symmetric but for its differences.
+// Skew part, of the largest entry, of a matrix that is symmetric except for errors of differences.
 inline constexpr double skew_by_differences = noise_of_differences;
-// Rates of decay below this share of the slowest motion's are round-off of differences.
+// Rates of decay below this share are round-off of differences: of the slowest motion's frequency, or of that which
+// Krylov's method is shifted to.
 inline constexpr double no_damping = 1e-8;
 
 struct Mode {

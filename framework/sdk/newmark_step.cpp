@@ -21,7 +21,7 @@ constexpr double smooth = 0.5, longest_ahead = 4;
 constexpr double turns = 10;
 // Corrections of the rows alone, at the end of a step; each multiplies its error by `turns` times the motion, or less.
 constexpr int most_passes = 4;
-// Rows that are still missed by so much contradict each other: [m, rad], and of the largest place.
+// Rows that are still missed by so much contradict each other: [m, rad], and of the largest place and its change.
 constexpr double contradictory = 1e-8, contradictory_in_place = 1e-6;
 constexpr double most_noise = 1e-3;  // of the velocity: round-off of the positions over the step, of formulation index3
 

@@ -13,8 +13,8 @@ namespace {
 // its end. Near a change of rank the error of the accelerations is this violation divided by the square of the angle
 // between rows. Rows are independent down to an angle of 1e-7.
 constexpr double round_off = 1e-15;
-// Rows are differences of coordinates, whose round-off is a share of the largest place. From that violation on slow
-// convergence is round-off, or the limit of the kept factors; with new factors it is so from `stalling` [m, rad] on.
+// Rows are differences of coordinates, whose round-off is a share of the largest place. Below that violation slow
+// convergence counts as round-off. With new factors it does below `stalling` [m, rad], too.
 constexpr double round_off_of_place = 1e-14, stalling = 1e-9;
 // A projection that leaves more has failed: [m, rad], and of the largest place.
 constexpr double most_left = 1e-6, most_left_of_place = 1e-13;

@@ -49,8 +49,8 @@
 
 namespace trammel::simulate {
 
-// Relative to the bound of an event's force: a force that is 0 but for the sums it comes from, and the distance from a
-// bound at which a force may stand without an event, an error of loads.
+// Relative to the bound of an event's force. Below vanished_force a force counts as 0: it is round-off of its sum. A
+// force within critical_force of its bound is no event: that is an error of loads.
 inline constexpr double vanished_force = 1e-12, critical_force = 1e-9;
 
 class EventLocation {

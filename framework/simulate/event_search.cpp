@@ -9,7 +9,7 @@ namespace {
 
 // The place in a step where `hides` looks: an irrational part, the golden section's, resonates with no period of a law.
 constexpr double inside = 0.3819660112501051;
-constexpr double off_ends = 1e-3;         // of an interval: a minimum nearer to an end counts as there, or as none
+constexpr double off_ends = 1e-3;         // of an interval: a minimum nearer to an end is moved there if slopes dip
 constexpr double part_for_slopes = 1e-3;  // of the step: the difference in time that gives a force's slope
 constexpr double hides_nothing = 1e-6;    // of the longest step so far: shorter ones are of the location of events
 constexpr int most_probes = 6;
@@ -94,8 +94,7 @@ bool EventLocation::swings_matter(const std::vector<Value>& values, double h) co
 bool EventLocation::hides_gap(double h) {
   system_.move_to(between_.t, between_.q, between_.v);
   for (int k = 0; k < int(functions_.size()); ++k) {
-    if (functions_[k].at_ends || functions_[k].kind == Kind::slide || of_rows(k) || by_force(k))
-      continue;
+    if (functions_[k].at_ends || functions_[k].kind == Kind::slide || of_rows(k) || by_force(k)) continue;
     const Value &begin = now_[k], &end = next_[k];
     const Cubic cubic{0, h, begin.f, end.f, begin.slope, end.slope};
     const double there = (functions_[k].kind == Kind::leave ? -1 : 1) * system_.gap(functions_[k].contact);

@@ -10,10 +10,10 @@ namespace trammel::numerics {
 
 namespace {
 
-constexpr std::uintmax_t most_evaluations = 200;  // bisection from any bracket of doubles to its last bit: far fewer
+constexpr std::uintmax_t most_evaluations = 200;  // bisection to `resolution`, 2 eps of the time or more: about 52
 constexpr int most_trials = 200;                  // likewise, each with a cubic of at most `most_iterations`
 constexpr int most_iterations = 100;
-constexpr double narrowest = 1e-16;  // of the bracket that the cubic lies in: round-off
+constexpr double narrowest = 1e-16;  // of the bracket that the cubic lies in: below round-off, except near 0
 
 }  // namespace
 

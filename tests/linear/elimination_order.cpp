@@ -193,6 +193,7 @@ TEST(EliminationTree, TakesHalvesOrMinimumDegreeWhereTheOrderAlongTheGraphTakesT
   EXPECT_GT(of_28.along, 3 * of_28.degree);
   EXPECT_LT(of_28.halves, of_28.degree);
   EXPECT_EQ(of_28.taken, of_28.halves);
+  EXPECT_GT(of_40.along, 3 * of_40.degree);
   EXPECT_LT(of_40.degree, of_40.halves);
   EXPECT_EQ(of_40.taken, of_40.degree);
 }

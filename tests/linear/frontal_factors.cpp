@@ -179,6 +179,7 @@ TEST(FrontalFactors, SolvesEquationsWhoseRightSideIsZero) {
     ASSERT_TRUE(factorise(factors, A));
     Vec x;
     EXPECT_TRUE(factors.solve(sparse(A), Vec::Zero(A.rows()), x));
+    ASSERT_EQ(x.size(), A.rows());
     EXPECT_TRUE(x.isZero(0));
   }
 }

@@ -1,5 +1,7 @@
 // Measured maps against theory that was derived apart from the methods' code.
 #include <cmath>
+#include <complex>
+#include <vector>
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double step_error = 2e-13;
 constexpr int columns = 6, order = 2 * columns;
 constexpr int most_steps = 20000;
-constexpr double least_error = 1e-30;  // of a step, relative to `step_error`: it lengthens the next one no further
+constexpr double least_error = 1e-30;  // of a step, relative to `step_error`: keeps its power finite
 // Times in units of the springs': a step that is taken whatever its error; a way between events that is no progress; a
 // step that may hide an event inside; the longest step, and a course that does not end.
 constexpr double shortest = 1e-12, no_progress = 1e-12, may_hide = 1e-3, longest = 1e9, endless = 1e8;

@@ -29,7 +29,7 @@ using M3 = Eigen::Matrix3d;
 using SurfacePointChange = PointChange<Eigen::Dynamic>;
 using Along = Eigen::Matrix<double, 2, Eigen::Dynamic>;  // dxi per change of some variables
 
-constexpr double no_determinant = 1e-12;  // of H, relative to |y_u|^2 |y_v|^2: round-off at a centre of curvature
+constexpr double no_determinant = 1e-12;  // of H, relative to |r_u|^2 |r_v|^2: round-off at a centre of curvature
 
 struct Box {
   V3 low, high;

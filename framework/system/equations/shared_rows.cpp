@@ -85,8 +85,8 @@ void SharedRowsAtPoint::renew(int group) {
   for (Index k = 0; k < shared.share.rows(); ++k) idle.push_back(shared.share.row(k).isZero(0));
   shared.K = K;
   const bool any_idle = std::find(idle.begin(), idle.end(), true) != idle.end();
-  shared.share = any_idle ? complementarity::least_norm_shares(shared.resultants(), idle)
-                          : complementarity::least_norm_shares(K);
+  shared.share =
+      any_idle ? complementarity::least_norm_shares(shared.resultants(), idle) : complementarity::least_norm_shares(K);
   contacts_.loads.form_resultants(group);
 }
 
