@@ -233,16 +233,26 @@ ContactSolution solve_island(const Island& island, const Mat& A, const Vec& b, V
 
 ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
                                double nothing) {
+  std::vector<double> violation;
+  return solve_contacts(points, A, b, F, a, std::vector<double>(points.size(), nothing), violation);
+}
+
+ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
+                               const std::vector<double>& nothing, std::vector<double>& violation) {
   F.setZero(b.size());
   a.setZero(b.size());
+  violation.assign(points.size(), 0);
   if (b.size() == 0) return {LcpOutcome::solved, 0};
   if (!A.allFinite() || !b.allFinite()) return {LcpOutcome::gave_up, std::numeric_limits<double>::infinity()};
   ContactSolution all{LcpOutcome::solved, 0};
   Vec F_island, a_island;
   for (const Island& island : islands(points, A)) {
     if (island.rows.empty()) continue;
+    double counts_as_0 = 0;
+    for (const std::size_t i : island.members) counts_as_0 = std::max(counts_as_0, nothing[i]);
     const ContactSolution one =
-        solve_island(island, A(island.rows, island.rows), b(island.rows), F_island, a_island, nothing);
+        solve_island(island, A(island.rows, island.rows), b(island.rows), F_island, a_island, counts_as_0);
+    for (const std::size_t i : island.members) violation[i] = one.violation;
     if (one.outcome != LcpOutcome::solved) {
       F.setZero(), a.setZero();
       return one;

@@ -39,5 +39,9 @@ struct ContactSolution {
 // which dependent contacts disagree.
 ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
                                double nothing = 0);
+// The same, with a `nothing` for each contact, of which the largest of an island counts in it. Fills `violation`, that
+// of each contact's island, as far as islands are solved.
+ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
+                               const std::vector<double>& nothing, std::vector<double>& violation);
 
 }  // namespace trammel::complementarity

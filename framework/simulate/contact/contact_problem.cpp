@@ -70,31 +70,12 @@ complementarity::ContactSolution ContactProblem::solve_once(const Mat& A) {
     else if (p.tangent == Participant::Tangent::sliding)
       point.kind = complementarity::ContactPoint::Tangent::sliding, point.ratio = p.ratio;
   }
-  return solve_islands(A);
-}
-
-complementarity::ContactSolution ContactProblem::solve_islands(const Mat& A) {
-  F_.setZero(b_.size());
-  a_.setZero(b_.size());
-  complementarity::ContactSolution all{complementarity::LcpOutcome::solved, 0};
-  Vec F, a;
-  for (const complementarity::Island& island : complementarity::islands(points_, A)) {
-    double nothing = 0;
-    for (const std::size_t i : island.members) nothing = std::max(nothing, who[i].nothing);
-    const Mat A_island = A(island.rows, island.rows);
-    const Vec b_island = b_(island.rows);
-    const complementarity::ContactSolution one =
-        complementarity::solve_contacts(island.points, A_island, b_island, F, a, nothing);
-    for (const std::size_t i : island.members) who[i].violation = one.violation;
-    if (one.outcome != complementarity::LcpOutcome::solved) {
-      F_.setZero(), a_.setZero();
-      return one;
-    }
-    all.violation = std::max(all.violation, one.violation);
-    F_(island.rows) = F;
-    a_(island.rows) = a;
-  }
-  return all;
+  std::vector<double> nothing, violation;
+  for (const Participant& p : who) nothing.push_back(p.nothing);
+  const complementarity::ContactSolution solution =
+      complementarity::solve_contacts(points_, A, b_, F_, a_, nothing, violation);
+  for (std::size_t i = 0; i < who.size(); ++i) who[i].violation = violation[i];
+  return solution;
 }
 
 // Contacts that depend on each other, as a stack between floor and ceiling, cannot all part again. They yield a little:

@@ -16,6 +16,12 @@ namespace trammel::simulate {
 
 using model::Tangential;
 
+// x / |x|; the direction of the first tangent if x is 0.
+inline Tangential direction_of(const Tangential& x) {
+  const double length = x.norm();
+  return length > 0 ? Tangential(x / length) : Tangential(1, 0);
+}
+
 struct Participant {
   enum class Tangent { none, resting, sliding };
   int contact = 0;
@@ -94,7 +100,6 @@ class ContactProblem {
   std::vector<complementarity::SharingGroup> groups_with_idle(const std::vector<complementarity::ContactRole>& role,
                                                               std::vector<bool>& in_them) const;
   complementarity::ContactSolution solve_once(const Mat& A);
-  complementarity::ContactSolution solve_islands(const Mat& A);
   Mat yielding() const;                           // the Delassus matrix of contacts that are not quite rigid
   double no_slip(std::size_t participant) const;  // [m/s^2]
   double push(const Pushed& p) const { return who[p.who].ratio[0] * who[p.who].given; }  // [N]
