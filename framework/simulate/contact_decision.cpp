@@ -1,9 +1,8 @@
-// Rules 3 to 7 and 11 to 13 of contact_mode.hpp: which contacts close, open, stick and slide, by the complementarity
-// problem.
+// Rules 3 to 7 and 11 of contact_mode.hpp: which contacts close, open, stick and slide, by the complementarity problem.
+// Rules 12 and 13, of contacts that share their forces: contact_sharing.cpp.
 #include <algorithm>
 #include <cmath>
 
-#include "complementarity/exact_modes.hpp"
 #include "simulate/contact/law_speeds.hpp"
 #include "simulate/contact_mode.hpp"
 #include "system/point/locks_itself.hpp"
@@ -19,29 +18,6 @@ using Tangent = Participant::Tangent;
 constexpr double undecided = 10;
 // A later state is asked if an earlier one leaves it open, too.
 constexpr double moments_later[] = {1e-4, 1e-3, 1e-2};
-
-// Of the largest force. Contacts with less force may be idle.
-constexpr double most_error_of_forces = 1e-6;
-
-// x / |x|; the direction of the first tangent if x is 0.
-Tangential direction_of(const Tangential& x) {
-  const double length = x.norm();
-  return length > 0 ? Tangential(x / length) : Tangential(1, 0);
-}
-
-bool has_sliding(const model::SharedRows& group) {
-  return !group.sliding.empty();
-}
-
-bool shares_tangents(const model::SharedRows& group, int contact) {
-  const auto is = [contact](const model::ContactDirection& d) { return d.contact == contact && d.row > 0; };
-  return std::any_of(group.basis.begin(), group.basis.end(), is) ||
-         std::any_of(group.implied.begin(), group.implied.end(), is);
-}
-
-bool has_any(const std::vector<bool>& all) {
-  return std::find(all.begin(), all.end(), true) != all.end();
-}
 
 // Rule 12. Contacts held at their bounds let go where mu < mu_0. True if any does: all modes are to be decided again.
 bool let_go(const std::vector<Participant*>& held) {
@@ -252,169 +228,6 @@ complementarity::ContactSolution ContactModes::take_verdicts(const State& state)
   find_shares(state);
   open_pulling_ones(state);
   return solution;
-}
-
-// Rule 13. Which contacts without a force are idle matters, because the springs' shares of the others affect the
-// motion. The forces of the problem leave this open: they may be 0 by a self-stress that sliding contacts share, and
-// their error is unknown where they are much larger than what accelerates (a wedge). So contacts with a little more
-// force are idle too, or none is, if the forces in these modes could not be exerted otherwise. Each island is decided
-// for itself: a force that is an error in one is large in another.
-void ContactModes::find_shares(const State& state) {
-  constexpr double round_off = complementarity::largest_violation, no_contact = -1;
-  const model::Modes decided = modes_;
-  const std::vector<std::size_t> island = problem_.islands();
-  std::vector<double> none(problem_.who.size(), round_off), least = share(none);
-  std::vector<bool> doubtful(none.size());  // by island
-  for (std::size_t k = 0; k < least.size(); ++k) doubtful[k] = least[k] <= most_error_of_forces;
-  for (std::size_t i = 0; i < island.size(); ++i)
-    if (problem_.who[i].idle) doubtful[island[i]] = true;
-  const auto doubts_remain = [&] {
-    if (!has_any(doubtful)) return false;
-    const std::vector<bool> exerted = can_be_exerted(state);
-    for (std::size_t k = 0; k < exerted.size(); ++k) doubtful[k] = doubtful[k] && !exerted[k];
-    return has_any(doubtful);
-  };
-  const auto share_again = [&] {
-    modes_ = decided;
-    least = share(none);
-  };
-  while (doubts_remain()) {
-    bool more = false;
-    for (std::size_t k = 0; k < none.size(); ++k)
-      if (doubtful[k] && least[k] <= most_error_of_forces) none[k] = least[k], more = true;
-    if (!more) break;
-    share_again();
-  }
-  const auto share_doubtful = [&](double part) {
-    for (std::size_t k = 0; k < none.size(); ++k)
-      if (doubtful[k]) none[k] = part;
-    share_again();
-  };
-  if (!has_any(doubtful)) return;
-  share_doubtful(no_contact);
-  if (doubts_remain()) share_doubtful(round_off);
-}
-
-std::vector<double> ContactModes::share(const std::vector<double>& none) {
-  const std::vector<double> least = problem_.find_idle(modes_, none);
-  for (const Participant& p : problem_.who)  // without a force there is no friction
-    if (model::ContactMode& mode = modes_.contacts[p.contact]; p.idle && mode.friction == Friction::stick)
-      mode.friction = Friction::none;
-  modes_.shared = problem_.shared_rows(modes_);
-  while (open_loose_ones()) modes_.shared = problem_.shared_rows(modes_);
-  return least;
-}
-
-// Rule 13. A contact without a force stays closed only as long as the others hold it.
-bool ContactModes::open_loose_ones() {
-  const std::vector<bool> held = problem_.held_by_others(modes_);
-  bool any = false;
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    Participant& p = problem_.who[i];
-    if (!p.idle || held[i]) continue;
-    model::ContactMode& mode = modes_.contacts[p.contact];
-    p.idle = mode.closed = false;
-    mode.friction = Friction::none;
-    any = true;
-  }
-  return any;
-}
-
-// Rule 13. A contact whose force in the solution may be its error pulls if its row makes this force exact. It opens, if
-// it parts then; the contacts of one island together.
-void ContactModes::open_pulling_ones(const State& state) {
-  const std::vector<double> largest = problem_.largest_beside();
-  std::vector<std::size_t> faint;
-  for (std::size_t i = 0; i < largest.size(); ++i)
-    if (const Participant& p = problem_.who[i];
-        p.unilateral && !p.idle && p.N > 0 && p.N <= most_error_of_forces * largest[i])
-      faint.push_back(i);
-  if (faint.empty() || !has_forces_in(modes_, state)) return;
-  const model::Modes decided = modes_;
-  const auto contact = [this](std::size_t i) { return problem_.who[i].contact; };
-  std::erase_if(faint,
-                [&](std::size_t i) { return locks(contact(i)) || !(system_.normal_force(contact(i), lambda_) < 0); });
-  const std::vector<std::size_t> island = problem_.islands();
-  for (std::vector<std::size_t>& opened = faint; !opened.empty();) {
-    for (const std::size_t i : opened) {
-      modes_.contacts[contact(i)].closed = false;
-      modes_.contacts[contact(i)].friction = Friction::none;
-    }
-    find_shares(state);
-    std::vector<bool> closes(problem_.who.size(), !has_forces_in(modes_, state));  // by island
-    for (const std::size_t i : opened)
-      if (!closes[island[i]] && !(system_.acceleration({contact(i), 0}, a_) >= 0)) closes[island[i]] = true;
-    if (std::erase_if(opened, [&](std::size_t i) { return closes[island[i]]; }) == 0) return;
-    modes_ = decided;
-    if (opened.empty()) find_shares(state);
-  }
-}
-
-// Sets a_ and lambda_. False if these modes have no finite forces, as where a joint locks itself: they are only tried.
-bool ContactModes::has_forces_in(const model::Modes& modes, const State& state) try {
-  system_.set_modes(modes);
-  system_.move_to(state.t, state.q, state.v);
-  system_.accelerate({}, a_, lambda_);
-  return a_.allFinite() && lambda_.allFinite();
-} catch (const model::LocksItself&) {
-  return false;
-}
-
-// By island: whether the forces in these modes push and stay in their cones.
-std::vector<bool> ContactModes::can_be_exerted(const State& state) {
-  const std::vector<std::size_t> island = problem_.islands();
-  if (!has_forces_in(modes_, state)) return std::vector<bool>(island.size(), false);
-  std::vector<double> largest(island.size(), 0), worst(island.size(), 0);
-  for (std::size_t i = 0; i < island.size(); ++i) {
-    const Participant& p = problem_.who[i];
-    const model::ContactMode& mode = modes_.contacts[p.contact];
-    if (!mode.closed || !p.unilateral) continue;
-    const double N = system_.normal_force(p.contact, lambda_);
-    double& most = worst[island[i]];
-    largest[island[i]] = std::max(largest[island[i]], std::abs(N));
-    most = std::max(most, -N);
-    if (mode.friction != Friction::stick) continue;
-    const double bound = system_.model().contacts[p.contact].coulomb->static_coefficient() * std::max(0.0, N);
-    most = std::max(most, system_.friction_force(p.contact, lambda_).norm() - bound);
-  }
-  std::vector<bool> exerted;
-  for (std::size_t k = 0; k < island.size(); ++k) exerted.push_back(worst[k] <= most_error_of_forces * largest[k]);
-  return exerted;
-}
-
-// Rule 12: the contacts at rest whose friction is at its bound while a group with sliding members cannot carry its
-// resultant.
-std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
-  constexpr double reached = 1 - 1e-6, round_off = 1e-9;
-  const auto at_bound = [this](const Participant& p) {
-    const bool sticks = modes_.contacts[p.contact].friction == Friction::stick;
-    return sticks && p.N > 0 && p.T.norm() > reached * (p.let_go ? p.mu : p.mu_0) * p.N;
-  };
-  const bool sliding_shares = std::any_of(modes_.shared.begin(), modes_.shared.end(), has_sliding);
-  if (!sliding_shares || std::none_of(problem_.who.begin(), problem_.who.end(), at_bound)) return {};
-  system_.set_modes(modes_);
-  system_.move_to(state.t, state.q, state.v);
-  system_.accelerate({}, a_, lambda_);
-  std::vector<Participant*> held;
-  for (std::size_t g = 0; g < modes_.shared.size(); ++g) {
-    if (!has_sliding(modes_.shared[g])) continue;
-    if (system_.spare_load(int(g), lambda_) >= -round_off * system_.largest_load(int(g), lambda_)) continue;
-    for (Participant& p : problem_.who)
-      if (at_bound(p) && shares_tangents(modes_.shared[g], p.contact)) held.push_back(&p);
-  }
-  return held;
-}
-
-// Rule 12: they keep T = mu N, as if they slid.
-void ContactModes::hold(const State& state, const std::vector<Participant*>& held) {
-  for (Participant* p : held) {
-    model::ContactMode& mode = modes_.contacts[p->contact];
-    mode.friction = Friction::slide;
-    mode.direction = -direction_of(p->T);
-    mode.least_slip = least_slip(p->contact);
-    p->ratio = -p->mu * mode.direction;
-  }
-  if (!held.empty()) find_shares(state);
 }
 
 // Rule 11. By participant: the error of the solution of its island leaves open which contacts press.
