@@ -28,6 +28,12 @@ constexpr double compliances[] = {1e-10, 0.0}, dependent_compliances[] = {1e-6, 
 constexpr double judged_at_rest[] = {1e-8, 1e-12};
 // A violation as small is the round-off of A F (1e-4 of its terms): no better solution is sought.
 constexpr double round_off = 1e-11;
+// Relative to b: accelerations of rows that springs may keep closed. They are those of compliant contacts, as above.
+constexpr double judged_closed = 1e-8;
+// Relative to b: forces whose round-off in A F exceeds this part of b are no solution.
+constexpr double most_lost = 1e-4;
+// Relative to the largest acceleration of a contact and of all forces: forces that cause less are round-off.
+constexpr double round_off_of_forces = 1e-13;
 // Largest number of contacts whose modes are searched, and of sets of modes.
 constexpr std::size_t few_contacts = 24, few_round_contacts = 4;
 constexpr int most_nodes = 20000;
@@ -114,7 +120,7 @@ class Cascade {
   // makes these forces 0. Rows of idle contacts resist their forces alone, so these are 0 as well. `a`: accelerations
   // of `nearby`.
   bool try_springs(const Vec& a, const Vec& nearby, Vec& F) {
-    std::vector<ContactRole> roles = roles_of(points_, nearby, a, 1e-8 * b_.lpNorm<Eigen::Infinity>());
+    std::vector<ContactRole> roles = roles_of(points_, nearby, a, judged_closed * b_.lpNorm<Eigen::Infinity>());
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (const int row = points_[i].normal; row >= 0 && !(nearby[row] > 0)) roles[i] = {};
     CarryingRows carrying = carrying_rows(points_, A_, roles);
@@ -160,7 +166,7 @@ class Cascade {
   // True if A F has lost b in round-off: such forces are no solution (Painleve's critical coefficient).
   bool lost_in_round_off(const Vec& F) const {
     constexpr double eps = std::numeric_limits<double>::epsilon();
-    return eps * (A_.cwiseAbs() * F.cwiseAbs()).maxCoeff() > 1e-4 * b_.lpNorm<Eigen::Infinity>();
+    return eps * (A_.cwiseAbs() * F.cwiseAbs()).maxCoeff() > most_lost * b_.lpNorm<Eigen::Infinity>();
   }
 
   ContactSolution found(Vec& F) const {
@@ -181,7 +187,8 @@ class Cascade {
 void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a) {
   // Round-off of accelerations. That of a force is the force which causes it, smaller where bodies are light.
   const Vec from_forces = A.cwiseAbs() * F.cwiseAbs(), terms = b.cwiseAbs() + from_forces;
-  const double little = 1e-13 * (b.lpNorm<Eigen::Infinity>() + from_forces.lpNorm<Eigen::Infinity>());
+  const double largest = b.lpNorm<Eigen::Infinity>() + from_forces.lpNorm<Eigen::Infinity>();
+  const double little = round_off_of_forces * largest;
   for (const ContactPoint& p : points) {
     double N = p.given;
     if (p.normal >= 0) {
@@ -207,8 +214,7 @@ void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, cons
     const Vec asked = stiff > 0 ? Vec(T - a_t / stiff) : Vec(T);
     const bool slides =
         stiff * asked.norm() >
-        stiff * bound +
-            round_off_of_slip * scale_of_slip(terms.segment(p.tangent, p.tangents).maxCoeff(), 1e13 * little);
+        stiff * bound + round_off_of_slip * scale_of_slip(terms.segment(p.tangent, p.tangents).maxCoeff(), largest);
     if (!slides) a_t.setZero();
     if (slides)
       T = bound * asked.normalized();

@@ -22,6 +22,8 @@ constexpr double no_slope = 1e-9;
 // The residual then proves that there are no forces up to this many times those that cause accelerations of the size of
 // b.
 constexpr double excluded = 1e4;
+// Relative to the terms of its sum: an entry of A F_x that is round-off, which is no stiffness.
+constexpr double cancelled = 1e-12;
 constexpr int sides = 8;  // of the polygon around the disk
 
 Vector2d direction(double angle) {
@@ -65,10 +67,10 @@ class Relaxation {
     Index first, count;  // the sum of these x is 1
   };
 
-  // A F_x without round-off, which is no stiffness (Painleve's critical coefficient).
+  // A F_x without its round-off: at Painleve's critical coefficient a stiffness is exactly 0.
   static Mat without_round_off(const Mat& A, const Mat& F_x) {
     const Mat product = A * F_x, size = A.cwiseAbs() * F_x.cwiseAbs();
-    return (product.array().abs() > 1e-12 * size.array()).select(product, 0.0);
+    return (product.array().abs() > cancelled * size.array()).select(product, 0.0);
   }
 
   // By Farkas' lemma the residual r = d - B x is a proof that there is no solution: d.r > 0, and no column has a

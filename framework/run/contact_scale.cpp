@@ -57,7 +57,7 @@ void Scale::raise_to(const Scale& other) {
 // start; then `place` limits the length.
 double Scale::no_acceleration() const {
   const double way = std::max(gaps_and_bodies, place);
-  return 1e-12 * std::max(gravity, way > 0 ? speed * speed / way : 0);
+  return round_off * std::max(gravity, way > 0 ? speed * speed / way : 0);
 }
 
 // Bodies at rest shake by the round-off of the weight that contacts hold, and turn by this divided by their size. A
@@ -66,10 +66,10 @@ Tolerance Scale::in_own_unit(const Tolerance& tolerance, double every) const {
   if (tolerance.absolute > 0) return tolerance;
   const double way = std::max(speed, motion) * every + gravity * every * every;
   const double unit = gaps_and_bodies > 0 ? gaps_and_bodies : way > one_point() ? way : place > one_point() ? place : 1;
-  const double length = std::min(1.0, unit), round_off = 256 * std::numeric_limits<double>::epsilon() * gravity * every;
+  const double length = std::min(1.0, unit), shaking = 256 * std::numeric_limits<double>::epsilon() * gravity * every;
   return {.relative = tolerance.relative,
-          .absolute = std::max(tolerance.relative * length, round_off),
-          .absolute_rate = std::min(round_off / length, tolerance.relative * std::max(speed, motion))};
+          .absolute = std::max(tolerance.relative * length, shaking),
+          .absolute_rate = std::min(shaking / length, tolerance.relative * std::max(speed, motion))};
 }
 
 double Scale::error_of_position(const Tolerance& tolerance) const {

@@ -16,6 +16,8 @@ namespace trammel::simulate {
 
 // The sizes, and the thresholds derived from them.
 struct Scale {
+  static constexpr double round_off = 1e-12;  // of the scene's lengths, speeds and accelerations: sums of many terms
+
   double gaps_and_bodies =
       0;  // [m] the largest gap so far, extent of a body, or distance between the markers of a joint or force
   double place =
@@ -33,8 +35,8 @@ struct Scale {
   // [m/s] Error of the difference of two velocities, each of which is a sum over a body's coordinates.
   double speed_resolution() const { return 16 * std::numeric_limits<double>::epsilon() * motion; }
   // Nearer than this is touching [m], slower is at rest [m/s], less is no acceleration [m/s^2].
-  double touching() const { return 1e-12 * gaps_and_bodies + resolution(); }
-  double rest_speed() const { return 1e-12 * speed + speed_resolution(); }
+  double touching() const { return round_off * gaps_and_bodies + resolution(); }
+  double rest_speed() const { return round_off * speed + speed_resolution(); }
   double no_acceleration() const;
   // [m/s] Rates up to this may have been left by the steps in rows that they hold.
   double drift() const { return 1e-6 * speed + speed_resolution(); }

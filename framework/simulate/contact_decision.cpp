@@ -19,6 +19,13 @@ constexpr double undecided = 10;
 // A later state is asked if an earlier one leaves it open, too.
 constexpr double moments_later[] = {1e-4, 1e-3, 1e-2};
 
+// Relative to the rates before an impact in its island: what it leaves in the rates that it ends.
+constexpr double error_of_impacts = 1e-9;
+// Relative to the largest acceleration in the island, which may cancel in the others.
+constexpr double error_of_accelerations = 1e-12;
+// Of the speed that a fixed step changes: less is not resolved by such steps.
+constexpr double part_of_step = 0.1;
+
 // Rule 12. Contacts held at their bounds let go where mu < mu_0. True if any does: all modes are to be decided again.
 bool let_go(const std::vector<Participant*>& held) {
   bool again = false;
@@ -44,7 +51,7 @@ double ContactModes::error_of_impact(int contact) const {
   for (const TouchingContact& c : touching_)
     if (scale_.island(c.contact) == scale_.island(contact))
       scale = std::max({scale, std::abs(c.before), c.slip_before.norm()});
-  return 1e-9 * scale;
+  return error_of_impacts * scale;
 }
 
 void ContactModes::find_candidates(const ContactChanges& changes) {
@@ -67,16 +74,17 @@ double ContactModes::stick_speed(int contact) const {
   return simulate::stick_speed(system_.model().contacts[contact], scale_.of(contact));
 }
 
-// [m/s] Slip across its former direction that counts as none; with fixed steps also what a tenth of a step takes away.
+// [m/s] Slip across its former direction that counts as none; with fixed steps also what a part of a step takes away.
 double ContactModes::unresolved(int contact, const State& state) {
   const model::ContactMode& mode = before_.contacts[contact];
   if (!steps_.fixed || system_.tangents(contact) == 1) return mode.least_slip;
-  return std::max(mode.least_slip, 0.1 * *steps_.fixed * system_.slip_acceleration(contact, state.a).norm());
+  const double in_a_step = *steps_.fixed * system_.slip_acceleration(contact, state.a).norm();
+  return std::max(mode.least_slip, part_of_step * in_a_step);
 }
 
 double ContactModes::least_acceleration(int contact) const {
   const double largest = largest_.empty() ? 0 : largest_[std::size_t(contact)];
-  return std::max(scale_.of(contact).no_acceleration(), 1e-12 * largest);
+  return std::max(scale_.of(contact).no_acceleration(), error_of_accelerations * largest);
 }
 
 // Of a solution with the violation found.
@@ -332,7 +340,7 @@ void ContactModes::accelerate_participants() {
   for (std::size_t i = 0; i < island.size(); ++i) {
     Participant& p = problem_.who[i];
     largest_[std::size_t(p.contact)] = largest[island[i]];
-    p.nothing = std::max(least[island[i]], 1e-12 * largest[island[i]]);
+    p.nothing = std::max(least[island[i]], error_of_accelerations * largest[island[i]]);
   }
 }
 
@@ -347,7 +355,7 @@ void ContactModes::take_verdict(const Participant& p, bool kept_closed) {
   if (p.tangent == Tangent::sliding) return;
   if (p.a_t.norm() > p.no_slip) {
     mode.direction = direction_of(p.a_t);
-  } else if (p.yielded && p.T.norm() > (1 - 1e-6) * p.mu * p.N) {  // slides, too slowly to be seen
+  } else if (p.yielded && p.at_bound(p.mu)) {  // slides, too slowly to be seen
     mode.direction = -direction_of(p.T);
   } else {
     mode.friction = Friction::stick;

@@ -11,6 +11,8 @@ namespace {
 
 // Of the largest force. Contacts with less force may be idle.
 constexpr double most_error_of_forces = 1e-6;
+// Of the largest load of a group: a spare load may be negative by this round-off.
+constexpr double round_off_of_loads = 1e-9;
 
 bool has_sliding(const model::SharedRows& group) {
   return !group.sliding.empty();
@@ -159,10 +161,9 @@ std::vector<bool> ContactModes::can_be_exerted(const State& state) {
 // Rule 12: the contacts at rest whose friction is at its bound while a group with sliding members cannot carry its
 // resultant.
 std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
-  constexpr double reached = 1 - 1e-6, round_off = 1e-9;
   const auto at_bound = [this](const Participant& p) {
     const bool sticks = modes_.contacts[p.contact].friction == Friction::stick;
-    return sticks && p.N > 0 && p.T.norm() > reached * (p.let_go ? p.mu : p.mu_0) * p.N;
+    return sticks && p.N > 0 && p.at_bound(p.let_go ? p.mu : p.mu_0);
   };
   const bool sliding_shares = std::any_of(modes_.shared.begin(), modes_.shared.end(), has_sliding);
   if (!sliding_shares || std::none_of(problem_.who.begin(), problem_.who.end(), at_bound)) return {};
@@ -172,7 +173,7 @@ std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
   std::vector<Participant*> held;
   for (std::size_t g = 0; g < modes_.shared.size(); ++g) {
     if (!has_sliding(modes_.shared[g])) continue;
-    if (system_.spare_load(int(g), lambda_) >= -round_off * system_.largest_load(int(g), lambda_)) continue;
+    if (system_.spare_load(int(g), lambda_) >= -round_off_of_loads * system_.largest_load(int(g), lambda_)) continue;
     for (Participant& p : problem_.who)
       if (at_bound(p) && shares_tangents(modes_.shared[g], p.contact)) held.push_back(&p);
   }

@@ -17,7 +17,8 @@ constexpr double round_off_of_lambda = 1e-14;  // of lambda
 // What is added to the curvature, relative to that of all springs: against round-off, where pieces are nearly flat, and
 // for a step along the residual.
 constexpr double stiffenings[] = {1e-13, 1e-6, 1.0};
-constexpr double shortest_part = 1e-4;   // of a step of Newton's method
+// Of a step of Newton's method: where it ends if the function does not decrease, and if it decreases without end.
+constexpr double shortest_part = 1e-4, longest_part = 1e6;
 constexpr double least_decrease = 1e-4;  // of the predicted one (Armijo)
 
 class DualNewton {
@@ -68,7 +69,7 @@ class DualNewton {
 
   void go_on(const Vec& from, const Vec& direction) {
     double part = 1, lowest = value_;
-    for (; part < 1e6; part *= 2, lowest = value_) {
+    for (; part < longest_part; part *= 2, lowest = value_) {
       evaluate(from + 2 * part * direction);
       if (!(value_ < lowest)) break;
     }

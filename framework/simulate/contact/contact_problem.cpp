@@ -30,9 +30,20 @@ constexpr double most_changed = 1e3, least_share = 1e-6;
 // rows are about to depend on each other (a strut that becomes upright), and they do not hold the other one.
 constexpr double most_times = 1e3;
 
+// Friction that does not hold its contact at its bound is sought below it by this part, which exceeds the round-off of
+// solutions, so that the contact is found to slide.
+constexpr double below_bound = 1e-8;
+
+// Contacts that yield do so by this part of the largest approach in their island.
+constexpr double part_of_approach = 1e-3;
+
+// Relative to the largest acceleration: those that count as 0 once a vanishing approach is taken out of a solution that
+// was found with it. It exceeds the change by the approach and by `part_of_approach` of it.
+constexpr double judged_at_rest = 1e-4;
+
 // Static or kinetic coefficient.
 double bound_of(const Participant& p) {
-  if (p.yielded) return (1 - 1e-8) * p.mu;
+  if (p.yielded) return (1 - below_bound) * p.mu;
   return p.let_go ? p.mu : p.mu_0;
 }
 
@@ -79,7 +90,7 @@ complementarity::ContactSolution ContactProblem::solve_once(const Mat& A) {
 }
 
 // Contacts that depend on each other, as a stack between floor and ceiling, cannot all part again. They yield a little:
-// for the impulses that end a slip, by a thousandth of their approach, so that no slip outlasts the approach.
+// for the impulses that end a slip, by a small part of their approach, so that no slip outlasts the approach.
 Mat ContactProblem::yielding() const {
   Mat A = delassus_;
   for (const complementarity::Island& island : complementarity::islands(points_, delassus_)) {
@@ -87,7 +98,7 @@ Mat ContactProblem::yielding() const {
     for (const std::size_t i : island.members) approach = std::max(approach, who[i].vanishing);
     const double largest = b_(island.rows).lpNorm<Eigen::Infinity>();
     for (const Eigen::Index k : island.rows)
-      if (largest > 0) A(k, k) *= 1 + 1e-3 * approach / largest;
+      if (largest > 0) A(k, k) *= 1 + part_of_approach * approach / largest;
   }
   return A;
 }
@@ -158,7 +169,7 @@ bool ContactProblem::let_approaches_vanish() {
     const Mat A = delassus_(island.rows, island.rows);
     const Vec b = b_(island.rows);
     Vec F = F_(island.rows), a = A * F + b;
-    if (!complementarity::make_exact(island.points, A, b, 1e-4, F, a)) return false;
+    if (!complementarity::make_exact(island.points, A, b, judged_at_rest, F, a)) return false;
     if (!(complementarity::violation(island.points, A, b, F, a, nothing) <= complementarity::largest_violation))
       return false;
     F_(island.rows) = F, a_(island.rows) = a;

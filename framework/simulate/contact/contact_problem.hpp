@@ -45,6 +45,10 @@ struct Participant {
   Tangential T = Tangential::Zero(), a_t = Tangential::Zero();
   double no_slip = 0;    // |a_t| up to this is no slip
   double violation = 0;  // of the solution of its island
+
+  // True if the friction found is at the bound that this coefficient gives, or within 1e-6 of it: a bound that was
+  // lowered to break a tie (contact_problem.cpp) and the round-off of solutions are far smaller.
+  bool at_bound(double coefficient) const { return T.norm() > (1 - 1e-6) * coefficient * N; }
 };
 
 class ContactProblem {

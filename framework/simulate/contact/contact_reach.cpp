@@ -11,13 +11,19 @@
 namespace trammel::simulate {
 namespace {
 
+// [m] Changes of a gap's acceleration by unit accelerations: round-off of levers up to this length, 1 m at most, and
+// of differences of places.
+constexpr double round_off_of_levers = 1e-12, round_off_of_places = 16;  // the latter times their resolution
+// [m or rad] A point that may be a dead centre is left by this, and by this times the gap.
+constexpr double away = 0.1;
+
 // Does a pseudo-random acceleration at the system's point change the gap's acceleration by more than round-off? The
 // levers have the scene's length.
 bool moves(model::AssembledSystem& system, const Scale& scale, int contact) {
   const Vec rest = Vec::Zero(system.sizes().nv);
   const double by = system.acceleration({contact, 0}, model::pseudo_random(rest.size(), 1, 0)) -
                     system.acceleration({contact, 0}, rest);
-  return std::abs(by) > 1e-12 * std::min(1.0, scale.length()) + 16 * scale.resolution();
+  return std::abs(by) > round_off_of_levers * std::min(1.0, scale.length()) + round_off_of_places * scale.resolution();
 }
 
 }  // namespace
@@ -36,7 +42,7 @@ void check_reach(model::AssembledSystem& system, const State& start, const scene
     const Scale own = scale.of(i);
     bool reaches = moves(system, own, i);
     for (double seed = 1; seed < 3 && !reaches; ++seed)  // the point may be a dead centre
-      for (const double far : {0.1, 0.1 * std::max(1.0, std::abs(gap))}) {
+      for (const double far : {away, away * std::max(1.0, std::abs(gap))}) {
         system.retract(start.q, model::pseudo_random(start.v.size(), far, seed), elsewhere);
         system.move_to(start.t, elsewhere, still);
         reaches = reaches || moves(system, own, i);
