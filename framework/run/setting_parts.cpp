@@ -42,9 +42,8 @@ Part step() {
       "step",
       "integrator.step and integrator.contact_step. A number is a fixed step [s], shortened only to meet records and "
       "events. An object keeps the error of each step, component by component in the mean square, below absolute + "
-      "relative |v| in velocities, and below absolute + relative min(|q|, 2 h |v|) in coordinates: 2 h |v| is the way "
-      "of "
-      "two steps, so the place of a scene does not matter. That takes a method with an error estimate.",
+      "relative |v| in velocities, and below absolute + relative min(|q|, 2 h |v|) in coordinates: 2 h |v| is the "
+      "way of two steps, so the place of a scene does not matter. That takes a method with an error estimate.",
       R"("step": 1e-4   or   "step": {"tolerance": 1e-9, "max": 1e-3})",
       {key("tolerance", Type::number,
            {.min = 0,

@@ -36,9 +36,8 @@ std::string of_impacts(const model::ContactEntry& contact, const Scale& scale, d
         "rebound. A capture_speed well below that gives them one",
         contact.path(), capture, fastest);
   return fmt::format(
-      "no impact of {} was faster than {:.3g} m/s, a part of the scene's speed below which impacts have no rebound, "
-      "the "
-      "fastest had {:.3g} m/s. A capture_speed well below that gives them one",
+      "no impact of {} was faster than {:.3g} m/s, a part of the scene's speed below which impacts have no "
+      "rebound, the fastest had {:.3g} m/s. A capture_speed well below that gives them one",
       contact.path(), capture, fastest);
 }
 
@@ -46,9 +45,8 @@ std::string of_slips(const model::ContactEntry& contact, double fastest) {
   const double named = contact.coulomb->stick_speed();
   if (!(fastest > 0) || fastest * coarse > named || !(named > 0)) return "";
   return fmt::format(
-      "{}.friction.stick_speed is {:.3g} m/s, the fastest slip was {:.3g} m/s: what is slower than the former sticks "
-      "at "
-      "once. Without it the stick speed follows the scene's",
+      "{}.friction.stick_speed is {:.3g} m/s, the fastest slip was {:.3g} m/s: what is slower than the former "
+      "sticks at once. Without it the stick speed follows the scene's",
       contact.path(), named, fastest);
 }
 
@@ -67,9 +65,8 @@ std::string of_creep(const model::ContactEntry& contact, double fastest, double 
   const double creep = creep_speed(*contact.smooth);
   if (!(creep > 0) || !(fastest * duration > coarse * length) || fastest > hardly_faster * creep) return "";
   return fmt::format(
-      "the fastest slip of {} was {:.3g} m/s, and its friction law creeps with speeds up to about {:.3g} m/s instead "
-      "of "
-      "sticking: use a critical_velocity well below the slips, or coulomb",
+      "the fastest slip of {} was {:.3g} m/s, and its friction law creeps with speeds up to about {:.3g} m/s "
+      "instead of sticking: use a critical_velocity well below the slips, or coulomb",
       contact.path(), fastest, creep);
 }
 

@@ -140,9 +140,9 @@ class StaticEquilibrium {
 
   std::string undetermined(const Vec& x) {
     return fmt::format(
-        "the equilibrium is not determined: it moves with time, and nothing holds {}, so its velocity there follows "
-        "from "
-        "nothing. Hold it by a joint, a spring or a contact, or start from positions and velocities of your own",
+        "the equilibrium is not determined: it moves with time, and nothing holds {}, so its velocity there "
+        "follows from nothing. Hold it by a joint, a spring or a contact, or start from positions and velocities of "
+        "your own",
         direction(x));
   }
 

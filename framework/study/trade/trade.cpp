@@ -190,9 +190,8 @@ class Trade {
                                                {{"integrator", method.with_tolerance(tolerance)}}, cpu, measure, run_);
     if (content_.distributions.empty())
       content_.no_distributions = fmt::format(
-          "beyond the horizon nothing is claimed: {:.3g} s of CPU time are left, and 4 perturbed starts of the choice "
-          "and "
-          "of the reference take {:.3g} s (--budget gives more)",
+          "beyond the horizon nothing is claimed: {:.3g} s of CPU time are left, and 4 perturbed starts of the "
+          "choice and of the reference take {:.3g} s (--budget gives more)",
           std::max(0.0, run_.left()), 4 * (content_.choice->cpu + cpu));
   }
 
