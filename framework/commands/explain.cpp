@@ -23,8 +23,8 @@ using Clock = std::chrono::steady_clock;
 // A sample repeats a call for so long [s] that the clock's own time does not count, at most `most_calls` times.
 constexpr int samples = 5, most_calls = 100000;
 constexpr double long_enough = 2e-3;
-// [s], and of each velocity: a second point whose evaluation costs the same.
-constexpr double next_to_it = 1e-12;
+// [s], and of each velocity: the distance of a second point, whose evaluation costs the same.
+constexpr double to_second_point = 1e-12;
 constexpr double usual_step = 1e-4;  // [s] where the scene leaves the first step to the method
 
 // [s] The least of several samples.
@@ -158,11 +158,11 @@ void costs(Text& text, Setup& setup, model::AssembledSystem& system) {
   system.set_modes(open);
   State now = setup.initial, next;
   // Alternates between two points, so that no result of the previous evaluation is reused.
-  const Vec beside = now.v + Vec::Constant(now.v.size(), next_to_it);
+  const Vec beside = now.v + Vec::Constant(now.v.size(), to_second_point);
   bool there = false;
   const auto move = [&] {
     there = !there;
-    system.move_to(there ? now.t + next_to_it : now.t, now.q, there ? beside : now.v);
+    system.move_to(there ? now.t + to_second_point : now.t, now.q, there ? beside : now.v);
   };
   system.move_to(now.t, now.q, now.v);
   system.accelerate({}, now.a, now.lambda);

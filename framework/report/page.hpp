@@ -11,6 +11,9 @@ namespace trammel::report {
 
 enum class Scale { linear, logarithmic };
 
+// [1] An error of 0 has no place on a logarithmic axis: it is drawn here, below round-off.
+inline constexpr double least_drawn = 1e-17;
+
 struct Axis {
   std::string label;  // with its unit: "step h [s]"
   Scale scale = Scale::linear;

@@ -19,6 +19,7 @@ namespace {
 using report::Axis;
 using report::Curve;
 using report::Figure;
+using report::least_drawn;
 using report::Mark;
 using report::Page;
 using report::Point;
@@ -28,8 +29,7 @@ using report::Table;
 constexpr double near = 1e-2, far = 1e3;  // omega h of the slowest and the fastest mode tried
 constexpr int points_of_map = 41;
 constexpr double longest_step = 1e-2, shortest_step = 1e-9;  // [s] of the pendulum
-constexpr int small_step_sizes = 8;                          // a decade each
-constexpr double least_drawn = 1e-17;  // relative error; an error of 0 has no place on a logarithmic axis
+constexpr int pendulum_steps = 8;                            // a decade each
 constexpr double most = 8;  // of a region's boundary: beyond those of all methods known to the authors of this page
 constexpr int rays = 13;
 
@@ -170,7 +170,7 @@ void add_row_region(Page& page, const IntegratorUnderTest& subject, const Linear
 // --- Small steps ---
 
 void add_small_steps(Page& page, const IntegratorUnderTest& subject) {
-  const std::vector<double> steps = logarithmic(longest_step, shortest_step, small_step_sizes);
+  const std::vector<double> steps = logarithmic(longest_step, shortest_step, pendulum_steps);
   Figure figure{.title = "Multipliers at small steps",
                 .caption =
                     "Largest relative error of lambda in ten steps of a pendulum with a rod; index 3 divides the "

@@ -207,7 +207,7 @@ void RowComplement::solve_lower(const Front& front, Vec& y) {
 
 // y_F := L_FF^-T (D^-1 y_F - L_BF^T y_B)
 void RowComplement::solve_upper(const Front& front, Vec& y) {
-  if (front.eliminated > most_unrolled) return solve_upper_of_many(front, y);
+  if (front.eliminated > most_unrolled) return solve_upper_of_large_front(front, y);
   with_sizes(front, [&](auto eliminated, auto stride) {
     const double* const L = L_.data() + front.L;
     const int* const rows = layout_.rows(front).data();
@@ -221,7 +221,7 @@ void RowComplement::solve_upper(const Front& front, Vec& y) {
   });
 }
 
-void RowComplement::solve_upper_of_many(const Front& front, Vec& y) {
+void RowComplement::solve_upper_of_large_front(const Front& front, Vec& y) {
   const std::span<const int> rows = layout_.rows(front);
   const Eigen::Index eliminated = front.eliminated, boundary = front.size - eliminated;
   const Eigen::Map<const Mat, 0, Eigen::OuterStride<>> L(L_.data() + front.L, front.size, eliminated,

@@ -45,7 +45,7 @@ class RowComplement {
   double* column(const Front& front, Eigen::Index j);  // of L or R
   void solve_lower(const Front& front, Vec& y);
   void solve_upper(const Front& front, Vec& y);
-  void solve_upper_of_many(const Front& front, Vec& y);
+  void solve_upper_of_large_front(const Front& front, Vec& y);
 
   ComplementLayout layout_;
   Vec L_, R_;     // of all fronts; the diagonal of L, which is 1, stores D^-1

@@ -86,10 +86,10 @@ void Lu::solve(const Vec& b, Vec& x) {
   double *const rest = rest_.data(), *const y = y_.data();
   x.resize(n);
   if (unrolled()) {
-    UnrolledVector few_y(n, b.data(), rows_.data());
-    few_y.solve_lower(data);
-    few_y.solve_upper(data, inverse_pivots_.data());
-    return few_y.copy_to(x.data(), n);
+    UnrolledVector y_unrolled(n, b.data(), rows_.data());
+    y_unrolled.solve_lower(data);
+    y_unrolled.solve_upper(data, inverse_pivots_.data());
+    return y_unrolled.copy_to(x.data(), n);
   }
   for (Eigen::Index i = 0; i < n; ++i) rest[i] = b[rows_[std::size_t(i)]];
   for (Eigen::Index j = 0; j < n; ++j) {

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "report/page.hpp"
+
 namespace trammel::study {
 namespace {
 
 constexpr int most_runs = 6;     // of one method
 constexpr double dear = 3;       // times the cheapest so far
-constexpr double exact = 1e-17;  // relative error; an error of 0 has no logarithm
 constexpr int most_levels = 19;  // of any dial
 
 // Expected change of log10 of the error per level: a tolerance falls by 10^0.5, and so does an error that is
@@ -24,7 +25,7 @@ double cost_slope(const Method& method) {
 }
 
 double logarithm(double error) {
-  return std::log10(std::max(error, exact));
+  return std::log10(std::max(error, report::least_drawn));
 }
 
 }  // namespace

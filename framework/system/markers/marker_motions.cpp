@@ -13,7 +13,7 @@ namespace trammel::model {
 
 namespace {
 
-constexpr double as_an_angle = 1e-9;  // off 1: the turn of a marker by a unit of an angle, but for round-off
+constexpr double error_of_unit_turn = 1e-9;  // the turn of a marker by a unit of an angle is 1 up to this round-off
 
 }  // namespace
 
@@ -207,7 +207,7 @@ void MarkerMotions::measure(int body, double L, double extent) {
       const double turn = column.tail(column.size() - dim).norm();
       double& most = moves(m.dofs[j]);
       most = std::max({most, column.head(dim).norm() / L, turn});
-      if (std::abs(turn - 1) < as_an_angle) ++turning(m.dofs[j]);
+      if (std::abs(turn - 1) < error_of_unit_turn) ++turning(m.dofs[j]);
     }
   }
   int iv = 0;

@@ -17,6 +17,7 @@ namespace {
 
 using report::Curve;
 using report::Figure;
+using report::least_drawn;
 using report::Mark;
 using report::Page;
 using report::Scale;
@@ -133,16 +134,15 @@ void add_drifts(Page& page, const Subject& s) {
   Curve energy{"energy |E - E_0|/E", Mark::line, {}, {}}, position{"|g| [m]", Mark::line, {}, {}},
       velocity{"|G v + g_t| [m/s]", Mark::line, {}, {}};
   const double start = problem.energy.value(problem.solution(0));
-  constexpr double least = 1e-17;  // of a logarithmic axis
   int step = 0;
   try {
     integrate(*method, *system, problem.solution(0), 20, 2000, [&](const State& x) {
       if (++step % 10) return;
       probe->move_to(x.t, x.q, x.v);
       energy.points.push_back(
-          {x.t, std::max(least, std::abs(problem.energy.value(x) - start) / problem.energy.scale), ""});
-      position.points.push_back({x.t, std::max(least, probe->g().norm()), ""});
-      velocity.points.push_back({x.t, std::max(least, probe->g_dot().norm()), ""});
+          {x.t, std::max(least_drawn, std::abs(problem.energy.value(x) - start) / problem.energy.scale), ""});
+      position.points.push_back({x.t, std::max(least_drawn, probe->g().norm()), ""});
+      velocity.points.push_back({x.t, std::max(least_drawn, probe->g_dot().norm()), ""});
     });
   } catch (const std::exception& e) {
     energy.failures.push_back({10e-3 * step, 0, e.what()});
