@@ -7,7 +7,7 @@ namespace {
 class Stabilised : public testing::TestWithParam<Form> {};
 
 TEST_P(Stabilised, HoldsPositionsAndVelocitiesToRoundOffAfterEachStep) {
-  Posed s(pendulum_in_wind());
+  Posed s(problems::pendulum_on_swinging_pivot());
   auto method = make(GetParam().name, GetParam().settings);
   ASSERT_TRUE(method->traits().holds_position && method->traits().holds_velocity);
   for (const double h : {1e-6, 1e-4, 1e-2, 5e-2}) {

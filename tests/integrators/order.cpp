@@ -48,7 +48,7 @@ TEST_P(SecondOrder, InPositionsVelocitiesAndMultipliersOnThePendulumInRedundantC
 }
 
 TEST_P(SecondOrder, AlsoWhereTheRowsDependOnTime) {
-  const Orders o = orders(pendulum_in_wind(), GetParam().name, GetParam().settings);
+  const Orders o = orders(problems::pendulum_on_swinging_pivot(), GetParam().name, GetParam().settings);
   EXPECT_NEAR(o.q.value, 2, 0.1) << o.q.table;
   EXPECT_NEAR(o.v.value, 2, 0.1) << o.v.table;
 }
@@ -178,7 +178,7 @@ TEST(Dop853, IsOfEighthOrderThoughRowsRepeat) {
 }
 
 TEST(QuasiVelocities, AreOfTheMethodsOrderWhereRowsDependOnTime) {
-  Posed s(pendulum_in_wind());
+  Posed s(problems::pendulum_on_swinging_pivot());
   const State start = s.start(), end = reference(s, start, 1);
   const Order f = fit_order(20, 4, [&](int n) {
     auto method = make("runge_kutta_4", {{"rows", std::string("null_space")}});

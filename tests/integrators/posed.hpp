@@ -55,23 +55,6 @@ inline Problem oscillators(std::vector<double> frequencies, double mu = 0) {
   return p;
 }
 
-// The pendulum with a rod whose pivot swings: g = ((x - p)^2 + y^2 - 1)/2, p = wind sin 3t. The start only.
-inline Problem pendulum_in_wind(double wind = 0.2) {
-  Problem p = problems::pendulum_with_rod();
-  p.closed_form = false;
-  p.rows = [wind](double t, const Vec& q, const Vec& v) -> Problem::Rows {
-    const double x = wind * std::sin(3 * t), x_t = 3 * wind * std::cos(3 * t), x_tt = -9 * x;
-    const Eigen::Vector2d d(q[0] - x, q[1]), u(v[0] - x_t, v[1]);
-    return {Vec::Constant(1, (d.squaredNorm() - 1) / 2), Vec::Constant(1, -d[0] * x_t),
-            Vec::Constant(1, -u.squaredNorm() + d[0] * x_tt), d.transpose()};
-  };
-  p.exact = [wind, still = p.exact](double, Vec& q, Vec& v) {
-    still(0, q, v);
-    v[0] += 3 * wind;
-  };
-  return p;
-}
-
 // 1 kg sliding to the right at 1 m/s on the plane y = 0 with friction mu and nothing that presses it, `above` the
 // plane. The start only.
 inline Problem sliding(double mu, double above) {

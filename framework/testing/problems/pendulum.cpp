@@ -67,6 +67,25 @@ Problem pendulum_with_rod(double theta_0, double omega_0, std::vector<double> ro
   return p;
 }
 
+Problem pendulum_on_swinging_pivot(double reach) {
+  Problem p = pendulum_with_rod();
+  p.name = "pendulum_on_swinging_pivot";
+  p.equations = "the pendulum with a rod of length 1 m to the pivot (reach sin 3t, 0)";
+  p.closed_form = false;
+  p.energy = {};
+  p.rows = [reach](double t, const Vec& q, const Vec& v) -> Problem::Rows {
+    const double x = reach * std::sin(3 * t), x_t = 3 * reach * std::cos(3 * t), x_tt = -9 * x;
+    const Eigen::Vector2d d(q[0] - x, q[1]), u(v[0] - x_t, v[1]);
+    return {Vec::Constant(1, (d.squaredNorm() - 1) / 2), Vec::Constant(1, -d[0] * x_t),
+            Vec::Constant(1, -u.squaredNorm() + d[0] * x_tt), d.transpose()};
+  };
+  p.exact = [reach, still = p.exact](double, Vec& q, Vec& v) {
+    still(0, q, v);
+    v[0] += 3 * reach;
+  };
+  return p;
+}
+
 Problem pendulum_of_varying_mass(double theta_0, double omega_0) {
   Problem p{"pendulum_of_varying_mass", "cosh(q)^2 q'' + cosh(q) sinh(q) q'^2 = -g sin(sinh(q)) cosh(q)",
             "Whittaker, Analytical Dynamics, section 44"};

@@ -69,6 +69,9 @@ Problem pendulum(double theta_0 = 1, double omega_0 = 0.4);
 Problem pendulum_with_rod(double theta_0 = 1, double omega_0 = 0.4, std::vector<double> row_weights = {1});
 // The same in the coordinate q with sinh(q) = theta, which makes the mass vary.
 Problem pendulum_of_varying_mass(double theta_0 = 1, double omega_0 = 0.4);
+// The pendulum with a rod whose pivot swings: g = ((x - p)^2 + y^2 - 1)/2, p = reach sin 3t [m]. No closed form: the
+// start only.
+Problem pendulum_on_swinging_pivot(double reach = 0.2);
 // The pendulum with a spring of stiffness k [N/m] as its rod. No closed form: energy only.
 Problem stiff_pendulum(double k = 1e4);
 // A bead on a straight wire that turns at the given rate [rad/s] under gravity.

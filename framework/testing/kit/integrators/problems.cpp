@@ -30,27 +30,9 @@ Problem some_rod(const Subject& s, std::vector<double> row_weights) {
   return pendulum_with_rod(theta, between(random, 0.1, 0.6), std::move(row_weights));
 }
 
-Problem pendulum_in_wind(double wind) {
-  Problem p = pendulum_with_rod();
-  p.name = "pendulum with a swinging pivot";
-  p.closed_form = false;
-  p.energy = {};
-  p.rows = [wind](double t, const Vec& q, const Vec& v) -> Problem::Rows {
-    const double x = wind * std::sin(3 * t), x_t = 3 * wind * std::cos(3 * t), x_tt = -9 * x;
-    const Eigen::Vector2d d(q[0] - x, q[1]), u(v[0] - x_t, v[1]);
-    return {Vec::Constant(1, (d.squaredNorm() - 1) / 2), Vec::Constant(1, -d[0] * x_t),
-            Vec::Constant(1, -u.squaredNorm() + d[0] * x_tt), d.transpose()};
-  };
-  p.exact = [wind, still = p.exact](double, Vec& q, Vec& v) {
-    still(0, q, v);
-    v[0] += 3 * wind;
-  };
-  return p;
-}
-
 Problem some_wind(const Subject& s) {
   std::mt19937 random = s.random(7);
-  return pendulum_in_wind(between(random, 0.15, 0.3));
+  return problems::pendulum_on_swinging_pivot(between(random, 0.15, 0.3));
 }
 
 Problem some_turning_wire(const Subject& s) {

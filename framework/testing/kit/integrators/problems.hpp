@@ -16,8 +16,6 @@ Problem some_oscillator(const Subject& s);
 Problem some_pendulum(const Subject& s);
 Problem some_pendulum_of_varying_mass(const Subject& s);
 Problem some_rod(const Subject& s, std::vector<double> row_weights = {1});
-// The pendulum with a rod whose pivot swings: g = ((x - p)^2 + y^2 - 1)/2, p = wind sin 3t. The start only.
-Problem pendulum_in_wind(double wind);
 Problem some_wind(const Subject& s);
 Problem some_turning_wire(const Subject& s);
 Problem some_top(const Subject& s);
