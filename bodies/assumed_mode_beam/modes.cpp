@@ -7,6 +7,8 @@ namespace trammel::beam {
 
 namespace {
 
+constexpr double last_step = 1e-16;  // of Newton's method, relative to z
+
 // The i-th root z of cos z = -1 / cosh z, by Newton from the asymptotic (i - 1/2) pi.
 double root(int i) {
   double z = (i - 0.5) * std::numbers::pi;
@@ -15,7 +17,7 @@ double root(int i) {
     const double c = std::cosh(z);
     const double step = (std::cos(z) + 1 / c) / (-std::sin(z) - std::tanh(z) / c);
     z -= step;
-    if (std::abs(step) < 1e-16 * z) break;
+    if (std::abs(step) < last_step * z) break;
   }
   return z;
 }

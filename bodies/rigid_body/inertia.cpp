@@ -15,6 +15,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+// A flat body lies exactly on the bound of principal moments, and its numbers may be rounded to a few digits.
+constexpr double rounded = 1e-6;
+
 // A homogeneous body of density 1.
 struct Shape {
   const char* parameter;
@@ -92,8 +95,7 @@ void check_physical(const Matrix3d& I, Space space, const char* parameter) {
   if (!(moments(0) > 0))
     throw ParameterError(parameter,
                          fmt::format("the least principal moment is {:.6g} kg m^2, expected > 0", moments(0)));
-  // A flat body lies exactly on the bound, and its numbers may be rounded to a few digits.
-  if (moments(2) > (moments(0) + moments(1)) * (1 + 1e-6))
+  if (moments(2) > (moments(0) + moments(1)) * (1 + rounded))
     throw ParameterError(parameter,
                          fmt::format("no body has principal moments {:.6g}, {:.6g}, {:.6g} kg m^2: the largest "
                                      "may not exceed the sum of the others",

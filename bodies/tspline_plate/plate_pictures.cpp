@@ -30,6 +30,8 @@ std::string_view TsplinePlate::unit(int observable) const {
 
 namespace {
 
+constexpr double same_corner = 1e-6;  // distance in the parameters, in which a patch has the size 1
+
 // Corners are numbered patch by patch, four in each, as in `corners`. The path over edges and seams from one corner to
 // another, both included.
 std::vector<int> way(const Multipatch& basis, const std::vector<Seam>& seams, int from, int to) {
@@ -53,7 +55,7 @@ std::vector<int> way(const Multipatch& basis, const std::vector<Seam>& seams, in
       for (const Eigen::Vector2d& there : other_sides(basis, seam, place_of(at))) {
         const int patch = basis.patch_at(there.x());
         for (int c = 4 * patch; c < 4 * patch + 4; ++c)
-          if ((place_of(c) - there).norm() < 1e-6) reach(c, at);
+          if ((place_of(c) - there).norm() < same_corner) reach(c, at);
       }
   }
   std::vector<int> result = {from};

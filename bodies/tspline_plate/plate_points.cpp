@@ -30,6 +30,20 @@ void TsplinePlate::motion_at(const Eigen::Vector2d& parameters, double, In q, In
 
 namespace {
 
+constexpr int most_iterations = 30;  // of Newton's method
+// The full matrix is used while its determinant is at least this part of that without curvature.
+constexpr double definite = 0.1;
+constexpr double shortest_part = 1e-3;  // of a step
+// Relative to the distance and the place: at the minimum the distance is flat, and a change as small is round-off.
+constexpr double round_off_of_distance = 1e-14;
+// In parameters, relative to the patch: steps that end the search, and points that are the same.
+constexpr double no_step = 1e-14, same_place = 1e-7;
+// A point must be nearer by this part of the distance to be preferred, so that round-off does not decide.
+constexpr double nearer_by = 1e-9;
+// Of a cell: rounding does not move a point so far within it to the next cell.
+constexpr double within = 1 - 1e-9;
+constexpr double fits = 1e-6;  // a spacing may be too large by this part of a side
+
 struct Candidate {
   double distance;
   Eigen::Vector2d at;
@@ -55,7 +69,7 @@ Candidate descend(const Discretisation& mesh, In q, const Vector3& x, const Eige
     return Looked{{(p.r - x).norm(), at}, std::move(point), p};
   };
   Looked here = look(start);
-  for (int iteration = 0; iteration < 30; ++iteration) {
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const Candidate from = here.found;
     const Place p = here.place;
     ShapeValues& shape = here.point.shape;
@@ -67,7 +81,7 @@ Candidate descend(const Discretisation& mesh, In q, const Vector3& x, const Eige
     flat << p.a1.dot(p.a1), p.a1.dot(p.a2), p.a1.dot(p.a2), p.a2.dot(p.a2);
     full << flat(0, 0) + gap.dot(c.a1), flat(0, 1) + gap.dot(c.r), flat(0, 1) + gap.dot(c.r),
         flat(1, 1) + gap.dot(c.a2);
-    Eigen::Matrix2d matrix = full.determinant() > 0.1 * flat.determinant() && full(0, 0) > 0 ? full : flat;
+    Eigen::Matrix2d matrix = full.determinant() > definite * flat.determinant() && full(0, 0) > 0 ? full : flat;
     Eigen::Vector2d rhs = -gradient;
     for (int i = 0; i < 2; ++i)
       if ((from.at(i) <= low(i) && gradient(i) > 0) || (from.at(i) >= high(i) && gradient(i) < 0)) {
@@ -75,9 +89,9 @@ Candidate descend(const Discretisation& mesh, In q, const Vector3& x, const Eige
         rhs(i) = 0;
       }
     const Eigen::Vector2d step = matrix.inverse() * rhs;
-    // At the minimum the distance is flat: round-off must not reject the last, best steps.
-    const double allowed = from.distance + 1e-14 * (from.distance + x.norm());
-    for (double scale = 1; scale > 1e-3; scale /= 2) {
+    // Round-off must not reject the last, best steps.
+    const double allowed = from.distance + round_off_of_distance * (from.distance + x.norm());
+    for (double scale = 1; scale > shortest_part; scale /= 2) {
       here = look((from.at + scale * step).cwiseMax(low).cwiseMin(high));
       if (here.found.distance <= allowed) break;
     }
@@ -85,8 +99,8 @@ Candidate descend(const Discretisation& mesh, In q, const Vector3& x, const Eige
     const auto away = [&](const Eigen::Vector2d& at) {
       return ((here.found.at - at).array() / (high - low).array()).abs().maxCoeff();
     };
-    if (away(from.at) < 1e-14) break;
-    if (away(known.at) < 1e-7) return known;
+    if (away(from.at) < no_step) break;
+    if (away(known.at) < same_place) return known;
   }
   return here.found;
 }
@@ -144,7 +158,7 @@ Candidate onwards(const Discretisation& mesh, const std::vector<Seam>& seams, In
     nearer = false;
     for (const Eigen::Vector2d& start : ways_on(mesh, seams, best.at)) {
       const Candidate other = descend(mesh, q, x, start, nowhere);
-      if (!(other.distance < best.distance * (1 - 1e-9))) continue;
+      if (!(other.distance < best.distance * (1 - nearer_by))) continue;
       best = other, nearer = true;
       break;
     }
@@ -177,7 +191,7 @@ Candidate nearest_among(const Discretisation& mesh, const std::vector<Seam>& sea
   Candidate best = nowhere;
   for (int k = 0; k < found; ++k) {
     const Candidate other = descend(mesh, q, x, starts[k].at, best);
-    if (other.distance < best.distance * (1 - 1e-9)) best = other;
+    if (other.distance < best.distance * (1 - nearer_by)) best = other;
   }
   return onwards(mesh, seams, q, x, best);
 }
@@ -219,7 +233,7 @@ namespace {
 // uniform displacement.
 Quadrature along_side(double length, double spacing) {
   if (!std::isfinite(spacing)) return gauss_legendre(4, 0, 1);
-  const int n = std::max(1, int(std::ceil(length / spacing - 1e-6)));  // a spacing that fits up to round-off is taken
+  const int n = std::max(1, int(std::ceil(length / spacing - fits)));
   return {(Vec::LinSpaced(n, 0, n - 1).array() + 0.5) / n, Vec::Constant(n, 1.0 / n)};
 }
 
@@ -233,8 +247,7 @@ void TsplinePlate::sample(int patch, double spacing, SurfacePatch& out) const {
   double along_u_longest = 0, along_v_longest = 0;
   for (const double a : {0.0, 0.5, 1.0})
     for (const double b : {0.0, 0.5, 1.0}) {
-      const double inside = 1 - 1e-9;  // of this cell, not of the next
-      const Place at = place(*mesh_, surface_point(*mesh_, low[0] + inside * a * du, low[1] + inside * b * dv), still);
+      const Place at = place(*mesh_, surface_point(*mesh_, low[0] + within * a * du, low[1] + within * b * dv), still);
       along_u_longest = std::max(along_u_longest, at.a1.norm() * du);
       along_v_longest = std::max(along_v_longest, at.a2.norm() * dv);
     }

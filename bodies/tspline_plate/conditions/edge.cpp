@@ -9,6 +9,15 @@
 
 namespace trammel::plate {
 
+namespace {
+
+// [1] Round-off of directions: a component that is none, and the angle [rad] by which an edge may leave its plane.
+constexpr double no_component = 1e-12, no_angle = 1e-9;
+// Relative to the tangent along or across: a shorter one vanishes, as at a pole.
+constexpr double vanished = 1e-9;
+
+}  // namespace
+
 EdgeRows rows(const TsplineBasis& basis, const Edge& edge) {
   const auto d = std::size_t(edge.direction);
   const int last = basis.mesh().edges().lines(edge.direction) - 1;
@@ -76,7 +85,7 @@ std::vector<Term> along(const PatchNet& net, int anchor, const Eigen::Vector3d& 
 // Directions that are an axis up to round-off become one, so that holding them deletes a coordinate.
 Eigen::Vector3d snapped(Eigen::Vector3d direction) {
   for (int c = 0; c < 3; ++c)
-    if (std::abs(direction(c)) < 1e-12) direction(c) = 0;
+    if (std::abs(direction(c)) < no_component) direction(c) = 0;
   return direction.normalized();
 }
 
@@ -87,7 +96,7 @@ constexpr double before_pole = 1.0 / 64;  // of the way to the middle of the edg
 Eigen::Vector3d across_edge(const PatchNet& net, const Edge& edge, int anchor) {
   double at = abscissa(net.basis, edge, anchor);
   Tangents t = tangents(net, on_edge(net.basis, edge, at));
-  if ((edge.direction == 0 ? t.u : t.v).norm() < 1e-9 * (edge.direction == 0 ? t.v : t.u).norm()) {
+  if ((edge.direction == 0 ? t.u : t.v).norm() < vanished * (edge.direction == 0 ? t.v : t.u).norm()) {
     const auto& knots = net.basis.mesh().knots(1 - edge.direction);
     at += before_pole * ((knots.front() + knots.back()) / 2 - at);
     t = tangents(net, on_edge(net.basis, edge, at));
@@ -101,7 +110,7 @@ Eigen::Vector3d across_edge(const PatchNet& net, const Edge& edge, int anchor) {
 Eigen::Vector3d normal(const Tangents& t, const Edge& edge) {
   const bool along_u = edge.direction == 1;
   const Eigen::Vector3d &run = along_u ? t.u : t.v, &across = along_u ? t.v : t.u;
-  const bool pole = run.norm() < 1e-9 * across.norm();
+  const bool pole = run.norm() < vanished * across.norm();
   return snapped((pole ? t.uv : run).cross(across).normalized());
 }
 
@@ -115,7 +124,7 @@ void clamp_slope(const PatchNet& net, const Edge& edge, const EdgeRows& r, Elimi
 void mirror(const PatchNet& net, const Edge& edge, const EdgeRows& r, Elimination& e) {
   const Eigen::Vector3d normal = across_edge(net, edge, r.edge.front());
   for (int i : r.edge) {
-    if (across_edge(net, edge, i).cross(normal).norm() > 1e-9)
+    if (across_edge(net, edge, i).cross(normal).norm() > no_angle)
       throw std::invalid_argument(
           "symmetric: the edge does not lie in one plane that the surface meets at right angles");
     e.hold(along(net, i, normal));

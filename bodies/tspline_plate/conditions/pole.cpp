@@ -12,8 +12,10 @@ namespace {
 
 using Vector3 = Eigen::Vector3d;
 
-constexpr double known_to =
-    1e-8;  // conditions of symmetry and of seams that end here overlap with these, up to round-off
+// Conditions of symmetry and of seams that end here overlap with these, up to this round-off.
+constexpr double known_to = 1e-8;
+// Of the longest arm: the length of an edge that is one point, and the height of a tip that is none.
+constexpr double one_point = 1e-9, no_tip = 1e-7;
 
 // The arms from the point to the second row, and the two of them that determine the others.
 struct Arms {
@@ -33,7 +35,7 @@ struct Arms {
     Eigen::Matrix<double, 3, 2> plane;
     plane << arm[a], arm[b];
     const Eigen::Vector2d found = plane.colPivHouseholderQr().solve(arm[k]);
-    if (const double off = (plane * found - arm[k]).norm(); off > 1e-7 * longest())
+    if (const double off = (plane * found - arm[k]).norm(); off > no_tip * longest())
       throw std::invalid_argument(
           fmt::format("pole: the surface has a tip there, {:.3g} m high over the next row of control points", off));
     return found;
@@ -46,7 +48,7 @@ void hold_pole(const PatchNet& net, const Edge& edge, Elimination& e) {
   const EdgeRows r = rows(net.basis, edge);
   const Arms arms(net, r);
   for (int i : r.edge)
-    if (const double away = (net.point(i) - net.point(r.edge.front())).norm(); away > 1e-9 * arms.longest())
+    if (const double away = (net.point(i) - net.point(r.edge.front())).norm(); away > one_point * arms.longest())
       throw std::invalid_argument(fmt::format("pole: the edge is not one point, but {:.4g} m long or more", away));
   for (std::size_t k = 1; k < r.edge.size(); ++k)
     for (int axis = 0; axis < 3; ++axis)

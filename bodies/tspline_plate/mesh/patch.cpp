@@ -12,6 +12,8 @@ namespace {
 using Vector3 = Eigen::Vector3d;
 
 constexpr double full_turn = 2 * 3.141592653589793 * (1 + 1e-12), to_pole = full_turn / 4;
+constexpr double parallel = 1e-9;             // [rad] angle of two axes that counts as none
+constexpr double least_independence = 1e-10;  // of functions, from 0 (dependent) to 1
 
 // Knots of the lines of direction d that run all across, each once.
 std::vector<double> full_lines(const TMesh& mesh, int d) {
@@ -74,7 +76,7 @@ void Patch::check() const {
   const bool turns = shape == Shape::ring || shape == Shape::cylinder || shape == Shape::sphere;
   if (turns && !(to > from && to - from <= full_turn))
     throw ParameterError("geometry.to", fmt::format("found {}, expected from < to <= from + 2 pi", to));
-  if (Vector3(axis).cross(Vector3(start)).norm() <= 1e-9 * axis.norm() * start.norm())
+  if (Vector3(axis).cross(Vector3(start)).norm() <= parallel * axis.norm() * start.norm())
     throw ParameterError("geometry.start", "must not be parallel to axis");
 }
 
@@ -145,7 +147,7 @@ ControlNet Patch::net() const {
       for (Eigen::Index c = 0; c < 3; ++c) net.points(i, c) = control_points[std::size_t(3 * i + c)];
     if (!weights.empty()) net.weights = Eigen::Map<const Vec>(weights.data(), Eigen::Index(weights.size()));
     const TsplineBasis basis(net.mesh, net.weights);
-    if (!analysis_suitable(first) && independence(basis) < 1e-10)
+    if (!analysis_suitable(first) && independence(basis) < least_independence)
       throw ParameterError(
           "mesh", "the functions of this T-mesh are not linearly independent; choose the closure both or greedy");
     return net;

@@ -12,7 +12,8 @@ namespace trammel::plate {
 
 namespace {
 
-constexpr double nested = 1e-11;  // round-off of sums of about ten terms of order one, with a margin
+constexpr double nested = 1e-11;    // round-off of sums of about ten terms of order one, with a margin
+constexpr double no_entry = 1e-13;  // entries are of order one, smaller ones are round-off
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 Sparse by_dual_functionals(const TsplineBasis& coarse, const TsplineBasis& fine) {
@@ -87,7 +88,7 @@ Sparse by_projection(const TsplineBasis& coarse, const TsplineBasis& fine) {
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(scaled(G, scale));
   const Eigen::MatrixXd right = scale.asDiagonal() * Eigen::MatrixXd(gram(fine, coarse));
   const Eigen::MatrixXd M = scale.asDiagonal() * Eigen::MatrixXd(solver.solve(right));
-  return M.sparseView(1, 1e-13);
+  return M.sparseView(1, no_entry);
 }
 
 double nesting_error(const TsplineBasis& coarse, const TsplineBasis& fine, const Sparse& M) {

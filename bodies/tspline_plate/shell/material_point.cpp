@@ -4,6 +4,12 @@
 
 namespace trammel::plate {
 
+namespace {
+
+constexpr double least_sine = 1e-12;  // of the angle between the tangents: below it they give no area
+
+}  // namespace
+
 Matrix3 plane_stress(const Section& s) {
   const double nu = s.poissons_ratio, c = s.youngs_modulus / (1 - nu * nu);
   return Matrix3{{c, nu * c, 0}, {nu * c, c, 0}, {0, 0, (1 - nu) / 2 * c}};
@@ -13,8 +19,7 @@ bool ReferencePoint::set(const Vectors5& reference, const Section& section) {
   Y = reference;
   const Vector3 A1 = Y.row(0), A2 = Y.row(1), cross = A1.cross(A2);
   area = cross.norm();
-  // The sine of the angle between the tangents, free of units.
-  if (!(area > 1e-12 * A1.norm() * A2.norm())) return false;
+  if (!(area > least_sine * A1.norm() * A2.norm())) return false;
   N = cross / area;
 
   const double A11 = A1.dot(A1), A22 = A2.dot(A2), A12 = A1.dot(A2), det = area * area;

@@ -28,6 +28,12 @@ namespace {
 
 using namespace trammel;
 
+constexpr double round_off = 1e-20;  // of squares: relative to T or to a motion's own energy
+// Relative to 1 and the velocities: rates of the rows that are round-off of G v.
+constexpr double no_rate = 1e-14;
+// Relative to a motion: rates of rows that it does not move, and of those that are violated, times |g|.
+constexpr double not_moved = 1e-9, by_violation = 10;
+
 class EnergyCorrection final : public Correction, public NeedsMomentum {
  public:
   enum class Keeps { direction, momentum };
@@ -56,7 +62,6 @@ class EnergyCorrection final : public Correction, public NeedsMomentum {
       n_ -= v_r_;
       carried += kinetic(s, v_r_);
     }
-    constexpr double round_off = 1e-20;  // relative to T, of the part of v outside v_r
     const double free = kinetic(s, n_), enough = std::max(least * largest_, round_off * energy.kinetic);
     if (!(free > enough) || !(due - carried > enough)) return Outcome::accept();
     state.v += (std::sqrt((due - carried) / free) - 1) * n_;
@@ -71,7 +76,7 @@ class EnergyCorrection final : public Correction, public NeedsMomentum {
     if (s.sizes().nc == 0) return false;
     rates_.setZero(s.sizes().nc);
     s.add_rows_times(-1, state.v, rates_);
-    return !rates_.isZero(1e-14 * (1 + state.v.lpNorm<Eigen::Infinity>()));
+    return !rates_.isZero(no_rate * (1 + state.v.lpNorm<Eigen::Infinity>()));
   }
   bool find_carried(System& s) {
     zero_.setZero(s.sizes().nv);
@@ -92,7 +97,8 @@ class EnergyCorrection final : public Correction, public NeedsMomentum {
       moved.col(j) = Gr_;
     }
     // A row that is violated by g acts between points that are g apart, so a permitted rotation r has |G r| up to g.
-    const double held = std::max(1e-9, 10 * s.g().lpNorm<Eigen::Infinity>()) * free_.cwiseAbs().maxCoeff();
+    const double held =
+        std::max(not_moved, by_violation * s.g().lpNorm<Eigen::Infinity>()) * free_.cwiseAbs().maxCoeff();
     const Eigen::JacobiSVD<Mat> svd(moved, Eigen::ComputeFullV);
     const auto rank = (svd.singularValues().array() > held).count();
     free_ = (free_ * svd.matrixV().rightCols(free_.cols() - rank)).eval();
@@ -107,7 +113,7 @@ class EnergyCorrection final : public Correction, public NeedsMomentum {
       for (int twice = 0; twice < 2; ++twice)
         r -= free_.leftCols(found) * (free_.leftCols(found).transpose() * mass_times(s, r));
       const double left = r.dot(mass_times(s, r));
-      if (left > 1e-20 * before) free_.col(found++) = r / std::sqrt(left);
+      if (left > round_off * before) free_.col(found++) = r / std::sqrt(left);
     }
     free_.conservativeResize(Eigen::NoChange, found);
   }

@@ -18,6 +18,10 @@ namespace {
 
 using namespace trammel;
 
+// Relative to 1 and the velocities: rates of the rows that are round-off of G v.
+constexpr double no_rate = 1e-14;
+constexpr double redundant = 1e-9;  // pivots: redundant rows differ by the square of the violation
+
 class NullSpaceRotation final : public Correction {
  public:
   enum class Metric { mass, identity };
@@ -39,7 +43,7 @@ class NullSpaceRotation final : public Correction {
     Vec moving = s.g_dot();  // g_t
     s.add_rows_times(-1, state.v, moving);
     Vec w_new = V_new * (nearest_rotation(V_new.transpose() * V) * free);
-    if (!moving.isZero(1e-14 * (1 + w.norm()))) w_new -= cod_.solve(moving);
+    if (!moving.isZero(no_rate * (1 + w.norm()))) w_new -= cod_.solve(moving);
     state.v = L_.transpose().triangularView<Eigen::Upper>().solve(w_new);
     return Outcome::accept();
   }
@@ -63,7 +67,7 @@ class NullSpaceRotation final : public Correction {
   }
 
   Mat null_space(const Mat& B) {
-    cod_.setThreshold(1e-9);  // redundant rows differ by the square of the violation
+    cod_.setThreshold(redundant);
     cod_.compute(B);
     const Mat Z = cod_.matrixZ();  // B = Q [T 0; 0 0] Z
     const auto rank = cod_.rank();
