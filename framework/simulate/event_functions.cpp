@@ -42,12 +42,14 @@ void EventLocation::add_functions(int contact) {
   if (entry.restitution && entry.restitution->treatment().release == Restitution::Release::never) return;
   const model::AssembledSystem::Sharing sharing = system_.sharing(contact);
   const bool as_one = sharing.shared && !sharing.as_spring;
-  if (as_one && !has_group(sharing.group))
+  if (as_one && !unloads(sharing.group))
     functions_.push_back({.contact = contact, .kind = Kind::unload, .group = sharing.group});
   if (entry.force)
     functions_.push_back({.contact = contact, .kind = Kind::leave, .noise = scale_.of(contact).touching()});
+  else if (!as_one && sharing.idle)
+    functions_.push_back({.contact = contact, .kind = Kind::idle, .group = sharing.group});
   else if (!as_one)
-    functions_.push_back({.contact = contact, .kind = sharing.idle ? Kind::idle : Kind::press});
+    functions_.push_back({.contact = contact, .kind = Kind::press});
   add_friction(contact, as_one);
 }
 
@@ -93,16 +95,31 @@ void EventLocation::allow_for_critical_friction() {
   }
 }
 
-bool EventLocation::has_group(int group) const {
-  return std::any_of(functions_.begin(), functions_.end(),
-                     [group](const EventFunction& f) { return f.group == group; });
+// The force of an idle contact that nothing loads (blocks that stand side by side) is the round-off of the others'.
+void EventLocation::allow_for_round_off(const State& now) {
+  for (std::size_t k = 0; k < functions_.size(); ++k) {
+    EventFunction& function = functions_[k];
+    if (function.kind != Kind::idle) continue;
+    const double largest = system_.largest_load(function.group, own_force_ ? now.lambda : lambda_);
+    function.little = std::max(function.little, vanished_force * largest);
+    if (now_[k].f <= function.little) function.noise = function.little;
+  }
 }
 
-double EventLocation::little_force(int group) {
-  const model::SharedRows& shared = system_.modes().shared[std::size_t(group)];
-  std::vector<model::ContactDirection> all = shared.basis;
-  all.insert(all.end(), shared.implied.begin(), shared.implied.end());
-  return modes_.force_noise(all);
+bool EventLocation::unloads(int group) const {
+  return std::any_of(functions_.begin(), functions_.end(),
+                     [group](const EventFunction& f) { return f.kind == Kind::unload && f.group == group; });
+}
+
+// By group.
+std::vector<double> EventLocation::little_forces() {
+  std::vector<double> little;
+  for (const model::SharedRows& shared : system_.modes().shared) {
+    std::vector<model::ContactDirection> all = shared.basis;
+    all.insert(all.end(), shared.implied.begin(), shared.implied.end());
+    little.push_back(modes_.force_noise(all));
+  }
+  return little;
 }
 
 // Of a compliant contact that only touches: its depth is round-off, and so is its force.

@@ -48,14 +48,16 @@ void EventLocation::restart(const State& now) {
   h_before_ = longest_ = 0;
   system_.move_to(now.t, now.q, now.v);
   set_up_functions();
+  const std::vector<double> little = little_forces();
   for (EventFunction& each : functions_) {
-    if (each.kind == Kind::unload) each.little = little_force(each.group);
+    if (each.kind == Kind::unload || each.kind == Kind::idle) each.little = little[std::size_t(each.group)];
     if (each.kind == Kind::follow) each.little = 10 * modes_.least_acceleration(each.contact);
     if (each.kind == Kind::hold) each.little = little_friction(each.contact);
   }
   next_.resize(functions_.size()), probe_.resize(functions_.size());
   sign_ = evaluate(now, now_);
   allow_for_critical_friction();
+  allow_for_round_off(now);
   choose_sides(before);
   for (EventFunction& function : functions_) measure_undirected(0, now, function);
   for (std::size_t k = 0; k < before.size() && before.size() == functions_.size(); ++k)

@@ -86,8 +86,8 @@ class EventLocation {
     double bound = 0;           // [N] at the last evaluation: the bound of friction, or the largest force of a group
     double steepest = 0;        // slide: largest rate of change of the slip since it began [m/s^2]
     bool reported = false;      // it had the last event
-    int group = -1;             // unload, follow: in Modes::shared
-    double little = 0;          // smaller deficits are ignored: [N] unload, hold, [m/s^2] follow
+    int group = -1;             // unload, idle, follow, lean: in Modes::shared
+    double little = 0;          // smaller deficits are ignored: [N] unload, idle, hold, [m/s^2] follow
     int bearing = -1;           // load: index among the bearings with a signed load
     double side = 1;            // load: 1 or -1
     double undirected_for = 0;  // [s] slide in space: how long it has been without a direction (system/point/slip.hpp)
@@ -104,10 +104,11 @@ class EventLocation {
 
   void set_up_functions();
   void add_functions(int contact);
-  bool has_group(int group) const;
+  bool unloads(int group) const;
   void add_friction(int contact, bool as_one);
   void add_loads(int contact);
   void allow_for_critical_friction();
+  void allow_for_round_off(const State& now);
   void choose_sides(const std::vector<EventFunction>& before);
   bool by_force(int k) const {
     const Kind kind = functions_[k].kind;
@@ -120,7 +121,7 @@ class EventLocation {
   bool stalls(double h, const State& next, int k);
   void measure_undirected(double h, const State& next, EventFunction& function);
   double force(EventFunction& function, double t, const Vec& lambda);
-  double little_force(int group);
+  std::vector<double> little_forces();
   double little_friction(int contact);
   Value slide(int contact, const Vec& a);
   int evaluate(const State& state, std::vector<Value>& values);  // AssembledSystem::sign, or 0 without forces

@@ -1,0 +1,95 @@
+// Blocks side by side on a floor, between two walls, without clearance. Most of their forces are indeterminate.
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "support/run_scene.hpp"
+
+namespace trammel::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double g = 10;  // [m/s^2]
+
+struct Block {
+  double width, height, mass;  // [m], [kg]
+  double mu_floor, mu_left;
+};
+
+// Blocks b0, b1, ... from the left wall to the right; their left faces touch the wall or the block before.
+json between_walls(const std::vector<Block>& blocks, double mu_right) {
+  json s = {{"trammel", 1},
+            {"space", "planar"},
+            {"gravity", {0, -g}},
+            {"record", {{"every", 0.01}, {"observe", {{"vy", "b0.com.vy"}}}}}};
+  const auto add = [&s](const std::string& name, const std::string& marker, const json& plane, double mu) {
+    s["contacts"][name] = {{"type", "constraint_method"},
+                           {"restitution", 0},
+                           {"between", {marker, {{"plane", plane}}}},
+                           {"friction", {{"type", "coulomb"}, {"static", mu}, {"kinetic", mu}}}};
+  };
+  double x = 0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const auto& [w, h, m, mu_floor, mu_left] = blocks[i];
+    const std::string b = fmt::format("b{}", i);
+    s["bodies"][b] = {{"type", "rigid_body"},
+                      {"mass", m},
+                      {"inertia", m * (w * w + h * h) / 12},
+                      {"position", {x + w / 2, h / 2}},
+                      {"markers",
+                       {{"bl", {-w / 2, -h / 2}},
+                        {"br", {w / 2, -h / 2}},
+                        {"tl", {-w / 2, h / 2}},
+                        {"tr", {w / 2, h / 2}},
+                        {"right", {w / 2, 0}},
+                        {"centre", {0, 0}}}}};
+    for (const char* corner : {"bl", "br"})
+      add(b + corner, fmt::format("{}.{}", b, corner), {{"point", {0, 0}}, {"normal", {0, 1}}}, mu_floor);
+    json left = {{"point", {0, 0}}, {"normal", {1, 0}}};
+    if (i > 0) left["on"] = fmt::format("b{}.right", i - 1);
+    for (const char* corner : {"bl", "tl"})
+      add(fmt::format("{}{}_left", b, corner), fmt::format("{}.{}", b, corner), left, mu_left);
+    x += w;
+  }
+  for (const char* corner : {"br", "tr"})
+    add(fmt::format("wall_{}", corner), fmt::format("b{}.{}", blocks.size() - 1, corner),
+        {{"point", {x, 0}}, {"normal", {-1, 0}}}, mu_right);
+  return s;
+}
+
+// The first block is pressed against the left wall and lifted along it: m a = F_y - m g - mu |F_x|. The blocks beside it
+// rest, and nothing presses them against each other: the forces of these contacts are round-off, which needs no short
+// steps.
+TEST(BlockBetweenWalls, RisesBesideBlocksThatNothingLoads) {
+  std::mt19937 random(1);
+  const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+  for (int i = 0; i < 40; ++i) {
+    std::vector<Block> blocks(std::size_t(2 + i % 3));
+    for (Block& b : blocks)
+      b = {any(0.1, 0.2), any(0.2, 0.3), std::pow(10, any(-1, 0.5)), any(0.1, 0.9), any(0.1, 0.9)};
+    const Block& first = blocks[0];
+    const double until = 0.05, F_x = -first.mass * any(1, 20), a = any(1, 20);
+    json s = between_walls(blocks, any(0.1, 0.9));
+    const double F_y = first.mass * (g + a) - first.mu_left * F_x;
+    s["forces"]["lifts"] = {{"type", "load"},
+                            {"on", "b0.centre"},
+                            {"force", {{"x", fmt::format("={:.17g}", F_x)}, {"y", fmt::format("={:.17g}", F_y)}}}};
+    s["simulate"]["until"] = until;
+    s["integrator"] = {{"type", "dop853"}, {"step", {{"tolerance", std::pow(10, -6 - 2 * (i % 4))}}}};
+    const Finished run = run_text(s.dump());
+    ASSERT_TRUE(run.done()) << i << ": " << run.report.reason;
+    EXPECT_NEAR(run.end("vy"), a * until, 1e-9) << i;
+    EXPECT_THAT(run.report.summary, Not(HasSubstr("not to be trusted"))) << i;
+  }
+}
+
+}  // namespace
+}  // namespace trammel::test
