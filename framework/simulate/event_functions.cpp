@@ -17,6 +17,7 @@ constexpr double most_leverage = 10;
 }  // namespace
 
 void EventLocation::set_up_functions() {
+  modes_before_ = system_.modes().contacts;
   for (int i = 0; i < int(system_.model().contacts.size()); ++i) add_functions(i);
   const std::vector<model::SharedRows>& shared = system_.modes().shared;
   for (std::size_t group = 0; group < shared.size(); ++group) {

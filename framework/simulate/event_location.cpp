@@ -43,7 +43,6 @@ bool same_modes(const std::vector<model::ContactMode>& a, const std::vector<mode
 void EventLocation::restart(const State& now) {
   std::vector<EventFunction> before;
   if (same_modes(modes_before_, system_.modes().contacts)) before.swap(functions_);
-  modes_before_ = system_.modes().contacts;
   functions_.clear();
   h_before_ = longest_ = 0;
   system_.move_to(now.t, now.q, now.v);
@@ -90,9 +89,11 @@ void EventLocation::accept(double h, const State& next) {
   system_.move_to(next.t, next.q, next.v);
   for (EventFunction& function : functions_) measure_undirected(h, next, function);
   system_.step_taken();
-  if (system_.model().world.space == Space::spatial)  // along their present directions
+  if (system_.model().world.space == Space::spatial) {  // along their present directions
     for (std::size_t k = 0; k < functions_.size(); ++k)
       if (functions_[k].kind == Kind::slide) next_[k] = slide(functions_[k].contact, next.a);
+    modes_before_ = system_.modes().contacts;
+  }
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     functions_[k].force_before = now_[k].f;
     functions_[k].steepest = std::max(functions_[k].steepest, std::abs(next_[k].slope));
@@ -325,7 +326,6 @@ void EventLocation::archive(Archive& a) {
     set_up_functions();
     next_.resize(functions_.size()), probe_.resize(functions_.size()), now_.resize(functions_.size());
   }
-  modes_before_ = system_.modes().contacts;
   const auto m = Eigen::Index(functions_.size());
   if (flat.size() != 9 * m) throw std::length_error("watched");
   for (Eigen::Index k = 0; k < m; ++k) {

@@ -162,7 +162,7 @@ class EventLocation {
   BetweenStates between_states_;
   bool own_force_;  // the integrator's lambda is the force of the contact
   std::vector<EventFunction> functions_;
-  std::vector<model::ContactMode> modes_before_;  // at the last restart
+  std::vector<model::ContactMode> modes_before_;  // of functions_, with the directions of slips after the last step
   std::vector<Value> now_, next_, probe_;
   int sign_ = 0, sign_next_ = 0;  // AssembledSystem::sign at the points of now_ and next_
   bool probed_ = false;           // probe_ is filled for the step examined
