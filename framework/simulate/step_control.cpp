@@ -72,12 +72,11 @@ void StepControl::accepted(const Proposal& taken, double error) {
 
 void StepControl::rejected_for_error(double h, double error) {
   wish_ = h * std::max(0.1, 0.9 * std::pow(error, -1.0 / order_));  // a tenth, also if the error is not finite
-  planned_ = 0;
 }
 
 void StepControl::rejected(double h) {
   if (controlled())
-    wish_ = h / 4, planned_ = 0;
+    wish_ = h / 4;
   else
     ++halvings_;
 }

@@ -284,6 +284,17 @@ TEST(EvenSteps, AreOfEqualLengthBeforeAStop) {
   for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(taken[i], i < 2 ? 0.5 : 3.75 / 8) << i;
 }
 
+// What is left is planned anew, in equal steps of what the refused one allows.
+TEST(EvenSteps, AreShorterAtOnceWhereTheLastOnesAreRefused) {
+  for (const bool by_error : {true, false}) {
+    StepControl steps(controlled(0.5), 10, 1, true);
+    const double stop = 0.5, h = steps.propose(0, stop, infinity).h;
+    EXPECT_EQ(h, stop);
+    by_error ? steps.rejected_for_error(h, 1.2) : steps.rejected(h);
+    EXPECT_EQ(steps.propose(0, stop, infinity).h, by_error ? stop / 2 : stop / 4);
+  }
+}
+
 TEST(StepControl, GoesOnFromAnArchiveAsIfItHadNotStopped) {
   for (const bool even : {false, true})
     for (const StepChoice& choice : {controlled(0.7 * h_1), fixed(h_1)}) {
