@@ -39,43 +39,68 @@ TEST(RootBracket, ReturnsAnEndThatIsTheRootAlone) {
   }
 }
 
-// Of functions that fall from f > 0 at 0 to f < 0 at 1.
+// -size (x - zero) (1 + bend (x - middle)^2) has no other zero.
+TEST(CrossingOfCubic, IsTheZeroOfTheCubic) {
+  for (const double zero : {2.001, 2.3, 3.5, 4.9})
+    for (const double middle : {1.0, 2.5, 3.5, 6.0})
+      for (const double bend : {0.0, 0.1, 1.0, 1e3})
+        for (const double size : {1e-4, 1.0, 1e4}) {
+          const auto f = [&](double x) {
+            const double from = x - middle;
+            return ValueAndSlope{-size * (x - zero) * (1 + bend * from * from),
+                                 -size * (1 + bend * from * from + 2 * bend * (x - zero) * from)};
+          };
+          EXPECT_NEAR(crossing_of_cubic({2, 5, f(2), f(5)}), zero, 1e-14 * (1 + bend))
+              << middle << " " << bend << " " << size;
+        }
+}
+
+// Functions that fall from f > 0 at 0 to f < 0 at 1, and how many evaluations their zero takes at most; bisection takes
+// 47.
 struct Falling {
   std::function<ValueAndSlope(double)> f;
   double zero;
+  int most;
 };
 
 std::vector<Falling> falling_functions() {
   return {{[](double x) {
              return ValueAndSlope{0.3 - x * x, -2 * x};
            },
-           std::sqrt(0.3)},
+           std::sqrt(0.3), 1},
+          {[](double x) {
+             return ValueAndSlope{0.5 - x * x * x, -3 * x * x};
+           },
+           std::cbrt(0.5), 1},
           {[](double x) {
              return ValueAndSlope{std::cos(3 * x), -3 * std::sin(3 * x)};
            },
-           std::numbers::pi / 6},
+           std::numbers::pi / 6, 3},
           {[](double x) {
              return ValueAndSlope{std::exp(-20 * x) - 1e-4, -20 * std::exp(-20 * x)};
            },
-           std::log(1e4) / 20},
+           std::log(1e4) / 20, 8},
           {[](double x) {
              return ValueAndSlope{std::cbrt(0.7 - x), -1 / (3 * std::pow(std::cbrt(0.7 - x), 2))};
            },
-           0.7},
+           0.7, 50},
           {[](double x) {
-             return ValueAndSlope{0.5 - x, 3};
+             return ValueAndSlope{0.3 - x, 3};
            },
-           0.5}};  // a slope that is wrong costs evaluations alone
+           0.3, 50}};  // a slope that is wrong costs evaluations alone
 }
 
 TEST(Crossing, IsFoundToTheResolutionAndLiesBehindTheZero) {
-  for (const auto& [f, zero] : falling_functions()) {
-    int evaluations = 0;
-    const auto counted = [&](double x) { return ++evaluations, f(x); };
-    const double found = crossing(counted, {0, 1, f(0), f(1)}, 1e-14, 0);
-    EXPECT_NEAR(found, zero, 2e-14);  // the resolution and round-off of f
-    EXPECT_LE(f(found).f, 0) << zero;
-    EXPECT_LE(evaluations, 100) << zero;  // bisection takes 47, at worst every other evaluation is one
+  for (const double begin : {0.0, 100.0}) {
+    const double resolution = begin > 0 ? 1e-13 : 1e-14;  // 100: units of 1.4e-14
+    for (const auto& [f, zero, most] : falling_functions()) {
+      int evaluations = 0;
+      const auto counted = [&](double x) { return ++evaluations, f(x - begin); };
+      const double found = crossing(counted, {begin, begin + 1, f(0), f(1)}, resolution, 0) - begin;
+      EXPECT_NEAR(found, zero, 2 * resolution);  // and round-off of f
+      EXPECT_LE(f(found).f, 0) << zero;
+      EXPECT_LE(evaluations, most) << zero;
+    }
   }
 }
 
@@ -88,13 +113,15 @@ TEST(Crossing, TakesAFewEvaluationsForASmoothFunction) {
 }
 
 TEST(Crossing, IsContentWithRoundOffOfTheFunction) {
-  int evaluations = 0;
-  const auto f = [&](double x) {  // known to 1e-10 only
-    ++evaluations;
-    return ValueAndSlope{std::round((0.25 - x * x) * 1e10) / 1e10, -2 * x};
-  };
-  EXPECT_NEAR(crossing(f, {0, 1, f(0), f(1)}, 1e-16, 1e-10), 0.5, 3e-10);
-  EXPECT_LE(evaluations, 2 + 8);
+  for (const double steepness : {0.01, 1.0, 100.0}) {
+    int evaluations = 0;
+    const auto f = [&](double x) {  // known to 1e-10 only
+      ++evaluations;
+      return ValueAndSlope{std::round(steepness * (0.25 - x * x) * 1e10) / 1e10, -2 * steepness * x};
+    };
+    EXPECT_NEAR(crossing(f, {0, 1, f(0), f(1)}, 1e-16, 1e-10), 0.5, 3e-10 / steepness);
+    EXPECT_LE(evaluations, 2 + 2) << steepness;
+  }
 }
 
 }  // namespace
