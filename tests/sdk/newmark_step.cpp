@@ -211,12 +211,47 @@ TEST(NewmarkStep, TakesFourRoundOffsOfAllLengthsForThatOfRows) {
 }
 
 TEST(NewmarkStep, RejectsAPlaceBeyondAllNumbers) {
-  const Springs free = one_spring(0, 0, 1e308);
+  Springs free = one_spring(0, 0, 1e308);
+  free.force = [](const Vec&) { return Vec::Zero(1); };
   const auto s = free.system();
   Trapezoidal t(*s, free.start(*s), 10);
   t.begin();
   t.iterate();
+  EXPECT_TRUE(t.step.newton.converged());
   EXPECT_FALSE(t.step.finish(*s, t.now, t.next));
+}
+
+// The rule's own equations, to the last bit: the increment that ended the iteration is in all of them.
+TEST(NewmarkStep, EndsWhereItsAccelerationLeads) {
+  Springs springs = one_spring(4, 1, 1);
+  springs.theta = theta;
+  const auto s = springs.system();
+  Trapezoidal t(*s, springs.start(*s), 1);
+  t.step.newton.max_iterations = 100;
+  t.begin();
+  t.iterate();
+  ASSERT_TRUE(t.step.finish(*s, t.now, t.next));
+  EXPECT_EQ(t.next.q[0], t.now.q[0] + (t.step.dq[0] + t.c_q * t.next.a[0]));
+  EXPECT_EQ(t.next.v[0], t.step.v[0] + t.c_v * t.next.a[0]);
+}
+
+// A force of 1000 N from half of the way on: what it moves counts as a length, too, also beside much longer ones.
+TEST(NewmarkStep, EndsAtItsToleranceOfAnAccelerationThatBeginsWithinTheStep) {
+  for (const double far : {0.0, 1e6}) {
+    Springs springs{
+        .k = Vec::Zero(2), .rest = Vec::Zero(2), .q = Eigen::Vector2d(0, far), .v = Eigen::Vector2d(1, far)};
+    springs.force = [](const Vec& q) { return Eigen::Vector2d(q[0] > 0.5 ? 1000 : 0, 0); };
+    springs.theta = theta;
+    const auto s = springs.system();
+    Trapezoidal t(*s, springs.start(*s), 1);
+    t.step.newton.max_iterations = 100;
+    t.begin();
+    t.iterate();
+    const double length = 2 + t.c_q * 1000, speeds = std::max(2.0, 2 * far) + t.c_v * 1000;
+    expect_just_below(
+        {std::abs(t.next.a[0] - 1000), 1e-11 * std::min(length / t.c_q, speeds / t.c_v), springs.factorisations},
+        theta);
+  }
 }
 
 }  // namespace
