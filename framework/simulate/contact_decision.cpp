@@ -1,5 +1,5 @@
 // Rules 3 to 7 and 11 of contact_mode.hpp: which contacts close, open, stick and slide, by the complementarity problem.
-// Rules 12 and 13, of contacts that share their forces: contact_sharing.cpp.
+// Rules 12 to 14, of contacts that share their forces: contact_sharing.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -221,7 +221,7 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
     const complementarity::ContactSolution solution = take_verdicts(state);
     if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
     const std::vector<Participant*> held = held_at_bounds(state);
-    if (!let_go(held)) return hold(state, held), solution;
+    if (!let_go(held)) return hold(state, held), share_forces_found(state), solution;
     open_all(modes_);
   }
 }

@@ -2,7 +2,7 @@
 // accelerations decide.
 //
 // Rules for set-valued contacts (Restitution) at an event at time t. ContactModes::settle applies 1, 2 and 9, then 3 to
-// 7 with 10, 12 and 13 as one problem, then 11, then 8; other files refer to them by number.
+// 7 with 10 and 12 to 14 as one problem, then 11, then 8; other files refer to them by number.
 //  1. Impact: every contact that touches and closes strikes, together with all that touch or are closed
 //     (impact_laws.hpp).
 //  2. Capture (chatter.cpp): an impact slower than capture_speed has e = 0. So has a rebound with e < 1 that the steps
@@ -70,6 +70,11 @@
 //     cone, contacts whose force may be an error (up to 1e-6 of the largest of their island) count as idle, too, or
 //     else none does. A contact with such a force that pulls by its row in these modes opens, if its gap then
 //     accelerates apart (open_pulling_ones).
+// 14. The forces in the modes decided may still pull or leave a cone, although the problem has a solution: springs'
+//     shares are not admissible, and others are another motion (rows of blocks between walls). In the plane, forces are
+//     then taken whose modes leave no share free: as few parts along edges of cones as there are independent rows at
+//     rest. A contact without a part is idle, and one at rest with a single part keeps T = mu N (rule 12), unless no
+//     other row holds its tangent.
 //
 // `rebound: constrained` makes candidates of contacts that separate at e u-. `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0. `onset: next_step` only changes when an event is seen.
@@ -215,6 +220,7 @@ class ContactModes {
   [[nodiscard]] bool has_forces_in(const model::Modes& modes, const State& state);
   std::vector<Participant*> held_at_bounds(const State& state);
   void hold(const State& state, const std::vector<Participant*>& held);
+  void share_forces_found(const State& state);
   double least_acceleration(const Participant& p) const;
   std::vector<bool> in_balance() const;
   double time_of_change(const std::vector<bool>& asked);

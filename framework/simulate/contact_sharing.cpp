@@ -1,4 +1,4 @@
-// Rules 12 and 13 of contact_mode.hpp: contacts that share their forces. Which of them have none and are idle, which
+// Rules 12 to 14 of contact_mode.hpp: contacts that share their forces. Which of them have none and are idle, which
 // open because the others do not hold them, and which are held at their bounds.
 #include <algorithm>
 
@@ -190,6 +190,35 @@ void ContactModes::hold(const State& state, const std::vector<Participant*>& hel
     p->ratio = -p->mu * mode.direction;
   }
   if (!held.empty()) find_shares(state);
+}
+
+// Rule 14. Does nothing if that does not help.
+void ContactModes::share_forces_found(const State& state) {
+  if (std::none_of(modes_.shared.begin(), modes_.shared.end(), has_sliding)) return;
+  std::vector<bool> asked = can_be_exerted(state);
+  asked.flip();
+  if (!has_any(asked)) return;
+  const model::Modes decided = modes_;
+  const std::vector<Participant> found = problem_.who;
+  std::vector<double> nothing;
+  for (const Participant& p : found) nothing.push_back(least_acceleration(p));
+  const std::vector<bool> kept_closed = problem_.kept_closed(nothing);
+  for (std::size_t i = 0; i < found.size(); ++i) take_verdict(found[i], kept_closed[i]);
+  const std::vector<bool> at_edge = problem_.take_fewest_forces(modes_, asked);
+  for (std::size_t i = 0; i < at_edge.size(); ++i) {
+    Participant& p = problem_.who[i];
+    model::ContactMode& mode = modes_.contacts[p.contact];
+    if (!at_edge[i] || mode.friction == Friction::slide) continue;
+    mode.friction = Friction::slide;
+    mode.direction = -direction_of(p.T);
+    mode.least_slip = least_slip(p.contact);
+    p.ratio = -p.mu * mode.direction;
+  }
+  share(std::vector<double>(problem_.who.size(), complementarity::largest_violation));
+  const std::vector<bool> exerted = can_be_exerted(state);
+  for (std::size_t k = 0; k < asked.size(); ++k)
+    if (asked[k] && exerted[k]) return;
+  modes_ = decided, problem_.who = found;
 }
 
 }  // namespace trammel::simulate

@@ -47,10 +47,8 @@ void EventLocation::add_functions(int contact) {
     functions_.push_back({.contact = contact, .kind = Kind::unload, .group = sharing.group});
   if (entry.force)
     functions_.push_back({.contact = contact, .kind = Kind::leave, .noise = scale_.of(contact).touching()});
-  else if (!as_one && sharing.idle)
-    functions_.push_back({.contact = contact, .kind = Kind::idle, .group = sharing.group});
   else if (!as_one)
-    functions_.push_back({.contact = contact, .kind = Kind::press});
+    functions_.push_back({.contact = contact, .kind = sharing.idle ? Kind::idle : Kind::press, .group = sharing.group});
   add_friction(contact, as_one);
 }
 
@@ -96,14 +94,15 @@ void EventLocation::allow_for_critical_friction() {
   }
 }
 
-// The force of an idle contact that nothing loads (blocks that stand side by side) is the round-off of the others'.
+// The force of an idle contact that nothing loads (blocks that stand side by side) is the round-off of the others', and
+// so is that of a sliding contact which the least forces of its group leave without a load.
 void EventLocation::allow_for_round_off(const State& now) {
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     EventFunction& function = functions_[k];
-    if (function.kind != Kind::idle) continue;
+    if (!is_shared_force(function)) continue;
     const double largest = system_.largest_load(function.group, own_force_ ? now.lambda : lambda_);
     function.little = std::max(function.little, vanished_force * largest);
-    if (now_[k].f <= function.little) function.noise = function.little;
+    if (function.kind == Kind::idle && now_[k].f <= function.little) function.noise = function.little;
   }
 }
 

@@ -49,7 +49,7 @@ void EventLocation::restart(const State& now) {
   set_up_functions();
   const std::vector<double> little = little_forces();
   for (EventFunction& each : functions_) {
-    if (each.kind == Kind::unload || each.kind == Kind::idle) each.little = little[std::size_t(each.group)];
+    if (each.kind == Kind::unload || is_shared_force(each)) each.little = little[std::size_t(each.group)];
     if (each.kind == Kind::follow) each.little = 10 * modes_.least_acceleration(each.contact);
     if (each.kind == Kind::hold) each.little = little_friction(each.contact);
   }

@@ -86,8 +86,8 @@ class EventLocation {
     double bound = 0;           // [N] at the last evaluation: the bound of friction, or the largest force of a group
     double steepest = 0;        // slide: largest rate of change of the slip since it began [m/s^2]
     bool reported = false;      // it had the last event
-    int group = -1;             // unload, idle, follow, lean: in Modes::shared
-    double little = 0;          // smaller deficits are ignored: [N] unload, idle, hold, [m/s^2] follow
+    int group = -1;             // in Modes::shared; -1: none
+    double little = 0;          // smaller deficits are ignored: [N] unload, press, idle, hold, [m/s^2] follow
     int bearing = -1;           // load: index among the bearings with a signed load
     double side = 1;            // load: 1 or -1
     double undirected_for = 0;  // [s] slide in space: how long it has been without a direction (system/point/slip.hpp)
@@ -105,6 +105,9 @@ class EventLocation {
   void set_up_functions();
   void add_functions(int contact);
   bool unloads(int group) const;
+  static bool is_shared_force(const EventFunction& f) {
+    return f.kind == Kind::idle || (f.kind == Kind::press && f.group >= 0);
+  }
   void add_friction(int contact, bool as_one);
   void add_loads(int contact);
   void allow_for_critical_friction();

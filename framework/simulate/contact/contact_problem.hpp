@@ -90,6 +90,10 @@ class ContactProblem {
   // could be idle. Both by island. `shared_rows`: groups of closed contacts that depend on each other, and how they
   // share their resultants.
   std::vector<double> find_idle(const model::Modes& modes, const std::vector<double>& none);
+  // In the plane: replaces the forces found in these islands by others that solve the problem, too, with no more parts
+  // along edges of cones than rows at rest are independent, so that no share of them is free. By participant: it is at
+  // rest, its force has one part, |T| = mu N, and other rows hold its tangent.
+  std::vector<bool> take_fewest_forces(const model::Modes& modes, const std::vector<bool>& asked);
   // By participant, afterwards: it is idle, and the rows of contacts that carry hold it.
   std::vector<bool> held_by_others(const model::Modes& modes) const;
   std::vector<model::SharedRows> shared_rows(const model::Modes& modes) const;
@@ -100,6 +104,14 @@ class ContactProblem {
     std::size_t who;
     Eigen::Index direction;
   };
+  // A part of a force on an edge of a cone: T = ratio N.
+  struct Edge {
+    std::size_t who;
+    double ratio;
+  };
+  std::vector<Eigen::Index> rows_at_rest(const std::vector<std::size_t>& members, const model::Modes& modes) const;
+  void keep_held(const std::vector<std::size_t>& members, const model::Modes& modes, std::vector<bool>& at_edge) const;
+  std::vector<Edge> edges_of(const std::vector<std::size_t>& members, const model::Modes& modes) const;
   std::vector<std::vector<Eigen::Index>> islands_at_rest() const;
   std::vector<complementarity::SharingGroup> groups_with_idle(const std::vector<complementarity::ContactRole>& role,
                                                               std::vector<bool>& in_them) const;
