@@ -95,7 +95,10 @@ TEST(Crossing, IsFoundToTheResolutionAndLiesBehindTheZero) {
     const double resolution = begin > 0 ? 1e-13 : 1e-14;  // 100: units of 1.4e-14
     for (const auto& [f, zero, most] : falling_functions()) {
       int evaluations = 0;
-      const auto counted = [&](double x) { return ++evaluations, f(x - begin); };
+      const auto counted = [&](double x) {
+        EXPECT_TRUE(x > begin && x < begin + 1) << zero;
+        return ++evaluations, f(x - begin);
+      };
       const double found = crossing(counted, {begin, begin + 1, f(0), f(1)}, resolution, 0) - begin;
       EXPECT_NEAR(found, zero, 2 * resolution);  // and round-off of f
       EXPECT_LE(f(found).f, 0) << zero;
@@ -117,10 +120,23 @@ TEST(Crossing, IsContentWithRoundOffOfTheFunction) {
     int evaluations = 0;
     const auto f = [&](double x) {  // known to 1e-10 only
       ++evaluations;
-      return ValueAndSlope{std::round(steepness * (0.25 - x * x) * 1e10) / 1e10, -2 * steepness * x};
+      return ValueAndSlope{steepness * (0.25 - x * x) + 5e-11 * std::sin(1e12 * x), -2 * steepness * x};
     };
     EXPECT_NEAR(crossing(f, {0, 1, f(0), f(1)}, 1e-16, 1e-10), 0.5, 3e-10 / steepness);
     EXPECT_LE(evaluations, 2 + 2) << steepness;
+  }
+}
+
+// The slope at the low end, 3e-12, would place a trial 16 lengths of the bracket beyond it.
+TEST(Crossing, StaysInItsBracketWhereASlopeSaysLittle) {
+  for (const double begin : {0.0, 10.0}) {
+    const auto f = [begin](double x) {
+      const double y = x - begin;
+      EXPECT_TRUE(y > 0 && y < 1);
+      return ValueAndSlope{0.5 - y * y * y, -3 * y * y};
+    };
+    const ValueAndSlope low{0.5, -3e-12}, high{-0.5, -3};
+    EXPECT_NEAR(crossing(f, {begin, begin + 1, low, high}, 1e-14, 1e-10) - begin, std::cbrt(0.5), 1e-10);
   }
 }
 
