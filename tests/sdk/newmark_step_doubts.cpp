@@ -24,15 +24,12 @@ TEST(NewmarkStep, FactorisesAgainWhereItsFactorsHideAForce) {
 
 // Half of the inertia is stiffness, so factors of an earlier point are doubted after three increments.
 struct Doubted {
-  Springs springs = [] {
-    Springs one = one_spring(4, 1, 1);
-    one.theta = 0.05;
-    return one;
-  }();
+  Springs springs = one_spring(4, 1, 1);
   std::unique_ptr<System> s = springs.system();
   Trapezoidal t{*s, springs.start(*s), 1};
 
-  Doubted() {
+  explicit Doubted(double theta = 0.05) {
+    springs.theta = theta;
     t.begin({1.3 * t.now.a, 1});
     for (int i = 0; i < 3; ++i) t.correct();
     EXPECT_TRUE(t.step.iterating()) << "doubted";
@@ -48,6 +45,44 @@ TEST(NewmarkStep, TakesASmallResidualForAConfirmation) {
   EXPECT_TRUE(t.step.newton.converged());
   EXPECT_EQ(t.next.a, a);
   EXPECT_EQ(doubted.springs.factorisations, 1);
+}
+
+// Of a force, M da of the increment that it causes leaves a part to stiffness, and to factors of an earlier point.
+TEST(NewmarkStep, DoubtsFactorsWhereInertiaLeavesATenthOfTheForce) {
+  const auto doubted = [](double part) {
+    Springs springs = one_spring(0, 1, 1);
+    springs.theta = 0.05;
+    springs.k[0] = 4 * ((1 - springs.theta) / (1 - part) - 1);
+    const auto s = springs.system();
+    Trapezoidal t(*s, springs.start(*s), 1);
+    t.begin({1.3 * t.now.a, 1});
+    for (int i = 0; i < 3; ++i) t.correct();
+    return t.step.iterating();
+  };
+  EXPECT_TRUE(doubted(0.105));
+  EXPECT_FALSE(doubted(0.095));
+}
+
+// The residual that is left is theta^3 (1 + c_q k)/(1 - theta) of M da, the first increment's momentum.
+TEST(NewmarkStep, TakesAThousandthOfTheFirstIncrementForASmallResidual) {
+  const auto factorisations = [](double theta) {
+    Doubted doubted(theta);
+    doubted.t.correct();
+    return doubted.springs.factorisations;
+  };
+  EXPECT_EQ(factorisations(0.076), 1);  // 0.95e-3
+  EXPECT_EQ(factorisations(0.079), 2);  // 1.07e-3
+}
+
+// However large the increments of the step before were.
+TEST(NewmarkStep, DoubtsASmallMotionAfterALargeOne) {
+  Doubted doubted;
+  Trapezoidal& t = doubted.t;
+  t.iterate();
+  t.now.q *= 1e-3, t.now.v *= 1e-3, t.now.a *= 1e-3;
+  t.begin({1.3 * t.now.a, 1});
+  for (int i = 0; i < 3; ++i) t.correct();
+  EXPECT_TRUE(t.step.iterating());
 }
 
 // Nor is a doubt left to the next step where a caller has given up.

@@ -1,6 +1,8 @@
 // How a step puts its end onto the rows.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -49,20 +51,30 @@ TEST(NewmarkStep, GoesOnWhileFactorsOfAnEarlierPointLeaveMoreThanRoundOff) {
   EXPECT_GE(wrong.finish().second, 2);
 }
 
-// y = 0 and y = apart: half of `apart` is left in each.
+// y = 0 and y = apart: half of `apart` is left in each. Lengths are the place and what the motion along x, of the
+// constant acceleration a, adds to it in the step.
 TEST(NewmarkStep, RejectsRowsThatContradictEachOtherByAMillionthOfTheLengths) {
-  for (const double x : {1.0, 1000.0}) {
+  struct Motion {
+    double x, v, a;
+  };
+  const double h = 0.1;
+  for (const auto& [x, v, a] : {Motion{0, 0, 0}, {1, 0, 0}, {1000, 0, 0}, {0, 1e3, 0}, {0, 0, 1e4}, {1, 300, -1e4}}) {
+    const double lengths = std::abs(x) + h * std::abs(v) + h * h * std::abs(a) + std::abs(h * v + h * h / 4 * a);
+    const double most = std::max(1e-8, 1e-6 * lengths);
     const auto contradicting = [&](double apart) {
-      return OnRows(x, 0,
-                    [apart](const Vec& q) {
-                      return Problem::Rows{Eigen::Vector2d(q[1], q[1] - apart), Vec::Zero(2), Vec::Zero(2),
-                                           Mat{{0, 1}, {0, 1}}};
-                    })
-          .finish()
-          .first;
+      Springs springs{.k = Vec::Zero(2), .rest = Vec::Zero(2), .q = Eigen::Vector2d(x, 0), .v = Eigen::Vector2d(v, 0)};
+      springs.force = [a](const Vec&) { return Eigen::Vector2d(a, 0); };
+      springs.rows = [apart](const Vec& q, const Vec&) {
+        return Problem::Rows{Eigen::Vector2d(q[1], q[1] - apart), Vec::Zero(2), Vec::Zero(2), Mat{{0, 1}, {0, 1}}};
+      };
+      const auto s = springs.system();
+      Trapezoidal t(*s, springs.start(*s), h);
+      t.begin();
+      t.iterate();
+      return t.step.finish(*s, t.now, t.next);
     };
-    EXPECT_TRUE(contradicting(1.9e-6 * x));
-    EXPECT_FALSE(contradicting(2.1e-6 * x));
+    EXPECT_TRUE(contradicting(1.9 * most)) << x << " " << v << " " << a;
+    EXPECT_FALSE(contradicting(2.1 * most)) << x << " " << v << " " << a;
   }
 }
 
@@ -118,12 +130,81 @@ TEST(NewmarkStep, ForgetsTheFactorsOfRowsThatHadFriction) {
   t.iterate();
   ASSERT_TRUE(t.step.finish(*s, t.now, t.next));
   EXPECT_NEAR(t.next.q[1], 0, 1e-16);
+  EXPECT_NEAR(t.next.q[0], 1e-3, 1e-16) << "and onto the plane across it, whatever its friction";
   wall = true;
   t.begin();
   t.iterate();
   ASSERT_TRUE(t.step.finish(*s, t.now, t.next));
   EXPECT_NEAR(t.next.q[0], 0, 1e-16);
   EXPECT_NEAR(t.next.q[1], 1e-3, 1e-16);
+}
+
+// A particle at the distance 1e-3 from its plane, approaching it.
+struct Approaching {
+  Springs springs{.k = Vec::Zero(2), .rest = Vec::Zero(2), .q = Eigen::Vector2d(0, 1e-3), .v = Eigen::Vector2d(1, 0.5)};
+  explicit Approaching(double friction = 0) {
+    springs.rows = [friction](const Vec& q, const Vec&) {
+      Problem::Rows rows = plane(q[1]);
+      if (friction != 0) rows.W = Eigen::RowVector2d(-friction, 1);
+      return rows;
+    };
+  }
+};
+
+TEST(NewmarkStep, OfIndex3SatisfiesLinearPositionsAndNotVelocitiesByItsFirstIncrement) {
+  for (const double friction : {0.0, 0.5}) {
+    const Approaching approaching(friction);
+    const auto s = approaching.springs.system();
+    Trapezoidal t(*s, approaching.springs.start(*s), 0.1);
+    t.step.formulation = Formulation::index3;
+    t.begin();
+    t.correct();
+    EXPECT_EQ(approaching.springs.factorisations, 1) << "friction " << friction;
+    t.residual();
+    EXPECT_LE(std::abs(s->g()[0]), 1e-16);
+    EXPECT_NEAR(s->g_dot()[0], -0.5 - 2 * 1e-3 / 0.1, 1e-15) << "the trapezoidal rule: (v + v')/2 = -y/h";
+    t.iterate();
+    ASSERT_TRUE(t.step.finish(*s, t.now, t.next));
+    EXPECT_NEAR(t.next.v[1], -0.5 - 2 * 1e-3 / 0.1, 1e-15);
+  }
+}
+
+// eps q/h^2 of acceleration is 2 eps q/h of velocity, allowed to a thousandth of v + v' = 2 v.
+TEST(NewmarkStep, OfIndex3RejectsAStepWhosePositionsDoNotResolveAThousandthOfTheVelocity) {
+  for (const double v : {0.01, 1.0, 100.0}) {
+    const double q = 1e6, h = 2 * eps * q / (1e-3 * 2 * v);
+    const auto finish = [&](double size) {
+      Springs springs{.k = Vec::Zero(2), .rest = Vec::Zero(2), .q = Eigen::Vector2d(q, 0), .v = Eigen::Vector2d(v, 0)};
+      springs.rows = [](const Vec& at, const Vec&) { return plane(at[1]); };
+      const auto s = springs.system();
+      Trapezoidal t(*s, springs.start(*s), size);
+      t.step.formulation = Formulation::index3;
+      t.begin();
+      t.iterate();
+      return t.step.finish(*s, t.now, t.next);
+    };
+    EXPECT_FALSE(finish(0.95 * h)) << v;
+    EXPECT_TRUE(finish(1.05 * h)) << v;
+  }
+}
+
+// Rows from one step to the next: those of a contact that has opened leave nothing behind.
+TEST(NewmarkStep, ForgetsRowsThatAreNoLongerThere) {
+  const Approaching approaching;
+  const auto held = approaching.springs.system();
+  Trapezoidal t(*held, approaching.springs.start(*held), 0.1);
+  t.begin();
+  t.iterate();
+  ASSERT_TRUE(t.step.finish(*held, t.now, t.next));
+  const Springs springs = {
+      .k = Vec::Ones(2), .rest = Vec::Zero(2), .q = Eigen::Vector2d(0, 1e-3), .v = Eigen::Vector2d(1, 0.5)};
+  const auto s = springs.system();
+  Trapezoidal free(*s, springs.start(*s), 0.1);
+  free.step = t.step;
+  free.begin();
+  free.iterate();
+  ASSERT_TRUE(free.step.finish(*s, free.now, free.next));
+  EXPECT_NEAR((free.next.a - free.exact(springs)).norm(), 0, 1e-14);
 }
 
 }  // namespace
