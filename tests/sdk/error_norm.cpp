@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <trammel/methods/error_norm.hpp>
 
@@ -51,6 +52,18 @@ TEST(ErrorNorm, MeasuresAVelocityByItsSizeAtTheLargerEnd) {
   // The round-off of v, 4 eps of 8, stands beside 8e-3: relative 1e-12.
   EXPECT_NEAR(error_norm(vec(0), vec(1), slow, fast, relative), expected, 1e-11 * expected);
   EXPECT_NEAR(error_norm(vec(0), vec(1), fast, slow, relative), expected, 1e-11 * expected);
+}
+
+// Beside an absolute tolerance of three times as much: 3 + 1. Of either end, and of velocities by that of places, too.
+TEST(ErrorNorm, AllowsFourUnitsOfRoundOff) {
+  const double far = 1e6, unit = 4 * eps * far;
+  const Tolerance tolerance{.relative = 0, .absolute = 3 * unit};
+  const State here = at(0, vec(0), vec(0)), there = at(0, vec(far), vec(0)), fast = at(0, vec(0), vec(far));
+  for (const auto& [now, next] : {std::pair(here, there), std::pair(there, here)})
+    EXPECT_NEAR(error_norm(vec(4 * unit), vec(0), now, next, tolerance), std::sqrt(0.5), 1e-12);
+  for (const auto& [now, next] : {std::pair(here, fast), std::pair(fast, here)})
+    EXPECT_NEAR(error_norm(vec(0), vec(4 * unit), now, next, tolerance), std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(error_norm(vec(0), vec(unit), there, there, {.relative = 0, .absolute = 0}), std::sqrt(0.5), 1e-12);
 }
 
 TEST(ErrorNorm, MeasuresACoordinateByItsWayInTwoStepsWhereverItIs) {

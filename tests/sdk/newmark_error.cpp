@@ -20,8 +20,8 @@ struct Weights {
 // formulas of newmark_error.hpp make of them.
 struct Mode {
   double k, d;
-  double h_before = 0.5, h = 0.25;
-  double a_before = 1, a = 1.5, a_next = 1.75;
+  double begin = 8, h_before = 0.5, h = 0.25;
+  double a_before = 1, a = 1.5, a_next = 1.875;  // 1 m/s^3, then 1.5 m/s^3
   double e_q = 0, e_v = 0, z = 0;
 
   Mode(const Weights& w, double stiffness, double damping) : k(stiffness), d(damping) {
@@ -44,10 +44,13 @@ struct Mode {
   }
   static State at(double t, double a) { return {t, Vec::Zero(1), Vec::Zero(1), Vec::Constant(1, a), Vec(0)}; }
   double estimate(NewmarkError& error, const Tolerance& tolerance) const {
-    const auto s = system();
-    error.restart(at(-h_before, a_before));
-    error.accept(at(0, a));
-    return error(*s, at(0, a), at(h, a_next), tolerance);
+    error.restart(at(begin - 3, 100));
+    error.accept(at(begin - h_before, a_before));
+    error.accept(at(begin, a));
+    return trial(error, tolerance);
+  }
+  double trial(NewmarkError& error, const Tolerance& tolerance) const {
+    return error(*system(), at(begin, a), at(begin + h, a_next), tolerance);
   }
 };
 
@@ -85,6 +88,16 @@ TEST(NewmarkError, IsFilteredByTheMatrixOfTheStep) {
       const double expected = rms(x_q, x_v + (mode.e_v - x_v) / std::sqrt(mode.z)) / 1e-9;
       EXPECT_NEAR(mode.estimate(error, tight) / expected, 1, 1e-9) << k << " " << d;
     }
+}
+
+TEST(NewmarkError, IsFilteredWhereItExceedsItsToleranceOnly) {
+  for (const Weights& w : methods) {
+    const Mode mode(w, 1e6, 0);
+    NewmarkError error = estimator(w);
+    const double whole = rms(mode.e_q, mode.e_v);
+    EXPECT_NEAR(mode.estimate(error, {.relative = 0, .absolute = whole / 0.99}), 0.99, 1e-12);
+    EXPECT_LT(mode.estimate(error, {.relative = 0, .absolute = whole / 1.01}), 0.1);
+  }
 }
 
 // e_q is filtered by a part of (omega h)^2; e_v not at all.
@@ -207,10 +220,19 @@ TEST(NewmarkError, GoesOnInAResumedRun) {
   error.archive(memory);
   memory.reading = true;
   resumed.archive(memory);
-  const auto s = mode.system();
-  EXPECT_EQ(resumed(*s, Mode::at(0, mode.a), Mode::at(mode.h, mode.a_next), loose), expected);
-  resumed.accept(Mode::at(mode.h, mode.a_next));
+  EXPECT_EQ(mode.trial(resumed, loose), expected);
+  const State next = Mode::at(mode.begin + mode.h, mode.a_next), after = Mode::at(mode.begin + 1, 7);
+  resumed.accept(next), error.accept(next);
   EXPECT_EQ(resumed.h_before(), mode.h);
+  EXPECT_EQ(resumed(*mode.system(), next, after, loose), error(*mode.system(), next, after, loose));
+}
+
+TEST(NewmarkError, KnowsNoStepBeforeARestart) {
+  const Mode mode(methods[0], 1, 0);
+  NewmarkError error = estimator(methods[0]), fresh = estimator(methods[0]);
+  mode.estimate(error, loose);
+  for (NewmarkError* each : {&error, &fresh}) each->restart(Mode::at(mode.begin, mode.a));
+  EXPECT_EQ(mode.trial(error, loose), mode.trial(fresh, loose));
 }
 
 }  // namespace

@@ -75,7 +75,11 @@ TEST(NewmarkStep, BeginsWithTheAccelerationWhereItMovesLittleOrChangesForcesLitt
     return springs.factorisations == 1 && std::abs(t.next.a[0] - t.exact(springs)[0]) <= 1e-9 * std::abs(t.now.a[0]);
   };
   EXPECT_TRUE(first_solves(one_spring(1e6, 1e-3, 1e5))) << "v moves q by 1e5 m, a by 500 m";
+  EXPECT_TRUE(first_solves(one_spring(1e6, 1e-3, 501))) << "both by about 500 m";
+  EXPECT_FALSE(first_solves(one_spring(1e6, 1e-3, 499)));
   EXPECT_TRUE(first_solves(one_spring(0.1, 1, 0))) << "a slow motion from rest";
+  EXPECT_TRUE(first_solves(one_spring(3.9, 1, 0))) << "c_q k < 1";
+  EXPECT_FALSE(first_solves(one_spring(4.1, 1, 0))) << "c_q k > 1";
   EXPECT_FALSE(first_solves(one_spring(1e6, 1e-3, 0.1)));
 }
 
