@@ -46,16 +46,6 @@ void RungeKutta::begin(System& s, const State& now, Slope& slope) {
   if (!evaluate(s, now.t, now.q, now.v, slope)) slope = {};
 }
 
-bool RungeKutta::keep_null_space(System& s, const State& now) {
-  kept_ = rows == Rows::null_space && s.sizes().nc > 0;
-  if (!kept_) return false;
-  zero_.setZero(s.sizes().nv);
-  no_force_.setZero(s.sizes().nc);
-  s.move_to(now.t, now.q, now.v);
-  s.factorise({1, 0, 0}, zero_, no_force_, Factors::projection);
-  return true;
-}
-
 // Projection of on_manifold_ and held_v_ onto the rows by a modified Newton iteration. `projected`: the first factors
 // have an error of the order of the violation; the second ones, near the solution, are used until the end. With the
 // factors of the step's start each iteration reduces the violation by a factor of order h; the projection fails if it
@@ -67,8 +57,12 @@ class RungeKutta::OntoRows {
     near_round_off_ =
         m_.kept_ ? round_off_of_place * std::max(1.0, of_place) : std::max(stalling, round_off_of_place * of_place);
     lost_ = std::max(most_left, most_left_of_place * of_place);
-    m_.zero_.setZero(s.sizes().nv);
-    m_.no_force_.setZero(s.sizes().nc);
+  }
+
+  static void factorise(RungeKutta& m, System& s) {
+    m.zero_.setZero(s.sizes().nv);
+    m.no_force_.setZero(s.sizes().nc);
+    s.factorise({1, 0, 0}, m.zero_, m.no_force_, Factors::projection);
   }
 
   [[nodiscard]] bool move_position() {
@@ -115,7 +109,7 @@ class RungeKutta::OntoRows {
     if (m_.kept_) {
       if (shrinks_less_than(reach, i, size)) return false;
     } else if (off < factorised_at_ && (factorised_at_ > in_place || shrinks_less_than(well, i, size))) {
-      s_.factorise({1, 0, 0}, m_.zero_, m_.no_force_, Factors::projection);
+      factorise(m_, s_);
       factorised_at_ = off;
     }
     return s_.correct(m_.zero_, m_.right_, m_.change_, m_.mu_, Factors::projection);
@@ -127,6 +121,14 @@ class RungeKutta::OntoRows {
   double near_round_off_, lost_;  // [m, rad]
   double factorised_at_ = std::numeric_limits<double>::infinity(), before_ = 0, violation_ = 0;
 };
+
+bool RungeKutta::keep_null_space(System& s, const State& now) {
+  kept_ = rows == Rows::null_space && s.sizes().nc > 0;
+  if (!kept_) return false;
+  s.move_to(now.t, now.q, now.v);
+  OntoRows::factorise(*this, s);
+  return true;
+}
 
 bool RungeKutta::onto_rows(System& s, double t) {
   OntoRows newton(*this, s, t);
