@@ -16,7 +16,8 @@ struct Projected {
 };
 using RowsOf = std::function<Problem::Rows(const Vec& q, const Vec& v)>;
 
-Projected project(const RowsOf& of, double x, double y) {
+// `fails`: of the solutions with its matrix, the first that fails; -1: none.
+Projected project(const RowsOf& of, double x, double y, int fails = -1) {
   Projected found;
   Problem p;
   p.closed_form = false;
@@ -31,6 +32,7 @@ Projected project(const RowsOf& of, double x, double y) {
   method.rows = RungeKutta::Rows::projected;
   Slope slope;
   found.points = 0;
+  if (fails >= 0) counted.fail_at(fails);
   found.possible = method.evaluate(counted, 0, Eigen::Vector2d(x, y), Eigen::Vector2d(1, 0.5), slope);
   found.factorisations = int(counted.evaluations) - found.points;
   method.taken_at(found.q, found.v);
@@ -70,6 +72,13 @@ TEST(RowsOfRungeKutta, AreFactorisedAgainWhileTheyConvergeSlowlyOnly) {
 TEST(RowsOfRungeKutta, AreMissingWhereTheyAreNotReached) {
   EXPECT_TRUE(project(plane(0.5), 0, 0.01).possible);   // 1e-8 after 20 iterations
   EXPECT_FALSE(project(plane(0.8), 0, 0.01).possible);  // 1e-4
+}
+
+// However near they are: 1e-8 m would be within what slow convergence may leave.
+TEST(RowsOfRungeKutta, AreMissingWhereTheirMatrixIsSingular) {
+  for (const int of_places_or_velocities : {0, 1})
+    EXPECT_FALSE(project(circle, 0, 1 + 1e-8, of_places_or_velocities).possible);
+  EXPECT_TRUE(project(circle, 0, 1 + 1e-8, 9).possible);
 }
 
 // At 1e11 m places are 1.5e-5 m apart, so no iteration reduces the violation to less than some 1e-6.
@@ -150,6 +159,39 @@ TEST(NullSpace, GivesWayToProjectionInAStepThatTurnsTheRowsFar) {
     const Stepped by_null_space = step_of(name, "null_space", 0.35), by_projection = step_of(name, "projected", 0.35);
     EXPECT_TRUE(same_bits(by_null_space.next, by_projection.next)) << name;
     EXPECT_FALSE(same_bits(step_of(name, "null_space", 0.05).next, step_of(name, "projected", 0.05).next)) << name;
+  }
+}
+
+// Between the ends of a step by its own slopes and three more: a shorter step would need all twelve.
+TEST(NullSpace, IsThatOfTheStepInItsInterpolationToo) {
+  Posed posed(problems::pendulum_with_rod(1, 4));
+  kit::Failing counted(posed, kit::Failing::How::singular);
+  auto method = make("dop853", {{"rows", std::string("null_space")}});
+  const State start = posed.start();
+  State next, inside;
+  method->restart(counted, start);
+  counted.evaluations = 0;
+  ASSERT_TRUE(method->step(counted, start, 0.01, next));
+  const long long of_step = counted.evaluations;
+  counted.evaluations = 0;
+  dynamic_cast<DenseOutput&>(*method).interpolate(counted, start, next, 0.5, inside);
+  EXPECT_LE(2 * counted.evaluations, of_step);
+  EXPECT_NEAR((inside.q - posed.exact(0.005).q).norm(), 0, 1e-12);
+}
+
+// Times of 1e6 s tell the step's length to 1e-10 s.
+TEST(StepsOfRungeKutta, AreNotRepeatedForAnInterpolationAtALateTime) {
+  Posed posed(problems::oscillator());
+  kit::Failing counted(posed, kit::Failing::How::singular);
+  auto method = make("dormand_prince");
+  State start = posed.start(), next, inside;
+  for (int i = 0; i < 20; ++i) {
+    start.t = 1e6 + 0.01 * i;
+    method->restart(counted, start);
+    ASSERT_TRUE(method->step(counted, start, 0.1 + 0.01 * i, next));
+    counted.evaluations = 0;
+    dynamic_cast<DenseOutput&>(*method).interpolate(counted, start, next, 0.5, inside);
+    EXPECT_EQ(counted.evaluations, 0) << i;
   }
 }
 

@@ -67,5 +67,18 @@ TEST(RungeKuttaError, BeginsAnewWithAMotion) {
   EXPECT_EQ(error(method, 1.05, 0.05, 1000), 1000);
 }
 
+// q i turns about the first axis of the body; an error along q itself changes nothing but the quaternion's length.
+TEST(RungeKuttaError, IsThatOfTheRotationAndNotOfTheLengthOfAQuaternion) {
+  const Problem top = problems::heavy_top();
+  const auto system = top.system();
+  const Vec q = top.solution(0).q, qi = Eigen::Vector4d(-q[1], q[0], q[3], -q[2]);
+  const double small = 1e-6;
+  Vec embedded, increment;
+  for (const double along : {0.0, 0.5}) {
+    error_increment(*system, q, along * q + small * qi, embedded, increment);
+    EXPECT_NEAR((increment - 2 * small / (1 - along) * Vec::Unit(3, 0)).norm(), 0, 1e-11) << along;
+  }
+}
+
 }  // namespace
 }  // namespace trammel
