@@ -91,5 +91,31 @@ TEST(BlockBetweenWalls, RisesBesideBlocksThatNothingLoads) {
   }
 }
 
+// A load lifts one block and presses it against others. Its friction holds some of them and lifts others, and forces of
+// equal springs would leave the cones: other forces with which the blocks that rest go on resting are taken.
+TEST(BlocksBetweenWalls, ArePressedTogetherByForcesThatContactsHave) {
+  std::mt19937 random(3);
+  const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+  for (int i = 0; i < 12; ++i) {
+    std::vector<Block> blocks(std::size_t(4 + i % 2));
+    double mass = 0;
+    for (Block& b : blocks) {
+      b = {any(0.08, 0.25), any(0.1, 0.3), std::pow(10, any(-1, 0.6)), any(0.1, 0.9), any(0.1, 0.9)};
+      mass += b.mass;
+    }
+    json s = between_walls(blocks, any(0.1, 0.9));
+    s["forces"]["lifts"] = {
+        {"type", "load"},
+        {"on", fmt::format("b{}.centre", int(any(0, double(blocks.size()))))},
+        {"force",
+         {{"x", fmt::format("={:.17g}", any(-20, 20) * mass)}, {"y", fmt::format("={:.17g}", any(5, 40) * mass)}}}};
+    s["simulate"]["until"] = 0.05;
+    s["integrator"] = {{"type", "dop853"}, {"step", {{"tolerance", std::pow(10, -6 - 2 * (i % 4))}}}};
+    const Finished run = run_text(s.dump());
+    ASSERT_TRUE(run.done()) << i << ": " << run.report.reason;
+    EXPECT_THAT(run.report.summary, Not(HasSubstr("not to be trusted"))) << i;
+  }
+}
+
 }  // namespace
 }  // namespace trammel::test
