@@ -65,9 +65,9 @@ json between_walls(const std::vector<Block>& blocks, double mu_right) {
   return s;
 }
 
-// The first block is pressed against the left wall and lifted along it: m a = F_y - m g - mu |F_x|. The blocks beside it
-// rest, and nothing presses them against each other: the forces of these contacts are round-off, which needs no short
-// steps.
+// The first block is pressed against the left wall and lifted along it: m a = F_y - m g - mu |F_x|. The blocks beside
+// it rest, and nothing presses them against each other: the forces of these contacts are round-off, which needs no
+// short steps.
 TEST(BlockBetweenWalls, RisesBesideBlocksThatNothingLoads) {
   std::mt19937 random(1);
   const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
