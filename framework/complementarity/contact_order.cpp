@@ -54,10 +54,10 @@ OrderedContacts::OrderedContacts(const std::vector<ContactPoint>& points, const 
   for (const ContactPoint& p : points)
     numbers.push_back(own_number(p, A, stiff, b.lpNorm<Eigen::Infinity>()) + entries(p, b) +
                       weights[1] * entries(p, first) + weights[2] * entries(p, second));
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return numbers[i] < numbers[j]; });
-  for (const std::size_t i : order) {
+  order_.resize(points.size());
+  std::iota(order_.begin(), order_.end(), std::size_t(0));
+  std::stable_sort(order_.begin(), order_.end(), [&](std::size_t i, std::size_t j) { return numbers[i] < numbers[j]; });
+  for (const std::size_t i : order_) {
     ContactPoint& p = points_.emplace_back(points[i]);
     if (p.normal >= 0) {
       rows_.push_back(p.normal);

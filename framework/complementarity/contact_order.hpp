@@ -24,10 +24,12 @@ class OrderedContacts {
   const std::vector<ContactPoint>& points() const { return points_; }
   const Mat& A() const { return A_; }
   const Vec& b() const { return b_; }
-  Vec as_named(const Vec& x) const;  // forces or accelerations in the original order
+  const std::vector<std::size_t>& order() const { return order_; }  // by contact here: its index before
+  Vec as_named(const Vec& x) const;                                 // forces or accelerations in the original order
 
  private:
   std::vector<ContactPoint> points_;
+  std::vector<std::size_t> order_;
   std::vector<Eigen::Index> rows_;  // original row of each row
   Mat A_;
   Vec b_;

@@ -8,6 +8,7 @@
 
 #include <trammel/decompositions.hpp>
 
+#include "complementarity/contact_order.hpp"
 #include "complementarity/exact_modes.hpp"
 #include "complementarity/islands.hpp"
 #include "complementarity/programs/nonnegative_least_squares.hpp"
@@ -303,8 +304,12 @@ std::vector<bool> ContactProblem::take_fewest_forces(const model::Modes& modes, 
     const auto is_round = [this](std::size_t i) { return points_[i].tangents > 1 && points_[i].tangent >= 0; };
     if (!asked[number[island.members.front()]]) continue;
     if (std::any_of(island.members.begin(), island.members.end(), is_round)) continue;
-    const std::vector<Edge> edges = edges_of(island.members, modes);
-    const std::vector<Eigen::Index> rows = rows_at_rest(island.members, modes);
+    std::vector<std::size_t> members;  // sorted, since forces are not unique and the first of equal edges is taken
+    const Mat A = delassus_(island.rows, island.rows);
+    const complementarity::OrderedContacts ordered(island.points, A, b_(island.rows));
+    for (const std::size_t k : ordered.order()) members.push_back(island.members[k]);
+    const std::vector<Edge> edges = edges_of(members, modes);
+    const std::vector<Eigen::Index> rows = rows_at_rest(members, modes);
     Mat directions = Mat::Zero(F_.size(), Eigen::Index(edges.size()));
     for (std::size_t k = 0; k < edges.size(); ++k) {
       const complementarity::ContactPoint& p = points_[edges[k].who];
@@ -337,7 +342,7 @@ std::vector<bool> ContactProblem::take_fewest_forces(const model::Modes& modes, 
       if (points_[e.who].tangent >= 0) p.T[0] = F[points_[e.who].tangent];
       at_edge[e.who] = p.tangent == Participant::Tangent::resting && parts[e.who] == 1;
     }
-    keep_held(island.members, modes, at_edge);
+    keep_held(members, modes, at_edge);
   }
   return at_edge;
 }
