@@ -277,9 +277,6 @@ double ContactModes::time_of_change(const std::vector<bool>& asked) {
   return least;
 }
 
-namespace {
-
-// Modes of the contacts that are not asked are those decided.
 void keep_others(const model::Modes& decided, const std::vector<bool>& asked, model::Modes& modes) {
   for (std::size_t i = 0; i < asked.size(); ++i)
     if (!asked[i]) modes.contacts[i] = decided.contacts[i];
@@ -290,8 +287,6 @@ void keep_others(const model::Modes& decided, const std::vector<bool>& asked, mo
   for (const model::SharedRows& group : decided.shared)
     if (!is_asked(group)) modes.shared.push_back(group);
 }
-
-}  // namespace
 
 // Rule 11: decides by the state a moment later. `asked`: contacts whose modes are open.
 complementarity::ContactSolution ContactModes::decide_by_what_follows(const State& state, ContactChanges changes,

@@ -128,6 +128,9 @@ inline bool contains(const std::vector<int>& contacts, int i) {
   return std::find(contacts.begin(), contacts.end(), i) != contacts.end();
 }
 
+// Contacts that are not `asked`, and the groups in which they share, get the modes that were decided before.
+void keep_others(const model::Modes& decided, const std::vector<bool>& asked, model::Modes& modes);
+
 class ContactModes {
  public:
   ContactModes(model::AssembledSystem& system, const ContactScale& scale, const Settings& settings)
@@ -219,6 +222,7 @@ class ContactModes {
   void open_pulling_ones(const State& state);
   [[nodiscard]] bool has_forces_in(const model::Modes& modes, const State& state);
   std::vector<Participant*> held_at_bounds(const State& state);
+  void keep_at_bound(Participant& p);
   void hold(const State& state, const std::vector<Participant*>& held);
   void share_forces_found(const State& state);
   double least_acceleration(const Participant& p) const;

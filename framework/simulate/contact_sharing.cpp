@@ -180,22 +180,25 @@ std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
   return held;
 }
 
-// Rule 12: they keep T = mu N, as if they slid.
+// The contact keeps T = mu N, as if it slid.
+void ContactModes::keep_at_bound(Participant& p) {
+  model::ContactMode& mode = modes_.contacts[p.contact];
+  mode.friction = Friction::slide;
+  mode.direction = -direction_of(p.T);
+  mode.least_slip = least_slip(p.contact);
+  p.ratio = -p.mu * mode.direction;
+}
+
+// Rule 12.
 void ContactModes::hold(const State& state, const std::vector<Participant*>& held) {
-  for (Participant* p : held) {
-    model::ContactMode& mode = modes_.contacts[p->contact];
-    mode.friction = Friction::slide;
-    mode.direction = -direction_of(p->T);
-    mode.least_slip = least_slip(p->contact);
-    p->ratio = -p->mu * mode.direction;
-  }
+  for (Participant* p : held) keep_at_bound(*p);
   if (!held.empty()) find_shares(state);
 }
 
-// Rule 14. Does nothing if that does not help.
+// Rule 14. Islands which it does not help keep what was decided.
 void ContactModes::share_forces_found(const State& state) {
   if (std::none_of(modes_.shared.begin(), modes_.shared.end(), has_sliding)) return;
-  std::vector<bool> asked = can_be_exerted(state);
+  std::vector<bool> asked = can_be_exerted(state);  // by island
   asked.flip();
   if (!has_any(asked)) return;
   const model::Modes decided = modes_;
@@ -205,20 +208,18 @@ void ContactModes::share_forces_found(const State& state) {
   const std::vector<bool> kept_closed = problem_.kept_closed(nothing);
   for (std::size_t i = 0; i < found.size(); ++i) take_verdict(found[i], kept_closed[i]);
   const std::vector<bool> at_edge = problem_.take_fewest_forces(modes_, asked);
-  for (std::size_t i = 0; i < at_edge.size(); ++i) {
-    Participant& p = problem_.who[i];
-    model::ContactMode& mode = modes_.contacts[p.contact];
-    if (!at_edge[i] || mode.friction == Friction::slide) continue;
-    mode.friction = Friction::slide;
-    mode.direction = -direction_of(p.T);
-    mode.least_slip = least_slip(p.contact);
-    p.ratio = -p.mu * mode.direction;
-  }
+  for (std::size_t i = 0; i < at_edge.size(); ++i)
+    if (Participant& p = problem_.who[i]; at_edge[i] && modes_.contacts[p.contact].friction != Friction::slide)
+      keep_at_bound(p);
   share(std::vector<double>(problem_.who.size(), complementarity::largest_violation));
   const std::vector<bool> exerted = can_be_exerted(state);
-  for (std::size_t k = 0; k < asked.size(); ++k)
-    if (asked[k] && exerted[k]) return;
-  modes_ = decided, problem_.who = found;
+  const std::vector<std::size_t> island = problem_.islands();
+  std::vector<bool> helped(modes_.contacts.size(), false);  // by contact
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    helped[std::size_t(found[i].contact)] = asked[island[i]] && exerted[island[i]];
+    if (!helped[std::size_t(found[i].contact)]) problem_.who[i] = found[i];
+  }
+  keep_others(decided, helped, modes_);
 }
 
 }  // namespace trammel::simulate
