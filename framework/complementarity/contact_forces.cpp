@@ -48,9 +48,10 @@ class Cascade {
     }
   }
 
-  ContactSolution solve(Vec& F) {
+  ContactSolution solve(const NearbySolution& nearby, Vec& F) {
     if (!friction_) return without_friction(F);
     dependent_ = !independent();
+    if (nearby.F.size() > 0 && continues(nearby)) return found(F);
     for (const double yields : dependent_ ? std::span<const double>(dependent_compliances) : compliances)
       if (by_pivoting(yields)) return found(F);
     if (round_ && (try_cones(0, Vec::Zero(b_.size())) || (best_.size() > 0 && try_cones(0, best_)))) return found(F);
@@ -68,6 +69,9 @@ class Cascade {
   }
 
  private:
+  // In its modes, or by Newton's method from its forces.
+  bool continues(const NearbySolution& nearby) { return accept(nearby.F, nearby.a) || try_cones(0, nearby.F); }
+
   ContactSolution without_friction(Vec& F) {
     Vec pressing = Vec::Zero(b_.size());
     std::vector<Eigen::Index> normals;
@@ -223,10 +227,13 @@ void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, cons
   }
 }
 
-ContactSolution solve_island(const Island& island, const Mat& A, const Vec& b, Vec& F, Vec& a, double nothing) {
+ContactSolution solve_island(const Island& island, const Mat& A, const Vec& b, Vec& F, Vec& a, double nothing,
+                             const NearbySolution& nearby) {
   const OrderedContacts ordered(island.points, A, b);
   Vec F_ordered;
-  const ContactSolution solution = Cascade(ordered.points(), ordered.A(), ordered.b(), nothing).solve(F_ordered);
+  NearbySolution begin;
+  if (nearby.F.size() > 0) begin = {ordered.ordered(nearby.F(island.rows)), ordered.ordered(nearby.a(island.rows))};
+  const ContactSolution solution = Cascade(ordered.points(), ordered.A(), ordered.b(), nothing).solve(begin, F_ordered);
   if (solution.outcome != LcpOutcome::solved) return solution;
   Vec a_ordered = ordered.A() * F_ordered + ordered.b();
   clear_round_off(ordered.points(), ordered.A(), ordered.b(), F_ordered, a_ordered);
@@ -244,7 +251,8 @@ ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Ma
 }
 
 ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
-                               const std::vector<double>& nothing, std::vector<double>& violation) {
+                               const std::vector<double>& nothing, std::vector<double>& violation,
+                               const NearbySolution& nearby) {
   F.setZero(b.size());
   a.setZero(b.size());
   violation.assign(points.size(), 0);
@@ -257,7 +265,7 @@ ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Ma
     double counts_as_0 = 0;
     for (const std::size_t i : island.members) counts_as_0 = std::max(counts_as_0, nothing[i]);
     const ContactSolution one =
-        solve_island(island, A(island.rows, island.rows), b(island.rows), F_island, a_island, counts_as_0);
+        solve_island(island, A(island.rows, island.rows), b(island.rows), F_island, a_island, counts_as_0, nearby);
     for (const std::size_t i : island.members) violation[i] = one.violation;
     if (one.outcome != LcpOutcome::solved) {
       F.setZero(), a.setZero();

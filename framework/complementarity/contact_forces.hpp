@@ -19,7 +19,7 @@
 // friction they may not be, and no rule is known that finds a particular solution: the first one found counts, for
 // contacts in an order of their own (contact_order.hpp). So the answer does not depend on the order in which contacts
 // are named, except among contacts that look alike. It is not continuous: if two solutions are equally near to the
-// start of the search, round-off may choose.
+// start of the search, round-off may choose. So the solution near one that is known is sought first.
 #pragma once
 
 #include <vector>
@@ -39,9 +39,15 @@ struct ContactSolution {
 // which dependent contacts disagree.
 ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
                                double nothing = 0);
+// A solution of nearly the same problem, as a moment before, in the order of A and b; empty if none is known.
+struct NearbySolution {
+  Vec F, a;
+};
+
 // The same, with a `nothing` for each contact, of which the largest of an island counts in it. Fills `violation`, that
-// of each contact's island, as far as islands are solved.
+// of each contact's island, as far as islands are solved. With friction the solution near `nearby` is sought first.
 ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
-                               const std::vector<double>& nothing, std::vector<double>& violation);
+                               const std::vector<double>& nothing, std::vector<double>& violation,
+                               const NearbySolution& nearby = {});
 
 }  // namespace trammel::complementarity

@@ -25,7 +25,8 @@ class OrderedContacts {
   const Mat& A() const { return A_; }
   const Vec& b() const { return b_; }
   const std::vector<std::size_t>& order() const { return order_; }  // by contact here: its index before
-  Vec as_named(const Vec& x) const;                                 // forces or accelerations in the original order
+  Vec ordered(const Vec& x) const { return x(rows_); }              // forces or accelerations in that order
+  Vec as_named(const Vec& x) const;                                 // in the original order
 
  private:
   std::vector<ContactPoint> points_;

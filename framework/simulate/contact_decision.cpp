@@ -204,7 +204,8 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes) {
 }
 
 // Rules 3, 5, 6 and 7.
-complementarity::ContactSolution ContactModes::decide(State& state, ContactChanges changes, bool jumped) {
+complementarity::ContactSolution ContactModes::decide(State& state, ContactChanges changes, bool jumped,
+                                                      const std::vector<Participant>& nearby) {
   bearings_undecided_ = false;
   largest_.assign(modes_.contacts.size(), 0);  // values of an earlier event would be unknown to a resumed run
   do {
@@ -218,7 +219,7 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
     system_.move_to(state.t, state.q, state.v);
     accelerate_participants();
     if (has_bearings()) return decide_with_bearings(state);
-    const complementarity::ContactSolution solution = take_verdicts(state);
+    const complementarity::ContactSolution solution = take_verdicts(state, nearby);
     if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
     const std::vector<Participant*> held = held_at_bounds(state);
     if (!let_go(held)) return hold(state, held), share_forces_found(state), solution;
@@ -226,8 +227,9 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
   }
 }
 
-complementarity::ContactSolution ContactModes::take_verdicts(const State& state) {
-  const complementarity::ContactSolution solution = problem_.solve();
+complementarity::ContactSolution ContactModes::take_verdicts(const State& state,
+                                                             const std::vector<Participant>& nearby) {
+  const complementarity::ContactSolution solution = problem_.solve(nearby);
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
   std::vector<double> nothing;
   for (const Participant& p : problem_.who) nothing.push_back(least_acceleration(p));
@@ -294,6 +296,7 @@ complementarity::ContactSolution ContactModes::decide_by_what_follows(const Stat
                                                                       complementarity::ContactSolution so_far) {
   using complementarity::LcpOutcome;
   const model::Modes decided = modes_;
+  const std::vector<Participant> now = so_far.outcome == LcpOutcome::solved ? problem_.who : std::vector<Participant>();
   system_.set_modes(so_far.outcome == LcpOutcome::solved ? modes_ : before_);
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
@@ -308,7 +311,7 @@ complementarity::ContactSolution ContactModes::decide_by_what_follows(const Stat
     later.v += moment * a;
     system_.move_to(later.t, later.q, later.v);
     find_candidates(changes);
-    const complementarity::ContactSolution solution = decide(later, changes, jumped);
+    const complementarity::ContactSolution solution = decide(later, changes, jumped, now);
     system_.move_to(state.t, state.q, state.v);
     if (solution.outcome == LcpOutcome::solved) keep_others(decided, asked, modes_);
     if (solution.outcome != LcpOutcome::gave_up) return solution;

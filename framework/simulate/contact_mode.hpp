@@ -57,11 +57,11 @@
 //     and are sought as in impacts.
 // 11. Rule 3 may not decide which contacts press: a contact that was closed has neither force nor acceleration, and the
 //     others do not hold it (a stack below a ceiling that begins to tip), or no solution is found to round-off. Then
-//     the same problem is solved for the state a moment later, or later still if that leaves it open. If it has no
-//     solution, rule 8 applies.
+//     the same problem is solved for the state a moment later, or later still if that leaves it open. Of several
+//     solutions then the one near that of this instant counts. If there is no solution, rule 8 applies.
 // 12. The friction of a contact at rest may be at its bound while its tangents depend on rows of other contacts, some
 //     of which slide (blocks that push each other along a channel). The shares of springs (complementarity/shares)
-//     would exceed the bound, and other shares would give another motion. Such a contact keeps T = mu N like one that
+//     would exceed the bound or give another motion than that found. Such a contact keeps T = mu N like one that
 //     slides, without a slip. If mu < mu_0 it has let go (rule 6), and all modes are decided again.
 // 13. A contact without a force stays closed (idle) only while rows of contacts that carry hold it. Where these come
 //     to depend on each other (a stack that becomes a strut), they do not, and it opens: its force as a spring passes 0
@@ -213,14 +213,17 @@ class ContactModes {
   void add_friction(const State& state, Participant& p, const ContactChanges& changes, bool jumped);
   bool stop_with_others(ContactChanges& changes);
   bool end_drift(State& state, ContactChanges& changes);
-  [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped);
-  [[nodiscard]] complementarity::ContactSolution take_verdicts(const State& state);
+  [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped,
+                                                        const std::vector<Participant>& nearby = {});
+  [[nodiscard]] complementarity::ContactSolution take_verdicts(const State& state,
+                                                               const std::vector<Participant>& nearby = {});
   void find_shares(const State& state);
   std::vector<double> share(const std::vector<double>& none);
   bool open_loose_ones();
   std::vector<bool> can_be_exerted(const State& state);
   void open_pulling_ones(const State& state);
   [[nodiscard]] bool has_forces_in(const model::Modes& modes, const State& state);
+  bool moves_as_found(const model::SharedRows& group) const;
   std::vector<Participant*> held_at_bounds(const State& state);
   void keep_at_bound(Participant& p);
   void hold(const State& state, const std::vector<Participant*>& held);

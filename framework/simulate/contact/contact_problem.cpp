@@ -71,7 +71,21 @@ void ContactProblem::prepare(model::AssembledSystem& system) {
   system.impulse_response(directions_, jump_, delassus_);
 }
 
-complementarity::ContactSolution ContactProblem::solve_once(const Mat& A) {
+complementarity::NearbySolution ContactProblem::forces_of(const std::vector<Participant>& nearby) const {
+  const auto same = [](const Participant& p, const Participant& q) { return p.contact == q.contact; };
+  if (!std::equal(who.begin(), who.end(), nearby.begin(), nearby.end(), same)) return {};
+  complementarity::NearbySolution found{Vec::Zero(b_.size()), Vec::Zero(b_.size())};
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    const complementarity::ContactPoint& point = points_[i];
+    const Participant& p = nearby[i];
+    if (point.normal >= 0) found.F[point.normal] = p.N, found.a[point.normal] = p.a_n;
+    if (point.tangent < 0) continue;
+    along(found.F, point) = p.T.head(point.tangents), along(found.a, point) = p.a_t.head(point.tangents);
+  }
+  return found;
+}
+
+complementarity::ContactSolution ContactProblem::solve_once(const Mat& A, const std::vector<Participant>& nearby) {
   for (std::size_t i = 0; i < who.size(); ++i) {
     const Participant& p = who[i];
     complementarity::ContactPoint& point = points_[i];
@@ -84,7 +98,7 @@ complementarity::ContactSolution ContactProblem::solve_once(const Mat& A) {
   std::vector<double> nothing, violation;
   for (const Participant& p : who) nothing.push_back(p.nothing);
   const complementarity::ContactSolution solution =
-      complementarity::solve_contacts(points_, A, b_, F_, a_, nothing, violation);
+      complementarity::solve_contacts(points_, A, b_, F_, a_, nothing, violation, forces_of(nearby));
   for (std::size_t i = 0; i < who.size(); ++i) who[i].violation = violation[i];
   return solution;
 }
@@ -108,7 +122,7 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
   return solve();
 }
 
-complementarity::ContactSolution ContactProblem::solve() {
+complementarity::ContactSolution ContactProblem::solve(const std::vector<Participant>& nearby) {
   b_.resize(Eigen::Index(directions_.size()));
   for (std::size_t i = 0; i < who.size(); ++i) {
     if (points_[i].normal >= 0) b_[points_[i].normal] = who[i].a_n - who[i].vanishing;
@@ -118,7 +132,7 @@ complementarity::ContactSolution ContactProblem::solve() {
   for (const Pushed& p : pushed_) b_ += push(p) * delassus_.col(p.direction);
   complementarity::ContactSolution solution;
   for (bool settled = false; !settled;) {
-    solution = solve_once(delassus_);
+    solution = solve_once(delassus_, nearby);
     const bool approach = std::any_of(who.begin(), who.end(), [](const Participant& p) { return p.vanishing > 0; });
     if (solution.outcome != complementarity::LcpOutcome::solved && approach) solution = solve_once(yielding());
     // Without a solution for a vanishing approach, contacts that do not approach may still have one.

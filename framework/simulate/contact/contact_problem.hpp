@@ -57,8 +57,9 @@ class ContactProblem {
 
   void prepare(model::AssembledSystem& system);  // finds their directions, at the system's point
   // On entry `a_n` and `a_t` of each participant are its accelerations without the forces sought. Islands are solved
-  // apart, and no number of one counts in another.
-  [[nodiscard]] complementarity::ContactSolution solve();
+  // apart, and no number of one counts in another. `nearby`: the participants, with what was found for them, at nearly
+  // the same state; near that, solutions are sought first. If others took part, it does not count.
+  [[nodiscard]] complementarity::ContactSolution solve(const std::vector<Participant>& nearby = {});
   // The same, with one `nothing` for all.
   [[nodiscard]] complementarity::ContactSolution solve(double nothing);
   // [m/s^2] Acceleration of the gap of a unilateral participant without its own force; after `solve`.
@@ -115,7 +116,8 @@ class ContactProblem {
   std::vector<std::vector<Eigen::Index>> islands_at_rest() const;
   std::vector<complementarity::SharingGroup> groups_with_idle(const std::vector<complementarity::ContactRole>& role,
                                                               std::vector<bool>& in_them) const;
-  complementarity::ContactSolution solve_once(const Mat& A);
+  complementarity::ContactSolution solve_once(const Mat& A, const std::vector<Participant>& nearby = {});
+  complementarity::NearbySolution forces_of(const std::vector<Participant>& nearby) const;
   Mat yielding() const;                           // the Delassus matrix of contacts that are not quite rigid
   double no_slip(std::size_t participant) const;  // [m/s^2]
   double push(const Pushed& p) const { return who[p.who].ratio[0] * who[p.who].given; }  // [N]
