@@ -1,4 +1,5 @@
 // Blocks side by side on a floor, between two walls, without clearance. Most of their forces are indeterminate.
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -91,29 +92,61 @@ TEST(BlockBetweenWalls, RisesBesideBlocksThatNothingLoads) {
   }
 }
 
+// A row of which a load lifts one block and presses it against others.
+json lifted_row(std::mt19937& random, std::size_t n, double tolerance) {
+  const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+  std::vector<Block> blocks(n);
+  double mass = 0;
+  for (Block& b : blocks) {
+    b = {any(0.08, 0.25), any(0.1, 0.3), std::pow(10, any(-1, 0.6)), any(0.1, 0.9), any(0.1, 0.9)};
+    mass += b.mass;
+  }
+  json s = between_walls(blocks, any(0.1, 0.9));
+  const std::string lifted = fmt::format("b{}.centre", int(any(0, double(n))));
+  const double F_x = any(-20, 20) * mass, F_y = any(5, 40) * mass;
+  s["forces"]["lifts"] = {{"type", "load"},
+                          {"on", lifted},
+                          {"force", {{"x", fmt::format("={:.17g}", F_x)}, {"y", fmt::format("={:.17g}", F_y)}}}};
+  s["simulate"]["until"] = 0.05;
+  s["integrator"] = {{"type", "dop853"}, {"step", {{"tolerance", tolerance}}}};
+  return s;
+}
+
 // A load lifts one block and presses it against others. Its friction holds some of them and lifts others, and forces of
 // equal springs would leave the cones: other forces with which the blocks that rest go on resting are taken.
 TEST(BlocksBetweenWalls, ArePressedTogetherByForcesThatContactsHave) {
   std::mt19937 random(3);
-  const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
   for (int i = 0; i < 12; ++i) {
-    std::vector<Block> blocks(std::size_t(4 + i % 2));
-    double mass = 0;
-    for (Block& b : blocks) {
-      b = {any(0.08, 0.25), any(0.1, 0.3), std::pow(10, any(-1, 0.6)), any(0.1, 0.9), any(0.1, 0.9)};
-      mass += b.mass;
-    }
-    json s = between_walls(blocks, any(0.1, 0.9));
-    s["forces"]["lifts"] = {
-        {"type", "load"},
-        {"on", fmt::format("b{}.centre", int(any(0, double(blocks.size()))))},
-        {"force",
-         {{"x", fmt::format("={:.17g}", any(-20, 20) * mass)}, {"y", fmt::format("={:.17g}", any(5, 40) * mass)}}}};
-    s["simulate"]["until"] = 0.05;
-    s["integrator"] = {{"type", "dop853"}, {"step", {{"tolerance", std::pow(10, -6 - 2 * (i % 4))}}}};
-    const Finished run = run_text(s.dump());
+    const Finished run = run_text(lifted_row(random, std::size_t(4 + i % 2), std::pow(10, -6 - 2 * (i % 4))).dump());
     ASSERT_TRUE(run.done()) << i << ": " << run.report.reason;
     EXPECT_THAT(run.report.summary, Not(HasSubstr("not to be trusted"))) << i;
+  }
+}
+
+// The same contacts by other names, in another order.
+json renamed(const json& scene, std::mt19937& random) {
+  std::vector<std::string> names;
+  for (const auto& [name, contact] : scene["contacts"].items()) names.push_back(name);
+  std::shuffle(names.begin(), names.end(), random);
+  json other = scene;
+  other["contacts"] = json::object();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    other["contacts"][fmt::format("c{:02}", i)] = scene["contacts"][names[i]];
+  return other;
+}
+
+// Several motions are possible where a row is jammed. Which one follows is no matter of names.
+TEST(BlocksBetweenWalls, MoveAlikeHoweverTheirContactsAreNamed) {
+  std::mt19937 random(21);
+  for (int i = 0; i < 12; ++i) {
+    const std::size_t n = 5;
+    json s = lifted_row(random, n, 1e-9);
+    for (std::size_t k = 0; k < n; ++k) s["record"]["observe"][fmt::format("y{}", k)] = fmt::format("b{}.com.y", k);
+    const Finished run = run_text(s.dump()), other = run_text(renamed(s, random).dump());
+    ASSERT_TRUE(run.done() && other.done()) << i << ": " << run.report.reason << other.report.reason;
+    EXPECT_THAT(run.report.summary, Not(HasSubstr("not to be trusted"))) << i;
+    for (std::size_t k = 0; k < n; ++k)
+      EXPECT_NEAR(other.end(fmt::format("y{}", k)), run.end(fmt::format("y{}", k)), 1e-7) << i << ": block " << k;
   }
 }
 
