@@ -19,7 +19,8 @@ struct Loaded {
   Vec forces, resultants;
 };
 
-Loaded random_loads(std::mt19937& random, double mu) {
+// Coefficients from `mu` to `widest`.
+Loaded random_loads(std::mt19937& random, double mu, double widest) {
   std::uniform_real_distribution<double> part(0, 1);
   std::normal_distribution<double> any;
   Loaded loaded;
@@ -28,8 +29,9 @@ Loaded random_loads(std::mt19937& random, double mu) {
   for (Eigen::Index i = 0; i < contacts; ++i) {
     SharingContact& c = loaded.contacts.emplace_back();
     c.normal = i * (1 + tangents), c.coefficient = mu;
+    if (widest > mu) c.coefficient *= std::pow(widest / mu, part(random));
     const double N = -std::log(0.001 + 0.999 * part(random)), angle = 2 * std::numbers::pi * part(random),
-                 T = mu * N * 0.99 * part(random);
+                 T = c.coefficient * N * 0.99 * part(random);
     loaded.forces[c.normal] = N;
     for (int k = 0; k < tangents; ++k) {
       c.tangents.push_back(c.normal + 1 + k);
@@ -43,20 +45,84 @@ Loaded random_loads(std::mt19937& random, double mu) {
   return loaded;
 }
 
-TEST(AdmissibleForces, AreFoundHoweverThinTheConesAre) {
+Loaded random_loads(std::mt19937& random, double mu) {
+  return random_loads(random, mu, mu);
+}
+
+using Extended = Eigen::Vector<long double, Eigen::Dynamic>;
+
+// How much less than F admissible forces may be, as a part of |F|^2: by weak duality lambda . y - |Pi(E^T y)|^2 / 2 is
+// a lower bound of |F|^2 / 2 for every y, where Pi projects onto the cones. In extended precision, since y is of the
+// order of 1/mu.
+double less_than(const Loaded& loaded, const Vec& F, const Vec& y) {
+  const Extended y_extended = y.cast<long double>(), pushed = loaded.E.cast<long double>().transpose() * y_extended;
+  long double squares = 0;  // of the projections
+  for (const SharingContact& c : loaded.contacts) {
+    const long double mu = c.coefficient, T = pushed(c.tangents).norm();
+    if (c.normal < 0) {
+      const long double projected = std::min(T, mu * c.given);
+      squares += projected * (2 * T - projected);
+      continue;
+    }
+    const long double a = pushed[c.normal];
+    if (T <= mu * a)
+      squares += a * a + T * T;
+    else if (a > -mu * T)
+      squares += (a + mu * T) * (a + mu * T) / (1 + mu * mu);
+  }
+  const long double all = F.cast<long double>().squaredNorm();
+  return double(1 - (2 * loaded.resultants.cast<long double>().dot(y_extended) - squares) / all);
+}
+
+void expect_least_forces(const Loaded& loaded) {
+  Vec F, y;
+  const double missed = admissible_forces(loaded.contacts, loaded.E, loaded.resultants, F, &y);
+  EXPECT_DOUBLE_EQ(missed, (loaded.E * F - loaded.resultants).norm());
+  // The interior point method ends at 1e-12 of numbers of the order of 1.
+  EXPECT_LE(missed, 1e-11 * loaded.resultants.norm());
+  for (const SharingContact& c : loaded.contacts) {
+    const double N = c.normal >= 0 ? F[c.normal] : c.given;
+    EXPECT_LE(F(c.tangents).norm(), c.coefficient * N + 1e-14 * F.norm());
+  }
+  EXPECT_LE(less_than(loaded, F, y), 1e-9);
+}
+
+TEST(AdmissibleForces, AreTheLeastHoweverThinTheConesAre) {
   std::mt19937 random(51);
+  for (const double mu : {1e-7, 1e-6, 1e-5, 1e-4, 1e-2, 0.3, 1.0, 30.0})
+    for (int i = 0; i < 300; ++i) {
+      SCOPED_TRACE(testing::Message() << mu << ", " << i);
+      expect_least_forces(random_loads(random, mu));
+    }
+}
+
+TEST(AdmissibleForces, AreTheLeastInThinConesBesideWideOnes) {
+  std::mt19937 random(54);
+  for (int i = 0; i < 1000; ++i) {
+    SCOPED_TRACE(i);
+    expect_least_forces(random_loads(random, 1e-8, 30));
+  }
+}
+
+// The normal force of the last contact, whose columns are the last ones, becomes given.
+Loaded given_last(Loaded loaded) {
+  SharingContact& c = loaded.contacts.back();
+  std::vector<Eigen::Index> others;
+  for (Eigen::Index k = 0; k < loaded.forces.size(); ++k)
+    if (k != c.normal) others.push_back(k);
+  c.given = loaded.forces[c.normal], c.normal = -1;
+  for (Eigen::Index& k : c.tangents) --k;
+  const Mat E = loaded.E(Eigen::all, others);
+  const Vec forces = loaded.forces(others);
+  return {loaded.contacts, E, forces, E * forces};
+}
+
+TEST(AdmissibleForces, AreTheLeastBesideGivenNormalForces) {
+  std::mt19937 random(55);
   for (const double mu : {1e-6, 1e-4, 1e-2, 0.3, 1.0, 30.0})
     for (int i = 0; i < 200; ++i) {
-      const Loaded loaded = random_loads(random, mu);
-      Vec F;
-      const double missed = admissible_forces(loaded.contacts, loaded.E, loaded.resultants, F);
-      // The interior point method ends at 1e-12 of numbers of the order of 1.
-      EXPECT_LE(missed, 1e-11 * loaded.resultants.norm()) << mu << ", " << i;
-      EXPECT_LE(F.norm(), loaded.forces.norm() * (1 + 1e-6)) << mu << ", " << i;
-      for (const SharingContact& c : loaded.contacts) {
-        const double T = F(c.tangents).norm();
-        EXPECT_LE(T, mu * F[c.normal] + 1e-14 * F.norm()) << mu << ", " << i;
-      }
+      SCOPED_TRACE(testing::Message() << mu << ", " << i);
+      expect_least_forces(given_last(random_loads(random, mu)));
     }
 }
 

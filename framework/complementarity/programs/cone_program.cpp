@@ -14,6 +14,7 @@ using ConstBlock = Eigen::VectorBlock<const Vec>;
 
 constexpr int most_iterations = 50;
 constexpr double accurate = 1e-12;  // residuals and gap, of numbers of the order of 1
+constexpr double implied = 1e-15;   // pivot of a row that follows from others, of the largest one
 
 // The cone x_0 >= |x_1|; its product is the Jordan algebra's.
 double J_norm(const ConstBlock& x) {
@@ -87,6 +88,38 @@ class Blocks {
  private:
   const std::vector<Cone>* cones_ = nullptr;
   std::vector<Mat> blocks_;
+};
+
+// The rows of a program as combinations of the order of 1: D^-1 Q^T [G u] = D^-1 R P^T, with a decomposition [G u] P =
+// Q R and its pivots D. Columns of thin cones are small, and what only they add to the rows would be lost in round-off
+// beside the others, in the normal equations twice. Householder's reflections keep each column accurate relative to its
+// own size, and a row's pivot is its largest entry.
+class PivotedRows {
+ public:
+  explicit PivotedRows(const ConeProgram& program) : program_(program) {
+    const Index columns = program.G.cols(), s = program.u.size() > 0 ? 1 : 0;
+    Mat rows(program.G.rows(), columns + s);
+    rows.leftCols(columns) = program.G;
+    if (s) rows.col(columns) = program.u;
+    const Eigen::ColPivHouseholderQR<Mat> qr(rows);
+    const Vec pivots = qr.matrixQR().diagonal().cwiseAbs();
+    Index rank = 0;
+    while (rank < pivots.size() && pivots[rank] > implied * pivots[0]) ++rank;
+    const auto scaling = pivots.head(rank).cwiseInverse().asDiagonal();
+    pivoted_ = first_columns_of_q(qr, rank) * scaling;
+    const Mat R = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
+    rows = scaling * R * qr.colsPermutation().inverse();
+    program_.G = rows.leftCols(columns);
+    if (s) program_.u = rows.col(columns);
+    program_.r = pivoted_.transpose() * program.r;
+  }
+  const ConeProgram& program() const { return program_; }
+  // Of the original rows, for those of the combinations.
+  Vec multipliers(const Vec& y) const { return pivoted_ * y; }
+
+ private:
+  ConeProgram program_;
+  Mat pivoted_;  // columns: combinations of the original rows
 };
 
 // Its dual: D x - G^T y = z,  u . y = -1,  z in the cones.
@@ -237,7 +270,10 @@ class InteriorPoint {
 }  // namespace
 
 ConeSolution solve_cone_program(const ConeProgram& program) {
-  return InteriorPoint(program).solve();
+  const PivotedRows rows(program);
+  ConeSolution solution = InteriorPoint(rows.program()).solve();
+  solution.y = rows.multipliers(solution.y);
+  return solution;
 }
 
 }  // namespace trammel::complementarity

@@ -5,7 +5,8 @@
 //
 // s is free, and left out if u is empty. Solved by a primal-dual interior point method with the scaling of Nesterov and
 // Todd and the correction of Mehrotra (Vandenberghe, The CVXOPT linear and quadratic cone program solvers, 2010). It
-// works for thin cones and for programs without an interior solution, and ends at round-off.
+// works for thin cones and for programs without an interior solution, and ends at round-off. Rows may be of any size;
+// those that follow from others are left out.
 #pragma once
 
 #include <vector>
@@ -24,7 +25,7 @@ struct ConeProgram {
 struct ConeSolution {
   Vec x, y;  // y: D x - G^T y = z, in the cones; u.y = -1
   double s = 0;
-  double off = 0;  // the largest of the residuals and the gap x.z
+  double off = 0;  // the largest of the residuals, of rows divided by their pivots, and the gap x.z
 };
 ConeSolution solve_cone_program(const ConeProgram& program);
 

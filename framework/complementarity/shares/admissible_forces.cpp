@@ -21,6 +21,18 @@ constexpr double stiffenings[] = {1e-13, 1e-6, 1.0};
 constexpr double shortest_part = 1e-4, longest_part = 1e6;
 constexpr double least_decrease = 1e-4;  // of the predicted one (Armijo)
 
+double tangential(const SharingContact& c, const Vec& x) {
+  double sum = 0;
+  for (const Eigen::Index k : c.tangents) sum = std::hypot(sum, x[k]);
+  return sum;
+}
+
+void shorten_tangents(const SharingContact& c, double bound, Vec& F) {
+  const double T = tangential(c, F);
+  if (T > bound)
+    for (const Eigen::Index k : c.tangents) F[k] *= bound / T;
+}
+
 class DualNewton {
  public:
   DualNewton(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda)
@@ -85,15 +97,9 @@ class DualNewton {
     value_ = conjugate() - lambda_.dot(y_);
   }
 
-  static double length(const SharingContact& c, const Vec& x) {
-    double sum = 0;
-    for (const Eigen::Index k : c.tangents) sum = std::hypot(sum, x[k]);
-    return sum;
-  }
-
   // Projects onto the contact's cone, or onto its disk if N is given.
   void project(const SharingContact& c) {
-    const double T = length(c, pushed_);
+    const double T = tangential(c, pushed_);
     double bound = c.coefficient * c.given;
     if (c.normal >= 0) {
       const double a = pushed_[c.normal];
@@ -103,8 +109,7 @@ class DualNewton {
       F_[c.normal] = N;
       bound = c.coefficient * N;
     }
-    if (T > bound)
-      for (const Eigen::Index k : c.tangents) F_[k] *= bound / T;
+    shorten_tangents(c, bound, F_);
   }
 
   // max over the cones of F . x - |F|^2/2 at x = E^T y, without the terms of given normal forces.
@@ -125,7 +130,7 @@ class DualNewton {
   // A force inside its cone moves freely; one on the boundary moves along the edge and turns with the force that pushes
   // it.
   void add_columns(const SharingContact& c, Mat& EL, Eigen::Index& used) const {
-    const double T = length(c, pushed_), mu = c.coefficient;
+    const double T = tangential(c, pushed_), mu = c.coefficient;
     const double a = c.normal >= 0 ? pushed_[c.normal] : c.given;
     if (c.normal >= 0 && (c.tangents.empty() ? !(a > 0) : a <= -mu * T)) return;
     const bool inside = T <= mu * a;
@@ -214,15 +219,21 @@ double admissible_forces(const std::vector<SharingContact>& contacts, const Mat&
   const double size = program.r.lpNorm<Eigen::Infinity>();
   program.r /= size;
   const ConeSolution inside = solve_cone_program(program);
-  Vec other = forces_of(contacts, size * inside.x, E.cols());
-  const auto keep_if_better = [&](double other_missed) {
-    if (other_missed < missed) missed = other_missed, F = other;
+  const auto keep_if_better = [&](const Vec& other, double other_missed, const Vec& y) {
+    if (!(other_missed < missed)) return;
+    missed = other_missed, F = other;
+    if (nearby) *nearby = y;
   };
+  Vec other = forces_of(contacts, size * inside.x, E.cols());
+  for (const SharingContact& c : contacts)  // the program has given normal forces only to its accuracy
+    if (c.normal < 0) shorten_tangents(c, c.coefficient * c.given, other);
+  const Vec y = size * inside.y.head(E.rows());
   const double missed_inside = (E * other - lambda).norm();
-  keep_if_better(missed_inside);
+  keep_if_better(other, missed_inside, y);
   if (missed_inside > none * lambda.norm()) return missed;
-  newton.begin_at(size * inside.y.head(E.rows()));
-  keep_if_better(newton.solve(other, most_iterations));
+  newton.begin_at(y);
+  const double missed_at_end = newton.solve(other, most_iterations);
+  keep_if_better(other, missed_at_end, newton.y());
   return missed;
 }
 
