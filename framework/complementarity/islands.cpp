@@ -33,7 +33,6 @@ std::vector<std::vector<std::size_t>> members_of_islands(const std::vector<Conta
   std::vector<bool> found(points.size(), false);
   for (std::size_t first = 0; first < points.size(); ++first) {
     if (found[first]) continue;
-    found[first] = true;
     std::vector<std::size_t>& members = all.emplace_back(1, first);
     for (std::size_t k = 0; k < members.size(); ++k)
       for (std::size_t i = first + 1; i < points.size(); ++i)

@@ -77,7 +77,7 @@ double less_than(const Loaded& loaded, const Vec& F, const Vec& y) {
 void expect_least_forces(const Loaded& loaded) {
   Vec F, y;
   const double missed = admissible_forces(loaded.contacts, loaded.E, loaded.resultants, F, &y);
-  EXPECT_DOUBLE_EQ(missed, (loaded.E * F - loaded.resultants).norm());
+  EXPECT_NEAR(missed, (loaded.E * F - loaded.resultants).norm(), 1e-13 * loaded.resultants.norm());
   // The interior point method ends at 1e-12 of numbers of the order of 1.
   EXPECT_LE(missed, 1e-11 * loaded.resultants.norm());
   for (const SharingContact& c : loaded.contacts) {
@@ -123,6 +123,97 @@ TEST(AdmissibleForces, AreTheLeastBesideGivenNormalForces) {
     for (int i = 0; i < 200; ++i) {
       SCOPED_TRACE(testing::Message() << mu << ", " << i);
       expect_least_forces(given_last(random_loads(random, mu)));
+    }
+}
+
+TEST(AdmissibleForces, AreTheLeastInAnyUnits) {
+  std::mt19937 random(59);
+  for (const double unit : {1e-9, 1e9})
+    for (int i = 0; i < 300; ++i) {
+      SCOPED_TRACE(testing::Message() << unit << ", " << i);
+      Loaded loaded = random_loads(random, 1e-4, 1);
+      loaded.forces *= unit, loaded.resultants *= unit;
+      expect_least_forces(loaded);
+    }
+}
+
+// Where the resultants ask for slightly more than that, what is returned is how much.
+TEST(AdmissibleForces, AreNotBeyondGivenNormalForces) {
+  std::vector<SharingContact> contacts(2);
+  for (Eigen::Index k = 0; k < 2; ++k)
+    contacts[std::size_t(k)].tangents = {k}, contacts[std::size_t(k)].coefficient = 1;
+  contacts[0].given = 1;
+  for (const double bound : {0.0, 1e-3})
+    for (double beyond = 1e-13; beyond < 1e-6; beyond *= 10) {
+      contacts[1].given = bound;
+      Vec F;
+      const double missed = admissible_forces(contacts, Mat::Identity(2, 2), Vec{{0.3, bound + beyond}}, F);
+      EXPECT_NEAR(F[1], bound, 1e-16) << bound << ", " << beyond;
+      EXPECT_NEAR(missed, beyond, 0.01 * beyond + 1e-15) << bound << ", " << beyond;
+    }
+}
+
+// The last contact, whose columns are the last ones, has no friction: no tangents, or a coefficient of 0.
+Loaded without_friction_at_last(Loaded loaded, bool tangents) {
+  SharingContact& c = loaded.contacts.back();
+  if (tangents) {
+    c.coefficient = 0;
+    loaded.forces(c.tangents).setZero();
+  } else {
+    c.tangents.clear();
+    const Eigen::Index columns = c.normal + 1;
+    loaded.E.conservativeResize(Eigen::NoChange, columns);
+    loaded.forces.conservativeResize(columns);
+  }
+  loaded.resultants = loaded.E * loaded.forces;
+  return loaded;
+}
+
+TEST(AdmissibleForces, AreTheLeastBesideContactsWithoutFriction) {
+  std::mt19937 random(56);
+  for (const double mu : {1e-6, 1e-2, 0.3, 30.0})
+    for (int i = 0; i < 200; ++i) {
+      SCOPED_TRACE(testing::Message() << mu << ", " << i);
+      expect_least_forces(without_friction_at_last(random_loads(random, mu), i % 2));
+    }
+}
+
+TEST(AdmissibleForces, AreTheSameWhereverTheirSearchBegins) {
+  std::mt19937 random(57);
+  std::normal_distribution<double> any;
+  for (const double mu : {1e-2, 0.3, 30.0})
+    for (int i = 0; i < 100; ++i) {
+      const Loaded loaded = random_loads(random, mu);
+      Vec F, again, y;
+      admissible_forces(loaded.contacts, loaded.E, loaded.resultants, F, &y);
+      const Vec found = y, far = Vec::NullaryExpr(y.size(), [&] { return 100 * any(random); });
+      for (const Vec& start : {found, Vec(2 * found), far}) {
+        y = start;
+        EXPECT_LE(admissible_forces(loaded.contacts, loaded.E, loaded.resultants, again, &y),
+                  1e-11 * loaded.resultants.norm())
+            << mu << ", " << i;
+        EXPECT_LE((again - F).norm(), 1e-6 * F.norm()) << mu << ", " << i;
+        EXPECT_LE(less_than(loaded, again, y), 1e-9) << mu << ", " << i;
+      }
+    }
+}
+
+// Where no forces in the cones have the resultants, what is returned is how far those of F are from them.
+TEST(AdmissibleForces, AreMissedByWhatIsReturnedWhereThereAreNone) {
+  std::mt19937 random(58);
+  for (const double mu : {1e-2, 0.3, 30.0})
+    for (int i = 0; i < 50; ++i) {
+      Loaded loaded = random_loads(random, mu);
+      // y pushes all contacts apart, so that y . E F <= 0 for all forces in the cones.
+      Vec y = Vec::Unit(loaded.E.rows(), 0);
+      for (const SharingContact& c : loaded.contacts) {
+        const double T = loaded.E.row(0)(c.tangents).norm();
+        loaded.E(0, c.normal) = -mu * T - std::abs(loaded.E(0, c.normal));
+      }
+      Vec F;
+      const double missed = admissible_forces(loaded.contacts, loaded.E, y, F);
+      EXPECT_NEAR(missed, (loaded.E * F - y).norm(), 1e-12) << mu << ", " << i;
+      EXPECT_GE(missed, 1 - 1e-12) << mu << ", " << i;
     }
 }
 

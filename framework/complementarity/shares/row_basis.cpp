@@ -41,7 +41,6 @@ class PivotedCholesky {
     L_.conservativeResize(Eigen::NoChange, L_.cols() + 1);
     L_.rightCols(1) = column;
     left_ -= column.cwiseAbs2();
-    left_[row] = 0;
   }
 
   Vec left_, size_;
