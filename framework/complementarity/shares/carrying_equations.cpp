@@ -44,7 +44,7 @@ Mat CarryingEquations::along_rows(const std::vector<ContactPoint>& points, const
   for (std::size_t k = 0; k < rows.size(); ++k) W(rows[k], Index(k)) = 1;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ContactPoint& p = points[i];
-    if (roles[i].tangent != Tangent::slides || !roles[i].closed || p.normal < 0) continue;
+    if (roles[i].tangent != Tangent::slides || p.normal < 0) continue;
     W.middleRows(p.tangent, p.tangents) += roles[i].ratio.head(p.tangents) * W.row(p.normal);
   }
   return W;
