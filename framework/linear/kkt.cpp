@@ -134,13 +134,19 @@ void MassKkt::complement(const Mat& W, double rank_tolerance) {
   with_mass([&](auto& mass) { mass.solve_lower_of_rows(C_); });
   multiply_rows(B_, C_, schur_);
   schur_lu_.compute(schur_);
+  least_pivot_ = std::max(round_off, 100 * dependent);
   for (Eigen::Index j = 0; j < schur_.cols(); ++j) {
     const double scale = schur_.col(j).cwiseAbs().maxCoeff();
-    if (!(std::abs(schur_lu_.pivot(j)) > std::max(round_off, 100 * dependent) * scale)) redundant_ = true;
+    if (!(std::abs(schur_lu_.pivot(j)) > least_pivot_ * scale)) redundant_ = true;
   }
   if (!redundant_) return;
   cod_.setThreshold(std::max(round_off, dependent));
   cod_.compute(schur_);
+}
+
+void MassKkt::find_signs(BlockSigns& signs) const {
+  signs.clear();
+  if (coupled_ && B_.rows() > 0) signs.find(schur_, schur_lu_, least_pivot_);
 }
 
 bool MassKkt::solve(const Vec& b, const Vec& c, Vec& x, Vec& y) {

@@ -22,6 +22,7 @@
 #include <trammel/decompositions.hpp>
 #include <trammel/types.hpp>
 
+#include "linear/dense/block_signs.hpp"
 #include "linear/dense/cholesky.hpp"
 #include "linear/dense/lu.hpp"
 #include "linear/sparse/sparse_cholesky.hpp"
@@ -56,8 +57,8 @@ class MassKkt {
   // False: x or y is not finite.
   bool solve(const Vec& b, const Vec& c, Vec& x, Vec& y);
   bool redundant() const { return redundant_; }
-  // Sign of the determinant of G M^-1 W^T: 1 with W = G; 0: nearly singular, or dependent rows.
-  int sign() const { return redundant_ ? 0 : coupled_ && B_.rows() > 0 ? schur_lu_.sign() : 1; }
+  // Of the determinant of G M^-1 W^T; unknown with W = G, and of blocks that are nearly singular.
+  void find_signs(BlockSigns& signs) const;
 
  private:
   void solve_with_rows(const Vec& c, Vec& x, Vec& y);
@@ -82,6 +83,7 @@ class MassKkt {
   Lu schur_lu_;
   Cholesky schur_cholesky_;
   Eigen::CompleteOrthogonalDecomposition<Mat> cod_;
+  double least_pivot_ = 0;  // relative to the columns of schur_; a smaller one is round-off
   Vec w_;
   Levers levers_;
   bool redundant_ = false, coupled_ = false;

@@ -177,12 +177,19 @@ double EventLocation::force(EventFunction& function, double t, const Vec& lambda
   return function.kind == Kind::press ? N : function.bound - system_.friction_force(function.contact, lambda).norm();
 }
 
-int EventLocation::evaluate(const State& state, std::vector<Value>& values) {
+bool EventLocation::evaluate(const State& state, std::vector<Value>& values) {
   system_.move_to(state.t, state.q, state.v);
   values.resize(functions_.size());
   bool accelerated = false;
   for (std::size_t k = 0; k < functions_.size(); ++k) values[k] = value(int(k), state, accelerated);
-  return accelerated ? system_.sign() : 0;
+  return accelerated;
+}
+
+void EventLocation::evaluate(const State& state, std::vector<Value>& values, numerics::BlockSigns& signs) {
+  if (evaluate(state, values))
+    system_.find_signs(signs);
+  else
+    signs.clear();
 }
 
 // The function at `state`, the system's point. `accelerated`: a_ and lambda_ have been solved at this point.

@@ -54,7 +54,7 @@ void EventLocation::restart(const State& now) {
     if (each.kind == Kind::hold) each.little = little_friction(each.contact);
   }
   next_.resize(functions_.size()), probe_.resize(functions_.size());
-  sign_ = evaluate(now, now_);
+  evaluate(now, now_, signs_);
   allow_for_critical_friction();
   allow_for_round_off(now);
   choose_sides(before);
@@ -99,7 +99,7 @@ void EventLocation::accept(double h, const State& next) {
     functions_[k].steepest = std::max(functions_[k].steepest, std::abs(next_[k].slope));
   }
   h_before_ = h;
-  sign_ = sign_next_;
+  std::swap(signs_, signs_next_);
   now_.swap(next_);
 }
 
@@ -156,8 +156,8 @@ void EventLocation::earliest_first(std::vector<Suspect>& suspects) const {
 
 EventLocation::Found EventLocation::examine(const State& now, double& h, State& next, bool controlled,
                                             bool may_shorten) {
-  const auto passes_infinity = [&] { return controlled && sign_ * sign_next_ < 0; };
-  sign_next_ = evaluate(next, next_);
+  const auto passes_infinity = [&] { return controlled && any_opposite(signs_, signs_next_); };
+  evaluate(next, next_, signs_next_);
   for (const Value& value : next_)
     if (!std::isfinite(value.f)) return Found::not_finite;
   if (passes_infinity()) return Found::passes_infinity;
@@ -216,7 +216,7 @@ void EventLocation::shorten(const State& now, double h_event, double& h, State& 
     next = trial_;
   else if (++steps_tried_; !trial_step(integrator_, system_, now, h_event, next))
     throw StepRefused{};
-  sign_next_ = evaluate(next, next_);
+  evaluate(next, next_, signs_next_);
   h = h_event;
 }
 
@@ -320,8 +320,8 @@ void EventLocation::archive(Archive& a) {
     values.row(k) << now_[k].f, now_[k].slope, functions_[k].noise, functions_[k].force_before, functions_[k].steepest,
         functions_[k].little, functions_[k].side, functions_[k].undirected_for, functions_[k].pushed;
   Vec flat = Eigen::Map<const Vec>(values.data(), values.size());
-  a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_),
-      a("sign", sign_);
+  a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_);
+  signs_.archive(a, "signs");
   if (functions_.empty() && flat.size() > 0) {  // in reading an archive: watches are set up after the modes
     set_up_functions();
     next_.resize(functions_.size()), probe_.resize(functions_.size()), now_.resize(functions_.size());

@@ -25,7 +25,8 @@
 // that steps too short to matter pass over.
 //
 // Nor may forces pass infinity within a controlled step. For sliding contacts this need not show at the ends of the
-// step, but the determinant of their equations changes its sign there, where it is known (AssembledSystem::sign).
+// step, but the determinant of their equations changes its sign there, where it is known (AssembledSystem::find_signs).
+// Contacts that do not act on each other have determinants of their own.
 //
 // A shortened step still has a length of at least 4 units in the last place of t, so every event advances time.
 //
@@ -42,6 +43,7 @@
 
 #include <trammel/integrator.hpp>
 
+#include "linear/dense/block_signs.hpp"
 #include "run/contact_scale.hpp"
 #include "simulate/contact_mode.hpp"
 #include "simulate/root_bracket.hpp"
@@ -127,7 +129,8 @@ class EventLocation {
   std::vector<double> little_forces();
   double little_friction(int contact);
   Value slide(int contact, const Vec& a);
-  int evaluate(const State& state, std::vector<Value>& values);  // AssembledSystem::sign, or 0 without forces
+  bool evaluate(const State& state, std::vector<Value>& values);  // true if a_ and lambda_ were needed
+  void evaluate(const State& state, std::vector<Value>& values, numerics::BlockSigns& signs);
   Value value(int k, const State& state, bool& accelerated);
   bool just_handled(int k) const { return now_[k].f <= functions_[k].noise; }
   bool happened(int k, const Value& end) const;
@@ -167,10 +170,10 @@ class EventLocation {
   std::vector<EventFunction> functions_;
   std::vector<model::ContactMode> modes_before_;  // of functions_, with the directions of slips after the last step
   std::vector<Value> now_, next_, probe_;
-  int sign_ = 0, sign_next_ = 0;  // AssembledSystem::sign at the points of now_ and next_
-  bool probed_ = false;           // probe_ is filled for the step examined
-  double h_before_ = 0;           // [s] 0: no step yet since the last change
-  double longest_ = 0;            // [s] longest step tried since then
+  numerics::BlockSigns signs_, signs_next_;  // at the points of now_ and next_; none where no forces were needed
+  bool probed_ = false;                      // probe_ is filled for the step examined
+  double h_before_ = 0;                      // [s] 0: no step yet since the last change
+  double longest_ = 0;                       // [s] longest step tried since then
   std::vector<Suspect> suspects_;
   std::vector<int> at_end_;
   std::vector<double> begin_slopes_,

@@ -298,8 +298,9 @@ const Motion& AssembledSystem::motion(MarkerRef marker) {
   return parts_->at.motion(parts_->at.markers.slot(marker));
 }
 
-int AssembledSystem::sign() const {
-  return parts_->factors.sign(FactorsAtPoint::at_point) * parts_->shares.sign();
+void AssembledSystem::find_signs(numerics::BlockSigns& signs) const {
+  parts_->factors.find_signs(FactorsAtPoint::at_point, signs);
+  if (signs.any()) parts_->shares.change_signs(signs);
 }
 
 bool AssembledSystem::redundant() const {

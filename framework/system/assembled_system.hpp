@@ -18,6 +18,10 @@
 #include "system/point/counts.hpp"
 #include "system/point/not_solvable.hpp"
 
+namespace trammel::numerics {
+class BlockSigns;
+}
+
 namespace trammel::model {
 
 struct CarriedFrom;  // see tangent.hpp
@@ -114,9 +118,9 @@ class AssembledSystem final : public System, public HasRigidMotions {
   void impulse_response(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus);
   // True if rows were redundant at the last `accelerate`: lambda is not unique.
   bool redundant() const;
-  // Sign of the determinant of the equations for the forces at the last `accelerate`, relative to that without
-  // friction: it changes where sliding friction leaves them no solution (Painleve's critical state). 0: unknown.
-  int sign() const;
+  // Signs of the determinant of the equations for the forces at the last `accelerate`, by groups of rows that act on
+  // each other: one changes where sliding friction leaves its rows no solution (Painleve's critical state).
+  void find_signs(numerics::BlockSigns& signs) const;
   // [rad/s] The highest initial frequency after impulses along the given directions: with the response x to one of
   // them, omega^2 = x K x / x M x (Rayleigh's quotient; K: stiffness, with active bilateral rows). 0: no restoring
   // force.

@@ -36,22 +36,6 @@ TEST_P(LuOf, ShowsASingularMatrixByAPivotAtRoundOff) {
   EXPECT_LE(least, 1e-14);
 }
 
-TEST_P(LuOf, KnowsTheSignOfTheDeterminant) {
-  const int n = GetParam();
-  Mat A = shifted(n);
-  const int sign = Eigen::FullPivLU<Mat>(A).determinant() > 0 ? 1 : -1;
-  numerics::Lu lu;
-  lu.compute(A);
-  EXPECT_EQ(lu.sign(), sign);
-  A.col(n / 2) *= -1;
-  lu.compute(A);
-  EXPECT_EQ(lu.sign(), -sign);
-  if (n == 1) return;
-  A.row(0).swap(A.row(n - 1));
-  lu.compute(A);
-  EXPECT_EQ(lu.sign(), sign);
-}
-
 TEST_P(LuOf, LeavesNoPivotFiniteBehindANumberThatIsNone) {
   Mat A = shifted(GetParam());
   A(0, 0) = std::numeric_limits<double>::quiet_NaN();

@@ -61,18 +61,12 @@ void Lu::eliminate() {
   }
 }
 
-int Lu::sign() const {
-  const Eigen::Index n = in_blocks() ? blocks_.rows() : n_;
-  int sign = in_blocks() ? int(blocks_.permutationP().determinant()) : 1;
-  for (Eigen::Index j = 0; j < n; ++j) {
-    if (!(std::abs(pivot(j)) > 0)) return 0;
-    if (pivot(j) < 0) sign = -sign;
-  }
-  if (in_blocks()) return sign;
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    for (std::size_t j = i + 1; j < rows_.size(); ++j)
-      if (rows_[j] < rows_[i]) sign = -sign;
-  return sign;
+std::vector<Eigen::Index> Lu::rows() const {
+  if (!in_blocks()) return rows_;
+  std::vector<Eigen::Index> all(std::size_t(blocks_.rows()));
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[std::size_t(blocks_.permutationP().indices()[Eigen::Index(i)])] = Eigen::Index(i);
+  return all;
 }
 
 // Forward and backward substitution by columns. A solved entry is read before the loop overwrites its place.

@@ -17,8 +17,8 @@ class Lu {
  public:
   void compute(const Mat& A);  // square; a singular one gives a pivot that is 0 or round-off
   double pivot(Eigen::Index j) const { return in_blocks() ? blocks_.matrixLU()(j, j) : LU_(j, j); }
-  void solve(const Vec& b, Vec& x);  // not in place
-  int sign() const;                  // of the determinant: 1, -1, or 0 where a pivot is 0 or not finite
+  void solve(const Vec& b, Vec& x);        // not in place
+  std::vector<Eigen::Index> rows() const;  // A's, in the order of those of L U
 
  private:
   bool in_blocks() const { return n_ == 0; }

@@ -111,8 +111,11 @@ bool FactorsAtPoint::redundant(Store store) const {
   return blocks_ ? blocks_->redundant(blocks_->kept[store]) : kept_[store].mass.redundant();
 }
 
-int FactorsAtPoint::sign(Store store) const {
-  return !blocks_ && kept_[store].symmetric ? kept_[store].mass.sign() : 0;
+void FactorsAtPoint::find_signs(Store store, numerics::BlockSigns& signs) const {
+  if (!blocks_ && kept_[store].symmetric)
+    kept_[store].mass.find_signs(signs);
+  else
+    signs.clear();
 }
 
 void FactorsAtPoint::minimise_norm(Store store, Vec& lambda) {

@@ -26,9 +26,9 @@ class FactorsAtPoint {
   void factorise_tangent(Store store, Blend c, const Vec& a, const Vec& lambda, bool with_friction,
                          const CarriedFrom* carried = nullptr);
   [[nodiscard]] bool solve(Store store, const Vec& b, const Vec& c, Vec& x, Vec& y);  // false: not solvable
-  bool redundant(Store store) const;             // true if rows were redundant at the last factorise_mass
-  int sign(Store store) const;                   // MassKkt's; 0: unknown
-  void minimise_norm(Store store, Vec& lambda);  // of redundant rows, if bodies are in blocks
+  bool redundant(Store store) const;  // true if rows were redundant at the last factorise_mass
+  void find_signs(Store store, numerics::BlockSigns& signs) const;  // MassKkt's; none in blocks
+  void minimise_norm(Store store, Vec& lambda);                     // of redundant rows, if bodies are in blocks
 
  private:
   // If S is M or the identity only, a cheaper, symmetric factorisation is used.

@@ -8,6 +8,7 @@
 
 #include "complementarity/shares/carrying_rows.hpp"
 #include "complementarity/shares/independent_rows.hpp"
+#include "linear/dense/block_signs.hpp"
 
 namespace trammel::model {
 namespace {
@@ -171,18 +172,20 @@ double SharedRowsAtPoint::leverage(int group) {
   return contacts_.modes.shared[std::size_t(group)].K.rowwise().lpNorm<1>().maxCoeff();
 }
 
-int SharedRowsAtPoint::sign() {
+void SharedRowsAtPoint::change_signs(numerics::BlockSigns& signs) {
   follow();
-  int sign = 1;
-  for (const SharedRows& shared : contacts_.modes.shared) {
+  for (int group = 0; group < int(contacts_.modes.shared.size()); ++group) {
+    const SharedRows& shared = contacts_.modes.shared[std::size_t(group)];
     std::vector<Index> carrying;
     for (Index k = 0; k < shared.share.rows(); ++k)
       if (!shared.share.row(k).isZero(0)) carrying.push_back(k);
     if (std::ssize(carrying) == shared.share.rows() || std::ssize(carrying) != shared.K.cols()) continue;
     const Mat E = shared.resultants()(Eigen::all, carrying);
-    if (Eigen::PartialPivLU<Mat>(E).determinant() < 0) sign = -sign;
+    if (!(Eigen::PartialPivLU<Mat>(E).determinant() < 0)) continue;
+    std::vector<int> rows;
+    for (int k = 0; k < int(shared.basis.size()); ++k) rows.push_back(contacts_.loads.row_of_basis(group, k));
+    signs.flip(rows);
   }
-  return sign;
 }
 
 }  // namespace trammel::model

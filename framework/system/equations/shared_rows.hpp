@@ -11,6 +11,10 @@
 
 #include "system/equations/impulse_response.hpp"
 
+namespace trammel::numerics {
+class BlockSigns;
+}
+
 namespace trammel::model {
 
 class SharedRowsAtPoint {
@@ -27,8 +31,9 @@ class SharedRowsAtPoint {
   double spring_force(int contact, const Vec& lambda);         // [N] of an idle contact if it shared as a spring
   const ContactLoads& prepared(int group, const Vec& lambda);  // with the resultants of a group
   Mat moved_with_sliding(int group);                           // ContactLoads::solve_with_sliding
-  // Changes where rows that carry come to depend on each other: the shares pass infinity there, and the forces do not.
-  int sign();
+  // They change where rows that carry come to depend on each other: the shares pass infinity there, and the forces do
+  // not.
+  void change_signs(numerics::BlockSigns& signs);
   double leverage(int group);  // AssembledSystem::leverage
 
  private:

@@ -99,23 +99,62 @@ json below_a_ceiling(const std::vector<Layer>& layers, double mu_0, double mu, d
   return s;
 }
 
-// Its top slides until the stack is a strut, where all its forces grow without bounds: steps that do not know of that
-// place go on beyond it with a hundredth of the speed.
+Finished run_with_tolerance(const json& s, double tolerance) {
+  return run_text(s.dump(),
+                  {{"integrator", fmt::format(R"({{"type": "dop853", "step": {{"tolerance": {}}}}})", tolerance)}});
+}
+
+// Its top slides until the stack is a strut, where all its forces grow without bounds.
+json becoming_a_strut() {
+  return below_a_ceiling({{0.12, 0.082, 3.3, 0, 0.649, 0.649},
+                          {0.274, 0.126, 0.324, -0.0076, 0.485, 0.485},
+                          {0.172, 0.057, 0.134, 0.0085, 0.251, 0.204},
+                          {0.107, 0.163, 0.232, -0.0208, 0.169, 0.134}},
+                         0.587, 0.479, 0.83);
+}
+
+// Steps that do not know of that place go on beyond it with a hundredth of the speed.
 TEST(StackBelowACeiling, TakesNoStepOverThePoleOfItsForces) {
-  const json s = below_a_ceiling({{0.12, 0.082, 3.3, 0, 0.649, 0.649},
-                                  {0.274, 0.126, 0.324, -0.0076, 0.485, 0.485},
-                                  {0.172, 0.057, 0.134, 0.0085, 0.251, 0.204},
-                                  {0.107, 0.163, 0.232, -0.0208, 0.169, 0.134}},
-                                 0.587, 0.479, 0.83);
-  const auto with_tolerance = [&](double tolerance) {
-    return run_text(s.dump(),
-                    {{"integrator", fmt::format(R"({{"type": "dop853", "step": {{"tolerance": {}}}}})", tolerance)}});
-  };
-  const Finished tight = with_tolerance(1e-12), loose = with_tolerance(1e-9);
+  const json s = becoming_a_strut();
+  const Finished tight = run_with_tolerance(s, 1e-12), loose = run_with_tolerance(s, 1e-9);
   ASSERT_TRUE(tight.done()) << tight.report.reason;
   ASSERT_TRUE(loose.done()) << loose.report.reason;
   for (const char* v : {"v0", "v1", "v2", "v3"}) EXPECT_NEAR(loose.end(v), tight.end(v), 1e-4) << v;
   EXPECT_GT(tight.end("v3"), 0.3);
+}
+
+// The same bodies and contacts once more, at a distance [m].
+json with_a_twin(json s, double distance) {
+  const json alone = s;
+  for (const auto& [name, body] : alone["bodies"].items()) {
+    json& twin = s["bodies"]["twin_" + name] = body;
+    twin["position"][0] = body["position"][0].get<double>() + distance;
+  }
+  for (const auto& [name, contact] : alone["contacts"].items()) {
+    json& twin = s["contacts"]["twin_" + name] = contact;
+    twin["between"][0] = "twin_" + contact["between"][0].get<std::string>();
+    json& plane = twin["between"][1]["plane"];
+    if (plane.contains("on")) plane["on"] = "twin_" + plane["on"].get<std::string>();
+  }
+  for (const auto& [name, observed] : alone["record"]["observe"].items())
+    s["record"]["observe"]["twin_" + name] = "twin_" + observed.get<std::string>();
+  return s;
+}
+
+// Both pass that place within the same steps.
+TEST(StackBelowACeiling, TakesNoStepOverThePoleOfItsForcesBesideItsTwin) {
+  const json s = becoming_a_strut(), both = with_a_twin(s, 10);
+  const Finished alone = run_with_tolerance(s, 1e-12);
+  ASSERT_TRUE(alone.done()) << alone.report.reason;
+  for (const double tolerance : {1e-9, 1e-8, 1e-7, 1e-6}) {
+    SCOPED_TRACE(tolerance);
+    const Finished run = run_with_tolerance(both, tolerance);
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    for (const std::string v : {"v0", "v1", "v2", "v3"}) {
+      EXPECT_NEAR(run.end(v), alone.end(v), 1e-4) << v;
+      EXPECT_NEAR(run.end("twin_" + v), alone.end(v), 1e-4) << v;
+    }
+  }
 }
 
 struct Pushed {
@@ -156,11 +195,6 @@ json pushed_below_a_ceiling(const Pushed& p) {
   s["forces"]["push"] = {{"type", "load"}, {"on", "b0.push"}, {"force", {{"x", fmt::format("={}", p.force)}}}};
   s["record"]["observe"]["x"] = "b0.com.x";
   return s;
-}
-
-Finished run_with_tolerance(const json& s, double tolerance) {
-  return run_text(s.dump(),
-                  {{"integrator", fmt::format(R"({{"type": "dop853", "step": {{"tolerance": {}}}}})", tolerance)}});
 }
 
 void expect_end_of(const Pushed& p, const json& s, double tolerance) {
