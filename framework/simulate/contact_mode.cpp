@@ -45,6 +45,12 @@ bool carry_alike(const model::Modes& a, const model::Modes& b) {
   return true;
 }
 
+// Only friction makes forces grow beyond all bounds: without it an impact without collision changes nothing.
+bool any_friction(const std::vector<Participant>& who) {
+  return std::any_of(who.begin(), who.end(),
+                     [](const Participant& p) { return p.tangent != Participant::Tangent::none; });
+}
+
 }  // namespace
 
 bool ContactModes::any_closed() const {
@@ -65,7 +71,8 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   }
   lock(state, changes, events);
   auto solution = decide_with_doubts(state, changes, jumped);
-  const bool without_collision = solution.outcome == LcpOutcome::no_solution;
+  const bool without_collision =
+      solution.outcome == LcpOutcome::no_solution && (changes.locked || any_friction(problem_.who));
   if (without_collision) solution = strike_without_collision(state, changes, jumped, events);
   if (solution.outcome != LcpOutcome::solved) fail_without_balance(state.t, solution);
   take_approach_speeds(changes);

@@ -227,6 +227,22 @@ TEST(SpareLoad, IsNotNegativeWhereForcesAreInsideTheirCones) {
     }
 }
 
+// A lever between two pairs of contacts that press against each other, a short distance apart: forces as large as its
+// moment divided by the distance hold it, and each pair could press more without limit.
+TEST(SpareLoad, IsFoundHoweverLargeTheForcesInBalanceAre) {
+  for (const double distance : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+    std::vector<SharingContact> contacts(4);
+    for (Eigen::Index k = 0; k < 4; ++k) contacts[std::size_t(k)].normal = k;
+    Mat E(2, 4);
+    E << 1, -1, 1, -1, 0, 0, distance, -distance;
+    const Vec resultants = (Vec(2) << 0.3, 1).finished();  // force [N] and moment [N m]
+    EXPECT_NEAR(spare_load(contacts, E, resultants), most, 1e-6) << distance;
+    Vec F;
+    EXPECT_LE(admissible_forces(contacts, E, resultants, F), 1e-14 / distance) << distance;
+    EXPECT_GE(F.minCoeff(), 0) << distance;
+  }
+}
+
 // Where no admissible forces have the resultants, those with the least spare load have them, each beyond its cone by no
 // more than that.
 TEST(SpareLoad, IsThatOfForcesWithTheResultants) {

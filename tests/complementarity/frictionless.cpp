@@ -15,6 +15,15 @@ Problem any_normals(std::mt19937& random, int i) {
   return random_normals(random, n, velocities, i % 3 == 0 ? 0.3 : 0);
 }
 
+// Contacts in the plane, without their tangents.
+Problem normals_of(Problem problem) {
+  std::vector<Eigen::Index> normals;
+  for (std::size_t k = 0; k < problem.points.size(); ++k) normals.push_back(Eigen::Index(2 * k));
+  problem.A = problem.A(normals, normals).eval(), problem.b = problem.b(normals).eval();
+  for (std::size_t k = 0; k < problem.points.size(); ++k) problem.points[k] = {.normal = int(k)};
+  return problem;
+}
+
 // d >= 0 in balance, A d = 0, pushes contacts that still approach.
 void expect_proof(const Problem& problem, int number) {
   Vec d;
@@ -47,11 +56,7 @@ TEST(Frictionless, HasASolutionOrAProofThatThereIsNone) {
 TEST(Frictionless, StructuresHaveASolutionOrAProofThatThereIsNone) {
   std::mt19937 random(38);
   for (int i = 0; i < 3000; ++i) {
-    Problem problem = any_structure(random, 8);
-    std::vector<Eigen::Index> normals;
-    for (std::size_t k = 0; k < problem.points.size(); ++k) normals.push_back(Eigen::Index(2 * k));
-    problem.A = problem.A(normals, normals).eval(), problem.b = problem.b(normals).eval();
-    for (std::size_t k = 0; k < problem.points.size(); ++k) problem.points[k] = {.normal = int(k)};
+    const Problem problem = normals_of(any_structure(random, 8));
     const Answer answer = solve(problem);
     if (answer.outcome == LcpOutcome::no_solution) {
       expect_proof(problem, i);
@@ -86,6 +91,40 @@ TEST(Frictionless, HasTheAccelerationsOfAnotherAlgorithm) {
     Vec N;
     nonnegative_least_squares(G.transpose(), -a_0, N);
     EXPECT_LE((answer.a - (problem.A * N + problem.b)).lpNorm<Eigen::Infinity>(), little(problem, answer.F)) << i;
+  }
+}
+
+// Two blocks below a ceiling, the upper one beyond the right foot of the lower one except for `overlap` [m]: a strut
+// from the ceiling through the upper block's corner to that foot, which the load beyond it presses.
+Problem strut(double overlap) {
+  PlanarBodies bodies;
+  const double x = 0.36 - overlap;
+  const int lower = bodies.add({0, 0.08}, 1, 0.0062, {0, 0, 0}), upper = bodies.add({x, 0.21}, 1, 0.0217, {2, -4, 0});
+  for (const double side : {-1.0, 1.0}) {
+    bodies.touch(PlanarBodies::ground, lower, {0.11 * side, 0}, {0, 1}, 0);
+    bodies.touch(lower, upper, {x + 0.25 * side, 0.16}, {0, 1}, 0);
+    bodies.touch(PlanarBodies::ground, upper, {x + 0.25 * side, 0.26}, {0, -1}, 0);
+  }
+  return normals_of(bodies.problem("strut"));
+}
+
+// The upper block's right corner presses the lower one with half of the load, 2 N. About the left one, 0.5 m away, the
+// foot holds this with the overlap as its lever.
+TEST(Frictionless, HoldsAStrutUntilItIsUpright) {
+  for (const double overlap : {1e-1, 1e-2, 1e-3, 1e-4, 3e-5, 1e-5, 1e-6}) {
+    SCOPED_TRACE(overlap);
+    const Problem problem = strut(overlap);
+    const Answer answer = solve(problem);
+    ASSERT_EQ(answer.outcome, LcpOutcome::solved);
+    EXPECT_LE(offence(problem, answer.F, answer.a), little(problem, answer.F));
+    EXPECT_NEAR(answer.F.maxCoeff() * overlap, 1, 1e-3);
+    EXPECT_LE(answer.a.maxCoeff(), 1e-6);
+  }
+  for (const double overlap : {0.0, -1e-6, -1e-4, -1e-2}) {
+    SCOPED_TRACE(overlap);
+    const Answer answer = solve(strut(overlap));
+    ASSERT_EQ(answer.outcome, LcpOutcome::solved);
+    EXPECT_GT(answer.a.maxCoeff(), 0.1);
   }
 }
 

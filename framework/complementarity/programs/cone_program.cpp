@@ -15,6 +15,10 @@ using ConstBlock = Eigen::VectorBlock<const Vec>;
 constexpr int most_iterations = 50;
 constexpr double accurate = 1e-12;  // residuals and gap, of numbers of the order of 1
 constexpr double implied = 1e-15;   // pivot of a row that follows from others, of the largest one
+constexpr double large = 1e3;       // x from which on the round-off of G x exceeds this
+// Of residuals and gap: once they have been as small, they grow by round-off. Before, they may grow on the way to large
+// forces that balance each other.
+constexpr double nearly_solved = 1e-6;
 
 // The cone x_0 >= |x_1|; its product is the Jordan algebra's.
 double J_norm(const ConstBlock& x) {
@@ -147,9 +151,11 @@ class InteriorPoint {
       dual_ = D_.cwiseProduct(now_.x) - G_.transpose() * now_.y - z_;
       free_ = has_s() ? -1 - u_.dot(now_.y) : 0;
       const double gap = now_.x.dot(z_);
-      now_.off = std::max({primal_.norm(), dual_.norm(), std::abs(free_), gap});
+      const double terms = std::max(1.0, now_.x.lpNorm<Eigen::Infinity>() / large);
+      now_.off = std::max({primal_.norm() / terms, dual_.norm(), std::abs(free_), gap});
       if (now_.off < best.off) best = now_;
-      if (now_.off < accurate || !(now_.off < 1e3 * best.off) || !step(gap / double(cones_.size()))) break;
+      const bool worse = !(now_.off < 1e3 * best.off) && (best.off < nearly_solved || !std::isfinite(now_.off));
+      if (now_.off < accurate || worse || !step(gap / double(cones_.size()))) break;
     }
     return best;
   }

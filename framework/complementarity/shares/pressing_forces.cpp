@@ -13,8 +13,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Relative to A with its diagonal scaled to 1: a smaller pivot shows that a contact depends on the carrying ones [1].
 constexpr double dependent = 1e-13;
-// Relative to accelerations: round-off, and the least approach that proves that nothing gives way.
-constexpr double round_off = 1e-14, certain = 1e-9;
+constexpr double round_off = 1e-14;  // of accelerations
+// Of |b| |d|: a larger work b.d proves that nothing gives way. The root of `dependent`: a contact with a smaller pivot
+// may still move by as much under d.
+constexpr double certain = 3e-7;
 // Relative to the forces that accelerations ask for, with A's diagonal scaled to 1.
 constexpr double endless = 1e10;
 constexpr double no_give = 1e-8;  // root of an entry of its diagonal, of the largest root: below it A is not scaled
@@ -91,9 +93,10 @@ class PrincipalPivoting {
     return true;
   }
 
-  // If nothing gives way, this is a proof, unless the approach is round-off of dependent contacts.
+  // If nothing gives way, this is a proof, unless the approach is round-off of dependent contacts. (A strut that is
+  // nearly upright gives way by little, and large forces balance each other in it.)
   bool end_of(Eigen::Index j, const Vec& yields, double approach) {
-    if (approach <= certain * b_.lpNorm<Eigen::Infinity>()) {
+    if (approach <= certain * b_.lpNorm<Eigen::Infinity>() * std::hypot(1, yields.norm())) {
       x_[j] = 0;
       settle();
       refused_[std::size_t(j)] = true;

@@ -157,6 +157,29 @@ TEST(StackBelowACeiling, TakesNoStepOverThePoleOfItsForcesBesideItsTwin) {
   }
 }
 
+// Two blocks without friction below a ceiling. The upper one slides at 2 m/s^2 over the lower one, whose right foot and
+// the ceiling hold its left corner as a strut: the forces grow without bounds until this corner has passed the foot,
+// after 0.36 m. Then the lower block tips.
+TEST(BlockBelowACeiling, WithoutFrictionPassesTheStateInWhichItStandsOnAStrut) {
+  json s = below_a_ceiling({{0.22, 0.16, 1, 0, 0, 0}, {0.5, 0.1, 1, 0, 0, 0}}, 0, 0, 0);
+  for (auto& [name, contact] : s["contacts"].items()) contact.erase("friction");
+  s["gravity"] = {0, 0};
+  s["forces"]["load"] = {{"type", "load"}, {"on", "b1.com"}, {"force", {{"x", "=2"}, {"y", "=-4"}}}};
+  s["simulate"]["until"] = 0.65;
+  s["record"]["observe"] = {{"x", "b1.com.x"}, {"angle", "b0.com.angle"}};
+  for (const double tolerance : {1e-12, 1e-9, 1e-6, 1e-4}) {
+    SCOPED_TRACE(tolerance);
+    const Finished run = run_with_tolerance(s, tolerance);
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"];
+    const auto opened = run.of_kind("contact_open");
+    ASSERT_FALSE(opened.empty());
+    for (const auto& event : opened) EXPECT_NEAR(event.t, 0.6, 1e-6);
+    EXPECT_NEAR(run.end("x"), 0.65 * 0.65, 1e-4);
+    EXPECT_NEAR(run.end("angle"), -0.01084988, 1e-7);
+  }
+}
+
 struct Pushed {
   Layer lower, upper;
   double mu_0, mu;      // of the ceiling
