@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include <trammel/decompositions.hpp>
@@ -259,7 +260,7 @@ complementarity::ContactSolution ContactModes::strike(State& state, const Contac
   for (;;) {
     all = touching_;
     all.insert(all.end(), bearings_.begin(), bearings_.end());
-    const auto solution = impact_.solve(system_, state, rest_speed(all), all, dv_);
+    const auto solution = solve_impacts(state, all);
     if (solution.outcome != LcpOutcome::solved) {
       state.v = v_before_;
       return solution;
@@ -285,8 +286,37 @@ complementarity::ContactSolution ContactModes::strike(State& state, const Contac
     losses_.push_back({c.contact, c.energy_lost()});
     lost_elsewhere_ -= c.energy_lost();
   }
-  impact_warnings_.check(state.t, kinetic_before, rest_speed(all), all, impact_.cut_short());
+  impact_warnings_.check(state.t, kinetic_before, rest_speed(all), all, cut_short_);
   return {LcpOutcome::solved, 0};
+}
+
+// Sets dv_ and what the contacts have found. Bodies that nothing connects strike apart, each group by its own law. Of
+// impacts without collision it is not known which group asked for them: an impulse in one of them is enough.
+complementarity::ContactSolution ContactModes::solve_impacts(const State& state, std::vector<TouchingContact>& all) {
+  const bool together =
+      std::any_of(all.begin(), all.end(), [](const TouchingContact& c) { return c.without_collision; });
+  std::map<std::size_t, std::vector<std::size_t>> islands;
+  for (std::size_t i = 0; i < all.size(); ++i) islands[together ? 0 : scale_.island(all[i].contact)].push_back(i);
+  dv_.setZero(system_.sizes().nv);
+  cut_short_ = false;
+  complementarity::ContactSolution worst{LcpOutcome::solved, 0};
+  std::size_t first = 0;  // number of an island among all contacts that act on each other
+  Vec change;
+  for (const auto& [number, members] : islands) {
+    std::vector<TouchingContact> own;
+    for (const std::size_t i : members) own.push_back(all[i]);
+    const auto solution = impact_.solve(system_, state, rest_speed(own), own, change);
+    if (solution.outcome != LcpOutcome::solved) return solution;
+    worst.violation = std::max(worst.violation, solution.violation);
+    cut_short_ = cut_short_ || impact_.cut_short();
+    dv_ += change;
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      all[members[k]] = own[k];
+      all[members[k]].island += first;
+    }
+    first += members.size();
+  }
+  return worst;
 }
 
 // Rule 9.

@@ -186,6 +186,7 @@ class ContactModes {
   void find_touching(const ContactChanges& changes);
   void find_bearings();
   [[nodiscard]] complementarity::ContactSolution strike(State& state, const ContactChanges& changes);
+  [[nodiscard]] complementarity::ContactSolution solve_impacts(const State& state, std::vector<TouchingContact>& all);
   [[nodiscard]] complementarity::ContactSolution decide_otherwise(const State& state, const ContactChanges& changes);
   // By index of the touching contacts: `falls`, the separation after the impact is too short to follow; `stops`, the
   // slip.
@@ -285,6 +286,7 @@ class ContactModes {
   std::vector<Eigen::Vector3d> forces_before_;  // by contact and direction [N], where some are carried over
   std::vector<Loss> losses_;
   double lost_elsewhere_ = 0;
+  bool cut_short_ = false;           // some of the last impacts had not ended (ImpactLaws::cut_short)
   bool bearings_undecided_ = false;  // in the last decision no modes agreed with the loads of the bearings
   std::vector<double> largest_;      // [m/s^2] by contact: of the accelerations without the forces sought in its island
   Vec dv_, v_before_, a_, lambda_, lambda_before_;

@@ -1,7 +1,7 @@
 // Which law an impact follows: Newton's (impact.hpp), Poisson's (poisson_impact.hpp) or the energetic one
 // (spring_impact.hpp).
 //
-// All contacts that touch share one impact, so they share one law: among the contacts that were open and approach, the
+// Contacts that touch, of bodies that anything connects, share one impact, so one law: of those that approach, the
 // one that comes last in the order newton, poisson, energetic; each keeps its own e. So the energy of an energetic
 // contact that strikes cannot grow through another that strikes with it. Joints with friction take part in Newton's
 // impact; after an impact by another law they rub under the loads of all of it (rubbing_after.hpp). An impact without

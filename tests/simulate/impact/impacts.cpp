@@ -49,6 +49,23 @@ TEST(KanesRod, GainsEnergyByNewtonsLawAndTheRunSaysSoFirst) {
   EXPECT_LT(run.report.summary.find("created energy"), run.report.summary.find("simulated"));
 }
 
+// Two rods that nothing connects strike at the same instant.
+TEST(KanesRod, StrikesByItsOwnLawBesideOneWithAnother) {
+  for (const char* law : {"newton", "poisson", "energetic"}) {
+    const Finished alone = run_text(rod, {{"contacts.tip.impact_law", law}});
+    for (const char* other : {"newton", "poisson", "energetic"}) {
+      nlohmann::json both = nlohmann::json::parse(rod);
+      both["bodies"]["other"] = both["bodies"]["rod"];
+      both["bodies"]["other"]["position"][0] = 10;
+      both["contacts"]["other_tip"] = both["contacts"]["tip"];
+      both["contacts"]["other_tip"]["between"][0] = "other.end";
+      both["contacts"]["tip"]["impact_law"] = law, both["contacts"]["other_tip"]["impact_law"] = other;
+      const Finished run = run_text(both.dump());
+      for (const char* v : {"vx", "vy", "omega"}) EXPECT_NEAR(run.end(v), alone.end(v), round_off) << law << other;
+    }
+  }
+}
+
 TEST(KanesRod, SticksInCompressionByPoissonsLawAndLosesEnergy) {
   // Compression ends at u = s = 0; the expansion's impulse is as large, and the rod still sticks: T = -b/c N.
   const auto [a, b, c, u, s] = rod_end;
