@@ -402,7 +402,10 @@ double ContactModes::force_noise(const std::vector<model::ContactDirection>& dir
   Mat jump, delassus;
   system_.impulse_response(directions, jump, delassus);
   const double most = delassus.cwiseAbs().rowwise().sum().maxCoeff();
-  return most > 0 ? scale_.scene().no_acceleration() / most : 0;
+  double nothing = 0;
+  for (const model::ContactDirection& d : directions)
+    nothing = std::max(nothing, scale_.of(d.contact).no_acceleration());
+  return most > 0 ? nothing / most : 0;
 }
 
 // Stores the forces for contacts with `restart: carry`.
