@@ -1,6 +1,7 @@
 // Rule 2 of contact_mode.hpp: motions after an impact that steps cannot follow.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <trammel/decompositions.hpp>
 
@@ -55,9 +56,10 @@ ContactModes::Brief ContactModes::too_brief(const State& state, const ContactCha
   open_all(open);
   system_.set_modes(open);
   system_.move_to(state.t, state.q, state.v);
-  const double fastest = fastest_gap_acceleration();
+  std::map<std::size_t, double> fastest = fastest_gap_accelerations();
   for (const TouchingContact& c : touching_)
-    if (separates(c) && !contains(candidates_, c.contact) && cannot_follow(c.contact, c.after, -fastest))
+    if (separates(c) && !contains(candidates_, c.contact) &&
+        cannot_follow(c.contact, c.after, -fastest[scale_.island(c.contact)]))
       candidates_.push_back(c.contact);
   gather(state, changes, true);
   bool slips = false;
@@ -112,11 +114,14 @@ bool ContactModes::let_fast_slips_go() {
   return any;
 }
 
-double ContactModes::fastest_gap_acceleration() {
+// [m/s^2] By island of the scene.
+std::map<std::size_t, double> ContactModes::fastest_gap_accelerations() {
   system_.accelerate({}, a_, lambda_);
-  double fastest = 0;
-  for (const TouchingContact& c : touching_)
-    fastest = std::max(fastest, std::abs(system_.acceleration({c.contact, 0}, a_)));
+  std::map<std::size_t, double> fastest;
+  for (const TouchingContact& c : touching_) {
+    double& own = fastest[scale_.island(c.contact)];
+    own = std::max(own, std::abs(system_.acceleration({c.contact, 0}, a_)));
+  }
   return fastest;
 }
 
@@ -128,20 +133,26 @@ bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
   return captured;
 }
 
-// Ends the separations and slips that the impact of others caused and that are too short to follow. Returns the energy
-// that this takes [J].
+// Ends the separations and slips that the impact of others caused and that are too short to follow. Contacts that
+// nothing connects with these keep their rates, also those that steps have left in them. Returns the energy that this
+// takes [J].
 double ContactModes::end_rocking(State& state, const Brief& brief) {
   const auto rest_speed = [this](const TouchingContact& c) { return scale_.of(c.contact).rest_speed(); };
+  std::set<std::size_t> islands;  // of the scene
+  for (std::size_t i = 0; i < touching_.size(); ++i)
+    if (brief.falls[i] || brief.stops[i]) islands.insert(scale_.island(touching_[i].contact));
+  const auto asked = [&](const TouchingContact& c) { return islands.contains(scale_.island(c.contact)); };
   std::vector<bool> rests = brief.falls;
   bool any = true;
   double taken = 0;
   for (std::size_t i = 0; i < touching_.size(); ++i)
-    rests[i] = rests[i] || touching_[i].after <= rest_speed(touching_[i]);
+    rests[i] = rests[i] || (asked(touching_[i]) && touching_[i].after <= rest_speed(touching_[i]));
   while (any) {
     taken += take_rates(state, rests, brief.stops);
     any = false;
     for (std::size_t i = 0; i < touching_.size(); ++i) {
       TouchingContact& c = touching_[i];
+      if (!asked(c)) continue;
       c.after = rests[i] ? 0 : system_.gap_rate(c.contact);
       if (c.after < -rest_speed(c)) rests[i] = any = true;
     }

@@ -86,6 +86,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include <trammel/integrator.hpp>
@@ -201,7 +202,7 @@ class ContactModes {
   const TouchingContact* beginning_to_slip(const Participant& p) const;
   bool stops_at_once(std::size_t participant) const;
   bool let_fast_slips_go();
-  double fastest_gap_acceleration();
+  std::map<std::size_t, double> fastest_gap_accelerations();
   bool capture_chatter(const std::vector<bool>& falls);
   double end_rocking(State& state, const Brief& brief);
   double take_rates(State& state, const std::vector<bool>& rests, const std::vector<bool>& stops);

@@ -66,6 +66,43 @@ TEST(KanesRod, StrikesByItsOwnLawBesideOneWithAnother) {
   }
 }
 
+// A block that rocks to rest, and a body under a load of 1e6 N, whose contacts keep small rates, the round-off of that
+// load. The impacts of the block leave it alone.
+TEST(RockingBlock, ComesToRestAndNothingElseMoves) {
+  const std::string scene = R"({
+    "trammel": 1, "space": "planar", "gravity": [0, -9.81],
+    "bodies": {
+      "block": {"type": "rigid_body", "mass": 1, "inertia": "=0.2/12", "position": [0, 0.21], "angle": 0.1,
+                "markers": {"l": [-0.1, -0.2], "r": [0.1, -0.2]}},
+      "loaded": {"type": "rigid_body", "mass": 1, "inertia": 0.004, "position": [30, 0.1],
+                 "markers": {"l": [-0.1, -0.1], "r": [0.1, -0.1]}}},
+    "contacts": {
+      "l": {"type": "constraint_method", "restitution": 0.3,
+            "between": ["block.l", {"plane": {"point": [0, 0], "normal": [0, 1]}}],
+            "friction": {"type": "coulomb", "static": 0.7, "kinetic": 0.7}},
+      "r": {"type": "constraint_method", "restitution": 0.3,
+            "between": ["block.r", {"plane": {"point": [0, 0], "normal": [0, 1]}}],
+            "friction": {"type": "coulomb", "static": 0.7, "kinetic": 0.7}},
+      "loaded_l": {"type": "constraint_method", "restitution": 0,
+                   "between": ["loaded.l", {"plane": {"point": [30, 0], "normal": [0, 1]}}]},
+      "loaded_r": {"type": "constraint_method", "restitution": 0,
+                   "between": ["loaded.r", {"plane": {"point": [30, 0], "normal": [0, 1]}}]}},
+    "forces": {"load": {"type": "load", "on": "loaded.com", "force": {"y": -1e6}}},
+    "integrator": {"type": "dop853", "step": {"tolerance": 1e-8}},
+    "simulate": {"until": 2}, "record": {"every": 0.1, "observe": {"angle": "block.com.angle"}}
+  })";
+  for (const char* height : {"0.209", "0.21", "0.22"})
+    for (const char* load : {"-1e6", "-1e7"}) {
+      SCOPED_TRACE(fmt::format("{} m, {} N", height, load));
+      const Finished run =
+          run_text(scene, {{"bodies.block.position", fmt::format("[0, {}]", height)}, {"forces.load.force.y", load}});
+      ASSERT_TRUE(run.done()) << run.report.reason;
+      EXPECT_NEAR(run.end("angle"), 0, 1e-9);
+      for (const Event& event : run.events)
+        EXPECT_TRUE(event.t == 0 || event.contact.find("loaded") == std::string::npos) << event.kind << event.contact;
+    }
+}
+
 TEST(KanesRod, SticksInCompressionByPoissonsLawAndLosesEnergy) {
   // Compression ends at u = s = 0; the expansion's impulse is as large, and the rod still sticks: T = -b/c N.
   const auto [a, b, c, u, s] = rod_end;
