@@ -1,5 +1,5 @@
-// Signs of the determinants of the blocks of a matrix that is block diagonal in some order of its rows, the same for its
-// columns. Of the whole determinant two changes of sign in different blocks leave nothing.
+// Signs of the determinants of the blocks of a matrix that is block diagonal in some order of its rows, its columns
+// ordered alike. Of the whole determinant two changes of sign in different blocks leave nothing.
 #pragma once
 
 #include <string_view>
