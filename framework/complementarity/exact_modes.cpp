@@ -14,7 +14,8 @@ namespace {
 using Tangent = ContactRole::Tangent;
 using Eigen::Index;
 
-constexpr double mode_tolerance = 1e-12;  // relative to the forces and to the accelerations
+constexpr double mode_tolerance = 1e-12;     // relative to the forces and to the accelerations
+constexpr double round_off_of_sums = 1e-15;  // of the sizes of their terms
 
 Eigen::Vector2d along_tangents(const Vec& x, const ContactPoint& p) {
   Eigen::Vector2d both = Eigen::Vector2d::Zero();
@@ -251,7 +252,8 @@ class ExactModes {
     Vec resultants = E * forces, y;
     for (int corrections = 0; corrections < 3; ++corrections) {
       const double missed = admissible_forces(sharing, E, resultants, forces, &y);
-      if (!(missed <= mode_tolerance * resultants.norm())) return corrections > 0;
+      const double round_off = round_off_of_sums * (E.cwiseAbs() * forces.cwiseAbs()).norm();
+      if (!(missed <= mode_tolerance * resultants.norm() + round_off)) return corrections > 0;
       for (std::size_t k = 0; k < columns.size(); ++k) F_[row_at(columns[k])] = forces[Index(k)];
       a_ = A_ * F_ + b_;
       resultants += equations.correction(a_);

@@ -289,8 +289,8 @@ complementarity::ContactSolution ContactModes::strike(State& state, const Contac
   return {LcpOutcome::solved, 0};
 }
 
-// Sets dv_ and what the contacts have found. Bodies that nothing connects strike apart, each group by its own law. Of
-// impacts without collision it is not known which group asked for them: an impulse in one of them is enough.
+// Sets dv_ and what the contacts have found. Bodies that nothing connects strike apart, each group by its own law. It
+// is not known which group asked for an impact without collision, so these are solved together.
 complementarity::ContactSolution ContactModes::solve_impacts(const State& state, std::vector<TouchingContact>& all) {
   const bool together =
       std::any_of(all.begin(), all.end(), [](const TouchingContact& c) { return c.without_collision; });
@@ -298,15 +298,13 @@ complementarity::ContactSolution ContactModes::solve_impacts(const State& state,
   for (std::size_t i = 0; i < all.size(); ++i) islands[together ? 0 : scale_.island(all[i].contact)].push_back(i);
   dv_.setZero(system_.sizes().nv);
   cut_short_ = false;
-  complementarity::ContactSolution worst{LcpOutcome::solved, 0};
-  std::size_t first = 0;  // number of an island among all contacts that act on each other
+  std::size_t first = 0;  // number of the first island of this group
   Vec change;
   for (const auto& [number, members] : islands) {
     std::vector<TouchingContact> own;
     for (const std::size_t i : members) own.push_back(all[i]);
     const auto solution = impact_.solve(system_, state, rest_speed(own), own, change);
     if (solution.outcome != LcpOutcome::solved) return solution;
-    worst.violation = std::max(worst.violation, solution.violation);
     cut_short_ = cut_short_ || impact_.cut_short();
     dv_ += change;
     for (std::size_t k = 0; k < members.size(); ++k) {
@@ -315,7 +313,7 @@ complementarity::ContactSolution ContactModes::solve_impacts(const State& state,
     }
     first += members.size();
   }
-  return worst;
+  return {LcpOutcome::solved, 0};
 }
 
 // Rule 9.

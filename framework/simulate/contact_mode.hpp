@@ -3,8 +3,8 @@
 //
 // Rules for set-valued contacts (Restitution) at an event at time t. ContactModes::settle applies 1, 2 and 9, then 3 to
 // 7 with 10 and 12 to 14 as one problem, then 11, then 8; other files refer to them by number.
-//  1. Impact: every contact that touches and closes strikes, together with all that touch or are closed
-//     (impact_laws.hpp).
+//  1. Impact: every contact that touches and closes strikes, together with all that touch or are closed, of bodies that
+//     joints, forces or contacts connect (impact_laws.hpp).
 //  2. Capture (chatter.cpp): an impact slower than capture_speed has e = 0. So has a rebound with e < 1 that the steps
 //     in contact cannot follow: with fixed steps, if its flight 2 u+/|gap acceleration| would last fewer than
 //     chatter_steps of them; with controlled steps, if it would rise less than chatter_steps times the error that a
@@ -58,18 +58,18 @@
 // 11. Rule 3 may not decide which contacts press: a contact that was closed has neither force nor acceleration, and the
 //     others do not hold it (a stack below a ceiling that begins to tip), or no solution is found to round-off. Then
 //     the same problem is solved for the state a moment later, or later still if that leaves it open. Of several
-//     solutions then the one near that of this instant counts. If there is no solution, rule 8 applies.
+//     solutions then, the one near that of this instant is sought first. If there is none, rule 8 applies.
 // 12. The friction of a contact at rest may be at its bound while its tangents depend on rows of other contacts, some
 //     of which slide (blocks that push each other along a channel). The shares of springs (complementarity/shares)
 //     would exceed the bound or give another motion than that found. Such a contact keeps T = mu N like one that
 //     slides, without a slip. If mu < mu_0 it has let go (rule 6), and all modes are decided again.
-// 13. A contact without a force stays closed (idle) only while rows of contacts that carry hold it. Where these come
-//     to depend on each other (a stack that becomes a strut), they do not, and it opens: its force as a spring passes 0
-//     there, which locates that state. Which contacts are idle
-//     affects the motion if others slide, so the forces in the modes decided are computed: if they pull or leave a
-//     cone, contacts whose force may be an error (up to 1e-6 of the largest of their island) count as idle, too, or
-//     else none does. A contact with such a force that pulls by its row in these modes opens, if its gap then
-//     accelerates apart (open_pulling_ones).
+// 13. A contact without a force stays closed (idle) only while rows of contacts that carry hold it. Where these come to
+//     depend on each other (a stack that becomes a strut), they do not, and it opens: its force as a spring passes 0
+//     there, which locates that state. Which contacts are idle affects the motion if others slide, so the forces in the
+//     modes decided are computed: if the contacts move otherwise than found, only those without any force count as
+//     idle; if forces pull or leave a cone, contacts whose force may be an error (up to 1e-6 of the largest of their
+//     island) count as idle, too, or else none does. A contact with such a force that pulls by its row in these modes
+//     opens, if its gap then accelerates apart (open_pulling_ones).
 // 14. The forces in the modes decided may still pull or leave a cone, although the problem has a solution: springs'
 //     shares are not admissible, and others are another motion (rows of blocks between walls). In the plane, forces are
 //     then taken whose modes leave no share free: as few parts along edges of cones as there are independent rows at
@@ -225,7 +225,7 @@ class ContactModes {
   std::vector<bool> can_be_exerted(const State& state);
   void open_pulling_ones(const State& state);
   [[nodiscard]] bool has_forces_in(const model::Modes& modes, const State& state);
-  bool moves_as_found(const model::SharedRows& group) const;
+  std::vector<bool> moves_as_found() const;
   std::vector<Participant*> held_at_bounds(const State& state);
   void keep_at_bound(Participant& p);
   void hold(const State& state, const std::vector<Participant*>& held);

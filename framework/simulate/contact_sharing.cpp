@@ -9,8 +9,9 @@
 namespace trammel::simulate {
 namespace {
 
-// Of the largest force in an island: less is none in an exact solution. A larger one may have just begun to grow; such
-// contacts carry in the solution, and if some of them were idle, the others would have other shares and another motion.
+// Of the largest force in an island: less is none in an exact solution. Contacts with more may carry in the solution
+// because their forces have just begun to grow. If some of them were idle, the others would share otherwise and move
+// otherwise.
 constexpr double no_force = 1e-12;
 // Of the largest force. Contacts with less force may be idle.
 constexpr double most_error_of_forces = 1e-6;
@@ -39,14 +40,17 @@ bool has_any(const std::vector<bool>& all) {
 // force are idle too, or none is, if the forces in these modes could not be exerted otherwise. Each island is decided
 // for itself: a force that is an error in one is large in another.
 void ContactModes::find_shares(const State& state) {
-  constexpr double no_contact = -1;
+  constexpr double round_off = complementarity::largest_violation, no_contact = -1;
   const model::Modes decided = modes_;
   const std::vector<std::size_t> island = problem_.islands();
-  std::vector<double> none(problem_.who.size(), no_force), least = share(none);
+  std::vector<double> none(problem_.who.size(), round_off), least = share(none);
   std::vector<bool> doubtful(none.size());  // by island
-  for (std::size_t k = 0; k < least.size(); ++k) doubtful[k] = least[k] <= most_error_of_forces;
-  for (std::size_t i = 0; i < island.size(); ++i)
-    if (problem_.who[i].idle) doubtful[island[i]] = true;
+  const auto doubt_small_forces = [&] {
+    for (std::size_t k = 0; k < least.size(); ++k) doubtful[k] = least[k] <= most_error_of_forces;
+    for (std::size_t i = 0; i < island.size(); ++i)
+      if (problem_.who[i].idle) doubtful[island[i]] = true;
+  };
+  doubt_small_forces();
   const auto doubts_remain = [&] {
     if (!has_any(doubtful)) return false;
     const std::vector<bool> exerted = can_be_exerted(state);
@@ -57,6 +61,13 @@ void ContactModes::find_shares(const State& state) {
     modes_ = decided;
     least = share(none);
   };
+  if (has_any(doubtful) && has_forces_in(modes_, state)) {
+    const std::vector<bool> as_found = moves_as_found();
+    bool more = false;
+    for (std::size_t k = 0; k < none.size(); ++k)
+      if (doubtful[k] && !as_found[k]) none[k] = no_force, more = true;
+    if (more) share_again(), doubt_small_forces();
+  }
   while (doubts_remain()) {
     bool more = false;
     for (std::size_t k = 0; k < none.size(); ++k)
@@ -71,7 +82,7 @@ void ContactModes::find_shares(const State& state) {
   };
   if (!has_any(doubtful)) return;
   share_doubtful(no_contact);
-  if (doubts_remain()) share_doubtful(no_force);
+  if (doubts_remain()) share_doubtful(round_off);
 }
 
 std::vector<double> ContactModes::share(const std::vector<double>& none) {
@@ -161,20 +172,19 @@ std::vector<bool> ContactModes::can_be_exerted(const State& state) {
   return exerted;
 }
 
-// Whether the island of this group accelerates in these modes, a_, as in the solution.
-bool ContactModes::moves_as_found(const model::SharedRows& group) const {
+// By island: whether its contacts accelerate in these modes, a_, as in the solution.
+std::vector<bool> ContactModes::moves_as_found() const {
   const std::vector<std::size_t> island = problem_.islands();
-  const auto is_in_group = [&group](const Participant& p) { return p.contact == group.implied.front().contact; };
-  const auto member = std::find_if(problem_.who.begin(), problem_.who.end(), is_in_group) - problem_.who.begin();
+  std::vector<bool> all(island.size(), true);
   for (std::size_t i = 0; i < island.size(); ++i) {
     const Participant& p = problem_.who[i];
-    if (island[i] != island[std::size_t(member)]) continue;
+    double off = p.unilateral ? std::abs(system_.acceleration({p.contact, 0}, a_) - p.a_n) : 0;
+    if (p.tangent != Participant::Tangent::none)
+      off = std::max(off, (system_.slip_acceleration(p.contact, a_) - p.a_t).norm());
     const double nothing = std::max(p.nothing, complementarity::largest_violation * largest_[std::size_t(p.contact)]);
-    if (p.unilateral && std::abs(system_.acceleration({p.contact, 0}, a_) - p.a_n) > nothing) return false;
-    if (p.tangent == Participant::Tangent::none) continue;
-    if ((system_.slip_acceleration(p.contact, a_) - p.a_t).norm() > nothing) return false;
+    if (!(off <= nothing)) all[island[i]] = false;
   }
-  return true;
+  return all;
 }
 
 // Rule 12: the contacts at rest whose friction is at its bound in a group with sliding members that cannot carry its
@@ -189,13 +199,18 @@ std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
   system_.set_modes(modes_);
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
+  const std::vector<bool> as_found = moves_as_found();
+  const std::vector<std::size_t> island = problem_.islands();
   std::vector<Participant*> held;
   for (std::size_t g = 0; g < modes_.shared.size(); ++g) {
     if (!has_sliding(modes_.shared[g])) continue;
     const double round_off = round_off_of_loads * system_.largest_load(int(g), lambda_);
-    if (system_.spare_load(int(g), lambda_) >= -round_off && moves_as_found(modes_.shared[g])) continue;
-    for (Participant& p : problem_.who)
+    const bool carries = system_.spare_load(int(g), lambda_) >= -round_off;
+    for (std::size_t i = 0; i < island.size(); ++i) {
+      Participant& p = problem_.who[i];
+      if (carries && as_found[island[i]]) continue;
       if (at_bound(p) && shares_tangents(modes_.shared[g], p.contact)) held.push_back(&p);
+    }
   }
   return held;
 }
@@ -231,7 +246,7 @@ void ContactModes::share_forces_found(const State& state) {
   for (std::size_t i = 0; i < at_edge.size(); ++i)
     if (Participant& p = problem_.who[i]; at_edge[i] && modes_.contacts[p.contact].friction != Friction::slide)
       keep_at_bound(p);
-  share(std::vector<double>(problem_.who.size(), no_force));
+  share(std::vector<double>(problem_.who.size(), complementarity::largest_violation));
   const std::vector<bool> exerted = can_be_exerted(state);
   const std::vector<std::size_t> island = problem_.islands();
   std::vector<bool> helped(modes_.contacts.size(), false);  // by contact

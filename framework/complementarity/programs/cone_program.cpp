@@ -15,9 +15,9 @@ using ConstBlock = Eigen::VectorBlock<const Vec>;
 constexpr int most_iterations = 50;
 constexpr double accurate = 1e-12;  // residuals and gap, of numbers of the order of 1
 constexpr double implied = 1e-15;   // pivot of a row that follows from others, of the largest one
-constexpr double large = 1e3;       // x from which on the round-off of G x exceeds this
-// Of residuals and gap: once they have been as small, they grow by round-off. Before, they may grow on the way to large
-// forces that balance each other.
+constexpr double large = 1e3;       // x from which on the round-off of G x exceeds `accurate`
+// Residuals and gap that have been below this grow by round-off only. Before, they may grow on the way to large forces
+// that balance each other.
 constexpr double nearly_solved = 1e-6;
 
 // The cone x_0 >= |x_1|; its product is the Jordan algebra's.

@@ -1,12 +1,13 @@
 // Which law an impact follows: Newton's (impact.hpp), Poisson's (poisson_impact.hpp) or the energetic one
 // (spring_impact.hpp).
 //
-// Contacts that touch, of bodies that anything connects, share one impact, so one law: of those that approach, the
-// one that comes last in the order newton, poisson, energetic; each keeps its own e. So the energy of an energetic
-// contact that strikes cannot grow through another that strikes with it. Joints with friction take part in Newton's
-// impact; after an impact by another law they rub under the loads of all of it (rubbing_after.hpp). An impact without
-// collision (contact_mode.hpp, rule 8) has no restitution and follows Newton's law. If that gives no impulse, because
-// it judges friction by the slip at the end, the springs of the energetic law decide.
+// Contacts that touch share one impact, and so one law, if joints, forces or contacts connect their bodies: among those
+// that were open and approach, the one that comes last in the order newton, poisson, energetic; each keeps its own e.
+// So the energy of an energetic contact that strikes cannot grow through another that strikes with it. Joints with
+// friction take part in Newton's impact; after an impact by another law they rub under the loads of all of it
+// (rubbing_after.hpp). An impact without collision (contact_mode.hpp, rule 8) has no restitution and follows Newton's
+// law. If that gives no impulse, because it judges friction by the slip at the end, the springs of the energetic law
+// decide.
 #pragma once
 
 #include <vector>
