@@ -10,9 +10,11 @@
 namespace trammel::test {
 namespace {
 
+// On a slow machine a run may warn how much CPU time it leaves to go, which is no matter of its result.
 void expect_trusted(const Finished& run) {
   ASSERT_TRUE(run.done()) << run.report.reason;
-  EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
+  for (const auto& warning : run.result["warnings"])
+    EXPECT_NE(warning.get<std::string>().find("of CPU time to go"), std::string::npos) << warning;
 }
 
 TEST(PileScene, ComesToRestAndIsCarried) {
