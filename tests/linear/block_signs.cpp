@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <vector>
 
 #include <trammel/decompositions.hpp>
+#include <trammel/testing/archive.hpp>
 
 #include "linear/dense/lu.hpp"
 
@@ -120,6 +123,31 @@ TEST(BlockSigns, ThatAreNotKnownAreNotOpposite) {
   const BlockSigns one = signs_of(Mat::Constant(1, 1, -1)), none;
   EXPECT_FALSE(any_opposite(one, none));
   EXPECT_FALSE(any_opposite(none, one));
+}
+
+TEST_P(BlockSignsOf, BlocksAreReadBackFromAnArchive) {
+  Mixed mixed(GetParam());
+  BlockSigns written = signs_of(mixed.A), read;
+  mixed.A.col(1) *= -1;
+  const BlockSigns other = signs_of(mixed.A);
+  MemoryArchive archive;
+  written.archive(archive, "signs");
+  archive.reading = true;
+  read.archive(archive, "signs");
+  for (int i = 0; i < 3 * mixed.n; ++i) EXPECT_EQ(read.of_row(i), written.of_row(i)) << i;
+  EXPECT_FALSE(any_opposite(read, written));
+  EXPECT_TRUE(any_opposite(read, other));
+}
+
+TEST(BlockSigns, RefuseArchivesWhoseRowsBelongToNoBlock) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Vec& flat : {Vec{{1, 1}}, Vec{{-1, 1}}, Vec{{nan, 1}}, Vec{{0, 2}}, Vec{{0, nan}}, Vec{{0, 2, 1, 1}}}) {
+    MemoryArchive archive;
+    archive.vectors["signs"] = flat;
+    archive.reading = true;
+    BlockSigns signs;
+    EXPECT_THROW(signs.archive(archive, "signs"), std::out_of_range) << flat.transpose();
+  }
 }
 
 // Blocks within padded columns of Lu, and beyond the crossover to Eigen's.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 
 #include "linear/dense/lu.hpp"
 
@@ -68,7 +69,8 @@ void BlockSigns::archive(Archive& a, std::string_view name) {
   const Eigen::Index rows = flat.size() / 2;
   parent_.clear(), sign_.clear();
   for (Eigen::Index i = 0; i < rows; ++i) {
-    if (!(flat[i] >= 0 && flat[i] <= double(i) && std::abs(flat[rows + i]) <= 1)) throw std::out_of_range("block");
+    if (!(flat[i] >= 0 && flat[i] <= double(i) && std::abs(flat[rows + i]) <= 1))
+      throw std::out_of_range(std::string(name) + ": no block of this row");
     parent_.push_back(int(flat[i])), sign_.push_back(int(flat[rows + i]));
   }
 }
