@@ -23,6 +23,8 @@ constexpr double moments_later[] = {1e-4, 1e-3, 1e-2};
 constexpr double error_of_impacts = 1e-9;
 // Relative to the largest acceleration in the island, which may cancel in the others.
 constexpr double error_of_accelerations = 1e-12;
+// Relative to the largest force in the island: what is left, or lacks, of a force at the instant found for its end.
+constexpr double error_of_release = 1e-10;
 // Of the speed that a fixed step changes: less is not resolved by such steps.
 constexpr double part_of_step = 0.1;
 
@@ -240,8 +242,9 @@ complementarity::ContactSolution ContactModes::take_verdicts(const State& state,
   return solution;
 }
 
-// Rule 11. By participant: the error of the solution of its island leaves open which contacts press.
-std::vector<bool> ContactModes::in_balance() const {
+// Rule 11. By participant: the error of the solution of its island, or of the instant at which a force fell to 0,
+// leaves open which contacts press.
+std::vector<bool> ContactModes::in_balance(const std::vector<int>& released) const {
   if (problem_.who.empty()) return {};
   const std::vector<double> largest = problem_.largest_beside();
   const std::vector<std::size_t> island = problem_.islands();
@@ -249,7 +252,8 @@ std::vector<bool> ContactModes::in_balance() const {
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     const Participant& p = problem_.who[i];
     const bool opens = before_.contacts[p.contact].closed && !modes_.contacts[p.contact].closed;
-    const bool just_presses = p.N > 0 && p.N <= undecided * p.violation * largest[i];
+    const double error = contains(released, p.contact) ? std::max(p.violation, error_of_release) : p.violation;
+    const bool just_presses = p.N > 0 && p.N <= undecided * error * largest[i];
     if (p.unilateral && (just_presses || (opens && p.a_n <= least_acceleration(p)))) open[island[i]] = true;
   }
   for (const std::size_t k : island) all.push_back(open[k]);

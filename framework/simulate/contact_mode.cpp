@@ -113,7 +113,7 @@ complementarity::ContactSolution ContactModes::decide_with_doubts(State& state, 
   if (solution.outcome == LcpOutcome::no_solution) return solution;
   std::vector<bool> asked(modes_.contacts.size(), solution.outcome == LcpOutcome::gave_up);
   if (solution.outcome == LcpOutcome::solved) {
-    const std::vector<bool> open = in_balance();
+    const std::vector<bool> open = in_balance(changes.released);
     if (std::find(open.begin(), open.end(), true) == open.end()) return solution;
     for (std::size_t i = 0; i < open.size(); ++i) asked[std::size_t(problem_.who[i].contact)] = open[i];
   }

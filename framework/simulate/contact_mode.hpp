@@ -231,7 +231,7 @@ class ContactModes {
   void hold(const State& state, const std::vector<Participant*>& held);
   void share_forces_found(const State& state);
   double least_acceleration(const Participant& p) const;
-  std::vector<bool> in_balance() const;
+  std::vector<bool> in_balance(const std::vector<int>& released) const;
   double time_of_change(const std::vector<bool>& asked);
   [[nodiscard]] complementarity::ContactSolution decide_by_what_follows(const State& state, ContactChanges changes,
                                                                         bool jumped, const std::vector<bool>& asked,

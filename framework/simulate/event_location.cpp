@@ -103,13 +103,14 @@ void EventLocation::accept(double h, const State& next) {
   now_.swap(next_);
 }
 
-// Just after an event, a function at the round-off of 0 proves nothing unless it goes on falling; a function that began
-// below 0 (a drifted row, an onset that was not located) proves nothing unless it falls further.
+// Just after an event, a function at the round-off of 0 proves nothing unless it goes on falling, faster than an impact
+// may have left it: the same impact would follow without end. A function that began below 0 (a drifted row, an onset
+// that was not located) proves nothing unless it falls further.
 bool EventLocation::happened(int k, const Value& end) const {
   if (!(end.f < 0)) return false;
   if (!just_handled(k) || end.f < std::min(now_[k].f, 0.0) - functions_[k].noise) return true;
   return functions_[k].kind != Kind::slide && !by_force(k) &&
-         end.slope < -scale_.of(functions_[k].contact).rest_speed();
+         end.slope < -scale_.of(functions_[k].contact).left_by_impacts();
 }
 
 EventLocation::Value EventLocation::step_to(const State& now, double h, int k) {
