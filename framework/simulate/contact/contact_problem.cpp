@@ -71,18 +71,28 @@ void ContactProblem::prepare(model::AssembledSystem& system) {
   system.impulse_response(directions_, jump_, delassus_);
 }
 
+// Participants that were none nearby have no forces there; their accelerations are those of this problem.
 complementarity::NearbySolution ContactProblem::forces_of(const std::vector<Participant>& nearby) const {
-  const auto same = [](const Participant& p, const Participant& q) { return p.contact == q.contact; };
-  if (!std::equal(who.begin(), who.end(), nearby.begin(), nearby.end(), same)) return {};
-  complementarity::NearbySolution found{Vec::Zero(b_.size()), Vec::Zero(b_.size())};
-  for (std::size_t i = 0; i < who.size(); ++i) {
-    const complementarity::ContactPoint& point = points_[i];
-    const Participant& p = nearby[i];
-    if (point.normal >= 0) found.F[point.normal] = p.N, found.a[point.normal] = p.a_n;
-    if (point.tangent < 0) continue;
-    along(found.F, point) = p.T.head(point.tangents), along(found.a, point) = p.a_t.head(point.tangents);
+  if (nearby.empty()) return {};
+  std::vector<const Participant*> known;
+  for (const Participant& p : who) {
+    const auto same = [&p](const Participant& other) { return other.contact == p.contact; };
+    const auto found = std::find_if(nearby.begin(), nearby.end(), same);
+    known.push_back(found == nearby.end() ? nullptr : &*found);
   }
-  return found;
+  Vec F = Vec::Zero(b_.size());
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    if (!known[i]) continue;
+    if (points_[i].normal >= 0) F[points_[i].normal] = known[i]->N;
+    if (points_[i].tangent >= 0) along(F, points_[i]) = known[i]->T.head(points_[i].tangents);
+  }
+  Vec a = delassus_ * F + b_;
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    if (!known[i]) continue;
+    if (points_[i].normal >= 0) a[points_[i].normal] = known[i]->a_n;
+    if (points_[i].tangent >= 0) along(a, points_[i]) = known[i]->a_t.head(points_[i].tangents);
+  }
+  return {F, a};
 }
 
 complementarity::ContactSolution ContactProblem::solve_once(const Mat& A, const std::vector<Participant>& nearby) {
