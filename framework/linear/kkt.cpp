@@ -135,10 +135,7 @@ void MassKkt::complement(const Mat& W, double rank_tolerance) {
   multiply_rows(B_, C_, schur_);
   schur_lu_.compute(schur_);
   least_pivot_ = std::max(round_off, 100 * dependent);
-  for (Eigen::Index j = 0; j < schur_.cols(); ++j) {
-    const double scale = schur_.col(j).cwiseAbs().maxCoeff();
-    if (!(std::abs(schur_lu_.pivot(j)) > least_pivot_ * scale)) redundant_ = true;
-  }
+  redundant_ = schur_lu_.has_small_pivot(schur_, least_pivot_);
   if (!redundant_) return;
   cod_.setThreshold(std::max(round_off, dependent));
   cod_.compute(schur_);
@@ -226,20 +223,6 @@ Mat& IterationKkt::begin(Eigen::Index nv, Eigen::Index nc) {
   return full_;
 }
 
-namespace {
-
-// In the columns from `first` on. A pivot is compared with its own column, so different scales of S and G make none
-// small. The largest entry of the matrix is tried first, which is cheaper and nearly always sufficient.
-bool has_small_pivot(const Lu& lu, const Mat& matrix, Eigen::Index first, double smallest) {
-  const double largest = matrix.cwiseAbs().maxCoeff();
-  const auto is_safe = [&](Eigen::Index j, double scale) { return std::abs(lu.pivot(j)) > smallest * scale; };
-  for (Eigen::Index j = first; j < matrix.cols(); ++j)
-    if (!is_safe(j, largest) && !is_safe(j, matrix.col(j).cwiseAbs().maxCoeff())) return true;
-  return false;
-}
-
-}  // namespace
-
 bool IterationKkt::factorise(const Mat& W, const Mat& G, double rank_tolerance) {
   const auto nc = G.rows();
   if (nc > 0) {
@@ -251,14 +234,14 @@ bool IterationKkt::factorise(const Mat& W, const Mat& G, double rank_tolerance) 
   if (full_.rows() == 0) return true;
   lu_.compute(full_);
   // Dependent rows show in the columns of W. This is only an early warning; the decomposition of the rows decides.
-  if (has_small_pivot(lu_, full_, nv_, 100 * rank_tolerance)) {
+  if (lu_.has_small_pivot(full_, 100 * rank_tolerance, nv_)) {
     finite_ = full_.allFinite();
     if (!finite_) return false;
     redundant_ = merge_rows(W, G, rank_tolerance);
     if (full_.rows() == 0) return true;
     if (redundant_) lu_.compute(full_);
   }
-  singular_ = has_small_pivot(lu_, full_, 0, 8 * eps);
+  singular_ = lu_.has_small_pivot(full_, 8 * eps);
   finite_ = !singular_ || full_.allFinite();
   if (singular_ && finite_) {
     cod_.setThreshold(Eigen::Default);

@@ -133,7 +133,7 @@ bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
   return captured;
 }
 
-// Ends the separations and slips that the impact of others caused and that are too short to follow. Contacts that
+// Ends separations and slips that are too short to follow; impacts of other contacts have caused them. Contacts that
 // nothing connects with these keep their rates, also those that steps have left in them. Returns the energy that this
 // takes [J].
 double ContactModes::end_rocking(State& state, const Brief& brief) {

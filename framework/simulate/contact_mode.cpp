@@ -256,9 +256,12 @@ complementarity::ContactSolution ContactModes::strike(State& state, const Contac
   v_before_ = state.v;
   Brief brief;
   std::vector<TouchingContact> all;
-  for (;;) {
+  const auto gather_all = [&] {
     all = touching_;
     all.insert(all.end(), bearings_.begin(), bearings_.end());
+  };
+  for (;;) {
+    gather_all();
     const auto solution = solve_impacts(state, all);
     if (solution.outcome != LcpOutcome::solved) {
       state.v = v_before_;
@@ -279,8 +282,7 @@ complementarity::ContactSolution ContactModes::strike(State& state, const Contac
   }
   system_.move_to(state.t, state.q, state.v);
   lost_elsewhere_ += kinetic_before - system_.energy().kinetic;
-  all = touching_;  // with the rates that end_rocking has left
-  all.insert(all.end(), bearings_.begin(), bearings_.end());
+  gather_all();  // with the rates that end_rocking has left
   for (const TouchingContact& c : all) {
     losses_.push_back({c.contact, c.energy_lost()});
     lost_elsewhere_ -= c.energy_lost();

@@ -164,7 +164,7 @@ class ContactModes {
   double step_limit(const State& state);
   // [N] A smaller friction force counts as none: it accelerates the contact less than `no_acceleration`.
   double friction_noise(int contact);
-  // [N] Forces of this size along all of these directions accelerate nothing more than that.
+  // [N] Forces of this size along all of these directions at once accelerate no contact more than that.
   double force_noise(const std::vector<model::ContactDirection>& directions);
 
  private:

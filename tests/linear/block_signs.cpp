@@ -80,7 +80,7 @@ TEST_P(BlockSignsOf, TwoBlocksThatChangeDoNotCancel) {
   EXPECT_FALSE(any_opposite(before, before));
   mixed.A.col(0) *= -1, mixed.A.col(2) *= -1;
   const BlockSigns after = signs_of(mixed.A);
-  EXPECT_TRUE(any_opposite(before, after));
+  EXPECT_TRUE(any_opposite(before, after) && any_opposite(after, before));
   mixed.A.row(0) *= -1, mixed.A.row(2) *= -1;
   EXPECT_FALSE(any_opposite(before, signs_of(mixed.A)));
 }

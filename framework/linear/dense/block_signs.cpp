@@ -37,9 +37,8 @@ void BlockSigns::find(const Mat& A, const Lu& factors, double least_pivot) {
   for (int j = 0; j < int(n); ++j) {
     const int block = parent_[std::size_t(j)];
     int& sign = sign_[std::size_t(block)];
-    const double pivot = factors.pivot(j);
-    if (!(std::abs(pivot) > least_pivot * A.col(j).cwiseAbs().maxCoeff())) sign = 0;
-    if (pivot < 0) sign = -sign;
+    if (factors.is_small_pivot(A, least_pivot, j)) sign = 0;
+    if (factors.pivot(j) < 0) sign = -sign;
     for (int i = block; i < j; ++i)
       if (parent_[std::size_t(i)] == block && rows[std::size_t(j)] < rows[std::size_t(i)]) sign = -sign;
   }

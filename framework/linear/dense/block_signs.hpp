@@ -1,5 +1,5 @@
 // Signs of the determinants of the blocks of a matrix that is block diagonal in some order of its rows, its columns
-// ordered alike. Of the whole determinant two changes of sign in different blocks leave nothing.
+// ordered alike. The sign of the whole determinant does not show that two blocks have changed theirs.
 #pragma once
 
 #include <string_view>

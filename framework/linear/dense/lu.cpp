@@ -69,6 +69,18 @@ std::vector<Eigen::Index> Lu::rows() const {
   return all;
 }
 
+bool Lu::is_small_pivot(const Mat& A, double least, Eigen::Index j) const {
+  return !(std::abs(pivot(j)) > least * A.col(j).cwiseAbs().maxCoeff());
+}
+
+// The largest entry of A is tried first, which is cheaper and nearly always sufficient.
+bool Lu::has_small_pivot(const Mat& A, double least, Eigen::Index first) const {
+  const double largest = A.size() > 0 ? A.cwiseAbs().maxCoeff() : 0;
+  for (Eigen::Index j = first; j < A.cols(); ++j)
+    if (!(std::abs(pivot(j)) > least * largest) && is_small_pivot(A, least, j)) return true;
+  return false;
+}
+
 // Forward and backward substitution by columns. A solved entry is read before the loop overwrites its place.
 void Lu::solve(const Vec& b, Vec& x) {
   if (in_blocks()) {

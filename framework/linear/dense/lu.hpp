@@ -17,6 +17,10 @@ class Lu {
  public:
   void compute(const Mat& A);  // square; a singular one gives a pivot that is 0 or round-off
   double pivot(Eigen::Index j) const { return in_blocks() ? blocks_.matrixLU()(j, j) : LU_(j, j); }
+  // Whether a pivot of A from column `first` on is at most `least` times the largest entry of its own column, so that
+  // different scales of columns make none small; also if it is not a number.
+  bool has_small_pivot(const Mat& A, double least, Eigen::Index first = 0) const;
+  bool is_small_pivot(const Mat& A, double least, Eigen::Index j) const;
   void solve(const Vec& b, Vec& x);        // not in place
   std::vector<Eigen::Index> rows() const;  // A's, in the order of those of L U
 
