@@ -145,8 +145,10 @@ double ContactModes::end_rocking(State& state, const Brief& brief) {
   std::vector<bool> rests = brief.falls;
   bool any = true;
   double taken = 0;
-  for (std::size_t i = 0; i < touching_.size(); ++i)
-    rests[i] = rests[i] || (asked(touching_[i]) && touching_[i].after <= rest_speed(touching_[i]));
+  for (std::size_t i = 0; i < touching_.size(); ++i) {
+    const bool moves_slowly = asked(touching_[i]) && touching_[i].after <= rest_speed(touching_[i]);
+    rests[i] = rests[i] || brief.stops[i] || moves_slowly;  // whose slip stops rests, with the rate that steps left
+  }
   while (any) {
     taken += take_rates(state, rests, brief.stops);
     any = false;

@@ -3,6 +3,7 @@
 //     ball from h = 1 m, g = 10:  t_n = sqrt(2h/g) + 2 v0/g (e + ... + e^n),  v_n = e^n v0,  apex h e^(2n)
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "support/run_scene.hpp"
 #include "support/scenes.hpp"
@@ -266,6 +267,46 @@ TEST(ScaledScene, OfACompliantContactHasTheSameEventsScaled) {
     ASSERT_TRUE(run.done()) << run.report.reason;
     ASSERT_EQ(run.events.size(), one.events.size()) << s;
     for (std::size_t i = 0; i < one.events.size(); ++i) EXPECT_NEAR(run.events[i].t, one.events[i].t, 1e-10);
+  }
+}
+
+// A rod slides with its tip on a rough floor, and falls. Where steps have left a rate in its closed tip, an impact of
+// the other end may still stop the slip of the tip at once.
+TEST(FallingRod, RubsAndBouncesUntilItRests) {
+  std::mt19937 random(1);
+  const auto any = [&random](double from, double to) { return from + (to - from) * double(random()) / 4294967296.0; };
+  constexpr double g = 9.81;
+  for (int i = 0; i < 40; ++i) {
+    const double length = std::pow(10, any(-3, 1)), mass = std::pow(10, any(-3, 2)), mu = any(0.5, 2),
+                 angle = any(0.9, 1.2), speed = 0.3 * std::sqrt(g * length), height = length / 2 * std::sin(angle);
+    const auto contact = [&](const char* marker) {
+      return nlohmann::json{{"type", "constraint_method"},
+                            {"restitution", any(0.1, 0.4)},
+                            {"friction", {{"type", "coulomb"}, {"static", mu}, {"kinetic", mu}}},
+                            {"between", {marker, {{"plane", {{"point", {0, 0}}, {"normal", {0, 1}}}}}}}};
+    };
+    const double until = 3 * std::sqrt(length / g), tolerance = std::pow(10, -4 - i % 4);
+    const nlohmann::json scene = {{"trammel", 1},
+                                  {"space", "planar"},
+                                  {"gravity", {0, -g}},
+                                  {"bodies",
+                                   {{"rod",
+                                     {{"type", "rigid_body"},
+                                      {"mass", mass},
+                                      {"inertia", mass * length * length / 12},
+                                      {"position", {length / 2 * std::cos(angle), height}},
+                                      {"angle", angle},
+                                      {"velocity", {speed, 0}},
+                                      {"markers", {{"tip", {-length / 2, 0}}, {"end", {length / 2, 0}}}}}}}},
+                                  {"contacts", {{"tip", contact("rod.tip")}, {"end", contact("rod.end")}}},
+                                  {"integrator", {{"type", "dop853"}, {"step", {{"tolerance", tolerance}}}}},
+                                  {"record", {{"every", until}, {"observe", {{"y", "rod.com.y"}}}}},
+                                  {"simulate", {{"until", until}}}};
+    const Finished run = run_text(scene.dump());
+    ASSERT_TRUE(run.done()) << i << ": " << run.report.reason;
+    EXPECT_NEAR(run.end("y"), 0, tolerance * length) << i;
+    const double before = mass * (speed * speed / 2 + g * height);
+    EXPECT_NEAR(run.result["energy_end"]["total"], 0, tolerance * before) << i;
   }
 }
 
