@@ -15,6 +15,9 @@ using Verdict = RelaxedForces::Verdict;
 
 constexpr double zero = 1e-9;                         // relative to b [1]
 constexpr double narrowest = std::numbers::pi / 180;  // [rad]
+// Forces within `zero` of a solution from which no solution follows: each costs as much as ten other sets of modes and
+// proves nothing, and where there are some there are thousands.
+constexpr int most_refused = 50;
 
 Vector2d part(const Vec& x, const ContactPoint& p) {
   Vector2d both = Vector2d::Zero();
@@ -109,6 +112,7 @@ class Search {
     if ((next == points_.size() || all_decided) && accept_(found.F)) return true;
     if (next == points_.size()) {
       doubtful_ = true;
+      if (++refused_ == most_refused) nodes_left_ = 0;
       return false;
     }
     const DecidedMode before = modes_[next];
@@ -127,6 +131,7 @@ class Search {
   const std::function<bool(const Vec&)>& accept_;
   std::vector<DecidedMode> modes_;
   bool doubtful_ = false;
+  int refused_ = 0;
 };
 
 }  // namespace

@@ -17,7 +17,8 @@
 namespace trammel::complementarity {
 
 // `accept(F)` judges a solution; the search continues if it returns false. no_solution: proved up to that bound, since
-// nothing comes nearer than 1e-8 of b. gave_up: after `most_nodes`, or if something came so near and was not accepted.
+// nothing comes nearer than 1e-8 of b. gave_up: after `most_nodes`, or if something came so near and was not accepted;
+// after the 50th of these at once, since each costs as much as ten other sets of modes.
 LcpOutcome search_modes(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, int most_nodes,
                         const std::function<bool(const Vec&)>& accept);
 
