@@ -135,6 +135,14 @@ EventLocation::Value EventLocation::slide(int contact, const Vec& a) {
   return {direction.dot(system_.slip(contact)), direction.dot(system_.slip_acceleration(contact, a))};
 }
 
+// [m], or [m/s] of a slip, at the system's point: the value alone of a function that has a slope.
+double EventLocation::gap_or_slip(int k) {
+  const int contact = functions_[k].contact;
+  if (functions_[k].kind == Kind::slide)
+    return system_.modes().contacts[std::size_t(contact)].direction.dot(system_.slip(contact));
+  return (functions_[k].kind == Kind::leave ? -1 : 1) * system_.gap(contact);
+}
+
 // At the system's point.
 bool EventLocation::lacks_direction(const EventFunction& function) {
   return function.kind == Kind::slide && system_.tangents(function.contact) > 1 &&
@@ -206,7 +214,7 @@ EventLocation::Value EventLocation::value(int k, const State& state, bool& accel
   if (function.kind == Kind::lean) return {most_leverage - system_.leverage(function.group), 0};
   if (!by_force(k)) {
     const double sign = function.kind == Kind::leave ? -1 : 1;
-    return {sign * system_.gap(function.contact), sign * system_.gap_rate(function.contact)};
+    return {gap_or_slip(k), sign * system_.gap_rate(function.contact)};
   }
   if (function.kind == Kind::hold && function.at_ends)
     return {scale_.of(function.contact).no_acceleration() - system_.slip_acceleration(function.contact, state.a).norm(),

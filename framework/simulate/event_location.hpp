@@ -137,8 +137,10 @@ class EventLocation {
   Value step_to(const State& now, double h, int k);
   bool hides(const State& now, double h, const State& next);
   bool swings_matter(const std::vector<Value>& values, double h) const;
-  bool hides_gap(double h);
-  bool hides_force(double h);
+  bool hides_motion(const State& now, double h, const State& next);
+  double gap_or_slip(int k);
+  double resolution_of_motion(int k) const;
+  bool hides_force(const State& now, double h, const State& next);
   bool dips(const State& now, double h, const State& next, int k, Suspect& suspect);
   bool returns(const State& now, double h, int k, Suspect& suspect);
   bool worth_slopes(int k, double h) const;

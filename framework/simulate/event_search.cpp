@@ -7,8 +7,9 @@
 namespace trammel::simulate {
 namespace {
 
-// The place in a step where `hides` looks: an irrational part, the golden section's, resonates with no period of a law.
+// The places in a step where `hides` looks: irrational parts, of the golden section, resonate with no period of a law.
 constexpr double inside = 0.3819660112501051;
+constexpr double places[] = {inside, 0.7639320225002103, 0.1458980337503154};
 constexpr double off_ends = 1e-3;         // of an interval: a minimum nearer to an end is moved there if slopes dip
 constexpr double part_for_slopes = 1e-3;  // of the step: the difference in time that gives a force's slope
 constexpr double hides_nothing = 1e-6;    // of the longest step so far: shorter ones are of the location of events
@@ -62,7 +63,7 @@ struct EventLocation::Cubic {
 bool EventLocation::hides(const State& now, double h, const State& next) {
   longest_ = std::max(longest_, h);
   if (h < hides_nothing * longest_) return false;
-  bool gaps = false, forces = false;
+  bool motions = false, forces = false;
   for (int k = 0; k < int(functions_.size()); ++k) {
     if (functions_[k].kind == Kind::slide && system_.tangents(functions_[k].contact) > 1 &&
         overshoots(now_[k].f, next_[k].f, system_.modes().contacts[functions_[k].contact].least_slip))
@@ -71,14 +72,11 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
     if (functions_[k].kind == Kind::slide && std::abs(next_[k].slope) > 4 * functions_[k].steepest &&
         std::abs(next_[k].slope) * h > now_[k].f && now_[k].f > functions_[k].noise)
       return true;
-    if (functions_[k].at_ends || functions_[k].kind == Kind::slide || of_rows(k)) continue;
-    (by_force(k) ? forces : gaps) = true;
-  }
-  if (gaps || (forces && h_before_ == 0)) {
-    between_states_.at(now, next, inside, between_);
+    if (functions_[k].at_ends || of_rows(k)) continue;
+    (by_force(k) ? forces : motions) = true;
   }
   if (h > between_states_.longest_resolved() && (swings_matter(now_, h) || swings_matter(next_, h))) return true;
-  return (gaps && hides_gap(h)) || (forces && hides_force(h));
+  return (motions && hides_motion(now, h, next)) || (forces && hides_force(now, h, next));
 }
 
 // True if swings within steps of length h could hide an event: of a force, or of a gap that is small for its rate.
@@ -91,24 +89,35 @@ bool EventLocation::swings_matter(const std::vector<Value>& values, double h) co
   return false;
 }
 
-bool EventLocation::hides_gap(double h) {
-  system_.move_to(between_.t, between_.q, between_.v);
-  for (int k = 0; k < int(functions_.size()); ++k) {
-    if (functions_[k].at_ends || functions_[k].kind == Kind::slide || of_rows(k) || by_force(k)) continue;
-    const Value &begin = now_[k], &end = next_[k];
-    const Cubic cubic{0, h, begin.f, end.f, begin.slope, end.slope};
-    const double there = (functions_[k].kind == Kind::leave ? -1 : 1) * system_.gap(functions_[k].contact);
-    const double off = std::abs(there - cubic.value(inside)), size = std::max(std::abs(begin.f), std::abs(end.f));
-    if (off > 0.05 * size && 4 * off > std::min({begin.f, end.f, there}) &&
-        off > scale_.of(functions_[k].contact).touching())
-      return true;
+// Compares gaps and slips within the step with the cubics between its ends. They may swing within it although the
+// bodies do not, where a base moves by a law of time: the error estimate of the step does not know that.
+bool EventLocation::hides_motion(const State& now, double h, const State& next) {
+  for (const double place : places) {
+    between_states_.at(now, next, place, between_);
+    system_.move_to(between_.t, between_.q, between_.v);
+    for (int k = 0; k < int(functions_.size()); ++k) {
+      if (functions_[k].at_ends || !has_slope(k)) continue;
+      const Value &begin = now_[k], &end = next_[k];
+      const Cubic cubic{0, h, begin.f, end.f, begin.slope, end.slope};
+      const double there = gap_or_slip(k), off = std::abs(there - cubic.value(place));
+      const double size = std::max(std::abs(begin.f), std::abs(end.f));
+      if (off > 0.05 * size && 4 * off > std::min({begin.f, end.f, there}) && off > resolution_of_motion(k))
+        return true;
+    }
   }
   return false;
 }
 
+// The same unit.
+double EventLocation::resolution_of_motion(int k) const {
+  const Scale scale = scale_.of(functions_[k].contact);
+  return functions_[k].kind == Kind::slide ? scale.drift() : scale.touching();
+}
+
 // Compares the force with its tangent of the step before; in the first step, with the line between its ends.
-bool EventLocation::hides_force(double h) {
+bool EventLocation::hides_force(const State& now, double h, const State& next) {
   if (h_before_ == 0) {
+    between_states_.at(now, next, inside, between_);
     system_.move_to(between_.t, between_.q, between_.v);
     system_.accelerate({}, between_.a, between_.lambda);
     evaluate(between_, probe_);

@@ -54,8 +54,8 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
                                   const Vec& lambda, const ContactScale& scale) {
   struct Looked {
     int contact;
-    Eigen::Index normal;  // in F; the tangents follow
-    double pull, beyond;  // [N] beyond what a contact can do
+    Eigen::Index normal;         // in F; the tangents follow
+    double pull, beyond, along;  // [N] beyond what a contact can do: pulls, exceeds its cone, pushes along its slip
   };
   std::vector<model::ContactDirection> directions;
   std::vector<double> forces;
@@ -64,7 +64,7 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
   for (const int i : closed) {
     const model::ContactEntry& entry = system.model().contacts[std::size_t(i)];
     const double N = system.normal_force(i, lambda);
-    Looked looked{i, Eigen::Index(forces.size()), -N, 0};
+    Looked looked{i, Eigen::Index(forces.size()), -N, 0, 0};
     directions.push_back({i, 0}), forces.push_back(N);
     const model::Tangential T = system.friction_force(i, lambda);
     for (int k = 0; k < system.tangents(i) && entry.friction; ++k)
@@ -72,7 +72,9 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
     if (entry.restitution->treatment().release == Restitution::Release::never) continue;  // a latch may pull
     if (entry.coulomb && system.modes().contacts[std::size_t(i)].friction == model::ContactMode::Friction::stick)
       looked.beyond = T.norm() - std::max(0.0, entry.coulomb->static_coefficient() * N);
-    doubtful = doubtful || std::max(looked.pull, looked.beyond) > little * std::abs(N);
+    const model::Tangential slip = system.slip(i);
+    if (entry.coulomb && slip.norm() > scale.of(i).drift()) looked.along = T.dot(slip) / slip.norm();
+    doubtful = doubtful || std::max({looked.pull, looked.beyond, looked.along}) > little * std::abs(N);
     all.push_back(looked);
   }
   if (!doubtful) return;  // the scale of the forces that act on a contact is no less than its own force
@@ -85,6 +87,7 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
       acts = std::max(acts, judged.scale[k]), noise = std::max(noise, judged.noise[k]);
     if (looked.pull > noise) pull_.raise_to(looked.contact, state.t, looked.pull, acts);
     if (looked.beyond > noise) beyond_cone_.raise_to(looked.contact, state.t, looked.beyond, acts);
+    if (looked.along > noise) along_slip_.raise_to(looked.contact, state.t, looked.along, acts);
   }
 }
 
@@ -107,6 +110,10 @@ std::vector<std::string> ContactAudit::warnings(const model::Model& model, const
   if (beyond_cone_.contact >= 0)
     texts.push_back(fmt::format("not to be trusted: the friction of {} was {:.3g} N beyond its bound at t = {:.9g} s",
                                 name(beyond_cone_.contact), beyond_cone_.force, beyond_cone_.t));
+  if (along_slip_.contact >= 0)
+    texts.push_back(fmt::format(
+        "not to be trusted: the friction of {} pushed along its slip with {:.3g} N at t = {:.9g} s; it only opposes it",
+        name(along_slip_.contact), along_slip_.force, along_slip_.t));
   if (overloaded_.contact >= 0)
     texts.push_back(fmt::format(
         "not to be trusted: {} and those it shares rows with carry {:.3g} N more than they can at t = {:.9g} s",
@@ -128,8 +135,9 @@ void ContactAudit::archive(Archive& a, std::size_t contacts) {
     if (!(i >= -1 && i < double(contacts))) throw std::out_of_range("contact");
     return int(i);
   };
-  pull_.archive(a, "pull"), beyond_cone_.archive(a, "beyond_cone"), overloaded_.archive(a, "overloaded");
-  known(pull_.contact), known(beyond_cone_.contact), known(overloaded_.contact);
+  pull_.archive(a, "pull"), beyond_cone_.archive(a, "beyond_cone");
+  along_slip_.archive(a, "along_slip"), overloaded_.archive(a, "overloaded");
+  for (const Worst* worst : {&pull_, &beyond_cone_, &along_slip_, &overloaded_}) known(worst->contact);
   Vec flat(Eigen::Index(3 * indeterminate_.size()));
   Eigen::Index k = 0;
   for (const auto& [contact, span] : indeterminate_) {

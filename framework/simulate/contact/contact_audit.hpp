@@ -1,6 +1,6 @@
 // Checks in records and after events whether contacts obeyed their laws, up to round-off:
 //
-//     N >= 0,   |T| <= mu_0 N  [N],   work of friction <= 0 [J]
+//     N >= 0,   |T| <= mu_0 N  [N],   T . slip <= 0 [W],   work of friction <= 0 [J]
 //
 // The scale of the round-off are the forces that act on the contact itself (force_noise.hpp). Contacts that share rows
 // are checked together (AssembledSystem::spare_load); what they miss counts if it could accelerate a body. A violation
@@ -42,7 +42,7 @@ class ContactAudit {
                       const Vec& lambda, const ContactScale& scale);
   void look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda, const ContactScale& scale);
 
-  Worst pull_, beyond_cone_, overloaded_;
+  Worst pull_, beyond_cone_, along_slip_, overloaded_;
   std::map<int, Span> indeterminate_;
 };
 
