@@ -229,6 +229,7 @@ void EventLocation::wait_longer(const EventFunction& before, const Value& now, E
     if (now.f < 0) function.noise = 2 * std::abs(now.f);
     return;
   }
+  if (function.kind == Kind::approach && now.slope > scale_.of(function.contact).left_by_impacts()) return;  // rebounds
   function.noise = std::max(function.noise, before.noise);
   if (before.reported || now.f < 0)
     function.noise = std::max({function.noise, function.little, 2 * std::abs(now.f), 4 * before.noise});

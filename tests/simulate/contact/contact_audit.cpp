@@ -76,6 +76,33 @@ TEST(ContactAudit, TellsAPullAndAFrictionBeyondItsBoundBesideAnyForceElsewhere) 
     }
 }
 
+// The mode of a ball that slides at 1 m/s has a direction, that of a slip which has been missed pushes it on.
+TEST(ContactAudit, TellsAFrictionAlongItsSlip) {
+  const std::string scene = beside(1, 0, 0, false);
+  simulate::Setup setup = simulate::set_up(scene::Scene::parse(scene, "test.json"), registry());
+  model::AssembledSystem system(setup.model);
+  State state = setup.initial;
+  state.v[0] = 1;
+  for (const double direction : {1.0, -1.0}) {
+    model::Modes modes{.contacts = std::vector<model::ContactMode>(2), .shared = {}};
+    modes.contacts[0].closed = true;
+    modes.contacts[0].friction = model::ContactMode::Friction::slide;
+    modes.contacts[0].direction = model::Tangential(direction, 0);
+    system.set_modes(modes);
+    system.move_to(state.t, state.q, state.v);
+    system.accelerate({}, state.a, state.lambda);
+    simulate::ContactScale scale(*setup.model);
+    scale.take_all(system);
+    simulate::ContactAudit audit;
+    audit.look(system, state, scale);
+    const std::vector<std::string> warnings = audit.warnings(*setup.model, simulate::Ledger(system, *setup.integrator));
+    if (direction > 0)
+      EXPECT_THAT(warnings, IsEmpty());
+    else
+      EXPECT_THAT(warnings, ElementsAre(HasSubstr("contacts.ball pushed along its slip with 0.005 N")));
+  }
+}
+
 // A load that takes the weight off leaves no force but what 1 N of round-off leaves of 0.
 TEST(ContactAudit, DoesNotTellRoundOff) {
   for (const bool on_block : {false, true})
