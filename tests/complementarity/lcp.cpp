@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -39,6 +40,18 @@ TEST(Lcp, SolvesTheTextbookInstance) {
   EXPECT_NEAR(z[1], 7.0 / 3, 1e-15);
 }
 
+TEST(Lcp, OfOneContactIsAQuotientOrHasNoSolution) {
+  Vec z, w;
+  ASSERT_EQ(solve_lcp(Mat{{2}}, Vec{{-3}}, z, w), LcpOutcome::solved);
+  EXPECT_EQ(z[0], 1.5);
+  EXPECT_EQ(w[0], 0);
+  for (const double does_not_push : {0.0, -1.0}) {
+    EXPECT_EQ(solve_lcp(Mat{{does_not_push}}, Vec{{-3}}, z, w), LcpOutcome::no_solution);
+    EXPECT_EQ(z[0], 0);
+    EXPECT_EQ(w[0], 0);
+  }
+}
+
 TEST(Lcp, LeavesWhatIsNonnegativeAlone) {
   const Mat M{{1, 0}, {0, 1}};
   const Vec q{{0, 3}};
@@ -46,6 +59,47 @@ TEST(Lcp, LeavesWhatIsNonnegativeAlone) {
   ASSERT_EQ(solve_lcp(M, q, z, w), LcpOutcome::solved);
   EXPECT_EQ(z, Vec::Zero(2));
   EXPECT_EQ(w, q);
+}
+
+TEST(Lcp, AnApproachOfOneRoundingNeedsNoForce) {
+  Vec z, w;
+  ASSERT_EQ(solve_lcp(Mat::Identity(3, 3), Vec{{2, -2e-16, 0.5}}, z, w), LcpOutcome::solved);
+  EXPECT_EQ(z, Vec::Zero(3));
+  EXPECT_EQ(w, (Vec{{2, 0, 0.5}}));
+}
+
+// n knots of a string that is pressed to one side only.
+Mat string_of(int n) {
+  return Mat::NullaryExpr(n, n, [](Eigen::Index i, Eigen::Index j) { return i == j ? 2.0 : -(std::abs(i - j) == 1); });
+}
+
+// Under -1 everywhere all of it gives way, like a parabola. Each force takes a pivot.
+TEST(Lcp, FindsTheParabolaOfALoadedString) {
+  for (const int n : {3, 39, 40, 41, 80, 130}) {
+    Vec z, w;
+    ASSERT_EQ(solve_lcp(string_of(n), Vec::Constant(n, -1), z, w), LcpOutcome::solved) << n;
+    EXPECT_EQ(w, Vec::Zero(n)) << n;
+    for (int i = 0; i < n; ++i) EXPECT_NEAR(z[i], (i + 1.) * (n - i) / 2, 1e-12 * n * n) << n;  // condition n^2 / 2
+  }
+}
+
+// The forces found are computed once more by themselves, so that no pivot's round-off is left.
+void expect_solved_to_round_off(const Mat& M, const Vec& q) {
+  Vec z, w;
+  ASSERT_EQ(solve_lcp(M, q, z, w), LcpOutcome::solved);
+  EXPECT_LT((M * z + q - w).cwiseAbs().maxCoeff(), 2e-15 * (M.cwiseAbs() * z + q.cwiseAbs()).maxCoeff());
+  EXPECT_GE(z.minCoeff(), 0);
+  EXPECT_GE(w.minCoeff(), 0);
+  EXPECT_EQ(z.cwiseProduct(w), Vec::Zero(q.size()));
+}
+
+TEST(Lcp, SolvesProblemsOfManyPivotsToRoundOff) {
+  std::mt19937 random(4);
+  for (int n = 60; n < 120; ++n) {
+    SCOPED_TRACE(n);
+    expect_solved_to_round_off(random_positive_definite(random, n) / n, random_vector(random, n) - Vec::Ones(n));
+    expect_solved_to_round_off(string_of(n), random_vector(random, n) - Vec::Constant(n, 0.2));
+  }
 }
 
 TEST(Lcp, SolvesRandomPMatricesOfEverySizeAndSign) {
@@ -108,6 +162,38 @@ TEST(Lcp, SolvesManyDegenerateProblemsWithoutCycling) {
   }
 }
 
+// All contacts are loaded alike, as by the accelerations of their normals' sum: whole groups of ratios are equal.
+TEST(Lcp, SolvesProblemsOfEqualRatiosWithoutCycling) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> small(-1, 1);
+  for (int repeat = 0; repeat < 5000; ++repeat) {
+    const int n = 4 + repeat % 8;
+    const Mat J = Mat::NullaryExpr(n, 2 + repeat % 4, [&] { return double(small(random)); });
+    const Mat M = J * J.transpose();
+    const Vec q = -M * Vec::Ones(n);
+    Vec z, w;
+    ASSERT_EQ(solve_lcp(M, q, z, w), LcpOutcome::solved) << M << "\n" << q;  // z = 1 is a solution
+    ASSERT_LT(violation(M, q, z, w), 1e-12) << M << "\n" << q;
+  }
+}
+
+TEST(Lcp, ScalesWithTheUnitsOfForcesAndRates) {
+  std::mt19937 random(6);
+  for (int repeat = 0; repeat < 100; ++repeat) {
+    const Mat M = random_positive_definite(random, 8);
+    const Vec q = random_vector(random, 8);
+    Vec z, w, z_scaled, w_scaled;
+    ASSERT_EQ(solve_lcp(M, q, z, w), LcpOutcome::solved);
+    for (const double rate : {1e-12, 1e12})
+      for (const double softness : {1e-6, 1e6}) {
+        ASSERT_EQ(solve_lcp(softness * M, rate * q, z_scaled, w_scaled), LcpOutcome::solved);
+        // Condition numbers to 1e4 times round-off.
+        EXPECT_LT((softness / rate * z_scaled - z).cwiseAbs().maxCoeff(), 1e-11 * z.maxCoeff());
+        EXPECT_LT((w_scaled / rate - w).cwiseAbs().maxCoeff(), 1e-11 * q.cwiseAbs().maxCoeff());
+      }
+  }
+}
+
 TEST(Lcp, SaysWhenThereIsNoSolution) {
   const Mat M{{0, 0}, {0, 0}};
   const Vec q{{-1, 1}};
@@ -116,9 +202,14 @@ TEST(Lcp, SaysWhenThereIsNoSolution) {
 }
 
 TEST(Lcp, GivesUpOnNumbersThatAreNotFinite) {
-  const Mat M = Mat::Constant(2, 2, std::nan(""));
   Vec z, w;
-  EXPECT_EQ(solve_lcp(M, Vec::Constant(2, -1), z, w), LcpOutcome::gave_up);
+  for (const int n : {1, 2})
+    for (const double number : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+      EXPECT_EQ(solve_lcp(Mat::Constant(n, n, number), Vec::Constant(n, -1), z, w), LcpOutcome::gave_up);
+      EXPECT_EQ(z, Vec::Zero(n));
+      EXPECT_EQ(solve_lcp(Mat::Identity(n, n), Vec::Constant(n, -number), z, w), LcpOutcome::gave_up);
+      EXPECT_EQ(z, Vec::Zero(n));
+    }
 }
 
 }  // namespace
