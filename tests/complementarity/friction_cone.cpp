@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 
 #include "complementarity/contact_forces.hpp"
+#include "complementarity/programs/friction_cone.hpp"
+#include "random_problems.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -151,6 +153,52 @@ TEST(FrictionCone, AForceExactlyOnItsBoundLeavesNoAcceleration) {
   ASSERT_EQ(solve_contacts(point, A, (Vec(3) << -10, 4.5, 6).finished(), F, a).outcome, LcpOutcome::solved);
   EXPECT_LT((F.tail(2) - Vector2d(-1.5, -2)).norm(), 1e-14);
   EXPECT_LT(a.tail(2).norm(), 1e-14);
+}
+
+// A third of the contacts slides, some have no friction or a given normal force.
+Problem any_cones(std::mt19937& random, int number) {
+  RandomKinds kinds;
+  kinds.contacts = 1 + number % 4, kinds.velocities = 3 * kinds.contacts + 2, kinds.most_friction = 0.5;
+  Problem problem = random_spatial(random, kinds);
+  const double accelerations = std::pow(10.0, number % 5 * 3 - 6), forces = std::pow(10.0, number % 3 * 4 - 4);
+  problem.A *= accelerations / forces, problem.b *= accelerations;
+  for (ContactPoint& p : problem.points) p.given *= forces;
+  return problem;
+}
+
+// From no forces, from near ones and from any, in whatever units; without sweeps, which follow only if Newton's method
+// ends without a solution.
+TEST(FrictionCone, IsReachedByNewtonsMethodAlone) {
+  std::mt19937 random(83);
+  std::normal_distribution<double> normal;
+  int attempts = 0, reached = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Problem problem = any_cones(random, i);
+    const Answer answer = solve(problem);
+    ASSERT_EQ(answer.outcome, LcpOutcome::solved) << i;
+    const double size = answer.F.lpNorm<Eigen::Infinity>();
+    const Vec other = size * Vec::NullaryExpr(problem.b.size(), [&] { return normal(random); });
+    for (Vec F : {Vec(0 * other), Vec(answer.F + 1e-3 * other), Vec(1e3 * other)}) {
+      ++attempts;
+      if (!solve_cones(problem.points, problem.A, problem.b, F, 1)) continue;
+      ++reached;
+      EXPECT_LE(violation(problem.points, problem.A, problem.b, F), 1e-10) << i;
+    }
+  }
+  EXPECT_GE(reached, attempts - 5);  // it may meet a step that it cannot shorten
+}
+
+TEST(FrictionCone, IsNotReachedWhereThereAreNoForces) {
+  ContactPoint slides{.normal = 0, .tangent = 1, .kind = Tangent::sliding};
+  slides.ratio[0] = -3;  // a_n = -N - 10
+  Vec F = Vec::Zero(2);
+  EXPECT_FALSE(solve_cones({slides}, Mat{{2, 1}, {1, 3}}, Vec{{-10, 0}}, F, 3));
+  const std::vector<ContactPoint> foot{{.normal = 0, .tangent = 1, .kind = Tangent::resting, .coefficient = 0.5}};
+  const Mat A{{2, 0}, {0, 3}};
+  F = Vec{{5, -2}};
+  EXPECT_FALSE(solve_cones(foot, A, Vec{{-10, 6}}, F, 0)) << "no rounds";
+  EXPECT_TRUE(solve_cones(foot, A, Vec{{-10, 6}}, F, 1));
+  EXPECT_FALSE(solve_cones(foot, A, Vec{{std::nan(""), 6}}, F, 1));
 }
 
 }  // namespace

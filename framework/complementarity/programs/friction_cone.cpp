@@ -20,7 +20,7 @@ constexpr double least_decrease = 1e-4;  // of the predicted one (Armijo)
 class Cones {
  public:
   Cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b) : points_(points), A_(A), b_(b) {
-    r_.setOnes(b.size());
+    r_.setZero(b.size());  // tangents of known slips and without friction have none
     for (const ContactPoint& p : points) {
       if (p.normal >= 0) r_[p.normal] = over(A(p.normal, p.normal));
       if (!p.held()) continue;
