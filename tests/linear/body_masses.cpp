@@ -71,6 +71,21 @@ TEST(BodyMasses, OfTheIdentityChangeNothingAlsoAfterMasses) {
   expect_solved(bodies, masses);
 }
 
+TEST(BodyMasses, AreOfAsManyBodiesAndVelocities) {
+  const std::vector<BodyBlock> bodies = three_bodies();
+  BodyMasses masses;
+  EXPECT_FALSE(masses.are_of(bodies));
+  ASSERT_TRUE(masses.factorise(bodies));
+  EXPECT_TRUE(masses.are_of(bodies));
+  std::vector<BodyBlock> other = bodies;
+  other[2].M = Mat::Identity(3, 3);
+  EXPECT_FALSE(masses.are_of(other)) << "a body that grew";
+  other = bodies;
+  other[1].M = Mat::Identity(2, 2), other[2].v0 = 5;
+  other.emplace_back().v0 = 7, other.back().M = Mat::Identity(1, 1);
+  EXPECT_FALSE(masses.are_of(other)) << "as many velocities of one body more";
+}
+
 TEST(BodyMasses, RefuseWhatIsNotPositiveDefinite) {
   for (const double m : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     for (const std::size_t k : {0u, 1u}) {

@@ -82,6 +82,33 @@ TEST(SparseSum, HasThePatternOfAFreshOneWhenBlocksGoAndComeBack) {
   EXPECT_EQ(sum.patterns(), 4) << "the third and the fourth have one";
 }
 
+// The same rows, and columns that differ first, last, or in their number.
+TEST(SparseSum, TellsBlocksApartByTheirColumns) {
+  SparseSum sum;
+  const std::array<int, 2> rows = {1, 2};
+  const Mat block = (Mat(2, 2) << 1, 2, 3, 4).finished();
+  for (const std::array<int, 2>& columns : {std::array{3, 4}, {0, 4}, {0, 5}, {3, 4}}) {
+    sum.fill(6, [&] { sum.add({rows.data(), 0, 2}, {columns.data(), 0, 2}, block, 1); });
+    Mat expected = Mat::Zero(6, 6);
+    expected(rows, columns) = block;
+    EXPECT_EQ(Mat(sum.matrix()), expected) << columns[0] << ", " << columns[1];
+  }
+  EXPECT_EQ(sum.patterns(), 4);
+}
+
+TEST(SparseSum, TakesBlocksWithoutRowsOrColumns) {
+  SparseSum sum;
+  for (int again = 0; again < 2; ++again) {
+    sum.fill(3, [&] {
+      sum.add({nullptr, 0, 0}, {nullptr, 0, 2}, Mat(0, 2), 1);
+      sum.add({nullptr, 0, 2}, {nullptr, 0, 0}, Mat(2, 0), 1);
+    });
+    EXPECT_EQ(sum.matrix().nonZeros(), 3) << "the diagonal";
+    EXPECT_EQ(Mat(sum.matrix()), Mat::Zero(3, 3));
+  }
+  EXPECT_EQ(sum.patterns(), 1);
+}
+
 TEST(SparseSum, BeginsAfreshWithAnotherSize) {
   SparseSum sum;
   Chain().sparse(sum);
