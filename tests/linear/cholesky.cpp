@@ -95,7 +95,16 @@ TEST_P(CholeskyOf, RefusesWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(cholesky.compute(M));
 }
 
-// By columns, and above 48 by blocks.
+// The last pivot is exactly 0.
+TEST_P(CholeskyOf, RefusesWhatIsExactlySingular) {
+  numerics::Cholesky cholesky;
+  const Eigen::Index n = GetParam(), alike = std::min<Eigen::Index>(2, n);
+  Mat M = Mat::Identity(n, n);
+  M.bottomRightCorner(alike, alike).setOnes();
+  EXPECT_EQ(cholesky.compute(M), n == 1);
+  EXPECT_FALSE(cholesky.compute(Mat::Zero(n, n)));
+}
+
 TEST(Cholesky, OfABodyWithoutCoordinatesHasNothingToSolve) {
   numerics::Cholesky cholesky;
   for (const int before : {0, 60}) {  // in blocks
@@ -107,7 +116,8 @@ TEST(Cholesky, OfABodyWithoutCoordinatesHasNothingToSolve) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, CholeskyOf, testing::Values(1, 2, 7, 11, 48, 49, 150));
+// By columns, and above 48 by blocks.
+INSTANTIATE_TEST_SUITE_P(Sizes, CholeskyOf, testing::Values(1, 2, 7, 8, 11, 48, 49, 150));
 
 }  // namespace
 }  // namespace trammel::test

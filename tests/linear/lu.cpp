@@ -26,6 +26,20 @@ TEST_P(LuOf, SolvesWithRowsExchanged) {
   EXPECT_LE((x - known).lpNorm<Eigen::Infinity>(), 1e-14 * GetParam());
 }
 
+// Without exchanges the pivots would be 1e-12, and four digits were left.
+TEST_P(LuOf, LosesNoDigitsToSmallPivots) {
+  const int n = GetParam();
+  Mat A = 1e-12 * shifted(n);
+  for (Eigen::Index i = 0; i < n; ++i) A((i + 1) % n, i) = 1 + 1 / double(i + 1);
+  const Vec known = Vec::LinSpaced(n, -1, 2);
+  numerics::Lu lu;
+  lu.compute(A);
+  Vec x;
+  lu.solve(A * known, x);
+  EXPECT_LE((x - known).lpNorm<Eigen::Infinity>(), 1e-15 * n);
+  for (int j = 0; j < n; ++j) EXPECT_GE(std::abs(lu.pivot(j)), 0.9) << j;
+}
+
 TEST_P(LuOf, ShowsASingularMatrixByAPivotAtRoundOff) {
   Mat A = shifted(GetParam());
   A.row(0) = GetParam() > 1 ? 2 * A.row(GetParam() - 1) : 0 * A.row(0);

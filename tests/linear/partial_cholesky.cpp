@@ -58,6 +58,13 @@ TEST(PartialCholesky, RefusesWhatIsNotPositiveDefinite) {
   }
 }
 
+TEST(PartialCholesky, RefusesWhatIsExactlySingular) {
+  for (const Index n : {2, 8, 9, 30}) {
+    EXPECT_FALSE(numerics::partial_cholesky(Lower(Mat::Ones(n, n)).numbers.data(), n, 2)) << n;
+    EXPECT_TRUE(numerics::partial_cholesky(Lower(Mat::Ones(n, n)).numbers.data(), n, 1)) << n;
+  }
+}
+
 // The complement may be anything.
 TEST(PartialCholesky, AsksNothingOfTheRest) {
   Mat A = definite(30);
