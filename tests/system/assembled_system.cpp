@@ -204,6 +204,56 @@ TEST(AssembledSystem, ACompliantContactActsOnlyWhileClosed) {
   EXPECT_NEAR(at.system.f()(1), -2 * 9.81 + 1 + 30, round_off);
   EXPECT_NEAR(at.system.energy().elastic, 1e6 * 1e-8 / 4, round_off);
   EXPECT_NEAR(at.system.balance(Vec()).contacts, 30 * 3, 1e-10);  // 10 N s/m at 3 m/s
+  modes.contacts[0].closed = false;
+  at.system.set_modes(modes);
+  EXPECT_EQ(at.system.energy().elastic, 0);
+  EXPECT_EQ(at.system.balance(Vec()).contacts, 0);
+}
+
+// Of a body's own spring, damper and drive.
+class Oscillator final : public Body {
+ public:
+  Coordinates coordinates() const override { return Coordinates::flat(1); }
+  void initial(Out q, Out v) const override { q(0) = 0.5, v(0) = 3; }
+  void mass(double, In, Matrix& M) const override { M.add(0, 0, 2); }
+  void force(double, In q, In v, Out f) const override { f(0) += 7 - 40 * q(0) - 6 * v(0); }
+  Energy energy(double, In q, In v) const override {
+    return {.kinetic = v(0) * v(0), .potential = 11, .elastic = 20 * q(0) * q(0)};
+  }
+  Power power(double, In, In v) const override { return {.supplied = 7 * v(0), .dissipated = 6 * v(0) * v(0)}; }
+  std::span<const std::string> markers() const override { return {}; }
+  void motion(int, double, In, In, Motion&) const override {}
+};
+
+TEST(AssembledSystem, AddsUpWhatItsBodiesStoreSupplyAndDissipate) {
+  auto model = std::make_shared<Model>();
+  for (const char* name : {"one", "two"}) {
+    model->bodies.emplace_back();
+    model->bodies.back().name = name;
+    model->bodies.back().body = std::make_unique<Oscillator>();
+  }
+  model->lay_out();
+  At at(model);
+  const Energy energy = at.system.energy();
+  EXPECT_EQ(energy.kinetic, 2 * 9);
+  EXPECT_EQ(energy.potential, 2 * 11);
+  EXPECT_EQ(energy.elastic, 2 * 5);
+  for (int again = 0; again < 2; ++again) {
+    const AssembledSystem::Balance& balance = at.system.balance(Vec());
+    EXPECT_EQ(balance.drives, 2 * 21);
+    EXPECT_EQ(balance.dampers, 2 * 54);
+    EXPECT_EQ(balance.contacts, 0);
+    EXPECT_EQ(balance.constraints, 0);
+    EXPECT_EQ(balance.markers, 0);
+  }
+}
+
+// Their forces do work on velocities that violate them; that is the method's error and no supply.
+TEST(AssembledSystem, RowsThatTimeDoesNotMoveSupplyNothingWhateverTheVelocities) {
+  At at(double_pendulum(false));
+  at.system.move_to(0, at.q, Eigen::Vector4d(5, -3, 2, 7));
+  ASSERT_GT(at.system.g_dot().norm(), 1);
+  EXPECT_NEAR(at.system.balance(Eigen::Vector2d(20, -30)).constraints, 0, round_off);
 }
 
 // It is asked for in every step.

@@ -190,14 +190,19 @@ const std::string swaying = R"json({
   "simulate": {"until": 2}, "record": {"every": 0.5}
 })json";
 
+// On either side of the spring.
 TEST(EnergyLedger, GivesAPointMovedByALawTheWorkItDoesThroughASpring) {
-  const Finished run = run_text(
-      swaying, {{"forces.spring", R"({"type": "spring_damper", "between": ["base.origin", "mass.point"], "stiffness": 9,
-                                      "damping": 0.1, "length": 1})"}});
-  ASSERT_TRUE(run.done()) << run.report.reason;
-  const double supplied = run.result["energy_supplied"]["moving_markers"];
-  EXPECT_GT(std::abs(supplied), 1e-3);
-  EXPECT_NEAR(drift(run), 0, 1e-11);  // Simpson's rule: (h omega)^4 / 2880 of a few watts
+  for (const char* ends : {R"(["base.origin", "mass.point"])", R"(["mass.point", "base.origin"])"}) {
+    SCOPED_TRACE(ends);
+    const Finished run =
+        run_text(swaying, {{"forces.spring", R"({"type": "spring_damper", "stiffness": 9, "damping": 0.1,
+                                                                 "length": 1, "between": )" +
+                                                 std::string(ends) + "}"}});
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    const double supplied = run.result["energy_supplied"]["moving_markers"];
+    EXPECT_GT(std::abs(supplied), 1e-3);
+    EXPECT_NEAR(drift(run), 0, 1e-11);  // Simpson's rule: (h omega)^4 / 2880 of a few watts
+  }
 }
 
 TEST(EnergyLedger, GivesAPointMovedByALawTheWorkItDoesThroughAContact) {
