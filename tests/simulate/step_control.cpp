@@ -65,6 +65,22 @@ TEST(FixedSteps, AreTheStepItselfWhereTheyFitTheStopUpToRoundOffOfTime) {
   for (const double h : taken) EXPECT_EQ(h, 0.1);
 }
 
+// The way to the stop is a multiple of the step but for the rounding of times, of whichever end is farther from 0.
+TEST(FixedSteps, AreTheStepItselfWhereTimesAreRounded) {
+  struct Way {
+    double h, from, stop;
+    int parts;
+  };
+  for (const auto& [h, from, stop, parts] : {Way{0.01, 0.08, 0.58, 50}, Way{0.01, 0.13, 1.13, 100},
+                                             Way{0.1, 5.2, 10.2, 50}, Way{0.001, -0.001, 0.009, 10}}) {
+    ASSERT_NE((stop - from) / parts, h) << from;
+    StepControl steps(fixed(h), every, 1);
+    const std::vector<double> taken = steps_to(steps, stop, from);
+    ASSERT_EQ(taken.size(), std::size_t(parts));
+    for (const double step : taken) EXPECT_EQ(step, h) << from;
+  }
+}
+
 TEST(FixedSteps, AreOfEqualLengthWhereTheStopIsNoMultiple) {
   StepControl steps(fixed(0.1), every, 1);
   const std::vector<double> taken = steps_to(steps, 10 - 1e-12);  // a hundred times the round-off of 10
@@ -82,6 +98,15 @@ TEST(FixedSteps, ThatAMethodRefusesAreHalvedTenTimesAndThenGivenUp) {
     steps.rejected(proposal.h);
   }
   EXPECT_TRUE(steps.too_small(0));
+}
+
+TEST(FixedSteps, AreHalvedFromWhereTheTimeIs) {
+  StepControl steps(fixed(0.125), every, 1);
+  steps.accepted(steps.propose(2, 3, infinity), 0);
+  steps.rejected(steps.propose(2.125, 3, infinity).h);
+  const StepControl::Proposal half = steps.propose(2.125, 3, infinity);
+  EXPECT_EQ(half.h, 0.0625);
+  EXPECT_EQ(half.t_next, 2.1875);
 }
 
 TEST(FixedSteps, ThatNoLongerMoveTheTimeAreGivenUp) {
@@ -261,6 +286,13 @@ TEST(EvenSteps, GoByTheLargerOfTheLastTwoErrors) {
   EXPECT_EQ(steps.propose(0, 1000, infinity).h, 1);
   steps.accepted(steps.propose(0, 1000, infinity), 0.3);
   EXPECT_DOUBLE_EQ(steps.propose(0, 1000, infinity).h, 3);
+}
+
+TEST(EvenSteps, GoByTheRootOfTheErrorThatIsTheOrder) {
+  StepControl steps(controlled(1), 10, 2, true);
+  steps.accepted(steps.propose(0, 1000, infinity), 0.25);
+  steps.accepted(steps.propose(0, 1000, infinity), 0.25);
+  EXPECT_DOUBLE_EQ(steps.propose(0, 1000, infinity).h, 0.9 / 0.5);
 }
 
 TEST(EvenSteps, GrowByFiveAtMost) {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include <trammel/decompositions.hpp>
+
 namespace trammel::numerics {
 namespace {
 
@@ -32,6 +36,16 @@ TEST(Anderson, TakesARightStepAsItIs) {
   const Vec s = Vec::LinSpaced(4, 1, 2);
   EXPECT_EQ(accelerated.next(s), s);
   EXPECT_EQ(accelerated.next(Vec::Zero(4)), Vec::Zero(4));
+}
+
+TEST(Anderson, BeginsAfreshWithAnotherNumberOfUnknowns) {
+  Anderson accelerated;
+  for (int i = 0; i < 4; ++i) accelerated.next(Vec::NullaryExpr(20, [i](Eigen::Index k) { return std::sin(i + k); }));
+  // Halves of the way in each direction: the second step goes all of it.
+  Vec left = Vec::LinSpaced(3, 1, 2);
+  EXPECT_EQ(accelerated.next(left / 2), left / 2);
+  left /= 2;
+  EXPECT_LE((accelerated.next(left / 2) - left).norm(), 1e-15);
 }
 
 // Each component of s goes as the others want: x_i = cos(x_(i+1)).
