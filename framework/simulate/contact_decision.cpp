@@ -233,10 +233,7 @@ complementarity::ContactSolution ContactModes::take_verdicts(const State& state,
                                                              const std::vector<Participant>& nearby) {
   const complementarity::ContactSolution solution = problem_.solve(nearby);
   if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
-  std::vector<double> nothing;
-  for (const Participant& p : problem_.who) nothing.push_back(least_acceleration(p));
-  const std::vector<bool> kept_closed = problem_.kept_closed(nothing);
-  for (std::size_t i = 0; i < problem_.who.size(); ++i) take_verdict(problem_.who[i], kept_closed[i]);
+  take_verdicts_found();
   find_shares(state);
   open_pulling_ones(state);
   return solution;
@@ -283,7 +280,28 @@ double ContactModes::time_of_change(const std::vector<bool>& asked) {
   return least;
 }
 
-void keep_others(const model::Modes& decided, const std::vector<bool>& asked, model::Modes& modes) {
+namespace {
+
+// Members of a group hold each other's forces: if one of them is asked, all are. True if this has added any.
+bool ask_whole_groups(const std::vector<model::SharedRows>& groups, std::vector<bool>& asked) {
+  bool more = false;
+  for (const model::SharedRows& group : groups) {
+    std::vector<int> members = group.sliding;
+    for (const auto* directions : {&group.basis, &group.implied})
+      for (const model::ContactDirection& d : *directions) members.push_back(d.contact);
+    const auto is_asked = [&](int contact) { return asked[std::size_t(contact)]; };
+    if (std::none_of(members.begin(), members.end(), is_asked)) continue;
+    for (const int contact : members)
+      if (!is_asked(contact)) asked[std::size_t(contact)] = more = true;
+  }
+  return more;
+}
+
+}  // namespace
+
+void keep_others(const model::Modes& decided, std::vector<bool> asked, model::Modes& modes) {
+  while (ask_whole_groups(decided.shared, asked) || ask_whole_groups(modes.shared, asked)) {
+  }
   for (std::size_t i = 0; i < asked.size(); ++i)
     if (!asked[i]) modes.contacts[i] = decided.contacts[i];
   const auto is_asked = [&](const model::SharedRows& group) {
@@ -292,6 +310,18 @@ void keep_others(const model::Modes& decided, const std::vector<bool>& asked, mo
   std::erase_if(modes.shared, [&](const model::SharedRows& group) { return !is_asked(group); });
   for (const model::SharedRows& group : decided.shared)
     if (!is_asked(group)) modes.shared.push_back(group);
+}
+
+// Rule 11. The contacts asked, and all that take part with one of them now: one that was released may press again.
+std::vector<bool> ContactModes::with_their_islands(std::vector<bool> asked) const {
+  if (problem_.who.empty()) return asked;
+  const std::vector<std::size_t> island = problem_.islands();
+  std::vector<bool> of_island(island.size(), false);
+  for (std::size_t i = 0; i < island.size(); ++i)
+    if (asked[std::size_t(problem_.who[i].contact)]) of_island[island[i]] = true;
+  for (std::size_t i = 0; i < island.size(); ++i)
+    if (of_island[island[i]]) asked[std::size_t(problem_.who[i].contact)] = true;
+  return asked;
 }
 
 // Rule 11: decides by the state a moment later. `asked`: contacts whose modes are open.
@@ -317,7 +347,7 @@ complementarity::ContactSolution ContactModes::decide_by_what_follows(const Stat
     find_candidates(changes);
     const complementarity::ContactSolution solution = decide(later, changes, jumped, now);
     system_.move_to(state.t, state.q, state.v);
-    if (solution.outcome == LcpOutcome::solved) keep_others(decided, asked, modes_);
+    if (solution.outcome == LcpOutcome::solved) keep_others(decided, with_their_islands(asked), modes_);
     if (solution.outcome != LcpOutcome::gave_up) return solution;
   }
   modes_ = decided;
@@ -346,9 +376,28 @@ void ContactModes::accelerate_participants() {
   }
 }
 
-void ContactModes::take_verdict(const Participant& p, bool kept_closed) {
+// Of the solution that was found last.
+void ContactModes::take_verdicts_found() {
+  std::vector<double> nothing;
+  for (const Participant& p : problem_.who) nothing.push_back(least_acceleration(p));
+  const std::vector<bool> kept_closed = problem_.kept_closed(nothing);
+  for (std::size_t i = 0; i < problem_.who.size(); ++i) {
+    const Participant& p = problem_.who[i];
+    const bool presses = p.N > 0 && !merely_touches(i);
+    take_verdict(p, !p.unilateral || presses || kept_closed[i]);
+  }
+}
+
+// Rule 3: an open contact whose force is round-off. Without it the gap does not accelerate.
+bool ContactModes::merely_touches(std::size_t participant) const {
+  const Participant& p = problem_.who[participant];
+  return p.unilateral && !before_.contacts[p.contact].closed && p.N > 0 &&
+         problem_.acceleration_without(participant) >= -undecided * least_acceleration(p);
+}
+
+void ContactModes::take_verdict(const Participant& p, bool closed) {
   model::ContactMode& mode = modes_.contacts[p.contact];
-  mode.closed = !p.unilateral || p.N > 0 || kept_closed;
+  mode.closed = closed;
   mode.friction = Friction::none;
   if (!mode.closed || p.tangent == Tangent::none || !system_.model().contacts[p.contact].coulomb) return;
   mode.friction = Friction::slide;

@@ -129,8 +129,9 @@ inline bool contains(const std::vector<int>& contacts, int i) {
   return std::find(contacts.begin(), contacts.end(), i) != contacts.end();
 }
 
-// Contacts that are not `asked`, and the groups in which they share, get the modes that were decided before.
-void keep_others(const model::Modes& decided, const std::vector<bool>& asked, model::Modes& modes);
+// Contacts that are not `asked`, and the groups in which they share, get the modes that were decided before. A group of
+// either modes is asked as a whole, so that none names rows that its contacts do not have.
+void keep_others(const model::Modes& decided, std::vector<bool> asked, model::Modes& modes);
 
 class ContactModes {
  public:
@@ -233,6 +234,7 @@ class ContactModes {
   double least_acceleration(const Participant& p) const;
   std::vector<bool> in_balance(const std::vector<int>& released) const;
   double time_of_change(const std::vector<bool>& asked);
+  std::vector<bool> with_their_islands(std::vector<bool> asked) const;
   [[nodiscard]] complementarity::ContactSolution decide_by_what_follows(const State& state, ContactChanges changes,
                                                                         bool jumped, const std::vector<bool>& asked,
                                                                         complementarity::ContactSolution so_far);
@@ -251,7 +253,9 @@ class ContactModes {
   void load_bearings_at_rest(const State& state, const model::Modes& open);
   void load_bearings(const State& state, const model::Modes& modes);
   void accelerate_participants();
-  void take_verdict(const Participant& p, bool kept_closed);
+  void take_verdicts_found();
+  bool merely_touches(std::size_t participant) const;
+  void take_verdict(const Participant& p, bool closed);
   void finish(State& state, bool carry);
   void append_normal_event(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
   void append_friction_events(const State& state, std::vector<ContactEvent>& events);

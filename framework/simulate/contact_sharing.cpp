@@ -238,10 +238,7 @@ void ContactModes::share_forces_found(const State& state) {
   if (!has_any(asked)) return;
   const model::Modes decided = modes_;
   const std::vector<Participant> found = problem_.who;
-  std::vector<double> nothing;
-  for (const Participant& p : found) nothing.push_back(least_acceleration(p));
-  const std::vector<bool> kept_closed = problem_.kept_closed(nothing);
-  for (std::size_t i = 0; i < found.size(); ++i) take_verdict(found[i], kept_closed[i]);
+  take_verdicts_found();
   const std::vector<bool> at_edge = problem_.take_fewest_forces(modes_, asked);
   for (std::size_t i = 0; i < at_edge.size(); ++i)
     if (Participant& p = problem_.who[i]; at_edge[i] && modes_.contacts[p.contact].friction != Friction::slide)
