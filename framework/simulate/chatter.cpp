@@ -147,7 +147,7 @@ double ContactModes::end_rocking(State& state, const Brief& brief) {
   double taken = 0;
   for (std::size_t i = 0; i < touching_.size(); ++i) {
     const bool moves_slowly = asked(touching_[i]) && touching_[i].after <= rest_speed(touching_[i]);
-    rests[i] = rests[i] || brief.stops[i] || moves_slowly;  // whose slip stops rests, with the rate that steps left
+    rests[i] = rests[i] || brief.stops[i] || moves_slowly;  // one whose slip stops may have a rate that steps left
   }
   while (any) {
     taken += take_rates(state, rests, brief.stops);

@@ -20,7 +20,8 @@
 //  3. Contacts that touch without a rate afterwards are candidates. They close where the forces of the complementarity
 //     problem
 //         A = A_free + D N,   0 <= N complementary to A >= 0      (A gap accelerations, N normal forces)
-//     push; where the gap accelerates apart they stay open ("lift").
+//     push; where the gap accelerates apart they stay open ("lift"). An open contact also stays open if its force is
+//     round-off: without it the gap would not close.
 //  4. A closed contact opens where its normal force falls through 0; rule 3 decides the others again. The single forces
 //     of redundant contacts (three feet of a planar block) are not unique: such contacts open only where rule 3 opens
 //     them.
@@ -56,9 +57,10 @@
 //     finite forces: it jams by rule 8. Rounds that find no modes prove nothing; where everything rests, loads exist
 //     and are sought as in impacts.
 // 11. Rule 3 may not decide which contacts press: a contact that was closed has neither force nor acceleration, and the
-//     others do not hold it (a stack below a ceiling that begins to tip), or no solution is found to round-off. Then
-//     the same problem is solved for the state a moment later, or later still if that leaves it open. Of several
-//     solutions then, the one near that of this instant is sought first. If there is none, rule 8 applies.
+//     others do not hold it (a stack below a ceiling that begins to tip), or has only what is left of a force at the
+//     instant found for its end, or no solution is found to round-off. Then the same problem is solved for the state a
+//     moment later, or later still if that leaves it open; contacts that share rows then are all decided by it. Of
+//     several solutions then, the one near that of this instant is sought first. If there is none, rule 8 applies.
 // 12. The friction of a contact at rest may be at its bound while its tangents depend on rows of other contacts, some
 //     of which slide (blocks that push each other along a channel). The shares of springs (complementarity/shares)
 //     would exceed the bound or give another motion than that found. Such a contact keeps T = mu N like one that

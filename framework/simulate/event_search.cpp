@@ -1,7 +1,6 @@
 // What happened within a step, from the functions' values and slopes at its ends.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "simulate/event_location.hpp"
 
@@ -109,7 +108,7 @@ bool EventLocation::hides_motion(const State& now, double h, const State& next) 
   return false;
 }
 
-// The same unit.
+// A smaller difference of gaps [m] or slips [m/s] is round-off.
 double EventLocation::resolution_of_motion(int k) const {
   const Scale scale = scale_.of(functions_[k].contact);
   return functions_[k].kind == Kind::slide ? scale.drift() : scale.touching();
@@ -142,10 +141,10 @@ bool EventLocation::dips(const State& now, double h, const State& next, int k, S
   if (cubic.F_high <= 0) return false;
   // Contacts may hold at the instant of an event, exactly at their bound, and not after it.
   if (force && just_handled(k) && cubic.F_high <= functions_[k].noise) return false;
-  // A gap that falls as fast as nothing handled leaves it closes at once, however it ends.
-  const double handled = functions_[k].kind == Kind::slide ? -std::numeric_limits<double>::infinity()
-                                                           : -scale_.of(functions_[k].contact).left_by_impacts();
-  if (!force && just_handled(k) && cubic.S_low <= 0 && cubic.S_low >= handled) return false;
+  // A gap that falls faster than an impact may have left it closes at once, whatever it is at the end.
+  const bool falls_at_once =
+      functions_[k].kind != Kind::slide && cubic.S_low < -scale_.of(functions_[k].contact).left_by_impacts();
+  if (!force && just_handled(k) && cubic.S_low <= 0 && !falls_at_once) return false;
   if (force) {
     if (!worth_slopes(k, h)) return false;
     cubic.S_low = slope_at_end(now, part_for_slopes * h, k, h, begin_slopes_);

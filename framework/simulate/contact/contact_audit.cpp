@@ -73,9 +73,10 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
     const model::ContactMode::Friction friction = system.modes().contacts[std::size_t(i)].friction;
     if (entry.coulomb && friction == model::ContactMode::Friction::stick)
       looked.beyond = T.norm() - std::max(0.0, entry.coulomb->static_coefficient() * N);
-    const model::Tangential slip = system.slip(i);
-    if (entry.coulomb && friction == model::ContactMode::Friction::slide && slip.norm() > scale.of(i).drift())
-      looked.along = T.dot(slip) / slip.norm();
+    if (entry.coulomb && friction == model::ContactMode::Friction::slide) {
+      const model::Tangential slip = system.slip(i);
+      if (slip.norm() > scale.of(i).drift()) looked.along = T.dot(slip) / slip.norm();
+    }
     doubtful = doubtful || std::max({looked.pull, looked.beyond, looked.along}) > little * std::abs(N);
     all.push_back(looked);
   }

@@ -29,6 +29,19 @@ std::string beside(double mass, double lift, double push, bool on_block) {
                      mass, lift, push, on_block ? R"(, "on": "block.com")" : "");
 }
 
+// Of the forces in these modes.
+std::vector<std::string> told_of(const simulate::Setup& setup, model::AssembledSystem& system, State& state,
+                                 const model::Modes& modes) {
+  system.set_modes(modes);
+  system.move_to(state.t, state.q, state.v);
+  system.accelerate({}, state.a, state.lambda);
+  simulate::ContactScale scale(*setup.model);
+  scale.take_all(system);
+  simulate::ContactAudit audit;
+  audit.look(system, state, scale);
+  return audit.warnings(*setup.model, simulate::Ledger(system, *setup.integrator));
+}
+
 // With all contacts closed, and these held by friction.
 std::vector<std::string> told(const std::string& scene, const std::vector<int>& held) {
   simulate::Setup setup = simulate::set_up(scene::Scene::parse(scene, "test.json"), registry());
@@ -52,14 +65,7 @@ std::vector<std::string> told(const std::string& scene, const std::vector<int>& 
   system.move_to(state.t, state.q, state.v);
   problem.prepare(system);
   modes.shared = problem.shared_rows(modes);
-  system.set_modes(modes);
-  system.move_to(state.t, state.q, state.v);
-  system.accelerate({}, state.a, state.lambda);
-  simulate::ContactScale scale(*setup.model);
-  scale.take_all(system);
-  simulate::ContactAudit audit;
-  audit.look(system, state, scale);
-  return audit.warnings(*setup.model, simulate::Ledger(system, *setup.integrator));
+  return told_of(setup, system, state, modes);
 }
 
 // Its weight is 0.01 N.
@@ -88,14 +94,7 @@ TEST(ContactAudit, TellsAFrictionAlongItsSlip) {
     modes.contacts[0].closed = true;
     modes.contacts[0].friction = model::ContactMode::Friction::slide;
     modes.contacts[0].direction = model::Tangential(direction, 0);
-    system.set_modes(modes);
-    system.move_to(state.t, state.q, state.v);
-    system.accelerate({}, state.a, state.lambda);
-    simulate::ContactScale scale(*setup.model);
-    scale.take_all(system);
-    simulate::ContactAudit audit;
-    audit.look(system, state, scale);
-    const std::vector<std::string> warnings = audit.warnings(*setup.model, simulate::Ledger(system, *setup.integrator));
+    const std::vector<std::string> warnings = told_of(setup, system, state, modes);
     if (direction > 0)
       EXPECT_THAT(warnings, IsEmpty());
     else
