@@ -13,6 +13,7 @@ constexpr double places[] = {inside, 0.7639320225002103, 0.1458980337503154};
 constexpr double off_ends = 1e-3;         // of an interval: a minimum nearer to an end is moved there if slopes dip
 constexpr double part_for_slopes = 1e-3;  // of the step: the difference in time that gives a force's slope
 constexpr double hides_nothing = 1e-6;    // of the longest step so far: shorter ones are of the location of events
+constexpr double jumps_of_shares = 10;    // of vanished_force: shares follow the motion in small jumps
 constexpr int most_probes = 6;
 
 // In space a slip ends by steps that leave a fifth of it. Near its zero the stiffness mu N/|s| across it is more than
@@ -129,7 +130,8 @@ bool EventLocation::hides_force(const State& now, double h, const State& next) {
     const double straight = h_before_ == 0 ? now_[k].f + inside * (next_[k].f - now_[k].f)
                                            : now_[k].f + (now_[k].f - functions_[k].force_before) * (h / h_before_);
     const double found = h_before_ == 0 ? probe_[k].f : next_[k].f;
-    if (std::abs(found - straight) > std::max(0.5 * size, functions_[k].little)) return true;
+    const double unresolved = (is_shared_force(functions_[k]) ? jumps_of_shares : 1) * functions_[k].little;
+    if (std::abs(found - straight) > std::max(0.5 * size, unresolved)) return true;
   }
   return false;
 }

@@ -98,6 +98,28 @@ TEST(CarryingRows, OfLeastNormForAnyBasisAndAnyIdleContacts) {
   EXPECT_NEAR((least_norm_shares(K) - least_norm_shares(E, std::vector<bool>(5, false))).norm(), 0, 1e-14);
 }
 
+// Two contacts that carry, along (1, 0) and (1, d), beside one along (0, 1). Where d passes 0 their forces may stay
+// finite, although the inverse does not.
+TEST(CarryingRows, ShareAcrossADependenceAsALittleBesideIt) {
+  for (const double d : {1e-2, 1e-4, 1e-6, 1e-7, 1e-9, 1e-12, 1e-16, 0.0}) {
+    for (const double sign : {1.0, -1.0}) {
+      Mat E(2, 3);
+      E << 1, 1, 0, 0, sign * d, 1;
+      const Mat share = least_norm_shares(E, {false, false, true});
+      SCOPED_TRACE(sign * d);
+      EXPECT_LE(share.norm(), 2e8);
+      EXPECT_EQ(share.row(2).norm(), 0);
+      const Mat carried = E * share;
+      EXPECT_NEAR(carried(0, 0), 1, 1e-7);
+      EXPECT_NEAR(carried(0, 1), 0, 1e-7 * share.norm());
+      EXPECT_NEAR(carried(1, 0), 0, 1e-7);
+      if (d < 1e-7) continue;
+      EXPECT_NEAR(share(1, 1) * sign * d, 1, 1e-8);
+      EXPECT_NEAR(share(0, 1) * sign * d, -1, 1e-8);
+    }
+  }
+}
+
 // The third foot of each beam follows from the others; a contact on its own shares with none.
 TEST(SharingGroups, AreTheContactsOfOneBody) {
   Mat G = Mat::Zero(7, 5);

@@ -1,6 +1,7 @@
 #include "complementarity/shares/carrying_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -13,6 +14,11 @@ using Eigen::Index;
 using Tangent = ContactRole::Tangent;
 
 namespace {
+
+// Relative to the largest pivot of E. Where rows that carry come to depend on each other, F is finite, but
+// share is not, and its round-off would be as large as F. A resultant is then carried as if it were this far from
+// there, which changes F by as little.
+constexpr double least_carried = 1e-8;
 
 // The contact that a row of A belongs to.
 std::vector<std::size_t> contacts_of_rows(const std::vector<ContactPoint>& points) {
@@ -44,10 +50,15 @@ Mat least_norm_shares(const Mat& resultants, const std::vector<bool>& idle) {
   for (std::size_t k = 0; k < idle.size(); ++k)
     if (!idle[k]) carrying.push_back(Index(k));
   Mat share = Mat::Zero(resultants.cols(), resultants.rows());
-  const Mat of_carrying = resultants(Eigen::all, carrying);
-  const Mat one = Mat::Identity(resultants.rows(), resultants.rows());
-  const Mat found = Eigen::CompleteOrthogonalDecomposition<Mat>(of_carrying).solve(one);
-  share(carrying, Eigen::all) = found;
+  const Mat transposed = resultants(Eigen::all, carrying).transpose();
+  const Eigen::ColPivHouseholderQR<Mat> qr(transposed);  // E P = (Q R)^T
+  const Index n = resultants.rows();
+  Mat R = qr.matrixR().topRows(n);
+  for (Index k = 0; k < n; ++k)
+    R(k, k) = std::copysign(std::max(std::abs(R(k, k)), least_carried * qr.maxPivot()), R(k, k));
+  const Mat permuted = qr.colsPermutation().transpose();
+  const Mat along_Q = R.triangularView<Eigen::Upper>().transpose().solve(permuted);
+  share(carrying, Eigen::all) = first_columns_of_q(qr, n) * along_Q;
   return share;
 }
 

@@ -49,6 +49,15 @@ class PivotedCholesky {
   double least_share_;
 };
 
+void neglect_round_off(const Mat& A, RowBasis& rows) {
+  const Vec length = A.diagonal().cwiseSqrt();
+  for (std::size_t i = 0; i < rows.implied.size(); ++i)
+    for (std::size_t j = 0; j < rows.basis.size(); ++j) {
+      double& share = rows.K(Eigen::Index(i), Eigen::Index(j));
+      if (std::abs(share) * length[rows.basis[j]] <= no_share * length[rows.implied[i]]) share = 0;
+    }
+}
+
 }  // namespace
 
 Mat RowBasis::resultants() const {
@@ -63,6 +72,7 @@ RowBasis find_basis(const Mat& A, const std::vector<Eigen::Index>& first, const 
   cholesky.take(first, result);
   cholesky.take(others, result);
   result.K = implied_by(A, result.basis, result.implied);
+  neglect_round_off(A, result);
   return result;
 }
 
@@ -75,18 +85,12 @@ std::vector<Eigen::Index> well_conditioned_rows(const Mat& A, const std::vector<
 
 Mat implied_by(const Mat& A, const std::vector<Eigen::Index>& basis, const std::vector<Eigen::Index>& implied) {
   const Eigen::Index n = Eigen::Index(basis.size()), m = Eigen::Index(implied.size());
-  Mat K = Mat::Zero(m, n);
-  if (n == 0 || m == 0) return K;
-  const Vec length = A.diagonal().cwiseSqrt();
-  const Vec scale = length(basis).cwiseInverse();
+  if (n == 0 || m == 0) return Mat::Zero(m, n);
+  const Vec scale = A.diagonal()(basis).cwiseSqrt().cwiseInverse();
   const Mat of_basis = scale.asDiagonal() * A(basis, basis) * scale.asDiagonal();
   const Mat of_implied = scale.asDiagonal() * A(basis, implied);
   const Mat found = Eigen::LLT<Mat>(of_basis).solve(of_implied);
-  K = (scale.asDiagonal() * found).transpose();
-  for (Eigen::Index i = 0; i < m; ++i)
-    for (Eigen::Index j = 0; j < n; ++j)
-      if (std::abs(K(i, j)) * length[basis[std::size_t(j)]] <= no_share * length[implied[std::size_t(i)]]) K(i, j) = 0;
-  return K;
+  return (scale.asDiagonal() * found).transpose();
 }
 
 Vec beside_basis(const Mat& A, const std::vector<Eigen::Index>& basis, const std::vector<Eigen::Index>& others,

@@ -15,11 +15,9 @@ namespace {
 
 using Eigen::Index;
 
-// Relative to the rates of the motion: K is still valid. Entries of K below 1e-9 are neglected
-// (complementarity/shares/row_basis.cpp), which limits its accuracy.
-constexpr double same = 1e-8;
-// Relative to the terms of a rate: joints fix the direction.
-constexpr double round_off = 1e-12;
+// Relative to the terms of the rates of a motion: K is still valid. Shares, and with them the forces of idle contacts,
+// jump by as much where K is renewed.
+constexpr double round_off = 1e-13;
 
 }  // namespace
 
@@ -61,13 +59,13 @@ bool SharedRowsAtPoint::still_implied(const SharedRows& group, const Vec& some) 
   for (const ContactDirection& d : group.basis) of_basis.push_back(rate_by(d, some));
   for (Index i = 0; i < group.K.rows(); ++i) {
     const Rate own = rate_by(group.implied[std::size_t(i)], some);
-    double off = own.sum, size = std::abs(own.sum), terms = own.terms;
+    double off = own.sum, terms = own.terms;
     for (Index j = 0; j < group.K.cols(); ++j) {
       const Rate& other = of_basis[std::size_t(j)];
       off -= group.K(i, j) * other.sum;
-      size += std::abs(group.K(i, j) * other.sum), terms += std::abs(group.K(i, j)) * other.terms;
+      terms += std::abs(group.K(i, j)) * other.terms;
     }
-    if (std::abs(off) > same * size + round_off * terms) return false;
+    if (std::abs(off) > round_off * terms) return false;
   }
   return true;
 }

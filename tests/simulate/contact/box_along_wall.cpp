@@ -47,7 +47,8 @@ std::string scene(const BoxAlongWall& b, const std::vector<std::string>& contact
       (b.width * b.width + length * length) / 12, b.width / 2, length / 2, height / 2, b.speed, markers, all);
 }
 
-// Also where the box tips over its front edge, its friction on the floor lies in its plane of symmetry.
+// Also where the box tips over its front edge, its friction on the floor lies in its plane of symmetry. A slip below
+// 1e-7 of the speed counts as rest, which moves the box by as much in the second that follows.
 void expect_no_effect_of_wall(const BoxAlongWall& b) {
   const Finished alone = run_text(scene(b, {"f0", "f1", "f2", "f3"}));
   ASSERT_TRUE(alone.done()) << alone.report.reason;
@@ -57,14 +58,20 @@ void expect_no_effect_of_wall(const BoxAlongWall& b) {
     const Finished run = run_text(scene(b, contacts));
     ASSERT_TRUE(run.done()) << order << ": " << run.report.reason;
     EXPECT_LT(run.result["counts"]["steps"], 1000) << order;
+    EXPECT_TRUE(run.result["warnings"].empty()) << order << ": " << run.result["warnings"];
     for (const char* column : {"x", "y", "z", "wx", "wz"})
-      EXPECT_NEAR(run.end(column), alone.end(column), 1e-7) << order << " " << column;
+      EXPECT_NEAR(run.end(column), alone.end(column), 1e-7 * b.speed) << order << " " << column;
     for (std::size_t k = contacts.size(); k > 1; --k) std::swap(contacts[k - 1], contacts[random() % k]);
   }
 }
 
 TEST(BoxThatTouchesAWall, TipsOverOnTheFloorAsWithoutTheWall) {
   expect_no_effect_of_wall({0.2, 0.3, 0.6, 1});
+}
+
+// Its feet on the wall are idle, and their forces as springs are round-off.
+TEST(BoxThatTouchesAWall, TipsOverAnEdgeThatSticksInFewSteps) {
+  expect_no_effect_of_wall({0.5, 0.3, 0.3, 2});
 }
 
 // A contact that was released takes no part, so its mode is not asked again; but it may press a moment later, where a
