@@ -239,17 +239,21 @@ complementarity::ContactSolution ContactModes::take_verdicts(const State& state,
   return solution;
 }
 
-// Rule 11. By participant: the error of the solution of its island, or of the instant at which a force fell to 0,
-// leaves open which contacts press.
+// Rule 11. By participant: the error of the solution of its island, or of the instant at which a force in it fell to 0,
+// leaves open which contacts press. What is left of that force may have passed to another contact.
 std::vector<bool> ContactModes::in_balance(const std::vector<int>& released) const {
   if (problem_.who.empty()) return {};
+  const auto loses_a_force = [&](int contact) {
+    return std::any_of(released.begin(), released.end(),
+                       [&](int other) { return scale_.island(other) == scale_.island(contact); });
+  };
   const std::vector<double> largest = problem_.largest_beside();
   const std::vector<std::size_t> island = problem_.islands();
   std::vector<bool> open(problem_.who.size(), false), all;  // by island
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     const Participant& p = problem_.who[i];
     const bool opens = before_.contacts[p.contact].closed && !modes_.contacts[p.contact].closed;
-    const double error = contains(released, p.contact) ? std::max(p.violation, error_of_release) : p.violation;
+    const double error = loses_a_force(p.contact) ? std::max(p.violation, error_of_release) : p.violation;
     const bool just_presses = p.N > 0 && p.N <= undecided * error * largest[i];
     if (p.unilateral && (just_presses || (opens && p.a_n <= least_acceleration(p)))) open[island[i]] = true;
   }
