@@ -25,6 +25,9 @@ constexpr double error_of_impacts = 1e-9;
 constexpr double error_of_accelerations = 1e-12;
 // Relative to the largest force in the island: what is left, or lacks, of a force at the instant found for its end.
 constexpr double error_of_release = 1e-10;
+// Of `least_slip`: a smaller slip left in a contact at rest turns its friction by no more (system/point/slip.hpp) when
+// it begins to slide.
+constexpr double no_turn = 1e-9;
 // Of the speed that a fixed step changes: less is not resolved by such steps.
 constexpr double part_of_step = 0.1;
 
@@ -112,15 +115,20 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
   const bool was_closed = before.closed && before.friction != Friction::none;
   const double rest_speed = std::max(stick_speed(p.contact), jumped ? error_of_impact(p.contact) : 0);
   bool rests = speed <= rest_speed;
-  p.direction = direction_of(slip);
+  Tangential unit = direction_of(slip);
+  p.direction = unit;
   if (was_closed && !jumped) {
     const model::SlipDirection goes(slip, before.direction, before.least_slip);
     const bool stopped = contains(changes.stopped, p.contact);
     rests = before.friction == Friction::stick || (stopped && std::abs(goes.across()) <= unresolved(p.contact, state));
-    if (!stopped) p.direction = goes.unit();
+    if (!stopped) {
+      unit = goes.unit();
+      // A slower slip goes on turning from the direction that it had (system/point/slip.hpp).
+      p.direction = goes.along() > before.least_slip ? unit : before.direction;
+    }
   }
   p.tangent = rests ? Tangent::resting : Tangent::sliding;
-  if (!rests) p.ratio = -p.mu * p.direction;
+  if (!rests) p.ratio = -p.mu * unit;
   p.let_go = p.yielded = rests && !shared_before_[p.contact] && contains(changes.yielded, p.contact) &&
                          entry.coulomb->decide() == SetValuedFriction::Decide::at_events;
 }
@@ -184,17 +192,19 @@ bool ContactModes::stop_with_others(ContactChanges& changes) {
 // Rule 7: ends the drift of the contacts at rest. True if this has ended the slip of sliding contacts too; they are
 // added to changes.stopped.
 bool ContactModes::end_drift(State& state, ContactChanges& changes) {
-  bool drifted = false;
+  bool drifted = false, turns = false;
   for (Participant& p : problem_.who) {
     if (p.tangent != Tangent::resting) continue;
     p.a_t = system_.slip(p.contact);
-    const double drift = p.a_t.norm();
+    const double drift = p.a_t.norm(), least = least_slip(p.contact);  // 0 in the plane, where no slip turns
     drifted = drifted || drift > stick_speed(p.contact);
+    turns = turns || (least > 0 && drift > no_turn * least);
   }
-  if (!drifted) return false;
+  if (!drifted && !turns) return false;
   problem_.end_slip(dv_);
   state.v += dv_;
   system_.move_to(state.t, state.q, state.v);
+  if (!drifted) return false;
   bool more = false;
   for (int i = 0; i < int(before_.contacts.size()); ++i) {
     if (!before_.contacts[i].closed || before_.contacts[i].friction != Friction::slide) continue;

@@ -41,7 +41,8 @@
 //     pulling force (large mu). All other contacts at rest are checked at the same instant.
 //  7. A slip that the steps have left in contacts at rest (a drift) is ended by the least change of v. Other contacts
 //     whose slip ends with it (the third foot of a table), and those whose slip follows from the rates of the contacts
-//     at rest, are then at rest as well, and rule 5 is applied again.
+//     at rest, are then at rest as well, and rule 5 is applied again. In space, drift that is round-off is ended too,
+//     since it would turn the friction of a contact that begins to slide.
 //  8. Rigid contacts may have no solution with finite forces (Painleve's rod), or forces that grow beyond all bounds as
 //     that state is approached (event_location.hpp rejects controlled steps past it). Then an impact without collision
 //     stops or turns the slip: rule 1 with nothing approaching, in which dependent contacts, none of which could part
