@@ -74,10 +74,10 @@
 //     island) count as idle, too, or else none does. A contact with such a force that pulls by its row in these modes
 //     opens, if its gap then accelerates apart (open_pulling_ones).
 // 14. The forces in the modes decided may still pull or leave a cone, although the problem has a solution: springs'
-//     shares are not admissible, and others are another motion (rows of blocks between walls). In the plane, forces are
-//     then taken whose modes leave no share free: as few parts along edges of cones as there are independent rows at
-//     rest. A contact without a part is idle, and one at rest with a single part keeps T = mu N (rule 12), unless no
-//     other row holds its tangent.
+//     shares are not admissible, and others are another motion (rows of blocks between walls). Where no cone is round
+//     (in the plane, or where all slide), forces are then taken whose modes leave no share free: as few parts along
+//     edges of cones as there are independent rows at rest. A contact without a part is idle, and one at rest with a
+//     single part keeps T = mu N (rule 12), unless no other row holds its tangent.
 //
 // `rebound: constrained` makes candidates of contacts that separate at e u-. `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0. `onset: next_step` only changes when an event is seen.

@@ -108,7 +108,7 @@ class ContactProblem {
   // A part of a force on an edge of a cone: T = ratio N.
   struct Edge {
     std::size_t who;
-    double ratio;
+    Tangential ratio;
   };
   std::vector<Eigen::Index> rows_at_rest(const std::vector<std::size_t>& members, const model::Modes& modes) const;
   void keep_held(const std::vector<std::size_t>& members, const model::Modes& modes, std::vector<bool>& at_edge) const;

@@ -1,4 +1,4 @@
-// Rule 14 of contact_mode.hpp: forces that leave no share free, in the plane.
+// Rule 14 of contact_mode.hpp: forces that leave no share free, where no cone is round.
 //
 //     A_R (D x) = -b_R - A_R F_o,  x >= 0        R: rows at rest;  D: a column (1, ratio) for each edge of a cone;
 //                                                F_o: forces of joints and of other participants
@@ -33,13 +33,13 @@ std::vector<ContactProblem::Edge> ContactProblem::edges_of(const std::vector<std
     const model::ContactMode& mode = modes.contacts[std::size_t(p.contact)];
     if (!p.unilateral || !mode.closed) continue;
     if (points_[i].tangent < 0 || p.tangent == Participant::Tangent::none)
-      edges.push_back({i, 0});
+      edges.push_back({i, Tangential::Zero()});
     else if (p.tangent == Participant::Tangent::sliding)
-      edges.push_back({i, p.ratio[0]});
+      edges.push_back({i, p.ratio});
     else if (mode.friction == model::ContactMode::Friction::slide)
-      edges.push_back({i, -p.mu * mode.direction[0]});
+      edges.push_back({i, -p.mu * mode.direction});
     else
-      edges.push_back({i, -p.mu}), edges.push_back({i, p.mu});
+      edges.push_back({i, {-p.mu, 0}}), edges.push_back({i, {p.mu, 0}});
   }
   return edges;
 }
@@ -80,9 +80,12 @@ std::vector<bool> ContactProblem::take_fewest_forces(const model::Modes& modes, 
   std::vector<bool> at_edge(who.size(), false);
   const std::vector<std::size_t> number = islands();
   for (const complementarity::Island& island : complementarity::islands(points_, delassus_)) {
-    const auto is_round = [this](std::size_t i) { return points_[i].tangents > 1 && points_[i].tangent >= 0; };
+    const auto has_round_cone = [&](std::size_t i) {
+      const model::ContactMode& mode = modes.contacts[std::size_t(who[i].contact)];
+      return points_[i].tangents > 1 && points_[i].tangent >= 0 && mode.friction == model::ContactMode::Friction::stick;
+    };
     if (!asked[number[island.members.front()]]) continue;
-    if (std::any_of(island.members.begin(), island.members.end(), is_round)) continue;
+    if (std::any_of(island.members.begin(), island.members.end(), has_round_cone)) continue;
     std::vector<std::size_t> members;  // sorted, since forces are not unique and the first of equal edges is taken
     const Mat A = delassus_(island.rows, island.rows);
     const Vec b = b_(island.rows);
@@ -94,12 +97,13 @@ std::vector<bool> ContactProblem::take_fewest_forces(const model::Modes& modes, 
     for (std::size_t k = 0; k < edges.size(); ++k) {
       const complementarity::ContactPoint& p = points_[edges[k].who];
       directions(p.normal, Eigen::Index(k)) = 1;
-      if (p.tangent >= 0) directions(p.tangent, Eigen::Index(k)) = edges[k].ratio;
+      if (p.tangent >= 0)
+        directions.col(Eigen::Index(k)).segment(p.tangent, p.tangents) = edges[k].ratio.head(p.tangents);
     }
     Vec others = F_;
     for (const Edge& e : edges) {
       others[points_[e.who].normal] = 0;
-      if (points_[e.who].tangent >= 0) others[points_[e.who].tangent] = 0;
+      if (points_[e.who].tangent >= 0) others.segment(points_[e.who].tangent, points_[e.who].tangents).setZero();
     }
     Mat B = delassus_(rows, Eigen::all) * directions;
     const Vec length = B.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
@@ -120,7 +124,8 @@ std::vector<bool> ContactProblem::take_fewest_forces(const model::Modes& modes, 
     for (const Edge& e : edges) {
       Participant& p = who[e.who];
       p.N = F[points_[e.who].normal];
-      if (points_[e.who].tangent >= 0) p.T[0] = F[points_[e.who].tangent];
+      const complementarity::ContactPoint& point = points_[e.who];
+      if (point.tangent >= 0) p.T.head(point.tangents) = F.segment(point.tangent, point.tangents);
       at_edge[e.who] = p.tangent == Participant::Tangent::resting && parts[e.who] == 1;
     }
     keep_held(members, modes, at_edge);

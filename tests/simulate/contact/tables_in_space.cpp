@@ -229,6 +229,23 @@ TEST(Table, OfManyFeetSlidesSpinsTipsAndStopsByForcesThatContactsHave) {
   }
 }
 
+// Much friction leaves most feet without a load, and the last microseconds before they stop turn all slips.
+TEST(Table, OnARingOfFeetWithMuchFrictionIsPushedByForcesThatContactsHave) {
+  for (const unsigned seed : {2u, 5u, 21u, 39u, 64u, 77u, 103u, 111u}) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+    HighTable table{1, any(0.3, 0.6), {0.1, 0.12, 0.15}, {}, {any(0.5, 3), 0, any(-5, 5)}, {0, 0, 0, 0}, 1};
+    const double mu = any(0.5, 1);
+    const int feet = 4 + int(seed % 5);
+    for (int i = 0; i < feet; ++i)
+      table.feet.push_back({std::cos(2 * pi * i / feet), std::sin(2 * pi * i / feet), mu, mu});
+    const Finished end = run(table);
+    ASSERT_TRUE(end.done()) << end.report.reason;
+    EXPECT_THAT(end.report.summary, testing::Not(testing::HasSubstr("not to be trusted")));
+  }
+}
+
 TEST(Table, AtRestSharesTheForceThatHoldsIt) {
   const Finished run =
       run_text(table(3, rigid, R"("velocity": [0, 0, 0])"),
