@@ -1,8 +1,11 @@
 // Friction as a complementarity problem: the instances of the reference, and what its degenerate cases end in.
 #include "complementarity/contact_forces.hpp"
 
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <Eigen/LU>
@@ -139,6 +142,114 @@ TEST(ContactForces, OfAFootThatBeginsToSlideAreFoundBesideALightBodyUnderALargeL
     EXPECT_NEAR(F[1], -5 - std::min(excess, 0.0), 1e-10);
     EXPECT_NEAR(a[1], std::max(excess, 0.0), 1e-10);
   }
+}
+
+// A body between two walls that approach each other by `closing`, the first one with 10.
+struct Squeezed {
+  std::vector<ContactPoint> walls{{.normal = 0}, {.normal = 1}};
+  Mat A{{1, -1}, {-1, 1}};
+  Vec b;
+  explicit Squeezed(double closing) : b(Vec{{-10, 10 - closing}}) {}
+  LcpOutcome solve(const std::vector<double>& nothing, Vec& F, Vec& a) const {
+    std::vector<double> violation;
+    return solve_contacts(walls, A, b, F, a, nothing, violation).outcome;
+  }
+};
+
+// The largest acceleration that counts as none in an island is that of any of its contacts.
+TEST(ContactForces, MayDisagreeByWhatCountsAsNothing) {
+  const Squeezed squeezed(1e-6);
+  Vec F, a;
+  for (const std::vector<double>& nothing : {std::vector{1e-5, 0.0}, {0.0, 1e-5}})
+    EXPECT_EQ(squeezed.solve(nothing, F, a), LcpOutcome::solved);
+  EXPECT_NEAR(F[0] - F[1], 10, 1e-5);
+  EXPECT_EQ(squeezed.solve({0, 0}, F, a), LcpOutcome::gave_up);
+}
+
+TEST(ContactForces, ViolateTheConditionsAsMuchAsTheWorstIslandDoes) {
+  for (const bool squeezed_first : {true, false}) {
+    const Squeezed squeezed(1e-6);
+    Mat A = Mat::Identity(3, 3);
+    Vec b = Vec::Constant(3, -5), F, a;
+    const int at = squeezed_first ? 0 : 1;
+    A.block(at, at, 2, 2) = squeezed.A, b.segment(at, 2) = squeezed.b;
+    const std::vector<ContactPoint> points{{.normal = 0}, {.normal = 1}, {.normal = 2}, {.given = 3}};
+    std::vector<double> violation;
+    const ContactSolution found = solve_contacts(points, A, b, F, a, {1e-5, 1e-5, 1e-5, 0}, violation);
+    ASSERT_EQ(found.outcome, LcpOutcome::solved);
+    EXPECT_GT(found.violation, 1e-11);
+    EXPECT_EQ(found.violation, violation[std::size_t(at)]);
+    EXPECT_EQ(violation[std::size_t(at)], violation[std::size_t(at) + 1]);
+    EXPECT_LE(violation[squeezed_first ? 2 : 0], 1e-15);
+    EXPECT_EQ(violation[3], 0);  // it has no row
+    EXPECT_NEAR(F[squeezed_first ? 2 : 0], 5, 1e-14);
+  }
+}
+
+TEST(ContactForces, AreZeroIfOneIslandHasNoSolution) {
+  const Squeezed squeezed(1);
+  Mat A = Mat::Identity(3, 3);
+  Vec b = Vec::Constant(3, -5), F, a;
+  A.bottomRightCorner(2, 2) = squeezed.A, b.tail(2) = squeezed.b;
+  EXPECT_EQ(solve_contacts({{.normal = 0}, {.normal = 1}, {.normal = 2}}, A, b, F, a).outcome, LcpOutcome::no_solution);
+  EXPECT_EQ(F, Vec::Zero(3));
+  EXPECT_EQ(a, Vec::Zero(3));
+}
+
+TEST(ContactForces, OfNoContactsOrOfWhatIsNoNumberAreNone) {
+  Vec F, a;
+  const ContactSolution none = solve_contacts({}, Mat(0, 0), Vec(0), F, a);
+  EXPECT_EQ(none.outcome, LcpOutcome::solved);
+  EXPECT_EQ(none.violation, 0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [A, b] : {std::pair(1.0, nan), std::pair(nan, -1.0)}) {
+    const ContactSolution found = solve_contacts({{.normal = 0}}, Mat{{A}}, Vec{{b}}, F, a);
+    EXPECT_EQ(found.outcome, LcpOutcome::gave_up);
+    EXPECT_TRUE(std::isinf(found.violation));
+    EXPECT_EQ(F, Vec::Zero(1));
+  }
+}
+
+// A foot of c N = 1 under a given force, pushed along its only row.
+TEST(ContactForces, OfAFootAtRestLeaveNoAccelerationAndKeepWithinTheirBound) {
+  const std::vector<ContactPoint> foot{{.tangent = 0, .kind = Tangent::resting, .coefficient = 0.5, .given = 2}};
+  Vec F, a;
+  for (int i = 1; i <= 30; ++i) {
+    const double push = 0.1 * i;
+    ASSERT_EQ(solve_contacts(foot, Mat{{3}}, Vec{{-push}}, F, a).outcome, LcpOutcome::solved);
+    EXPECT_NEAR(F[0], push / 3, 1e-15);
+    EXPECT_EQ(a[0], 0) << push;
+    EXPECT_LE(F[0], 1);
+  }
+  ASSERT_EQ(solve_contacts(foot, Mat{{3}}, Vec{{-3 * (1 + 1e-14)}}, F, a).outcome, LcpOutcome::solved);
+  EXPECT_EQ(F[0], 1);
+  EXPECT_EQ(a[0], 0);
+}
+
+// To 1e-13 of the accelerations of its island, 200.
+TEST(ContactForces, ThatRoundOffWouldExplainAreNone) {
+  const std::vector<ContactPoint> points{{.normal = 0}, {.normal = 1}};
+  const Mat A{{1, 0.5}, {0.5, 1}};
+  Vec F, a;
+  for (const auto& [small, left] : {std::pair(1e-11, 0.0), std::pair(4e-11, 4e-11)}) {
+    ASSERT_EQ(solve_contacts(points, A, -A * Vec{{100, small}}, F, a).outcome, LcpOutcome::solved);
+    EXPECT_NEAR(F[1], left, left * 1e-3);
+    EXPECT_EQ(a, Vec::Zero(2));
+  }
+}
+
+// a_n = (2 - p) N - 10. Where N = 1e14 the round-off of its terms would be as large as a part of 10.
+TEST(ContactForces, ThatCancelBeyondRoundOffAreNoSolution) {
+  const auto solved = [](double left, Vec& F) {
+    Vec a;
+    const std::vector<ContactPoint> slides{
+        {.normal = 0, .tangent = 1, .kind = Tangent::sliding, .ratio = {-(2 - left), 0}}};
+    return solve_contacts(slides, Mat{{2, 1}, {1, 3}}, Vec{{-10, 0}}, F, a).outcome == LcpOutcome::solved;
+  };
+  Vec F;
+  ASSERT_TRUE(solved(1.0 / 1024 / 1024 / 1024, F));
+  EXPECT_NEAR(F[0] / (10.0 * 1024 * 1024 * 1024), 1, 1e-6);
+  EXPECT_FALSE(solved(std::pow(2, -44), F));
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 // Without friction: a convex program, solved for any number of contacts, dependent or not, or proved to have no
 // solution.
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "complementarity/programs/nonnegative_least_squares.hpp"
@@ -138,6 +141,59 @@ TEST(Frictionless, KeepsItsForcesInAnyOrder) {
     ASSERT_EQ(other.outcome, LcpOutcome::solved);
     const Vec F = permuted_back(problem, order, other.F);
     EXPECT_LE((F - first.F).lpNorm<Eigen::Infinity>(), 1e-9 * F.lpNorm<Eigen::Infinity>()) << i << problem.kind;
+  }
+}
+
+// Of a heavy and a light body, in any units.
+TEST(PressingForces, HoldBodiesOfAnyMass) {
+  for (const double unit : {1.0, 1e-20, 1e20})
+    for (const double heavy : {1.0, 1e-8, 1e-12}) {
+      const Mat A = unit * Mat{{heavy, 0}, {0, 1}};
+      Vec N;
+      ASSERT_EQ(pressing_forces(A, Vec{{-2, -3}}, N), LcpOutcome::solved) << unit << " " << heavy;
+      EXPECT_NEAR(N[0] * unit * heavy, 2, 1e-14);
+      EXPECT_NEAR(N[1] * unit, 3, 1e-14);
+    }
+}
+
+TEST(PressingForces, AreNoneWhereNothingApproachesOrIsANumber) {
+  Vec N;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(pressing_forces(Mat{{2}}, Vec{{0}}, N), LcpOutcome::solved);
+  EXPECT_EQ(N[0], 0);
+  EXPECT_EQ(pressing_forces(Mat{{nan}}, Vec{{-1}}, N), LcpOutcome::gave_up);
+  EXPECT_EQ(pressing_forces(Mat{{2}}, Vec{{nan}}, N), LcpOutcome::gave_up);
+}
+
+// Walls that close in on a body by `closing`, one with `speed`: that each would press without the other is certain from
+// 3e-7 of the speed times sqrt(2), the length of the forces (1, 1) in balance.
+TEST(PressingForces, LetWallsCloseInByRoundOff) {
+  const Mat A{{1, -1}, {-1, 1}};
+  for (const double speed : {1e-3, 10.0, 1e5}) {
+    const auto press = [&](double closing, Vec& N) {
+      return pressing_forces(A, Vec{{-speed, speed - closing * std::sqrt(2.0) * speed}}, N);
+    };
+    Vec N;
+    ASSERT_EQ(press(2.9e-7, N), LcpOutcome::solved) << speed;
+    EXPECT_NEAR(N[0], speed, 1e-14 * speed);
+    EXPECT_EQ(N[1], 0);
+    ASSERT_EQ(press(3.1e-7, N), LcpOutcome::no_solution) << speed;
+    EXPECT_LE((N - Vec{{1, 1}} / std::sqrt(2.0)).norm(), 1e-15);
+  }
+}
+
+// A stack presses each of its contacts with what lies on it: the sums of the weights, to round-off.
+TEST(PressingForces, OfAStackAreTheWeightsAbove) {
+  for (const int n : {1, 2, 5, 40}) {
+    Mat A = Mat::Zero(n, n);  // contact k is below block k
+    for (int k = 0; k < n; ++k) {
+      A(k, k) = k == 0 ? 1 : 2;
+      if (k > 0) A(k, k - 1) = A(k - 1, k) = -1;
+    }
+    Vec b = Vec::Zero(n), N;
+    b[0] = -10;  // the floor is at rest, and the blocks fall alike
+    ASSERT_EQ(pressing_forces(A, b, N), LcpOutcome::solved);
+    for (int k = 0; k < n; ++k) EXPECT_NEAR(N[k], 10 * (n - k), 1e-13 * n * n);
   }
 }
 
