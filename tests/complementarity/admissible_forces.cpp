@@ -243,6 +243,36 @@ TEST(SpareLoad, IsFoundHoweverLargeTheForcesInBalanceAre) {
   }
 }
 
+// In any units: N - s of each contact still carries, and the forces are those with which it does.
+TEST(SpareLoad, IsHowFarTheLeastLoadedContactCouldBeUnloaded) {
+  const auto expect_load = [](const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda,
+                              double spare, const Vec& forces) {
+    for (const double unit : {1.0, 1e-6, 1e6}) {
+      std::vector<SharingContact> scaled = contacts;
+      for (SharingContact& c : scaled) c.given *= unit;
+      Vec F;
+      EXPECT_NEAR(spare_load(scaled, E, unit * lambda, &F), unit * spare, 1e-9 * unit) << unit;
+      EXPECT_LE((F - unit * forces).norm(), 1e-7 * unit) << F.transpose();
+      EXPECT_NEAR(spare_load(scaled, E, unit * lambda), unit * spare, 1e-9 * unit) << unit;
+    }
+  };
+  const std::vector<SharingContact> feet{
+      {.normal = 0, .tangents = {}}, {.normal = 1, .tangents = {}}, {.normal = 2, .tangents = {}}};
+  const std::vector<SharingContact> two(feet.begin(), feet.begin() + 2);
+  // Under a beam, of weight and moment: of two feet the forces are known, of three at -1, 0 and 1 the least can be 2.
+  expect_load(two, Mat{{1, 1}, {-1, 1}}, Vec{{10, 4}}, 3, Vec{{3, 7}});
+  expect_load(two, Mat{{1, 1}, {-1, 1}}, Vec{{10, 14}}, -2, Vec{{-2, 12}});
+  expect_load(feet, Mat{{1, 1, 1}, {-1, 0, 1}}, Vec{{9, 3}}, 2, Vec{{2, 2, 5}});
+  // Against each other they could press without limit: `most` times the largest resultant.
+  EXPECT_NEAR(spare_load(two, Mat{{1, -1}}, Vec{{3}}), most * 3, 1e-9);
+  // A foot that presses with 10 holds 3, or would have to hold 6, with c = 0.5; its normal force may be given.
+  const std::vector<SharingContact> foot{{.normal = 0, .tangents = {1}, .coefficient = 0.5}};
+  expect_load(foot, Mat::Identity(2, 2), Vec{{10, 3}}, 4, Vec{{10, 3}});
+  expect_load(foot, Mat::Identity(2, 2), Vec{{10, -6}}, -2, Vec{{10, -6}});
+  const std::vector<SharingContact> pressed{{.tangents = {0}, .coefficient = 0.5, .given = 10}};
+  expect_load(pressed, Mat{{1}}, Vec{{3}}, 4, Vec{{3}});
+}
+
 // Where no admissible forces have the resultants, those with the least spare load have them, each beyond its cone by no
 // more than that.
 TEST(SpareLoad, IsThatOfForcesWithTheResultants) {

@@ -68,6 +68,16 @@ TEST(CarryingRows, LeaveIdleAndOpenContactsWithoutAShare) {
   EXPECT_EQ(carrying.indeterminate, (std::vector<bool>{false, true, true, true}));
 }
 
+// The rows of a contact need not be in the order of contacts.
+TEST(CarryingRows, BelongToTheContactsThatNameThem) {
+  const std::vector<ContactPoint> points{{.normal = 1}, {.tangent = 0, .given = 1}, {.tangent = 2, .given = 1}};
+  const Mat G{{1, 0}, {0, 1}, {1, 0}};
+  const std::vector<ContactRole> roles{
+      {.closed = true}, {.closed = true, .tangent = Tangent::sticks}, {.closed = true, .tangent = Tangent::sticks}};
+  const CarryingRows carrying = carrying_rows(points, G * G.transpose(), roles);
+  EXPECT_EQ(carrying.indeterminate, (std::vector<bool>{false, true, true}));
+}
+
 TEST(CarryingRows, OfLeastNormForAnyBasisAndAnyIdleContacts) {
   std::mt19937 random(81);
   for (int i = 0; i < 100; ++i) {

@@ -92,18 +92,20 @@ TEST(RowBasis, IsOneOfTwoParallelRows) {
   EXPECT_NEAR(found.K(0, 0), 2, 1e-15);
 }
 
-// Of a row 1000 times as long or as short as the others, whose share of it is 2e-9, or below 1e-9 round-off.
+// Shares of rows of one length: 2e-9, or below 1e-9 round-off. The rows are longer or shorter.
 TEST(RowBasis, SharesDownToABillionthOfTheRowsLengths) {
   for (const double longer : {1e-3, 1.0, 1e3})
-    for (const auto& [share, kept] : {std::pair(2e-9, true), std::pair(0.5e-9, false)}) {
-      const Mat G{{longer, 0}, {0, 1}, {1, share}};
-      const RowBasis found = find_basis(G * G.transpose(), {0, 1}, {2});
-      ASSERT_EQ(found.implied, std::vector<Eigen::Index>{2});
-      for (std::size_t k = 0; k < 2; ++k) {
-        const double expected = found.basis[k] == 0 ? 1 / longer : kept ? share : 0;
-        EXPECT_NEAR(found.K(0, Eigen::Index(k)), expected, 1e-14 / longer) << longer << " " << share;
+    for (const double implied : {1e-3, 1.0, 1e3})
+      for (const auto& [share, kept] : {std::pair(2e-9, true), std::pair(0.5e-9, false)}) {
+        const Mat G{{1, 0}, {0, longer}, {implied, implied * share}};
+        const RowBasis found = find_basis(G * G.transpose(), {0, 1}, {2});
+        ASSERT_EQ(found.implied, std::vector<Eigen::Index>{2});
+        for (std::size_t k = 0; k < 2; ++k) {
+          const double expected = found.basis[k] == 0 ? implied : kept ? implied * share / longer : 0;
+          EXPECT_NEAR(found.K(0, Eigen::Index(k)), expected, 1e-14 * implied / longer + 1e-15 * implied)
+              << longer << " " << implied << " " << share;
+        }
       }
-    }
 }
 
 TEST(RowBasis, TakesTheRowThatTheOthersImplyLeast) {
