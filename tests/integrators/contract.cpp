@@ -285,6 +285,26 @@ TEST_P(NewmarkFamily, DampsOrKeepsAModeOfAnySpeed) {
   }
 }
 
+// q'' = -1000 sin q over a step in which the spring softens: one iteration is not enough, and the equation of motion at
+// the step's end is left with a residual of the tolerance times its stiffness.
+TEST_P(NewmarkFamily, IteratesAsFarAsItsSettingsSay) {
+  const auto residual = [](const Settings& more) {
+    Posed s(particle([](double, const Vec& q, const Vec&) { return Vec(-1000 * q.array().sin()); }, 1));
+    Settings settings = GetParam().settings;
+    settings.insert(settings.end(), more.begin(), more.end());
+    auto method = make(GetParam().name, settings);
+    const State start = s.start();
+    State next;
+    method->restart(s, start);
+    if (!method->step(s, start, 0.03, next)) return std::numeric_limits<double>::infinity();
+    return std::abs(next.a[0] + 1000 * std::sin(next.q[0]));
+  };
+  EXPECT_LE(residual({}), 1e-7);
+  EXPECT_LE(residual({{"tolerance", 1e-13}}), 1e-9);
+  EXPECT_GE(residual({{"tolerance", 1e-2}}), 1e-6);
+  EXPECT_TRUE(std::isinf(residual({{"max_iterations", 1}})));
+}
+
 INSTANTIATE_TEST_SUITE_P(All, NewmarkFamily,
                          testing::Values(Form{"hht_alpha", {{"alpha", 0.0}}}, Form{"hht_alpha", {{"alpha", -0.15}}},
                                          Form{"hht_alpha", {{"alpha", -1.0 / 3}}}, Form{"newmark", {}},
@@ -293,6 +313,20 @@ INSTANTIATE_TEST_SUITE_P(All, NewmarkFamily,
                          [](const testing::TestParamInfo<Form>& tested) {
                            return tested.param.name + "_" + std::to_string(tested.index);
                          });
+
+// The same steps as with the documented defaults.
+TEST(NewmarkFamilies, HaveTheirDefaults) {
+  const auto steps = [](const std::string& name, const Settings& settings) {
+    Posed s(oscillators({1, 30}));
+    auto method = make(name, settings);
+    const State start = s.start();
+    method->restart(s, start);
+    return advance(*method, s, start, 0.05, 5);
+  };
+  EXPECT_TRUE(same_bits(steps("newmark", {}), steps("newmark", {{"beta", 0.25}, {"gamma", 0.5}})));
+  EXPECT_TRUE(same_bits(steps("hht_alpha", {}), steps("hht_alpha", {{"alpha", -0.1}})));
+  EXPECT_TRUE(same_bits(steps("generalized_alpha", {}), steps("generalized_alpha", {{"rho_inf", 0.9}})));
+}
 
 TEST(AdamsBaumgarte, StartsAnewWhenTheStepChanges) {
   Posed s(oscillators({3}));
