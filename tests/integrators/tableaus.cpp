@@ -4,9 +4,15 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Eigen/LU>
+
+#include <trammel/testing/archive.hpp>
 
 #include "support.hpp"
 
@@ -232,61 +238,143 @@ TEST(InterpolationsOfTableaus, AreExactForPolynomials) {
       }
 }
 
-// PECE of fourth order as published, once it has the slopes of steps of the classical method: predicted and corrected
-// velocities, from the forces met on the way, which depend on the predicted velocities.
-TEST(AdamsBaumgarte, PredictsAndCorrectsByThePublishedWeights) {
-  for (const bool ab4 : {true, false}) {
-    SCOPED_TRACE(ab4);
-    constexpr double h = 0.5;
-    const auto force = [](double t, double v) { return std::cos(t) - 0.3 * v * v; };
-    double met = 0;  // the velocity of the first evaluation in a step
-    bool first = false;
-    Posed system(pushed(1, [&](double t, const Vec&, const Vec& v) -> Vec {
-      if (first) met = v[0], first = false;
-      return Vec::Constant(1, force(t, v[0]));
-    }));
-    const auto method = make("adams_baumgarte", {{"predictor", std::string(ab4 ? "ab4" : "ab3")}});
-    auto& estimate = dynamic_cast<ErrorEstimate&>(*method);
-    State now = system.at(0, Vec::Zero(1), Vec::Zero(1)), next;
-    method->restart(system, now);
-    const auto starter = make("runge_kutta_4", {{"delta", 10.0}, {"epsilon", 50.0}});
-    starter->restart(system, now);
-    std::vector<State> past{now};
-    const std::size_t wanted = ab4 ? 4 : 3;
-    for (int step = 0; step < 12; ++step) {
-      first = true;
-      ASSERT_TRUE(method->step(system, now, h, next).accepted());
-      EXPECT_EQ(estimate.error_order(), past.size() >= wanted && ab4 ? 5 : 4);
-      if (past.size() < wanted) {
-        State expected;
-        const Tolerance tolerance{.relative = 0, .absolute = 1};
-        ASSERT_TRUE(starter->step(system, now, h, expected).accepted());
-        EXPECT_EQ(next.q, expected.q);
-        EXPECT_EQ(next.v, expected.v);
-        EXPECT_EQ(estimate.error(system, now, next, tolerance),
-                  dynamic_cast<ErrorEstimate&>(*starter).error(system, now, expected, tolerance));
-        starter->accept(system, now, expected);
-      }
-      if (past.size() >= wanted) {
-        const std::size_t n = past.size() - 1;
-        const auto F = [&](std::size_t i) { return std::array{past[n - i].v[0], past[n - i].a[0]}; };
-        std::array<double, 2> predicted{now.q[0], now.v[0]}, corrected = predicted;
-        for (std::size_t k = 0; k < 2; ++k)
-          predicted[k] += ab4 ? h / 24 * (55 * F(0)[k] - 59 * F(1)[k] + 37 * F(2)[k] - 9 * F(3)[k])
-                              : h / 12 * (23 * F(0)[k] - 16 * F(1)[k] + 5 * F(2)[k]);
-        const std::array slope{predicted[1], force(now.t + h, predicted[1])};
-        for (std::size_t k = 0; k < 2; ++k)
-          corrected[k] += h / 24 * (9 * slope[k] + 19 * F(0)[k] - 5 * F(1)[k] + F(2)[k]);
-        EXPECT_NEAR(met, predicted[1], 1e-14);
-        EXPECT_NEAR(next.q[0], corrected[0], 1e-14);
-        EXPECT_NEAR(next.v[0], corrected[1], 1e-14);
-        const double milne = ab4 ? 19.0 / 270 : 1;
-        EXPECT_NEAR(estimate.error(system, now, next, {.relative = 0, .absolute = 1}) * std::sqrt(2),
-                    milne * std::hypot(predicted[0] - corrected[0], predicted[1] - corrected[1]), 1e-14);
-      }
-      method->accept(system, now, next);
-      now = next, past.push_back(now);
+// PECE of fourth order as published, once it has the slopes of steps of the classical method of this size: predicted
+// and corrected velocities, from the forces met on the way, which depend on the predicted velocities.
+void expect_published_steps(bool ab4, double begin) {
+  const auto force = [](double t, double v) { return std::cos(t) - 0.3 * v - 0.1 * std::sin(3 * v); };
+  double met = 0;  // the velocity of the first evaluation in a step
+  bool first = false;
+  Posed system(pushed(1, [&](double t, const Vec&, const Vec& v) -> Vec {
+    if (first) met = v[0], first = false;
+    return Vec::Constant(1, force(t, v[0]));
+  }));
+  const auto method = make("adams_baumgarte", {{"predictor", std::string(ab4 ? "ab4" : "ab3")}});
+  auto& estimate = dynamic_cast<ErrorEstimate&>(*method);
+  const Tolerance tolerance{.relative = 0, .absolute = 1};
+  State now = system.at(begin, Vec::Zero(1), Vec::Zero(1)), next;
+  method->restart(system, now);
+  std::vector<State> past;  // one step of this size after the other
+  const std::size_t wanted = ab4 ? 4 : 3;
+  for (int step = 0; step < 14; ++step) {
+    const double h = step < 7 ? 0.5 : 0.3;
+    if (step == 7) past.clear();
+    past.push_back(now);
+    first = true;
+    ASSERT_TRUE(method->step(system, now, h, next).accepted());
+    const double error = estimate.error(system, now, next, tolerance);
+    EXPECT_EQ(estimate.error_order(), past.size() >= wanted && ab4 ? 5 : 4) << step;
+    if (past.size() < wanted) {
+      const auto starter = make("runge_kutta_4");
+      State expected;
+      starter->restart(system, now);
+      ASSERT_TRUE(starter->step(system, now, h, expected).accepted());
+      EXPECT_NEAR(next.q[0], expected.q[0], 1e-14);
+      EXPECT_NEAR(next.v[0], expected.v[0], 1e-14);
+      const double of_starter = dynamic_cast<ErrorEstimate&>(*starter).error(system, now, expected, tolerance);
+      EXPECT_NEAR(error, of_starter, 1e-14);
+    } else {
+      const std::size_t n = past.size() - 1;
+      const auto F = [&](std::size_t i) { return std::array{past[n - i].v[0], past[n - i].a[0]}; };
+      std::array<double, 2> predicted{now.q[0], now.v[0]}, corrected = predicted;
+      for (std::size_t k = 0; k < 2; ++k)
+        predicted[k] += ab4 ? h / 24 * (55 * F(0)[k] - 59 * F(1)[k] + 37 * F(2)[k] - 9 * F(3)[k])
+                            : h / 12 * (23 * F(0)[k] - 16 * F(1)[k] + 5 * F(2)[k]);
+      const std::array slope{predicted[1], force(now.t + h, predicted[1])};
+      for (std::size_t k = 0; k < 2; ++k)
+        corrected[k] += h / 24 * (9 * slope[k] + 19 * F(0)[k] - 5 * F(1)[k] + F(2)[k]);
+      EXPECT_NEAR(met, predicted[1], 1e-14) << step;
+      EXPECT_NEAR(next.q[0], corrected[0], 1e-14) << step;
+      EXPECT_NEAR(next.v[0], corrected[1], 1e-14) << step;
+      const double milne = ab4 ? 19.0 / 270 : 1;
+      EXPECT_NEAR(error * std::sqrt(2), milne * std::hypot(predicted[0] - corrected[0], predicted[1] - corrected[1]),
+                  1e-14);
     }
+    method->accept(system, now, next);
+    now = next;
+  }
+}
+
+// Late, differences of times are off by 1e-9: steps are of one size all the same.
+TEST(AdamsBaumgarte, PredictsAndCorrectsByThePublishedWeights) {
+  for (const bool ab4 : {true, false})
+    for (const double begin : {0.0, 1e7}) {
+      SCOPED_TRACE(testing::Message() << ab4 << " " << begin);
+      expect_published_steps(ab4, begin);
+    }
+}
+
+// The last accepted point is the first; those before a restart are left out.
+TEST(AdamsBaumgarte, ArchivesTheSlopesOfItsLastSteps) {
+  Posed s(problems::pendulum_with_rod());
+  const auto method = make("adams_baumgarte");
+  std::vector<State> states{s.start()};
+  method->restart(s, states[0]);
+  for (int i = 0; i < 6; ++i) states.push_back(advance(*method, s, states.back(), 1e-3, 1));
+  const auto archived = [&] {
+    MemoryArchive memory;
+    method->archive(memory);
+    return memory.vectors;
+  };
+  auto vectors = archived();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::string name = "past_" + std::to_string(k);
+    const State& state = states[states.size() - 1 - k];
+    EXPECT_EQ(vectors.at(name + "_v"), state.a) << k;
+    EXPECT_EQ(vectors.at(name + "_lambda"), state.lambda) << k;
+  }
+  method->restart(s, states.back());
+  vectors = archived();
+  EXPECT_EQ(vectors.at("past_0_v"), states.back().a);
+  for (const char* name : {"past_1_q", "past_1_v", "past_2_v", "past_3_lambda"}) EXPECT_EQ(vectors.at(name).size(), 0);
+}
+
+// An archive that says how many slopes are known, and holds these of the last point.
+class Told final : public Archive {
+ public:
+  using Archive::operator();
+  Told(int filled, Vec q, Vec v) : filled_(filled), q_(std::move(q)), v_(std::move(v)) {}
+  void operator()(std::string_view, bool&) override {}
+  void operator()(std::string_view name, int& x) override { x = name == "filled" ? filled_ : x; }
+  void operator()(std::string_view, long long&) override {}
+  void operator()(std::string_view, double&) override {}
+  void operator()(std::string_view, std::string&) override {}
+  void operator()(std::string_view name, Vec& x) override {
+    if (name == "past_0_q") x = q_;
+    if (name == "past_0_v") x = v_;
+  }
+
+ private:
+  int filled_;
+  Vec q_, v_;
+};
+
+TEST(AdamsBaumgarte, RefusesAnArchiveThatLacksItsSlopes) {
+  const Vec none, one = Vec::Ones(1);
+  const auto read = [](int filled, const Vec& q, const Vec& v) {
+    Told told(filled, q, v);
+    make("adams_baumgarte")->archive(told);
+  };
+  EXPECT_THROW(read(-1, one, one), std::out_of_range);
+  EXPECT_THROW(read(5, one, one), std::out_of_range);
+  EXPECT_THROW(read(1, none, one), std::length_error);
+  EXPECT_THROW(read(1, one, none), std::length_error);
+  EXPECT_THROW(read(2, one, one), std::length_error);
+  EXPECT_NO_THROW(read(1, one, one));
+  EXPECT_NO_THROW(read(0, none, none));
+}
+
+TEST(RungeKuttaMethods, ArchiveTheSlopeOfTheirLastPoint) {
+  for (const char* name : {"runge_kutta_4", "dormand_prince", "dop853"}) {
+    Posed s(problems::pendulum_with_rod());
+    const auto method = make(name);
+    const State start = s.start();
+    method->restart(s, start);
+    const State end = advance(*method, s, start, 1e-3, 3);
+    MemoryArchive memory;
+    method->archive(memory);
+    EXPECT_EQ(memory.vectors.at("now_slope_q"), end.v) << name;
+    EXPECT_EQ(memory.vectors.at("now_slope_v"), end.a) << name;
+    EXPECT_EQ(memory.vectors.at("now_slope_lambda"), end.lambda) << name;
   }
 }
 
