@@ -194,6 +194,18 @@ TEST(NewmarkError, KeepsWhatIsAcrossTheRowsInItsFilter) {
   EXPECT_NEAR(across(1e6) / across(0), 1, 1e-9);
 }
 
+// Of an error of 1 in both directions the part along the rows is filtered by z, the part across them is kept.
+TEST(NewmarkError, FiltersWhatIsAlongTheRowsBesideWhatIsAcross) {
+  const double h = 0.1, k = 1e6, z = h * h / 4 * k;
+  Sliding on(k);
+  NewmarkError error = estimator(methods[0]);
+  error.restart(on.now);
+  const double e_q = h * h / 12, e_v = h / 6;
+  const double x_q = e_q / (1 + z), x_v = (e_v + e_v * std::sqrt(z)) / (1 + z);
+  const double expected = std::sqrt((e_q * e_q + e_v * e_v + x_q * x_q + x_v * x_v) / 4) / 1e-6;
+  EXPECT_NEAR(on.trial(error, h, 1) / expected, 1, 1e-9);
+}
+
 // Accelerations across the rows that are the same in a shorter trial are round-off; after a restart nothing is known.
 TEST(NewmarkError, ComparesNoTrialWithThoseBeforeARestart) {
   Sliding on;
@@ -225,6 +237,29 @@ TEST(NewmarkError, GoesOnInAResumedRun) {
   resumed.accept(next), error.accept(next);
   EXPECT_EQ(resumed.h_before(), mode.h);
   EXPECT_EQ(resumed(*mode.system(), next, after, loose), error(*mode.system(), next, after, loose));
+}
+
+TEST(NewmarkError, GoesOnBesideRowsInAResumedRun) {
+  Sliding on;
+  NewmarkError error = estimator(methods[0]), resumed = estimator(methods[0]);
+  error.restart(on.now);
+  const double whole = on.trial(error, 0.1, 100);
+  on.trial(error, 0.099, 100);  // shows that the part across the rows is round-off
+  MemoryArchive memory;
+  error.archive(memory);
+  memory.reading = true;
+  resumed.archive(memory);
+  const double along = on.trial(resumed, 0.098, 100);
+  EXPECT_EQ(along, on.trial(error, 0.098, 100));
+  EXPECT_LT(along, 0.6 * whole);
+}
+
+TEST(NewmarkError, KnowsTheFirstStepAfterARestart) {
+  NewmarkError error = estimator(methods[0]);
+  error.restart(Mode::at(8, 1));
+  error.accept(Mode::at(8.5, 2));
+  EXPECT_EQ(error.h_before(), 0.5);
+  EXPECT_EQ(error.a_before(), Vec::Constant(1, 1));
 }
 
 TEST(NewmarkError, KnowsNoStepBeforeARestart) {
