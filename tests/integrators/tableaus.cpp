@@ -238,6 +238,50 @@ TEST(InterpolationsOfTableaus, AreExactForPolynomials) {
       }
 }
 
+// Wherever the step begins, and though a shorter one was tried since.
+TEST(InterpolationsOfTableaus, BelongToTheStepThatIsAskedFor) {
+  for (const char* name : {"dormand_prince", "dop853"})
+    for (int k = 0; k < 3; ++k) {
+      SCOPED_TRACE(testing::Message() << name << ", " << k);
+      const auto integral = [k](int times, double t) {
+        return std::pow(t, k + times) / (times == 1 ? k + 1 : (k + 1) * (k + 2));
+      };
+      Posed system(pushed(1, [k](double t, const Vec&, const Vec&) { return Vec::Constant(1, std::pow(t, k)); }));
+      const double begin = 0.25, h = 0.5, theta = 0.3, t = begin + theta * h;
+      const State now = system.at(begin, Vec::Constant(1, 1), Vec::Constant(1, 2));
+      const auto method = make(name);
+      auto& dense = dynamic_cast<DenseOutput&>(*method);
+      State next, shorter, at;
+      method->restart(system, now);
+      for (const bool tried : {false, true}) {
+        ASSERT_TRUE(method->step(system, now, h, next).accepted());
+        if (tried) {
+          ASSERT_TRUE(method->step(system, now, 0.4 * h, shorter).accepted());
+        }
+        dense.interpolate(system, now, next, theta, at);
+        EXPECT_NEAR(at.t, t, 1e-16);
+        EXPECT_NEAR(at.v[0], 2 + integral(1, t) - integral(1, begin), 1e-14);
+        const double of_v = 2 - integral(1, begin);
+        EXPECT_NEAR(at.q[0], 1 + of_v * theta * h + integral(2, t) - integral(2, begin), 1e-14);
+      }
+    }
+}
+
+TEST(InterpolationsOfTableaus, AreUnitQuaternions) {
+  for (const char* name : {"dormand_prince", "dop853"}) {
+    Posed top(problems::heavy_top());
+    const auto method = make(name);
+    const State now = top.start();
+    State next, at;
+    method->restart(top, now);
+    ASSERT_TRUE(method->step(top, now, 0.05, next).accepted());
+    for (const double theta : {0.2, 0.5, 0.8}) {
+      dynamic_cast<DenseOutput&>(*method).interpolate(top, now, next, theta, at);
+      EXPECT_NEAR(at.q.norm(), 1, 1e-15) << name;
+    }
+  }
+}
+
 // PECE of fourth order as published, once it has the slopes of steps of the classical method of this size: predicted
 // and corrected velocities, from the forces met on the way, which depend on the predicted velocities.
 void expect_published_steps(bool ab4, double begin) {

@@ -67,6 +67,37 @@ TEST(RungeKuttaError, BeginsAnewWithAMotion) {
   EXPECT_EQ(error(method, 1.05, 0.05, 1000), 1000);
 }
 
+constexpr double half[] = {0, 0.5}, weights_of_half[] = {0.5}, midpoint[] = {0, 1};
+
+// Where a dense output lacks a slope, a shorter step takes its place; without that there is no number.
+TEST(RungeKuttaSteps, AreShorterInsideAStep) {
+  bool fails = false;
+  Problem p;
+  p.closed_form = false;
+  p.M = Mat::Ones(1, 1);
+  p.force = [&fails](double t, const Vec& q, const Vec&) { return Vec::Constant(1, fails ? 1e200 : t - 2 * q[0]); };
+  p.exact = [](double, Vec& q, Vec& v) { q = Vec::Constant(1, 1), v = Vec::Constant(1, 3); };
+  const auto system = p.system();
+  const State now{0.25, Vec::Constant(1, 1), Vec::Constant(1, 3), Vec::Constant(1, 0.25 - 2), Vec(0)};
+  RungeKutta method({2, half, weights_of_half, midpoint}), other({2, half, weights_of_half, midpoint});
+  State next, inside, expected;
+  Slope first;
+  method.begin(*system, now, first);
+  ASSERT_TRUE(method.step(*system, now, first, 0.5, next).accepted());
+  method.step_inside(*system, now, next, 0.25, inside);
+  other.begin(*system, now, first);
+  ASSERT_TRUE(other.step(*system, now, first, 0.125, expected).accepted());
+  EXPECT_EQ(inside.t, 0.375);
+  EXPECT_EQ(inside.q, expected.q);
+  EXPECT_EQ(inside.v, expected.v);
+  EXPECT_NEAR(inside.v[0], 3 + 0.125 * (0.25 + 0.0625 - 2 * (1 + 0.0625 * 3)), 1e-15);  // the midpoint rule
+  fails = true;
+  method.step_inside(*system, now, next, 0.25, inside);
+  EXPECT_EQ(inside.t, 0.375);
+  EXPECT_TRUE(inside.q.array().isNaN().all() && inside.v.array().isNaN().all());
+  EXPECT_EQ(inside.q.size() + inside.v.size(), 2);
+}
+
 // q i turns about the first axis of the body; an error along q itself changes nothing but the quaternion's length.
 TEST(RungeKuttaError, IsThatOfTheRotationAndNotOfTheLengthOfAQuaternion) {
   const Problem top = problems::heavy_top();
