@@ -25,6 +25,8 @@ constexpr double error_of_impacts = 1e-9;
 constexpr double error_of_accelerations = 1e-12;
 // Relative to the largest force in the island: what is left, or lacks, of a force at the instant found for its end.
 constexpr double error_of_release = 1e-10;
+// Relative to the largest force in the island: a larger one is none of round-off.
+constexpr double largest_round_off = 1e-6;
 // Of `least_slip`: a smaller slip left in a contact at rest turns its friction by no more (system/point/slip.hpp) when
 // it begins to slide.
 constexpr double no_turn = 1e-9;
@@ -395,14 +397,16 @@ void ContactModes::take_verdicts_found() {
   std::vector<double> nothing;
   for (const Participant& p : problem_.who) nothing.push_back(least_acceleration(p));
   const std::vector<bool> kept_closed = problem_.kept_closed(nothing);
+  const std::vector<double> largest = problem_.largest_beside();
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     const Participant& p = problem_.who[i];
-    const bool presses = p.N > 0 && !merely_touches(i);
+    const bool presses = p.N > largest_round_off * largest[i] || (p.N > 0 && !merely_touches(i));
     take_verdict(p, !p.unilateral || presses || kept_closed[i]);
   }
 }
 
-// Rule 3: an open contact whose force is round-off. Without it the gap does not accelerate.
+// Rule 3: an open contact without whose force, round-off, the gap does not accelerate. A larger force may drive the gap
+// apart by its friction and still be needed.
 bool ContactModes::merely_touches(std::size_t participant) const {
   const Participant& p = problem_.who[participant];
   return p.unilateral && !before_.contacts[p.contact].closed && p.N > 0 &&

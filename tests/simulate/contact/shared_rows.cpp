@@ -252,6 +252,17 @@ TEST(BlockInAChannel, StopsAtAllCornersTogether) {
   EXPECT_GT(stopped, 50);
 }
 
+// With mu = 5 the force of a corner drives its gap apart, so its gap does not close without it either.
+TEST(BlockInAChannel, WithMuchFrictionStopsInFewEvents) {
+  const double x = 0.941, y = 0.476, m = 0.346;
+  const Finished run = run_text(
+      block_in_a_channel(x, y, m, m * (x * x + y * y) / 3, 0.455, {{"x", -1.97}, {"y", -4.24}}, {-0.376, -0.00827}, 5)
+          .dump());
+  expect_trusted(run);
+  EXPECT_EQ(run.of_kind("stick").size(), 4u);
+  EXPECT_LT(run.result["counts"]["events"], 50);
+}
+
 // Legs at random places on a floor. Three would carry; the others share, and a leg is closed without a force where a
 // spring in its place would pull.
 json sliding_table(int legs, double mu, std::mt19937& random) {
