@@ -25,8 +25,6 @@ constexpr double error_of_impacts = 1e-9;
 constexpr double error_of_accelerations = 1e-12;
 // Relative to the largest force in the island: what is left, or lacks, of a force at the instant found for its end.
 constexpr double error_of_release = 1e-10;
-// Relative to the largest force in the island: a larger one is none of round-off.
-constexpr double largest_round_off = 1e-6;
 // Of `least_slip`: a smaller slip left in a contact at rest turns its friction by no more (system/point/slip.hpp) when
 // it begins to slide.
 constexpr double no_turn = 1e-9;
@@ -400,16 +398,16 @@ void ContactModes::take_verdicts_found() {
   const std::vector<double> largest = problem_.largest_beside();
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     const Participant& p = problem_.who[i];
-    const bool presses = p.N > largest_round_off * largest[i] || (p.N > 0 && !merely_touches(i));
+    const bool presses = p.N > 0 && !merely_touches(i, largest[i]);
     take_verdict(p, !p.unilateral || presses || kept_closed[i]);
   }
 }
 
-// Rule 3: an open contact without whose force, round-off, the gap does not accelerate. A larger force may drive the gap
-// apart by its friction and still be needed.
-bool ContactModes::merely_touches(std::size_t participant) const {
+// Rule 3: an open contact whose force may be round-off, and whose gap would not close without it. A larger force may be
+// needed although it drives its own gap apart, by friction. `largest`: the largest force in its island.
+bool ContactModes::merely_touches(std::size_t participant, double largest) const {
   const Participant& p = problem_.who[participant];
-  return p.unilateral && !before_.contacts[p.contact].closed && p.N > 0 &&
+  return p.unilateral && !before_.contacts[p.contact].closed && p.N <= most_error_of_forces * largest &&
          problem_.acceleration_without(participant) >= -undecided * least_acceleration(p);
 }
 

@@ -128,6 +128,9 @@ struct ContactChanges {
   }
 };
 
+// Rules 3 and 13. Of the largest force in the island: a smaller force may be an error of the solution.
+inline constexpr double most_error_of_forces = 1e-6;
+
 inline bool contains(const std::vector<int>& contacts, int i) {
   return std::find(contacts.begin(), contacts.end(), i) != contacts.end();
 }
@@ -257,7 +260,7 @@ class ContactModes {
   void load_bearings(const State& state, const model::Modes& modes);
   void accelerate_participants();
   void take_verdicts_found();
-  bool merely_touches(std::size_t participant) const;
+  bool merely_touches(std::size_t participant, double largest) const;
   void take_verdict(const Participant& p, bool closed);
   void finish(State& state, bool carry);
   void append_normal_event(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);

@@ -13,8 +13,6 @@ namespace {
 // because their forces have just begun to grow. If some of them were idle, the others would share otherwise and move
 // otherwise.
 constexpr double no_force = 1e-12;
-// Of the largest force. Contacts with less force may be idle.
-constexpr double most_error_of_forces = 1e-6;
 // Of the largest load of a group: a spare load may be negative by this round-off.
 constexpr double round_off_of_loads = 1e-9;
 

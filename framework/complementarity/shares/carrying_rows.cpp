@@ -15,9 +15,9 @@ using Tangent = ContactRole::Tangent;
 
 namespace {
 
-// Relative to the largest pivot of E. Where rows that carry come to depend on each other, F is finite, but
-// share is not, and its round-off would be as large as F. A resultant is then carried as if it were this far from
-// there, which changes F by as little.
+// Relative to the largest pivot of E. Where rows that carry come to depend on each other, F may stay finite, but share
+// does not, and its round-off would be as large as F. The rows are then taken to be this far from that state, which
+// changes F by as little.
 constexpr double least_carried = 1e-8;
 
 // The contact that a row of A belongs to.

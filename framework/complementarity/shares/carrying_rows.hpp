@@ -36,7 +36,8 @@ CarryingRows carrying_rows(const std::vector<ContactPoint>& points, const Mat& A
 // Forces of least norm for their resultants, F = share lambda, (basis, then implied) x basis. `shares` is K with zero
 // rows for idle contacts.
 Mat least_norm_shares(const Mat& shares);
-// The same for any basis: `resultants` is E, `idle` tells which of its columns have no force.
+// The same for any basis: `resultants` is E, `idle` tells which of its columns have no force. The shares stay below 1e8
+// where the other columns come to depend on each other.
 Mat least_norm_shares(const Mat& resultants, const std::vector<bool>& idle);
 // The force that an idle contact would have as one more equal spring, for forces F: that of the last column of `among`,
 // whose others are the columns of E of the contacts that carry. It is continuous, and 0, where these come to depend on

@@ -36,7 +36,7 @@ RowBasis find_basis(const Mat& A, const std::vector<Eigen::Index>& first, const 
 std::vector<Eigen::Index> well_conditioned_rows(const Mat& A, const std::vector<Eigen::Index>& rows,
                                                 double least_share);
 
-// K of the implied rows; basis and implied are indices into A.
+// K of the implied rows, with its round-off; basis and implied are indices into A.
 Mat implied_by(const Mat& A, const std::vector<Eigen::Index>& basis, const std::vector<Eigen::Index>& implied);
 
 // Rates of the `others` minus K times the rates along the basis, for rates along all rows; infinite for a row that does

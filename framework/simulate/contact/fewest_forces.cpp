@@ -123,8 +123,8 @@ std::vector<bool> ContactProblem::take_fewest_forces(const model::Modes& modes, 
     for (std::size_t k = 0; k < edges.size(); ++k) parts[edges[k].who] += x[Eigen::Index(k)] > 0;
     for (const Edge& e : edges) {
       Participant& p = who[e.who];
-      p.N = F[points_[e.who].normal];
       const complementarity::ContactPoint& point = points_[e.who];
+      p.N = F[point.normal];
       if (point.tangent >= 0) p.T.head(point.tangents) = F.segment(point.tangent, point.tangents);
       at_edge[e.who] = p.tangent == Participant::Tangent::resting && parts[e.who] == 1;
     }
