@@ -110,7 +110,8 @@ struct ContactChanges {
   std::vector<int> toggled;   // ContactForce: force on or off
   std::vector<int> yielded;   // sticking contacts whose friction reached its bound
   std::vector<int> stopped;   // sliding contacts whose slip reached 0
-  bool leaning = false;       // rows in g have become nearly dependent: other ones are to hold the same contacts
+  bool leaning = false;       // other rows in g are to hold the same contacts: these have become nearly dependent, or
+                              // contacts share with more others than before (they touched at one point)
   bool locked = false;        // sliding contacts have no finite forces from here on (rule 8)
   double raised = 0;          // friction then counts as larger by this part: the distance of the state from that point
   bool only_leaning() const {

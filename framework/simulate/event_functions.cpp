@@ -24,6 +24,7 @@ void EventLocation::set_up_functions() {
     const int contact = shared[group].implied.front().contact;
     functions_.push_back({.contact = contact, .kind = Kind::follow, .group = int(group)});
     functions_.push_back({.contact = contact, .kind = Kind::lean, .at_ends = true, .group = int(group)});
+    functions_.push_back({.contact = contact, .kind = Kind::span, .group = int(group)});
   }
 }
 
@@ -212,6 +213,7 @@ EventLocation::Value EventLocation::value(int k, const State& state, bool& accel
     return {function.little - system_.departure(function.group, a_), 0};
   }
   if (function.kind == Kind::lean) return {most_leverage - system_.leverage(function.group), 0};
+  if (function.kind == Kind::span) return {function.little - system_.off_span(function.group), 0};
   if (!by_force(k)) {
     const double sign = function.kind == Kind::leave ? -1 : 1;
     return {gap_or_slip(k), sign * system_.gap_rate(function.contact)};

@@ -13,6 +13,10 @@
 namespace trammel::simulate {
 namespace {
 
+// A part of a row that does not follow from those with which its contact shares: contacts that touched at one point
+// have moved apart. It exceeds `no_share` (complementarity/shares/row_basis.cpp), so the other rows on which it depends
+// show, and is half of what the audit of contacts reports.
+constexpr double most_off_span = 5e-9;
 constexpr double part_of_scale = 1e-3;  // of what counts as touching or at rest: a function located so near is at 0
 
 // Thrown and caught in this file: the integrator refused one of the steps that locate an event.
@@ -51,6 +55,7 @@ void EventLocation::restart(const State& now) {
   for (EventFunction& each : functions_) {
     if (each.kind == Kind::unload || is_shared_force(each)) each.little = little[std::size_t(each.group)];
     if (each.kind == Kind::follow) each.little = 10 * modes_.least_acceleration(each.contact);
+    if (each.kind == Kind::span) each.little = std::max(most_off_span, 2 * system_.off_span(each.group));
     if (each.kind == Kind::hold) each.little = little_friction(each.contact);
   }
   next_.resize(functions_.size()), probe_.resize(functions_.size());
@@ -224,7 +229,7 @@ void EventLocation::shorten(const State& now, double h_event, double& h, State& 
 // An event that changed nothing was round-off, or the missing force is too small to move anything yet. It is an event
 // again when several times as much is missing.
 void EventLocation::wait_longer(const EventFunction& before, const Value& now, EventFunction& function) const {
-  if (function.kind == Kind::load) return;
+  if (function.kind == Kind::load || function.kind == Kind::span) return;
   if (function.kind == Kind::lean) {  // there is no better basis
     if (now.f < 0) function.noise = 2 * std::abs(now.f);
     return;
@@ -252,6 +257,7 @@ void EventLocation::report(int k) {
     case Kind::follow:
       return add(changes_.released);
     case Kind::lean:
+    case Kind::span:
       changes_.leaning = true;
       return;
     case Kind::hold:
@@ -277,7 +283,8 @@ void EventLocation::collect() {
     const Value& end = next_[k];
     const Scale scale = scale_.of(functions_[k].contact);
     const bool falls = end.slope < -scale.rest_speed();
-    if (functions_[k].kind == Kind::lean) continue;  // the modes that follow have rows of their own
+    if (functions_[k].kind == Kind::lean || functions_[k].kind == Kind::span)
+      continue;  // the modes that follow have rows of their own
     if (functions_[k].at_ends ? end.f < 0 && (by_force(k) || falls)
         : by_force(k)         ? end.f <= vanished_force * functions_[k].bound && !just_handled(k)
         : functions_[k].kind == Kind::slide

@@ -9,6 +9,7 @@
 //     unload     contacts that share rows        their spare load
 //     follow     contacts that share rows        a small acceleration minus that of an implied direction
 //     lean       contacts that share rows        how far the rows in g are from depending on each other
+//     span       contacts that share rows        a small part of a row minus that which does not follow from the others
 //     slide      sliding contact                 slip velocity along its direction where the step began
 //     load       bearing of a joint that rubs    its load, on the side on which it presses (signed_loads.hpp)
 // In space a slip without a direction that other contacts hold back has also stopped, although it crosses no zero
@@ -78,7 +79,7 @@ class EventLocation {
   void archive(Archive& a);
 
  private:
-  enum class Kind { approach, leave, press, hold, slide, idle, unload, follow, lean, load };
+  enum class Kind { approach, leave, press, hold, slide, idle, unload, follow, lean, span, load };
   struct EventFunction {
     int contact;
     Kind kind;
@@ -89,7 +90,7 @@ class EventLocation {
     double steepest = 0;        // slide: largest rate of change of the slip since it began [m/s^2]
     bool reported = false;      // it had the last event
     int group = -1;             // in Modes::shared; -1: none
-    double little = 0;          // smaller deficits are ignored: [N] unload, press, idle, hold, [m/s^2] follow
+    double little = 0;          // smaller deficits are ignored: [N] unload, press, idle, hold, [m/s^2] follow, [1] span
     int bearing = -1;           // load: index among the bearings with a signed load
     double side = 1;            // load: 1 or -1
     double undirected_for = 0;  // [s] slide in space: how long it has been without a direction (system/point/slip.hpp)
@@ -121,7 +122,10 @@ class EventLocation {
            kind == Kind::load;
   }
   bool has_slope(int k) const { return !by_force(k) && !of_rows(k); }
-  bool of_rows(int k) const { return functions_[k].kind == Kind::follow || functions_[k].kind == Kind::lean; }
+  bool of_rows(int k) const {
+    const Kind kind = functions_[k].kind;
+    return kind == Kind::follow || kind == Kind::lean || kind == Kind::span;
+  }
   bool lacks_direction(const EventFunction& function);
   bool stalls(double h, const State& next, int k);
   void measure_undirected(double h, const State& next, EventFunction& function);

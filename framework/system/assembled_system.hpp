@@ -99,6 +99,9 @@ class AssembledSystem final : public System, public HasRigidMotions {
   double departure(int group, const Vec& a);
   // How many times the rates of the rows in g appear in an implied one.
   double leverage(int group);
+  // The largest part of an implied row that does not follow from the basis, relative to its terms: 0 as long as they
+  // are implied.
+  double off_span(int group);
   // [N] of an idle contact: its force if it shared as a spring; it starts to carry when this rises through 0.
   double spring_force(int contact, const Vec& lambda);
   Tangential slip(int contact);                             // [m/s]; of contacts with friction

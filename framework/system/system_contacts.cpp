@@ -83,6 +83,10 @@ double AssembledSystem::leverage(int group) {
   return parts_->shares.leverage(group);
 }
 
+double AssembledSystem::off_span(int group) {
+  return parts_->shares.off_span(group);
+}
+
 int AssembledSystem::tangents(int contact) const {
   return parts_->contacts.tangents(contact);
 }

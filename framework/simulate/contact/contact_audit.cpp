@@ -101,6 +101,7 @@ void ContactAudit::look_at_groups(model::AssembledSystem& system, double t, cons
     const double missing = -system.spare_load(int(group), lambda), largest = system.largest_load(int(group), lambda);
     if (missing > little * largest && missing > noise(system, shared[group], scale))
       overloaded_.raise_to(shared[group].implied.front().contact, t, missing, largest);
+    unbalanced_.raise_to(shared[group].implied.front().contact, t, system.off_span(int(group)) * largest, largest);
   }
 }
 
@@ -121,6 +122,11 @@ std::vector<std::string> ContactAudit::warnings(const model::Model& model, const
     texts.push_back(fmt::format(
         "not to be trusted: {} and those it shares rows with carry {:.3g} N more than they can at t = {:.9g} s",
         name(overloaded_.contact), overloaded_.force, overloaded_.t));
+  if (unbalanced_.contact >= 0)
+    texts.push_back(fmt::format(
+        "not to be trusted: the forces of {} and those it shares rows with are {:.3g} N off those that move the bodies "
+        "at t = {:.9g} s",
+        name(unbalanced_.contact), unbalanced_.force, unbalanced_.t));
   const double moved = std::abs(ledger.dissipated()) + std::abs(ledger.supplied()) + ledger.friction().lpNorm<1>();
   for (Eigen::Index i = 0; i < ledger.friction().size(); ++i)
     if (ledger.friction()[i] < -little * moved)
@@ -140,7 +146,8 @@ void ContactAudit::archive(Archive& a, std::size_t contacts) {
   };
   pull_.archive(a, "pull"), beyond_cone_.archive(a, "beyond_cone");
   along_slip_.archive(a, "along_slip"), overloaded_.archive(a, "overloaded");
-  for (const Worst* worst : {&pull_, &beyond_cone_, &along_slip_, &overloaded_}) known(worst->contact);
+  unbalanced_.archive(a, "unbalanced");
+  for (const Worst* worst : {&pull_, &beyond_cone_, &along_slip_, &overloaded_, &unbalanced_}) known(worst->contact);
   Vec flat(Eigen::Index(3 * indeterminate_.size()));
   Eigen::Index k = 0;
   for (const auto& [contact, span] : indeterminate_) {

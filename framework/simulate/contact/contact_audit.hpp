@@ -3,9 +3,10 @@
 //     N >= 0,   |T| <= mu_0 N  [N],   T . slip <= 0 [W],   work of friction <= 0 [J]
 //
 // The scale of the round-off are the forces that act on the contact itself (force_noise.hpp). Contacts that share rows
-// are checked together (AssembledSystem::spare_load); what they miss counts if it could accelerate a body. A violation
-// becomes a warning: the run cannot be trusted there. The audit also keeps when contacts were statically indeterminate:
-// closed with rows that depend on each other, so that their forces are not unique
+// are checked together (AssembledSystem::spare_load); what they miss counts if it could accelerate a body. Their forces
+// have the resultants that move the bodies only as long as their rows depend on each other (AssembledSystem::off_span).
+// A violation becomes a warning: the run cannot be trusted there. The audit also keeps when contacts were statically
+// indeterminate: closed with rows that depend on each other, so that their forces are not unique
 // (complementarity/shares/carrying_rows.hpp).
 #pragma once
 
@@ -42,7 +43,7 @@ class ContactAudit {
                       const Vec& lambda, const ContactScale& scale);
   void look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda, const ContactScale& scale);
 
-  Worst pull_, beyond_cone_, along_slip_, overloaded_;
+  Worst pull_, beyond_cone_, along_slip_, overloaded_, unbalanced_;
   std::map<int, Span> indeterminate_;
 };
 

@@ -23,6 +23,7 @@ constexpr double round_off = 1e-13;
 
 void SharedRowsAtPoint::lay_out() {
   solved_at_.assign(contacts_.modes.shared.size(), {});
+  off_span_.assign(contacts_.modes.shared.size(), 0);
 }
 
 void SharedRowsAtPoint::evaluate_rows() {
@@ -38,8 +39,12 @@ bool SharedRowsAtPoint::follow() {
   const Vec some = response_.some_motion();
   bool changed = false;
   for (int group = 0; group < int(groups.size()); ++group) {
-    if (still_implied(groups[std::size_t(group)], some)) continue;
+    const SharedRows& shared = groups[std::size_t(group)];
+    double& off = off_span_[std::size_t(group)];
+    off = off_span(shared, some);
+    if (off <= round_off) continue;
     renew(group);
+    off = off_span(shared, some);
     changed = true;
   }
   return changed;
@@ -54,8 +59,10 @@ SharedRowsAtPoint::Rate SharedRowsAtPoint::rate_by(ContactDirection d, const Vec
   return rate;
 }
 
-bool SharedRowsAtPoint::still_implied(const SharedRows& group, const Vec& some) {
+// The largest rate of implied rows that K leaves, relative to its terms.
+double SharedRowsAtPoint::off_span(const SharedRows& group, const Vec& some) {
   std::vector<Rate> of_basis;
+  double largest = 0;
   for (const ContactDirection& d : group.basis) of_basis.push_back(rate_by(d, some));
   for (Index i = 0; i < group.K.rows(); ++i) {
     const Rate own = rate_by(group.implied[std::size_t(i)], some);
@@ -65,9 +72,9 @@ bool SharedRowsAtPoint::still_implied(const SharedRows& group, const Vec& some) 
       off -= group.K(i, j) * other.sum;
       terms += std::abs(group.K(i, j)) * other.terms;
     }
-    if (std::abs(off) > round_off * terms) return false;
+    if (terms > 0) largest = std::max(largest, std::abs(off) / terms);
   }
-  return true;
+  return largest;
 }
 
 void SharedRowsAtPoint::renew(int group) {
@@ -168,6 +175,11 @@ double SharedRowsAtPoint::spring_force(int contact, const Vec& lambda) {
 double SharedRowsAtPoint::leverage(int group) {
   follow();
   return contacts_.modes.shared[std::size_t(group)].K.rowwise().lpNorm<1>().maxCoeff();
+}
+
+double SharedRowsAtPoint::off_span(int group) {
+  follow();
+  return off_span_[std::size_t(group)];
 }
 
 void SharedRowsAtPoint::change_signs(numerics::BlockSigns& signs) {

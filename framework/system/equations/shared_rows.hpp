@@ -35,13 +35,14 @@ class SharedRowsAtPoint {
   // not.
   void change_signs(numerics::BlockSigns& signs);
   double leverage(int group);  // AssembledSystem::leverage
+  double off_span(int group);  // AssembledSystem::off_span
 
  private:
   struct Rate {
     double sum = 0, terms = 0;  // terms: sum of the absolute values of the terms
   };
   Rate rate_by(ContactDirection d, const Vec& some);
-  bool still_implied(const SharedRows& group, const Vec& some);
+  double off_span(const SharedRows& group, const Vec& some);
   void renew(int group);
   ContactLoads::Bounds bounds(int contact, const Vec& lambda);
   const ContactLoads& solved(int group, const Vec& lambda);  // with the forces of its contacts
@@ -57,6 +58,7 @@ class SharedRowsAtPoint {
   RowsAtPoint& rows_;
   ImpulseResponse& response_;
   std::vector<SolvedAt> solved_at_;  // by group
+  std::vector<double> off_span_;     // by group
   long long followed_at_ = -1;       // the configuration at which K and the shares were last updated
 };
 

@@ -42,8 +42,8 @@ std::vector<std::string> told_of(const simulate::Setup& setup, model::AssembledS
   return audit.warnings(*setup.model, simulate::Ledger(system, *setup.integrator));
 }
 
-// With all contacts closed, and these held by friction.
-std::vector<std::string> told(const std::string& scene, const std::vector<int>& held) {
+// With all contacts closed, and these held by friction. Afterwards the first coordinate changes by `moved`.
+std::vector<std::string> told(const std::string& scene, const std::vector<int>& held, double moved = 0) {
   simulate::Setup setup = simulate::set_up(scene::Scene::parse(scene, "test.json"), registry());
   model::AssembledSystem system(setup.model);
   model::Modes modes{.contacts = std::vector<model::ContactMode>(2), .shared = {}};
@@ -65,6 +65,7 @@ std::vector<std::string> told(const std::string& scene, const std::vector<int>& 
   system.move_to(state.t, state.q, state.v);
   problem.prepare(system);
   modes.shared = problem.shared_rows(modes);
+  state.q[0] += moved;
   return told_of(setup, system, state, modes);
 }
 
@@ -128,6 +129,21 @@ TEST(ContactAudit, TellsOfFeetThatCannotHoldByHowLittleAllOfThemFail) {
   EXPECT_THAT(told(pushed(4 + 4e-6), {0, 1}),
               ElementsAre(HasSubstr("the friction of contacts.right was 3e-06 N beyond its bound"),
                           HasSubstr("carry 5e-06 N more than they can")));
+}
+
+// A box touches the edge of a table of its own width with a corner, and the edge touches the box. Both contacts share
+// one row, until the box has moved: then the force on the edge acts elsewhere.
+TEST(ContactAudit, TellsOfContactsThatHaveMovedApartButShareARow) {
+  const std::string scene = R"({"trammel": 1, "space": "planar", "gravity": [0, -10],
+  "bodies": {"box": {"type": "rigid_body", "mass": 1, "inertia": 1, "position": [0, 0], "markers": {"right": [1, 0]}},
+             "table": {"type": "moving_base", "markers": {"edge": [1, 0]}}},
+  "contacts": {"corner": {"type": "constraint_method",
+                          "between": ["box.right", {"plane": {"point": [0, 0], "normal": [0, 1]}}]},
+               "edge": {"type": "constraint_method",
+                        "between": ["table.edge", {"plane": {"on": "box.com", "point": [0, 0], "normal": [0, -1]}}]}},
+  "simulate": {"until": 1}, "record": {"every": 1, "observe": {"x": "box.com.x"}}})";
+  EXPECT_THAT(told(scene, {}), IsEmpty());
+  EXPECT_THAT(told(scene, {}, 1e-3), ElementsAre(HasSubstr("off those that move the bodies")));
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 // Contacts whose rows depend on each other, while time passes: supports that move, bodies that turn, a slip that ends.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -377,6 +380,50 @@ TEST(StackInAChannel, OfAnySizeSlowsDownAlike) {
         EXPECT_NEAR(there[i], here[i], 1e-6 * here[0]) << "seed " << seed << ", length " << length << ", row " << i;
     }
   }
+}
+
+// A box slides on a table of its own width: corners of the box touch the table, and corners of the table touch the box.
+// At first they touch at the same places, and these contacts share rows with no others; a moment later with all.
+// x = v0 t - mu g t^2 / 2, whichever of the contacts the scene has and whatever the others' names are.
+TEST(BoxOnATableOfItsWidth, SlidesAsOnAFloor) {
+  constexpr double g = 9.81, half = 0.3, low = 0.02, mu = 0.3, v0 = 2, until = 0.3;
+  std::mt19937 random(5);
+  for (const bool spatial : {false, true})
+    for (int i = 0; i < 12; ++i) {
+      json s = {{"trammel", 1},
+                {"space", spatial ? "spatial" : "planar"},
+                {"simulate", {{"until", until}}},
+                {"record", {{"every", 0.01}, {"observe", {{"x", "box.com.x"}}}}}};
+      const auto at = [&](double x, double y, double up) { return spatial ? json{x, y, up} : json{x, up}; };
+      s["gravity"] = at(0, 0, -g);
+      s["bodies"]["box"] = {{"type", "rigid_body"},
+                            {"mass", 2},
+                            {"inertia", spatial ? json{0.06, 0.06, 0.12} : json(0.06)},
+                            {"position", at(0, 0, low)},
+                            {"velocity", at(v0, 0, 0)},
+                            {"markers", {{"bottom", at(0, 0, -low)}}}};
+      s["bodies"]["table"] = {{"type", "moving_base"}, {"markers", {{"top", at(0, 0, 0)}}}};
+      std::vector<std::string> names = {"a", "b", "c", "d", "e", "f", "g", "h"};
+      std::shuffle(names.begin(), names.end(), random);
+      std::vector<json> corners;
+      for (const double x : {-half, half})
+        for (const double y : spatial ? std::vector<double>{-half, half} : std::vector<double>{0})
+          corners.push_back(at(x, y, 0));
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        json of_box = corners[k];
+        of_box.back() = -low;
+        s["bodies"]["box"]["markers"][fmt::format("c{}", k)] = of_box;
+        s["bodies"]["table"]["markers"][fmt::format("c{}", k)] = corners[k];
+        s["contacts"][names[2 * k]] = contact(
+            fmt::format("box.c{}", k), {{"on", "table.top"}, {"point", at(0, 0, 0)}, {"normal", at(0, 0, 1)}}, mu);
+        if (random() % 4 == 0) continue;
+        s["contacts"][names[2 * k + 1]] = contact(
+            fmt::format("table.c{}", k), {{"on", "box.bottom"}, {"point", at(0, 0, 0)}, {"normal", at(0, 0, -1)}}, mu);
+      }
+      const Finished run = run_text(s.dump());
+      expect_trusted(run);
+      EXPECT_NEAR(run.end("x"), v0 * until - mu * g * until * until / 2, 1e-9) << s.dump();
+    }
 }
 
 }  // namespace
