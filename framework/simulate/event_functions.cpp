@@ -150,15 +150,15 @@ bool EventLocation::lacks_direction(const EventFunction& function) {
          system_.slip(function.contact).norm() < system_.modes().contacts[std::size_t(function.contact)].least_slip;
 }
 
-// A slip that stays below `least_slip` for ten times the time in which its acceleration would pass it is held: friction
-// whose direction is not resolved there acts as a stiff damper that other sticking contacts balance. At the system's
-// point, the end of the step.
+// A slip that stays below `least_slip` for many times the time in which its acceleration would pass it is held:
+// friction whose direction is not resolved there acts as a stiff damper that other sticking contacts balance. At the
+// system's point, the end of the step.
 bool EventLocation::stalls(double h, const State& next, int k) {
   const EventFunction& function = functions_[std::size_t(k)];
   if (!lacks_direction(function)) return false;
   const double pushed = std::max(function.pushed, system_.slip_acceleration(function.contact, next.a).norm());
   return (function.undirected_for + h) * pushed >
-         10 * system_.modes().contacts[std::size_t(function.contact)].least_slip;
+         function.patience * system_.modes().contacts[std::size_t(function.contact)].least_slip;
 }
 
 void EventLocation::measure_undirected(double h, const State& next, EventFunction& function) {

@@ -172,7 +172,7 @@ EventLocation::Found EventLocation::examine(const State& now, double& h, State& 
   try {
     find_suspects(now, h, next);
     if (suspects_.empty()) {
-      for (const int k : at_end_) report(k);
+      for (const int k : at_end_) functions_[k].stalled = functions_[k].kind == Kind::slide, report(k);
       return at_end_.empty() ? Found::nothing : Found::event;
     }
     const Located first = locate_first(now, h);
@@ -234,6 +234,11 @@ void EventLocation::wait_longer(const EventFunction& before, const Value& now, E
     if (now.f < 0) function.noise = 2 * std::abs(now.f);
     return;
   }
+  if (before.stalled) {  // its zero has not been seen: it slides on, and grows slowly
+    function.patience = 4 * before.patience, function.noise = std::max(function.noise, before.noise);
+    return;
+  }
+  function.patience = before.patience;
   if (function.kind == Kind::approach && now.slope > scale_.of(function.contact).left_by_impacts()) return;  // rebounds
   function.noise = std::max(function.noise, before.noise);
   if (before.reported || now.f < 0)
@@ -324,10 +329,11 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
 
 void EventLocation::archive(Archive& a) {
   const auto n = Eigen::Index(functions_.size());
-  Mat values(n, 9);
+  Mat values(n, 10);
   for (Eigen::Index k = 0; k < n; ++k)
     values.row(k) << now_[k].f, now_[k].slope, functions_[k].noise, functions_[k].force_before, functions_[k].steepest,
-        functions_[k].little, functions_[k].side, functions_[k].undirected_for, functions_[k].pushed;
+        functions_[k].little, functions_[k].side, functions_[k].undirected_for, functions_[k].pushed,
+        functions_[k].patience;
   Vec flat = Eigen::Map<const Vec>(values.data(), values.size());
   a("watched", flat), a("h_before", h_before_), a("longest", longest_), a("steps_tried", steps_tried_);
   signs_.archive(a, "signs");
@@ -336,13 +342,14 @@ void EventLocation::archive(Archive& a) {
     next_.resize(functions_.size()), probe_.resize(functions_.size()), now_.resize(functions_.size());
   }
   const auto m = Eigen::Index(functions_.size());
-  if (flat.size() != 9 * m) throw std::length_error("watched");
+  if (flat.size() != 10 * m) throw std::length_error("watched");
   for (Eigen::Index k = 0; k < m; ++k) {
     now_[k] = {flat[k], flat[m + k]};
     functions_[k].noise = flat[2 * m + k], functions_[k].force_before = flat[3 * m + k],
     functions_[k].steepest = flat[4 * m + k], functions_[k].little = flat[5 * m + k],
     functions_[k].side = flat[6 * m + k];
     functions_[k].undirected_for = flat[7 * m + k], functions_[k].pushed = flat[8 * m + k];
+    functions_[k].patience = flat[9 * m + k];
   }
 }
 

@@ -95,6 +95,8 @@ class EventLocation {
     double side = 1;            // load: 1 or -1
     double undirected_for = 0;  // [s] slide in space: how long it has been without a direction (system/point/slip.hpp)
     double pushed = 0;          // [m/s^2] slide in space: its largest acceleration in that time
+    double patience = 10;       // slide in space: as many times longer than that acceleration needs it may have none
+    bool stalled = false;       // slide in space: the last event was that it has had none for longer
   };
   using Value = numerics::ValueAndSlope;  // slopes of forces and accelerations are not known
   struct Suspect {
