@@ -108,6 +108,13 @@ TEST(CarryingRows, OfLeastNormForAnyBasisAndAnyIdleContacts) {
   EXPECT_NEAR((least_norm_shares(K) - least_norm_shares(E, std::vector<bool>(5, false))).norm(), 0, 1e-14);
 }
 
+// Rows that follow from the joints' rows alone have no resultants.
+TEST(CarryingRows, OfWhichNoneIsIndependentHaveNoShares) {
+  const Mat share = least_norm_shares(Mat::Zero(0, 3), {false, true, false});
+  EXPECT_EQ(share.rows(), 3);
+  EXPECT_EQ(share.cols(), 0);
+}
+
 // Two contacts that carry, along (1, 0) and (1, d), beside one along (0, 1). Where d passes 0 their forces may stay
 // finite, although the inverse does not.
 TEST(CarryingRows, ShareAcrossADependenceAsALittleBesideIt) {

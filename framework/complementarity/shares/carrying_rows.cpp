@@ -50,6 +50,7 @@ Mat least_norm_shares(const Mat& resultants, const std::vector<bool>& idle) {
   for (std::size_t k = 0; k < idle.size(); ++k)
     if (!idle[k]) carrying.push_back(Index(k));
   Mat share = Mat::Zero(resultants.cols(), resultants.rows());
+  if (resultants.rows() == 0) return share;  // the rows follow from the joints' rows alone
   const Mat transposed = resultants(Eigen::all, carrying).transpose();
   const Eigen::ColPivHouseholderQR<Mat> qr(transposed);  // E P = (Q R)^T
   const Index n = resultants.rows();
