@@ -13,28 +13,40 @@ void ImpulseResponse::respond(const std::vector<ContactDirection>& directions, M
   const Solver dv_of = with_joints_held();
   Mat N = Mat::Zero(nv, n);
   jump.resize(nv, n);
-  Vec dv, column;
+  Vec dv, on_joints;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const ContactDirection d = directions[std::size_t(i)];
-    const Rows& r = contacts_.rows(d.contact);
-    const Slots& slots = contacts_.slots(d.contact);
-    for (int k = 0; k < slots.count; ++k) at_.motion(slots[k]);
-    column.setZero(nv);
-    at_.add_row_force(slots, r, d.row, 1, column);
-    N.col(i) = column;
-    dv_of(column, dv);
+    N.col(i) = unit_impulse(directions[std::size_t(i)]);
+    dv_of(N.col(i), dv, on_joints);
     jump.col(i) = dv;
   }
   delassus.noalias() = N.transpose() * jump;
   clear_held(N, jump, delassus);
 }
 
+Vec ImpulseResponse::unit_impulse(ContactDirection d) {
+  const Slots& slots = contacts_.slots(d.contact);
+  for (int k = 0; k < slots.count; ++k) at_.motion(slots[k]);
+  Vec impulse = Vec::Zero(at_.model->sizes.nv);
+  at_.add_row_force(slots, contacts_.rows(d.contact), d.row, 1, impulse);
+  return impulse;
+}
+
+Mat ImpulseResponse::held_by_joints(const std::vector<ContactDirection>& directions) {
+  const Solver dv_of = with_joints_held();
+  Mat multipliers(rows_.held(), Eigen::Index(directions.size()));
+  Vec dv, on_joints;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    dv_of(unit_impulse(directions[i]), dv, on_joints);
+    multipliers.col(Eigen::Index(i)) = on_joints;
+  }
+  return multipliers;
+}
+
 ImpulseResponse::Solver ImpulseResponse::with_joints_held() {
   masses_.evaluate_mass();
   const int joint_rows = rows_.held();
   const auto solver = [joint_rows](auto&& solve) {
-    return [joint_rows, solve](const Vec& impulse, Vec& dv) {
-      Vec on_joints;
+    return [joint_rows, solve](const Vec& impulse, Vec& dv, Vec& on_joints) {
       solve(impulse, Vec(Vec::Zero(joint_rows)), dv, on_joints);
     };
   };
@@ -66,11 +78,15 @@ void ImpulseResponse::clear_held(const Mat& N, Mat& jump, Mat& delassus) {
   }
 }
 
+Vec ImpulseResponse::sizes_of_motions() {
+  return masses_.diagonal().cwiseSqrt().cwiseInverse();
+}
+
 Vec ImpulseResponse::some_motion() {
   const Vec weight = masses_.diagonal().cwiseSqrt(), numbers = pseudo_random(at_.model->sizes.nv, 1, 1);
   if (rows_.held() == 0) return numbers.cwiseQuotient(weight);
-  Vec some;
-  with_joints_held()(numbers.cwiseProduct(weight), some);
+  Vec some, on_joints;
+  with_joints_held()(numbers.cwiseProduct(weight), some, on_joints);
   return some;
 }
 

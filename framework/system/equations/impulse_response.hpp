@@ -19,12 +19,16 @@ class ImpulseResponse {
   // The rows must be evaluated. Column i of `jump` is dv for a unit impulse along directions[i], and delassus(i, j) the
   // change of the rate of directions[i] by a unit impulse along directions[j]. Throws NotSolvable.
   void respond(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus);
+  // Column i: the multipliers L_b of the rows that are held, for a unit impulse along directions[i].
+  Mat held_by_joints(const std::vector<ContactDirection>& directions);
   // A pseudo-random velocity that the joints permit.
   Vec some_motion();
+  Vec sizes_of_motions();  // of the velocities of one that no joint holds
 
  private:
-  using Solver = std::function<void(const Vec& impulse, Vec& dv)>;
+  using Solver = std::function<void(const Vec& impulse, Vec& dv, Vec& on_joints)>;
   Solver with_joints_held();
+  Vec unit_impulse(ContactDirection d);
   void clear_held(const Mat& N, Mat& jump, Mat& delassus);
 
   Point& at_;

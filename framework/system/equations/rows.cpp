@@ -217,6 +217,8 @@ void RowsAtPoint::couple() {
       const Vec6& by = friction_.load_by_row(i);
       for (int k = 0; k < joint.rows; ++k)
         if (by[k] != 0) add_share(joint.row + k, -by[k]);
+      const auto& [rows, D] = friction_.share(i);
+      for (std::size_t k = 0; k < rows.size(); ++k) add_share(rows[k], -by.dot(D.col(Eigen::Index(k))));
       continue;
     }
     const ContactLoads& loads = contacts_.loads;

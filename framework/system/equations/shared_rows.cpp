@@ -18,17 +18,21 @@ using Eigen::Index;
 // Relative to the terms of the rates of a motion: K is still valid. Shares, and with them the forces of idle contacts,
 // jump by as much where K is renewed.
 constexpr double round_off = 1e-13;
+// Relative to the multipliers of joints that hold the rows of a group: a smaller part in an implied row is none.
+constexpr double round_off_of_joints = 1e-12;
 
 }  // namespace
 
 void SharedRowsAtPoint::lay_out() {
   solved_at_.assign(contacts_.modes.shared.size(), {});
   off_span_.assign(contacts_.modes.shared.size(), 0);
+  friction_.clear_shares();
+  followed_at_ = -1;
 }
 
 void SharedRowsAtPoint::evaluate_rows() {
   if (!rows_.evaluate()) return;
-  if (rows_.coupled() && contacts_.loads.sliding_shares() && follow()) rows_.couple();
+  if (rows_.coupled() && (contacts_.loads.sliding_shares() || !friction_.none()) && follow()) rows_.couple();
 }
 
 bool SharedRowsAtPoint::follow() {
@@ -36,43 +40,67 @@ bool SharedRowsAtPoint::follow() {
   if (groups.empty()) return false;
   evaluate_rows();  // calls this function itself if the shares affect the motion
   if (std::exchange(followed_at_, at_.configuration) == at_.configuration) return false;
-  const Vec some = response_.some_motion();
+  const Vec some = response_.some_motion(), sizes = response_.sizes_of_motions();
   bool changed = false;
   for (int group = 0; group < int(groups.size()); ++group) {
     const SharedRows& shared = groups[std::size_t(group)];
     double& off = off_span_[std::size_t(group)];
-    off = off_span(shared, some);
-    if (off <= round_off) continue;
+    const Off before = off_span(shared, some, sizes);
+    off = before.of_free;
+    if (before.of_terms <= round_off) continue;
     renew(group);
-    off = off_span(shared, some);
+    off = off_span(shared, some, sizes).of_free;
     changed = true;
   }
-  return changed;
+  if (friction_.none()) return changed;
+  share_with_joints();
+  return true;
 }
 
-SharedRowsAtPoint::Rate SharedRowsAtPoint::rate_by(ContactDirection d, const Vec& some) {
+// g_implied = K g_basis + C g_joints: forces F = -share lambda along the implied rows add C^T F to the multipliers of
+// the joints.
+void SharedRowsAtPoint::share_with_joints() {
+  friction_.clear_shares();
+  for (std::size_t g = 0; g < contacts_.modes.shared.size(); ++g) {
+    const SharedRows& group = contacts_.modes.shared[g];
+    const Index n = group.K.cols(), m = group.K.rows();
+    std::vector<ContactDirection> all = group.basis;
+    all.insert(all.end(), group.implied.begin(), group.implied.end());
+    const Mat held = response_.held_by_joints(all), K = group.K.transpose();
+    Mat C = held.rightCols(m) - held.leftCols(n) * K;
+    const Mat terms = held.rightCols(m).cwiseAbs() + held.leftCols(n).cwiseAbs() * K.cwiseAbs();
+    C = (C.array().abs() > round_off_of_joints * terms.maxCoeff()).select(C, 0);
+    std::vector<int> rows;
+    for (int k = 0; k < int(n); ++k) rows.push_back(contacts_.loads.row_of_basis(int(g), k));
+    friction_.add_shares(rows, -C * group.share.bottomRows(m));
+  }
+}
+
+SharedRowsAtPoint::Rate SharedRowsAtPoint::rate_by(ContactDirection d, const Vec& some, const Vec& sizes) {
   Rate rate;
   at_.for_each_entry(contacts_.slots(d.contact), contacts_.rows(d.contact), d.row, [&](double along, int velocity) {
     const double term = along * some(velocity);
-    rate.sum += term, rate.terms += std::abs(term);
+    rate.sum += term, rate.terms += std::abs(term), rate.free += std::abs(along * sizes(velocity));
   });
   return rate;
 }
 
-// The largest rate of implied rows that K leaves, relative to its terms.
-double SharedRowsAtPoint::off_span(const SharedRows& group, const Vec& some) {
+// The largest parts of all implied rows. Rates that joints hold at 0 are round-off, however small their terms are.
+SharedRowsAtPoint::Off SharedRowsAtPoint::off_span(const SharedRows& group, const Vec& some, const Vec& sizes) {
   std::vector<Rate> of_basis;
-  double largest = 0;
-  for (const ContactDirection& d : group.basis) of_basis.push_back(rate_by(d, some));
+  Off largest;
+  for (const ContactDirection& d : group.basis) of_basis.push_back(rate_by(d, some, sizes));
   for (Index i = 0; i < group.K.rows(); ++i) {
-    const Rate own = rate_by(group.implied[std::size_t(i)], some);
-    double off = own.sum, terms = own.terms;
+    const Rate own = rate_by(group.implied[std::size_t(i)], some, sizes);
+    double off = own.sum, terms = own.terms, free = own.free;
     for (Index j = 0; j < group.K.cols(); ++j) {
       const Rate& other = of_basis[std::size_t(j)];
+      const double times = std::abs(group.K(i, j));
       off -= group.K(i, j) * other.sum;
-      terms += std::abs(group.K(i, j)) * other.terms;
+      terms += times * other.terms, free += times * other.free;
     }
-    if (terms > 0) largest = std::max(largest, std::abs(off) / terms);
+    if (terms > 0) largest.of_terms = std::max(largest.of_terms, std::abs(off) / terms);
+    if (free > 0) largest.of_free = std::max(largest.of_free, std::abs(off) / free);
   }
   return largest;
 }
@@ -150,7 +178,10 @@ const ContactLoads& SharedRowsAtPoint::solved(int group, const Vec& lambda) {
 
 double SharedRowsAtPoint::force_along(ContactDirection d, const Vec& lambda) {
   const ContactLoads::Place& place = contacts_.loads.place(d);
-  if (d.row == 0 && contacts_.in_joint(d.contact)) return friction_.load(d.contact, lambda);
+  if (d.row == 0 && contacts_.in_joint(d.contact)) {
+    follow();
+    return friction_.load(d.contact, lambda);
+  }
   if (place.group >= 0) return solved(place.group, lambda).load(place);
   if (place.row >= 0) return -lambda(place.row);
   if (d.row > 0 || !contacts_.entry(d.contact).force || !contacts_.mode(d.contact).closed) return 0;

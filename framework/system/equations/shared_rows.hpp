@@ -4,7 +4,8 @@
 //
 // K depends on the configuration. It is constant if the dependence follows from the geometry of one body, such as the
 // feet of a table; it changes if bodies that touch at one point turn against each other. K is tested with one
-// pseudo-random motion that the joints permit.
+// pseudo-random motion that the joints permit. The part of the joints' rows is formed at every configuration, but only
+// where joints rub: their loads are those of the shared forces.
 #pragma once
 
 #include <vector>
@@ -40,10 +41,15 @@ class SharedRowsAtPoint {
  private:
   struct Rate {
     double sum = 0, terms = 0;  // terms: sum of the absolute values of the terms
+    double free = 0;            // the same for a motion of this size which no joint holds
   };
-  Rate rate_by(ContactDirection d, const Vec& some);
-  double off_span(const SharedRows& group, const Vec& some);
+  Rate rate_by(ContactDirection d, const Vec& some, const Vec& sizes);
+  struct Off {
+    double of_terms = 0, of_free = 0;  // parts of the rate of an implied row that K leaves
+  };
+  Off off_span(const SharedRows& group, const Vec& some, const Vec& sizes);
   void renew(int group);
+  void share_with_joints();
   ContactLoads::Bounds bounds(int contact, const Vec& lambda);
   const ContactLoads& solved(int group, const Vec& lambda);  // with the forces of its contacts
 

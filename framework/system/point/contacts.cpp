@@ -167,7 +167,10 @@ bool ContactsAtPoint::follow_slip() {
 std::vector<int> ContactsAtPoint::acting_with(ContactDirection d) const {
   std::vector<int> contacts = {d.contact};
   const int group = loads.place(d).group;
-  if (group < 0 || modes.shared[std::size_t(group)].sliding.empty()) return contacts;
+  if (group < 0) return contacts;
+  for (int i = 0; i < count(); ++i)  // their loads may depend on the shares
+    if (i != d.contact && in_joint(i)) contacts.push_back(i);
+  if (modes.shared[std::size_t(group)].sliding.empty()) return contacts;
   for (const auto* directions : {&modes.shared[std::size_t(group)].basis, &modes.shared[std::size_t(group)].implied})
     for (const ContactDirection& other : *directions)
       if (other.contact != d.contact && other.row == 0) contacts.push_back(other.contact);

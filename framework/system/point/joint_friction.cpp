@@ -76,9 +76,38 @@ JointFriction::Bearing& JointFriction::bearing(int contact) {
 }
 
 double JointFriction::load(int contact, const Vec& lambda) {
-  const JointEntry& joint = joint_of(contact);
   const Bearing& b = bearing(contact);
-  return total(b.at, b.loads * lambda.segment(joint.row, joint.rows));
+  return total(b.at, b.loads * reaction(contact, lambda));
+}
+
+Vec6 JointFriction::reaction(int contact, const Vec& lambda) const {
+  const JointEntry& joint = joint_of(contact);
+  Vec6 all = lambda.segment(joint.row, joint.rows);
+  const auto& [rows, D] = share(contact);
+  for (std::size_t k = 0; k < rows.size(); ++k) all += lambda(rows[k]) * D.col(Eigen::Index(k));
+  return all;
+}
+
+const JointFriction::Share& JointFriction::share(int contact) const {
+  return bearings_[std::size_t(bearing_of_[std::size_t(contact)])].share;
+}
+
+void JointFriction::clear_shares() {
+  for (Bearing& b : bearings_) b.share = {};
+}
+
+void JointFriction::add_shares(const std::vector<int>& rows, const Mat& on_joints) {
+  for (Bearing& b : bearings_) {
+    const JointEntry& joint = joint_of(b.contact);
+    const auto D = on_joints.middleRows(joint.row, joint.rows);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const auto column = D.col(Eigen::Index(k));
+      if (column.isZero(0)) continue;
+      b.share.rows.push_back(rows[k]);
+      b.share.D.conservativeResize(joint.rows, b.share.D.cols() + 1);
+      b.share.D.rightCols(1) = column;
+    }
+  }
 }
 
 const Vec6& JointFriction::load_by_row(int contact) const {
@@ -105,8 +134,7 @@ JointFriction::Loaded JointFriction::load_with(const Vec& lambda) {
   for (Bearing& b : bearings_) {
     if (!slides(b.contact)) continue;
     bearing(b.contact);
-    const JointEntry& joint = joint_of(b.contact);
-    const Vec6 of_joint = lambda.segment(joint.row, joint.rows), p = b.loads * of_joint;
+    const Vec6 of_joint = reaction(b.contact, lambda), p = b.loads * of_joint;
     const double round_off = 64 * eps * largest * b.loads.cwiseAbs().sum();
     loaded.far = loaded.far || std::abs(total(b.at, p) - b.load_by_row.dot(of_joint)) > round_off;
     const Vec6 before = b.load_by_row;
@@ -197,8 +225,7 @@ void JointFriction::add_tangent(int contact, Blend c, const Vec& lambda, Matrix&
   if (c.c_k == 0 || (ratio == 0 && held == 0)) return;
   const JointEntry& joint = joint_of(contact);
   at_.called(joint.origin, "bearings");
-  const SlipForce force(joint, *contacts_.entry(contact).joint->bearing, at_.t, lambda.segment(joint.row, joint.rows),
-                        ratio, held);
+  const SlipForce force(joint, *contacts_.entry(contact).joint->bearing, at_.t, reaction(contact, lambda), ratio, held);
   const std::array<int, 2> both = {slots.A, slots.B};
   add_wrench_tangent(at_.markers, both, at_.t, at_.q, at_.v, force, c.c_k, 0, S);
 }

@@ -1,6 +1,11 @@
 // Joints with friction at the point: the loads of their bearings by the joints' multipliers.
 //
-//     N(lambda) = sum_k |L_k lambda|,  L_k = C_k H_B^T      homogeneous of degree 1, so with n = dN/dlambda at lambda
+//     N(lambda) = sum_k |L_k lambda'|,  L_k = C_k H_B^T     homogeneous of degree 1, so with n = dN/dlambda' at lambda
+//     lambda' = lambda_J + D lambda_c                        lambda_J: of the joint's rows
+//
+// D lambda_c is what contacts that share forces, with the multipliers lambda_c in g, put on the joint: their rows
+// follow from each other and from the joints' rows, so their shares change the joint's reaction (SharedRowsAtPoint).
+//
 //     W^T lambda = (G^T - r h^T n) lambda                   r = T/N while sliding, h: the row of the slip
 //
 // W^T lambda is the reaction at lambda, and W^T its derivative there. Hence solving with W of the last lambda is a
@@ -25,7 +30,14 @@ class JointFriction {
   const JointEntry& joint_of(int contact) const;
   double load(int contact, const Vec& lambda);  // N [N]
   const Vec6& load_by_row(int contact) const;   // n, with which W is formed
-  bool unload();                                // sets n = 0; false: it was 0
+  struct Share {
+    std::vector<int> rows;  // of lambda_c
+    Mat D;                  // rows of the joint x `rows`
+  };
+  const Share& share(int contact) const;
+  void clear_shares();
+  void add_shares(const std::vector<int>& rows, const Mat& on_joints);  // on_joints: D of all rows of joints
+  bool unload();                                                        // sets n = 0; false: it was 0
   struct Loaded {
     bool changed = false;  // n has changed, and so has W
     bool far = false;      // n . lambda differed from N(lambda) before
@@ -43,9 +55,11 @@ class JointFriction {
     Bearings at = {};
     Mat6 loads = {};        // L: derivatives of the bearings' loads by the joint's multipliers [1]
     Vec6 load_by_row = {};  // n
+    Share share = {};
   };
-  Bearing& bearing(int contact);  // at this point
-  bool slides(int contact);       // and has friction
+  Vec6 reaction(int contact, const Vec& lambda) const;  // lambda'
+  Bearing& bearing(int contact);                        // at this point
+  bool slides(int contact);                             // and has friction
 
   Point& at_;
   ContactsAtPoint& contacts_;

@@ -426,5 +426,25 @@ TEST(BoxOnATableOfItsWidth, SlidesAsOnAFloor) {
     }
 }
 
+// The rows of its feet follow from those of the guide alone.
+TEST(BoxOnAGuide, TouchesAFloorThatLeavesItsMotionAlone) {
+  json s = {{"trammel", 1},
+            {"space", "planar"},
+            {"gravity", {0, -9.81}},
+            {"simulate", {{"until", 0.5}}},
+            {"record", {{"every", 0.1}, {"observe", {{"x", "box.com.x"}}}}}};
+  s["bodies"]["box"] = {{"type", "rigid_body"}, {"mass", 2},
+                        {"inertia", 0.1},       {"position", {0, 0.1}},
+                        {"velocity", {1, 0}},   {"markers", {{"l", {-0.2, -0.1}}, {"r", {0.2, -0.1}}}}};
+  s["joints"]["guide"] = {{"type", "prismatic"}, {"between", {"ground", "box.com"}}};
+  for (const char* foot : {"l", "r"})
+    s["contacts"][foot] = contact("box." + std::string(foot), {{"point", {0, 0}}, {"normal", {0, 1}}}, 0);
+  s["bodies"]["rail"] = {{"type", "moving_base"}, {"markers", {{"at", {0, 0.1}}}}};
+  s["joints"]["guide"]["between"][0] = "rail.at";
+  const Finished run = run_text(s.dump());
+  expect_trusted(run);
+  EXPECT_NEAR(run.end("x"), 0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace trammel::test
