@@ -213,11 +213,13 @@ void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, cons
       continue;
     }
     // If the force that a_t asks for exceeds the bound, the contact slides; otherwise it is held, and a_t is round-off,
-    // that of the terms along its own tangents.
+    // that of the terms along its own tangents. Where joints hold the tangent (a slider-crank at a dead centre), A is 0
+    // there and no friction holds it.
     const double stiff = A.block(p.tangent, p.tangent, p.tangents, p.tangents).trace() / p.tangents;
-    const Vec asked = stiff > 0 ? Vec(T - a_t / stiff) : Vec(T);
+    const Vec asked = stiff > 0 ? Vec(T - a_t / stiff) : Vec(-a_t);  // [N], or its direction
+    const double caused = stiff > 0 ? stiff * asked.norm() : a_t.norm();
     const bool slides =
-        stiff * asked.norm() >
+        caused >
         stiff * bound + round_off_of_slip * scale_of_slip(terms.segment(p.tangent, p.tangents).maxCoeff(), largest);
     if (!slides) a_t.setZero();
     if (slides)

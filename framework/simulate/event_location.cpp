@@ -15,7 +15,7 @@ namespace {
 
 // A part of a row that does not follow from those with which its contact shares: contacts that touched at one point
 // have moved apart. It exceeds `no_share` (complementarity/shares/row_basis.cpp), so the other rows on which it depends
-// show, and is half of what the audit of contacts reports.
+// show.
 constexpr double most_off_span = 5e-9;
 constexpr double part_of_scale = 1e-3;  // of what counts as touching or at rest: a function located so near is at 0
 

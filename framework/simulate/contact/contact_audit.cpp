@@ -15,6 +15,8 @@ namespace {
 
 // Of the forces that act on a contact, or of all energy that was lost: round-off, and the inaccuracy of located events.
 constexpr double little = 1e-8;
+// Rows up to an angle of 3e-7 to others count as dependent (complementarity/shares/row_basis.hpp).
+constexpr double dependent = 1e-6;
 
 // [N] A smaller force along any direction of the group accelerates nothing.
 double noise(model::AssembledSystem& system, const model::SharedRows& group, const ContactScale& scale) {
@@ -36,8 +38,10 @@ void ContactAudit::Worst::raise_to(int i, double when, double amount, double sca
 void ContactAudit::look(model::AssembledSystem& system, const State& state, const ContactScale& scale) {
   const std::vector<model::ContactMode>& modes = system.modes().contacts;
   std::vector<int> closed;
-  for (int i = 0; i < int(modes.size()); ++i)
-    if (modes[std::size_t(i)].closed && system.model().contacts[std::size_t(i)].restitution) closed.push_back(i);
+  for (int i = 0; i < int(modes.size()); ++i) {
+    const model::ContactEntry& entry = system.model().contacts[std::size_t(i)];
+    if (modes[std::size_t(i)].closed && (entry.restitution || entry.joint)) closed.push_back(i);
+  }
   if (closed.empty()) return;
   Moment moment(system, state);
   const Vec& lambda = moment.lambda();
@@ -54,7 +58,7 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
                                   const Vec& lambda, const ContactScale& scale) {
   struct Looked {
     int contact;
-    Eigen::Index normal;         // in F; the tangents follow
+    Eigen::Index first;          // in F: its normal, which a joint does not have, then its tangents
     double pull, beyond, along;  // [N] beyond what a contact can do: pulls, exceeds its cone, pushes along its slip
   };
   std::vector<model::ContactDirection> directions;
@@ -65,11 +69,12 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
     const model::ContactEntry& entry = system.model().contacts[std::size_t(i)];
     const double N = system.normal_force(i, lambda);
     Looked looked{i, Eigen::Index(forces.size()), -N, 0, 0};
-    directions.push_back({i, 0}), forces.push_back(N);
+    if (!entry.joint) directions.push_back({i, 0}), forces.push_back(N);  // the load of bearings has no direction
     const model::Tangential T = system.friction_force(i, lambda);
     for (int k = 0; k < system.tangents(i) && entry.friction; ++k)
       directions.push_back({i, 1 + k}), forces.push_back(T[k]);
-    if (entry.restitution->treatment().release == Restitution::Release::never) continue;  // a latch may pull
+    if (entry.restitution && entry.restitution->treatment().release == Restitution::Release::never)
+      continue;  // a latch may pull
     const model::ContactMode::Friction friction = system.modes().contacts[std::size_t(i)].friction;
     if (entry.coulomb && friction == model::ContactMode::Friction::stick)
       looked.beyond = T.norm() - std::max(0.0, entry.coulomb->static_coefficient() * N);
@@ -85,8 +90,8 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
       judge_forces(system, directions, Eigen::Map<const Vec>(forces.data(), std::ssize(forces)), scale);
   for (const Looked& looked : all) {
     double acts = 0, noise = 0;
-    for (Eigen::Index k = looked.normal;
-         k < judged.scale.size() && directions[std::size_t(k)].contact == looked.contact; ++k)
+    for (Eigen::Index k = looked.first; k < judged.scale.size() && directions[std::size_t(k)].contact == looked.contact;
+         ++k)
       acts = std::max(acts, judged.scale[k]), noise = std::max(noise, judged.noise[k]);
     if (looked.pull > noise) pull_.raise_to(looked.contact, state.t, looked.pull, acts);
     if (looked.beyond > noise) beyond_cone_.raise_to(looked.contact, state.t, looked.beyond, acts);
@@ -101,7 +106,8 @@ void ContactAudit::look_at_groups(model::AssembledSystem& system, double t, cons
     const double missing = -system.spare_load(int(group), lambda), largest = system.largest_load(int(group), lambda);
     if (missing > little * largest && missing > noise(system, shared[group], scale))
       overloaded_.raise_to(shared[group].implied.front().contact, t, missing, largest);
-    unbalanced_.raise_to(shared[group].implied.front().contact, t, system.off_span(int(group)) * largest, largest);
+    if (const double off = system.off_span(int(group)); off > dependent)
+      unbalanced_.raise_to(shared[group].implied.front().contact, t, off * largest, largest);
   }
 }
 

@@ -505,6 +505,35 @@ TEST(SliderCrank, RubsOnItsGuideThroughItsDeadCentres) {
   EXPECT_NEAR(run.result["energy_drift"].get<double>(), 0, 1e-6 * lost);
 }
 
+// Nothing drives it: at its dead centres it goes on by its inertia, and all that it loses is lost to friction.
+TEST(SliderCrank, SwingsThroughItsDeadCentresByItself) {
+  for (const double mu : {0.05, 0.3, 1.0}) {
+    const Finished run = run_text(fmt::format(
+        R"({{"trammel": 1, "space": "planar", "gravity": [0, 0], "bodies": {{
+               "crank": {{"type": "rigid_body", "mass": 1, "inertia": 0.01, "position": [0, 0.1], "angle": {0},
+                          "velocity": [-0.5, 0], "angular_velocity": 5, "markers": {{"o": [-0.1, 0], "p": [0.1, 0]}}}},
+               "rod": {{"type": "rigid_body", "mass": 0.2, "inertia": 0.001, "position": [{1}, 0.1], "angle": {2},
+                        "velocity": [-1, 0], "markers": {{"a": [-0.25, 0], "b": [0.25, 0]}}}},
+               "slider": {{"type": "rigid_body", "mass": 0.2, "inertia": 1e-4, "position": [{3}, 0],
+                           "velocity": [-1, 0]}}}},
+             "joints": {{"o": {{"type": "revolute", "between": ["ground", "crank.o"]}},
+                         "p": {{"type": "revolute", "between": ["crank.p", "rod.a"]}},
+                         "q": {{"type": "revolute", "between": ["rod.b", "slider.com"]}},
+                         "guide": {{"type": "prismatic", "between": ["ground", "slider.com"], "length": 0.1,
+                                    "friction": {4}}}}},
+             "simulate": {{"until": 0.6}},
+             "record": {{"every": 0.01, "observe": {{"T": "joints.guide.friction", "N": "joints.guide.load"}}}}}})",
+        pi / 2, std::sqrt(0.21) / 2, -std::asin(0.4), std::sqrt(0.21), coulomb(mu)));
+    ASSERT_TRUE(run.done()) << mu << ": " << run.report.reason;
+    EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
+    EXPECT_FALSE(run.of_kind("reversal").empty()) << mu;  // at the first of them
+    for (std::size_t k = 0; k < run.series.at("T").size(); ++k)
+      EXPECT_LE(std::abs(run.series.at("T")[k]), mu * run.series.at("N")[k] + 1e-9) << mu << ": " << k;
+    const double lost = run.result["energy_dissipated"]["joint_friction"]["guide"].get<double>();
+    EXPECT_NEAR(run.result["energy_drift"].get<double>(), 0, 1e-6 * lost) << mu;
+  }
+}
+
 // --- a cart on three wheels whose hubs rub: the forces at the floor, and with them the loads, are indeterminate
 
 struct Cart {
