@@ -1,0 +1,195 @@
+// Friction in joints whose rows, or whose contacts' rows, follow from others: dead centres of a slider-crank, and loads
+// that depend on how contacts share forces.
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/run_scene.hpp"
+
+namespace trammel::test {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double g = 9.81;  // [m/s^2]
+
+std::string coulomb(double mu_0, double mu) {
+  return fmt::format(R"({{"type": "coulomb", "static": {:.17g}, "kinetic": {:.17g}}})", mu_0, mu);
+}
+std::string coulomb(double mu) {
+  return coulomb(mu, mu);
+}
+
+// --- a slider-crank driven at constant speed, whose slider rubs on its guide
+
+// At a dead centre the slip of the guide reverses, and its row follows from those of the other joints: no friction can
+// hold it there. x = r cos phi + sqrt(L^2 - r^2 sin^2 phi).
+TEST(SliderCrank, RubsOnItsGuideThroughItsDeadCentres) {
+  constexpr double r = 0.2, L = 0.5, phi_0 = 0.5, omega = 14, until = 1;
+  const double s = r * std::sin(phi_0), c = r * std::cos(phi_0), psi = -std::asin(s / L), along = L * std::cos(psi);
+  const double psi_t = -omega * c / along;  // L sin(psi) = -r sin(phi)
+  const Finished run = run_text(fmt::format(
+      R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81], "bodies": {{
+             "crank": {{"type": "rigid_body", "mass": 1, "inertia": 0.003, "position": [{}, {}], "angle": {},
+                        "velocity": [{}, {}], "angular_velocity": {}, "markers": {{"o": [-0.1, 0], "p": [0.1, 0]}}}},
+             "rod": {{"type": "rigid_body", "mass": 0.5, "inertia": 0.01, "position": [{}, {}], "angle": {},
+                      "velocity": [{}, {}], "angular_velocity": {}, "markers": {{"a": [-0.25, 0], "b": [0.25, 0]}}}},
+             "slider": {{"type": "rigid_body", "mass": 1, "inertia": 0.001, "position": [{}, 0], "velocity": [{}, 0]}}}},
+           "joints": {{"o": {{"type": "revolute", "between": ["ground", "crank.o"], "angle": "={}+{}*t"}},
+                       "p": {{"type": "revolute", "between": ["crank.p", "rod.a"]}},
+                       "q": {{"type": "revolute", "between": ["rod.b", "slider.com"]}},
+                       "guide": {{"type": "prismatic", "between": ["ground", "slider.com"], "length": 0.1,
+                                  "friction": {}}}}},
+           "simulate": {{"until": {}}},
+           "record": {{"every": 0.1, "observe": {{"x": "slider.com.x", "T": "joints.guide.friction"}}}}}})",
+      c / 2, s / 2, phi_0, -omega * s / 2, omega * c / 2, omega, c + along / 2, s / 2, psi,
+      -omega * s + L / 2 * std::sin(-psi) * psi_t, omega * c / 2, psi_t, c + along,
+      -omega * s + L * std::sin(-psi) * psi_t, phi_0, omega, coulomb(0.2), until));
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
+  const double phi = phi_0 + omega * until;
+  EXPECT_NEAR(run.end("x"), r * std::cos(phi) + std::sqrt(L * L - std::pow(r * std::sin(phi), 2)), 1e-9);
+  const double lost = run.result["energy_dissipated"]["joint_friction"]["guide"].get<double>();
+  EXPECT_GT(lost, 0);
+  EXPECT_NEAR(run.result["energy_drift"].get<double>(), 0, 1e-6 * lost);
+}
+
+// Nothing drives it: at its dead centres it goes on by its inertia, and all that it loses is lost to friction.
+TEST(SliderCrank, SwingsThroughItsDeadCentresByItself) {
+  for (const double mu : {0.05, 0.3, 1.0}) {
+    const Finished run = run_text(fmt::format(
+        R"({{"trammel": 1, "space": "planar", "gravity": [0, 0], "bodies": {{
+               "crank": {{"type": "rigid_body", "mass": 1, "inertia": 0.01, "position": [0, 0.1], "angle": {0},
+                          "velocity": [-0.5, 0], "angular_velocity": 5, "markers": {{"o": [-0.1, 0], "p": [0.1, 0]}}}},
+               "rod": {{"type": "rigid_body", "mass": 0.2, "inertia": 0.001, "position": [{1}, 0.1], "angle": {2},
+                        "velocity": [-1, 0], "markers": {{"a": [-0.25, 0], "b": [0.25, 0]}}}},
+               "slider": {{"type": "rigid_body", "mass": 0.2, "inertia": 1e-4, "position": [{3}, 0],
+                           "velocity": [-1, 0]}}}},
+             "joints": {{"o": {{"type": "revolute", "between": ["ground", "crank.o"]}},
+                         "p": {{"type": "revolute", "between": ["crank.p", "rod.a"]}},
+                         "q": {{"type": "revolute", "between": ["rod.b", "slider.com"]}},
+                         "guide": {{"type": "prismatic", "between": ["ground", "slider.com"], "length": 0.1,
+                                    "friction": {4}}}}},
+             "simulate": {{"until": 0.6}},
+             "record": {{"every": 0.01, "observe": {{"T": "joints.guide.friction", "N": "joints.guide.load"}}}}}})",
+        pi / 2, std::sqrt(0.21) / 2, -std::asin(0.4), std::sqrt(0.21), coulomb(mu)));
+    ASSERT_TRUE(run.done()) << mu << ": " << run.report.reason;
+    EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
+    EXPECT_FALSE(run.of_kind("reversal").empty()) << mu;  // at the first of them
+    for (std::size_t k = 0; k < run.series.at("T").size(); ++k)
+      EXPECT_LE(std::abs(run.series.at("T")[k]), mu * run.series.at("N")[k] + 1e-9) << mu << ": " << k;
+    const double lost = run.result["energy_dissipated"]["joint_friction"]["guide"].get<double>();
+    EXPECT_NEAR(run.result["energy_drift"].get<double>(), 0, 1e-6 * lost) << mu;
+  }
+}
+
+// --- a cart on three wheels whose hubs rub: the forces at the floor, and with them the loads, are indeterminate
+
+struct Cart {
+  double mass = 30, wheel_mass = 1, wheel_inertia = 0.005, R = 0.1, hub = 0.02, mu = 0.2, base = 0.5, F = 0;
+};
+
+std::string cart(const Cart& c, const std::array<const char*, 3>& names) {
+  std::string bodies, joints, contacts;
+  const auto add = [](std::string& all, const std::string& text) { all += (all.empty() ? "" : ", ") + text; };
+  for (int i = 0; i < 3; ++i) {
+    const std::string w = names[std::size_t(i)];
+    add(bodies, fmt::format(R"("{}": {{"type": "rigid_body", "mass": {}, "inertia": {}, "position": [{}, {}]}})", w,
+                            c.wheel_mass, c.wheel_inertia, (i - 1) * c.base, c.R));
+    add(joints, fmt::format(R"("hub{}": {{"type": "revolute", "between": ["body.h{}", "{}.com"], "radius": {},
+                                           "friction": {}}})",
+                            i, i, w, c.hub, coulomb(c.mu)));
+    add(contacts, fmt::format(R"("{}": {{"type": "constraint_method", "radius": {}, "friction": {},
+                                          "between": ["{}.com", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}})",
+                              w, c.R, coulomb(0.6), w));
+  }
+  return fmt::format(
+      R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+           "bodies": {{"body": {{"type": "rigid_body", "mass": {}, "inertia": 5, "position": [0, {}],
+                                 "markers": {{"h0": [{}, 0], "h1": [0, 0], "h2": [{}, 0]}}}}, {}}},
+           "joints": {{{}}}, "contacts": {{{}}},
+           "forces": {{"push": {{"type": "load", "on": "body.com", "force": {{"x": {}}}}}}},
+           "integrator": {}, "simulate": {{"until": 0.5}},
+           "record": {{"every": 0.1, "observe": {{"x": "body.com.x", "N0": "joints.hub0.load", "N1": "joints.hub1.load",
+                       "N2": "joints.hub2.load"}}}}}})",
+      c.mass, c.R, -c.base, c.base, bodies, joints, contacts, c.F,
+      R"({"type": "dop853", "step": {"tolerance": 1e-12}})");
+}
+
+// The wheels share the weight like equal springs, whatever their names are. Friction in the hubs, mu r N, turns the
+// body, so the wheels in front carry more. Loads and acceleration follow from each other in a few rounds.
+TEST(CartOnRubbingHubs, RollsUnderTheLoadsThatItsWheelsShare) {
+  for (const double F : {0.0, 60.0})
+    for (const auto& names : {std::array{"a", "b", "c"}, {"b", "c", "a"}, {"c", "a", "b"}, {"c", "b", "a"}}) {
+      const Cart c{.F = F};
+      const Finished run = run_text(cart(c, names));
+      ASSERT_TRUE(run.done()) << run.report.reason;
+      EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
+      std::array<double, 3> N = {c.mass * g / 3, c.mass * g / 3, c.mass * g / 3};
+      double a = 0;
+      for (int round = 0; F > 0 && round < 100; ++round) {
+        const double all = N[0] + N[1] + N[2], rolls = c.wheel_mass + c.wheel_inertia / (c.R * c.R);
+        a = (F - c.mu * c.hub / c.R * all) / (c.mass + 3 * rolls);
+        for (int i = 0; i < 3; ++i) {
+          const double up = c.mass * g / 3 + (i - 1) * c.mu * c.hub * all / (2 * c.base);
+          const double along = rolls * a + c.mu * c.hub / c.R * N[std::size_t(i)];
+          N[std::size_t(i)] = std::hypot(up, along);
+        }
+      }
+      EXPECT_NEAR(run.end("x"), a * 0.25 / 2, 1e-9) << names[0];
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(run.end(fmt::format("N{}", i)), N[std::size_t(i)], 1e-7) << names[0];
+    }
+}
+
+// --- a drawer that a load pushes against two stops and then pulls off them
+
+struct StoppedDrawer {
+  double L = 0.59, mu_0 = 0.8, x = 0.295, y = 0.24;  // the load, 15 sin(7 t) and 7 t [N], acts at x, y
+  double pull(double t) const { return 15 * std::sin(7 * t); }
+  double held(double t) const { return mu_0 * 2 * std::abs(x * 7 * t - y * pull(t)) / L; }
+};
+
+std::string stopped(const StoppedDrawer& d, const char* bottom, const char* top) {
+  const auto stop = [](const char* name, const char* marker) {
+    return fmt::format(R"("{}": {{"type": "constraint_method", "restitution": 0, "friction": {},
+                                  "between": ["drawer.{}", {{"plane": {{"point": [0.345, 0], "normal": [-1, 0]}}}}]}})",
+                       name, coulomb(0.3), marker);
+  };
+  return fmt::format(R"({{
+    "trammel": 1, "space": "planar", "gravity": [0, 0],
+    "bodies": {{"drawer": {{"type": "rigid_body", "mass": 7.5, "inertia": 0.24, "position": [0, 0], "markers": {{
+                            "bottom": [{0}, -0.1], "top": [{0}, 0.1], "knob": [{0}, {1}]}}}}}},
+    "joints": {{"guide": {{"type": "prismatic", "between": ["ground", "drawer.com"], "length": {2}, "friction": {3}}}}},
+    "forces": {{"pull": {{"type": "load", "on": "drawer.knob", "force": {{"x": "{4}", "y": "=7*t"}}}}}},
+    "contacts": {{{5}, {6}}}, "simulate": {{"until": 0.6}},
+    "record": {{"every": 0.01, "observe": {{"x": "drawer.com.x"}}}}
+  }})",
+                     d.x, d.y, d.L, coulomb(d.mu_0, 0.64), "=15*sin(7*t)", stop(bottom, "bottom"), stop(top, "top"));
+}
+
+// Everything is held: the friction of the guide and the stops share forces. The drawer lets go where the pull exceeds
+// mu_0 times the load by the moment of the pull alone, whatever the names of the stops are.
+TEST(Drawer, LeavesItsStopsWhereThePullExceedsWhatItsGuideHolds) {
+  const StoppedDrawer d;
+  double low = 0.46, high = 0.6;  // it is pulled back from pi / 7 s on
+  ASSERT_TRUE(-d.pull(low) < d.held(low) && -d.pull(high) > d.held(high));
+  while (high - low > 1e-12) {
+    const double t = (low + high) / 2;
+    (-d.pull(t) < d.held(t) ? low : high) = t;
+  }
+  for (const std::string& scene : {stopped(d, "a", "b"), stopped(d, "b", "a")}) {
+    const Finished run = run_text(scene);
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
+    const std::vector<Event> slips = run.of_kind("slip");
+    ASSERT_FALSE(slips.empty());
+    EXPECT_NEAR(slips.back().t, high, 1e-8);
+  }
+}
+
+}  // namespace
+}  // namespace trammel::test
