@@ -99,9 +99,12 @@ class AssembledSystem final : public System, public HasRigidMotions {
   double departure(int group, const Vec& a);
   // How many times the rates of the rows in g appear in an implied one.
   double leverage(int group);
-  // The largest part of an implied row that does not follow from the basis, relative to its terms: 0 as long as they
-  // are implied.
+  // The largest part of an implied row that does not follow from the basis, by the rates of a motion that the joints
+  // permit, relative to those of one that they do not hold: 0 as long as they are implied.
   double off_span(int group);
+  // The multipliers of bodies and joints that act beside the forces of the contacts, as these share them: forces along
+  // implied rows add to those of the joints from which the rows follow. Rows of contacts are as in lambda.
+  Vec reactions(const Vec& lambda);
   // [N] of an idle contact: its force if it shared as a spring; it starts to carry when this rises through 0.
   double spring_force(int contact, const Vec& lambda);
   Tangential slip(int contact);                             // [m/s]; of contacts with friction

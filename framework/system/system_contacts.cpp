@@ -87,6 +87,10 @@ double AssembledSystem::off_span(int group) {
   return parts_->shares.off_span(group);
 }
 
+Vec AssembledSystem::reactions(const Vec& lambda) {
+  return modes().shared.empty() ? lambda : parts_->shares.reactions(lambda);
+}
+
 int AssembledSystem::tangents(int contact) const {
   return parts_->contacts.tangents(contact);
 }

@@ -99,10 +99,10 @@ Choices all_choices(const Model& model) {
   for (const model::BodyEntry& entry : model.bodies)
     if (entry.rows > 0)
       choices.emplace_back(entry.name + ".reaction",
-                           [&entry](Moment& m) { return m.lambda().segment(entry.row, entry.rows).norm(); });
+                           [&entry](Moment& m) { return m.reactions().segment(entry.row, entry.rows).norm(); });
   for (const model::JointEntry& entry : model.joints)
     choices.emplace_back("joints." + entry.name + ".reaction",
-                         [&entry](Moment& m) { return m.lambda().segment(entry.row, entry.rows).norm(); });
+                         [&entry](Moment& m) { return m.reactions().segment(entry.row, entry.rows).norm(); });
   choices.emplace_back("energy.kinetic", [](Moment& m) { return m.energy().kinetic; });
   choices.emplace_back("energy.potential", [](Moment& m) { return m.energy().potential; });
   choices.emplace_back("energy.elastic", [](Moment& m) { return m.energy().elastic; });
@@ -256,6 +256,14 @@ void Moment::solve() {
   if (std::exchange(solved_, true)) return;
   system_.accelerate({}, a_, lambda_);
   model::minimise_norm(system_, lambda_);
+}
+
+const Vec& Moment::reactions() {
+  if (std::exchange(reactions_known_, true)) return reactions_;
+  solve();
+  reactions_ = system_.reactions(lambda_);
+  model::minimise_norm(system_, reactions_);
+  return reactions_;
 }
 
 void begin_columns(std::vector<Column>& columns, model::AssembledSystem& system, const State& start) {

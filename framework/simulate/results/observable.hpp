@@ -33,15 +33,16 @@ class Moment {
   const State& state() const { return state_; }
   const Vec& a() { return solve(), a_; }
   const Vec& lambda() { return solve(), lambda_; }
+  const Vec& reactions();  // AssembledSystem::reactions, of least norm if joints have redundant rows
   const Energy& energy();
 
  private:
   void solve();
   model::AssembledSystem& system_;
   const State& state_;
-  Vec a_, lambda_;
+  Vec a_, lambda_, reactions_;
   Energy energy_;
-  bool solved_ = false, energy_known_ = false;
+  bool solved_ = false, reactions_known_ = false, energy_known_ = false;
 };
 
 struct Column {

@@ -57,23 +57,37 @@ bool SharedRowsAtPoint::follow() {
   return true;
 }
 
-// g_implied = K g_basis + C g_joints: forces F = -share lambda along the implied rows add C^T F to the multipliers of
-// the joints.
+// g_implied = K g_basis + C g_joints
+Mat SharedRowsAtPoint::part_of_joints(const SharedRows& group) {
+  const Index n = group.K.cols(), m = group.K.rows();
+  std::vector<ContactDirection> all = group.basis;
+  all.insert(all.end(), group.implied.begin(), group.implied.end());
+  const Mat held = response_.held_by_joints(all), K = group.K.transpose();
+  const Mat C = held.rightCols(m) - held.leftCols(n) * K;
+  const Mat terms = held.rightCols(m).cwiseAbs() + held.leftCols(n).cwiseAbs() * K.cwiseAbs();
+  return terms.size() > 0 ? Mat((C.array().abs() > round_off_of_joints * terms.maxCoeff()).select(C, 0)) : C;
+}
+
+// Forces F = -share lambda along the implied rows add C^T F to the multipliers of the joints.
 void SharedRowsAtPoint::share_with_joints() {
   friction_.clear_shares();
   for (std::size_t g = 0; g < contacts_.modes.shared.size(); ++g) {
     const SharedRows& group = contacts_.modes.shared[g];
-    const Index n = group.K.cols(), m = group.K.rows();
-    std::vector<ContactDirection> all = group.basis;
-    all.insert(all.end(), group.implied.begin(), group.implied.end());
-    const Mat held = response_.held_by_joints(all), K = group.K.transpose();
-    Mat C = held.rightCols(m) - held.leftCols(n) * K;
-    const Mat terms = held.rightCols(m).cwiseAbs() + held.leftCols(n).cwiseAbs() * K.cwiseAbs();
-    C = (C.array().abs() > round_off_of_joints * terms.maxCoeff()).select(C, 0);
     std::vector<int> rows;
-    for (int k = 0; k < int(n); ++k) rows.push_back(contacts_.loads.row_of_basis(int(g), k));
-    friction_.add_shares(rows, -C * group.share.bottomRows(m));
+    for (int k = 0; k < int(group.basis.size()); ++k) rows.push_back(contacts_.loads.row_of_basis(int(g), k));
+    friction_.add_shares(rows, -part_of_joints(group) * group.share.bottomRows(group.K.rows()));
   }
+}
+
+Vec SharedRowsAtPoint::reactions(const Vec& lambda) {
+  follow();
+  Vec all = lambda;
+  for (const SharedRows& group : contacts_.modes.shared) {
+    Vec F(group.K.rows());
+    for (Index i = 0; i < F.size(); ++i) F[i] = force_along(group.implied[std::size_t(i)], lambda);
+    all.head(rows_.held()) += part_of_joints(group) * F;
+  }
+  return all;
 }
 
 SharedRowsAtPoint::Rate SharedRowsAtPoint::rate_by(ContactDirection d, const Vec& some, const Vec& sizes) {

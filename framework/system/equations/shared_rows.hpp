@@ -35,8 +35,9 @@ class SharedRowsAtPoint {
   // They change where rows that carry come to depend on each other: the shares pass infinity there, and the forces do
   // not.
   void change_signs(numerics::BlockSigns& signs);
-  double leverage(int group);  // AssembledSystem::leverage
-  double off_span(int group);  // AssembledSystem::off_span
+  double leverage(int group);        // AssembledSystem::leverage
+  double off_span(int group);        // AssembledSystem::off_span
+  Vec reactions(const Vec& lambda);  // AssembledSystem::reactions
 
  private:
   struct Rate {
@@ -49,6 +50,7 @@ class SharedRowsAtPoint {
   };
   Off off_span(const SharedRows& group, const Vec& some, const Vec& sizes);
   void renew(int group);
+  Mat part_of_joints(const SharedRows& group);  // C^T: held rows x implied
   void share_with_joints();
   ContactLoads::Bounds bounds(int contact, const Vec& lambda);
   const ContactLoads& solved(int group, const Vec& lambda);  // with the forces of its contacts
