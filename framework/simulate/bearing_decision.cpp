@@ -107,14 +107,17 @@ bool ContactModes::was_not_held(const Participant& p, const model::Modes* loads)
 
 // Decides all modes with the joints' present loads given.
 complementarity::ContactSolution ContactModes::take_verdicts_under_loads(const State& state,
-                                                                         const std::vector<Participant>& asked,
+                                                                         std::vector<Participant> asked,
                                                                          const model::Modes& open) {
-  std::vector<Participant> who = asked;
-  for (std::size_t i = 0; i < who.size(); ++i)
-    if (system_.model().contacts[who[i].contact].joint) who[i].given = problem_.who[i].given;
-  problem_.who = std::move(who);
-  modes_ = open;
-  return take_verdicts(state);
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    if (system_.model().contacts[asked[i].contact].joint) asked[i].given = problem_.who[i].given;
+  for (;;) {
+    problem_.who = asked;
+    modes_ = open;
+    const complementarity::ContactSolution solution = take_verdicts(state);
+    if (solution.outcome != LcpOutcome::solved || share_within_bounds(state)) return solution;
+    for (std::size_t i = 0; i < asked.size(); ++i) asked[i].let_go = problem_.who[i].let_go;
+  }
 }
 
 // `asked`: participants none of which slides.

@@ -31,14 +31,6 @@ constexpr double no_turn = 1e-9;
 // Of the speed that a fixed step changes: less is not resolved by such steps.
 constexpr double part_of_step = 0.1;
 
-// Rule 12. Contacts held at their bounds let go where mu < mu_0. True if any does: all modes are to be decided again.
-bool let_go(const std::vector<Participant*>& held) {
-  bool again = false;
-  for (Participant* p : held)
-    if (!p->let_go && p->mu < p->mu_0) p->let_go = again = true;
-  return again;
-}
-
 }  // namespace
 
 void ContactModes::open_all(model::Modes& modes) const {
@@ -233,8 +225,7 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
     if (has_bearings()) return decide_with_bearings(state);
     const complementarity::ContactSolution solution = take_verdicts(state, nearby);
     if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
-    const std::vector<Participant*> held = held_at_bounds(state);
-    if (!let_go(held)) return hold(state, held), share_forces_found(state), solution;
+    if (share_within_bounds(state)) return solution;
     open_all(modes_);
   }
 }

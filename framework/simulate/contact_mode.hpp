@@ -65,7 +65,8 @@
 // 12. The friction of a contact at rest may be at its bound while its tangents depend on rows of other contacts, some
 //     of which slide (blocks that push each other along a channel). The shares of springs (complementarity/shares)
 //     would exceed the bound or give another motion than that found. Such a contact keeps T = mu N like one that
-//     slides, without a slip. If mu < mu_0 it has let go (rule 6), and all modes are decided again.
+//     slides, without a slip; so does a joint at rest beside them (an arm that a box drags along). If mu < mu_0 it has
+//     let go (rule 6), and all modes are decided again.
 // 13. A contact without a force stays closed (idle) only while rows of contacts that carry hold it. Where these come to
 //     depend on each other (a stack that becomes a strut), they do not, and it opens: its force as a spring passes 0
 //     there, which locates that state. Which contacts are idle affects the motion if others slide, so the forces in the
@@ -236,7 +237,7 @@ class ContactModes {
   std::vector<bool> moves_as_found() const;
   std::vector<Participant*> held_at_bounds(const State& state);
   void keep_at_bound(Participant& p);
-  void hold(const State& state, const std::vector<Participant*>& held);
+  bool share_within_bounds(const State& state);
   void share_forces_found(const State& state);
   double least_acceleration(const Participant& p) const;
   std::vector<bool> in_balance(const std::vector<int>& released) const;
@@ -254,7 +255,7 @@ class ContactModes {
                                                                          const std::vector<Participant>& asked,
                                                                          const model::Modes& open);
   [[nodiscard]] complementarity::ContactSolution take_verdicts_under_loads(const State& state,
-                                                                           const std::vector<Participant>& asked,
+                                                                           std::vector<Participant> asked,
                                                                            const model::Modes& open);
   bool was_not_held(const Participant& p, const model::Modes* loads) const;
   void load_bearings_at_rest(const State& state, const model::Modes& open);

@@ -26,6 +26,14 @@ bool shares_tangents(const model::SharedRows& group, int contact) {
          std::any_of(group.implied.begin(), group.implied.end(), is);
 }
 
+// Rule 12. Contacts held at their bounds let go where mu < mu_0. True if any does.
+bool let_go(const std::vector<Participant*>& held) {
+  bool any = false;
+  for (Participant* p : held)
+    if (!p->let_go && p->mu < p->mu_0) p->let_go = any = true;
+  return any;
+}
+
 bool has_any(const std::vector<bool>& all) {
   return std::find(all.begin(), all.end(), true) != all.end();
 }
@@ -222,10 +230,14 @@ void ContactModes::keep_at_bound(Participant& p) {
   p.ratio = -p.mu * mode.direction;
 }
 
-// Rule 12.
-void ContactModes::hold(const State& state, const std::vector<Participant*>& held) {
+// Rules 12 and 14. False if a contact lets go: all modes are to be decided again.
+bool ContactModes::share_within_bounds(const State& state) {
+  const std::vector<Participant*> held = held_at_bounds(state);
+  if (let_go(held)) return false;
   for (Participant* p : held) keep_at_bound(*p);
   if (!held.empty()) find_shares(state);
+  share_forces_found(state);
+  return true;
 }
 
 // Rule 14. Islands which it does not help keep what was decided.

@@ -198,5 +198,84 @@ TEST(Drawer, LeavesItsStopsWhereThePullExceedsWhatItsGuideHolds) {
   }
 }
 
+// --- a box slides and drags an arm whose hinge rubs: floor and hinge share what holds the arm
+
+struct DraggedArm {
+  double box = 7, arm = 2.4, mu = 0.4, mu_tip = 0.2, mu_0 = 0.4, mu_hinge = 0.4, radius = 0.03, v_0 = 1;
+  double x = 0.12, y = -0.125;  // from the hinge to the arm's centre; the tip is as far away from this
+};
+
+std::string dragged(const DraggedArm& d, const std::array<const char*, 3>& names) {
+  std::string contacts;
+  const auto on_floor = [&](const char* name, const char* marker, double mu) {
+    contacts += fmt::format(R"({}"{}": {{"type": "constraint_method", "restitution": 0, "friction": {},
+                                "between": ["{}", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}})",
+                            contacts.empty() ? "" : ", ", name, coulomb(mu), marker);
+  };
+  on_floor(names[0], "box.left", d.mu), on_floor(names[1], "box.right", d.mu), on_floor(names[2], "arm.tip", d.mu_tip);
+  return fmt::format(R"({{
+    "trammel": 1, "space": "planar", "gravity": [0, -9.81],
+    "bodies": {{
+      "box": {{"type": "rigid_body", "mass": {0}, "inertia": 0.15, "position": [0, 0.15], "velocity": [{1}, 0],
+               "markers": {{"left": [-0.2, -0.15], "right": [0.2, -0.15], "hinge": [0.2, {2}]}}}},
+      "arm": {{"type": "rigid_body", "mass": {3}, "inertia": 0.03, "position": [{4}, {5}], "velocity": [{1}, 0],
+               "markers": {{"hinge": [{6}, {7}], "tip": [{8}, {9}]}}}}}},
+    "joints": {{"hinge": {{"type": "revolute", "between": ["box.hinge", "arm.hinge"], "radius": {10},
+                           "friction": {11}}}}},
+    "contacts": {{{12}}}, "simulate": {{"until": 0.1}},
+    "record": {{"every": 0.05, "observe": {{"x": "box.com.x", "N": "contacts.{13}.force", "load": "joints.hinge.load",
+                                           "T": "joints.hinge.friction"}}}}
+  }})",
+                     d.box, d.v_0, -2 * d.y - 0.15, d.arm, 0.2 + d.x, -d.y, -d.x, -d.y, d.x, d.y, d.radius,
+                     coulomb(d.mu_0, d.mu_hinge), contacts, names[2]);
+}
+
+struct Sliding {
+  double a = 0, R = 0;
+  std::array<double, 4> F = {};  // at the left foot, the right one, the tip, and T of the hinge
+};
+
+// All move with one acceleration a. The arm:  arm a = R_x - mu_tip N,  0 = R_y + N - arm g,
+// 0 = -x R_y + y R_x + (x + mu_tip y) N + radius T;  the hinge's T = side mu |R|.
+Sliding slides_with_hinge_at_bound(const DraggedArm& d, double side) {
+  Sliding s;
+  const double all = d.box + d.arm, by_N = (d.mu - d.mu_tip) / all;  // a = -mu g + by_N N
+  for (int round = 0; round < 100; ++round) {
+    const double N = (d.x * d.arm * g + d.y * d.arm * d.mu * g - d.radius * s.F[3]) /
+                     (2 * d.x + d.y * (d.arm * by_N + 2 * d.mu_tip));
+    s.a = by_N * N - d.mu * g;
+    const double R_x = d.arm * s.a + d.mu_tip * N, R_y = d.arm * g - N, feet = d.box * g + R_y;
+    const double apart = (0.15 * d.mu * feet + (2 * d.y + 0.15) * R_x + d.radius * s.F[3]) / 0.2 + R_y;
+    s.R = std::hypot(R_x, R_y);
+    s.F = {(feet - apart) / 2, (feet + apart) / 2, N, side * d.mu_hinge * s.R};
+  }
+  return s;
+}
+
+// Along the self-stress of the floor and a unit T: positive where equal springs would lower T.
+double pull_of_springs(const DraggedArm& d, const Sliding& s) {
+  const double R_y = d.radius / (2 * d.x), apart = R_y + d.radius / 0.2;
+  return s.F[0] * (R_y - apart) / 2 + s.F[1] * (R_y + apart) / 2 - s.F[2] * R_y + s.F[3];
+}
+
+// Equal springs would put more on the hinge than its friction can hold. It keeps its bound, on the side of the springs,
+// and the floor carries the rest.
+TEST(DraggedArm, LeansOnTheFloorWithWhatItsHingeCannotHold) {
+  for (const double mu_tip : {0.1, 0.2, 0.3})
+    for (const double mu_hinge : {0.3, 0.4})
+      for (const auto& names : {std::array{"a", "b", "c"}, {"c", "b", "a"}, {"b", "c", "a"}}) {
+        const DraggedArm d{.mu_tip = mu_tip, .mu_hinge = mu_hinge};
+        const Sliding s = slides_with_hinge_at_bound(d, -1);
+        ASSERT_GT(pull_of_springs(d, s), 0);
+        const Finished run = run_text(dragged(d, names));
+        ASSERT_TRUE(run.done()) << run.report.reason;
+        EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
+        EXPECT_NEAR(run.end("x"), d.v_0 * 0.1 + s.a * 0.01 / 2, 1e-9) << mu_tip << names[0];
+        EXPECT_NEAR(run.end("N"), s.F[2], 1e-7) << mu_tip << names[0];
+        EXPECT_NEAR(run.end("load"), s.R, 1e-7) << mu_tip << names[0];
+        EXPECT_NEAR(std::abs(run.end("T")), mu_hinge * s.R, 1e-7) << mu_tip << names[0];
+      }
+}
+
 }  // namespace
 }  // namespace trammel::test
