@@ -28,6 +28,12 @@ double noise(model::AssembledSystem& system, const model::SharedRows& group, con
   return least;
 }
 
+// [m/s] As Scale::drift, also of a scene in which nothing has moved yet.
+double drift_beside(double speed, Scale scale) {
+  scale.speed = std::max(scale.speed, speed);
+  return scale.drift();
+}
+
 }  // namespace
 
 void ContactAudit::Worst::raise_to(int i, double when, double amount, double scale) {
@@ -60,6 +66,7 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
     int contact;
     Eigen::Index first;          // in F: its normal, which a joint does not have, then its tangents
     double pull, beyond, along;  // [N] beyond what a contact can do: pulls, exceeds its cone, pushes along its slip
+    double slip;                 // [m/s]
   };
   std::vector<model::ContactDirection> directions;
   std::vector<double> forces;
@@ -68,7 +75,7 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
   for (const int i : closed) {
     const model::ContactEntry& entry = system.model().contacts[std::size_t(i)];
     const double N = system.normal_force(i, lambda);
-    Looked looked{i, Eigen::Index(forces.size()), -N, 0, 0};
+    Looked looked{i, Eigen::Index(forces.size()), -N, 0, 0, 0};
     if (!entry.joint) directions.push_back({i, 0}), forces.push_back(N);  // the load of bearings has no direction
     const model::Tangential T = system.friction_force(i, lambda);
     for (int k = 0; k < system.tangents(i) && entry.friction; ++k)
@@ -80,7 +87,8 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
       looked.beyond = T.norm() - std::max(0.0, entry.coulomb->static_coefficient() * N);
     if (entry.coulomb && friction == model::ContactMode::Friction::slide) {
       const model::Tangential slip = system.slip(i);
-      if (slip.norm() > scale.of(i).drift()) looked.along = T.dot(slip) / slip.norm();
+      looked.slip = slip.norm();
+      if (looked.slip > scale.of(i).drift()) looked.along = T.dot(slip) / looked.slip;
     }
     doubtful = doubtful || std::max({looked.pull, looked.beyond, looked.along}) > little * std::abs(N);
     all.push_back(looked);
@@ -89,13 +97,15 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
   const Judged judged =
       judge_forces(system, directions, Eigen::Map<const Vec>(forces.data(), std::ssize(forces)), scale);
   for (const Looked& looked : all) {
-    double acts = 0, noise = 0;
+    double acts = 0, noise = 0, speed = 0;
     for (Eigen::Index k = looked.first; k < judged.scale.size() && directions[std::size_t(k)].contact == looked.contact;
          ++k)
-      acts = std::max(acts, judged.scale[k]), noise = std::max(noise, judged.noise[k]);
+      acts = std::max(acts, judged.scale[k]), noise = std::max(noise, judged.noise[k]),
+      speed = std::max(speed, judged.speed[k]);
     if (looked.pull > noise) pull_.raise_to(looked.contact, state.t, looked.pull, acts);
     if (looked.beyond > noise) beyond_cone_.raise_to(looked.contact, state.t, looked.beyond, acts);
-    if (looked.along > noise) along_slip_.raise_to(looked.contact, state.t, looked.along, acts);
+    if (looked.along > noise && looked.slip > drift_beside(speed, scale.of(looked.contact)))
+      along_slip_.raise_to(looked.contact, state.t, looked.along, acts);
   }
 }
 

@@ -16,6 +16,7 @@ namespace trammel::simulate {
 struct Judged {
   Vec scale;  // s_i [N]
   Vec noise;  // [N] smaller is no force, whatever `scale` is
+  Vec speed;  // [m/s] that forces of this scale give over the scene's length
 };
 // F [N] along directions of closed contacts, at the system's point.
 Judged judge_forces(model::AssembledSystem& system, const std::vector<model::ContactDirection>& directions,

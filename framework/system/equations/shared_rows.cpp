@@ -20,12 +20,16 @@ using Eigen::Index;
 constexpr double round_off = 1e-13;
 // Relative to the multipliers of joints that hold the rows of a group: a smaller part in an implied row is none.
 constexpr double round_off_of_joints = 1e-12;
+// Relative to the load of a joint: rounds end with changes up to this, each of which is smaller by about mu.
+constexpr double round_off_of_loads = 1e-13;
+constexpr int most_rounds = 50;
 
 }  // namespace
 
 void SharedRowsAtPoint::lay_out() {
   solved_at_.assign(contacts_.modes.shared.size(), {});
   off_span_.assign(contacts_.modes.shared.size(), 0);
+  part_of_joints_.assign(contacts_.modes.shared.size(), {});
   friction_.clear_shares();
   followed_at_ = -1;
 }
@@ -40,6 +44,7 @@ bool SharedRowsAtPoint::follow() {
   if (groups.empty()) return false;
   evaluate_rows();  // calls this function itself if the shares affect the motion
   if (std::exchange(followed_at_, at_.configuration) == at_.configuration) return false;
+  part_of_joints_.assign(groups.size(), {});
   const Vec some = response_.some_motion(), sizes = response_.sizes_of_motions();
   bool changed = false;
   for (int group = 0; group < int(groups.size()); ++group) {
@@ -58,34 +63,39 @@ bool SharedRowsAtPoint::follow() {
 }
 
 // g_implied = K g_basis + C g_joints
-Mat SharedRowsAtPoint::part_of_joints(const SharedRows& group) {
+const Mat& SharedRowsAtPoint::part_of_joints(int g) {
+  std::optional<Mat>& part = part_of_joints_[std::size_t(g)];
+  if (part) return *part;
+  const SharedRows& group = contacts_.modes.shared[std::size_t(g)];
   const Index n = group.K.cols(), m = group.K.rows();
   std::vector<ContactDirection> all = group.basis;
   all.insert(all.end(), group.implied.begin(), group.implied.end());
   const Mat held = response_.held_by_joints(all), K = group.K.transpose();
-  const Mat C = held.rightCols(m) - held.leftCols(n) * K;
+  Mat& C = part.emplace(held.rightCols(m) - held.leftCols(n) * K);
   const Mat terms = held.rightCols(m).cwiseAbs() + held.leftCols(n).cwiseAbs() * K.cwiseAbs();
-  return terms.size() > 0 ? Mat((C.array().abs() > round_off_of_joints * terms.maxCoeff()).select(C, 0)) : C;
+  if (terms.size() > 0) C = (C.array().abs() > round_off_of_joints * terms.maxCoeff()).select(C, 0).eval();
+  return C;
 }
 
 // Forces F = -share lambda along the implied rows add C^T F to the multipliers of the joints.
 void SharedRowsAtPoint::share_with_joints() {
   friction_.clear_shares();
-  for (std::size_t g = 0; g < contacts_.modes.shared.size(); ++g) {
-    const SharedRows& group = contacts_.modes.shared[g];
+  for (int g = 0; g < int(contacts_.modes.shared.size()); ++g) {
+    const SharedRows& group = contacts_.modes.shared[std::size_t(g)];
     std::vector<int> rows;
-    for (int k = 0; k < int(group.basis.size()); ++k) rows.push_back(contacts_.loads.row_of_basis(int(g), k));
-    friction_.add_shares(rows, -part_of_joints(group) * group.share.bottomRows(group.K.rows()));
+    for (int k = 0; k < int(group.basis.size()); ++k) rows.push_back(contacts_.loads.row_of_basis(g, k));
+    friction_.add_shares(rows, -part_of_joints(g) * group.share.bottomRows(group.K.rows()));
   }
 }
 
 Vec SharedRowsAtPoint::reactions(const Vec& lambda) {
   follow();
   Vec all = lambda;
-  for (const SharedRows& group : contacts_.modes.shared) {
+  for (int g = 0; g < int(contacts_.modes.shared.size()); ++g) {
+    const SharedRows& group = contacts_.modes.shared[std::size_t(g)];
     Vec F(group.K.rows());
     for (Index i = 0; i < F.size(); ++i) F[i] = force_along(group.implied[std::size_t(i)], lambda);
-    all.head(rows_.held()) += part_of_joints(group) * F;
+    all.head(rows_.held()) += part_of_joints(g) * F;
   }
   return all;
 }
@@ -138,18 +148,54 @@ void SharedRowsAtPoint::renew(int group) {
   contacts_.loads.form_resultants(group);
 }
 
-ContactLoads::Bounds SharedRowsAtPoint::bounds(int contact, const Vec& lambda) {
+SharedRowsAtPoint::LoadsOfJoints SharedRowsAtPoint::loads_as_springs(int group, const Vec& lambda) {
+  LoadsOfJoints loads;
+  for (const ContactDirection& d : contacts_.loads.members(group))
+    if (contacts_.in_joint(d.contact)) loads[d.contact] = friction_.load(d.contact, lambda);
+  return loads;
+}
+
+// The forces that a group shares act on its joints, in place of those of equal springs.
+SharedRowsAtPoint::LoadsOfJoints SharedRowsAtPoint::loads_as_solved(int group, const Vec& lambda) {
+  LoadsOfJoints loads = solved_at_[std::size_t(group)].of_joints;
+  if (loads.empty()) return loads;
+  const std::vector<ContactDirection>& implied = contacts_.modes.shared[std::size_t(group)].implied;
+  Vec more(Index(implied.size()));
+  for (std::size_t i = 0; i < implied.size(); ++i)
+    more[Index(i)] =
+        contacts_.loads.load(contacts_.loads.place(implied[i])) - contacts_.loads.spring(implied[i], lambda);
+  const Vec on_joints = part_of_joints(group) * more;
+  for (auto& [contact, load] : loads) load = friction_.load(contact, lambda, on_joints);
+  return loads;
+}
+
+// A joint that slides, or shares with none, has the load of equal springs, which affects the motion.
+double SharedRowsAtPoint::load_of_joint(int contact, const Vec& lambda) {
+  follow();
+  int group = -1;
+  for (int k = 0; k < contacts_.tangents(contact); ++k)
+    group = std::max(group, contacts_.loads.place({contact, 1 + k}).group);
+  if (group < 0) return friction_.load(contact, lambda);
+  solved(group, lambda);
+  return solved_at_[std::size_t(group)].of_joints.at(contact);
+}
+
+ContactLoads::Bounds SharedRowsAtPoint::bounds(int contact, const Vec& lambda, const LoadsOfJoints& of_joints) {
   const ContactEntry& entry = contacts_.entry(contact);
   ContactLoads::Bounds bounds;
   if (entry.coulomb) bounds.coefficient = entry.coulomb->static_coefficient();
-  if (contacts_.loads.place({contact, 0}).group < 0) bounds.given = std::max(0.0, force_along({contact, 0}, lambda));
+  if (contacts_.in_joint(contact))
+    bounds.given = of_joints.at(contact);
+  else if (contacts_.loads.place({contact, 0}).group < 0)
+    bounds.given = std::max(0.0, force_along({contact, 0}, lambda));
   return bounds;
 }
 
 const ContactLoads& SharedRowsAtPoint::prepared(int group, const Vec& lambda) {
+  if (!friction_.none()) solved(group, lambda);
   follow();
-  solved_at_[std::size_t(group)] = {};
-  contacts_.loads.prepare(group, lambda, [&](int contact) { return bounds(contact, lambda); });
+  const SolvedAt at = std::exchange(solved_at_[std::size_t(group)], {});
+  contacts_.loads.prepare(group, lambda, [&](int contact) { return bounds(contact, lambda, at.of_joints); });
   return contacts_.loads;
 }
 
@@ -175,27 +221,35 @@ Mat SharedRowsAtPoint::moved_with_sliding(int group) {
   return complementarity::independent_rows(moved);
 }
 
-const ContactLoads& SharedRowsAtPoint::solved(int group, const Vec& lambda) {
+void SharedRowsAtPoint::solve(int group, const Vec& lambda, const LoadsOfJoints& of_joints) {
   ContactLoads& loads = contacts_.loads;
-  follow();
-  SolvedAt& at = solved_at_[std::size_t(group)];
-  if (at.point == at_.number && at.configuration == at_.configuration && at.lambda.size() == lambda.size() &&
-      at.lambda == lambda)
-    return loads;
-  bool found = loads.solve(group, lambda, [&](int contact) { return bounds(contact, lambda); });
+  bool found = loads.solve(group, lambda, [&](int contact) { return bounds(contact, lambda, of_joints); });
   if (!found && !contacts_.modes.shared[std::size_t(group)].sliding.empty())
     found = loads.solve_with_sliding(group, moved_with_sliding(group));
   if (!found) loads.solve_beyond_cones(group);
-  at = {at_.number, at_.configuration, lambda};
-  return loads;
+}
+
+// The loads of joints at rest bound the forces that are shared, and follow from them.
+const ContactLoads& SharedRowsAtPoint::solved(int group, const Vec& lambda) {
+  follow();
+  SolvedAt& at = solved_at_[std::size_t(group)];
+  if (at.is(at_, lambda)) return contacts_.loads;
+  at = {at_.number, at_.configuration, lambda, loads_as_springs(group, lambda)};
+  for (int round = 0; round < most_rounds; ++round) {
+    solve(group, lambda, at.of_joints);
+    LoadsOfJoints next = loads_as_solved(group, lambda);
+    const bool same = std::equal(next.begin(), next.end(), at.of_joints.begin(), [](const auto& a, const auto& b) {
+      return std::abs(a.second - b.second) <= round_off_of_loads * std::max(a.second, b.second);
+    });
+    at.of_joints = std::move(next);
+    if (same) break;
+  }
+  return contacts_.loads;
 }
 
 double SharedRowsAtPoint::force_along(ContactDirection d, const Vec& lambda) {
   const ContactLoads::Place& place = contacts_.loads.place(d);
-  if (d.row == 0 && contacts_.in_joint(d.contact)) {
-    follow();
-    return friction_.load(d.contact, lambda);
-  }
+  if (d.row == 0 && contacts_.in_joint(d.contact)) return load_of_joint(d.contact, lambda);
   if (place.group >= 0) return solved(place.group, lambda).load(place);
   if (place.row >= 0) return -lambda(place.row);
   if (d.row > 0 || !contacts_.entry(d.contact).force || !contacts_.mode(d.contact).closed) return 0;

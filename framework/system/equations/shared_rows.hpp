@@ -5,9 +5,11 @@
 // K depends on the configuration. It is constant if the dependence follows from the geometry of one body, such as the
 // feet of a table; it changes if bodies that touch at one point turn against each other. K is tested with one
 // pseudo-random motion that the joints permit. The part of the joints' rows is formed at every configuration, but only
-// where joints rub: their loads are those of the shared forces.
+// where joints rub: their loads are those of the shared forces, of equal springs while they slide.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "system/equations/impulse_response.hpp"
@@ -50,24 +52,35 @@ class SharedRowsAtPoint {
   };
   Off off_span(const SharedRows& group, const Vec& some, const Vec& sizes);
   void renew(int group);
-  Mat part_of_joints(const SharedRows& group);  // C^T: held rows x implied
+  const Mat& part_of_joints(int group);  // C^T: held rows x implied
   void share_with_joints();
-  ContactLoads::Bounds bounds(int contact, const Vec& lambda);
+  using LoadsOfJoints = std::map<int, double>;  // of joints at rest in a group, by contact [N]
+  LoadsOfJoints loads_as_springs(int group, const Vec& lambda);
+  LoadsOfJoints loads_as_solved(int group, const Vec& lambda);
+  double load_of_joint(int contact, const Vec& lambda);
+  ContactLoads::Bounds bounds(int contact, const Vec& lambda, const LoadsOfJoints& of_joints);
+  void solve(int group, const Vec& lambda, const LoadsOfJoints& of_joints);
   const ContactLoads& solved(int group, const Vec& lambda);  // with the forces of its contacts
 
   // The system's point at which `loads` has the forces of a group. Contacts ask for theirs one after the other.
   struct SolvedAt {
     long long point = -1, configuration = -1;
     Vec lambda;
+    LoadsOfJoints of_joints;
+    bool is(const Point& at, const Vec& multipliers) const {
+      return point == at.number && configuration == at.configuration && lambda.size() == multipliers.size() &&
+             lambda == multipliers;
+    }
   };
   Point& at_;
   ContactsAtPoint& contacts_;
   JointFriction& friction_;
   RowsAtPoint& rows_;
   ImpulseResponse& response_;
-  std::vector<SolvedAt> solved_at_;  // by group
-  std::vector<double> off_span_;     // by group
-  long long followed_at_ = -1;       // the configuration at which K and the shares were last updated
+  std::vector<SolvedAt> solved_at_;                 // by group
+  std::vector<double> off_span_;                    // by group
+  std::vector<std::optional<Mat>> part_of_joints_;  // by group, at that configuration
+  long long followed_at_ = -1;                      // the configuration at which K and the shares were last updated
 };
 
 }  // namespace trammel::model

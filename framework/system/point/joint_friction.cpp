@@ -75,9 +75,11 @@ JointFriction::Bearing& JointFriction::bearing(int contact) {
   return b;
 }
 
-double JointFriction::load(int contact, const Vec& lambda) {
+double JointFriction::load(int contact, const Vec& lambda, const Vec& beside) {
   const Bearing& b = bearing(contact);
-  return total(b.at, b.loads * reaction(contact, lambda));
+  Vec6 all = reaction(contact, lambda);
+  if (const JointEntry& joint = joint_of(contact); beside.size() > 0) all += beside.segment(joint.row, joint.rows);
+  return total(b.at, b.loads * all);
 }
 
 Vec6 JointFriction::reaction(int contact, const Vec& lambda) const {

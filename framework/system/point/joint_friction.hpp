@@ -28,8 +28,9 @@ class JointFriction {
 
   bool none() const { return bearings_.empty(); }
   const JointEntry& joint_of(int contact) const;
-  double load(int contact, const Vec& lambda);  // N [N]
-  const Vec6& load_by_row(int contact) const;   // n, with which W is formed
+  // N [N] of these multipliers, with those `beside` them, of all joints
+  double load(int contact, const Vec& lambda, const Vec& beside = {});
+  const Vec6& load_by_row(int contact) const;  // n, with which W is formed
   struct Share {
     std::vector<int> rows;  // of lambda_c
     Mat D;                  // rows of the joint x `rows`

@@ -277,5 +277,50 @@ TEST(DraggedArm, LeansOnTheFloorWithWhatItsHingeCannotHold) {
       }
 }
 
+// --- a drum that its hub and the shoe of a brake hold against a moment that grows
+
+struct Brake {
+  double press = 80, R = 0.15, r = 0.05, mu = 0.3, mu_hub = 0.4, inertia = 0.1, rate = 8;
+  double holds() const { return mu * press * R + mu_hub * r * press * std::hypot(1, mu); }  // [N m]
+};
+
+std::string brake(const Brake& b, const std::array<const char*, 3>& names) {
+  return fmt::format(
+      R"({{"trammel": 1, "space": "planar", "gravity": [0, 0],
+           "bodies": {{"drum": {{"type": "rigid_body", "mass": 5, "inertia": {0}, "position": [0, 0]}},
+                       "{1}": {{"type": "rigid_body", "mass": 1, "inertia": 0.002, "position": [0, 0.2],
+                                "markers": {{"lining": [0, -0.05]}}}},
+                       "frame": {{"type": "moving_base", "markers": {{"slide": [0, 0.2]}}}}}},
+           "joints": {{"{2}": {{"type": "revolute", "between": ["ground", "drum.com"], "radius": {3}, "friction": {4}}},
+                       "slide": {{"type": "prismatic", "between": ["frame.slide", "{1}.com"], "axis": [0, 1]}}}},
+           "forces": {{"press": {{"type": "load", "on": "{1}.com", "force": {{"y": {5}}}}},
+                       "moment": {{"type": "load", "on": "drum.com", "moment": "={6}*t"}}}},
+           "contacts": {{"{7}": {{"type": "constraint_method", "restitution": 0, "radius": {8}, "friction": {9},
+                           "between": ["drum.com", {{"plane": {{"point": [0, 0], "normal": [0, -1],
+                                                                "on": "{1}.lining"}}}}]}}}},
+           "simulate": {{"until": 0.8}},
+           "record": {{"every": 0.01, "observe": {{"omega": "drum.angular_velocity", "T": "contacts.{7}.friction",
+                                                  "load": "joints.{2}.load"}}}}}})",
+      b.inertia, names[0], names[1], b.r, coulomb(b.mu_hub), -b.press, b.rate, names[2], b.R, coulomb(b.mu));
+}
+
+// It lets go where both are at their bounds, and the load of the hub is that of the forces that the shoe exerts then,
+// not of those which it would exert as a spring beyond its bound.
+TEST(BrakedDrum, TurnsWhereTheMomentExceedsWhatBothItsShoeAndItsHubHold) {
+  const Brake b;
+  const double turns = b.holds() / b.rate;
+  for (const auto& names : {std::array{"a", "b", "c"}, {"c", "a", "b"}, {"b", "c", "a"}, {"z", "y", "x"}}) {
+    const Finished run = run_text(brake(b, names));
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
+    const std::vector<Event> slips = run.of_kind("slip");
+    ASSERT_EQ(slips.size(), 2);
+    for (const Event& slip : slips) EXPECT_NEAR(slip.t, turns, 1e-8);
+    EXPECT_NEAR(run.end("omega"), b.rate * (0.8 - turns) * (0.8 - turns) / (2 * b.inertia), 1e-8);
+    for (std::size_t k = 0; k < run.series.at("load").size(); ++k)
+      EXPECT_NEAR(run.series.at("load")[k], std::hypot(b.press, run.series.at("T")[k]), 1e-9 * b.press) << k;
+  }
+}
+
 }  // namespace
 }  // namespace trammel::test
