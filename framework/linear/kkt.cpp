@@ -109,7 +109,7 @@ void MassKkt::change_rows(const Mat& G, const Mat& W, double rank_tolerance) {
   B_ = G;
   if (G.rows() == 0) return;
   with_mass([&](auto& mass) { mass.solve_lower_of_rows(B_); });
-  if (coupled_) return complement(W, rank_tolerance);
+  if (coupled_) return complement(G, W, rank_tolerance);
   multiply_rows(B_, B_, schur_);
   redundant_ = !schur_cholesky_.compute(schur_) || !pivots_are_safe(schur_cholesky_, schur_, rank_tolerance);
   if (redundant_) merge_rows(G, rank_tolerance);
@@ -127,7 +127,7 @@ void MassKkt::merge_rows(const Mat& G, double rank_tolerance) {
 }
 
 // The pivots are of the order of the squares of those sines, or of their round-off.
-void MassKkt::complement(const Mat& W, double rank_tolerance) {
+void MassKkt::complement(const Mat& G, const Mat& W, double rank_tolerance) {
   constexpr double round_off = 1e-10;
   const double dependent = rank_tolerance * rank_tolerance;
   C_ = W;
@@ -137,8 +137,22 @@ void MassKkt::complement(const Mat& W, double rank_tolerance) {
   least_pivot_ = std::max(round_off, 100 * dependent);
   redundant_ = schur_lu_.has_small_pivot(schur_, least_pivot_);
   if (!redundant_) return;
-  cod_.setThreshold(std::max(round_off, dependent));
-  cod_.compute(schur_);
+  const bool merged = merge_coupled_rows(G, rank_tolerance);
+  cod_.setThreshold(merged ? round_off : std::max(round_off, dependent));
+  const Mat merged_schur = merged_.transpose() * schur_ * merged_;
+  cod_.compute(merged_schur);
+}
+
+// y = U z, as with W = G. Other multipliers that solve the equations exert other forces W^T y if W depends on them: the
+// friction of a hinge, one of two that repeat each other's rows, would follow from the reactions that it causes. False:
+// the rows are independent.
+bool MassKkt::merge_coupled_rows(const Mat& G, double rank_tolerance) {
+  const Mat range = range_of(G, rank_tolerance);
+  const bool independent = range.cols() == G.rows();
+  Mat gram;
+  multiply_rows(B_, B_, gram);
+  merged_ = independent ? Mat(Mat::Identity(G.rows(), G.rows())) : orthonormal(gram * range);
+  return !independent;
 }
 
 void MassKkt::find_signs(BlockSigns& signs) const {
@@ -205,7 +219,7 @@ void MassKkt::solve_with_rows(const Vec& c, Vec& x, Vec& y) {
     w_ = -c;
     add_rows_product(1, B_, x, w_);
     if (redundant_)
-      y = cod_.solve(w_);
+      y = merged_ * cod_.solve(merged_.transpose() * w_);
     else
       schur_lu_.solve(w_, y);
     add_transposed_product(-1, C_, y, x);

@@ -64,7 +64,8 @@ class MassKkt {
   void solve_with_rows(const Vec& c, Vec& x, Vec& y);
   void hold_rows(const Vec& c, Vec& z, Vec& y);
   void hold_merged_rows(const Vec& c, Vec& z, Vec& y);
-  void complement(const Mat& W, double rank_tolerance);
+  void complement(const Mat& G, const Mat& W, double rank_tolerance);
+  bool merge_coupled_rows(const Mat& G, double rank_tolerance);
   void merge_rows(const Mat& G, double rank_tolerance);
   Mat range_of(const Mat& G, double tolerance) const;
 

@@ -18,7 +18,8 @@
 //  - Rows may be redundant: x and W^T y are unique. Which rows are redundant, and so the rank, is a property of G
 //    alone: `dependent_rows` (sparse/dependent_rows.hpp) finds them for all solvers.
 //  - Multipliers of redundant rows are those of minimum norm, sum_i y_i^2, with rows in the units in which they are
-//    given; SparseMassKkt makes them so in `minimise_norm`, FrontalKkt by LeastMultipliers.
+//    given: y in the range of G, also where W^T y distinguishes y that G^T y does not (friction by the load of a
+//    joint). SparseMassKkt makes them so in `minimise_norm`, FrontalKkt by LeastMultipliers.
 //  - Solving twice, or factorising again after another system, also with another pattern, gives the same bits: a
 //    resumed run continues like an uninterrupted one.
 //  - Failure is reported: `factorise` or `solve` returns false, never true with a NaN in x or y.

@@ -52,9 +52,12 @@ bool all_have_rows(const std::vector<model::SharedRows>& groups, const model::Mo
   });
 }
 
-void take_tangent(const Participant& p, model::ContactMode& mode) {
+// At the system's point.
+void take_tangent(const Participant& p, model::AssembledSystem& system, model::ContactMode& mode) {
   using Friction = model::ContactMode::Friction;
-  mode.friction = p.tangent == Participant::Tangent::resting ? Friction::stick : Friction::slide;
+  const bool rests = p.tangent == Participant::Tangent::resting;
+  if (rests && mode.friction != Friction::stick) system.anchor(p.contact, mode);
+  mode.friction = rests ? Friction::stick : Friction::slide;
   mode.direction = p.direction;
 }
 
@@ -86,13 +89,13 @@ void ContactModes::load_bearings_at_rest(const State& state, const model::Modes&
     }
     mode.closed = true;
     if (!system_.model().contacts[p.contact].coulomb || p.tangent == Participant::Tangent::none) continue;
-    take_tangent(p, mode);
+    take_tangent(p, system_, mode);
   }
   at_rest.shared = before_.shared;
   if (!all_have_rows(before_.shared, at_rest)) {  // the groups of friction as it is now, also of the other contacts
     for (const Participant& p : problem_.who)
       if (system_.model().contacts[p.contact].coulomb && p.tangent != Participant::Tangent::none)
-        take_tangent(p, at_rest.contacts[p.contact]);
+        take_tangent(p, system_, at_rest.contacts[p.contact]);
     at_rest.shared = problem_.shared_rows(at_rest);
   }
   load_bearings(state, at_rest);

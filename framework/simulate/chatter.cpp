@@ -3,8 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include <trammel/decompositions.hpp>
-
+#include "simulate/contact/ending_impulses.hpp"
 #include "simulate/contact_mode.hpp"
 
 namespace trammel::simulate {
@@ -178,10 +177,10 @@ double ContactModes::take_rates(State& state, const std::vector<bool>& rests, co
   for (std::size_t i = 0; i < held.size(); ++i) rates[Eigen::Index(i)] = system_.rate(held[i]);
   Mat jump, delassus;
   system_.impulse_response(held, jump, delassus);
-  const Vec impulses = Eigen::CompleteOrthogonalDecomposition<Mat>(delassus).solve(rates);
-  state.v -= jump * impulses;
+  const Vec impulses = ending_impulses(delassus, rates);
+  state.v += jump * impulses;
   system_.move_to(state.t, state.q, state.v);
-  return impulses.dot(rates - 0.5 * (delassus * impulses));
+  return -impulses.dot(rates + 0.5 * (delassus * impulses));
 }
 
 }  // namespace trammel::simulate

@@ -124,6 +124,33 @@ TEST(MassKkt, TakesNewRowsWithTheSameMass) {
   expect_solved(M, G.row(1), G.row(1), b, c, s);
 }
 
+// Friction of a hinge by its load, one of two that repeat each other's rows: W = G + n t^T. Of the y that solve both
+// equations only those in the range of G keep the meaning of a reaction.
+TEST(MassKkt, GivesMultipliersInTheRangeOfRedundantRowsWhereFrictionFollowsFromThem) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Vec n = 0.3 * Vec::NullaryExpr(5, [&] { return normal(random); });
+    const Vec t = Vec::NullaryExpr(6, [&] { return normal(random); });
+    const Mat independent = Mat::NullaryExpr(3, 6, [&] { return normal(random); });
+    const Mat among = Mat::NullaryExpr(5, 3, [&] { return normal(random); });
+    const Mat rows = among * independent, W = rows + n * t.transpose();
+    const Mat L = Mat::NullaryExpr(6, 6, [&] { return normal(random); });
+    const Mat mass = L * L.transpose() + Mat::Identity(6, 6);
+    const Vec right = Vec::NullaryExpr(6, [&] { return normal(random); }), c = rows * right;
+    MassKkt kkt;
+    ASSERT_TRUE(kkt.factorise(mass, rows, W));
+    Solution s, by_whole;
+    ASSERT_TRUE(kkt.solve(right, c, s.x, s.y));
+    ASSERT_TRUE(Iteration(mass, W, rows).solve(right, c, by_whole));
+    const double size = 1 + s.x.norm() + s.y.norm();
+    EXPECT_LT((mass * s.x + W.transpose() * s.y - right).norm(), 1e-9 * size) << trial;
+    EXPECT_LT((rows * s.x - c).norm(), 1e-9 * size) << trial;
+    EXPECT_LT((s.y - among * (among.colPivHouseholderQr().solve(s.y))).norm(), 1e-9 * size) << trial;
+    EXPECT_LT((s.x - by_whole.x).norm() + (s.y - by_whole.y).norm(), 1e-8 * size) << trial;
+  }
+}
+
 TEST(MassKkt, RefusesAMassThatIsNotPositive) {
   MassKkt kkt;
   EXPECT_FALSE(kkt.factorise(Eigen::Vector3d(1, 0, 1).asDiagonal().toDenseMatrix(), G));

@@ -11,6 +11,7 @@
 #include "complementarity/exact_modes.hpp"
 #include "complementarity/islands.hpp"
 #include "complementarity/shares/carrying_equations.hpp"
+#include "simulate/contact/ending_impulses.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -19,12 +20,6 @@ namespace {
 Eigen::VectorBlock<Vec> along(Vec& x, const complementarity::ContactPoint& p) {
   return x.segment(p.tangent, p.tangents);
 }
-
-// If the drifts of nearly dependent rows contradict each other, ending all of them takes changes of v that are many
-// times as large and no drift any more (the first dominoes of a long row move very little while the last ones fall).
-// Then only the drifts of well-conditioned rows are ended, those of which other rows leave more than 1e-3
-// (`least_share` is its square).
-constexpr double most_changed = 1e3, least_share = 1e-6;
 
 // Rates of the rows that carry appear as many times in a row that follows from them. If there are more, the carrying
 // rows are about to depend on each other (a strut that becomes upright), and they do not hold the other one.
@@ -419,9 +414,7 @@ void ContactProblem::come_to_rest(model::AssembledSystem& system, Vec& dv) const
   const Vec all = rates(system);
   dv.setZero(jump_.rows());
   for (const std::vector<Eigen::Index>& held : islands_at_rest()) {
-    const Mat A = delassus_(held, held);
-    const Vec lost = -all(held);
-    dv.noalias() += jump_(Eigen::all, held) * Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost);
+    dv.noalias() += jump_(Eigen::all, held) * ending_impulses(delassus_(held, held), all(held));
   }
 }
 
@@ -430,21 +423,8 @@ void ContactProblem::end_slip(Vec& dv) const {
   for (std::size_t i = 0; i < who.size(); ++i)
     if (who[i].tangent == Participant::Tangent::resting) along(slip, points_[i]) = who[i].a_t.head(points_[i].tangents);
   dv.setZero(jump_.rows());
-  for (const std::vector<Eigen::Index>& held : islands_at_rest()) {
-    const auto impulses = [&](const std::vector<Eigen::Index>& rows) {
-      const Mat A = delassus_(rows, rows);
-      const Vec lost = -slip(rows);
-      return Vec(Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost));
-    };
-    std::vector<Eigen::Index> ended = held;
-    Vec P = impulses(ended);
-    const double changed = (delassus_(Eigen::all, ended) * P).lpNorm<Eigen::Infinity>();  // rates [m/s]
-    if (changed > most_changed * slip(held).lpNorm<Eigen::Infinity>()) {
-      ended = complementarity::well_conditioned_rows(delassus_, held, least_share);
-      P = impulses(ended);
-    }
-    dv.noalias() += jump_(Eigen::all, ended) * P;
-  }
+  for (const std::vector<Eigen::Index>& held : islands_at_rest())
+    dv.noalias() += jump_(Eigen::all, held) * ending_impulses(delassus_(held, held), slip(held));
 }
 
 }  // namespace trammel::simulate
