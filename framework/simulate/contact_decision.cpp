@@ -255,7 +255,7 @@ std::vector<bool> ContactModes::in_balance(const std::vector<int>& released) con
     const Participant& p = problem_.who[i];
     const bool opens = before_.contacts[p.contact].closed && !modes_.contacts[p.contact].closed;
     const double error = loses_a_force(p.contact) ? std::max(p.violation, error_of_release) : p.violation;
-    const bool just_presses = p.N > 0 && p.N <= undecided * error * largest[i];
+    const bool just_presses = p.N > 0 && (p.N <= undecided * error * largest[i] || would_hardly_close(i));
     if (p.unilateral && (just_presses || (opens && p.a_n <= least_acceleration(p)))) open[island[i]] = true;
   }
   for (const std::size_t k : island) all.push_back(open[k]);
@@ -399,7 +399,13 @@ void ContactModes::take_verdicts_found() {
 bool ContactModes::merely_touches(std::size_t participant, double largest) const {
   const Participant& p = problem_.who[participant];
   return p.unilateral && !before_.contacts[p.contact].closed && p.N <= most_error_of_forces * largest &&
-         problem_.acceleration_without(participant) >= -undecided * least_acceleration(p);
+         would_hardly_close(participant);
+}
+
+// Without its own force its gap would not accelerate more than by round-off. All forces of an island may be as small (a
+// lid from which Coriolis' force lifts a box).
+bool ContactModes::would_hardly_close(std::size_t participant) const {
+  return problem_.acceleration_without(participant) >= -undecided * least_acceleration(problem_.who[participant]);
 }
 
 void ContactModes::take_verdict(const Participant& p, bool closed) {

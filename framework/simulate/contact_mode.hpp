@@ -263,6 +263,7 @@ class ContactModes {
   void accelerate_participants();
   void take_verdicts_found();
   bool merely_touches(std::size_t participant, double largest) const;
+  bool would_hardly_close(std::size_t participant) const;
   void take_verdict(const Participant& p, bool closed);
   void finish(State& state, bool carry);
   void append_normal_event(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
