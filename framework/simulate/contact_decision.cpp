@@ -183,7 +183,7 @@ bool ContactModes::stop_with_others(ContactChanges& changes) {
 
 // Rule 7: ends the drift of the contacts at rest. True if this has ended the slip of sliding contacts too; they are
 // added to changes.stopped.
-bool ContactModes::end_drift(State& state, ContactChanges& changes) {
+bool ContactModes::end_drift(State& state, ContactChanges& changes, bool jumped) {
   bool drifted = false, turns = false;
   for (Participant& p : problem_.who) {
     if (p.tangent != Tangent::resting) continue;
@@ -196,6 +196,8 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes) {
   problem_.end_slip(dv_);
   state.v += dv_;
   system_.move_to(state.t, state.q, state.v);
+  for (Participant& p : problem_.who)  // slow slips have turned
+    if (p.tangent == Tangent::sliding) add_friction(state, p, changes, jumped);
   if (!drifted) return false;
   bool more = false;
   for (int i = 0; i < int(before_.contacts.size()); ++i) {
@@ -217,7 +219,7 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
     open_all(modes_);
     if (problem_.who.empty()) return {complementarity::LcpOutcome::solved, 0};
     problem_.prepare(system_);
-  } while (stop_with_others(changes) || end_drift(state, changes));
+  } while (stop_with_others(changes) || end_drift(state, changes, jumped));
   for (;;) {
     system_.set_modes(modes_);
     system_.move_to(state.t, state.q, state.v);

@@ -371,10 +371,14 @@ double ContactModes::distance_from_critical(const State& state) {
   return problem_.distance_from_critical(before_);
 }
 
-void ContactModes::renew_bases(State& state) {
+bool ContactModes::renew_bases(State& state) {
   prepare_present(state);
+  const std::vector<bool> held = problem_.held_by_others(modes_);
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (problem_.who[i].idle && !held[i]) return false;
   modes_.shared = problem_.shared_rows(modes_);
   finish(state, false);
+  return true;
 }
 
 double ContactModes::step_limit(const State& state) {

@@ -42,7 +42,8 @@
 //  7. A slip that the steps have left in contacts at rest (a drift) is ended by the least change of v. Other contacts
 //     whose slip ends with it (the third foot of a table), and those whose slip follows from the rates of the contacts
 //     at rest, are then at rest as well, and rule 5 is applied again. In space, drift that is round-off is ended too,
-//     since it would turn the friction of a contact that begins to slide.
+//     since it would turn the friction of a contact that begins to slide. It turns slow slips, so these have their
+//     directions afterwards.
 //  8. Rigid contacts may have no solution with finite forces (Painleve's rod), or forces that grow beyond all bounds as
 //     that state is approached (event_location.hpp rejects controlled steps past it). Then an impact without collision
 //     stops or turns the slip: rule 1 with nothing approaching, in which dependent contacts, none of which could part
@@ -64,13 +65,15 @@
 //     several solutions then, the one near that of this instant is sought first. If there is none, rule 8 applies.
 // 12. The friction of a contact at rest may be at its bound while its tangents depend on rows of other contacts, some
 //     of which slide (blocks that push each other along a channel). The shares of springs (complementarity/shares)
-//     would exceed the bound or give another motion than that found. Such a contact keeps T = mu N like one that
-//     slides, without a slip; so does a joint at rest beside them (an arm that a box drags along). If mu < mu_0 it has
-//     let go (rule 6), and all modes are decided again.
+//     would exceed the bound, give another motion than that found, or leave a sliding contact without a force that
+//     presses in the solution. Such a contact keeps T = mu N like one that slides, without a slip; so does a joint at
+//     rest beside them (an arm that a box drags along). If mu < mu_0 it has let go (rule 6), and all modes are decided
+//     again.
 // 13. A contact without a force stays closed (idle) only while rows of contacts that carry hold it. Where these come to
 //     depend on each other (a stack that becomes a strut), they do not, and it opens: its force as a spring passes 0
-//     there, which locates that state. Which contacts are idle affects the motion if others slide, so the forces in the
-//     modes decided are computed: if the contacts move otherwise than found, only those without any force count as
+//     there, which locates that state. They may also cease to hold it where contacts that touched at one point part:
+//     then a change of bases is an event. Which contacts are idle affects the motion if others slide, so the forces in
+//     the modes decided are computed: if the contacts move otherwise than found, only those without any force count as
 //     idle; if forces pull or leave a cone, contacts whose force may be an error (up to 1e-6 of the largest of their
 //     island) count as idle, too, or else none does. A contact with such a force that pulls by its row in these modes
 //     opens, if its gap then accelerates apart (open_pulling_ones).
@@ -148,8 +151,9 @@ class ContactModes {
 
   // Applies the changes at `state`: v jumps, modes and sizes change, a and lambda are solved anew. Appends the events.
   void settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
-  // Modes stay as they are, and so do all forces; contacts that share rows take the best conditioned basis.
-  void renew_bases(State& state);
+  // Modes stay as they are, and so do all forces; contacts that share rows take the best conditioned basis. False:
+  // modes are to be decided, since the others no longer hold an idle contact (rule 13).
+  [[nodiscard]] bool renew_bases(State& state);
   // Energy lost in the last impacts [J]: through contacts, also closed ones; and elsewhere, through moving rows.
   struct Loss {
     int contact;
@@ -223,7 +227,7 @@ class ContactModes {
   void gather(const State& state, const ContactChanges& changes, bool jumped);
   void add_friction(const State& state, Participant& p, const ContactChanges& changes, bool jumped);
   bool stop_with_others(ContactChanges& changes);
-  bool end_drift(State& state, ContactChanges& changes);
+  bool end_drift(State& state, ContactChanges& changes, bool jumped);
   [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped,
                                                         const std::vector<Participant>& nearby = {});
   [[nodiscard]] complementarity::ContactSolution take_verdicts(const State& state,
@@ -235,6 +239,7 @@ class ContactModes {
   void open_pulling_ones(const State& state);
   [[nodiscard]] bool has_forces_in(const model::Modes& modes, const State& state);
   std::vector<bool> moves_as_found() const;
+  std::vector<bool> presses_as_found() const;
   std::vector<Participant*> held_at_bounds(const State& state);
   void keep_at_bound(Participant& p);
   bool share_within_bounds(const State& state);

@@ -193,8 +193,22 @@ std::vector<bool> ContactModes::moves_as_found() const {
   return all;
 }
 
+// By island, in these modes, whose multipliers are lambda_: the sliding contacts that press in the solution press.
+std::vector<bool> ContactModes::presses_as_found() const {
+  const std::vector<std::size_t> island = problem_.islands();
+  const std::vector<double> largest = problem_.largest_beside();
+  std::vector<bool> all(island.size(), true);
+  for (std::size_t i = 0; i < island.size(); ++i) {
+    const Participant& p = problem_.who[i];
+    const double error = most_error_of_forces * largest[i];
+    if (modes_.contacts[p.contact].friction != Friction::slide || p.idle || p.N <= error) continue;
+    if (!(system_.normal_force(p.contact, lambda_) > error)) all[island[i]] = false;
+  }
+  return all;
+}
+
 // Rule 12: the contacts at rest whose friction is at its bound in a group with sliding members that cannot carry its
-// resultant, or moves otherwise than the solution.
+// resultant, or moves or presses otherwise than the solution.
 std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
   const auto at_bound = [this](const Participant& p) {
     const bool sticks = modes_.contacts[p.contact].friction == Friction::stick;
@@ -205,7 +219,7 @@ std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
   system_.set_modes(modes_);
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
-  const std::vector<bool> as_found = moves_as_found();
+  const std::vector<bool> moves = moves_as_found(), presses = presses_as_found();
   const std::vector<std::size_t> island = problem_.islands();
   std::vector<Participant*> held;
   for (std::size_t g = 0; g < modes_.shared.size(); ++g) {
@@ -214,7 +228,7 @@ std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
     const bool carries = system_.spare_load(int(g), lambda_) >= -round_off;
     for (std::size_t i = 0; i < island.size(); ++i) {
       Participant& p = problem_.who[i];
-      if (carries && as_found[island[i]]) continue;
+      if (carries && moves[island[i]] && presses[island[i]]) continue;
       if (at_bound(p) && shares_tangents(modes_.shared[g], p.contact)) held.push_back(&p);
     }
   }

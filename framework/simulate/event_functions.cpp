@@ -73,12 +73,13 @@ void EventLocation::add_loads(int contact) {
 }
 
 // Sets the side on which bearings press: the present one, or the other one if the load has just passed through 0.
-void EventLocation::choose_sides(const std::vector<EventFunction>& before) {
+void EventLocation::choose_sides(const std::map<Watched, EventFunction>& before) {
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     EventFunction& function = functions_[k];
     if (function.kind != Kind::load) continue;
-    const bool passed = before.size() == functions_.size() && before[k].reported;
-    function.side = passed ? -before[k].side : now_[k].f < 0 ? -1 : 1;
+    const auto same = before.find(watched(function));
+    const bool passed = same != before.end() && same->second.reported;
+    function.side = passed ? -same->second.side : now_[k].f < 0 ? -1 : 1;
     now_[k].f *= function.side;
     function.noise = std::max(modes_.friction_noise(function.contact), vanished_force * function.bound);
   }

@@ -44,9 +44,17 @@ bool same_modes(const std::vector<model::ContactMode>& a, const std::vector<mode
 
 }  // namespace
 
+// A basis of rows has its group, whichever of them are implied. A contact that becomes idle is watched by the same
+// force, that of a spring.
+EventLocation::Watched EventLocation::watched(const EventFunction& f) const {
+  const bool of_group = f.kind == Kind::follow || f.kind == Kind::lean || f.kind == Kind::span;
+  return {f.kind == Kind::idle ? Kind::press : f.kind, of_group ? f.group : f.contact, f.bearing};
+}
+
 void EventLocation::restart(const State& now) {
-  std::vector<EventFunction> before;
-  if (same_modes(modes_before_, system_.modes().contacts)) before.swap(functions_);
+  std::map<Watched, EventFunction> before;
+  if (same_modes(modes_before_, system_.modes().contacts))
+    for (const EventFunction& each : functions_) before.emplace(watched(each), each);
   functions_.clear();
   h_before_ = longest_ = 0;
   system_.move_to(now.t, now.q, now.v);
@@ -64,12 +72,14 @@ void EventLocation::restart(const State& now) {
   allow_for_round_off(now);
   choose_sides(before);
   for (EventFunction& function : functions_) measure_undirected(0, now, function);
-  for (std::size_t k = 0; k < before.size() && before.size() == functions_.size(); ++k)
+  for (std::size_t k = 0; k < functions_.size(); ++k) {
+    functions_[k].steepest = std::abs(now_[k].slope);
+    const auto same = before.find(watched(functions_[k]));
+    if (same == before.end()) continue;
     if (functions_[k].kind == Kind::follow)  // a change of bases does not know the accelerations without forces
-      functions_[k].little = std::max(functions_[k].little, before[k].little);
-  for (std::size_t k = 0; k < functions_.size(); ++k) functions_[k].steepest = std::abs(now_[k].slope);
-  for (std::size_t k = 0; k < before.size() && before.size() == functions_.size(); ++k)
-    wait_longer(before[k], now_[k], functions_[k]);
+      functions_[k].little = std::max(functions_[k].little, same->second.little);
+    wait_longer(same->second, int(k));
+  }
   // A contact begins to stick at its bound where its normal force begins at 0, and where mu = mu_0.
   for (int k = 0; k < int(functions_.size()); ++k)
     if (functions_[k].kind == Kind::hold && !functions_[k].at_ends &&
@@ -228,7 +238,9 @@ void EventLocation::shorten(const State& now, double h_event, double& h, State& 
 
 // An event that changed nothing was round-off, or the missing force is too small to move anything yet. It is an event
 // again when several times as much is missing.
-void EventLocation::wait_longer(const EventFunction& before, const Value& now, EventFunction& function) const {
+void EventLocation::wait_longer(const EventFunction& before, int k) {
+  EventFunction& function = functions_[std::size_t(k)];
+  const Value& now = now_[std::size_t(k)];
   if (function.kind == Kind::load || function.kind == Kind::span) return;
   if (function.kind == Kind::lean) {  // there is no better basis
     if (now.f < 0) function.noise = 2 * std::abs(now.f);
@@ -241,7 +253,7 @@ void EventLocation::wait_longer(const EventFunction& before, const Value& now, E
   function.patience = before.patience;
   if (function.kind == Kind::approach && now.slope > scale_.of(function.contact).left_by_impacts()) return;  // rebounds
   function.noise = std::max(function.noise, before.noise);
-  if (before.reported || now.f < 0)
+  if (now.f < 0 || (before.reported && !shares_otherwise(k)))
     function.noise = std::max({function.noise, function.little, 2 * std::abs(now.f), 4 * before.noise});
 }
 

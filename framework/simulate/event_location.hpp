@@ -40,6 +40,8 @@
 // of a singular position. This shows first in its acceleration.
 #pragma once
 
+#include <map>
+#include <tuple>
 #include <vector>
 
 #include <trammel/integrator.hpp>
@@ -106,6 +108,9 @@ class EventLocation {
     double about = 0;  // [s] estimate of the crossing
   };
   struct Cubic;
+  // What a function watches, whatever its place among the others is: kind, contact or group, bearing.
+  using Watched = std::tuple<Kind, int, int>;
+  Watched watched(const EventFunction& f) const;
 
   void set_up_functions();
   void add_functions(int contact);
@@ -117,7 +122,7 @@ class EventLocation {
   void add_loads(int contact);
   void allow_for_critical_friction();
   void allow_for_round_off(const State& now);
-  void choose_sides(const std::vector<EventFunction>& before);
+  void choose_sides(const std::map<Watched, EventFunction>& before);
   bool by_force(int k) const {
     const Kind kind = functions_[k].kind;
     return kind == Kind::press || kind == Kind::hold || kind == Kind::idle || kind == Kind::unload ||
@@ -167,7 +172,8 @@ class EventLocation {
   double same_instant(int contact) const;
   void collect();
   void report(int k);
-  void wait_longer(const EventFunction& before, const Value& now, EventFunction& function) const;
+  void wait_longer(const EventFunction& before, int k);
+  bool shares_otherwise(int k) const;
 
   model::AssembledSystem& system_;
   Integrator& integrator_;

@@ -80,6 +80,12 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
   return (motions && hides_motion(now, h, next)) || (forces && hides_force(now, h, next));
 }
 
+// After an event that left all modes as they were: which contacts are idle is not among these. A force that was 0 at
+// the event is then another one.
+bool EventLocation::shares_otherwise(int k) const {
+  return is_shared_force(functions_[k]) && now_[k].f > jumps_of_shares * functions_[k].little;
+}
+
 // True if swings within steps of length h could hide an event: of a force, or of a gap that is small for its rate.
 bool EventLocation::swings_matter(const std::vector<Value>& values, double h) const {
   constexpr double far = 20;

@@ -156,9 +156,8 @@ bool Simulator::advance(RecordSink& recorder) {
 void Simulator::complete(const Trial& trial, RecordSink& recorder) {
   accept(trial);
   record_inside(recorder);
-  if (trial.found == EventLocation::Found::event && location_.changes().only_leaning()) {
-    renew_bases();
-  } else if (trial.found == EventLocation::Found::event) {
+  const bool event = trial.found == EventLocation::Found::event;
+  if (event && !(location_.changes().only_leaning() && renew_bases())) {
     if (passes_infinity(location_.changes())) return jam(recorder, trial.h);
     settle(location_.changes());
     const int contact = events_.empty() ? -1 : events_.back().contact;

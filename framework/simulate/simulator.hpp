@@ -132,7 +132,7 @@ class Simulator {
   Outcome corrected(const LevelCorrection& entry, const Correction::Step& step);
   void record_inside(RecordSink& recorder);
   void settle(const ContactChanges& changes);
-  void renew_bases();
+  bool renew_bases();
   void guard_against_standstill(double h, double wanted, int contact);
   void guard_against_storm(int contact);  // contact: the last one; -1: unknown
   std::string last_of(int contact) const;

@@ -37,10 +37,11 @@ void Simulator::settle(const ContactChanges& changes) {
   at_new_modes();
 }
 
-// No event: only the rows in g change, and no force.
-void Simulator::renew_bases() {
-  modes_.renew_bases(now_);
+// No event: only the rows in g change, and no force. False: it is an event.
+bool Simulator::renew_bases() {
+  if (!modes_.renew_bases(now_)) return false;
   at_new_modes();
+  return true;
 }
 
 void Simulator::at_new_modes() {
