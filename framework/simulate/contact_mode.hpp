@@ -11,11 +11,12 @@
 //     position may have. The impact is solved again with e = 0 for these contacts. Each repetition lowers the number of
 //     contacts with e > 0, so this ends.
 //     A contact may open only because others struck, by too little to be followed (a block that rocks to rest, discs of
-//     a pile that knock against each other). Such contacts keep no rate: their impacts would go on without end in a
-//     finite time. A contact that stuck keeps no slip from the impact if its friction ends the slip within a distance
-//     as short. An impact is decided by impulses alone; where these are small beside the loads times the shortest time
-//     that steps resolve, the loads decide. The problem of rule 3 with all these contacts at rest finds those that
-//     rest. Then v is projected onto the motions in which they, and all other contacts without a rate, have no rate.
+//     a pile that knock against each other), whether or not it had an impulse of its own in that impact. Such contacts
+//     keep no rate: their impacts would go on without end in a finite time. A contact that stuck keeps no slip from the
+//     impact if its friction ends the slip within a distance as short. An impact is decided by impulses alone; where
+//     these are small beside the loads times the shortest time that steps resolve, the loads decide. The problem of
+//     rule 3 with all these contacts at rest finds those that rest. Then v is projected onto the motions in which they,
+//     and all other contacts without a rate, have no rate.
 //     This is the least change of v, so it takes energy; the loss is reported with the impact.
 //  3. Contacts that touch without a rate afterwards are candidates. They close where the forces of the complementarity
 //     problem

@@ -121,11 +121,26 @@ void EventLocation::accept(double h, const State& next) {
 // Just after an event, a function at the round-off of 0 proves nothing unless it goes on falling, faster than an impact
 // may have left it: the same impact would follow without end. A function that began below 0 (a drifted row, an onset
 // that was not located) proves nothing unless it falls further.
-bool EventLocation::happened(int k, const Value& end) const {
+bool EventLocation::happened(const State& now, int k, const Value& end) {
   if (!(end.f < 0)) return false;
   if (!just_handled(k) || end.f < std::min(now_[k].f, 0.0) - functions_[k].noise) return true;
   return functions_[k].kind != Kind::slide && !by_force(k) &&
-         end.slope < -scale_.of(functions_[k].contact).left_by_impacts();
+         end.slope < -scale_.of(functions_[k].contact).left_by_impacts() && !grazes(now, k);
+}
+
+// A gap that touches and closes, but opens again by its own acceleration before it is as deep as what counts as
+// touching. Contacts that depend on each other leave such rates: a box that tips about its feet moves its lowest corner
+// against a wall until it lands, by a distance that nothing resolves. An impact would move the feet, and their friction
+// would restore the rate, again and again.
+bool EventLocation::grazes(const State& now, int k) {
+  const double rate = now_[k].slope, acceleration = gap_acceleration(now, k);
+  return rate < 0 && acceleration > 0 && now_[k].f - rate * rate / (2 * acceleration) > -functions_[k].noise;
+}
+
+// [m/s^2] Of an event function that is a gap, or minus a gap.
+double EventLocation::gap_acceleration(const State& now, int k) {
+  system_.move_to(now.t, now.q, now.v);
+  return (functions_[k].kind == Kind::leave ? -1 : 1) * system_.acceleration({functions_[k].contact, 0}, now.a);
 }
 
 EventLocation::Value EventLocation::step_to(const State& now, double h, int k) {
@@ -148,7 +163,7 @@ void EventLocation::find_suspects(const State& now, double h, const State& next)
     } else if (functions_[k].at_ends) {
       if (next_[k].f < 0 && (by_force(k) || next_[k].slope < -scale_.of(functions_[k].contact).rest_speed()))
         at_end_.push_back(k);
-    } else if (happened(k, next_[k]) || dips(now, h, next, k, suspect) || returns(now, h, k, suspect)) {
+    } else if (happened(now, k, next_[k]) || dips(now, h, next, k, suspect) || returns(now, h, k, suspect)) {
       suspects_.push_back(suspect);
     } else if (functions_[k].kind == Kind::slide) {
       system_.move_to(next.t, next.q, next.v);
@@ -214,7 +229,7 @@ EventLocation::Located EventLocation::locate_first(const State& now, double h) {
   for (Suspect& suspect : suspects_) {
     if (suspect.high > first.h) {
       const Value there = step_to(now, first.h, suspect.function);
-      if (!happened(suspect.function, there)) continue;
+      if (!happened(now, suspect.function, there)) continue;
       suspect.high = first.h, suspect.at_high = there;
     }
     const double located = locate(now, suspect);
@@ -323,7 +338,7 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
       const Value there = step_to(now, apart, k);
       if (there.f > 0)
         bracket.low = apart, bracket.at_low = there, found = true;
-      else if (happened(k, there))
+      else if (happened(now, k, there))
         bracket.high = apart, bracket.at_high = there;
       else  // so near that nothing shows yet: a step to there would find no event, without end
         break;

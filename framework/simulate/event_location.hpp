@@ -17,7 +17,8 @@
 // negative between them (the cubic through values and slopes of both ends shows where to look); or, just after an event
 // that left it at the round-off of 0, the parabola at its start returns to 0 within the step. The event is located by
 // repeating the step with other lengths, so to the accuracy of the method itself, down to the rounding of t; the
-// earliest event counts. For an event that was just handled only round-off is ignored (ContactScale).
+// earliest event counts. For an event that was just handled only round-off is ignored (ContactScale), and an approach
+// that ends by itself within a gap that is round-off.
 //
 // Error control sees the effect of time on these functions only through the motion: it sees none where everything is
 // held, or where a table shakes under a ball in flight. Therefore a controlled step is too long if a function departs
@@ -144,7 +145,9 @@ class EventLocation {
   void evaluate(const State& state, std::vector<Value>& values, numerics::BlockSigns& signs);
   Value value(int k, const State& state, bool& accelerated);
   bool just_handled(int k) const { return now_[k].f <= functions_[k].noise; }
-  bool happened(int k, const Value& end) const;
+  bool happened(const State& now, int k, const Value& end);
+  bool grazes(const State& now, int k);
+  double gap_acceleration(const State& now, int k);
   Value step_to(const State& now, double h, int k);
   bool hides(const State& now, double h, const State& next);
   bool swings_matter(const std::vector<Value>& values, double h) const;

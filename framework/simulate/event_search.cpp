@@ -164,7 +164,7 @@ bool EventLocation::dips(const State& now, double h, const State& next, int k, S
     if (!near && !(may_have_kink && cubic.tangents_cross())) return false;
     const double at = cubic.at;
     const Value there = step_to(now, at, k);
-    if (there.f < 0 && happened(k, there)) {
+    if (there.f < 0 && happened(now, k, there)) {
       suspect.high = at, suspect.at_high = there;
       return true;
     }
@@ -180,13 +180,11 @@ bool EventLocation::dips(const State& now, double h, const State& next, int k, S
 // A gap that an event has just left at 0 with rate u and acceleration A < 0 closes again after about -2 u/A.
 bool EventLocation::returns(const State& now, double h, int k, Suspect& suspect) {
   if (by_force(k) || functions_[k].kind == Kind::slide || !just_handled(k) || !(now_[k].slope > 0)) return false;
-  system_.move_to(now.t, now.q, now.v);
-  const double A =
-      (functions_[k].kind == Kind::leave ? -1 : 1) * system_.acceleration({functions_[k].contact, 0}, now.a);
+  const double A = gap_acceleration(now, k);
   const double at = -2.5 * now_[k].slope / A;
   if (!(A < 0 && at < h)) return false;
   const Value there = step_to(now, at, k);
-  if (!happened(k, there)) return false;
+  if (!happened(now, k, there)) return false;
   suspect.high = at, suspect.at_high = there;
   return true;
 }

@@ -138,5 +138,52 @@ TEST(AContact, ThatIsPulledOffOpensWhenItsForceFallsThroughZero) {
   EXPECT_NEAR(run.end("y"), 20 * 0.125 / 6, 1e-6);  // second order: h^2 / 12 of 20
 }
 
+// A box under the lid of a base that turns, without gravity: it slides outwards at x with u, pressed to the lid at y by
+// its own inertia, and N = m (omega^2 y - 2 omega u) falls through 0 at both corners at once.
+struct BoxUnderLid {
+  double omega, mu, x = 0.42, y = 0.26, u = 0.01;
+  // x'' = omega^2 x - mu (omega^2 y - 2 omega x')
+  double leaves() const {
+    const double r = omega * (mu + std::hypot(1, mu)), s = omega * (mu - std::hypot(1, mu)), x_0 = x - mu * y;
+    const double A = (u - s * x_0) / (r - s), B = x_0 - A;
+    double low = 0, high = 1;
+    while (high - low > 1e-14) {
+      const double t = (low + high) / 2, speed = A * r * std::exp(r * t) + B * s * std::exp(s * t);
+      (speed < omega * y / 2 ? low : high) = t;
+    }
+    return low;
+  }
+};
+
+TEST(BoxUnderATurningLid, LeavesItWithBothCornersAtOnce) {
+  for (const double omega : {0.7, 2.07, 3.3, 5.0})
+    for (const double mu : {0.0, 0.2, 0.45}) {
+      const BoxUnderLid b{omega, mu};
+      const std::string friction =
+          mu > 0 ? fmt::format(R"(, "friction": {{"type": "coulomb", "static": {0}, "kinetic": {0}}})", mu) : "";
+      const auto corner = [&](const char* name) {
+        return fmt::format(
+            R"("{0}": {{"type": "constraint_method", "restitution": 0{1},
+                        "between": ["box.{0}", {{"plane": {{"point": [0, {2}], "normal": [0, -1], "on": "base.origin"}}}}]}})",
+            name, friction, b.y + 0.05);
+      };
+      const double t = b.leaves();
+      const Finished run = run_text(fmt::format(
+          R"({{"trammel": 1, "space": "planar", "gravity": [0, 0],
+               "bodies": {{"base": {{"type": "moving_base", "angle": "={0}*t"}},
+                           "box": {{"type": "rigid_body", "mass": 2, "inertia": 0.0033, "position": [{1}, {2}],
+                                    "velocity": [{3}, {4}], "angular_velocity": {0},
+                                    "markers": {{"a": [-0.05, 0.05], "b": [0.05, 0.05]}}}}}},
+               "contacts": {{{5}, {6}}}, "simulate": {{"until": {7}}},
+               "record": {{"every": 0.01, "observe": {{"x": "box.com.x"}}}}}})",
+          omega, b.x, b.y, b.u - omega * b.y, omega * b.x, corner("a"), corner("b"), t + 0.05));
+      ASSERT_TRUE(run.done()) << omega << ", " << mu << ": " << run.report.reason;
+      EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
+      const std::vector<Event> opened = run.of_kind("contact_open");
+      ASSERT_EQ(opened.size(), 2) << omega << ", " << mu;
+      for (const Event& e : opened) EXPECT_NEAR(e.t, t, 1e-8) << omega << ", " << mu;
+    }
+}
+
 }  // namespace
 }  // namespace trammel::test
