@@ -138,6 +138,7 @@ void MassKkt::complement(const Mat& G, const Mat& W, double rank_tolerance) {
   redundant_ = schur_lu_.has_small_pivot(schur_, least_pivot_);
   if (!redundant_) return;
   const bool merged = merge_coupled_rows(G, rank_tolerance);
+  if (merged_.cols() == 0) return;
   cod_.setThreshold(merged ? round_off : std::max(round_off, dependent));
   const Mat merged_schur = merged_.transpose() * schur_ * merged_;
   cod_.compute(merged_schur);
@@ -151,7 +152,10 @@ bool MassKkt::merge_coupled_rows(const Mat& G, double rank_tolerance) {
   const bool independent = range.cols() == G.rows();
   Mat gram;
   multiply_rows(B_, B_, gram);
-  merged_ = independent ? Mat(Mat::Identity(G.rows(), G.rows())) : orthonormal(gram * range);
+  if (independent)  // singular by friction: rows at length one, so that units do not matter
+    merged_ = gram.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
+  else
+    merged_ = orthonormal(gram * range);
   return !independent;
 }
 
@@ -212,6 +216,14 @@ void MassKkt::hold_merged_rows(const Vec& c, Vec& z, Vec& y) {
   add_transposed_product(-1, B_, y, z);
 }
 
+// Rows that are all 0 have no multipliers.
+void MassKkt::solve_merged(Vec& y) const {
+  if (merged_.cols() == 0)
+    y.setZero();
+  else
+    y = merged_ * cod_.solve(merged_.transpose() * w_);
+}
+
 // From x = b. Before the last line x is z = L^T x:  z = L^-1 b - B^T y,  B z = c;  or with C for the first B.
 void MassKkt::solve_with_rows(const Vec& c, Vec& x, Vec& y) {
   with_mass([&](auto& mass) { mass.solve_lower(x); });
@@ -219,7 +231,7 @@ void MassKkt::solve_with_rows(const Vec& c, Vec& x, Vec& y) {
     w_ = -c;
     add_rows_product(1, B_, x, w_);
     if (redundant_)
-      y = merged_ * cod_.solve(merged_.transpose() * w_);
+      solve_merged(y);
     else
       schur_lu_.solve(w_, y);
     add_transposed_product(-1, C_, y, x);

@@ -65,6 +65,7 @@ class MassKkt {
   void hold_rows(const Vec& c, Vec& z, Vec& y);
   void hold_merged_rows(const Vec& c, Vec& z, Vec& y);
   void complement(const Mat& G, const Mat& W, double rank_tolerance);
+  void solve_merged(Vec& y) const;
   bool merge_coupled_rows(const Mat& G, double rank_tolerance);
   void merge_rows(const Mat& G, double rank_tolerance);
   Mat range_of(const Mat& G, double tolerance) const;

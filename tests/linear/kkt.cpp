@@ -151,6 +151,38 @@ TEST(MassKkt, GivesMultipliersInTheRangeOfRedundantRowsWhereFrictionFollowsFromT
   }
 }
 
+// Rows in m and rad of a small mechanism: the units of rows do not make them redundant.
+TEST(MassKkt, SolvesCoupledRowsOfAnyLength) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Mat one = Mat::NullaryExpr(3, 6, [&] { return normal(random); });
+    const Vec n = 0.3 * Vec::NullaryExpr(3, [&] { return normal(random); });
+    const Vec t = Vec::NullaryExpr(6, [&] { return normal(random); });
+    const Vec lengths{{1, 1e-4, 1e-7}}, right = Vec::NullaryExpr(6, [&] { return normal(random); });
+    const Mat identity = Mat::Identity(6, 6), W_one = one + n * t.transpose();
+    MassKkt of_length_one, of_any;
+    Solution s, any;
+    ASSERT_TRUE(of_length_one.factorise(identity, one, W_one));
+    ASSERT_TRUE(of_any.factorise(identity, lengths.asDiagonal() * one, lengths.asDiagonal() * W_one));
+    const Vec c = one * right;
+    ASSERT_TRUE(of_length_one.solve(right, c, s.x, s.y));
+    ASSERT_TRUE(of_any.solve(right, lengths.asDiagonal() * c, any.x, any.y));
+    EXPECT_LT((s.x - any.x).norm(), 1e-8 * (1 + s.x.norm())) << trial;
+    EXPECT_LT((s.y - lengths.cwiseProduct(any.y)).norm(), 1e-8 * (1 + s.y.norm())) << trial;
+  }
+}
+
+TEST(MassKkt, HasNoMultipliersOfCoupledRowsThatAreAllZero) {
+  const Mat none = Mat::Zero(2, 3), W = Mat::Constant(2, 3, 0.1);
+  MassKkt kkt;
+  ASSERT_TRUE(kkt.factorise(M, none, W));
+  Solution s;
+  ASSERT_TRUE(kkt.solve(b, Vec::Zero(2), s.x, s.y));
+  EXPECT_EQ(s.y, Vec::Zero(2));
+  EXPECT_LT((M * s.x - b).norm(), 1e-14);
+}
+
 TEST(MassKkt, RefusesAMassThatIsNotPositive) {
   MassKkt kkt;
   EXPECT_FALSE(kkt.factorise(Eigen::Vector3d(1, 0, 1).asDiagonal().toDenseMatrix(), G));
