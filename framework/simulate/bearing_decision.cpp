@@ -170,7 +170,11 @@ complementarity::ContactSolution ContactModes::decide_in_rounds(const State& sta
                                                                 const model::Modes& open) {
   std::vector<bool> not_held(asked.size(), false);
   std::vector<model::Modes> had;  // found since the last joint let go
-  load_bearings_at_rest(state, open);
+  try {
+    load_bearings_at_rest(state, open);
+  } catch (const model::LocksItself&) {  // near a dead centre: at rest, one joint would stop the others at once
+    load_bearings(state, open);
+  }
   for (int round = 0; round < most_rounds; ++round) {
     const complementarity::ContactSolution solution = take_verdicts_under_loads(state, asked, open);
     if (solution.outcome != LcpOutcome::solved) return solution;

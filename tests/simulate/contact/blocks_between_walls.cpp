@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "block.hpp"
 #include "support/run_scene.hpp"
 
 namespace trammel::test {
@@ -41,17 +42,7 @@ json between_walls(const std::vector<Block>& blocks, double mu_right) {
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const auto& [w, h, m, mu_floor, mu_left] = blocks[i];
     const std::string b = fmt::format("b{}", i);
-    s["bodies"][b] = {{"type", "rigid_body"},
-                      {"mass", m},
-                      {"inertia", m * (w * w + h * h) / 12},
-                      {"position", {x + w / 2, h / 2}},
-                      {"markers",
-                       {{"bl", {-w / 2, -h / 2}},
-                        {"br", {w / 2, -h / 2}},
-                        {"tl", {-w / 2, h / 2}},
-                        {"tr", {w / 2, h / 2}},
-                        {"right", {w / 2, 0}},
-                        {"centre", {0, 0}}}}};
+    s["bodies"][b] = standing_block(x, w, h, m);
     for (const char* corner : {"bl", "br"})
       add(b + corner, fmt::format("{}.{}", b, corner), {{"point", {0, 0}}, {"normal", {0, 1}}}, mu_floor);
     json left = {{"point", {0, 0}}, {"normal", {1, 0}}};

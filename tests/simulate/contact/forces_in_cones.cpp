@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "block.hpp"
 #include "support/run_scene.hpp"
 
 namespace trammel::test {
@@ -60,17 +61,7 @@ void push(const std::vector<Box>& boxes, const std::string& ram, double stiffnes
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const auto& [w, h, m, left, right, before] = boxes[i];
     const std::string name = fmt::format("b{}", i), behind = i > 0 ? fmt::format("b{}.right", i - 1) : "ram.right";
-    s["bodies"][name] = {{"type", "rigid_body"},
-                         {"mass", m},
-                         {"inertia", m * (w * w + h * h) / 12},
-                         {"position", {x + w / 2, h / 2}},
-                         {"markers",
-                          {{"bl", {-w / 2, -h / 2}},
-                           {"br", {w / 2, -h / 2}},
-                           {"tl", {-w / 2, h / 2}},
-                           {"tr", {w / 2, h / 2}},
-                           {"left", {-w / 2, 0}},
-                           {"right", {w / 2, 0}}}}};
+    s["bodies"][name] = standing_block(x, w, h, m);
     contacts.push_back(contact(name + ".bl", floor, left));
     contacts.push_back(contact(name + ".br", floor, right));
     for (const char* corner : {".bl", ".tl"})
