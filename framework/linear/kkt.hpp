@@ -78,10 +78,11 @@ class MassKkt {
   }
 
   std::variant<Cholesky, SparseCholesky> mass_;
-  Mat B_;       // G L^-T (nc x nv)
-  Mat C_;       // W L^-T, where W is not G
-  Mat schur_;   // B B^T or B C^T
-  Mat merged_;  // U, nc x rank, if rows are redundant; the rank may be 0
+  Mat B_;      // G L^-T (nc x nv)
+  Mat C_;      // W L^-T, where W is not G
+  Mat schur_;  // B B^T or B C^T
+  // U, nc x rank, if rows are redundant, where the rank may be 0; if they are singular by friction, scales of rows
+  Mat merged_;
   Lu schur_lu_;
   Cholesky schur_cholesky_;
   Eigen::CompleteOrthogonalDecomposition<Mat> cod_;

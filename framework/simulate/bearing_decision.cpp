@@ -12,7 +12,7 @@
 //
 // A round that gives the same modes again is the check: it has solved the whole problem with the loads of its own
 // solution. The first round uses the loads of modes in which everything rests that may rest; so a joint that could rest
-// or slide rests.
+// or slide rests. If there are none, it uses the loads without friction.
 //
 // Rounds may return to earlier modes: mu_0 times the load at rest does not hold the joint, but mu_0 times the load
 // while it slides would. In such a cycle each joint that was not held under the load of its own rest has let go, and mu

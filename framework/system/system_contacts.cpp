@@ -88,7 +88,7 @@ double AssembledSystem::off_span(int group) {
 }
 
 Vec AssembledSystem::reactions(const Vec& lambda) {
-  return modes().shared.empty() ? lambda : parts_->shares.reactions(lambda);
+  return parts_->shares.reactions(lambda);
 }
 
 int AssembledSystem::tangents(int contact) const {

@@ -259,8 +259,9 @@ void Moment::solve() {
 }
 
 const Vec& Moment::reactions() {
-  if (std::exchange(reactions_known_, true)) return reactions_;
   solve();
+  if (system_.modes().shared.empty()) return lambda_;
+  if (std::exchange(reactions_known_, true)) return reactions_;
   reactions_ = system_.reactions(lambda_);
   model::minimise_norm(system_, reactions_);
   return reactions_;
