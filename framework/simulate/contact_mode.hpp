@@ -68,8 +68,9 @@
 //     of which slide (blocks that push each other along a channel). The shares of springs (complementarity/shares)
 //     would exceed the bound, give another motion than that found, or leave a sliding contact without a force that
 //     presses in the solution. Such a contact keeps T = mu N like one that slides, without a slip; so does a joint at
-//     rest beside them (an arm that a box drags along). If mu < mu_0 it has let go (rule 6), and all modes are decided
-//     again.
+//     rest beside them (an arm that a box drags along), and a contact of a group of which nothing slides but which has
+//     lost what it could spare (feet of a portal open where its hinges reach their bounds). If mu < mu_0 it has let go
+//     (rule 6), and all modes are decided again.
 // 13. A contact without a force stays closed (idle) only while rows of contacts that carry hold it. Where these come to
 //     depend on each other (a stack that becomes a strut), they do not, and it opens: its force as a spring passes 0
 //     there, which locates that state. They may also cease to hold it where contacts that touched at one point part:

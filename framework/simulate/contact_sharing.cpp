@@ -207,15 +207,14 @@ std::vector<bool> ContactModes::presses_as_found() const {
   return all;
 }
 
-// Rule 12: the contacts at rest whose friction is at its bound in a group with sliding members that cannot carry its
-// resultant, or moves or presses otherwise than the solution.
+// Rule 12: the contacts at rest whose friction is at its bound in a group that cannot carry its resultant, or whose
+// sliding members move or press otherwise than in the solution.
 std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
   const auto at_bound = [this](const Participant& p) {
     const bool sticks = modes_.contacts[p.contact].friction == Friction::stick;
     return sticks && p.N > 0 && p.at_bound(p.let_go ? p.mu : p.mu_0);
   };
-  const bool sliding_shares = std::any_of(modes_.shared.begin(), modes_.shared.end(), has_sliding);
-  if (!sliding_shares || std::none_of(problem_.who.begin(), problem_.who.end(), at_bound)) return {};
+  if (modes_.shared.empty() || std::none_of(problem_.who.begin(), problem_.who.end(), at_bound)) return {};
   system_.set_modes(modes_);
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
@@ -223,9 +222,9 @@ std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
   const std::vector<std::size_t> island = problem_.islands();
   std::vector<Participant*> held;
   for (std::size_t g = 0; g < modes_.shared.size(); ++g) {
-    if (!has_sliding(modes_.shared[g])) continue;
     const double round_off = round_off_of_loads * system_.largest_load(int(g), lambda_);
     const bool carries = system_.spare_load(int(g), lambda_) >= -round_off;
+    if (carries && !has_sliding(modes_.shared[g])) continue;
     for (std::size_t i = 0; i < island.size(); ++i) {
       Participant& p = problem_.who[i];
       if (carries && moves[island[i]] && presses[island[i]]) continue;

@@ -31,9 +31,12 @@ void EventLocation::set_up_functions() {
 void EventLocation::add_functions(int contact) {
   const model::ContactEntry& entry = system_.model().contacts[contact];
   const model::ContactMode& mode = system_.modes().contacts[contact];
+  const model::AssembledSystem::Sharing sharing = system_.sharing(contact);
+  const bool as_one = sharing.shared && !sharing.as_spring;
   if (entry.joint) {
     add_loads(contact);
-    return add_friction(contact, false);
+    if (as_one) add_unload(contact, sharing.group);
+    return add_friction(contact, as_one);
   }
   if (!mode.closed) {
     const bool at_ends = entry.restitution && entry.restitution->treatment().onset == Restitution::Onset::next_step;
@@ -42,15 +45,17 @@ void EventLocation::add_functions(int contact) {
     return;
   }
   if (entry.restitution && entry.restitution->treatment().release == Restitution::Release::never) return;
-  const model::AssembledSystem::Sharing sharing = system_.sharing(contact);
-  const bool as_one = sharing.shared && !sharing.as_spring;
-  if (as_one && !unloads(sharing.group))
-    functions_.push_back({.contact = contact, .kind = Kind::unload, .group = sharing.group});
+  if (as_one) add_unload(contact, sharing.group);
   if (entry.force)
     functions_.push_back({.contact = contact, .kind = Kind::leave, .noise = scale_.of(contact).touching()});
   else if (!as_one)
     functions_.push_back({.contact = contact, .kind = sharing.idle ? Kind::idle : Kind::press, .group = sharing.group});
   add_friction(contact, as_one);
+}
+
+// One for all that share.
+void EventLocation::add_unload(int contact, int group) {
+  if (!unloads(group)) functions_.push_back({.contact = contact, .kind = Kind::unload, .group = group});
 }
 
 // `as_one`: the spare load of those that share rows with it covers the force that holds it.

@@ -119,6 +119,7 @@ class EventLocation {
   static bool is_shared_force(const EventFunction& f) {
     return f.kind == Kind::idle || (f.kind == Kind::press && f.group >= 0);
   }
+  void add_unload(int contact, int group);
   void add_friction(int contact, bool as_one);
   void add_loads(int contact);
   void allow_for_critical_friction();

@@ -360,5 +360,75 @@ TEST(BrakedDrum, TurnsWhereTheMomentExceedsWhatBothItsShoeAndItsHubHold) {
   }
 }
 
+// --- a portal of two legs, each on two feet, hinged to a beam with friction: a push tips it
+
+struct Portal {
+  double leg = 2, beam = 4, mu = 0.5, radius = 0.06;
+  double push = 15, press = 49;                  // [N/s] on the beam's centre
+  double foot = 0.05, height = 1, hinge = 0.45;  // half the distance of the feet; half that of the hinges
+};
+
+std::string portal(const Portal& p, const std::array<const char*, 2>& legs) {
+  std::string contacts, joints, bodies;
+  for (const int k : {0, 1}) {
+    const double side = k == 0 ? -1 : 1;
+    bodies += fmt::format(R"("{0}": {{"type": "rigid_body", "mass": {1}, "inertia": 0.17, "position": [{2}, {3}],
+                              "markers": {{"left": [{4}, {5}], "right": [{6}, {5}], "top": [0, {3}]}}}}, )",
+                          legs[std::size_t(k)], p.leg, side * p.hinge, p.height / 2, -p.foot, -p.height / 2, p.foot);
+    joints += fmt::format(R"({0}"{1}": {{"type": "revolute", "between": ["{1}.top", "beam.{2}"], "radius": {3},
+                              "friction": {4}}})",
+                          k == 0 ? "" : ", ", legs[std::size_t(k)], k == 0 ? "left" : "right", p.radius, coulomb(p.mu));
+    for (const char* foot : {"left", "right"})
+      contacts += fmt::format(R"({0}"{1}_{2}": {{"type": "constraint_method", "restitution": 0, "friction": {3},
+                                  "between": ["{1}.{2}", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}})",
+                              contacts.empty() ? "" : ", ", legs[std::size_t(k)], foot, coulomb(0.6));
+  }
+  return fmt::format(R"({{
+    "trammel": 1, "space": "planar", "gravity": [0, -{}],
+    "bodies": {{{}"beam": {{"type": "rigid_body", "mass": {}, "inertia": 0.27, "position": [0, {}],
+                            "markers": {{"left": [{}, 0], "right": [{}, 0]}}}}}},
+    "joints": {{{}}}, "contacts": {{{}}},
+    "forces": {{"push": {{"type": "load", "on": "beam.com", "force": {{"x": "={}*t", "y": "=-{}*t"}}}}}},
+    "simulate": {{"until": 0.6}}, "record": {{"every": 0.1, "observe": {{"x": "beam.com.x"}}}}
+  }})",
+                     g, bodies, p.beam, p.height, -p.hinge, p.hinge, joints, contacts, p.push, p.press);
+}
+
+// Moments of each leg about its right foot, H height = foot (leg g + V) + mu radius |(H, V)|, and of the beam about its
+// centre, hinge (V_right - V_left) = mu radius (|(H, V)_left| + |(H, V)_right|).
+double tips_at(const Portal& p) {
+  double t = 0;
+  std::array<double, 2> M{};  // of the hinges
+  for (int round = 0; round < 100; ++round) {
+    const double both = M[0] + M[1];
+    t = (p.foot * (2 * p.leg + p.beam) * g + both) / (p.push * p.height - p.press * p.foot);
+    for (const int k : {0, 1}) {
+      const double V = (p.beam * g + p.press * t) / 2 + (k == 0 ? -1 : 1) * both / (2 * p.hinge);
+      M[std::size_t(k)] = p.mu * p.radius * std::hypot((p.foot * (p.leg * g + V) + M[std::size_t(k)]) / p.height, V);
+    }
+  }
+  return t;
+}
+
+// Both hinges reach their bounds and both left feet lose their loads at one instant. Until then, forces within the
+// bounds of all exist: none of them is an event of its own.
+TEST(Portal, TipsWhereItsHingesSlipAndItsFeetOpenAtOnce) {
+  for (const double mu : {0.1, 0.3, 0.5})
+    for (const double radius : {0.02, 0.06})
+      for (const double push : {15.0, 30.0, 40.0})
+        for (const auto& legs : {std::array{"l", "r"}, {"r", "l"}, {"z", "c"}}) {
+          const Portal p{.mu = mu, .radius = radius, .push = push};
+          const Finished run = run_text(portal(p, legs));
+          ASSERT_TRUE(run.done()) << run.report.reason;
+          EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
+          for (const char* kind : {"contact_open", "slip"}) {
+            const std::vector<Event> events = run.of_kind(kind);
+            ASSERT_GE(events.size(), 2) << kind;
+            for (const int k : {0, 1}) EXPECT_NEAR(events[std::size_t(k)].t, tips_at(p), 1e-8) << kind << mu << push;
+          }
+          EXPECT_LE(run.result["counts"]["locating_steps"].get<int>(), 40) << mu << radius << push << legs[0];
+        }
+}
+
 }  // namespace
 }  // namespace trammel::test
