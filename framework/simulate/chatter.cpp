@@ -138,19 +138,28 @@ bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
 // nothing connects with these keep their rates, also those that steps have left in them. Returns the energy that this
 // takes [J].
 double ContactModes::end_rocking(State& state, const Brief& brief) {
-  const auto rest_speed = [this](const TouchingContact& c) { return scale_.of(c.contact).rest_speed(); };
   std::set<std::size_t> islands;  // of the scene
   for (std::size_t i = 0; i < touching_.size(); ++i)
     if (brief.falls[i] || brief.stops[i]) islands.insert(scale_.island(touching_[i].contact));
-  const auto asked = [&](const TouchingContact& c) { return islands.contains(scale_.island(c.contact)); };
-  std::vector<bool> rests = brief.falls;
-  bool any = true;
   double taken = 0;
-  for (std::size_t i = 0; i < touching_.size(); ++i) {
-    const bool moves_slowly = asked(touching_[i]) && touching_[i].after <= rest_speed(touching_[i]);
-    rests[i] = rests[i] || brief.stops[i] || moves_slowly;  // one whose slip stops may have a rate that steps left
-  }
-  while (any) {
+  for (const std::size_t island : islands) taken += end_rocking_of(island, state, brief);
+  return taken;
+}
+
+// Separations may be too short to follow although their motion is not: a block that turns about its lower corner while
+// the upper corner of the block below, nearly at the same point, parts from it. To end both rates takes away the whole
+// motion; to end one makes the other one approach, so that its impact would restore them, without end. They go on then.
+double ContactModes::end_rocking_of(std::size_t island, State& state, const Brief& brief) {
+  const auto asked = [&](const TouchingContact& c) { return scale_.island(c.contact) == island; };
+  const auto rest_speed = [this](const TouchingContact& c) { return scale_.of(c.contact).rest_speed(); };
+  const std::vector<TouchingContact> after_impact = touching_;
+  const Vec v_after_impact = state.v;
+  std::vector<bool> rests(touching_.size(), false);
+  for (std::size_t i = 0; i < touching_.size(); ++i)  // one whose slip stops may have a rate that steps left
+    rests[i] =
+        asked(touching_[i]) && (brief.falls[i] || brief.stops[i] || touching_[i].after <= rest_speed(touching_[i]));
+  double taken = 0;
+  for (bool any = true; any;) {
     taken += take_rates(state, rests, brief.stops);
     any = false;
     for (std::size_t i = 0; i < touching_.size(); ++i) {
@@ -160,7 +169,15 @@ double ContactModes::end_rocking(State& state, const Brief& brief) {
       if (c.after < -rest_speed(c)) rests[i] = any = true;
     }
   }
-  return taken;
+  const auto made_to_approach = [&](const TouchingContact& c) {
+    const double least = -scale_.of(c.contact).left_by_impacts();
+    return asked(c) && system_.gap_rate(c.contact) < std::min(c.after, 0.0) + least;
+  };
+  if (std::none_of(after_impact.begin(), after_impact.end(), made_to_approach)) return taken;
+  touching_ = after_impact;
+  state.v = v_after_impact;
+  system_.move_to(state.t, state.q, state.v);
+  return 0;
 }
 
 // The least change of v, so a loss of energy, after which the contacts in `rests` have no rate. The returned loss is

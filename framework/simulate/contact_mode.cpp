@@ -282,7 +282,6 @@ complementarity::ContactSolution ContactModes::strike(State& state, const Contac
   }
   system_.move_to(state.t, state.q, state.v);
   lost_elsewhere_ += kinetic_before - system_.energy().kinetic;
-  gather_all();  // with the rates that end_rocking has left
   for (const TouchingContact& c : all) {
     losses_.push_back({c.contact, c.energy_lost()});
     lost_elsewhere_ -= c.energy_lost();

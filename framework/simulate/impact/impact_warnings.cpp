@@ -30,6 +30,12 @@ struct Work {
   }
 };
 
+// The rate that steps have left in a contact at rest does no work by a law of impacts.
+double energy_gained(const TouchingContact& c, double at_rest) {
+  const bool kept = c.was_closed && std::abs(c.after - c.before) <= at_rest;
+  return -c.energy_lost() - (kept ? c.impulse * 0.5 * (c.before + c.after) : 0);
+}
+
 }  // namespace
 
 void ImpactWarnings::check(double t, double kinetic, double at_rest, const std::vector<TouchingContact>& touching,
@@ -38,7 +44,7 @@ void ImpactWarnings::check(double t, double kinetic, double at_rest, const std::
   std::map<std::size_t, Work> islands;
   for (const TouchingContact& c : touching) {
     Work& work = islands[c.island];
-    work.gain -= c.energy_lost(), work.at_most += work_at_most(c);
+    work.gain += energy_gained(c, at_rest), work.at_most += work_at_most(c);
     work.of_rest += (std::abs(c.impulse) + c.friction.norm()) * at_rest;
   }
   std::erase_if(islands, [&](const auto& island) { return !island.second.creates(kinetic); });
