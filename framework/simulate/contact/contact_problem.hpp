@@ -6,6 +6,7 @@
 // tangent lets go in each repetition, so this ends. A tangent that mu holds after all stays at rest.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "complementarity/contact_forces.hpp"
@@ -91,9 +92,9 @@ class ContactProblem {
   // could be idle. Both by island. `shared_rows`: groups of closed contacts that depend on each other, and how they
   // share their resultants.
   std::vector<double> find_idle(const model::Modes& modes, const std::vector<double>& none);
-  // In the plane: replaces the forces found in these islands by others that solve the problem, too, with no more parts
-  // along edges of cones than rows at rest are independent, so that no share of them is free. By participant: it is at
-  // rest, its force has one part, |T| = mu N, and other rows hold its tangent.
+  // In these islands, where no cone is round: replaces the forces found by others that solve the problem, too. They
+  // have no more parts along edges of cones than rows at rest are independent, so that no share of them is free. By
+  // participant: it is at rest, its force has one part, |T| = mu N, and other rows hold its tangent.
   std::vector<bool> take_fewest_forces(const model::Modes& modes, const std::vector<bool>& asked);
   // By participant, afterwards: it is idle, and the rows of contacts that carry hold it.
   std::vector<bool> held_by_others(const model::Modes& modes) const;
@@ -110,6 +111,15 @@ class ContactProblem {
     std::size_t who;
     Tangential ratio;
   };
+  // Forces of all directions, of which those of contacts with edges are sums of parts x along these.
+  struct EdgeForces {
+    Vec F, x;
+  };
+  bool has_round_cone(std::size_t participant, const model::Modes& modes) const;
+  Mat directions_of(const std::vector<Edge>& edges) const;
+  Vec forces_beside(const std::vector<Edge>& edges) const;
+  std::optional<EdgeForces> forces_along(const std::vector<Edge>& edges, const std::vector<Eigen::Index>& rows) const;
+  void take_forces(const EdgeForces& found, const std::vector<Edge>& edges, std::vector<bool>& at_edge);
   std::vector<Eigen::Index> rows_at_rest(const std::vector<std::size_t>& members, const model::Modes& modes) const;
   void keep_held(const std::vector<std::size_t>& members, const model::Modes& modes, std::vector<bool>& at_edge) const;
   std::vector<Edge> edges_of(const std::vector<std::size_t>& members, const model::Modes& modes) const;

@@ -1,12 +1,13 @@
 // Rule 14 of contact_mode.hpp: forces that leave no share free, where no cone is round.
 //
-//     A_R (D x) = -b_R - A_R F_o,  x >= 0        R: rows at rest;  D: a column (1, ratio) for each edge of a cone;
-//                                                F_o: forces of joints and of other participants
+//     F = F_o + D x,   A_R F + b_R = 0,   x >= 0     R: rows at rest;  D: a column (1, ratio) for each edge of a cone;
+//                                                    F_o: forces of joints and of other participants
 //
 // Nonnegative least squares ends at columns that are independent, so at most as many parts x are positive as rows of R
 // are independent.
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "complementarity/contact_order.hpp"
 #include "complementarity/exact_modes.hpp"
@@ -18,7 +19,7 @@
 namespace trammel::simulate {
 namespace {
 
-// Relative to the accelerations that the forces of an island have to cancel.
+// Relative to the accelerations that the forces of an island have to cancel: what they may leave.
 constexpr double cancelled = 1e-9;
 // Of the largest part of a force: a smaller one is none.
 constexpr double no_part = 1e-10;
@@ -57,7 +58,7 @@ std::vector<Eigen::Index> ContactProblem::rows_at_rest(const std::vector<std::si
   return rows;
 }
 
-// Tangents that no other rows hold go on sticking.
+// Tangents that no other rows hold keep sticking.
 void ContactProblem::keep_held(const std::vector<std::size_t>& members, const model::Modes& modes,
                                std::vector<bool>& at_edge) const {
   std::vector<Eigen::Index> rows;
@@ -76,58 +77,84 @@ void ContactProblem::keep_held(const std::vector<std::size_t>& members, const mo
   }
 }
 
+// A contact that sticks in space has a round cone; the force of every other one is a sum of forces along edges.
+bool ContactProblem::has_round_cone(std::size_t i, const model::Modes& modes) const {
+  const model::ContactMode& mode = modes.contacts[std::size_t(who[i].contact)];
+  return points_[i].tangents > 1 && points_[i].tangent >= 0 && mode.friction == model::ContactMode::Friction::stick;
+}
+
+// D: a column for each edge.
+Mat ContactProblem::directions_of(const std::vector<Edge>& edges) const {
+  Mat D = Mat::Zero(F_.size(), Eigen::Index(edges.size()));
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const complementarity::ContactPoint& p = points_[edges[k].who];
+    D(p.normal, Eigen::Index(k)) = 1;
+    if (p.tangent >= 0) D.col(Eigen::Index(k)).segment(p.tangent, p.tangents) = edges[k].ratio.head(p.tangents);
+  }
+  return D;
+}
+
+// F_o: the forces found, without those of the contacts that have edges.
+Vec ContactProblem::forces_beside(const std::vector<Edge>& edges) const {
+  Vec others = F_;
+  for (const Edge& e : edges) {
+    const complementarity::ContactPoint& p = points_[e.who];
+    others[p.normal] = 0;
+    if (p.tangent >= 0) others.segment(p.tangent, p.tangents).setZero();
+  }
+  return others;
+}
+
+// Solves the equations at the top of this file, columns and right side scaled to length one. None: no x >= 0 solves
+// them, or there is nothing to cancel.
+std::optional<ContactProblem::EdgeForces> ContactProblem::forces_along(const std::vector<Edge>& edges,
+                                                                       const std::vector<Eigen::Index>& rows) const {
+  const Mat D = directions_of(edges);
+  const Vec others = forces_beside(edges);
+  Mat B = delassus_(rows, Eigen::all) * D;
+  const Vec length = B.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
+  B = B * length.cwiseInverse().asDiagonal();
+  Vec d = -b_(rows) - delassus_(rows, Eigen::all) * others, x;
+  const double size = d.norm();
+  if (!(size > 0)) return {};
+  d /= size;
+  if (!(complementarity::nonnegative_least_squares(B, d, x) <= cancelled)) return {};
+  x = (x.array() > no_part * x.maxCoeff()).select(x, 0);
+  return EdgeForces{others + size * D * x.cwiseQuotient(length), x};
+}
+
+void ContactProblem::take_forces(const EdgeForces& found, const std::vector<Edge>& edges, std::vector<bool>& at_edge) {
+  std::vector<int> parts(who.size(), 0);
+  for (std::size_t k = 0; k < edges.size(); ++k) parts[edges[k].who] += found.x[Eigen::Index(k)] > 0;
+  for (const Edge& e : edges) {
+    Participant& p = who[e.who];
+    const complementarity::ContactPoint& point = points_[e.who];
+    p.N = found.F[point.normal];
+    if (point.tangent >= 0) p.T.head(point.tangents) = found.F.segment(point.tangent, point.tangents);
+    at_edge[e.who] = p.tangent == Participant::Tangent::resting && parts[e.who] == 1;
+  }
+}
+
 std::vector<bool> ContactProblem::take_fewest_forces(const model::Modes& modes, const std::vector<bool>& asked) {
   std::vector<bool> at_edge(who.size(), false);
   const std::vector<std::size_t> number = islands();
   for (const complementarity::Island& island : complementarity::islands(points_, delassus_)) {
-    const auto has_round_cone = [&](std::size_t i) {
-      const model::ContactMode& mode = modes.contacts[std::size_t(who[i].contact)];
-      return points_[i].tangents > 1 && points_[i].tangent >= 0 && mode.friction == model::ContactMode::Friction::stick;
-    };
+    const auto is_round = [&](std::size_t i) { return has_round_cone(i, modes); };
     if (!asked[number[island.members.front()]]) continue;
-    if (std::any_of(island.members.begin(), island.members.end(), has_round_cone)) continue;
-    std::vector<std::size_t> members;  // sorted, since forces are not unique and the first of equal edges is taken
+    if (std::any_of(island.members.begin(), island.members.end(), is_round)) continue;
     const Mat A = delassus_(island.rows, island.rows);
     const Vec b = b_(island.rows);
+    std::vector<std::size_t> members;  // sorted, since forces are not unique and the first of equal edges is taken
     const complementarity::OrderedContacts ordered(island.points, A, b);
     for (const std::size_t k : ordered.order()) members.push_back(island.members[k]);
     const std::vector<Edge> edges = edges_of(members, modes);
-    const std::vector<Eigen::Index> rows = rows_at_rest(members, modes);
-    Mat directions = Mat::Zero(F_.size(), Eigen::Index(edges.size()));
-    for (std::size_t k = 0; k < edges.size(); ++k) {
-      const complementarity::ContactPoint& p = points_[edges[k].who];
-      directions(p.normal, Eigen::Index(k)) = 1;
-      if (p.tangent >= 0)
-        directions.col(Eigen::Index(k)).segment(p.tangent, p.tangents) = edges[k].ratio.head(p.tangents);
-    }
-    Vec others = F_;
-    for (const Edge& e : edges) {
-      others[points_[e.who].normal] = 0;
-      if (points_[e.who].tangent >= 0) others.segment(points_[e.who].tangent, points_[e.who].tangents).setZero();
-    }
-    Mat B = delassus_(rows, Eigen::all) * directions;
-    const Vec length = B.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
-    B = B * length.cwiseInverse().asDiagonal();
-    Vec d = -b_(rows) - delassus_(rows, Eigen::all) * others, x;
-    const double size = d.norm();
-    if (!(size > 0)) continue;
-    d /= size;
-    if (!(complementarity::nonnegative_least_squares(B, d, x) <= cancelled)) continue;
-    x = (x.array() > no_part * x.maxCoeff()).select(x, 0);
-    const Vec F = others + size * directions * x.cwiseQuotient(length);
+    const std::optional<EdgeForces> found = forces_along(edges, rows_at_rest(members, modes));
+    if (!found) continue;
     const double nothing = who[island.members.front()].nothing;
-    if (!(complementarity::violation(island.points, A, b, F(island.rows), nothing) <=
+    if (!(complementarity::violation(island.points, A, b, found->F(island.rows), nothing) <=
           complementarity::largest_violation))
       continue;
-    std::vector<int> parts(who.size(), 0);
-    for (std::size_t k = 0; k < edges.size(); ++k) parts[edges[k].who] += x[Eigen::Index(k)] > 0;
-    for (const Edge& e : edges) {
-      Participant& p = who[e.who];
-      const complementarity::ContactPoint& point = points_[e.who];
-      p.N = F[point.normal];
-      if (point.tangent >= 0) p.T.head(point.tangents) = F.segment(point.tangent, point.tangents);
-      at_edge[e.who] = p.tangent == Participant::Tangent::resting && parts[e.who] == 1;
-    }
+    take_forces(*found, edges, at_edge);
     keep_held(members, modes, at_edge);
   }
   return at_edge;
