@@ -28,6 +28,10 @@ double noise(model::AssembledSystem& system, const model::SharedRows& group, con
   return least;
 }
 
+bool never_releases(const model::ContactEntry& entry) {
+  return entry.restitution && entry.restitution->treatment().release == Restitution::Release::never;
+}
+
 // [m/s] As Scale::drift, also of a scene in which nothing has moved yet.
 double drift_beside(double speed, Scale scale) {
   scale.speed = std::max(scale.speed, speed);
@@ -60,13 +64,28 @@ void ContactAudit::look(model::AssembledSystem& system, const State& state, cons
   look_at_forces(system, state, closed, lambda, scale);
 }
 
+// By how much the force of a contact exceeds what its law permits.
+ContactAudit::Excess ContactAudit::excess(model::AssembledSystem& system, int contact, double N,
+                                          const model::Tangential& T, const Scale& scale) {
+  const model::ContactEntry& entry = system.model().contacts[std::size_t(contact)];
+  const model::ContactMode::Friction friction = system.modes().contacts[std::size_t(contact)].friction;
+  Excess excess{.pull = -N};
+  if (entry.coulomb && friction == model::ContactMode::Friction::stick)
+    excess.beyond_cone = T.norm() - std::max(0.0, entry.coulomb->static_coefficient() * N);
+  if (entry.coulomb && friction == model::ContactMode::Friction::slide) {
+    const model::Tangential slip = system.slip(contact);
+    excess.slip = slip.norm();
+    if (excess.slip > scale.drift()) excess.along_slip = T.dot(slip) / excess.slip;
+  }
+  return excess;
+}
+
 void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& state, const std::vector<int>& closed,
                                   const Vec& lambda, const ContactScale& scale) {
   struct Looked {
     int contact;
-    Eigen::Index first;          // in F: its normal, which a joint does not have, then its tangents
-    double pull, beyond, along;  // [N] beyond what a contact can do: pulls, exceeds its cone, pushes along its slip
-    double slip;                 // [m/s]
+    Eigen::Index first;  // in F: its normal, which a joint does not have, then its tangents
+    Excess excess;
   };
   std::vector<model::ContactDirection> directions;
   std::vector<double> forces;
@@ -75,38 +94,36 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
   for (const int i : closed) {
     const model::ContactEntry& entry = system.model().contacts[std::size_t(i)];
     const double N = system.normal_force(i, lambda);
-    Looked looked{i, Eigen::Index(forces.size()), -N, 0, 0, 0};
-    if (!entry.joint) directions.push_back({i, 0}), forces.push_back(N);  // the load of bearings has no direction
     const model::Tangential T = system.friction_force(i, lambda);
+    const auto first = Eigen::Index(forces.size());
+    if (!entry.joint) directions.push_back({i, 0}), forces.push_back(N);  // the load of bearings has no direction
     for (int k = 0; k < system.tangents(i) && entry.friction; ++k)
       directions.push_back({i, 1 + k}), forces.push_back(T[k]);
-    if (entry.restitution && entry.restitution->treatment().release == Restitution::Release::never)
-      continue;  // a latch may pull
-    const model::ContactMode::Friction friction = system.modes().contacts[std::size_t(i)].friction;
-    if (entry.coulomb && friction == model::ContactMode::Friction::stick)
-      looked.beyond = T.norm() - std::max(0.0, entry.coulomb->static_coefficient() * N);
-    if (entry.coulomb && friction == model::ContactMode::Friction::slide) {
-      const model::Tangential slip = system.slip(i);
-      looked.slip = slip.norm();
-      if (looked.slip > scale.of(i).drift()) looked.along = T.dot(slip) / looked.slip;
-    }
-    doubtful = doubtful || std::max({looked.pull, looked.beyond, looked.along}) > little * std::abs(N);
-    all.push_back(looked);
+    if (never_releases(entry)) continue;  // a latch may pull
+    const Excess found = excess(system, i, N, T, scale.of(i));
+    doubtful = doubtful || found.largest() > little * std::abs(N);
+    all.push_back({i, first, found});
   }
   if (!doubtful) return;  // the scale of the forces that act on a contact is no less than its own force
   const Judged judged =
       judge_forces(system, directions, Eigen::Map<const Vec>(forces.data(), std::ssize(forces)), scale);
   for (const Looked& looked : all) {
-    double acts = 0, noise = 0, speed = 0;
-    for (Eigen::Index k = looked.first; k < judged.scale.size() && directions[std::size_t(k)].contact == looked.contact;
-         ++k)
-      acts = std::max(acts, judged.scale[k]), noise = std::max(noise, judged.noise[k]),
-      speed = std::max(speed, judged.speed[k]);
-    if (looked.pull > noise) pull_.raise_to(looked.contact, state.t, looked.pull, acts);
-    if (looked.beyond > noise) beyond_cone_.raise_to(looked.contact, state.t, looked.beyond, acts);
-    if (looked.along > noise && looked.slip > drift_beside(speed, scale.of(looked.contact)))
-      along_slip_.raise_to(looked.contact, state.t, looked.along, acts);
+    ActsOn acts;
+    for (Eigen::Index k = looked.first; k < judged.scale.size(); ++k) {
+      if (directions[std::size_t(k)].contact != looked.contact) break;
+      acts.force = std::max(acts.force, judged.scale[k]);
+      acts.noise = std::max(acts.noise, judged.noise[k]);
+      acts.speed = std::max(acts.speed, judged.speed[k]);
+    }
+    raise_worst(looked.contact, state.t, looked.excess, acts, scale.of(looked.contact));
   }
+}
+
+void ContactAudit::raise_worst(int contact, double t, const Excess& excess, const ActsOn& acts, const Scale& scale) {
+  if (excess.pull > acts.noise) pull_.raise_to(contact, t, excess.pull, acts.force);
+  if (excess.beyond_cone > acts.noise) beyond_cone_.raise_to(contact, t, excess.beyond_cone, acts.force);
+  if (excess.along_slip > acts.noise && excess.slip > drift_beside(acts.speed, scale))
+    along_slip_.raise_to(contact, t, excess.along_slip, acts.force);
 }
 
 void ContactAudit::look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda,

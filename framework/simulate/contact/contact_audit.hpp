@@ -10,6 +10,7 @@
 // (complementarity/shares/carrying_rows.hpp).
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -39,6 +40,20 @@ class ContactAudit {
     void raise_to(int i, double when, double amount, double scale);
     void archive(Archive& a, const std::string& name);
   };
+  // What the force of a contact has beyond its law; not positive where it obeys.
+  struct Excess {
+    double pull = 0, beyond_cone = 0, along_slip = 0;  // [N] pulls, exceeds its cone, pushes along its slip
+    double slip = 0;                                   // [m/s]
+    double largest() const { return std::max({pull, beyond_cone, along_slip}); }
+  };
+  // The forces that act on one contact (force_noise.hpp): the largest of its directions.
+  struct ActsOn {
+    double force = 0, noise = 0;  // [N]
+    double speed = 0;             // [m/s]
+  };
+  static Excess excess(model::AssembledSystem& system, int contact, double N, const model::Tangential& T,
+                       const Scale& scale);
+  void raise_worst(int contact, double t, const Excess& excess, const ActsOn& acts, const Scale& scale);
   void look_at_forces(model::AssembledSystem& system, const State& state, const std::vector<int>& closed,
                       const Vec& lambda, const ContactScale& scale);
   void look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda, const ContactScale& scale);
