@@ -10,7 +10,7 @@
 
 namespace trammel::simulate {
 
-// Reports an error for each of them.
+// Reports an error for each contact and each surface of these kinds.
 void check_reach(model::AssembledSystem& system, const State& start, const scene::Value& root,
                  scene::Problems& problems);
 
