@@ -164,7 +164,7 @@ void ContactModes::gather(const State& state, const ContactChanges& changes, boo
 // direction are added too: a body that slides and spins ends both at once.
 bool ContactModes::stop_with_others(ContactChanges& changes) {
   if (changes.stopped.empty()) return false;
-  const std::vector<double> beside = problem_.slip_beside_others(problem_.rates(system_));
+  const std::vector<double> independent = problem_.independent_slip(problem_.rates(system_));
   // Joints' rows have drifts of their own, from which a slip may follow.
   const bool joints = system_.model().sizes.nc > 0;
   const std::size_t before = changes.stopped.size();
@@ -175,7 +175,7 @@ bool ContactModes::stop_with_others(ContactChanges& changes) {
     if (!system_.model().contacts[contact].coulomb) continue;
     const double speed = system_.slip(contact).norm();
     const Scale scale = scale_.of(contact);
-    const bool held = beside[i] <= (joints ? scale.drift() : scale.rest_speed());
+    const bool held = independent[i] <= (joints ? scale.drift() : scale.rest_speed());
     if (speed < slid.least_slip || (held && speed <= scale.drift())) changes.stopped.push_back(contact);
   }
   return changes.stopped.size() > before;
@@ -250,7 +250,7 @@ std::vector<bool> ContactModes::in_balance(const std::vector<int>& released) con
     return std::any_of(released.begin(), released.end(),
                        [&](int other) { return scale_.island(other) == scale_.island(contact); });
   };
-  const std::vector<double> largest = problem_.largest_beside();
+  const std::vector<double> largest = problem_.largest_in_island();
   const std::vector<std::size_t> island = problem_.islands();
   std::vector<bool> open(problem_.who.size(), false), all;  // by island
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
@@ -388,7 +388,7 @@ void ContactModes::take_verdicts_found() {
   std::vector<double> nothing;
   for (const Participant& p : problem_.who) nothing.push_back(least_acceleration(p));
   const std::vector<bool> kept_closed = problem_.kept_closed(nothing);
-  const std::vector<double> largest = problem_.largest_beside();
+  const std::vector<double> largest = problem_.largest_in_island();
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     const Participant& p = problem_.who[i];
     const bool presses = p.N > 0 && !merely_touches(i, largest[i]);

@@ -119,7 +119,7 @@ bool ContactModes::open_loose_ones() {
 // Rule 13. A contact whose force in the solution may be its error pulls if its row makes this force exact. It opens, if
 // it parts then; the contacts of one island together.
 void ContactModes::open_pulling_ones(const State& state) {
-  const std::vector<double> largest = problem_.largest_beside();
+  const std::vector<double> largest = problem_.largest_in_island();
   std::vector<std::size_t> faint;
   for (std::size_t i = 0; i < largest.size(); ++i)
     if (const Participant& p = problem_.who[i];
@@ -196,7 +196,7 @@ std::vector<bool> ContactModes::moves_as_found() const {
 // By island, in these modes, whose multipliers are lambda_: the sliding contacts that press in the solution press.
 std::vector<bool> ContactModes::presses_as_found() const {
   const std::vector<std::size_t> island = problem_.islands();
-  const std::vector<double> largest = problem_.largest_beside();
+  const std::vector<double> largest = problem_.largest_in_island();
   std::vector<bool> all(island.size(), true);
   for (std::size_t i = 0; i < island.size(); ++i) {
     const Participant& p = problem_.who[i];

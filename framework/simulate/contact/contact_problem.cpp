@@ -14,6 +14,9 @@
 #include "simulate/contact/ending_impulses.hpp"
 
 namespace trammel::simulate {
+
+using complementarity::LcpOutcome;
+
 namespace {
 
 // The part of x that belongs to the tangents of a contact.
@@ -21,11 +24,11 @@ Eigen::VectorBlock<Vec> along(Vec& x, const complementarity::ContactPoint& p) {
   return x.segment(p.tangent, p.tangents);
 }
 
-// Rates of the rows that carry appear as many times in a row that follows from them. If there are more, the carrying
-// rows are about to depend on each other (a strut that becomes upright), and they do not hold the other one.
+// Rates of the rows that carry appear at most as many times in a row that they hold. A larger factor shows that the
+// carrying rows are about to depend on each other (a strut that becomes upright).
 constexpr double most_times = 1e3;
 
-// Friction that does not hold its contact at its bound is sought below it by this part, which exceeds the round-off of
+// The bound of friction that no longer holds its contact is reduced by this part, which exceeds the round-off of
 // solutions, so that the contact is found to slide.
 constexpr double below_bound = 1e-8;
 
@@ -66,7 +69,7 @@ void ContactProblem::prepare(model::AssembledSystem& system) {
   system.impulse_response(directions_, jump_, delassus_);
 }
 
-// Participants that were none nearby have no forces there; their accelerations are those of this problem.
+// Participants that did not take part nearby have no forces there; their accelerations are those of this problem.
 complementarity::NearbySolution ContactProblem::forces_of(const std::vector<Participant>& nearby) const {
   if (nearby.empty()) return {};
   std::vector<const Participant*> known;
@@ -127,7 +130,8 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
   return solve();
 }
 
-complementarity::ContactSolution ContactProblem::solve(const std::vector<Participant>& nearby) {
+// b: accelerations without the forces sought, and with the known forces of participants that are pushed.
+void ContactProblem::set_known_accelerations() {
   b_.resize(Eigen::Index(directions_.size()));
   for (std::size_t i = 0; i < who.size(); ++i) {
     if (points_[i].normal >= 0) b_[points_[i].normal] = who[i].a_n - who[i].vanishing;
@@ -135,25 +139,32 @@ complementarity::ContactSolution ContactProblem::solve(const std::vector<Partici
   }
   for (const Pushed& p : pushed_) b_[p.direction] = who[p.who].a_t[0];
   for (const Pushed& p : pushed_) b_ += push(p) * delassus_.col(p.direction);
-  complementarity::ContactSolution solution;
-  for (bool settled = false; !settled;) {
-    solution = solve_once(delassus_, nearby);
-    const bool approach = std::any_of(who.begin(), who.end(), [](const Participant& p) { return p.vanishing > 0; });
-    if (solution.outcome != complementarity::LcpOutcome::solved && approach) solution = solve_once(yielding());
-    // Without a solution for a vanishing approach, contacts that do not approach may still have one.
-    if (solution.outcome == complementarity::LcpOutcome::no_solution && approach)
-      solution.outcome = complementarity::LcpOutcome::gave_up;
-    if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
-    settled = true;
-    for (std::size_t i = 0; i < who.size(); ++i) {
-      Participant& p = who[i];
-      if (p.tangent != Participant::Tangent::resting || p.let_go) continue;
-      if (along(a_, points_[i]).norm() <= no_slip(i)) continue;
-      p.let_go = true;
-      if (p.mu < p.mu_0) settled = false;
-    }
+}
+
+// With rigid contacts; if these have no solution for vanishing approaches, with contacts that yield.
+complementarity::ContactSolution ContactProblem::solve_rigid_or_yielding(const std::vector<Participant>& nearby) {
+  complementarity::ContactSolution solution = solve_once(delassus_, nearby);
+  const bool approach = std::any_of(who.begin(), who.end(), [](const Participant& p) { return p.vanishing > 0; });
+  if (solution.outcome != LcpOutcome::solved && approach) solution = solve_once(yielding());
+  // Without a solution for a vanishing approach, contacts that do not approach may still have one.
+  if (solution.outcome == LcpOutcome::no_solution && approach) solution.outcome = LcpOutcome::gave_up;
+  return solution;
+}
+
+// Tangents that their friction does not hold let go. True if mu < mu_0 for any of them: the problem has changed.
+bool ContactProblem::let_slipping_go() {
+  bool changed = false;
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    Participant& p = who[i];
+    if (p.tangent != Participant::Tangent::resting || p.let_go) continue;
+    if (along(a_, points_[i]).norm() <= no_slip(i)) continue;
+    p.let_go = true;
+    changed = changed || p.mu < p.mu_0;
   }
-  if (!let_approaches_vanish()) solution.outcome = complementarity::LcpOutcome::gave_up;
+  return changed;
+}
+
+void ContactProblem::take_found() {
   for (const Pushed& p : pushed_) F_[p.direction] = push(p);
   for (std::size_t i = 0; i < who.size(); ++i) {
     Participant& p = who[i];
@@ -163,6 +174,17 @@ complementarity::ContactSolution ContactProblem::solve(const std::vector<Partici
       p.T.head(n) = along(F_, points_[i]), p.a_t.head(n) = along(a_, points_[i]);
     p.no_slip = no_slip(i);
   }
+}
+
+complementarity::ContactSolution ContactProblem::solve(const std::vector<Participant>& nearby) {
+  set_known_accelerations();
+  complementarity::ContactSolution solution;
+  do {
+    solution = solve_rigid_or_yielding(nearby);
+    if (solution.outcome != LcpOutcome::solved) return solution;
+  } while (let_slipping_go());
+  if (!let_approaches_vanish()) solution.outcome = LcpOutcome::gave_up;
+  take_found();
   return solution;
 }
 
@@ -228,7 +250,7 @@ std::vector<bool> ContactProblem::kept_closed(const std::vector<double>& nothing
   return kept;
 }
 
-std::vector<double> ContactProblem::largest_beside() const {
+std::vector<double> ContactProblem::largest_in_island() const {
   const std::vector<std::size_t> island = islands();
   std::vector<double> of_island(who.size(), 0), all;
   for (std::size_t i = 0; i < who.size(); ++i) of_island[island[i]] = std::max(of_island[island[i]], who[i].N);
@@ -241,7 +263,7 @@ std::vector<double> ContactProblem::find_idle(const model::Modes& modes, const s
   const std::vector<complementarity::ContactRole> role = roles(modes);
   const complementarity::CarryingRows carrying = complementarity::carrying_rows(points_, delassus_, role);
   const std::vector<std::size_t> island = islands();
-  const std::vector<double> largest = largest_beside();
+  const std::vector<double> largest = largest_in_island();
   std::vector<double> least(who.size(), 1);
   std::vector<bool> sliding_shares(who.size(), false);  // by island
   for (std::size_t i = 0; i < who.size(); ++i)
@@ -273,8 +295,8 @@ std::vector<bool> ContactProblem::held_by_others(const model::Modes& modes) cons
   return held;
 }
 
-// Contacts that carry may come to depend on others, or on each other, as bodies slide: all rows of an island with idle
-// contacts are one group, which of them depend on each other at present does not matter.
+// Contacts that carry may come to depend on others, or on each other, as bodies slide. Therefore all rows of an island
+// with idle contacts are one group, whichever of them depend on each other at present.
 std::vector<complementarity::SharingGroup> ContactProblem::groups_with_idle(
     const std::vector<complementarity::ContactRole>& role, std::vector<bool>& in_them) const {
   using Tangent = complementarity::ContactRole::Tangent;
@@ -376,7 +398,7 @@ Vec ContactProblem::rates(model::AssembledSystem& system) const {
   return all;
 }
 
-std::vector<double> ContactProblem::slip_beside_others(const Vec& rates) const {
+std::vector<double> ContactProblem::independent_slip(const Vec& rates) const {
   std::vector<Eigen::Index> held, others;
   for (std::size_t i = 0; i < who.size(); ++i) {
     if (points_[i].normal >= 0) held.push_back(points_[i].normal);
@@ -385,12 +407,12 @@ std::vector<double> ContactProblem::slip_beside_others(const Vec& rates) const {
     for (int k = 0; k < points_[i].tangents; ++k) rows.push_back(points_[i].tangent + k);
   }
   const std::vector<Eigen::Index> basis = complementarity::find_basis(delassus_, held).basis;
-  const Vec beside = complementarity::beside_basis(delassus_, basis, others, rates);
+  const Vec independent = complementarity::beside_basis(delassus_, basis, others, rates);
   std::vector<double> all(who.size(), std::numeric_limits<double>::infinity());
   Eigen::Index first = 0;
   for (std::size_t i = 0; i < who.size(); ++i) {
     if (who[i].tangent != Participant::Tangent::sliding || points_[i].tangent < 0) continue;
-    all[i] = beside.segment(first, points_[i].tangents).norm();
+    all[i] = independent.segment(first, points_[i].tangents).norm();
     first += points_[i].tangents;
   }
   return all;
@@ -413,9 +435,8 @@ std::vector<std::vector<Eigen::Index>> ContactProblem::islands_at_rest() const {
 void ContactProblem::come_to_rest(model::AssembledSystem& system, Vec& dv) const {
   const Vec all = rates(system);
   dv.setZero(jump_.rows());
-  for (const std::vector<Eigen::Index>& held : islands_at_rest()) {
+  for (const std::vector<Eigen::Index>& held : islands_at_rest())
     dv.noalias() += jump_(Eigen::all, held) * ending_impulses(delassus_(held, held), all(held));
-  }
 }
 
 void ContactProblem::end_slip(Vec& dv) const {

@@ -47,9 +47,10 @@ struct Participant {
   double no_slip = 0;    // |a_t| up to this is no slip
   double violation = 0;  // of the solution of its island
 
-  // True if the friction found is at the bound that this coefficient gives, or within 1e-6 of it: a bound that was
-  // lowered to break a tie (contact_problem.cpp) and the round-off of solutions are far smaller.
-  bool at_bound(double coefficient) const { return T.norm() > (1 - 1e-6) * coefficient * N; }
+  // True if the friction found is at the bound that this coefficient gives, up to `near_bound` of it: the reduction of
+  // a bound to break a tie (contact_problem.cpp) and the round-off of solutions are far smaller.
+  bool at_bound(double coefficient) const { return T.norm() > (1 - near_bound) * coefficient * N; }
+  static constexpr double near_bound = 1e-6;
 };
 
 class ContactProblem {
@@ -57,9 +58,9 @@ class ContactProblem {
   std::vector<Participant> who;
 
   void prepare(model::AssembledSystem& system);  // finds their directions, at the system's point
-  // On entry `a_n` and `a_t` of each participant are its accelerations without the forces sought. Islands are solved
-  // apart, and no number of one counts in another. `nearby`: the participants, with what was found for them, at nearly
-  // the same state; near that, solutions are sought first. If others took part, it does not count.
+  // On entry `a_n` and `a_t` of each participant are its accelerations without the forces sought. Each island is a
+  // problem of its own: no scale or tolerance of one counts in another. `nearby`: the participants, with what was found
+  // for them, at nearly the same state; solutions near these are sought first.
   [[nodiscard]] complementarity::ContactSolution solve(const std::vector<Participant>& nearby = {});
   // The same, with one `nothing` for all.
   [[nodiscard]] complementarity::ContactSolution solve(double nothing);
@@ -74,23 +75,22 @@ class ContactProblem {
   Vec rates(model::AssembledSystem& system) const;  // along their directions [m/s], once prepared
   // [m/s] For participants that slide: the part of their slip that does not follow from the rates of the normals and of
   // the tangents at rest. Infinite where the tangents do not depend on these.
-  std::vector<double> slip_beside_others(const Vec& rates) const;
+  std::vector<double> independent_slip(const Vec& rates) const;
   // The least change of v that ends the slip `a_t` of all tangents at rest and leaves the unilateral normals alone.
   void end_slip(Vec& dv) const;
   // The least change of v that ends the rates of all unilateral normals and of all tangents at rest; after `prepare`.
   void come_to_rest(model::AssembledSystem& system, Vec& dv) const;
-  // Unilateral participants without a force that the others keep closed: their rows depend on those of pressing
-  // contacts. `nothing`: by participant.
+  // By participant: it is unilateral and has no force, and the others keep it closed: its row depends on those of
+  // pressing contacts. `nothing`, by participant: accelerations up to this count as 0.
   std::vector<bool> kept_closed(const std::vector<double>& nothing) const;
-  // The least pivot of the equations of the forces in these modes, relative to that without the friction of sliding
-  // contacts.
+  // The smallest pivot of the equations of the forces in these modes, relative to that without the friction of sliding
+  // contacts: 0 at Painleve's critical state.
   double distance_from_critical(const model::Modes& modes) const;
   // By participant: the largest normal force found in its island.
-  std::vector<double> largest_beside() const;
+  std::vector<double> largest_in_island() const;
   // To be called after the modes are decided: finds the idle contacts, those whose force is up to `none` times the
-  // largest of their island. Returns the least part of the largest force above `none` that a contact carries which
-  // could be idle. Both by island. `shared_rows`: groups of closed contacts that depend on each other, and how they
-  // share their resultants.
+  // largest of their island. Returns the smallest force, as a part of that largest one, of the contacts that could be
+  // idle and are not; 1 if there are none. Both are by island.
   std::vector<double> find_idle(const model::Modes& modes, const std::vector<double>& none);
   // In these islands, where no cone is round: replaces the forces found by others that solve the problem, too. They
   // have no more parts along edges of cones than rows at rest are independent, so that no share of them is free. By
@@ -98,6 +98,7 @@ class ContactProblem {
   std::vector<bool> take_fewest_forces(const model::Modes& modes, const std::vector<bool>& asked);
   // By participant, afterwards: it is idle, and the rows of contacts that carry hold it.
   std::vector<bool> held_by_others(const model::Modes& modes) const;
+  // Groups of closed contacts whose rows depend on each other, and how they share their resultants.
   std::vector<model::SharedRows> shared_rows(const model::Modes& modes) const;
 
  private:
@@ -126,6 +127,10 @@ class ContactProblem {
   std::vector<std::vector<Eigen::Index>> islands_at_rest() const;
   std::vector<complementarity::SharingGroup> groups_with_idle(const std::vector<complementarity::ContactRole>& role,
                                                               std::vector<bool>& in_them) const;
+  void set_known_accelerations();
+  complementarity::ContactSolution solve_rigid_or_yielding(const std::vector<Participant>& nearby);
+  bool let_slipping_go();
+  void take_found();
   complementarity::ContactSolution solve_once(const Mat& A, const std::vector<Participant>& nearby = {});
   complementarity::NearbySolution forces_of(const std::vector<Participant>& nearby) const;
   Mat yielding() const;                           // the Delassus matrix of contacts that are not quite rigid
