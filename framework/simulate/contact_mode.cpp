@@ -22,8 +22,12 @@ constexpr double least_approach = 1e-6;
 // Of the accelerations. A contact that has just opened departs as slowly as its force passed 0, up to the round-off of
 // forces.
 constexpr double opened_by_error = 1e-6;
+// Of `no_acceleration`, which is their round-off: the accelerations of the scene.
+constexpr double over_round_off = 1e12;
 // Of the coefficients of friction: how far the state may be from that at which joints lock.
 constexpr double locked_by_error = 1e-7;
+// Of the shortest period of swings: the longest step (see step_limit).
+constexpr double part_of_period = 0.45;
 
 bool is_idle(const model::Modes& modes, int contact) {
   return std::any_of(modes.shared.begin(), modes.shared.end(), [&](const model::SharedRows& group) {
@@ -148,9 +152,10 @@ bool ContactModes::changes_sign_by_infinity(const State& state, const ContactCha
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
   return std::any_of(released.begin(), released.end(), [&](int contact) {
-    const double scene = 1e12 * scale_.of(contact).no_acceleration();
+    const double of_scene = over_round_off * scale_.of(contact).no_acceleration();
     return !modes_.contacts[contact].closed &&
-           system_.acceleration({contact, 0}, a_) < -opened_by_error * std::max(largest_[std::size_t(contact)], scene);
+           system_.acceleration({contact, 0}, a_) <
+               -opened_by_error * std::max(largest_[std::size_t(contact)], of_scene);
   });
 }
 
@@ -183,7 +188,8 @@ complementarity::ContactSolution ContactModes::strike_without_collision(State& s
   return decide(state, changes, true);
 }
 
-// Rule 8: in other modes than those whose forces grow beyond all bounds, as they are beyond that state.
+// Rule 8: decides as for the state beyond the critical one, and accepts only other modes than the present ones, whose
+// forces grow beyond all bounds.
 complementarity::ContactSolution ContactModes::decide_otherwise(const State& state, const ContactChanges& changes) {
   for (TouchingContact& c : touching_) c.without_collision = false;
   find_candidates(changes);
@@ -251,29 +257,17 @@ void ContactModes::find_bearings() {
     if (rubs_in_impacts(system_.model().contacts[i])) bearings_.push_back({.contact = i, .was_closed = true});
 }
 
+// Rules 1 and 2.
 complementarity::ContactSolution ContactModes::strike(State& state, const ContactChanges& changes) {
   const double kinetic_before = system_.energy().kinetic;
   v_before_ = state.v;
   Brief brief;
-  std::vector<TouchingContact> all;
-  const auto gather_all = [&] {
-    all = touching_;
-    all.insert(all.end(), bearings_.begin(), bearings_.end());
-  };
-  for (;;) {
-    gather_all();
-    const auto solution = solve_impacts(state, all);
-    if (solution.outcome != LcpOutcome::solved) {
-      state.v = v_before_;
-      return solution;
-    }
-    std::copy_n(all.begin(), touching_.size(), touching_.begin());
-    std::copy_n(all.begin() + std::ptrdiff_t(touching_.size()), bearings_.size(), bearings_.begin());
-    state.v = v_before_ + dv_;
-    brief = too_brief(state, changes);
-    if (!capture_chatter(brief.falls)) break;
-    system_.move_to(state.t, state.q, v_before_);
+  const auto solution = strike_with_captures(state, changes, brief);
+  if (solution.outcome != LcpOutcome::solved) {
+    state.v = v_before_;
+    return solution;
   }
+  const std::vector<TouchingContact> all = touching_and_bearings();  // with the rates that the impact left
   if (const std::size_t first = brief.first(); first < touching_.size()) {
     system_.move_to(state.t, state.q, state.v);
     const double taken = end_rocking(state, brief);  // the loss of all of them, reported for the first
@@ -290,8 +284,31 @@ complementarity::ContactSolution ContactModes::strike(State& state, const Contac
   return {LcpOutcome::solved, 0};
 }
 
-// Sets dv_ and what the contacts have found. Bodies that nothing connects strike apart, each group by its own law. It
-// is not known which group asked for an impact without collision, so these are solved together.
+// Solves the impact from v_before_, again with e = 0 for rebounds that steps cannot follow, until there are none.
+// `brief`: what is left that is too short to follow.
+complementarity::ContactSolution ContactModes::strike_with_captures(State& state, const ContactChanges& changes,
+                                                                    Brief& brief) {
+  for (;;) {
+    std::vector<TouchingContact> all = touching_and_bearings();
+    const auto solution = solve_impacts(state, all);
+    if (solution.outcome != LcpOutcome::solved) return solution;
+    std::copy_n(all.begin(), touching_.size(), touching_.begin());
+    std::copy_n(all.begin() + std::ptrdiff_t(touching_.size()), bearings_.size(), bearings_.begin());
+    state.v = v_before_ + dv_;
+    brief = too_brief(state, changes);
+    if (!capture_chatter(brief.falls)) return solution;
+    system_.move_to(state.t, state.q, v_before_);
+  }
+}
+
+std::vector<TouchingContact> ContactModes::touching_and_bearings() const {
+  std::vector<TouchingContact> all = touching_;
+  all.insert(all.end(), bearings_.begin(), bearings_.end());
+  return all;
+}
+
+// Sets dv_ and, in `all`, the impulses and the rates after the impact. Bodies that nothing connects strike apart, each
+// group by its own law. It is not known which group needs an impact without collision, so these are solved together.
 complementarity::ContactSolution ContactModes::solve_impacts(const State& state, std::vector<TouchingContact>& all) {
   const bool together =
       std::any_of(all.begin(), all.end(), [](const TouchingContact& c) { return c.without_collision; });
@@ -299,7 +316,7 @@ complementarity::ContactSolution ContactModes::solve_impacts(const State& state,
   for (std::size_t i = 0; i < all.size(); ++i) islands[together ? 0 : scale_.island(all[i].contact)].push_back(i);
   dv_.setZero(system_.sizes().nv);
   cut_short_ = false;
-  std::size_t first = 0;  // number of the first island of this group
+  std::size_t first = 0;  // index of the first island of this group
   Vec change;
   for (const auto& [number, members] : islands) {
     std::vector<TouchingContact> own;
@@ -317,7 +334,7 @@ complementarity::ContactSolution ContactModes::solve_impacts(const State& state,
   return {LcpOutcome::solved, 0};
 }
 
-// Rule 9.
+// Rule 9: latches that touch without a rate lock.
 void ContactModes::lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events) {
   model::Modes held = before_;
   const auto locked = [&](const TouchingContact& c) {
@@ -351,7 +368,7 @@ double ContactModes::rest_speed(const std::vector<TouchingContact>& contacts) co
   return largest;
 }
 
-// The contacts that are closed, in their present modes.
+// Sets up problem_ with the closed contacts in their present modes.
 void ContactModes::prepare_present(const State& state) {
   system_.move_to(state.t, state.q, state.v);
   before_ = modes_ = system_.modes();
@@ -388,7 +405,7 @@ double ContactModes::step_limit(const State& state) {
       for (int row = 0; row <= system_.tangents(i); ++row) directions.push_back({i, row});
   if (directions.empty()) return std::numeric_limits<double>::infinity();
   system_.move_to(state.t, state.q, state.v);
-  return 0.45 * 2 * std::numbers::pi / system_.highest_frequency(directions);
+  return part_of_period * 2 * std::numbers::pi / system_.highest_frequency(directions);
 }
 
 double ContactModes::friction_noise(int contact) {

@@ -1,8 +1,16 @@
 // Which contacts are closed and which of them stick, and what happens at an event: first impacts, then the
 // accelerations decide.
 //
-// Rules for set-valued contacts (Restitution) at an event at time t. ContactModes::settle applies 1, 2 and 9, then 3 to
-// 7 with 10 and 12 to 14 as one problem, then 11, then 8; other files refer to them by number.
+// Rules for set-valued contacts (Restitution) at an event at time t. Other files refer to them by number.
+// ContactModes::settle applies them in this order, by these functions:
+//
+//     impact      1  strike, solve_impacts                2  capture_chatter, end_rocking (chatter.cpp)       9  lock
+//     decision    3, 4  find_candidates, take_verdicts    5, 6  add_friction          7  stop_with_others, end_drift
+//                 10  decide_with_bearings (bearing_decision.cpp)                    12  held_at_bounds
+//                 13  find_shares, open_pulling_ones      14  share_forces_found (12 to 14: contact_sharing.cpp)
+//     in doubt    11  decide_by_what_follows
+//     no solution  8  strike_without_collision, decide_otherwise
+//
 //  1. Impact: every contact that touches and closes strikes, together with all that touch or are closed, of bodies that
 //     joints, forces or contacts connect (impact_laws.hpp).
 //  2. Capture (chatter.cpp): an impact slower than capture_speed has e = 0. So has a rebound with e < 1 that the steps
@@ -203,6 +211,7 @@ class ContactModes {
   void find_touching(const ContactChanges& changes);
   void find_bearings();
   [[nodiscard]] complementarity::ContactSolution strike(State& state, const ContactChanges& changes);
+  std::vector<TouchingContact> touching_and_bearings() const;
   [[nodiscard]] complementarity::ContactSolution solve_impacts(const State& state, std::vector<TouchingContact>& all);
   [[nodiscard]] complementarity::ContactSolution decide_otherwise(const State& state, const ContactChanges& changes);
   // By index of the touching contacts: `falls`, the separation after the impact is too short to follow; `stops`, the
@@ -211,6 +220,8 @@ class ContactModes {
     std::vector<bool> falls, stops;
     std::size_t first() const;  // that falls or stops; their number if there is none
   };
+  [[nodiscard]] complementarity::ContactSolution strike_with_captures(State& state, const ContactChanges& changes,
+                                                                      Brief& brief);
   Brief too_brief(const State& state, const ContactChanges& changes);
   void judge_brief(const State& state, std::size_t at_rest_now, Brief& brief);
   bool separates(const TouchingContact& c) const;
