@@ -43,8 +43,7 @@ std::string cause(const FastestMotion& fastest, const Setup& setup, Simulator& s
   if (fastest.rate() * h < radians_that_account(implicit, setup.settings.step.tolerance))
     return fmt::format(
         "{}, which asks for none so short, with {} events so far; a looser tolerance takes longer ones, or fixed "
-        "steps: "
-        "\"integrator\": {{\"type\": \"generalized_alpha\", \"step\": {:.0e}}}",
+        "steps: \"integrator\": {{\"type\": \"generalized_alpha\", \"step\": {:.0e}}}",
         what, simulator.statistics().events, std::min(setup.settings.every, 1 / fastest.rate()));
   const std::string damper =
       fastest.frequency >= fastest.decay

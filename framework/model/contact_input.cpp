@@ -245,13 +245,11 @@ class ContactInput {
     const bool by_points = points_law != nullptr;
     if (by_points != on_surface)
       return problems_.error(value.problem(
-          by_points
-              ? "this law acts at the points of a surface: expected {\"surface\": body} in \"between\""
-              : "this law acts at one point; a surface takes one that acts at all of its points, such as \"penalty\". "
-                "Of a body with a surface single markers take this law: [\"BODY.MARKER\", {\"plane\": ...}], or "
-                "against "
-                "a sphere [\"BODY.MARKER\", \"SPHERE.CENTRE\"] with \"reaches\": {\"type\": \"distance\", \"length\": "
-                "radius}"));
+          by_points ? "this law acts at the points of a surface: expected {\"surface\": body} in \"between\""
+                    : "this law acts at one point; a surface takes one that acts at all of its points, such as "
+                      "\"penalty\". Of a body with a surface single markers take this law: [\"BODY.MARKER\", "
+                      "{\"plane\": ...}], or against a sphere [\"BODY.MARKER\", \"SPHERE.CENTRE\"] with \"reaches\": "
+                      "{\"type\": \"distance\", \"length\": radius}"));
     // Points chosen by the surface represent unequal areas; only a law weighted by area can use them.
     constexpr double no_sphere = std::numeric_limits<double>::infinity();
     if (on_surface && entry.surface->against != SurfaceSide::Against::sphere &&

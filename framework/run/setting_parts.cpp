@@ -71,10 +71,10 @@ Part step() {
            defaults.most)},
       {"A scene without an integrator is run by dop853 with errors below 1e-9; with \"rows\": \"projected\" where "
        "bodies whose masses differ by more than 1e7 are tied by joints, and in runs of rows over 1000 s; and by "
-       "hht_alpha with errors below 1e-7 a step, "
-       "which damps what is fast beside the rest, where the fastest motion goes through more than a million radians in "
-       "the run (of n > 10 coordinates 10/n million; of more than 100 the errors are below 1e-5). The summary, "
-       "'trammel explain' and \"integrator_choice\" in result.json give the choice and its reason.",
+       "hht_alpha with errors below 1e-7 a step, which damps what is fast beside the rest, where the fastest motion "
+       "goes through more than a million radians in the run (of n > 10 coordinates 10/n million; of more than 100 the "
+       "errors are below 1e-5). The summary, 'trammel explain' and \"integrator_choice\" in result.json give the "
+       "choice and its reason.",
        "A run whose error-controlled steps are far shorter than its records need says so after some seconds, with what "
        "makes them so short and what cures it. \"newton_iterations\" in result.json counts the points at which an "
        "implicit method solved for increments of the motion, rejected steps and those that locate events among them; "
@@ -133,9 +133,8 @@ Part record() {
            {.unit = "s",
             .doc = "times whose fields, such as stresses over a plate, go to fields.ndjson with the first row at or "
                    "after each; none if left out"})},
-      {"\"observe\" names columns: a quantity of a body (beam.angle), of a marker (beam.tip.y), of a contact or "
-       "joint, or "
-       "\"=...\" computed from such. A name that does not exist is answered with those that do."}};
+      {"\"observe\" names columns: a quantity of a body (beam.angle), of a marker (beam.tip.y), of a contact or joint, "
+       "or \"=...\" computed from such. A name that does not exist is answered with those that do."}};
 }
 
 Part statics() {

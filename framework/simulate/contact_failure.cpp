@@ -56,8 +56,7 @@ void ContactModes::fail_without_solution(const char* what, double t, const compl
   if (solution.outcome == LcpOutcome::gave_up && bearings_undecided_)
     why = fmt::format(
         "was not found: no modes of {}, sticking or sliding, agree with the loads of the bearings that follow from "
-        "them; "
-        "with so much friction a joint may lock itself",
+        "them; with so much friction a joint may lock itself",
         joints);
   else if (solution.outcome == LcpOutcome::gave_up)
     why = fmt::format("was not found: the best try violates the conditions of {} by {:.2g} of the forces{}{}",

@@ -17,8 +17,8 @@ std::string of_step(const char* key, const StepChoice& step, double length) {
   if (step.fixed || !(step.tolerance.absolute > coarse * length)) return "";
   return fmt::format(
       "integrator.{}.absolute is {:.3g} (m, rad, m/s, rad/s), where the largest gap, body or distance of joined "
-      "markers is "
-      "{:.3g} m: errors of that size pass unseen. Without \"absolute\" the tolerance follows the size of the scene",
+      "markers is {:.3g} m: errors of that size pass unseen. Without \"absolute\" the tolerance follows the size of "
+      "the scene",
       key, step.tolerance.absolute, length);
 }
 

@@ -77,8 +77,7 @@ std::vector<std::string> ImpactWarnings::lines(const model::Model& model) const 
   if (cut_short_ > 0)
     all.push_back(
         fmt::format("{} of the impacts had not ended after {} changes of their contacts and {} ended without "
-                    "restitution, the first at t = "
-                    "{:.9g} s",
+                    "restitution, the first at t = {:.9g} s",
                     cut_short_, SpringImpact::most_phases, cut_short_ == 1 ? "was" : "were", first_cut_));
   return all;
 }

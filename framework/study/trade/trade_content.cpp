@@ -37,15 +37,13 @@ std::string about_reference(const TradeContent& c) {
   const TradeReference& r = *c.reference;
   std::string text = fmt::format(
       "Reference: {} (tolerance {:.2g}) and {} (tolerance {:.2g}), of different families, share {} digits until t = "
-      "{:.6g} "
-      "s; no error below {:.2g} is claimed.",
+      "{:.6g} s; no error below {:.2g} is claimed.",
       r.first.method.name, r.first.tolerance, r.second.method.name, r.second.tolerance, digits(r.disagreement),
       r.trusted_until, r.floor());
   if (r.chaotic)
     text += fmt::format(
         " The motion is chaotic or the references fail to resolve it: they part by more than the target at t = {:.6g} "
-        "s of {:.6g} s. "
-        "Trajectories are compared until t = {:.6g} s.",
+        "s of {:.6g} s. Trajectories are compared until t = {:.6g} s.",
         r.parts_at, r.first.result.series.t.back(), r.trusted_until);
   return text;
 }

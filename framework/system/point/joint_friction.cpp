@@ -156,8 +156,7 @@ void JointFriction::fail_without_loads() {
     if (slides(b.contact)) names += (names.empty() ? "" : ", ") + contacts_.entry(b.contact).path();
   throw LocksItself(
       fmt::format("the sliding friction of {} was not found: the bearings' loads and the friction that follows from "
-                  "them raise each "
-                  "other; with so much friction the joint may lock itself as it slides",
+                  "them raise each other; with so much friction the joint may lock itself as it slides",
                   names));
 }
 

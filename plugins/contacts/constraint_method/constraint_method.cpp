@@ -41,8 +41,7 @@ TRAMMEL_PLUGIN(
     trammel::contact<ConstraintMethod>("constraint_method",
                                        "impact with restitution, then a constraint while it pushes")
         .source("F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996: Newton's and Poisson's "
-                "impact laws; "
-                "W. J. Stronge, Proc. R. Soc. A 431, 169 (1990): the energetic one")
+                "impact laws; W. J. Stronge, Proc. R. Soc. A 431, 169 (1990): the energetic one")
         .parameter("restitution", &ConstraintMethod::restitution,
                    {.min = 0, .max = 1, .doc = "e; 0 plastic, 1 elastic"})
         .parameter("capture_speed", &ConstraintMethod::capture_speed,

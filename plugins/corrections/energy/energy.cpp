@@ -140,5 +140,4 @@ TRAMMEL_PLUGIN(
         .choice("keeps", &EnergyCorrection::keeps,
                 {{"direction", EnergyCorrection::Keeps::direction}, {"momentum", EnergyCorrection::Keeps::momentum}},
                 {.doc = "direction: all of the velocity is scaled; momentum: what moves the system as one rigid body, "
-                        "and no row "
-                        "forbids, is not"}))
+                        "and no row forbids, is not"}))
