@@ -8,15 +8,18 @@
 #include "system/point/locks_itself.hpp"
 
 namespace trammel::simulate {
+
+using complementarity::LcpOutcome;
+
 namespace {
 
 using Tangent = Participant::Tangent;
 
 // Rule 11. Forces and accelerations below `undecided` times the error of a solution cannot be distinguished from 0.
-// They can be for the state a moment later: after a part of the time in which the scene crosses its length, at
-// its speed or by its accelerations, or in which a slip ends. Little else has changed by then.
 constexpr double undecided = 10;
-// A later state is asked if an earlier one leaves it open, too.
+// For the state a moment later they can be. Parts of the time in which the scene crosses its length, at its speed or by
+// its accelerations, or in which a slip ends; little else has changed by then. Each is tried if those before it leave
+// the modes in doubt.
 constexpr double moments_later[] = {1e-4, 1e-3, 1e-2};
 
 // Relative to the rates before an impact in its island: what it leaves in the rates that it ends.
@@ -125,43 +128,42 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
                          entry.coulomb->decide() == SetValuedFriction::Decide::at_events;
 }
 
-// Participants: candidates of rule 3, joints with friction, and compliant contacts at rest in the tangent.
+// Participants: candidates of rule 3, then joints with friction and compliant contacts at rest in the tangent.
 void ContactModes::gather(const State& state, const ContactChanges& changes, bool jumped) {
   problem_.who.clear();
   for (const int i : candidates_) {
-    Participant p;
-    p.contact = i;
+    Participant p{.contact = i};
     add_friction(state, p, changes, jumped);
     problem_.who.push_back(p);
   }
   for (int i = 0; i < int(modes_.contacts.size()); ++i) {
-    if (system_.model().contacts[i].joint) {
-      Participant p;
-      p.contact = i;
-      p.unilateral = false;
-      p.given_pushes = true;
+    const model::ContactEntry& entry = system_.model().contacts[i];
+    if (entry.joint) {
+      Participant p{.contact = i, .unilateral = false, .given_pushes = true};
       add_friction(state, p, changes, jumped);
       problem_.who.push_back(p);
-      continue;
+    } else if (entry.force && entry.coulomb && modes_.contacts[i].closed) {
+      gather_compliant(i, state, changes, jumped);
     }
-    model::ContactMode& mode = modes_.contacts[i];
-    if (!mode.closed || !system_.model().contacts[i].force || !system_.model().contacts[i].coulomb) continue;
-    Participant p;
-    p.contact = i;
-    p.unilateral = false;
-    add_friction(state, p, changes, jumped);
-    mode.friction = p.tangent == Tangent::sliding ? Friction::slide : Friction::none;
-    mode.direction = p.direction;
-    mode.least_slip = least_slip(i);
-    if (p.tangent == Tangent::resting) problem_.who.push_back(p);
   }
 }
 
-// Rule 7: adds to changes.stopped the sliding contacts to which those at rest, and the closed rows, leave no slip; true
-// if there are any. Steps leave small slips in them, so the slips of, for example, the feet of one block do not reach 0
-// at one instant. A slip that does not follow from the small rates left elsewhere is a motion, however slow: in a row
-// of dominoes each moves the one behind it by half as much. In space, contacts whose slip is too slow to have a
-// direction are added too: a body that slides and spins ends both at once.
+// One that slides takes no part: its friction is known.
+void ContactModes::gather_compliant(int contact, const State& state, const ContactChanges& changes, bool jumped) {
+  Participant p{.contact = contact, .unilateral = false};
+  add_friction(state, p, changes, jumped);
+  model::ContactMode& mode = modes_.contacts[contact];
+  mode.friction = p.tangent == Tangent::sliding ? Friction::slide : Friction::none;
+  mode.direction = p.direction;
+  mode.least_slip = least_slip(contact);
+  if (p.tangent == Tangent::resting) problem_.who.push_back(p);
+}
+
+// Rule 7: adds to changes.stopped the sliding contacts whose slip follows from the rates of the contacts at rest and of
+// the closed rows. True if there are any. Steps leave small rates in rows, so the slips of the feet of one block do not
+// reach 0 at one instant. A slip that does not follow from these rates is a motion, however slow: in a row of dominoes
+// each moves the one behind it by half as much. In space, contacts whose slip is too slow to have a direction are added
+// too: a body that slides and spins ends both at once.
 bool ContactModes::stop_with_others(ContactChanges& changes) {
   if (changes.stopped.empty()) return false;
   const std::vector<double> independent = problem_.independent_slip(problem_.rates(system_));
@@ -209,7 +211,7 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes, bool jumped)
   return more;
 }
 
-// Rules 3, 5, 6 and 7.
+// Rules 3 to 7, and 10 and 12 to 14 with them.
 complementarity::ContactSolution ContactModes::decide(State& state, ContactChanges changes, bool jumped,
                                                       const std::vector<Participant>& nearby) {
   bearings_undecided_ = false;
@@ -217,7 +219,7 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
   do {
     gather(state, changes, jumped);
     open_all(modes_);
-    if (problem_.who.empty()) return {complementarity::LcpOutcome::solved, 0};
+    if (problem_.who.empty()) return {LcpOutcome::solved, 0};
     problem_.prepare(system_);
   } while (stop_with_others(changes) || end_drift(state, changes, jumped));
   for (;;) {
@@ -226,7 +228,7 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
     accelerate_participants();
     if (has_bearings()) return decide_with_bearings(state);
     const complementarity::ContactSolution solution = take_verdicts(state, nearby);
-    if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
+    if (solution.outcome != LcpOutcome::solved) return solution;
     if (share_within_bounds(state)) return solution;
     open_all(modes_);
   }
@@ -235,16 +237,16 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
 complementarity::ContactSolution ContactModes::take_verdicts(const State& state,
                                                              const std::vector<Participant>& nearby) {
   const complementarity::ContactSolution solution = problem_.solve(nearby);
-  if (solution.outcome != complementarity::LcpOutcome::solved) return solution;
+  if (solution.outcome != LcpOutcome::solved) return solution;
   take_verdicts_found();
   find_shares(state);
   open_pulling_ones(state);
   return solution;
 }
 
-// Rule 11. By participant: the error of the solution of its island, or of the instant at which a force in it fell to 0,
-// leaves open which contacts press. What is left of that force may have passed to another contact.
-std::vector<bool> ContactModes::in_balance(const std::vector<int>& released) const {
+// Rule 11. By participant: in its island the error of the solution, or of the instant at which a force fell to 0, leaves
+// open which contacts press. What is left of that force may have passed to another contact.
+std::vector<bool> ContactModes::in_doubt(const std::vector<int>& released) const {
   if (problem_.who.empty()) return {};
   const auto loses_a_force = [&](int contact) {
     return std::any_of(released.begin(), released.end(),
@@ -264,8 +266,8 @@ std::vector<bool> ContactModes::in_balance(const std::vector<int>& released) con
   return all;
 }
 
-// [s] The time in which these contacts cross the length of their scene, or in which a slip ends. At the system's point,
-// where a_ are the accelerations.
+// [s] The time in which the contacts asked cross the length of their scene, or in which a slip ends if this is shorter.
+// At the system's point; a_ are the accelerations there.
 double ContactModes::time_of_change(const std::vector<bool>& asked) {
   double length = 0, speed = 0, largest = 0;
   const auto is_asked = [&](const Participant& p) { return asked[std::size_t(p.contact)]; };
@@ -319,7 +321,8 @@ void keep_others(const model::Modes& decided, std::vector<bool> asked, model::Mo
     if (!is_asked(group)) modes.shared.push_back(group);
 }
 
-// Rule 11. The contacts asked, and all that take part with one of them now: one that was released may press again.
+// Rule 11. Adds to the contacts asked all that share an island with one of them now: one that was released may press
+// again.
 std::vector<bool> ContactModes::with_their_islands(std::vector<bool> asked) const {
   if (problem_.who.empty()) return asked;
   const std::vector<std::size_t> island = problem_.islands();
@@ -331,11 +334,11 @@ std::vector<bool> ContactModes::with_their_islands(std::vector<bool> asked) cons
   return asked;
 }
 
-// Rule 11: decides by the state a moment later. `asked`: contacts whose modes are open.
+// Rule 11: decides by the state a moment later. `asked`: contacts whose modes are in doubt. `so_far`: the solution of
+// this instant, which stays if no later state decides.
 complementarity::ContactSolution ContactModes::decide_by_what_follows(const State& state, ContactChanges changes,
                                                                       bool jumped, const std::vector<bool>& asked,
                                                                       complementarity::ContactSolution so_far) {
-  using complementarity::LcpOutcome;
   const model::Modes decided = modes_;
   const std::vector<Participant> now = so_far.outcome == LcpOutcome::solved ? problem_.who : std::vector<Participant>();
   system_.set_modes(so_far.outcome == LcpOutcome::solved ? modes_ : before_);
@@ -383,7 +386,7 @@ void ContactModes::accelerate_participants() {
   }
 }
 
-// Of the solution that was found last.
+// Sets the modes by the solution that was found last.
 void ContactModes::take_verdicts_found() {
   std::vector<double> nothing;
   for (const Participant& p : problem_.who) nothing.push_back(least_acceleration(p));
@@ -396,8 +399,8 @@ void ContactModes::take_verdicts_found() {
   }
 }
 
-// Rule 3: an open contact whose force may be round-off, and whose gap would not close without it. A larger force may be
-// needed although it drives its own gap apart, by friction. `largest`: the largest force in its island.
+// Rule 3: it was open, its force may be round-off, and its gap would not close without this force. A larger force may
+// be needed although it drives its own gap apart, by friction. `largest`: the largest force in its island.
 bool ContactModes::merely_touches(std::size_t participant, double largest) const {
   const Participant& p = problem_.who[participant];
   return p.unilateral && !before_.contacts[p.contact].closed && p.N <= most_error_of_forces * largest &&

@@ -101,8 +101,8 @@ bool ContactModes::any_approaches() const {
                      [this](const TouchingContact& c) { return c.before < -scale_.of(c.contact).rest_speed(); });
 }
 
-// Rules 3 to 7; where the problem at this instant leaves doubts, by what follows. No solution: an impact without
-// collision follows.
+// Rules 3 to 7; rule 11 where the problem at this instant leaves modes in doubt. If there is no solution, an impact
+// without collision follows (rule 8).
 complementarity::ContactSolution ContactModes::decide_with_doubts(State& state, const ContactChanges& changes,
                                                                   bool jumped) {
   find_candidates(changes);
@@ -117,7 +117,7 @@ complementarity::ContactSolution ContactModes::decide_with_doubts(State& state, 
   if (solution.outcome == LcpOutcome::no_solution) return solution;
   std::vector<bool> asked(modes_.contacts.size(), solution.outcome == LcpOutcome::gave_up);
   if (solution.outcome == LcpOutcome::solved) {
-    const std::vector<bool> open = in_balance(changes.released);
+    const std::vector<bool> open = in_doubt(changes.released);
     if (std::find(open.begin(), open.end(), true) == open.end()) return solution;
     for (std::size_t i = 0; i < open.size(); ++i) asked[std::size_t(problem_.who[i].contact)] = open[i];
   }

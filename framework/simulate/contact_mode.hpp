@@ -240,6 +240,7 @@ class ContactModes {
   void find_candidates(const ContactChanges& changes);
   void open_all(model::Modes& modes) const;
   void gather(const State& state, const ContactChanges& changes, bool jumped);
+  void gather_compliant(int contact, const State& state, const ContactChanges& changes, bool jumped);
   void add_friction(const State& state, Participant& p, const ContactChanges& changes, bool jumped);
   bool stop_with_others(ContactChanges& changes);
   bool end_drift(State& state, ContactChanges& changes, bool jumped);
@@ -260,7 +261,7 @@ class ContactModes {
   bool share_within_bounds(const State& state);
   void share_forces_found(const State& state);
   double least_acceleration(const Participant& p) const;
-  std::vector<bool> in_balance(const std::vector<int>& released) const;
+  std::vector<bool> in_doubt(const std::vector<int>& released) const;
   double time_of_change(const std::vector<bool>& asked);
   std::vector<bool> with_their_islands(std::vector<bool> asked) const;
   [[nodiscard]] complementarity::ContactSolution decide_by_what_follows(const State& state, ContactChanges changes,
