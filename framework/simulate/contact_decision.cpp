@@ -244,8 +244,8 @@ complementarity::ContactSolution ContactModes::take_verdicts(const State& state,
   return solution;
 }
 
-// Rule 11. By participant: in its island the error of the solution, or of the instant at which a force fell to 0, leaves
-// open which contacts press. What is left of that force may have passed to another contact.
+// Rule 11. By participant: in its island the error of the solution, or of the instant at which a force fell to 0,
+// leaves open which contacts press. What is left of that force may have passed to another contact.
 std::vector<bool> ContactModes::in_doubt(const std::vector<int>& released) const {
   if (problem_.who.empty()) return {};
   const auto loses_a_force = [&](int contact) {

@@ -18,6 +18,12 @@ namespace {
 // show.
 constexpr double most_off_span = 5e-9;
 constexpr double part_of_scale = 1e-3;  // of what counts as touching or at rest: a function located so near is at 0
+// Of `least_acceleration`: an implied direction that accelerates no more than this is still held.
+constexpr double held_acceleration = 10;
+constexpr double most_lengthening = 5;  // of the last step, as in StepControl: the next one is no longer
+constexpr double part_of_slip = 0.25;   // the most that a step may take from a slip at its steepest rate
+constexpr double units_in_t = 4;        // units in the last place of t: the shortest step to an event
+constexpr Eigen::Index archived = 10;   // numbers of each function in a checkpoint
 
 // Thrown and caught in this file: the integrator refused one of the steps that locate an event.
 struct StepRefused {};
@@ -35,6 +41,7 @@ EventLocation::EventLocation(model::AssembledSystem& system, Integrator& integra
 
 namespace {
 
+// Whether slips have the same sense, too.
 bool same_modes(const std::vector<model::ContactMode>& a, const std::vector<model::ContactMode>& b) {
   const auto same = [](const model::ContactMode& x, const model::ContactMode& y) {
     return x.closed == y.closed && x.friction == y.friction && x.direction.dot(y.direction) >= 0;
@@ -59,19 +66,30 @@ void EventLocation::restart(const State& now) {
   h_before_ = longest_ = 0;
   system_.move_to(now.t, now.q, now.v);
   set_up_functions();
-  const std::vector<double> little = little_forces();
-  for (EventFunction& each : functions_) {
-    if (each.kind == Kind::unload || is_shared_force(each)) each.little = little[std::size_t(each.group)];
-    if (each.kind == Kind::follow) each.little = 10 * modes_.least_acceleration(each.contact);
-    if (each.kind == Kind::span) each.little = std::max(most_off_span, 2 * system_.off_span(each.group));
-    if (each.kind == Kind::hold) each.little = little_friction(each.contact);
-  }
+  set_thresholds();
   next_.resize(functions_.size()), probe_.resize(functions_.size());
   evaluate(now, now_, signs_);
   allow_for_critical_friction();
   allow_for_round_off(now);
   choose_sides(before);
   for (EventFunction& function : functions_) measure_undirected(0, now, function);
+  keep_what_was_learnt(before);
+  allow_for_friction_at_bounds();
+}
+
+// The values that count as 0, by kind.
+void EventLocation::set_thresholds() {
+  const std::vector<double> little = little_forces();
+  for (EventFunction& each : functions_) {
+    if (each.kind == Kind::unload || is_shared_force(each)) each.little = little[std::size_t(each.group)];
+    if (each.kind == Kind::follow) each.little = held_acceleration * modes_.least_acceleration(each.contact);
+    if (each.kind == Kind::span) each.little = std::max(most_off_span, 2 * system_.off_span(each.group));
+    if (each.kind == Kind::hold) each.little = little_friction(each.contact);
+  }
+}
+
+// From the functions that watched the same before.
+void EventLocation::keep_what_was_learnt(const std::map<Watched, EventFunction>& before) {
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     functions_[k].steepest = std::abs(now_[k].slope);
     const auto same = before.find(watched(functions_[k]));
@@ -80,7 +98,10 @@ void EventLocation::restart(const State& now) {
       functions_[k].little = std::max(functions_[k].little, same->second.little);
     wait_longer(same->second, int(k));
   }
-  // A contact begins to stick at its bound where its normal force begins at 0, and where mu = mu_0.
+}
+
+// A contact begins to stick at its bound where its normal force begins at 0, and where mu = mu_0.
+void EventLocation::allow_for_friction_at_bounds() {
   for (int k = 0; k < int(functions_.size()); ++k)
     if (functions_[k].kind == Kind::hold && !functions_[k].at_ends &&
         now_[k].f <= std::max(critical_force * functions_[k].bound, functions_[k].little))
@@ -88,14 +109,14 @@ void EventLocation::restart(const State& now) {
 }
 
 double EventLocation::longest_step(double swings) const {
-  const bool matter =
-      h_before_ == 0 || swings_matter(now_, 5 * h_before_);  // a step is five times the last one at most
+  const bool matter = h_before_ == 0 || swings_matter(now_, most_lengthening * h_before_);
   const double resolved =
       matter && has_contacts() ? between_states_.longest_resolved() : std::numeric_limits<double>::infinity();
   double longest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     if (functions_[k].kind == Kind::hold || functions_[k].kind == Kind::unload) return std::min(swings, resolved);
-    if (functions_[k].kind == Kind::slide) longest = std::min(longest, now_[k].f / (4 * functions_[k].steepest));
+    if (functions_[k].kind == Kind::slide)
+      longest = std::min(longest, part_of_slip * now_[k].f / functions_[k].steepest);
   }
   return std::min(std::max(swings, longest), resolved);
 }
@@ -118,9 +139,10 @@ void EventLocation::accept(double h, const State& next) {
   now_.swap(next_);
 }
 
-// Just after an event, a function at the round-off of 0 proves nothing unless it goes on falling, faster than an impact
-// may have left it: the same impact would follow without end. A function that began below 0 (a drifted row, an onset
-// that was not located) proves nothing unless it falls further.
+// True if the function shows that its event happened before `end`. Just after an event, a function at the round-off of
+// 0 proves nothing unless it falls on, faster than an impact may have left it: the same impact would follow without
+// end. A function that began below 0 (a drifted row, an onset that was not located) proves nothing unless it falls
+// further.
 bool EventLocation::happened(const State& now, int k, const Value& end) {
   if (!(end.f < 0)) return false;
   if (!just_handled(k) || end.f < std::min(now_[k].f, 0.0) - functions_[k].noise) return true;
@@ -172,8 +194,8 @@ void EventLocation::find_suspects(const State& now, double h, const State& next)
   }
 }
 
-// Orders suspects by the crossings that values and slopes at the ends predict. The first is then located first, and the
-// others are seen to come later.
+// Orders suspects by the crossings that values and slopes at the ends predict. After the first is located, most others
+// need only one step, which shows that they come later.
 void EventLocation::earliest_first(std::vector<Suspect>& suspects) const {
   const auto crossing = [this](const Suspect& s) {
     const Value& begin = now_[s.function];
@@ -222,7 +244,7 @@ void EventLocation::forget_trials() {
   begin_slopes_.clear(), end_slopes_.clear();
 }
 
-// Locates only what precedes the earliest event so far.
+// The earliest event of the suspects. Only those that precede the earliest one so far are located.
 EventLocation::Located EventLocation::locate_first(const State& now, double h) {
   earliest_first(suspects_);
   Located first{-1, h};
@@ -236,7 +258,7 @@ EventLocation::Located EventLocation::locate_first(const State& now, double h) {
     if (first.function < 0 || located < first.h) first.function = suspect.function;
     first.h = std::min(first.h, located);
   }
-  const double shortest = 4 * eps * std::max(std::abs(now.t), std::abs(now.t + h));
+  const double shortest = units_in_t * eps * std::max(std::abs(now.t), std::abs(now.t + h));
   first.h = std::min(h, std::max(first.h, shortest));
   return first;
 }
@@ -311,19 +333,22 @@ double EventLocation::same_instant(int contact) const {
 
 // Adds all other events of the instant that was located.
 void EventLocation::collect() {
-  for (int k = 0; k < int(functions_.size()); ++k) {
-    const Value& end = next_[k];
-    const Scale scale = scale_.of(functions_[k].contact);
-    const bool falls = end.slope < -scale.rest_speed();
-    if (functions_[k].kind == Kind::lean || functions_[k].kind == Kind::span)
-      continue;  // the modes that follow have rows of their own
-    if (functions_[k].at_ends ? end.f < 0 && (by_force(k) || falls)
-        : by_force(k)         ? end.f <= vanished_force * functions_[k].bound && !just_handled(k)
-        : functions_[k].kind == Kind::slide
-            ? end.f <= functions_[k].noise && !just_handled(k) && end.slope < -scale.no_acceleration()
-            : end.f <= same_instant(functions_[k].contact) && falls)
-      report(k);
-  }
+  for (int k = 0; k < int(functions_.size()); ++k)
+    if (happens_with_others(k)) report(k);
+}
+
+// At the located instant, the end of the shortened step.
+bool EventLocation::happens_with_others(int k) {
+  const EventFunction& function = functions_[k];
+  const Value& end = next_[k];
+  const Scale scale = scale_.of(function.contact);
+  const bool falls = end.slope < -scale.rest_speed();
+  if (function.kind == Kind::lean || function.kind == Kind::span) return false;  // other rows follow the event
+  if (function.at_ends) return end.f < 0 && (by_force(k) || falls);
+  if (by_force(k)) return end.f <= vanished_force * function.bound && !just_handled(k);
+  if (function.kind == Kind::slide)
+    return end.f <= function.noise && !just_handled(k) && end.slope < -scale.no_acceleration();
+  return end.f <= same_instant(function.contact) && falls;
 }
 
 double EventLocation::locate(const State& now, const Suspect& suspect) {
@@ -356,7 +381,7 @@ double EventLocation::locate(const State& now, const Suspect& suspect) {
 
 void EventLocation::archive(Archive& a) {
   const auto n = Eigen::Index(functions_.size());
-  Mat values(n, 10);
+  Mat values(n, archived);
   for (Eigen::Index k = 0; k < n; ++k)
     values.row(k) << now_[k].f, now_[k].slope, functions_[k].noise, functions_[k].force_before, functions_[k].steepest,
         functions_[k].little, functions_[k].side, functions_[k].undirected_for, functions_[k].pushed,
@@ -369,7 +394,7 @@ void EventLocation::archive(Archive& a) {
     next_.resize(functions_.size()), probe_.resize(functions_.size()), now_.resize(functions_.size());
   }
   const auto m = Eigen::Index(functions_.size());
-  if (flat.size() != 10 * m) throw std::length_error("watched");
+  if (flat.size() != archived * m) throw std::length_error("watched");
   for (Eigen::Index k = 0; k < m; ++k) {
     now_[k] = {flat[k], flat[m + k]};
     functions_[k].noise = flat[2 * m + k], functions_[k].force_before = flat[3 * m + k],

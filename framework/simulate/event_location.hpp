@@ -5,7 +5,7 @@
 //     leave      compliant contact in touch      -gap
 //     press      closed contact (Restitution)    its normal force N; a locked one has none
 //     hold       sticking contact                mu_0 N - |T|, T the friction that holds it
-//     idle       closed without a force         minus the force that it would carry as a spring
+//     idle       closed without a force          minus the force that it would carry as a spring
 //     unload     contacts that share rows        their spare load
 //     follow     contacts that share rows        a small acceleration minus that of an implied direction
 //     lean       contacts that share rows        how far the rows in g are from depending on each other
@@ -122,6 +122,9 @@ class EventLocation {
   void add_unload(int contact, int group);
   void add_friction(int contact, bool as_one);
   void add_loads(int contact);
+  void set_thresholds();
+  void keep_what_was_learnt(const std::map<Watched, EventFunction>& before);
+  void allow_for_friction_at_bounds();
   void allow_for_critical_friction();
   void allow_for_round_off(const State& now);
   void choose_sides(const std::map<Watched, EventFunction>& before);
@@ -175,6 +178,7 @@ class EventLocation {
   void forget_trials();
   double same_instant(int contact) const;
   void collect();
+  bool happens_with_others(int k);
   void report(int k);
   void wait_longer(const EventFunction& before, int k);
   bool shares_otherwise(int k) const;
@@ -194,9 +198,8 @@ class EventLocation {
   double longest_ = 0;                       // [s] longest step tried since then
   std::vector<Suspect> suspects_;
   std::vector<int> at_end_;
-  std::vector<double> begin_slopes_,
-      end_slopes_;      // of forces at the ends of the step examined, where they were needed
-  double h_tried_ = 0;  // [s] of the last trial, trial_; 0: none
+  std::vector<double> begin_slopes_, end_slopes_;  // of forces at the ends of the step examined, where needed
+  double h_tried_ = 0;                             // [s] of the last trial, trial_; 0: none
   ContactChanges changes_;
   State trial_, moved_;
   State between_;

@@ -10,16 +10,25 @@ namespace {
 // The places in a step where `hides` looks: irrational parts, of the golden section, resonate with no period of a law.
 constexpr double inside = 0.3819660112501051;
 constexpr double places[] = {inside, 0.7639320225002103, 0.1458980337503154};
-constexpr double off_ends = 1e-3;         // of an interval: a minimum nearer to an end is moved there if slopes dip
+constexpr double off_ends = 1e-3;         // of an interval: a minimum is sought no nearer to its ends
 constexpr double part_for_slopes = 1e-3;  // of the step: the difference in time that gives a force's slope
-constexpr double hides_nothing = 1e-6;    // of the longest step so far: shorter ones are of the location of events
+constexpr double hides_nothing = 1e-6;    // of the longest step so far: shorter ones come from the location of events
 constexpr double jumps_of_shares = 10;    // of vanished_force: shares follow the motion in small jumps
 constexpr int most_probes = 6;
+constexpr double far = 20;             // of the change of a gap in a step at its rate: a larger gap cannot close
+constexpr double as_steep = 4;         // of the steepest slip so far: a steeper one is new
+constexpr double off_cubic = 0.05;     // of a gap or slip: a larger departure from the cubic is more than its error
+constexpr double could_cross = 4;      // of such a departure: values up to this may have been 0 in the step
+constexpr double off_tangent = 0.5;    // of a force: a larger departure from its tangent
+constexpr double near_zero = 0.25;     // of the values at the ends: a minimum below this may be a zero
+constexpr double after_return = 1.25;  // of the time 2 u/|A| after which a gap closes again: it has closed by then
 
-// In space a slip ends by steps that leave a fifth of it. Near its zero the stiffness mu N/|s| across it is more than
-// an explicit method can bear; round-off there would become a turn.
+// In space a slip is followed to its end by steps that leave at least `left_of_slip` of it. Near its zero the stiffness
+// mu N/|s| across it is more than an explicit method can bear; round-off there would become a turn. Slips up to
+// `nearly_least` times `least` may end within a step.
+constexpr double left_of_slip = 0.2, nearly_least = 10;
 bool overshoots(double begin, double end, double least) {
-  return begin > 10 * least && end < 0.2 * begin;
+  return begin > nearly_least * least && end < left_of_slip * begin;
 }
 
 }  // namespace
@@ -70,7 +79,7 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
         overshoots(now_[k].f, next_[k].f, system_.modes().contacts[functions_[k].contact].least_slip))
       return true;
     // A step longer than swings allow, in which a slip has become steeper than ever before.
-    if (functions_[k].kind == Kind::slide && std::abs(next_[k].slope) > 4 * functions_[k].steepest &&
+    if (functions_[k].kind == Kind::slide && std::abs(next_[k].slope) > as_steep * functions_[k].steepest &&
         std::abs(next_[k].slope) * h > now_[k].f && now_[k].f > functions_[k].noise)
       return true;
     if (functions_[k].at_ends || of_rows(k)) continue;
@@ -80,15 +89,14 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
   return (motions && hides_motion(now, h, next)) || (forces && hides_force(now, h, next));
 }
 
-// After an event that left all modes as they were: which contacts are idle is not among these. A force that was 0 at
-// the event is then another one.
+// After an event that left all modes as they were. Modes do not include which contacts are idle; if others are idle
+// now, a force that was 0 at the event is a new one.
 bool EventLocation::shares_otherwise(int k) const {
   return is_shared_force(functions_[k]) && now_[k].f > jumps_of_shares * functions_[k].little;
 }
 
 // True if swings within steps of length h could hide an event: of a force, or of a gap that is small for its rate.
 bool EventLocation::swings_matter(const std::vector<Value>& values, double h) const {
-  constexpr double far = 20;
   for (int k = 0; k < int(functions_.size()); ++k) {
     if (functions_[k].at_ends || functions_[k].kind == Kind::slide) continue;
     if (by_force(k) || values[k].f < far * h * std::abs(values[k].slope)) return true;
@@ -96,8 +104,8 @@ bool EventLocation::swings_matter(const std::vector<Value>& values, double h) co
   return false;
 }
 
-// Compares gaps and slips within the step with the cubics between its ends. They may swing within it although the
-// bodies do not, where a base moves by a law of time: the error estimate of the step does not know that.
+// Compares gaps and slips within the step with the cubics between its ends. Where a base moves by a law of time they
+// may swing within the step although the bodies do not, and the error estimate of the step does not show it.
 bool EventLocation::hides_motion(const State& now, double h, const State& next) {
   for (const double place : places) {
     between_states_.at(now, next, place, between_);
@@ -108,14 +116,15 @@ bool EventLocation::hides_motion(const State& now, double h, const State& next) 
       const Cubic cubic{0, h, begin.f, end.f, begin.slope, end.slope};
       const double there = gap_or_slip(k), off = std::abs(there - cubic.value(place));
       const double size = std::max(std::abs(begin.f), std::abs(end.f));
-      if (off > 0.05 * size && 4 * off > std::min({begin.f, end.f, there}) && off > resolution_of_motion(k))
+      if (off > off_cubic * size && could_cross * off > std::min({begin.f, end.f, there}) &&
+          off > resolution_of_motion(k))
         return true;
     }
   }
   return false;
 }
 
-// A smaller difference of gaps [m] or slips [m/s] is round-off.
+// A difference of gaps [m] or slips [m/s] up to this is round-off.
 double EventLocation::resolution_of_motion(int k) const {
   const Scale scale = scale_.of(functions_[k].contact);
   return functions_[k].kind == Kind::slide ? scale.drift() : scale.touching();
@@ -137,7 +146,7 @@ bool EventLocation::hides_force(const State& now, double h, const State& next) {
                                            : now_[k].f + (now_[k].f - functions_[k].force_before) * (h / h_before_);
     const double found = h_before_ == 0 ? probe_[k].f : next_[k].f;
     const double unresolved = (is_shared_force(functions_[k]) ? jumps_of_shares : 1) * functions_[k].little;
-    if (std::abs(found - straight) > std::max(0.5 * size, unresolved)) return true;
+    if (std::abs(found - straight) > std::max(off_tangent * size, unresolved)) return true;
   }
   return false;
 }
@@ -160,7 +169,7 @@ bool EventLocation::dips(const State& now, double h, const State& next, int k, S
   }
   for (int probes = 0; probes < most_probes; ++probes) {
     if (!cubic.dips()) return false;
-    const bool near = cubic.minimum <= 0.25 * std::min(cubic.F_low, cubic.F_high);
+    const bool near = cubic.minimum <= near_zero * std::min(cubic.F_low, cubic.F_high);
     if (!near && !(may_have_kink && cubic.tangents_cross())) return false;
     const double at = cubic.at;
     const Value there = step_to(now, at, k);
@@ -181,7 +190,7 @@ bool EventLocation::dips(const State& now, double h, const State& next, int k, S
 bool EventLocation::returns(const State& now, double h, int k, Suspect& suspect) {
   if (by_force(k) || functions_[k].kind == Kind::slide || !just_handled(k) || !(now_[k].slope > 0)) return false;
   const double A = gap_acceleration(now, k);
-  const double at = -2.5 * now_[k].slope / A;
+  const double at = -2 * after_return * now_[k].slope / A;
   if (!(A < 0 && at < h)) return false;
   const Value there = step_to(now, at, k);
   if (!happened(now, k, there)) return false;
@@ -194,7 +203,7 @@ bool EventLocation::returns(const State& now, double h, int k, Suspect& suspect)
 bool EventLocation::worth_slopes(int k, double h) const {
   const double least = std::min(now_[k].f, next_[k].f), change = next_[k].f - now_[k].f;
   if (h_before_ == 0 && !probed_) return true;
-  // Of a parabola. Its distance to the chord inside the step stands for the value one step before.
+  // The second difference of a parabola through three values; in the first step the third one is inside the step.
   const double bend = h_before_ == 0 ? (probe_[k].f - now_[k].f - inside * change) * 2 / (inside * (1 - inside))
                                      : change - (now_[k].f - functions_[k].force_before) * (h / h_before_);
   return least < 0.5 * (std::abs(change) + std::abs(bend));
@@ -207,7 +216,7 @@ double EventLocation::force_slope(const State& state, double dt, int k) {
   return slope;
 }
 
-// Computes the slopes of all forces for which they are worth it.
+// On the first call for this end, computes the slopes of all forces for which they are worth it.
 double EventLocation::slope_at_end(const State& state, double dt, int k, double h, std::vector<double>& slopes) {
   if (slopes.empty()) {
     slopes.resize(functions_.size());
