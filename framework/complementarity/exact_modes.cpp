@@ -85,9 +85,9 @@ class ExactModes {
     CarryingRows carrying;
   };
 
-  // Iterates until forces and modes agree, for friction to the round-off of each contact's own accelerations. If this
-  // is not reached, that of the largest counts.
-  // False: it found none, or the modes repeat.
+  // Iterates until forces and modes agree: for friction, to the round-off of each contact's own accelerations. If this
+  // is not reached, agreement to the round-off of the largest acceleration is sufficient. False: it found no such
+  // modes, or they repeat.
   bool settle_modes() {
     const int most = 6 * int(points_.size()) + 20;
     std::vector<std::vector<ContactRole>> tried;
@@ -106,10 +106,10 @@ class ExactModes {
     return true;
   }
 
-  // The shares must not depend on the modes tried before: forms them again, with all contacts closed that do not part
-  // and all tangents sticking that do not move. But if sliding contacts share, contacts that are idle or at their
-  // bounds in the nearby solution stay so: equal springs led there, and with springs' shares alone there may be no
-  // solution.
+  // The shares must not depend on the modes tried before. Therefore they are formed again, with all contacts closed
+  // that do not part and all tangents sticking that do not move. But if sliding contacts share, contacts that are idle
+  // or at their bounds in the nearby solution stay so: equal springs led there, and with the shares of springs alone
+  // there may be no solution.
   void share_by_accelerations() {
     const std::vector<ContactRole> on_the_way = roles_;
     roles_ = roles_of(points_, F_, a_, mode_tolerance * acceleration_scale(), mode_tolerance * own_scales());
@@ -175,7 +175,7 @@ class ExactModes {
     return true;
   }
 
-  // Rows of idle contacts that do not follow from those that carry.
+  // True if the row of an idle contact does not follow from those that carry.
   bool idle_ones_are_needed() const {
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (roles_[i].idle && F_[points_[i].normal] != 0) return true;

@@ -3,7 +3,6 @@
 //     [S W^T] [x]   [b]
 //     [G  0 ] [y] = [c]        S: nv x nv, G and W: nc x nv
 //
-// Two factorisations, by what S is:
 // Two factorisations, by the kind of S:
 //  - Mass: S = M symmetric positive definite. Cholesky of M and of the Schur complement G M^-1 G^T, whose pivots warn
 //    of redundant rows. Redundant rows are solved by orthogonal decompositions of G L^-T: x stays unique, and the
@@ -31,14 +30,14 @@ namespace trammel::numerics {
 
 // The sine of the angle to the other rows below which a row counts as dependent on them, if rows are violated by
 // `violation` (max norm of g, for lengths of order one). Redundant rows are exactly dependent only where they are
-// satisfied: elsewhere they differ by the violation, and must not count as new rows. Not more than ten times the
-// violation: a long chain's own rows are dependent up to n^-2. (Where branches of motion cross, rows differ by the
-// distance from the crossing, over which a violation itself shifts the state; RungeKutta::Rows with slopes on the rows
-// pass such points.)
+// satisfied: elsewhere they differ by the violation, and must not count as new rows. The tolerance is ten times the
+// violation and not more, because the rows of a long chain are dependent up to n^-2. (Where branches of motion cross,
+// rows differ by the distance from the crossing, over which a violation itself shifts the state; RungeKutta::Rows with
+// slopes on the rows pass such points.)
 double rank_tolerance_at(double violation);
-// The entry of a row for an angle is a lever [m]. Long levers would make rows in metres look alike, and short ones the
-// rows of a mechanism in micrometres; therefore angles are taken times their levers. Levers of the columns, 1 for other
-// coordinates; null: unknown. Called only where rows may be dependent.
+// Levers [m] of the columns, 1 for coordinates that are no angles; null: unknown. The entry of a row for an angle is a
+// lever. Long levers would make rows in metres look alike, and short ones the rows of a mechanism in micrometres;
+// therefore columns of angles are divided by their levers. Called only where rows may be dependent.
 using Levers = std::function<const Vec&()>;
 // Rank of the rows scaled to length one: masses and units must not make independent rows look alike.
 Eigen::Index rank_of_rows(const Mat& G, double tolerance, const Levers& levers = {});

@@ -16,7 +16,7 @@
 //  - x and y solve both equations to round-off, whatever the units of masses and rows (SparseIterationKkt: rows of
 //    similar length).
 //  - Rows may be redundant: x and W^T y are unique. Which rows are redundant, and so the rank, is a property of G
-//    alone: `dependent_rows` (sparse/dependent_rows.hpp) finds them for all solvers.
+//    alone: every solver finds as many as `dependent_rows` does (sparse/dependent_rows.hpp).
 //  - Multipliers of redundant rows are those of minimum norm, sum_i y_i^2, with rows in the units in which they are
 //    given: y in the range of G, also where W^T y distinguishes y that G^T y does not (friction by the load of a
 //    joint). SparseMassKkt makes them so in `minimise_norm`, FrontalKkt by LeastMultipliers.

@@ -152,12 +152,12 @@ struct SparseMassKkt::ByComplement {
   }
   void apply() {
     y += kkt.dy_;
-    const bool tells = ++corrections == 2;
-    if (tells) kkt.x_before_.swap(x);
+    const bool judges = ++corrections == 2;
+    if (judges) kkt.x_before_.swap(x);
     x = b;
     add_rows_force(bodies, -1, y, x);
     kkt.masses_.solve(x);
-    if (tells) soft = kkt.is_soft(kkt.complement_.softness(kkt.residual_, kkt.dy_), x);
+    if (judges) soft = kkt.is_soft(kkt.complement_.softness(kkt.residual_, kkt.dy_), x);
   }
 };
 

@@ -236,7 +236,7 @@ TEST(SpareLoad, IsFoundHoweverLargeTheForcesInBalanceAre) {
     Mat E(2, 4);
     E << 1, -1, 1, -1, 0, 0, distance, -distance;
     const Vec resultants = (Vec(2) << 0.3, 1).finished();  // force [N] and moment [N m]
-    EXPECT_NEAR(spare_load(contacts, E, resultants), most, 1e-6) << distance;
+    EXPECT_NEAR(spare_load(contacts, E, resultants), most_spare_load, 1e-6) << distance;
     Vec F;
     EXPECT_LE(admissible_forces(contacts, E, resultants, F), 1e-14 / distance) << distance;
     EXPECT_GE(F.minCoeff(), 0) << distance;
@@ -263,8 +263,8 @@ TEST(SpareLoad, IsHowFarTheLeastLoadedContactCouldBeUnloaded) {
   expect_load(two, Mat{{1, 1}, {-1, 1}}, Vec{{10, 4}}, 3, Vec{{3, 7}});
   expect_load(two, Mat{{1, 1}, {-1, 1}}, Vec{{10, 14}}, -2, Vec{{-2, 12}});
   expect_load(feet, Mat{{1, 1, 1}, {-1, 0, 1}}, Vec{{9, 3}}, 2, Vec{{2, 2, 5}});
-  // Against each other they could press without limit: `most` times the largest resultant.
-  EXPECT_NEAR(spare_load(two, Mat{{1, -1}}, Vec{{3}}), most * 3, 1e-9);
+  // Against each other they could press without limit: `most_spare_load` times the largest resultant.
+  EXPECT_NEAR(spare_load(two, Mat{{1, -1}}, Vec{{3}}), most_spare_load * 3, 1e-9);
   // A foot that presses with 10 holds 3, or would have to hold 6, with c = 0.5; its normal force may be given.
   const std::vector<SharingContact> foot{{.normal = 0, .tangents = {1}, .coefficient = 0.5}};
   expect_load(foot, Mat::Identity(2, 2), Vec{{10, 3}}, 4, Vec{{10, 3}});

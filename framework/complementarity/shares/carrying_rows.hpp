@@ -36,7 +36,7 @@ CarryingRows carrying_rows(const std::vector<ContactPoint>& points, const Mat& A
 // Forces of least norm for their resultants, F = share lambda, (basis, then implied) x basis. `shares` is K with zero
 // rows for idle contacts.
 Mat least_norm_shares(const Mat& shares);
-// The same for any basis: `resultants` is E, `idle` tells which of its columns have no force. The shares stay below 1e8
+// The same for any basis: `resultants` is E; `idle`: which of its columns have no force. The shares stay below 1e8
 // where the other columns come to depend on each other.
 Mat least_norm_shares(const Mat& resultants, const std::vector<bool>& idle);
 // The force that an idle contact would have as one more equal spring, for forces F: that of the last column of `among`,
@@ -52,9 +52,9 @@ struct SharingGroup {
 };
 std::vector<SharingGroup> sharing_groups(const std::vector<ContactPoint>& points, const std::vector<ContactRole>& roles,
                                          const CarryingRows& carrying);
-// One group of all these rows, on their best conditioned basis. Rows of idle contacts, which have no share, hold the
-// motion as well as the others, and go on doing so where the rows that carry come to depend on each other. Nothing is
-// returned if the others do not carry all resultants.
+// One group of all these rows, on their best conditioned basis. Rows of idle contacts have no share, but they hold the
+// motion as the others do, also where the rows that carry come to depend on each other. None if the others do not carry
+// all resultants.
 std::optional<SharingGroup> group_with_idle(const Mat& A, const std::vector<Eigen::Index>& rows,
                                             const std::vector<Eigen::Index>& idle);
 

@@ -10,7 +10,7 @@ namespace trammel::complementarity {
 
 using Eigen::Index;
 
-// Each contact is unloaded to x_0 = N - s, where s is bounded by `most`: s + x = most.
+// Each contact is unloaded to x_0 = N - s, where s is bounded: s + x = most_spare_load.
 double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec* F) {
   Vec F_s = Vec::Zero(E.cols());  // dF/ds
   for (const SharingContact& c : contacts)
@@ -24,7 +24,7 @@ double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, con
   const double size = std::max(program.r.lpNorm<Eigen::Infinity>(), 1e-300);
   program.r.conservativeResize(rows + 1);
   program.r /= size;
-  program.r[rows] = most;
+  program.r[rows] = most_spare_load;
   Mat G = Mat::Zero(rows + 1, columns + 1);
   G.topLeftCorner(rows, columns) = program.G;
   G(rows, columns) = 1;

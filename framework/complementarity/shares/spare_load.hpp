@@ -2,16 +2,16 @@
 //
 //     maximise s,     E F = lambda,     |T| <= c (N - s)  at each contact
 //
-// Negative if no admissible forces have these resultants; a continuous function of them. Limited to `most` of them,
-// because s is unbounded for contacts that press against each other. Solved by cone_program.hpp. If s < 0, the forces F
-// of the solution are those that leave their cones least.
+// Negative if no admissible forces have these resultants; a continuous function of them. Bounded by `most_spare_load`
+// times their size, because s is unbounded for contacts that press against each other. Solved by cone_program.hpp. If
+// s < 0, the forces F of the solution are those that leave their cones least.
 #pragma once
 
 #include "complementarity/shares/admissible_forces.hpp"
 
 namespace trammel::complementarity {
 
-constexpr double most = 10;
+inline constexpr double most_spare_load = 10;
 
 // [N], accurate to 1e-11 of the forces. Fills F, if it is not null.
 double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec* F = nullptr);
