@@ -18,12 +18,12 @@ namespace trammel::simulate {
 struct Scale {
   static constexpr double round_off = 1e-12;  // of the scene's lengths, speeds and accelerations: sums of many terms
 
-  double gaps_and_bodies =
-      0;  // [m] the largest gap so far, extent of a body, or distance between the markers of a joint or force
-  double place =
-      0;  // [m] the largest coordinate of a marker or plane so far: gaps are differences of numbers of this size
-  double speed = 0;    // [m/s] the largest of one thing against another so far, at contacts, joints, forces and within
-                       // bodies, and sqrt(gravity length)
+  // [m] The largest gap so far, extent of a body, or distance between the markers of a joint or force.
+  double gaps_and_bodies = 0;
+  // [m] The largest coordinate of a marker or plane so far: gaps are differences of numbers of this size.
+  double place = 0;
+  // [m/s] The largest relative speed so far, at contacts, joints, forces and within bodies, and sqrt(gravity length).
+  double speed = 0;
   double motion = 0;   // [m/s] the largest of a marker so far: speeds are differences of numbers of this size
   double gravity = 0;  // [m/s^2]
 

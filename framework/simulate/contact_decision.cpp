@@ -118,7 +118,7 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
     rests = before.friction == Friction::stick || (stopped && std::abs(goes.across()) <= unresolved(p.contact, state));
     if (!stopped) {
       unit = goes.unit();
-      // A slower slip goes on turning from the direction that it had (system/point/slip.hpp).
+      // A slower slip keeps turning from the direction that it had (system/point/slip.hpp).
       p.direction = goes.along() > before.least_slip ? unit : before.direction;
     }
   }

@@ -93,7 +93,7 @@ void Simulator::resume() {
   measure_joints();
   in_contact_ = modes_.any_closed();
   if (!last_row_ || now_.t >= settings_.until) return;
-  // The end has moved: go on with rows at their multiples. The row at the former end may not have been one of them.
+  // The end has moved: rows are again written at their multiples. The row at the former end may not have been one.
   last_row_ = false;
   if (settings_.start + double(records_ - 1) * settings_.every > now_.t + same_record * settings_.every) --records_;
 }

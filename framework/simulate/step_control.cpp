@@ -13,6 +13,9 @@ constexpr int most_halvings = 10;  // of a fixed step that the method rejects
 // times must not cost a step of its own; and the shortening up to which a step does not count as cut.
 constexpr double nearly_there = 1e-10, equal_parts = 1e-9, not_cut = 1e-9;
 constexpr double least_error = 1e-4;  // of the tolerance: a smaller one lengthens the next step no further
+constexpr double safety = 0.9, shortest = 0.2, longest = 5.0, shortest_after_rejection = 0.1;  // factors of a step
+constexpr double worth_a_change = 1.25;  // even steps are not lengthened by less
+constexpr int last_even_steps = 8;       // before a stop, of equal lengths
 }  // namespace
 
 StepControl::StepControl(const StepChoice& choice, double every, int order, bool even)
@@ -29,8 +32,7 @@ double StepControl::smallest(double t) const {
 StepControl::Proposal StepControl::propose(double t, double stop, double most) {
   const double h = controlled() ? std::min({wish_, choice_.most, most}) : *choice_.fixed;
   const double left = stop - t;
-  constexpr int last_steps = 8;
-  if (controlled() && !(even_ && left < last_steps * h)) {
+  if (controlled() && !(even_ && left < last_even_steps * h)) {
     planned_ = 0;
     if (h >= left * (1 - nearly_there)) return {left, stop};
     if (2 * h > left) return {left / 2, t + left / 2};
@@ -57,11 +59,10 @@ void StepControl::accepted(const Proposal& taken, double error) {
   if (done_ == planned_ || halvings_ > 0) planned_ = 0;
   halvings_ = 0;
   if (!controlled()) return;
-  constexpr double worth_a_change = 1.25;
   const double e = std::max(error, least_error), p = order_;
-  double factor = std::clamp(0.9 * std::pow(e, -0.7 / p) * std::pow(error_before_, 0.4 / p), 0.2, 5.0);
+  double factor = std::clamp(safety * std::pow(e, -0.7 / p) * std::pow(error_before_, 0.4 / p), shortest, longest);
   if (even_) {
-    factor = std::min(0.9 * std::pow(std::max(e, error_before_), -1 / p), 5.0);
+    factor = std::min(safety * std::pow(std::max(e, error_before_), -1 / p), longest);
     if (factor < worth_a_change) factor = 1;
   }
   const double next = taken.h * factor;
@@ -71,7 +72,8 @@ void StepControl::accepted(const Proposal& taken, double error) {
 }
 
 void StepControl::rejected_for_error(double h, double error) {
-  wish_ = h * std::max(0.1, 0.9 * std::pow(error, -1.0 / order_));  // a tenth, also if the error is not finite
+  // max returns its first argument if the error is not finite.
+  wish_ = h * std::max(shortest_after_rejection, safety * std::pow(error, -1.0 / order_));
 }
 
 void StepControl::rejected(double h) {

@@ -39,7 +39,7 @@ class StepControl {
 
   void accepted(const Proposal& taken, double error);  // the whole proposal became the solution
   void rejected_for_error(double h, double error);
-  void rejected(double h);         // the method rejected the step: try half of it
+  void rejected(double h);  // the method rejected the step: half of a fixed step follows, a quarter of a controlled one
   bool too_small(double t) const;  // after rejections: no shorter step is left to try
   // After events and changes of modes: discards the plan up to the next stop.
   void interrupted() { planned_ = 0; }
