@@ -8,7 +8,7 @@
 namespace trammel::simulate {
 namespace {
 
-// Whether the impact without rebounds and drifts is another one.
+// Whether the problem without rebounds and drifts is another one, which may have a solution.
 bool may_jam(complementarity::LcpOutcome outcome, const std::vector<TouchingContact>& touching) {
   const auto rebounds = [](const TouchingContact& c) { return c.restitution > 0; };
   return outcome == complementarity::LcpOutcome::no_solution ||
@@ -17,7 +17,8 @@ bool may_jam(complementarity::LcpOutcome outcome, const std::vector<TouchingCont
 
 }  // namespace
 
-// Finds the islands that have no impulses as asked, each beside others without rebounds and drifts, which have some.
+// `jams`: contacts of the islands that have no solution as asked. Each island is tried with all others jammed, which
+// have a solution then.
 complementarity::ContactSolution Impact::solve_jammed(const std::vector<Participant>& asked, double at_rest,
                                                       BearingImpulses::From from,
                                                       const std::vector<TouchingContact>& touching,
@@ -41,8 +42,9 @@ complementarity::ContactSolution Impact::solve_jammed(const std::vector<Particip
   return solve_as(jams);
 }
 
-complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, const State& state, double at_rest,
-                                               std::vector<TouchingContact>& touching, Vec& dv) {
+// Sets the participants and their rates, those of open contacts with their rebounds. Returns where the search for the
+// loads of bearings begins.
+BearingImpulses::From Impact::gather(model::AssembledSystem& system, std::vector<TouchingContact>& touching) {
   problem_.who.clear();
   auto from = BearingImpulses::From::nothing;
   for (TouchingContact& c : touching) {
@@ -60,15 +62,33 @@ complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, c
     if (entry.friction) p.tangent = Participant::Tangent::resting;
     problem_.who.push_back(p);
   }
+  return from;
+}
+
+// To be called when the islands of the contacts are known.
+void Impact::take_coefficients(const model::Model& model, const std::vector<TouchingContact>& touching) {
+  for (std::size_t i = 0; i < touching.size(); ++i) {
+    const TouchingContact& c = touching[i];
+    const ImpactFriction friction = friction_in_impact(model.contacts[std::size_t(c.contact)], c, c.slip_before.norm());
+    problem_.who[i].mu_0 = friction.mu_0, problem_.who[i].mu = friction.mu;
+  }
+}
+
+// [m/s] u+ of a contact. Where the impulse acts, the complementarity gives -e u- exactly, without the round-off of D L.
+double Impact::rate_after(const TouchingContact& c, const Participant& p, bool joint, bool jams) {
+  if (joint) return c.before;
+  if (c.was_closed && jams) return p.N > 0 ? 0 : p.a_n;
+  if (p.N > 0) return c.was_closed ? c.before : -c.restitution * c.before;
+  return p.a_n - (c.was_closed ? -c.before : c.restitution * c.before);
+}
+
+complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, const State& state, double at_rest,
+                                               std::vector<TouchingContact>& touching, Vec& dv) {
+  const BearingImpulses::From from = gather(system, touching);
   problem_.prepare(system);
   bearings_.prepare(system, state, problem_.who);
   take_islands(bearings_.join(problem_.islands(), problem_.who), touching);
-  for (std::size_t i = 0; i < touching.size(); ++i) {
-    const TouchingContact& c = touching[i];
-    const ImpactFriction friction =
-        friction_in_impact(system.model().contacts[std::size_t(c.contact)], c, c.slip_before.norm());
-    problem_.who[i].mu_0 = friction.mu_0, problem_.who[i].mu = friction.mu;
-  }
+  take_coefficients(system.model(), touching);
   const std::vector<Participant> asked = problem_.who;
   std::vector<bool> jams(touching.size(), false);
   complementarity::ContactSolution solution = bearings_.solve(problem_, at_rest, from);
@@ -80,15 +100,7 @@ complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, c
     const Participant& p = problem_.who[i];
     if (jams[i]) c.restitution = 0;
     c.impulse = p.N;
-    // Where the impulse acts, the complementarity gives -e u- exactly, without the round-off of D L.
-    if (system.model().contacts[c.contact].joint)
-      c.after = c.before;
-    else if (c.was_closed && jams[i])
-      c.after = p.N > 0 ? 0 : p.a_n;
-    else if (c.impulse > 0)
-      c.after = c.was_closed ? c.before : -c.restitution * c.before;
-    else
-      c.after = p.a_n - (c.was_closed ? -c.before : c.restitution * c.before);
+    c.after = rate_after(c, p, system.model().contacts[c.contact].joint.has_value(), jams[i]);
     c.friction = p.T;
     c.slip_after = p.a_t;
     c.course = 0;

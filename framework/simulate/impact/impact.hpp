@@ -65,6 +65,9 @@ class Impact {
                                                        double at_rest, std::vector<TouchingContact>& touching, Vec& dv);
 
  private:
+  BearingImpulses::From gather(model::AssembledSystem& system, std::vector<TouchingContact>& touching);
+  void take_coefficients(const model::Model& model, const std::vector<TouchingContact>& touching);
+  static double rate_after(const TouchingContact& c, const Participant& p, bool joint, bool jams);
   complementarity::ContactSolution solve_jammed(const std::vector<Participant>& asked, double at_rest,
                                                 BearingImpulses::From from,
                                                 const std::vector<TouchingContact>& touching, std::vector<bool>& jams);
