@@ -188,46 +188,58 @@ class Cascade {
 };
 
 // Sets to 0 what is 0 by the conditions.
-void clear_round_off(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a) {
-  // Round-off of accelerations. That of a force is the force which causes it, smaller where bodies are light.
-  const Vec from_forces = A.cwiseAbs() * F.cwiseAbs(), terms = b.cwiseAbs() + from_forces;
-  const double largest = b.lpNorm<Eigen::Infinity>() + from_forces.lpNorm<Eigen::Infinity>();
-  const double little = round_off_of_forces * largest;
-  for (const ContactPoint& p : points) {
-    double N = p.given;
-    if (p.normal >= 0) {
-      const bool presses = A(p.normal, p.normal) * F[p.normal] > little;
-      N = F[p.normal] = presses ? F[p.normal] : 0;
-      a[p.normal] = presses ? 0 : std::max(0.0, a[p.normal]);
-    }
-    if (p.tangent < 0 || p.kind == ContactPoint::Tangent::none) continue;
-    auto T = F.segment(p.tangent, p.tangents);
-    auto a_t = a.segment(p.tangent, p.tangents);
-    if (p.kind == ContactPoint::Tangent::sliding) {
-      T = N * p.ratio.head(p.tangents);
-      continue;
-    }
-    const double bound = p.held() ? p.coefficient * N : 0;
-    if (bound == 0) {
-      T.setZero();
-      continue;
-    }
-    // If the force that a_t asks for exceeds the bound, the contact slides; otherwise it is held, and a_t is round-off,
-    // that of the terms along its own tangents. Where joints hold the tangent (a slider-crank at a dead centre), A is 0
-    // there and no friction holds it.
-    const double stiff = A.block(p.tangent, p.tangent, p.tangents, p.tangents).trace() / p.tangents;
+class WithoutRoundOff {
+ public:
+  WithoutRoundOff(const Mat& A, const Vec& b, Vec& F, Vec& a) : A_(A), F_(F), a_(a) {
+    const Vec from_forces = A.cwiseAbs() * F.cwiseAbs();
+    terms_ = b.cwiseAbs() + from_forces;
+    largest_ = b.lpNorm<Eigen::Infinity>() + from_forces.lpNorm<Eigen::Infinity>();
+  }
+
+  void clear(const ContactPoint& p) {
+    const double N = p.normal >= 0 ? clear_normal(p) : p.given;
+    if (p.tangent < 0 || p.kind == ContactPoint::Tangent::none) return;
+    if (p.kind == ContactPoint::Tangent::sliding)
+      F_.segment(p.tangent, p.tangents) = N * p.ratio.head(p.tangents);
+    else if (const double bound = p.held() ? p.coefficient * N : 0; bound > 0)
+      clear_tangents(p, bound);
+    else
+      F_.segment(p.tangent, p.tangents).setZero();
+  }
+
+ private:
+  // Returns the normal force. The round-off of a force is one that causes accelerations as small as theirs: it is
+  // smaller where bodies are light.
+  double clear_normal(const ContactPoint& p) {
+    const bool presses = A_(p.normal, p.normal) * F_[p.normal] > round_off_of_forces * largest_;
+    F_[p.normal] = presses ? F_[p.normal] : 0;
+    a_[p.normal] = presses ? 0 : std::max(0.0, a_[p.normal]);
+    return F_[p.normal];
+  }
+
+  // If the force that would make a_t = 0 exceeds the bound, the contact slides; otherwise it is held, and a_t is
+  // round-off, that of the terms along its own tangents. Where joints hold the tangent (a slider-crank at a dead
+  // centre), A is 0 there and no friction holds it.
+  void clear_tangents(const ContactPoint& p, double bound) {
+    auto T = F_.segment(p.tangent, p.tangents);
+    auto a_t = a_.segment(p.tangent, p.tangents);
+    const double stiff = A_.block(p.tangent, p.tangent, p.tangents, p.tangents).trace() / p.tangents;
     const Vec asked = stiff > 0 ? Vec(T - a_t / stiff) : Vec(-a_t);  // [N], or its direction
     const double caused = stiff > 0 ? stiff * asked.norm() : a_t.norm();
-    const bool slides =
-        caused >
-        stiff * bound + round_off_of_slip * scale_of_slip(terms.segment(p.tangent, p.tangents).maxCoeff(), largest);
+    const double own = terms_.segment(p.tangent, p.tangents).maxCoeff();
+    const bool slides = caused > stiff * bound + round_off_of_slip * scale_of_slip(own, largest_);
     if (!slides) a_t.setZero();
     if (slides)
       T = bound * asked.normalized();
     else if (const double size = T.norm(); size > bound)
       T *= bound / size;
   }
-}
+
+  const Mat& A_;
+  Vec &F_, &a_;
+  Vec terms_;       // sums of the absolute values of the terms of a
+  double largest_;  // of all of them
+};
 
 ContactSolution solve_island(const Island& island, const Mat& A, const Vec& b, Vec& F, Vec& a, double nothing,
                              const NearbySolution& nearby) {
@@ -238,7 +250,8 @@ ContactSolution solve_island(const Island& island, const Mat& A, const Vec& b, V
   const ContactSolution solution = Cascade(ordered.points(), ordered.A(), ordered.b(), nothing).solve(begin, F_ordered);
   if (solution.outcome != LcpOutcome::solved) return solution;
   Vec a_ordered = ordered.A() * F_ordered + ordered.b();
-  clear_round_off(ordered.points(), ordered.A(), ordered.b(), F_ordered, a_ordered);
+  WithoutRoundOff both(ordered.A(), ordered.b(), F_ordered, a_ordered);
+  for (const ContactPoint& p : ordered.points()) both.clear(p);
   F = ordered.as_named(F_ordered);
   a = ordered.as_named(a_ordered);
   return solution;

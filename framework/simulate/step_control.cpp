@@ -72,7 +72,7 @@ void StepControl::accepted(const Proposal& taken, double error) {
 }
 
 void StepControl::rejected_for_error(double h, double error) {
-  // max returns its first argument if the error is not finite.
+  // The shortest, too, if the error is not finite: max returns its first argument then.
   wish_ = h * std::max(shortest_after_rejection, safety * std::pow(error, -1.0 / order_));
 }
 
