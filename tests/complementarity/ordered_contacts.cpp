@@ -1,4 +1,5 @@
-// The order of contacts by their properties: what differs in any of them is told apart, whatever the names.
+// The order of contacts by their properties: it distinguishes contacts that differ in any of them, whatever their
+// names.
 #include "complementarity/contact_order.hpp"
 
 #include <algorithm>

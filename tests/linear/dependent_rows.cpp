@@ -31,7 +31,7 @@ TEST(DependentRows, AreAllThatAreMoreThanTheColumns) {
   EXPECT_THAT(dependent_rows(sparse(G), 1e-7), ElementsAre(2, 3));
 }
 
-TEST(DependentRows, AreToldByWhatIsLeftOfTheirLength) {
+TEST(DependentRows, AreFoundByWhatIsLeftOfTheirLength) {
   Eigen::MatrixXd G(2, 2);
   G << 1e6, 0, 1e-3, 1e-9;
   EXPECT_THAT(dependent_rows(sparse(G), 1e-7), IsEmpty());

@@ -48,7 +48,7 @@ Vec accelerations_by_fronts(const Truss& truss, const Vec& b, const Vec& c) {
 }
 
 // A force on one point, 1e4 to 1e6 times as much as its accelerations ask for: they are lost in the complement's
-// round-off, of which a mean of eigenvalues alone does not tell.
+// round-off, which a mean of eigenvalues alone does not show.
 TEST(LongMast, HasTheAccelerationsOfFrontsUnderASingleForce) {
   for (const int units : {126, 130, 200, 250})
     for (const double degrees : {60, 75, 80}) {
@@ -149,7 +149,7 @@ TEST(FrontalKkt, SatisfiesTheEquationsForAnyRightSide) {
   }
 }
 
-// The prismatic mast's dependent rows are told from none.
+// The prismatic mast has dependent rows, which springs need not find.
 TEST(FrontalKkt, SatisfiesTheEquationsByRowsAsSprings) {
   const Truss truss = Truss::prismatic_mast(3, 1, 0.3);
   for (const bool identity : {false, true}) {
@@ -162,7 +162,7 @@ TEST(FrontalKkt, SatisfiesTheEquationsByRowsAsSprings) {
   }
 }
 
-TEST(FrontalKkt, FollowsRowsThatBeginToTell) {
+TEST(FrontalKkt, FollowsPinsThatBecomeOtherRows) {
   Truss truss = Truss::mast(6, 1, 0.3);
   FrontalKkt kkt;
   ASSERT_TRUE(kkt.factorise(truss.bodies, truss.rows, false, rank_tolerance_at(0)));

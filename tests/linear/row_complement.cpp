@@ -219,7 +219,7 @@ Mechanism beam_of_masses(int n) {
 }
 
 // Noise has of each direction about as much; the solution has of the k-th softest k^-4 times as much as of the softest.
-// Where it happens to have hardly any of that one, the next tell, the fourth by 256 times its eigenvalue.
+// Where it happens to have hardly any of that one, the next ones show it, the fourth by 256 times its eigenvalue.
 TEST(RowComplement, SoftnessOfNoiseIsThatOfTheSoftestDirections) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;

@@ -80,7 +80,7 @@ TEST(SparseIteration, DoesNotFollowTheRoundOffOfRowsThatAreNearlyDependent) {
     if (sine > 1e-3) {
       EXPECT_NEAR(x(1), delta / sine, 1e-4 * delta / sine) << sine;
     }
-    // A force along what the second row tells: held, or free, or between; the equation of motion holds by what y then
+    // A force along the second row: held, or free, or between; the equation of motion holds by what y then
     // is.
     const Eigen::Vector2d b(0, 1);
     ASSERT_TRUE(kkt.solve(b, Eigen::Vector2d(0, 0), x, y)) << sine;

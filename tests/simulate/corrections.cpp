@@ -80,7 +80,7 @@ TEST(Correction, SeesTheStepAsTheIntegratorLeftIt) {
   EXPECT_DOUBLE_EQ(one.state().v(0), 1.5 * nudge.uncorrected_v(0));
 }
 
-TEST(Correction, IsToldTheEnergyThatIsDueAtTheStepsEnd) {
+TEST(Correction, IsGivenTheEnergyThatIsDueAtTheStepsEnd) {
   Nudge nudge(1.5);
   const OneStep one(damped, nudge);
   EXPECT_NEAR(nudge.energy, 2 * std::exp(-6e-3), 1e-13);  // Simpson: (2 c h)^5/2880 = 3e-15

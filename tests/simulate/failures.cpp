@@ -171,7 +171,7 @@ TEST(InconsistentStart, IsRefusedForItsVelocityToo) {
 }
 
 // A rod's row is (|d|^2/L - L)/2, an angle's in space sin(delta); messages give |d| - L, delta and their rates.
-TEST(InconsistentStart, IsToldInMetresAndRadiansWhateverTheScaleOfTheRows) {
+TEST(InconsistentStart, IsReportedInMetresAndRadiansWhateverTheScaleOfTheRows) {
   const std::string rod = R"({"trammel": 1, "gravity": [0, 0],
     "bodies": {"bob": {"type": "point_mass", "mass": 1, "position": [2, 0], "velocity": [0.5, 0]}},
     "joints": {"rod": {"type": "distance", "between": ["ground", "bob.point"], "length": 1}},
@@ -235,7 +235,7 @@ TEST(InconsistentStart, OfABeamInsideAPlaneIsTurnedOutAndNotBent) {
   EXPECT_NEAR(run.series.at("theta").front(), 0, 1e-4);
 }
 
-TEST(Energy, BeyondTheRangeOfNumbersIsTold) {
+TEST(Energy, BeyondTheRangeOfNumbersIsReported) {
   const Finished run = run_text(R"({"trammel": 1, "space": "planar", "gravity": [0, 0],
     "bodies": {"mass": {"type": "rigid_body", "mass": 1, "inertia": 1, "angular_velocity": 1e160}},
     "integrator": {"type": "runge_kutta_4", "step": 1e-3}, "simulate": {"until": 1}, "record": {"every": 1}})");
@@ -284,8 +284,8 @@ TEST(Energy, OfWhatLoadsHoldAtRestIsNoReasonToWarn) {
     }
 }
 
-// A swing that the method damps is told of at any place: potential energies count from the origin.
-TEST(Energy, ThatTheMethodTakesIsToldWhereverTheSceneStands) {
+// A swing that the method damps is reported at any place: potential energies count from the origin.
+TEST(Energy, ThatTheMethodTakesIsReportedWhereverTheSceneStands) {
   for (const double place : {0.0, 1e6, 1e8}) {
     const Finished run = run_text(fmt::format(
         R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],

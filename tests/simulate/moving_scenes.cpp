@@ -145,14 +145,14 @@ TEST(StickSpeed, FollowsTheScene) {
   }
 }
 
-TEST(StickSpeed, ThatExceedsASlipIsTold) {
+TEST(StickSpeed, ThatExceedsASlipIsReported) {
   const Finished run = run_text(by_every_step(1e-6, R"(, "stick_speed": 1e-6)"));
   ASSERT_TRUE(run.done()) << run.report.reason;
   EXPECT_THAT(run.result.at("warnings").dump(), HasSubstr("contacts.floor.friction.stick_speed is 1e-06 m/s"));
 }
 
 // The law's 1 mm/s is the whole motion of a block that slides by millimetres.
-TEST(Creep, OfASmoothLawIsToldWhereItIsTheMotion) {
+TEST(Creep, OfASmoothLawIsReportedWhereItIsTheMotion) {
   const auto sliding = [](double speed) {
     return run_text(fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -10],
   "bodies": {{"p": {{"type": "point_mass", "mass": 1, "position": [0, 0], "velocity": [{0:.17g}, 0]}},
@@ -171,7 +171,7 @@ TEST(Creep, OfASmoothLawIsToldWhereItIsTheMotion) {
 }
 
 // Tied to a body of metres, which would fall faster than all others move.
-TEST(CaptureSpeed, OfTheSceneThatExceedsAllImpactsIsTold) {
+TEST(CaptureSpeed, OfTheSceneThatExceedsAllImpactsIsReported) {
   const auto thrown = [](double speed) {
     return run_text(fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -10],
   "bodies": {{"p": {{"type": "point_mass", "mass": 1, "position": [0, 0], "velocity": [{:.17g}, 0]}},

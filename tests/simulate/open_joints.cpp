@@ -61,13 +61,13 @@ class Joints {
 const Slider at_rest(0, 0, 0);
 const Apart together(0, 0);
 
-TEST(JointsThatOpen, AreToldInRadiansWhateverTheScenesLengthIs) {
+TEST(JointsThatOpen, AreReportedInRadiansWhateverTheScenesLengthIs) {
   Joints joints;
   EXPECT_EQ(joints.description({0, 0, 0.09}, together), "");
   EXPECT_EQ(joints.description({0, 0, 0.11}, together), "joints.guide by 0.11 rad");
 }
 
-TEST(JointsThatOpen, OfPointsAreToldByTheScenesLength) {
+TEST(JointsThatOpen, OfPointsAreJudgedByTheScenesLength) {
   Joints joints;
   EXPECT_EQ(joints.description(at_rest, {0.19, 0}), "");
   EXPECT_EQ(joints.description(at_rest, {0.21, 0}), "joints.tie by 0.21 m");
@@ -80,13 +80,13 @@ TEST(JointsThatOpen, DoNotTakeForTheirSizeWhatTheyWereOffByAtTheStart) {
 }
 
 // Slid by 10 m the guide is longer than the scene.
-TEST(JointsThatOpen, AreToldByTheLengthThatTheyHaveNow) {
+TEST(JointsThatOpen, AreJudgedByTheLengthThatTheyHaveNow) {
   Joints joints;
   EXPECT_EQ(joints.description({10, 0.85, 0}, together), "");
   EXPECT_EQ(joints.description({10, 1.05, 0}, together), "joints.guide by 1.05 m");
 }
 
-TEST(JointsThatOpen, AreToldByTheirWorstRow) {
+TEST(JointsThatOpen, AreJudgedByTheirWorstRow) {
   Joints joints;
   EXPECT_EQ(joints.description({0, 0.3, 0.2}, together), "joints.guide by 0.2 rad");
   EXPECT_EQ(joints.description({0, 0.5, 0.2}, together), "joints.guide by 0.5 m");
@@ -94,19 +94,19 @@ TEST(JointsThatOpen, AreToldByTheirWorstRow) {
   EXPECT_EQ(joints.description(at_rest, {0.3, 0.5}), "joints.tie by 0.5 m");
 }
 
-TEST(JointsThatOpen, AreToldTheWorstFirst) {
+TEST(JointsThatOpen, AreReportedTheWorstFirst) {
   Joints joints;
   EXPECT_EQ(joints.description({0, 0, 0.2}, {0.3, 0}), "joints.guide by 0.2 rad, joints.tie by 0.3 m");
   EXPECT_EQ(joints.description({0, 0, 0.2}, {0.5, 0}), "joints.tie by 0.5 m, joints.guide by 0.2 rad");
 }
 
-TEST(JointsThatOpen, AreToldByTheSizeOfTheirBodies) {
+TEST(JointsThatOpen, AreJudgedByTheSizeOfTheirBodies) {
   Joints joints;
   EXPECT_EQ(joints.description(at_rest, together, {.bar = 0.49}), "");
   EXPECT_EQ(joints.description(at_rest, together, {.bar = 0.51}), "joints.hinge by 0.51 m");
 }
 
-TEST(JointsThatOpen, AreToldByTheirOwnLengthWhereThatIsSmall) {
+TEST(JointsThatOpen, AreJudgedByTheirOwnLengthWhereThatIsSmall) {
   Joints joints;
   EXPECT_EQ(joints.description(at_rest, together, {.rod = 0.009}), "");
   EXPECT_EQ(joints.description(at_rest, together, {.rod = 0.011}), "joints.rod by 0.011 m");

@@ -1,4 +1,4 @@
-// What is told of bodies that bend further than their theory allows.
+// What is reported of bodies that bend further than their theory allows.
 #include "simulate/watch/theory_watch.hpp"
 
 #include <gmock/gmock.h>

@@ -95,8 +95,8 @@ TEST(TwoBlocksInTandem, SlowDownAsOneAndByNoLessThanTheirWeightsDo) {
 }
 
 // A driven hand gives them their motion, and with the ceiling their forces are indeterminate: springs' shares would
-// pull, so others are told. What friction takes is the work of those.
-TEST(BlocksInTandem, LoseToFrictionTheWorkOfTheForcesThatAreTold) {
+// pull, so others are recorded. Friction takes the work of those.
+TEST(BlocksInTandem, LoseToFrictionTheWorkOfTheForcesThatAreRecorded) {
   const double until = 0.2;
   json s = in_a_channel({{0.178, 4.939, 0.358, 0}, {0.113, 0.21, 0.366, 0}}, 0.214, 0.524, 0);
   s["bodies"]["hand"] = {{"type", "moving_base"}, {"x", "=0.872*t^2"}, {"markers", {{"o", {0, 0}}}}};

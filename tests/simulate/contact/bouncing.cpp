@@ -198,7 +198,7 @@ TEST(ReboundWithinAStep, IsFoundHoweverFarTheFreeStepGoes) {
 }
 
 // An exact step of a period and a bit less than a quarter, or more, ends above the wall. Where the mass falls there the
-// cubic through both ends has no minimum: only its acceleration at the begin tells of the flight's end.
+// cubic through both ends has no minimum: only its acceleration at the beginning shows that the flight ends.
 TEST(ReboundWithinAStep, IsFoundWhereTheFreeStepEndsAboveTheWallAndFalls) {
   for (const char* step : {"7.1", "7.3", "7.6"}) {
     const Finished run = run_text(

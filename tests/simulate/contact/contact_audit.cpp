@@ -1,4 +1,4 @@
-// What contacts cannot do is told, however much larger the forces of others are.
+// Warnings of forces that contacts cannot exert, however much larger the forces of others are.
 #include <gmock/gmock.h>
 
 #include "simulate/contact/contact_audit.hpp"
@@ -43,7 +43,7 @@ std::vector<std::string> told_of(const simulate::Setup& setup, model::AssembledS
 }
 
 // With all contacts closed, and these held by friction. Afterwards the first coordinate changes by `moved`.
-std::vector<std::string> told(const std::string& scene, const std::vector<int>& held, double moved = 0) {
+std::vector<std::string> warnings_of(const std::string& scene, const std::vector<int>& held, double moved = 0) {
   simulate::Setup setup = simulate::set_up(scene::Scene::parse(scene, "test.json"), registry());
   model::AssembledSystem system(setup.model);
   model::Modes modes{.contacts = std::vector<model::ContactMode>(2), .shared = {}};
@@ -73,11 +73,11 @@ std::vector<std::string> told(const std::string& scene, const std::vector<int>& 
 TEST(ContactAudit, TellsAPullAndAFrictionBeyondItsBoundBesideAnyForceElsewhere) {
   for (const bool on_block : {false, true})
     for (const double mass : {1e-3, 1.0, 1e3, 1e6, 1e9}) {
-      EXPECT_THAT(told(beside(mass, 0.005, 0.002, on_block), {0}), IsEmpty()) << mass;
-      EXPECT_THAT(told(beside(mass, 0.012, 0, on_block), {0}),
+      EXPECT_THAT(warnings_of(beside(mass, 0.005, 0.002, on_block), {0}), IsEmpty()) << mass;
+      EXPECT_THAT(warnings_of(beside(mass, 0.012, 0, on_block), {0}),
                   ElementsAre(HasSubstr("contacts.ball pulled with 0.002 N")))
           << mass;
-      EXPECT_THAT(told(beside(mass, 0.005, 0.003, on_block), {0}),
+      EXPECT_THAT(warnings_of(beside(mass, 0.005, 0.003, on_block), {0}),
                   ElementsAre(HasSubstr("the friction of contacts.ball was 0.0005 N beyond its bound")))
           << mass;
     }
@@ -107,12 +107,12 @@ TEST(ContactAudit, TellsAFrictionAlongItsSlip) {
 TEST(ContactAudit, DoesNotTellRoundOff) {
   for (const bool on_block : {false, true})
     for (const double part : {-1e-15, 0.0, 1e-15})
-      EXPECT_THAT(told(beside(1, 0.01 * (1 + part), 0, on_block), {0}), IsEmpty()) << part;
+      EXPECT_THAT(warnings_of(beside(1, 0.01 * (1 + part), 0, on_block), {0}), IsEmpty()) << part;
 }
 
 // A block on two feet of 5 N, which can hold 1 N and 3 N; springs of equal stiffness would hold 2 N each. Where the
-// push is no more than both can, nothing is told; where it is, by how little.
-TEST(ContactAudit, TellsOfFeetThatCannotHoldByHowLittleAllOfThemFail) {
+// push is no more than both can, nothing is reported; where it is, by how little.
+TEST(ContactAudit, ReportsByHowLittleFeetCannotHold) {
   const auto pushed = [](double push) {
     return fmt::format(R"({{"trammel": 1, "space": "planar", "gravity": [0, -10],
   "bodies": {{"block": {{"type": "rigid_body", "mass": 1, "inertia": 1, "position": [0, 0],
@@ -125,8 +125,8 @@ TEST(ContactAudit, TellsOfFeetThatCannotHoldByHowLittleAllOfThemFail) {
   "simulate": {{"until": 1}}, "record": {{"every": 1, "observe": {{"x": "block.com.x"}}}}}})",
                        push);
   };
-  EXPECT_THAT(told(pushed(4 - 1e-9), {0, 1}), IsEmpty());
-  EXPECT_THAT(told(pushed(4 + 4e-6), {0, 1}),
+  EXPECT_THAT(warnings_of(pushed(4 - 1e-9), {0, 1}), IsEmpty());
+  EXPECT_THAT(warnings_of(pushed(4 + 4e-6), {0, 1}),
               ElementsAre(HasSubstr("the friction of contacts.right was 3e-06 N beyond its bound"),
                           HasSubstr("carry 5e-06 N more than they can")));
 }
@@ -142,8 +142,8 @@ TEST(ContactAudit, TellsOfContactsThatHaveMovedApartButShareARow) {
                "edge": {"type": "constraint_method",
                         "between": ["table.edge", {"plane": {"on": "box.com", "point": [0, 0], "normal": [0, -1]}}]}},
   "simulate": {"until": 1}, "record": {"every": 1, "observe": {"x": "box.com.x"}}})";
-  EXPECT_THAT(told(scene, {}), IsEmpty());
-  EXPECT_THAT(told(scene, {}, 1e-3), ElementsAre(HasSubstr("off those that move the bodies")));
+  EXPECT_THAT(warnings_of(scene, {}), IsEmpty());
+  EXPECT_THAT(warnings_of(scene, {}, 1e-3), ElementsAre(HasSubstr("off those that move the bodies")));
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ Finished strike(const std::string& lower, const std::string& upper, double until
 
 // The lower sheet learns of the pressure though the upper one's points are asked; a third of it lies under the upper
 // one.
-TEST(ContactPressure, IsToldToBothOfTwoSurfaces) {
+TEST(ContactPressure, IsPassedToBothOfTwoSurfaces) {
   const std::string refine = R"(, "refine": {"indicator": "contact_pressure", "threshold": 1e3})";
   const Finished run =
       strike(sheet("[0, 0, 0]", refine), sheet("[0.65, 0.05, 0.0201]", R"(, "velocity": [0, 0, -0.2])"), 0.003);

@@ -198,7 +198,7 @@ TEST(Table, OfManyFeetSlidesSpinsTipsAndStopsByForcesThatContactsHave) {
        {0, 0, 2.1},
        {0.075, 0.086, 46, 10},
        0.5},
-      // In the time after which it is decided who carries, if that is not told, it would come to rest.
+      // It would come to rest within the time after which a later state decides which feet carry (rule 11).
       {2.1,
        0.35,
        {0.12, 0.12, 0.065},
