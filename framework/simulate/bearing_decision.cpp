@@ -6,8 +6,8 @@
 //     modes of the last round -> their exact loads (AssembledSystem::accelerate) -> problem with these loads given ->
 //     modes
 //
-// A joint that locks itself while it slides has no such load: it jams (rule 8). Where everything rests, rounds prove
-// nothing by such modes: loads exist, since large ones hold all joints, and are found as in impacts
+// A joint that locks itself while it slides has no such load: it jams (rule 8). Where everything rests, rounds that
+// meet such modes prove nothing: loads exist, since large ones hold all joints. They are found as in impacts
 // (impact/bearing_impulses.hpp, with forces for impulses).
 //
 // A round that gives the same modes again is the check: it has solved the whole problem with the loads of its own

@@ -24,9 +24,9 @@ bool ContactModes::cannot_follow(int contact, double separation, double accelera
   return separation * separation < chatter_steps_ * error * 2 * -acceleration;
 }
 
-// Whatever has caused it: its own rebound, or the impulses of others, by which a contact that was closed, that only
-// touched, or that was pressed in the same impact may part. If one of these were left out, two corners of a box would
-// throw each other up in turn, without end. With e = 1 flights do not shrink.
+// It parts by its own rebound or by the impulses of others, whether it was closed, only touched, or was pressed in the
+// same impact. If one of these were left out, two corners of a box would throw each other up in turn, without end. With
+// e = 1 flights do not become shorter.
 bool ContactModes::separates(const TouchingContact& c) const {
   return c.restitution < 1 && c.after > scale_.of(c.contact).rest_speed();
 }
@@ -44,8 +44,9 @@ const TouchingContact* ContactModes::beginning_to_slip(const Participant& p) con
 }
 
 // All contacts with so small a separation or slip are judged together: in a pile each flies only as long as its
-// neighbours do. Supposing that all of them rest: those that would press fall back, with the acceleration that their
-// own force prevents; those that would stick stop, with the deceleration that their friction can still supply.
+// neighbours do. The problem of forces is solved as if all of them rested. Those that press in it fall back, with the
+// acceleration that their own force prevents; those that stick stop, with the deceleration that their friction can
+// still give.
 ContactModes::Brief ContactModes::too_brief(const State& state, const ContactChanges& changes) {
   Brief brief{std::vector<bool>(touching_.size(), false), std::vector<bool>(touching_.size(), false)};
   const auto moves = [this](const TouchingContact& c) { return separates(c) || begins_to_slip(c); };
@@ -72,8 +73,8 @@ ContactModes::Brief ContactModes::too_brief(const State& state, const ContactCha
   return brief;
 }
 
-// At the velocities that they would have at rest: those that end ask for accelerations, omega^2 r of a table that
-// rocks, that no forces of contacts which depend on each other have.
+// Solves at the velocities that are left when these rates have ended. With those before, a table that rocks would need
+// accelerations omega^2 r at its feet, and contacts that depend on each other may have no forces that give them.
 void ContactModes::judge_brief(const State& state, std::size_t at_rest_now, Brief& brief) {
   problem_.prepare(system_);
   Vec change;
@@ -101,7 +102,7 @@ bool ContactModes::stops_at_once(std::size_t participant) const {
                                                     -problem_.deceleration_to_spare(participant));
 }
 
-// Contacts whose slip friction does not end at once slide instead of resting. True if there are any: the forces are to
+// Contacts whose slip is not ended at once by friction slide instead of resting. True if there are any: the forces must
 // be found again.
 bool ContactModes::let_fast_slips_go() {
   bool any = false;
@@ -135,8 +136,7 @@ bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
 }
 
 // Ends separations and slips that are too short to follow; impacts of other contacts have caused them. Contacts that
-// nothing connects with these keep their rates, also those that steps have left in them. Returns the energy that this
-// takes [J].
+// nothing connects with these keep all their rates, drift included. Returns the energy that this takes [J].
 double ContactModes::end_rocking(State& state, const Brief& brief) {
   std::set<std::size_t> islands;  // of the scene
   for (std::size_t i = 0; i < touching_.size(); ++i)

@@ -15,7 +15,7 @@ constexpr double part_for_slopes = 1e-3;  // of the step: the difference in time
 constexpr double hides_nothing = 1e-6;    // of the longest step so far: shorter ones come from the location of events
 constexpr double jumps_of_shares = 10;    // of vanished_force: shares follow the motion in small jumps
 constexpr int most_probes = 6;
-constexpr double far = 20;             // of the change of a gap in a step at its rate: a larger gap cannot close
+constexpr double far_gap = 20;         // of the change of a gap in a step at its rate: a larger gap cannot close
 constexpr double as_steep = 4;         // of the steepest slip so far: a steeper one is new
 constexpr double off_cubic = 0.05;     // of a gap or slip: a larger departure from the cubic is more than its error
 constexpr double could_cross = 4;      // of such a departure: values up to this may have been 0 in the step
@@ -99,7 +99,7 @@ bool EventLocation::shares_otherwise(int k) const {
 bool EventLocation::swings_matter(const std::vector<Value>& values, double h) const {
   for (int k = 0; k < int(functions_.size()); ++k) {
     if (functions_[k].at_ends || functions_[k].kind == Kind::slide) continue;
-    if (by_force(k) || values[k].f < far * h * std::abs(values[k].slope)) return true;
+    if (by_force(k) || values[k].f < far_gap * h * std::abs(values[k].slope)) return true;
   }
   return false;
 }

@@ -3,7 +3,7 @@
 // An iteration tries a step towards the next stop (a record time, or the end), lets EventLocation shorten it to the
 // first event, corrects, accepts, and settles the event. The loop cannot hang: every iteration that does not end the
 // run either advances t or is a rejected step, and the step control limits rejections in a row. An event advances t by
-// at least 4 units in the last place. Some hundred events in a row that advance t by little more, or more than
+// at least 4 units in the last place. Some hundred events in a row that advance t by hardly more, or more than
 // `event_limit` events in a thousandth of the run, end the run.
 #pragma once
 

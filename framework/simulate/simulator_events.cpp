@@ -15,7 +15,9 @@ namespace trammel::simulate {
 
 namespace {
 
-constexpr double window_of_storm = 1e-3;  // of the run, in which simulate.event_limit holds
+constexpr double window_of_storm = 1e-3;                           // of the run, in which simulate.event_limit holds
+constexpr double standstill = 64 * eps;                            // of the time: a step up to this does not advance it
+constexpr int most_standing = 100, most_standing_of_contact = 10;  // events in a row: in all, and more for each contact
 
 }  // namespace
 
@@ -70,9 +72,9 @@ std::string Simulator::last_of(int contact) const {
 
 // Events in a row that hardly advance t are a contradiction in the model, not a motion: its modes exclude each other.
 void Simulator::guard_against_standstill(double h, double wanted, int contact) {
-  standing_ = h <= 64 * eps * (std::abs(now_.t) + wanted) ? standing_ + 1 : 0;
+  standing_ = h <= standstill * (std::abs(now_.t) + wanted) ? standing_ + 1 : 0;
   const int contacts = int(system_.model().contacts.size());
-  if (standing_ <= 100 + 10 * contacts) return;
+  if (standing_ <= most_standing + most_standing_of_contact * contacts) return;
   throw RunFailed(fmt::format(
       "{}: {} events in a row without progress in time{}: the contacts' modes contradict each other, as they do where "
       "much friction leaves no motion of rigid contacts; a compliant law, such as continuous_force, has one",

@@ -7,6 +7,13 @@
 #include "system/point/locks_itself.hpp"
 
 namespace trammel::simulate {
+namespace {
+
+// A state whose distance from Painleve's critical state (ContactModes::distance_from_critical) is less counts as that
+// state. Friction that is larger by `past_critical` times the distance is beyond it.
+constexpr double at_critical = 1e-4, past_critical = 10;
+
+}  // namespace
 
 // True if sliding joints lock at the present state. Trial steps have ended there up to round-off.
 bool Simulator::locks_here() {
@@ -29,10 +36,9 @@ bool Simulator::locks_here() {
 // Near Painleve's critical state the forces of sliding contacts grow without end within a finite time, and steps become
 // too short. Slightly larger friction is beyond that state, where an impact without collision ends the slip.
 bool Simulator::near_critical_state() {
-  constexpr double near = 1e-4, beyond = 10;
   const double distance = modes_.distance_from_critical(now_);
-  raised_ = beyond * distance;
-  return distance < near;
+  raised_ = past_critical * distance;
+  return distance < at_critical;
 }
 
 // A force that changes its sign through infinity looks like a release.

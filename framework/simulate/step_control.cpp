@@ -13,7 +13,8 @@ constexpr int most_halvings = 10;  // of a fixed step that the method rejects
 // times must not cost a step of its own; and the shortening up to which a step does not count as cut.
 constexpr double nearly_there = 1e-10, equal_parts = 1e-9, not_cut = 1e-9;
 constexpr double least_error = 1e-4;  // of the tolerance: a smaller one lengthens the next step no further
-constexpr double safety = 0.9, shortest = 0.2, longest = 5.0, shortest_after_rejection = 0.1;  // factors of a step
+// Factors from one step to the next.
+constexpr double safety = 0.9, least_factor = 0.2, largest_factor = 5.0, least_after_rejection = 0.1;
 constexpr double worth_a_change = 1.25;  // even steps are not lengthened by less
 constexpr int last_even_steps = 8;       // before a stop, of equal lengths
 }  // namespace
@@ -60,9 +61,10 @@ void StepControl::accepted(const Proposal& taken, double error) {
   halvings_ = 0;
   if (!controlled()) return;
   const double e = std::max(error, least_error), p = order_;
-  double factor = std::clamp(safety * std::pow(e, -0.7 / p) * std::pow(error_before_, 0.4 / p), shortest, longest);
+  double factor =
+      std::clamp(safety * std::pow(e, -0.7 / p) * std::pow(error_before_, 0.4 / p), least_factor, largest_factor);
   if (even_) {
-    factor = std::min(safety * std::pow(std::max(e, error_before_), -1 / p), longest);
+    factor = std::min(safety * std::pow(std::max(e, error_before_), -1 / p), largest_factor);
     if (factor < worth_a_change) factor = 1;
   }
   const double next = taken.h * factor;
@@ -72,8 +74,8 @@ void StepControl::accepted(const Proposal& taken, double error) {
 }
 
 void StepControl::rejected_for_error(double h, double error) {
-  // The shortest, too, if the error is not finite: max returns its first argument then.
-  wish_ = h * std::max(shortest_after_rejection, safety * std::pow(error, -1.0 / order_));
+  // If the error is not finite, max returns its first argument.
+  wish_ = h * std::max(least_after_rejection, safety * std::pow(error, -1.0 / order_));
 }
 
 void StepControl::rejected(double h) {

@@ -1,11 +1,12 @@
 // Thresholds that exceed the motion to which they apply: they then hide the motion itself.
 //
-//     integrator.step.absolute              the error that a step may make, compared with the scene's size
-//     (ContactScale)
-//     contacts.NAME.capture_speed           speed below which impacts have no rebound, compared with the contact's
-//     fastest impact; also if it is derived from the scene's speed
-//     contacts.NAME.friction.stick_speed    speed below which it sticks, compared with the contact's fastest slip
-//     creep of a smooth friction law        in place of sticking, compared with the same
+//     threshold                             what it decides                    compared with
+//     integrator.step.absolute              the error that a step may make     the scene's size (ContactScale)
+//     contacts.NAME.capture_speed           slower impacts have no rebound     the contact's fastest impact
+//     contacts.NAME.friction.stick_speed    slower slips stick                 the contact's fastest slip
+//     creep of a smooth friction law        it creeps in place of sticking     the contact's fastest slip
+//
+// The capture speed is compared also if it is derived from the scene's speed.
 #pragma once
 
 #include <string>

@@ -8,6 +8,7 @@ namespace trammel::simulate {
 namespace {
 
 constexpr double round_off = 1e-9;  // of the forces that act on a contact
+constexpr int most_releases = 100;  // in all: a set that opens and closes without end has no equilibrium
 
 }  // namespace
 
@@ -60,7 +61,7 @@ std::vector<int> RestingContacts::pulling(const Vec& lambda) {
 bool RestingContacts::release_pulling(const Vec& lambda) {
   bool changed = false;
   for (const int i : pulling(lambda)) {
-    if (released_ >= 100) break;
+    if (released_ >= most_releases) break;
     modes_.contacts[std::size_t(i)].closed = false;
     changed = true, ++released_;
   }

@@ -1,7 +1,7 @@
 // Which contacts push on a system at rest. Compliant ones are always evaluated: their law gives 0 while they are apart.
-// Contacts with rows are closed where they push (gap = 0, force >= 0) and open elsewhere. They are found by closing
-// those that penetrate and opening those that pull by more than the round-off of the forces on them (force_noise.hpp),
-// until neither exists.
+// Contacts with rows are closed where they push (gap = 0, force >= 0) and open elsewhere. To find these, those that
+// penetrate are closed and those that pull by more than the round-off of the forces on them (force_noise.hpp) are
+// opened, until there are none.
 #pragma once
 
 #include <vector>
@@ -22,7 +22,7 @@ class RestingContacts {
   // These three work at the system's point and return true if the rows have changed.
   void close_what_may_push();
   bool close_penetrating();
-  // Opens at most 100 contacts in all: a set that opens and closes without end has no equilibrium.
+  // Opens a limited number of contacts in all.
   bool release_pulling(const Vec& lambda);
   // Lets contacts with friction stick, so that what rests on a moving base moves with it.
   void carry_along();
