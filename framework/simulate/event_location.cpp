@@ -207,15 +207,14 @@ void EventLocation::earliest_first(std::vector<Suspect>& suspects) const {
   std::stable_sort(suspects.begin(), suspects.end(), [](const auto& a, const auto& b) { return a.about < b.about; });
 }
 
-EventLocation::Found EventLocation::examine(const State& now, double& h, State& next, bool controlled,
-                                            bool may_shorten) {
-  const auto passes_infinity = [&] { return controlled && any_opposite(signs_, signs_next_); };
+EventLocation::Found EventLocation::examine(const State& now, double& h, State& next, Steps steps) {
+  const auto passes_infinity = [&] { return steps != Steps::fixed && any_opposite(signs_, signs_next_); };
   evaluate(next, next_, signs_next_);
   for (const Value& value : next_)
     if (!std::isfinite(value.f)) return Found::not_finite;
   if (passes_infinity()) return Found::passes_infinity;
   forget_trials();
-  if (may_shorten && hides(now, h, next)) return Found::step_too_long;
+  if (steps == Steps::controlled && hides(now, h, next)) return Found::step_too_long;
   try {
     find_suspects(now, h, next);
     if (suspects_.empty()) {

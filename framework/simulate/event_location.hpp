@@ -66,12 +66,15 @@ class EventLocation {
   bool has_contacts() const { return !system_.model().contacts.empty(); }
   void restart(const State& now);  // modes or state changed
 
+  // Fixed steps are taken whatever they hide. A controlled one is refused if forces pass infinity in it, and, unless
+  // hardly any shorter one is left, if it is too long to show events.
+  enum class Steps { fixed, controlled, nearly_shortest };
   enum class Found { nothing, event, step_refused, step_too_long, passes_infinity, not_finite };
   // Examines the trial now -> next over h. Found::event: h and next are shortened to the event, `changes` are the
-  // changes there. Found::step_too_long only if `may_shorten`: next must not be accepted. Found::not_finite: a gap or a
-  // force at next is not finite, though the state may be (a law of time that ended under a body).
-  // Found::passes_infinity only if `controlled`: next must not be accepted either.
-  Found examine(const State& now, double& h, State& next, bool controlled, bool may_shorten);
+  // changes there. Found::not_finite: a gap or a force at next is not finite, though the state may be (a law of time
+  // that ended under a body). next must not be accepted after Found::step_too_long (Steps::controlled only) and
+  // Found::passes_infinity (not Steps::fixed).
+  Found examine(const State& now, double& h, State& next, Steps steps);
   const ContactChanges& changes() const { return changes_; }
   // [s] Limit of the next step: `swings` (ContactModes::step_limit), or more if every closed contact slides so fast
   // that a longer step takes at most a quarter of its slip, which then has no zero to pass over.

@@ -17,6 +17,7 @@ namespace trammel::simulate {
 namespace {
 
 constexpr std::size_t most_warnings = 20;
+constexpr double nearly_shortest = 64;  // times the shortest step: one of no more is not shortened to show events
 constexpr double same_record = 1e-9;  // of the time between two records: times differ from their multiples by round-off
 
 int error_order(Integrator& integrator) {
@@ -207,9 +208,10 @@ bool Simulator::within_tolerance(Trial& trial) {
 // Shortens the trial to its first event. False: it shows too little of what contacts did within it.
 bool Simulator::examine_contacts(Trial& trial) {
   using Found = EventLocation::Found;
-  const bool controlled = control().controlled();
-  const bool may_shorten = controlled && trial.h > 64 * control().smallest(now_.t);
-  trial.found = location_.examine(now_, trial.h, next_, controlled, may_shorten);
+  using Steps = EventLocation::Steps;
+  const bool can_shorten = trial.h > nearly_shortest * control().smallest(now_.t);
+  const Steps steps = !control().controlled() ? Steps::fixed : can_shorten ? Steps::controlled : Steps::nearly_shortest;
+  trial.found = location_.examine(now_, trial.h, next_, steps);
   switch (trial.found) {
     case Found::nothing:
     case Found::event:
