@@ -103,7 +103,7 @@ void SpringImpact::handle_events() {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (contacts_[i].mode == Tangent::sticks) stuck.push_back(i);
     if (contacts_[i].mode == Tangent::sticks && margins_[i].tangent < -tolerance) gave_way = true;
-    if (margins_[i].normal < -tolerance) handle_normal(i);
+    if (margins_[i].normal() < -tolerance) handle_normal(i);
   }
   u_ = rates();
   choose_tangents();

@@ -25,6 +25,8 @@
 // equation. Midpoint steps extrapolated to order 12 (Gragg, Bulirsch, Stoer) follow it to round-off.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "complementarity/contact_forces.hpp"
@@ -59,6 +61,9 @@ class SpringImpact {
   // compressed, and the work that ended the last approaches.
   double taken_at_end() const { return taken_at_end_; }
   bool cut_short() const { return cut_short_; }  // ended without restitution, after `most_phases`
+  // Events of the course, and trials to locate them.
+  int events() const { return events_; }
+  int trials() const { return trials_; }
   static constexpr int most_phases = 1000;
 
  private:
@@ -97,22 +102,26 @@ class SpringImpact {
   void forces(const Vec& y, const Vec& u, Vec& f) const;
   double extrapolate(const Vec& y, double h, Vec& y_end);
   bool dips_within(const Vec& y, double h, const Vec& y_end);
-  double locate(const Vec& y, double h, double at_end, Vec& y_end);
+  double locate(const Vec& y, double h, Vec& y_end);
   bool midpoint(const Vec& y, double h, int n, Vec& y_end);
   bool turned_from(const Vec& u) const;
   void take(const Vec& y);
   Vec state() const;
 
-  // Events are negative margins. `Margins`: the smallest one, and those of each contact.
+  // Events are negative margins: of a contact, those of its spring, its rate and its friction. A margin that the
+  // contact does not have in its mode is infinite.
+  static constexpr double no_event = std::numeric_limits<double>::infinity();
   struct Margins {
-    double normal = 0, tangent = 0;
+    double spring = no_event, rate = no_event, tangent = no_event;
+    double normal() const { return std::min(spring, rate); }
   };
-  double margin(const Vec& y);
+  Vec event_functions(const Vec& y);  // all margins
   void all_margins(const Vec& y, std::vector<Margins>& margins);
   bool some_forces_hold(const Vec& f) const;
 
   bool rubs(const Contact& c) const { return c.presses && c.mu_0 > 0 && c.tangent >= 0; }
-  Vec slip(const Contact& c, const Vec& u) const { return u.segment(c.tangent, t_); }
+  using Slip = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2, 1>;  // without memory of its own from the heap
+  Slip slip(const Contact& c, const Vec& u) const { return u.segment(c.tangent, t_); }
   std::vector<Eigen::Index> sticking_rows() const;
   std::vector<complementarity::ContactPoint> resting_points(const Vec& F, const std::vector<std::size_t>& resting,
                                                             const std::vector<bool>& let_go) const;
@@ -133,7 +142,9 @@ class SpringImpact {
   int standing_ = 0;  // events in a row at one instant
   double taken_at_end_ = 0;
   bool cut_short_ = false;
-  Vec u_, f_, dy_, middle_, ahead_;
+  int events_ = 0, trials_ = 0;
+  Vec u_, f_, dy_, middle_;
+  mutable Vec held_;
   std::vector<Margins> margins_;
 };
 

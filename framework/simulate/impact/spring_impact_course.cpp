@@ -16,9 +16,19 @@ constexpr double least_error = 1e-30;  // of a step, relative to `step_error`: k
 // Times in units of the springs': a step that is taken whatever its error; a way between events that is no progress; a
 // step that may hide an event inside; the longest step, and a course that does not end.
 constexpr double shortest = 1e-12, no_progress = 1e-12, may_hide = 1e-3, longest = 1e9, endless = 1e8;
-// Trials of the location of an event, the later ones by bisection; of the step: a bracket at round-off.
-constexpr int most_trials = 100, interpolations = 20;
+// Trials of the location of an event, a third of them by bisection if need be; of the step: a bracket at round-off.
+constexpr int most_trials = 150;
 constexpr double narrowest = 1e-15;
+// In tolerances: an event whose function is below its negative has passed; where one is located, it is above.
+constexpr double passed = 10;
+
+// Where functions that are positive at lo and negative at hi are 0 first, each by the straight line through its ends.
+double first_zero(double lo, const Vec& at_lo, double hi, const Vec& at_hi) {
+  double first = hi;
+  for (Eigen::Index j = 0; j < at_hi.size(); ++j)
+    if (at_hi[j] < 0) first = std::min(first, hi - (hi - lo) * at_hi[j] / (at_hi[j] - at_lo[j]));
+  return first;
+}
 
 }  // namespace
 
@@ -43,10 +53,12 @@ void SpringImpact::forces(const Vec& y, const Vec& u, Vec& f) const {
     const double F = f[c.normal] = k_ * y[Eigen::Index(i)];
     if (c.mode != Tangent::slides) continue;
     const bool turns = t_ == 2 && c.slid;
-    const Vec direction = turns ? Vec(slip(c, u).normalized()) : Vec(c.direction.head(t_));
+    const Slip direction = turns ? Slip(slip(c, u).normalized()) : Slip(c.direction.head(t_));
     f.segment(c.tangent, t_) = -c.mu * F * direction;
   }
-  if (!sticking_.empty()) f(sticking_) = hold_ * f;
+  if (sticking_.empty()) return;
+  held_.noalias() = hold_ * f;
+  f(sticking_) = held_;
 }
 
 void SpringImpact::derivative(const Vec& y, Vec& dy) {
@@ -67,7 +79,7 @@ void SpringImpact::derivative(const Vec& y, Vec& dy) {
 bool SpringImpact::turned_from(const Vec& u) const {
   for (const Contact& c : contacts_) {
     if (t_ == 1 || !c.presses || c.mode != Tangent::slides || !c.slid) continue;
-    const Vec s = slip(c, u), now = slip(c, u_);
+    const Slip s = slip(c, u), now = slip(c, u_);
     if (s.dot(now) < 0.5 * s.norm() * now.norm()) return true;
   }
   return false;
@@ -122,28 +134,34 @@ bool SpringImpact::dips_within(const Vec& y, double h, const Vec& y_end) {
     const double r = 1 - s;
     return Vec(r * r * (1 + 2 * s) * y + s * s * (3 - 2 * s) * y_end + h * s * r * (r * slope - s * slope_end));
   };
-  return std::min({margin(between(0.25)), margin(between(0.5)), margin(between(0.75))}) < -tolerance;
+  for (const double s : {0.25, 0.5, 0.75})
+    if (event_functions(between(s)).minCoeff() < -tolerance) return true;
+  return false;
 }
 
-// Finds the first event within h by the Illinois method; the margin ends between 1 and 9 tolerances below 0. Returns
-// its time. `y_end` is the state after h on entry, with the margin `at_end`, and the state at the event on return.
-double SpringImpact::locate(const Vec& y, double h, double at_end, Vec& y_end) {
-  const double aim = 5 * tolerance;
-  Vec inside;
-  double lo = 0, hi = h, off = at_end + aim;  // of the margin from the aim, at hi
-  double weight_lo = std::max(0.0, margin(y)) + aim, weight_hi = off;
-  for (int i = 0, side = 0; i < most_trials && off < -4 * tolerance && hi - lo > narrowest * h; ++i) {
-    double middle = hi - weight_hi * (hi - lo) / (weight_hi - weight_lo);
-    if (i > interpolations || !(middle > lo && middle < hi)) middle = 0.5 * (lo + hi);
+// Finds the first event within h; its margin ends between 1 and 9 tolerances below 0. Returns its time. `y_end` is the
+// state after h on entry, and the state at the event on return. By the Illinois method for each function of its own, as
+// the least of all functions is often 0 at the start, where another one begins at 0 and grows. Where that is slow, by
+// bisection.
+double SpringImpact::locate(const Vec& y, double h, Vec& y_end) {
+  const double aim = 5 * tolerance, within = 4 * tolerance;
+  Vec inside, at_lo = event_functions(y).cwiseMax(0).array() + aim, at_hi = event_functions(y_end).array() + aim;
+  double lo = 0, hi = h, off = at_hi.minCoeff(), wide = h;
+  for (int i = 0, side = 0; i < most_trials && off < -within && hi - lo > narrowest * h; ++i) {
+    const bool slow = i % 3 == 2 && hi - lo > wide / 2;
+    double middle = slow ? lo : first_zero(lo, at_lo, hi, at_hi);
+    if (!(middle > lo && middle < hi)) middle = 0.5 * (lo + hi);
+    if (i % 3 == 2) wide = hi - lo;
     extrapolate(y, middle, inside);
-    const double at = margin(inside) + aim;
-    if (at <= 4 * tolerance) {
-      hi = middle, off = weight_hi = at, y_end = inside;
-      if (side < 0) weight_lo /= 2;
+    ++trials_;
+    const Vec at = event_functions(inside).array() + aim;
+    if (at.minCoeff() <= within) {
+      hi = middle, off = at.minCoeff(), at_hi = at, y_end = inside;
+      if (side < 0) at_lo /= 2;
       side = -1;
     } else {
-      lo = middle, weight_lo = at;
-      if (side > 0) weight_hi /= 2;
+      lo = middle, at_lo = at;
+      if (side > 0) at_hi /= 2;
       side = 1;
     }
   }
@@ -160,9 +178,9 @@ bool SpringImpact::advance_to_event() {
       h_ *= std::isfinite(error) ? factor : 0.2;
       continue;
     }
-    const double at_end = margin(y_end);
-    if (at_end < -tolerance) {
-      gone += locate(y, h_, at_end, y_end);
+    if (event_functions(y_end).minCoeff() < -tolerance) {
+      gone += locate(y, h_, y_end);
+      ++events_;
       take(y_end);
       standing_ = gone > no_progress ? 0 : standing_ + 1;
       return standing_ <= 50 + 10 * n_;
@@ -180,11 +198,14 @@ bool SpringImpact::advance_to_event() {
   return false;
 }
 
-double SpringImpact::margin(const Vec& y) {
+Vec SpringImpact::event_functions(const Vec& y) {
   all_margins(y, margins_);
-  double least = std::numeric_limits<double>::infinity();
-  for (const Margins& m : margins_) least = std::min({least, m.normal, m.tangent});
-  return least;
+  Vec values(3 * n_);
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    const Margins& m = margins_[std::size_t(i)];
+    values.segment<3>(3 * i) << m.spring, m.rate, m.tangent;
+  }
+  return values;
 }
 
 void SpringImpact::all_margins(const Vec& y, std::vector<Margins>& margins) {
@@ -193,26 +214,33 @@ void SpringImpact::all_margins(const Vec& y, std::vector<Margins>& margins) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Contact& c = contacts_[i];
     const double x = y[Eigen::Index(i)] / v_, rate = u_[c.normal] / v_;
-    margins[i].normal = !c.presses ? rate : c.compresses ? -rate : std::min(x, rate);
+    margins[i].rate = c.presses && c.compresses ? -rate : rate;
+    if (c.presses && !c.compresses) margins[i].spring = x;
     if (!c.presses || c.mode == Tangent::none) continue;
     if (c.mode == Tangent::sticks) {
       margins[i].tangent = (c.mu_0 * f_[c.normal] - f_.segment(c.tangent, t_).norm()) / (k_ * v_);
     } else {
-      const Vec s = slip(c, u_);
+      const Slip s = slip(c, u_);
       const bool turns = t_ == 2 && c.slid;
       margins[i].tangent = (turns ? s.norm() - slow_ : s.dot(c.direction.head(t_)) + (c.slid ? 0 : 2 * slow_)) / v_;
     }
   }
   if (!dependent_) return;
-  // Friction forces of dependent contacts are not unique.
+  // Friction forces of dependent contacts are not unique. Whether others hold is asked only where no other function
+  // says that an event has passed.
   const auto too_large = [](const Contact& c, const Margins& m) {
     return c.presses && c.mode == Tangent::sticks && m.tangent < -tolerance;
   };
   bool any = false;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) any = any || too_large(contacts_[i], margins[i]);
-  if (!any || !some_forces_hold(f_)) return;
+  double others = no_event;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const bool asks = too_large(contacts_[i], margins[i]);
+    any = any || asks;
+    others = std::min({others, margins[i].normal(), asks ? no_event : margins[i].tangent});
+  }
+  if (!any || (others >= -passed * tolerance && !some_forces_hold(f_))) return;
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (contacts_[i].mode == Tangent::sticks) margins[i].tangent = std::max(0.0, margins[i].tangent);
+    if (contacts_[i].mode == Tangent::sticks && margins[i].tangent < 0) margins[i].tangent = no_event;
 }
 
 }  // namespace trammel::simulate

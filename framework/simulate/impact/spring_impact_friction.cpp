@@ -92,7 +92,7 @@ std::vector<std::size_t> SpringImpact::choose_sliding(Vec& F, Vec& f) {
     if (c.presses) f[c.normal] = F[c.normal] = k_ * std::max(0.0, x_[Eigen::Index(i)] - ahead * u_[c.normal]);
     c.mode = Tangent::none;
     if (!rubs(c)) continue;
-    const Vec s = slip(c, u_);
+    const Slip s = slip(c, u_);
     if (!(s.norm() > 2 * slow_)) {
       resting.push_back(i);
       continue;

@@ -83,6 +83,22 @@ TEST(EnergeticLaw, GivesBackOfEachContactsCompressionThePartThatItAsks) {
   EXPECT_GT(judged, 350);
 }
 
+// After each event some function of the events is 0 (the rate where a compression has ended, that of a contact that has
+// been left) and grows, while another one falls to the next event.
+TEST(EnergeticLaw, LocatesEachEventInFewTrialsThoughOtherFunctionsBeginAtZero) {
+  std::mt19937 random(4);
+  int events = 0, trials = 0;
+  for (int i = 0; i < 60; ++i) {
+    Kinds kinds = kinds_of(i);
+    kinds.contacts = kinds.spatial ? 4 : 8;
+    const StruckBodies s = RandomStrike(random, kinds).make();
+    const simulate::SpringImpact impact = struck(s, i);
+    events += impact.events(), trials += impact.trials();
+  }
+  EXPECT_GT(events, 1000);
+  EXPECT_LT(trials, 8 * events) << events;
+}
+
 // Without friction the normal's work is the change of energy, by Newton's u+ = -e u-; and e^2 of compression comes
 // back.
 TEST(EnergeticLaw, IsNewtonsLawOfOneContactWithoutFriction) {
