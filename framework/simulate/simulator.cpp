@@ -319,7 +319,7 @@ void Simulator::record_inside(RecordSink& recorder) {
 }
 
 std::vector<std::string> Simulator::doubts() const {
-  std::vector<std::string> all = audit_.warnings(system_.model(), ledger_);
+  std::vector<std::string> all = audit_.warnings(system_.model(), ledger_, energy_.none());
   const std::vector<std::string> of_impacts = modes_.impact_warnings().lines(system_.model());
   all.insert(all.end(), of_impacts.begin(), of_impacts.end());
   const std::vector<std::string> of_theories = theories_.warnings();

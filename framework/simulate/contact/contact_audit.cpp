@@ -138,7 +138,8 @@ void ContactAudit::look_at_groups(model::AssembledSystem& system, double t, cons
   }
 }
 
-std::vector<std::string> ContactAudit::warnings(const model::Model& model, const Ledger& ledger) const {
+std::vector<std::string> ContactAudit::warnings(const model::Model& model, const Ledger& ledger,
+                                                double no_energy) const {
   std::vector<std::string> texts;
   const auto name = [&model](int contact) { return model.contacts[std::size_t(contact)].path(); };
   if (pull_.contact >= 0)
@@ -162,7 +163,7 @@ std::vector<std::string> ContactAudit::warnings(const model::Model& model, const
         name(unbalanced_.contact), unbalanced_.force, unbalanced_.t));
   const double moved = std::abs(ledger.dissipated()) + std::abs(ledger.supplied()) + ledger.friction().lpNorm<1>();
   for (Eigen::Index i = 0; i < ledger.friction().size(); ++i)
-    if (ledger.friction()[i] < -little * moved)
+    if (-ledger.friction()[i] > std::max(little * moved, no_energy))
       texts.push_back(fmt::format("not to be trusted: the friction of {} supplied {:.3g} J; friction only takes",
                                   name(int(i)), -ledger.friction()[i]));
   return texts;

@@ -5,6 +5,8 @@
 // The scale of the round-off are the forces that act on the contact itself (force_noise.hpp). Contacts that share rows
 // are checked together (AssembledSystem::spare_load); what they miss counts if it could accelerate a body. Their forces
 // have the resultants that move the bodies only as long as their rows depend on each other (AssembledSystem::off_span).
+// Friction that supplies energy counts where this is more than 1e-8 of all that was lost and supplied, and more than
+// counts as none in the scene: what rests and moves by round-off only exchanges energies of round-off.
 // A violation becomes a warning: the run cannot be trusted there. The audit also keeps when contacts were statically
 // indeterminate: closed with rows that depend on each other, so that their forces are not unique
 // (complementarity/shares/carrying_rows.hpp).
@@ -28,7 +30,8 @@ class ContactAudit {
     double first = 0, last = 0;  // [s]
   };
   const std::map<int, Span>& indeterminate() const { return indeterminate_; }  // by contact
-  std::vector<std::string> warnings(const model::Model& model, const Ledger& ledger) const;
+  // `no_energy` [J]: what counts as none in the scene (watch/energy_watch.hpp).
+  std::vector<std::string> warnings(const model::Model& model, const Ledger& ledger, double no_energy) const;
 
   void archive(Archive& a, std::size_t contacts);
 

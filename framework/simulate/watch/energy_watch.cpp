@@ -55,7 +55,7 @@ double EnergyWatch::relative_drift(const Energy& energy) {
 // length gives, or of `work` if that is more; a nanojoule if there is neither. That is ten times the energy of a fall
 // through the last digits of a scene: a contact that is closed at the start may be off by those, and the stabilisation
 // of its row closes it in steps of any length.
-double EnergyWatch::little(double work) {
+double EnergyWatch::little(double work) const {
   constexpr double part = 1e-8, nanojoule = 1e-9;
   if (system_.sizes().nv == 0) return nanojoule;
   const double speed = std::max(scale_.scene().speed, scale_.scene().motion);

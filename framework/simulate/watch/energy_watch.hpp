@@ -37,11 +37,12 @@ class EnergyWatch {
 
   double drift(const Energy& energy) const { return energy.total() - ledger_.energy(); }  // [J]
   double relative_drift(const Energy& energy);                                            // at the system's point
+  double none() const { return little(0); }  // [J] counts as no energy in this scene; at the system's point
 
   void archive(Archive& a);
 
  private:
-  double little(double work);
+  double little(double work) const;
   double work_over_length();
 
   model::AssembledSystem& system_;

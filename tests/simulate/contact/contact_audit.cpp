@@ -4,6 +4,7 @@
 #include "simulate/contact/contact_audit.hpp"
 #include "simulate/contact/contact_problem.hpp"
 #include "simulate/start/setup.hpp"
+#include "simulate/watch/energy_watch.hpp"
 #include "support/made.hpp"
 #include "support/run_scene.hpp"
 
@@ -39,7 +40,7 @@ std::vector<std::string> told_of(const simulate::Setup& setup, model::AssembledS
   scale.take_all(system);
   simulate::ContactAudit audit;
   audit.look(system, state, scale);
-  return audit.warnings(*setup.model, simulate::Ledger(system, *setup.integrator));
+  return audit.warnings(*setup.model, simulate::Ledger(system, *setup.integrator), 0);
 }
 
 // With all contacts closed, and these held by friction. Afterwards the first coordinate changes by `moved`.
@@ -100,6 +101,37 @@ TEST(ContactAudit, TellsAFrictionAlongItsSlip) {
       EXPECT_THAT(warnings, IsEmpty());
     else
       EXPECT_THAT(warnings, ElementsAre(HasSubstr("contacts.ball pushed along its slip with 0.005 N")));
+  }
+}
+
+// A slip that is round-off, in the direction that a friction pushes for a second, is no supply of energy.
+TEST(ContactAudit, TellsAFrictionThatSuppliesEnergyButNotByRoundOff) {
+  const std::string scene = beside(1, 0, 0, false);
+  simulate::Setup setup = simulate::set_up(scene::Scene::parse(scene, "test.json"), registry());
+  model::AssembledSystem system(setup.model);
+  for (const double speed : {1.0, 1e-3, 1e-12, 1e-15, 1e-18}) {
+    State now = setup.initial;
+    now.v[0] = speed;
+    model::Modes modes{.contacts = std::vector<model::ContactMode>(2), .shared = {}};
+    modes.contacts[0].closed = true;
+    modes.contacts[0].friction = model::ContactMode::Friction::slide;
+    modes.contacts[0].direction = model::Tangential(-1, 0);
+    system.set_modes(modes);
+    system.move_to(now.t, now.q, now.v);
+    system.accelerate({}, now.a, now.lambda);
+    State next = now;
+    next.t += 1, next.q[0] += speed;
+    simulate::Ledger ledger(system, *setup.integrator);
+    ledger.start(now), ledger.restart(now), ledger.step(now, next);
+    ASSERT_LT(ledger.friction()[0], 0);
+    simulate::ContactScale scale(*setup.model);
+    scale.take_all(system);
+    const double none = simulate::EnergyWatch(system, scale, ledger).none();
+    const std::vector<std::string> warnings = simulate::ContactAudit().warnings(*setup.model, ledger, none);
+    if (speed > 1e-6)
+      EXPECT_THAT(warnings, ElementsAre(HasSubstr("the friction of contacts.ball supplied"))) << speed;
+    else
+      EXPECT_THAT(warnings, IsEmpty()) << speed;
   }
 }
 
