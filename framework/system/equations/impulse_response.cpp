@@ -11,15 +11,20 @@ void ImpulseResponse::respond(const std::vector<ContactDirection>& directions, M
   const int nv = at_.model->sizes.nv;
   const auto n = Eigen::Index(directions.size());
   const Solver dv_of = with_joints_held();
-  Mat N = Mat::Zero(nv, n);
+  Mat N = Mat::Zero(nv, n), momenta(nv, n);
   jump.resize(nv, n);
-  Vec dv, on_joints;
+  Vec dv, on_joints, momentum;
   for (Eigen::Index i = 0; i < n; ++i) {
     N.col(i) = unit_impulse(directions[std::size_t(i)]);
     dv_of(N.col(i), dv, on_joints);
     jump.col(i) = dv;
+    momentum.setZero(nv);
+    masses_.add_times(1, dv, momentum);
+    momenta.col(i) = momentum;
   }
-  delassus.noalias() = N.transpose() * jump;
+  // N^T P N = (P N)^T M (P N), where P holds the joints. In N^T (P N) terms cancel along directions that joints nearly
+  // fix (a tangent that almost passes through an axle), and rows that depend on each other would not look like it.
+  delassus.noalias() = jump.transpose() * momenta;
   clear_held(N, jump, delassus);
 }
 
