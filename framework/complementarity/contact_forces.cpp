@@ -65,6 +65,9 @@ class Cascade {
       if (outcome == LcpOutcome::solved) return found(F);
       if (outcome == LcpOutcome::no_solution) return {LcpOutcome::no_solution, least_};
     }
+    Vec swept = Vec::Zero(b_.size());
+    if (sweep_cones(points_, A_, b_, swept)) accept(swept);
+    if (least_ <= largest_violation) return found(F);
     return {LcpOutcome::gave_up, least_};
   }
 

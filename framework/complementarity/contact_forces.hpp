@@ -9,6 +9,7 @@
 //  3. If that fails: all modes of few contacts by branch and bound (mode_search.hpp), up to 24 contacts in the plane
 //     and 4 in space. It finds a solution or proves, up to a bound on the forces, that there is none (Painleve). It
 //     gives up if something comes within 1e-8 of b of a solution and is none, and after 20,000 sets of modes.
+//  4. If that is not possible or gives up: sweeps over the contacts until Newton's method ends in a solution.
 //
 // Every answer is made exact (exact_modes.hpp) and checked; its violation of the conditions is returned. Degenerate
 // problems have a defined result: c N = 0 (a contact that just touches) gives T = 0 and leaves a_t as it is; a force

@@ -107,4 +107,44 @@ Problem any_spatial_structure(std::mt19937& random, double most_friction) {
   }
 }
 
+Problem plate_on_balls(std::mt19937& random, int balls, double mu) {
+  constexpr double radius = 0.05, half = 0.02;  // [m] of a ball; of the plate's thickness
+  const double plate = 20, ball = 0.5, turning = 0.6;
+  const Eigen::Index nv = 6 * (balls + 1);
+  Vec weight(nv), a = Vec::Zero(nv);
+  weight.head(3).setConstant(1 / plate), weight.segment(3, 3).setConstant(1 / turning);
+  a.head(6) << uniform(random, -8, 8), uniform(random, -8, 8), -9.81, uniform(random, -40, 40),
+      uniform(random, -40, 40), uniform(random, -5, 5);
+  const double direction = uniform(random, 0, 2 * std::numbers::pi);
+  const Eigen::AngleAxisd tilt(2 * std::atan(mu) * uniform(random, 0.9, 1.1),
+                               Vector3d(std::cos(direction), std::sin(direction), 0));
+  Problem problem;
+  problem.kind = "plate on balls";
+  Mat G = Mat::Zero(6 * balls, nv);
+  for (int i = 0; i < balls; ++i) {
+    const Eigen::Index at = 6 * (i + 1);
+    weight.segment(at, 3).setConstant(1 / ball), weight.segment(at + 3, 3).setConstant(2.5 / (ball * radius * radius));
+    a[at + 2] = -9.81;
+    const Vector3d on_plate = tilt * Vector3d(uniform(random, -0.25, 0.25), uniform(random, -0.25, 0.25), -half);
+    for (int upper = 0; upper < 2; ++upper) {
+      const Vector3d normal = upper ? Vector3d(tilt * -Vector3d::UnitZ()) : Vector3d(Vector3d::UnitZ());
+      const Vector3d first = normal.unitOrthogonal();
+      const Vector3d axes[] = {normal, first, normal.cross(first)};
+      const int row = 6 * i + 3 * upper;
+      for (int k = 0; k < 3; ++k) {
+        G.row(row + k).segment(at, 6) << axes[k].transpose(), (-radius * normal).cross(axes[k]).transpose();
+        if (upper) G.row(row + k).head(6) << -axes[k].transpose(), -on_plate.cross(axes[k]).transpose();
+      }
+      problem.points.push_back({.normal = row,
+                                .tangent = row + 1,
+                                .tangents = 2,
+                                .kind = ContactPoint::Tangent::resting,
+                                .coefficient = mu});
+    }
+  }
+  problem.A = G * weight.asDiagonal() * G.transpose();
+  problem.b = G * a;
+  return problem;
+}
+
 }  // namespace trammel::complementarity

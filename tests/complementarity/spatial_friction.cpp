@@ -22,6 +22,10 @@ RandomKinds any_kinds(std::mt19937& random, int contacts) {
   return kinds;
 }
 
+double uniform_coefficient(std::mt19937& random) {
+  return std::uniform_real_distribution<double>(0.2, 1)(random);
+}
+
 bool dense_polyhedral_cone_has_forces(const Problem& problem) {
   const PolyhedralCone cone(problem.points, problem.A, problem.b, 0, 64);
   Vec z, w;
@@ -40,8 +44,26 @@ void expect_forces_or_a_proof(const Problem& problem, int number) {
 
 TEST(SpatialFriction, IsFoundOrProvedNotToExist) {
   std::mt19937 random(61);
-  for (int i = 0; i < 4000; ++i) expect_forces_or_a_proof(random_spatial(random, any_kinds(random, 1 + i % 4)), i);
-  for (int i = 0; i < 1000; ++i) expect_forces_or_a_proof(any_spatial_structure(random, 2), i);
+  for (int i = 0; i < 20000; ++i) expect_forces_or_a_proof(random_spatial(random, any_kinds(random, 1 + i % 4)), i);
+  for (int i = 0; i < 2000; ++i) expect_forces_or_a_proof(any_spatial_structure(random, 2), i);
+}
+
+// Where a ball is about to be wedged. Some of these problems have minima of the natural map that are no solutions, and
+// Newton's method ends there.
+TEST(SpatialFriction, IsFoundForAPlateThatLeansOnBalls) {
+  std::mt19937 random(63);
+  int gave_up = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Problem problem = plate_on_balls(random, 3 + i % 4, uniform_coefficient(random));
+    const Problem renamed = permuted(problem, random_order(random, problem.points.size()));
+    for (const Problem& each : {problem, renamed}) {
+      const Answer answer = solve(each);
+      gave_up += answer.outcome != LcpOutcome::solved;
+      if (answer.outcome != LcpOutcome::solved) continue;
+      EXPECT_LE(offence(each, answer.F, answer.a), little(each, answer.F)) << i;
+    }
+  }
+  EXPECT_EQ(gave_up, 0);
 }
 
 // Contacts that yield: a + e F in place of a, by sweeps over the contacts, each projected for itself.
@@ -85,7 +107,7 @@ TEST(SpatialFriction, HasTheAccelerationsOfACompliantLawThatGrowsStiff) {
 
 TEST(SpatialFriction, DoesNotDependOnTheOrderOfContacts) {
   std::mt19937 random(63);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     const Problem problem =
         i % 2 ? any_spatial_structure(random, 1) : random_spatial(random, any_kinds(random, 2 + i % 3));
     const std::vector<std::size_t> order = random_order(random, problem.points.size());

@@ -11,6 +11,7 @@ namespace {
 using Tangent = ContactPoint::Tangent;
 
 constexpr int most_newton_steps = 50, sweeps = 200;  // of Newton's method, and between two of its attempts
+constexpr int most_sweeps = 128 * sweeps;            // alone
 // Of the natural map, relative to its terms: solved, and where the steps no longer decrease it, which is round-off of
 // A F.
 constexpr double solved_to = 1e-14, stalled_at = 1e-12;
@@ -29,6 +30,19 @@ class Cones {
       r_.segment(p.tangent, p.tangents).setConstant(over(trace));
     }
     scale_ = r_.cwiseProduct(b).lpNorm<Eigen::Infinity>();
+  }
+
+  // Newton's method begins at what the sweeps have reached, after 200, 400, 800, ... of them.
+  bool sweep_on(Vec& F) {
+    for (int done = 0, next = sweeps; next <= most_sweeps; next *= 2) {
+      for (; done < next; ++done) sweep(F);
+      Vec tried = F;
+      evaluate(tried);
+      if (!newton(tried)) continue;
+      F = tried;
+      return true;
+    }
+    return false;
   }
 
   bool solve(Vec& F, int rounds) {
@@ -147,6 +161,10 @@ class Cones {
 
 bool solve_cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, int rounds) {
   return A.allFinite() && b.allFinite() && Cones(points, A, b).solve(F, rounds);
+}
+
+bool sweep_cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F) {
+  return A.allFinite() && b.allFinite() && Cones(points, A, b).sweep_on(F);
 }
 
 }  // namespace trammel::complementarity

@@ -19,4 +19,8 @@ namespace trammel::complementarity {
 [[nodiscard]] bool solve_cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F,
                                int rounds = 40);
 
+// The same by up to 25,600 sweeps that Newton's method does not interrupt: where |Phi| has a minimum that is no
+// solution, each of its attempts would lead back to it. Slow, but sweeps pass such minima.
+[[nodiscard]] bool sweep_cones(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F);
+
 }  // namespace trammel::complementarity
