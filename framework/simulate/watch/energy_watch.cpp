@@ -47,7 +47,8 @@ double EnergyWatch::relative_drift(const Energy& energy) {
   take_moved(energy, ledger_.totals());
   constexpr double round_off = 1e-12;  // of energies, which count from a place that may be far off
   const double change = std::abs(drift(energy)), moved = moved_ + round_off * std::abs(ledger_.energy_start());
-  const double without_work = change / (moved + little(0));
+  none_ = little(0);
+  const double without_work = change / (moved + none_);
   return without_work > unexplained ? change / (moved + little(work_over_length())) : without_work;
 }
 
@@ -55,7 +56,7 @@ double EnergyWatch::relative_drift(const Energy& energy) {
 // length gives, or of `work` if that is more; a nanojoule if there is neither. That is ten times the energy of a fall
 // through the last digits of a scene: a contact that is closed at the start may be off by those, and the stabilisation
 // of its row closes it in steps of any length.
-double EnergyWatch::little(double work) const {
+double EnergyWatch::little(double work) {
   constexpr double part = 1e-8, nanojoule = 1e-9;
   if (system_.sizes().nv == 0) return nanojoule;
   const double speed = std::max(scale_.scene().speed, scale_.scene().motion);

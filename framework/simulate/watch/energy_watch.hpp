@@ -37,12 +37,12 @@ class EnergyWatch {
 
   double drift(const Energy& energy) const { return energy.total() - ledger_.energy(); }  // [J]
   double relative_drift(const Energy& energy);                                            // at the system's point
-  double none() const { return little(0); }  // [J] counts as no energy in this scene; at the system's point
+  double none() const { return none_; }  // [J] counts as no energy in this scene, in the state looked at last
 
   void archive(Archive& a);
 
  private:
-  double little(double work) const;
+  double little(double work);
   double work_over_length();
 
   model::AssembledSystem& system_;
@@ -50,6 +50,7 @@ class EnergyWatch {
   const Ledger& ledger_;
   Energy start_;
   double moved_ = 0;                        // [J]
+  double none_ = 0;                         // [J]
   double drift_before_ = least_divergence;  // relative, in the record before; at least this
   static constexpr double least_divergence = 1e3;
 };
