@@ -201,7 +201,7 @@ std::string bridge(double s) {
                      fmt::join(bodies, ", "), fmt::join(contacts, ", "), 0.4 * time, 0.02 * time);
 }
 
-TEST(Scales, ABridgeOfAnySizeTakesAsManySteps) {
+TEST(Scales, ABridgeOfAnySizeTakesStepsOfItsMotion) {
   const Finished metres = run_text(bridge(1));
   ASSERT_TRUE(metres.done()) << metres.report.reason;
   for (const double size : {1e-6, 1e-3, 1e3}) {
@@ -209,7 +209,8 @@ TEST(Scales, ABridgeOfAnySizeTakesAsManySteps) {
     ASSERT_TRUE(run.done()) << size << ": " << run.report.reason;
     EXPECT_TRUE(run.result["warnings"].empty()) << size << ": " << run.result["warnings"].dump();
     EXPECT_EQ(run.events.size(), metres.events.size()) << size;
-    EXPECT_LE(run.result["counts"]["steps"], 4 * metres.result["counts"]["steps"].get<int>()) << size;
+    // Two for each of the 20 records. Round-off may halve a step; it must not decide it (74,027 of micrometres once).
+    EXPECT_LE(run.result["counts"]["steps"].get<int>(), 40) << size;
     EXPECT_NEAR(run.end("x") / size, metres.end("x"), 1e-7) << size;
   }
 }

@@ -117,6 +117,7 @@ class SpringImpact {
   };
   Vec event_functions(const Vec& y);  // all margins
   void all_margins(const Vec& y, std::vector<Margins>& margins);
+  Vec accelerations(const std::vector<Eigen::Index>& rows, const Vec& f) const;
   bool some_forces_hold(const Vec& f) const;
 
   bool rubs(const Contact& c) const { return c.presses && c.mu_0 > 0 && c.tangent >= 0; }

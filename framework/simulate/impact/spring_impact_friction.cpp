@@ -51,6 +51,14 @@ std::vector<Eigen::Index> SpringImpact::sticking_rows() const {
   return rows;
 }
 
+// Along these rows, by the forces f. They lie in the range of A: where rows depend on each other, no friction holds the
+// round-off that the product leaves outside of it, and where forces balance this round-off is all that is left.
+Vec SpringImpact::accelerations(const std::vector<Eigen::Index>& rows, const Vec& f) const {
+  const Mat A = A_(rows, rows);
+  const Vec b = (A_ * f)(rows);
+  return A * decomposed(A).solve(b);
+}
+
 // True if some forces inside the cones hold all sticking contacts under the forces f.
 bool SpringImpact::some_forces_hold(const Vec& f) const {
   std::vector<std::size_t> sticking;
@@ -59,7 +67,7 @@ bool SpringImpact::some_forces_hold(const Vec& f) const {
   const std::vector<ContactPoint> points = resting_points(f, sticking, std::vector<bool>(sticking.size(), false));
   Vec others = f;
   others(sticking_).setZero();
-  const Vec b = (A_ * others)(sticking_);
+  const Vec b = accelerations(sticking_, others);
   Vec T, a;
   if (complementarity::solve_contacts(points, A_(sticking_, sticking_), b, T, a).outcome != LcpOutcome::solved)
     return false;
@@ -109,7 +117,7 @@ Vec SpringImpact::beginning_slips(const std::vector<std::size_t>& resting, const
   std::vector<Eigen::Index> rows;
   for (const std::size_t i : resting)
     for (int k = 0; k < t_; ++k) rows.push_back(contacts_[i].tangent + k);
-  const Vec b = (A_ * f)(rows);
+  const Vec b = accelerations(rows, f);
   Vec T, a = Vec::Zero(b.size());
   std::vector<bool> let_go(resting.size(), false);
   for (bool settled = false; !settled;) {
