@@ -27,7 +27,7 @@ TEST_P(PointMass, HasTheSceneSDimension) {
   EXPECT_EQ(body->coordinates().nv(), plane ? 2 : 3);
   EXPECT_EQ(motion(*body, 0, q, v).V.size(), plane ? 3 : 6);
 }
-TEST_P(PointMass, StartsAtRestAtTheOriginUnlessToldOtherwise) {
+TEST_P(PointMass, StartsAtRestAtTheOriginByDefault) {
   Vec q_0 = q, v_0 = v;
   body->initial(q_0, v_0);
   EXPECT_EQ(q_0.norm(), 0);

@@ -167,7 +167,7 @@ TEST_F(Interrupt, EndsAStepThatDoesNotReturn) {
         trammel({"run", cli::bounce, "--out", "hanging", "--plugin", library, "--set",
                  R"(corrections.position={"type": "never_returns", "how": ")" + std::string(how) + "\"}"},
                 {.folder = folder.path(),
-                 // Some time after it began, so that it hangs by then.
+                 // Late enough that the call hangs already.
                  .send_signal_when = [&] { return std::chrono::steady_clock::now() - began > std::chrono::seconds(2); },
                  .again_after = again});
     EXPECT_EQ(result.exit_code, 130) << result.err;

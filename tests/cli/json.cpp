@@ -57,14 +57,14 @@ TEST(JsonOutput, OfAMistakeOnTheCommandLineIsAnObjectToo) {
 }
 
 TEST(JsonOutput, OfExplainHasTheSectionsOfItsText) {
-  const json told = object_of({"explain", cli::bounce});
+  const json explained = object_of({"explain", cli::bounce});
   std::vector<std::string> titles;
-  for (const json& section : told["sections"]) titles.push_back(section["title"]);
+  for (const json& section : explained["sections"]) titles.push_back(section["title"]);
   EXPECT_THAT(titles, Contains("Built"));
   EXPECT_THAT(titles, Contains("Left out"));
   const std::string text = trammel({"explain", cli::bounce}).out;
   for (const std::string& title : titles) EXPECT_THAT(text, HasSubstr(title + "\n"));
-  EXPECT_THAT(told["sections"][0]["lines"][0].get<std::string>(), StartsWith("planar scene: nq = 2"));
+  EXPECT_THAT(explained["sections"][0]["lines"][0].get<std::string>(), StartsWith("planar scene: nq = 2"));
 }
 
 TEST(JsonOutput, OfDescribeHasEveryParameterWithItsRangeAndDefault) {

@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// trammel with these words and so much address space [KiB].
+// Runs trammel with these arguments and this address space [KiB].
 cli::Result within(long kibibytes, const std::string& words, const std::filesystem::path& folder) {
   const std::string program = TRAMMEL_BUILD_DIR "/bin/trammel";
   return cli::run_program("/bin/sh",

@@ -1,4 +1,4 @@
-// What the program says of components and of scenes: list, describe, schema.
+// The commands that describe components and scenes: list, describe, schema.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -40,7 +40,7 @@ class Plugin : public testing::Test {
     EXPECT_THAT(result.err, HasSubstr(cause));
   }
 
-  // The bouncing point, long in the air, with an integrator that goes wrong in step 1000.
+  // The bouncing point in a long flight, with an integrator that fails in step 1000.
   void expect_blamed_in_step_1000(const std::string& how, const std::string& cause) {
     expect_refused(kPlugins / "spoilt_step.so", cause, spoilt(how));
     const auto result = run(kPlugins / "spoilt_step.so", spoilt(how));
@@ -125,7 +125,7 @@ TEST_F(Plugin, ThatThrowsNoStdExceptionInStep1000IsNamedLikeOneThatThrowsOne) {
   EXPECT_EQ(recorded_status(), "failed");
 }
 
-TEST_F(Plugin, ThatReturnsAStateOfAnotherSizeIsToldTheSizes) {
+TEST_F(Plugin, ThatReturnsAStateOfAnotherSizeEndsWithBothSizes) {
   expect_blamed_in_step_1000("size", "it returned q with 3 entries; expected 2");
   EXPECT_EQ(recorded_status(), "failed");
 }
@@ -208,8 +208,8 @@ TEST_F(Plugin, ThatPrintsLeavesTheOutputOfJsonAlone) {
   }
 }
 
-// What goes well when it is tried out may still end the process when it counts, by a crash or past all functions of
-// atexit.
+// A library whose rehearsal succeeds may still end the process when it is loaded for the run: by a crash, or by an exit
+// that skips the functions of atexit.
 TEST_F(Plugin, ThatFailsTheSecondTimeItIsLoadedIsNamed) {
   for (const auto& [name, how] : {std::pair{"ends_the_second_time.so", "it ended the program (exit)"},
                                   {"crashes_the_second_time.so", "SIGSEGV"}}) {
@@ -363,7 +363,7 @@ TEST_F(Plugin, ThatReturnsNanIsNamedWithTheTime) {
   EXPECT_THAT(result.err, HasSubstr("t = 0.5"));
 }
 
-// Whichever call throws, and whoever asked for it: a joint asks for motions of bodies, a contact for its friction law.
+// Every call that throws, whichever component made it: a joint calls motion() of bodies, a contact its friction law.
 TEST_F(Plugin, ThatThrowsIsNamedInEveryCallOfEveryInterface) {
   const std::string scene = R"({"trammel": 1, "space": "planar", "gravity": [0, -9.81],
     "bodies": {"b": {"type": "throwing_body"}, "c": {"type": "throwing_body"}, "p": {"type": "point_mass", "mass": 1, "velocity": [1, -0.1]}},
@@ -422,7 +422,7 @@ TEST_F(Plugin, ThatCrashesInAnotherCommandThanRunIsNamedThereToo) {
 }
 
 // The name of the library is part of the message.
-TEST_F(Plugin, ThatCrashesIsToldInJsonWhateverItsNameIs) {
+TEST_F(Plugin, ThatCrashesIsReportedInJsonWhateverItsNameIs) {
   const fs::path library = folder.path() / "two\nlines \"quoted\".so";
   fs::copy_file(kPlugins / "spoilt_step.so", library);
   const auto result =
@@ -430,9 +430,9 @@ TEST_F(Plugin, ThatCrashesIsToldInJsonWhateverItsNameIs) {
                "--set", "integrator.how=memory", "--set", "integrator.after=0"},
               {.folder = folder.path()});
   EXPECT_EQ(result.exit_code, 3);
-  const json told = json::parse(result.out, nullptr, false);
-  ASSERT_FALSE(told.is_discarded()) << result.out;
-  EXPECT_THAT(told["problems"][0]["message"].get<std::string>(), HasSubstr("two lines \"quoted\".so"));
+  const json reported = json::parse(result.out, nullptr, false);
+  ASSERT_FALSE(reported.is_discarded()) << result.out;
+  EXPECT_THAT(reported["problems"][0]["message"].get<std::string>(), HasSubstr("two lines \"quoted\".so"));
 }
 
 TEST_F(Plugin, ThatCrashesIsNamedWithTheCallAndTheTimeAndRecordsAreKept) {

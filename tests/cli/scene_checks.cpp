@@ -1,4 +1,4 @@
-// What the program says of a scene without running it: validate, explain.
+// The commands that examine a scene without running it: validate, explain.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

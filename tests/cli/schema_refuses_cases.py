@@ -2,8 +2,8 @@
 
     schema_refuses_cases.py PROGRAM CASES_FOLDER
 
-Form is what a file shows without its meaning: keys, types of values, ranges, names of components. Whether a case is about form
-is told by the message that the program gives. Includes are merged and --set is applied first, as the program does it.
+Form is what a file shows without its meaning: keys, types of values, ranges, names of components. The message that the
+program gives shows whether a case is about form. As in the program, includes are merged and --set is applied first.
 """
 import json
 import pathlib

@@ -23,7 +23,7 @@ extern "C" void* malloc(std::size_t size) {
 namespace trammel::test {
 namespace {
 
-// Three masses on springs in unequal measure, the first held by a row g = q_0 if wanted; every answer in closed form.
+// Three masses on springs of different stiffness, with the row g = q_0 if `row`; all results in closed form.
 class Springs final : public System {
  public:
   explicit Springs(bool row) : nc_(row) {}

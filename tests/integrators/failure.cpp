@@ -20,8 +20,8 @@ class FailingSystem : public testing::TestWithParam<Form> {
  protected:
   static constexpr double h = 5e-3;
 
-  // A restart, three steps with all that may be asked about each, the n-th evaluation failing. False: there are no n of
-  // them.
+  // A restart and three steps, with every call of the interface after each step; the n-th evaluation fails. False:
+  // there are fewer than n evaluations.
   bool run(Failing::How how, int n) {
     Posed sound(problems::pendulum_with_rod());
     Failing system(sound, how);
@@ -65,7 +65,7 @@ TEST_P(FailingSystem, IsRejectedOrLeftOutAtAnyEvaluation) {
     while (run(how, n) && n < 2000) ++n;
     EXPECT_LT(n, 2000);
     if (how != Failing::How::singular) {
-      EXPECT_GE(n, 6);  // it is asked for something twice or more in each step
+      EXPECT_GE(n, 6);  // at least two evaluations in each step
     }
   }
 }

@@ -179,7 +179,7 @@ TEST(NullSpace, IsThatOfTheStepInItsInterpolationToo) {
   EXPECT_NEAR((inside.q - posed.exact(0.005).q).norm(), 0, 1e-12);
 }
 
-// Times of 1e6 s tell the step's length to 1e-10 s.
+// The difference of two times of 1e6 s gives the step's length to 1e-10 s only.
 TEST(StepsOfRungeKutta, AreNotRepeatedForAnInterpolationAtALateTime) {
   Posed posed(problems::oscillator());
   kit::Failing counted(posed, kit::Failing::How::singular);

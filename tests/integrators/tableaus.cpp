@@ -197,8 +197,8 @@ TEST(ErrorsOfTableaus, OfTheEighthOrderAreLeftByWhatTheThirdOrderMethodIntegrate
     }
 }
 
-// The third-order method has three stages, at c = 0, 0.651 and 1, and so the weights that integrate parabolas. A force
-// that the fifth-order method integrates changes e_3 alone: the errors with more and less of it tell the same e_5.
+// The third-order method has three stages, at c = 0, 0.651 and 1, hence the weights that integrate parabolas. A force
+// that the fifth-order method integrates changes e_3 alone: the same e_5 follows from errors with more and less of it.
 TEST(ErrorsOfTableaus, OfTheEighthOrderWeighTheThirdOrderMethodByAHundredth) {
   const Coefficients read = coefficients_of("dop853", 12);
   const std::array<int, 3> stages{0, 8, 11};
@@ -373,10 +373,10 @@ TEST(AdamsBaumgarte, ArchivesTheSlopesOfItsLastSteps) {
 }
 
 // An archive that says how many slopes are known, and holds these of the last point.
-class Told final : public Archive {
+class GivenHistory final : public Archive {
  public:
   using Archive::operator();
-  Told(int filled, Vec q, Vec v) : filled_(filled), q_(std::move(q)), v_(std::move(v)) {}
+  GivenHistory(int filled, Vec q, Vec v) : filled_(filled), q_(std::move(q)), v_(std::move(v)) {}
   void operator()(std::string_view, bool&) override {}
   void operator()(std::string_view name, int& x) override { x = name == "filled" ? filled_ : x; }
   void operator()(std::string_view, long long&) override {}
@@ -395,8 +395,8 @@ class Told final : public Archive {
 TEST(AdamsBaumgarte, RefusesAnArchiveThatLacksItsSlopes) {
   const Vec none, one = Vec::Ones(1);
   const auto read = [](int filled, const Vec& q, const Vec& v) {
-    Told told(filled, q, v);
-    make("adams_baumgarte")->archive(told);
+    GivenHistory history(filled, q, v);
+    make("adams_baumgarte")->archive(history);
   };
   EXPECT_THROW(read(-1, one, one), std::out_of_range);
   EXPECT_THROW(read(5, one, one), std::out_of_range);

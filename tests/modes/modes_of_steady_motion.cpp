@@ -337,8 +337,9 @@ TEST(ModesOfSteadyMotion, ATurningSpringIsStretchedFirst) {
   EXPECT_NEAR(found.back(), breath, 1e-6 * breath);
 }
 
-// Two discs on one axle, joined by a spring and damper between their rims, which turns with them: its length knows the
-// angle between the discs alone, dl/dangle = R cos(angle/2), so their torsion does not depend on the rate of turning.
+// Two discs on one axle, joined by a spring and damper between their rims, which turns with them: its length depends
+// on the angle between the discs alone, dl/dangle = R cos(angle/2), so the rate of turning does not change their
+// torsion.
 TEST(ModesOfSteadyMotion, ADamperThatTurnsWithItsDiscsDampsTheirTorsionAsAtRest) {
   const double I1 = 0.3, I2 = 0.5, R = 0.2, angle = 1.1, k = 400, c = 3;
   const double arm = R * std::cos(angle / 2), reduced = I1 * I2 / (I1 + I2);

@@ -1,4 +1,4 @@
-# A plugin built by another compiler with the same standard library runs in this program, and is told in its results.
+# A plugin built by another compiler with the same standard library runs in this program; result.json names it.
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 find_program(compiler ${OTHER})
 if(NOT compiler OR SANITIZE)

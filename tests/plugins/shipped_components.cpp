@@ -20,7 +20,7 @@ struct Shipped {
 };
 World world_of(const Shipped& s) {
   World world = s.space == Space::planar ? planar() : spatial();
-  if (s.name == "slider_crank_rod") world.gravity.setZero();  // it knows none
+  if (s.name == "slider_crank_rod") world.gravity.setZero();  // the body has no gravity
   return world;
 }
 std::string suite(const std::string& kind, const Shipped& s) {

@@ -76,7 +76,7 @@ TEST(TowerScene, RocksInStrongerOnesAndComesToRest) {
       const Finished run = run_file("contact/tower.json", {{"parameters.n", n}, {"parameters.intensity", intensity}});
       ASSERT_TRUE(run.done()) << n << " x " << intensity << ": " << run.report.reason;
       EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
-      // What it has it owes to the table: friction and impacts only take.
+      // All its energy comes from the table: friction and impacts only dissipate.
       EXPECT_GE(run.result["energy_dissipated"]["friction_total"], 0) << n << " x " << intensity;
     }
 }

@@ -74,15 +74,15 @@ TEST(TrussScenes, RedundantRowsDoNotChangeTheMast) {
 // Each unit's four halves follow from the lengths of the others; 12 rows a unit, one of them redundant in three.
 TEST(TrussScenes, ExplainNamesTheRedundantRowsOfAMastOfAnyLength) {
   for (const int units : {8, 300}) {
-    const std::string told = simulate::text_of(simulate::explain(
+    const std::string text = simulate::text_of(simulate::explain(
         scene::Scene::load(TRAMMEL_SOURCE_DIR "/scenes/truss/S1R.json", {{"parameters.n", std::to_string(units)}}),
         registry()));
     for (int k = 0; k < units; ++k)
       for (int half = 1; half <= 4; ++half)
-        EXPECT_NE(told.find(fmt::format("joints.half_{}_{}: row 1 of 1 follows from the rows before", half, k)),
+        EXPECT_NE(text.find(fmt::format("joints.half_{}_{}: row 1 of 1 follows from the rows before", half, k)),
                   std::string::npos);
     std::size_t count = 0;
-    for (auto at = told.find(" follow"); at != std::string::npos; at = told.find(" follow", at + 1)) ++count;
+    for (auto at = text.find(" follow"); at != std::string::npos; at = text.find(" follow", at + 1)) ++count;
     EXPECT_EQ(count, 4 * units);
   }
 }

@@ -49,7 +49,7 @@ TEST(ErrorNorm, MeasuresAVelocityByItsSizeAtTheLargerEnd) {
   const Tolerance relative{.relative = 1e-3, .absolute = 0};
   const State slow = at(0, vec(0), vec(2)), fast = at(1, vec(0), vec(-8));
   const double expected = 1 / (8e-3) / std::sqrt(2);
-  // The round-off of v, 4 eps of 8, stands beside 8e-3: relative 1e-12.
+  // The round-off of v, 4 eps of 8, relative to 8e-3 is about 1e-12.
   EXPECT_NEAR(error_norm(vec(0), vec(1), slow, fast, relative), expected, 1e-11 * expected);
   EXPECT_NEAR(error_norm(vec(0), vec(1), fast, slow, relative), expected, 1e-11 * expected);
 }

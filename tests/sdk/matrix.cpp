@@ -35,7 +35,7 @@ void expect_both(const Mat& expected, const Additions& additions) {
 
 const Mat block{{1, 2}, {3, 4}};
 
-TEST(Matrix, AddsABlockTimesAFactorWhereItIsTold) {
+TEST(Matrix, AddsABlockTimesAFactorAtTheGivenIndices) {
   Mat expected = Mat::Ones(4, 4);
   expected.block(1, 2, 2, 2) += 3 * block;
   expect_both(expected, [](Matrix& m) { m.add(1, 2, block, 3); });

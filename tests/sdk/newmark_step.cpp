@@ -31,8 +31,8 @@ Ended ended(const Springs& springs, int coordinate, double h, double scale_q, do
   return {error, tolerance * std::min((scale_q + t.c_q * a) / t.c_q, (scale_v + t.c_v * largest) / t.c_v),
           springs.factorisations};
 }
-// The error left is below what is allowed, and one iteration earlier it was not. The factors of the start serve: what
-// they leave of the residual does not matter.
+// The remaining error is below the allowed one, and was above it one iteration earlier. The first factors are
+// sufficient: the residual that they leave does not matter.
 void expect_just_below(const Ended& ended, double theta) {
   EXPECT_LE(ended.error, 1.001 * ended.allowed);  // round-off of differences of a: 1e-16 beside 1e-11
   EXPECT_GE(ended.error, 0.999 * theta * ended.allowed);

@@ -113,7 +113,7 @@ TEST(Newton, BeginsAnewWithEachStep) {
   EXPECT_TRUE(newton.iterating()) << "an increment of the last step is no measure for this one";
 }
 
-// Round-off is asked for, which costs a solution, in no iteration that is fast and may go on.
+// fast() lets the caller skip the test for round-off, which costs a solution, while the iteration may continue.
 TEST(Newton, IsFastWhileIncrementsHalveAndIterationsAreLeft) {
   Newton newton;
   newton.max_iterations = 4;
@@ -150,7 +150,7 @@ TEST(Newton, EndsAtTheShareOfTheFirstIncrementThatIsEnough) {
 }
 
 TEST(Newton, IsNeverLooserThanAskedForByAFirstIncrementWithinTheTolerance) {
-  EXPECT_TRUE(after({2e-11, 1.9e-11}, 1e-3).iterating());  // a rate that tells of much more to come
+  EXPECT_TRUE(after({2e-11, 1.9e-11}, 1e-3).iterating());  // at this rate the remaining error is large
   EXPECT_TRUE(after({0.9e-11}, 1e-3).converged());
 }
 

@@ -48,7 +48,7 @@ TEST(Anderson, BeginsAfreshWithAnotherNumberOfUnknowns) {
   EXPECT_LE((accelerated.next(left / 2) - left).norm(), 1e-15);
 }
 
-// Each component of s goes as the others want: x_i = cos(x_(i+1)).
+// The fixed point of x_i = cos(x_(i+1)).
 TEST(Anderson, SolvesNonlinearEquationsFasterThanTheirFixedPoint) {
   const Eigen::Index n = 5;
   Vec x = Vec::LinSpaced(n, 0, 1);

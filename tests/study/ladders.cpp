@@ -75,7 +75,7 @@ TEST(Ladders, OfCorrectionsAreTheirLevels) {
                                            "without corrections of energy"}));
 }
 
-// A rung that nobody could run would be told as a failure of the model.
+// A rung that no run accepts would be reported as a failure of the model.
 TEST(Ladders, HaveRungsThatAreValidScenes) {
   for (const SceneSource& source :
        {scene("beam_impact.json"), scene("beam_impact/continuous_force.json"), scene("plate/pendulum.json"),

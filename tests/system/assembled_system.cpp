@@ -256,7 +256,7 @@ TEST(AssembledSystem, RowsThatTimeDoesNotMoveSupplyNothingWhateverTheVelocities)
   EXPECT_NEAR(at.system.balance(Eigen::Vector2d(20, -30)).constraints, 0, round_off);
 }
 
-// It is asked for in every step.
+// The ledger calls balance() in every step.
 TEST(AssembledSystem, ReusesTheMemoryOfItsBalance) {
   At at(particle_over_plane(std::make_unique<Cubic>()));
   const double* const friction = at.system.balance(Vec()).friction.data();

@@ -144,7 +144,7 @@ TEST(PointOnPlane, GammaMakesTheAccelerationsOfGapAndSlipInSpace) {
   EXPECT_LT((acceleration - (rates_in_space(0.7 + s) - rates_in_space(0.7 - s)) / (2 * s)).norm(), 1e-7);
 }
 
-// What every pairing with rows owes: two particles at q, which move with v, and forces F along the rows.
+// The contract of every pairing with rows, with two particles at q, which move with v, and forces F along the rows.
 class Pairing : public testing::Test {
  protected:
   Pairing() {

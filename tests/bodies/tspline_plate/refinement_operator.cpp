@@ -83,7 +83,7 @@ bool nested(const TMesh& old, const TMesh& fresh) {
   }
 }
 
-// The rule that closure goes by, against the functions themselves, on meshes that are analysis-suitable but need not
+// Compares the rule that closure uses with the functions themselves, on meshes that are analysis-suitable but need not
 // contain the old one.
 TEST(RefinementOperator, ContainsTheOldFunctionsExactlyWhereNoExtensionBecameTooShort) {
   int contained = 0, not_contained = 0;

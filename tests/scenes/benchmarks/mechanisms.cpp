@@ -165,7 +165,8 @@ TEST(BenchmarkA04, KeepsToLooseTolerances) {
 
 TEST(BenchmarkA04, ExplainNamesItsRedundantRow) {
   const scene::Scene scene = scene::Scene::load(TRAMMEL_SOURCE_DIR "/scenes/benchmarks/a04.json");
-  EXPECT_NE(simulate::text_of(simulate::explain(scene, registry())).find("joints.P5: row 5 of 5 follows from the rows before"),
+  EXPECT_NE(simulate::text_of(simulate::explain(scene, registry()))
+                .find("joints.P5: row 5 of 5 follows from the rows before"),
             std::string::npos);
 }
 
@@ -195,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, RedundantRows,
                                          Expected{"generalized_alpha", 1e-6}),
                          [](const auto& method) { return std::string(method.param.method); });
 
-// As above, and held to round-off: of speeds up to 3.5 m/s in 15 rows, some of them redundant.
+// As above, with rows at round-off: 15 rows, some of them redundant, at speeds up to 3.5 m/s.
 TEST(QuasiVelocities, FollowTheBricardMechanismWithEveryExplicitMethod) {
   const auto data = reference("iftomm_a04_bricard");
   const auto& at_1s = data.at("reference").at("t_P2xyz_P3xyz_every_0.1s").at(9);

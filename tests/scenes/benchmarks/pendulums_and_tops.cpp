@@ -91,7 +91,7 @@ TEST(BenchmarkCuspidalTop, MeetsItsReference) {
   expect_accepted(data, "cuspidal nutation period s", (turns[20] - turns[0]) / 10);
 }
 
-// The segments are of second order: what two sizes have in common of their errors goes.
+// Richardson extrapolation of two numbers of segments: the error of the segments is of second order.
 Finished extrapolated_pendulum(const std::string& which, int segments, const std::string& until) {
   const auto of = [&](int n) {
     return run_benchmark(
