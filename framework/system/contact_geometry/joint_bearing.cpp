@@ -27,7 +27,8 @@ class SlipInJoint final : public ContactGeometry {
     for (int k = 0; k < 2; ++k) rows.H(k).row(1) = slip_.H(k).row(0);
   }
 
-  // The force along the slip depends on the loads of the joint's own rows: AssembledSystem::Work::add_slip_tangent.
+  // Nothing is added here: the force along the slip depends on the loads of the joint's own rows
+  // (JointFriction::add_tangent).
   void add_reaction_tangent(const Point&, const Rows&, const Eigen::Vector3d&, double, Matrix&) override {}
 
   int tangents() const override { return 1; }

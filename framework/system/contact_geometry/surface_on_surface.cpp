@@ -82,7 +82,7 @@ class SurfaceOnSurface final : public SurfaceContact {
   std::vector<int> slots() const override { return {slot_A_, slot_B_}; }
 
   void rows(const Point& point, Rows& rows) override {
-    look(point);
+    find_touches(point);
     Motion &A = markers_.surface_motion(slot_A_), &B = markers_.surface_motion(slot_B_);
     points_.motion(points_.patch(deepest_.patch), deepest_.point, point.q, point.v, A);
     motion_of_other(point, B);
@@ -90,7 +90,7 @@ class SurfaceOnSurface final : public SurfaceContact {
   }
 
   void press(const Point& point, double approach_speed) override {
-    look(point);
+    find_touches(point);
     approach_ = approach_speed;
     sums_ = {};
     for (Touch& touch : touches_) {
@@ -180,7 +180,7 @@ class SurfaceOnSurface final : public SurfaceContact {
   Vec q_of_other(const Point& point) const { return point.q.segment(other_.q0, other_.nq); }
 
   // Finds the deepest point of A and all points with a negative gap, once per point of the system.
-  void look(const Point& point) {
+  void find_touches(const Point& point) {
     if (number_ == point.number) return;
     number_ = point.number;
     touches_.clear();

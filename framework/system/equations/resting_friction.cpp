@@ -7,6 +7,13 @@
 
 namespace trammel::model {
 
+namespace {
+
+// Part of a force along a tangent: what the rows' reactions leave of it is round-off below this.
+constexpr double held = 1e-9;
+
+}  // namespace
+
 void RestingFriction::lay_out(std::vector<int> contacts) {
   resting_ = std::move(contacts);
   forces_.setZero(2, contacts_.count());
@@ -17,13 +24,12 @@ bool RestingFriction::decides(int contact) const {
 }
 
 // The problem of Zhang and Wang 2017, (32)-(39), with A = W_T^T P W_T, where P is the inverse of the mass on the null
-// space of the rows. A direction that rows hold already, as beside a foot that sticks by rows, has no friction: P
-// leaves round-off of it.
+// space of the rows. A direction that rows hold already, as beside a foot that sticks by rows, has no friction: its
+// column of P W_T is round-off.
 void RestingFriction::add_to(Vec& a, Vec& lambda) {
   const int nv = at_.model->sizes.nv, nc = rows_.count();
   const Eigen::Index m = contacts_.tangents(resting_.front()), n = m * Eigen::Index(resting_.size());
   Mat response(nv, n), reaction(nc, n), columns = Mat::Zero(nv, n);
-  constexpr double held = 1e-9;  // part of a force along the tangent that rows leave
   Vec b(n), column, x, y, left, T, a_t;
   std::vector<complementarity::ContactPoint> points;
   for (Eigen::Index k = 0; k < n; ++k) {

@@ -108,7 +108,7 @@ void RowsAtPoint::evaluate_contact(int i) {
   const auto row_of = [&](int direction) { return contacts_.loads.place({i, direction}).row; };
   coupled_ = coupled_ || (!contacts_.entry(i).force && contacts_.friction_ratio(i) != Tangential::Zero());
   if (row_of(0) < 0 && row_of(1) < 0 && row_of(2) < 0) return;
-  const Rows& of_contact = contacts_.rows(i);  // before the motions, which it determines on surfaces
+  const Rows& of_contact = contacts_.rows(i);  // first: it determines the motions of points of surfaces
   const Slots& slots = contacts_.slots(i);
   const Seen seen = at_.motions(slots);
   if (const int row = row_of(0); row >= 0) {
@@ -207,7 +207,7 @@ void RowsAtPoint::couple() {
     const Tangential ratio = contacts_.friction_ratio(i);
     if (ratio == Tangential::Zero()) continue;
     const Rows& r = contacts_.rows(i);
-    // share x (ratio . tangents) added to a row of W
+    // Adds share * (ratio . tangents) to a row of W.
     const auto add_share = [&](int row, double share) {
       add_to_reaction(contacts_.slots(i).A, row, share * pressed_by(r.H_A, 0, ratio).transpose());
       add_to_reaction(contacts_.slots(i).B, row, share * pressed_by(r.H_B, 0, ratio).transpose());

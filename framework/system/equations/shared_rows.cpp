@@ -18,9 +18,10 @@ using Eigen::Index;
 // Relative to the terms of the rates of a motion: K is still valid. Shares, and with them the forces of idle contacts,
 // jump by as much where K is renewed.
 constexpr double round_off = 1e-13;
-// Relative to the multipliers of joints that hold the rows of a group: a smaller part in an implied row is none.
+// Relative to the multipliers of joints that hold the rows of a group: a smaller part in an implied row counts as 0.
 constexpr double round_off_of_joints = 1e-12;
-// Relative to the load of a joint: rounds end with changes up to this, each of which is smaller by about mu.
+// Relative to the load of a joint: the fixed-point iteration ends at changes up to this. Each change is about mu times
+// the one before.
 constexpr double round_off_of_loads = 1e-13;
 constexpr int most_rounds = 50;
 
@@ -199,7 +200,7 @@ const ContactLoads& SharedRowsAtPoint::prepared(int group, const Vec& lambda) {
   return contacts_.loads;
 }
 
-// Independent combinations of velocities, as many as there are.
+// E of ContactLoads::solve_with_sliding: a largest set of independent rows of the motions that unit forces cause.
 Mat SharedRowsAtPoint::moved_with_sliding(int group) {
   std::vector<ContactDirection> all = contacts_.loads.members(group);
   const auto members = Index(all.size());
@@ -229,7 +230,7 @@ void SharedRowsAtPoint::solve(int group, const Vec& lambda, const LoadsOfJoints&
   if (!found) loads.solve_beyond_cones(group);
 }
 
-// The loads of joints at rest bound the forces that are shared, and follow from them.
+// The loads of joints at rest bound the forces that are shared, and follow from them: a fixed-point iteration.
 const ContactLoads& SharedRowsAtPoint::solved(int group, const Vec& lambda) {
   follow();
   SolvedAt& at = solved_at_[std::size_t(group)];

@@ -34,8 +34,8 @@ class SharedRowsAtPoint {
   double spring_force(int contact, const Vec& lambda);         // [N] of an idle contact if it shared as a spring
   const ContactLoads& prepared(int group, const Vec& lambda);  // with the resultants of a group
   Mat moved_with_sliding(int group);                           // ContactLoads::solve_with_sliding
-  // They change where rows that carry come to depend on each other: the shares pass infinity there, and the forces do
-  // not.
+  // Flips the sign of a group's block if the rows of its carrying contacts have a negative determinant in the basis.
+  // The sign changes where these rows come to depend on each other: the shares pass infinity there, the forces do not.
   void change_signs(numerics::BlockSigns& signs);
   double leverage(int group);        // AssembledSystem::leverage
   double off_span(int group);        // AssembledSystem::off_span

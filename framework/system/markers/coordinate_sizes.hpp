@@ -3,14 +3,13 @@
 //
 // From the initial state:
 //
-//     L: the largest extent of the body by its markers, or its distance to what a joint or force connects it to; if
-//     that is 0, the largest L of the scene; if that is 0, the distance of its markers from the origin; if that is 0, 1
-//     m
-//     size of coordinate i: the smallest of L / |dx/dq_i| and 1 rad / |dtheta/dq_i| of the body's markers
+//     L       the extent of the body's markers, or the distance to what a joint or force connects it to, if larger;
+//             in place of 0: the largest L of the scene, else the distance of markers from the origin, else 1 m
+//     size_i  of coordinate i: the smallest of L / |dx/dq_i| and 1 rad / |dtheta/dq_i| of the body's markers
 //
-// So a place has the size L, an angle 1 rad. The steps of central differences are parts of these sizes too: eps^(1/3),
-// where round-off and truncation balance; for coordinates far from the origin eps is the round-off of the place
-// relative to the size.
+// Hence a place has the size L, and an angle the size 1 rad. The steps of central differences are parts of these sizes,
+// too: eps^(1/3), where round-off and truncation balance; for coordinates far from the origin eps is the round-off of
+// the place relative to the size.
 #pragma once
 
 #include <algorithm>

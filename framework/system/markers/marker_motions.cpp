@@ -13,7 +13,8 @@ namespace trammel::model {
 
 namespace {
 
-constexpr double error_of_unit_turn = 1e-9;  // the turn of a marker by a unit of an angle is 1 up to this round-off
+constexpr double round_off_of_one_point = 64;  // eps times the largest place: two markers no farther apart coincide
+constexpr double error_of_unit_turn = 1e-9;    // the turn of a marker by a unit of an angle is 1 up to this round-off
 
 }  // namespace
 
@@ -159,6 +160,8 @@ void MarkerMotions::measure() {
   std::vector<double> extents(bodies, 0), lengths;
   double place = 0;
   Motion m;
+
+  // The extents of the bodies.
   for (std::size_t b = 0; b < bodies; ++b) {
     const BodyEntry& entry = model_.bodies[b];
     q_start_[b] = Vec::Zero(entry.nq), v_start_[b] = Vec::Zero(entry.nv);
@@ -172,8 +175,10 @@ void MarkerMotions::measure() {
       extents[b] = std::max(extents[b], (x - first).norm());
     }
   }
+
+  // The lengths L: joints and forces extend them.
   lengths = extents;
-  const double one_point = 64 * std::numeric_limits<double>::epsilon() * place;
+  const double one_point = round_off_of_one_point * std::numeric_limits<double>::epsilon() * place;
   const auto tie = [&](MarkerRef a, MarkerRef b) {
     const double apart = (start_of(b, m) - start_of(a, m)).norm();
     for (const MarkerRef end : {a, b})
