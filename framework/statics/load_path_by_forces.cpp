@@ -14,11 +14,11 @@ namespace {
 constexpr double shift = 1e-14;
 // Relative to the largest displacement: increments that are small enough, and those that may be round-off of forces.
 constexpr double small = 1e-10, nearly_small = 1e-6;
-constexpr double inexact = 1e-5;  // of an increment; Newton's next step corrects the rest
-// Step of central differences along an increment: this part of it, but a motion of that share of the largest
-// displacement at least, which stands out of the forces' round-off.
+constexpr double inexact = 1e-5;  // error of an increment, relative to it; Newton's next step corrects the rest
+// Step of central differences along an increment: `part_of_increment` of it, but at least a motion by `least_motion` of
+// the largest displacement, whose change of force exceeds the forces' round-off.
 constexpr double part_of_increment = 1e-3, least_motion = 1e-6;
-// The number of motions softer than the shift, and some more.
+// Of Anderson's method: it needs one for each motion that is softer than the shift, and a few more.
 constexpr int most_steps = 60;
 
 constexpr double far_away = 1e6;  // [m, rad]: a motion without any resistance under a load
@@ -36,7 +36,7 @@ bool LoadPath::turn_to_forces(const Point& from) {
 }
 
 LoadPath::Failure LoadPath::balance_by_forces(Point& trial) {
-  const double shift_of_M = shift * stiffness_of_unrelated_motion(system_, trial.t, trial.q);
+  const double shift_of_M = shift * stiffness_of_random_motion(system_, trial.t, trial.q);
   double least = std::numeric_limits<double>::infinity();  // of the increments
   Vec dq, dlambda, q;
   for (int i = 0; i <= settings_.load_iterations; ++i) {

@@ -1,4 +1,4 @@
-// From the first line to the last: set-up, load path, records, results.
+// `trammel static`: set-up, load path, records, results.
 #include "statics/static_run.hpp"
 
 #include <algorithm>
@@ -152,7 +152,7 @@ class StaticRun {
   Setup setup_;
   RunRecords records_;
   model::AssembledSystem system_;
-  WitnessScope scope_;  // of those above
+  WitnessScope scope_;  // refers to the members above it
   LoadPath path_;
   Energy energy_start_, energy_;
   RunReport report_;

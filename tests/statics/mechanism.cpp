@@ -46,20 +46,20 @@ AssembledSystem system_of(const std::vector<Point>& points) {
   return AssembledSystem(model);
 }
 
-TEST(Mechanism, AnUnrelatedMotionHasTheFrequencyThatAllMotionsHave) {
+TEST(Mechanism, ARandomMotionHasTheFrequencyThatAllMotionsHave) {
   for (const double mass : {1e-3, 1.0, 1e3})
     for (const double omega : {1e-2, 1.0, 1e4}) {
       const double k = mass * omega * omega;
       AssembledSystem system = system_of({{"one", mass, {k, k}}, {"two", 5 * mass, {5 * k, 5 * k}}});
       // Differences over 1e-6 m of forces that are linear: exact to their round-off.
-      EXPECT_NEAR(stiffness_of_unrelated_motion(system, 0, Vec::Zero(4)), omega * omega, 1e-9 * omega * omega)
+      EXPECT_NEAR(stiffness_of_random_motion(system, 0, Vec::Zero(4)), omega * omega, 1e-9 * omega * omega)
           << mass << ", " << omega;
     }
 }
 
-TEST(Mechanism, AnUnrelatedMotionHasAFrequencyBetweenTheSoftestAndTheStiffest) {
+TEST(Mechanism, ARandomMotionHasAFrequencyBetweenTheSoftestAndTheStiffest) {
   AssembledSystem system = system_of({{"soft", 1, {0, 1}}, {"stiff", 2, {50, 2e6}}});
-  const double square = stiffness_of_unrelated_motion(system, 0, Vec::Zero(4));
+  const double square = stiffness_of_random_motion(system, 0, Vec::Zero(4));
   EXPECT_GT(square, 1e4);
   EXPECT_LT(square, 1e6);
 }
