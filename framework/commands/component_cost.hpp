@@ -11,7 +11,7 @@ namespace trammel::simulate {
 
 // [{"component": "rigid_body", "kind": "body", "count": 4, "microseconds": all four}, ...], the most expensive first.
 // One component of each type is measured for a fraction of a millisecond at the state: mass and force of bodies, rows
-// of joints, wrenches of forces, gap and gap rate of contacts with their markers. Empty if a component has no answer
+// of joints, wrenches of forces, gap and gap rate of contacts with their markers. Empty if a component throws
 // there.
 nlohmann::ordered_json component_costs(model::AssembledSystem& system, const State& state);
 

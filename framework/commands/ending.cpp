@@ -31,7 +31,8 @@ bool has_expression(const scene::Value& value) {
   return false;
 }
 
-// The scene's fault if the component follows a law of time written there, such as sqrt(1-t); else the plugin's.
+// The scene is at fault if the component follows a law of time that the scene gives, such as sqrt(1-t), else the
+// plugin.
 Ending not_finite(const NotFinite& e, const scene::Value& root, const RunPoint& at) {
   const plugin::Origin& origin = *e.site().origin;
   const scene::Value* entry = root.at_path(origin.path);

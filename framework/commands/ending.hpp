@@ -1,4 +1,5 @@
-// How a computation that throws ends: with a reason in its results, and with an exception if somebody is to blame.
+// How a computation that throws ends: with a reason in its results, and with an exception if the scene or a plugin is
+// at fault.
 #pragma once
 
 #include <exception>
@@ -16,7 +17,7 @@ struct Ending {
   enum class Cause { rows, output, scene, other };
   Cause cause = Cause::other;
   std::string reason;
-  // to throw after the results are written; null: the computation has failed, nobody is to blame
+  // To be thrown after the results are written; null: neither scene nor plugin is at fault.
   std::exception_ptr thrown;
 };
 
@@ -28,7 +29,7 @@ struct RunPoint {
   model::CallSite call;
 };
 
-// Inside a catch block.
+// To be called in a catch block.
 Ending ending(const Setup& setup, const scene::Value& root, const RunPoint& at);
 
 }  // namespace trammel::simulate

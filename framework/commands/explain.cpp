@@ -20,12 +20,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A sample repeats a call for so long [s] that the clock's own time does not count, at most `most_calls` times.
+// A sample repeats a call for `long_enough`, so that reading the clock costs nothing beside it, but at most
+// `most_calls` times.
 constexpr int samples = 5, most_calls = 100000;
-constexpr double long_enough = 2e-3;
-// [s], and of each velocity: the distance of a second point, whose evaluation costs the same.
-constexpr double to_second_point = 1e-12;
-constexpr double usual_step = 1e-4;  // [s] where the scene leaves the first step to the method
+constexpr double long_enough = 2e-3;       // [s]
+constexpr double to_second_point = 1e-12;  // [s], and added to each velocity: evaluation costs the same there
+constexpr double usual_step = 1e-4;        // [s] where the scene leaves the first step to the method
 
 // [s] The least of several samples.
 template <class Call>
@@ -72,15 +72,7 @@ const char* friction_in(const model::Model& model, int joint) {
   return "";
 }
 
-void built(Text& text, const scene::Scene& scene, const plugin::Registry& registry, const Setup& setup) {
-  const model::Model& model = *setup.model;
-  const auto type = [&](const char* group, const std::string& name) {
-    const scene::Value* value = scene.root().at_path(fmt::format("{}.{}.type", group, name));
-    return value && value->type() == scene::Value::Type::text ? value->text() : std::string();
-  };
-  text.section("Built");
-  text.line("{} scene: nq = {}, nv = {}, rows of joints and bodies = {}",
-            model.world.space == Space::planar ? "planar" : "spatial", model.sizes.nq, model.sizes.nv, model.sizes.nc);
+void matrices(Text& text, const model::Model& model) {
   const model::Storage storage = model::storage_for(model);
   if (storage == model::Storage::blocks)
     text.line("matrices: blocks by body; sparse factorisations, ordered once for a pattern");
@@ -88,6 +80,13 @@ void built(Text& text, const scene::Scene& scene, const plugin::Registry& regist
     text.line("matrices: sparse; factorised front by front, analysed once for a mesh");
   else if (model.sizes.nc > 0)
     text.line("matrices: dense");
+}
+
+void components(Text& text, const scene::Scene& scene, const model::Model& model) {
+  const auto type = [&](const char* group, const std::string& name) {
+    const scene::Value* value = scene.root().at_path(fmt::format("{}.{}.type", group, name));
+    return value && value->type() == scene::Value::Type::text ? value->text() : std::string();
+  };
   for (const model::BodyEntry& body : model.bodies)
     text.line("bodies.{} ({}): nq = {}, nv = {}{}, {} markers; derivatives {}", body.name, type("bodies", body.name),
               body.nq, body.nv, body.rows > 0 ? fmt::format(", {} rows of its own", body.rows) : "",
@@ -105,6 +104,15 @@ void built(Text& text, const scene::Scene& scene, const plugin::Registry& regist
                 contact.coulomb  ? "sticks in rows and slides by a force"
                 : contact.smooth ? "friction as a force"
                                  : "frictionless");
+}
+
+void built(Text& text, const scene::Scene& scene, const plugin::Registry& registry, const Setup& setup) {
+  const model::Model& model = *setup.model;
+  text.section("Built");
+  text.line("{} scene: nq = {}, nv = {}, rows of joints and bodies = {}",
+            model.world.space == Space::planar ? "planar" : "spatial", model.sizes.nq, model.sizes.nv, model.sizes.nc);
+  matrices(text, model);
+  components(text, scene, model);
   text.line("integrator {}: step {}{}", setup.integrator_type, step_text(setup.settings.step),
             setup.settings.own_contact_step ? ", in contact " + step_text(setup.settings.contact_step) : "");
   if (!setup.choice.empty()) text.line("chosen: {}", setup.choice);
@@ -151,12 +159,30 @@ void indeterminate(Text& text, Setup& setup) {
   text.line("contacts.{}", fmt::join(names, ", contacts."));
 }
 
+void cost_of_step(Text& text, Setup& setup, model::AssembledSystem& system, const State& now) {
+  const StepChoice& choice = setup.settings.step;
+  const double h = choice.fixed ? *choice.fixed : choice.initial > 0 ? choice.initial : usual_step;
+  {
+    const plugin::Breadcrumb restarts(setup.integrator_origin, "restart");
+    setup.integrator->restart(system, now);
+  }
+  const plugin::Breadcrumb steps(setup.integrator_origin, "step");
+  State next;
+  if (!trial_step(*setup.integrator, system, now, h, next)) {
+    text.line("one step of {:.3g} s: refused at the initial state", h);
+    return;
+  }
+  text.line("one step of {:.3g} s: {:.3g}", h, 1e6 * least_time([&] {
+                                                 if (!setup.integrator->step(system, now, h, next)) next = now;
+                                               }));
+}
+
 void costs(Text& text, Setup& setup, model::AssembledSystem& system) {
   text.section("Cost (microseconds, this machine, at the initial state)");
   model::Modes open;
   open.contacts.resize(setup.model->contacts.size());
   system.set_modes(open);
-  State now = setup.initial, next;
+  State now = setup.initial;
   // Alternates between two points, so that no result of the previous evaluation is reused.
   const Vec beside = now.v + Vec::Constant(now.v.size(), to_second_point);
   bool there = false;
@@ -174,20 +200,7 @@ void costs(Text& text, Setup& setup, model::AssembledSystem& system) {
     if (!setup.model->contacts[std::size_t(i)].joint)
       text.line("gap and its rate of contacts.{}: {:.3g}", setup.model->contacts[i].name,
                 1e6 * least_time([&] { move(), system.gap(i), system.gap_rate(i); }));
-  const StepChoice& choice = setup.settings.step;
-  const double h = choice.fixed ? *choice.fixed : choice.initial > 0 ? choice.initial : usual_step;
-  {
-    const plugin::Breadcrumb restarts(setup.integrator_origin, "restart");
-    setup.integrator->restart(system, now);
-  }
-  const plugin::Breadcrumb steps(setup.integrator_origin, "step");
-  if (!trial_step(*setup.integrator, system, now, h, next)) {
-    text.line("one step of {:.3g} s: refused at the initial state", h);
-    return;
-  }
-  text.line("one step of {:.3g} s: {:.3g}", h, 1e6 * least_time([&] {
-                                                 if (!setup.integrator->step(system, now, h, next)) next = now;
-                                               }));
+  cost_of_step(text, setup, system, now);
 }
 
 void left_out(Text& text, const Setup& setup) {

@@ -54,6 +54,29 @@ json dissipated(const model::Model& model, const Ledger& ledger, double drift) {
           {"numerical", -drift}};
 }
 
+json energies(const model::Model& model, Simulator& simulator) {
+  const Ledger& ledger = simulator.ledger();
+  const Energy end = simulator.last_energy();
+  const double drift = end.total() - ledger.energy();
+  return {{"energy_start", ledger.energy_start()},
+          {"energy_end", to_json(end)},
+          {"energy_supplied",
+           {{"drives", ledger.drives()},
+            {"constraints", ledger.constraints()},
+            {"moving_markers", ledger.markers()},
+            {"total", ledger.supplied()}}},
+          {"energy_of_refinements", ledger.refinements()},
+          {"energy_drift", drift},
+          {"energy_dissipated", dissipated(model, ledger, drift)}};
+}
+
+std::vector<std::string> all_warnings(const Setup& setup, const Simulator& simulator) {
+  std::vector<std::string> all = simulator.doubts();
+  all.insert(all.end(), setup.warnings.begin(), setup.warnings.end());
+  all.insert(all.end(), simulator.warnings().begin(), simulator.warnings().end());
+  return all;
+}
+
 // Contacts whose forces were not unique, with the first and the last time [s] of a record or event at which this was
 // seen.
 json indeterminate_contacts(const model::Model& model, const ContactAudit& audit) {
@@ -128,15 +151,10 @@ const char* to_string(Status status) {
 
 std::string result_json(const scene::Scene& scene, const Setup& setup, Simulator& simulator, const Outcomes& outcomes) {
   const Statistics& statistics = simulator.statistics();
-  const Ledger& ledger = simulator.ledger();
   const State& state = simulator.state();
-  const Energy end = simulator.last_energy();
-  const double drift = end.total() - ledger.energy();
-  std::vector<std::string> warnings = simulator.doubts();
-  warnings.insert(warnings.end(), setup.warnings.begin(), setup.warnings.end());
-  warnings.insert(warnings.end(), simulator.warnings().begin(), simulator.warnings().end());
+  const json balance = energies(*setup.model, simulator);
   json result = result_head(scene, setup, outcomes);
-  result.update(json{{"warnings", warnings},
+  result.update(json{{"warnings", all_warnings(setup, simulator)},
                      {"integrator", setup.integrator_type},
                      {"integrator_choice", setup.choice},
                      {"t_start", setup.settings.start},
@@ -147,18 +165,9 @@ std::string result_json(const scene::Scene& scene, const Setup& setup, Simulator
                      {"resumed", outcomes.resumed},
                      {"counts", counts(simulator)},
                      {"smallest_step", statistics.smallest_step},
-                     {"largest_step", statistics.largest_step},
-                     {"energy_start", ledger.energy_start()},
-                     {"energy_end", to_json(end)},
-                     {"energy_supplied",
-                      {{"drives", ledger.drives()},
-                       {"constraints", ledger.constraints()},
-                       {"moving_markers", ledger.markers()},
-                       {"total", ledger.supplied()}}},
-                     {"energy_of_refinements", ledger.refinements()},
-                     {"energy_drift", drift},
-                     {"energy_dissipated", dissipated(*setup.model, ledger, drift)},
-                     {"statically_indeterminate", indeterminate_contacts(*setup.model, simulator.audit())},
+                     {"largest_step", statistics.largest_step}});
+  result.update(balance);
+  result.update(json{{"statically_indeterminate", indeterminate_contacts(*setup.model, simulator.audit())},
                      {"constraint_maxima",
                       {{"position", statistics.largest.position},
                        {"velocity", statistics.largest.velocity},

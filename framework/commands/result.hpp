@@ -20,7 +20,7 @@ struct Outcomes {
   std::string reason;
   Cost cost;
   bool resumed = false;
-  std::vector<std::string> command;  // the words that the program was called with
+  std::vector<std::string> command;  // the program's arguments
 };
 
 const char* to_string(Status status);
@@ -30,13 +30,14 @@ nlohmann::ordered_json result_head(const scene::Scene& scene, const Setup& setup
 nlohmann::ordered_json to_json(const Energy& energy);
 // The columns of series.csv and events.csv: {"series": [{"name", "unit", "meaning", "path"}, ...], "events": [...]}.
 nlohmann::ordered_json columns_json(const Setup& setup, Recorder::Books books);
-// What does not move, for the report (animation_line.hpp); empty if a component has no answer at the state at which a
-// run has failed.
+// The parts of the picture that do not move, for the report (animation_line.hpp); empty if a component throws at the
+// state, as it may where a run has failed.
 nlohmann::ordered_json drawing_json(model::AssembledSystem& system, const State& state);
-std::string title_of(const scene::Scene& scene);  // its file, if it has none
+std::string title_of(const scene::Scene& scene);  // the scene's file if it has no title
 
-// As JSON text. energy_dissipated by cause, positive when energy was lost; numerical is what no cause explains and
-// energy_drift its negative: E - (E_start + supplied - dissipated by the named causes).
+// The content of result.json. energy_dissipated is positive when energy was lost, cause by cause; its entry `numerical`
+// is what no cause explains, and energy_drift the negative of it:
+//     energy_drift = E - (E_start + supplied - dissipated by the named causes)
 std::string result_json(const scene::Scene& scene, const Setup& setup, Simulator& simulator, const Outcomes& outcomes);
 
 // A few lines for a person.

@@ -10,8 +10,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Room held for the end of a run on a full disk [bytes]: three buffers of logs, the result, and the checkpoint's
-// numbers.
+// Room reserved for the end of a run on a full disk [bytes]: three buffers of logs and the result; each number of the
+// checkpoint.
 constexpr long long room_for_logs = 1 << 19, room_per_number = 256;
 
 void add_reason(Outcomes& outcomes, const std::string& reason) {

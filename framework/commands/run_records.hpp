@@ -1,5 +1,5 @@
-// The files of a run from its start to its end: an emptied folder, room for the end on a full disk, logs, and
-// result.json.
+// The files of a run from its start to its end: it empties the folder, reserves room on the disk for the last lines,
+// opens the logs, and writes result.json.
 #pragma once
 
 #include <optional>
@@ -12,21 +12,22 @@ namespace trammel::simulate {
 
 class RunRecords {
  public:
-  // All live longer.
+  // Keeps references to all arguments.
   RunRecords(const scene::Scene& scene, const RunOptions& options, const Setup& setup)
       : scene_(scene), options_(options), setup_(setup) {}
   ~RunRecords() { leave(); }
   RunRecords(const RunRecords&) = delete;
   RunRecords& operator=(const RunRecords&) = delete;
 
-  // Without `keep`, which a resumed run goes on from, an older run's results are removed. Throws OutputError.
+  // `keep`: lengths of the logs at which a resumed run continues; without it the results of an older run are removed.
+  // Throws OutputError.
   void open(const std::optional<Recorder::Lengths>& keep, Recorder::Books books);
   Recorder* recorder() { return recorder_ ? &*recorder_ : nullptr; }  // null: not open
-  void give_room() { reserve_.reset(); }                              // for the last lines and a checkpoint
-  void remove();                                                      // all of it: the scene was wrong
+  void give_room() { reserve_.reset(); }                              // to the last lines and a checkpoint
+  void remove();                                                      // removes all files: the scene is wrong
 
-  // Everything known is kept; what cannot be written any more is said in the reason. `json` and `text` give result.json
-  // and the summary of outcomes.
+  // Writes what is known; the reason names what cannot be written. `json` and `text` give result.json and the summary
+  // of outcomes.
   template <class Json, class Text>
   RunReport end(Outcomes outcomes, Json json, Text text) {
     flush(outcomes);
@@ -42,7 +43,7 @@ class RunRecords {
  private:
   void flush(Outcomes& outcomes);
   void write_result(const std::string& json, Outcomes& outcomes);
-  void leave();  // the result stands: nobody replaces it any more
+  void leave();  // from here on the witness of crashes writes no result
 
   const scene::Scene& scene_;
   const RunOptions& options_;

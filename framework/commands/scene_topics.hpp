@@ -9,7 +9,7 @@
 namespace trammel::simulate {
 
 struct Topic {
-  std::string name, summary;  // a word, and a line for `trammel list --all`
+  std::string name, summary;  // the summary is one line of `trammel list --all`
   std::string page;
 };
 

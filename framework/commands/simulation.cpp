@@ -1,4 +1,4 @@
-// Runs a scene from the first line to the last: set-up, logs, the loop, checkpoints, and the results at every end.
+// `trammel run`: set-up, logs, the loop, checkpoints, and the results, however the run ends.
 #include "commands/simulation.hpp"
 
 #include <algorithm>
@@ -65,8 +65,7 @@ class Run {
   }
 
  private:
-  // The integrator that the run was begun with, where Trammel chose it.
-  // Of the run that is resumed. resume() reports faults of its checkpoints.
+  // The integrator that Trammel chose for the run that is resumed; empty: none. resume() reports faults of checkpoints.
   std::string chosen_before() const {
     if (!options_.resume) return "";
     for (const char* name : {newest_checkpoint, checkpoint_before}) {
@@ -81,13 +80,13 @@ class Run {
     const double t = simulator_->state().t;
     return {t, step(), fmt::format("at t = {:.9g} s, step {}: ", t, step()), simulator_->system().last_call()};
   }
-  // Whatever reason a method gives, the cause may be rows that no motion satisfies.
+  // Rows that no motion satisfies may be the cause, although the method gives another reason.
   std::string contradiction() {
     try {
       const Conflict conflict = simulator_->conflict();
       return conflict.empty() ? "" : "; " + description(conflict);
     } catch (const std::exception&) {
-      return "";  // a component has no answer there; the failure itself is reported
+      return "";  // a component throws there; the failure itself is reported
     }
   }
   long long step() const { return simulator_->statistics().steps + 1; }
@@ -95,7 +94,7 @@ class Run {
   void fail(const Ending& e) {
     if (e.cause == Ending::Cause::output) return out_of_room(e.reason);
     if (e.cause == Ending::Cause::scene) {
-      if (!options_.resume) records_.remove();  // the scene is wrong, which its start has shown
+      if (!options_.resume) records_.remove();  // the start has shown that the scene is wrong
     } else {
       end(Status::failed,
           e.reason + (e.cause == Ending::Cause::rows ? contradiction() : "") + simulator_->circumstances());
@@ -206,7 +205,7 @@ class Run {
     Recorder::Lengths lengths;
   };
 
-  // Whole, of this scene, and written when the logs were as they still are.
+  // Throws SceneError unless the checkpoint is complete, of this scene, and fits the logs as they are now.
   Checkpoint read(const char* name) {
     Checkpoint found{options_.out / name, {}, {}};
     found.data = read_checkpoint(found.file, hash_);
@@ -216,7 +215,7 @@ class Run {
     return found;
   }
 
-  // The previous checkpoint serves if the newest is damaged, or if the logs are shorter than it states.
+  // Reads the previous checkpoint if the newest is damaged, or if the logs are shorter than it states.
   Checkpoint read() {
     try {
       return read(newest_checkpoint);
@@ -249,7 +248,7 @@ class Run {
     return found.lengths;
   }
 
-  // Whatever error a component reports while reading, it did not write this checkpoint.
+  // Any exception while reading means that the checkpoint does not fit the scene and the program.
   template <class Read>
   static void fitting(Checkpoint& found, Read read) {
     try {
@@ -262,8 +261,7 @@ class Run {
     }
   }
 
-  // The room that is held goes to the last lines and a checkpoint. A limit on the length of one file may still stop a
-  // log.
+  // Gives the reserved room to the last lines and a checkpoint. A limit on the length of one file may still stop a log.
   void out_of_room(std::string reason) {
     records_.give_room();
     if (Recorder* const recorder = records_.recorder()) {
@@ -295,7 +293,7 @@ class Run {
   std::uint64_t hash_;
   Setup setup_;
   std::optional<Simulator> simulator_;
-  RunRecords records_;  // after what its witness looks at
+  RunRecords records_;  // after the members that its witness reads
   Status status_ = Status::done;
   RunReport report_;
   Clock::time_point wall_start_;

@@ -12,12 +12,12 @@
 namespace trammel::simulate {
 namespace {
 
-constexpr double many = 50;            // steps between two records
-constexpr double long_wait = 20;       // [s] of CPU time to the end
-constexpr double stabilised_at = 10;   // [1/s] the rows of an explicit method, unless the scene says otherwise
-constexpr double accounts_for = 0.01;  // radians of the fastest motion in a step: fewer are short for another reason
+constexpr double many = 50;            // steps between two records: fewer are not slow
+constexpr double long_wait = 20;       // [s] of CPU time to the end: less is not slow
+constexpr double stabilised_at = 10;   // [1/s] Baumgarte's rates of explicit methods by default
+constexpr double accounts_for = 0.01;  // radians of the fastest motion: a shorter step has another cause
 
-// Methods of second order follow a swing by steps of some tolerance^(1/3) radians.
+// Steps of a method of second order that follow an oscillation are about tolerance^(1/3) radians long.
 double radians_that_account(bool implicit, const Tolerance& tolerance) {
   return implicit ? std::min(accounts_for, std::cbrt(tolerance.relative) / 2) : accounts_for;
 }
@@ -78,7 +78,7 @@ std::string SlowSteps::look(double seconds, const Setup& setup, Simulator& simul
     system.set_modes(simulator.system().modes());
     return slow + ": " + cause(fastest_motion(system, simulator.state()), setup, simulator, h);
   } catch (const std::exception&) {
-    return slow;  // a component has no answer away from the solution
+    return slow;  // a component throws away from the solution
   }
 }
 

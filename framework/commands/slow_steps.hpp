@@ -13,8 +13,9 @@ class SlowSteps {
   // The run's progress before its first step here.
   SlowSteps(double t, long long steps) : t_(t), steps_(steps) {}
 
-  // After `seconds` of CPU time, which a busy machine does not change: why the steps are so short, and the setting that
-  // cures it. Empty: the run is not slow, it is too early to decide, or the message was given before.
+  // Why the steps are so short, and a setting that avoids it, after `seconds` of CPU time. (Wall-clock time would
+  // depend on how busy the machine is.) Empty: the run is not slow, it is too early to decide, or the message was given
+  // before.
   std::string look(double seconds, const Setup& setup, Simulator& simulator);
 
  private:

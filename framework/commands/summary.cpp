@@ -51,7 +51,7 @@ std::string summary(const scene::Scene& scene, const Setup& setup, Simulator& si
   const auto line = [&text](const char* what, const std::string& value) {
     text += fmt::format("  {:<12}{}\n", what, value);
   };
-  // First of all what limits the trust in the rest.
+  // Warnings come first: they limit how far the other lines can be trusted.
   for (const std::string& warning : simulator.doubts()) line("warning", warning);
   for (const std::string& warning : simulator.warnings()) line("warning", warning);
   for (const std::string& warning : setup.warnings) line("warning", warning);

@@ -83,7 +83,7 @@ class Turned {
       force.force->wrench(t, A, B, on_A, on_B);
       return turns(of_A ? on_A : on_B, dim, sizes_.length);
     } catch (const std::exception&) {
-      return false;  // the component has no answer there
+      return false;  // the component throws there
     }
   }
 

@@ -81,7 +81,7 @@ double highest_frequency(const simulate::Setup& setup) {
   try {
     return simulate::find_equilibrium(system, rest) ? 0 : simulate::fastest_motion(system, rest).frequency;
   } catch (const std::exception&) {
-    return 0;  // a component has no answer on the way to the equilibrium
+    return 0;  // a component throws on the way to the equilibrium
   }
 }
 
