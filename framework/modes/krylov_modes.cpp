@@ -19,7 +19,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 constexpr int block = 8;           // more than the six rigid motions of a free body
 constexpr int most_blocks = 60;    // beyond those that `count` fills
 constexpr double accuracy = 1e-9;  // of theta, by its residual
-// sigma relative to omega^2 of a random motion, which is near that of the stiffest motion
+// sigma relative to omega^2 of a random motion, which is near that of the stiffest motion.
 constexpr double below_mean = 1e-7;
 constexpr double independent = 1e-8;  // least part of a direction outside the basis
 

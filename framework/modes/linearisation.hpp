@@ -7,7 +7,7 @@
 // frozen:
 //
 //     dv = Z y' + Y y,   Y = Z' + C Z      C: dv = (dq)' + C dq, omega x for turns in body axes, else 0
-//     G Z' = -d(G v + g_t)/dq Z - G C Z    of least kinetic energy: Z^T M Z' = 0, Z turns no more than the rows ask
+//     G Z' = -d(G v + g_t)/dq Z - G C Z    of least kinetic energy: Z^T M Z' = 0, Z turns only as much as the rows do
 //     D_r = Z^T (M (Z' + Y) + D Z)
 //     K_r = Z^T (M Y' + D Y + K Z),        Z^T M Z'' = -Z'^T M Z' - Z^T M' Z'
 //

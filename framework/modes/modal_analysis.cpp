@@ -33,7 +33,7 @@ using json = nlohmann::ordered_json;
 
 constexpr Eigen::Index null_space_limit = 1500, undamped_limit = 500,
                        damped_limit = 200;   // a few seconds of dense matrices
-constexpr double accelerates = 1e-6;         // [m/s^2, rad/s^2] less is not worth a line of the summary
+constexpr double accelerates = 1e-6;         // [m/s^2, rad/s^2] smaller ones get no line in the summary
 constexpr const char* run_to_state = "run";  // the folder below ours, of the run to the state that is analysed
 
 // The scene at the state that the options ask for, with contacts as they are there.
@@ -143,11 +143,11 @@ class Posed {
   Setup setup_;
   std::optional<Simulator> simulator_;
   std::optional<model::AssembledSystem> statics_;
-  std::optional<LoadPath> path_;  // holds the contacts' modes
+  std::optional<LoadPath> path_;  // owns the contacts' modes
   State state_;
   SteadyMotion motion_;
   std::string what_;
-  std::optional<WitnessScope> scope_;  // last: it refers to the members above
+  std::optional<WitnessScope> scope_;  // last, because it refers to the members above
 };
 
 double hertz(double angular) {
@@ -200,29 +200,39 @@ class Report {
   }
 
   std::string summary(const fs::path& folder) const {
+    std::string text = title_of(scene_) + "\n" + state_lines() + mode_table();
+    for (const std::string& warning : posed_.setup().warnings) text += line("warning", warning);
+    return text + line("results", folder.string());
+  }
+
+ private:
+  static std::string line(const char* what, const std::string& value) {
+    return fmt::format("  {:<12}{}\n", what, value);
+  }
+
+  std::string state_lines() const {
     const State& s = posed_.state();
     const Sizes n = posed_.system().sizes();
-    std::string text = title_of(scene_) + "\n";
-    const auto line = [&text](const char* what, const std::string& value) {
-      text += fmt::format("  {:<12}{}\n", what, value);
-    };
-    line("state", fmt::format("t = {:.9g}, {}", s.t, posed_.what()));
+    std::string text = line("state", fmt::format("t = {:.9g}, {}", s.t, posed_.what()));
     if (size(s.v) > 0)
-      line("", fmt::format("in {}motion, up to {:.3g} (m/s, rad/s){}", spectrum_.frozen ? "" : "steady ", size(s.v),
-                           spectrum_.frozen ? ": coefficients frozen there" : ""));
+      text += line("", fmt::format("in {}motion, up to {:.3g} (m/s, rad/s){}", spectrum_.frozen ? "" : "steady ",
+                                   size(s.v), spectrum_.frozen ? ": coefficients frozen there" : ""));
     if (const Eigen::Vector3d& w = spectrum_.frame_rate; w.norm() > 0)
-      line("frame", fmt::format("turns at ({:.9g}, {:.9g}, {:.9g}) rad/s; frequencies are those seen from it", w(0),
-                                w(1), w(2)));
+      text += line("frame", fmt::format("turns at ({:.9g}, {:.9g}, {:.9g}) rad/s; frequencies are those seen from it",
+                                        w(0), w(1), w(2)));
     if (size(s.a) > accelerates && spectrum_.frozen)
-      line("", fmt::format("not in equilibrium: it accelerates by up to {:.3g} (m/s^2, rad/s^2)", size(s.a)));
-    line("freedom", spectrum_.degrees < 0
-                        ? fmt::format("nv = {}, nc = {}", n.nv, n.nc)
-                        : fmt::format("{} of nv = {}, nc = {}{}", spectrum_.degrees, n.nv, n.nc,
-                                      spectrum_.redundant ? fmt::format(" ({} redundant)", spectrum_.redundant) : ""));
-    if (spectrum_.modes.empty()) line("modes", "none: nothing can move");
-    if (!spectrum_.modes.empty())
-      text += fmt::format("\n  {:>4}  {:>14}  {:>14}  {:>14}  {:>14}\n", "mode", "frequency [Hz]", "[rad/s]",
-                          "damping ratio", "growth [1/s]");
+      text += line("", fmt::format("not in equilibrium: it accelerates by up to {:.3g} (m/s^2, rad/s^2)", size(s.a)));
+    const std::string redundant =
+        spectrum_.redundant ? fmt::format(" ({} redundant)", spectrum_.redundant) : std::string();
+    return text + line("freedom", spectrum_.degrees < 0 ? fmt::format("nv = {}, nc = {}", n.nv, n.nc)
+                                                        : fmt::format("{} of nv = {}, nc = {}{}", spectrum_.degrees,
+                                                                      n.nv, n.nc, redundant));
+  }
+
+  std::string mode_table() const {
+    if (spectrum_.modes.empty()) return line("modes", "none: nothing can move");
+    std::string text = fmt::format("\n  {:>4}  {:>14}  {:>14}  {:>14}  {:>14}\n", "mode", "frequency [Hz]", "[rad/s]",
+                                   "damping ratio", "growth [1/s]");
     for (std::size_t i = 0; i < spectrum_.modes.size(); ++i) {
       const Mode& m = spectrum_.modes[i];
       const bool plain = m.kind == Mode::Kind::oscillation;
@@ -232,12 +242,9 @@ class Report {
     }
     if (unstable() > 0)
       text += fmt::format("\n  unstable    {} of these modes grow{}\n", unstable(), unstable() == 1 ? "s" : "");
-    for (const std::string& warning : posed_.setup().warnings) line("warning", warning);
-    line("results", folder.string());
     return text;
   }
 
- private:
   static double size(const Vec& x) { return x.size() ? x.lpNorm<Eigen::Infinity>() : 0; }
   int unstable() const {
     int sum = 0;
@@ -250,7 +257,7 @@ class Report {
   const Spectrum& spectrum_;
 };
 
-// In a frame that turns with the steady motion.
+// The modes as seen from a frame that rotates with the steady motion.
 Spectrum steady_spectrum(const Linearisation& l, int count) {
   Spectrum spectrum = dense_modes(l, count);
   spectrum.frame_rate = l.frame_rate;
@@ -278,19 +285,33 @@ Spectrum spectrum_of(Posed& posed, const ModesOptions& options) {
   return spectrum;
 }
 
+// Runs the scene to the time `options.at`, into a folder of its own.
+RunReport run_to_state_of(const scene::Scene& scene, plugin::Registry& registry, const ModesOptions& options) {
+  RunOptions to_there;
+  to_there.out = options.out / run_to_state;
+  to_there.command = options.command;
+  to_there.interrupt = options.interrupt;
+  to_there.witness = options.witness;
+  return run(scene, registry, to_there);
+}
+
+void write_files(const scene::Scene& scene, Posed& posed, const ModesOptions& options, const Spectrum& spectrum,
+                 const Report& report, const std::string& result) {
+  write_whole(options.out / "scene.resolved.json", scene.resolved());
+  write_whole(options.out / "modes.json", result);
+  write_whole(options.out / "modes.csv", report.csv());
+  write_whole(options.out / "shapes.csv", shapes_csv(posed.system(), posed.state(), spectrum.modes));
+  if (options.matrices) write_matrices(*options.matrices, matrices(posed.system(), posed.state()));
+}
+
 }  // namespace
 
 RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, const ModesOptions& options) {
   const bool ran = options.at && purpose_of(scene.root()) == Purpose::motion;
   if (!options.from) refuse_files_of_others(options.out / run_to_state, Analysis::motion);
-  if (ran) {
-    RunOptions run_options;
-    run_options.out = options.out / run_to_state, run_options.command = options.command;
-    run_options.interrupt = options.interrupt;
-    run_options.witness = options.witness;
-    RunReport to_there = run(scene, registry, run_options);
-    if (to_there.status != Status::done) return to_there;
-  }
+  if (ran)
+    if (RunReport to_there = run_to_state_of(scene, registry, options); to_there.status != Status::done)
+      return to_there;
   const std::clock_t began = std::clock();
   Posed posed(scene, registry, options);
   if (const auto n = posed.state().q.size(); options.matrices && n > null_space_limit)
@@ -308,11 +329,7 @@ RunReport analyse_modes(const scene::Scene& scene, plugin::Registry& registry, c
     fs::create_directories(options.out, error);
     remove_results(options.out);
     if (!ran && !options.from) remove_results(options.out / run_to_state);  // of an older analysis
-    write_whole(options.out / "scene.resolved.json", scene.resolved());
-    write_whole(options.out / "modes.json", done.result_json);
-    write_whole(options.out / "modes.csv", report.csv());
-    write_whole(options.out / "shapes.csv", shapes_csv(posed.system(), posed.state(), spectrum.modes));
-    if (options.matrices) write_matrices(*options.matrices, matrices(posed.system(), posed.state()));
+    write_files(scene, posed, options, spectrum, report, done.result_json);
     done.summary = report.summary(options.out);
     return done;
   } catch (...) {

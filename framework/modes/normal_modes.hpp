@@ -22,7 +22,7 @@ inline constexpr double no_damping = 1e-8;
 
 struct Mode {
   enum class Kind {
-    zero,         // lambda = 0: neither restrained nor driven; a rigid motion
+    zero,         // lambda = 0: a rigid motion, without stiffness
     oscillation,  // Im lambda > 0, Re lambda <= 0; one of its pair
     decay,        // real, < 0: overdamped
     growth,       // real, > 0: unstable

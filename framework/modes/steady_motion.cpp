@@ -25,11 +25,15 @@ constexpr double at_round_off = 1e-9;  // of the same: steps that are below this
 // keep their values.
 constexpr double damping = 1e-6;
 constexpr double far = 0.5;  // of velocities: a larger change leads to another motion than the intended one
-// Unbalanced forces relative to all forces, of a state that is written with a few digits less than doubles have.
+// Unbalanced forces relative to all forces: those of a state that is written with a few digits fewer than a double has.
 constexpr double unbalanced = 1e-8;
-// Pivots relative to the largest one: of the turning about an axis that turns nothing, of a stiffness that is 0.
+// Pivots relative to the largest one that count as 0: of rotation about an axis that moves nothing, of the stiffness.
 constexpr double turns_nothing = 1e-9, free_of_stiffness = 1e-9;
-constexpr double does_not_turn = 1e-12;  // least rate of a frame, of the largest velocity in sizes: round-off of a
+// Relative to the largest velocity in sizes: a frame that rotates more slowly is at rest, its rate is round-off of a.
+constexpr double does_not_turn = 1e-12;
+// Relative to the largest coordinate in sizes: after a longer step the iteration has diverged.
+constexpr double diverges_in_world = 1e3, diverges_in_frame = 10;
+constexpr double part_of_size = 0.7;  // the motion of the fastest coordinate in the time tau()
 
 // M a - f + W^T lambda with the accelerations of the steady motion, and the size of its terms, measured by their work
 // over the coordinates' sizes [N m].
@@ -107,7 +111,7 @@ std::optional<std::string> settle_in_the_world(model::AssembledSystem& system, S
     if (!system.correct(r, system.g(), dq, dlambda)) return "its stiffness there is singular";
     const CoordinateSizes sizes = system.coordinate_sizes();
     const double change = sizes.largest(dq);
-    if (!std::isfinite(change) || change > 1e3 * sizes.place) break;
+    if (!std::isfinite(change) || change > diverges_in_world * sizes.place) break;
     system.retract(s.q, dq, q);
     s.q = q, s.lambda += dlambda;
     system.move_to(s.t, s.q, s.v);
@@ -145,7 +149,7 @@ class InFrame {
       least.compute(K);
       const Vec along_rows = -space.left.transpose() * left_over, dq = space.Z * least.solve(along_rows);
       const double change = space.sizes.largest(dq), size = space.sizes.place;
-      if (!std::isfinite(change) || change > 10 * size) break;
+      if (!std::isfinite(change) || change > diverges_in_frame * size) break;
       move(s, dq);
       const auto along = [&](const State& at, const Vec& by) -> Vec {
         return TurningFrame(system_.model(), flat_, at, rate_).turned(by);
@@ -173,7 +177,7 @@ class InFrame {
 }  // namespace
 
 double SteadyMotion::tau() const {
-  return 0.7 / std::max(1e-300, speed);
+  return part_of_size / std::max(1e-300, speed);
 }
 
 State steady_state(model::AssembledSystem& system, const FlatTurning& flat, State at, const Vector3d& rate) {

@@ -30,7 +30,7 @@ struct SteadyMotion {
 // The state itself; without rates: it is not steady.
 SteadyMotion steady_as_it_is(model::AssembledSystem& system, const State& state);
 
-// The search starts from `state`, in the system's modes. A text: why there is none nearby.
+// The search starts from `state`, in the system's modes. The text states why there is none nearby.
 std::variant<SteadyMotion, std::string> find_steady_motion(model::AssembledSystem& system, const State& state);
 
 // t, q and v of `at` with a and lambda of a motion that is steady in that frame.
