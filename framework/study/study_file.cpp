@@ -24,7 +24,7 @@ using Type = Value::Type;
 // limit of Boost's table for Sobol's sequence: 3667
 constexpr std::size_t most_cases = 10'000'000, most_dimensions = 3000;
 
-const std::string scene_path = "scene";  // in "vary": no path of a scene
+const std::string scene_path = "scene";  // in "vary": varies the scene itself
 
 const std::vector<std::string>& modes() {
   static const std::vector<std::string> all = {"grid", "zip", "random", "sobol", "list"};

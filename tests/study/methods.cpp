@@ -45,7 +45,7 @@ TEST(TradeMethods, WithoutAnErrorEstimateTakeFixedSteps) {
   const Asked asked;
   const Method* method = asked.named("my_integrator");
   ASSERT_NE(method, nullptr);
-  EXPECT_EQ(method->dial, Method::Dial::step);
+  EXPECT_EQ(method->varied, Method::Varied::step);
   // Four times, then half as long each level: the records' 0.1 s is longer than a thousandth of 10 s.
   EXPECT_EQ(json::parse(method->with_level(0))["step"], 0.04);
   EXPECT_EQ(json::parse(method->with_level(3))["step"], 0.005);

@@ -30,7 +30,7 @@ struct CaseOptions {
   // start, or of the speed that this acceleration gives over the run.
   double perturbation = 0;
   std::optional<State> start;    // starts here, as if the run had reached this state
-  std::optional<double> enough;  // [s] a run that passes this time is done
+  std::optional<double> enough;  // [s] a run is done as soon as it passes this time
   simulate::Interrupt* interrupt = nullptr;
   simulate::CrashWitness* witness = nullptr;
 };

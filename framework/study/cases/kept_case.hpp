@@ -7,7 +7,7 @@
 
 namespace trammel::study {
 
-// Of the options, only witness and interrupt count. A case that is refused leaves no folder. Nothing is thrown.
+// Uses only `witness` and `interrupt` of the options. A case that is refused leaves no folder. Nothing is thrown.
 CaseResult run_kept_case(const scene::Scene& scene, plugin::Registry& registry, const std::filesystem::path& folder,
                          const CaseOptions& options);
 

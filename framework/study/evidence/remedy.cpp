@@ -19,9 +19,10 @@ namespace {
 using json = nlohmann::ordered_json;
 using End = RemedySearch::End;
 
-constexpr double past = 0.01;                        // of the run
-constexpr double tolerance = 1e-8;                   // of other methods
-constexpr double times_the_run = 3, least_time = 3;  // limit of a search: parts of the run's CPU time; least limit [s]
+constexpr double past = 0.01;        // of the run: a trial must pass the failure by this
+constexpr double tolerance = 1e-8;   // of other methods
+constexpr double times_the_run = 3;  // limit of a search, relative to the run's CPU time
+constexpr double least_time = 3;     // [s] but at least this
 
 std::vector<Remedy> remedies(const SceneSource& source, plugin::Registry& registry) {
   const FinerSteps finer = finer_steps(source, registry);
@@ -31,7 +32,7 @@ std::vector<Remedy> remedies(const SceneSource& source, plugin::Registry& regist
   std::vector<Method> methods = methods_for(source, registry).capable;
   std::stable_sort(methods.begin(), methods.end(), [](const Method& a, const Method& b) { return a.order > b.order; });
   for (const Method& method : methods)
-    if (method.type != finer.type && method.dial == Method::Dial::tolerance)
+    if (method.type != finer.type && method.varied == Method::Varied::tolerance)
       all.push_back({.what = fmt::format("another method: {}", method.name),
                      .overrides = {{"integrator", method.with_tolerance(tolerance)}}});
   const long long events = simulate::set_up(source.with(), registry).settings.event_limit;

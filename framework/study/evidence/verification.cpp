@@ -19,13 +19,13 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr double parted = 0.1;             // relative to a scale: beyond this the two motions are unrelated
+constexpr double parted = 0.1;             // relative to a scale: larger differences end the comparison
 constexpr double second_tolerance = 1e-8;  // of the other method: tighter than a run usually asks for
 constexpr double least_cpu = 0.2;          // [s] of a repetition: cheaper ones need no limit
 constexpr double tick = 1e-9;              // [s] the clock's unit: no run counts as cheaper
 
 struct Repeated {
-  Repetition as_told;
+  Repetition as_reported;
   CaseResult result;
   double share = 1;
 };
@@ -38,7 +38,7 @@ std::vector<Method> others(const SceneSource& source, plugin::Registry& registry
     if (m.type == type) family = m.family;
   std::vector<Method> all;
   for (const Method& m : methods.capable)
-    if (m.family != family && m.dial == Method::Dial::tolerance) all.push_back(m);
+    if (m.family != family && m.varied == Method::Varied::tolerance) all.push_back(m);
   std::stable_sort(all.begin(), all.end(), [](const Method& a, const Method& b) { return a.order > b.order; });
   return all;
 }
@@ -54,11 +54,11 @@ class Verifier {
     options.cpu_limit = std::max(left_, 0.0);
     Repeated one{{what, "", 0, 0}, run_case(source_.with(change), registry_, options), share};
     left_ -= one.result.cpu;
-    one.as_told.cpu = one.result.cpu;
+    one.as_reported.cpu = one.result.cpu;
     if (one.result.status == CaseResult::Status::too_long)
-      one.as_told.failure = fmt::format("took longer than the price allows, {:.3g} s", options.cpu_limit);
+      one.as_reported.failure = fmt::format("took longer than the price allows, {:.3g} s", options.cpu_limit);
     else if (!one.result.done())
-      one.as_told.failure = one.result.reason;
+      one.as_reported.failure = one.result.reason;
     repeated_.push_back(std::move(one));
     return repeated_.back().result.done();
   }
@@ -77,10 +77,10 @@ class Verifier {
             std::min(v.trusted_until, Measure(r.result, {}, scene).agree_until(run_.series, r.result.series, parted));
     for (const std::string& name : run_.series.names) v.observables.push_back(error_of(name, scene, v.trusted_until));
     for (const Repeated& r : repeated_) {
-      v.repetitions.push_back(r.as_told);
+      v.repetitions.push_back(r.as_reported);
       if (r.result.done())
         v.repetitions.back().difference = Measure(r.result, {}, scene).error(run_.series, v.trusted_until).max;
-      v.price += r.as_told.cpu / std::max(run_.cpu, tick);
+      v.price += r.as_reported.cpu / std::max(run_.cpu, tick);
     }
     return v;
   }
@@ -95,7 +95,8 @@ class Verifier {
       const Error e = measure.error(run_.series, until);
       all.scale = std::max(all.scale, measure.scale(*r.result.series.column(name)));
       const double error = std::max(e.max, e.multipliers) * measure.scale(*r.result.series.column(name)) / r.share;
-      if (!(error <= all.error)) all.error = error, all.t = e.t, all.reason = "differs so much from " + r.as_told.what;
+      if (!(error <= all.error))
+        all.error = error, all.t = e.t, all.reason = "differs so much from " + r.as_reported.what;
     }
     return all;
   }

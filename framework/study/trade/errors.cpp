@@ -7,11 +7,11 @@
 namespace trammel::study {
 namespace {
 
-// constant: an observable whose variation relative to its size is less is a constant of the motion. nothing: an
-// observable smaller than this part of the largest one is the round-off of 0.
+// An observable is a constant of the motion if its variation is less than `constant` times its size, and the round-off
+// of 0 if it is smaller than `nothing` times the largest one.
 constexpr double constant = 1e-6, nothing = 1e-8;
 
-// By what the scene writes: contacts.tip.force, joints.pin.reaction, beam.tip.ay.
+// By the path that the scene records: contacts.tip.force, joints.pin.reaction, beam.tip.ay.
 bool is_multiplier(const scene::Scene& scene, const std::string& name) {
   const scene::Value* what = scene.root().at_path("record.observe");
   what = what ? what->find(name) : nullptr;

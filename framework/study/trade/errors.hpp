@@ -1,9 +1,9 @@
 // Errors of observables against a reference, at the times of the records.
 //
 // Each observable is divided by its scale, the largest |x - x(start)| of the reference, or |x| if x varies by less than
-// a millionth of that, and at least 1e-8 of the largest scale, so that round-off of a zero is not judged. Records
-// within a hundredth of their interval from an impact do not count: a velocity jumps there, and a record before the
-// jump in one run and after it in the other shows no error. Multipliers (contact forces, reactions, accelerations),
+// a millionth of that, and at least 1e-8 of the largest scale, so that the round-off of 0 does not count as an error.
+// Records within a hundredth of their interval from an impact do not count: a velocity jumps there, and a record before
+// the jump in one run and after it in the other shows no error. Multipliers (contact forces, reactions, accelerations),
 // which a method finds with fewer digits than positions, have a maximum of their own.
 #pragma once
 

@@ -47,11 +47,11 @@ void describe(Method& method, plugin::Registry& registry) {
   const auto* integrator = dynamic_cast<const Integrator*>(made.get());
   if (!integrator) return;
   method.family = family_of(*integrator), method.order = std::max(1, integrator->traits().order);
-  if (method.dial == Method::Dial::step || dynamic_cast<const ErrorEstimate*>(integrator)) return;
+  if (method.varied == Method::Varied::step || dynamic_cast<const ErrorEstimate*>(integrator)) return;
   if (const auto* has = dynamic_cast<const HasFidelity*>(integrator))
     for (const FidelityParameter& p : has->fidelity())
       if (p.costs == FidelityParameter::Costs::more_if_smaller) method.tolerances.push_back(p.name);
-  if (method.tolerances.empty()) method.dial = Method::Dial::step;
+  if (method.tolerances.empty()) method.varied = Method::Varied::step;
 }
 
 // [s] the scene's own fixed step, or a step derived from its records.
@@ -64,24 +64,24 @@ double usual_step(const json& own, const simulate::Settings& settings) {
 }  // namespace
 
 double Method::asked(int level) const {
-  return dial == Dial::tolerance ? std::pow(10.0, -2 - level / 2.0) : 4 * step * std::pow(2.0, -level);
+  return varied == Varied::tolerance ? std::pow(10.0, -2 - level / 2.0) : 4 * step * std::pow(2.0, -level);
 }
 
 std::string Method::setting(int level) const {
-  return dial == Dial::tolerance ? fmt::format("tolerance {:.2g}", asked(level))
-                                 : fmt::format("step {:.3g} s", asked(level));
+  return varied == Varied::tolerance ? fmt::format("tolerance {:.2g}", asked(level))
+                                     : fmt::format("step {:.3g} s", asked(level));
 }
 
 std::string Method::with_tolerance(double tolerance) const {
   json object = json::parse(integrator);
   const json number = json::parse(fmt::format("{:.3g}", tolerance));
-  for (const std::string& name : tolerances) object[name] = number;
+  for (const std::string& parameter : tolerances) object[parameter] = number;
   object["step"] = tolerances.empty() ? json{{"tolerance", number}} : json(step);
   return object.dump();
 }
 
 std::string Method::with_level(int level) const {
-  if (dial == Dial::tolerance) return with_tolerance(asked(level));
+  if (varied == Varied::tolerance) return with_tolerance(asked(level));
   json object = json::parse(integrator);
   object["step"] = asked(level);
   if (contact_step > 0) object["contact_step"] = contact_step * asked(level) / step;
@@ -96,7 +96,7 @@ Methods methods_for(const SceneSource& source, plugin::Registry& registry) {
   scene::Problems problems;
   const double usual = usual_step(own, simulate::read_settings(scene.root(), simulate::Purpose::motion, problems));
   const auto consider = [&](Method method) {
-    if (method.dial == Method::Dial::tolerance) method.step = usual;
+    if (method.varied == Method::Varied::tolerance) method.step = usual;
     describe(method, registry);
     if (const std::string reason = refusal(source, registry, method); reason.empty())
       all.capable.push_back(std::move(method));
@@ -108,15 +108,16 @@ Methods methods_for(const SceneSource& source, plugin::Registry& registry) {
     bare.erase("step"), bare.erase("contact_step");
     bare["type"] = own_type;
     if (own.contains("step") && own["step"].is_number()) {
-      Method fixed{own_type + ", fixed steps", own_type, "", 1, Method::Dial::step, true, bare.dump(), own["step"], 0};
+      Method fixed{
+          own_type + ", fixed steps", own_type, "", 1, Method::Varied::step, true, bare.dump(), own["step"], 0};
       if (own.contains("contact_step") && own["contact_step"].is_number()) fixed.contact_step = own["contact_step"];
       consider(fixed);
     }
-    consider({own_type, own_type, "", 1, Method::Dial::tolerance, true, bare.dump()});
+    consider({own_type, own_type, "", 1, Method::Varied::tolerance, true, bare.dump()});
   }
   for (const plugin::Entry* entry : registry.all())
     if (entry->declaration.kind == Kind::integrator && entry->declaration.name != own_type)
-      consider({entry->declaration.name, entry->declaration.name, "", 1, Method::Dial::tolerance, false,
+      consider({entry->declaration.name, entry->declaration.name, "", 1, Method::Varied::tolerance, false,
                 json{{"type", entry->declaration.name}}.dump()});
   return all;
 }

@@ -17,7 +17,7 @@ class ReferenceSearch {
   ReferenceSearch(const Methods& methods, Runner& run, double target, const std::vector<std::string>& observed)
       : run_(run), target_(target), observed_(observed), scene_(run.source().with()) {
     for (const Method& method : methods.capable)
-      if (method.dial == Method::Dial::tolerance) candidates_.push_back(method);
+      if (method.varied == Method::Varied::tolerance) candidates_.push_back(method);
     std::stable_sort(candidates_.begin(), candidates_.end(),
                      [](const Method& a, const Method& b) { return a.order > b.order; });
   }
@@ -127,8 +127,8 @@ class ReferenceSearch {
     const Measure measure(first_->result, observed_, scene_);
     const Series &a = first_->result.series, &b = second_->result.series;
     r.trusted_until = measure.agree_until(a, b, target_ / 10);
-    r.parts_at = measure.agree_until(a, b, target_);
-    r.chaotic = r.parts_at < measure.end();
+    r.differ_at = measure.agree_until(a, b, target_);
+    r.chaotic = r.differ_at < measure.end();
     r.disagreement = measure.error(b, a, r.trusted_until).max;
     return r;
   }

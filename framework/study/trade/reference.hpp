@@ -1,4 +1,4 @@
-// A reference that finds itself: two methods of unrelated families, tightened until they agree.
+// The reference solution: two methods of families that share no formula, tightened until they agree.
 //
 // Digits in which they agree are trusted, and no error below ten times their disagreement is claimed. The search takes
 // a quarter of the budget at most.
@@ -23,7 +23,7 @@ struct ReferenceRun {
 struct TradeReference {
   ReferenceRun first, second;  // errors are measured against the first
   double disagreement = 0;     // largest scaled difference until trusted_until
-  double parts_at = 0;         // [s] time after which they differ by more than the target; the end: never
+  double differ_at = 0;        // [s] time after which they differ by more than the target; the end: never
   double trusted_until = 0;    // [s] the last record before they differ by more than a tenth of the target
   bool chaotic = false;        // they differ by more than the target before the end
   double floor() const { return 10 * disagreement; }

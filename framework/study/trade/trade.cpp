@@ -123,7 +123,7 @@ class Trade {
       const double asked = method.asked(level);
       finer.push_back(
           {"integrator.contact_step",
-           method.dial == Method::Dial::tolerance
+           method.varied == Method::Varied::tolerance
                ? fmt::format("{{\"tolerance\": {:.3g}}}", asked / 100)
                : fmt::format("{}", (method.contact_step > 0 ? method.contact_step / method.step : 1) * asked / 8)});
       const std::vector<CaseResult> fine = run_({finer}, std::max(1.0, 20 * result.cpu));

@@ -44,7 +44,7 @@ std::string about_reference(const TradeContent& c) {
     text += fmt::format(
         " The motion is chaotic or the references fail to resolve it: they part by more than the target at t = {:.6g} "
         "s of {:.6g} s. Trajectories are compared until t = {:.6g} s.",
-        r.parts_at, r.first.result.series.t.back(), r.trusted_until);
+        r.differ_at, r.first.result.series.t.back(), r.trusted_until);
   return text;
 }
 
@@ -136,7 +136,7 @@ report::Figure calibration(const TradeContent& c) {
                         {"largest scaled error", report::Scale::logarithmic},
                         {}};
   for (const Course& course : c.courses) {
-    if (course.method.dial != Method::Dial::tolerance) continue;
+    if (course.method.varied != Method::Varied::tolerance) continue;
     report::Curve curve{course.method.name, report::Mark::line_and_points, {}, {}};
     for (const auto& [level, s] : course.samples)
       (s.done() ? curve.points : curve.failures)
@@ -281,7 +281,7 @@ json to_json(const TradeContent& c, const report::Page& page, plugin::Registry& 
                         {"second_tolerance", c.reference->second.tolerance},
                         {"disagreement", c.reference->disagreement},
                         {"floor", c.reference->floor()},
-                        {"parts_at", c.reference->parts_at},
+                        {"differ_at", c.reference->differ_at},
                         {"trusted_until", c.reference->trusted_until},
                         {"chaotic", c.reference->chaotic}};
   if (c.choice) all["choice"] = choice_json(*c.choice);

@@ -58,7 +58,7 @@ class WorkPrecision {
  private:
   std::optional<int> next_level(const Course& course, double target) const;
   double expected_cost(const Course& course, int level) const;  // [s]; 0: unknown
-  void drop_dear(std::vector<std::pair<std::size_t, int>>& which, double target);
+  void drop_expensive(std::vector<std::pair<std::size_t, int>>& which, double target);
   void run(const std::vector<std::pair<std::size_t, int>>& which, double limit);
   Sample sample_of(const Method& method, int level, const CaseResult& result) const;
 
