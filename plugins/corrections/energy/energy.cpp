@@ -28,10 +28,10 @@ namespace {
 
 using namespace trammel;
 
-constexpr double round_off = 1e-20;  // of squares: relative to T or to a motion's own energy
+constexpr double round_off = 1e-20;  // of an energy, relative to T or to the energy of the motion before
 // Relative to 1 and the velocities: rates of the rows that are round-off of G v.
 constexpr double no_rate = 1e-14;
-// Relative to a motion: rates of rows that it does not move, and of those that are violated, times |g|.
+// Rates of rows that a motion of size 1 does not move: round-off, and this many times |g| if the rows are violated.
 constexpr double not_moved = 1e-9, by_violation = 10;
 
 class EnergyCorrection final : public Correction, public NeedsMomentum {
@@ -71,7 +71,7 @@ class EnergyCorrection final : public Correction, public NeedsMomentum {
   void archive(Archive& archive) override { archive("largest_kinetic", largest_); }
 
  private:
-  // -G v, beyond round-off
+  // Computes rates_ = -G v; false: they are round-off.
   bool moves_rows(System& s, const State& state) {
     if (s.sizes().nc == 0) return false;
     rates_.setZero(s.sizes().nc);

@@ -3,11 +3,12 @@
 //     V = null(G(q)),   V' = null(G(q')),   v = V Z + v_rows      V'^T V = X S Y^T  (singular values)
 //     v' = V' X Y^T Z + v_t                 v_t: least norm with G v_t = -g_t
 //
-// If the rows permit no motion, as in a truss that has locked, v' = v_t.
 // X Y^T is the rotation that brings V nearest to V' (Procrustes). It preserves the coefficients Z and hence the norm of
 // v, or the kinetic energy if the bases are orthonormal in M. Momenta change by a term of second order in the
-// correction. Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77 (2002), section 4. Dense: the cost grows with the cube
-// of the sizes.
+// correction. If the rows permit no motion, as in a truss that has locked, v' = v_t.
+//
+// Matrices are dense: the cost grows with the cube of the sizes. Chen Xiangyang, Chinese J. Comput. Mech. 19, 74-77
+// (2002), section 4.
 #include <Eigen/SVD>
 
 #include <trammel/correction.hpp>
@@ -49,7 +50,7 @@ class NullSpaceRotation final : public Correction {
   }
 
  private:
-  // L_ and B_ = G L^-T at a state, G by its products with unit vectors.
+  // Computes L_ and B_ = G L^-T at a state; the columns of G are its products with unit vectors.
   void move(System& s, const State& state) {
     s.move_to(state.t, state.q, state.v);
     const auto nv = Eigen::Index(s.sizes().nv), nc = Eigen::Index(s.sizes().nc);

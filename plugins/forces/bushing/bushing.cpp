@@ -26,9 +26,12 @@ using namespace trammel;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+// [rad] Angles below which k and its slope are summed as series: closed forms are differences of large numbers there.
+constexpr double series_of_factor = 1e-3, series_of_slope = 0.5;
+
 // J^-T x = x + phi x x / 2 + k phi x (phi x x),  k = 1/a^2 - 1/(2 a tan(a/2)), a = |phi|.
 double factor(double a) {
-  return a < 1e-3 ? 1.0 / 12 + a * a / 720 : 1 / (a * a) - 1 / (2 * a * std::tan(a / 2));
+  return a < series_of_factor ? 1.0 / 12 + a * a / 720 : 1 / (a * a) - 1 / (2 * a * std::tan(a / 2));
 }
 Vector3d inverse_transposed_jacobian(const Vector3d& phi, const Vector3d& x) {
   return x + phi.cross(x) / 2 + factor(phi.norm()) * phi.cross(phi.cross(x));
@@ -37,9 +40,9 @@ Vector3d inverse_jacobian(const Vector3d& phi, const Vector3d& x) {
   return x - phi.cross(x) / 2 + factor(phi.norm()) * phi.cross(phi.cross(x));
 }
 
-// (dk/da)/a. Near 0, where it is a difference of large numbers, by its series.
+// (dk/da)/a
 double slope_of_factor(double a) {
-  if (const double s = a * a; a < 0.5)
+  if (const double s = a * a; a < series_of_slope)
     return 1.0 / 360 +
            s * (1.0 / 7560 +
                 s * (1.0 / 201600 + s * (1.0 / 5987520 + s * (691.0 / 130767436800 + s * (1.0 / 6227020800)))));

@@ -50,20 +50,22 @@ struct HingeSpring : Force, WrenchTangent {
   }
 
  private:
+  static constexpr double near_straight = 1e-3;  // w below which functions of the bend are summed as series
+
   struct Bend {
     double cosine, square, over_sine;  // cos(psi), psi^2, psi/sin(psi)
 
     // d(psi/sin(psi))/dw = (1 - psi cos(psi)/sin(psi)) / sin(psi)^2
     double slope() const {
       const double w = 1 - cosine;
-      if (std::abs(w) < 1e-3) return 1.0 / 3 + w * (4.0 / 15 + w * (6.0 / 35 + w * (32.0 / 315)));
+      if (std::abs(w) < near_straight) return 1.0 / 3 + w * (4.0 / 15 + w * (6.0 / 35 + w * (32.0 / 315)));
       return (1 - over_sine * cosine) / (w * (2 - w));
     }
   };
   // With w = 1 - cos(psi) near straight: psi^2 = 2 w + w^2/3 + 4 w^3/45 + ..., whatever the sign of w.
   Bend bend_of(double e_squared) const {
     const double a = arms[0], b = arms[1], w = ((a + b) * (a + b) - e_squared) / (2 * a * b);
-    if (std::abs(w) < 1e-3)
+    if (std::abs(w) < near_straight)
       return {1 - w, w * (2 + w * (1.0 / 3 + w * (4.0 / 45 + w * (1.0 / 35 + w * (16.0 / 1575))))),
               1 + w * (1.0 / 3 + w * (2.0 / 15 + w * (2.0 / 35 + w * (8.0 / 315))))};
     if (w < 0) {  // stretched: psi is imaginary, even functions of it are real

@@ -28,6 +28,7 @@ using namespace trammel;
 constexpr double c[] = {0, 0.5, 0.5, 1};
 constexpr double a[] = {0.5, 0, 0.5, 0, 0, 1};
 constexpr double b[] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+constexpr double same_length = 1e-9;  // relative difference of two steps up to which the history serves
 constexpr double starter_less_embedded[] = {0, 0, 0, 1.0 / 6, -1.0 / 6};  // as in runge_kutta_4
 
 constexpr double bashforth_4[] = {55.0 / 24, -59.0 / 24, 37.0 / 24, -9.0 / 24};
@@ -140,9 +141,10 @@ class AdamsBaumgarte final : public Integrator, public ErrorEstimate, public Lin
   }
 
   int past_wanted() const { return predictor == Predictor::ab4 ? 4 : 3; }
-  bool same_step(double h) const { return std::abs(h - h_) <= 1e-9 * h; }
+  bool same_step(double h) const { return std::abs(h - h_) <= same_length * h; }
 
-  // Compare exactly with the last accepted step: t is rounded, and another step may have been tried since.
+  // to - from, or the length of the last trial or of the last accepted step if that is the same up to round-off of t.
+  // Callers then compare lengths exactly, because another step may have been tried since.
   double step_to(double from, double to) const {
     const double h = to - from;
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(from), std::abs(to));

@@ -74,17 +74,17 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     past_nu_ = nu_, past_v_ = v_, past_q_dot_ = q_dot_;
     past_nu_.col(last) = end_nu_, past_v_.col(last) = end_v_, past_q_dot_.col(last) = slope_end_;
     convergence_.accept();
-    // Modes may have changed; a linearisation costs about ten steps. Do it at the next step, because dense output of
-    // this one may still be needed.
-    constexpr int pays_after = 10;
-    linearise_ = ++steps_ >= pays_after && convergence_.slow(sweeps);
+    // Slow convergence may mean that the modes have changed. The next step linearises, because dense output of this one
+    // may still be needed.
+    linearise_ = ++steps_ >= cost_of_linearisation && convergence_.slow(sweeps);
   }
 
   double error(System& s, const State& now, const State& next, const Tolerance& tolerance) override {
     if (!recall(s, now, next)) return std::numeric_limits<double>::infinity();
-    // Near its limit, scaled to the order of the other errors, so that the step is reduced by the right factor.
+    // The growth of errors counts only near its limit, 1. It is scaled to the order of the other errors, so that the
+    // step is reduced by the right factor.
     const double growth = convergence_.growth(sweeps);
-    const double growing = growth > 0.25 ? std::pow(growth, double(points) / sweeps) : 0;
+    const double growing = growth > growth_that_counts ? std::pow(growth, double(points) / sweeps) : 0;
     const double sweep = convergence_.contraction() * last_sweep_norm(s, now, next, tolerance);
     const double collocated =
         field_.error(now, next, [&](Part part) { return without_middle_norm(s, now, next, tolerance, part); });
@@ -188,7 +188,8 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     return true;
   }
 
-  // Without rows: from nu of the last sweep, with the increment Phi xi_. It saves one evaluation of seven.
+  // Without rows the acceleration follows from nu of the last sweep at the increment Phi xi_, which saves one
+  // evaluation of seven.
   void take_end(System& s, State& next) {
     end_nu_ = nu_.col(last), end_v_ = next.v;
     s.rate(next.q, next.v, slope_end_);
@@ -197,8 +198,8 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     next.lambda.resize(0);
   }
 
-  // Round-off of nu, because elastic forces are differences of terms as large as omega^2 q, and applied forces are
-  // balanced by those of rows where a body rests; and its effect on q in a step.
+  // Round-off of nu, and its effect on q in a step. Elastic forces are differences of terms as large as omega^2 q, and
+  // the forces of rows balance applied ones where a body rests.
   std::pair<double, double> round_off(const State& now, double h) {
     if (now.q.size() != now.v.size())
       return {round_off_of_forces_,
@@ -251,15 +252,14 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
     r_.col(i) = slope_.q - rate_;
   }
 
-  // Predicts nu and r at the step's points. False: constant, because there is no last step or it was much shorter.
+  // Predicts nu and r at the step's points. False: constants, because there is no last step or it was much shorter.
   bool guess(System& s, const State& now, double h) {
-    constexpr double reach = 2.5;
     slope_.v = a_0_ = now.a;
     s.rate(now.q, now.v, slope_.q);
     xi_.setZero(now.v.size());
     take_slope(s, now, 0, now.v);
     eta_0_.noalias() = modes_.amplitudes() * now.v;
-    const bool past = past_h_ > 0 && h <= reach * past_h_;
+    const bool past = past_h_ > 0 && h <= longest_prediction * past_h_;
     if (past && ahead_by_ != h / past_h_) look_ahead(h / past_h_);
     for (int i = 1; i < points; ++i) {
       if (past) {
@@ -355,6 +355,9 @@ class ExponentialCollocation final : public Integrator, public ErrorEstimate, pu
   }
 
   static constexpr int most_coordinates = 1000;
+  static constexpr int cost_of_linearisation = 10;    // in steps
+  static constexpr double growth_that_counts = 0.25;  // SweepConvergence::growth; the limit is 1
+  static constexpr double longest_prediction = 2.5;   // step, in lengths of the last one
   static constexpr double none = 0, eps = std::numeric_limits<double>::epsilon();
   RungeKutta field_{{1, &none, &none, &none}};  // only its slopes are used
   SmallOscillations modes_;

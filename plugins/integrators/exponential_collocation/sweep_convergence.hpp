@@ -31,8 +31,8 @@ class SweepConvergence {
   // Records a sweep's change of values of this size.
   void swept(const Change& change, double size) { before_ = change_, change_ = change, size_ = size; }
 
-  bool settled() const { return change_.along_rows <= 1e-12 * size_ + 4 * rounding_; }
-  bool known() const { return trusted_ > 0 && h_ <= 1.25 * seen_h_; }
+  bool settled() const { return change_.along_rows <= no_change * size_ + 4 * rounding_; }
+  bool known() const { return trusted_ > 0 && h_ <= longest_trusted * seen_h_; }
 
   double contraction() const {
     if (seen()) return std::min(change_.whole / before_.whole, change_.along_rows / before_.along_rows);
@@ -40,16 +40,15 @@ class SweepConvergence {
     return seen_ * std::max(by, by * by);
   }
   // Amplification of errors from step to step; must not exceed 1.
-  double growth(int sweeps) const { return 3000 * std::pow(longer_, 4) * std::pow(contraction(), sweeps); }
-  bool diverges(int sweeps) const { return longer_ > 0 ? growth(sweeps) > 1 : contraction() > 0.5; }
+  double growth(int sweeps) const { return amplification * std::pow(longer_, 4) * std::pow(contraction(), sweeps); }
+  bool diverges(int sweeps) const { return longer_ > 0 ? growth(sweeps) > 1 : contraction() > diverging; }
   // True if convergence is less than twice as fast as required, or if a sweep gains no digit.
-  bool slow(int sweeps) const { return growth(sweeps) > std::pow(0.5, sweeps) || contraction() > 0.1; }
+  bool slow(int sweeps) const { return growth(sweeps) > std::pow(0.5, sweeps) || contraction() > one_digit; }
 
   // The step was accepted.
   void accept() {
-    constexpr int serves = 20;
     if (seen())
-      seen_ = contraction(), seen_h_ = h_, trusted_ = serves;
+      seen_ = contraction(), seen_h_ = h_, trusted_ = steps_between_observations;
     else if (trusted_ > 0)
       --trusted_;
   }
@@ -63,9 +62,17 @@ class SweepConvergence {
   }
 
  private:
+  // Relative to the values: a change by a sweep that is round-off, and a change that is large enough to observe r.
+  static constexpr double no_change = 1e-12, measurable = 1e-10;
+  static constexpr double amplification = 3000;    // of errors by extrapolation to a step of the same size
+  static constexpr double longest_trusted = 1.25;  // step for which an observed r is used, in lengths of that step
+  static constexpr double diverging = 0.5, one_digit = 0.1;  // r
+  static constexpr int steps_between_observations = 20;
+
+  // True if this step observed r: two sweeps, the first with a change well above round-off.
   bool seen() const {
     const double before = before_.along_rows;
-    return std::isfinite(before) && before > 1e-10 * size_ + 100 * (rounding_ + unseen_);
+    return std::isfinite(before) && before > measurable * size_ + 100 * (rounding_ + unseen_);
   }
 
   double h_ = 0, longer_ = 0, rounding_ = 0, unseen_ = 0, size_ = 0;

@@ -7,6 +7,11 @@ namespace trammel::ida {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double no_velocity = 1e-12;  // relative to 1 and the velocities: D z of a smaller z is left out
+constexpr int most_iterations = 10;    // onto the position rows
+constexpr double slow = 0.5;           // an iteration that reduces the violation by less has reached round-off
+constexpr double settled = 1e-9;       // [unit of the rows] if it is below this
+constexpr int passes = 3;  // onto the velocity rows, with the factors of q before it moved; the last reduce round-off
 
 }  // namespace
 
@@ -16,7 +21,7 @@ void Equations::restart(System& s) {
   nq_ = nq, nv_ = nv, nc_ = nc;
   zero_.setZero(nv_), zero_rows_.setZero(nc_);
   dpi_.setZero(nv_), dmu_.setZero(nc_), redundant_lambda_.setZero(nc_), redundant_mu_.setZero(nc_);
-  flat_ = nq_ == nv_;  // a part of q that turns has more numbers than rates
+  flat_ = nq_ == nv_;  // a rotation has more numbers than rates
 }
 
 void Equations::use(System& s) {
@@ -150,7 +155,7 @@ bool Equations::solve_projection(const double* b) {
 // r += D z by a difference of -f + W^T lambda; D is known to the System in its factors only.
 void Equations::add_damping(const Vec& z, Vec& r) {
   const double size = z.lpNorm<Eigen::Infinity>(), speed = 1 + at_.v.lpNorm<Eigen::Infinity>();
-  if (!(size > 1e-12 * speed)) return;
+  if (!(size > no_velocity * speed)) return;
   const double step = std::sqrt(eps) * speed / size;
   moved_ = at_.v + step * z;
   q_ = at_.q;
@@ -192,12 +197,11 @@ bool Equations::solve(const double* b, double* x) {
 
 // Moves q by modified Newton iterations with the factors of its first value.
 bool Equations::settle_positions(System& s, double t, Vec& q, Vec& v) {
-  constexpr int most_iterations = 10;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_iterations; ++i) {
     const double violation = s.g().lpNorm<Eigen::Infinity>();
     if (!(violation > eps * q.lpNorm<Eigen::Infinity>())) return std::isfinite(violation);
-    if (violation > 0.5 * before) return before < 1e-9;  // [unit of the rows] round-off is left
+    if (violation > slow * before) return before < settled;  // round-off is left
     before = violation;
     rc_ = s.g();
     if (!s.correct(zero_, rc_, change_, dmu_, Factors::projection)) return false;
@@ -215,7 +219,6 @@ bool Equations::project(System& s, double t, Vec& q, Vec& v) {
   s.move_to(t, q, v);
   s.factorise({}, zero_, zero_rows_, Factors::projection);
   if (!settle_positions(s, t, q, v)) return false;
-  constexpr int passes = 3;  // the factors are those of q before it moved; the last passes only reduce round-off
   for (int pass = 0; pass < passes; ++pass) {
     rc_ = s.g_dot();
     if (!(rc_.lpNorm<Eigen::Infinity>() > eps * v.lpNorm<Eigen::Infinity>())) break;
