@@ -1,8 +1,8 @@
 // Static functions, which complete the modes of a cantilever: the shapes of a beam that is loaded at its tip.
 //
 // All modes have no moment, no shear force and no normal force at x = L. Where a joint holds the tip or a load acts
-// there, their sum goes towards the true shape slowly: with N modes the error of a frequency falls as 1/N under a
-// moment or a normal force, as 1/N^3 under a shear force. Three polynomials have what is missing,
+// there, their sum converges slowly to the true shape: with N modes the error of a frequency falls as 1/N under a
+// moment or a normal force, as 1/N^3 under a shear force. Each of three polynomials has one of these:
 //
 //     x^2  (moment),   3 L x^2 - x^3  (shear force),   x  (normal force),
 //
@@ -11,10 +11,10 @@
 //
 //     int s'' Phi_i'' dx = b_i^4 int s Phi_i dx        (the boundary terms vanish: Phi_i'' = Phi_i''' = 0 at L)
 //
-// The two transverse ones are combined so that they are orthogonal to one another in both. So M and K of the undeformed
-// beam stay diagonal, and all other code treats these functions as further modes. The remaining coefficients of the
-// modes are smaller by b^-4 (axial: l^-2), and the errors fall as 1/N^9 under a moment, 1/N^11 under a shear force,
-// 1/N^5 under a normal force.
+// The two transverse ones are combined so that they are orthogonal to one another in both. Hence M and K of the
+// undeformed beam stay diagonal, and all other code treats these functions as further modes. The remaining coefficients
+// of the modes are smaller by b^-4 (axial: l^-2), and the errors fall as 1/N^9 under a moment, 1/N^11 under a shear
+// force, 1/N^5 under a normal force.
 #pragma once
 
 #include <array>

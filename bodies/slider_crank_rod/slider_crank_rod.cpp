@@ -5,8 +5,8 @@
 //
 // Kinetic energy, with E the turn by 90 degrees, s(q) = s_0 + S q the first moment and J(q) = J_0 + 2 c.q + q.M q:
 //     T = m |o'|^2/2 + o' . R (phi' E s + S q') + J phi'^2/2 + phi' (b + B^T q) . q' + q' . M q'/2,      B = -B^T
-// which gives the mass matrix below and the velocity terms of `force`; K q holds the modes.
-// The longitudinal block of M is 15 times the consistent one: published so, and part of the benchmark.
+// which gives the mass matrix below and the velocity terms of `force`; -K q are the elastic forces.
+// The longitudinal block of M is 15 times the consistent one, as published: this is part of the benchmark.
 // Source: B. Simeon, Modelling a flexible slider crank mechanism by a mixed system of DAEs and PDEs, Math. Modelling of
 // Systems 2 (1996) 1-18; Test Set for IVP Solvers, slider crank.
 #include <cmath>

@@ -200,7 +200,7 @@ void TsplinePlate::place_markers() {
   for (Marker& m : marker_points_) m.point = surface_point(*mesh_, m.u, m.v, m.height);
 }
 
-// A marker counts u as its patch does, from `own_u`.
+// Markers are given in the parameters of their patch, whose u begins at `own_u`.
 void TsplinePlate::add_markers(int k, const Box<double>& range, double own_u) {
   const auto& [low, high] = range;
   const std::string prefix = named_patches.empty() ? "" : named_patches[std::size_t(k)].first + "_";

@@ -50,7 +50,8 @@ struct Candidate {
   bool operator<(const Candidate& other) const { return distance < other.distance; }
 };
 
-struct Looked {  // at a point of the surface
+// A point of the surface that the search has evaluated.
+struct Evaluated {
   Candidate found;
   SurfacePoint point;
   Place place;
@@ -63,12 +64,12 @@ Candidate descend(const Discretisation& mesh, In q, const Vector3& x, const Eige
                   const Candidate& known) {
   const Box<double> range = mesh.basis.range(mesh.basis.patch_at(start.x()));
   const Eigen::Vector2d low(range.low[0], range.low[1]), high(range.high[0], range.high[1]);
-  const auto look = [&](const Eigen::Vector2d& at) {
+  const auto evaluate = [&](const Eigen::Vector2d& at) {
     SurfacePoint point = surface_point(mesh, at.x(), at.y());
     const Place p = place(mesh, point, q);
-    return Looked{{(p.r - x).norm(), at}, std::move(point), p};
+    return Evaluated{{(p.r - x).norm(), at}, std::move(point), p};
   };
-  Looked here = look(start);
+  Evaluated here = evaluate(start);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const Candidate from = here.found;
     const Place p = here.place;
@@ -92,7 +93,7 @@ Candidate descend(const Discretisation& mesh, In q, const Vector3& x, const Eige
     // Round-off must not reject the last, best steps.
     const double allowed = from.distance + round_off_of_distance * (from.distance + x.norm());
     for (double scale = 1; scale > shortest_part; scale /= 2) {
-      here = look((from.at + scale * step).cwiseMax(low).cwiseMin(high));
+      here = evaluate((from.at + scale * step).cwiseMax(low).cwiseMin(high));
       if (here.found.distance <= allowed) break;
     }
     if (here.found.distance > allowed) return from;

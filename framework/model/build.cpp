@@ -92,7 +92,7 @@ class Builder {
     }
   }
 
-  // A part of paths such as "beam.tip.y", like the names of bodies.
+  // Names of markers are parts of paths such as "beam.tip.y", so the rule for names of bodies applies to them, too.
   void check_marker_names(const Body& body, const Value& value) {
     const Value* given = value.find("markers");
     for (const std::string& marker : body.markers())

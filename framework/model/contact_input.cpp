@@ -149,7 +149,8 @@ class ContactInput {
     return true;
   }
 
-  // Whether what stands against the surface is another body's, and one that points can slide on.
+  // False, with a problem reported: the other side of the contact is on the same body, or is a surface on which points
+  // cannot slide.
   bool other_may_touch(const SurfaceSide& side, const Value& second, const Value& contact, const ContactEntry& entry) {
     const std::string& name = model_.bodies[std::size_t(side.body)].name;
     if (entry.B.body == side.body) {
@@ -187,13 +188,7 @@ class ContactInput {
     entry.friction_origin = origin;
   }
 
-  // "reaches": a joint with one row; "between": its markers.
-  bool read_limit(const Value& value, ContactEntry& entry) {
-    const Value& reaches = *value.find("reaches");
-    auto [joint, origin] = plugin::make<Constraint>(registry_, Kind::joint, reaches, model_.world, problems_);
-    RowLimit limit;
-    limit.origin = origin;
-    limit.markers = markers_.markers_of(value, joint.get());
+  void refuse_keys_of_other_contacts(const Value& value, const Value& reaches) {
     for (const char* key : {"radius", "friction"})
       if (const Value* other = value.find(key))
         problems_.error(
@@ -202,6 +197,16 @@ class ContactInput {
       problems_.error(own->problem("the markers stand in the contact's own \"between\""));
     if (const Value* own = reaches.find("friction"))
       problems_.error(own->problem("this joint is no bearing: it only says what the contact waits for; remove it"));
+  }
+
+  // "reaches": a joint with one row; "between": its markers.
+  bool read_limit(const Value& value, ContactEntry& entry) {
+    const Value& reaches = *value.find("reaches");
+    auto [joint, origin] = plugin::make<Constraint>(registry_, Kind::joint, reaches, model_.world, problems_);
+    RowLimit limit;
+    limit.origin = origin;
+    limit.markers = markers_.markers_of(value, joint.get());
+    refuse_keys_of_other_contacts(value, reaches);
     if (const Value* from = value.find("from")) {
       const auto side = from->read_text(problems_);
       if (side && *side != "above" && *side != "below")

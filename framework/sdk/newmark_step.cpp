@@ -17,11 +17,13 @@ constexpr double share_of_first = 1e-3;
 // An acceleration that changes by more than the part `smooth` of itself in a step is not extrapolated; nor is one from
 // a step that was shorter by more than `longest_ahead`.
 constexpr double smooth = 0.5, longest_ahead = 4;
-// Levers may be shorter than the unit of length: rows may turn by this factor more than their coordinates move.
+// Rows may turn by this factor more than their coordinates move: levers may be shorter than the unit of length.
 constexpr double turns = 10;
-// Corrections of the rows alone, at the end of a step; each multiplies its error by `turns` times the motion, or less.
+// Corrections of the rows alone, at the end of a step. Each multiplies the error of the one before by at most `turns`
+// times the motion.
 constexpr int most_passes = 4;
-// Rows that are still missed by so much contradict each other: [m, rad], and of the largest place and its change.
+// Rows whose violation is still larger contradict each other: [m, rad], and relative to the largest place and its
+// change.
 constexpr double contradictory = 1e-8, contradictory_in_place = 1e-6;
 constexpr double most_noise = 1e-3;  // of the velocity: round-off of the positions over the step, of formulation index3
 

@@ -13,15 +13,17 @@ namespace {
 // its end. Near a change of rank the error of the accelerations is this violation divided by the square of the angle
 // between rows. Rows are independent down to an angle of 1e-7.
 constexpr double round_off = 1e-15;
-// Rows are differences of coordinates, whose round-off is a share of the largest place. Below that violation slow
-// convergence counts as round-off. With new factors it does below `stalling` [m, rad], too.
+// Rows are differences of coordinates, whose round-off is this share of the largest place. Slow convergence at a
+// smaller violation counts as round-off; with new factors it also does so below `stalling` [m, rad].
 constexpr double round_off_of_place = 1e-14, stalling = 1e-9;
-// A projection that leaves more has failed: [m, rad], and of the largest place.
+// A projection that leaves a larger violation has failed: [m, rad], and relative to the largest place.
 constexpr double most_left = 1e-6, most_left_of_place = 1e-13;
 
-// Far beyond the range of any model, and small enough that a model may form fourth powers.
+// Numbers of this square are far beyond the range of any model, and small enough that a model may form fourth powers.
+constexpr double largest_square = 1e120;
+
 bool within_range(const Vec& x) {
-  return x.squaredNorm() < 1e120;  // false for NaN too
+  return x.squaredNorm() < largest_square;  // false for NaN, too
 }
 
 }  // namespace

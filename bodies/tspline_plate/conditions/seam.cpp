@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -11,6 +12,8 @@ namespace trammel::plate {
 namespace {
 
 constexpr double same_place = 1e-9;  // of the size of the plate; and of angles, ratios and parameters from 0 to 1
+// Of angles and ratios of arms to second rows, which are shorter than the plate.
+constexpr double same_across = 1e2 * same_place;
 
 PatchNet net_of(const Multipatch& basis, const Points& points, int patch) {
   return {basis.patch(patch), points, basis.first_function(patch)};
@@ -134,12 +137,12 @@ double speed_ratio(const Side& a, const Side& b, const Seam& seam) {
     kink = std::max(kink, std::atan2(to_a.cross(to_b).norm(), -to_a.dot(to_b)));
     sum_a += to_a.norm(), sum_b += to_b.norm();
   }
-  if (kink > 1e2 * same_place)  // control points of second rows lie closer than the size of the plate
+  if (kink > same_across)
     throw std::invalid_argument(fmt::format(
         "lines across the joint have a kink of {:.3g} degrees there; C1 needs them to go on straight, C0 does "
         "not (a hinge)",
-        kink * 180 / 3.141592653589793));
-  if (most > least * (1 + 1e2 * same_place))
+        kink * 180 / std::numbers::pi));
+  if (most > least * (1 + same_across))
     throw std::invalid_argument(fmt::format(
         "across the joint the patch of {} is stretched {:.4g} times as much as that of {} at one place and {:.4g} "
         "times at another; C1 needs one ratio all along",

@@ -1,7 +1,7 @@
 // A joint of two edges across which the surface continues: between two patches, or of two edges of one patch in a tube.
 //
-//     C0   u_e = u_e'                               one edge row: a line about which the patches turn freely (a hinge)
-//     C1   (f + b f') u_e = f u_s + b f' u_s'       and every point of it stays between those of the second rows
+//     C0   u_e = u_e'                               common edge row, about which the patches turn freely (a hinge)
+//     C1   (f + b f') u_e = f u_s + b f' u_s'       and each of its points stays between those of the second rows
 //
 // e: edge row, s: second row, ' the other side; f = w_s / (w_e tau) with the first knot span tau: for weights of a
 // product of curves, however refined, r_across = 3 sum N_j w_e f (P_s - P_e) / W. b, how much faster the parameter
@@ -34,7 +34,8 @@ struct Seam {
 // Throws std::invalid_argument: there is a gap between the edges.
 Seam find_seam(const Multipatch& basis, const Points& points, PatchEdge a, PatchEdge b, Continuity continuity);
 
-// Throws std::invalid_argument: knots or weights along the edges differ; C1: the reference has a kink, or no one b.
+// Throws std::invalid_argument: knots or weights along the edges differ; C1: the reference has a kink, or b varies
+// along the edge.
 void join(const Multipatch& basis, const Points& points, const Seam& seam, Elimination& elimination);
 
 // Elements at the seam that must be crossed to give the edge of either side a knot that only the other one has.

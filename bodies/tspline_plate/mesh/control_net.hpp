@@ -25,14 +25,15 @@ struct Frame {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
-// All on the unit square of parameters. Angles in rad, about the frame's z axis from its x axis. `knots` are those of
-// the arc from - to, if it is longer than one rational cubic; latitudes are at most `largest_arc`.
+// All on the unit square of parameters. Angles [rad] are about the frame's z axis, from its x axis; u (ring: v) runs
+// along the arc. `knots` are those of the arc from - to, if it is longer than one rational cubic; latitudes span at
+// most `largest_arc`.
 using Knots = std::span<const double>;
 ControlNet rectangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& along_u, const Eigen::Vector3d& along_v);
-ControlNet ring(const Frame& frame, double inner, double outer, double from, double to, Knots knots = {});  // v round
-ControlNet cylinder(const Frame& frame, double radius, double length, double from, double to, Knots knots = {});  // u
+ControlNet ring(const Frame& frame, double inner, double outer, double from, double to, Knots knots = {});
+ControlNet cylinder(const Frame& frame, double radius, double length, double from, double to, Knots knots = {});
 ControlNet sphere(const Frame& frame, double radius, double from, double to, double south, double north,
-                  Knots knots = {});  // u round
+                  Knots knots = {});
 
 // The same surface on a finer mesh of the same parameters.
 ControlNet refined(const ControlNet& net, const TMesh& fine);

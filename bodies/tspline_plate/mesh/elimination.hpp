@@ -2,8 +2,8 @@
 //
 // u are the three displacements of every control point (3 n). Each condition sum c_k u_k = 0 expresses the component
 // with the largest coefficient (the last of equals) by the others, so conditions along the axes just delete columns,
-// and q are always components of u themselves. A condition that follows from those before it, as far as its
-// coefficients are known, is ignored.
+// and q are always components of u themselves. A condition that follows from those before it, to the accuracy of
+// its coefficients, is ignored.
 #pragma once
 
 #include <vector>
@@ -21,7 +21,7 @@ class Elimination {
  public:
   explicit Elimination(int components) : relation_(std::size_t(components)), held_(std::size_t(components), false) {}
 
-  // known_to: accuracy relative to the largest coefficient
+  // `known_to`: accuracy of the coefficients, relative to the largest one.
   void hold(std::vector<Term> condition, double known_to = 1e-12);
   void hold(int component) { hold({{component, 1}}); }
   void finish();  // no conditions may follow

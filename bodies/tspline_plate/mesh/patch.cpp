@@ -1,7 +1,9 @@
 #include "tspline_plate/mesh/patch.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -11,9 +13,11 @@ namespace {
 
 using Vector3 = Eigen::Vector3d;
 
-constexpr double full_turn = 2 * 3.141592653589793 * (1 + 1e-12), to_pole = full_turn / 4;
+// With a margin for the round-off of the scene's angles.
+constexpr double full_turn = 2 * std::numbers::pi * (1 + 1e-12), to_pole = full_turn / 4;
 constexpr double parallel = 1e-9;             // [rad] angle of two axes that counts as none
 constexpr double least_independence = 1e-10;  // of functions, from 0 (dependent) to 1
+constexpr int most_elements = 1000;           // of the first mesh in each direction
 
 // Knots of the lines of direction d that run all across, each once.
 std::vector<double> full_lines(const TMesh& mesh, int d) {
@@ -31,6 +35,29 @@ std::vector<double> even_knots(int n) {
   std::vector<double> knots;
   for (int i = 0; i <= n; ++i) knots.push_back(double(i) / n);
   return knots;
+}
+
+// "10x8": the numbers of elements in u and v.
+std::array<int, 2> read_elements(const std::string& text) {
+  int n = 0, m = 0, used = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%n", &n, &m, &used) != 2 || used != int(text.size()) || n < 1 || m < 1 ||
+      n > most_elements || m > most_elements)
+    throw ParameterError("mesh.elements",
+                         fmt::format("found \"{}\", expected two whole numbers such as \"10x10\"", text));
+  return {n, m};
+}
+
+// Four numbers a line, as in mesh.partial.
+std::vector<PartialLine> read_partial_lines(const std::vector<double>& numbers) {
+  if (numbers.size() % 4 != 0)
+    throw ParameterError("mesh.partial",
+                         fmt::format("found {} numbers, expected four a line: 0 (u = const) or 1 (v = const), "
+                                     "line, from, to",
+                                     numbers.size()));
+  std::vector<PartialLine> lines;
+  for (std::size_t i = 0; i < numbers.size(); i += 4)
+    lines.push_back({numbers[i] != 0 ? 1 : 0, int(numbers[i + 1]), int(numbers[i + 2]), int(numbers[i + 3])});
+  return lines;
 }
 
 }  // namespace
@@ -84,24 +111,12 @@ TMesh Patch::mesh() const {
   std::vector<double> u = knots_u, v = knots_v;
   if (u.empty() != v.empty()) throw ParameterError(u.empty() ? "mesh.u" : "mesh.v", "give both u and v, or elements");
   if (u.empty()) {
-    int n = 0, m = 0, used = 0;
-    if (std::sscanf(elements.c_str(), "%dx%d%n", &n, &m, &used) != 2 || used != int(elements.size()) || n < 1 ||
-        m < 1 || n > 1000 || m > 1000)
-      throw ParameterError("mesh.elements",
-                           fmt::format("found \"{}\", expected two whole numbers such as \"10x10\"", elements));
+    const auto [n, m] = read_elements(elements);
     u = even_knots(elements_u > 0 ? elements_u : n), v = even_knots(elements_v > 0 ? elements_v : m);
   }
   if (shape != Shape::points && (u.front() != 0 || u.back() != 1 || v.front() != 0 || v.back() != 1))
     throw ParameterError("mesh.u", "knots of this geometry go from 0 to 1, in u and v");
-  if (partial_lines.size() % 4 != 0)
-    throw ParameterError("mesh.partial",
-                         fmt::format("found {} numbers, expected four a line: 0 (u = const) or 1 (v = const), "
-                                     "line, from, to",
-                                     partial_lines.size()));
-  std::vector<PartialLine> partial;
-  for (std::size_t i = 0; i < partial_lines.size(); i += 4)
-    partial.push_back({partial_lines[i] != 0 ? 1 : 0, int(partial_lines[i + 1]), int(partial_lines[i + 2]),
-                       int(partial_lines[i + 3])});
+  const std::vector<PartialLine> partial = read_partial_lines(partial_lines);
   try {
     TMesh result = TMesh::tensor(u, v, partial);
     const auto faces = result.elements();
@@ -109,7 +124,7 @@ TMesh Patch::mesh() const {
     std::vector<Box<double>> boxes;
     for (double e : crossed) boxes.push_back(result.parameters(faces[std::size_t(e)]));
     refine(result, boxes, closure);
-    close(result, closure);  // of partial lines, where nothing was crossed
+    close(result, closure);  // also closes partial lines where nothing is crossed
     return result;
   } catch (const std::invalid_argument& e) {
     throw ParameterError("mesh", e.what());

@@ -1,9 +1,9 @@
 // Ability of a component: parameters that trade accuracy for time. `trammel trade` varies them; the others are
 // properties of the thing that is modelled.
 //
-// Of a body, force or contact they are the model's, such as a number of modes. Of an integrator without ErrorEstimate
-// that controls its error itself, they are its tolerances (Costs::more_if_smaller), all set to the tolerance that is
-// wanted.
+// A body, force or contact names parameters of the model, such as a number of modes. An integrator that controls its
+// error itself, without ErrorEstimate, names its tolerances (Costs::more_if_smaller): `trammel trade` sets all of them
+// to the tolerance that it tries.
 #pragma once
 
 #include <string>
@@ -14,10 +14,11 @@ namespace trammel {
 
 struct FidelityParameter {
   enum class Costs { more_if_larger, more_if_smaller };
-  std::string name;  // as declared: "modes.transverse"; a number that is 0 stands for "not given" and is not varied.
-                     // Of a text, such as "10x4", every number in it is varied
+  // As declared: "modes.transverse". A number that is 0 means "not given" and is not varied. In a text, such as "10x4",
+  // every number is varied.
+  std::string name;
   Costs costs = Costs::more_if_larger;
-  std::vector<std::string> choices = {};  // of a choice, from the cheapest to the most faithful
+  std::vector<std::string> choices = {};  // for a parameter with .choice(...): from the cheapest to the most accurate
 };
 
 // Another component of the same kind that models the same thing, such as a rigid contact in place of a stiff one.

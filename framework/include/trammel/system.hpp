@@ -60,10 +60,10 @@ class System {
 
   virtual Energy energy() = 0;  // of all bodies, forces and contacts that store energy [J]
 
-  // Solves M a + W^T lambda = f, G a = gamma - stabilisation. If rows are redundant, lambda is one of many solutions;
-  // those that are recorded, or press joints that rub, are of minimum norm, sum_i lambda_i^2, rows in the units in
-  // which joints write them, whatever the number of rows. With W = G every choice of lambda gives the same a and W^T
-  // lambda; with W != G a may depend on the choice. Throws if M is singular on the null space of G.
+  // Solves M a + W^T lambda = f, G a = gamma - stabilisation. Throws if M is singular on the null space of G. If rows
+  // are redundant, lambda is one of many solutions. With W = G all of them give the same a and W^T lambda; with W != G
+  // a may depend on the choice. The multipliers that are recorded, and those that load joints with friction, have the
+  // least norm at any number of rows, sum_i lambda_i^2 with rows in the units in which joints write them.
   virtual void accelerate(Stabilisation, Vec& a, Vec& lambda) = 0;
 
   // Factorises [S W^T; G 0] at this point, or [S G^T; G 0] for Factors::projection. The projection never uses W: a
