@@ -20,6 +20,19 @@ AssumedModeBeam::Point AssumedModeBeam::point(const PointShape& shape, In q) con
   return at;
 }
 
+namespace {
+
+// Gives the members of a motion their sizes at its first use.
+void set_sizes(int n, Motion& motion) {
+  if (int(motion.dofs.size()) == n) return;
+  motion.dofs.resize(std::size_t(n));
+  for (int i = 0; i < n; ++i) motion.dofs[std::size_t(i)] = i;
+  motion.J.setZero(3, n);
+  motion.x.resize(2), motion.R.resize(2, 2), motion.V.resize(3), motion.bias.resize(3);
+}
+
+}  // namespace
+
 // With the coupling none the kinetic energy is that of the undeformed beam, but a marker follows the deformed one.
 void AssumedModeBeam::motion(int marker, double, In q, In v, Motion& motion) const {
   const PointShape& shape = marker_shapes_[std::size_t(marker)];
@@ -28,12 +41,7 @@ void AssumedModeBeam::motion(int marker, double, In q, In v, Motion& motion) con
   const double *Ad = v.data() + i_A_, *Bd = v.data() + i_B_;
   const double w = omega(v), angle_now = theta(q), c = std::cos(angle_now), s = std::sin(angle_now);
   const Eigen::Vector2d o = origin(q);
-  if (int(motion.dofs.size()) != n_) {
-    motion.dofs.resize(std::size_t(n_));
-    for (int i = 0; i < n_; ++i) motion.dofs[std::size_t(i)] = i;
-    motion.J.setZero(3, n_);
-    motion.x.resize(2), motion.R.resize(2, 2), motion.V.resize(3), motion.bias.resize(3);
-  }
+  set_sizes(n_, motion);
   motion.x << o(0) + c * at.X - s * at.Y, o(1) + s * at.X + c * at.Y;
   motion.angle = angle_now + std::atan(at.slope);
   const double turned_c = std::cos(motion.angle), turned_s = std::sin(motion.angle);

@@ -74,6 +74,19 @@ void TsplinePlate::check_parameters(const World& world) const {
   check_refinement();
 }
 
+namespace {
+
+// Patches that are joined, directly or through others, have the same number in `group`.
+void require_one_group(const std::vector<int>& group, const Named<Patch>& patches) {
+  for (std::size_t k = 1; k < group.size(); ++k)
+    if (group[k] != group[0])
+      throw ParameterError(
+          "patches." + patches[k].first,
+          fmt::format("nothing in \"joined\" ties it to {}; a separate plate is a body of its own", patches[0].first));
+}
+
+}  // namespace
+
 // Every patch is connected to the first, and an edge continues smoothly in one other edge at most.
 void TsplinePlate::check_joined() const {
   std::vector<int> group;
@@ -102,11 +115,7 @@ void TsplinePlate::check_joined() const {
     const int from = group[std::size_t(sides[0].patch)], to = group[std::size_t(sides[1].patch)];
     std::replace(group.begin(), group.end(), to, from);
   }
-  for (int k = 1; k < patch_count(); ++k)
-    if (group[std::size_t(k)] != group[0])
-      throw ParameterError("patches." + named_patches[std::size_t(k)].first,
-                           fmt::format("nothing in \"joined\" ties it to {}; a separate plate is a body of its own",
-                                       named_patches[0].first));
+  require_one_group(group, named_patches);
 }
 
 void TsplinePlate::check_refinement() const {

@@ -38,7 +38,7 @@ struct Scale {
   double touching() const { return round_off * gaps_and_bodies + resolution(); }
   double rest_speed() const { return round_off * speed + speed_resolution(); }
   double no_acceleration() const;
-  // [m/s] Impacts are solved to 1e-9 of the rates before them (complementarity/contact_point.hpp).
+  // [m/s] Impacts are solved to 1e-9 of the rates before them (complementarity/programs/contact_point.hpp).
   double left_by_impacts() const { return 1e-9 * speed + speed_resolution(); }
   // [m/s] Rates up to this may have been left by the steps in rows that they hold.
   double drift() const { return 1e-6 * speed + speed_resolution(); }

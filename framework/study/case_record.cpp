@@ -1,5 +1,6 @@
 #include "study/case_record.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -108,15 +109,30 @@ std::string csv(const Study& study, const CaseRecords& records) {
   return text;
 }
 
-// Paths whose values are all numbers are arrays of numbers, others of texts.
+namespace {
+
+// The values of the k-th path: an array of numbers if all of them are numbers, else of texts.
+void add_values(simulate::NpzFile& npz, const Study& study, const CaseRecords& records, std::size_t k) {
+  const auto is_number = [&](const auto& record) {
+    const std::string& value = study.values(record.first)[k];
+    return value.empty() || as_number(value);
+  };
+  if (std::all_of(records.begin(), records.end(), is_number)) {
+    std::vector<double> numbers;
+    for (const auto& [i, r] : records) numbers.push_back(as_number(study.values(i)[k]).value_or(unknown));
+    npz.add(study.paths()[k], {records.size()}, numbers);
+    return;
+  }
+  std::vector<std::string> texts;
+  for (const auto& [i, r] : records) texts.push_back(without_quotes(study.values(i)[k]));
+  npz.add(study.paths()[k], texts);
+}
+
+}  // namespace
+
 void write_npz(const std::filesystem::path& file, const Study& study, const CaseRecords& records) {
   simulate::NpzFile npz(file);
   const std::size_t n = records.size();
-  const auto numbers = [&](const std::string& name, auto value) {
-    std::vector<double> all;
-    for (const auto& [i, r] : records) all.push_back(value(i, r));
-    npz.add(name, {n}, all);
-  };
   std::vector<std::int64_t> cases;
   std::vector<std::string> status, hashes;
   for (const auto& [i, r] : records) {
@@ -125,21 +141,12 @@ void write_npz(const std::filesystem::path& file, const Study& study, const Case
   }
   npz.add("case", {n}, cases);
   npz.add("scene_hash", hashes), npz.add("status", status);
-  for (std::size_t k = 0; k < study.paths().size(); ++k) {
-    bool numeric = true;
-    for (const auto& [i, r] : records)
-      numeric = numeric && (study.values(i)[k].empty() || as_number(study.values(i)[k]));
-    if (numeric) {
-      numbers(study.paths()[k],
-              [&](std::size_t i, const CaseRecord&) { return as_number(study.values(i)[k]).value_or(unknown); });
-      continue;
-    }
-    std::vector<std::string> texts;
-    for (const auto& [i, r] : records) texts.push_back(without_quotes(study.values(i)[k]));
-    npz.add(study.paths()[k], texts);
+  for (std::size_t k = 0; k < study.paths().size(); ++k) add_values(npz, study, records, k);
+  for (std::size_t k = 0; k < study.reductions().size(); ++k) {
+    std::vector<double> numbers;
+    for (const auto& [i, r] : records) numbers.push_back(r.values.at(k));
+    npz.add(study.reductions()[k].name, {n}, numbers);
   }
-  for (std::size_t k = 0; k < study.reductions().size(); ++k)
-    numbers(study.reductions()[k].name, [k](std::size_t, const CaseRecord& r) { return r.values.at(k); });
   for (const Count& c : kCounts) {
     std::vector<std::int64_t> all;
     for (const auto& [i, r] : records) all.push_back(r.counts.*c.member);

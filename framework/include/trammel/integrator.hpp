@@ -35,7 +35,7 @@ struct Traits {
   // The systems that the method takes; false where it does not.
   bool rows = true;            // nc > 0
   bool redundant_rows = true;  // rows that depend on each other
-  bool friction = true;        // that sticks: W != G while it slides, and very short steps to where a slip ends
+  bool friction = true;        // set-valued: W != G while a contact slides, and very short steps to the end of a slip
   bool jumps = !implicit;      // f that jumps with v: friction decided at every evaluation
   bool rotations = true;       // q' = N(q) v with N != 1: unit quaternions
   bool events = true;          // `restart` during a run, after a step of any length: contacts, friction, refinement

@@ -204,33 +204,32 @@ void RowsAtPoint::couple() {
     W_ = G_;
   for (int i = 0; i < contacts_.count(); ++i) {
     if (!contacts_.mode(i).closed || contacts_.entry(i).force) continue;
-    const Tangential ratio = contacts_.friction_ratio(i);
-    if (ratio == Tangential::Zero()) continue;
-    const Rows& r = contacts_.rows(i);
-    // Adds share * (ratio . tangents) to a row of W.
-    const auto add_share = [&](int row, double share) {
-      add_to_reaction(contacts_.slots(i).A, row, share * pressed_by(r.H_A, 0, ratio).transpose());
-      add_to_reaction(contacts_.slots(i).B, row, share * pressed_by(r.H_B, 0, ratio).transpose());
-    };
-    if (contacts_.in_joint(i)) {
-      const JointEntry& joint = friction_.joint_of(i);
-      const Vec6& by = friction_.load_by_row(i);
-      for (int k = 0; k < joint.rows; ++k)
-        if (by[k] != 0) add_share(joint.row + k, -by[k]);
-      const auto& [rows, D] = friction_.share(i);
-      for (std::size_t k = 0; k < rows.size(); ++k) add_share(rows[k], -by.dot(D.col(Eigen::Index(k))));
-      continue;
-    }
-    const ContactLoads& loads = contacts_.loads;
-    const ContactLoads::Place& place = loads.place({i, 0});
-    if (place.group < 0) {
-      add_share(place.row, 1);
-      continue;
-    }
-    const auto shares = loads.shares(place);
-    for (int k = 0; k < int(shares.size()); ++k)
-      if (shares[k] != 0) add_share(loads.row_of_basis(place.group, k), shares[k]);
+    if (const Tangential ratio = contacts_.friction_ratio(i); ratio != Tangential::Zero()) add_sliding(i, ratio);
   }
+}
+
+void RowsAtPoint::add_sliding(int i, const Tangential& ratio) {
+  const Rows& r = contacts_.rows(i);
+  // Adds share * (ratio . tangents) to a row of W.
+  const auto add_share = [&](int row, double share) {
+    add_to_reaction(contacts_.slots(i).A, row, share * pressed_by(r.H_A, 0, ratio).transpose());
+    add_to_reaction(contacts_.slots(i).B, row, share * pressed_by(r.H_B, 0, ratio).transpose());
+  };
+  if (contacts_.in_joint(i)) {
+    const JointEntry& joint = friction_.joint_of(i);
+    const Vec6& by = friction_.load_by_row(i);
+    for (int k = 0; k < joint.rows; ++k)
+      if (by[k] != 0) add_share(joint.row + k, -by[k]);
+    const auto& [rows, D] = friction_.share(i);
+    for (std::size_t k = 0; k < rows.size(); ++k) add_share(rows[k], -by.dot(D.col(Eigen::Index(k))));
+    return;
+  }
+  const ContactLoads& loads = contacts_.loads;
+  const ContactLoads::Place& place = loads.place({i, 0});
+  if (place.group < 0) return add_share(place.row, 1);
+  const auto shares = loads.shares(place);
+  for (int k = 0; k < int(shares.size()); ++k)
+    if (shares[k] != 0) add_share(loads.row_of_basis(place.group, k), shares[k]);
 }
 
 void RowsAtPoint::add_to_reaction(int slot, int row, const Mat6& H) {

@@ -50,6 +50,7 @@ class RowsAtPoint {
   void evaluate_contact(int i);
   // Rows [first, first + n) of r between these markers become the rows from `row` on.
   void place(const Rows& r, const Slots& slots, const Seen& motions, Eigen::Index first, Eigen::Index n, int row);
+  void add_sliding(int contact, const Tangential& ratio);  // its friction, to W
   void add_to_reaction(int slot, int row, const Mat6& H);
 
   Point& at_;
