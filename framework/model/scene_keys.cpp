@@ -63,31 +63,38 @@ bool has_orientation(const Model& model, MarkerRef marker) {
   return marker.body < 0 || !dynamic_cast<const LinearMarkers*>(model.bodies[std::size_t(marker.body)].body.get());
 }
 
-std::optional<MarkerRef> read_marker(const Value& value, Model& model, Problems& problems) {
-  if (value.type() == Value::Type::object) {
-    if (!value.find("point")) {
-      problems.error(
-          value.problem("found an object, expected a marker's name or a fixed frame {\"point\": ..., \"angle\": ...}"));
-      return {};
-    }
-    check_keys(value, {"point", "angle", "axis"}, problems);
-    GroundFrame frame;
-    const auto point = read_vector(*value.find("point"), model.world.space, problems);
-    if (const Value* angle = value.find("angle")) frame.angle = angle->read_number(problems).value_or(0);
-    if (const Value* axis = value.find("axis")) {
-      const auto direction = read_vector(*axis, model.world.space, problems);
-      if (model.world.space == Space::planar)
-        problems.error(axis->problem("a planar scene's frame turns about the plane's normal; remove the axis"));
-      else if (direction && !(direction->stableNorm() > 0))
-        problems.error(axis->problem("the axis has length 0; expected a direction, e.g. [0, 0, 1]"));
-      else if (direction)
-        frame.axis = direction->stableNormalized();
-    }
-    if (!point) return {};
-    frame.x = *point;
-    model.ground_frames.push_back(frame);
-    return MarkerRef{-1, int(model.ground_frames.size()) - 1};
+namespace {
+
+// {"point": [x, y], "angle": a}, in space with "axis"; adds the frame to the model.
+std::optional<MarkerRef> read_fixed_frame(const Value& value, Model& model, Problems& problems) {
+  if (!value.find("point")) {
+    problems.error(
+        value.problem("found an object, expected a marker's name or a fixed frame {\"point\": ..., \"angle\": ...}"));
+    return {};
   }
+  check_keys(value, {"point", "angle", "axis"}, problems);
+  GroundFrame frame;
+  const auto point = read_vector(*value.find("point"), model.world.space, problems);
+  if (const Value* angle = value.find("angle")) frame.angle = angle->read_number(problems).value_or(0);
+  if (const Value* axis = value.find("axis")) {
+    const auto direction = read_vector(*axis, model.world.space, problems);
+    if (model.world.space == Space::planar)
+      problems.error(axis->problem("a planar scene's frame turns about the plane's normal; remove the axis"));
+    else if (direction && !(direction->stableNorm() > 0))
+      problems.error(axis->problem("the axis has length 0; expected a direction, e.g. [0, 0, 1]"));
+    else if (direction)
+      frame.axis = direction->stableNormalized();
+  }
+  if (!point) return {};
+  frame.x = *point;
+  model.ground_frames.push_back(frame);
+  return MarkerRef{-1, int(model.ground_frames.size()) - 1};
+}
+
+}  // namespace
+
+std::optional<MarkerRef> read_marker(const Value& value, Model& model, Problems& problems) {
+  if (value.type() == Value::Type::object) return read_fixed_frame(value, model, problems);
   const auto name = value.read_text(problems);
   if (!name) return {};
   if (const auto marker = find_marker(model, *name)) return marker;

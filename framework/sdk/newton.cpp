@@ -9,6 +9,7 @@ namespace {
 
 // If the increments have grown twice and are larger than this, the iteration diverges.
 constexpr double hopeless = 0.1;
+constexpr double slow = 0.3;  // ratio of two increments above which new factors are worth their cost
 
 }  // namespace
 
@@ -36,7 +37,7 @@ void Newton::judge(double change, bool at_round_off) {
   }
   if (rate_before > 1 && rate_ > 1 && change > hopeless) return fail("Newton's iteration did not converge");
   if (iterations_ >= max_iterations) return fail("Newton's iteration did not converge");
-  wants_factors_ = !first && rate_ > 0.3;
+  wants_factors_ = !first && rate_ > slow;
   last_change_ = change;
 }
 

@@ -17,7 +17,9 @@ namespace {
 constexpr std::size_t remembered = 4;         // equilibria that a prediction goes through
 constexpr double shortest_part = 1.0 / 4096;  // of a load step
 constexpr int easy = 6, hard = 12;            // iterations of a part after which the next is longer, or shorter
-constexpr int arcs_per_step = 50;
+constexpr int arcs_per_step = 50;             // before the path counts as not leading to the end
+constexpr double longer_arc = 1.5;            // factor of the next arc after an easy one
+constexpr double nearly_whole = 1.001;        // the rest of a load step, in parts: up to this it is one part
 // Round-off of displacements and rows against the largest displacement.
 constexpr double settled = 1e-12;
 constexpr double satisfied = 1e-14;       // [m, rad] rows where nothing has moved yet: round-off
@@ -85,7 +87,7 @@ void LoadPath::by_load(double t) {
   const double step = (settings_.until - settings_.start) / settings_.load_steps;
   for (double from = state_.t; from != t; from = state_.t) {
     const double rest = t - from;
-    Point trial = predict(std::abs(rest) <= 1.001 * part_ ? t : from + std::copysign(part_, rest));
+    Point trial = predict(std::abs(rest) <= nearly_whole * part_ ? t : from + std::copysign(part_, rest));
     const double length = std::abs(trial.t - from);
     const int before = now_.iterations;
     const Failure failure = solve(trial, nullptr);
@@ -110,7 +112,7 @@ void LoadPath::by_arc() {
   take_arc(arc_along(q_by_t), lambda_by_t, step * std::sqrt(2 * s2_));
   if ((state_.t - settings_.until) * step >= 0) {
     part_ = std::abs(step);
-    // the path may have turned in t: no polynomial passes through it
+    // No polynomial in t passes through a path that has turned in t.
     passed_.erase(passed_.begin(), passed_.end() - 1);
     by_load(settings_.until);
   } else if (steps_.size() > std::size_t(arcs_per_step * settings_.load_steps)) {
@@ -119,7 +121,7 @@ void LoadPath::by_arc() {
   }
 }
 
-// The first arc weighs q and t alike. False: no coordinate moves.
+// Sets the length of the first arc, in which q and t have equal weights. False: no coordinate moves.
 bool LoadPath::begin_arcs(const Vec& q_by_t, double step) {
   s2_ = q_by_t.squaredNorm() / mean_count();
   part_ = step * std::sqrt(2 * s2_);
@@ -127,7 +129,7 @@ bool LoadPath::begin_arcs(const Vec& q_by_t, double step) {
   return s2_ != 0;
 }
 
-// Along the path, on from the last arc and not back.
+// The next arc along the path, in the direction of the last one.
 LoadPath::Arc LoadPath::arc_along(const Vec& q_by_t) const {
   const double n = mean_count();
   double scale = 1 / std::sqrt(q_by_t.squaredNorm() / n + s2_);
@@ -149,7 +151,7 @@ void LoadPath::take_arc(Arc arc, const Vec& lambda_by_t, double longest) {
       continue;
     }
     const int taken = now_.iterations - before;
-    part_ = taken > hard ? part_ / 2 : taken <= easy ? std::min(longest, 1.5 * part_) : part_;
+    part_ = taken > hard ? part_ / 2 : taken <= easy ? std::min(longest, longer_arc * part_) : part_;
     last_arc_ = arc;
     return keep(std::move(trial));
   }

@@ -11,8 +11,8 @@ namespace {
 using simulate::ContactEvent;
 
 constexpr int all_starts = 16, fewest = 4;
-constexpr double apart = 1e-10;
-constexpr double same_mean = 1e-9;  // relative: means of marks that do not spread, but for round-off
+constexpr double apart = 1e-10;     // largest perturbation of a start (CaseOptions)
+constexpr double same_mean = 1e-9;  // relative: round-off of the means of marks that do not spread
 
 // In a fixed order; values that a run does not have are left out.
 std::vector<std::pair<std::string, double>> marks_of(const CaseResult& r) {
@@ -34,6 +34,12 @@ std::vector<std::pair<std::string, double>> marks_of(const CaseResult& r) {
     marks.emplace_back("peak of |" + r.series.names[k] + "|", peak);
   }
   return marks;
+}
+
+// The number of starts that half of the remaining time pays for, or the fewest if all of it pays for them.
+int affordable_starts(double cpu_of_pair, const Runner& run) {
+  const int half = int(run.left() / (2 * cpu_of_pair));
+  return std::min(all_starts, half < fewest && run.left() > fewest * cpu_of_pair ? fewest : half);
 }
 
 struct Sum {
@@ -60,11 +66,7 @@ bool Distribution::alike() const {
 
 std::vector<Distribution> compare_ensembles(const Overrides& choice, double choice_cpu, const Overrides& reference,
                                             double reference_cpu, const Measure& measure, Runner& run) {
-  // Takes half of the remaining time, or all of it if the fewest starts need it.
-  const double pair = choice_cpu + reference_cpu;
-  const int half = int(run.left() / (2 * pair)),
-            affordable = half < fewest && run.left() > fewest * pair ? fewest : half;
-  const int starts = std::min(all_starts, affordable);
+  const int starts = affordable_starts(choice_cpu + reference_cpu, run);
   if (starts < fewest || measure.reference().series.rows() == 0) return {};
   std::vector<std::string> order;
   std::map<std::string, std::pair<Sum, Sum>> sums;

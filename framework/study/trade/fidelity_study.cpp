@@ -14,7 +14,9 @@
 namespace trammel::study {
 namespace {
 
-// The rungs of one parameter of a component, as far as its declaration allows them.
+constexpr double factor_of_rung = 10;  // between the rungs of a real number
+
+// The rungs of one parameter of a component that its declaration allows.
 class Ladder {
  public:
   Ladder(std::vector<Rung>& all, const FidelityParameter& fidelity, const Parameter& parameter, std::string path)
@@ -55,7 +57,7 @@ class Ladder {
   }
 
   void of_number(double now) {
-    const double finer = larger() ? 10 : 0.1;
+    const double finer = larger() ? factor_of_rung : 1 / factor_of_rung;
     add_number(now * finer, true);
     for (const double factor : {1 / finer, 1 / (finer * finer)}) add_number(now * factor, false);
   }

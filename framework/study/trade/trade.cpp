@@ -14,8 +14,9 @@ namespace trammel::study {
 namespace {
 
 constexpr double usual_target = 1e-4;  // for the horizon, if none is given
-// settings that take less than this many times the cheapest are repeated for the spread of their times
+// Settings that take less than this many times the cheapest are repeated for the spread of their times.
 constexpr double on_front = 1.5;
+constexpr double worthwhile = 0.9;  // of the choice's CPU time: a rung that takes more saves nothing
 
 class Trade {
  public:
@@ -156,18 +157,23 @@ class Trade {
     take_cheaper(result, measure);
   }
 
-  // Takes the cheapest rung of each ladder that leaves room; a run with all of them must meet the target.
-  void take_cheaper(const CaseResult& result, const Measure& measure) {
-    Choice& choice = *content_.choice;
+  // Rungs that save time and leave the error below the target, the cheapest first.
+  std::vector<const RungResult*> usable_rungs(double cpu) const {
     std::vector<const RungResult*> usable;
     for (const RungResult& r : content_.rungs)
-      if (!r.rung.finer && r.status == CaseResult::Status::done && r.cpu < 0.9 * result.cpu &&
-          r.difference + choice.error <= content_.target)
+      if (!r.rung.finer && r.status == CaseResult::Status::done && r.cpu < worthwhile * cpu &&
+          r.difference + content_.choice->error <= content_.target)
         usable.push_back(&r);
     std::sort(usable.begin(), usable.end(), [](const auto* a, const auto* b) { return a->cpu < b->cpu; });
+    return usable;
+  }
+
+  // Takes the cheapest usable rung of each ladder; a run with all of them must meet the target.
+  void take_cheaper(const CaseResult& result, const Measure& measure) {
+    Choice& choice = *content_.choice;
     Overrides all = choice.overrides;
     std::vector<std::string> what;
-    for (const RungResult* r : usable) {
+    for (const RungResult* r : usable_rungs(result.cpu)) {
       const auto same = [&](const scene::Override& o) { return overlap(o.path, r->rung.change.path); };
       if (std::any_of(all.begin(), all.end(), same)) continue;
       all.push_back(r->rung.change), what.push_back(r->rung.what);
