@@ -30,8 +30,8 @@ struct Linearisation {
   Mat Z;                                // nv x m
   int redundant = 0;                    // rows
   double noise = noise_of_differences;  // noise_of_stiffness
-  double speed =
-      0;  // largest velocity of a steady motion (constant coefficients) in its coordinate's size [1/s]; else 0
+  // [1/s] of a steady motion (constant coefficients): its largest velocity in its coordinate's size; else 0.
+  double speed = 0;
   // [rad/s] of the frame in which y is measured, in the plane about the third axis; 0: the world.
   Eigen::Vector3d frame_rate = Eigen::Vector3d::Zero();
 };

@@ -96,9 +96,9 @@ class BodyBlocks {
 
   const Model& model_;
   std::vector<numerics::BodyBlock> bodies_;
-  std::array<MassFactors, std::tuple_size_v<decltype(kept)>>
-      mass_factors_;  // shared by all stores with the same MassSystem
-  Mat G_;             // of one body, before it is added
+  // Shared by all stores with the same MassSystem.
+  std::array<MassFactors, std::tuple_size_v<decltype(kept)>> mass_factors_;
+  Mat G_;  // of one body, before it is added
 };
 
 }  // namespace trammel::model
