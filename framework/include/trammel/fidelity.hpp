@@ -14,8 +14,7 @@ namespace trammel {
 
 struct FidelityParameter {
   enum class Costs { more_if_larger, more_if_smaller };
-  // As declared: "modes.transverse". A number that is 0 means "not given" and is not varied. In a text, such as "10x4",
-  // every number is varied.
+  // As declared: "modes.transverse". 0 means "not given" and is not varied; in a text, "10x4", every number is varied.
   std::string name;
   Costs costs = Costs::more_if_larger;
   std::vector<std::string> choices = {};  // for a parameter with .choice(...): from the cheapest to the most accurate
