@@ -248,7 +248,20 @@ class ContactModes {
                                                         const std::vector<Participant>& nearby = {});
   [[nodiscard]] complementarity::ContactSolution take_verdicts(const State& state,
                                                                const std::vector<Participant>& nearby = {});
+  // Rule 13, by island: which contacts are idle.
+  struct Idle {
+    model::Modes decided;            // before any is idle
+    std::vector<double> up_to;       // of the largest force: contacts with no more are idle
+    std::vector<double> least = {};  // of the largest force: the least one of those that are not idle
+    std::vector<bool> doubtful = {};
+  };
   void find_shares(const State& state);
+  void fewer_idle(const State& state, Idle& idle);
+  void more_idle(const State& state, Idle& idle);
+  bool doubts_remain(const State& state, Idle& idle);
+  void share_doubtful(double up_to, Idle& idle);
+  void share(Idle& idle);
+  void doubt(Idle& idle) const;
   std::vector<double> share(const std::vector<double>& none);
   bool open_loose_ones();
   std::vector<bool> can_be_exerted(const State& state);

@@ -46,49 +46,66 @@ bool has_any(const std::vector<bool>& all) {
 // force are idle too, or none is, if the forces in these modes could not be exerted otherwise. Each island is decided
 // for itself: a force that is an error in one is large in another.
 void ContactModes::find_shares(const State& state) {
-  constexpr double round_off = complementarity::largest_violation, no_contact = -1;
-  const model::Modes decided = modes_;
+  Idle idle{.decided = modes_, .up_to = std::vector<double>(problem_.who.size(), complementarity::largest_violation)};
+  share(idle);
+  doubt(idle);
+  fewer_idle(state, idle);
+  more_idle(state, idle);
+  if (!has_any(idle.doubtful)) return;
+  constexpr double none_is = -1;
+  share_doubtful(none_is, idle);
+  if (doubts_remain(state, idle)) share_doubtful(complementarity::largest_violation, idle);
+}
+
+// Islands that move otherwise than found: only contacts without any force are idle.
+void ContactModes::fewer_idle(const State& state, Idle& idle) {
+  if (!has_any(idle.doubtful) || !has_forces_in(modes_, state)) return;
+  const std::vector<bool> as_found = moves_as_found();
+  bool more = false;
+  for (std::size_t k = 0; k < as_found.size(); ++k)
+    if (idle.doubtful[k] && !as_found[k]) idle.up_to[k] = no_force, more = true;
+  if (!more) return;
+  share(idle);
+  doubt(idle);
+}
+
+// Islands whose forces could not be exerted: the contact with the least force is idle too, as long as that may be an
+// error.
+void ContactModes::more_idle(const State& state, Idle& idle) {
+  while (doubts_remain(state, idle)) {
+    bool more = false;
+    for (std::size_t k = 0; k < idle.up_to.size(); ++k)
+      if (idle.doubtful[k] && idle.least[k] <= most_error_of_forces) idle.up_to[k] = idle.least[k], more = true;
+    if (!more) return;
+    share(idle);
+  }
+}
+
+bool ContactModes::doubts_remain(const State& state, Idle& idle) {
+  if (!has_any(idle.doubtful)) return false;
+  const std::vector<bool> exerted = can_be_exerted(state);
+  for (std::size_t k = 0; k < exerted.size(); ++k) idle.doubtful[k] = idle.doubtful[k] && !exerted[k];
+  return has_any(idle.doubtful);
+}
+
+void ContactModes::share_doubtful(double up_to, Idle& idle) {
+  for (std::size_t k = 0; k < idle.up_to.size(); ++k)
+    if (idle.doubtful[k]) idle.up_to[k] = up_to;
+  share(idle);
+}
+
+void ContactModes::share(Idle& idle) {
+  modes_ = idle.decided;
+  idle.least = share(idle.up_to);
+}
+
+// Where contacts are idle, or others have forces that may be errors.
+void ContactModes::doubt(Idle& idle) const {
+  idle.doubtful.assign(idle.up_to.size(), false);
+  for (std::size_t k = 0; k < idle.least.size(); ++k) idle.doubtful[k] = idle.least[k] <= most_error_of_forces;
   const std::vector<std::size_t> island = problem_.islands();
-  std::vector<double> none(problem_.who.size(), round_off), least = share(none);
-  std::vector<bool> doubtful(none.size());  // by island
-  const auto doubt_small_forces = [&] {
-    for (std::size_t k = 0; k < least.size(); ++k) doubtful[k] = least[k] <= most_error_of_forces;
-    for (std::size_t i = 0; i < island.size(); ++i)
-      if (problem_.who[i].idle) doubtful[island[i]] = true;
-  };
-  doubt_small_forces();
-  const auto doubts_remain = [&] {
-    if (!has_any(doubtful)) return false;
-    const std::vector<bool> exerted = can_be_exerted(state);
-    for (std::size_t k = 0; k < exerted.size(); ++k) doubtful[k] = doubtful[k] && !exerted[k];
-    return has_any(doubtful);
-  };
-  const auto share_again = [&] {
-    modes_ = decided;
-    least = share(none);
-  };
-  if (has_any(doubtful) && has_forces_in(modes_, state)) {
-    const std::vector<bool> as_found = moves_as_found();
-    bool more = false;
-    for (std::size_t k = 0; k < none.size(); ++k)
-      if (doubtful[k] && !as_found[k]) none[k] = no_force, more = true;
-    if (more) share_again(), doubt_small_forces();
-  }
-  while (doubts_remain()) {
-    bool more = false;
-    for (std::size_t k = 0; k < none.size(); ++k)
-      if (doubtful[k] && least[k] <= most_error_of_forces) none[k] = least[k], more = true;
-    if (!more) break;
-    share_again();
-  }
-  const auto share_doubtful = [&](double part) {
-    for (std::size_t k = 0; k < none.size(); ++k)
-      if (doubtful[k]) none[k] = part;
-    share_again();
-  };
-  if (!has_any(doubtful)) return;
-  share_doubtful(no_contact);
-  if (doubts_remain()) share_doubtful(round_off);
+  for (std::size_t i = 0; i < island.size(); ++i)
+    if (problem_.who[i].idle) idle.doubtful[island[i]] = true;
 }
 
 std::vector<double> ContactModes::share(const std::vector<double>& none) {
