@@ -4,7 +4,7 @@
 // Rules for set-valued contacts (Restitution) at an event at time t. Other files refer to them by number.
 // ContactModes::settle applies them in this order, by these functions:
 //
-//     impact      1  strike, solve_impacts                2  capture_chatter, end_rocking (chatter.cpp)       9  lock
+//     impact      1, 9  strike, lock (contact_impact.cpp)    2  capture_chatter, end_rocking (chatter.cpp)
 //     decision    3, 4  find_candidates, take_verdicts    5, 6  add_friction          7  stop_with_others, end_drift
 //                 10  decide_with_bearings (bearing_decision.cpp)                    12  held_at_bounds
 //                 13  find_shares, open_pulling_ones      14  share_forces_found (12 to 14: contact_sharing.cpp)
