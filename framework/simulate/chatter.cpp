@@ -148,12 +148,24 @@ double ContactModes::end_rocking(State& state, const Brief& brief) {
 
 // Separations may be too short to follow although their motion is not: a block that turns about its lower corner while
 // the upper corner of the block below, nearly at the same point, parts from it. To end both rates takes away the whole
-// motion; to end one makes the other one approach, so that its impact would restore them, without end. They go on then.
-double ContactModes::end_rocking_of(std::size_t island, State& state, const Brief& brief) {
-  const auto asked = [&](const TouchingContact& c) { return scale_.island(c.contact) == island; };
-  const auto rest_speed = [this](const TouchingContact& c) { return scale_.of(c.contact).rest_speed(); };
+// motion; to end one makes the other one approach, so that its impact would restore them, without end. So the fastest
+// rates go on, as few as let all others end without this.
+double ContactModes::end_rocking_of(std::size_t island, State& state, Brief brief) {
   const std::vector<TouchingContact> after_impact = touching_;
   const Vec v_after_impact = state.v;
+  do {
+    const double taken = end_rates_of(island, state, brief);
+    if (none_made_to_approach(island, after_impact)) return taken;
+    touching_ = after_impact;
+    state.v = v_after_impact;
+    system_.move_to(state.t, state.q, state.v);
+  } while (leave_fastest(island, brief));
+  return 0;
+}
+
+double ContactModes::end_rates_of(std::size_t island, State& state, const Brief& brief) {
+  const auto asked = [&](const TouchingContact& c) { return scale_.island(c.contact) == island; };
+  const auto rest_speed = [this](const TouchingContact& c) { return scale_.of(c.contact).rest_speed(); };
   std::vector<bool> rests(touching_.size(), false);
   for (std::size_t i = 0; i < touching_.size(); ++i)  // one whose slip stops may have a rate that steps left
     rests[i] =
@@ -169,15 +181,30 @@ double ContactModes::end_rocking_of(std::size_t island, State& state, const Brie
       if (c.after < -rest_speed(c)) rests[i] = any = true;
     }
   }
-  const auto made_to_approach = [&](const TouchingContact& c) {
+  return taken;
+}
+
+bool ContactModes::none_made_to_approach(std::size_t island, const std::vector<TouchingContact>& after_impact) const {
+  return std::none_of(after_impact.begin(), after_impact.end(), [&](const TouchingContact& c) {
     const double least = -scale_.of(c.contact).left_by_impacts();
-    return asked(c) && system_.gap_rate(c.contact) < std::min(c.after, 0.0) + least;
-  };
-  if (std::none_of(after_impact.begin(), after_impact.end(), made_to_approach)) return taken;
-  touching_ = after_impact;
-  state.v = v_after_impact;
-  system_.move_to(state.t, state.q, state.v);
-  return 0;
+    return scale_.island(c.contact) == island && system_.gap_rate(c.contact) < std::min(c.after, 0.0) + least;
+  });
+}
+
+// The fastest of the island's rates that were to end goes on; true if others are left to end.
+bool ContactModes::leave_fastest(std::size_t island, Brief& brief) const {
+  std::size_t fastest = 0, rates = 0;
+  double largest = 0;
+  for (std::size_t i = 0; i < touching_.size(); ++i) {
+    const TouchingContact& c = touching_[i];
+    if (scale_.island(c.contact) != island || !(brief.falls[i] || brief.stops[i])) continue;
+    ++rates;
+    const double rate = std::max(brief.falls[i] ? c.after : 0, brief.stops[i] ? c.slip_after.norm() : 0);
+    if (rate > largest) largest = rate, fastest = i;
+  }
+  if (rates < 2) return false;
+  brief.falls[fastest] = brief.stops[fastest] = false;
+  return true;
 }
 
 // The least change of v, so a loss of energy, after which the contacts in `rests` have no rate. The returned loss is

@@ -25,8 +25,8 @@
 //     these are small beside the loads times the shortest time that steps resolve, the loads decide. The problem of
 //     rule 3 with all these contacts at rest finds those that rest. Then v is projected onto the motions in which they,
 //     and all other contacts without a rate, have no rate.
-//     This is the least change of v, so it takes energy; the loss is reported with the impact. Rates that cannot end
-//     without making another contact approach are left.
+//     This is the least change of v, so it takes energy; the loss is reported with the impact. Where ending all
+//     these rates would make another contact approach, the fastest of them are left.
 //  3. Contacts that touch without a rate afterwards are candidates. They close where the forces of the complementarity
 //     problem
 //         A = A_free + D N,   0 <= N complementary to A >= 0      (A gap accelerations, N normal forces)
@@ -232,7 +232,10 @@ class ContactModes {
   std::map<std::size_t, double> fastest_gap_accelerations();
   bool capture_chatter(const std::vector<bool>& falls);
   double end_rocking(State& state, const Brief& brief);
-  double end_rocking_of(std::size_t island, State& state, const Brief& brief);
+  double end_rocking_of(std::size_t island, State& state, Brief brief);
+  double end_rates_of(std::size_t island, State& state, const Brief& brief);
+  bool none_made_to_approach(std::size_t island, const std::vector<TouchingContact>& after_impact) const;
+  bool leave_fastest(std::size_t island, Brief& brief) const;
   double take_rates(State& state, const std::vector<bool>& rests, const std::vector<bool>& stops);
   bool cannot_follow(int contact, double separation, double acceleration) const;
   void lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
