@@ -161,6 +161,7 @@ class EventLocation {
   bool hides_motion(const State& now, double h, const State& next);
   double gap_or_slip(int k);
   double resolution_of_motion(int k) const;
+  double resolution_of_force(int k);
   bool hides_force(const State& now, double h, const State& next);
   bool dips(const State& now, double h, const State& next, int k, Suspect& suspect);
   bool returns(const State& now, double h, int k, Suspect& suspect);

@@ -145,11 +145,21 @@ bool EventLocation::hides_force(const State& now, double h, const State& next) {
     const double size = std::max({std::abs(now_[k].f), std::abs(next_[k].f), functions_[k].bound});
     const double straight = h_before_ == 0 ? now_[k].f + inside * (next_[k].f - now_[k].f)
                                            : now_[k].f + (now_[k].f - functions_[k].force_before) * (h / h_before_);
-    const double found = h_before_ == 0 ? probe_[k].f : next_[k].f;
-    const double unresolved = (is_shared_force(functions_[k]) ? jumps_of_shares : 1) * functions_[k].little;
-    if (std::abs(found - straight) > std::max(off_tangent * size, unresolved)) return true;
+    const double found = h_before_ == 0 ? probe_[k].f : next_[k].f, off = std::abs(found - straight);
+    if (off > off_tangent * size && off > resolution_of_force(k)) return true;
   }
   return false;
+}
+
+// [N], or [m/s^2] of a departure: a difference up to this is round-off, as all forces are of bodies that fall together
+// and touch.
+double EventLocation::resolution_of_force(int k) {
+  const EventFunction& function = functions_[k];
+  const double little = (is_shared_force(function) ? jumps_of_shares : 1) * function.little;
+  if (function.kind != Kind::press && function.kind != Kind::hold) return little;
+  std::vector<model::ContactDirection> along;
+  for (int row = 0; row <= system_.tangents(function.contact); ++row) along.push_back({function.contact, row});
+  return std::max(little, modes_.force_noise(along));
 }
 
 // True if the function is negative within the step and not at its ends.
