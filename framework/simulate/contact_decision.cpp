@@ -1,5 +1,5 @@
 // Rules 3 to 7 and 11 of contact_mode.hpp: which contacts close, open, stick and slide, by the complementarity problem.
-// Rules 12 to 14, of contacts that share their forces: contact_sharing.cpp.
+// Rules 12 to 15, of contacts that share their forces: contact_sharing.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -211,10 +211,11 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes, bool jumped)
   return more;
 }
 
-// Rules 3 to 7, and 10 and 12 to 14 with them.
+// Rules 3 to 7, and 10 and 12 to 15 with them.
 complementarity::ContactSolution ContactModes::decide(State& state, ContactChanges changes, bool jumped,
                                                       const std::vector<Participant>& nearby) {
   bearings_undecided_ = false;
+  rounds_of_bounds_ = 0;
   largest_.assign(modes_.contacts.size(), 0);  // values of an earlier event would be unknown to a resumed run
   do {
     gather(state, changes, jumped);

@@ -7,7 +7,8 @@
 //     impact      1, 9  strike, lock (contact_impact.cpp)    2  capture_chatter, end_rocking (chatter.cpp)
 //     decision    3, 4  find_candidates, take_verdicts    5, 6  add_friction          7  stop_with_others, end_drift
 //                 10  decide_with_bearings (bearing_decision.cpp)                    12  held_at_bounds
-//                 13  find_shares, open_pulling_ones      14  share_forces_found (12 to 14: contact_sharing.cpp)
+//                 13  find_shares, open_pulling_ones      14  share_forces_found          15  bound_by_springs
+//                     (12 to 15: contact_sharing.cpp)
 //     in doubt    11  decide_by_what_follows
 //     no solution  8  strike_without_collision, decide_otherwise
 //
@@ -93,6 +94,12 @@
 //     (in the plane, or where all slide), forces are then taken whose modes leave no share free: as few parts along
 //     edges of cones as there are independent rows at rest. A contact without a part is idle, and one at rest with a
 //     single part keeps T = mu N (rule 12), unless no other row holds its tangent.
+// 15. Contacts at rest could press against each other, as the floor and the ceiling of a channel without clearance do,
+//     and hold by their friction whatever pushes. Springs do not press so (complementarity/shares/springs_at_rest). If
+//     forces as springs do not hold a group at rest, the friction of its contacts is bounded by their springs' normal
+//     forces, those at their bounds let go, and all modes are decided again: until the normal forces in the modes
+//     decided are those that bound the friction. So a clearance of 0 is the limit of small ones, and rigid contacts
+//     move as stiff compliant ones. Where this comes to no end (a stack that has locked while it slid), rest stays.
 //
 // `rebound: constrained` makes candidates of contacts that separate at e u-. `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0. `onset: next_step` only changes when an event is seen.
@@ -275,6 +282,9 @@ class ContactModes {
   std::vector<Participant*> held_at_bounds(const State& state);
   void keep_at_bound(Participant& p);
   bool share_within_bounds(const State& state);
+  bool bound_by_springs(const State& state);
+  std::map<int, model::Carried> carried_by_springs();
+  model::Carried carried_in_modes(int contact);
   void share_forces_found(const State& state);
   double least_acceleration(const Participant& p) const;
   std::vector<bool> in_doubt(const std::vector<int>& released) const;
@@ -337,9 +347,11 @@ class ContactModes {
   std::vector<Eigen::Vector3d> forces_before_;  // by contact and direction [N], where some are carried over
   std::vector<Loss> losses_;
   double lost_elsewhere_ = 0;
-  bool cut_short_ = false;           // some of the last impacts had not ended (ImpactLaws::cut_short)
-  bool bearings_undecided_ = false;  // in the last decision no modes agreed with the loads of the bearings
-  std::vector<double> largest_;      // [m/s^2] by contact: of the accelerations without the forces sought in its island
+  bool cut_short_ = false;                   // some of the last impacts had not ended (ImpactLaws::cut_short)
+  int rounds_of_bounds_ = 0;                 // rule 15, in the last decision
+  std::vector<Participant> without_bounds_;  // before the first of these rounds
+  bool bearings_undecided_ = false;          // in the last decision no modes agreed with the loads of the bearings
+  std::vector<double> largest_;  // [m/s^2] by contact: of the accelerations without the forces sought in its island
   Vec dv_, v_before_, a_, lambda_, lambda_before_;
 };
 

@@ -1,4 +1,4 @@
-// Rules 12 to 14 of contact_mode.hpp: contacts that share their forces. Which of them have none and are idle, which
+// Rules 12 to 15 of contact_mode.hpp: contacts that share their forces. Which of them have none and are idle, which
 // open because the others do not hold them, and which are held at their bounds.
 #include <algorithm>
 
@@ -15,6 +15,9 @@ namespace {
 constexpr double no_force = 1e-12;
 // Of the largest load of a group: a spare load may be negative by this round-off.
 constexpr double round_off_of_loads = 1e-9;
+// Rule 15. Of the largest force in the island: bounds that differ by less are the same.
+constexpr double same_bound = 1e-9;
+constexpr int most_rounds_of_bounds = 10;
 
 bool has_sliding(const model::SharedRows& group) {
   return !group.sliding.empty();
@@ -260,8 +263,54 @@ void ContactModes::keep_at_bound(Participant& p) {
   p.ratio = -p.mu * mode.direction;
 }
 
-// Rules 12 and 14. False if a contact lets go: all modes are to be decided again.
+// Rule 15. By contact: what members of groups at rest carry as springs, if such forces do not hold them.
+std::map<int, model::Carried> ContactModes::carried_by_springs() {
+  std::map<int, model::Carried> carried;
+  for (int g = 0; g < int(modes_.shared.size()); ++g) {
+    if (has_sliding(modes_.shared[std::size_t(g)])) continue;
+    const double round_off = round_off_of_loads * system_.largest_load(g, lambda_);
+    if (system_.spare_load_as_springs(g, lambda_) >= -round_off) continue;
+    for (const model::Carried& each : system_.carried_as_springs(g, lambda_)) carried[each.contact] = each;
+  }
+  return carried;
+}
+
+// Rule 15. True if the bounds of friction have changed: all modes are to be decided again. If the bounds come to no
+// end, none is kept.
+bool ContactModes::bound_by_springs(const State& state) {
+  const auto bounded = [](const Participant& p) { return p.pressed >= 0; };
+  const bool any_bounded = std::any_of(problem_.who.begin(), problem_.who.end(), bounded);
+  if (rounds_of_bounds_ > most_rounds_of_bounds || (modes_.shared.empty() && !any_bounded)) return false;
+  if (!has_forces_in(modes_, state)) return false;
+  if (!any_bounded) without_bounds_ = problem_.who;
+  const std::map<int, model::Carried> carried = carried_by_springs();
+  const std::vector<double> largest = problem_.largest_in_island();
+  bool changed = false;
+  for (std::size_t i = 0; i < problem_.who.size(); ++i) {
+    Participant& p = problem_.who[i];
+    const auto by_springs = carried.find(p.contact);
+    if (!p.unilateral || p.tangent != Participant::Tangent::resting) continue;
+    if (!bounded(p) && by_springs == carried.end()) continue;
+    const auto [contact, N, T] = by_springs != carried.end() ? by_springs->second : carried_in_modes(p.contact);
+    if (bounded(p) && std::abs(N - p.pressed) <= same_bound * largest[i]) continue;
+    if (T > (1 - Participant::near_bound) * (p.let_go ? p.mu : p.mu_0) * N) p.let_go = p.yielded = true;
+    p.pressed = N;
+    changed = true;
+  }
+  if (changed && ++rounds_of_bounds_ > most_rounds_of_bounds) problem_.who = without_bounds_;
+  return changed;
+}
+
+// Of a contact in the present modes, whose multipliers are lambda_.
+model::Carried ContactModes::carried_in_modes(int contact) {
+  if (!modes_.contacts[std::size_t(contact)].closed) return {contact, 0, 0};
+  return {contact, std::max(0.0, system_.normal_force(contact, lambda_)),
+          system_.friction_force(contact, lambda_).norm()};
+}
+
+// Rules 12, 14 and 15. False if a contact lets go: all modes are to be decided again.
 bool ContactModes::share_within_bounds(const State& state) {
+  if (bound_by_springs(state)) return false;
   const std::vector<Participant*> held = held_at_bounds(state);
   if (let_go(held)) return false;
   for (Participant* p : held) keep_at_bound(*p);

@@ -180,7 +180,7 @@ double EventLocation::force(EventFunction& function, double t, const Vec& lambda
   if (function.kind == Kind::idle) return -system_.spring_force(function.contact, lambda);
   if (function.kind == Kind::unload) {
     function.bound = system_.largest_load(function.group, lambda);
-    return function.little + system_.spare_load(function.group, lambda);
+    return function.little + system_.spare_load_as_springs(function.group, lambda);
   }
   const double N = system_.normal_force(function.contact, lambda);
   if (function.kind == Kind::load) {

@@ -92,8 +92,9 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
 // After an event that left all modes as they were. Modes do not include which contacts are idle; if others are idle
 // now, a force or spare load that was 0 at the event is a new one.
 bool EventLocation::shares_otherwise(int k) const {
-  const bool shared = is_shared_force(functions_[k]) || functions_[k].kind == Kind::unload;
-  return shared && now_[k].f > jumps_of_shares * functions_[k].little;
+  const EventFunction& function = functions_[k];
+  if (function.kind == Kind::unload) return now_[k].f > most_error_of_forces * function.bound;
+  return is_shared_force(function) && now_[k].f > jumps_of_shares * function.little;
 }
 
 // True if swings within steps of length h could hide an event: of a force, or of a gap that is small for its rate.

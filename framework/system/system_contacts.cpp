@@ -64,6 +64,15 @@ double AssembledSystem::spare_load(int group, const Vec& lambda) {
   return std::max(spare, loads.spare_load_with_sliding(group, p.shares.moved_with_sliding(group)));
 }
 
+double AssembledSystem::spare_load_as_springs(int group, const Vec& lambda) {
+  if (!modes().shared[std::size_t(group)].sliding.empty()) return spare_load(group, lambda);
+  return parts_->shares.prepared(group, lambda).spare_load_as_springs(group);
+}
+
+std::vector<Carried> AssembledSystem::carried_as_springs(int group, const Vec& lambda) {
+  return parts_->shares.prepared(group, lambda).carried_as_springs(group);
+}
+
 double AssembledSystem::largest_load(int group, const Vec& lambda) {
   return parts_->shares.prepared(group, lambda).largest_load(group);
 }

@@ -39,6 +39,16 @@ constexpr double part_of_approach = 1e-3;
 // was found with it. It exceeds the change by the approach and by `part_of_approach` of it.
 constexpr double judged_at_rest = 1e-4;
 
+// Takes the tangents from `point`, and returns them as those of a contact whose normal force is given.
+complementarity::ContactPoint apart(complementarity::ContactPoint& point, double pressed) {
+  complementarity::ContactPoint tangents = point;
+  tangents.normal = -1;
+  tangents.given = pressed;
+  point.tangent = -1;
+  point.kind = complementarity::ContactPoint::Tangent::none;
+  return tangents;
+}
+
 // Static or kinetic coefficient.
 double bound_of(const Participant& p) {
   if (p.yielded) return (1 - below_bound) * p.mu;
@@ -103,10 +113,16 @@ complementarity::ContactSolution ContactProblem::solve_once(const Mat& A, const 
     else if (p.tangent == Participant::Tangent::sliding)
       point.kind = complementarity::ContactPoint::Tangent::sliding, point.ratio = p.ratio;
   }
+  std::vector<complementarity::ContactPoint> points = points_;
   std::vector<double> nothing, violation;
   for (const Participant& p : who) nothing.push_back(p.nothing);
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    if (who[i].tangent != Participant::Tangent::resting || who[i].pressed < 0) continue;
+    points.push_back(apart(points[i], who[i].pressed));
+    nothing.push_back(who[i].nothing);
+  }
   const complementarity::ContactSolution solution =
-      complementarity::solve_contacts(points_, A, b_, F_, a_, nothing, violation, forces_of(nearby));
+      complementarity::solve_contacts(points, A, b_, F_, a_, nothing, violation, forces_of(nearby));
   for (std::size_t i = 0; i < who.size(); ++i) who[i].violation = violation[i];
   return solution;
 }

@@ -130,6 +130,15 @@ bool ContactLoads::share_admissibly(Group& group, const Sharing& sharing) {
   return true;
 }
 
+// False: no such forces have these resultants.
+bool ContactLoads::share_as_springs(Group& group) {
+  if (group.members.empty()) return true;
+  Vec shared;
+  if (!complementarity::forces_as_springs(sharing(group), group.E, group.resultants, carried, shared)) return false;
+  group.forces(group.directions) = shared;
+  return true;
+}
+
 std::vector<ContactDirection> ContactLoads::members(int group) const {
   const SharedRows& rows = modes_->shared[std::size_t(group)];
   const Eigen::Index n = basis_size(group);
@@ -168,6 +177,25 @@ double ContactLoads::spare_load_with_sliding(int group, const Mat& E) const {
 double ContactLoads::spare_load(int group) const {
   const Group& g = groups_[std::size_t(group)];
   return complementarity::spare_load(sharing(g), g.E, g.resultants);
+}
+
+double ContactLoads::spare_load_as_springs(int group, Vec* forces) const {
+  const Group& g = groups_[std::size_t(group)];
+  return complementarity::spare_load_as_springs(sharing(g), g.E, g.resultants, carried, forces);
+}
+
+std::vector<Carried> ContactLoads::carried_as_springs(int group) const {
+  const Group& g = groups_[std::size_t(group)];
+  Vec forces;
+  spare_load_as_springs(group, &forces);
+  std::vector<Carried> all;
+  for (const Member& m : g.members) {
+    double T = 0;
+    for (const Eigen::Index k : {m.columns[1], m.columns[2]})
+      if (k >= 0) T = std::hypot(T, forces[k]);
+    all.push_back({m.contact, m.columns[0] >= 0 ? std::max(0.0, forces[m.columns[0]]) : m.bounds.given, T});
+  }
+  return all;
 }
 
 }  // namespace trammel::model

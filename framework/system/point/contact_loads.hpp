@@ -17,6 +17,7 @@
 #include <trammel/types.hpp>
 
 #include "complementarity/shares/spare_load.hpp"
+#include "complementarity/shares/springs_at_rest.hpp"
 #include "system/point/contact_modes.hpp"
 
 namespace trammel::model {
@@ -60,7 +61,8 @@ class ContactLoads {
   [[nodiscard]] bool solve(int group, const Vec& lambda, BoundsOf&& bounds) {
     prepare(group, lambda, bounds);
     Group& g = groups_[std::size_t(group)];
-    return slack(g) >= -round_off * scale(g) || share_admissibly(g, {sharing(g), g.directions, g.E});
+    if (slack(g) >= -round_off * scale(g)) return true;
+    return (!slides(group) && share_as_springs(g)) || share_admissibly(g, {sharing(g), g.directions, g.E});
   }
   // To be called then: includes sliding contacts. E: the motion caused by the forces of the members, then by that of
   // each sliding contact along n + p t. False: there are still no admissible forces.
@@ -77,6 +79,11 @@ class ContactLoads {
   bool shares_as_spring(int contact, int group) const;
   // [N] How much each of the other contacts can be unloaded, after `prepare`: complementarity/shares/spare_load.hpp.
   double spare_load(int group) const;
+  // The same of a group of which nothing slides, for forces as springs: complementarity/shares/springs_at_rest.hpp.
+  // Fills the forces that have it, by member and direction [N], if they are asked for.
+  double spare_load_as_springs(int group, Vec* forces = nullptr) const;
+  // Normal force and friction [N] of each member, from such forces.
+  std::vector<Carried> carried_as_springs(int group) const;
   double spare_load_with_sliding(int group, const Mat& E) const;
   std::vector<ContactDirection> members(int group) const;
   bool sliding_shares() const;      // some shares affect the motion
@@ -108,6 +115,8 @@ class ContactLoads {
   void lay_out_group(int group);
   void begin(int group, const Vec& lambda);
   bool share_admissibly(Group& group, const Sharing& sharing);
+  bool share_as_springs(Group& group);
+  bool slides(int group) const { return !modes_->shared[std::size_t(group)].sliding.empty(); }
   Sharing with_sliding(int group, const Mat& E) const;
   double slack(const Group& group) const;
   std::vector<complementarity::SharingContact> sharing(const Group& group) const;

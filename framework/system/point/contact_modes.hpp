@@ -52,6 +52,12 @@ inline Eigen::MatrixXd SharedRows::resultants() const {
   return E;
 }
 
+// What a contact carries [N].
+struct Carried {
+  int contact;
+  double N, T;  // normal force, size of the friction
+};
+
 struct Modes {
   std::vector<ContactMode> contacts;
   std::vector<SharedRows> shared;  // all other contacts have their own rows, dependent or not

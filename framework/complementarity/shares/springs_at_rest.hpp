@@ -1,0 +1,26 @@
+// Forces of contacts at rest whose normals press as springs do.
+//
+// Contacts that share could press against each other with any force (floor and ceiling of a channel without clearance)
+// and hold by their friction whatever pushes. Springs do not press so: they take
+//
+//     N = argmin |N|^2 / 2,    E_n N = lambda - E_t T,    N >= 0,        so that N = max(0, E_n^T y),
+//
+// for friction T of any size inside the cones. With the contacts that press known, A, this is one more linear condition
+// for their forces: N_A is in the range of E_nA^T. So the forces are those of admissible_forces.hpp for the contacts of
+// A with these rows added to E. A follows from T; it is found by repetition.
+#pragma once
+
+#include <vector>
+
+#include "complementarity/shares/admissible_forces.hpp"
+
+namespace trammel::complementarity {
+
+// Fills F; false if there are no such forces with the resultants lambda. `carried`: the largest |E F - lambda|/|lambda|.
+[[nodiscard]] bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda,
+                                     double carried, Vec& F);
+// The spare load (spare_load.hpp) of such forces. Fills F with the forces of its solution, if it is not null.
+double spare_load_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda,
+                             double carried, Vec* F = nullptr);
+
+}  // namespace trammel::complementarity

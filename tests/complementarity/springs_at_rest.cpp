@@ -1,0 +1,94 @@
+// Forces of contacts at rest without a self-stress of their normals.
+#include "complementarity/shares/springs_at_rest.hpp"
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace trammel::complementarity {
+namespace {
+
+constexpr double carried = 1e-9;
+
+// A block of 2 by 1 in a channel: floor left and right, ceiling left and right. Columns: N and T of each, rows: force
+// along the channel, force across it, moment about the middle.
+struct Channel {
+  std::vector<SharingContact> contacts;
+  Mat E = Mat::Zero(3, 8);
+  explicit Channel(double mu) {
+    for (int i = 0; i < 4; ++i) {
+      const double x = i % 2 == 0 ? -1 : 1, y = i < 2 ? -0.5 : 0.5, up = i < 2 ? 1 : -1;
+      E.col(2 * i) << 0, up, x * up;
+      E.col(2 * i + 1) << 1, 0, -y;
+      contacts.push_back({2 * i, {2 * i + 1}, mu, 0});
+    }
+  }
+};
+
+TEST(SpringsAtRest, HoldABlockInAChannelAsTheFloorAloneDoes) {
+  const Channel channel(0.4);
+  for (const double push : {0.0, 1.0, 3.9, 3.9999}) {
+    Vec F;
+    ASSERT_TRUE(forces_as_springs(channel.contacts, channel.E, Vec{{push, 10, 0}}, carried, F)) << push;
+    EXPECT_NEAR((channel.E * F - Vec{{push, 10, 0}}).norm(), 0, 1e-10) << push;
+    for (int i = 0; i < 4; ++i) EXPECT_LE(std::abs(F[2 * i + 1]), 0.4 * F[2 * i] + 1e-9) << push;
+    EXPECT_NEAR(F[0] + F[2], 10, 1e-9) << push;  // the ceiling does not press
+    EXPECT_GE(spare_load_as_springs(channel.contacts, channel.E, Vec{{push, 10, 0}}, carried), 0) << push;
+  }
+  for (const double push : {4.0001, 5.0, 50.0}) {
+    Vec F;
+    const Vec load{{push, 10, 0}};
+    ASSERT_LT(admissible_forces(channel.contacts, channel.E, load, F), 1e-9) << push;  // by a self-stress
+    EXPECT_FALSE(forces_as_springs(channel.contacts, channel.E, load, carried, F)) << push;
+    EXPECT_LT(spare_load_as_springs(channel.contacts, channel.E, load, carried), 0) << push;
+  }
+}
+
+// Between inclined walls normal forces follow from the friction, which holds a wedge against any pull.
+TEST(SpringsAtRest, HoldAWedgeThatLocksItself) {
+  const double slope = 0.2, mu = 0.5;
+  Mat E(2, 4);
+  E << std::cos(slope), std::sin(slope), -std::cos(slope), -std::sin(slope),  // across
+      std::sin(slope), -std::cos(slope), std::sin(slope), -std::cos(slope);   // along the axis
+  const std::vector<SharingContact> contacts = {{0, {1}, mu, 0}, {2, {3}, mu, 0}};
+  for (const double pull : {-10.0, 0.1, 10.0}) {
+    Vec F;
+    EXPECT_TRUE(forces_as_springs(contacts, E, Vec{{0, -pull}}, carried, F)) << pull;
+  }
+}
+
+// Feet in a row: their normal forces are the least ones with the same resultants, whatever the friction is.
+TEST(SpringsAtRest, PressWithoutBalanceAmongThemselves) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> part(-1, 1);
+  int held = 0;
+  for (int i = 0; i < 200; ++i) {
+    const int feet = 3 + i % 4;
+    Mat E(3, 2 * feet);
+    std::vector<SharingContact> contacts;
+    for (int k = 0; k < feet; ++k) {
+      const double x = part(random);
+      E.col(2 * k) << 0, 1, x;
+      E.col(2 * k + 1) << 1, 0, 0;
+      contacts.push_back({2 * k, {2 * k + 1}, 0.5 + 0.5 * part(random), 0});
+    }
+    const Vec load{{0.5 * part(random), 1, 0.5 * part(random)}};
+    Vec F;
+    if (!forces_as_springs(contacts, E, load, carried, F)) continue;
+    ++held;
+    EXPECT_NEAR((E * F - load).norm(), 0, 1e-9) << i;
+    std::vector<Eigen::Index> press;
+    for (int k = 0; k < feet; ++k)
+      if (F[2 * k] > 1e-9) press.push_back(2 * k);
+    if (press.size() < 3) continue;
+    const Mat E_n = E(Eigen::seq(1, 2), press), across = E_n * E_n.transpose();  // no normal drags
+    const Vec N = F(press), least = E_n.transpose() * across.inverse() * (E_n * N);
+    EXPECT_NEAR((N - least).norm(), 0, 1e-8) << i;
+  }
+  EXPECT_GT(held, 50);
+}
+
+}  // namespace
+}  // namespace trammel::complementarity

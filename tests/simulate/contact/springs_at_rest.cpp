@@ -1,0 +1,122 @@
+// Contacts at rest that share forces hold what friction under springs would hold: they do not press against each other
+// to hold more. So a clearance of 0 is the limit of small ones, and bodies let go at the instants of closed forms.
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <Eigen/Dense>
+#include <nlohmann/json.hpp>
+
+#include "block.hpp"
+#include "support/run_scene.hpp"
+
+namespace trammel::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr double g = 10;
+constexpr double let_go = 1e-8;  // of the bound: friction holds up to this below it (rule 6 of contact_mode.hpp)
+
+double between(std::mt19937& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+json scene_of(const json& body) {
+  return {{"trammel", 1},
+          {"space", "planar"},
+          {"gravity", {0, -g}},
+          {"bodies", {{"b", body}}},
+          {"simulate", {{"until", 1}}},
+          {"record", {{"every", 0.1}, {"observe", {{"x", "b.com.x"}, {"y", "b.com.y"}}}}}};
+}
+
+json contact(const std::string& marker, const json& point, const json& normal, double mu) {
+  return {{"type", "constraint_method"},
+          {"restitution", 0},
+          {"between", {marker, {{"plane", {{"point", point}, {"normal", normal}}}}}},
+          {"friction", {{"type", "coulomb"}, {"static", mu}, {"kinetic", mu}}}};
+}
+
+void expect_slips(const Finished& run, std::size_t contacts, double t, const std::string& which) {
+  ASSERT_TRUE(run.done()) << which << ": " << run.report.reason;
+  EXPECT_TRUE(run.result["warnings"].empty()) << which << ": " << run.result["warnings"].dump();
+  const auto slips = run.of_kind("slip");
+  ASSERT_EQ(slips.size(), contacts) << which;
+  for (const Event& slip : slips) EXPECT_NEAR(slip.t, t, 2 * let_go * t) << which;
+}
+
+// A force that grows pushes it along the channel: it slips as on the floor alone, where the force is mu m g.
+TEST(BlockInAChannel, SlipsAsOnTheFloorHoweverSmallTheClearance) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 10; ++i) {
+    const double w = between(random, 0.5, 2), h = between(random, 0.1, 0.4), m = between(random, 0.1, 10);
+    const double mu = between(random, 0.1, 0.6), t = between(random, 0.2, 0.8), rate = mu * m * g / t;
+    for (const double clearance : {0.0, 1e-7, 1e-4}) {
+      json s = scene_of(standing_block(-w / 2, w, h, m));
+      s["contacts"]["l"] = contact("b.bl", {0, 0}, {0, 1}, mu),
+      s["contacts"]["r"] = contact("b.br", {0, 0}, {0, 1}, mu);
+      for (const char* corner : {"tl", "tr"})
+        s["contacts"][corner] = contact(fmt::format("b.{}", corner), {0, h + clearance}, {0, -1}, mu);
+      s["forces"]["push"] = {
+          {"type", "load"}, {"on", "b.com"}, {"force", {{"x", fmt::format("={:.17g}*t", rate)}, {"y", 0}}}};
+      const std::string which = fmt::format("block {}, clearance {} m", i, clearance);
+      const Finished run = run_text(s.dump());
+      expect_slips(run, clearance > 0 ? 2 : 4, t, which);
+      EXPECT_NEAR(run.end("x"), rate * std::pow(1 - t, 3) / (6 * m), 1e-7) << which;
+    }
+  }
+}
+
+// It is pressed against one of two walls, less and less, and falls where mu times this force is its weight.
+TEST(BlockBetweenWalls, FallsWhereOneWallNoLongerHoldsIt) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 10; ++i) {
+    const double w = between(random, 0.1, 0.3), h = between(random, 0.5, 2), m = between(random, 0.1, 10);
+    const double mu = between(random, 0.3, 0.8), t = between(random, 0.1, 0.4), most = m * g / (mu * (1 - 2 * t));
+    json s = scene_of(standing_block(0, w, h, m));
+    s["simulate"]["until"] = 0.5;
+    s["contacts"]["l"] = contact("b.bl", {0, 0}, {1, 0}, mu), s["contacts"]["tl"] = contact("b.tl", {0, 0}, {1, 0}, mu);
+    s["contacts"]["r"] = contact("b.br", {w, 0}, {-1, 0}, mu),
+    s["contacts"]["tr"] = contact("b.tr", {w, 0}, {-1, 0}, mu);
+    s["forces"]["press"] = {
+        {"type", "load"}, {"on", "b.com"}, {"force", {{"x", fmt::format("={:.17g}*(2*t-1)", most)}, {"y", 0}}}};
+    const Finished run = run_text(s.dump());
+    expect_slips(run, 4, t, fmt::format("block {}", i));
+    // m y'' = 2 mu most (t_slip - t)
+    EXPECT_NEAR(run.end("y"), h / 2 - mu * most * std::pow(0.5 - t, 3) / (3 * m), 1e-7) << i;
+  }
+}
+
+// Feet of different friction press as springs do, N_i = a + b x_i, and slip where these hold no more, although other
+// forces would: those by which the foot with the most friction carries all.
+TEST(TableOfUnequalFeet, SlipsWhereSpringsHoldItNoMore) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 20; ++i) {
+    const int feet = 3 + i % 4;
+    const double m = between(random, 0.5, 5), t = between(random, 0.2, 0.8);
+    json s = scene_of(standing_block(-1, 2, 0.5, m));
+    s["bodies"]["b"]["position"] = {0, 0};  // as low as its feet: what accelerates it does not tip it
+    Eigen::VectorXd x(feet), mu(feet);
+    for (int k = 0; k < feet; ++k) {
+      x[k] = -1 + 2.0 * k / (feet - 1) + between(random, -0.1, 0.1), mu[k] = between(random, 0.1, 0.9);
+      const std::string foot = fmt::format("f{}", k);
+      s["bodies"]["b"]["markers"][foot] = {x[k], 0};
+      s["contacts"][foot] = contact("b." + foot, {0, 0}, {0, 1}, mu[k]);
+    }
+    Eigen::MatrixXd E(2, feet);
+    E << Eigen::RowVectorXd::Ones(feet), x.transpose();
+    const Eigen::VectorXd N = E.transpose() * (E * E.transpose()).inverse() * Eigen::Vector2d(m * g, 0);
+    const double rate = mu.dot(N) / t;
+    s["forces"]["drag"] = {
+        {"type", "load"}, {"on", "b.com"}, {"force", {{"x", fmt::format("={:.17g}*t", rate)}, {"y", 0}}}};
+    const Finished run = run_text(s.dump());
+    expect_slips(run, std::size_t(feet), t, fmt::format("table {}", i));
+    EXPECT_NEAR(run.end("x"), rate * std::pow(1 - t, 3) / (6 * m), 1e-7) << i;
+  }
+}
+
+}  // namespace
+}  // namespace trammel::test
