@@ -52,8 +52,8 @@ Mat self_stress(const Mat& E_n) {
   return last_columns_of_q(qr, transposed.rows() - qr.rank());
 }
 
-// Springs between bodies that yield a little, N = max(0, E_n^T y) with E_n N = r - compliance y, found by pivoting; r is
-// raised until they carry the resultants (method of multipliers).
+// Springs between bodies that yield a little, N = max(0, E_n^T y) with E_n N = r - compliance y, found by pivoting;
+// r is raised until they carry the resultants (method of multipliers).
 Vec pressing_springs(const Mat& E_n, const Vec& resultants) {
   const double compliance = part_of_compliance * E_n.squaredNorm() / double(std::max<Index>(1, E_n.cols()));
   const Mat A = E_n.transpose() * E_n + compliance * Mat::Identity(E_n.cols(), E_n.cols());

@@ -16,7 +16,7 @@
 
 namespace trammel::complementarity {
 
-// Fills F; false if there are no such forces with the resultants lambda. `carried`: the largest |E F - lambda|/|lambda|.
+// Fills F; false if no such forces have the resultants lambda. `carried`: the largest |E F - lambda| / |lambda|.
 [[nodiscard]] bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda,
                                      double carried, Vec& F);
 // The spare load (spare_load.hpp) of such forces. Fills F with the forces of its solution, if it is not null.

@@ -9,16 +9,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "support/between.hpp"
 #include "support/run_scene.hpp"
 
 namespace trammel::test {
 namespace {
 
 using nlohmann::json;
-
-double between(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 struct Clutch {
   json scene;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "block.hpp"
+#include "support/between.hpp"
 #include "support/run_scene.hpp"
 
 namespace trammel::test {
@@ -17,10 +18,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double g = 9.81;
-
-double between(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 // Blocks on each other, tilted by `angle`.
 json tilted_stack(std::mt19937& random, int blocks, double angle, double mu) {

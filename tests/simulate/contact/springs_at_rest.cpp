@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "block.hpp"
+#include "support/between.hpp"
 #include "support/run_scene.hpp"
 
 namespace trammel::test {
@@ -19,10 +20,6 @@ using nlohmann::json;
 
 constexpr double g = 10;
 constexpr double let_go = 1e-8;  // of the bound: friction holds up to this below it (rule 6 of contact_mode.hpp)
-
-double between(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 json scene_of(const json& body) {
   return {{"trammel", 1},

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "support/between.hpp"
 #include "support/run_scene.hpp"
 
 namespace trammel::test {
@@ -17,10 +18,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double g = 9.81;
-
-double between(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 struct Table {
   json scene;  // without contacts

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/between.hpp"
 #include "support/run_scene.hpp"
 
 namespace trammel::test {
@@ -24,10 +25,6 @@ std::string coulomb(double mu) {
 
 std::string rigid(const char* law, double e) {
   return fmt::format(R"("type": "constraint_method", "impact_law": "{}", "restitution": {:.17g})", law, e);
-}
-
-double between(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
 }
 
 // --- a rod of 1 kg that lands on its tip
