@@ -190,12 +190,13 @@ bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E
   return carries(E, F, lambda, carried);
 }
 
-double spare_load_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda,
-                             double carried, Vec* F) {
+double spare_load_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec* F) {
   if (!have_self_stress(contacts, E)) return spare_load(contacts, E, lambda, F);
   Vec begin;
-  admissible_forces(contacts, E, lambda, begin);
-  if (!carries(E, begin, lambda, carried)) return spare_load(contacts, E, lambda, F);
+  if (const double most = spare_load(contacts, E, lambda, &begin); most < 0) {
+    if (F) *F = begin;
+    return most;
+  }
   const Found found = search(contacts, E, lambda, std::move(begin));
   if (F) *F = found.F;
   return found.spare;

@@ -21,6 +21,6 @@ namespace trammel::complementarity {
                                      double carried, Vec& F);
 // The spare load (spare_load.hpp) of such forces. Fills F with the forces of its solution, if it is not null.
 double spare_load_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda,
-                             double carried, Vec* F = nullptr);
+                             Vec* F = nullptr);
 
 }  // namespace trammel::complementarity

@@ -181,7 +181,7 @@ double ContactLoads::spare_load(int group) const {
 
 double ContactLoads::spare_load_as_springs(int group, Vec* forces) const {
   const Group& g = groups_[std::size_t(group)];
-  return complementarity::spare_load_as_springs(sharing(g), g.E, g.resultants, carried, forces);
+  return complementarity::spare_load_as_springs(sharing(g), g.E, g.resultants, forces);
 }
 
 std::vector<Carried> ContactLoads::carried_as_springs(int group) const {
