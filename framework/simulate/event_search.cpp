@@ -14,6 +14,7 @@ constexpr double off_ends = 1e-3;         // of an interval: a minimum is sought
 constexpr double part_for_slopes = 1e-3;  // of the step: the difference in time that gives a force's slope
 constexpr double hides_nothing = 1e-6;    // of the longest step so far: shorter ones come from the location of events
 constexpr double jumps_of_shares = 10;    // of vanished_force: shares follow the motion in small jumps
+constexpr double new_spare_load = 1e-3;   // of the largest load: less may be left of the spare load that was just lost
 constexpr int most_probes = 6;
 constexpr double far_gap = 20;         // of the change of a gap in a step at its rate: a larger gap cannot close
 constexpr double as_steep = 4;         // of the steepest slip so far: a steeper one is new
@@ -93,7 +94,7 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
 // now, a force or spare load that was 0 at the event is a new one.
 bool EventLocation::shares_otherwise(int k) const {
   const EventFunction& function = functions_[k];
-  if (function.kind == Kind::unload) return now_[k].f > most_error_of_forces * function.bound;
+  if (function.kind == Kind::unload) return now_[k].f > new_spare_load * function.bound;
   return is_shared_force(function) && now_[k].f > jumps_of_shares * function.little;
 }
 
