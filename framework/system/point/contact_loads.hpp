@@ -3,12 +3,13 @@
 //
 //     F = -lambda of its row;   for shared rows F = share (-lambda of the basis)
 //
-// If such a force pulls or leaves a friction cone, dependent contacts carry the same resultants by other forces
-// (complementarity/shares/admissible_forces.hpp), as long as there are any. Exceptions are sliding contacts, whose
-// share as springs determines their friction and so the motion, and idle ones: the others share the rest of the
-// resultants. If they cannot, sliding contacts take part along the directions of their forces, n + p t, by forces that
-// leave the motion unchanged. If even these do not exist, at the instant of the event that follows, the forces that
-// leave their cones least are taken.
+// If such a force pulls or leaves a friction cone, dependent contacts carry the same resultants by other forces, as
+// long as there are any: where nothing slides, by those whose normals press as springs do
+// (complementarity/shares/springs_at_rest.hpp), otherwise by any (admissible_forces.hpp). Exceptions are sliding
+// contacts, whose share as springs determines their friction and so the motion, and idle ones: the others share the
+// rest of the resultants. If they cannot, sliding contacts take part along the directions of their forces, n + p t, by
+// forces that leave the motion unchanged. If even these do not exist, at the instant of the event that follows, the
+// forces that leave their cones least are taken.
 #pragma once
 
 #include <array>
