@@ -107,7 +107,10 @@ bool SpringImpact::midpoint(const Vec& y, double h, int n, Vec& y_end) {
 double SpringImpact::extrapolate(const Vec& y, double h, Vec& y_end) {
   std::vector<Vec> row(columns), last(columns);
   for (int j = 0; j < columns; ++j) {
-    if (!midpoint(y, h, 2 * (j + 1), row[0])) return std::numeric_limits<double>::infinity();
+    if (!midpoint(y, h, 2 * (j + 1), row[0])) {
+      y_end = row[0];  // the shortest step is taken whatever its error
+      return std::numeric_limits<double>::infinity();
+    }
     for (int k = 1; k <= j; ++k) {
       const double ratio = double(j + 1) / double(j + 1 - k);
       row[std::size_t(k)] =
