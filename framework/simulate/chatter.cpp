@@ -28,12 +28,12 @@ bool ContactModes::cannot_follow(int contact, double separation, double accelera
 // same impact. If one of these were left out, two corners of a box would throw each other up in turn, without end. With
 // e = 1 flights do not become shorter.
 bool ContactModes::separates(const TouchingContact& c) const {
-  return c.restitution < 1 && c.after > scale_.of(c.contact).rest_speed();
+  return !c.keeps_rates && c.restitution < 1 && c.after > scale_.of(c.contact).rest_speed();
 }
 
 // It stuck, and the impact made it slip. (An impact is decided by impulses; the finite load contributes none.)
 bool ContactModes::begins_to_slip(const TouchingContact& c) const {
-  return c.was_closed && before_.contacts[c.contact].friction == Friction::stick &&
+  return !c.keeps_rates && c.was_closed && before_.contacts[c.contact].friction == Friction::stick &&
          c.slip_after.norm() > scale_.of(c.contact).rest_speed();
 }
 

@@ -19,30 +19,8 @@ constexpr double least_approach = 1e-6;
 constexpr double opened_by_error = 1e-6;
 // Of `no_acceleration`, which is their round-off: the accelerations of the scene.
 constexpr double over_round_off = 1e12;
-// Of the coefficients of friction: how far the state may be from that at which joints lock.
-constexpr double locked_by_error = 1e-7;
 // Of the shortest period of swings: the longest step (see step_limit).
 constexpr double part_of_period = 0.45;
-
-bool is_idle(const model::Modes& modes, int contact) {
-  return std::any_of(modes.shared.begin(), modes.shared.end(), [&](const model::SharedRows& group) {
-    const auto row = [contact](const model::ContactDirection& d) { return d.contact == contact && d.row == 0; };
-    const auto has_no_share = [&](const std::vector<model::ContactDirection>& rows, std::ptrdiff_t first) {
-      const auto k = std::find_if(rows.begin(), rows.end(), row) - rows.begin();
-      return k < std::ssize(rows) && group.share.row(first + k).isZero(0);
-    };
-    return has_no_share(group.basis, 0) || has_no_share(group.implied, std::ssize(group.basis));
-  });
-}
-
-// Whether the same contacts carry and slide.
-bool carry_alike(const model::Modes& a, const model::Modes& b) {
-  for (std::size_t i = 0; i < a.contacts.size(); ++i) {
-    const bool same = a.contacts[i].closed == b.contacts[i].closed && a.contacts[i].friction == b.contacts[i].friction;
-    if (!same || is_idle(a, int(i)) != is_idle(b, int(i))) return false;
-  }
-  return true;
-}
 
 // Only friction makes forces grow beyond all bounds: without it an impact without collision changes nothing.
 bool any_friction(const std::vector<Participant>& who) {
@@ -152,47 +130,6 @@ bool ContactModes::changes_sign_by_infinity(const State& state, const ContactCha
            system_.acceleration({contact, 0}, a_) <
                -opened_by_error * std::max(largest_[std::size_t(contact)], of_scene);
   });
-}
-
-// Rule 8. An impact may have happened before at the same instant.
-complementarity::ContactSolution ContactModes::strike_without_collision(State& state, const ContactChanges& changes,
-                                                                        bool jumped,
-                                                                        std::vector<ContactEvent>& events) {
-  system_.set_modes(before_);
-  system_.move_to(state.t, state.q, state.v);
-  if (jumped) {
-    append_impacts(state.t, false, events);
-    find_touching({});
-  }
-  const auto strike_with = [&](double raised) {
-    for (TouchingContact& c : touching_) c.without_collision = true, c.raised = raised;
-    for (TouchingContact& c : bearings_) c.without_collision = true, c.raised = raised;
-    return strike(state, changes);
-  };
-  auto impact = strike_with(changes.raised);
-  // Steps may end a little before the state at which joints lock.
-  if (changes.locked && impact.outcome == LcpOutcome::gave_up && changes.raised < locked_by_error)
-    impact = strike_with(locked_by_error);
-  if (impact.outcome != LcpOutcome::solved) {
-    const auto others = changes.locked ? decide_otherwise(state, changes) : impact;
-    if (others.outcome != LcpOutcome::solved) fail_without_impact(state.t, impact);
-    return others;
-  }
-  lock(state, changes, events);
-  find_candidates(changes);
-  return decide(state, changes, true);
-}
-
-// Rule 8: decides as for the state beyond the critical one, and accepts only other modes than the present ones, whose
-// forces grow beyond all bounds.
-complementarity::ContactSolution ContactModes::decide_otherwise(const State& state, const ContactChanges& changes) {
-  for (TouchingContact& c : touching_) c.without_collision = false;
-  find_candidates(changes);
-  gather(state, changes, false);
-  const auto solution = decide_by_what_follows(state, changes, false, std::vector<bool>(modes_.contacts.size(), true),
-                                               {LcpOutcome::gave_up, 0});
-  if (solution.outcome == LcpOutcome::solved && carry_alike(modes_, before_)) return {LcpOutcome::gave_up, 0};
-  return solution;
 }
 
 void ContactModes::append_impacts(double t, bool without_collision, std::vector<ContactEvent>& events) const {

@@ -10,7 +10,7 @@
 //                 13  find_shares, open_pulling_ones      14  share_forces_found          15  bound_by_springs
 //                     (12 to 15: contact_sharing.cpp)
 //     in doubt    11  decide_by_what_follows
-//     no solution  8  strike_without_collision, decide_otherwise
+//     no solution  8  strike_without_collision, decide_otherwise (impact_without_collision.cpp)
 //
 //  1. Impact: every contact that touches and closes strikes, together with all that touch or are closed, of bodies that
 //     joints, forces or contacts connect (impact_laws.hpp).
@@ -58,10 +58,13 @@
 //  8. Rigid contacts may have no solution with finite forces (Painleve's rod), or forces that grow beyond all bounds as
 //     that state is approached (event_location.hpp rejects controlled steps past it). Then an impact without collision
 //     stops or turns the slip: rule 1 with nothing approaching, in which dependent contacts, none of which could part
-//     alone, yield a little. Friction counts as larger in it by what the state is short of that point; where joints
-//     have locked and the search for this impact gives up, by a part of 1e-7. If this impact has no solution, other
-//     contacts may carry from there on (a table whose feet share otherwise as its slip turns). If they cannot, the run
-//     ends with a message; so it does if modes contradict each other at one instant (Simulator).
+//     alone, yield a little. Where slips differ by orders of magnitude (at the corner and the foot of a block that turns
+//     by a clearance), it ends the slowest ones, and faster ones go on; where forces are still not finite, another
+//     impact follows. Friction counts as larger in it by what the state is short of that point; where joints have
+//     locked and the search for this impact gives up, by a part of 1e-7. If this impact has no solution, other contacts
+//     may carry from there on (a table whose feet share otherwise as its slip turns), or forces that exist at this
+//     instant do. If there are none, the run ends with a message; so it does if modes contradict each other at one
+//     instant (Simulator).
 //  9. A contact that never releases (a latch) locks after rule 1 if it touches without a rate. It is no candidate; its
 //     row is held like a joint's from then on, through the decision that follows and all later impacts.
 // 10. Joints with friction take part like compliant contacts; their normal force is the load of their bearings. This
@@ -213,6 +216,12 @@ class ContactModes {
   [[nodiscard]] complementarity::ContactSolution strike_without_collision(State& state, const ContactChanges& changes,
                                                                           bool jumped,
                                                                           std::vector<ContactEvent>& events);
+  [[nodiscard]] complementarity::ContactSolution end_slowest_slips(State& state, const ContactChanges& changes,
+                                                                   bool jumped);
+  bool slides(int contact, bool jumped);
+  [[nodiscard]] complementarity::ContactSolution strike_raised(State& state, const ContactChanges& changes,
+                                                               double raised);
+  void find_approaches(double slip);
   void append_impacts(double t, bool without_collision, std::vector<ContactEvent>& events) const;
   void toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events);
   void find_touching(const ContactChanges& changes);
@@ -220,6 +229,8 @@ class ContactModes {
   [[nodiscard]] complementarity::ContactSolution strike(State& state, const ContactChanges& changes);
   std::vector<TouchingContact> touching_and_bearings() const;
   [[nodiscard]] complementarity::ContactSolution solve_impacts(const State& state, std::vector<TouchingContact>& all);
+  [[nodiscard]] complementarity::ContactSolution decide_at_once(State& state, const ContactChanges& changes,
+                                                                bool jumped);
   [[nodiscard]] complementarity::ContactSolution decide_otherwise(const State& state, const ContactChanges& changes);
   // By index of the touching contacts: `falls`, the separation after the impact is too short to follow; `stops`, the
   // slip.

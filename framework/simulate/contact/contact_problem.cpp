@@ -133,7 +133,7 @@ Mat ContactProblem::yielding() const {
   Mat A = delassus_;
   for (const complementarity::Island& island : complementarity::islands(points_, delassus_)) {
     double approach = 0;
-    for (const std::size_t i : island.members) approach = std::max(approach, who[i].vanishing);
+    for (const std::size_t i : island.members) approach = std::max(approach, -who[i].vanishing);
     const double largest = b_(island.rows).lpNorm<Eigen::Infinity>();
     for (const Eigen::Index k : island.rows)
       if (largest > 0) A(k, k) *= 1 + part_of_approach * approach / largest;
@@ -150,7 +150,7 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
 void ContactProblem::set_known_accelerations() {
   b_.resize(Eigen::Index(directions_.size()));
   for (std::size_t i = 0; i < who.size(); ++i) {
-    if (points_[i].normal >= 0) b_[points_[i].normal] = who[i].a_n - who[i].vanishing;
+    if (points_[i].normal >= 0) b_[points_[i].normal] = who[i].a_n + who[i].vanishing;
     if (points_[i].tangent >= 0) along(b_, points_[i]) = who[i].a_t.head(points_[i].tangents);
   }
   for (const Pushed& p : pushed_) b_[p.direction] = who[p.who].a_t[0];
@@ -160,7 +160,7 @@ void ContactProblem::set_known_accelerations() {
 // With rigid contacts; if these have no solution for vanishing approaches, with contacts that yield.
 complementarity::ContactSolution ContactProblem::solve_rigid_or_yielding(const std::vector<Participant>& nearby) {
   complementarity::ContactSolution solution = solve_once(delassus_, nearby);
-  const bool approach = std::any_of(who.begin(), who.end(), [](const Participant& p) { return p.vanishing > 0; });
+  const bool approach = std::any_of(who.begin(), who.end(), [](const Participant& p) { return p.vanishing < 0; });
   if (solution.outcome != LcpOutcome::solved && approach) solution = solve_once(yielding());
   // Without a solution for a vanishing approach, contacts that do not approach may still have one.
   if (solution.outcome == LcpOutcome::no_solution && approach) solution.outcome = LcpOutcome::gave_up;
@@ -218,7 +218,7 @@ double ContactProblem::no_slip(std::size_t participant) const {
 bool ContactProblem::let_approaches_vanish() {
   bool any = false;
   for (std::size_t i = 0; i < who.size(); ++i)
-    if (who[i].vanishing > 0) any = true, b_[points_[i].normal] += who[i].vanishing;
+    if (who[i].vanishing < 0) any = true, b_[points_[i].normal] -= who[i].vanishing;
   if (!any) return true;
   for (const complementarity::Island& island : complementarity::islands(points_, delassus_)) {
     double nothing = 0;

@@ -39,7 +39,7 @@ struct Participant {
 
   double nothing = 0;     // accelerations or velocities up to this count as 0 in its island
   double least_slip = 0;  // resting: |a_t| up to this is no slip, whatever the round-off is
-  double vanishing = 0;   // an approach added to a_n; of several solutions its limit, as it vanishes, is taken
+  double vanishing = 0;   // an approach < 0 added to a_n; of several solutions its limit, as it vanishes, is taken
 
   // Found: force [N] or impulse [N s], and acceleration or velocity, along normal and tangents.
   double N = 0, a_n = 0;

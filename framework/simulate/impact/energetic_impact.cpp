@@ -1,5 +1,7 @@
 #include "simulate/impact/energetic_impact.hpp"
 
+#include <algorithm>
+
 #include <trammel/decompositions.hpp>
 
 #include "simulate/impact/spring_impact.hpp"
@@ -8,14 +10,14 @@ namespace trammel::simulate {
 
 namespace {
 
-constexpr double stopped = 1e-3;  // of the vanishing approach, times the largest rate: far above errors of the course
+constexpr double stopped = 1e-3;  // of the largest vanishing approach: above errors of the course
 
 }  // namespace
 
 complementarity::ContactSolution EnergeticImpact::solve(model::AssembledSystem& system,
                                                         std::vector<TouchingContact>& touching, Vec& dv) {
   directions_.prepare(system, touching);
-  begin_without_collision(touching);
+  add_approaches(touching, 1, directions_.rates);
   std::vector<SpringContact> springs;
   for (std::size_t i = 0; i < touching.size(); ++i)
     springs.push_back({directions_.normal[i], directions_.tangent[i], touching[i].restitution,
@@ -44,15 +46,15 @@ complementarity::ContactSolution EnergeticImpact::solve(model::AssembledSystem& 
   return solution;
 }
 
-void EnergeticImpact::begin_without_collision(const std::vector<TouchingContact>& touching) {
-  for (std::size_t i = 0; i < touching.size(); ++i)
-    if (touching[i].without_collision)
-      directions_.rates[directions_.normal[i]] -= vanishing_approach * touching[i].slip_before.norm();
+void EnergeticImpact::add_approaches(const std::vector<TouchingContact>& touching, double times, Vec& rates) const {
+  for (std::size_t i = 0; i < touching.size(); ++i) rates[directions_.normal[i]] += times * touching[i].approach;
 }
 
 void EnergeticImpact::let_approaches_vanish(const std::vector<TouchingContact>& touching, Vec& P, Vec& u,
                                             Vec& dv) const {
-  const double at_rest = stopped * vanishing_approach * directions_.rates.lpNorm<Eigen::Infinity>();
+  double approach = 0;
+  for (const TouchingContact& c : touching) approach = std::max(approach, -c.approach);
+  const double at_rest = stopped * approach;
   std::vector<Eigen::Index> held;
   bool any = false;
   for (std::size_t i = 0; i < touching.size(); ++i) {
@@ -64,8 +66,7 @@ void EnergeticImpact::let_approaches_vanish(const std::vector<TouchingContact>& 
     for (int k = 0; k < directions_.tangents; ++k) held.push_back(t + k);
   }
   if (!any) return;
-  for (std::size_t i = 0; i < touching.size(); ++i)
-    if (touching[i].without_collision) u[directions_.normal[i]] += vanishing_approach * touching[i].slip_before.norm();
+  add_approaches(touching, -1, u);
   if (held.empty()) return;
   const Mat A = directions_.A(held, held);
   const Vec lost = -u(held), give_back = Eigen::CompleteOrthogonalDecomposition<Mat>(A).solve(lost);

@@ -22,8 +22,8 @@ class EnergeticImpact {
   bool cut_short() const { return cut_short_; }  // the last impact (SpringImpact::cut_short)
 
  private:
-  void begin_without_collision(const std::vector<TouchingContact>& touching);
-  // Removes the initial approach by the least impulses that keep contacts at rest that end at rest.
+  void add_approaches(const std::vector<TouchingContact>& touching, double times, Vec& rates) const;
+  // Removes the approaches by the least impulses that keep contacts at rest that end at rest.
   void let_approaches_vanish(const std::vector<TouchingContact>& touching, Vec& P, Vec& u, Vec& dv) const;
 
   ImpactDirections directions_;

@@ -57,9 +57,10 @@ BearingImpulses::From Impact::gather(model::AssembledSystem& system, std::vector
       p.unilateral = false;
       if (c.without_collision) from = BearingImpulses::From::held;
     } else if (c.without_collision) {
-      p.vanishing = vanishing_approach * c.slip_before.norm();
+      p.vanishing = c.approach;
     }
-    if (entry.friction) p.tangent = Participant::Tangent::resting;
+    if (entry.friction) p.tangent = c.slides_on ? Participant::Tangent::sliding : Participant::Tangent::resting;
+    if (c.slides_on) p.a_t.setZero();
     problem_.who.push_back(p);
   }
   return from;
@@ -71,6 +72,7 @@ void Impact::take_coefficients(const model::Model& model, const std::vector<Touc
     const TouchingContact& c = touching[i];
     const ImpactFriction friction = friction_in_impact(model.contacts[std::size_t(c.contact)], c, c.slip_before.norm());
     problem_.who[i].mu_0 = friction.mu_0, problem_.who[i].mu = friction.mu;
+    if (c.slides_on) problem_.who[i].ratio = -friction.mu * direction_of(c.slip_before);
   }
 }
 
@@ -102,7 +104,7 @@ complementarity::ContactSolution Impact::solve(model::AssembledSystem& system, c
     c.impulse = p.N;
     c.after = rate_after(c, p, system.model().contacts[c.contact].joint.has_value(), jams[i]);
     c.friction = p.T;
-    c.slip_after = p.a_t;
+    c.slip_after = c.slides_on ? Tangential(c.slip_before + p.a_t) : p.a_t;
     c.course = 0;
   }
   return solution;

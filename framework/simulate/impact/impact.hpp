@@ -16,9 +16,9 @@
 // paradox), which is reported (impact_warnings.hpp). With the Delassus matrix D this is the problem of
 // contact_forces.hpp. Several simultaneous contacts form one problem. Reality may give another result (Pfeiffer,
 // Glocker 1996), as a chain of equal balls does. An impact without collision is used where sliding contacts have no
-// finite forces (contact_mode.hpp, rule 8). Zero impulse would solve it, too; the solution taken is the limit for a
-// vanishing approach, which such contacts cannot end while they slide. If Newton's law has no such solution, the course
-// of the impact decides (energetic_impact.hpp).
+// finite forces (contact_mode.hpp, rule 8). Zero impulse would solve it, too; the solution taken is the limit for
+// vanishing approaches, which such contacts cannot end while they slide. If Newton's law has no such solution, the
+// course of the impact decides (energetic_impact.hpp).
 //
 // The energy lost through contact i is -L_i (u_i- + u_i+)/2 - T_i (s_i- + s_i+)/2; the sum is the loss of kinetic
 // energy if no row depends on time. Laws that follow the rates through the impact give each contact's part more
@@ -41,8 +41,12 @@ struct TouchingContact {
   int contact = 0;
   bool was_closed = false;
   bool without_collision = false;            // its slip must end although nothing approaches
+  bool slides = false;                       // before an impact without collision
+  bool slides_on = false;                    // without collision: its slip goes on, whatever the impulses
+  bool keeps_rates = false;                  // however short the motion that it begins (contact_mode.hpp, rule 2)
   double raised = 0;                         // its coefficients of friction count as larger by this part
   double before = 0;                         // u- [m/s]
+  double approach = 0;                       // [m/s] without collision: a vanishing rate, added to u-
   double restitution = 0;                    // e
   std::size_t island = 0;                    // equal for those that act on each other (complementarity/islands.hpp)
   double speed = 0;                          // [m/s] of the impact among these (impact_friction.hpp)

@@ -15,10 +15,11 @@ Law law_of(const model::Model& model, double at_rest, const std::vector<Touching
   return law;
 }
 
-// True if an impulse moves more than a slip of size at_rest would.
+// True if an impulse changes the slip of a contact that slides. Those of contacts at rest are round-off.
 bool has_impulse(const std::vector<TouchingContact>& touching) {
   return std::any_of(touching.begin(), touching.end(), [](const TouchingContact& c) {
-    return c.impulse > 0 && (c.slip_after - c.slip_before).norm() > 100 * vanishing_approach * c.slip_before.norm();
+    const double slip = c.slip_before.norm(), change = (c.slip_after - c.slip_before).norm();
+    return c.slides && c.impulse > 0 && change > 100 * vanishing_approach * slip;
   });
 }
 

@@ -48,6 +48,7 @@ TEST(EnergeticImpact, StopsASlipWithoutCollisionAndLeavesAReboundBesideItAsItIs)
     std::vector<simulate::TouchingContact> touching(2);
     touching[0].contact = index_of(system, "ball"), touching[0].before = -speed, touching[0].restitution = 0.5;
     touching[1].contact = index_of(system, "tip"), touching[1].was_closed = touching[1].without_collision = true;
+    touching[1].approach = -simulate::vanishing_approach * speed;
     Vec dv;
     simulate::EnergeticImpact impact;
     ASSERT_EQ(impact.solve(system, touching, dv).outcome, complementarity::LcpOutcome::solved);
