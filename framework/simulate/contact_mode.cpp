@@ -22,6 +22,13 @@ constexpr double over_round_off = 1e12;
 // Of the shortest period of swings: the longest step (see step_limit).
 constexpr double part_of_period = 0.45;
 
+// How many rows follow from others, and have no multiplier of their own.
+std::size_t implied_rows(const model::Modes& modes) {
+  std::size_t count = 0;
+  for (const model::SharedRows& group : modes.shared) count += group.implied.size();
+  return count;
+}
+
 // Only friction makes forces grow beyond all bounds: without it an impact without collision changes nothing.
 bool any_friction(const std::vector<Participant>& who) {
   return std::any_of(who.begin(), who.end(),
@@ -191,6 +198,7 @@ bool ContactModes::renew_bases(State& state) {
   for (std::size_t i = 0; i < held.size(); ++i)
     if (problem_.who[i].idle && !held[i]) return false;
   modes_.shared = problem_.shared_rows(modes_);
+  if (implied_rows(modes_) < implied_rows(before_)) return false;
   finish(state, false);
   return true;
 }

@@ -87,11 +87,13 @@
 // 13. A contact without a force stays closed (idle) only while rows of contacts that carry hold it. Where these come to
 //     depend on each other (a stack that becomes a strut), they do not, and it opens: its force as a spring passes 0
 //     there, which locates that state. They may also cease to hold it where contacts that touched at one point part:
-//     then a change of bases is an event. Which contacts are idle affects the motion if others slide, so the forces in
-//     the modes decided are computed: if the contacts move otherwise than found, only those without any force count as
-//     idle; if forces pull or leave a cone, contacts whose force may be an error (up to 1e-6 of the largest of their
-//     island) count as idle, too, or else none does. A contact with such a force that pulls by its row in these modes
-//     opens, if its gap then accelerates apart (open_pulling_ones).
+//     then a change of bases is an event. So it is where a row that followed from others no longer does: forces that
+//     hold both would be as many times larger as the contacts' distance is smaller than their bodies. Which contacts
+//     are idle affects the motion if others slide, so the forces in the modes decided are computed: if the contacts
+//     move otherwise than found, only those without any force count as idle; if forces pull or leave a cone, contacts
+//     whose force may be an error (up to 1e-6 of the largest of their island) count as idle, too, or else none does. A
+//     contact with such a force that pulls by its row in these modes opens, if its gap then accelerates apart
+//     (open_pulling_ones).
 // 14. The forces in the modes decided may still pull or leave a cone, although the problem has a solution: springs'
 //     shares are not admissible, and others are another motion (rows of blocks between walls). Where no cone is round
 //     (in the plane, or where all slide), forces are then taken whose modes leave no share free: as few parts along
@@ -173,7 +175,8 @@ class ContactModes {
   // Applies the changes at `state`: v jumps, modes and sizes change, a and lambda are solved anew. Appends the events.
   void settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
   // Modes stay as they are, and so do all forces; contacts that share rows take the best conditioned basis. False:
-  // modes are to be decided, since the others no longer hold an idle contact (rule 13).
+  // modes are to be decided (rule 13), since the others no longer hold an idle contact, or since a row has ceased to
+  // follow from others: its own force would hold what the contacts, which share a point no more, accelerate apart.
   [[nodiscard]] bool renew_bases(State& state);
   // Energy lost in the last impacts [J]: through contacts, also closed ones; and elsewhere, through moving rows.
   struct Loss {
