@@ -163,6 +163,8 @@ double ContactModes::end_rocking_of(std::size_t island, State& state, Brief brie
   return 0;
 }
 
+// Of contacts whose rows depend on each other, some keep the rate that another one would have to exceed (corners at one
+// point, of bodies that turn against each other): these part.
 double ContactModes::end_rates_of(std::size_t island, State& state, const Brief& brief) {
   const auto asked = [&](const TouchingContact& c) { return scale_.island(c.contact) == island; };
   const auto rest_speed = [this](const TouchingContact& c) { return scale_.of(c.contact).rest_speed(); };
@@ -177,8 +179,9 @@ double ContactModes::end_rates_of(std::size_t island, State& state, const Brief&
     for (std::size_t i = 0; i < touching_.size(); ++i) {
       TouchingContact& c = touching_[i];
       if (!asked(c)) continue;
-      c.after = rests[i] ? 0 : system_.gap_rate(c.contact);
-      if (c.after < -rest_speed(c)) rests[i] = any = true;
+      const double left = system_.gap_rate(c.contact);
+      c.after = rests[i] && std::abs(left) <= scale_.of(c.contact).left_by_impacts() ? 0 : left;
+      if (!rests[i] && c.after < -rest_speed(c)) rests[i] = any = true;
     }
   }
   return taken;

@@ -27,7 +27,8 @@
 //     rule 3 with all these contacts at rest finds those that rest. Then v is projected onto the motions in which they,
 //     and all other contacts without a rate, have no rate.
 //     This is the least change of v, so it takes energy; the loss is reported with the impact. Where ending all
-//     these rates would make another contact approach, the fastest of them are left.
+//     these rates would make another contact approach, the fastest of them are left. A contact whose rate it does not
+//     end, since its row nearly depends on others, keeps that rate and opens.
 //  3. Contacts that touch without a rate afterwards are candidates. They close where the forces of the complementarity
 //     problem
 //         A = A_free + D N,   0 <= N complementary to A >= 0      (A gap accelerations, N normal forces)
