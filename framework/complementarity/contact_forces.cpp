@@ -48,7 +48,7 @@ class Cascade {
     }
   }
 
-  ContactSolution solve(const NearbySolution& nearby, Vec& F) {
+  ContactSolution solve(const NearbySolution& nearby, ModeSearch search, Vec& F) {
     if (!friction_) return without_friction(F);
     dependent_ = !independent();
     if (nearby.F.size() > 0 && continues(nearby)) return found(F);
@@ -57,7 +57,7 @@ class Cascade {
     if (round_ && (try_cones(0, Vec::Zero(b_.size())) || (best_.size() > 0 && try_cones(0, best_)))) return found(F);
     if (!round_ && least_ > largest_violation) try_cones(0, best_.size() > 0 ? best_ : Vec(Vec::Zero(b_.size())));
     if (least_ <= largest_violation) return found(F);
-    if (points_.size() <= (round_ ? few_round_contacts : few_contacts)) {
+    if (search == ModeSearch::of_few_contacts && points_.size() <= (round_ ? few_round_contacts : few_contacts)) {
       const LcpOutcome outcome = search_modes(points_, A_, b_, most_nodes, [this](const Vec& near) {
         round_ ? try_cones(0, near, 1) : accept(near);
         return least_ <= largest_violation;
@@ -245,12 +245,13 @@ class WithoutRoundOff {
 };
 
 ContactSolution solve_island(const Island& island, const Mat& A, const Vec& b, Vec& F, Vec& a, double nothing,
-                             const NearbySolution& nearby) {
+                             const NearbySolution& nearby, ModeSearch search) {
   const OrderedContacts ordered(island.points, A, b);
   Vec F_ordered;
   NearbySolution begin;
   if (nearby.F.size() > 0) begin = {ordered.ordered(nearby.F(island.rows)), ordered.ordered(nearby.a(island.rows))};
-  const ContactSolution solution = Cascade(ordered.points(), ordered.A(), ordered.b(), nothing).solve(begin, F_ordered);
+  const ContactSolution solution =
+      Cascade(ordered.points(), ordered.A(), ordered.b(), nothing).solve(begin, search, F_ordered);
   if (solution.outcome != LcpOutcome::solved) return solution;
   Vec a_ordered = ordered.A() * F_ordered + ordered.b();
   WithoutRoundOff both(ordered.A(), ordered.b(), F_ordered, a_ordered);
@@ -270,7 +271,7 @@ ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Ma
 
 ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
                                const std::vector<double>& nothing, std::vector<double>& violation,
-                               const NearbySolution& nearby) {
+                               const NearbySolution& nearby, ModeSearch search) {
   F.setZero(b.size());
   a.setZero(b.size());
   violation.assign(points.size(), 0);
@@ -282,8 +283,8 @@ ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Ma
     if (island.rows.empty()) continue;
     double counts_as_0 = 0;
     for (const std::size_t i : island.members) counts_as_0 = std::max(counts_as_0, nothing[i]);
-    const ContactSolution one =
-        solve_island(island, A(island.rows, island.rows), b(island.rows), F_island, a_island, counts_as_0, nearby);
+    const ContactSolution one = solve_island(island, A(island.rows, island.rows), b(island.rows), F_island, a_island,
+                                             counts_as_0, nearby, search);
     for (const std::size_t i : island.members) violation[i] = one.violation;
     if (one.outcome != LcpOutcome::solved) {
       F.setZero(), a.setZero();

@@ -8,7 +8,8 @@
 //     has, too.
 //  3. If that fails: all modes of few contacts by branch and bound (mode_search.hpp), up to 24 contacts in the plane
 //     and 4 in space. It finds a solution or proves, up to a bound on the forces, that there is none (Painleve). It
-//     gives up if something comes within 1e-8 of b of a solution and is none, and after 20,000 sets of modes.
+//     gives up if something comes within 1e-8 of b of a solution and is none, and after 20,000 sets of modes. That may
+//     take minutes, so it is left out (ModeSearch::none) where the lack of a solution leaves things as they are.
 //  4. If that is not possible or gives up: sweeps over the contacts until Newton's method ends in a solution.
 //
 // Every answer is made exact (exact_modes.hpp) and checked; its violation of the conditions is returned. Degenerate
@@ -45,10 +46,12 @@ struct NearbySolution {
   Vec F, a;
 };
 
+enum class ModeSearch { of_few_contacts, none };  // step 3
+
 // The same, with a `nothing` for each contact, of which the largest of an island counts in it. Fills `violation`, that
 // of each contact's island, as far as islands are solved. With friction the solution near `nearby` is sought first.
 ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
                                const std::vector<double>& nothing, std::vector<double>& violation,
-                               const NearbySolution& nearby = {});
+                               const NearbySolution& nearby = {}, ModeSearch search = ModeSearch::of_few_contacts);
 
 }  // namespace trammel::complementarity

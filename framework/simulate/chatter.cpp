@@ -75,6 +75,7 @@ ContactModes::Brief ContactModes::too_brief(const State& state, const ContactCha
 
 // Solves at the velocities that are left when these rates have ended. With those before, a table that rocks would need
 // accelerations omega^2 r at its feet, and contacts that depend on each other may have no forces that give them.
+// Without a solution all rates go on; no proof is needed that there is none.
 void ContactModes::judge_brief(const State& state, std::size_t at_rest_now, Brief& brief) {
   problem_.prepare(system_);
   Vec change;
@@ -82,7 +83,7 @@ void ContactModes::judge_brief(const State& state, std::size_t at_rest_now, Brie
   system_.move_to(state.t, state.q, state.v + change);
   do {
     accelerate_participants();
-    if (problem_.solve().outcome != LcpOutcome::solved) return;
+    if (problem_.solve({}, complementarity::ModeSearch::none).outcome != LcpOutcome::solved) return;
   } while (let_fast_slips_go());
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     const Participant& p = problem_.who[i];

@@ -59,8 +59,8 @@
 //  8. Rigid contacts may have no solution with finite forces (Painleve's rod), or forces that grow beyond all bounds as
 //     that state is approached (event_location.hpp rejects controlled steps past it). Then an impact without collision
 //     stops or turns the slip: rule 1 with nothing approaching, in which dependent contacts, none of which could part
-//     alone, yield a little. Where slips differ by orders of magnitude (at the corner and the foot of a block that turns
-//     by a clearance), it ends the slowest ones, and faster ones go on; where forces are still not finite, another
+//     alone, yield a little. Where slips differ by orders of magnitude (at the corner and at the foot of a block that
+//     turns by a clearance), it ends the slowest ones, and faster ones go on; where forces are still not finite, another
 //     impact follows. Friction counts as larger in it by what the state is short of that point; where joints have
 //     locked and the search for this impact gives up, by a part of 1e-7. If this impact has no solution, other contacts
 //     may carry from there on (a table whose feet share otherwise as its slip turns), or forces that exist at this

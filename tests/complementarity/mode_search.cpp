@@ -182,6 +182,27 @@ TEST(ModeSearch, FindsForcesWhereEnumerationDoesAndOnlyThere) {
   EXPECT_GT(without, 20);
 }
 
+// Where nobody asks for a proof, the methods before the search give up instead.
+TEST(ModeSearch, IsLeftOutWhereItIsNotAskedFor) {
+  std::mt19937 random(74);
+  int without = 0;
+  for (int i = 0; i < 300; ++i) {
+    RandomKinds kinds;
+    kinds.contacts = 1 + i % 4, kinds.velocities = 2 * kinds.contacts, kinds.most_friction = 100;
+    const Problem problem = random_planar(random, kinds);
+    const Answer searched = solve(problem);
+    Vec F, a;
+    std::vector<double> each;
+    const std::vector<double> nothing(problem.points.size(), 0);
+    const ContactSolution at_once =
+        solve_contacts(problem.points, problem.A, problem.b, F, a, nothing, each, {}, ModeSearch::none);
+    without += searched.outcome == LcpOutcome::no_solution && at_once.outcome == LcpOutcome::gave_up;
+    if (at_once.outcome != LcpOutcome::solved) continue;
+    EXPECT_EQ(F, searched.F) << i;
+  }
+  EXPECT_GT(without, 20);
+}
+
 TEST(ModeSearch, GivesUpIfItsNodesAreUsedUpOrNothingIsAccepted) {
   const Problem problem{{planar()}, Mat{{2, 0}, {0, 3}}, Vec{{-10, 9}}, "a foot that slips"};
   Vec F;

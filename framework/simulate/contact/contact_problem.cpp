@@ -103,7 +103,8 @@ complementarity::NearbySolution ContactProblem::forces_of(const std::vector<Part
   return {F, a};
 }
 
-complementarity::ContactSolution ContactProblem::solve_once(const Mat& A, const std::vector<Participant>& nearby) {
+complementarity::ContactSolution ContactProblem::solve_once(const Mat& A, const std::vector<Participant>& nearby,
+                                                            Search search) {
   for (std::size_t i = 0; i < who.size(); ++i) {
     const Participant& p = who[i];
     complementarity::ContactPoint& point = points_[i];
@@ -122,7 +123,7 @@ complementarity::ContactSolution ContactProblem::solve_once(const Mat& A, const 
     nothing.push_back(who[i].nothing);
   }
   const complementarity::ContactSolution solution =
-      complementarity::solve_contacts(points, A, b_, F_, a_, nothing, violation, forces_of(nearby));
+      complementarity::solve_contacts(points, A, b_, F_, a_, nothing, violation, forces_of(nearby), search);
   for (std::size_t i = 0; i < who.size(); ++i) who[i].violation = violation[i];
   return solution;
 }
@@ -158,10 +159,11 @@ void ContactProblem::set_known_accelerations() {
 }
 
 // With rigid contacts; if these have no solution for vanishing approaches, with contacts that yield.
-complementarity::ContactSolution ContactProblem::solve_rigid_or_yielding(const std::vector<Participant>& nearby) {
-  complementarity::ContactSolution solution = solve_once(delassus_, nearby);
+complementarity::ContactSolution ContactProblem::solve_rigid_or_yielding(const std::vector<Participant>& nearby,
+                                                                         Search search) {
+  complementarity::ContactSolution solution = solve_once(delassus_, nearby, search);
   const bool approach = std::any_of(who.begin(), who.end(), [](const Participant& p) { return p.vanishing < 0; });
-  if (solution.outcome != LcpOutcome::solved && approach) solution = solve_once(yielding());
+  if (solution.outcome != LcpOutcome::solved && approach) solution = solve_once(yielding(), {}, search);
   // Without a solution for a vanishing approach, contacts that do not approach may still have one.
   if (solution.outcome == LcpOutcome::no_solution && approach) solution.outcome = LcpOutcome::gave_up;
   return solution;
@@ -192,11 +194,11 @@ void ContactProblem::take_found() {
   }
 }
 
-complementarity::ContactSolution ContactProblem::solve(const std::vector<Participant>& nearby) {
+complementarity::ContactSolution ContactProblem::solve(const std::vector<Participant>& nearby, Search search) {
   set_known_accelerations();
   complementarity::ContactSolution solution;
   do {
-    solution = solve_rigid_or_yielding(nearby);
+    solution = solve_rigid_or_yielding(nearby, search);
     if (solution.outcome != LcpOutcome::solved) return solution;
   } while (let_slipping_go());
   if (!let_approaches_vanish()) solution.outcome = LcpOutcome::gave_up;

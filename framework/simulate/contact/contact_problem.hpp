@@ -63,7 +63,9 @@ class ContactProblem {
   // On entry `a_n` and `a_t` of each participant are its accelerations without the forces sought. Each island is a
   // problem of its own: no scale or tolerance of one counts in another. `nearby`: the participants, with what was found
   // for them, at nearly the same state; solutions near these are sought first.
-  [[nodiscard]] complementarity::ContactSolution solve(const std::vector<Participant>& nearby = {});
+  using Search = complementarity::ModeSearch;
+  [[nodiscard]] complementarity::ContactSolution solve(const std::vector<Participant>& nearby = {},
+                                                       Search search = Search::of_few_contacts);
   // The same, with one `nothing` for all.
   [[nodiscard]] complementarity::ContactSolution solve(double nothing);
   // [m/s^2] Acceleration of the gap of a unilateral participant without its own force; after `solve`.
@@ -130,10 +132,10 @@ class ContactProblem {
   std::vector<complementarity::SharingGroup> groups_with_idle(const std::vector<complementarity::ContactRole>& role,
                                                               std::vector<bool>& in_them) const;
   void set_known_accelerations();
-  complementarity::ContactSolution solve_rigid_or_yielding(const std::vector<Participant>& nearby);
+  complementarity::ContactSolution solve_rigid_or_yielding(const std::vector<Participant>& nearby, Search search);
   bool let_slipping_go();
   void take_found();
-  complementarity::ContactSolution solve_once(const Mat& A, const std::vector<Participant>& nearby = {});
+  complementarity::ContactSolution solve_once(const Mat& A, const std::vector<Participant>& nearby, Search search);
   complementarity::NearbySolution forces_of(const std::vector<Participant>& nearby) const;
   Mat yielding() const;                           // the Delassus matrix of contacts that are not quite rigid
   double no_slip(std::size_t participant) const;  // [m/s^2]
