@@ -60,11 +60,11 @@
 //     that state is approached (event_location.hpp rejects controlled steps past it). Then an impact without collision
 //     stops or turns the slip: rule 1 with nothing approaching, in which dependent contacts, none of which could part
 //     alone, yield a little. Where slips differ by orders of magnitude (at the corner and at the foot of a block that
-//     turns by a clearance), it ends the slowest ones, and faster ones go on; where forces are still not finite, another
-//     impact follows. Friction counts as larger in it by what the state is short of that point; where joints have
-//     locked and the search for this impact gives up, by a part of 1e-7. If this impact has no solution, other contacts
-//     may carry from there on (a table whose feet share otherwise as its slip turns), or forces that exist at this
-//     instant do. If there are none, the run ends with a message; so it does if modes contradict each other at one
+//     turns by a clearance), it ends the slowest ones, and faster ones go on; where forces are still not finite,
+//     another impact follows. Friction counts as larger in it by what the state is short of that point; where joints
+//     have locked and the search for this impact gives up, by a part of 1e-7. If this impact has no solution, other
+//     contacts may carry from there on (a table whose feet share otherwise as its slip turns), or forces that exist at
+//     this instant do. If there are none, the run ends with a message; so it does if modes contradict each other at one
 //     instant (Simulator).
 //  9. A contact that never releases (a latch) locks after rule 1 if it touches without a rate. It is no candidate; its
 //     row is held like a joint's from then on, through the decision that follows and all later impacts.
