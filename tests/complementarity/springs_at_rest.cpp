@@ -90,5 +90,54 @@ TEST(SpringsAtRest, PressWithoutBalanceAmongThemselves) {
   EXPECT_GT(held, 50);
 }
 
+// How far normal forces are from those of springs that a push y displaces, N = max(0, E_n^T y); at least three press.
+double off_springs(const Mat& E_n, const Vec& N) {
+  std::vector<Eigen::Index> press;
+  for (Eigen::Index k = 0; k < N.size(); ++k)
+    if (N[k] > 1e-9 * N.maxCoeff()) press.push_back(k);
+  const Mat pressing = E_n(Eigen::all, press).transpose();
+  const Vec y = pressing.colPivHouseholderQr().solve(N(press));
+  return (N - (E_n.transpose() * y).cwiseMax(0)).lpNorm<Eigen::Infinity>();
+}
+
+// A body in a groove, some contacts on each of its sides, which a random load pushes.
+TEST(SpringsAtRest, PressInAGrooveAsTheLeastForcesBesideTheirFriction) {
+  std::mt19937 random(8);
+  const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+  int held = 0, only_by_other_forces = 0;
+  for (int i = 0; i < 400; ++i) {
+    const int contacts = 4 + i % 3;
+    Mat E(3, 2 * contacts), E_n(3, contacts);
+    std::vector<SharingContact> groove;
+    const double slopes[] = {any(0.3, 1.2), any(0.3, 1.2)};
+    for (int k = 0; k < contacts; ++k) {
+      const double side = k % 2 == 0 ? 1 : -1, slope = slopes[k % 2], along = any(0.5, 2);
+      const Eigen::Vector2d at = along * Eigen::Vector2d(-side * std::cos(slope), std::sin(slope)),
+                            n(side * std::sin(slope), std::cos(slope)), t(n[1], -n[0]);
+      E.col(2 * k) << n, at[0] * n[1] - at[1] * n[0];
+      E.col(2 * k + 1) << t, at[0] * t[1] - at[1] * t[0];
+      E_n.col(k) = E.col(2 * k);
+      groove.push_back({2 * k, {2 * k + 1}, any(0.05, 1.5), 0});
+    }
+    const Vec load{{any(-2, 2), any(-1, 2), any(-1, 1)}};
+    Vec F;
+    if (!forces_as_springs(groove, E, load, carried, F)) {
+      only_by_other_forces += admissible_forces(groove, E, load, F) < 1e-9;
+      continue;
+    }
+    ++held;
+    const Vec N = F(Eigen::seqN(0, contacts, 2));
+    if ((N.array() > 1e-9 * N.maxCoeff()).count() >= 3) {
+      EXPECT_NEAR(off_springs(E_n, N), 0, 1e-8 * F.norm()) << i;
+    }
+    const double spare = spare_load_as_springs(groove, E, load);
+    EXPECT_GE(spare, -1e-9) << i;
+    const Vec other{{load[0], load[1] * (1 + 1e-12), load[2]}};
+    EXPECT_NEAR(spare_load_as_springs(groove, E, other), spare, 1e-6) << i;  // it is continuous
+  }
+  EXPECT_GT(held, 100);
+  EXPECT_GT(only_by_other_forces, 10);
+}
+
 }  // namespace
 }  // namespace trammel::complementarity

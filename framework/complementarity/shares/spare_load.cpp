@@ -14,7 +14,7 @@ using Eigen::Index;
 double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec* F) {
   Vec F_s = Vec::Zero(E.cols());  // dF/ds
   for (const SharingContact& c : contacts)
-    if (c.normal >= 0) F_s[c.normal] = 1;
+    if (c.normal >= 0 && c.carries) F_s[c.normal] = 1;
   ConeProgram program = sharing_program(contacts, E, lambda);
   const Index rows = program.G.rows(), columns = program.G.cols();
   program.D.setZero(columns + 1);

@@ -21,21 +21,26 @@ constexpr double no_force_of_springs = 1e-10;
 // Of that of the springs: the bodies' compliance. Each round leaves about this part of what was missed.
 constexpr double part_of_compliance = 1e-3;
 constexpr double round_off_of_resultants = 1e-14;
+// Of the resultants: contacts that press are too few to carry them if they miss more.
+constexpr double not_carried = 1e-9;
 
-// The contacts that press, the columns of their forces, and the equations of these.
+// The contacts that press and the columns of their forces; after these, the slacks of the others. Their equations.
 struct Pressing {
   std::vector<SharingContact> contacts;
   std::vector<Index> columns;
   Mat E;
   Vec lambda;
+  bool carries = true;  // false: these equations have no solution, whatever the signs of the forces
 };
 
 // Only independent rows are kept.
-void make_independent(Mat& E, Vec& lambda) {
-  const Eigen::ColPivHouseholderQR<Mat> qr(E);
+void make_independent(Pressing& p) {
+  const Eigen::ColPivHouseholderQR<Mat> qr(p.E);
   const Mat Q = first_columns_of_q(qr, qr.rank());
-  E = Q.transpose() * E;
-  lambda = Q.transpose() * lambda;
+  const Vec all = p.lambda;
+  p.E = Q.transpose() * p.E;
+  p.lambda = Q.transpose() * p.lambda;
+  p.carries = (all - Q * p.lambda).norm() <= not_carried * all.norm();
 }
 
 std::vector<Index> normals_of(const std::vector<SharingContact>& contacts) {
@@ -105,7 +110,7 @@ bool in_cones(const std::vector<SharingContact>& contacts, const Vec& F) {
 Pressing only(const std::vector<bool>& press, const std::vector<SharingContact>& contacts, const Mat& E,
               const Vec& lambda) {
   Pressing p;
-  std::vector<Index> normals;
+  std::vector<Index> column_of(contacts.size(), -1);  // of the normal force
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (!press[i]) continue;
     SharingContact own = contacts[i];
@@ -113,23 +118,31 @@ Pressing only(const std::vector<bool>& press, const std::vector<SharingContact>&
       p.columns.push_back(column);
       column = Index(p.columns.size()) - 1;
     };
-    if (own.normal >= 0) take(own.normal), normals.push_back(own.normal);
+    if (own.normal >= 0) take(own.normal), column_of[i] = own.normal;
     for (Index& k : own.tangents) take(k);
     p.contacts.push_back(std::move(own));
   }
-  const Mat carry = E(Eigen::all, p.columns), E_n = carry(Eigen::all, normals), Z = self_stress(E_n);
-  p.E = Mat::Zero(carry.rows() + Z.cols(), carry.cols());
-  p.E.topRows(carry.rows()) = carry;
-  for (std::size_t i = 0; i < normals.size(); ++i) p.E.col(normals[i]).tail(Z.cols()) = Z.row(Index(i)).transpose();
+  Index columns = Index(p.columns.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (press[i] || contacts[i].normal < 0) continue;
+    SharingContact& slack = p.contacts.emplace_back();
+    slack.normal = column_of[i] = columns++, slack.carries = false;
+  }
+  const Mat Z = self_stress(E(Eigen::all, normals_of(contacts)));
+  p.E = Mat::Zero(E.rows() + Z.cols(), columns);
+  p.E.topLeftCorner(E.rows(), Index(p.columns.size())) = E(Eigen::all, p.columns);
+  for (Index i = 0, row = 0; i < Index(contacts.size()); ++i)
+    if (contacts[std::size_t(i)].normal >= 0)
+      p.E.col(column_of[std::size_t(i)]).tail(Z.cols()) = (press[std::size_t(i)] ? 1 : -1) * Z.row(row++).transpose();
   p.lambda = Vec::Zero(p.E.rows());
   p.lambda.head(lambda.size()) = lambda;
-  make_independent(p.E, p.lambda);
+  make_independent(p);
   return p;
 }
 
 Vec among_all(const Pressing& p, const Vec& own, Index columns) {
   Vec F = Vec::Zero(columns);
-  F(p.columns) = own;
+  F(p.columns) = own.head(Index(p.columns.size()));
   return F;
 }
 
@@ -137,7 +150,10 @@ bool carries(const Mat& E, const Vec& F, const Vec& lambda, double carried) {
   return (E * F - lambda).norm() <= carried * lambda.norm();
 }
 
-bool have_self_stress(const std::vector<SharingContact>& contacts, const Mat& E) {
+// Contacts that press against each other hold others by their friction only.
+bool may_lock(const std::vector<SharingContact>& contacts, const Mat& E) {
+  const auto rubs = [](const SharingContact& c) { return c.coefficient > 0 && !c.tangents.empty(); };
+  if (std::none_of(contacts.begin(), contacts.end(), rubs)) return false;
   const Mat E_n = E(Eigen::all, normals_of(contacts));
   return E_n.cols() > 1 && self_stress(E_n).cols() > 0;
 }
@@ -149,25 +165,65 @@ struct Found {
   Vec F;
 };
 
-// Begins with forces F. Of the sets of contacts that come up until one comes up again, the one that can spare most.
-Found search(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec F) {
-  Found best;
-  std::vector<std::vector<bool>> seen;
-  for (int round = 0; round < most_rounds; ++round) {
-    seen.push_back(that_press(contacts, with_normals_of_springs(contacts, E, F)));
-    if (std::count(seen.begin(), seen.end(), seen.back()) > 1) break;
-    if (std::none_of(seen.back().begin(), seen.back().end(), [](bool presses) { return presses; })) {
-      if (round == 0) best = {-lambda.norm(), {}, Vec::Zero(E.cols())};  // nothing carries
-      break;
+// Of sets of contacts that press, the one that can spare most.
+class Search {
+ public:
+  Search(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda)
+      : contacts_(contacts), E_(E), lambda_(lambda) {}
+
+  // Begins with forces F: the sets that follow from each other's forces, until one comes up again. If springs press in
+  // none of them, also those that differ from them in one contact.
+  Found from(Vec F) {
+    for (int round = 0; round < most_rounds; ++round) {
+      const std::vector<bool> press = that_press(contacts_, with_normals_of_springs(contacts_, E_, F));
+      if (std::find(seen_.begin(), seen_.end(), press) != seen_.end()) break;
+      if (std::none_of(press.begin(), press.end(), [](bool presses) { return presses; })) {
+        if (round == 0) best_ = {-lambda_.norm(), {}, Vec::Zero(E_.cols())};  // nothing carries
+        break;
+      }
+      F = judge(press);
     }
-    Pressing pressing = only(seen.back(), contacts, E, lambda);
+    if (best_.F.size() == 0) judge_neighbours();
+    return std::move(best_);
+  }
+
+ private:
+  void judge_neighbours() {
+    const std::vector<std::vector<bool>> sets = seen_;
+    for (const std::vector<bool>& set : sets)
+      for (std::size_t i = 0; i < set.size(); ++i) {
+        std::vector<bool> other = set;
+        other[i] = !other[i];
+        if (std::find(seen_.begin(), seen_.end(), other) == seen_.end()) judge(other);
+      }
+  }
+
+  // Returns the least forces of the set, or those that leave their cones least: forces that spare most may be of any
+  // size (a strut that locks).
+  Vec judge(const std::vector<bool>& press) {
+    seen_.push_back(press);
+    Pressing pressing = only(press, contacts_, E_, lambda_);
     Vec own;
     const double spare = spare_load(pressing.contacts, pressing.E, pressing.lambda, &own);
-    F = among_all(pressing, own, E.cols());
-    if (spare > best.spare) best = {spare, std::move(pressing), F};
+    const bool springs = pressing.carries && others_part(pressing, own);
+    if (spare >= 0) admissible_forces(pressing.contacts, pressing.E, pressing.lambda, own);
+    const Vec F = among_all(pressing, own, E_.cols());
+    if (springs && spare > best_.spare) best_ = {spare, std::move(pressing), F};
+    return F;
   }
-  return best;
-}
+
+  static bool others_part(const Pressing& pressing, const Vec& own) {
+    const double least = -not_carried * own.lpNorm<Eigen::Infinity>();
+    return std::none_of(pressing.contacts.begin(), pressing.contacts.end(),
+                        [&](const SharingContact& c) { return !c.carries && own[c.normal] < least; });
+  }
+
+  const std::vector<SharingContact>& contacts_;
+  const Mat& E_;
+  const Vec& lambda_;
+  std::vector<std::vector<bool>> seen_;
+  Found best_;
+};
 
 }  // namespace
 
@@ -175,13 +231,14 @@ bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E
                        Vec& F) {
   admissible_forces(contacts, E, lambda, F);
   if (!carries(E, F, lambda, carried)) return false;
-  if (!have_self_stress(contacts, E)) return true;
+  if (!may_lock(contacts, E)) return true;
   const Vec springs = with_normals_of_springs(contacts, E, F);
   if (in_cones(contacts, springs)) {
     F = springs;
     return true;
   }
-  const Found found = search(contacts, E, lambda, F);
+  const Found found = Search(contacts, E, lambda).from(F);
+  if (found.F.size() == 0) return false;
   if (!(found.spare >= -carried * largest(contacts, found.F))) return false;
   if (found.pressing.columns.empty()) return true;  // nothing is to be carried
   Vec own;
@@ -191,15 +248,18 @@ bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E
 }
 
 double spare_load_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec* F) {
-  if (!have_self_stress(contacts, E)) return spare_load(contacts, E, lambda, F);
+  if (!may_lock(contacts, E)) return spare_load(contacts, E, lambda, F);
   Vec begin;
   if (const double most = spare_load(contacts, E, lambda, &begin); most < 0) {
     if (F) *F = begin;
     return most;
   }
-  const Found found = search(contacts, E, lambda, std::move(begin));
-  if (F) *F = found.F;
-  return found.spare;
+  Vec least;
+  admissible_forces(contacts, E, lambda, least);
+  const Found found = Search(contacts, E, lambda).from(std::move(least));
+  const bool any = found.F.size() > 0;
+  if (F) *F = any ? found.F : begin;
+  return any ? found.spare : -lambda.norm();
 }
 
 }  // namespace trammel::complementarity

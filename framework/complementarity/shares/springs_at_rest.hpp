@@ -5,9 +5,13 @@
 //
 //     N = argmin |N|^2 / 2,    E_n N = lambda - E_t T,    N >= 0,        so that N = max(0, E_n^T y),
 //
-// for friction T of any size inside the cones. With the contacts that press known, A, this is one more linear condition
-// for their forces: N_A is in the range of E_nA^T. So the forces are those of admissible_forces.hpp for the contacts of
-// A with these rows added to E. A follows from T; it is found by repetition.
+// for friction T of any size inside the cones. With the contacts that press known, A, this is linear in their forces and
+// in the slacks x of the others, which the push y would part:
+//
+//     Z^T (N_A, -x) = 0,    N_A >= 0,    x >= 0;        the columns of Z are the self-stresses, E_n Z = 0
+//
+// says that (N_A, -x) is E_n^T y. So the forces are those of admissible_forces.hpp for the contacts of A, with these
+// rows added to E and a column for each x. A follows from T; it is found by repetition.
 #pragma once
 
 #include <vector>
