@@ -91,10 +91,10 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
 }
 
 // After an event that left all modes as they were. Modes do not include which contacts are idle; if others are idle
-// now, a force or spare load that was 0 at the event is a new one.
+// now, a force or spare load that was 0 at the event is a new one. A function of a spare load begins at `little`.
 bool EventLocation::shares_otherwise(int k) const {
   const EventFunction& function = functions_[k];
-  if (function.kind == Kind::unload) return now_[k].f > new_spare_load * function.bound;
+  if (function.kind == Kind::unload) return now_[k].f > function.little + new_spare_load * function.bound;
   return is_shared_force(function) && now_[k].f > jumps_of_shares * function.little;
 }
 

@@ -3,7 +3,12 @@
 //     A mass m at speed v against F = K |gap|: in touch for pi / sqrt(K/m), back with v; depth v / sqrt(K/m).
 #include <cmath>
 #include <numbers>
+#include <random>
 
+#include <nlohmann/json.hpp>
+
+#include "block.hpp"
+#include "support/between.hpp"
 #include "support/run_scene.hpp"
 #include "support/scenes.hpp"
 
@@ -141,6 +146,52 @@ TEST(CompliantContact, ThatOnlyTouchesDoesNotHoldUpTheOthers) {
       EXPECT_LT(run.result["counts"]["steps"], 5000) << mu << " " << stiffness;
       EXPECT_LT(run.result["counts"]["locating_steps"], 20000) << mu << " " << stiffness;
     }
+}
+
+// A block whose two feet just touch the floor, with a bar hinged to its side and a load on the bar that grows with t.
+nlohmann::json block_that_just_touches(std::mt19937& random) {
+  const double w = between(random, 0.2, 0.5), h = between(random, 0.1, 0.3), bar = between(random, 0.2, 0.5);
+  const double m = between(random, 0.5, 4);
+  nlohmann::json s = {{"trammel", 1},
+                      {"space", "planar"},
+                      {"gravity", {0, -9.81}},
+                      {"bodies",
+                       {{"block", standing_block(0, w, h, between(random, 2, 8))},
+                        {"bar",
+                         {{"type", "rigid_body"},
+                          {"mass", m},
+                          {"inertia", m * bar * bar / 12},
+                          {"position", {w + bar / 2, h / 2}},
+                          {"markers", {{"left", {-bar / 2, 0}}, {"right", {bar / 2, 0}}}}}}}},
+                      {"joints", {{"hinge", {{"type", "revolute"}, {"between", {"block.right", "bar.left"}}}}}},
+                      {"simulate", {{"until", 0.01}}},
+                      {"record", {{"every", 0.005}, {"observe", {{"x", "block.com.x"}}}}}};
+  const std::string x = fmt::format("={}*t", between(random, 10, 40)), y = fmt::format("={}*t", between(random, -5, 5));
+  s["forces"]["pull"] = {{"type", "load"}, {"on", "bar.right"}, {"force", {{"x", x}, {"y", y}}}};
+  for (const char* foot : {"bl", "br"}) {
+    const double mu = between(random, 0.05, 0.4);
+    s["contacts"][foot] = {
+        {"type", "continuous_force"},
+        {"stiffness", 1e3},
+        {"exponent", 1},
+        {"damping", "none"},
+        {"between", {std::string("block.") + foot, {{"plane", {{"point", {0, 0}}, {"normal", {0, 1}}}}}}},
+        {"friction", {{"type", "coulomb"}, {"static", mu}, {"kinetic", mu}}}};
+  }
+  return s;
+}
+
+// The load grows as t, and what presses the feet as t^2: one or both slip at once, before they stick.
+TEST(CompliantContact, SlipsWhereNothingPressesYet) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 40; ++i) {
+    const Finished run = run_text(block_that_just_touches(random).dump());
+    ASSERT_TRUE(run.done()) << i << ": " << run.report.reason;
+    EXPECT_TRUE(run.result["warnings"].empty()) << i << ": " << run.result["warnings"].dump();
+    const std::vector<Event> slips = run.of_kind("slip");
+    ASSERT_FALSE(slips.empty()) << i;
+    EXPECT_LT(slips.front().t, 1e-10) << i;
+  }
 }
 
 }  // namespace
