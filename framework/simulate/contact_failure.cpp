@@ -45,12 +45,14 @@ bool ContactModes::blocked(const std::vector<Participant>& who) const {
 void ContactModes::fail_without_solution(const char* what, double t, const complementarity::ContactSolution& solution,
                                          const std::vector<Participant>& who) const {
   std::string contacts, joints;
+  bool rigid = false;
   for (const Participant& p : who) {
     const model::ContactEntry& entry = system_.model().contacts[std::size_t(p.contact)];
     std::string& names = entry.joint ? joints : contacts;
+    rigid = rigid || entry.restitution;
     names += (names.empty() ? "" : ", ") + (entry.joint ? entry.path() : entry.name);
   }
-  const std::string compliant = contacts.empty() ? "" : "; a compliant law, such as continuous_force, has one";
+  const std::string advice = contacts.empty() ? "" : fmt::format("; {}, has one", other_law(rigid));
   const std::string of_contacts = contacts.empty() ? "" : "contacts " + contacts;
   std::string of = of_contacts + (contacts.empty() || joints.empty() ? "" : " and ") + joints, why;
   if (solution.outcome == LcpOutcome::gave_up && bearings_undecided_)
@@ -62,15 +64,15 @@ void ContactModes::fail_without_solution(const char* what, double t, const compl
     why = fmt::format("was not found: the best try violates the conditions of {} by {:.2g} of the forces{}{}",
                       joints.empty() ? "the contacts" : "contacts and bearings", solution.violation,
                       joints.empty() ? fmt::format(", {:.0g} is asked for", complementarity::largest_violation) : "",
-                      compliant);
+                      advice);
   else if (blocked(who))
     of = of_contacts, why = "has no solution: they close on bodies that cannot give way";
   else
     why = fmt::format("has no solution: so much friction leaves {} none ({}){}",
-                      joints.empty()     ? "rigid contacts"
+                      joints.empty()     ? (rigid ? "rigid contacts" : "contacts")
                       : contacts.empty() ? "joints"
                                          : "rigid contacts and joints",
-                      joints.empty() ? "Painleve" : "Painleve; self-locking", compliant);
+                      joints.empty() ? "Painleve" : "Painleve; self-locking", advice);
   throw RunFailed(fmt::format("at t = {:.9g} s: the {} of {} {}", t, what, of, why));
 }
 

@@ -43,6 +43,12 @@ bool ContactModes::any_closed() const {
   return false;
 }
 
+bool ContactModes::any_rigid_closed() const {
+  for (std::size_t i = 0; i < system_.modes().contacts.size(); ++i)
+    if (system_.modes().contacts[i].closed && system_.model().contacts[i].restitution) return true;
+  return false;
+}
+
 void ContactModes::settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events) {
   begin(state);
   toggle(state, changes.toggled, events);

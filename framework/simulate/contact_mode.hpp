@@ -194,6 +194,11 @@ class ContactModes {
   // that without friction; 0 at Painleve's critical state, 1 far from it.
   double distance_from_critical(const State& state);
   bool any_closed() const;  // bearings of joints, which are always closed, do not count
+  bool any_rigid_closed() const;
+  // The law to try where contacts have no forces or no motion.
+  static const char* other_law(bool rigid) {
+    return rigid ? "a compliant law, such as continuous_force" : "smooth friction, such as regularized_coulomb";
+  }
 
   // [s] Longest controlled step that cannot pass over a double zero of a slip velocity: 0.45 of the shortest period in
   // which a closed contact with set-valued friction swings back after a blow. Below half of the period a swing turns at

@@ -75,10 +75,13 @@ void Simulator::guard_against_standstill(double h, double wanted, int contact) {
   standing_ = h <= standstill * (std::abs(now_.t) + wanted) ? standing_ + 1 : 0;
   const int contacts = int(system_.model().contacts.size());
   if (standing_ <= most_standing + most_standing_of_contact * contacts) return;
+  const bool last_is_rigid = contact >= 0 && system_.model().contacts[std::size_t(contact)].restitution;
+  const bool rigid = last_is_rigid || modes_.any_rigid_closed();
   throw RunFailed(fmt::format(
-      "{}: {} events in a row without progress in time{}: the contacts' modes contradict each other, as they do where "
-      "much friction leaves no motion of rigid contacts; a compliant law, such as continuous_force, has one",
-      here(), standing_, last_of(contact)));
+      "{}: {} events in a row without progress in time{}: the contacts' modes contradict each other{}; {}, has one",
+      here(), standing_, last_of(contact),
+      rigid ? ", as they do where much friction leaves no motion of rigid contacts" : "",
+      ContactModes::other_law(rigid)));
 }
 
 void Simulator::guard_against_storm(int contact) {
