@@ -94,6 +94,7 @@ complementarity::ContactSolution ContactModes::decide_with_doubts(State& state, 
   find_candidates(changes);
   if (changes.locked) return {LcpOutcome::no_solution, 0};
   auto solution = decide(state, changes, jumped);
+  if (solution.outcome == LcpOutcome::solved) solution = open_freed(state, changes, jumped, solution);
   if (solution.outcome == LcpOutcome::solved && changes_sign_by_infinity(state, changes)) {
     ContactChanges others = changes;
     others.released.clear();
@@ -108,6 +109,26 @@ complementarity::ContactSolution ContactModes::decide_with_doubts(State& state, 
     for (std::size_t i = 0; i < open.size(); ++i) asked[std::size_t(problem_.who[i].contact)] = open[i];
   }
   return decide_by_what_follows(state, changes, jumped, asked, solution);
+}
+
+// Rule 13. Where a row follows from others no more: of several solutions, one in which a contact that shared opens and
+// parts.
+complementarity::ContactSolution ContactModes::open_freed(State& state, const ContactChanges& changes, bool jumped,
+                                                          const complementarity::ContactSolution& so_far) {
+  if (!changes.leaning || implied_rows(modes_) >= implied_rows(before_)) return so_far;
+  const std::vector<int> all = candidates_;
+  const model::Modes found = modes_;
+  for (const int contact : all) {
+    if (!shared_before_[std::size_t(contact)] || !found.contacts[contact].closed || locks(contact)) continue;
+    candidates_ = all;
+    std::erase(candidates_, contact);
+    const auto without = decide(state, changes, jumped);
+    if (without.outcome == LcpOutcome::solved && has_forces_in(modes_, state) &&
+        system_.acceleration({contact, 0}, a_) > least_acceleration(contact))
+      return without;
+  }
+  candidates_ = all;
+  return decide(state, changes, jumped);
 }
 
 void ContactModes::take_approach_speeds(const ContactChanges& changes) {
