@@ -111,24 +111,27 @@ complementarity::ContactSolution ContactModes::decide_with_doubts(State& state, 
   return decide_by_what_follows(state, changes, jumped, asked, solution);
 }
 
-// Rule 13. Where a row follows from others no more: of several solutions, one in which a contact that shared opens and
-// parts.
+// Rule 13. Where a row follows from others no more: of several solutions, the one in which a contact that shared opens
+// and parts with the largest acceleration.
 complementarity::ContactSolution ContactModes::open_freed(State& state, const ContactChanges& changes, bool jumped,
                                                           const complementarity::ContactSolution& so_far) {
   if (!changes.leaning || implied_rows(modes_) >= implied_rows(before_)) return so_far;
   const std::vector<int> all = candidates_;
   const model::Modes found = modes_;
-  for (const int contact : all) {
-    if (!shared_before_[std::size_t(contact)] || !found.contacts[contact].closed || locks(contact)) continue;
+  const auto decide_without = [&](int contact) {
     candidates_ = all;
     std::erase(candidates_, contact);
-    const auto without = decide(state, changes, jumped);
-    if (without.outcome == LcpOutcome::solved && has_forces_in(modes_, state) &&
-        system_.acceleration({contact, 0}, a_) > least_acceleration(contact))
-      return without;
+    return decide(state, changes, jumped);
+  };
+  int freed = -1;
+  double fastest = 0;
+  for (const int contact : all) {
+    if (!shared_before_[std::size_t(contact)] || !found.contacts[contact].closed || locks(contact)) continue;
+    if (decide_without(contact).outcome != LcpOutcome::solved || !has_forces_in(modes_, state)) continue;
+    const double apart = system_.acceleration({contact, 0}, a_);
+    if (apart > std::max(fastest, least_acceleration(contact))) fastest = apart, freed = contact;
   }
-  candidates_ = all;
-  return decide(state, changes, jumped);
+  return decide_without(freed);
 }
 
 void ContactModes::take_approach_speeds(const ContactChanges& changes) {

@@ -5,8 +5,8 @@
 //
 //     N = argmin |N|^2 / 2,    E_n N = lambda - E_t T,    N >= 0,        so that N = max(0, E_n^T y),
 //
-// for friction T of any size inside the cones. With the contacts that press known, A, this is linear in their forces and
-// in the slacks x of the others, which the push y would part:
+// for friction T of any size inside the cones. With the contacts that press known, A, this is linear in their forces
+// and in the slacks x of the others, which the push y would part:
 //
 //     Z^T (N_A, -x) = 0,    N_A >= 0,    x >= 0;        the columns of Z are the self-stresses, E_n Z = 0
 //
