@@ -90,13 +90,13 @@
 //     0 there, which locates that state. They may also cease to hold it where contacts that touched at one point part:
 //     then a change of bases is an event. So it is where a row that followed from others no longer does: forces that
 //     hold both would be as many times larger as the contacts' distance is smaller than their bodies. If the problem
-//     has several solutions then, one in which a contact opens that has shared is taken (open_freed): a foot below a
-//     hinge about which its body turns parts, and presses on only with friction that ends the turn. Which contacts are
-//     idle affects the motion if others slide, so the forces in the modes decided are computed: if the contacts move
-//     otherwise than found, only those without any force count as idle; if forces pull or leave a cone, contacts whose
-//     force may be an error (up to 1e-6 of the largest of their island) count as idle, too, or else none does. A
-//     contact with such a force that pulls by its row in these modes opens, if its gap then accelerates apart
-//     (open_pulling_ones).
+//     has several solutions then, the one is taken in which a contact that has shared opens and parts fastest
+//     (open_freed): a foot below a hinge about which its body turns parts, and presses on only with friction that ends
+//     the turn. Which contacts are idle affects the motion if others slide, so the forces in the modes decided are
+//     computed: if the contacts move otherwise than found, only those without any force count as idle; if forces pull
+//     or leave a cone, contacts whose force may be an error (up to 1e-6 of the largest of their island) count as idle,
+//     too, or else none does. A contact with such a force that pulls by its row in these modes opens, if its gap then
+//     accelerates apart (open_pulling_ones).
 // 14. The forces in the modes decided may still pull or leave a cone, although the problem has a solution: springs'
 //     shares are not admissible, and others are another motion (rows of blocks between walls). Where no cone is round
 //     (in the plane, or where all slide), forces are then taken whose modes leave no share free: as few parts along

@@ -83,12 +83,12 @@ ContactSolution ContactModes::strike_without_collision(State& state, const Conta
 // The smallest impulses that leave finite forces end the slowest slips; faster ones go on as they are. If there is no
 // such impact, faster slips may end in it, too.
 ContactSolution ContactModes::end_slowest_slips(State& state, const ContactChanges& changes, bool jumped) {
-  std::vector<double> slips{0};
+  std::vector<double> slips;
   for (TouchingContact& c : touching_) {
     c.slides = slides(c.contact, jumped);
     if (c.slides) slips.push_back(system_.slip(c.contact).norm());
   }
-  if (slips.size() > 1) slips.erase(slips.begin());
+  if (slips.empty()) slips.push_back(0);  // joints slide alone
   ContactSolution impact;
   for (const double size : sizes_of(slips)) {
     find_approaches(size);

@@ -21,7 +21,8 @@ constexpr double no_force_of_springs = 1e-10;
 // Of that of the springs: the bodies' compliance. Each round leaves about this part of what was missed.
 constexpr double part_of_compliance = 1e-3;
 constexpr double round_off_of_resultants = 1e-14;
-// Of the resultants: contacts that press are too few to carry them if they miss more.
+// Of the resultants: contacts that press are too few to carry them if they miss more. Of the forces: springs would
+// press others if a slack is more negative.
 constexpr double not_carried = 1e-9;
 
 // The contacts that press and the columns of their forces; after these, the slacks of the others. Their equations.

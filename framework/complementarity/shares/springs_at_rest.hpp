@@ -11,7 +11,9 @@
 //     Z^T (N_A, -x) = 0,    N_A >= 0,    x >= 0;        the columns of Z are the self-stresses, E_n Z = 0
 //
 // says that (N_A, -x) is E_n^T y. So the forces are those of admissible_forces.hpp for the contacts of A, with these
-// rows added to E and a column for each x. A follows from T; it is found by repetition.
+// rows added to E and a column for each x. A follows from T; it is found by repetition and, where springs press in
+// none of the sets that come up, among those that differ from them in one contact. Without friction a self-stress
+// holds nothing, so all admissible forces count.
 #pragma once
 
 #include <vector>
