@@ -40,11 +40,23 @@ std::optional<Vec3> read_vector(const Value& value, Space space, Problems& probl
   return Vec3(Eigen::Map<const Vec>(numbers->data(), Eigen::Index(numbers->size())));
 }
 
+namespace {
+
+// Every marker of the model: "ground", "beam.root", "beam.tip".
 std::vector<std::string> marker_names(const Model& model) {
   std::vector<std::string> names = {"ground"};
   for (const BodyEntry& entry : model.bodies)
     for (const std::string& marker : entry.body->markers()) names.push_back(entry.name + "." + marker);
   return names;
+}
+
+}  // namespace
+
+std::string no_marker(const Model& model, std::string_view name) {
+  const std::string_view body = name.substr(0, name.find('.'));
+  const bool no_body = body.size() < name.size() && !model.body_named.contains(body);
+  return fmt::format("no marker \"{}\"{}{}", name, no_body ? fmt::format(", since no body \"{}\"", body) : "",
+                     scene::did_you_mean(name, marker_names(model)));
 }
 
 std::optional<MarkerRef> find_marker(const Model& model, std::string_view name) {
@@ -98,8 +110,7 @@ std::optional<MarkerRef> read_marker(const Value& value, Model& model, Problems&
   const auto name = value.read_text(problems);
   if (!name) return {};
   if (const auto marker = find_marker(model, *name)) return marker;
-  problems.error(
-      value.problem(fmt::format("no marker \"{}\"{}", *name, scene::did_you_mean(*name, marker_names(model)))));
+  problems.error(value.problem(no_marker(model, *name)));
   return {};
 }
 

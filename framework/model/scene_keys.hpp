@@ -17,9 +17,9 @@ bool check_keys(const scene::Value& object, const std::vector<std::string>& keys
 // A vector of the scene's dimension.
 std::optional<Vec3> read_vector(const scene::Value& value, Space space, scene::Problems& problems);
 
-// Every marker of the model: "ground", "beam.root", "beam.tip".
-std::vector<std::string> marker_names(const Model& model);
 std::optional<MarkerRef> find_marker(const Model& model, std::string_view name);
+// What an error says of a name that is no marker, with the valid names and the nearest of them.
+std::string no_marker(const Model& model, std::string_view name);
 // True if the marker has axes: it is on the ground or on a body, but not a point in natural coordinates.
 bool has_orientation(const Model& model, MarkerRef marker);
 

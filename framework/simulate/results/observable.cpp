@@ -184,9 +184,7 @@ class MotionReader {
     const auto text = value->read_text(problems_);
     if (!text) return {};
     const auto B = model::find_marker(model_, *text);
-    if (!B)
-      problems_.error(value->problem(
-          fmt::format("no marker \"{}\"{}", *text, scene::did_you_mean(*text, model::marker_names(model_)))));
+    if (!B) problems_.error(value->problem(model::no_marker(model_, *text)));
     return B;
   }
 

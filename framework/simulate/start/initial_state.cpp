@@ -61,16 +61,21 @@ bool project_out_of_contacts(model::AssembledSystem& system, State& s) {
   return found && (system.sizes().nc == 0 || project_velocity(system, s));
 }
 
-// "bodies.rod moves by up to 0.012" for each body that the projection moves.
+// Of the largest move: what the projection moves by less it moves by round-off.
+constexpr double round_off_of_moves = 1e-12;
+
+// "bodies.rod by up to 0.012 (m, rad) and 0 (m/s, rad/s)" for each body that the projection moves.
 std::string moves(model::AssembledSystem& system, const State& from, const State& to) {
-  Vec dq;
+  Vec dq, dv = to.v - from.v;
   system.difference(to.q, from.q, dq);
+  const double no_move = round_off_of_moves * dq.lpNorm<Eigen::Infinity>(),
+               no_rate = round_off_of_moves * dv.lpNorm<Eigen::Infinity>();
   std::string text;
   for (const model::BodyEntry& body : system.model().bodies) {
     if (body.nv == 0) continue;
     const double by = dq.segment(body.v0, body.nv).cwiseAbs().maxCoeff();
-    const double rate = (to.v - from.v).segment(body.v0, body.nv).cwiseAbs().maxCoeff();
-    if (by <= 0 && rate <= 0) continue;
+    const double rate = dv.segment(body.v0, body.nv).cwiseAbs().maxCoeff();
+    if (by <= no_move && rate <= no_rate) continue;
     text += fmt::format("{}bodies.{} by up to {:.3g} (m, rad) and {:.3g} (m/s, rad/s)", text.empty() ? "" : ", ",
                         body.name, by, rate);
   }
