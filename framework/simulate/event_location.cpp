@@ -22,8 +22,13 @@ constexpr double part_of_scale = 1e-3;  // of what counts as touching or at rest
 constexpr double held_acceleration = 10;
 constexpr double most_lengthening = 5;  // of the last step, as in StepControl: the next one is no longer
 constexpr double part_of_slip = 0.25;   // the most that a step may take from a slip at its steepest rate
-constexpr double units_in_t = 4;        // units in the last place of t: the shortest step to an event
+constexpr double units_in_t = 4;        // units in the last place of t: the shortest step
 constexpr Eigen::Index archived = 10;   // numbers of each function in a checkpoint
+
+// [s] To an event.
+double shortest_step(double t) {
+  return units_in_t * eps * std::abs(t);
+}
 
 // Thrown and caught in this file: the integrator refused one of the steps that locate an event.
 struct StepRefused {};
@@ -63,6 +68,7 @@ void EventLocation::restart(const State& now) {
   if (same_modes(modes_before_, system_.modes().contacts))
     for (const EventFunction& each : functions_) before.emplace(watched(each), each);
   functions_.clear();
+  at_once_ = h_before_ > 0 && h_before_ <= 2 * shortest_step(now.t);
   h_before_ = longest_ = 0;
   system_.move_to(now.t, now.q, now.v);
   set_up_functions();
@@ -257,7 +263,7 @@ EventLocation::Located EventLocation::locate_first(const State& now, double h) {
     if (first.function < 0 || located < first.h) first.function = suspect.function;
     first.h = std::min(first.h, located);
   }
-  const double shortest = units_in_t * eps * std::max(std::abs(now.t), std::abs(now.t + h));
+  const double shortest = shortest_step(std::max(std::abs(now.t), std::abs(now.t + h)));
   first.h = std::min(h, std::max(first.h, shortest));
   return first;
 }
@@ -273,7 +279,8 @@ void EventLocation::shorten(const State& now, double h_event, double& h, State& 
 }
 
 // An event that changed nothing was round-off, or the missing force is too small to move anything yet. It is an event
-// again when several times as much is missing.
+// again when several times as much is missing. So was one that follows another of the same function after the shortest
+// step: whatever the function was in between, it jumps there by its error.
 void EventLocation::wait_longer(const EventFunction& before, int k) {
   EventFunction& function = functions_[std::size_t(k)];
   const Value& now = now_[std::size_t(k)];
@@ -289,7 +296,7 @@ void EventLocation::wait_longer(const EventFunction& before, int k) {
   function.patience = before.patience;
   if (function.kind == Kind::approach && now.slope > scale_.of(function.contact).left_by_impacts()) return;  // rebounds
   function.noise = std::max(function.noise, before.noise);
-  if (now.f < 0 || (before.reported && !shares_otherwise(k)))
+  if (now.f < 0 || (before.reported && (at_once_ || !shares_otherwise(k))))
     function.noise = std::max({function.noise, function.little, 2 * std::abs(now.f), 4 * before.noise});
 }
 

@@ -200,6 +200,7 @@ class EventLocation {
   bool probed_ = false;                      // probe_ is filled for the step examined
   double h_before_ = 0;                      // [s] 0: no step yet since the last change
   double longest_ = 0;                       // [s] longest step tried since then
+  bool at_once_ = false;                     // the last change came the shortest step after the one before
   std::vector<Suspect> suspects_;
   std::vector<int> at_end_;
   std::vector<double> begin_slopes_, end_slopes_;  // of forces at the ends of the step examined, where needed
