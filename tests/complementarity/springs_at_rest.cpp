@@ -1,11 +1,15 @@
 // Forces of contacts at rest without a self-stress of their normals.
 #include "complementarity/shares/springs_at_rest.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "feasible_point.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -137,6 +141,97 @@ TEST(SpringsAtRest, PressInAGrooveAsTheLeastForcesBesideTheirFriction) {
   }
   EXPECT_GT(held, 100);
   EXPECT_GT(only_by_other_forces, 10);
+}
+
+// A box of 2 by 1 that touches floor, ceiling and walls at random points.
+struct Box {
+  std::vector<SharingContact> contacts;
+  Mat E;
+  Box(std::mt19937& random, int count) : E(3, 2 * count) {
+    const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+    for (int k = 0; k < count; ++k) {
+      const int side = k < 2 ? 0 : int(any(0, 4));  // floor, ceiling, left, right
+      const double along = any(-1, 1), sign = side % 2 == 0 ? 1 : -1;
+      const Eigen::Vector2d n = side < 2 ? Eigen::Vector2d(0, sign) : Eigen::Vector2d(sign, 0), t(n[1], -n[0]),
+                            at = side < 2 ? Eigen::Vector2d(along, -sign / 2) : Eigen::Vector2d(-sign, along / 2);
+      E.col(2 * k) << n, at[0] * n[1] - at[1] * n[0];
+      E.col(2 * k + 1) << t, at[0] * t[1] - at[1] * t[0];
+      contacts.push_back({2 * k, {2 * k + 1}, any(0.05, 1.2), 0});
+    }
+  }
+  // Contacts in another order.
+  Box(const Box& box, const std::vector<int>& order) : E(3, box.E.cols()) {
+    for (const int i : order) {
+      const int k = 2 * int(contacts.size());
+      contacts.push_back({k, {k + 1}, box.contacts[std::size_t(i)].coefficient, 0});
+      E.middleCols(k, 2) = box.E.middleCols(2 * i, 2);
+    }
+  }
+};
+
+// By linear programs for all sets of contacts that press: N = E_n^T y of these, and E_n^T y <= 0 of the others.
+bool some_set_holds(const Box& box, const Vec& load) {
+  const int n = int(box.contacts.size());
+  for (int set = 0; set < 1 << n; ++set) {
+    Mat B = Mat::Zero(3 + n, 2 * n + 6);  // columns: forces along both edges of a cone, or a slack; y and -y
+    Vec d = Vec::Zero(3 + n), x;
+    d.head(3) = load;
+    for (int i = 0; i < n; ++i) {
+      const Vec normal = box.E.col(2 * i), edge = box.contacts[std::size_t(i)].coefficient * box.E.col(2 * i + 1);
+      const bool presses = set >> i & 1;
+      if (presses) B.col(2 * i).head(3) = normal + edge, B.col(2 * i + 1).head(3) = normal - edge;
+      B(3 + i, 2 * i) = presses ? 1 : -1;
+      B(3 + i, 2 * i + 1) = presses ? 1 : 0;
+      B.row(3 + i).segment(2 * n, 3) = -normal.transpose(), B.row(3 + i).tail(3) = normal.transpose();
+    }
+    if (feasible_point(B, d, x) < 1e-9) return true;
+  }
+  return false;
+}
+
+TEST(SpringsAtRest, HoldABoxWhereverSomeSetOfItsContactsDoes) {
+  std::mt19937 random(3);
+  int held = 0, only_by_other_forces = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Box box(random, 4 + i % 3);
+    std::uniform_real_distribution<double> part(-1, 1);
+    const Vec load{{1.5 * part(random), 1, part(random)}};
+    Vec F;
+    const bool holds = forces_as_springs(box.contacts, box.E, load, carried, F);
+    EXPECT_EQ(holds, some_set_holds(box, load)) << i;
+    held += holds;
+    only_by_other_forces += !holds && admissible_forces(box.contacts, box.E, load, F) < 1e-9;
+  }
+  EXPECT_GT(held, 100);
+  EXPECT_GT(only_by_other_forces, 10);
+}
+
+TEST(SpringsAtRest, HoldABoxInEveryOrderOfItsContacts) {
+  std::mt19937 random(5);
+  int held = 0, let_go = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Box box(random, 4 + i % 3);
+    std::uniform_real_distribution<double> part(-1, 1);
+    const Vec load{{1.5 * part(random), 1, part(random)}};
+    Vec F;
+    const bool holds = forces_as_springs(box.contacts, box.E, load, carried, F);
+    const double spare = spare_load_as_springs(box.contacts, box.E, load);
+    ++(holds ? held : let_go);
+    std::vector<int> order(box.contacts.size());
+    std::iota(order.begin(), order.end(), 0);
+    for (int again = 0; again < 3; ++again) {
+      std::shuffle(order.begin(), order.end(), random);
+      const Box other(box, order);
+      Vec F_other;
+      ASSERT_EQ(forces_as_springs(other.contacts, other.E, load, carried, F_other), holds) << i;
+      EXPECT_NEAR(spare_load_as_springs(other.contacts, other.E, load), spare, 1e-8 * (1 + std::abs(spare))) << i;
+      if (!holds) continue;
+      for (std::size_t k = 0; k < order.size(); ++k)
+        EXPECT_NEAR(F_other[Eigen::Index(2 * k)], F[2 * order[k]], 1e-7 * F.norm()) << i;
+    }
+  }
+  EXPECT_GT(held, 50);
+  EXPECT_GT(let_go, 20);
 }
 
 }  // namespace

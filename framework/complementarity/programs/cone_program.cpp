@@ -16,6 +16,7 @@ constexpr int most_iterations = 50;
 constexpr double accurate = 1e-12;  // residuals and gap, of numbers of the order of 1
 constexpr double implied = 1e-15;   // pivot of a row that follows from others, of the largest one
 constexpr double large = 1e3;       // x from which on the round-off of G x exceeds `accurate`
+constexpr double largest = 1e6;     // x that may occur where forces balance each other
 // Residuals and gap that have been below this grow by round-off only. Before, they may grow on the way to large forces
 // that balance each other.
 constexpr double nearly_solved = 1e-6;
@@ -129,7 +130,8 @@ class PivotedRows {
 // Its dual: D x - G^T y = z,  u . y = -1,  z in the cones.
 class InteriorPoint {
  public:
-  explicit InteriorPoint(const ConeProgram& program) : D_(program.D), G_(program.G), u_(program.u), r_(program.r) {
+  explicit InteriorPoint(const ConeProgram& program)
+      : D_(program.D), G_(program.G), u_(program.u), r_(program.r), wanted_(program.wanted) {
     Index first = 0;
     for (const Index size : program.cones) {
       cones_.push_back({first, size});
@@ -154,6 +156,10 @@ class InteriorPoint {
       const double terms = std::max(1.0, now_.x.lpNorm<Eigen::Infinity>() / large);
       now_.off = std::max({primal_.norm() / terms, dual_.norm(), std::abs(free_), gap});
       if (now_.off < best.off) best = now_;
+      if (const double most = most_s(); most < wanted_) {
+        best.s = most;
+        break;
+      }
       const bool worse = !(now_.off < 1e3 * best.off) && (best.off < nearly_solved || !std::isfinite(now_.off));
       if (now_.off < accurate || worse || !step(gap / double(cones_.size()))) break;
     }
@@ -161,6 +167,16 @@ class InteriorPoint {
   }
 
  private:
+  // If D = 0 and z' = -G^T y, s <= (-r.y - x.z') / -u.y for all x, where x.z' is not negative in the cones. What z'
+  // leaves them by counts for an x of any size that may occur.
+  double most_s() const {
+    if (!has_s() || !(u_.dot(now_.y) < 0)) return std::numeric_limits<double>::infinity();
+    const Vec by_y = z_ + dual_;
+    double outside = 0;
+    for (const Cone& c : cones_)
+      outside = std::max(outside, by_y.segment(c.first + 1, c.size - 1).norm() - by_y[c.first]);
+    return (r_.dot(now_.y) - largest * outside) / u_.dot(now_.y);
+  }
   bool has_s() const { return u_.size() > 0; }
   static ConstBlock of(const Vec& v, const Cone& c) { return v.segment(c.first, c.size); }
 
@@ -261,6 +277,7 @@ class InteriorPoint {
   const Vec& D_;
   const Mat& G_;
   const Vec &u_, &r_;
+  double wanted_;
   std::vector<Cone> cones_;
   ConeSolution now_;
   Vec z_, scaled_;

@@ -9,6 +9,7 @@
 // those that follow from others are left out.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <trammel/types.hpp>
@@ -20,6 +21,8 @@ struct ConeProgram {
   Vec D;
   Mat G;
   Vec u, r;  // r of the order of 1
+  // If D = 0, the search ends as soon as s is certain to be less than this.
+  double wanted = -std::numeric_limits<double>::infinity();
 };
 
 struct ConeSolution {

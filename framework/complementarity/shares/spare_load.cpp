@@ -11,7 +11,7 @@ namespace trammel::complementarity {
 using Eigen::Index;
 
 // Each contact is unloaded to x_0 = N - s, where s is bounded: s + x = most_spare_load.
-double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec* F) {
+double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec* F, double wanted) {
   Vec F_s = Vec::Zero(E.cols());  // dF/ds
   for (const SharingContact& c : contacts)
     if (c.normal >= 0 && c.carries) F_s[c.normal] = 1;
@@ -24,6 +24,7 @@ double spare_load(const std::vector<SharingContact>& contacts, const Mat& E, con
   const double size = std::max(program.r.lpNorm<Eigen::Infinity>(), 1e-300);
   program.r.conservativeResize(rows + 1);
   program.r /= size;
+  program.wanted = wanted / size;
   program.r[rows] = most_spare_load;
   Mat G = Mat::Zero(rows + 1, columns + 1);
   G.topLeftCorner(rows, columns) = program.G;

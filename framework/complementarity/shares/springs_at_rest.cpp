@@ -16,6 +16,8 @@ namespace {
 using Eigen::Index;
 
 constexpr int most_rounds = 10;
+// Sets of contacts that part: all are judged where there are no more, which 8 contacts do not exceed.
+constexpr std::size_t most_sets = 255;
 // Of the largest force: a normal force up to this is none, and friction may exceed its bound by this.
 constexpr double no_force_of_springs = 1e-10;
 // Of that of the springs: the bodies' compliance. Each round leaves about this part of what was missed.
@@ -24,6 +26,9 @@ constexpr double round_off_of_resultants = 1e-14;
 // Of the resultants: contacts that press are too few to carry them if they miss more. Of the forces: springs would
 // press others if a slack is more negative.
 constexpr double not_carried = 1e-9;
+constexpr double no_part_in_self_stress = 1e-12;
+// Of the largest force: sets that can spare as much are as good as any.
+constexpr double much_to_spare = 0.25;
 
 // The contacts that press and the columns of their forces; after these, the slacks of the others. Their equations.
 struct Pressing {
@@ -98,17 +103,22 @@ std::vector<bool> that_press(const std::vector<SharingContact>& contacts, const 
   return press;
 }
 
+double friction(const SharingContact& c, const Vec& F) {
+  double T = 0;
+  for (const Index k : c.tangents) T = std::hypot(T, F[k]);
+  return T;
+}
+
 bool in_cones(const std::vector<SharingContact>& contacts, const Vec& F) {
   const double least = no_force_of_springs * largest(contacts, F);
   return std::all_of(contacts.begin(), contacts.end(), [&](const SharingContact& c) {
-    double T = 0;
-    for (const Index k : c.tangents) T = std::hypot(T, F[k]);
     const double N = c.normal >= 0 ? F[c.normal] : c.given;
-    return N >= -least && T <= c.coefficient * N + least;
+    return N >= -least && friction(c, F) <= c.coefficient * N + least;
   });
 }
 
-Pressing only(const std::vector<bool>& press, const std::vector<SharingContact>& contacts, const Mat& E,
+// Z: self-stress of all.
+Pressing only(const std::vector<bool>& press, const std::vector<SharingContact>& contacts, const Mat& E, const Mat& Z,
               const Vec& lambda) {
   Pressing p;
   std::vector<Index> column_of(contacts.size(), -1);  // of the normal force
@@ -129,7 +139,6 @@ Pressing only(const std::vector<bool>& press, const std::vector<SharingContact>&
     SharingContact& slack = p.contacts.emplace_back();
     slack.normal = column_of[i] = columns++, slack.carries = false;
   }
-  const Mat Z = self_stress(E(Eigen::all, normals_of(contacts)));
   p.E = Mat::Zero(E.rows() + Z.cols(), columns);
   p.E.topLeftCorner(E.rows(), Index(p.columns.size())) = E(Eigen::all, p.columns);
   for (Index i = 0, row = 0; i < Index(contacts.size()); ++i)
@@ -141,7 +150,7 @@ Pressing only(const std::vector<bool>& press, const std::vector<SharingContact>&
   return p;
 }
 
-Vec among_all(const Pressing& p, const Vec& own, Index columns) {
+Vec with_idle(const Pressing& p, const Vec& own, Index columns) {
   Vec F = Vec::Zero(columns);
   F(p.columns) = own.head(Index(p.columns.size()));
   return F;
@@ -159,69 +168,145 @@ bool may_lock(const std::vector<SharingContact>& contacts, const Mat& E) {
   return E_n.cols() > 1 && self_stress(E_n).cols() > 0;
 }
 
-// The spare load of forces as springs, the contacts that press with it, and forces that have it.
+// The spare load of forces as springs, up to what is much; the contacts that press with it, and forces that have it.
 struct Found {
   double spare = -std::numeric_limits<double>::infinity();
   Pressing pressing;
   Vec F;
+  bool consistent = true;  // springs could press so
+  bool better_than(const Found& other) const {
+    return spare > other.spare || (spare == other.spare && F.norm() < other.F.norm());
+  }
 };
 
 // Of sets of contacts that press, the one that can spare most.
 class Search {
  public:
   Search(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda)
-      : contacts_(contacts), E_(E), lambda_(lambda) {}
+      : contacts_(contacts), E_(E), lambda_(lambda), Z_(self_stress(E(Eigen::all, normals_of(contacts)))) {}
 
-  // Begins with forces F: the sets that follow from each other's forces, until one comes up again. If springs press in
-  // none of them, also those that differ from them in one contact.
-  Found from(Vec F) {
+  // The sets that follow from F, and from each other's forces, until one comes up again.
+  Found among_followers(Vec F) {
+    size_ = largest(contacts_, F);
     for (int round = 0; round < most_rounds; ++round) {
       const std::vector<bool> press = that_press(contacts_, with_normals_of_springs(contacts_, E_, F));
-      if (std::find(seen_.begin(), seen_.end(), press) != seen_.end()) break;
+      if (seen(press)) break;
       if (std::none_of(press.begin(), press.end(), [](bool presses) { return presses; })) {
-        if (round == 0) best_ = {-lambda_.norm(), {}, Vec::Zero(E_.cols())};  // nothing carries
+        if (round == 0) best_ = {-lambda_.norm(), {}, Vec::Zero(E_.cols()), true};  // nothing carries
         break;
       }
       F = judge(press);
     }
-    if (best_.F.size() == 0) judge_neighbours();
+    return best_;
+  }
+
+  // If these hold nothing, all sets; of many contacts those that differ from them in one contact.
+  Found among_all(Vec F) {
+    among_followers(std::move(F));
+    if (best_.spare >= -not_carried * size_) return std::move(best_);
+    const std::vector<std::size_t> parting = that_may_part();
+    if (count_sets(parting.size()) <= most_sets)
+      judge_all(std::vector<bool>(contacts_.size(), true), parting, 0, Z_.cols());
+    else if (best_.F.size() == 0)
+      judge_neighbours();
     return std::move(best_);
   }
 
  private:
+  bool seen(const std::vector<bool>& press) const {
+    return std::find(seen_.begin(), seen_.end(), press) != seen_.end();
+  }
+
+  // Those with a part in a self-stress.
+  std::vector<std::size_t> that_may_part() const {
+    std::vector<std::size_t> all;
+    Index row = 0;
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if (contacts_[i].normal >= 0 && Z_.row(row++).norm() > no_part_in_self_stress) all.push_back(i);
+    return all;
+  }
+
+  std::size_t count_sets(std::size_t contacts) const {
+    std::size_t sets = 1, of_size = 1;
+    for (std::size_t k = 0; k < std::min(contacts, std::size_t(Z_.cols())); ++k) {
+      of_size = of_size * (contacts - k) / (k + 1);
+      sets += of_size;
+      if (sets > most_sets) break;
+    }
+    return sets;
+  }
+
+  // At most `more` of the contacts from parting[first] on part: slacks x >= 0 with given Z^T x exist only if they do
+  // with no more of them than columns of Z (Caratheodory).
+  void judge_all(std::vector<bool> press, const std::vector<std::size_t>& parting, std::size_t first, Index more) {
+    if (!seen(press)) judge_those_of(press);
+    if (more == 0) return;
+    for (std::size_t k = first; k < parting.size(); ++k) {
+      press[parting[k]] = false;
+      judge_all(press, parting, k + 1, more - 1);
+      press[parting[k]] = true;
+    }
+  }
+
+  // Of contacts that may press some have no force: without these more can be spared.
+  void judge_those_of(const std::vector<bool>& may_press) {
+    const Found found = judged(may_press, -not_carried * size_);
+    if (!(found.spare >= -not_carried * size_)) return;
+    keep_if_better(found);
+    const std::vector<bool> press = that_press(contacts_, found.F);
+    if (!seen(press)) judge(press);
+  }
+
   void judge_neighbours() {
     const std::vector<std::vector<bool>> sets = seen_;
     for (const std::vector<bool>& set : sets)
       for (std::size_t i = 0; i < set.size(); ++i) {
         std::vector<bool> other = set;
         other[i] = !other[i];
-        if (std::find(seen_.begin(), seen_.end(), other) == seen_.end()) judge(other);
+        if (!seen(other)) judge(other);
       }
   }
 
-  // Returns the least forces of the set, or those that leave their cones least: forces that spare most may be of any
-  // size (a strut that locks).
   Vec judge(const std::vector<bool>& press) {
-    seen_.push_back(press);
-    Pressing pressing = only(press, contacts_, E_, lambda_);
-    Vec own;
-    const double spare = spare_load(pressing.contacts, pressing.E, pressing.lambda, &own);
-    const bool springs = pressing.carries && others_part(pressing, own);
-    if (spare >= 0) admissible_forces(pressing.contacts, pressing.E, pressing.lambda, own);
-    const Vec F = among_all(pressing, own, E_.cols());
-    if (springs && spare > best_.spare) best_ = {spare, std::move(pressing), F};
-    return F;
+    Found found = judged(press);
+    keep_if_better(found);
+    return found.F;
   }
 
-  static bool others_part(const Pressing& pressing, const Vec& own) {
-    const double least = -not_carried * own.lpNorm<Eigen::Infinity>();
-    return std::none_of(pressing.contacts.begin(), pressing.contacts.end(),
-                        [&](const SharingContact& c) { return !c.carries && own[c.normal] < least; });
+  void keep_if_better(const Found& found) {
+    if (found.consistent && (best_.F.size() == 0 || found.better_than(best_))) best_ = found;
+  }
+
+  // With the least forces of the set, or those that leave their cones least: forces that spare most may be of any size
+  // (a strut that locks).
+  Found judged(const std::vector<bool>& press, double wanted = -std::numeric_limits<double>::infinity()) {
+    seen_.push_back(press);
+    Found found;
+    found.pressing = only(press, contacts_, E_, Z_, lambda_);
+    const Pressing& p = found.pressing;
+    Vec own;
+    found.spare = std::min(much_to_spare * size_, spare_load(p.contacts, p.E, p.lambda, &own, wanted));
+    found.consistent = p.carries && springs_press_so(p, own, found.spare);
+    if (found.spare >= 0) admissible_forces(p.contacts, p.E, p.lambda, own);
+    found.F = with_idle(p, own, E_.cols());
+    return found;
+  }
+
+  // The slacks of the others are not negative, and forces leave their cones by no more than the spare load, which may
+  // exist for no forces of this set.
+  static bool springs_press_so(const Pressing& pressing, const Vec& own, double spare) {
+    const double error = not_carried * own.lpNorm<Eigen::Infinity>();
+    return std::all_of(pressing.contacts.begin(), pressing.contacts.end(), [&](const SharingContact& c) {
+      const double N = (c.normal >= 0 ? own[c.normal] : c.given) - (c.carries ? spare : 0);
+      return N >= -error && friction(c, own) <= c.coefficient * N + error;
+    });
   }
 
   const std::vector<SharingContact>& contacts_;
   const Mat& E_;
   const Vec& lambda_;
+  Mat Z_;
+  double size_ = 0;  // of the forces
   std::vector<std::vector<bool>> seen_;
   Found best_;
 };
@@ -238,26 +323,23 @@ bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E
     F = springs;
     return true;
   }
-  const Found found = Search(contacts, E, lambda).from(F);
+  const Found found = Search(contacts, E, lambda).among_all(F);
   if (found.F.size() == 0) return false;
   if (!(found.spare >= -carried * largest(contacts, found.F))) return false;
   if (found.pressing.columns.empty()) return true;  // nothing is to be carried
   Vec own;
   admissible_forces(found.pressing.contacts, found.pressing.E, found.pressing.lambda, own);
-  F = among_all(found.pressing, own, E.cols());
+  F = with_idle(found.pressing, own, E.cols());
   return carries(E, F, lambda, carried);
 }
 
 double spare_load_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec* F) {
   if (!may_lock(contacts, E)) return spare_load(contacts, E, lambda, F);
   Vec begin;
-  if (const double most = spare_load(contacts, E, lambda, &begin); most < 0) {
-    if (F) *F = begin;
-    return most;
-  }
-  Vec least;
-  admissible_forces(contacts, E, lambda, least);
-  const Found found = Search(contacts, E, lambda).from(std::move(least));
+  const bool may_hold = spare_load(contacts, E, lambda, &begin) >= 0;
+  if (may_hold) admissible_forces(contacts, E, lambda, begin);
+  Search search(contacts, E, lambda);
+  const Found found = may_hold ? search.among_all(begin) : search.among_followers(begin);
   const bool any = found.F.size() > 0;
   if (F) *F = any ? found.F : begin;
   return any ? found.spare : -lambda.norm();

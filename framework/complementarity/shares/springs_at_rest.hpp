@@ -11,9 +11,12 @@
 //     Z^T (N_A, -x) = 0,    N_A >= 0,    x >= 0;        the columns of Z are the self-stresses, E_n Z = 0
 //
 // says that (N_A, -x) is E_n^T y. So the forces are those of admissible_forces.hpp for the contacts of A, with these
-// rows added to E and a column for each x. A follows from T; it is found by repetition and, where springs press in
-// none of the sets that come up, among those that differ from them in one contact. Without friction a self-stress
-// holds nothing, so all admissible forces count.
+// rows added to E and a column for each x. A follows from T, and is found by repetition. Where the sets that come up
+// hold nothing, all sets are judged, so the answer is certain and does not depend on the order of contacts. They are
+// few: only contacts with a part in a self-stress may part, and slacks for given N_A exist only if they do with no more
+// positive ones than columns of Z (Caratheodory). Of more than 8 contacts, if the sets are too many, only the
+// neighbours of those that came up are judged. Without friction a self-stress holds nothing, so all admissible forces
+// count.
 #pragma once
 
 #include <vector>
@@ -25,7 +28,8 @@ namespace trammel::complementarity {
 // Fills F; false if no such forces have the resultants lambda. `carried`: the largest |E F - lambda| / |lambda|.
 [[nodiscard]] bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda,
                                      double carried, Vec& F);
-// The spare load (spare_load.hpp) of such forces. Fills F with the forces of its solution, if it is not null.
+// The spare load (spare_load.hpp) of such forces, bounded where there is much. Fills F with the forces of its solution,
+// if it is not null.
 double spare_load_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda,
                              Vec* F = nullptr);
 

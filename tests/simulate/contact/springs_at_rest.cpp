@@ -1,5 +1,6 @@
 // Contacts at rest that share forces hold what friction under springs would hold: they do not press against each other
 // to hold more. So a clearance of 0 is the limit of small ones, and bodies let go at the instants of closed forms.
+#include <algorithm>
 #include <random>
 #include <string>
 #include <vector>
@@ -113,6 +114,54 @@ TEST(TableOfUnequalFeet, SlipsWhereSpringsHoldItNoMore) {
     expect_slips(run, std::size_t(feet), t, fmt::format("table {}", i));
     EXPECT_NEAR(run.end("x"), rate * std::pow(1 - t, 3) / (6 * m), 1e-7) << i;
   }
+}
+
+// A box on three feet is pulled away from a wall. Linear programs for all sets of contacts that press as springs give
+// the instant; other forces would hold the box until 0.1455.
+TEST(BoxBesideAWall, SlipsAtTheSameInstantWhateverTheNamesOfItsContacts) {
+  struct At {
+    double x, y, mu;
+  };
+  const At feet[] = {{-0.354, -0.3565, 0.25}, {0.354, -0.3565, 0.25}, {-0.252756, -0.3565, 0.4}};
+  const At wall[] = {{-0.354, -0.247411, 0.35}, {-0.354, 0.273079, 0.15}};
+  std::vector<std::string> names = {"p", "q", "r", "s", "t"};
+  do {
+    json s = scene_of(standing_block(-0.354, 0.708, 0.713, 1.44));
+    s["gravity"] = {0, -9.81};
+    s["simulate"]["until"] = 0.2;
+    s["bodies"]["b"]["markers"]["pulled"] = {0.209568, 0.339388};
+    auto name = names.begin();
+    const auto touch = [&](const At& at, const json& point, const json& normal) {
+      s["bodies"]["b"]["markers"][*name] = {at.x, at.y};
+      s["contacts"][*name] = contact("b." + *name, point, normal, at.mu);
+      ++name;
+    };
+    for (const At& at : feet) touch(at, {0, 0}, {0, 1});
+    for (const At& at : wall) touch(at, {-0.354, 0}, {1, 0});
+    s["forces"]["pull"] = {{"type", "load"}, {"on", "b.pulled"}, {"force", {{"x", "=27.9561456*t"}, {"y", 0}}}};
+    const Finished run = run_text(s.dump());
+    const std::string which = fmt::format("{}", fmt::join(names, ""));
+    ASSERT_TRUE(run.done()) << which << ": " << run.report.reason;
+    const auto slips = run.of_kind("slip");
+    ASSERT_FALSE(slips.empty()) << which;
+    EXPECT_NEAR(slips.front().t, 0.13955096, 1e-8) << which;
+  } while (std::next_permutation(names.begin(), names.begin() + 3) ||
+           std::next_permutation(names.begin() + 3, names.end()));
+}
+
+// Friction holds it beyond the floor's, since it would turn against the ceiling; no step is short.
+TEST(BlockInAChannel, RestsWhereItWouldJam) {
+  json s = scene_of(standing_block(-0.399, 0.798, 0.685, 7));
+  s["gravity"] = {0, -9.81};
+  s["bodies"]["b"]["markers"]["pulled"] = {-0.399, -0.048635};
+  s["bodies"]["b"]["markers"]["c0"] = {-0.308028, 0.3425}, s["bodies"]["b"]["markers"]["c1"] = {0.294462, 0.3425};
+  for (const char* foot : {"bl", "br"}) s["contacts"][foot] = contact(fmt::format("b.{}", foot), {0, 0}, {0, 1}, 2);
+  for (const char* top : {"c0", "c1"}) s["contacts"][top] = contact(fmt::format("b.{}", top), {0, 0.685}, {0, -1}, 2);
+  s["forces"]["pull"] = {{"type", "load"}, {"on", "b.pulled"}, {"force", {{"x", "=-138.98808*t"}, {"y", 0}}}};
+  const Finished run = run_text(s.dump());
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_TRUE(run.of_kind("slip").empty());
+  EXPECT_LT(run.result["counts"]["steps"], 100);
 }
 
 }  // namespace
